@@ -1,0 +1,27 @@
+// How long work reports its progress and is asked to stop.
+#pragma once
+
+#include <functional>
+#include <stop_token>
+#include <string_view>
+
+#include "core/result.h"
+
+namespace tidemark {
+
+struct Progress {
+  // fraction in 0..1 of the step named by `what`. May be called from any thread, one call at a time.
+  std::function<void(double fraction, std::string_view what)> report;
+  std::stop_token stop;
+
+  void operator()(double fraction, std::string_view what) const {
+    if (report) report(fraction, what);
+  }
+  [[nodiscard]] bool cancelled() const { return stop.stop_requested(); }
+};
+
+[[nodiscard]] inline tl::unexpected<Error> cancelled_error() {
+  return fail(ErrorKind::cancelled, "interrupted");
+}
+
+}  // namespace tidemark

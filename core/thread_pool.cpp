@@ -1,0 +1,87 @@
+#include "core/thread_pool.h"
+
+#include <sched.h>
+
+#include <algorithm>
+
+namespace tidemark {
+namespace {
+
+// About 50 microseconds of polling: longer than the serial part between two solver steps.
+constexpr int kSpins = 20'000;
+
+inline void relax() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#else
+  std::this_thread::yield();
+#endif
+}
+
+}  // namespace
+
+int available_processors() {
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0) return std::max(1, CPU_COUNT(&set));
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+ThreadPool::ThreadPool(int threads) {
+  const int members = threads > 0 ? threads : available_processors();
+  for (int member = 1; member < members; ++member) {
+    workers_.emplace_back([this, member] { work(member); });
+  }
+}
+
+ThreadPool::~ThreadPool() {
+  quit_.store(true);
+  generation_.fetch_add(1);
+  generation_.notify_all();
+}
+
+void ThreadPool::run_pieces(int member) {
+  for (;;) {
+    const std::int64_t begin = next_.fetch_add(grain_, std::memory_order_relaxed);
+    if (begin >= count_) return;
+    (*body_)(begin, std::min(begin + grain_, count_), member);
+  }
+}
+
+void ThreadPool::work(int member) {
+  std::uint32_t seen = 0;
+  for (;;) {
+    for (int spin = 0; spin < kSpins && generation_.load(std::memory_order_acquire) == seen; ++spin) relax();
+    generation_.wait(seen, std::memory_order_acquire);
+    seen = generation_.load(std::memory_order_acquire);
+    if (quit_.load()) return;
+    run_pieces(member);
+    if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
+  }
+}
+
+void ThreadPool::for_each(std::int64_t count, std::int64_t grain, const Body& body) {
+  if (count <= 0) return;
+  count_ = count;
+  grain_ = std::max<std::int64_t>(1, grain);
+  body_ = &body;
+  next_.store(0, std::memory_order_relaxed);
+  // A loop of one piece is not worth waking anybody.
+  if (workers_.empty() || count_ <= grain_) {
+    run_pieces(0);
+    return;
+  }
+  busy_.store(static_cast<int>(workers_.size()), std::memory_order_relaxed);
+  generation_.fetch_add(1, std::memory_order_release);
+  generation_.notify_all();
+  run_pieces(0);
+  for (int spin = 0; spin < kSpins; ++spin) {
+    if (busy_.load(std::memory_order_acquire) == 0) return;
+    relax();
+  }
+  for (int left = busy_.load(std::memory_order_acquire); left != 0;
+       left = busy_.load(std::memory_order_acquire)) {
+    busy_.wait(left, std::memory_order_acquire);
+  }
+}
+
+}  // namespace tidemark

@@ -1,0 +1,47 @@
+// A fixed team of threads for short, frequent parallel loops.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace tidemark {
+
+// A solver step takes some 100 microseconds, so waking a sleeping thread for each would cost as much as the
+// work. Members therefore spin for a short while before they sleep, and a loop is one atomic counter.
+class ThreadPool {
+ public:
+  // threads >= 1 counts the caller, which works too; 0 means one per processor this process may use.
+  explicit ThreadPool(int threads = 0);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+
+  [[nodiscard]] int threads() const { return static_cast<int>(workers_.size()) + 1; }
+
+  // Calls body(begin, end, member) for pieces of [0, count) of at most `grain` until all are done, and
+  // returns then. member is in [0, threads()). Not re-entrant: body must not call for_each of this pool, and
+  // only one thread at a time may call it. body must not throw.
+  using Body = std::function<void(std::int64_t begin, std::int64_t end, int member)>;
+  void for_each(std::int64_t count, std::int64_t grain, const Body& body);
+
+ private:
+  void work(int member);
+  void run_pieces(int member);
+
+  std::vector<std::jthread> workers_;
+  std::atomic<std::uint32_t> generation_{0};  // a change starts a loop
+  std::atomic<int> busy_{0};                  // workers that have not finished the loop
+  std::atomic<bool> quit_{false};
+  std::atomic<std::int64_t> next_{0};
+  std::int64_t count_ = 0;
+  std::int64_t grain_ = 1;
+  const Body* body_ = nullptr;
+};
+
+// The processors that this process may use (its affinity mask), at least 1.
+int available_processors();
+
+}  // namespace tidemark

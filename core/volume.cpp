@@ -1,0 +1,72 @@
+#include "core/volume.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tidemark {
+
+const char* Volume::scalar_name() const {
+  constexpr const char* kNames[] = {"int16", "uint16", "float"};
+  return kNames[voxels.index()];
+}
+
+float Volume::value(std::int64_t offset) const {
+  return std::visit(
+      [&](const auto& stored) {
+        return static_cast<float>(slope * static_cast<double>(stored[static_cast<std::size_t>(offset)]) +
+                                  intercept);
+      },
+      voxels);
+}
+
+std::vector<float> Volume::values() const {
+  return std::visit(
+      [&](const auto& stored) {
+        std::vector<float> result(stored.size());
+        std::transform(stored.begin(), stored.end(), result.begin(), [&](auto value) {
+          return static_cast<float>(slope * static_cast<double>(value) + intercept);
+        });
+        return result;
+      },
+      voxels);
+}
+
+std::pair<float, float> Volume::range() const {
+  return std::visit(
+      [&](const auto& stored) {
+        const auto [low, high] = std::minmax_element(stored.begin(), stored.end());
+        const auto a = static_cast<float>(slope * static_cast<double>(*low) + intercept);
+        const auto b = static_cast<float>(slope * static_cast<double>(*high) + intercept);
+        return std::pair(std::min(a, b), std::max(a, b));  // the slope may be negative
+      },
+      voxels);
+}
+
+std::int64_t Mask::count() const {
+  return std::count_if(voxels.begin(), voxels.end(), [](std::uint8_t v) { return v != 0; });
+}
+
+double dice(const Mask& a, const Mask& b) {
+  std::int64_t both = 0;
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < a.voxels.size(); ++i) {
+    const bool in_a = a.voxels[i] != 0;
+    const bool in_b = b.voxels[i] != 0;
+    both += in_a && in_b;
+    sum += in_a + in_b;
+  }
+  return sum == 0 ? 1.0 : 2.0 * static_cast<double>(both) / static_cast<double>(sum);
+}
+
+Status require_finite(const Volume& volume, const std::string& source) {
+  const auto* values = std::get_if<std::vector<float>>(&volume.voxels);
+  if (values == nullptr) return {};
+  const auto bad = std::find_if(values->begin(), values->end(), [](float v) { return !std::isfinite(v); });
+  if (bad == values->end()) return {};
+  const std::int64_t offset = bad - values->begin();
+  const Index3 size = volume.geometry.size;
+  return fail(ErrorKind::input, "{}: voxel ({}, {}, {}) is {}", source, offset % size.x,
+              offset / size.x % size.y, offset / (size.x * size.y), std::isnan(*bad) ? "NaN" : "infinite");
+}
+
+}  // namespace tidemark

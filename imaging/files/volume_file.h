@@ -1,0 +1,29 @@
+// Volume files other than DICOM, through ITK: NIfTI, NRRD, MetaImage (read and write), GIPL (read).
+#pragma once
+
+#include <filesystem>
+
+#include "core/progress.h"
+#include "core/volume.h"
+#include "imaging/series.h"
+
+namespace tidemark {
+
+// By suffix, case ignored: .nii .nii.gz .nrrd .nhdr .mha .mhd .gipl .gipl.gz (reading);
+// .nii .nii.gz .nrrd .mha (writing).
+bool is_readable_volume_file(const std::filesystem::path& file);
+bool is_writable_volume_file(const std::filesystem::path& file);
+
+// The header alone, as a series of one file (loadable = false with a reason when the content is refused).
+Result<Series> scan_volume_file(const std::filesystem::path& file);
+
+// 3D scalar images. int16 and uint16 stay as they are, 8-bit types become int16 or uint16, others float.
+// Geometry is converted to LPS (NIfTI stores RAS).
+Result<Volume> read_volume_file(const std::filesystem::path& file, const Progress& progress = {});
+
+// Written through a temporary file; on failure (ErrorKind::write) the target is as it was before. Values are
+// written rescaled: as int16 or uint16 when slope and intercept are whole numbers and all fits, else float.
+Status write_volume_file(const Volume& volume, const std::filesystem::path& file);
+Status write_mask_file(const Mask& mask, const std::filesystem::path& file);  // as uint8, 0 and 1
+
+}  // namespace tidemark

@@ -1,0 +1,27 @@
+// What prepares a start: smoothing of the source, masks from values.
+#pragma once
+
+#include "core/progress.h"
+#include "core/volume.h"
+
+namespace tidemark {
+
+// Gaussian smoothing with standard deviation sigma_mm > 0 along every axis; the result is a float volume on
+// the same grid (ITK's recursive Gaussian).
+Result<Volume> smooth(const Volume& volume, double sigma_mm);
+
+// Voxels with low <= value <= high.
+Mask threshold(const Volume& volume, double low, double high);
+
+// The voxels with low <= value <= high that are connected to `seed` across faces (ITK's ConnectedThreshold).
+// Fails (ErrorKind::usage) when the seed is outside the volume or its value is outside [low, high].
+Result<Mask> flood_fill(const Volume& volume, Index3 seed, double low, double high);
+
+// The largest face-connected component of a mask, and how many components there are.
+struct Components {
+  std::int64_t count = 0;
+  Mask largest;
+};
+Components connected_components(const Mask& mask);
+
+}  // namespace tidemark

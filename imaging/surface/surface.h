@@ -1,0 +1,38 @@
+// The zero set of phi as polygons in patient coordinates.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "core/geometry.h"
+#include "core/progress.h"
+#include "core/volume.h"
+
+namespace tidemark {
+
+struct Mesh {
+  std::vector<glm::vec3> vertices;                      // patient LPS, mm
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
+};
+
+// The surface phi = 0 (phi > 0 inside) at sub-voxel precision: closed, also where it meets the volume's
+// border (there it is capped on the outer faces of the border voxels), watertight and oriented outward, for
+// right- and left-handed direction matrices alike. `phi` is a float volume. An empty mesh when nothing is
+// inside.
+Result<Mesh> extract_surface(const Volume& phi);
+
+[[nodiscard]] double mesh_volume_ml(const Mesh& mesh);  // signed: > 0 when oriented outward
+[[nodiscard]] double mesh_area_mm2(const Mesh& mesh);
+
+// Whether every edge is used as often in one direction as in the other.
+[[nodiscard]] bool is_closed_and_oriented(const Mesh& mesh);
+
+// By suffix, case ignored: .stl (binary), .ply (binary little endian), .obj. Coordinates are patient LPS mm,
+// said in the file's comment or header where the format has one.
+bool is_writable_mesh_file(const std::filesystem::path& file);
+Status write_mesh(const Mesh& mesh, const std::filesystem::path& file);
+
+}  // namespace tidemark

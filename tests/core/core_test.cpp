@@ -1,0 +1,162 @@
+// core: checked sizes, geometry, files that appear whole or not at all, the thread pool.
+#include <sys/resource.h>
+
+#include <atomic>
+#include <csignal>
+#include <fstream>
+#include <limits>
+#include <numeric>
+
+#include "core/atomic_file.h"
+#include "core/checked.h"
+#include "core/geometry.h"
+#include "core/thread_pool.h"
+#include "core/volume.h"
+#include "tests/support/support.h"
+
+using namespace tidemark;
+using tidemark::test::failure;
+using tidemark::test::TemporaryFolder;
+
+namespace {
+
+std::string contents(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+int files_in(const std::filesystem::path& folder) {
+  return static_cast<int>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+}  // namespace
+
+class CoreTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_product_of_sizes_that_overflows_is_refused() {
+    QCOMPARE(checked_product(512, 512, 400).value(), std::int64_t{104857600});
+    QVERIFY(!checked_product(std::int64_t{1} << 40, std::int64_t{1} << 30));
+    QVERIFY(!checked_product(16, -1));
+    QCOMPARE(checked_product(std::numeric_limits<std::int64_t>::max(), 0).value(), std::int64_t{0});
+  }
+
+  void voxel_and_patient_coordinates_are_inverse() {
+    Geometry geometry;
+    geometry.size = {10, 20, 30};
+    geometry.spacing_mm = {0.5, 0.75, 3.0};
+    geometry.direction = glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0);
+    geometry.origin_mm = {-100, 20, 7};
+    const glm::dvec3 voxel(1.5, 2.25, 9.0);
+    const glm::dvec3 back = geometry.to_voxel(geometry.to_patient(voxel));
+    for (int axis = 0; axis < 3; ++axis) QVERIFY(std::abs(back[axis] - voxel[axis]) < 1e-12);
+    // Axis i points along patient z here.
+    QCOMPARE(geometry.to_patient({2, 0, 0}).z, 8.0);
+  }
+
+  void grids_that_differ_in_one_corner_are_not_the_same() {
+    Geometry a;
+    a.size = {100, 100, 100};
+    Geometry b = a;
+    b.spacing_mm.z = 1.001;
+    QVERIFY(same_grid(a, b, 0.2));
+    QVERIFY(!same_grid(a, b, 0.05));
+  }
+
+  void a_file_is_written_whole() {
+    const TemporaryFolder folder;
+    const auto target = folder / "result.txt";
+    QCOMPARE(failure(write_file(target, "first")), QString());
+    QCOMPARE(failure(write_file(target, "second")), QString());
+    QCOMPARE(contents(target), std::string("second"));
+    QCOMPARE(files_in(folder.path()), 1);
+  }
+
+  void a_file_without_commit_leaves_the_target_alone() {
+    const TemporaryFolder folder;
+    const auto target = folder / "result.txt";
+    QVERIFY(write_file(target, "kept"));
+    {
+      auto file = AtomicFile::create(target);
+      QVERIFY(file);
+      std::ofstream(file->temporary_path()) << "half";
+    }
+    QCOMPARE(contents(target), std::string("kept"));
+    QCOMPARE(files_in(folder.path()), 1);
+  }
+
+  void a_folder_that_is_not_there_is_a_write_error_that_names_the_file() {
+    const auto status = write_file("/nonexistent/folder/result.txt", "x");
+    QVERIFY(!status);
+    QCOMPARE(status.error().kind, ErrorKind::write);
+    QVERIFY(status.error().message.find("/nonexistent/folder/result.txt") != std::string::npos);
+  }
+
+  void a_disk_that_is_full_leaves_the_target_alone() {
+    const TemporaryFolder folder;
+    const auto target = folder / "result.txt";
+    QVERIFY(write_file(target, "kept"));
+    // A limit on the size of files fails a write as a full disk does.
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit before{};
+    QCOMPARE(getrlimit(RLIMIT_FSIZE, &before), 0);
+    rlimit small = before;
+    small.rlim_cur = 1000;
+    QCOMPARE(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const auto status = write_file(target, std::string(5000, 'x'));
+    setrlimit(RLIMIT_FSIZE, &before);
+    QVERIFY(!status);
+    QCOMPARE(status.error().kind, ErrorKind::write);
+    QCOMPARE(contents(target), std::string("kept"));
+    QCOMPARE(files_in(folder.path()), 1);
+  }
+
+  void the_pool_does_each_index_once() {
+    for (const int threads : {1, 2, 5}) {
+      ThreadPool pool(threads);
+      QCOMPARE(pool.threads(), threads);
+      for (int round = 0; round < 200; ++round) {
+        std::vector<std::atomic<int>> visits(997);
+        pool.for_each(997, 10, [&](std::int64_t begin, std::int64_t end, int member) {
+          if (member < 0 || member >= threads) std::abort();
+          for (std::int64_t i = begin; i < end; ++i) visits[static_cast<std::size_t>(i)]++;
+        });
+        for (const auto& count : visits) QCOMPARE(count.load(), 1);
+      }
+    }
+  }
+
+  void voxels_that_are_not_finite_are_refused_by_name() {
+    Volume volume;
+    volume.geometry.size = {2, 2, 2};
+    std::vector<float> values(8, 1.0F);
+    values[6] = std::numeric_limits<float>::quiet_NaN();
+    volume.voxels = values;
+    const auto status = require_finite(volume, "scan.nii");
+    QVERIFY(!status);
+    QCOMPARE(status.error().kind, ErrorKind::input);
+    QCOMPARE(QString::fromStdString(status.error().message), QString("scan.nii: voxel (0, 1, 1) is NaN"));
+  }
+
+  void values_are_rescaled() {
+    Volume volume;
+    volume.geometry.size = {3, 1, 1};
+    volume.voxels = std::vector<std::int16_t>{0, 10, -5};
+    volume.slope = -2.0;
+    volume.intercept = 1.0;
+    QCOMPARE(volume.value(Index3(1, 0, 0)), -19.0F);
+    QCOMPARE(volume.range(), std::pair(-19.0F, 11.0F));
+    QCOMPARE(volume.values(), (std::vector<float>{1.0F, -19.0F, 11.0F}));
+  }
+
+  void dice_counts_overlap() {
+    Mask a{{}, {1, 1, 0, 0}};
+    Mask b{{}, {0, 1, 1, 0}};
+    QCOMPARE(dice(a, b), 0.5);
+    QCOMPARE(dice(Mask{{}, {0, 0}}, Mask{{}, {0, 0}}), 1.0);
+  }
+};
+
+QTEST_APPLESS_MAIN(CoreTest)
+#include "core_test.moc"

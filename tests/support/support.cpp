@@ -1,0 +1,22 @@
+#include "tests/support/support.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace tidemark::test {
+
+std::filesystem::path studies_folder() {
+  const char* chosen = std::getenv("TIDEMARK_STUDIES");
+  return chosen != nullptr ? chosen : TIDEMARK_DEFAULT_STUDIES;
+}
+
+int require_studies() {
+  if (std::filesystem::is_directory(studies_folder())) return 0;
+  std::fprintf(stderr,
+               "\n*** REAL STUDIES ARE MISSING: %s is not a folder. Nothing was tested. ***\n"
+               "*** Set TIDEMARK_STUDIES to the folder that holds them. ***\n\n",
+               studies_folder().c_str());
+  return 77;
+}
+
+}  // namespace tidemark::test
