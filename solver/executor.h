@@ -1,0 +1,95 @@
+// One level set, several ways to run it: the interface that all executors share.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "core/progress.h"
+#include "core/volume.h"
+#include "solver/field.h"
+#include "solver/parameters.h"
+#include "solver/sphere.h"
+
+namespace tidemark {
+
+// When a run of steps ends.
+struct Advance {
+  std::int64_t steps = 1;          // at most
+  bool until_converged = false;    // stop when the surface has stopped moving (see kConvergedSpeed)
+  Progress progress = {};          // fraction = steps done / steps; cancelling keeps what was computed
+};
+
+// The surface counts as stopped when the root mean square of its normal speed, in smallest voxel spacings
+// per unit of time (a front with D = 1, alpha = 1 moves at 1), is below this over kConvergenceWindow steps.
+// It is taken over the voxels with |phi| <= 1 from the change of phi over two steps, so that a voxel that
+// flips between two values does not count as motion.
+inline constexpr double kConvergedSpeed = 0.005;
+inline constexpr int kConvergenceWindow = 16;
+
+// What a run of steps cost.
+struct AdvanceReport {
+  std::int64_t steps = 0;
+  bool converged = false;
+  double seconds = 0.0;         // wall time in the solver
+  double paging_seconds = 0.0;  // of these, allocation, freeing and lists
+  std::int64_t voxel_updates = 0;  // voxels really computed: quiet pages, clamped rows and padding do not count
+  double surface_speed = 0.0;      // as measured for convergence, in the last full window
+};
+
+struct MemoryReport {
+  std::int64_t resident_pages = 0;
+  std::int64_t peak_resident_pages = 0;
+  std::int64_t quiet_pages = 0;        // resident, but not computed at present
+  std::int64_t state_bytes = 0;        // phi, tables and lists as allocated
+  std::int64_t peak_state_bytes = 0;
+  std::int64_t source_bytes = 0;       // the source values kept beside resident pages
+  Index3 page_shape{0};
+};
+
+class Executor {
+ public:
+  virtual ~Executor() = default;
+  [[nodiscard]] virtual std::string_view name() const = 0;
+
+  // Replaces phi. Fails (ErrorKind::usage) when the grid or the band is not this level set's, and
+  // (ErrorKind::capability) when the memory budget does not allow it; phi is then as before.
+  virtual Status restore(const Field& phi) = 0;
+  [[nodiscard]] virtual Field snapshot() const = 0;
+
+  // phi = max(phi, d) to add or min(phi, -d) to erase, d the signed distance to the sphere. Wakes what it
+  // touches. Fails (ErrorKind::capability) when the memory budget is reached.
+  virtual Status paint(const Sphere& sphere, Brush brush) = 0;
+
+  // Takes effect with the next step and wakes every page. The band W cannot change in mid-run.
+  virtual Status set_parameters(const Parameters& parameters) = 0;
+  [[nodiscard]] virtual const Parameters& parameters() const = 0;
+
+  // Computes steps. Fails (ErrorKind::capability) when the memory budget is reached: every step up to there
+  // is complete and kept. Cancelling is not a failure: the report says how many steps were done.
+  virtual Result<AdvanceReport> advance(const Advance& run) = 0;
+
+  [[nodiscard]] virtual MemoryReport memory() const = 0;
+
+  // Checks the invariants of the executor's own tables, and of phi; the error says which one is broken.
+  [[nodiscard]] virtual Status validate() const = 0;
+
+  [[nodiscard]] virtual double band() const = 0;       // W as resolved
+  [[nodiscard]] virtual double time_step() const = 0;  // of the next step, in units of time
+};
+
+struct ExecutorOptions {
+  int threads = 0;                                  // 0: all processors of this process
+  std::int64_t memory_budget_bytes = std::int64_t{8} << 30;  // for state and source beside the pages
+  bool skip_quiet_pages = true;
+};
+
+enum class ExecutorKind { automatic, host, reference };
+
+// A level set on `source`, everywhere outside at first. `source` is kept. Fails (ErrorKind::usage) on
+// parameters that check() refuses, (ErrorKind::capability) when the machine cannot run the executor.
+Result<std::unique_ptr<Executor>> make_executor(ExecutorKind kind, std::shared_ptr<const Volume> source,
+                                                const Parameters& parameters,
+                                                const ExecutorOptions& options = {});
+
+}  // namespace tidemark

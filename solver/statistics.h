@@ -1,0 +1,16 @@
+// What is measured on a level set.
+#pragma once
+
+#include "solver/field.h"
+
+namespace tidemark {
+
+struct SurfaceStatistics {
+  std::int64_t voxels_inside = 0;  // phi > 0
+  double volume_ml = 0.0;          // voxels_inside times the volume of a voxel
+  double surface_mm2 = 0.0;        // area of phi = 0, at sub-voxel precision
+};
+
+SurfaceStatistics measure(const Field& phi);
+
+}  // namespace tidemark
