@@ -1,0 +1,36 @@
+#include "imaging/dicom/dicom_setup.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdict.h>
+#include <dcmtk/dcmdata/dcrledrg.h>
+#include <dcmtk/dcmjpeg/djdecode.h>
+#include <dcmtk/dcmjpls/djdecode.h>
+#include <dcmtk/oflog/oflog.h>
+
+#include <mutex>
+
+namespace tidemark {
+namespace {
+
+void set_up_once() {
+  // Problems reach the user as errors of ours that name the file; the log would only clutter stderr, and
+  // it could carry patient data.
+  OFLog::configure(OFLogger::OFF_LOG_LEVEL);
+  DcmRLEDecoderRegistration::registerCodecs();
+  DJDecoderRegistration::registerCodecs();
+  DJLSDecoderRegistration::registerCodecs();
+}
+
+}  // namespace
+
+Status set_up_dicom() {
+  static std::once_flag once;
+  std::call_once(once, set_up_once);
+  if (!dcmDataDict.isDictionaryLoaded()) {
+    return fail(ErrorKind::capability,
+                "the DICOM data dictionary of DCMTK was not found; set DCMDICTPATH to dicom.dic");
+  }
+  return {};
+}
+
+}  // namespace tidemark
