@@ -12,10 +12,16 @@ find_package(OpenJPEG REQUIRED)
 find_package(Qt6 6.4 REQUIRED COMPONENTS Core Test)
 
 # ITK without its Use file: include directories and libraries go to the targets that need them, no others.
-find_package(ITK REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIONIFTI ITKIONRRD ITKIOMeta ITKIOGIPL
-             ITKIOGDCM ITKSmoothing ITKLevelSets ITKThresholding ITKRegionGrowing ITKConnectedComponents
-             ITKDistanceMap)
+# Its configuration finds every library that any of its modules may use and says much about each.
+set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
+find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIONIFTI ITKIONRRD ITKIOMeta ITKIOGIPL
+             ITKSmoothing ITKRegionGrowing ITKLevelSets)
+unset(CMAKE_MESSAGE_LOG_LEVEL)
+message(STATUS "Found ITK: ${ITK_DIR} (found version \"${ITK_VERSION}\")")
+# What reading, writing and smoothing volumes needs. (ITK_LIBRARIES holds the level sets' libraries too.)
+add_library(tidemark_itk INTERFACE)
+target_include_directories(tidemark_itk SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
+target_link_libraries(tidemark_itk INTERFACE ITKCommon ITKIOImageBase ITKIONIFTI ITKIONRRD ITKIOMeta ITKIOGIPL)
+find_package(ZLIB REQUIRED)
 
-# OpenVDB comes with a find module of its own, beside the other packages' configurations.
-list(APPEND CMAKE_MODULE_PATH /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB)
-find_package(OpenVDB REQUIRED COMPONENTS openvdb)
+find_package(TidemarkOpenVDB REQUIRED)
