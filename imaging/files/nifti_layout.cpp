@@ -1,0 +1,137 @@
+// The NIfTI-1 header: 348 bytes, https://nifti.nimh.nih.gov/nifti-1 (nifti1.h).
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "core/checked.h"
+#include "imaging/files/pixel_layout.h"
+
+namespace tidemark::files {
+namespace {
+
+constexpr std::size_t kHeaderSize = 348;
+constexpr std::int64_t kFirstVoxel = 352;
+
+// The header's numbers, in either byte order.
+class Fields {
+ public:
+  explicit Fields(std::string bytes) : bytes_(std::move(bytes)) {
+    swapped_ = read<std::int32_t>(0) != static_cast<std::int32_t>(kHeaderSize);
+  }
+
+  template <class T>
+  [[nodiscard]] T read(std::size_t offset) const {
+    char field[sizeof(T)];
+    for (std::size_t i = 0; i < sizeof(T); ++i) {
+      field[i] = bytes_[offset + (swapped_ ? sizeof(T) - 1 - i : i)];
+    }
+    return std::bit_cast<T>(field);
+  }
+  [[nodiscard]] std::int64_t dim(int i) const {
+    return read<std::int16_t>(40 + 2 * static_cast<std::size_t>(i));
+  }
+  [[nodiscard]] std::string magic() const { return bytes_.substr(344, 3); }
+
+ private:
+  std::string bytes_;
+  bool swapped_ = false;
+};
+
+// Bits of a voxel of the scalar types, by NIfTI's datatype code; nothing for RGB, complex and unknown ones.
+std::optional<int> bits_of(int datatype) {
+  switch (datatype) {
+    case 2:
+    case 256:
+      return 8;
+    case 4:
+    case 512:
+      return 16;
+    case 8:
+    case 16:
+    case 768:
+      return 32;
+    case 64:
+    case 1024:
+    case 1280:
+      return 64;
+    default:
+      return std::nullopt;
+  }
+}
+
+Result<std::int64_t> count_voxels(const Fields& header, const std::string& name) {
+  const std::int64_t dimensions = header.dim(0);
+  if (dimensions < 1 || dimensions > 7) {
+    return fail(ErrorKind::input, "{}: dim[0] is {}: not a NIfTI file, or a damaged one", name, dimensions);
+  }
+  std::int64_t voxels = 1;
+  for (int i = 1; i <= dimensions; ++i) {
+    if (header.dim(i) < 1) return fail(ErrorKind::input, "{}: dim[{}] is {}", name, i, header.dim(i));
+    const auto product = checked_product(voxels, header.dim(i));
+    if (!product) return fail(ErrorKind::input, "{}: dim: too many voxels", name);
+    voxels = *product;
+  }
+  return voxels;
+}
+
+// qform and sform are two statements of one thing; a user should know when they contradict each other.
+void compare_orientations(const Fields& header, PixelLayout& layout) {
+  const bool qform = header.read<std::int16_t>(252) > 0;
+  const bool sform = header.read<std::int16_t>(254) > 0;
+  layout.oriented = qform || sform;
+  if (!qform || !sform) return;
+  double worst = 0.0;
+  for (std::size_t row = 0; row < 3; ++row) {
+    const double q = header.read<float>(268 + 4 * row);
+    const double s = header.read<float>(280 + 16 * row + 12);
+    worst = std::max(worst, std::abs(q - s));
+  }
+  if (worst > 0.1) {
+    layout.warnings.push_back(fmt::format("qform and sform place the first voxel {:.1f} mm apart", worst));
+  }
+}
+
+}  // namespace
+
+Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  auto start = read_start(file, kHeaderSize);
+  if (!start) return pass_on(start);
+  if (start->size() < kHeaderSize) {
+    return fail(ErrorKind::input, "{}: not a NIfTI file: {} bytes are too few for its header", name,
+                start->size());
+  }
+  const Fields header(std::move(*start));
+  if (header.read<std::int32_t>(0) == 540) {
+    return fail(ErrorKind::input, "{}: sizeof_hdr is 540: NIfTI-2 is not supported", name);
+  }
+  if (header.read<std::int32_t>(0) != static_cast<std::int32_t>(kHeaderSize) || header.magic() != "n+1") {
+    return fail(ErrorKind::input, "{}: not a NIfTI file: its header has no 'n+1' magic", name);
+  }
+  const auto voxels = count_voxels(header, name);
+  if (!voxels) return tl::unexpected<Error>(voxels.error());
+  const int datatype = header.read<std::int16_t>(70);
+  const auto bits = bits_of(datatype);
+  if (!bits) return fail(ErrorKind::input, "{}: datatype {} is not a scalar type", name, datatype);
+  if (header.read<std::int16_t>(72) != *bits) {
+    return fail(ErrorKind::input, "{}: bitpix is {}, but datatype {} has {} bits", name,
+                header.read<std::int16_t>(72), datatype, *bits);
+  }
+  const double offset = header.read<float>(108);
+  if (!(offset >= static_cast<double>(kFirstVoxel) && offset < 1e9) || offset != std::floor(offset)) {
+    return fail(ErrorKind::input, "{}: vox_offset is {}", name, offset);
+  }
+  if (std::isinf(header.read<float>(112)) || std::isinf(header.read<float>(116))) {
+    return fail(ErrorKind::input, "{}: scl_slope or scl_inter is infinite", name);
+  }
+  const auto bytes = checked_product(*voxels, *bits / 8);
+  if (!bytes) return fail(ErrorKind::input, "{}: dim: too many voxels", name);
+
+  PixelLayout layout{.file = file, .voxels = *voxels, .bytes = *bytes};
+  layout.coding = is_gzip(file) ? Coding::deflate : Coding::raw;
+  (layout.coding == Coding::deflate ? layout.prefix : layout.offset) = static_cast<std::int64_t>(offset);
+  compare_orientations(header, layout);
+  return layout;
+}
+
+}  // namespace tidemark::files

@@ -1,0 +1,94 @@
+#include "imaging/files/text_header.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <string_view>
+
+namespace tidemark::files {
+namespace {
+
+constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
+
+std::string trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+// The start of the file as it is, without inflating.
+Result<std::string> read_text(const std::filesystem::path& file) {
+  if (auto exists = read_start(file, 1); !exists) return pass_on(exists);
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(kLongestHeader, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
+  return text;
+}
+
+// Takes the next line off `rest`; nothing at the end of the text.
+std::optional<std::string_view> next_line(std::string_view& rest) {
+  const auto end = rest.find('\n');
+  if (end == std::string_view::npos) return std::nullopt;
+  const std::string_view line = rest.substr(0, end);
+  rest.remove_prefix(end + 1);
+  return line;
+}
+
+void add_field(TextHeader& header, std::string_view line, std::string_view separator) {
+  const auto at = line.find(separator);
+  if (at == std::string_view::npos) return;
+  header.fields[lower(trimmed(line.substr(0, at)))] = trimmed(line.substr(at + separator.size()));
+}
+
+}  // namespace
+
+Result<TextHeader> read_nrrd_header(const std::filesystem::path& file) {
+  auto text = read_text(file);
+  if (!text) return pass_on(text);
+  std::string_view rest(*text);
+  const auto magic = next_line(rest);
+  if (!magic || magic->substr(0, 7) != "NRRD000") {
+    return fail(ErrorKind::input, "{}: not a NRRD file: it does not begin with 'NRRD000'", file.string());
+  }
+  TextHeader header;
+  const bool detached = has_suffix(file, ".nhdr");
+  while (const auto line = next_line(rest)) {
+    if (trimmed(*line).empty()) {
+      header.end = static_cast<std::int64_t>(text->size() - rest.size());
+      return header;
+    }
+    if (line->front() != '#' && line->find(":=") == std::string_view::npos) add_field(header, *line, ":");
+  }
+  // A header of its own may end with the file.
+  if (detached && text->size() < kLongestHeader) {
+    add_field(header, rest, ":");
+    return header;
+  }
+  return fail(ErrorKind::input, "{}: the header has no end (an empty line)", file.string());
+}
+
+Result<TextHeader> read_meta_header(const std::filesystem::path& file) {
+  auto text = read_text(file);
+  if (!text) return pass_on(text);
+  if (text->size() < kLongestHeader && !text->ends_with('\n')) text->push_back('\n');
+  std::string_view rest(*text);
+  TextHeader header;
+  while (const auto line = next_line(rest)) {
+    add_field(header, *line, "=");
+    if (header.fields.contains("elementdatafile")) {
+      header.end = static_cast<std::int64_t>(text->size() - rest.size());
+      return header;
+    }
+    if (!trimmed(*line).empty() && line->find('=') == std::string_view::npos) break;
+  }
+  return fail(ErrorKind::input, "{}: not a MetaImage file: its header has no ElementDataFile", file.string());
+}
+
+}  // namespace tidemark::files

@@ -1,0 +1,148 @@
+#include "imaging/files/volume_header.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/checked.h"
+
+namespace tidemark::files {
+namespace {
+
+// Sines of angles and errors of length up to this are taken for rounding in the header.
+constexpr double kAxisTolerance = 1e-3;
+
+Result<Index3> checked_size(const itk::ImageIOBase& io, const std::string& name) {
+  const unsigned dimensions = io.GetNumberOfDimensions();
+  if (dimensions < 3) {
+    return fail(ErrorKind::input, "{}: the image has {} dimensions, a volume has 3", name, dimensions);
+  }
+  for (unsigned axis = 3; axis < dimensions; ++axis) {
+    if (io.GetDimensions(axis) != 1) {
+      return fail(ErrorKind::input, "{}: dimension {} has {} entries: more than one volume", name, axis + 1,
+                  io.GetDimensions(axis));
+    }
+  }
+  Index3 size;
+  for (unsigned axis = 0; axis < 3; ++axis)
+    size[static_cast<int>(axis)] = static_cast<std::int64_t>(io.GetDimensions(axis));
+  const auto voxels = checked_product(size.x, size.y, size.z);
+  if (!voxels || *voxels == 0) {
+    return fail(ErrorKind::input, "{}: size {} x {} x {} makes no volume", name, size.x, size.y, size.z);
+  }
+  return size;
+}
+
+// The nearest right-angled axes by Gram-Schmidt, when they are within the tolerance of right angles.
+Result<glm::dmat3> checked_direction(const glm::dmat3& stated, const std::string& name) {
+  double worst = 0.0;
+  for (int a = 0; a < 3; ++a) {
+    for (int b = a; b < 3; ++b) {
+      const double error = std::abs(glm::dot(stated[a], stated[b]) - (a == b ? 1.0 : 0.0));
+      worst = std::isfinite(error) ? std::max(worst, error) : 1.0;
+    }
+  }
+  if (worst > kAxisTolerance) {
+    return fail(ErrorKind::input, "{}: direction: the axes are not at right angles (off by {:.3g})", name,
+                worst);
+  }
+  if (worst < 1e-12) return stated;
+  glm::dmat3 direction;
+  direction[0] = glm::normalize(stated[0]);
+  direction[1] = glm::normalize(stated[1] - glm::dot(stated[1], direction[0]) * direction[0]);
+  direction[2] = glm::cross(direction[0], direction[1]);
+  if (glm::dot(direction[2], stated[2]) < 0.0) direction[2] = -direction[2];  // left-handed axes stay so
+  return direction;
+}
+
+Result<Geometry> checked_geometry(const itk::ImageIOBase& io, const std::string& name) {
+  Geometry geometry;
+  const auto size = checked_size(io, name);
+  if (!size) return tl::unexpected<Error>(size.error());
+  geometry.size = *size;
+  glm::dmat3 direction;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const int a = static_cast<int>(axis);
+    geometry.spacing_mm[a] = io.GetSpacing(axis);
+    if (!std::isfinite(geometry.spacing_mm[a]) || geometry.spacing_mm[a] <= 0.0) {
+      return fail(ErrorKind::input, "{}: spacing along axis {} is {} mm", name, axis, geometry.spacing_mm[a]);
+    }
+    geometry.origin_mm[a] = io.GetOrigin(axis);
+    if (!std::isfinite(geometry.origin_mm[a])) {
+      return fail(ErrorKind::input, "{}: origin along axis {} is {} mm", name, axis, geometry.origin_mm[a]);
+    }
+    const std::vector<double> column = io.GetDirection(axis);
+    direction[a] = glm::dvec3(column.at(0), column.at(1), column.at(2));
+  }
+  auto right_angled = checked_direction(direction, name);
+  if (!right_angled) return pass_on(right_angled);
+  geometry.direction = *right_angled;
+  return geometry;
+}
+
+Status choose_scalar(const itk::ImageIOBase& io, const std::string& name, VolumeHeader& header) {
+  if (io.GetNumberOfComponents() != 1 || io.GetPixelType() != itk::IOPixelEnum::SCALAR) {
+    return fail(ErrorKind::input, "{}: {} values of type {} per voxel: only single numbers make a volume",
+                name, io.GetNumberOfComponents(), itk::ImageIOBase::GetPixelTypeAsString(io.GetPixelType()));
+  }
+  switch (io.GetComponentType()) {
+    case itk::IOComponentEnum::UCHAR:
+    case itk::IOComponentEnum::CHAR:
+    case itk::IOComponentEnum::SHORT:
+      header.scalar = "int16";
+      return {};
+    case itk::IOComponentEnum::USHORT:
+      header.scalar = "uint16";
+      return {};
+    case itk::IOComponentEnum::FLOAT:
+      header.scalar = "float";
+      return {};
+    case itk::IOComponentEnum::UINT:
+    case itk::IOComponentEnum::INT:
+    case itk::IOComponentEnum::ULONG:
+    case itk::IOComponentEnum::LONG:
+    case itk::IOComponentEnum::ULONGLONG:
+    case itk::IOComponentEnum::LONGLONG:
+    case itk::IOComponentEnum::DOUBLE:
+      header.scalar = "float";
+      header.changes.push_back(fmt::format(
+          "{} values converted to float", itk::ImageIOBase::GetComponentTypeAsString(io.GetComponentType())));
+      return {};
+    default:
+      return fail(ErrorKind::input, "{}: type {} is not supported", name,
+                  itk::ImageIOBase::GetComponentTypeAsString(io.GetComponentType()));
+  }
+}
+
+}  // namespace
+
+Result<VolumeHeader> check_header(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  auto layout = locate_pixels(file);
+  if (!layout) return pass_on(layout);
+  if (auto status = check_extent(*layout); !status) return pass_on(status);
+
+  VolumeHeader header;
+  try {
+    header.io = make_image_io(*format_of(file), file);
+    header.io->ReadImageInformation();
+    auto geometry = checked_geometry(*header.io, name);
+    if (!geometry) return pass_on(geometry);
+    header.geometry = *geometry;
+    if (auto status = choose_scalar(*header.io, name, header); !status) return pass_on(status);
+  } catch (const std::exception& exception) {
+    return fail(ErrorKind::input, "{}: the header cannot be read: {}", name, one_line(exception));
+  }
+  if (header.geometry.voxel_count() != layout->voxels) {
+    return fail(ErrorKind::input, "{}: the header says {} voxels, ITK reads {}", name, layout->voxels,
+                header.geometry.voxel_count());
+  }
+  header.warnings = std::move(layout->warnings);
+  if (!layout->oriented) {
+    header.warnings.emplace_back("the file does not say how its axes lie in the patient");
+  }
+  header.layout = std::move(*layout);
+  return header;
+}
+
+}  // namespace tidemark::files
