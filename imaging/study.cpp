@@ -1,1 +1,174 @@
 #include "imaging/study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "imaging/dicom/dicom.h"
+#include "imaging/files/volume_file.h"
+
+namespace tidemark {
+namespace {
+
+namespace fs = std::filesystem;
+
+// DICOM series name their transfer syntaxes; volume files have none.
+bool is_volume_file(const Series& series) {
+  return series.transfer_syntaxes.empty();
+}
+
+Result<Catalogue> find_in_file(const fs::path& file, const Progress& progress) {
+  if (is_readable_volume_file(file)) {
+    auto series = scan_volume_file(file);
+    if (!series) return pass_on(series);
+    Catalogue catalogue;
+    catalogue.series.push_back(std::move(*series));
+    return catalogue;
+  }
+  if (!looks_like_dicom(file)) {
+    return fail(ErrorKind::input, "{}: is neither a DICOM image nor a volume file", file.string());
+  }
+  return scan_dicom(file, progress);
+}
+
+// What the DICOM reader leaves aside may be a volume file.
+Result<Catalogue> find_in_folder(const fs::path& folder, const Progress& progress) {
+  auto catalogue = scan_dicom(folder, progress);
+  if (!catalogue) return catalogue;
+  std::vector<SkippedFile> skipped;
+  for (SkippedFile& candidate : catalogue->skipped) {
+    if (!is_readable_volume_file(candidate.file)) {
+      skipped.push_back(std::move(candidate));
+      continue;
+    }
+    auto series = scan_volume_file(candidate.file);
+    if (series) {
+      catalogue->series.push_back(std::move(*series));
+    } else {
+      skipped.push_back({std::move(candidate.file), std::move(series.error().message)});
+    }
+  }
+  catalogue->skipped = std::move(skipped);
+  return catalogue;
+}
+
+std::string list_uids(const std::vector<Series>& series) {
+  std::string text;
+  for (const Series& one : series) text += (text.empty() ? "" : ", ") + one.uid;
+  return text;
+}
+
+// The series to load; a reason to tell the user goes to `changes`.
+Result<const Series*> choose(const std::vector<Series>& all, const std::string& uid, const fs::path& path,
+                             std::vector<std::string>& changes) {
+  std::vector<const Series*> matching;
+  for (const Series& series : all) {
+    if (uid.empty() || series.uid == uid) matching.push_back(&series);
+  }
+  if (matching.empty()) {
+    return fail(ErrorKind::input, "{}: has no series {}; it has {}", path.string(), uid, list_uids(all));
+  }
+  std::vector<const Series*> loadable;
+  std::copy_if(matching.begin(), matching.end(), std::back_inserter(loadable),
+               [](const Series* series) { return series->loadable; });
+  if (loadable.empty()) {
+    const std::string others =
+        matching.size() == 1 ? "" : fmt::format(" (and {} more series)", matching.size() - 1);
+    return fail(ErrorKind::input, "{}: {}{}", path.string(), matching.front()->reason, others);
+  }
+  const Series* best = *std::max_element(
+      loadable.begin(), loadable.end(),
+      [](const Series* a, const Series* b) { return a->geometry.voxel_count() < b->geometry.voxel_count(); });
+  if (loadable.size() > 1) {
+    changes.push_back(uid.empty()
+                          ? fmt::format("{} series can be loaded; {} ({}) has the most voxels and was read",
+                                        loadable.size(), best->uid, best->description)
+                          : fmt::format("{} series have this UID; the one in {} was read", loadable.size(),
+                                        best->files.front().parent_path().filename().string()));
+  }
+  return best;
+}
+
+// Stored integers are finite, but slope and intercept may take them beyond what a float holds.
+Status require_finite_range(const Volume& volume, const std::string& source) {
+  if (volume.geometry.voxel_count() <= 0) return fail(ErrorKind::input, "{}: has no voxels", source);
+  const auto [low, high] = volume.range();
+  if (std::isfinite(low) && std::isfinite(high)) return {};
+  return fail(ErrorKind::input, "{}: slope {} and intercept {} lead to values that are not finite", source,
+              volume.slope, volume.intercept);
+}
+
+Result<Volume> load(const fs::path& path, const std::string& uid, const Progress& progress) {
+  const auto catalogue = find_series(path, progress);
+  if (!catalogue) return tl::unexpected(catalogue.error());
+  std::vector<std::string> changes;
+  const auto series = choose(catalogue->series, uid, path, changes);
+  if (!series) return tl::unexpected(series.error());
+  auto volume = is_volume_file(**series) ? read_volume_file((*series)->files.front(), progress)
+                                         : load_dicom(**series, progress);
+  if (!volume) return volume;
+  const std::string source = is_volume_file(**series) ? (*series)->files.front().string() : path.string();
+  if (auto finite = require_finite(*volume, source); !finite) return pass_on(finite);
+  if (auto finite = require_finite_range(*volume, source); !finite) return pass_on(finite);
+  volume->changes.insert(volume->changes.begin(), changes.begin(), changes.end());
+  return volume;
+}
+
+Mask mask_of(const Volume& volume) {
+  Mask mask;
+  mask.geometry = volume.geometry;
+  std::visit(
+      [&](const auto& stored) {
+        mask.voxels.resize(stored.size());
+        std::transform(stored.begin(), stored.end(), mask.voxels.begin(), [&](auto value) {
+          const bool inside = volume.slope * static_cast<double>(value) + volume.intercept != 0.0;
+          return static_cast<std::uint8_t>(inside ? 1 : 0);
+        });
+      },
+      volume.voxels);
+  return mask;
+}
+
+// Runs `work`; what it throws becomes an error that names the path.
+template <class Work>
+auto guarded(const fs::path& path, const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::capability, "{}: there is not enough memory", path.string());
+  } catch (const std::exception& error) {
+    return fail(ErrorKind::input, "{}: cannot be read: {}", path.string(), error.what());
+  }
+}
+
+}  // namespace
+
+Result<Catalogue> find_series(const fs::path& path, const Progress& progress) {
+  return guarded(path, [&]() -> Result<Catalogue> {
+    std::error_code error;
+    if (!fs::exists(path, error)) return fail(ErrorKind::input, "{}: no such file or folder", path.string());
+    auto catalogue =
+        fs::is_directory(path, error) ? find_in_folder(path, progress) : find_in_file(path, progress);
+    if (catalogue && catalogue->series.empty()) {
+      return fail(ErrorKind::input, "{}: holds no DICOM series or volume file", path.string());
+    }
+    return catalogue;
+  });
+}
+
+Result<Volume> load_volume(const fs::path& path, const std::string& uid, const Progress& progress) {
+  return guarded(path, [&] { return load(path, uid, progress); });
+}
+
+Result<Mask> load_mask(const fs::path& path, const Progress& progress) {
+  return guarded(path, [&]() -> Result<Mask> {
+    const auto volume = load(path, {}, progress);
+    if (!volume) return tl::unexpected(volume.error());
+    return mask_of(*volume);
+  });
+}
+
+}  // namespace tidemark

@@ -1,0 +1,262 @@
+#include "imaging/dicom/header_reader.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dccodec.h>
+#include <dcmtk/dcmdata/dcspchrs.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "core/checked.h"
+#include "imaging/dicom/decimal.h"
+#include "imaging/dicom/dicom.h"
+
+namespace tidemark {
+namespace {
+
+namespace fs = std::filesystem;
+
+// An empty frame compresses well, but not better than this; beyond it the file claims more than it can hold.
+constexpr std::int64_t kLargestCompression = 4096;
+
+// "PixelSpacing (0028,0030)", as messages name an attribute.
+std::string name_of(const DcmTagKey& key) {
+  DcmTag tag(key);
+  return fmt::format("{} ({:04X},{:04X})", tag.getTagName(), key.getGroup(), key.getElement());
+}
+
+// Reads attributes and remembers the first that makes no sense.
+class AttributeReader {
+ public:
+  AttributeReader(DcmItem& item, std::string& problem) : item_(item), problem_(problem) {}
+
+  [[nodiscard]] std::string text(const DcmTagKey& key) const {
+    OFString value;
+    if (item_.findAndGetOFStringArray(key, value).bad()) return {};
+    std::string result(value.c_str());
+    result.erase(result.find_last_not_of(' ') + 1);
+    return result;
+  }
+
+  // Nothing when absent or empty; a problem when it is not `count` numbers (at least one when count is 0).
+  std::optional<std::vector<double>> decimals(const DcmTagKey& key, std::size_t count) {
+    const std::string value = text(key);
+    if (value.empty()) return std::nullopt;
+    auto numbers = parse_decimals(value);
+    if (!numbers || (count != 0 && numbers->size() != count)) {
+      report(fmt::format("{} is '{}'", name_of(key), value.substr(0, 80)));
+      return std::nullopt;
+    }
+    return numbers;
+  }
+
+  // A size or a count of bits, whatever integer representation it comes in; a problem when it is absent or
+  // not within [low, high].
+  std::int64_t whole(const DcmTagKey& key, std::int64_t low, std::int64_t high) {
+    long int value = 0;
+    if (item_.findAndGetLongInt(key, value).bad()) {
+      report(fmt::format("{} is missing or not a whole number", name_of(key)));
+      return 0;
+    }
+    if (value < low || value > high) {
+      report(fmt::format("{} is {}, not {} to {}", name_of(key), value, low, high));
+      return 0;
+    }
+    return value;
+  }
+
+  void report(std::string problem) {
+    if (problem_.empty()) problem_ = std::move(problem);
+  }
+
+ private:
+  DcmItem& item_;
+  std::string& problem_;
+};
+
+// Text in UTF-8, from the dataset's character set; bytes that make no sense become question marks.
+std::string in_utf8(std::string text, const std::string& character_set) {
+  const auto foreign = [](char c) { return static_cast<unsigned char>(c) >= 0x80 || c == '\x1b'; };
+  if (std::none_of(text.begin(), text.end(), foreign)) return text;
+  DcmSpecificCharacterSet converter;
+  OFString converted;
+  if (converter.selectCharacterSet(character_set.c_str()).good() &&
+      converter.convertString(text.c_str(), converted).good()) {
+    return converted.c_str();
+  }
+  std::replace_if(text.begin(), text.end(), foreign, '?');
+  return text;
+}
+
+bool is_enhanced(const std::string& sop_class) {
+  constexpr std::array kClasses{UID_EnhancedCTImageStorage,
+                                UID_EnhancedMRImageStorage,
+                                UID_EnhancedMRColorImageStorage,
+                                UID_EnhancedPETImageStorage,
+                                UID_LegacyConvertedEnhancedCTImageStorage,
+                                UID_LegacyConvertedEnhancedMRImageStorage,
+                                UID_LegacyConvertedEnhancedPETImageStorage};
+  return std::find(kClasses.begin(), kClasses.end(), sop_class) != kClasses.end();
+}
+
+// Objects that hold several slices, in which ways we cannot read yet.
+void check_is_one_slice(AttributeReader& in) {
+  const std::string sop_class = in.text(DCM_SOPClassUID);
+  const char* known = dcmFindNameOfUID(sop_class.c_str());
+  const std::string sop_name = known != nullptr ? known : "unknown SOP class " + sop_class;
+  if (is_enhanced(sop_class)) {
+    in.report(fmt::format("comes as enhanced multi-frame ({}), which is not read yet", sop_name));
+  }
+  if (const std::string frames = in.text(DCM_NumberOfFrames); !frames.empty()) {
+    const auto count = parse_integers(frames);
+    if (!count || count->size() != 1 || count->front() < 1) {
+      in.report(fmt::format("{} is '{}'", name_of(DCM_NumberOfFrames), frames.substr(0, 80)));
+    } else if (count->front() > 1) {
+      in.report(fmt::format("comes as multi-frame ({}, {} frames), which is not read yet", sop_name,
+                            count->front()));
+    }
+  }
+}
+
+// The Image Pixel module (PS3.3 C.7.6.3).
+void read_pixel_format(AttributeReader& in, SliceHeader& header) {
+  const std::string colours = in.text(DCM_PhotometricInterpretation);
+  if (const auto samples = in.whole(DCM_SamplesPerPixel, 1, 4); samples > 1) {
+    in.report(fmt::format("{} is {} ({}): a colour image, not values", name_of(DCM_SamplesPerPixel), samples,
+                          colours));
+  }
+  header.is_monochrome1 = colours == "MONOCHROME1";
+  if (colours != "MONOCHROME1" && colours != "MONOCHROME2") {
+    in.report(fmt::format("{} is '{}', not MONOCHROME1 or MONOCHROME2",
+                          name_of(DCM_PhotometricInterpretation), colours.substr(0, 80)));
+  }
+  header.rows = in.whole(DCM_Rows, 1, 65535);
+  header.columns = in.whole(DCM_Columns, 1, 65535);
+  header.bits_allocated = static_cast<int>(in.whole(DCM_BitsAllocated, 1, 64));
+  if (const int bits = header.bits_allocated; bits != 0 && bits != 8 && bits != 16 && bits != 32) {
+    in.report(fmt::format("{} is {}, not 8, 16 or 32", name_of(DCM_BitsAllocated), bits));
+  }
+  header.bits_stored = static_cast<int>(in.whole(DCM_BitsStored, 1, header.bits_allocated));
+  header.high_bit =
+      static_cast<int>(in.whole(DCM_HighBit, header.bits_stored - 1, header.bits_allocated - 1));
+  header.is_signed = in.whole(DCM_PixelRepresentation, 0, 1) == 1;
+}
+
+// Image Plane (PS3.3 C.7.6.2): what is absent stays empty, what is there must be numbers.
+void read_plane(AttributeReader& in, SliceHeader& header) {
+  if (const auto p = in.decimals(DCM_ImagePositionPatient, 3)) {
+    header.position_mm = glm::dvec3((*p)[0], (*p)[1], (*p)[2]);
+  }
+  if (const auto o = in.decimals(DCM_ImageOrientationPatient, 6)) {
+    header.orientation = {glm::dvec3((*o)[0], (*o)[1], (*o)[2]), glm::dvec3((*o)[3], (*o)[4], (*o)[5])};
+  }
+  if (const auto s = in.decimals(DCM_PixelSpacing, 2)) {
+    header.pixel_spacing_mm = glm::dvec2((*s)[1], (*s)[0]);
+  }
+}
+
+// Modality LUT and VOI LUT (PS3.3 C.11.1, C.11.2).
+void read_values(AttributeReader& in, SliceHeader& header) {
+  if (const auto slope = in.decimals(DCM_RescaleSlope, 1)) header.slope = slope->front();
+  if (const auto intercept = in.decimals(DCM_RescaleIntercept, 1)) header.intercept = intercept->front();
+  if (header.slope == 0.0) in.report(fmt::format("{} is 0", name_of(DCM_RescaleSlope)));
+  // A window that makes no sense is as good as none: it decides nothing.
+  const auto centre = parse_decimals(in.text(DCM_WindowCenter));
+  const auto width = parse_decimals(in.text(DCM_WindowWidth));
+  if (centre && width && width->front() > 0.0) header.window = WindowLevel{centre->front(), width->front()};
+  header.is_mosaic = in.text(DCM_ImageType).find("MOSAIC") != std::string::npos;
+  header.has_burned_in_text = in.text(DCM_BurnedInAnnotation) == "YES";
+}
+
+// Whether the pixel data can hold the frame that the header promises, before memory is taken for it.
+void check_pixel_bytes(DcmPixelData& pixels, AttributeReader& in, const SliceHeader& header) {
+  const auto needed = checked_product(header.rows, header.columns, header.bits_allocated / 8);
+  if (!needed || *needed == 0) return;  // reported already
+  E_TransferSyntax syntax = EXS_Unknown;
+  const DcmRepresentationParameter* parameter = nullptr;
+  pixels.getOriginalRepresentationKey(syntax, parameter);
+  if (!DcmXfer(syntax).isEncapsulated()) {
+    const std::int64_t held = pixels.getLength(syntax);
+    if (held != *needed && held != *needed + *needed % 2) {
+      in.report(fmt::format("{} holds {} bytes where {} x {} pixels of {} bits need {}",
+                            name_of(DCM_PixelData), held, header.columns, header.rows, header.bits_allocated,
+                            *needed));
+    }
+    return;
+  }
+  if (!DcmCodecList::canChangeCoding(syntax, EXS_LittleEndianExplicit)) {
+    in.report(fmt::format("its transfer syntax {} cannot be decoded", DcmXfer(syntax).getXferName()));
+    return;
+  }
+  DcmPixelSequence* fragments = nullptr;
+  if (pixels.getEncapsulatedRepresentation(syntax, parameter, fragments).bad() || fragments == nullptr ||
+      fragments->card() < 2) {  // the first is the offset table
+    in.report(fmt::format("{} holds no compressed frame", name_of(DCM_PixelData)));
+    return;
+  }
+  std::error_code error;
+  const auto bytes = static_cast<std::int64_t>(fs::file_size(header.file, error));
+  if (!error && *needed / kLargestCompression > bytes) {
+    in.report(fmt::format("{} cannot hold {} x {} pixels in a file of {} bytes", name_of(DCM_PixelData),
+                          header.columns, header.rows, bytes));
+  }
+}
+
+bool is_lossy_syntax(E_TransferSyntax syntax) {
+  constexpr std::array kLossy{EXS_JPEGProcess1, EXS_JPEGProcess2_4, EXS_JPEGLSLossy, EXS_JPEG2000};
+  return std::find(kLossy.begin(), kLossy.end(), syntax) != kLossy.end();
+}
+
+}  // namespace
+
+Result<SliceHeader> slice_header_of(DcmFileFormat& loaded, const fs::path& file) {
+  DcmDataset& dataset = *loaded.getDataset();
+  SliceHeader header;
+  header.file = file;
+  AttributeReader in(dataset, header.problem);
+  header.series_uid = in.text(DCM_SeriesInstanceUID);
+  header.sop_instance_uid = in.text(DCM_SOPInstanceUID);
+  header.modality = in.text(DCM_Modality);
+  header.description = in_utf8(in.text(DCM_SeriesDescription), in.text(DCM_SpecificCharacterSet));
+  const DcmXfer syntax(dataset.getOriginalXfer());
+  header.transfer_syntax = syntax.getXferID();
+  header.is_lossy = is_lossy_syntax(syntax.getXfer()) || in.text(DCM_LossyImageCompression) == "01";
+
+  DcmElement* element = nullptr;
+  if (dataset.findAndGetElement(DCM_PixelData, element).bad() || element == nullptr) {
+    if (!dataset.tagExists(DCM_Rows)) {
+      return fail(ErrorKind::input, "{}: holds no image ({})", file.string(),
+                  header.modality.empty() ? "no pixel data" : header.modality);
+    }
+    in.report(fmt::format("{} is missing", name_of(DCM_PixelData)));
+  }
+  check_is_one_slice(in);
+  read_pixel_format(in, header);
+  read_plane(in, header);
+  read_values(in, header);
+  if (auto* pixels = dynamic_cast<DcmPixelData*>(element)) {
+    check_pixel_bytes(*pixels, in, header);
+  } else {
+    in.report(fmt::format("{} is not pixel data", name_of(DCM_PixelData)));
+  }
+  return header;
+}
+
+Result<SliceHeader> read_slice_header(const fs::path& file) {
+  if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
+  DcmFileFormat loaded;
+  const OFCondition parsed = loaded.loadFile(file.c_str());
+  // A damaged file that still names its series makes that series incomplete: it must not go unnoticed.
+  if (parsed.bad() && !loaded.getDataset()->tagExists(DCM_SeriesInstanceUID)) {
+    return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
+  }
+  auto header = slice_header_of(loaded, file);
+  if (header && parsed.bad()) header->problem = fmt::format("is damaged: {}", parsed.text());
+  return header;
+}
+
+}  // namespace tidemark

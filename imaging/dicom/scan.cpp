@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <new>
+#include <optional>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "core/thread_pool.h"
+#include "imaging/dicom/dicom.h"
+#include "imaging/dicom/dicom_setup.h"
+#include "imaging/dicom/header_reader.h"
+#include "imaging/dicom/series_geometry.h"
+#include "imaging/dicom/shared_progress.h"
+
+namespace tidemark {
+namespace {
+
+namespace fs = std::filesystem;
+
+// All regular files below the folder, sorted, so that results do not depend on the file system. Links to
+// folders are not followed: they could lead in circles.
+Result<std::vector<fs::path>> list_files(const fs::path& folder, bool recursive) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  fs::recursive_directory_iterator entries(folder, fs::directory_options::skip_permission_denied, error);
+  for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
+    if (!recursive) entries.disable_recursion_pending();
+    std::error_code ignored;
+    if (entries->is_regular_file(ignored)) files.push_back(entries->path());
+  }
+  if (error) return fail(ErrorKind::input, "{}: cannot be listed: {}", folder.string(), error.message());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+struct Headers {
+  std::vector<SliceHeader> slices;
+  std::vector<SkippedFile> skipped;
+  std::vector<SkippedFile>
+      damaged;  // skipped too; look like DICOM, but nothing says to which series they belong
+};
+
+Result<SliceHeader> read_safely(const fs::path& file) {
+  try {
+    return read_slice_header(file);
+  } catch (const std::exception& error) {
+    return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(), error.what());
+  }
+}
+
+Result<Headers> read_headers(const std::vector<fs::path>& files, const Progress& progress) {
+  std::vector<std::optional<Result<SliceHeader>>> read(files.size());
+  SharedProgress shared(progress, static_cast<std::int64_t>(files.size()), "reading headers");
+  ThreadPool pool;
+  pool.for_each(static_cast<std::int64_t>(files.size()), 4, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t i = begin; i < end && !progress.cancelled(); ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      read[index] = read_safely(files[index]);
+      shared.advance();
+    }
+  });
+  if (progress.cancelled()) return cancelled_error();
+
+  Headers headers;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    Result<SliceHeader>& result = *read[i];
+    if (result) {
+      headers.slices.push_back(std::move(*result));
+      continue;
+    }
+    // The reason without the file's name, which stands beside it.
+    std::string reason = result.error().message;
+    if (const std::string prefix = files[i].string() + ": "; reason.starts_with(prefix)) {
+      reason.erase(0, prefix.size());
+    }
+    const bool is_damaged = reason.starts_with("is damaged") || reason.starts_with("cannot be read") ||
+                            (files[i].extension() == ".dcm" && !looks_like_dicom(files[i]));
+    if (is_damaged) headers.damaged.push_back({files[i], reason});
+    headers.skipped.push_back({files[i], std::move(reason)});
+  }
+  return headers;
+}
+
+// A damaged file beside a series may have been its first or last slice, which no gap would show.
+void warn_of_damage(std::vector<Series>& series, const std::vector<SkippedFile>& damaged) {
+  for (Series& one : series) {
+    for (const SkippedFile& skipped : damaged) {
+      const bool beside = std::any_of(one.files.begin(), one.files.end(), [&](const fs::path& file) {
+        return file.parent_path() == skipped.file.parent_path();
+      });
+      if (!beside) continue;
+      one.warnings.push_back(fmt::format("{} lies in the same folder and {}: a slice may be missing",
+                                         skipped.file.filename().string(), skipped.reason));
+    }
+  }
+}
+
+Result<Catalogue> scan_folder(const fs::path& folder, const Progress& progress) {
+  const auto files = list_files(folder, true);
+  if (!files) return tl::unexpected(files.error());
+  auto headers = read_headers(*files, progress);
+  if (!headers) return pass_on(headers);
+  Catalogue catalogue;
+  catalogue.series = group_series(std::move(headers->slices));
+  catalogue.skipped = std::move(headers->skipped);
+  warn_of_damage(catalogue.series, headers->damaged);
+  return catalogue;
+}
+
+// One slice stands for its series: the images of the same series in the same folder.
+Result<Catalogue> scan_file(const fs::path& file, const Progress& progress) {
+  const auto chosen = read_safely(file);
+  if (!chosen) return tl::unexpected(chosen.error());
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  SliceHeader placed = *chosen;
+  placed.file = folder / file.filename();  // as the listing names it
+  const std::string key = series_key(placed);
+  const auto files = list_files(folder, false);
+  if (!files) return tl::unexpected(files.error());
+  auto headers = read_headers(*files, progress);
+  if (!headers) return pass_on(headers);
+  std::erase_if(headers->slices, [&](const SliceHeader& s) { return series_key(s) != key; });
+  if (headers->slices.empty()) return fail(ErrorKind::input, "{}: cannot be read", file.string());
+
+  Catalogue catalogue;
+  Series series = arrange_series(std::move(headers->slices));
+  if (series.files.size() > 1) {
+    series.changes.push_back(
+        fmt::format("{} is one of {} images of its series in this folder; all of them are read",
+                    file.filename().string(), series.files.size()));
+  }
+  catalogue.series.push_back(std::move(series));
+  warn_of_damage(catalogue.series, headers->damaged);
+  return catalogue;
+}
+
+}  // namespace
+
+Result<Catalogue> scan_dicom(const fs::path& path, const Progress& progress) {
+  try {
+    if (auto ready = set_up_dicom(); !ready) return pass_on(ready);
+    std::error_code error;
+    if (fs::is_directory(path, error)) return scan_folder(path, progress);
+    if (fs::exists(path, error)) return scan_file(path, progress);
+    return fail(ErrorKind::input, "{}: no such file or folder", path.string());
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::capability, "{}: there is not enough memory", path.string());
+  } catch (const std::exception& error) {
+    return fail(ErrorKind::input, "{}: cannot be read: {}", path.string(), error.what());
+  }
+}
+
+}  // namespace tidemark

@@ -1,0 +1,27 @@
+// From the headers of a series' images to a volume's grid, or to the reason why there is none.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "imaging/dicom/slice_header.h"
+#include "imaging/series.h"
+
+namespace tidemark {
+
+// Sorts the images of one series along their normal and checks that they make a regular grid: same size,
+// pixel spacing and orientation, one image a position, even distances (within max(1e-3 x distance, 0.01 mm)),
+// positions on a line along the normal (DICOM PS3.3 C.7.6.2.1.1). The direction of the k axis is
+// cross(i, j), so that the grid is right-handed. `slices` must not be empty. A series that fails a check
+// comes back with loadable = false and a reason that names the files.
+[[nodiscard]] Series arrange_series(std::vector<SliceHeader> slices);
+
+// What the images of one series have in common: the Series Instance UID; images without one belong together
+// when they lie in one folder and have the same modality and description.
+[[nodiscard]] std::string series_key(const SliceHeader& slice);
+
+// Splits images into series by their key. Copies of one series in several folders (the same
+// SOP Instance UIDs again) become one series a folder.
+[[nodiscard]] std::vector<Series> group_series(std::vector<SliceHeader> slices);
+
+}  // namespace tidemark
