@@ -25,13 +25,15 @@ struct Phantom {
   double alpha = 0.5;
   std::optional<std::array<double, 4>> seed;                // i, j, k (voxels), radius (mm)
   std::optional<std::pair<double, double>> init_threshold;  // low, high, in the volume's units
+  double noise_percent = 0.0;                               // what it was made with
+  std::uint64_t random_seed = 1;
 };
 
 // "sphere", "dumbbell", "bridge", "tumour", "cortex", "organ", "junction", "head".
 const std::vector<std::string_view>& phantom_kinds();
 
 struct PhantomOptions {
-  double noise_percent = -1.0;   // standard deviation in % of the brightest tissue; < 0: the kind's default
+  double noise_percent = -1.0;    // standard deviation in % of the brightest tissue; < 0: the kind's default
   std::uint64_t random_seed = 1;  // the same seed gives the same voxels on every machine
 };
 

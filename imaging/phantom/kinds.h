@@ -1,0 +1,27 @@
+// One builder for each kind of phantom.
+#pragma once
+
+#include "core/thread_pool.h"
+#include "imaging/phantom/phantom.h"
+
+namespace tidemark::phantom {
+
+using Builder = Result<Phantom> (*)(const PhantomOptions&, ThreadPool&, const Progress&);
+
+Result<Phantom> make_sphere(const PhantomOptions&, ThreadPool&, const Progress&);
+Result<Phantom> make_dumbbell(const PhantomOptions&, ThreadPool&, const Progress&);
+Result<Phantom> make_bridge(const PhantomOptions&, ThreadPool&, const Progress&);
+Result<Phantom> make_tumour(const PhantomOptions&, ThreadPool&, const Progress&);
+Result<Phantom> make_cortex(const PhantomOptions&, ThreadPool&, const Progress&);
+Result<Phantom> make_organ(const PhantomOptions&, ThreadPool&, const Progress&);
+Result<Phantom> make_junction(const PhantomOptions&, ThreadPool&, const Progress&);
+Result<Phantom> make_head(const PhantomOptions&, ThreadPool&, const Progress&);
+
+// make_phantom() on a pool of the caller's.
+Result<Phantom> make_on(ThreadPool& pool, std::string_view kind, const PhantomOptions& options,
+                        const Progress& progress);
+
+// One sentence: what the ground truth of a kind is.
+std::string_view truth_of(std::string_view kind);
+
+}  // namespace tidemark::phantom
