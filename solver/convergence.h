@@ -1,0 +1,24 @@
+// When a surface counts as stopped: see kConvergedSpeed.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "solver/executor.h"
+
+namespace tidemark {
+
+// Summed over the steps of a window and the voxels with |phi| <= 1: the squared changes of phi over the last
+// two steps, and how many voxels there were.
+struct SurfaceMotion {
+  double squared_change = 0.0;
+  std::int64_t voxels = 0;
+};
+
+// The root mean square of the surface's normal speed, in smallest spacings per unit of time.
+inline double surface_speed(const SurfaceMotion& motion, double time_step) {
+  if (motion.voxels == 0) return 0.0;
+  return std::sqrt(motion.squared_change / static_cast<double>(motion.voxels)) / (2.0 * time_step);
+}
+
+}  // namespace tidemark

@@ -1,0 +1,117 @@
+#include "solver/field.h"
+
+#include <algorithm>
+
+namespace tidemark {
+namespace {
+
+// Calls visit(voxel offset of the row, row length, index of its first value in the page) for each row of
+// voxels that the page holds.
+template <class Visit>
+void for_each_row(const Geometry& geometry, const PageLayout& layout, std::int64_t page, Visit visit) {
+  const Index3 first = layout.first_voxel(page);
+  const Index3 valid = layout.valid_shape(page);
+  const Index3 shape = layout.page_shape();
+  for (std::int64_t z = 0; z < valid.z; ++z) {
+    for (std::int64_t y = 0; y < valid.y; ++y) {
+      visit(geometry.offset(first + Index3(0, y, z)), valid.x, shape.x * (y + shape.y * z));
+    }
+  }
+}
+
+}  // namespace
+
+float Field::at(Index3 voxel) const {
+  const VirtualAddress address = layout.translate(voxel);
+  const std::int32_t entry = table[static_cast<std::size_t>(address.page)];
+  if (entry < 0) return static_cast<float>(entry == kInside ? band : -band);
+  return pages[static_cast<std::size_t>(entry * layout.voxels_per_page() + address.offset)];
+}
+
+std::int64_t Field::resident_pages() const {
+  return static_cast<std::int64_t>(pages.size()) / layout.voxels_per_page();
+}
+
+std::vector<float> Field::dense() const {
+  std::vector<float> values(static_cast<std::size_t>(geometry.voxel_count()));
+  for (std::int64_t page = 0; page < layout.page_count(); ++page) {
+    const std::int32_t entry = table[static_cast<std::size_t>(page)];
+    const float constant = static_cast<float>(entry == kInside ? band : -band);
+    for_each_row(geometry, layout, page, [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
+      float* row = values.data() + offset;
+      if (entry < 0) {
+        std::fill_n(row, length, constant);
+      } else {
+        std::copy_n(pages.data() + entry * layout.voxels_per_page() + index, length, row);
+      }
+    });
+  }
+  return values;
+}
+
+Volume Field::to_volume() const {
+  Volume volume;
+  volume.geometry = geometry;
+  volume.voxels = dense();
+  volume.description = "level set phi";
+  return volume;
+}
+
+Mask Field::mask() const {
+  Mask result{geometry, std::vector<std::uint8_t>(static_cast<std::size_t>(geometry.voxel_count()))};
+  for (std::int64_t page = 0; page < layout.page_count(); ++page) {
+    const std::int32_t entry = table[static_cast<std::size_t>(page)];
+    if (entry == kOutside) continue;
+    for_each_row(geometry, layout, page, [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
+      std::uint8_t* row = result.voxels.data() + offset;
+      if (entry == kInside) {
+        std::fill_n(row, length, std::uint8_t{1});
+      } else {
+        const float* values = pages.data() + entry * layout.voxels_per_page() + index;
+        std::transform(values, values + length, row, [](float phi) { return std::uint8_t(phi > 0.0F); });
+      }
+    });
+  }
+  return result;
+}
+
+Field Field::empty(const Geometry& geometry, double band, Index3 page_shape) {
+  Field field;
+  field.geometry = geometry;
+  field.band = band;
+  field.layout = PageLayout(geometry.size, page_shape);
+  field.table.assign(static_cast<std::size_t>(field.layout.page_count()), kOutside);
+  return field;
+}
+
+Field Field::from_dense(const Geometry& geometry, std::span<const float> values, double band,
+                        Index3 page_shape) {
+  Field field = empty(geometry, band, page_shape);
+  const auto limit = static_cast<float>(band);
+  const std::int64_t page_voxels = field.layout.voxels_per_page();
+  std::vector<float> page_values(static_cast<std::size_t>(page_voxels), -limit);
+  for (std::int64_t page = 0; page < field.layout.page_count(); ++page) {
+    bool inside = true;
+    bool outside = true;
+    for_each_row(geometry, field.layout, page,
+                 [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
+                   for (std::int64_t i = 0; i < length; ++i) {
+                     const float phi =
+                         std::clamp(values[static_cast<std::size_t>(offset + i)], -limit, limit);
+                     inside = inside && phi == limit;
+                     outside = outside && phi == -limit;
+                     page_values[static_cast<std::size_t>(index + i)] = phi;
+                   }
+                 });
+    std::int32_t& entry = field.table[static_cast<std::size_t>(page)];
+    if (inside) {
+      entry = kInside;
+    } else if (!outside) {
+      entry = static_cast<std::int32_t>(field.resident_pages());
+      field.pages.insert(field.pages.end(), page_values.begin(), page_values.end());
+    }
+  }
+  return field;
+}
+
+}  // namespace tidemark

@@ -1,0 +1,129 @@
+// Replacing and painting phi in the host executor.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "solver/host/host_executor.h"
+
+namespace tidemark {
+
+Status HostExecutor::restore(const Field& phi) {
+  if (phi.geometry.size != source_->geometry.size) {
+    return fail(ErrorKind::usage, "phi has {} x {} x {} voxels, the volume has {} x {} x {}",
+                phi.geometry.size.x, phi.geometry.size.y, phi.geometry.size.z, source_->geometry.size.x,
+                source_->geometry.size.y, source_->geometry.size.z);
+  }
+  if (static_cast<float>(phi.band) != constants_.band) {
+    return fail(ErrorKind::usage, "phi has a band of {} voxels, the level set one of {}", phi.band, band());
+  }
+  if (phi.layout.page_shape() != kDefaultPageShape) {
+    return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band));
+  }
+  if (auto status = check_budget(phi.resident_pages() - table_.resident()); !status) return status;
+
+  clear();
+  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
+    if (phi.table[static_cast<std::size_t>(page)] == Field::kInside) table_.set_static(page, true);
+  }
+  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
+    if (phi.table[static_cast<std::size_t>(page)] < 0) continue;
+    if (auto made = make_resident(page); !made) return pass_on(made);
+  }
+  fill_new_pages();
+  for_each_resident([&](PhysicalPage page) {
+    const std::int32_t entry = phi.table[static_cast<std::size_t>(table_.virtual_page(page))];
+    std::copy_n(phi.pages.data() + std::int64_t{entry} * kPageVoxels, kPageVoxels, pool_.phi(current_, page));
+    refresh_masks(page);
+  });
+  return activate_all();
+}
+
+Field HostExecutor::snapshot() const {
+  Field field = Field::empty(source_->geometry, model_.band());
+  field.pages.reserve(static_cast<std::size_t>(table_.resident() * kPageVoxels));
+  for (std::int64_t page = 0; page < table_.layout().page_count(); ++page) {
+    const PhysicalPage physical = table_.physical(page);
+    std::int32_t& entry = field.table[static_cast<std::size_t>(page)];
+    if (physical == kInsidePage) {
+      entry = Field::kInside;
+    } else if (physical != kOutsidePage) {
+      entry = static_cast<std::int32_t>(field.resident_pages());
+      const float* phi = pool_.phi(current_, physical);
+      field.pages.insert(field.pages.end(), phi, phi + kPageVoxels);
+    }
+  }
+  return field;
+}
+
+Status HostExecutor::paint(const Sphere& sphere, Brush brush) {
+  const Geometry& geometry = source_->geometry;
+  const PageLayout& layout = table_.layout();
+  const glm::dvec3 centre = geometry.to_voxel(sphere.centre_mm);
+  const glm::dvec3 reach =
+      (sphere.radius_mm + model_.band() * model_.smallest_spacing_mm()) / geometry.spacing_mm;
+  const glm::dvec3 last_voxel(geometry.size - Index3(1));
+  const Index3 first_page =
+      Index3(glm::clamp(glm::floor(centre - reach), glm::dvec3(0), last_voxel)) / layout.page_shape();
+  const Index3 last_page =
+      Index3(glm::clamp(glm::ceil(centre + reach), glm::dvec3(0), last_voxel)) / layout.page_shape();
+
+  using Values = std::array<float, kPageVoxels>;
+  std::vector<std::pair<std::int64_t, Values>> to_allocate;
+  const auto painted = [&](Index3 coordinates, const float* old_phi, float constant, Values& values) {
+    const Index3 first = coordinates * layout.page_shape();
+    for (int i = 0; i < kPageVoxels; ++i) {
+      const glm::dvec3 voxel(first + Index3(i % kPageSide, i / kPageSide % kPageSide, i / kPageRows));
+      const glm::dvec3 offset = (voxel - centre) * geometry.spacing_mm;
+      const double distance =
+          sphere.radius_mm - std::sqrt(offset.x * offset.x + offset.y * offset.y + offset.z * offset.z);
+      const float d = std::clamp(static_cast<float>(distance / model_.smallest_spacing_mm()),
+                                 -constants_.band, constants_.band);
+      const float phi = old_phi != nullptr ? old_phi[i] : constant;
+      values[static_cast<std::size_t>(i)] = brush == Brush::add ? std::max(phi, d) : std::min(phi, -d);
+    }
+  };
+
+  Values values;
+  for (std::int64_t z = first_page.z; z <= last_page.z; ++z) {
+    for (std::int64_t y = first_page.y; y <= last_page.y; ++y) {
+      for (std::int64_t x = first_page.x; x <= last_page.x; ++x) {
+        const PhysicalPage page = table_.physical(Index3(x, y, z));
+        if (!is_static_page(page)) continue;
+        const float constant = page == kInsidePage ? constants_.band : -constants_.band;
+        painted({x, y, z}, nullptr, constant, values);
+        if (std::all_of(values.begin(), values.end(), [&](float v) { return v == constant; })) continue;
+        to_allocate.emplace_back(layout.page_number({x, y, z}), values);
+      }
+    }
+  }
+  if (auto status = check_budget(static_cast<std::int64_t>(to_allocate.size())); !status) return status;
+
+  for (std::int64_t z = first_page.z; z <= last_page.z; ++z) {
+    for (std::int64_t y = first_page.y; y <= last_page.y; ++y) {
+      for (std::int64_t x = first_page.x; x <= last_page.x; ++x) {
+        const PhysicalPage page = table_.physical(Index3(x, y, z));
+        if (is_static_page(page)) continue;
+        painted({x, y, z}, pool_.phi(current_, page), 0.0F, values);
+        if (std::equal(values.begin(), values.end(), pool_.phi(current_, page))) continue;
+        std::copy(values.begin(), values.end(), pool_.phi(current_, page));
+        refresh_masks(page);
+        wake(page);
+        wake_around(page);
+      }
+    }
+  }
+  for (const auto& [virtual_page, contents] : to_allocate) {
+    if (auto made = make_resident(virtual_page); !made) return pass_on(made);
+  }
+  fill_new_pages();
+  for (const auto& [virtual_page, contents] : to_allocate) {
+    const PhysicalPage page = table_.physical(virtual_page);
+    std::copy(contents.begin(), contents.end(), pool_.phi(current_, page));
+    refresh_masks(page);
+    wake_around(page);
+  }
+  return activate_all();
+}
+
+}  // namespace tidemark

@@ -1,0 +1,192 @@
+#include "solver/host/host_executor.h"
+
+#include <bit>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+
+namespace tidemark {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Bits for whole groups of rows_per_vector rows: a vector computes all of its rows or none.
+Rows whole_vectors(Rows rows, int rows_per_vector) {
+  if (rows_per_vector == 1) return rows;
+  constexpr Rows kEven = 0x5555555555555555U;
+  const Rows first = (rows | rows >> 1U) & kEven;
+  return first | first << 1U;
+}
+
+void fill_rows(float* page, Rows rows, float value) {
+  for (; rows != 0; rows &= rows - 1) {
+    float* row = page + std::countr_zero(rows) * kPageSide;
+    for (int x = 0; x < kPageSide; ++x) row[x] = value;
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Executor>> HostExecutor::create(std::shared_ptr<const Volume> source,
+                                                       const Parameters& parameters,
+                                                       const ExecutorOptions& options) {
+  const char* chosen = std::getenv("TIDEMARK_SIMD");
+  auto kernels = select_page_kernels(chosen != nullptr ? chosen : "");
+  if (!kernels) return fail(kernels.error().kind, "TIDEMARK_SIMD: {}", kernels.error().message);
+  std::unique_ptr<HostExecutor> executor(
+      new HostExecutor(std::move(source), parameters, options, std::move(*kernels)));
+  return executor;
+}
+
+HostExecutor::HostExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters,
+                           const ExecutorOptions& options, PageKernels kernels)
+    : source_(std::move(source)),
+      source_range_(source_->range()),
+      model_(source_->geometry, source_range_, parameters),
+      constants_(model_.constants<float>()),
+      options_(options),
+      kernels_(std::move(kernels)),
+      threads_(std::make_unique<ThreadPool>(options.threads)) {
+  for (int member = 0; member < threads_->threads(); ++member) tiles_.push_back(std::make_unique<Tile>());
+  updates_.resize(tiles_.size());
+  clear();
+}
+
+Status HostExecutor::set_parameters(const Parameters& parameters) {
+  if (auto status = check(parameters); !status) return status;
+  const Model model(source_->geometry, source_range_, parameters);
+  if (model.band() != model_.band()) return fail(ErrorKind::usage, "the band W cannot change in mid-run");
+  model_ = model;
+  constants_ = model_.constants<float>();
+  wake_all();
+  return {};
+}
+
+// Computes an active page from the current buffer into the other one and writes its code; returns the number
+// of voxels computed.
+std::int64_t HostExecutor::update_page(std::size_t index, Tile& tile) {
+  const PhysicalPage page = active_[index];
+  PageInfo& info = pool_.info(page);
+  const int next = 1 - current_;
+  RowWork work = find_row_work(pool_, current_, info);
+  const Rows rows = whole_vectors(work.compute, kernels_.rows_per_vector);
+  work.inside &= ~rows;
+  work.outside &= ~rows;
+
+  // Rows that stay constant are written only where the other buffer does not hold the constant yet.
+  float* phi = pool_.phi(next, page);
+  RowMasks& masks = info.masks[next];
+  fill_rows(phi, work.inside & ~masks.inside, constants_.band);
+  fill_rows(phi, work.outside & ~masks.outside, -constants_.band);
+
+  PageResult result;
+  if (rows != 0) {
+    gather(pool_, current_, info, rows, tile);
+    PageJob job;
+    job.tile = &tile;
+    job.source = pool_.source(page);
+    job.next = phi;
+    job.rows = rows;
+    job.valid_x = info.valid[0];
+    job.constants = &constants_;
+    const auto& variants = model_.parameters().scheme == Scheme::paper ? kernels_.paper : kernels_.split;
+    variants[model_.spacing() == glm::dvec3(1.0) ? 0 : 1](job, result);
+  }
+  masks.inside = result.masks.inside | work.inside | info.padding;
+  masks.inside_first = result.masks.inside_first | work.inside | info.padding;
+  masks.inside_last = result.masks.inside_last | work.inside | info.padding;
+  masks.outside = result.masks.outside | work.outside | info.padding;
+  masks.outside_first = result.masks.outside_first | work.outside | info.padding;
+  masks.outside_last = result.masks.outside_last | work.outside | info.padding;
+
+  info.change += 0.5F * result.largest_change;  // the change was over two steps
+  info.squared_change += result.squared_change;
+  info.near_voxels += result.near_voxels;
+  codes_[index] = page_code(info, next);
+  return std::popcount(rows & ~info.padding) * std::int64_t{info.valid[0]};
+}
+
+void HostExecutor::step() {
+  std::fill(updates_.begin(), updates_.end(), 0);
+  constexpr std::int64_t kGrain = 4;
+  threads_->for_each(static_cast<std::int64_t>(active_.size()), kGrain,
+                     [&](std::int64_t begin, std::int64_t end, int member) {
+                       const auto m = static_cast<std::size_t>(member);
+                       for (std::int64_t i = begin; i < end; ++i) {
+                         const auto index = static_cast<std::size_t>(i);
+                         if (index + 1 < active_.size()) pool_.prefetch(active_[index + 1]);
+                         updates_[m] += update_page(index, *tiles_[m]);
+                       }
+                     });
+  current_ = 1 - current_;
+}
+
+// Ends the window of steps over which motion is summed up, when this step does: judges convergence and which
+// pages are quiet. Returns whether it did.
+bool HostExecutor::finish_window() {
+  if (++steps_in_window_ < kConvergenceWindow) return false;
+  steps_in_window_ = 0;
+  SurfaceMotion motion;
+  motion.voxels = quiet_near_voxels_ * kConvergenceWindow;
+  for (const PhysicalPage page : active_) {
+    motion.squared_change += static_cast<double>(pool_.info(page).squared_change);
+    motion.voxels += pool_.info(page).near_voxels;
+  }
+  surface_speed_ = surface_speed(motion, model_.time_step());
+  judge_quiet_pages();
+  return true;
+}
+
+Result<AdvanceReport> HostExecutor::advance(const Advance& run) {
+  const Clock::time_point start = Clock::now();
+  Clock::time_point last_progress = start;
+  AdvanceReport report;
+  if (needs_activation_) {
+    if (auto status = activate_all(); !status) return pass_on(status);
+  }
+  while (report.steps < run.steps && !run.progress.cancelled()) {
+    if (active_list_is_stale_) rebuild_active_list();
+    step();
+    ++report.steps;
+    for (const std::int64_t updates : updates_) report.voxel_updates += updates;
+
+    const Clock::time_point paging_start = Clock::now();
+    const Status domain = update_domain();
+    const bool window_ended = finish_window();
+    report.paging_seconds += seconds_since(paging_start);
+    if (!domain) {
+      return fail(domain.error().kind, "after {} steps: {}", report.steps, domain.error().message);
+    }
+    if (seconds_since(last_progress) > 0.05) {
+      run.progress(static_cast<double>(report.steps) / static_cast<double>(run.steps), "steps");
+      last_progress = Clock::now();
+    }
+    if (window_ended) {
+      report.converged = surface_speed_ < kConvergedSpeed;
+      if (report.converged && run.until_converged) break;
+    }
+  }
+  report.surface_speed = surface_speed_;
+  report.seconds = seconds_since(start);
+  return report;
+}
+
+MemoryReport HostExecutor::memory() const {
+  MemoryReport report;
+  report.resident_pages = table_.resident();
+  report.peak_resident_pages = peak_resident_;
+  report.quiet_pages = quiet_pages_;
+  report.state_bytes =
+      PagePool::state_bytes(table_.capacity()) + table_.bytes() +
+      static_cast<std::int64_t>(active_.capacity() * sizeof(PhysicalPage) + codes_.capacity());
+  report.peak_state_bytes = report.state_bytes;  // pages are kept for reuse, so memory never shrinks
+  report.source_bytes = PagePool::source_bytes(table_.capacity());
+  report.page_shape = kDefaultPageShape;
+  return report;
+}
+
+}  // namespace tidemark

@@ -1,0 +1,185 @@
+#include "solver/host/page_kernel.h"
+
+// This file is compiled once for each of these instruction sets; the best one is chosen when the program
+// runs.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "solver/host/page_kernel.cpp"
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#include <mutex>
+
+#include "hwy/foreach_target.h"  // before highway.h
+#include "hwy/highway.h"
+#include "solver/speed/update-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tidemark::HWY_NAMESPACE {
+namespace {
+
+HWY_INLINE Stencil<Lanes> load_stencil(const Tile& tile, int at) {
+  const LanesTag d;
+  constexpr int kY = Tile::kRowStride;
+  constexpr int kZ = Tile::kSliceStride;
+  const auto load = [&](const float* values, int shift)
+                        HWY_ATTR { return Lanes(hn::LoadU(d, values + at + shift)); };
+  Stencil<Lanes> s;
+  s.c = load(tile.centre, 0);
+  s.xm = load(tile.left, 0);
+  s.xp = load(tile.right, 0);
+  s.ym = load(tile.centre, -kY);
+  s.yp = load(tile.centre, kY);
+  s.zm = load(tile.centre, -kZ);
+  s.zp = load(tile.centre, kZ);
+  s.xmym = load(tile.left, -kY);
+  s.xmyp = load(tile.left, kY);
+  s.xpym = load(tile.right, -kY);
+  s.xpyp = load(tile.right, kY);
+  s.xmzm = load(tile.left, -kZ);
+  s.xmzp = load(tile.left, kZ);
+  s.xpzm = load(tile.right, -kZ);
+  s.xpzp = load(tile.right, kZ);
+  s.ymzm = load(tile.centre, -kY - kZ);
+  s.ymzp = load(tile.centre, -kY + kZ);
+  s.ypzm = load(tile.centre, kY - kZ);
+  s.ypzp = load(tile.centre, kY + kZ);
+  return s;
+}
+
+template <class Mask>
+HWY_INLINE unsigned mask_bits(Mask mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(LanesTag(), mask, bytes);
+  return bytes[0] | static_cast<unsigned>(bytes[1]) << 8U;
+}
+
+// Adds one row's bits (one for each of its voxels) to the masks. Padding voxels count as constant.
+HWY_INLINE void add_row(unsigned inside, unsigned outside, unsigned padding, Rows row, RowMasks& masks) {
+  inside |= padding;
+  outside |= padding;
+  if (inside == 0xffU) masks.inside |= row;
+  if (outside == 0xffU) masks.outside |= row;
+  if ((inside & 0x01U) != 0) masks.inside_first |= row;
+  if ((inside & 0x80U) != 0) masks.inside_last |= row;
+  if ((outside & 0x01U) != 0) masks.outside_first |= row;
+  if ((outside & 0x80U) != 0) masks.outside_last |= row;
+}
+
+template <bool kPaper, bool kAnisotropic>
+void update_page(const PageJob& job, PageResult& result) {
+  const LanesTag d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const int rows_per_vector = lanes > kPageSide ? lanes / kPageSide : 1;
+  const StepConstants<float>& constants = *job.constants;
+  const auto band = hn::Set(d, constants.band);
+  const auto minus_band = hn::Set(d, -constants.band);
+
+  // The largest |phi| of a voxel whose change counts; padding never does.
+  alignas(64) float near_limit[16];
+  for (int i = 0; i < 16; ++i) near_limit[i] = i % kPageSide < job.valid_x ? 1.0F : -1.0F;
+  const unsigned padding = 0xffU << static_cast<unsigned>(job.valid_x) & 0xffU;
+
+  auto largest_change = hn::Zero(d);
+  auto squared_change = hn::Zero(d);
+  auto near_voxels = hn::Zero(d);
+  for (int row = 0; row < kPageRows; row += rows_per_vector) {
+    if ((job.rows >> static_cast<unsigned>(row) & 1U) == 0) continue;
+    const int tile_row = Tile::row(row % kPageSide, row / kPageSide);
+    unsigned inside = 0;
+    unsigned outside = 0;
+    for (int x = 0; x < kPageSide; x += lanes) {
+      const int voxel = row * kPageSide + x;
+      const Stencil<Lanes> stencil = load_stencil(*job.tile, tile_row + x);
+      const Lanes source(hn::LoadU(d, job.source + voxel));
+      const auto phi =
+          updated_phi<kPaper>(differences<kAnisotropic>(stencil, constants), source, constants).v;
+      const auto near = hn::Le(hn::Abs(phi), hn::LoadU(d, near_limit + x));
+      const auto change = hn::IfThenElseZero(near, hn::Abs(hn::Sub(phi, hn::LoadU(d, job.next + voxel))));
+      largest_change = hn::Max(largest_change, change);
+      squared_change = hn::MulAdd(change, change, squared_change);
+      near_voxels = hn::Add(near_voxels, hn::IfThenElseZero(near, hn::Set(d, 1.0F)));
+      hn::StoreU(phi, d, job.next + voxel);
+      inside |= mask_bits(hn::Eq(phi, band)) << static_cast<unsigned>(x);
+      outside |= mask_bits(hn::Eq(phi, minus_band)) << static_cast<unsigned>(x);
+    }
+    for (int r = 0; r < rows_per_vector; ++r) {
+      const auto shift = static_cast<unsigned>(r * kPageSide);
+      add_row(inside >> shift & 0xffU, outside >> shift & 0xffU, padding, Rows{1} << (row + r), result.masks);
+    }
+  }
+  result.largest_change = hn::GetLane(hn::MaxOfLanes(d, largest_change));
+  result.squared_change = hn::GetLane(hn::SumOfLanes(d, squared_change));
+  result.near_voxels = static_cast<std::int32_t>(hn::GetLane(hn::SumOfLanes(d, near_voxels)));
+}
+
+void split_isotropic(const PageJob& job, PageResult& result) {
+  update_page<false, false>(job, result);
+}
+void split_anisotropic(const PageJob& job, PageResult& result) {
+  update_page<false, true>(job, result);
+}
+void paper_isotropic(const PageJob& job, PageResult& result) {
+  update_page<true, false>(job, result);
+}
+void paper_anisotropic(const PageJob& job, PageResult& result) {
+  update_page<true, true>(job, result);
+}
+
+}  // namespace
+
+// This instruction set's kernels.
+PageKernels page_kernels() {
+  PageKernels kernels;
+  kernels.split[0] = split_isotropic;
+  kernels.split[1] = split_anisotropic;
+  kernels.paper[0] = paper_isotropic;
+  kernels.paper[1] = paper_anisotropic;
+  kernels.rows_per_vector = static_cast<int>(hn::Lanes(LanesTag()) + kPageSide - 1) / kPageSide;
+  return kernels;
+}
+
+}  // namespace tidemark::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tidemark {
+namespace {
+
+HWY_EXPORT(page_kernels);
+
+// Highway numbers better instruction sets lower.
+struct Family {
+  const char* name;
+  std::int64_t targets;
+};
+
+#if defined(__x86_64__)
+constexpr Family kFamilies[] = {
+    {"avx512", HWY_AVX2 - 1}, {"avx2", HWY_AVX2}, {"sse4", HWY_SSE4}, {"portable", ~(2 * HWY_SSE4 - 1)}};
+#else
+constexpr Family kFamilies[] = {{"portable", ~std::int64_t{0}}};
+#endif
+
+}  // namespace
+
+Result<PageKernels> select_page_kernels(std::string_view name) {
+  // Highway keeps its choice in one table for the process; it is changed for this look-up alone.
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  bool known = name.empty();
+  for (const Family& family : kFamilies) {
+    known = known || name == family.name;
+    const std::int64_t available = hwy::SupportedTargets() & HWY_TARGETS & family.targets;
+    if (available == 0 || (!name.empty() && name != family.name)) continue;
+    hwy::SetSupportedTargetsForTest(available);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    PageKernels kernels = HWY_DYNAMIC_DISPATCH(page_kernels)();
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    kernels.name = family.name;
+    return kernels;
+  }
+  if (known) return fail(ErrorKind::capability, "this processor lacks {}", name);
+  return fail(ErrorKind::usage, "unknown instruction set '{}': sse4, avx2 or avx512", name);
+}
+
+}  // namespace tidemark
+#endif  // HWY_ONCE

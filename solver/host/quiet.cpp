@@ -1,0 +1,93 @@
+// Quiet pages: where nothing moves, nothing is computed.
+//
+// A page is still when phi changed by at most kQuietChange in it over a window of steps, judged where
+// |phi| <= 1. It sleeps when it and the 18 pages around it (faces and edges, as far as the stencil reaches)
+// are still, and wakes as soon as one of them moves. A threshold on single steps would freeze slow fronts.
+#include <algorithm>
+
+#include "solver/host/host_executor.h"
+#include "solver/host/page_code.h"
+
+namespace tidemark {
+namespace {
+
+// Whether a neighbour (of 27) shares a face or an edge, or is the page itself.
+constexpr bool within_stencil(int neighbour) {
+  const int x = neighbour % 3 - 1;
+  const int y = neighbour / 3 % 3 - 1;
+  const int z = neighbour / 9 - 1;
+  return x * x + y * y + z * z <= 2;
+}
+
+}  // namespace
+
+void HostExecutor::wake(PhysicalPage page) {
+  PageInfo& info = pool_.info(page);
+  if (!info.asleep) return;
+  info.asleep = false;
+  active_list_is_stale_ = true;
+}
+
+void HostExecutor::wake_around(PhysicalPage page) {
+  pool_.info(page).woke_neighbours = true;
+  for (int n = 0; n < 27; ++n) {
+    const PhysicalPage other = pool_.info(page).neighbours[n];
+    if (other >= kFirstPage && within_stencil(n)) wake(other);
+  }
+}
+
+void HostExecutor::wake_all() {
+  for_each_resident([&](PhysicalPage page) { wake(page); });
+}
+
+void HostExecutor::put_to_sleep(PhysicalPage page) {
+  PageInfo& info = pool_.info(page);
+  info.asleep = true;
+  std::copy_n(pool_.phi(current_, page), kPageVoxels, pool_.phi(1 - current_, page));
+  info.masks[1 - current_] = info.masks[current_];
+}
+
+// At the end of a window: puts pages to sleep, and starts the next window's sums.
+void HostExecutor::judge_quiet_pages() {
+  const auto still = [&](PhysicalPage page) {
+    return page < kFirstPage || pool_.info(page).asleep || pool_.info(page).change <= kQuietChange;
+  };
+  std::vector<PhysicalPage> quiet;
+  if (options_.skip_quiet_pages) {
+    for (const PhysicalPage page : active_) {
+      if (table_.virtual_page(page) < 0) continue;  // freed in this step
+      const PageInfo& info = pool_.info(page);
+      bool all_still = true;
+      for (int n = 0; n < 27 && all_still; ++n) all_still = !within_stencil(n) || still(info.neighbours[n]);
+      if (all_still) quiet.push_back(page);
+    }
+  }
+  for (const PhysicalPage page : quiet) put_to_sleep(page);
+  for (const PhysicalPage page : active_) {
+    PageInfo& info = pool_.info(page);
+    // A sleeping page keeps its count: its voxels belong to the surface, and they do not move.
+    info.near_voxels = info.asleep ? info.near_voxels / kConvergenceWindow : 0;
+    info.change = 0.0F;
+    info.squared_change = 0.0F;
+    info.woke_neighbours = false;
+  }
+  if (!quiet.empty()) active_list_is_stale_ = true;
+}
+
+void HostExecutor::rebuild_active_list() {
+  active_.clear();
+  quiet_pages_ = 0;
+  quiet_near_voxels_ = 0;
+  for_each_resident([&](PhysicalPage page) {
+    if (pool_.info(page).asleep) {
+      ++quiet_pages_;
+      quiet_near_voxels_ += pool_.info(page).near_voxels;
+    } else {
+      active_.push_back(page);
+    }
+  });
+  codes_.resize(active_.size());
+  active_list_is_stale_ = false;
+}
+
+}  // namespace tidemark

@@ -1,0 +1,180 @@
+#include "solver/host/tile.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+namespace tidemark {
+namespace {
+
+constexpr int neighbour(int dx, int dy, int dz) {
+  return (dx + 1) + 3 * (dy + 1) + 9 * (dz + 1);
+}
+
+// The local coordinates that an axis of a page's apron may use: -1..8, less at the volume's border.
+struct Span {
+  int low;
+  int high;
+
+  Span(PhysicalPage before, PhysicalPage after, int valid)
+      : low(before == kNoPage ? 0 : -1), high(after == kNoPage ? valid - 1 : kPageSide) {}
+
+  [[nodiscard]] int clamp(int local) const { return std::clamp(local, low, high); }
+};
+
+Span y_span(const PageInfo& info) {
+  return {info.neighbours[neighbour(0, -1, 0)], info.neighbours[neighbour(0, 1, 0)], info.valid[1]};
+}
+
+Span z_span(const PageInfo& info) {
+  return {info.neighbours[neighbour(0, 0, -1)], info.neighbours[neighbour(0, 0, 1)], info.valid[2]};
+}
+
+// Which of the three pages along an axis a local coordinate in -1..8 is in.
+int page_step(int local) {
+  return local < 0 ? -1 : local >= kPageSide ? 1 : 0;
+}
+
+// Constant rows of a column of pages (dy, dz) with the voxels beside them along x.
+struct ConstantRows {
+  Rows inside;
+  Rows outside;
+};
+
+ConstantRows constant_rows(const PagePool& pool, int buffer, const PageInfo& info, int dy, int dz) {
+  const RowMasks& centre = pool.info(info.neighbours[neighbour(0, dy, dz)]).masks[buffer];
+  ConstantRows rows{centre.inside, centre.outside};
+  if (const PhysicalPage left = info.neighbours[neighbour(-1, dy, dz)]; left != kNoPage) {
+    rows.inside &= pool.info(left).masks[buffer].inside_last;
+    rows.outside &= pool.info(left).masks[buffer].outside_last;
+  }
+  if (const PhysicalPage right = info.neighbours[neighbour(1, dy, dz)]; right != kNoPage) {
+    rows.inside &= pool.info(right).masks[buffer].inside_first;
+    rows.outside &= pool.info(right).masks[buffer].outside_first;
+  }
+  return rows;
+}
+
+// The bits of a slice for y = -1..8, as bits 0..9.
+unsigned apron_bits(Rows below, Rows page, Rows above, int local_z, const Span& y) {
+  const auto byte = [&](Rows rows) { return static_cast<unsigned>(rows >> (8 * local_z)) & 0xffU; };
+  unsigned bits = byte(page) << 1U;
+  bits |= y.low < 0 ? byte(below) >> 7U : byte(page) & 1U;
+  if (y.high == kPageSide) return bits | (byte(above) & 1U) << 9U;
+  // Rows beyond the border repeat the last row.
+  const unsigned last = 1U << static_cast<unsigned>(y.high + 1);
+  const unsigned kept = (last << 1U) - 1U;
+  return (bits & kept) | ((bits & last) != 0 ? ~kept & 0x3ffU : 0U);
+}
+
+// Bit y is set when bits y - 1, y and y + 1 of the page are (bits y, y + 1 and y + 2 of the apron).
+unsigned all_three(unsigned apron) {
+  return apron & (apron >> 1U) & (apron >> 2U);
+}
+
+struct Row {
+  float values[kPageSide];
+};
+
+// Rows are gathered in the order of their addresses. One load of a row makes three stores: as it is, one
+// voxel further (what is left of each voxel) and one voxel back (what is right of it); the two voxels that
+// come from the pages beside it are put right afterwards, the last of a row only after the next row has
+// spilled over it.
+template <bool kXBorder>
+void gather_rows(const PagePool& pool, int buffer, const PageInfo& info,
+                 const std::array<unsigned, Tile::kSide>& needed, Tile& tile) {
+  constexpr int kLast = kPageSide - 1;
+  const Span y_range = y_span(info);
+  const Span z_range = z_span(info);
+  const float* pages[27];
+  for (int n = 0; n < 27; ++n) {
+    pages[n] = info.neighbours[n] == kNoPage ? nullptr : pool.phi(buffer, info.neighbours[n]);
+  }
+  float previous_last = 0.0F;
+  for (int z = -1; z <= kPageSide; ++z) {
+    const int from_z = z_range.clamp(z);
+    const float* const* slice = pages + neighbour(0, 0, page_step(from_z));
+    for (unsigned bits = needed[static_cast<std::size_t>(z + 1)]; bits != 0; bits &= bits - 1) {
+      const int y = std::countr_zero(bits) - 1;
+      const int from_y = y_range.clamp(y);
+      const float* const* around = slice + 3 * page_step(from_y);
+      const int offset = ((from_z & 7) * kPageSide + (from_y & 7)) * kPageSide;
+      Row row;
+      std::memcpy(&row, around[0] + offset, sizeof row);
+      float before;
+      float after;
+      if constexpr (kXBorder) {
+        const int width = info.valid[0];
+        std::fill(row.values + width, row.values + kPageSide, row.values[width - 1]);
+        before = around[-1] == nullptr ? row.values[0] : around[-1][offset + kLast];
+        after = around[1] == nullptr ? row.values[kLast] : around[1][offset];
+      } else {
+        before = around[-1][offset + kLast];
+        after = around[1][offset];
+      }
+      const int to = Tile::row(y, z);
+      std::memcpy(tile.centre + to, &row, sizeof row);
+      std::memcpy(tile.left + to + 1, &row, sizeof row);
+      tile.left[to] = before;
+      std::memcpy(tile.right + to - 1, &row, sizeof row);
+      tile.right[to - 1] = previous_last;
+      tile.right[to + kLast] = after;
+      previous_last = after;
+    }
+  }
+}
+
+}  // namespace
+
+RowWork find_row_work(const PagePool& pool, int buffer, const PageInfo& info) {
+  const Span y_range = y_span(info);
+  const Span z_range = z_span(info);
+  ConstantRows columns[3][3];  // [dz + 1][dy + 1]
+  for (int dz = z_range.low < 0 ? -1 : 0; dz <= (z_range.high == kPageSide ? 1 : 0); ++dz) {
+    for (int dy = y_range.low < 0 ? -1 : 0; dy <= (y_range.high == kPageSide ? 1 : 0); ++dy) {
+      columns[dz + 1][dy + 1] = constant_rows(pool, buffer, info, dy, dz);
+    }
+  }
+  unsigned inside[Tile::kSide];
+  unsigned outside[Tile::kSide];
+  for (int z = -1; z <= kPageSide; ++z) {
+    const int from = z_range.clamp(z);
+    const ConstantRows* column = columns[page_step(from) + 1];
+    const int local = from & 7;
+    inside[z + 1] =
+        all_three(apron_bits(column[0].inside, column[1].inside, column[2].inside, local, y_range));
+    outside[z + 1] =
+        all_three(apron_bits(column[0].outside, column[1].outside, column[2].outside, local, y_range));
+  }
+  RowWork work;
+  for (int z = 0; z < kPageSide; ++z) {
+    const Rows stays_inside = inside[z] & inside[z + 1] & inside[z + 2] & 0xffU;
+    const Rows stays_outside = outside[z] & outside[z + 1] & outside[z + 2] & 0xffU;
+    work.inside |= stays_inside << (8 * z);
+    work.outside |= stays_outside << (8 * z);
+  }
+  work.inside &= ~info.padding;
+  work.outside &= ~info.padding;
+  work.compute = ~(work.inside | work.outside | info.padding);
+  return work;
+}
+
+void gather(const PagePool& pool, int buffer, const PageInfo& info, Rows rows, Tile& tile) {
+  // A row's stencil reaches one row further along y and z.
+  std::array<unsigned, Tile::kSide> needed{};
+  for (int z = 0; z < kPageSide; ++z) {
+    const unsigned byte = static_cast<unsigned>(rows >> (8 * z)) & 0xffU;
+    const unsigned reach = byte | byte << 1U | byte << 2U;
+    for (int level = z; level <= z + 2; ++level) needed[static_cast<std::size_t>(level)] |= reach;
+  }
+  const bool border =
+      info.neighbours[neighbour(-1, 0, 0)] == kNoPage || info.neighbours[neighbour(1, 0, 0)] == kNoPage;
+  if (border) {
+    gather_rows<true>(pool, buffer, info, needed, tile);
+  } else {
+    gather_rows<false>(pool, buffer, info, needed, tile);
+  }
+}
+
+}  // namespace tidemark

@@ -1,0 +1,68 @@
+#include "solver/model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/gtx/component_wise.hpp>
+#include <limits>
+
+namespace tidemark {
+
+double default_band(const Geometry& geometry) {
+  return std::max(2.5, 2.0 * glm::compMax(geometry.spacing_mm) / glm::compMin(geometry.spacing_mm));
+}
+
+Model::Model(const Geometry& geometry, std::pair<float, float> source_range, const Parameters& parameters)
+    : parameters_(parameters),
+      smallest_spacing_mm_(glm::compMin(geometry.spacing_mm)),
+      band_(parameters.band.value_or(default_band(geometry))) {
+  spacing_ = geometry.spacing_mm / smallest_spacing_mm_;
+  rescale_ = parameters.rescale.value_or(0.75 / band_);
+  time_step_ = stable_time_step(largest_data_speed(source_range));
+}
+
+double Model::largest_data_speed(std::pair<float, float> source_range) const {
+  if (!parameters_.data_term) return 0.0;
+  if (parameters_.data_form == DataForm::clamped) return 1.0;
+  const auto raw = [&](double value) { return parameters_.range - std::abs(value - parameters_.target); };
+  return std::max({std::abs(raw(source_range.first)), std::abs(raw(source_range.second)), parameters_.range});
+}
+
+// Forward Euler: an advective part (data and rescaling move the level sets at up to these speeds along every
+// axis) and a diffusive part (curvature diffuses in the tangent plane, so the coarsest axis is left out).
+double Model::stable_time_step(double largest_data) const {
+  const glm::dvec3 inverse_squared = 1.0 / (spacing_ * spacing_);
+  const double sum = glm::compAdd(inverse_squared);
+  double speed = parameters_.alpha * largest_data;
+  // An unclamped field has no band; its rescaling weight is then 0 by default.
+  if (parameters_.rescaling_term && rescale_ > 0.0) speed += rescale_ * band_;
+  const double diffusion = parameters_.curvature_term ? 1.0 - parameters_.alpha : 0.0;
+  const double rate =
+      std::sqrt(sum) * speed + 2.0 * (sum - glm::compMin(inverse_squared)) * diffusion;
+  if (!(rate > 0.0)) return 1.0;  // nothing moves
+  const double scheme = parameters_.scheme == Scheme::paper ? 0.6 : 1.0;
+  return scheme * 0.9 * parameters_.time_step_factor / rate;
+}
+
+template <class Real>
+StepConstants<Real> Model::constants() const {
+  const bool raw = parameters_.data_form == DataForm::raw;
+  StepConstants<Real> c{};
+  for (int axis = 0; axis < 3; ++axis) c.inverse_spacing[axis] = static_cast<Real>(1.0 / spacing_[axis]);
+  c.time_step = static_cast<Real>(time_step_);
+  c.band = static_cast<Real>(band_);
+  c.data_weight = static_cast<Real>(parameters_.data_term ? parameters_.alpha : 0.0);
+  c.curvature_weight = static_cast<Real>(parameters_.curvature_term ? 1.0 - parameters_.alpha : 0.0);
+  c.rescaling_weight = static_cast<Real>(parameters_.rescaling_term ? rescale_ : 0.0);
+  c.target_gradient = static_cast<Real>(parameters_.target_gradient);
+  c.target = static_cast<Real>(parameters_.target);
+  c.data_peak = static_cast<Real>(raw ? parameters_.range : 1.0);
+  c.data_slope = static_cast<Real>(raw ? 1.0 : 1.0 / parameters_.range);
+  c.data_floor = raw ? std::numeric_limits<Real>::lowest() : Real(-1);
+  return c;
+}
+
+template StepConstants<float> Model::constants<float>() const;
+template StepConstants<double> Model::constants<double>() const;
+
+}  // namespace tidemark

@@ -1,0 +1,71 @@
+#include "solver/paging/validate.h"
+
+#include <cmath>
+
+namespace tidemark {
+namespace {
+
+// The voxel just across a face of the voxel, or the voxel itself at the volume's border.
+Index3 across(const Geometry& geometry, Index3 voxel, int axis, int side) {
+  Index3 other = voxel;
+  other[axis] += side;
+  return geometry.contains(other) ? other : voxel;
+}
+
+Status validate_values(const Field& phi, Index3 first, Index3 valid) {
+  for (std::int64_t z = 0; z < valid.z; ++z) {
+    for (std::int64_t y = 0; y < valid.y; ++y) {
+      for (std::int64_t x = 0; x < valid.x; ++x) {
+        const Index3 v = first + Index3(x, y, z);
+        const double value = phi.at(v);
+        if (!std::isfinite(value) || std::abs(value) > phi.band) {
+          return fail(ErrorKind::internal, "phi is {} at voxel ({}, {}, {}), the band is {}", value, v.x, v.y,
+                      v.z, phi.band);
+        }
+      }
+    }
+  }
+  return {};
+}
+
+// One face of a page, against what is across when that is not resident.
+Status validate_face(const Field& phi, Index3 first, Index3 valid, int axis, int side) {
+  const int u = (axis + 1) % 3;
+  const int w = (axis + 2) % 3;
+  for (std::int64_t a = 0; a < valid[u]; ++a) {
+    for (std::int64_t b = 0; b < valid[w]; ++b) {
+      Index3 voxel = first;
+      voxel[u] += a;
+      voxel[w] += b;
+      if (side > 0) voxel[axis] += valid[axis] - 1;
+      const Index3 other = across(phi.geometry, voxel, axis, side);
+      const std::int64_t page = phi.layout.translate(other).page;
+      if (phi.table[static_cast<std::size_t>(page)] >= 0) return {};  // resident
+      if (phi.at(other) != phi.at(voxel)) {
+        return fail(ErrorKind::internal, "phi is {} at voxel ({}, {}, {}), beside a page that is not resident",
+                    phi.at(voxel), voxel.x, voxel.y, voxel.z);
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Status validate(const Field& phi) {
+  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
+    const Index3 first = phi.layout.first_voxel(page);
+    const Index3 valid = phi.layout.valid_shape(page);
+    if (phi.table[static_cast<std::size_t>(page)] >= 0) {
+      if (auto status = validate_values(phi, first, valid); !status) return status;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int side : {-1, 1}) {
+        if (auto status = validate_face(phi, first, valid, axis, side); !status) return status;
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace tidemark

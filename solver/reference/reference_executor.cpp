@@ -1,0 +1,176 @@
+#include "solver/reference/reference_executor.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "solver/speed/update-inl.h"
+
+namespace tidemark {
+namespace {
+
+using HWY_NAMESPACE::Stencil;
+
+// The stencil at a voxel; at the volume's border the index is clamped (Neumann).
+Stencil<double> gather(const std::vector<double>& phi, const Geometry& geometry, Index3 v) {
+  const auto at = [&](int dx, int dy, int dz) {
+    const Index3 n(std::clamp<std::int64_t>(v.x + dx, 0, geometry.size.x - 1),
+                   std::clamp<std::int64_t>(v.y + dy, 0, geometry.size.y - 1),
+                   std::clamp<std::int64_t>(v.z + dz, 0, geometry.size.z - 1));
+    return phi[static_cast<std::size_t>(geometry.offset(n))];
+  };
+  Stencil<double> s;
+  s.c = at(0, 0, 0);
+  s.xm = at(-1, 0, 0);
+  s.xp = at(1, 0, 0);
+  s.ym = at(0, -1, 0);
+  s.yp = at(0, 1, 0);
+  s.zm = at(0, 0, -1);
+  s.zp = at(0, 0, 1);
+  s.xmym = at(-1, -1, 0);
+  s.xmyp = at(-1, 1, 0);
+  s.xpym = at(1, -1, 0);
+  s.xpyp = at(1, 1, 0);
+  s.xmzm = at(-1, 0, -1);
+  s.xmzp = at(-1, 0, 1);
+  s.xpzm = at(1, 0, -1);
+  s.xpzp = at(1, 0, 1);
+  s.ymzm = at(0, -1, -1);
+  s.ymzp = at(0, -1, 1);
+  s.ypzm = at(0, 1, -1);
+  s.ypzp = at(0, 1, 1);
+  return s;
+}
+
+}  // namespace
+
+ReferenceExecutor::ReferenceExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters)
+    : source_(std::move(source)),
+      source_values_(source_->values()),
+      source_range_(source_->range()),
+      model_(source_->geometry, source_range_, parameters) {
+  set_values(std::vector<double>(source_values_.size(), -model_.band()));
+}
+
+void ReferenceExecutor::set_values(std::vector<double> phi) {
+  phi_ = std::move(phi);
+  previous_ = phi_;
+  next_.resize(phi_.size());
+  restart_window();
+}
+
+void ReferenceExecutor::restart_window() {
+  motion_ = {};
+  steps_in_window_ = 0;
+}
+
+Status ReferenceExecutor::restore(const Field& phi) {
+  if (phi.geometry.size != source_->geometry.size) {
+    return fail(ErrorKind::usage, "phi and the volume differ in size");
+  }
+  const std::vector<float> values = phi.dense();
+  set_values({values.begin(), values.end()});
+  return {};
+}
+
+Field ReferenceExecutor::snapshot() const {
+  const std::vector<float> values(phi_.begin(), phi_.end());
+  return Field::from_dense(source_->geometry, values, model_.band());
+}
+
+Status ReferenceExecutor::paint(const Sphere& sphere, Brush brush) {
+  const Geometry& geometry = source_->geometry;
+  for (std::int64_t z = 0; z < geometry.size.z; ++z) {
+    for (std::int64_t y = 0; y < geometry.size.y; ++y) {
+      for (std::int64_t x = 0; x < geometry.size.x; ++x) {
+        const double distance_mm =
+            sphere.radius_mm - glm::distance(geometry.to_patient({x, y, z}), sphere.centre_mm);
+        const double d =
+            std::clamp(distance_mm / model_.smallest_spacing_mm(), -model_.band(), model_.band());
+        double& phi = phi_[static_cast<std::size_t>(geometry.offset({x, y, z}))];
+        phi = brush == Brush::add ? std::max(phi, d) : std::min(phi, -d);
+      }
+    }
+  }
+  previous_ = phi_;
+  restart_window();
+  return {};
+}
+
+Status ReferenceExecutor::set_parameters(const Parameters& parameters) {
+  if (auto status = check(parameters); !status) return status;
+  const Model model(source_->geometry, source_range_, parameters);
+  if (model.band() != model_.band()) return fail(ErrorKind::usage, "the band cannot change in mid-run");
+  model_ = model;
+  restart_window();
+  return {};
+}
+
+template <bool kPaper>
+void ReferenceExecutor::step() {
+  const Geometry& geometry = source_->geometry;
+  const StepConstants<double> constants = model_.constants<double>();
+  for (std::int64_t z = 0; z < geometry.size.z; ++z) {
+    for (std::int64_t y = 0; y < geometry.size.y; ++y) {
+      for (std::int64_t x = 0; x < geometry.size.x; ++x) {
+        const auto i = static_cast<std::size_t>(geometry.offset({x, y, z}));
+        const auto d = HWY_NAMESPACE::differences<true>(gather(phi_, geometry, {x, y, z}), constants);
+        next_[i] =
+            HWY_NAMESPACE::updated_phi<kPaper>(d, static_cast<double>(source_values_[i]), constants);
+        if (std::abs(next_[i]) <= 1.0) {
+          const double change = next_[i] - previous_[i];
+          motion_.squared_change += change * change;
+          ++motion_.voxels;
+        }
+      }
+    }
+  }
+  previous_.swap(phi_);
+  phi_.swap(next_);
+}
+
+Result<AdvanceReport> ReferenceExecutor::advance(const Advance& run) {
+  const auto start = std::chrono::steady_clock::now();
+  AdvanceReport report;
+  while (report.steps < run.steps && !run.progress.cancelled()) {
+    if (parameters().scheme == Scheme::paper) {
+      step<true>();
+    } else {
+      step<false>();
+    }
+    ++report.steps;
+    report.voxel_updates += static_cast<std::int64_t>(phi_.size());
+    run.progress(static_cast<double>(report.steps) / static_cast<double>(run.steps), "steps");
+    if (++steps_in_window_ == kConvergenceWindow) {
+      surface_speed_ = surface_speed(motion_, model_.time_step());
+      restart_window();
+      report.converged = surface_speed_ < kConvergedSpeed;
+      if (report.converged && run.until_converged) break;
+    }
+  }
+  report.surface_speed = surface_speed_;
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+MemoryReport ReferenceExecutor::memory() const {
+  MemoryReport report;
+  const PageLayout layout(source_->geometry.size, kDefaultPageShape);
+  report.resident_pages = report.peak_resident_pages = layout.page_count();
+  report.state_bytes = report.peak_state_bytes =
+      static_cast<std::int64_t>((phi_.size() + previous_.size() + next_.size()) * sizeof(double));
+  report.source_bytes = static_cast<std::int64_t>(source_values_.size() * sizeof(float));
+  report.page_shape = kDefaultPageShape;
+  return report;
+}
+
+Status ReferenceExecutor::validate() const {
+  for (const double phi : phi_) {
+    if (!std::isfinite(phi)) return fail(ErrorKind::internal, "phi is not finite");
+    if (std::abs(phi) > model_.band()) return fail(ErrorKind::internal, "phi leaves the band");
+  }
+  return {};
+}
+
+}  // namespace tidemark

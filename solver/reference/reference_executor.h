@@ -1,0 +1,50 @@
+// The truth in tests: dense, in double precision, with plain loops over the whole volume.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solver/convergence.h"
+#include "solver/executor.h"
+#include "solver/model.h"
+
+namespace tidemark {
+
+class ReferenceExecutor final : public Executor {
+ public:
+  ReferenceExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters);
+
+  [[nodiscard]] std::string_view name() const override { return "reference"; }
+  Status restore(const Field& phi) override;
+  [[nodiscard]] Field snapshot() const override;
+  Status paint(const Sphere& sphere, Brush brush) override;
+  Status set_parameters(const Parameters& parameters) override;
+  [[nodiscard]] const Parameters& parameters() const override { return model_.parameters(); }
+  Result<AdvanceReport> advance(const Advance& run) override;
+  [[nodiscard]] MemoryReport memory() const override;
+  [[nodiscard]] Status validate() const override;
+  [[nodiscard]] double band() const override { return model_.band(); }
+  [[nodiscard]] double time_step() const override { return model_.time_step(); }
+
+  // phi in voxel order, in full precision.
+  [[nodiscard]] const std::vector<double>& values() const { return phi_; }
+  void set_values(std::vector<double> phi);
+
+ private:
+  template <bool kPaper>
+  void step();
+  void restart_window();
+
+  std::shared_ptr<const Volume> source_;
+  std::vector<float> source_values_;
+  std::pair<float, float> source_range_;
+  Model model_;
+  std::vector<double> phi_;
+  std::vector<double> previous_;  // of one step earlier
+  std::vector<double> next_;
+  SurfaceMotion motion_;  // of the window so far
+  int steps_in_window_ = 0;
+  double surface_speed_ = 0.0;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,25 @@
+// The data term D(I) (paper eq. 7): the surface grows where the source is within epsilon of T.
+
+#if defined(TIDEMARK_SPEED_DATA_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TIDEMARK_SPEED_DATA_INL_H_
+#undef TIDEMARK_SPEED_DATA_INL_H_
+#else
+#define TIDEMARK_SPEED_DATA_INL_H_
+#endif
+
+#include "solver/speed/stencil-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tidemark::HWY_NAMESPACE {
+
+// D at source value `source`: 1 (clamped form) or epsilon (raw form) at T, 0 at T -+ epsilon.
+template <class V, class Real>
+HWY_INLINE V data_speed(V source, const StepConstants<Real>& k) {
+  const V distance = abs(source - V(k.target));
+  return max(V(k.data_peak) - distance * V(k.data_slope), V(k.data_floor));
+}
+
+}  // namespace tidemark::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

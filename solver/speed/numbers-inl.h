@@ -1,0 +1,81 @@
+// Numbers that the speed terms compute with: double, and (Lanes) a vector of floats.
+
+#if defined(TIDEMARK_SPEED_NUMBERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TIDEMARK_SPEED_NUMBERS_INL_H_
+#undef TIDEMARK_SPEED_NUMBERS_INL_H_
+#else
+#define TIDEMARK_SPEED_NUMBERS_INL_H_
+#endif
+
+#include <cmath>
+
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tidemark::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+HWY_INLINE double max(double a, double b) {
+  return a > b ? a : b;
+}
+HWY_INLINE double min(double a, double b) {
+  return a < b ? a : b;
+}
+HWY_INLINE double abs(double a) {
+  return std::abs(a);
+}
+HWY_INLINE double sqrt(double a) {
+  return std::sqrt(a);
+}
+HWY_INLINE double inverse_sqrt(double a) {
+  return 1.0 / std::sqrt(a);
+}
+HWY_INLINE double mul_add(double a, double b, double c) {
+  return a * b + c;
+}
+// a where test > 0, else b; and a where test < 0, else b.
+HWY_INLINE double if_positive(double test, double a, double b) {
+  return test > 0.0 ? a : b;
+}
+HWY_INLINE double if_negative(double test, double a, double b) {
+  return test < 0.0 ? a : b;
+}
+
+// Two rows of a page at most: 16 lanes.
+using LanesTag = hn::CappedTag<float, 16>;
+
+struct Lanes {
+  hn::Vec<LanesTag> v;
+
+  Lanes() = default;
+  HWY_INLINE explicit Lanes(hn::Vec<LanesTag> vector) : v(vector) {}
+  HWY_INLINE explicit Lanes(float value) : v(hn::Set(LanesTag(), value)) {}
+
+  friend HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return Lanes(hn::Add(a.v, b.v)); }
+  friend HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return Lanes(hn::Sub(a.v, b.v)); }
+  friend HWY_INLINE Lanes operator*(Lanes a, Lanes b) { return Lanes(hn::Mul(a.v, b.v)); }
+  friend HWY_INLINE Lanes max(Lanes a, Lanes b) { return Lanes(hn::Max(a.v, b.v)); }
+  friend HWY_INLINE Lanes min(Lanes a, Lanes b) { return Lanes(hn::Min(a.v, b.v)); }
+  friend HWY_INLINE Lanes abs(Lanes a) { return Lanes(hn::Abs(a.v)); }
+  friend HWY_INLINE Lanes sqrt(Lanes a) { return Lanes(hn::Sqrt(a.v)); }
+  // The processor's estimate after one Newton step: some 22 bits, a fraction of the cost of 1 / sqrt.
+  friend HWY_INLINE Lanes inverse_sqrt(Lanes a) {
+    const auto estimate = hn::ApproximateReciprocalSqrt(a.v);
+    const auto half = hn::Mul(a.v, hn::Set(LanesTag(), 0.5F));
+    const auto error = hn::NegMulAdd(hn::Mul(half, estimate), estimate, hn::Set(LanesTag(), 1.5F));
+    return Lanes(hn::Mul(estimate, error));
+  }
+  friend HWY_INLINE Lanes mul_add(Lanes a, Lanes b, Lanes c) { return Lanes(hn::MulAdd(a.v, b.v, c.v)); }
+  friend HWY_INLINE Lanes if_positive(Lanes test, Lanes a, Lanes b) {
+    return Lanes(hn::IfThenElse(hn::Gt(test.v, hn::Zero(LanesTag())), a.v, b.v));
+  }
+  friend HWY_INLINE Lanes if_negative(Lanes test, Lanes a, Lanes b) {
+    return Lanes(hn::IfThenElse(hn::Lt(test.v, hn::Zero(LanesTag())), a.v, b.v));
+  }
+};
+
+}  // namespace tidemark::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
