@@ -1,0 +1,310 @@
+// Whole series on the disk: written, read back, shuffled, incomplete.
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <QProcess>
+#include <clocale>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <mutex>
+
+#include "imaging/dicom/dicom.h"
+#include "tests/imaging/dicom/series_files.h"
+#include "tests/support/support.h"
+
+using namespace tidemark;
+namespace fs = std::filesystem;
+
+class DicomSeriesTest : public QObject {
+  Q_OBJECT
+
+  static void verify_same(const Volume& read, const Volume& written) {
+    QVERIFY(same_grid(read.geometry, written.geometry, 1e-6));
+    QVERIFY(read.voxels == written.voxels);
+    QCOMPARE(read.slope, written.slope);
+    QCOMPARE(read.intercept, written.intercept);
+  }
+
+ private slots:
+  void what_is_written_is_read_back_data() {
+    QTest::addColumn<QString>("modality");
+    QTest::addColumn<bool>("is_signed");
+    QTest::addColumn<double>("slope");
+    QTest::addColumn<double>("intercept");
+    QTest::newRow("CT int16") << "CT" << true << 1.0 << -1024.0;
+    QTest::newRow("CT uint16") << "CT" << false << 0.5 << 3.25;
+    QTest::newRow("MR int16") << "MR" << true << 1.0 << 0.0;
+    QTest::newRow("MR uint16") << "MR" << false << 1.0 << 0.0;
+    QTest::newRow("MR with slope") << "MR" << false << 2.5 << -7.0;
+  }
+
+  void what_is_written_is_read_back() {
+    QFETCH(QString, modality);
+    QFETCH(bool, is_signed);
+    const Index3 size{7, 5, 4};
+    Volume written = is_signed ? test::sample_volume(size) : test::sample_volume_uint16(size);
+    written.slope = *static_cast<double*>(QTest::qData("slope", QMetaType::Double));
+    written.intercept = *static_cast<double*>(QTest::qData("intercept", QMetaType::Double));
+    const test::TemporaryFolder folder;
+    test::write_series(written, folder / "series", modality.toUtf8());
+    const Series series = test::only_series(folder.path());
+    QCOMPARE(QString::fromStdString(series.reason), QString());
+    QCOMPARE(series.modality, modality.toStdString());
+    QCOMPARE(series.description, std::string("Sample"));
+    QCOMPARE(series.scalar, std::string(written.scalar_name()));
+    QVERIFY(series.changes.empty());
+    QVERIFY(series.warnings.empty());
+    const auto read = load_dicom(series);
+    QCOMPARE(test::failure(read), QString());
+    verify_same(*read, written);
+    QVERIFY(read->window.has_value());
+    QCOMPARE(read->window->centre, 40.0);
+    QCOMPARE(read->window->width, 400.0);
+  }
+
+  void a_written_series_passes_the_validator() {
+    for (const char* modality : {"CT", "MR"}) {
+      const test::TemporaryFolder folder;
+      const auto files = test::write_series(test::sample_volume({7, 5, 2}), folder / "series", modality);
+      QProcess validator;
+      validator.setProcessChannelMode(QProcess::MergedChannels);
+      validator.start("dciodvfy", {QString::fromStdString(files.front().string())});
+      QVERIFY2(validator.waitForFinished(), "dciodvfy (package dicom3tools) does not run");
+      const QString said = validator.readAll();
+      QVERIFY2(said.contains(modality), qPrintable(said));
+      QVERIFY2(!said.contains("Error"), qPrintable(said));
+    }
+  }
+
+  // Positions and spacings go through decimal strings, written and parsed.
+  void a_comma_locale_changes_nothing() {
+    // Without such a locale on the machine this proves the parser only; decimal_test covers that too.
+    const char* comma = std::setlocale(LC_ALL, "de_DE.UTF-8");
+    const Volume written = test::sample_volume({7, 5, 3});
+    const test::TemporaryFolder folder;
+    test::write_series(written, folder / "series");
+    const auto read = load_dicom(test::only_series(folder.path()));
+    std::setlocale(LC_ALL, "C");
+    if (comma == nullptr) qInfo("no comma locale on this machine");
+    QCOMPARE(test::failure(read), QString());
+    verify_same(*read, written);
+  }
+
+  void slices_are_sorted_by_position_whatever_their_names() {
+    const Volume written = test::sample_volume({7, 5, 5});
+    const test::TemporaryFolder folder;
+    const auto files = test::write_series(written, folder / "series");
+    const char* names[] = {"d", "a", "e", "b", "c"};
+    for (std::size_t k = 0; k < files.size(); ++k) fs::rename(files[k], files[k].parent_path() / names[k]);
+    const Series series = test::only_series(folder.path());
+    QVERIFY2(series.loadable, series.reason.c_str());
+    for (std::size_t k = 0; k < files.size(); ++k) QCOMPARE(series.files[k].filename().string(), names[k]);
+    QCOMPARE(series.changes, std::vector<std::string>{"slices sorted by position"});
+    const auto read = load_dicom(series);
+    QCOMPARE(test::failure(read), QString());
+    verify_same(*read, written);
+  }
+
+  void a_left_handed_volume_is_read_back_right_handed_at_the_same_place() {
+    Volume written = test::sample_volume({7, 5, 3});
+    written.geometry.direction[2] = -written.geometry.direction[2];
+    const test::TemporaryFolder folder;
+    test::write_series(written, folder / "series");
+    const auto read = load_dicom(test::only_series(folder.path()));
+    QCOMPARE(test::failure(read), QString());
+    QVERIFY(glm::dot(glm::cross(read->geometry.direction[0], read->geometry.direction[1]),
+                     read->geometry.direction[2]) > 0.999);
+    for (const Index3 v : {Index3{0, 0, 0}, Index3{6, 4, 2}, Index3{3, 1, 1}}) {
+      const glm::dvec3 there = read->geometry.to_voxel(written.geometry.to_patient(glm::dvec3(v)));
+      const Index3 same(glm::round(there));
+      QVERIFY(glm::length(there - glm::dvec3(same)) < 1e-6);
+      QCOMPARE(read->value(same), written.value(v));
+    }
+  }
+
+  void two_slices_make_a_volume_and_one_does_not() {
+    const test::TemporaryFolder folder;
+    const auto files = test::write_series(test::sample_volume({7, 5, 2}), folder / "series");
+    const Series two = test::only_series(folder.path());
+    QVERIFY2(two.loadable, two.reason.c_str());
+    QVERIFY(std::abs(two.geometry.spacing_mm.z - 2.5) < 1e-9);
+    fs::remove(files[1]);
+    const Series one = test::only_series(folder.path());
+    QVERIFY(!one.loadable);
+    QVERIFY2(one.reason.find("slice-00001.dcm") != std::string::npos, one.reason.c_str());
+    QVERIFY2(one.reason.find("at least two") != std::string::npos, one.reason.c_str());
+  }
+
+  void a_missing_slice_is_refused_by_name() {
+    const test::TemporaryFolder folder;
+    const auto files = test::write_series(test::sample_volume({7, 5, 6}), folder / "series");
+    fs::remove(files[2]);
+    const Series series = test::only_series(folder.path());
+    QVERIFY(!series.loadable);
+    QCOMPARE(series.reason,
+             std::string("1 slice is missing between slice-00002.dcm and slice-00004.dcm: they are "
+                         "5.000 mm apart, others 2.500 mm"));
+    const auto refused = load_dicom(series);
+    QVERIFY(!refused);
+    QCOMPARE(refused.error().kind, ErrorKind::input);
+  }
+
+  void a_copy_beside_its_original_is_refused_by_name() {
+    const test::TemporaryFolder folder;
+    const auto files = test::write_series(test::sample_volume({7, 5, 4}), folder / "series");
+    fs::copy_file(files[1], folder.path() / "series" / "copy.dcm");
+    const Series series = test::only_series(folder.path());
+    QVERIFY(!series.loadable);
+    QVERIFY2(series.reason.find("copy.dcm and slice-00002.dcm are the same image") != std::string::npos,
+             series.reason.c_str());
+  }
+
+  void two_series_in_one_folder_stay_apart() {
+    const Volume small = test::sample_volume({7, 5, 3});
+    const Volume large = test::sample_volume_uint16({9, 8, 4});
+    const test::TemporaryFolder folder;
+    const auto files = test::write_series(small, folder / "small");
+    test::write_series(large, folder / "large", "MR");
+    for (const fs::path& file : files)
+      fs::rename(file, folder.path() / "large" / ("other-" + file.filename().string()));
+    const auto found = scan_dicom(folder.path());
+    QCOMPARE(test::failure(found), QString());
+    QCOMPARE(found->series.size(), std::size_t{2});
+    for (const Series& series : found->series) {
+      QVERIFY2(series.loadable, series.reason.c_str());
+      const auto read = load_dicom(series);
+      QCOMPARE(test::failure(read), QString());
+      verify_same(*read, series.modality == "CT" ? small : large);
+    }
+  }
+
+  void one_slice_stands_for_its_series() {
+    const Volume written = test::sample_volume({7, 5, 3});
+    const test::TemporaryFolder folder;
+    const auto files = test::write_series(written, folder / "series");
+    test::write_series(test::sample_volume({7, 5, 3}), folder / "other");
+    fs::rename(folder.path() / "other" / "slice-00001.dcm", folder.path() / "series" / "foreign.dcm");
+    const Series series = test::only_series(files[1]);
+    QVERIFY2(series.loadable, series.reason.c_str());
+    QCOMPARE(series.files, files);
+    QCOMPARE(series.changes.size(), std::size_t{1});
+    QVERIFY2(series.changes.front().find("slice-00002.dcm is one of 3 images") != std::string::npos,
+             series.changes.front().c_str());
+  }
+
+  void rescale_that_differs_from_slice_to_slice_is_applied() {
+    Volume written = test::sample_volume({7, 5, 3});
+    const test::TemporaryFolder folder;
+    const auto files = test::write_series(written, folder / "series");
+    test::set_text(files[1], 0x0028, 0x1053, "0.25");
+    test::set_text(files[1], 0x0028, 0x1052, "100");
+    const Series series = test::only_series(folder.path());
+    QCOMPARE(series.scalar, std::string("float"));
+    const auto read = load_dicom(series);
+    QCOMPARE(test::failure(read), QString());
+    QCOMPARE(read->slope, 1.0);
+    QCOMPARE(read->value(Index3{3, 2, 0}), written.value(Index3{3, 2, 0}));
+    QCOMPARE(read->value(Index3{3, 2, 1}), 0.25F * written.value(Index3{3, 2, 1}) + 100.0F);
+    QCOMPARE(read->value(Index3{3, 2, 2}), written.value(Index3{3, 2, 2}));
+    QVERIFY2(read->changes.at(0).find("differ from slice to slice") != std::string::npos,
+             read->changes[0].c_str());
+  }
+
+  void eight_bits_and_inverted_colours_are_kept_as_values() {
+    const test::TemporaryFolder folder;
+    const auto files = test::write_series(test::sample_volume_uint16({7, 5, 2}), folder / "series");
+    for (const fs::path& file : files) {
+      test::edit(file, [](DcmDataset& dataset) {
+        std::vector<Uint8> bytes(35);
+        for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<Uint8>(i * 7 + 5);
+        dataset.putAndInsertUint16(DCM_BitsAllocated, 8);
+        dataset.putAndInsertUint16(DCM_BitsStored, 8);
+        dataset.putAndInsertUint16(DCM_HighBit, 7);
+        dataset.putAndInsertString(DCM_PhotometricInterpretation, "MONOCHROME1");
+        dataset.putAndInsertUint8Array(DcmTag(DCM_PixelData, EVR_OB), bytes.data(), 35);
+      });
+    }
+    const Series series = test::only_series(folder.path());
+    QVERIFY2(series.loadable, series.reason.c_str());
+    QVERIFY(!series.warnings.empty() && series.warnings[0].find("MONOCHROME1") != std::string::npos);
+    const auto read = load_dicom(series);
+    QCOMPARE(test::failure(read), QString());
+    QCOMPARE(std::string(read->scalar_name()), std::string("uint16"));
+    QCOMPARE(read->value(Index3{3, 2, 1}), 17.0F * 7.0F + 5.0F);
+  }
+
+  void bits_outside_those_stored_are_cut_and_signs_extended() {
+    const test::TemporaryFolder folder;
+    const auto files = test::write_series(test::sample_volume({2, 2, 2}), folder / "series");
+    for (const fs::path& file : files) {
+      test::edit(file, [](DcmDataset& dataset) {
+        const Uint16 words[] = {0xf7ff, 0x0800, 0xffff, 0x5001};  // 12 bits: 2047, -2048, -1, 1
+        dataset.putAndInsertUint16(DCM_BitsStored, 12);
+        dataset.putAndInsertUint16(DCM_HighBit, 11);
+        dataset.putAndInsertUint16Array(DcmTag(DCM_PixelData, EVR_OW), words, 4);
+      });
+    }
+    const auto read = load_dicom(test::only_series(folder.path()));
+    QCOMPARE(test::failure(read), QString());
+    const std::vector<std::int16_t> expected{2047, -2048, -1, 1, 2047, -2048, -1, 1};
+    QCOMPARE(std::get<std::vector<std::int16_t>>(read->voxels), expected);
+    QVERIFY2(!read->changes.empty() && read->changes.back().find("2 slices") != std::string::npos,
+             "the cut bits are not mentioned");
+  }
+
+  void progress_is_reported_in_turn_and_work_can_be_stopped() {
+    const test::TemporaryFolder folder;
+    test::write_series(test::sample_volume({7, 5, 20}), folder / "series");
+    double last = 0.0;
+    int calls = 0;
+    std::mutex busy;
+    Progress progress;
+    progress.report = [&](double fraction, std::string_view) {
+      const std::unique_lock lock(busy, std::try_to_lock);
+      QVERIFY(lock.owns_lock());
+      QVERIFY(fraction >= last && fraction <= 1.0);
+      last = fraction;
+      ++calls;
+    };
+    const auto found = scan_dicom(folder.path(), progress);
+    QCOMPARE(test::failure(found), QString());
+    QCOMPARE(last, 1.0);
+    QCOMPARE(calls, 20);
+
+    std::stop_source stop;
+    Progress stopping;
+    stopping.stop = stop.get_token();
+    stopping.report = [&](double, std::string_view) { stop.request_stop(); };
+    const auto stopped = load_dicom(found->series.front(), stopping);
+    QVERIFY(!stopped);
+    QCOMPARE(stopped.error().kind, ErrorKind::cancelled);
+  }
+
+  void a_failed_write_leaves_nothing_behind() {
+    const test::TemporaryFolder folder;
+    const Volume volume = test::sample_volume({7, 5, 20});
+    std::stop_source stop;
+    Progress progress;
+    progress.stop = stop.get_token();
+    progress.report = [&](double fraction, std::string_view) {
+      if (fraction > 0.5) stop.request_stop();
+    };
+    const Status stopped = write_dicom_series(volume, {}, folder / "series", progress);
+    QVERIFY(!stopped);
+    QCOMPARE(stopped.error().kind, ErrorKind::cancelled);
+    QVERIFY(fs::is_empty(folder / "series"));
+
+    std::ofstream(folder / "series" / "notes.txt") << "kept";
+    const Status refused = write_dicom_series(volume, {}, folder / "series");
+    QVERIFY(!refused);
+    QCOMPARE(refused.error().kind, ErrorKind::write);
+    QVERIFY2(refused.error().message.find("notes.txt") != std::string::npos, refused.error().message.c_str());
+
+    Volume floats = volume;
+    floats.voxels = std::vector<float>(700);
+    QCOMPARE(write_dicom_series(floats, {}, folder / "floats").error().kind, ErrorKind::write);
+  }
+};
+
+QTEST_GUILESS_MAIN(DicomSeriesTest)
+#include "dicom_series_test.moc"
