@@ -4,6 +4,21 @@
 #include "imaging/phantom/scene.h"
 
 namespace tidemark::phantom {
+namespace {
+
+// A voxel in the middle of the sheet: of its first stretch on the way out to the back (+y).
+Index3 voxel_of_the_sheet(const Mask& truth) {
+  const Geometry& geometry = truth.geometry;
+  Index3 v(geometry.size.x / 2, geometry.size.y / 2, geometry.size.z / 2);
+  const auto inside = [&] { return truth.voxels[static_cast<std::size_t>(geometry.offset(v))] != 0; };
+  while (v.y + 1 < geometry.size.y && !inside()) ++v.y;
+  const std::int64_t first = v.y;
+  while (v.y + 1 < geometry.size.y && inside()) ++v.y;
+  v.y = (first + v.y - 1) / 2;
+  return v;
+}
+
+}  // namespace
 
 Result<Phantom> make_cortex(const PhantomOptions& options, ThreadPool& pool, const Progress& progress) {
   constexpr double kFluid = 150.0, kSheet = 350.0, kCore = 550.0;
@@ -39,6 +54,8 @@ Result<Phantom> make_cortex(const PhantomOptions& options, ThreadPool& pool, con
   phantom->target = kSheet;
   phantom->range = 80.0;
   phantom->alpha = 0.8;
+  const glm::dvec3 start(voxel_of_the_sheet(phantom->truth));
+  phantom->seed = {start.x, start.y, start.z, 8.0};  // wider than the sheet; a thousand steps and more away
   phantom->init_threshold = {kSheet - 80.0, kSheet + 80.0};
   return phantom;
 }

@@ -15,7 +15,8 @@
 
 namespace tidemark {
 
-// A volume, its ground truth, and a start and parameters that suit it.
+// A volume, its ground truth, and a start and parameters that suit it. Where there are both a threshold and
+// a seed to start from, the threshold is the quick way and the seed the long one.
 struct Phantom {
   std::string kind;
   Volume volume;
