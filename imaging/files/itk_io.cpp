@@ -5,9 +5,17 @@
 #include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
 
+#include <stdlib.h>
+
 #include <algorithm>
+#include <utility>
 
 namespace tidemark::files {
+namespace {
+
+constexpr const char* kSuffixes[] = {".nii", ".nii.gz", ".nrrd", ".mha", ".gipl", ".gipl.gz"};
+
+}  // namespace
 
 ItkScope::ItkScope() : numbers_(newlocale(LC_NUMERIC_MASK, "C", duplocale(uselocale(nullptr)))) {
   before_ = uselocale(numbers_);
@@ -42,12 +50,51 @@ itk::ImageIOBase::Pointer make_image_io(Format format, const std::filesystem::pa
   return io;
 }
 
+Result<ItkName> ItkName::create(Format format, const std::filesystem::path& file, Use use) {
+  ItkName name;
+  name.path_ = file;
+  const auto suffix = std::find_if(std::begin(kSuffixes), std::end(kSuffixes),
+                                   [&](const char* known) { return has_suffix(file, known); });
+  const bool by_suffix = use == Use::write || format == Format::nifti || format == Format::gipl;
+  if (!by_suffix || suffix == std::end(kSuffixes) || file.filename().string().ends_with(*suffix)) return name;
+
+  std::error_code error;
+  std::string pattern = (std::filesystem::temp_directory_path(error) / "tidemark-XXXXXX").string();
+  if (error || ::mkdtemp(pattern.data()) == nullptr) {
+    return fail(ErrorKind::capability, "{}: its suffix needs a temporary folder, and none can be made",
+                file.string());
+  }
+  name.folder_ = pattern;
+  name.path_ = name.folder_ / (std::string("volume") + *suffix);
+  std::filesystem::create_symlink(std::filesystem::absolute(file), name.path_, error);
+  if (error) return fail(ErrorKind::capability, "{}: {}", name.path_.string(), error.message());
+  return name;
+}
+
+ItkName::~ItkName() {
+  std::error_code ignored;
+  if (folder_.empty()) return;
+  std::filesystem::remove(path_, ignored);
+  std::filesystem::remove(folder_, ignored);
+}
+
+ItkName::ItkName(ItkName&& other) noexcept
+    : path_(std::exchange(other.path_, {})), folder_(std::exchange(other.folder_, {})) {}
+
+ItkName& ItkName::operator=(ItkName&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(folder_, other.folder_);
+  return *this;
+}
+
 std::string one_line(const std::exception& exception) {
   const auto* itk_exception = dynamic_cast<const itk::ExceptionObject*>(&exception);
   std::string text = itk_exception != nullptr ? itk_exception->GetDescription() : exception.what();
-  // "ITK ERROR: NiftiImageIO(0x55...): what happened"
-  if (const auto at = text.find("): "); text.starts_with("ITK ERROR") && at != std::string::npos) {
-    text.erase(0, at + 3);
+  // "itk::ERROR: NrrdImageIO(0x55...): what happened", or "ITK ERROR: what happened"
+  const std::string start = text.substr(0, 10);
+  if (start == "ITK ERROR:" || start == "itk::ERROR") {
+    const auto at = text.find("): ");
+    text.erase(0, at != std::string::npos ? at + 3 : text.find(": ") + 2);
   }
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');

@@ -28,6 +28,25 @@ class ItkScope {
 // program has registered.
 itk::ImageIOBase::Pointer make_image_io(Format format, const std::filesystem::path& file);
 
+// A name under which ITK reads or writes a file. Its NIfTI and GIPL classes, and the others when they write,
+// go by suffixes of one case; a file whose suffix is of another is given to them as a link in a temporary
+// folder that goes away with the object.
+class ItkName {
+ public:
+  enum class Use { read, write };
+  static Result<ItkName> create(Format format, const std::filesystem::path& file, Use use);
+  ~ItkName();
+  ItkName(ItkName&& other) noexcept;
+  ItkName& operator=(ItkName&& other) noexcept;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  ItkName() = default;
+  std::filesystem::path path_;
+  std::filesystem::path folder_;  // empty when the file is read under its own name
+};
+
 // What an ITK exception says, on one line, without the source locations that ITK puts first.
 std::string one_line(const std::exception& exception);
 

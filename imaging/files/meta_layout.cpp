@@ -78,6 +78,12 @@ Result<PixelLayout> locate_meta(const std::filesystem::path& file) {
   if (!header) return tl::unexpected<Error>(header.error());
   PixelLayout layout{.file = file, .offset = header->end};
   if (auto status = count_bytes(*header, name, layout); !status) return pass_on(status);
+  if (auto status = require_finite_fields(*header, file,
+                                          {"transformmatrix", "rotation", "orientation", "offset", "position",
+                                           "origin", "elementspacing", "elementsize"});
+      !status) {
+    return pass_on(status);
+  }
   if (is_true(*header, "compresseddata", false)) {
     layout.coding = Coding::deflate;
   } else if (!is_true(*header, "binarydata", true)) {

@@ -10,13 +10,15 @@ namespace tidemark::files {
 namespace {
 
 constexpr std::size_t kHeaderSize = 348;
+constexpr std::int32_t kNifti2HeaderSize = 540;
 constexpr std::int64_t kFirstVoxel = 352;
 
 // The header's numbers, in either byte order.
 class Fields {
  public:
   explicit Fields(std::string bytes) : bytes_(std::move(bytes)) {
-    swapped_ = read<std::int32_t>(0) != static_cast<std::int32_t>(kHeaderSize);
+    const auto size = read<std::int32_t>(0);
+    swapped_ = size != static_cast<std::int32_t>(kHeaderSize) && size != kNifti2HeaderSize;
   }
 
   template <class T>
@@ -30,6 +32,8 @@ class Fields {
   [[nodiscard]] std::int64_t dim(int i) const {
     return read<std::int16_t>(40 + 2 * static_cast<std::size_t>(i));
   }
+  [[nodiscard]] std::int32_t size_field() const { return read<std::int32_t>(0); }
+  [[nodiscard]] bool swapped() const { return swapped_; }
   [[nodiscard]] std::string magic() const { return bytes_.substr(344, 3); }
 
  private:
@@ -74,6 +78,25 @@ Result<std::int64_t> count_voxels(const Fields& header, const std::string& name)
   return voxels;
 }
 
+// pixdim, the quaternion and offsets of the qform and the rows of the sform, where they are in use.
+Status check_geometry(const Fields& header, const std::string& name) {
+  for (std::size_t axis = 1; axis <= 3; ++axis) {
+    const float spacing = header.read<float>(76 + 4 * axis);
+    if (!std::isfinite(spacing)) return fail(ErrorKind::input, "{}: pixdim[{}] is {}", name, axis, spacing);
+  }
+  const bool qform = header.read<std::int16_t>(252) > 0;
+  const bool sform = header.read<std::int16_t>(254) > 0;
+  for (std::size_t i = 0; i < 18; ++i) {
+    const bool in_use = i < 6 ? qform : sform;
+    const float number = header.read<float>(256 + 4 * i);
+    if (in_use && !std::isfinite(number)) {
+      return fail(ErrorKind::input, "{}: {}: the origin or direction is {}", name, i < 6 ? "qform" : "sform",
+                  number);
+    }
+  }
+  return {};
+}
+
 // qform and sform are two statements of one thing; a user should know when they contradict each other.
 void compare_orientations(const Fields& header, PixelLayout& layout) {
   const bool qform = header.read<std::int16_t>(252) > 0;
@@ -102,10 +125,10 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
                 start->size());
   }
   const Fields header(std::move(*start));
-  if (header.read<std::int32_t>(0) == 540) {
+  if (header.size_field() == kNifti2HeaderSize) {
     return fail(ErrorKind::input, "{}: sizeof_hdr is 540: NIfTI-2 is not supported", name);
   }
-  if (header.read<std::int32_t>(0) != static_cast<std::int32_t>(kHeaderSize) || header.magic() != "n+1") {
+  if (header.size_field() != static_cast<std::int32_t>(kHeaderSize) || header.magic() != "n+1") {
     return fail(ErrorKind::input, "{}: not a NIfTI file: its header has no 'n+1' magic", name);
   }
   const auto voxels = count_voxels(header, name);
@@ -124,12 +147,21 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
   if (std::isinf(header.read<float>(112)) || std::isinf(header.read<float>(116))) {
     return fail(ErrorKind::input, "{}: scl_slope or scl_inter is infinite", name);
   }
+  if (auto status = check_geometry(header, name); !status) return pass_on(status);
   const auto bytes = checked_product(*voxels, *bits / 8);
   if (!bytes) return fail(ErrorKind::input, "{}: dim: too many voxels", name);
 
   PixelLayout layout{.file = file, .voxels = *voxels, .bytes = *bytes};
   layout.coding = is_gzip(file) ? Coding::deflate : Coding::raw;
   (layout.coding == Coding::deflate ? layout.prefix : layout.offset) = static_cast<std::int64_t>(offset);
+  // By the standard a slope of 0 means no scaling at all; NaN is written with the same meaning.
+  const double slope = header.read<float>(112);
+  const double intercept = header.read<float>(116);
+  const bool scaled = slope != 0.0 && !std::isnan(slope);
+  layout.nifti = NiftiVoxels{.datatype = datatype,
+                             .swapped = header.swapped(),
+                             .slope = scaled ? slope : 1.0,
+                             .intercept = scaled && !std::isnan(intercept) ? intercept : 0.0};
   compare_orientations(header, layout);
   return layout;
 }

@@ -59,6 +59,10 @@ Status count_bytes(const TextHeader& header, const std::string& name, PixelLayou
   if (!sizes || sizes->empty() || sizes->size() > 16) {
     return fail(ErrorKind::input, "{}: sizes: '{}'", name, header.find("sizes").value_or("missing"));
   }
+  if (header.find("dimension").value_or("") != std::to_string(sizes->size())) {
+    return fail(ErrorKind::input, "{}: dimension is '{}', sizes has {} numbers", name,
+                header.find("dimension").value_or("missing"), sizes->size());
+  }
   layout.voxels = 1;
   for (const std::int64_t size : *sizes) {
     const auto product = checked_product(layout.voxels, size);
@@ -103,6 +107,10 @@ Result<PixelLayout> locate_nrrd(const std::filesystem::path& file) {
   PixelLayout layout{.file = file, .offset = header->end};
   if (auto status = count_bytes(*header, name, layout); !status) return pass_on(status);
   if (auto status = choose_coding(*header, name, layout); !status) return pass_on(status);
+  if (auto status = require_finite_fields(*header, file, {"space directions", "space origin", "spacings"});
+      !status) {
+    return pass_on(status);
+  }
   auto data = header->find("data file");
   if (!data) data = header->find("datafile");
   if (data) {

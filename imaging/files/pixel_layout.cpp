@@ -22,10 +22,11 @@ struct InflateEnd {
   void operator()(z_stream* stream) const { inflateEnd(stream); }
 };
 
-// The length of the inflated stream (gzip members one after the other, or one zlib stream), or limit + 1 when
-// it is longer than `limit`.
-Result<std::int64_t> inflated_length(const std::filesystem::path& file, std::int64_t offset,
-                                     std::int64_t limit) {
+// Inflates the stream (gzip members one after the other, or one zlib stream) and hands it to `take` piece by
+// piece. Stops once more than `limit` bytes have come out. Returns how many did.
+template <class Take>
+Result<std::int64_t> inflate_stream(const std::filesystem::path& file, std::int64_t offset,
+                                    std::int64_t limit, const Take& take) {
   std::ifstream input(file, std::ios::binary);
   if (!input.seekg(offset)) return fail(ErrorKind::input, "{}: cannot be read", file.string());
   z_stream stream{};
@@ -53,12 +54,25 @@ Result<std::int64_t> inflated_length(const std::filesystem::path& file, std::int
       return fail(ErrorKind::input, "{}: the compressed data are damaged ({})", file.string(),
                   stream.msg != nullptr ? stream.msg : "zlib error");
     }
-    length += static_cast<std::int64_t>(kChunk - stream.avail_out);
+    const auto count = static_cast<std::int64_t>(kChunk - stream.avail_out);
+    take(unpacked.data(), count, length);
+    length += count;
   }
   if (length <= limit && state != Z_STREAM_END) {
     return fail(ErrorKind::input, "{}: truncated: the compressed data end early", file.string());
   }
   return length;
+}
+
+template <class Take>
+Status inflate_exactly(const PixelLayout& layout, const Take& take) {
+  const std::int64_t expected = layout.prefix + layout.bytes;
+  const auto length = inflate_stream(layout.file, layout.offset, expected, take);
+  if (!length) return tl::unexpected<Error>(length.error());
+  if (*length == expected) return {};
+  return fail(ErrorKind::input, "{}: the header says {} bytes, the compressed data hold {}{}",
+              layout.file.string(), expected, *length > expected ? "more than " : "",
+              std::min(*length, expected));
 }
 
 }  // namespace
@@ -110,13 +124,25 @@ Status check_extent(const PixelLayout& layout) {
 
 Status check_stream(const PixelLayout& layout) {
   if (layout.coding != Coding::deflate) return {};
-  const std::int64_t expected = layout.prefix + layout.bytes;
-  const auto length = inflated_length(layout.file, layout.offset, expected);
-  if (!length) return tl::unexpected<Error>(length.error());
-  if (*length == expected) return {};
-  return fail(ErrorKind::input, "{}: the header says {} bytes, the compressed data hold {}{}",
-              layout.file.string(), expected, *length > expected ? "more than " : "",
-              std::min(*length, expected));
+  return inflate_exactly(layout, [](const unsigned char*, std::int64_t, std::int64_t) {});
+}
+
+Status read_stored(const PixelLayout& layout, void* destination) {
+  auto* const voxels = static_cast<unsigned char*>(destination);
+  if (layout.coding == Coding::deflate) {
+    return inflate_exactly(layout, [&](const unsigned char* piece, std::int64_t count, std::int64_t at) {
+      const std::int64_t first = std::max(at, layout.prefix);
+      const std::int64_t last = std::min(at + count, layout.prefix + layout.bytes);
+      if (first < last)
+        std::copy(piece + (first - at), piece + (last - at), voxels + (first - layout.prefix));
+    });
+  }
+  std::ifstream input(layout.file, std::ios::binary);
+  input.seekg(layout.offset);
+  if (!input.read(static_cast<char*>(destination), layout.bytes)) {
+    return fail(ErrorKind::input, "{}: the voxels cannot be read", layout.file.string());
+  }
+  return {};
 }
 
 bool is_gzip(const std::filesystem::path& file) {

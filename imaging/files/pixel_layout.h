@@ -17,6 +17,16 @@ namespace tidemark::files {
 enum class Format { nifti, nrrd, meta, gipl };
 enum class Coding { raw, deflate, text };
 
+// How NIfTI stores voxels, which are read without ITK: its NIfTI library turns NaN and infinity into 0
+// without a word, reads the voxels of a.nii.gz from a.nii when there is one, and adds scl_inter when there is
+// no slope.
+struct NiftiVoxels {
+  int datatype = 0;  // nifti1.h's code of a scalar type
+  bool swapped = false;
+  double slope = 1.0;
+  double intercept = 0.0;
+};
+
 struct PixelLayout {
   std::filesystem::path file;  // holds the voxels: the file itself, or the one that its header names
   Coding coding = Coding::raw;
@@ -24,8 +34,10 @@ struct PixelLayout {
   std::int64_t prefix = 0;  // bytes of the inflated stream that come before the voxels
   std::int64_t voxels = 0;  // product of all sizes in the header
   std::int64_t bytes = 0;   // of all voxels, inflated
+  bool unscaled = false;    // NIfTI: scl_inter is not to be applied
   bool oriented = true;     // the header says how the axes lie in the patient
   std::vector<std::string> warnings = {};
+  std::optional<NiftiVoxels> nifti = {};
 };
 
 // By suffix, case ignored; nothing for a name of another kind.
@@ -42,6 +54,10 @@ Status check_extent(const PixelLayout& layout);
 // Inflates a compressed stream, keeping nothing: it must be whole, with the right checksum, and hold exactly
 // the bytes that the header says.
 Status check_stream(const PixelLayout& layout);
+
+// Reads all voxels' bytes, as they are stored, into `destination` (layout.bytes long). Not for text. A
+// compressed stream is checked as check_stream() does.
+Status read_stored(const PixelLayout& layout, void* destination);
 
 // One per format.
 Result<PixelLayout> locate_nifti(const std::filesystem::path& file);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 
+#include "imaging/files/nifti_voxels.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/files/volume_header.h"
 
@@ -11,7 +12,7 @@ namespace {
 
 using files::VolumeHeader;
 
-// All voxels as ITK hands them out (NIfTI's scl_slope is applied already).
+// All voxels as ITK hands them out.
 template <class T>
 std::vector<T> read_as(const VolumeHeader& header) {
   itk::ImageIORegion region(header.io->GetNumberOfDimensions());
@@ -32,7 +33,9 @@ std::vector<To> converted(const std::vector<From>& voxels) {
   return result;
 }
 
-Volume::Voxels read_voxels(const VolumeHeader& header) {
+Result<Volume::Voxels> read_voxels(const VolumeHeader& header) {
+  if (header.layout.nifti) return files::read_nifti_voxels(header.layout);
+  if (auto status = files::check_stream(header.layout); !status) return pass_on(status);
   using Type = itk::IOComponentEnum;
   switch (header.io->GetComponentType()) {
     case Type::UCHAR:
@@ -98,13 +101,14 @@ Result<Volume> read_volume_file(const std::filesystem::path& file, const Progres
   if (progress.cancelled()) return cancelled_error();
   auto header = files::check_header(file);
   if (!header) return pass_on(header);
-  if (auto status = files::check_stream(header->layout); !status) return pass_on(status);
-  progress(0.3, "reading the volume");
+  progress(0.1, "reading the volume");
   if (progress.cancelled()) return cancelled_error();
 
   Volume volume;
   try {
-    volume.voxels = read_voxels(*header);
+    auto voxels = read_voxels(*header);
+    if (!voxels) return pass_on(voxels);
+    volume.voxels = std::move(*voxels);
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::capability, "{}: not enough memory for {} voxels", name,
                 header->geometry.voxel_count());

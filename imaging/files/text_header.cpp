@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <fstream>
 #include <string_view>
 
@@ -89,6 +91,29 @@ Result<TextHeader> read_meta_header(const std::filesystem::path& file) {
     if (!trimmed(*line).empty() && line->find('=') == std::string_view::npos) break;
   }
   return fail(ErrorKind::input, "{}: not a MetaImage file: its header has no ElementDataFile", file.string());
+}
+
+Status require_finite_fields(const TextHeader& header, const std::filesystem::path& file,
+                             std::initializer_list<const char*> names) {
+  constexpr std::string_view kBetween = " \t(),";
+  for (const char* name : names) {
+    const std::string text = header.find(name).value_or("");
+    std::string_view rest(text);
+    while (true) {
+      rest.remove_prefix(std::min(rest.find_first_not_of(kBetween), rest.size()));
+      if (rest.empty()) break;
+      const std::string_view word = rest.substr(0, rest.find_first_of(kBetween));
+      rest.remove_prefix(word.size());
+      double number = 0.0;
+      const auto [end, error] =
+          std::from_chars(word.data() + (word[0] == '+'), word.data() + word.size(), number);
+      const bool whole = error == std::errc() && end == word.data() + word.size();
+      if (word != "none" && !(whole && std::isfinite(number))) {
+        return fail(ErrorKind::input, "{}: {}: '{}' is not a number", file.string(), name, word);
+      }
+    }
+  }
+  return {};
 }
 
 }  // namespace tidemark::files

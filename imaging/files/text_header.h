@@ -1,6 +1,8 @@
 // Headers of text lines: NRRD and MetaImage.
 #pragma once
 
+#include <initializer_list>
+
 #include "imaging/files/pixel_layout.h"
 
 namespace tidemark::files {
@@ -9,5 +11,10 @@ namespace tidemark::files {
 Result<TextHeader> read_nrrd_header(const std::filesystem::path& file);  // "name: value" up to an empty line
 Result<TextHeader> read_meta_header(
     const std::filesystem::path& file);  // "name = value" up to ElementDataFile
+
+// Refuses the fields of these names that hold anything but finite numbers, brackets and commas ("none" stands
+// for an axis that is not in space). ITK's matrix library ends the program when it is given a NaN.
+Status require_finite_fields(const TextHeader& header, const std::filesystem::path& file,
+                             std::initializer_list<const char*> names);
 
 }  // namespace tidemark::files

@@ -5,6 +5,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/checked.h"
+#include "imaging/files/nifti_voxels.h"
 
 namespace tidemark::files {
 namespace {
@@ -85,6 +86,12 @@ Status choose_scalar(const itk::ImageIOBase& io, const std::string& name, Volume
     return fail(ErrorKind::input, "{}: {} values of type {} per voxel: only single numbers make a volume",
                 name, io.GetNumberOfComponents(), itk::ImageIOBase::GetPixelTypeAsString(io.GetPixelType()));
   }
+  if (const auto& nifti = header.layout.nifti) {
+    const NiftiType type = nifti_type(*nifti);
+    header.scalar = type.scalar;
+    if (type.converted) header.changes.push_back(fmt::format("{} values converted to float", type.stored));
+    return {};
+  }
   switch (io.GetComponentType()) {
     case itk::IOComponentEnum::UCHAR:
     case itk::IOComponentEnum::CHAR:
@@ -122,9 +129,12 @@ Result<VolumeHeader> check_header(const std::filesystem::path& file) {
   if (!layout) return pass_on(layout);
   if (auto status = check_extent(*layout); !status) return pass_on(status);
 
-  VolumeHeader header;
+  const Format format = *format_of(file);
+  auto name_for_itk = ItkName::create(format, file, ItkName::Use::read);
+  if (!name_for_itk) return pass_on(name_for_itk);
+  VolumeHeader header{.io = make_image_io(format, name_for_itk->path()), .name = std::move(*name_for_itk)};
+  header.layout = std::move(*layout);
   try {
-    header.io = make_image_io(*format_of(file), file);
     header.io->ReadImageInformation();
     auto geometry = checked_geometry(*header.io, name);
     if (!geometry) return pass_on(geometry);
@@ -133,15 +143,14 @@ Result<VolumeHeader> check_header(const std::filesystem::path& file) {
   } catch (const std::exception& exception) {
     return fail(ErrorKind::input, "{}: the header cannot be read: {}", name, one_line(exception));
   }
-  if (header.geometry.voxel_count() != layout->voxels) {
-    return fail(ErrorKind::input, "{}: the header says {} voxels, ITK reads {}", name, layout->voxels,
+  if (header.geometry.voxel_count() != header.layout.voxels) {
+    return fail(ErrorKind::input, "{}: the header says {} voxels, ITK reads {}", name, header.layout.voxels,
                 header.geometry.voxel_count());
   }
-  header.warnings = std::move(layout->warnings);
-  if (!layout->oriented) {
+  header.warnings = header.layout.warnings;
+  if (!header.layout.oriented) {
     header.warnings.emplace_back("the file does not say how its axes lie in the patient");
   }
-  header.layout = std::move(*layout);
   return header;
 }
 

@@ -8,11 +8,12 @@ namespace tidemark::files {
 
 struct VolumeHeader {
   itk::ImageIOBase::Pointer io;  // ready to read the voxels
-  PixelLayout layout;
-  Geometry geometry;
-  std::string scalar;  // of the volume: "int16", "uint16" or "float"
-  std::vector<std::string> changes;
-  std::vector<std::string> warnings;
+  ItkName name;                  // that io reads
+  PixelLayout layout = {};
+  Geometry geometry = {};
+  std::string scalar = {};  // of the volume: "int16", "uint16" or "float"
+  std::vector<std::string> changes = {};
+  std::vector<std::string> warnings = {};
 };
 
 // Everything that can be said before memory is taken for voxels: three axes (a fourth of size 1 is ignored),

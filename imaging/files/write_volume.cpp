@@ -66,8 +66,11 @@ Status write_image(const std::filesystem::path& target, const Geometry& geometry
   auto file = AtomicFile::create(target);
   if (!file) return pass_on(file);
   const files::ItkScope scope;
+  const auto itk_name =
+      files::ItkName::create(*files::format_of(target), file->temporary_path(), files::ItkName::Use::write);
+  if (!itk_name) return fail(ErrorKind::write, "{}", itk_name.error().message);
   try {
-    write_through_itk(file->temporary_path(), geometry, type, voxels);
+    write_through_itk(itk_name->path(), geometry, type, voxels);
   } catch (const std::exception& exception) {
     return fail(ErrorKind::write, "{}: cannot write: {}", name, files::one_line(exception));
   }

@@ -1,0 +1,341 @@
+// Volume files that are as they should be: what is written is read again, and means the same.
+#include <sys/resource.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <clocale>
+#include <csignal>
+#include <limits>
+
+#include "imaging/files/volume_file.h"
+#include "tests/support/support.h"
+#include "volumes.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+namespace {
+
+const std::vector<std::string> kWritten = {"v.nii", "v.nii.gz", "v.nrrd", "v.mha"};
+
+Volume read(const std::filesystem::path& file) {
+  auto volume = read_volume_file(file);
+  if (!volume) qFatal("%s", volume.error().message.c_str());
+  return std::move(*volume);
+}
+
+std::vector<float> expected_counting(std::size_t count, float first) {
+  std::vector<float> values(count);
+  for (std::size_t i = 0; i < count; ++i) values[i] = first + static_cast<float>(i);
+  return values;
+}
+
+}  // namespace
+
+class VolumeFileTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void suffixes_say_what_can_be_read_and_written() {
+    for (const char* name :
+         {"a.nii", "a.NII.GZ", "a.nrrd", "a.nhdr", "a.mha", "a.mhd", "a.gipl", "a.Gipl.gz"}) {
+      QVERIFY(is_readable_volume_file(name));
+    }
+    for (const char* name : {"a.gz", "a.dcm", "nii", "a.nii.bz2", ""})
+      QVERIFY(!is_readable_volume_file(name));
+    for (const char* name : {"a.nhdr", "a.mhd", "a.gipl", "a.stl"}) QVERIFY(!is_writable_volume_file(name));
+  }
+
+  void geometry_and_values_survive_every_format() {
+    const TemporaryFolder folder;
+    const Geometry geometry = awkward_grid();
+    for (const auto& name : kWritten) {
+      QVERIFY(is_writable_volume_file(name));
+      const std::vector<Volume> volumes = {counting_volume<std::int16_t>(geometry, -50),
+                                           counting_volume<std::uint16_t>(geometry, 65000),
+                                           counting_volume<float>(geometry, 0.25F)};
+      for (const Volume& volume : volumes) {
+        QCOMPARE(failure(write_volume_file(volume, folder / name)), QString());
+        const Volume back = read(folder / name);
+        QCOMPARE(back.scalar_name(), volume.scalar_name());
+        QVERIFY(back.voxels == volume.voxels);
+        QVERIFY(same_grid(back.geometry, geometry, 1e-4));
+        QVERIFY(glm::determinant(back.geometry.direction) < 0.0);
+        QCOMPARE(back.description, name);
+        QVERIFY(back.changes.empty());
+      }
+    }
+  }
+
+  void a_mask_is_written_as_zeros_and_ones() {
+    const TemporaryFolder folder;
+    Mask mask{awkward_grid(), {}};
+    mask.voxels.resize(static_cast<std::size_t>(mask.geometry.voxel_count()));
+    mask.voxels[17] = mask.voxels[40] = 1;
+    for (const auto& name : kWritten) {
+      QCOMPARE(failure(write_mask_file(mask, folder / name)), QString());
+      const Volume back = read(folder / name);
+      QCOMPARE(std::string(back.scalar_name()), std::string("int16"));
+      QVERIFY(back.values() == std::vector<float>(mask.voxels.begin(), mask.voxels.end()));
+      QVERIFY(same_grid(back.geometry, mask.geometry, 1e-4));
+    }
+  }
+
+  void rescaled_values_are_written_in_the_smallest_type_that_holds_them() {
+    const TemporaryFolder folder;
+    const auto round_trip = [&](Volume volume, double slope, double intercept, const char* type) {
+      volume.slope = slope;
+      volume.intercept = intercept;
+      QCOMPARE(failure(write_volume_file(volume, folder / "v.nrrd")), QString());
+      const Volume back = read(folder / "v.nrrd");
+      QCOMPARE(std::string(back.scalar_name()), std::string(type));
+      QVERIFY(back.values() == volume.values());
+    };
+    const auto unsigned_counts = counting_volume<std::uint16_t>(awkward_grid(), 0);
+    round_trip(unsigned_counts, 1, -1024, "int16");
+    round_trip(unsigned_counts, 300, 2000, "uint16");
+    round_trip(unsigned_counts, 3000, 0, "float");
+    round_trip(unsigned_counts, 0.5, 0, "float");
+    round_trip(counting_volume<float>(awkward_grid(), 0.5F), 2, 1, "float");
+  }
+
+  void volumes_of_one_voxel_along_an_axis_work() {
+    const TemporaryFolder folder;
+    for (const Index3 size : {Index3(1, 1, 1), Index3(1, 7, 61), Index3(175, 1, 2), Index3(9, 7, 1)}) {
+      for (const auto& name : kWritten) {
+        const Volume volume = counting_volume<std::int16_t>(awkward_grid(size), 3);
+        QCOMPARE(failure(write_volume_file(volume, folder / name)), QString());
+        const Volume back = read(folder / name);
+        QVERIFY(back.voxels == volume.voxels);
+        QVERIFY(same_grid(back.geometry, volume.geometry, 1e-4));
+      }
+    }
+  }
+
+  void a_scan_says_what_a_read_will_give() {
+    const TemporaryFolder folder;
+    QVERIFY(write_volume_file(counting_volume<std::uint16_t>(awkward_grid(), 1), folder / "v.mha"));
+    const auto series = scan_volume_file(folder / "v.mha");
+    QCOMPARE(failure(series), QString());
+    QVERIFY(series->loadable);
+    QCOMPARE(series->uid, std::string("v.mha"));
+    QCOMPARE(series->scalar, std::string("uint16"));
+    QVERIFY(same_grid(series->geometry, awkward_grid(), 1e-4));
+    QVERIFY(series->files == std::vector<std::filesystem::path>{folder / "v.mha"});
+  }
+
+  void a_compressed_file_beside_its_uncompressed_namesake_is_read_as_itself() {
+    const TemporaryFolder folder;
+    const Volume plain = counting_volume<std::int16_t>(awkward_grid(), 0);
+    const Volume packed = counting_volume<std::int16_t>(awkward_grid(), 500);
+    QVERIFY(write_volume_file(plain, folder / "v.nii"));
+    QVERIFY(write_volume_file(packed, folder / "v.nii.gz"));
+    QVERIFY(read(folder / "v.nii").voxels == plain.voxels);
+    QVERIFY(read(folder / "v.nii.gz").voxels == packed.voxels);
+  }
+
+  void the_case_of_a_suffix_does_not_matter() {
+    const TemporaryFolder folder;
+    const Volume volume = counting_volume<std::int16_t>(awkward_grid(), 0);
+    for (const auto& [name, other] : std::vector<std::pair<std::string, std::string>>{
+             {"a.nii", "A.Nii"}, {"b.nii.gz", "B.nii.GZ"}, {"c.nrrd", "C.NRRD"}, {"d.mha", "D.MHA"}}) {
+      QVERIFY(write_volume_file(volume, folder / name));
+      std::filesystem::rename(folder / name, folder / other);
+      QVERIFY(read(folder / other).voxels == volume.voxels);
+      QCOMPARE(failure(write_volume_file(volume, folder / other)), QString());
+      QVERIFY(read(folder / other).voxels == volume.voxels);
+    }
+  }
+
+  void nifti_is_turned_from_ras_to_lps() {
+    const TemporaryFolder folder;
+    NiftiHeader header({4, 4, 4}, 4, 16);
+    header.set<float>(280 + 12, 10.0F).set<float>(296 + 12, 20.0F).set<float>(312 + 12, 30.0F);
+    put(folder / "v.nii", header.bytes() + std::string(128, '\1'));
+    const Volume volume = read(folder / "v.nii");
+    QVERIFY(volume.geometry.origin_mm == glm::dvec3(-10, -20, 30));
+    QVERIFY(glm::distance(volume.geometry.to_patient({1, 2, 3}), glm::dvec3(-11, -22, 33)) < 1e-5);
+  }
+
+  void nifti_slope_and_intercept_are_applied_once() {
+    const TemporaryFolder folder;
+    const std::string voxels("\1\2\3\4\5\6\7\10", 8);
+    NiftiHeader header({2, 2, 2}, 2, 8);
+    header.set<float>(112, 2.5F).set<float>(116, -10.0F);
+    put(folder / "v.nii", header.bytes() + voxels);
+    const Volume volume = read(folder / "v.nii");
+    QCOMPARE(std::string(volume.scalar_name()), std::string("float"));
+    QVERIFY(volume.values() == (std::vector<float>{-7.5F, -5, -2.5F, 0, 2.5F, 5, 7.5F, 10}));
+    // 0 and NaN mean that there is no scaling.
+    for (const float none : {0.0F, std::numeric_limits<float>::quiet_NaN()}) {
+      put(folder / "v.nii", header.set<float>(112, none).bytes() + voxels);
+      QVERIFY(read(folder / "v.nii").values() == expected_counting(8, 1.0F));
+    }
+  }
+
+  void nifti_of_the_other_byte_order_is_read() {
+    const TemporaryFolder folder;
+    std::string voxels;
+    for (char i = 0; i < 8; ++i) voxels += std::string(1, '\0') + i;
+    put(folder / "v.nii", NiftiHeader({2, 2, 2}, 4, 16).swapped() + voxels);
+    QVERIFY(read(folder / "v.nii").values() == expected_counting(8, 0.0F));
+  }
+
+  void a_fourth_dimension_of_one_is_ignored() {
+    const TemporaryFolder folder;
+    NiftiHeader header({2, 2, 2}, 2, 8);
+    header.set<std::int16_t>(40, 4);
+    put(folder / "v.nii", header.bytes() + "abcdefgh");
+    QCOMPARE(read(folder / "v.nii").geometry.voxel_count(), std::int64_t{8});
+  }
+
+  void types_that_become_float_are_said() {
+    const TemporaryFolder folder;
+    std::string voxels;
+    for (std::int32_t i = 0; i < 8; ++i) {
+      const std::int32_t value = 100000 * i;
+      voxels.append(reinterpret_cast<const char*>(&value), 4);
+    }
+    put(folder / "v.nii", NiftiHeader({2, 2, 2}, 8, 32).bytes() + voxels);
+    const Volume volume = read(folder / "v.nii");
+    QCOMPARE(std::string(volume.scalar_name()), std::string("float"));
+    QCOMPARE(volume.value(Index3(1, 1, 1)), 700000.0F);
+    QCOMPARE(volume.changes.size(), std::size_t{1});
+    QVERIFY(volume.changes[0].find("float") != std::string::npos);
+  }
+
+  void a_file_without_orientation_says_so() {
+    const TemporaryFolder folder;
+    put(folder / "v.mha",
+        "NDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\nabcdefgh");
+    const auto series = scan_volume_file(folder / "v.mha");
+    QVERIFY(series && series->loadable);
+    QCOMPARE(series->warnings.size(), std::size_t{1});
+    QVERIFY(read(folder / "v.mha").values() == expected_counting(8, 'a'));
+  }
+
+  void detached_headers_are_read() {
+    const TemporaryFolder folder;
+    put(folder / "voxels.raw", "abcdefgh");
+    put(folder / "v.mhd",
+        "ObjectType = Image\nNDims = 3\nBinaryData = True\nDimSize = 2 2 2\n"
+        "ElementType = MET_UCHAR\nElementDataFile = voxels.raw\n");
+    put(folder / "v.nhdr",
+        "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n"
+        "space: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,2)\n"
+        "space origin: (0,0,0)\ndata file: voxels.raw\n");
+    for (const char* name : {"v.mhd", "v.nhdr"})
+      QVERIFY(read(folder / name).values() == expected_counting(8, 'a'));
+  }
+
+  void text_encodings_are_read() {
+    const TemporaryFolder folder;
+    put(folder / "v.nrrd",
+        "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\n\n1 2 3 4 5 6 7 8\n");
+    QVERIFY(read(folder / "v.nrrd").values() == expected_counting(8, 1.0F));
+    put(folder / "v.mha",
+        "ObjectType = Image\nNDims = 3\nBinaryData = False\nDimSize = 2 2 2\n"
+        "ElementType = MET_SHORT\nElementDataFile = LOCAL\n1 2 3 4 5 6 7 8\n");
+    QVERIFY(read(folder / "v.mha").values() == expected_counting(8, 1.0F));
+  }
+
+  void gipl_is_read_plain_and_compressed() {
+    const TemporaryFolder folder;
+    std::string bytes(256, '\0');
+    bytes[1] = bytes[3] = bytes[5] = 2;
+    bytes[7] = 1;
+    bytes[9] = 15;  // short
+    for (std::size_t axis = 0; axis < 3; ++axis) std::memcpy(bytes.data() + 10 + 4 * axis, "\x3f\x80\0\0", 4);
+    std::memcpy(bytes.data() + 252, "\xef\xff\xe9\xb0", 4);
+    for (char i = 0; i < 8; ++i) bytes += std::string(1, '\0') + i;
+    put(folder / "v.gipl", bytes);
+    const gzFile packed = gzopen((folder / "v.gipl.gz").c_str(), "wb");
+    gzwrite(packed, bytes.data(), static_cast<unsigned>(bytes.size()));
+    gzclose(packed);
+    for (const char* name : {"v.gipl", "v.gipl.gz"}) {
+      const Volume volume = read(folder / name);
+      QVERIFY(volume.values() == expected_counting(8, 0.0F));
+      QVERIFY(volume.geometry.spacing_mm == glm::dvec3(1.0));
+    }
+  }
+
+  void a_german_locale_changes_nothing() {
+    const TemporaryFolder folder;
+    const Volume volume = counting_volume<std::int16_t>(awkward_grid(), 0);
+    for (const char* locale : {"C", "de_DE.UTF-8"}) {
+      // Where the locale is not installed this is the C locale once more.
+      std::setlocale(LC_NUMERIC, locale);
+      for (const auto& name : kWritten) {
+        const auto status = write_volume_file(volume, folder / name);
+        const auto back = read_volume_file(folder / name);
+        if (!status || !back || !same_grid(back->geometry, volume.geometry, 1e-4)) {
+          std::setlocale(LC_NUMERIC, "C");
+          QFAIL(name.c_str());
+        }
+      }
+      std::setlocale(LC_NUMERIC, "C");
+      const std::string nrrd = contents(folder / "v.nrrd");
+      QVERIFY(nrrd.find("space origin: (-123.4567") != std::string::npos);
+      const std::string meta = contents(folder / "v.mha");
+      QVERIFY(meta.find("ElementSpacing = 0.731") != std::string::npos);
+    }
+  }
+
+  void a_disk_that_is_full_is_a_write_error_and_leaves_the_target_alone() {
+    const TemporaryFolder folder;
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit before{};
+    QCOMPARE(getrlimit(RLIMIT_FSIZE, &before), 0);
+    // Noise does not compress: every format needs about 50,000 bytes. Limits within and at the end of the
+    // data, and one that stops in the header.
+    Volume noise = counting_volume<std::int16_t>(awkward_grid({29, 29, 29}), 0);
+    unsigned state = 1;
+    for (auto& voxel : std::get<std::vector<std::int16_t>>(noise.voxels)) {
+      state = state * 1664525U + 1013904223U;
+      voxel = static_cast<std::int16_t>(state >> 16);
+    }
+    for (const auto& name : kWritten) {
+      QVERIFY(write_volume_file(noise, folder / name));
+      const std::string kept = contents(folder / name);
+      for (const rlim_t limit : {rlim_t{100}, rlim_t{20000}, rlim_t{kept.size() - 1}}) {
+        rlimit small = before;
+        small.rlim_cur = limit;
+        setrlimit(RLIMIT_FSIZE, &small);
+        const auto status = write_volume_file(noise, folder / name);
+        setrlimit(RLIMIT_FSIZE, &before);
+        QVERIFY2(!status, name.c_str());
+        QCOMPARE(status.error().kind, ErrorKind::write);
+        QVERIFY(status.error().message.find(folder / name) == 0);
+        QVERIFY(contents(folder / name) == kept);
+      }
+    }
+    QCOMPARE(std::distance(std::filesystem::directory_iterator(folder.path()), {}), std::ptrdiff_t{4});
+  }
+
+  void a_path_that_cannot_be_written_is_a_write_error() {
+    const Volume volume = counting_volume<std::int16_t>(awkward_grid(), 0);
+    const auto status = write_volume_file(volume, "/nonexistent/v.nrrd");
+    QVERIFY(!status);
+    QCOMPARE(status.error().kind, ErrorKind::write);
+    const auto kind = write_volume_file(volume, "/tmp/v.mhd");
+    QVERIFY(!kind);
+    QCOMPARE(kind.error().kind, ErrorKind::usage);
+  }
+
+  void an_interrupted_read_says_so() {
+    const TemporaryFolder folder;
+    QVERIFY(write_volume_file(counting_volume<std::int16_t>(awkward_grid(), 0), folder / "v.nii"));
+    std::stop_source source;
+    double last = -1.0;
+    Progress progress{[&](double fraction, std::string_view) { last = fraction; }, source.get_token()};
+    QVERIFY(read_volume_file(folder / "v.nii", progress));
+    QCOMPARE(last, 1.0);
+    source.request_stop();
+    const auto stopped = read_volume_file(folder / "v.nii", progress);
+    QVERIFY(!stopped);
+    QCOMPARE(stopped.error().kind, ErrorKind::cancelled);
+  }
+};
+
+QTEST_APPLESS_MAIN(VolumeFileTest)
+#include "volume_file_test.moc"
