@@ -21,7 +21,8 @@ message(STATUS "Found ITK: ${ITK_DIR} (found version \"${ITK_VERSION}\")")
 # What reading, writing and smoothing volumes needs. (ITK_LIBRARIES holds the level sets' libraries too.)
 add_library(tidemark_itk INTERFACE)
 target_include_directories(tidemark_itk SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
-target_link_libraries(tidemark_itk INTERFACE ITKCommon ITKIOImageBase ITKIONIFTI ITKIONRRD ITKIOMeta ITKIOGIPL)
+target_link_libraries(tidemark_itk INTERFACE
+  ITKCommon ITKIOImageBase ITKIONIFTI ITKIONRRD ITKIOMeta ITKIOGIPL ITKSmoothing)
 find_package(ZLIB REQUIRED)
 
 find_package(TidemarkOpenVDB REQUIRED)
