@@ -206,6 +206,29 @@ void check_pixel_bytes(DcmPixelData& pixels, AttributeReader& in, const SliceHea
   }
 }
 
+// Of a file without pixel data: whether it is an image that has lost them (and belongs to a series, which is
+// then incomplete), or why it is something else.
+Status require_image(DcmFileFormat& loaded, const SliceHeader& header) {
+  OFString sop_class;
+  if (loaded.getDataset()->findAndGetOFString(DCM_SOPClassUID, sop_class).bad()) {
+    loaded.getMetaInfo()->findAndGetOFString(DCM_MediaStorageSOPClassUID, sop_class);
+  }
+  const bool has_rows = loaded.getDataset()->tagExists(DCM_Rows);
+  if (sop_class.empty() && !has_rows) {
+    return fail(ErrorKind::input, "{}: is damaged: {} is missing", header.file.string(),
+                name_of(DCM_SOPClassUID));
+  }
+  const char* known = dcmFindNameOfUID(sop_class.c_str());
+  const std::string what = known != nullptr ? known : sop_class.c_str();
+  if (!has_rows && !dcmIsImageStorageSOPClassUID(sop_class.c_str())) {
+    return fail(ErrorKind::input, "{}: holds no image ({})", header.file.string(), what);
+  }
+  if (!has_rows && header.series_uid.empty()) {
+    return fail(ErrorKind::input, "{}: is damaged: {} without an image", header.file.string(), what);
+  }
+  return {};
+}
+
 bool is_lossy_syntax(E_TransferSyntax syntax) {
   constexpr std::array kLossy{EXS_JPEGProcess1, EXS_JPEGProcess2_4, EXS_JPEGLSLossy, EXS_JPEG2000};
   return std::find(kLossy.begin(), kLossy.end(), syntax) != kLossy.end();
@@ -228,10 +251,7 @@ Result<SliceHeader> slice_header_of(DcmFileFormat& loaded, const fs::path& file)
 
   DcmElement* element = nullptr;
   if (dataset.findAndGetElement(DCM_PixelData, element).bad() || element == nullptr) {
-    if (!dataset.tagExists(DCM_Rows)) {
-      return fail(ErrorKind::input, "{}: holds no image ({})", file.string(),
-                  header.modality.empty() ? "no pixel data" : header.modality);
-    }
+    if (auto image = require_image(loaded, header); !image) return pass_on(image);
     in.report(fmt::format("{} is missing", name_of(DCM_PixelData)));
   }
   check_is_one_slice(in);
@@ -250,8 +270,12 @@ Result<SliceHeader> read_slice_header(const fs::path& file) {
   if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
   DcmFileFormat loaded;
   const OFCondition parsed = loaded.loadFile(file.c_str());
-  // A damaged file that still names its series makes that series incomplete: it must not go unnoticed.
-  if (parsed.bad() && !loaded.getDataset()->tagExists(DCM_SeriesInstanceUID)) {
+  // A damaged file that still names its series makes that series incomplete: it must not go unnoticed. The
+  // element at which the file ends may be cut short.
+  DcmDataset& dataset = *loaded.getDataset();
+  const bool names_its_series = dataset.tagExists(DCM_SeriesInstanceUID) &&
+                                dataset.getElement(dataset.card() - 1)->getTag() != DCM_SeriesInstanceUID;
+  if (parsed.bad() && !names_its_series) {
     return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
   }
   auto header = slice_header_of(loaded, file);
