@@ -1,0 +1,71 @@
+#include "bench/peers/dense_kernel.h"
+
+// Compiled once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "bench/peers/dense_kernel.cpp"
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#include "hwy/foreach_target.h"  // before highway.h
+#include "hwy/highway.h"
+#include "solver/speed/update-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tidemark::HWY_NAMESPACE {
+
+// The formulas are the solver's own; only where the values come from differs.
+HWY_INLINE Stencil<Lanes> load_dense(const float* at, std::int64_t row, std::int64_t slice) {
+  const auto load = [&](std::int64_t shift) HWY_ATTR { return Lanes(hn::LoadU(LanesTag(), at + shift)); };
+  Stencil<Lanes> s;
+  s.c = load(0);
+  s.xm = load(-1);
+  s.xp = load(1);
+  s.ym = load(-row);
+  s.yp = load(row);
+  s.zm = load(-slice);
+  s.zp = load(slice);
+  s.xmym = load(-1 - row);
+  s.xmyp = load(-1 + row);
+  s.xpym = load(1 - row);
+  s.xpyp = load(1 + row);
+  s.xmzm = load(-1 - slice);
+  s.xmzp = load(-1 + slice);
+  s.xpzm = load(1 - slice);
+  s.xpzp = load(1 + slice);
+  s.ymzm = load(-row - slice);
+  s.ymzp = load(-row + slice);
+  s.ypzm = load(row - slice);
+  s.ypzp = load(row + slice);
+  return s;
+}
+
+void step_dense(const bench::DenseStep& step, Index3 begin, Index3 end) {
+  const LanesTag d;
+  const auto lanes = static_cast<std::int64_t>(hn::Lanes(d));
+  const StepConstants<float> constants = *step.constants;
+  for (std::int64_t z = begin.z; z < end.z; ++z) {
+    for (std::int64_t y = begin.y; y < end.y; ++y) {
+      const std::int64_t first = y * step.row + z * step.slice;
+      for (std::int64_t x = 0; x < step.length; x += lanes) {
+        const std::int64_t at = first + x;
+        const Stencil<Lanes> stencil = load_dense(step.phi + at, step.row, step.slice);
+        const Lanes source(hn::LoadU(d, step.source + at));
+        const Lanes phi = updated_phi<false>(differences<false>(stencil, constants), source, constants);
+        hn::StoreU(phi.v, d, step.next + at);
+      }
+    }
+  }
+}
+
+}  // namespace tidemark::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tidemark {
+
+HWY_EXPORT(step_dense);
+
+void bench::step_dense(const DenseStep& step, Index3 begin, Index3 end) {
+  HWY_DYNAMIC_DISPATCH(tidemark::step_dense)(step, begin, end);
+}
+
+}  // namespace tidemark
+#endif  // HWY_ONCE

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "bench/peers/measurements.h"
+
+namespace tidemark::bench {
+namespace {
+
+// Steps that a contestant computes before its peak is read.
+constexpr std::int64_t kSteps = 20;
+
+// A field of /proc/self/status in bytes, or 0.
+std::int64_t process_bytes(std::string_view field) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with(field)) return 1024 * std::stoll(line.substr(field.size() + 1));
+  }
+  return 0;
+}
+
+Result<double> peak_of(const Problem& problem, const Settings& settings, const std::string& contestant) {
+  const std::string command =
+      fmt::format("'{}' --memory-of {} --case {}", settings.program, contestant, problem.name);
+  std::FILE* child = popen(command.c_str(), "r");
+  if (child == nullptr) return fail(ErrorKind::internal, "{}: cannot be run", command);
+  long long bytes = -1;
+  const int fields = std::fscanf(child, "%lld", &bytes);
+  const int status = pclose(child);
+  if (status != 0 || fields != 1) return fail(ErrorKind::internal, "{}: status {}", command, status);
+  return static_cast<double>(bytes);
+}
+
+}  // namespace
+
+Status print_memory_of(const Problem& problem, const std::string& contestant) {
+  for (const ContestantKind& kind : all_contestants()) {
+    if (kind.name != contestant) continue;
+    // Forgets the peak of making the phantom (Linux, proc(5)).
+    std::ofstream("/proc/self/clear_refs") << "5\n";
+    const std::int64_t before = process_bytes("VmRSS:");
+    auto made = kind.make(problem);
+    if (!made) return tl::unexpected<Error>(made.error());
+    if (auto cost = (*made)->advance(kSteps); !cost) return tl::unexpected<Error>(cost.error());
+    const std::int64_t peak = process_bytes("VmHWM:");
+    fmt::print("{}\n", peak - before);
+    return {};
+  }
+  return fail(ErrorKind::usage, "no contestant is called {}", contestant);
+}
+
+Status measure_memory(const Problem& problem, const Settings& settings, Report& report) {
+  constexpr double kMega = 1e6;
+  const auto volume_bytes = static_cast<double>(4 * problem.source->geometry.voxel_count());
+  std::vector<std::vector<Cell>> rows;
+  for (const ContestantKind& kind : all_contestants()) {
+    if (!wanted(settings, kind.name)) continue;
+    const auto peak = peak_of(problem, settings, kind.name);
+    if (!peak) return tl::unexpected<Error>(peak.error());
+    rows.push_back({text(kind.description), number(*peak / kMega, 1), number(*peak / volume_bytes, 2)});
+  }
+  report.table(fmt::format("{}: peak memory beside the source, after {} steps", problem.name, kSteps),
+               {"contestant", "MB", "dense float volumes"}, rows);
+
+  auto ours = tidemark_host(true).make(problem);
+  if (!ours) return tl::unexpected<Error>(ours.error());
+  if (auto cost = (*ours)->advance(kSteps); !cost) return tl::unexpected<Error>(cost.error());
+  const MemoryReport memory = (*ours)->executor()->memory();
+  const Index3 shape = memory.page_shape;
+  const auto resident = static_cast<double>(memory.peak_resident_pages * shape.x * shape.y * shape.z);
+  const auto bytes = static_cast<double>(memory.peak_state_bytes);
+  report.table(fmt::format("{}: the host executor's own account", problem.name), {"what", "value"},
+               {{text("resident voxels at the peak"), number(resident)},
+                {text("state, MB"), number(bytes / kMega, 1)},
+                {text("state, bytes per resident voxel"), number(bytes / resident, 2)},
+                {text("source kept beside the pages, MB"),
+                 number(static_cast<double>(memory.source_bytes) / kMega, 1)},
+                {text("resident, % of the volume"), number(400.0 * resident / volume_bytes, 1)}});
+  report.at_most(problem.name + ": solver state, bytes per resident voxel", bytes / resident, 10, 2);
+  if (problem.name == "cortex") {
+    report.at_most("cortex: solver state in % of one dense float volume", 100.0 * bytes / volume_bytes, 90);
+  }
+  return {};
+}
+
+}  // namespace tidemark::bench
