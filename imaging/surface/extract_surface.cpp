@@ -6,6 +6,7 @@
 #include <limits>
 #include <new>
 
+#include "imaging/surface/fit_vertices.h"
 #include "imaging/surface/surface.h"
 #include "imaging/surface/surface_grid.h"
 
@@ -16,15 +17,14 @@ using Quads = std::vector<openvdb::Vec4I>;
 using Points = std::vector<openvdb::Vec3s>;
 
 // Splits quads along their shorter diagonal. `flipped` turns the winding round.
-void append_quads(Mesh& mesh, const Quads& quads, bool flipped) {
+void append_quads(Mesh& mesh, const Quads& quads, const std::vector<glm::dvec3>& vertices,
+                  const Geometry& geometry, bool flipped) {
   mesh.triangles.reserve(mesh.triangles.size() + 2 * quads.size());
   for (const auto& quad : quads) {
     std::array<std::uint32_t, 4> q{quad[0], quad[1], quad[2], quad[3]};
     if (flipped) std::swap(q[1], q[3]);
-    const auto diagonal = [&](int a, int b) {
-      const glm::vec3 d =
-          mesh.vertices[q[static_cast<std::size_t>(a)]] - mesh.vertices[q[static_cast<std::size_t>(b)]];
-      return glm::dot(d, d);
+    const auto diagonal = [&](std::size_t a, std::size_t b) {
+      return glm::length((vertices[q[a]] - vertices[q[b]]) * geometry.spacing_mm);
     };
     if (diagonal(0, 2) <= diagonal(1, 3)) {
       mesh.triangles.push_back({q[0], q[1], q[2]});
@@ -43,13 +43,15 @@ Mesh polygonise(const Geometry& geometry, const std::vector<float>& phi) {
     const auto grid = surface_grid(geometry, phi);
     openvdb::tools::volumeToMesh(*grid, points, quads, 0.0);
   }
+  std::vector<glm::dvec3> vertices;
+  vertices.reserve(points.size());
+  for (const auto& point : points) vertices.emplace_back(point[0], point[1], point[2]);
   Mesh mesh;
-  mesh.vertices.reserve(points.size());
-  for (const auto& point : points) {
-    mesh.vertices.emplace_back(geometry.to_patient({point[0], point[1], point[2]}));
-  }
   // OpenVDB's quads are clockwise seen from outside; a left-handed grid is a mirror and turns them round.
-  append_quads(mesh, quads, glm::determinant(geometry.direction) > 0.0);
+  append_quads(mesh, quads, vertices, geometry, glm::determinant(geometry.direction) > 0.0);
+  fit_vertices(geometry, phi, mesh.triangles, vertices);
+  mesh.vertices.reserve(vertices.size());
+  for (const auto& vertex : vertices) mesh.vertices.emplace_back(geometry.to_patient(vertex));
   return mesh;
 }
 
