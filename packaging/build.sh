@@ -1,0 +1,32 @@
+# Configuring and building, for run and test. Sourced; the caller has set tidemark_root.
+
+# Compilers that read ITK or OpenVDB take up to 2 GB each, so memory limits how many run at once.
+tidemark_jobs() {
+  local processors available_kb by_memory
+  processors=$(nproc 2>/dev/null || getconf _NPROCESSORS_ONLN)
+  available_kb=$(awk '/^MemAvailable:/ { print $2 }' /proc/meminfo 2>/dev/null || true)
+  by_memory=$(( ${available_kb:-4000000} / 2000000 ))
+  ((by_memory >= 1)) || by_memory=1
+  echo $((processors < by_memory ? processors : by_memory))
+}
+
+# tidemark_configure PRESET: build/PRESET, once; later changes of the build's files configure it anew by
+# themselves.
+tidemark_configure() {
+  local preset=$1
+  if [[ ! -f $tidemark_root/build/$preset/build.ninja ]]; then
+    echo "== Configuring $preset"
+    (cd "$tidemark_root" && cmake --preset "$preset")
+  fi
+}
+
+# tidemark_build PRESET [TARGET...]: all targets when none is named.
+tidemark_build() {
+  local preset=$1
+  shift
+  tidemark_configure "$preset"
+  echo "== Building $preset"
+  local -a targets=()
+  if (($# > 0)); then targets=(--target "$@"); fi
+  NINJA_STATUS='[%f/%t, %es] ' cmake --build "$tidemark_root/build/$preset" -j "$(tidemark_jobs)" "${targets[@]}"
+}

@@ -1,0 +1,56 @@
+# What a machine needs to build and test Tidemark, and how it is installed. Sourced by run and test.
+# What each package is for: docs/5-dependencies.md.
+
+# The names are the same on Debian 12, Debian 13 and Ubuntu 24.04.
+tidemark_packages=(
+  g++ cmake ninja-build ccache pkg-config
+  qt6-base-dev libgl-dev
+  libglm-dev libfmt-dev libspdlog-dev libexpected-dev nlohmann-json3-dev libcli11-dev libhwy-dev
+  libdcmtk-dev libopenjp2-7-dev
+  libinsighttoolkit5-dev libgdcm-dev zlib1g-dev
+  libopenvdb-dev libtbb-dev
+  dicom3tools
+)
+
+# The packages of the list that are not installed, one a line.
+tidemark_missing_packages() {
+  local package
+  for package in "${tidemark_packages[@]}"; do
+    if [[ $(dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null | head -n 1) != installed ]]; then
+      echo "$package"
+    fi
+  done
+}
+
+# Installs what is missing. Where that cannot be done it says what is needed and goes on: the build finds out
+# whether it is there all the same.
+tidemark_install_dependencies() {
+  if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    echo "This system has no apt. Tidemark needs what these Debian packages hold:"
+    echo "  ${tidemark_packages[*]}"
+    echo "Going on in case they are there (docs/5-dependencies.md has versions and purposes)."
+    return 0
+  fi
+
+  local missing
+  mapfile -t missing < <(tidemark_missing_packages)
+  if ((${#missing[@]} == 0)); then
+    return 0
+  fi
+
+  local -a as_root=(env)
+  if ((EUID != 0)); then
+    if ! command -v sudo >/dev/null; then
+      echo "These packages are missing, and without root or sudo they cannot be installed from here:"
+      echo "  apt-get install --no-install-recommends ${missing[*]}"
+      echo "Going on in case what they hold is there."
+      return 0
+    fi
+    as_root=(sudo env)
+  fi
+  as_root+=(DEBIAN_FRONTEND=noninteractive)
+
+  echo "Installing ${#missing[@]} packages: ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" apt-get install -y -q --no-install-recommends "${missing[@]}"
+}
