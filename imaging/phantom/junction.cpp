@@ -113,7 +113,7 @@ Result<Phantom> make_junction(const PhantomOptions& options, ThreadPool& pool, c
   if (!phantom) return phantom;
   phantom->target = 640.0;
   phantom->range = 80.0;
-  phantom->alpha = 0.3;
+  phantom->alpha = 0.6;
   phantom->init_threshold = {560.0, 720.0};
   return phantom;
 }
