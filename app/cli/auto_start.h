@@ -1,0 +1,28 @@
+// A start and parameters for a study that nobody has looked at yet.
+#pragma once
+
+#include <optional>
+
+#include "app/cli/console.h"
+#include "core/volume.h"
+
+namespace tidemark::cli {
+
+// What a person would read off the screen with the mouse.
+struct Suggestion {
+  Index3 voxel{0};         // where to seed
+  double radius_mm = 0.0;  // of the seed
+  double target = 0.0;     // T and epsilon, in the volume's units
+  double range = 0.0;
+  double alpha = 0.6;
+};
+
+// T is the mean of the 5 x 5 x 5 voxels around the seed, epsilon the larger of two standard deviations there
+// and 5 % of the span of values (1st to 99th percentile). Without `seed` the voxel is chosen: of the voxels
+// brighter than Otsu's threshold (IEEE Trans. SMC 9:62, 1979) in the central half of the volume along each
+// axis, the one whose 5 x 5 x 5 neighbourhood varies least, the nearest to the centre among equals. That is
+// some even, bright tissue, not necessarily the wanted one. Fails (ErrorKind::input) when all values are
+// equal.
+Result<Suggestion> suggest_start(const Volume& volume, std::optional<Index3> seed, const Progress& progress);
+
+}  // namespace tidemark::cli

@@ -1,0 +1,211 @@
+// tidemark-cli bench: how fast this machine computes.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+
+#include "app/cli/arguments.h"
+#include "app/cli/program.h"
+#include "app/cli/report.h"
+#include "app/cli/solver_options.h"
+#include "imaging/phantom/phantom.h"
+
+namespace tidemark::cli {
+namespace {
+
+constexpr const char* kSummary = "Measures how fast the solver is here";
+constexpr const char* kDescription =
+    "Measures the solver on a phantom made in memory: steps/s and voxel updates/s (voxels really computed) "
+    "over\n"
+    "three stages of equal length from the seed on (early, middle, late), then the run to convergence and "
+    "the\n"
+    "cost of steps after it. Machines drift: compare figures of one run, take the median of several.";
+
+constexpr const char* kExamples =
+    "  tidemark-cli bench\n"
+    "  tidemark-cli bench --case cortex --threads 2 --json\n"
+    "  tidemark-cli bench --case sphere --size 256 --steps 300            256 x 256 x 256 voxels\n";
+
+constexpr std::int64_t kDefaultSteps = 100;
+constexpr std::int64_t kDefaultSize = 128;
+constexpr std::int64_t kMostSteps = 5000;  // to convergence
+
+struct BenchOptions {
+  std::string kind = "tumour";
+  std::optional<std::int64_t> size;   // of the sphere's volume, in voxels along each axis
+  std::optional<std::int64_t> steps;  // in each stage
+  SolverOptions solver;
+};
+
+// What is measured, and where it starts.
+struct Case {
+  std::shared_ptr<const Volume> volume;
+  Parameters parameters;
+  std::array<double, 4> seed{};  // i, j, k, radius in mm
+};
+
+// A bright ball with a soft edge that fills most of a cube of `size` voxels of 1 mm.
+Case make_ball(std::int64_t size) {
+  auto volume = std::make_shared<Volume>();
+  volume->geometry.size = Index3(size);
+  std::vector<std::int16_t> voxels;
+  voxels.reserve(static_cast<std::size_t>(volume->geometry.voxel_count()));
+  const double middle = 0.5 * static_cast<double>(size - 1);
+  const double radius = 0.35 * static_cast<double>(size);
+  for (std::int64_t k = 0; k < size; ++k) {
+    for (std::int64_t j = 0; j < size; ++j) {
+      for (std::int64_t i = 0; i < size; ++i) {
+        const double distance = glm::length(glm::dvec3(i, j, k) - middle) - radius;
+        voxels.push_back(
+            static_cast<std::int16_t>(std::lround(1000.0 * std::clamp(0.5 - distance, 0.0, 1.0))));
+      }
+    }
+  }
+  volume->voxels = std::move(voxels);
+  Case result;
+  result.volume = std::move(volume);
+  result.parameters.target = 1000.0;
+  result.parameters.range = 500.0;
+  result.parameters.alpha = 0.8;
+  result.seed = {middle, middle, middle, std::max(3.0, 0.5 * radius)};
+  return result;
+}
+
+Result<Case> make_case(const BenchOptions& options, Console& console) {
+  if (options.kind == "sphere") return make_ball(options.size.value_or(kDefaultSize));
+  auto phantom = make_phantom(options.kind, {}, console.progress());
+  if (!phantom) return pass_on(phantom);
+  if (!phantom->seed) return fail(ErrorKind::internal, "the phantom {} has no seed", options.kind);
+  Case result;
+  result.parameters.target = phantom->target;
+  result.parameters.range = phantom->range;
+  result.parameters.alpha = phantom->alpha;
+  result.seed = *phantom->seed;
+  result.volume = std::make_shared<const Volume>(std::move(phantom->volume));
+  return result;
+}
+
+Status check(const BenchOptions& options) {
+  if (options.kind != "tumour" && options.kind != "cortex" && options.kind != "sphere") {
+    return fail(ErrorKind::usage, "--case '{}' is unknown; use tumour, cortex or sphere", options.kind);
+  }
+  if (options.size && options.kind != "sphere") {
+    return fail(ErrorKind::usage, "--size goes with --case sphere: the other cases have a size of their own");
+  }
+  if (options.size && (*options.size < 16 || *options.size > 1024)) {
+    return fail(ErrorKind::usage, "--size {}: must be 16 to 1024 voxels", *options.size);
+  }
+  if (options.steps && (*options.steps < 1 || *options.steps > 1'000'000)) {
+    return fail(ErrorKind::usage, "--steps {}: must be 1 to 1000000", *options.steps);
+  }
+  return check(options.solver);
+}
+
+struct Stage {
+  std::string name;
+  AdvanceReport report;
+  MemoryReport memory;
+
+  [[nodiscard]] double paging_share() const {
+    return report.seconds > 0.0 ? report.paging_seconds / report.seconds : 0.0;
+  }
+};
+
+Json to_json(const Stage& stage) {
+  Json object;
+  object["stage"] = stage.name;
+  object["steps"] = stage.report.steps;
+  object["seconds"] = stage.report.seconds;
+  object["steps_per_second"] = steps_per_second(stage.report);
+  object["voxel_updates_per_second"] = voxel_updates_per_second(stage.report);
+  object["paging_share"] = stage.paging_share();
+  object["resident_pages"] = stage.memory.resident_pages;
+  object["quiet_pages"] = stage.memory.quiet_pages;
+  object["converged"] = stage.report.converged;
+  return object;
+}
+
+Result<std::vector<Stage>> measure_stages(Executor& solver, std::int64_t steps, Console& console) {
+  struct Plan {
+    const char* name;
+    std::int64_t steps;
+    bool until_converged;
+  };
+  std::vector<Stage> stages;
+  for (const Plan& plan :
+       {Plan{"early", steps, false}, Plan{"middle", steps, false}, Plan{"late", steps, false},
+        Plan{"to convergence", kMostSteps, true}, Plan{"converged", steps, false}}) {
+    const auto report = solver.advance(Advance{plan.steps, plan.until_converged, console.progress()});
+    if (!report) return tl::unexpected<Error>(report.error());
+    if (console.interrupted()) return cancelled_error();
+    stages.push_back({plan.name, *report, solver.memory()});
+  }
+  return stages;
+}
+
+void say_stages(Console& console, const std::vector<Stage>& stages) {
+  console.say("{:<15}{:>8}{:>10}{:>12}{:>16}{:>9}{:>8}{:>8}", "stage", "steps", "seconds", "steps/s",
+              "Mvoxel upd./s", "paging", "pages", "quiet");
+  for (const Stage& stage : stages) {
+    console.say("{:<15}{:>8}{:>10.4f}{:>12.0f}{:>16.1f}{:>7.1f} %{:>8}{:>8}", stage.name, stage.report.steps,
+                stage.report.seconds, steps_per_second(stage.report),
+                voxel_updates_per_second(stage.report) / 1e6, 100.0 * stage.paging_share(),
+                stage.memory.resident_pages, stage.memory.quiet_pages);
+  }
+}
+
+Status run(Program& program, const BenchOptions& options) {
+  Console& console = program.console;
+  if (Status good = check(options); !good) return good;
+  const auto benchmark = make_case(options, console);
+  if (!benchmark) return tl::unexpected<Error>(benchmark.error());
+  if (console.interrupted()) return cancelled_error();
+  auto executor = make_executor(options.solver.kind, benchmark->volume, benchmark->parameters,
+                                options.solver.executor_options());
+  if (!executor) return pass_on(executor);
+  Executor& solver = **executor;
+  const auto& [i, j, k, radius_mm] = benchmark->seed;
+  const Sphere seed = sphere_at_voxel(benchmark->volume->geometry, {i, j, k}, radius_mm);
+  if (Status painted = solver.paint(seed, Brush::add); !painted) return painted;
+  const auto stages = measure_stages(solver, options.steps.value_or(kDefaultSteps), console);
+  if (!stages) return tl::unexpected<Error>(stages.error());
+
+  const MemoryReport memory = solver.memory();
+  const double active = 1.0 / std::max(1e-12, steps_per_second((*stages)[2].report));
+  const double converged = 1.0 / std::max(1e-12, steps_per_second(stages->back().report));
+  const Index3 size = benchmark->volume->geometry.size;
+  console.say("{} {} x {} x {}, executor {}", options.kind, size.x, size.y, size.z, solver.name());
+  say_stages(console, *stages);
+  console.say("solver state    {:.2f} bytes per resident voxel at most", bytes_per_resident_voxel(memory));
+  console.say("converged step  {:.2f} microseconds, {:.2f} % of a late one", 1e6 * converged,
+              100.0 * converged / active);
+
+  Json object;
+  object["case"] = options.kind;
+  object["executor"] = solver.name();
+  object.update(grid_json(benchmark->volume->geometry));
+  object["stages"] = Json::array();
+  for (const Stage& stage : *stages) object["stages"].push_back(to_json(stage));
+  object["bytes_per_resident_voxel"] = bytes_per_resident_voxel(memory);
+  object["page_bytes"] = memory.state_bytes;
+  object["peak_page_bytes"] = memory.peak_state_bytes;
+  object["converged_step_seconds"] = converged;
+  console.result(object);
+  return {};
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, Program& program) {
+  auto options = std::make_shared<BenchOptions>();
+  CLI::App& command = add_command(app, program, {"bench", kSummary, kDescription, kExamples},
+                                  [&program, options] { return run(program, *options); });
+  command.add_option("--case", options->kind, "What to segment (default: tumour)")
+      ->type_name("tumour|cortex|sphere");
+  add_count(command, "--size", options->size,
+            "With --case sphere: voxels along each axis, 16 to 1024 (default: 128)");
+  add_count(command, "--steps", options->steps, "Steps in each stage (default: 100)");
+  add_solver_options(command, options->solver);
+}
+
+}  // namespace tidemark::cli

@@ -1,0 +1,128 @@
+// tidemark-cli info: what is found under a path, before any voxel is read.
+#include <memory>
+
+#include "app/cli/program.h"
+#include "imaging/study.h"
+
+namespace tidemark::cli {
+namespace {
+
+constexpr const char* kSummary = "Lists the series found under a path";
+constexpr const char* kDescription =
+    "Lists the series under PATH: size in voxels (i,j,k), spacing in mm, orientation and origin in patient\n"
+    "coordinates (LPS, mm), transfer syntax, and whether and why not they can be loaded.";
+
+constexpr const char* kExamples =
+    "  tidemark-cli info study/                 every DICOM series below a folder\n"
+    "  tidemark-cli info brain.nii.gz           one volume file\n"
+    "  tidemark-cli info study/ --json          the same for programs\n";
+
+Json triple(const glm::dvec3& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+Json to_json(const Series& series) {
+  const Geometry& grid = series.geometry;
+  const bool known = grid.voxel_count() > 0;
+  Json direction = Json::array();  // the unit vector of the i axis, then of j, then of k
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int part = 0; part < 3; ++part) direction.push_back(grid.direction[axis][part]);
+  }
+  Json object;
+  object["uid"] = series.uid;
+  object["modality"] = series.modality;
+  object["description"] = series.description;
+  object["files"] = series.files.size();
+  object["size"] = known ? Json::array({grid.size.x, grid.size.y, grid.size.z}) : Json();
+  object["spacing_mm"] = known ? triple(grid.spacing_mm) : Json();
+  object["direction"] = known ? direction : Json();
+  object["origin_mm"] = known ? triple(grid.origin_mm) : Json();
+  object["scalar"] = series.scalar;
+  object["transfer_syntaxes"] = series.transfer_syntaxes;
+  object["loadable"] = series.loadable;
+  object["reason"] = series.reason;
+  object["changes"] = series.changes;
+  object["warnings"] = series.warnings;
+  return object;
+}
+
+Json to_json(const Catalogue& catalogue) {
+  Json object;
+  object["series"] = Json::array();
+  object["skipped"] = Json::array();
+  for (const Series& series : catalogue.series) object["series"].push_back(to_json(series));
+  for (const SkippedFile& skipped : catalogue.skipped) {
+    object["skipped"].push_back({{"file", skipped.file.string()}, {"reason", skipped.reason}});
+  }
+  return object;
+}
+
+// The letter of the patient's side that an axis points to most: L R, P A, H F.
+std::string axis_letters(const glm::dmat3& direction) {
+  constexpr const char* kTowards[3][2] = {{"R", "L"}, {"A", "P"}, {"F", "H"}};
+  std::string letters;
+  for (int axis = 0; axis < 3; ++axis) {
+    int strongest = 0;
+    for (int part = 1; part < 3; ++part) {
+      if (std::abs(direction[axis][part]) > std::abs(direction[axis][strongest])) strongest = part;
+    }
+    letters += kTowards[strongest][direction[axis][strongest] > 0 ? 1 : 0];
+  }
+  return letters;
+}
+
+void say_geometry(Console& console, const Geometry& grid) {
+  console.say("  size        {} x {} x {} voxels", grid.size.x, grid.size.y, grid.size.z);
+  console.say("  spacing     {:.6g} x {:.6g} x {:.6g} mm", grid.spacing_mm.x, grid.spacing_mm.y,
+              grid.spacing_mm.z);
+  console.say("  axes        {} (to which side of the patient i, j and k run)", axis_letters(grid.direction));
+  console.say("  origin      {:.6g}, {:.6g}, {:.6g} mm (LPS)", grid.origin_mm.x, grid.origin_mm.y,
+              grid.origin_mm.z);
+}
+
+void say_series(Console& console, const Series& series) {
+  console.say("{}{}{}", series.modality, series.modality.empty() ? "" : "  ", series.description);
+  console.say("  uid         {}", series.uid);
+  console.say("  files       {}", series.files.size());
+  if (series.geometry.voxel_count() > 0) say_geometry(console, series.geometry);
+  if (!series.scalar.empty()) console.say("  values      {}", series.scalar);
+  for (const std::string& syntax : series.transfer_syntaxes) console.say("  syntax      {}", syntax);
+  console.say("  loadable    {}", series.loadable ? "yes" : "no: " + series.reason);
+  for (const std::string& change : series.changes) console.say("  changed     {}", change);
+  for (const std::string& warning : series.warnings) console.say("  warning     {}", warning);
+}
+
+void say_catalogue(Console& console, const Catalogue& catalogue) {
+  for (const Series& series : catalogue.series) {
+    say_series(console, series);
+    console.say("");
+  }
+  for (const SkippedFile& skipped : catalogue.skipped) {
+    console.say("skipped {}: {}", skipped.file.string(), skipped.reason);
+  }
+  console.say("{} series, {} files skipped", catalogue.series.size(), catalogue.skipped.size());
+}
+
+Status run(Program& program, const std::string& path) {
+  Console& console = program.console;
+  auto catalogue = find_series(path, console.progress());
+  if (!catalogue) return pass_on(catalogue);
+  if (console.interrupted()) return cancelled_error();
+  if (console.json()) {
+    console.result(to_json(*catalogue));
+  } else {
+    say_catalogue(console, *catalogue);
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Program& program) {
+  auto path = std::make_shared<std::string>();
+  CLI::App& command = add_command(app, program, {"info", kSummary, kDescription, kExamples},
+                                  [&program, path] { return run(program, *path); });
+  command.add_option("PATH", *path, "A DICOM folder or file, or a volume file")->required()->type_name("");
+}
+
+}  // namespace tidemark::cli

@@ -1,0 +1,115 @@
+#include "app/cli/outputs.h"
+
+#include <algorithm>
+#include <cctype>
+#include <system_error>
+
+#include "imaging/files/volume_file.h"
+#include "imaging/surface/surface.h"
+
+namespace tidemark::cli {
+namespace {
+
+std::string lower_suffix(const std::filesystem::path& file) {
+  std::string suffix = file.extension().string();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return suffix;
+}
+
+bool has_form(const std::filesystem::path& file, FileForm form) {
+  return form == FileForm::mesh ? is_writable_mesh_file(file) : is_writable_volume_file(file);
+}
+
+std::string suffixes(const std::vector<FileForm>& forms) {
+  std::string text;
+  for (const FileForm form : forms) {
+    text += text.empty() ? "" : " ";
+    text += form == FileForm::mesh ? ".stl .ply .obj" : ".nii .nii.gz .nrrd .mha";
+  }
+  return text;
+}
+
+std::filesystem::path whole_path(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::weakly_canonical(file, ignored);
+}
+
+// Errors name the file that the user asked for, not the temporary one.
+void rename_in_message(std::string& message, const std::string& from, const std::string& to) {
+  for (std::size_t at = message.find(from); at != std::string::npos;
+       at = message.find(from, at + to.size())) {
+    message.replace(at, from.size(), to);
+  }
+}
+
+}  // namespace
+
+FileForm form_of(const std::filesystem::path& file) {
+  return is_writable_mesh_file(file) ? FileForm::mesh : FileForm::volume;
+}
+
+Status Outputs::announce_file(const std::string& option, const std::filesystem::path& file) {
+  const std::filesystem::path whole = whole_path(file);
+  if (std::find(files_.begin(), files_.end(), whole) != files_.end()) {
+    return fail(ErrorKind::usage, "{} {}: this file is asked for twice", option, file.string());
+  }
+  // Tried out and removed again at once: a run that is killed leaves nothing behind.
+  auto trial = AtomicFile::create(file);
+  if (!trial) return pass_on(trial);
+  files_.push_back(whole);
+  return {};
+}
+
+Status Outputs::announce(const std::string& option, const std::filesystem::path& file,
+                         const std::vector<FileForm>& forms) {
+  const std::string suffix = lower_suffix(file);
+  if (suffix == ".dcm" || suffix == ".json") {
+    return fail(ErrorKind::usage, "{} {}: {} files are not built in this version", option, file.string(),
+                suffix);
+  }
+  if (std::none_of(forms.begin(), forms.end(), [&](FileForm form) { return has_form(file, form); })) {
+    return fail(ErrorKind::usage, "{} {}: the name must end in one of {}", option, file.string(),
+                suffixes(forms));
+  }
+  return announce_file(option, file);
+}
+
+Status Outputs::announce_json(const std::string& option, const std::filesystem::path& file) {
+  if (lower_suffix(file) != ".json") {
+    return fail(ErrorKind::usage, "{} {}: the name must end in .json", option, file.string());
+  }
+  return announce_file(option, file);
+}
+
+Status Outputs::spare(const std::filesystem::path& input) const {
+  const std::filesystem::path whole = whole_path(input);
+  if (std::find(files_.begin(), files_.end(), whole) == files_.end()) return {};
+  return fail(ErrorKind::usage, "{}: is read and written at once; choose another name for the result",
+              input.string());
+}
+
+Status Outputs::stage(const std::filesystem::path& file,
+                      const std::function<Status(const std::filesystem::path&)>& write) {
+  auto staged = AtomicFile::create(file);
+  if (!staged) return pass_on(staged);
+  Status written = write(staged->temporary_path());
+  if (!written) {
+    rename_in_message(written.error().message, staged->temporary_path().string(), file.string());
+    rename_in_message(written.error().message, staged->temporary_path().filename().string(),
+                      file.filename().string());
+    return written;
+  }
+  staged_.push_back(std::move(*staged));
+  return {};
+}
+
+Status Outputs::commit() {
+  for (AtomicFile& staged : staged_) {
+    if (Status done = staged.commit(); !done) return done;
+  }
+  staged_.clear();
+  return {};
+}
+
+}  // namespace tidemark::cli

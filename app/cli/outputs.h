@@ -1,0 +1,46 @@
+// The files that a command writes: checked before the long work, and written all or none.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/atomic_file.h"
+#include "core/result.h"
+
+namespace tidemark::cli {
+
+// What a file holds, by its suffix.
+enum class FileForm { volume, mesh };
+
+class Outputs {
+ public:
+  // Announces a file. `option` is for messages; `forms` says which suffixes may be asked for. Fails with
+  // ErrorKind::usage on an unknown suffix, one that this version does not write, or a file named twice, and
+  // with ErrorKind::write when the folder is missing or cannot be written to.
+  Status announce(const std::string& option, const std::filesystem::path& file,
+                  const std::vector<FileForm>& forms);
+  Status announce_json(const std::string& option, const std::filesystem::path& file);
+
+  // Fails (ErrorKind::usage) when an announced file is this input: inputs are never written to.
+  [[nodiscard]] Status spare(const std::filesystem::path& input) const;
+
+  // Writes an announced file under a temporary name beside its target; `write` gets that name.
+  Status stage(const std::filesystem::path& file,
+               const std::function<Status(const std::filesystem::path&)>& write);
+
+  // Gives all staged files their names. Without it they are removed again.
+  Status commit();
+
+ private:
+  Status announce_file(const std::string& option, const std::filesystem::path& file);
+
+  std::vector<std::filesystem::path> files_;
+  std::vector<AtomicFile> staged_;
+};
+
+// FileForm::mesh for .stl .ply .obj, else FileForm::volume; for files that were announced.
+[[nodiscard]] FileForm form_of(const std::filesystem::path& file);
+
+}  // namespace tidemark::cli

@@ -1,0 +1,152 @@
+#include "app/cli/program.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "app/cli/interrupt.h"
+
+namespace tidemark::cli {
+namespace {
+
+// Words of the contract that a later version brings; asking for them is answered clearly.
+constexpr std::array<std::string_view, 2> kLaterCommands{"render", "replay"};
+
+constexpr const char* kDescription =
+    "tidemark-cli segments medical volumes with a level set: a surface that grows from a seed while the\n"
+    "brightness around it attracts it and its own curvature smooths it.";
+
+constexpr const char* kFooter = R"(
+Units: I,J,K are voxel indices, 0-based, along columns, rows and slices; radii are in mm; X,Y,Z are patient
+coordinates in mm (LPS: x to the patient's left, y to posterior, z to the head).
+INPUT is a DICOM folder or file, or a .nii .nii.gz .nrrd .nhdr .mha .mhd .gipl .gipl.gz file.
+
+Examples:
+  tidemark-cli phantom head --out head
+  tidemark-cli info head/series
+  tidemark-cli segment head/series --target 800 --range 120 --alpha 0.6 --seed 90,110,80,5 --out mask.nii.gz
+  tidemark-cli COMMAND --help
+
+Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 unreadable or inconsistent input, 4 missing capability
+or memory budget, 5 a write failed, 130 interrupted.
+
+Research use only. Not for diagnostic use.
+)";
+
+// The list of commands shows summaries alone; a command's own help adds its description.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_description(const CLI::App* app) const override {
+    const CommandHelp* help = find(app->get_name());
+    return Formatter::make_description(app) +
+           (help != nullptr ? help->description + std::string("\n\n") : "");
+  }
+
+  void add(const CommandHelp& help) { commands_.push_back(help); }
+
+ private:
+  const CommandHelp* find(const std::string& name) const {
+    const auto found = std::find_if(commands_.begin(), commands_.end(),
+                                    [&](const CommandHelp& help) { return help.name == name; });
+    return found == commands_.end() ? nullptr : &*found;
+  }
+
+  std::vector<CommandHelp> commands_;
+};
+
+void add_all(CLI::App& app, Program& program) {
+  add_info(app, program);
+  add_segment(app, program);
+  add_distance(app, program);
+  add_convert(app, program);
+  add_phantom(app, program);
+  add_bench(app, program);
+}
+
+// A first word that is no command gets a better answer than the parser's.
+Status check_command_word(const CLI::App& app, int argc, char** argv) {
+  std::string known;
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  for (const CLI::App* command : commands) known += (known.empty() ? "" : ", ") + command->get_name();
+  if (argc < 2) return fail(ErrorKind::usage, "a command is needed: {} (see tidemark-cli --help)", known);
+  const std::string_view word = argv[1];
+  if (word.starts_with('-')) return {};
+  if (std::find(kLaterCommands.begin(), kLaterCommands.end(), word) != kLaterCommands.end()) {
+    return fail(ErrorKind::usage, "{}: not built in this version", word);
+  }
+  const bool found = std::any_of(commands.begin(), commands.end(),
+                                 [&](const CLI::App* command) { return command->get_name() == word; });
+  if (!found) return fail(ErrorKind::usage, "unknown command '{}': the commands are {}", word, known);
+  return {};
+}
+
+// Help and version end the program well, everything else the parser throws is wrong usage.
+int answer_parser(const CLI::App& app, Program& program, const CLI::ParseError& error) {
+  if (error.get_exit_code() == 0) {
+    program.console.print(error.get_name() == "CallForVersion" ? std::string(error.what()) + "\n"
+                                                               : app.help());
+    return program.console.finish({});
+  }
+  std::string message = error.what();
+  const auto chosen = app.get_subcommands();
+  if (!chosen.empty()) message += " (see tidemark-cli " + chosen.front()->get_name() + " --help)";
+  return program.console.finish(fail(ErrorKind::usage, "{}", message));
+}
+
+int run_unguarded(int argc, char** argv, Program& program) {
+  CLI::App app(kDescription, "tidemark-cli");
+  app.footer(kFooter);
+  app.set_version_flag("--version", "tidemark-cli " TIDEMARK_VERSION);
+  app.require_subcommand(1);
+  auto formatter = std::make_shared<HelpFormatter>();
+  formatter->column_width(32);
+  app.formatter(formatter);
+  add_all(app, program);
+  if (const Status known = check_command_word(app, argc, argv); !known) return program.console.finish(known);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return answer_parser(app, program, error);
+  }
+  return program.console.finish(program.chosen());
+}
+
+}  // namespace
+
+CLI::App& add_command(CLI::App& app, Program& program, const CommandHelp& help, std::function<Status()> run) {
+  CLI::App& command = *app.add_subcommand(help.name, help.summary);
+  if (const auto formatter = std::dynamic_pointer_cast<HelpFormatter>(app.get_formatter()))
+    formatter->add(help);
+  command.footer(std::string("\nExamples:\n") + help.examples);
+  command.add_flag_callback(
+      "--json", [&program] { program.console.set_json(true); },
+      "Machine-readable JSON on standard output; words for people go to standard error");
+  command.add_flag_callback(
+      "--verbose", [&program] { program.console.set_verbose(true); },
+      "Say on standard error what is being done");
+  command.callback([&program, run = std::move(run)] { program.chosen = run; });
+  return command;
+}
+
+int run_program(int argc, char** argv) {
+  Interrupt interrupt;  // before any thread: they inherit the signal mask
+  try {
+    Program program{Console(interrupt.stop_token()), {}};
+    try {
+      return run_unguarded(argc, argv, program);
+    } catch (const std::bad_alloc&) {
+      return program.console.finish(fail(ErrorKind::capability, "out of memory"));
+    } catch (const std::exception& error) {
+      return program.console.finish(fail(ErrorKind::internal, "{}", error.what()));
+    }
+  } catch (...) {
+    return exit_code(ErrorKind::internal);
+  }
+}
+
+}  // namespace tidemark::cli

@@ -1,0 +1,108 @@
+#include "app/cli/report.h"
+
+#include <algorithm>
+
+namespace tidemark::cli {
+namespace {
+
+constexpr double kMebi = 1024.0 * 1024.0;
+
+double per_second(std::int64_t count, double seconds) {
+  return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0;
+}
+
+Json parameters_json(const RunFigures& figures) {
+  const Parameters& parameters = figures.parameters;
+  Json object;
+  object["target"] = parameters.target;
+  object["range"] = parameters.range;
+  object["alpha"] = parameters.alpha;
+  object["alpha_paper"] = paper_alpha(parameters);
+  object["band"] = figures.band;
+  object["rescale"] = parameters.rescale.value_or(0.75 / figures.band);
+  object["target_gradient"] = parameters.target_gradient;
+  object["scheme"] = parameters.scheme == Scheme::split ? "split" : "paper";
+  object["data"] = parameters.data_form == DataForm::clamped ? "clamped" : "raw";
+  object["data_term"] = parameters.data_term;
+  object["curvature_term"] = parameters.curvature_term;
+  object["rescaling_term"] = parameters.rescaling_term;
+  object["smooth_mm"] = figures.smooth_mm ? Json(*figures.smooth_mm) : Json();
+  return object;
+}
+
+}  // namespace
+
+double steps_per_second(const AdvanceReport& report) {
+  return per_second(report.steps, report.seconds);
+}
+
+double voxel_updates_per_second(const AdvanceReport& report) {
+  return per_second(report.voxel_updates, report.seconds);
+}
+
+double bytes_per_resident_voxel(const MemoryReport& memory) {
+  const std::int64_t voxels =
+      memory.peak_resident_pages * memory.page_shape.x * memory.page_shape.y * memory.page_shape.z;
+  return voxels > 0 ? static_cast<double>(memory.peak_state_bytes) / static_cast<double>(voxels) : 0.0;
+}
+
+Json grid_json(const Geometry& geometry) {
+  Json object;
+  object["size"] = {geometry.size.x, geometry.size.y, geometry.size.z};
+  object["spacing_mm"] = {geometry.spacing_mm.x, geometry.spacing_mm.y, geometry.spacing_mm.z};
+  return object;
+}
+
+Json to_json(const RunFigures& figures) {
+  const AdvanceReport& advance = figures.advance;
+  const MemoryReport& memory = figures.memory;
+  Json object;
+  object["executor"] = figures.executor;
+  object["threads"] = figures.threads;
+  object["steps"] = advance.steps;
+  object["seconds"] = advance.seconds;
+  object["steps_per_second"] = steps_per_second(advance);
+  object["voxel_updates"] = advance.voxel_updates;
+  object["voxel_updates_per_second"] = voxel_updates_per_second(advance);
+  object["paging_seconds"] = advance.paging_seconds;
+  object["converged"] = advance.converged;
+  object["surface_speed"] = advance.surface_speed;
+  object["time_step"] = figures.time_step;
+  object["volume_ml"] = figures.surface.volume_ml;
+  object["surface_mm2"] = figures.surface.surface_mm2;
+  object["voxels_inside"] = figures.surface.voxels_inside;
+  if (figures.dice) object["dice"] = *figures.dice;
+  object["resident_pages"] = memory.resident_pages;
+  object["peak_resident_pages"] = memory.peak_resident_pages;
+  object["quiet_pages"] = memory.quiet_pages;
+  object["page_shape"] = {memory.page_shape.x, memory.page_shape.y, memory.page_shape.z};
+  object["page_bytes"] = memory.state_bytes;
+  object["peak_page_bytes"] = memory.peak_state_bytes;
+  object["source_bytes"] = memory.source_bytes;
+  object["bytes_per_resident_voxel"] = bytes_per_resident_voxel(memory);
+  object.update(grid_json(figures.geometry));
+  object["modality"] = figures.modality;
+  object["description"] = figures.description;
+  object["series_uid"] = figures.series_uid.empty() ? Json() : Json(figures.series_uid);
+  object["changes"] = figures.changes;
+  object["start"] = figures.start;
+  object["parameters"] = parameters_json(figures);
+  return object;
+}
+
+void say(Console& console, const RunFigures& figures) {
+  const AdvanceReport& advance = figures.advance;
+  console.say("Steps      {}{}", advance.steps,
+              advance.converged ? ", converged: the surface has stopped moving" : ", not converged");
+  console.say(
+      "Time       {:.3f} s in the solver ({}, {} threads): {:.0f} steps/s, {:.0f} million voxel updates/s",
+      advance.seconds, figures.executor, figures.threads, steps_per_second(advance),
+      voxel_updates_per_second(advance) / 1e6);
+  console.say("Volume     {:.3f} ml, {} voxels", figures.surface.volume_ml, figures.surface.voxels_inside);
+  console.say("Surface    {:.1f} mm^2", figures.surface.surface_mm2);
+  console.say("Pages      {} (at most {}), {:.1f} MB of solver state", figures.memory.resident_pages,
+              figures.memory.peak_resident_pages, static_cast<double>(figures.memory.state_bytes) / kMebi);
+  if (figures.dice) console.say("Dice       {:.4f} against the truth", *figures.dice);
+}
+
+}  // namespace tidemark::cli

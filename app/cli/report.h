@@ -1,0 +1,48 @@
+// The figures of a run, for people and for programs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/console.h"
+#include "core/volume.h"
+#include "solver/executor.h"
+#include "solver/statistics.h"
+
+namespace tidemark::cli {
+
+// What a run of the solver leaves to be told.
+struct RunFigures {
+  std::string executor;
+  int threads = 1;
+  Geometry geometry;
+  std::string modality;
+  std::string description;
+  std::string series_uid;            // empty when it was not asked for by UID
+  std::vector<std::string> changes;  // what loading found and changed
+  std::string start;
+  Parameters parameters;
+  std::optional<double> smooth_mm;
+  double band = 0.0;
+  double time_step = 0.0;
+  AdvanceReport advance;
+  MemoryReport memory;
+  SurfaceStatistics surface;
+  std::optional<double> dice;
+};
+
+[[nodiscard]] double steps_per_second(const AdvanceReport& report);
+[[nodiscard]] double voxel_updates_per_second(const AdvanceReport& report);
+
+// Bytes of solver state, at their most, by voxel of the pages that were resident then.
+[[nodiscard]] double bytes_per_resident_voxel(const MemoryReport& memory);
+
+// The object of --stats; its keys are a contract (they may grow in number).
+[[nodiscard]] Json to_json(const RunFigures& figures);
+[[nodiscard]] Json grid_json(const Geometry& geometry);  // size, spacing_mm
+
+// The same in a few lines.
+void say(Console& console, const RunFigures& figures);
+
+}  // namespace tidemark::cli

@@ -1,0 +1,189 @@
+#include "app/cli/segment_options.h"
+
+#include <map>
+
+namespace tidemark::cli {
+namespace {
+
+constexpr std::int64_t kDefaultMostSteps = 5000;
+constexpr std::int64_t kMostSteps = 1'000'000'000;
+
+// An option of two words.
+template <class Value>
+void add_choice(CLI::App& app, const std::string& name, Value& value,
+                const std::map<std::string, Value>& words, const std::string& description) {
+  std::string type;
+  for (const auto& [word, meaning] : words) type += (type.empty() ? "" : "|") + word;
+  const auto store = [name, type, words, &value](const std::string& word) {
+    const auto found = words.find(word);
+    if (found == words.end()) throw CLI::ValidationError(name, "'" + word + "' is not one of " + type);
+    value = found->second;
+  };
+  app.add_option_function<std::string>(name, store, description)->type_name(type);
+}
+
+// Words of the contract that a later version brings: absent from the help, and refused clearly.
+void add_later_option(CLI::App& app, const std::string& name) {
+  app.add_option_function<std::string>(
+         name, [name](const std::string&) { throw CLI::ValidationError(name, "not built in this version"); })
+      ->group("");
+}
+
+void add_equation_options(CLI::App& app, SegmentOptions& options) {
+  const char* const kGroup = "Equation";
+  const auto number = [&](const char* name, std::optional<double>& value, const char* description) {
+    add_number(app, name, value, description)->group(kGroup);
+  };
+  number("--target", options.target,
+         "T: the brightness that attracts the surface, in the volume's units (HU for CT)");
+  number("--range", options.range,
+         "epsilon: the surface grows where brightness is within T -+ epsilon, in the same units; > 0");
+  number("--alpha", options.alpha, "0 (smoothing alone) to 1 (brightness alone)");
+  number("--smooth", options.smooth_mm, "Smooth the volume first: the Gaussian's standard deviation in mm");
+  number("--rescale", options.rescale, "w: weight of the term that keeps phi a distance (default: 0.75 / W)");
+  number("--band", options.band,
+         "W: half-width of the computed band in smallest voxel spacings, >= 2\n(default: the larger of 2.5 "
+         "and twice the "
+         "largest spacing by the smallest)");
+  add_choice<Scheme>(app, "--scheme", options.scheme, {{"split", Scheme::split}, {"paper", Scheme::paper}},
+                     "split (default): each speed term has its own gradient; paper: one for their sum");
+  add_choice<DataForm>(
+      app, "--data", options.data_form, {{"clamped", DataForm::clamped}, {"raw", DataForm::raw}},
+      "clamped (default): the data term is max(-1, 1 - |I-T|/epsilon); raw: epsilon - |I-T|");
+  app.add_flag("--no-data", options.no_data, "Without the data term");
+  app.add_flag("--no-curvature", options.no_curvature, "Without the curvature term");
+  app.add_flag("--no-rescaling", options.no_rescaling, "Without the rescaling term");
+}
+
+void add_run_options(CLI::App& app, SegmentOptions& options) {
+  add_count(app, "--steps", options.steps, "Compute exactly N steps (0: just the start)");
+  app.add_flag("--converge", options.converge, "Compute until the surface has stopped moving (default)");
+  add_count(app, "--max-steps", options.max_steps,
+            "With --converge: stop after N steps at the latest (default: 5000)");
+  add_solver_options(app, options.solver);
+}
+
+void add_result_options(CLI::App& app, SegmentOptions& options) {
+  const char* const kGroup = "Results";
+  app.add_option("--out", options.out,
+                 ".nii .nii.gz .nrrd .mha: the mask (1 inside);\n.stl .ply .obj: the surface in patient mm "
+                 "(LPS); may be "
+                 "repeated")
+      ->allow_extra_args(false)
+      ->type_name("FILE")
+      ->group(kGroup);
+  app.add_option("--out-phi", options.out_phi,
+                 "The level set itself, to go on from with --init-phi (.nii .nii.gz .nrrd .mha, float):\n> 0 "
+                 "inside, in units "
+                 "of the smallest voxel spacing")
+      ->type_name("FILE")
+      ->group(kGroup);
+  app.add_option("--stats", options.stats, "Figures of the run as JSON (ml, mm^2, voxels, steps/s, bytes)")
+      ->type_name("FILE.json")
+      ->group(kGroup);
+  app.add_option("--truth", options.truth, "A mask to compare with: the Dice overlap goes into the figures")
+      ->type_name("MASK")
+      ->group(kGroup);
+  add_count(app, "--truth-label", options.truth_label,
+            "Compare with the voxels of --truth that hold N (default: all that are not 0)")
+      ->group(kGroup);
+}
+
+Status check_present(const SegmentOptions& options) {
+  if (options.auto_start) return {};
+  for (const auto& [name, value] :
+       {std::pair{"--target", options.target}, std::pair{"--range", options.range},
+        std::pair{"--alpha", options.alpha}}) {
+    if (!value) return fail(ErrorKind::usage, "{} is needed (or --auto-start)", name);
+  }
+  if (!options.start.given()) {
+    return fail(ErrorKind::usage,
+                "a start is needed: --seed, --seed-mm, --init, --init-threshold, --init-flood or --init-phi "
+                "(or --auto-start)");
+  }
+  return {};
+}
+
+Status check_numbers(const SegmentOptions& options) {
+  if (options.smooth_mm && *options.smooth_mm <= 0.0) {
+    return fail(ErrorKind::usage, "--smooth {}: must be greater than 0 mm", *options.smooth_mm);
+  }
+  if (options.steps && (options.converge || options.max_steps)) {
+    return fail(ErrorKind::usage, "--steps excludes --converge and --max-steps");
+  }
+  if (options.step_limit() > kMostSteps) return fail(ErrorKind::usage, "more than {} steps", kMostSteps);
+  if (options.max_steps && *options.max_steps < 1)
+    return fail(ErrorKind::usage, "--max-steps: must be at least 1");
+  if (options.truth_label && !options.truth) return fail(ErrorKind::usage, "--truth-label needs --truth");
+  // What --auto-start fills in is within the limits; the rest is checked now.
+  SegmentOptions filled = options;
+  if (options.auto_start) {
+    filled.target = options.target.value_or(0.0);
+    filled.range = options.range.value_or(1.0);
+    filled.alpha = options.alpha.value_or(0.5);
+  }
+  return check(filled.parameters());
+}
+
+}  // namespace
+
+std::int64_t SegmentOptions::step_limit() const {
+  return steps.value_or(max_steps.value_or(kDefaultMostSteps));
+}
+
+Parameters SegmentOptions::parameters() const {
+  Parameters parameters;
+  parameters.target = *target;
+  parameters.range = *range;
+  parameters.alpha = *alpha;
+  parameters.band = band;
+  parameters.rescale = rescale;
+  parameters.scheme = scheme;
+  parameters.data_form = data_form;
+  parameters.data_term = !no_data;
+  parameters.curvature_term = !no_curvature;
+  parameters.rescaling_term = !no_rescaling;
+  return parameters;
+}
+
+void add_segment_options(CLI::App& app, SegmentOptions& options) {
+  app.add_option("INPUT", options.input, "A DICOM folder or file, or a volume file")
+      ->required()
+      ->type_name("");
+  app.add_option("--series", options.series, "The series to load when INPUT holds several (see info)")
+      ->type_name("UID");
+  app.add_flag("--auto-start", options.auto_start,
+               "Choose what is not given of seed, target, range and alpha from the volume itself:\nan even, "
+               "bright region "
+               "near the middle; says what it chose");
+  add_equation_options(app, options);
+  add_start_options(app, options.start);
+  add_run_options(app, options);
+  add_result_options(app, options);
+  add_later_option(app, "--picture");
+  add_later_option(app, "--recipe");
+}
+
+Status check(const SegmentOptions& options, Outputs& outputs) {
+  if (Status good = check_present(options); !good) return good;
+  if (Status good = check_numbers(options); !good) return good;
+  if (Status good = check(options.start); !good) return good;
+  if (Status good = check(options.solver); !good) return good;
+  for (const std::string& file : options.out) {
+    if (Status good = outputs.announce("--out", file, {FileForm::volume, FileForm::mesh}); !good) return good;
+  }
+  if (!options.out_phi.empty()) {
+    if (Status good = outputs.announce("--out-phi", options.out_phi, {FileForm::volume}); !good) return good;
+  }
+  if (!options.stats.empty()) {
+    if (Status good = outputs.announce_json("--stats", options.stats); !good) return good;
+  }
+  for (const auto& input :
+       {std::optional(options.input), options.start.mask, options.start.phi, options.truth}) {
+    if (!input) continue;
+    if (Status good = outputs.spare(*input); !good) return good;
+  }
+  return {};
+}
+
+}  // namespace tidemark::cli

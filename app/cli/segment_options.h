@@ -1,0 +1,47 @@
+// What `tidemark-cli segment` can be asked for.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/outputs.h"
+#include "app/cli/solver_options.h"
+#include "app/cli/start.h"
+#include "solver/parameters.h"
+
+namespace tidemark::cli {
+
+struct SegmentOptions {
+  std::string input;
+  std::string series;
+  std::optional<double> target, range, alpha;  // all needed, unless auto_start
+  std::optional<double> smooth_mm;
+  std::optional<double> rescale, band;
+  Scheme scheme = Scheme::split;
+  DataForm data_form = DataForm::clamped;
+  bool no_data = false, no_curvature = false, no_rescaling = false;
+  StartOptions start;
+  bool auto_start = false;
+  std::optional<std::int64_t> steps, max_steps;
+  bool converge = false;
+  SolverOptions solver;
+  std::optional<std::string> truth;
+  std::optional<std::int64_t> truth_label;
+  std::vector<std::string> out;
+  std::string out_phi, stats;
+
+  [[nodiscard]] bool until_converged() const { return !steps; }
+  [[nodiscard]] std::int64_t step_limit() const;
+  // With target, range and alpha filled in.
+  [[nodiscard]] Parameters parameters() const;
+};
+
+void add_segment_options(CLI::App& app, SegmentOptions& options);
+
+// Everything that can be checked before a file is read; announces the results to `outputs`.
+Status check(const SegmentOptions& options, Outputs& outputs);
+
+}  // namespace tidemark::cli

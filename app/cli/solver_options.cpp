@@ -1,0 +1,55 @@
+#include "app/cli/solver_options.h"
+
+#include <string>
+
+namespace tidemark::cli {
+namespace {
+
+constexpr std::int64_t kMebibyte = std::int64_t{1} << 20;
+constexpr std::int64_t kMostThreads = 1024;
+constexpr std::int64_t kLargestBudget = std::int64_t{1} << 30;  // MB, so that bytes fit 64 bits
+
+ExecutorKind executor_kind(const std::string& name) {
+  if (name == "auto") return ExecutorKind::automatic;
+  if (name == "host") return ExecutorKind::host;
+  if (name == "reference") return ExecutorKind::reference;  // the slow truth of the tests: not in the help
+  if (name == "compute" || name == "stream") {
+    throw CLI::ValidationError("--executor", name + ": not built in this version; use auto or host");
+  }
+  throw CLI::ValidationError("--executor", "'" + name + "' is unknown; use auto or host");
+}
+
+}  // namespace
+
+ExecutorOptions SolverOptions::executor_options() const {
+  ExecutorOptions options;
+  options.threads = static_cast<int>(threads.value_or(0));
+  if (memory_budget_mb) options.memory_budget_bytes = *memory_budget_mb * kMebibyte;
+  options.skip_quiet_pages = !no_skip;
+  return options;
+}
+
+void add_solver_options(CLI::App& app, SolverOptions& options) {
+  app.add_option_function<std::string>(
+         "--executor", [&options](const std::string& name) { options.kind = executor_kind(name); },
+         "What computes: auto (the best there is; default) or host (the processor)")
+      ->type_name("auto|host");
+  add_count(app, "--threads", options.threads, "Threads of the host executor (default: all processors)");
+  add_count(app, "--memory-budget", options.memory_budget_mb,
+            "Most memory for the solver, in MB (default: 8192); a run that needs more ends with code 4");
+  app.add_flag("--no-skip", options.no_skip, "Compute also the pages in which nothing moves any more");
+}
+
+Status check(const SolverOptions& options) {
+  if (options.threads && (*options.threads < 1 || *options.threads > kMostThreads)) {
+    return fail(ErrorKind::usage, "--threads {}: must be 1 to {}", *options.threads, kMostThreads);
+  }
+  if (options.memory_budget_mb &&
+      (*options.memory_budget_mb < 1 || *options.memory_budget_mb > kLargestBudget)) {
+    return fail(ErrorKind::usage, "--memory-budget {}: must be 1 to {} MB", *options.memory_budget_mb,
+                kLargestBudget);
+  }
+  return {};
+}
+
+}  // namespace tidemark::cli
