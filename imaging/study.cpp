@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -28,7 +29,7 @@ Result<Catalogue> find_in_file(const fs::path& file, const Progress& progress) {
     catalogue.series.push_back(std::move(*series));
     return catalogue;
   }
-  if (!looks_like_dicom(file)) {
+  if (std::ifstream(file) && !looks_like_dicom(file)) {
     return fail(ErrorKind::input, "{}: is neither a DICOM image nor a volume file", file.string());
   }
   return scan_dicom(file, progress);
@@ -150,6 +151,9 @@ Result<Catalogue> find_series(const fs::path& path, const Progress& progress) {
   return guarded(path, [&]() -> Result<Catalogue> {
     std::error_code error;
     if (!fs::exists(path, error)) return fail(ErrorKind::input, "{}: no such file or folder", path.string());
+    if (!fs::is_directory(path, error) && !fs::is_regular_file(path, error)) {
+      return fail(ErrorKind::input, "{}: is neither a file nor a folder", path.string());
+    }
     auto catalogue =
         fs::is_directory(path, error) ? find_in_folder(path, progress) : find_in_file(path, progress);
     if (catalogue && catalogue->series.empty()) {

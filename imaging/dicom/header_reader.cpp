@@ -6,7 +6,8 @@
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cerrno>
+#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -267,6 +268,10 @@ Result<SliceHeader> slice_header_of(DcmFileFormat& loaded, const fs::path& file)
 }
 
 Result<SliceHeader> read_slice_header(const fs::path& file) {
+  if (std::ifstream stream(file); !stream) {
+    return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(),
+                std::generic_category().message(errno));
+  }
   if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
   DcmFileFormat loaded;
   const OFCondition parsed = loaded.loadFile(file.c_str());

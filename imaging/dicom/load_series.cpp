@@ -77,7 +77,8 @@ class SeriesDecoder {
       return outcome.fail_with(
           {ErrorKind::input, file.string() + ": is not what it was when its series was listed"}, k);
     }
-    const auto [slope, intercept] = std::pair(slice->header.slope, slice->header.intercept);
+    const double slope = slice->header.slope;
+    const double intercept = slice->header.intercept;
     std::transform(slice->stored.begin(), slice->stored.end(), target, [&](std::int32_t stored) {
       if constexpr (std::is_same_v<Voxel, float>) {
         return static_cast<float>(slope * static_cast<double>(stored) + intercept);

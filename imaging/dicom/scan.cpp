@@ -19,11 +19,12 @@ namespace fs = std::filesystem;
 
 // All regular files below the folder, sorted, so that results do not depend on the file system. Links to
 // folders are not followed: they could lead in circles.
-Result<std::vector<fs::path>> list_files(const fs::path& folder, bool recursive) {
+Result<std::vector<fs::path>> list_files(const fs::path& folder, bool recursive, const Progress& progress) {
   std::vector<fs::path> files;
   std::error_code error;
   fs::recursive_directory_iterator entries(folder, fs::directory_options::skip_permission_denied, error);
   for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
+    if (progress.cancelled()) return cancelled_error();
     if (!recursive) entries.disable_recursion_pending();
     std::error_code ignored;
     if (entries->is_regular_file(ignored)) files.push_back(entries->path());
@@ -96,7 +97,7 @@ void warn_of_damage(std::vector<Series>& series, const std::vector<SkippedFile>&
 }
 
 Result<Catalogue> scan_folder(const fs::path& folder, const Progress& progress) {
-  const auto files = list_files(folder, true);
+  const auto files = list_files(folder, true, progress);
   if (!files) return tl::unexpected(files.error());
   auto headers = read_headers(*files, progress);
   if (!headers) return pass_on(headers);
@@ -115,7 +116,7 @@ Result<Catalogue> scan_file(const fs::path& file, const Progress& progress) {
   SliceHeader placed = *chosen;
   placed.file = folder / file.filename();  // as the listing names it
   const std::string key = series_key(placed);
-  const auto files = list_files(folder, false);
+  const auto files = list_files(folder, false, progress);
   if (!files) return tl::unexpected(files.error());
   auto headers = read_headers(*files, progress);
   if (!headers) return pass_on(headers);
@@ -141,7 +142,10 @@ Result<Catalogue> scan_dicom(const fs::path& path, const Progress& progress) {
     if (auto ready = set_up_dicom(); !ready) return pass_on(ready);
     std::error_code error;
     if (fs::is_directory(path, error)) return scan_folder(path, progress);
-    if (fs::exists(path, error)) return scan_file(path, progress);
+    if (fs::is_regular_file(path, error)) return scan_file(path, progress);
+    if (fs::exists(path, error)) {
+      return fail(ErrorKind::input, "{}: is neither a file nor a folder", path.string());
+    }
     return fail(ErrorKind::input, "{}: no such file or folder", path.string());
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::capability, "{}: there is not enough memory", path.string());

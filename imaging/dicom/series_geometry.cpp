@@ -174,6 +174,11 @@ Reason check_distinct(const Slices& slices, const std::vector<double>& positions
   if (first_repeat == 0) return std::nullopt;
   const std::string pair =
       fmt::format("{} and {}", name(slices[first_repeat - 1]), name(slices[first_repeat]));
+  // A file and its copy; otherwise images that were taken at one place.
+  const std::string& uid = slices[first_repeat].sop_instance_uid;
+  if (!uid.empty() && uid == slices[first_repeat - 1].sop_instance_uid) {
+    return fmt::format("{} are the same image (SOPInstanceUID {})", pair, uid);
+  }
   const bool regular = std::all_of(counts.begin(), counts.end(), [&](auto c) { return c == counts[0]; });
   if (regular && counts.size() > 1) {
     return fmt::format(
@@ -242,19 +247,6 @@ Reason check_even(const Slices& slices, const std::vector<double>& positions) {
   return std::nullopt;
 }
 
-Reason check_identical_copies(const Slices& slices) {
-  std::vector<const SliceHeader*> sorted =
-      all_that(slices, [](const auto& s) { return !s.sop_instance_uid.empty(); });
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](auto* a, auto* b) { return a->sop_instance_uid < b->sop_instance_uid; });
-  const auto copy = std::adjacent_find(sorted.begin(), sorted.end(), [](auto* a, auto* b) {
-    return a->sop_instance_uid == b->sop_instance_uid;
-  });
-  if (copy == sorted.end()) return std::nullopt;
-  return fmt::format("{} and {} are the same image (SOPInstanceUID {})", name(**copy), name(**(copy + 1)),
-                     (*copy)->sop_instance_uid);
-}
-
 // Checks that need no order.
 Reason check_unsorted(const Slices& slices) {
   if (auto r = check_problems(slices)) return r;
@@ -262,7 +254,6 @@ Reason check_unsorted(const Slices& slices) {
   if (slices.size() < 2) {
     return fmt::format("{} is a single image: a volume needs at least two slices", name(slices[0]));
   }
-  if (auto r = check_identical_copies(slices)) return r;
   if (auto r = check_has_geometry(slices)) return r;
   if (auto r = check_numbers(slices)) return r;
   return check_all_alike(slices);

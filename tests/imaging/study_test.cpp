@@ -1,4 +1,6 @@
 // The one way in: folders and files, DICOM or not.
+#include <sys/stat.h>
+
 #include <fstream>
 #include <limits>
 
@@ -34,6 +36,16 @@ class StudyTest : public QObject {
       QCOMPARE(error.kind, ErrorKind::input);
       QCOMPARE(error.message, nowhere.string() + ": no such file or folder");
     }
+  }
+
+  // Opening it would wait for a writer.
+  void a_pipe_is_refused() {
+    const test::TemporaryFolder folder;
+    const fs::path pipe = folder / "pipe";
+    QCOMPARE(::mkfifo(pipe.c_str(), 0600), 0);
+    QCOMPARE(load_volume(pipe).error().message, pipe.string() + ": is neither a file nor a folder");
+    QVERIFY(!scan_dicom(pipe));
+    QCOMPARE(find_series(folder.path()).error().kind, ErrorKind::input);
   }
 
   void a_folder_without_images_is_said_so() {

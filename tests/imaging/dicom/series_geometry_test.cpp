@@ -148,6 +148,16 @@ class SeriesGeometryTest : public QObject {
     verify_refused(twice, {"2 images at each of 4 positions", "000 and 000b", "not read yet"});
   }
 
+  // Some anonymisers write one UID into every image.
+  void positions_decide_what_is_a_copy_not_uids() {
+    auto slices = regular(4, 2.0);
+    for (SliceHeader& slice : slices) slice.sop_instance_uid = "1.2.3.0";
+    const Series series = arrange_series(slices);
+    QVERIFY2(series.loadable, series.reason.c_str());
+    slices[3].position_mm = slices[2].position_mm;
+    verify_refused(slices, {"002 and 003 are the same image"});
+  }
+
   void a_localizer_among_slices_is_named() {
     auto slices = regular(5, 2.0);
     std::swap((*slices[3].orientation)[0], (*slices[3].orientation)[1]);
