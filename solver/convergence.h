@@ -8,8 +8,8 @@
 
 namespace tidemark {
 
-// Summed over the steps of a window and the voxels with |phi| <= 1: the squared changes of phi over the last
-// two steps, and how many voxels there were.
+// Summed over the steps of a window and the voxels beside the surface (StepConstants::near): the squared
+// changes of phi over the last two steps, and how many voxels there were.
 struct SurfaceMotion {
   double squared_change = 0.0;
   std::int64_t voxels = 0;

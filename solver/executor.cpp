@@ -10,9 +10,11 @@ Result<std::unique_ptr<Executor>> make_executor(ExecutorKind kind, std::shared_p
                                                 const ExecutorOptions& options) {
   if (auto status = check(parameters); !status) return pass_on(status);
   switch (kind) {
-    case ExecutorKind::reference: return std::make_unique<ReferenceExecutor>(std::move(source), parameters);
+    case ExecutorKind::reference:
+      return std::make_unique<ReferenceExecutor>(std::move(source), parameters);
     case ExecutorKind::automatic:
-    case ExecutorKind::host: break;
+    case ExecutorKind::host:
+      break;
   }
   return HostExecutor::create(std::move(source), parameters, options);
 }

@@ -15,14 +15,15 @@ namespace tidemark {
 
 // When a run of steps ends.
 struct Advance {
-  std::int64_t steps = 1;          // at most
-  bool until_converged = false;    // stop when the surface has stopped moving (see kConvergedSpeed)
-  Progress progress = {};          // fraction = steps done / steps; cancelling keeps what was computed
+  std::int64_t steps = 1;        // at most
+  bool until_converged = false;  // stop when the surface has stopped moving (see kConvergedSpeed)
+  Progress progress = {};        // fraction = steps done / steps; cancelling keeps what was computed
 };
 
 // The surface counts as stopped when the root mean square of its normal speed, in smallest voxel spacings
 // per unit of time (a front with D = 1, alpha = 1 moves at 1), is below this over kConvergenceWindow steps.
-// It is taken over the voxels with |phi| <= 1 from the change of phi over two steps, so that a voxel that
+// It is taken over the voxels beside the surface, those with |phi| at most the largest spacing (1 on an
+// isotropic grid), from the change of phi over two steps, so that a voxel that
 // flips between two values does not count as motion.
 inline constexpr double kConvergedSpeed = 0.005;
 inline constexpr int kConvergenceWindow = 16;
@@ -33,17 +34,18 @@ struct AdvanceReport {
   bool converged = false;
   double seconds = 0.0;         // wall time in the solver
   double paging_seconds = 0.0;  // of these, allocation, freeing and lists
-  std::int64_t voxel_updates = 0;  // voxels really computed: quiet pages, clamped rows and padding do not count
-  double surface_speed = 0.0;      // as measured for convergence, in the last full window
+  std::int64_t voxel_updates =
+      0;                       // voxels really computed: quiet pages, clamped rows and padding do not count
+  double surface_speed = 0.0;  // as measured for convergence, in the last full window
 };
 
 struct MemoryReport {
   std::int64_t resident_pages = 0;
   std::int64_t peak_resident_pages = 0;
-  std::int64_t quiet_pages = 0;        // resident, but not computed at present
-  std::int64_t state_bytes = 0;        // phi, tables and lists as allocated
+  std::int64_t quiet_pages = 0;  // resident, but not computed at present
+  std::int64_t state_bytes = 0;  // phi, tables and lists as allocated
   std::int64_t peak_state_bytes = 0;
-  std::int64_t source_bytes = 0;       // the source values kept beside resident pages
+  std::int64_t source_bytes = 0;  // the source values kept beside resident pages
   Index3 page_shape{0};
 };
 
@@ -79,7 +81,7 @@ class Executor {
 };
 
 struct ExecutorOptions {
-  int threads = 0;                                  // 0: all processors of this process
+  int threads = 0;                                           // 0: all processors of this process
   std::int64_t memory_budget_bytes = std::int64_t{8} << 30;  // for state and source beside the pages
   bool skip_quiet_pages = true;
 };

@@ -93,16 +93,15 @@ Field Field::from_dense(const Geometry& geometry, std::span<const float> values,
   for (std::int64_t page = 0; page < field.layout.page_count(); ++page) {
     bool inside = true;
     bool outside = true;
-    for_each_row(geometry, field.layout, page,
-                 [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
-                   for (std::int64_t i = 0; i < length; ++i) {
-                     const float phi =
-                         std::clamp(values[static_cast<std::size_t>(offset + i)], -limit, limit);
-                     inside = inside && phi == limit;
-                     outside = outside && phi == -limit;
-                     page_values[static_cast<std::size_t>(index + i)] = phi;
-                   }
-                 });
+    for_each_row(
+        geometry, field.layout, page, [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
+          for (std::int64_t i = 0; i < length; ++i) {
+            const float phi = std::clamp(values[static_cast<std::size_t>(offset + i)], -limit, limit);
+            inside = inside && phi == limit;
+            outside = outside && phi == -limit;
+            page_values[static_cast<std::size_t>(index + i)] = phi;
+          }
+        });
     std::int32_t& entry = field.table[static_cast<std::size_t>(page)];
     if (inside) {
       entry = kInside;

@@ -15,7 +15,8 @@ double default_band(const Geometry& geometry) {
 Model::Model(const Geometry& geometry, std::pair<float, float> source_range, const Parameters& parameters)
     : parameters_(parameters),
       smallest_spacing_mm_(glm::compMin(geometry.spacing_mm)),
-      band_(parameters.band.value_or(default_band(geometry))) {
+      // Rounded to what the executors compute with, so that all of them clamp to the same value.
+      band_(static_cast<float>(parameters.band.value_or(default_band(geometry)))) {
   spacing_ = geometry.spacing_mm / smallest_spacing_mm_;
   rescale_ = parameters.rescale.value_or(0.75 / band_);
   time_step_ = stable_time_step(largest_data_speed(source_range));
@@ -37,8 +38,7 @@ double Model::stable_time_step(double largest_data) const {
   // An unclamped field has no band; its rescaling weight is then 0 by default.
   if (parameters_.rescaling_term && rescale_ > 0.0) speed += rescale_ * band_;
   const double diffusion = parameters_.curvature_term ? 1.0 - parameters_.alpha : 0.0;
-  const double rate =
-      std::sqrt(sum) * speed + 2.0 * (sum - glm::compMin(inverse_squared)) * diffusion;
+  const double rate = std::sqrt(sum) * speed + 2.0 * (sum - glm::compMin(inverse_squared)) * diffusion;
   if (!(rate > 0.0)) return 1.0;  // nothing moves
   const double scheme = parameters_.scheme == Scheme::paper ? 0.6 : 1.0;
   return scheme * 0.9 * parameters_.time_step_factor / rate;
@@ -56,6 +56,7 @@ StepConstants<Real> Model::constants() const {
   c.rescaling_weight = static_cast<Real>(parameters_.rescaling_term ? rescale_ : 0.0);
   c.target_gradient = static_cast<Real>(parameters_.target_gradient);
   c.target = static_cast<Real>(parameters_.target);
+  c.near = static_cast<Real>(glm::compMax(spacing_));
   c.data_peak = static_cast<Real>(raw ? parameters_.range : 1.0);
   c.data_slope = static_cast<Real>(raw ? 1.0 : 1.0 / parameters_.range);
   c.data_floor = raw ? std::numeric_limits<Real>::lowest() : Real(-1);

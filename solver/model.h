@@ -21,6 +21,7 @@ struct StepConstants {
   Real rescaling_weight;    // w; 0 when the term is off
   Real target_gradient;     // g_phi
   Real target;              // T
+  Real near;                // |phi| of a voxel beside the surface is at most this: the largest spacing
   // D = max(data_floor, data_peak - data_slope |I - T|)
   Real data_peak;
   Real data_slope;

@@ -7,7 +7,7 @@ namespace tidemark {
 
 struct SurfaceStatistics {
   std::int64_t voxels_inside = 0;  // phi > 0
-  double volume_ml = 0.0;          // voxels_inside times the volume of a voxel
+  double volume_ml = 0.0;          // inside phi = 0, at sub-voxel precision
   double surface_mm2 = 0.0;        // area of phi = 0, at sub-voxel precision
 };
 

@@ -70,6 +70,7 @@ Status HostExecutor::paint(const Sphere& sphere, Brush brush) {
 
   using Values = std::array<float, kPageVoxels>;
   std::vector<std::pair<std::int64_t, Values>> to_allocate;
+  std::vector<Index3> to_flip;  // pages that are not resident and change from all outside to inside or back
   const auto painted = [&](Index3 coordinates, const float* old_phi, float constant, Values& values) {
     const Index3 first = coordinates * layout.page_shape();
     for (int i = 0; i < kPageVoxels; ++i) {
@@ -93,7 +94,11 @@ Status HostExecutor::paint(const Sphere& sphere, Brush brush) {
         const float constant = page == kInsidePage ? constants_.band : -constants_.band;
         painted({x, y, z}, nullptr, constant, values);
         if (std::all_of(values.begin(), values.end(), [&](float v) { return v == constant; })) continue;
-        to_allocate.emplace_back(layout.page_number({x, y, z}), values);
+        if (std::all_of(values.begin(), values.end(), [&](float v) { return v == -constant; })) {
+          to_flip.emplace_back(x, y, z);
+        } else {
+          to_allocate.emplace_back(layout.page_number({x, y, z}), values);
+        }
       }
     }
   }
@@ -112,6 +117,11 @@ Status HostExecutor::paint(const Sphere& sphere, Brush brush) {
         wake_around(page);
       }
     }
+  }
+  for (const Index3 coordinates : to_flip) {
+    const bool inside = brush == Brush::add;
+    table_.set_static(layout.page_number(coordinates), inside);
+    tell_neighbours(coordinates, inside ? kInsidePage : kOutsidePage);
   }
   for (const auto& [virtual_page, contents] : to_allocate) {
     if (auto made = make_resident(virtual_page); !made) return pass_on(made);

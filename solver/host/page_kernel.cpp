@@ -74,7 +74,7 @@ void update_page(const PageJob& job, PageResult& result) {
 
   // The largest |phi| of a voxel whose change counts; padding never does.
   alignas(64) float near_limit[16];
-  for (int i = 0; i < 16; ++i) near_limit[i] = i % kPageSide < job.valid_x ? 1.0F : -1.0F;
+  for (int i = 0; i < 16; ++i) near_limit[i] = i % kPageSide < job.valid_x ? constants.near : -1.0F;
   const unsigned padding = 0xffU << static_cast<unsigned>(job.valid_x) & 0xffU;
 
   auto largest_change = hn::Zero(d);

@@ -22,7 +22,7 @@ struct PageJob {
 
 struct PageResult {
   RowMasks masks;  // of the computed rows
-  // Over the computed voxels whose new |phi| is at most 1, the change over two steps:
+  // Over the computed voxels beside the surface (StepConstants::near), the change over two steps:
   float largest_change = 0.0F;
   float squared_change = 0.0F;
   std::int32_t near_voxels = 0;

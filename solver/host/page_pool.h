@@ -17,8 +17,8 @@ struct PageInfo {
   RowMasks masks[2];  // of each buffer
   Rows padding = 0;   // rows beyond the volume
 
-  // Since the window began, over the voxels with |phi| <= 1: the sum of the steps' largest changes, the sum
-  // of the squared changes, and the number of voxels.
+  // Since the window began, over the voxels beside the surface (StepConstants::near): the sum of the steps'
+  // largest changes, the sum of the squared changes, and the number of voxels.
   float change = 0.0F;
   float squared_change = 0.0F;
   std::int32_t near_voxels = 0;

@@ -1,8 +1,9 @@
 // Quiet pages: where nothing moves, nothing is computed.
 //
-// A page is still when phi changed by at most kQuietChange in it over a window of steps, judged where
-// |phi| <= 1. It sleeps when it and the 18 pages around it (faces and edges, as far as the stencil reaches)
-// are still, and wakes as soon as one of them moves. A threshold on single steps would freeze slow fronts.
+// A page is still when phi changed by at most kQuietChange in it over a window of steps, judged
+// beside the surface. It sleeps when it and the 18 pages around it (faces and edges, as far as the stencil
+// reaches) are still, and wakes as soon as one of them moves. A threshold on single steps would freeze slow
+// fronts.
 #include <algorithm>
 
 #include "solver/host/host_executor.h"
@@ -25,6 +26,7 @@ void HostExecutor::wake(PhysicalPage page) {
   PageInfo& info = pool_.info(page);
   if (!info.asleep) return;
   info.asleep = false;
+  info.near_voxels = 0;
   active_list_is_stale_ = true;
 }
 

@@ -118,7 +118,7 @@ void ReferenceExecutor::step() {
         const auto d = HWY_NAMESPACE::differences<true>(gather(phi_, geometry, {x, y, z}), constants);
         next_[i] =
             HWY_NAMESPACE::updated_phi<kPaper>(d, static_cast<double>(source_values_[i]), constants);
-        if (std::abs(next_[i]) <= 1.0) {
+        if (std::abs(next_[i]) <= constants.near) {
           const double change = next_[i] - previous_[i];
           motion_.squared_change += change * change;
           ++motion_.voxels;
