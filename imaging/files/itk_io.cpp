@@ -66,7 +66,8 @@ Result<ItkName> ItkName::create(Format format, const std::filesystem::path& file
   }
   name.folder_ = pattern;
   name.path_ = name.folder_ / (std::string("volume") + *suffix);
-  std::filesystem::create_symlink(std::filesystem::absolute(file), name.path_, error);
+  const auto absolute = std::filesystem::absolute(file, error);
+  if (!error) std::filesystem::create_symlink(absolute, name.path_, error);
   if (error) return fail(ErrorKind::capability, "{}: {}", name.path_.string(), error.message());
   return name;
 }

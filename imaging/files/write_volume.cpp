@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include "core/atomic_file.h"
 #include "imaging/files/volume_file.h"
@@ -133,7 +134,13 @@ Status write_volume_file(const Volume& volume, const std::filesystem::path& file
   if (volume.geometry.voxel_count() <= 0) {
     return fail(ErrorKind::internal, "{}: the volume is empty", file.string());
   }
-  return std::visit([&](const auto& stored) { return write_rescaled(volume, stored, file); }, volume.voxels);
+  try {
+    return std::visit([&](const auto& stored) { return write_rescaled(volume, stored, file); },
+                      volume.voxels);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::capability, "{}: not enough memory for {} rescaled voxels", file.string(),
+                volume.geometry.voxel_count());
+  }
 }
 
 Status write_mask_file(const Mask& mask, const std::filesystem::path& file) {

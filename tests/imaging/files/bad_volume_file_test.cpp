@@ -156,6 +156,10 @@ std::vector<BadFile> bad_nifti_files() {
   };
 }
 
+std::string with_voxels(std::string file, const std::string& voxels) {
+  return file.substr(0, file.size() - 8) + voxels;
+}
+
 std::vector<BadFile> bad_text_header_files() {
   return {
       {"text", "v.nrrd", "hello\n", "NRRD"},
@@ -196,6 +200,10 @@ std::vector<BadFile> bad_text_header_files() {
       {"sheared axes", "v.mha", meta("TransformMatrix", "1 0 0 0.2 1 0 0 0 1"), "direction"},
       {"header size", "v.mha", meta("HeaderSize", "-7"), "HeaderSize"},
       {"data outside the folder", "v.mha", meta("ElementDataFile", "../../x.raw"), "data file"},
+      {"NaN voxel", "v.nrrd", with_voxels(nrrd("type", "float"), float_voxels(kNan)),
+       "voxel (1, 0, 1) is NaN"},
+      {"NaN voxel", "v.mha", with_voxels(meta("ElementType", "MET_FLOAT"), float_voxels(kNan)),
+       "voxel (1, 0, 1) is NaN"},
       {"damaged compressed data", "v.mha", meta("CompressedData", "True"), "damaged"},
       {"text", "v.gipl", std::string(400, 'x'), "magic"},
       {"short", "v.gipl", "x", "GIPL"},
