@@ -97,6 +97,8 @@ std::string one_line(const std::exception& exception) {
     const auto at = text.find("): ");
     text.erase(0, at != std::string::npos ? at + 3 : text.find(": ") + 2);
   }
+  // The NRRD library tells the whole chain of calls; the last is the cause.
+  if (const auto at = text.rfind("[nrrd] "); at != std::string::npos) text.erase(0, at + 7);
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
   while (!text.empty() && text.back() == ' ') text.pop_back();

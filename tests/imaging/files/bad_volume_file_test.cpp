@@ -50,6 +50,7 @@ std::string nrrd(const std::string& field, const std::string& value) {
       {"space", "left-posterior-superior"},
       {"space directions", "(1,0,0) (0,1,0) (0,0,1)"},
       {"space origin", "(0,0,0)"},
+      {"endian", "little"},
       {"encoding", "raw"}};
   std::string text = "NRRD0004\n";
   bool used = false;
