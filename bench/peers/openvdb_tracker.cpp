@@ -3,6 +3,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 #include <openvdb/tools/LevelSetTracker.h>
+#include <openvdb/tools/SignedFloodFill.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -18,8 +19,8 @@ namespace {
 using openvdb::FloatGrid;
 using Tracker = openvdb::tools::LevelSetTracker<FloatGrid>;
 
-// OpenVDB's own half width: three voxels.
-constexpr float kHalfWidth = static_cast<float>(openvdb::LEVEL_SET_HALF_WIDTH);
+// As OpenVDB's own LEVEL_SET_HALF_WIDTH, in voxels.
+constexpr float kHalfWidth = 3.0F;
 
 float square(float value) {
   return value * value;
@@ -45,7 +46,7 @@ class OpenVdbTracker final : public Contestant {
     grid_->setGridClass(openvdb::GRID_LEVEL_SET);
     const openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(box, start.data());
     openvdb::tools::copyFromDense(dense, *grid_, 0.0F);
-    grid_->signedFloodFill();
+    openvdb::tools::signedFloodFill(grid_->tree());
     tracker_ = std::make_unique<Tracker>(*grid_);
     tracker_->setSpatialScheme(openvdb::math::FIRST_BIAS);
     tracker_->setTemporalScheme(openvdb::math::TVD_RK1);

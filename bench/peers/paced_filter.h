@@ -2,7 +2,7 @@
 #pragma once
 
 #include <itkCommand.h>
-#include <itkExceptionObject.h>
+#include <itkMacro.h>
 
 #include <chrono>
 #include <condition_variable>

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "imaging/filters/filters.h"
-#include "imaging/phantom/phantom.h"
 #include "solver/distance_transform.h"
 
 namespace tidemark::bench {
@@ -32,8 +31,8 @@ std::vector<float> sphere_distance(const Geometry& geometry, const Sphere& spher
 
 }  // namespace
 
-Result<Problem> make_problem(std::string_view phantom_kind) {
-  auto phantom = make_phantom(phantom_kind);
+Result<Problem> make_problem(std::string_view phantom_kind, const PhantomOptions& options) {
+  auto phantom = make_phantom(phantom_kind, options);
   if (!phantom) return pass_on(phantom);
   Problem problem;
   problem.name = phantom_kind;

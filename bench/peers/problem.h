@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/volume.h"
+#include "imaging/phantom/phantom.h"
 #include "solver/parameters.h"
 #include "solver/sphere.h"
 
@@ -25,7 +26,7 @@ struct Problem {
 };
 
 // The phantom of that kind with its own parameters and start.
-Result<Problem> make_problem(std::string_view phantom_kind);
+Result<Problem> make_problem(std::string_view phantom_kind, const PhantomOptions& options = {});
 
 // The start as a signed distance in voxels, > 0 inside, clamped to +-band; in voxel order.
 std::vector<float> start_distance(const Problem& problem, double band);
