@@ -1,5 +1,8 @@
 #include "app/cli/outputs.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
 #include <system_error>
@@ -34,6 +37,27 @@ std::filesystem::path whole_path(const std::filesystem::path& file) {
   std::error_code ignored;
   return std::filesystem::weakly_canonical(file, ignored);
 }
+
+// Keeps what the libraries below the writers print on standard error (nifti, MetaIO) off it: an error is one
+// line, and ours says the same.
+class StandardErrorAside {
+ public:
+  StandardErrorAside() : kept_(::dup(STDERR_FILENO)) {
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (kept_ >= 0 && nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
+    if (nowhere >= 0) ::close(nowhere);
+  }
+  ~StandardErrorAside() {
+    if (kept_ < 0) return;
+    ::dup2(kept_, STDERR_FILENO);
+    ::close(kept_);
+  }
+  StandardErrorAside(const StandardErrorAside&) = delete;
+  StandardErrorAside& operator=(const StandardErrorAside&) = delete;
+
+ private:
+  int kept_;
+};
 
 // Errors name the file that the user asked for, not the temporary one.
 void rename_in_message(std::string& message, const std::string& from, const std::string& to) {
@@ -93,7 +117,11 @@ Status Outputs::stage(const std::filesystem::path& file,
                       const std::function<Status(const std::filesystem::path&)>& write) {
   auto staged = AtomicFile::create(file);
   if (!staged) return pass_on(staged);
-  Status written = write(staged->temporary_path());
+  Status written;
+  {
+    const StandardErrorAside quiet;
+    written = write(staged->temporary_path());
+  }
   if (!written) {
     rename_in_message(written.error().message, staged->temporary_path().string(), file.string());
     rename_in_message(written.error().message, staged->temporary_path().filename().string(),

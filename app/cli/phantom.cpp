@@ -1,6 +1,7 @@
 // tidemark-cli phantom: a synthetic study with its ground truth.
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "app/cli/arguments.h"
 #include "app/cli/program.h"
@@ -67,6 +68,23 @@ std::string next_command(const Phantom& phantom, const std::filesystem::path& fo
                      (folder / "mask.nii.gz").string());
 }
 
+// Writes the study; when that fails, what was not there before goes away again.
+Status write_or_clean_up(const Phantom& phantom, const std::filesystem::path& folder,
+                         const Progress& progress) {
+  std::vector<std::filesystem::path> fresh;
+  std::error_code ignored;
+  for (const auto& path : {folder / "series", folder / "truth.nii.gz", folder / "phantom.json"}) {
+    if (!std::filesystem::exists(path, ignored)) fresh.push_back(path);
+  }
+  Status written = write_phantom(phantom, folder, progress);
+  if (written && progress.cancelled()) written = cancelled_error();
+  if (!written) {
+    for (const auto& path : fresh) std::filesystem::remove_all(path, ignored);
+    std::filesystem::remove(folder, ignored);  // only when it is empty
+  }
+  return written;
+}
+
 Status run(Program& program, const PhantomArguments& arguments) {
   Console& console = program.console;
   PhantomOptions options;
@@ -79,8 +97,7 @@ Status run(Program& program, const PhantomArguments& arguments) {
   if (!phantom) return tl::unexpected<Error>(phantom.error());
   if (console.interrupted()) return cancelled_error();
   const std::filesystem::path folder = arguments.out;
-  if (Status written = write_phantom(*phantom, folder, console.progress()); !written) return written;
-  if (console.interrupted()) return cancelled_error();
+  if (Status written = write_or_clean_up(*phantom, folder, console.progress()); !written) return written;
 
   const Index3 size = phantom->volume.geometry.size;
   console.say("Wrote      {}: {} x {} x {} voxels", (folder / "series").string(), size.x, size.y, size.z);

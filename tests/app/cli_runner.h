@@ -1,0 +1,50 @@
+// Runs the built tidemark-cli as a user would, and makes small inputs for it.
+#pragma once
+
+#include <QJsonObject>
+#include <QProcess>
+#include <QStringList>
+#include <filesystem>
+#include <string>
+
+#include "core/volume.h"
+
+namespace tidemark::test {
+
+struct Outcome {
+  int code = -1;  // -1: crashed or hung
+  QByteArray out;
+  QByteArray err;
+
+  // Whether it ended with that code and one line on standard error, "tidemark-cli: error: <message>".
+  [[nodiscard]] bool failed_in_one_line(int wanted_code) const;
+  [[nodiscard]] QByteArray told() const;  // code and both outputs, for messages
+};
+
+struct RunOptions {
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  qint64 largest_file = -1;  // bytes that any file may grow to, as on a full disk; -1: no limit
+  QString folder;            // to run in
+};
+
+// Runs to the end.
+Outcome run_cli(const QStringList& arguments, const RunOptions& options = {});
+
+// Starts it and returns once `line` has appeared on standard output.
+bool start_cli(QProcess& process, const QStringList& arguments, const QByteArray& line);
+
+QString text(const std::filesystem::path& path);
+QByteArray bytes_of(const std::filesystem::path& file);
+QJsonObject json_of(const QByteArray& bytes);
+
+// The names in a folder, hidden ones too.
+QStringList names_in(const std::filesystem::path& folder);
+
+// 1000 inside a ball in the middle, 0 outside, int16, spacing 1 mm.
+Volume ball(Index3 size, double radius);
+Mask ball_mask(const Volume& ball);
+
+// What segments such a ball, starting at its centre.
+QStringList ball_arguments(Index3 size);
+
+}  // namespace tidemark::test

@@ -1,0 +1,210 @@
+// The words of the command line: help, version, wrong usage.
+#include <QRegularExpression>
+
+#include "imaging/files/volume_file.h"
+#include "tests/app/cli_runner.h"
+#include "tests/support/support.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+class CliUsageTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase();
+  void help_names_units_and_an_example_data();
+  void help_names_units_and_an_example();
+  void help_hides_what_is_not_built();
+  void the_version_is_told();
+  void wrong_usage_ends_with_2_and_one_line_data();
+  void wrong_usage_ends_with_2_and_one_line();
+  void what_is_not_built_yet_says_so_data();
+  void what_is_not_built_yet_says_so();
+  void a_seed_outside_the_volume_is_named();
+  void an_eraser_that_takes_all_leaves_an_empty_start();
+  void negative_coordinates_are_numbers_not_options();
+  void an_output_may_not_be_the_input();
+  void the_program_links_no_qt();
+
+ private:
+  TemporaryFolder folder_;
+  QString volume_;
+};
+
+void CliUsageTest::initTestCase() {
+  volume_ = text(folder_ / "ball.nrrd");
+  QCOMPARE(failure(write_volume_file(ball(Index3(24), 8.0), folder_ / "ball.nrrd")), QString());
+}
+
+void CliUsageTest::help_names_units_and_an_example_data() {
+  QTest::addColumn<QString>("command");
+  for (const char* command : {"info", "segment", "distance", "convert", "phantom", "bench"}) {
+    QTest::newRow(command) << command;
+  }
+}
+
+void CliUsageTest::help_names_units_and_an_example() {
+  QFETCH(QString, command);
+  const Outcome help = run_cli({command, "--help"});
+  QCOMPARE(help.code, 0);
+  QVERIFY2(help.err.isEmpty(), help.told());
+  QVERIFY2(help.out.contains("mm") || help.out.contains("voxel"), help.told());
+  QVERIFY2(help.out.contains("Examples:\n  tidemark-cli " + command.toUtf8()), help.told());
+  QVERIFY2(help.out.contains("--json"), help.told());
+  QVERIFY2(run_cli({"--help"}).out.contains("  " + command.toUtf8() + " "), "missing from the list");
+}
+
+void CliUsageTest::help_hides_what_is_not_built() {
+  const QByteArray all = run_cli({"--help"}).out + run_cli({"segment", "--help"}).out;
+  for (const char* word :
+       {"render", "replay", "--picture", "--recipe", "compute", "stream", ".dcm", "reference"}) {
+    // "computes" is a word of English, the executor is not.
+    const QRegularExpression whole(QString("(^|[\\s|])%1($|[\\s|,])").arg(QRegularExpression::escape(word)));
+    QVERIFY2(!whole.match(QString::fromUtf8(all)).hasMatch(), word);
+  }
+}
+
+void CliUsageTest::the_version_is_told() {
+  const Outcome version = run_cli({"--version"});
+  QCOMPARE(version.code, 0);
+  QVERIFY2(QRegularExpression("^tidemark-cli \\d+\\.\\d+\\.\\d+\n$").match(version.out).hasMatch(),
+           version.told());
+}
+
+void CliUsageTest::wrong_usage_ends_with_2_and_one_line_data() {
+  QTest::addColumn<QStringList>("arguments");
+  const QStringList segment{"segment", volume_, "--target", "1000", "--range", "500", "--alpha", "0.8"};
+  const QStringList seeded = segment + QStringList{"--seed", "12,12,12,4"};
+  QTest::newRow("nothing") << QStringList{};
+  QTest::newRow("unknown command") << QStringList{"frobnicate"};
+  QTest::newRow("unknown option") << seeded + QStringList{"--frobnicate"};
+  QTest::newRow("no input") << QStringList{"segment"};
+  QTest::newRow("second input") << seeded + QStringList{"other.nrrd"};
+  QTest::newRow("no start") << segment;
+  QTest::newRow("no target") << QStringList{"segment", volume_, "--range", "1",
+                                            "--alpha", "1",     "--seed",  "1,1,1,1"};
+  QTest::newRow("target is text") << QStringList{"segment", volume_, "--target", "ten"};
+  QTest::newRow("target is nan") << QStringList{"segment", volume_, "--target", "nan"};
+  QTest::newRow("target is infinite") << QStringList{"segment", volume_, "--target", "inf"};
+  QTest::newRow("decimal comma") << QStringList{"segment", volume_, "--target", "1,5"};
+  QTest::newRow("band below 2") << seeded + QStringList{"--band", "1"};
+  QTest::newRow("alpha above 1") << QStringList{"segment", volume_,   "--target", "1",      "--range",
+                                                "1",       "--alpha", "1.5",      "--seed", "1,1,1,1"};
+  QTest::newRow("range 0") << QStringList{"segment", volume_,   "--target", "1",      "--range",
+                                          "0",       "--alpha", "1",        "--seed", "1,1,1,1"};
+  QTest::newRow("three numbers in a seed") << segment + QStringList{"--seed", "1,2,3"};
+  QTest::newRow("five numbers in a seed") << segment + QStringList{"--seed", "1,2,3,4,5"};
+  QTest::newRow("radius 0") << segment + QStringList{"--seed", "1,2,3,0"};
+  QTest::newRow("empty number in a seed") << segment + QStringList{"--seed", "1,,3,4"};
+  QTest::newRow("steps and converge") << seeded + QStringList{"--steps", "5", "--converge"};
+  QTest::newRow("negative steps") << seeded + QStringList{"--steps", "-5"};
+  QTest::newRow("half a step") << seeded + QStringList{"--steps", "1.5"};
+  QTest::newRow("two inits") << segment + QStringList{"--init", volume_, "--init-threshold", "1,2"};
+  QTest::newRow("limits reversed") << segment + QStringList{"--init-threshold", "2,1"};
+  QTest::newRow("smoothing 0") << seeded + QStringList{"--smooth", "0"};
+  QTest::newRow("unknown suffix") << seeded + QStringList{"--out", text(folder_ / "mask.xyz")};
+  QTest::newRow("mesh as phi") << seeded + QStringList{"--out-phi", text(folder_ / "phi.stl")};
+  QTest::newRow("stats not json") << seeded + QStringList{"--stats", text(folder_ / "stats.txt")};
+  QTest::newRow("one file twice") << seeded + QStringList{"--out", text(folder_ / "m.nrrd"), "--out-phi",
+                                                          text(folder_ / "m.nrrd")};
+  QTest::newRow("unknown executor") << seeded + QStringList{"--executor", "abacus"};
+  QTest::newRow("no threads") << seeded + QStringList{"--threads", "0"};
+  QTest::newRow("unknown scheme") << seeded + QStringList{"--scheme", "third"};
+  QTest::newRow("empty threshold") << segment + QStringList{"--init-threshold", "5000,6000"};
+  QTest::newRow("flood seed outside") << segment + QStringList{"--init-flood", "99,1,1,0,2000"};
+  QTest::newRow("flood seed not in limits") << segment + QStringList{"--init-flood", "1,1,1,900,2000"};
+  QTest::newRow("unknown phantom") << QStringList{"phantom", "teapot", "--out", text(folder_ / "p")};
+  QTest::newRow("phantom to nowhere") << QStringList{"phantom", "sphere"};
+  QTest::newRow("noise below 0") << QStringList{"phantom",           "sphere",  "--out",
+                                                text(folder_ / "p"), "--noise", "-1"};
+  QTest::newRow("convert to nothing") << QStringList{"convert", volume_};
+  QTest::newRow("surface of no mask") << QStringList{"convert", volume_, "--out", text(folder_ / "s.stl")};
+  QTest::newRow("unknown case") << QStringList{"bench", "--case", "teapot"};
+  QTest::newRow("band too narrow") << QStringList{"distance", volume_, "--band",
+                                                  "1",        "--out", text(folder_ / "d.nrrd")};
+}
+
+void CliUsageTest::wrong_usage_ends_with_2_and_one_line() {
+  QFETCH(QStringList, arguments);
+  const Outcome outcome = run_cli(arguments);
+  QVERIFY2(outcome.failed_in_one_line(2), outcome.told());
+  QCOMPARE(names_in(folder_.path()), QStringList{"ball.nrrd"});
+}
+
+void CliUsageTest::what_is_not_built_yet_says_so_data() {
+  QTest::addColumn<QStringList>("arguments");
+  const QStringList segment = QStringList{"segment", volume_} + ball_arguments(Index3(24));
+  QTest::newRow("render") << QStringList{"render", volume_, "--out", "a.png"};
+  QTest::newRow("replay") << QStringList{"replay", "recipe.json", volume_};
+  QTest::newRow("picture") << segment + QStringList{"--picture", "a.png"};
+  QTest::newRow("recipe") << segment + QStringList{"--recipe", "a.json"};
+  QTest::newRow("compute") << segment + QStringList{"--executor", "compute"};
+  QTest::newRow("stream") << segment + QStringList{"--executor", "stream"};
+  QTest::newRow("bench on compute") << QStringList{"bench", "--executor", "compute"};
+  QTest::newRow("DICOM SEG") << segment + QStringList{"--out", text(folder_ / "mask.dcm")};
+  QTest::newRow("recipe out") << segment + QStringList{"--out", text(folder_ / "recipe.json")};
+}
+
+void CliUsageTest::what_is_not_built_yet_says_so() {
+  QFETCH(QStringList, arguments);
+  const Outcome outcome = run_cli(arguments);
+  QVERIFY2(outcome.failed_in_one_line(2), outcome.told());
+  QVERIFY2(outcome.err.contains("not built in this version"), outcome.told());
+}
+
+void CliUsageTest::a_seed_outside_the_volume_is_named() {
+  const QStringList segment{"segment", volume_, "--target", "1000", "--range", "500", "--alpha", "0.8"};
+  for (const QStringList& seed : {QStringList{"--seed", "24,12,12,4"}, QStringList{"--seed-mm", "1,1,-30,5"},
+                                  QStringList{"--seed", "12,12,12,4", "--erase", "12,-3,12,4"}}) {
+    const Outcome outcome = run_cli(segment + seed + QStringList{"--out", text(folder_ / "mask.nrrd")});
+    QVERIFY2(outcome.failed_in_one_line(2), outcome.told());
+    QVERIFY2(outcome.err.contains(seed.at(seed.size() - 2).toUtf8() + " " + seed.last().toUtf8()),
+             outcome.told());
+    QVERIFY2(outcome.err.contains("24 x 24 x 24"), outcome.told());
+    QCOMPARE(names_in(folder_.path()), QStringList{"ball.nrrd"});
+  }
+}
+
+void CliUsageTest::an_eraser_that_takes_all_leaves_an_empty_start() {
+  const Outcome outcome =
+      run_cli(QStringList{"segment", volume_, "--erase", "12,12,12,9"} + ball_arguments(Index3(24)));
+  QVERIFY2(outcome.failed_in_one_line(2), outcome.told());
+  QVERIFY2(outcome.err.contains("empty"), outcome.told());
+}
+
+void CliUsageTest::negative_coordinates_are_numbers_not_options() {
+  Volume shifted = ball(Index3(24), 8.0);
+  shifted.geometry.origin_mm = {-30.0, -30.0, -30.0};
+  const auto file = folder_ / "shifted.nrrd";
+  QCOMPARE(failure(write_volume_file(shifted, file)), QString());
+  const QStringList segment{"segment", text(file), "--target", "1000", "--range", "500",
+                            "--alpha", "0.8",      "--steps",  "1",    "--json"};
+  const Outcome apart = run_cli(segment + QStringList{"--seed-mm", "-18,-18,-18,4"});
+  const Outcome joined = run_cli(segment + QStringList{"--seed-mm=-18,-18,-18,4"});
+  std::filesystem::remove(file);
+  QVERIFY2(apart.code == 0, apart.told());
+  QVERIFY2(joined.code == 0, joined.told());
+  QVERIFY(json_of(apart.out)["voxels_inside"].toInt() > 200);
+  QCOMPARE(json_of(joined.out)["voxels_inside"], json_of(apart.out)["voxels_inside"]);
+}
+
+void CliUsageTest::an_output_may_not_be_the_input() {
+  const QByteArray before = bytes_of(folder_ / "ball.nrrd");
+  const Outcome outcome =
+      run_cli(QStringList{"segment", volume_, "--out", volume_} + ball_arguments(Index3(24)));
+  QVERIFY2(outcome.failed_in_one_line(2), outcome.told());
+  QCOMPARE(bytes_of(folder_ / "ball.nrrd"), before);
+}
+
+void CliUsageTest::the_program_links_no_qt() {
+  QProcess ldd;
+  ldd.start("ldd", {TIDEMARK_CLI});
+  QVERIFY(ldd.waitForFinished());
+  const QByteArray libraries = ldd.readAllStandardOutput();
+  QVERIFY2(libraries.contains("libstdc++"), libraries);
+  QVERIFY2(!libraries.contains("libQt"), libraries);
+}
+
+QTEST_GUILESS_MAIN(CliUsageTest)
+#include "cli_usage_test.moc"
