@@ -100,7 +100,17 @@ OFCondition decode_frame(DcmItem& dataset, DcmPixelSequence& sequence, std::vect
   return pack(*image, format, words);
 }
 
-class J2kDecoder : public DcmCodec {
+// Newer releases of DCMTK (not yet 3.6.7) ask every codec for the bits that decoded values take. In a class
+// of its own, since whether it overrides anything depends on the release.
+class CodecWithBits : public DcmCodec {
+ public:
+  // NOLINTNEXTLINE(modernize-use-override)
+  virtual Uint16 decodedBitsAllocated(Uint16 bits_allocated, Uint16 /*bits_stored*/) const {
+    return bits_allocated == 8 || bits_allocated == 16 ? bits_allocated : 0;
+  }
+};
+
+class J2kDecoder : public CodecWithBits {
  public:
   OFCondition decode(const DcmRepresentationParameter*, DcmPixelSequence* sequence,
                      DcmPolymorphOBOW& uncompressed, const DcmCodecParameter*, const DcmStack& stack,
