@@ -85,6 +85,16 @@ Status check_command_word(const CLI::App& app, int argc, char** argv) {
   return {};
 }
 
+// What is left over reads better as the one word that is wrong.
+std::string describe(const CLI::App& app, const CLI::ParseError& error) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
+  const std::vector<std::string> extras = app.remaining(true);
+  for (const std::string& word : extras) {
+    if (word.starts_with("--")) return "unknown option " + word;
+  }
+  return extras.empty() ? error.what() : "unexpected argument '" + extras.back() + "'";
+}
+
 // Help and version end the program well, everything else the parser throws is wrong usage.
 int answer_parser(const CLI::App& app, Program& program, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) {
@@ -92,7 +102,7 @@ int answer_parser(const CLI::App& app, Program& program, const CLI::ParseError& 
                                                                : app.help());
     return program.console.finish({});
   }
-  std::string message = error.what();
+  std::string message = describe(app, error);
   const auto chosen = app.get_subcommands();
   if (!chosen.empty()) message += " (see tidemark-cli " + chosen.front()->get_name() + " --help)";
   return program.console.finish(fail(ErrorKind::usage, "{}", message));

@@ -29,6 +29,7 @@ class CliRunTest : public QObject {
   void initTestCase();
   void a_sphere_phantom_is_found_segmented_and_measured();
   void info_lists_what_the_contract_names();
+  void a_terminal_gets_a_progress_bar();
   void stats_hold_what_the_contract_names();
   void a_resumed_run_equals_an_unbroken_one();
   void the_start_is_a_mask_or_a_threshold_or_a_fill();
@@ -62,11 +63,12 @@ void CliRunTest::initTestCase() {
 QStringList CliRunTest::sphere_arguments() const {
   QStringList seed;
   for (const auto number : phantom_["seed"].toArray()) seed.append(QString::number(number.toDouble()));
-  return {"segment",  text(folder_ / "sphere/series"),
-          "--target", QString::number(phantom_["target"].toDouble()),
-          "--range",  QString::number(phantom_["range"].toDouble()),
-          "--alpha",  QString::number(phantom_["alpha"].toDouble()),
-          "--seed",   seed.join(',')};
+  return {"segment",   text(folder_ / "sphere/series"),
+          "--target",  QString::number(phantom_["target"].toDouble()),
+          "--range",   QString::number(phantom_["range"].toDouble()),
+          "--alpha",   QString::number(phantom_["alpha"].toDouble()),
+          "--seed",    seed.join(','),
+          "--threads", "1"};
 }
 
 void CliRunTest::a_sphere_phantom_is_found_segmented_and_measured() {
@@ -124,6 +126,17 @@ void CliRunTest::info_lists_what_the_contract_names() {
   QCOMPARE(series["loadable"].toBool(), true);
   QCOMPARE(series["direction"].toArray(), (QJsonArray{1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}));
   QCOMPARE(series["scalar"].toString(), QString("int16"));
+}
+
+// util-linux' script gives the program a terminal.
+void CliRunTest::a_terminal_gets_a_progress_bar() {
+  QProcess script;
+  const QStringList command = QStringList{TIDEMARK_CLI} + sphere_arguments() + QStringList{"--steps", "20"};
+  script.start("script", {"-qec", command.join(' '), "/dev/null"});
+  QVERIFY2(script.waitForFinished(60'000), "script is needed (Debian: package bsdutils)");
+  const QByteArray seen = script.readAllStandardOutput();
+  QCOMPARE(script.exitCode(), 0);
+  QVERIFY2(seen.contains(" % ") && seen.contains("[....") && seen.contains("\033[K"), seen);
 }
 
 void CliRunTest::stats_hold_what_the_contract_names() {

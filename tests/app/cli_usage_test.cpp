@@ -21,6 +21,7 @@ class CliUsageTest : public QObject {
   void wrong_usage_ends_with_2_and_one_line();
   void what_is_not_built_yet_says_so_data();
   void what_is_not_built_yet_says_so();
+  void an_unknown_option_is_named();
   void a_seed_outside_the_volume_is_named();
   void an_eraser_that_takes_all_leaves_an_empty_start();
   void negative_coordinates_are_numbers_not_options();
@@ -151,6 +152,12 @@ void CliUsageTest::what_is_not_built_yet_says_so() {
   const Outcome outcome = run_cli(arguments);
   QVERIFY2(outcome.failed_in_one_line(2), outcome.told());
   QVERIFY2(outcome.err.contains("not built in this version"), outcome.told());
+}
+
+void CliUsageTest::an_unknown_option_is_named() {
+  const Outcome outcome = run_cli({"segment", volume_, "--targt", "800"});
+  QCOMPARE(outcome.err,
+           QByteArray("tidemark-cli: error: unknown option --targt (see tidemark-cli segment --help)\n"));
 }
 
 void CliUsageTest::a_seed_outside_the_volume_is_named() {
