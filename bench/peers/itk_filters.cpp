@@ -56,6 +56,9 @@ ItkThresholdFilter::Pointer make_threshold_filter(const Problem& problem) {
 ItkParallelFilter::Pointer make_parallel_filter(const Problem& problem, int threads) {
   const Parameters& parameters = problem.parameters;
   auto function = SpeedFunction::New();
+  SpeedFunction::RadiusType radius;
+  radius.Fill(1);
+  function->Initialize(radius);  // before the weights, which it resets
   const auto feature = wrap(problem.source->geometry, problem.values);
   function->SetFeatureImage(feature);
   function->SetLowerThreshold(static_cast<float>(parameters.target - parameters.range));
@@ -64,9 +67,6 @@ ItkParallelFilter::Pointer make_parallel_filter(const Problem& problem, int thre
   function->SetCurvatureWeight(static_cast<float>(1.0 - parameters.alpha));
   function->SetAdvectionWeight(0.0F);
   function->SetLaplacianSmoothingWeight(0.0F);
-  SpeedFunction::RadiusType radius;
-  radius.Fill(1);
-  function->Initialize(radius);
   function->AllocateSpeedImage();
   function->CalculateSpeedImage();
 

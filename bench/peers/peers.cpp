@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 
 #include "bench/peers/measurements.h"
@@ -61,7 +62,7 @@ int run(int argc, char** argv) {
   CLI::App app("Measures Tidemark's host executor beside its peers, all in one run.", "peers");
   Arguments arguments;
   Settings& settings = arguments.settings;
-  settings.program = "/proc/self/exe";
+  settings.program = std::filesystem::read_symlink("/proc/self/exe").string();
   std::vector<std::string> names;
   for (const ContestantKind& kind : all_contestants()) names.push_back(kind.name);
   app.add_option("--case", arguments.which, "only this case (all when left out)")

@@ -41,12 +41,13 @@ Result<Problem> make_problem(std::string_view phantom_kind, const PhantomOptions
   problem.parameters.range = phantom->range;
   problem.parameters.alpha = phantom->alpha;
   const Geometry& geometry = phantom->volume.geometry;
-  if (phantom->seed) {
-    const auto& [i, j, k, radius_mm] = *phantom->seed;
-    problem.seed = sphere_at_voxel(geometry, {i, j, k}, radius_mm);
-  } else if (phantom->init_threshold) {
+  // A threshold comes first: it starts with the whole surface, which a seed takes a thousand steps to reach.
+  if (phantom->init_threshold) {
     problem.start =
         threshold(phantom->volume, phantom->init_threshold->first, phantom->init_threshold->second);
+  } else if (phantom->seed) {
+    const auto& [i, j, k, radius_mm] = *phantom->seed;
+    problem.seed = sphere_at_voxel(geometry, {i, j, k}, radius_mm);
   } else {
     return fail(ErrorKind::internal, "the phantom {} has no start", phantom_kind);
   }

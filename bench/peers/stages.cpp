@@ -142,12 +142,15 @@ void add_table(const Problem& problem, const std::vector<Entry>& entries, Report
     row.push_back(updates > 0 ? number(updates / 1e6) : none());
     const double resident = median_of(late, &Sample::resident_voxels);
     row.push_back(resident > 0 ? number(resident) : none());
+    const double rate = median_of(late, &Sample::steps_per_second);
+    row.push_back(resident > 0 ? number(resident * rate / 1e6) : none());
     row.push_back(resident > 0 ? number(100.0 * median_of(late, &Sample::paging_share), 1) : none());
     rows.push_back(std::move(row));
   }
-  report.table(
-      fmt::format("{}: steps per second", problem.name),
-      {"contestant", "steps", "early", "middle", "late", "M updates/s", "resident voxels", "paging %"}, rows);
+  report.table(fmt::format("{}: steps per second", problem.name),
+               {"contestant", "steps", "early", "middle", "late", "M updates/s", "resident voxels",
+                "M resident/s", "paging %"},
+               rows);
 }
 
 }  // namespace
