@@ -169,7 +169,7 @@ class RescalingTest : public QObject {
       qInfo("T12c: gradient %.1f: error of the distance %.3f voxel in the mean, %.3f at most", gradient,
             sum / count, worst);
       QVERIFY(sum / count <= 0.1);
-      QVERIFY(worst <= 0.3);
+      QVERIFY(worst <= 0.1);
     }
   }
 
