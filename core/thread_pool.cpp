@@ -7,8 +7,10 @@
 namespace tidemark {
 namespace {
 
-// About 50 microseconds of polling: longer than the serial part between two solver steps.
-constexpr int kSpins = 20'000;
+// Some 100 microseconds of polling: longer than the serial part between two solver steps.
+constexpr int kSpins = 4'000;
+
+constexpr std::uint32_t kOpen = 0x8000'0000U;
 
 inline void relax() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -47,6 +49,18 @@ void ThreadPool::run_pieces(int member) {
   }
 }
 
+bool ThreadPool::join_loop() {
+  std::uint32_t busy = busy_.load(std::memory_order_relaxed);
+  while ((busy & kOpen) != 0) {
+    if (busy_.compare_exchange_weak(busy, busy + 1, std::memory_order_acquire)) return true;
+  }
+  return false;
+}
+
+void ThreadPool::leave_loop() {
+  if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
+}
+
 void ThreadPool::work(int member) {
   std::uint32_t seen = 0;
   for (;;) {
@@ -54,8 +68,9 @@ void ThreadPool::work(int member) {
     generation_.wait(seen, std::memory_order_acquire);
     seen = generation_.load(std::memory_order_acquire);
     if (quit_.load()) return;
+    if (!join_loop()) continue;
     run_pieces(member);
-    if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
+    leave_loop();
   }
 }
 
@@ -70,15 +85,16 @@ void ThreadPool::for_each(std::int64_t count, std::int64_t grain, const Body& bo
     run_pieces(0);
     return;
   }
-  busy_.store(static_cast<int>(workers_.size()), std::memory_order_relaxed);
+  busy_.store(kOpen, std::memory_order_release);
   generation_.fetch_add(1, std::memory_order_release);
   generation_.notify_all();
   run_pieces(0);
+  busy_.fetch_and(~kOpen, std::memory_order_acq_rel);
   for (int spin = 0; spin < kSpins; ++spin) {
     if (busy_.load(std::memory_order_acquire) == 0) return;
     relax();
   }
-  for (int left = busy_.load(std::memory_order_acquire); left != 0;
+  for (std::uint32_t left = busy_.load(std::memory_order_acquire); left != 0;
        left = busy_.load(std::memory_order_acquire)) {
     busy_.wait(left, std::memory_order_acquire);
   }

@@ -10,7 +10,9 @@
 namespace tidemark {
 
 // A solver step takes some 100 microseconds, so waking a sleeping thread for each would cost as much as the
-// work. Members therefore spin for a short while before they sleep, and a loop is one atomic counter.
+// work. Members therefore spin for a short while before they sleep, and a loop is one atomic counter. A loop
+// never waits for a member that has not begun to help, so that on a busy machine, where the other threads get
+// no processor, it is as fast as on one thread.
 class ThreadPool {
  public:
   // threads >= 1 counts the caller, which works too; 0 means one per processor this process may use.
@@ -30,10 +32,12 @@ class ThreadPool {
  private:
   void work(int member);
   void run_pieces(int member);
+  bool join_loop();
+  void leave_loop();
 
   std::vector<std::jthread> workers_;
   std::atomic<std::uint32_t> generation_{0};  // a change starts a loop
-  std::atomic<int> busy_{0};                  // workers that have not finished the loop
+  std::atomic<std::uint32_t> busy_{0};        // workers inside the loop, and kOpen while more may join
   std::atomic<bool> quit_{false};
   std::atomic<std::int64_t> next_{0};
   std::int64_t count_ = 0;

@@ -12,13 +12,19 @@
 HWY_BEFORE_NAMESPACE();
 namespace tidemark::HWY_NAMESPACE {
 
+// The product of phi with a neighbour of the other sign at which that neighbour counts in full.
+inline constexpr double kFullSignChange = 0.1;
+
 // phi (g_phi - |grad phi|), the gradient taken from the side of the surface. Beside the surface the mean of
-// both one-sided gradients stands in, which keeps the surface where it is to about a tenth of a voxel.
+// both one-sided gradients stands in, which keeps the surface where it is to about a tenth of a voxel. The one
+// goes over into the other continuously as a neighbour changes sign: a switch would leave voxels flipping
+// between the two for ever, and the surface would never come to rest.
 template <class V, class Real>
 HWY_INLINE V rescaling_speed(const Differences<V>& d, const StepConstants<Real>& k) {
   const V toward_surface = if_positive(d.phi, d.upwind_shrinking, d.upwind_growing);
   const V both = (d.upwind_growing + d.upwind_shrinking) * V(Real(0.5));
-  const V gradient = if_negative(d.lowest_product, both, toward_surface);
+  const V share = max(min(d.lowest_product * V(Real(-1.0 / kFullSignChange)), V(Real(1))), V(Real(0)));
+  const V gradient = mul_add(share, both - toward_surface, toward_surface);
   return d.phi * (V(k.target_gradient) - gradient);
 }
 
