@@ -9,7 +9,7 @@ tidemark_packages=(
   libdcmtk-dev libopenjp2-7-dev
   libinsighttoolkit5-dev libgdcm-dev zlib1g-dev
   libopenvdb-dev libtbb-dev libboost-dev
-  dicom3tools
+  dicom3tools locales
 )
 
 # The packages of the list that are not installed, one a line.
