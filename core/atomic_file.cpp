@@ -11,7 +11,9 @@
 namespace tidemark {
 namespace {
 
-std::string reason(int error) { return std::generic_category().message(error); }
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
 
 // Syncs a file or a folder; returns 0 or errno.
 int sync_path(const std::filesystem::path& path) {

@@ -12,10 +12,10 @@ using Index3 = glm::vec<3, std::int64_t>;
 
 // A regular grid in patient coordinates: LPS (x to the patient's left, y to posterior, z to the head), in mm.
 struct Geometry {
-  Index3 size{0, 0, 0};           // voxels along i, j, k
-  glm::dvec3 spacing_mm{1.0};     // distance of voxel centres along i, j, k
-  glm::dmat3 direction{1.0};      // column a is the unit vector of axis a in LPS
-  glm::dvec3 origin_mm{0.0};      // centre of voxel (0, 0, 0) in LPS
+  Index3 size{0, 0, 0};        // voxels along i, j, k
+  glm::dvec3 spacing_mm{1.0};  // distance of voxel centres along i, j, k
+  glm::dmat3 direction{1.0};   // column a is the unit vector of axis a in LPS
+  glm::dvec3 origin_mm{0.0};   // centre of voxel (0, 0, 0) in LPS
 
   bool operator==(const Geometry&) const = default;
 
@@ -24,9 +24,7 @@ struct Geometry {
   [[nodiscard]] bool contains(Index3 v) const {
     return v.x >= 0 && v.y >= 0 && v.z >= 0 && v.x < size.x && v.y < size.y && v.z < size.z;
   }
-  [[nodiscard]] double voxel_volume_ml() const {
-    return spacing_mm.x * spacing_mm.y * spacing_mm.z / 1000.0;
-  }
+  [[nodiscard]] double voxel_volume_ml() const { return spacing_mm.x * spacing_mm.y * spacing_mm.z / 1000.0; }
 
   // Voxel coordinates (fractions allowed, integers at centres) to patient mm and back.
   [[nodiscard]] glm::dvec3 to_patient(glm::dvec3 voxel) const;

@@ -30,6 +30,7 @@ int available_processors() {
 
 ThreadPool::ThreadPool(int threads) {
   const int members = threads > 0 ? threads : available_processors();
+  shares_ = std::vector<Share>(static_cast<std::size_t>(members));
   for (int member = 1; member < members; ++member) {
     workers_.emplace_back([this, member] { work(member); });
   }
@@ -42,10 +43,14 @@ ThreadPool::~ThreadPool() {
 }
 
 void ThreadPool::run_pieces(int member) {
-  for (;;) {
-    const std::int64_t begin = next_.fetch_add(grain_, std::memory_order_relaxed);
-    if (begin >= count_) return;
-    (*body_)(begin, std::min(begin + grain_, count_), member);
+  const auto members = shares_.size();
+  for (std::size_t i = 0; i < members; ++i) {
+    Share& share = shares_[(static_cast<std::size_t>(member) + i) % members];
+    for (;;) {
+      const std::int64_t begin = share.next.fetch_add(grain_, std::memory_order_relaxed);
+      if (begin >= share.end) break;
+      (*body_)(begin, std::min(begin + grain_, share.end), member);
+    }
   }
 }
 
@@ -76,12 +81,16 @@ void ThreadPool::work(int member) {
 
 void ThreadPool::for_each(std::int64_t count, std::int64_t grain, const Body& body) {
   if (count <= 0) return;
-  count_ = count;
   grain_ = std::max<std::int64_t>(1, grain);
   body_ = &body;
-  next_.store(0, std::memory_order_relaxed);
+  const auto members = static_cast<std::int64_t>(shares_.size());
+  for (std::int64_t member = 0; member < members; ++member) {
+    Share& share = shares_[static_cast<std::size_t>(member)];
+    share.next.store(count * member / members, std::memory_order_relaxed);
+    share.end = count * (member + 1) / members;
+  }
   // A loop of one piece is not worth waking anybody.
-  if (workers_.empty() || count_ <= grain_) {
+  if (workers_.empty() || count <= grain_) {
     run_pieces(0);
     return;
   }

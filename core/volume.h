@@ -23,13 +23,13 @@ struct Volume {
 
   Geometry geometry;
   Voxels voxels;
-  double slope = 1.0;      // rescaled units per stored unit (DICOM PS3.3 C.7.6.16.2.9.1: HU for CT)
+  double slope = 1.0;  // rescaled units per stored unit (DICOM PS3.3 C.7.6.16.2.9.1: HU for CT)
   double intercept = 0.0;
 
-  std::string modality;     // DICOM (0008,0060): "CT", "MR", ...; empty when unknown
-  std::string description;  // of the series, for display
-  std::optional<WindowLevel> window;       // the file's own first window
-  std::vector<std::string> changes;        // what reading found and changed, one sentence each
+  std::string modality;               // DICOM (0008,0060): "CT", "MR", ...; empty when unknown
+  std::string description;            // of the series, for display
+  std::optional<WindowLevel> window;  // the file's own first window
+  std::vector<std::string> changes;   // what reading found and changed, one sentence each
 
   [[nodiscard]] const char* scalar_name() const;  // "int16", "uint16" or "float"
   [[nodiscard]] float value(std::int64_t offset) const;

@@ -53,7 +53,7 @@ void HostExecutor::clear() {
     const bool inside = page == kInsidePage;
     for (const int buffer : {0, 1}) {
       std::fill_n(pool_.phi(buffer, page), kPageVoxels, inside ? constants_.band : -constants_.band);
-      pool_.info(page).masks[buffer] = RowMasks::constant(inside);
+      pool_.masks(buffer, page) = RowMasks::constant(inside);
     }
   }
   current_ = 0;
@@ -115,13 +115,14 @@ void HostExecutor::refresh_masks(PhysicalPage page) {
     if (padding || partial || values[last] == constants_.band) masks.inside_last |= bit;
     if (padding || partial || values[last] == -constants_.band) masks.outside_last |= bit;
   }
-  info.masks[0] = info.masks[1] = masks;
+  pool_.masks(0, page) = pool_.masks(1, page) = masks;
   std::copy_n(phi, kPageVoxels, pool_.phi(1 - current_, page));
 }
 
 // What a page asks for after a step, as one byte (paper section 4.4).
-std::uint8_t HostExecutor::page_code(PageInfo& info, int buffer) const {
-  const RowMasks& masks = info.masks[buffer];
+std::uint8_t HostExecutor::page_code(PhysicalPage page, int buffer) {
+  PageInfo& info = pool_.info(page);
+  const RowMasks& masks = pool_.masks(buffer, page);
   std::uint8_t code = 0;
   for (int face = 0; face < kFaces; ++face) {
     const PhysicalPage across = info.neighbours[kFaceNeighbour[face]];
@@ -140,11 +141,11 @@ std::uint8_t HostExecutor::page_code(PageInfo& info, int buffer) const {
 }
 
 // Whether everything that touches the faces of a constant page is the same constant.
-bool HostExecutor::surroundings_are_constant(const PageInfo& info, bool inside) const {
+bool HostExecutor::surroundings_are_constant(PhysicalPage page, bool inside) const {
   for (int face = 0; face < kFaces; ++face) {
-    const PhysicalPage across = info.neighbours[kFaceNeighbour[face]];
+    const PhysicalPage across = pool_.info(page).neighbours[kFaceNeighbour[face]];
     if (across == kNoPage) continue;
-    if (!face_is_constant(pool_.info(across).masks[current_], opposite_face(face), inside)) return false;
+    if (!face_is_constant(pool_.masks(current_, across), opposite_face(face), inside)) return false;
   }
   return true;
 }
@@ -168,16 +169,9 @@ Result<PhysicalPage> HostExecutor::make_resident(std::int64_t virtual_page) {
   const PhysicalPage page = table_.allocate(virtual_page);
   pool_.reserve(table_.capacity());
   describe_page(page);
-  PageInfo& info = pool_.info(page);
-  info.masks[0] = info.masks[1] = RowMasks::constant(inside);
-  for (RowMasks& masks : info.masks) {
-    masks.inside |= info.padding;
-    masks.inside_first |= info.padding;
-    masks.inside_last |= info.padding;
-    masks.outside |= info.padding;
-    masks.outside_first |= info.padding;
-    masks.outside_last |= info.padding;
-  }
+  RowMasks masks = RowMasks::constant(inside);
+  masks.add_padding(pool_.info(page).padding);
+  pool_.masks(0, page) = pool_.masks(1, page) = masks;
   link_neighbours(page);
   new_pages_.push_back(page);
   peak_resident_ = std::max(peak_resident_, table_.resident());
@@ -204,7 +198,7 @@ void HostExecutor::fill_new_pages() {
           const PhysicalPage page = new_pages_[static_cast<std::size_t>(i)];
           const std::int64_t virtual_page = table_.virtual_page(page);
           // A page without voxels that are W is all -W: constant pages have one kind of row.
-          const bool inside = pool_.info(page).masks[0].all_inside();
+          const bool inside = pool_.masks(0, page).all_inside();
           for (const int buffer : {0, 1}) {
             std::fill_n(pool_.phi(buffer, page), kPageVoxels, inside ? constants_.band : -constants_.band);
           }
@@ -217,7 +211,7 @@ void HostExecutor::fill_new_pages() {
 
 void HostExecutor::release_page(PhysicalPage page) {
   const std::int64_t virtual_page = table_.virtual_page(page);
-  const bool inside = pool_.info(page).masks[current_].all_inside();
+  const bool inside = pool_.masks(current_, page).all_inside();
   table_.release(virtual_page, inside);
   tell_neighbours(table_.layout().page_coordinates(virtual_page), inside ? kInsidePage : kOutsidePage);
   active_list_is_stale_ = true;
@@ -237,8 +231,7 @@ Status HostExecutor::update_domain() {
     }
     if ((code & kMovedBit) != 0) wake_around(page);
     if ((code & kReleaseBit) != 0) {
-      const PageInfo& info = pool_.info(page);
-      if (surroundings_are_constant(info, info.masks[current_].all_inside())) release_page(page);
+      if (surroundings_are_constant(page, pool_.masks(current_, page).all_inside())) release_page(page);
     }
   }
   fill_new_pages();
@@ -251,10 +244,10 @@ Status HostExecutor::activate_all() {
   // Pages that are made resident on the way may ask for more.
   for (PhysicalPage page = kFirstPage; page < table_.capacity() && result; ++page) {
     if (table_.virtual_page(page) < 0) continue;
-    result = make_neighbours_resident(page, page_code(pool_.info(page), current_));
+    result = make_neighbours_resident(page, page_code(page, current_));
   }
   for (std::size_t i = 0; i < new_pages_.size() && result; ++i) {
-    result = make_neighbours_resident(new_pages_[i], page_code(pool_.info(new_pages_[i]), current_));
+    result = make_neighbours_resident(new_pages_[i], page_code(new_pages_[i], current_));
   }
   fill_new_pages();
   needs_activation_ = !result;

@@ -79,7 +79,7 @@ std::int64_t HostExecutor::update_page(std::size_t index, Tile& tile) {
 
   // Rows that stay constant are written only where the other buffer does not hold the constant yet.
   float* phi = pool_.phi(next, page);
-  RowMasks& masks = info.masks[next];
+  RowMasks& masks = pool_.masks(next, page);
   fill_rows(phi, work.inside & ~masks.inside, constants_.band);
   fill_rows(phi, work.outside & ~masks.outside, -constants_.band);
 
@@ -96,17 +96,19 @@ std::int64_t HostExecutor::update_page(std::size_t index, Tile& tile) {
     const auto& variants = model_.parameters().scheme == Scheme::paper ? kernels_.paper : kernels_.split;
     variants[model_.spacing() == glm::dvec3(1.0) ? 0 : 1](job, result);
   }
-  masks.inside = result.masks.inside | work.inside | info.padding;
-  masks.inside_first = result.masks.inside_first | work.inside | info.padding;
-  masks.inside_last = result.masks.inside_last | work.inside | info.padding;
-  masks.outside = result.masks.outside | work.outside | info.padding;
-  masks.outside_first = result.masks.outside_first | work.outside | info.padding;
-  masks.outside_last = result.masks.outside_last | work.outside | info.padding;
+  masks = result.masks;
+  masks.inside |= work.inside;
+  masks.inside_first |= work.inside;
+  masks.inside_last |= work.inside;
+  masks.outside |= work.outside;
+  masks.outside_first |= work.outside;
+  masks.outside_last |= work.outside;
+  masks.add_padding(info.padding);
 
   info.change += 0.5F * result.largest_change;  // the change was over two steps
   info.squared_change += result.squared_change;
   info.near_voxels += result.near_voxels;
-  codes_[index] = page_code(info, next);
+  codes_[index] = page_code(page, next);
   return std::popcount(rows & ~info.padding) * std::int64_t{info.valid[0]};
 }
 

@@ -53,8 +53,8 @@ class HostExecutor final : public Executor {
   void link_neighbours(PhysicalPage page);
   void tell_neighbours(Index3 coordinates, PhysicalPage page);
   void refresh_masks(PhysicalPage page);
-  [[nodiscard]] std::uint8_t page_code(PageInfo& info, int buffer) const;
-  [[nodiscard]] bool surroundings_are_constant(const PageInfo& info, bool inside) const;
+  [[nodiscard]] std::uint8_t page_code(PhysicalPage page, int buffer);
+  [[nodiscard]] bool surroundings_are_constant(PhysicalPage page, bool inside) const;
   [[nodiscard]] Status check_budget(std::int64_t more_pages) const;
   Result<PhysicalPage> make_resident(std::int64_t virtual_page);
   Status make_neighbours_resident(PhysicalPage page, std::uint8_t code);

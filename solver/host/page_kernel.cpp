@@ -15,32 +15,42 @@ HWY_BEFORE_NAMESPACE();
 namespace tidemark::HWY_NAMESPACE {
 namespace {
 
-HWY_INLINE Stencil<Lanes> load_stencil(const Tile& tile, int at) {
+// A vector of a row's voxels, or of two rows' that follow each other.
+HWY_INLINE Lanes load_rows(const float* row) {
   const LanesTag d;
+#if HWY_CAP_GE512
+  const hn::Half<LanesTag> one_row;
+  return Lanes(hn::Combine(d, hn::LoadU(one_row, row + Tile::kRowStride), hn::LoadU(one_row, row)));
+#else
+  return Lanes(hn::LoadU(d, row));
+#endif
+}
+
+// The stencil of the voxels that begin at `at` in the tile.
+HWY_INLINE Stencil<Lanes> load_stencil(const Tile& tile, int at) {
   constexpr int kY = Tile::kRowStride;
   constexpr int kZ = Tile::kSliceStride;
-  const auto load = [&](const float* values, int shift)
-                        HWY_ATTR { return Lanes(hn::LoadU(d, values + at + shift)); };
+  const float* centre = tile.values + at;
   Stencil<Lanes> s;
-  s.c = load(tile.centre, 0);
-  s.xm = load(tile.left, 0);
-  s.xp = load(tile.right, 0);
-  s.ym = load(tile.centre, -kY);
-  s.yp = load(tile.centre, kY);
-  s.zm = load(tile.centre, -kZ);
-  s.zp = load(tile.centre, kZ);
-  s.xmym = load(tile.left, -kY);
-  s.xmyp = load(tile.left, kY);
-  s.xpym = load(tile.right, -kY);
-  s.xpyp = load(tile.right, kY);
-  s.xmzm = load(tile.left, -kZ);
-  s.xmzp = load(tile.left, kZ);
-  s.xpzm = load(tile.right, -kZ);
-  s.xpzp = load(tile.right, kZ);
-  s.ymzm = load(tile.centre, -kY - kZ);
-  s.ymzp = load(tile.centre, -kY + kZ);
-  s.ypzm = load(tile.centre, kY - kZ);
-  s.ypzp = load(tile.centre, kY + kZ);
+  s.c = load_rows(centre);
+  s.xm = load_rows(centre - 1);
+  s.xp = load_rows(centre + 1);
+  s.ym = load_rows(centre - kY);
+  s.yp = load_rows(centre + kY);
+  s.zm = load_rows(centre - kZ);
+  s.zp = load_rows(centre + kZ);
+  s.xmym = load_rows(centre - 1 - kY);
+  s.xmyp = load_rows(centre - 1 + kY);
+  s.xpym = load_rows(centre + 1 - kY);
+  s.xpyp = load_rows(centre + 1 + kY);
+  s.xmzm = load_rows(centre - 1 - kZ);
+  s.xmzp = load_rows(centre - 1 + kZ);
+  s.xpzm = load_rows(centre + 1 - kZ);
+  s.xpzp = load_rows(centre + 1 + kZ);
+  s.ymzm = load_rows(centre - kY - kZ);
+  s.ymzp = load_rows(centre - kY + kZ);
+  s.ypzm = load_rows(centre + kY - kZ);
+  s.ypzp = load_rows(centre + kY + kZ);
   return s;
 }
 

@@ -21,7 +21,7 @@ void PagePool::reserve(PhysicalPage capacity) {
 
 std::int64_t PagePool::state_bytes(std::int64_t capacity) {
   return round_up(capacity, kPagesPerChunk) *
-         static_cast<std::int64_t>(2 * kPageVoxels * sizeof(float) + sizeof(PageInfo));
+         static_cast<std::int64_t>(2 * (kPageVoxels * sizeof(float) + sizeof(RowMasks)) + sizeof(PageInfo));
 }
 
 std::int64_t PagePool::source_bytes(std::int64_t capacity) {

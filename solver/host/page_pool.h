@@ -14,8 +14,7 @@ namespace tidemark {
 struct PageInfo {
   // The physical pages around it, at (dx + 1) + 3 (dy + 1) + 9 (dz + 1); its own number in the middle.
   PhysicalPage neighbours[27];
-  RowMasks masks[2];  // of each buffer
-  Rows padding = 0;   // rows beyond the volume
+  Rows padding = 0;  // rows beyond the volume
 
   // Since the window began, over the voxels beside the surface (StepConstants::near): the sum of the steps'
   // largest changes, the sum of the squared changes, and the number of voxels.
@@ -51,6 +50,13 @@ class PagePool {
     return chunk(page).infos[static_cast<std::uint32_t>(page) % kPagesPerChunk];
   }
 
+  [[nodiscard]] RowMasks& masks(int buffer, PhysicalPage page) {
+    return chunk(page).masks[buffer][static_cast<std::uint32_t>(page) % kPagesPerChunk];
+  }
+  [[nodiscard]] const RowMasks& masks(int buffer, PhysicalPage page) const {
+    return chunk(page).masks[buffer][static_cast<std::uint32_t>(page) % kPagesPerChunk];
+  }
+
   // Asks for a page's values to be brought into the cache.
   void prefetch(PhysicalPage page) const {
     constexpr int kFloatsPerLine = 16;
@@ -68,6 +74,8 @@ class PagePool {
 
   struct Chunk {
     alignas(64) float values[kPagesPerChunk * kFloatsPerPage];
+    // Apart by buffer: while a page writes the next buffer's, its neighbours read the current one's.
+    RowMasks masks[2][kPagesPerChunk];
     PageInfo infos[kPagesPerChunk];
   };
 

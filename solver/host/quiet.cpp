@@ -46,7 +46,7 @@ void HostExecutor::put_to_sleep(PhysicalPage page) {
   PageInfo& info = pool_.info(page);
   info.asleep = true;
   std::copy_n(pool_.phi(current_, page), kPageVoxels, pool_.phi(1 - current_, page));
-  info.masks[1 - current_] = info.masks[current_];
+  pool_.masks(1 - current_, page) = pool_.masks(current_, page);
 }
 
 // At the end of a window: puts pages to sleep, and starts the next window's sums.

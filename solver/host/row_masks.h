@@ -32,6 +32,15 @@ struct RowMasks {
     return masks;
   }
 
+  constexpr void add_padding(Rows padding) {
+    inside |= padding;
+    inside_first |= padding;
+    inside_last |= padding;
+    outside |= padding;
+    outside_first |= padding;
+    outside_last |= padding;
+  }
+
   [[nodiscard]] bool all_inside() const { return inside == kAllRows; }
   [[nodiscard]] bool all_outside() const { return outside == kAllRows; }
 };

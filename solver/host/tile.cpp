@@ -12,6 +12,9 @@ constexpr int neighbour(int dx, int dy, int dz) {
   return (dx + 1) + 3 * (dy + 1) + 9 * (dz + 1);
 }
 
+constexpr int kFaceNeighbours[] = {neighbour(-1, 0, 0), neighbour(1, 0, 0),  neighbour(0, -1, 0),
+                                   neighbour(0, 1, 0),  neighbour(0, 0, -1), neighbour(0, 0, 1)};
+
 // The local coordinates that an axis of a page's apron may use: -1..8, less at the volume's border.
 struct Span {
   int low;
@@ -43,15 +46,15 @@ struct ConstantRows {
 };
 
 ConstantRows constant_rows(const PagePool& pool, int buffer, const PageInfo& info, int dy, int dz) {
-  const RowMasks& centre = pool.info(info.neighbours[neighbour(0, dy, dz)]).masks[buffer];
+  const RowMasks& centre = pool.masks(buffer, info.neighbours[neighbour(0, dy, dz)]);
   ConstantRows rows{centre.inside, centre.outside};
   if (const PhysicalPage left = info.neighbours[neighbour(-1, dy, dz)]; left != kNoPage) {
-    rows.inside &= pool.info(left).masks[buffer].inside_last;
-    rows.outside &= pool.info(left).masks[buffer].outside_last;
+    rows.inside &= pool.masks(buffer, left).inside_last;
+    rows.outside &= pool.masks(buffer, left).outside_last;
   }
   if (const PhysicalPage right = info.neighbours[neighbour(1, dy, dz)]; right != kNoPage) {
-    rows.inside &= pool.info(right).masks[buffer].inside_first;
-    rows.outside &= pool.info(right).masks[buffer].outside_first;
+    rows.inside &= pool.masks(buffer, right).inside_first;
+    rows.outside &= pool.masks(buffer, right).outside_first;
   }
   return rows;
 }
@@ -73,54 +76,68 @@ unsigned all_three(unsigned apron) {
   return apron & (apron >> 1U) & (apron >> 2U);
 }
 
-struct Row {
-  float values[kPageSide];
+using NeededRows = std::array<unsigned, Tile::kSide>;  // bit y + 1 of element z + 1
+
+// The values of a column of three pages along x.
+struct Column {
+  const float* before;
+  const float* page;
+  const float* after;
 };
 
-// Rows are gathered in the order of their addresses. One load of a row makes three stores: as it is, one
-// voxel further (what is left of each voxel) and one voxel back (what is right of it); the two voxels that
-// come from the pages beside it are put right afterwards, the last of a row only after the next row has
-// spilled over it.
-template <bool kXBorder>
-void gather_rows(const PagePool& pool, int buffer, const PageInfo& info,
-                 const std::array<unsigned, Tile::kSide>& needed, Tile& tile) {
-  constexpr int kLast = kPageSide - 1;
+Column column(const PagePool& pool, int buffer, const PageInfo& info, int dy, int dz) {
+  const PhysicalPage* pages = info.neighbours + neighbour(0, dy, dz);
+  const auto values = [&](PhysicalPage page) { return page == kNoPage ? nullptr : pool.phi(buffer, page); };
+  return {values(pages[-1]), values(pages[0]), values(pages[1])};
+}
+
+inline void copy_row(const Column& from, int offset, float* to) {
+  std::memcpy(to, from.page + offset, sizeof(float) * kPageSide);
+  to[-1] = from.before[offset + kPageSide - 1];
+  to[kPageSide] = from.after[offset];
+}
+
+// Pages that are surrounded by pages: rows of the page itself follow each other without a test.
+void gather_inner(const PagePool& pool, int buffer, const PageInfo& info, const NeededRows& needed,
+                  Tile& tile) {
+  for (int z = -1; z <= kPageSide; ++z) {
+    const unsigned bits = needed[static_cast<std::size_t>(z + 1)];
+    if (bits == 0) continue;
+    const int dz = page_step(z);
+    const int slice = (z & 7) * kPageRows;
+    float* to = tile.values + Tile::row(0, z);
+    const Column own = column(pool, buffer, info, 0, dz);
+    for (unsigned rows = bits >> 1U & 0xffU; rows != 0; rows &= rows - 1) {
+      const int y = std::countr_zero(rows);
+      copy_row(own, slice + y * kPageSide, to + y * Tile::kRowStride);
+    }
+    if ((bits & 1U) != 0) {
+      copy_row(column(pool, buffer, info, -1, dz), slice + 7 * kPageSide, to - Tile::kRowStride);
+    }
+    if ((bits & 0x200U) != 0) {
+      copy_row(column(pool, buffer, info, 1, dz), slice, to + kPageSide * Tile::kRowStride);
+    }
+  }
+}
+
+// Pages at the volume's border: there the index is clamped.
+void gather_at_border(const PagePool& pool, int buffer, const PageInfo& info, const NeededRows& needed,
+                      Tile& tile) {
   const Span y_range = y_span(info);
   const Span z_range = z_span(info);
-  const float* pages[27];
-  for (int n = 0; n < 27; ++n) {
-    pages[n] = info.neighbours[n] == kNoPage ? nullptr : pool.phi(buffer, info.neighbours[n]);
-  }
-  float previous_last = 0.0F;
+  const int width = info.valid[0];
   for (int z = -1; z <= kPageSide; ++z) {
     const int from_z = z_range.clamp(z);
-    const float* const* slice = pages + neighbour(0, 0, page_step(from_z));
     for (unsigned bits = needed[static_cast<std::size_t>(z + 1)]; bits != 0; bits &= bits - 1) {
       const int y = std::countr_zero(bits) - 1;
       const int from_y = y_range.clamp(y);
-      const float* const* around = slice + 3 * page_step(from_y);
+      const Column from = column(pool, buffer, info, page_step(from_y), page_step(from_z));
       const int offset = ((from_z & 7) * kPageSide + (from_y & 7)) * kPageSide;
-      Row row;
-      std::memcpy(&row, around[0] + offset, sizeof row);
-      float before;
-      float after;
-      if constexpr (kXBorder) {
-        const int width = info.valid[0];
-        std::fill(row.values + width, row.values + kPageSide, row.values[width - 1]);
-        before = around[-1] == nullptr ? row.values[0] : around[-1][offset + kLast];
-        after = around[1] == nullptr ? row.values[kLast] : around[1][offset];
-      } else {
-        before = around[-1][offset + kLast];
-        after = around[1][offset];
-      }
-      const int to = Tile::row(y, z);
-      std::memcpy(tile.centre + to, &row, sizeof row);
-      std::memcpy(tile.left + to + 1, &row, sizeof row);
-      tile.left[to] = before;
-      std::memcpy(tile.right + to - 1, &row, sizeof row);
-      tile.right[to - 1] = previous_last;
-      tile.right[to + kLast] = after;
-      previous_last = after;
+      float* to = tile.values + Tile::row(y, z);
+      std::memcpy(to, from.page + offset, sizeof(float) * kPageSide);
+      std::fill(to + width, to + kPageSide, to[width - 1]);
+      to[-1] = from.before == nullptr ? to[0] : from.before[offset + kPageSide - 1];
+      to[kPageSide] = from.after == nullptr ? to[kPageSide - 1] : from.after[offset];
     }
   }
 }
@@ -162,18 +179,18 @@ RowWork find_row_work(const PagePool& pool, int buffer, const PageInfo& info) {
 
 void gather(const PagePool& pool, int buffer, const PageInfo& info, Rows rows, Tile& tile) {
   // A row's stencil reaches one row further along y and z.
-  std::array<unsigned, Tile::kSide> needed{};
+  NeededRows needed{};
   for (int z = 0; z < kPageSide; ++z) {
     const unsigned byte = static_cast<unsigned>(rows >> (8 * z)) & 0xffU;
     const unsigned reach = byte | byte << 1U | byte << 2U;
     for (int level = z; level <= z + 2; ++level) needed[static_cast<std::size_t>(level)] |= reach;
   }
-  const bool border =
-      info.neighbours[neighbour(-1, 0, 0)] == kNoPage || info.neighbours[neighbour(1, 0, 0)] == kNoPage;
+  const bool border = std::any_of(std::begin(kFaceNeighbours), std::end(kFaceNeighbours),
+                                  [&](int n) { return info.neighbours[n] == kNoPage; });
   if (border) {
-    gather_rows<true>(pool, buffer, info, needed, tile);
+    gather_at_border(pool, buffer, info, needed, tile);
   } else {
-    gather_rows<false>(pool, buffer, info, needed, tile);
+    gather_inner(pool, buffer, info, needed, tile);
   }
 }
 

@@ -1,4 +1,4 @@
-// A page with its apron, gathered so that every load of the stencil is one aligned vector.
+// A page with its apron, gathered so that the stencil finds its neighbours at fixed distances.
 #pragma once
 
 #include "solver/host/page_pool.h"
@@ -6,23 +6,17 @@
 
 namespace tidemark {
 
-// phi at (x, y, z), each of y and z in -1..8, is centre[row(y, z) + x] for x in 0..7; `left` holds the value
-// at x - 1 and `right` the one at x + 1. Rows follow each other, so that a vector of 16 covers two.
+// phi at (x, y, z), each of x, y and z in -1..8, is values[row(y, z) + x]. A row takes one cache line, so
+// that vectors of 8 that begin one voxel to the left or to the right do not cross a line.
 struct Tile {
   static constexpr int kSide = kPageSide + 2;
-  static constexpr int kFloats = kSide * kSide * kPageSide;
-  static constexpr int kRowStride = kPageSide;
-  static constexpr int kSliceStride = kSide * kPageSide;
+  static constexpr int kRowStride = 16;
+  static constexpr int kSliceStride = kSide * kRowStride;
+  static constexpr int kFirst = 4;  // of a row's line
 
-  static constexpr int row(int y, int z) { return (z + 1) * kSliceStride + (y + 1) * kRowStride; }
+  static constexpr int row(int y, int z) { return (z + 1) * kSliceStride + (y + 1) * kRowStride + kFirst; }
 
-  // Gathering writes whole rows one voxel off, so that a row spills into its neighbour's place.
-  static constexpr int kSpill = 16;
-
-  alignas(64) float left[kFloats + kSpill];
-  alignas(64) float centre[kFloats];
-  alignas(64) float right_storage[kSpill + kFloats];
-  float* const right = right_storage + kSpill;
+  alignas(64) float values[kSide * kSliceStride];
 };
 
 // The rows of a page that may change in the next step, and what the others are.
