@@ -5,6 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "solver/host/page_kernel.cpp"
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#include <cstring>
 #include <mutex>
 
 #include "hwy/foreach_target.h"  // before highway.h
@@ -61,16 +62,28 @@ HWY_INLINE unsigned mask_bits(Mask mask) {
   return bytes[0] | static_cast<unsigned>(bytes[1]) << 8U;
 }
 
-// Adds one row's bits (one for each of its voxels) to the masks. Padding voxels count as constant.
-HWY_INLINE void add_row(unsigned inside, unsigned outside, unsigned padding, Rows row, RowMasks& masks) {
-  inside |= padding;
-  outside |= padding;
-  if (inside == 0xffU) masks.inside |= row;
-  if (outside == 0xffU) masks.outside |= row;
-  if ((inside & 0x01U) != 0) masks.inside_first |= row;
-  if ((inside & 0x80U) != 0) masks.inside_last |= row;
-  if ((outside & 0x01U) != 0) masks.outside_first |= row;
-  if ((outside & 0x80U) != 0) masks.outside_last |= row;
+// One byte a row, one bit a voxel: which of them are W and which are -W. Kept as bytes while rows are
+// computed, because deciding row by row would cost a mispredicted branch or two each.
+struct ConstantVoxels {
+  alignas(64) std::uint8_t inside[kPageRows] = {};
+  alignas(64) std::uint8_t outside[kPageRows] = {};
+};
+
+// Bit r of the result is set when byte r, after `and_mask`, equals it.
+HWY_INLINE Rows rows_where(const std::uint8_t* bytes, std::uint8_t and_mask) {
+  const hn::CappedTag<std::uint8_t, 16> d;
+  const auto wanted = hn::Set(d, and_mask);
+  std::uint8_t bits[kPageRows / 8 + 8] = {};
+  for (std::size_t i = 0; i < kPageRows; i += hn::Lanes(d)) {
+    const auto equal = hn::Eq(hn::And(hn::Load(d, bytes + i), wanted), wanted);
+    std::uint8_t part[8] = {};
+    hn::StoreMaskBits(d, equal, part);
+    bits[i / 8] |= static_cast<std::uint8_t>(part[0] << (i % 8));
+    bits[i / 8 + 1] |= part[1];
+  }
+  Rows rows = 0;
+  std::memcpy(&rows, bits, sizeof rows);
+  return rows;
 }
 
 template <bool kPaper, bool kAnisotropic>
@@ -85,13 +98,15 @@ void update_page(const PageJob& job, PageResult& result) {
   // The largest |phi| of a voxel whose change counts; padding never does.
   alignas(64) float near_limit[16];
   for (int i = 0; i < 16; ++i) near_limit[i] = i % kPageSide < job.valid_x ? constants.near : -1.0F;
-  const unsigned padding = 0xffU << static_cast<unsigned>(job.valid_x) & 0xffU;
 
   auto largest_change = hn::Zero(d);
   auto squared_change = hn::Zero(d);
   auto near_voxels = hn::Zero(d);
-  for (int row = 0; row < kPageRows; row += rows_per_vector) {
-    if ((job.rows >> static_cast<unsigned>(row) & 1U) == 0) continue;
+  ConstantVoxels constant;
+  const Rows one_vector = (Rows{1} << rows_per_vector) - 1;
+  for (Rows rest = job.rows; rest != 0;) {
+    const int row = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(rest));
+    rest &= ~(one_vector << row);
     const int tile_row = Tile::row(row % kPageSide, row / kPageSide);
     unsigned inside = 0;
     unsigned outside = 0;
@@ -111,10 +126,19 @@ void update_page(const PageJob& job, PageResult& result) {
       outside |= mask_bits(hn::Eq(phi, minus_band)) << static_cast<unsigned>(x);
     }
     for (int r = 0; r < rows_per_vector; ++r) {
-      const auto shift = static_cast<unsigned>(r * kPageSide);
-      add_row(inside >> shift & 0xffU, outside >> shift & 0xffU, padding, Rows{1} << (row + r), result.masks);
+      constant.inside[row + r] = static_cast<std::uint8_t>(inside >> (r * kPageSide));
+      constant.outside[row + r] = static_cast<std::uint8_t>(outside >> (r * kPageSide));
     }
   }
+  // Padding voxels count as constant: only the others are asked for.
+  const auto valid = static_cast<std::uint8_t>((1U << static_cast<unsigned>(job.valid_x)) - 1U);
+  const auto last = static_cast<std::uint8_t>(0x80U & valid);
+  result.masks.inside = rows_where(constant.inside, valid) & job.rows;
+  result.masks.inside_first = rows_where(constant.inside, 0x01U) & job.rows;
+  result.masks.inside_last = rows_where(constant.inside, last) & job.rows;
+  result.masks.outside = rows_where(constant.outside, valid) & job.rows;
+  result.masks.outside_first = rows_where(constant.outside, 0x01U) & job.rows;
+  result.masks.outside_last = rows_where(constant.outside, last) & job.rows;
   result.largest_change = hn::GetLane(hn::MaxOfLanes(d, largest_change));
   result.squared_change = hn::GetLane(hn::SumOfLanes(d, squared_change));
   result.near_voxels = static_cast<std::int32_t>(hn::GetLane(hn::SumOfLanes(d, near_voxels)));
