@@ -46,9 +46,16 @@ void copy_source(const Volume& source, Index3 first, Index3 valid, float* page) 
 
 }  // namespace
 
+// As many pages as the volume has or the budget allows.
+PhysicalPage HostExecutor::pool_capacity() const {
+  const std::int64_t page_bytes = PagePool::state_bytes(1) + PagePool::source_bytes(1);
+  const std::int64_t affordable = options_.memory_budget_bytes / page_bytes + 1;
+  return static_cast<PhysicalPage>(std::min(affordable, table_.layout().page_count()) + kFirstPage);
+}
+
 void HostExecutor::clear() {
   table_ = PageTable(PageLayout(source_->geometry.size, kDefaultPageShape));
-  pool_ = PagePool();
+  pool_ = PagePool(pool_capacity());
   for (const PhysicalPage page : {kOutsidePage, kInsidePage}) {
     const bool inside = page == kInsidePage;
     for (const int buffer : {0, 1}) {
@@ -167,7 +174,6 @@ Result<PhysicalPage> HostExecutor::make_resident(std::int64_t virtual_page) {
   }
   const bool inside = table_.physical(virtual_page) == kInsidePage;
   const PhysicalPage page = table_.allocate(virtual_page);
-  pool_.reserve(table_.capacity());
   describe_page(page);
   RowMasks masks = RowMasks::constant(inside);
   masks.add_padding(pool_.info(page).padding);

@@ -48,6 +48,7 @@ class HostExecutor final : public Executor {
   bool finish_window();
 
   // Which pages are resident (domain.cpp).
+  [[nodiscard]] PhysicalPage pool_capacity() const;
   void clear();
   void describe_page(PhysicalPage page);
   void link_neighbours(PhysicalPage page);
@@ -89,7 +90,7 @@ class HostExecutor final : public Executor {
   std::vector<std::int64_t> updates_;         // voxels computed in the step, one a thread
 
   PageTable table_;
-  PagePool pool_;
+  PagePool pool_{kFirstPage};
   int current_ = 0;                      // the buffer that holds phi
   std::vector<PhysicalPage> active_;     // the pages that are computed
   std::vector<std::uint8_t> codes_;      // what each of them asks for after a step

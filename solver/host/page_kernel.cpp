@@ -86,18 +86,34 @@ HWY_INLINE Rows rows_where(const std::uint8_t* bytes, std::uint8_t and_mask) {
   return rows;
 }
 
+HWY_INLINE StepConstants<Lanes> in_every_lane(const StepConstants<float>& k) {
+  StepConstants<Lanes> lanes;
+  for (int axis = 0; axis < 3; ++axis) lanes.inverse_spacing[axis] = Lanes(k.inverse_spacing[axis]);
+  lanes.time_step = Lanes(k.time_step);
+  lanes.band = Lanes(k.band);
+  lanes.minus_band = Lanes(k.minus_band);
+  lanes.data_weight = Lanes(k.data_weight);
+  lanes.curvature_weight = Lanes(k.curvature_weight);
+  lanes.rescaling_weight = Lanes(k.rescaling_weight);
+  lanes.target_gradient = Lanes(k.target_gradient);
+  lanes.target = Lanes(k.target);
+  lanes.near = Lanes(k.near);
+  lanes.data_peak = Lanes(k.data_peak);
+  lanes.data_slope = Lanes(k.data_slope);
+  lanes.data_floor = Lanes(k.data_floor);
+  return lanes;
+}
+
 template <bool kPaper, bool kAnisotropic>
 void update_page(const PageJob& job, PageResult& result) {
   const LanesTag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const int rows_per_vector = lanes > kPageSide ? lanes / kPageSide : 1;
-  const StepConstants<float>& constants = *job.constants;
-  const auto band = hn::Set(d, constants.band);
-  const auto minus_band = hn::Set(d, -constants.band);
+  const StepConstants<Lanes> constants = in_every_lane(*job.constants);
 
   // The largest |phi| of a voxel whose change counts; padding never does.
   alignas(64) float near_limit[16];
-  for (int i = 0; i < 16; ++i) near_limit[i] = i % kPageSide < job.valid_x ? constants.near : -1.0F;
+  for (int i = 0; i < 16; ++i) near_limit[i] = i % kPageSide < job.valid_x ? job.constants->near : -1.0F;
 
   auto largest_change = hn::Zero(d);
   auto squared_change = hn::Zero(d);
@@ -122,8 +138,8 @@ void update_page(const PageJob& job, PageResult& result) {
       squared_change = hn::MulAdd(change, change, squared_change);
       near_voxels = hn::Add(near_voxels, hn::IfThenElseZero(near, hn::Set(d, 1.0F)));
       hn::StoreU(phi, d, job.next + voxel);
-      inside |= mask_bits(hn::Eq(phi, band)) << static_cast<unsigned>(x);
-      outside |= mask_bits(hn::Eq(phi, minus_band)) << static_cast<unsigned>(x);
+      inside |= mask_bits(hn::Eq(phi, constants.band.v)) << static_cast<unsigned>(x);
+      outside |= mask_bits(hn::Eq(phi, constants.minus_band.v)) << static_cast<unsigned>(x);
     }
     for (int r = 0; r < rows_per_vector; ++r) {
       constant.inside[row + r] = static_cast<std::uint8_t>(inside >> (r * kPageSide));

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <vector>
 
+#include "solver/host/reserved_array.h"
 #include "solver/host/row_masks.h"
 #include "solver/paging/page_table.h"
 
@@ -29,32 +28,23 @@ struct PageInfo {
   bool woke_neighbours = false;     // in this window
 };
 
-// Pages come in chunks that never move, so growing copies nothing and a page's address is good for its life.
 class PagePool {
  public:
-  PagePool();
+  // Room for at most `capacity` pages; memory is taken as pages are used.
+  explicit PagePool(PhysicalPage capacity);
 
-  // Makes room for pages [0, capacity).
-  void reserve(PhysicalPage capacity);
-
-  [[nodiscard]] float* phi(int buffer, PhysicalPage page) { return values(page) + buffer * kPageVoxels; }
-  [[nodiscard]] const float* phi(int buffer, PhysicalPage page) const {
+  [[nodiscard]] float* phi(int buffer, PhysicalPage page) const {
     return values(page) + buffer * kPageVoxels;
   }
-  [[nodiscard]] float* source(PhysicalPage page) { return values(page) + 2 * kPageVoxels; }
+  [[nodiscard]] float* source(PhysicalPage page) const { return values(page) + 2 * kPageVoxels; }
 
-  [[nodiscard]] PageInfo& info(PhysicalPage page) {
-    return chunk(page).infos[static_cast<std::uint32_t>(page) % kPagesPerChunk];
-  }
-  [[nodiscard]] const PageInfo& info(PhysicalPage page) const {
-    return chunk(page).infos[static_cast<std::uint32_t>(page) % kPagesPerChunk];
-  }
+  [[nodiscard]] PageInfo& info(PhysicalPage page) { return infos_[index(page)]; }
+  [[nodiscard]] const PageInfo& info(PhysicalPage page) const { return infos_[index(page)]; }
 
-  [[nodiscard]] RowMasks& masks(int buffer, PhysicalPage page) {
-    return chunk(page).masks[buffer][static_cast<std::uint32_t>(page) % kPagesPerChunk];
-  }
+  // Apart by buffer: while a page writes the next buffer's, its neighbours read the current one's.
+  [[nodiscard]] RowMasks& masks(int buffer, PhysicalPage page) { return masks_[buffer][index(page)]; }
   [[nodiscard]] const RowMasks& masks(int buffer, PhysicalPage page) const {
-    return chunk(page).masks[buffer][static_cast<std::uint32_t>(page) % kPagesPerChunk];
+    return masks_[buffer][index(page)];
   }
 
   // Asks for a page's values to be brought into the cache.
@@ -64,30 +54,21 @@ class PagePool {
     for (int i = 0; i < kFloatsPerPage; i += kFloatsPerLine) __builtin_prefetch(first + i);
   }
 
-  // Bytes for phi and page information, and for the source, with room for `capacity` pages.
-  [[nodiscard]] static std::int64_t state_bytes(std::int64_t capacity);
-  [[nodiscard]] static std::int64_t source_bytes(std::int64_t capacity);
+  // Bytes that `pages` pages take for phi and what is kept beside it, and for the source.
+  [[nodiscard]] static std::int64_t state_bytes(std::int64_t pages);
+  [[nodiscard]] static std::int64_t source_bytes(std::int64_t pages);
 
  private:
-  static constexpr std::uint32_t kPagesPerChunk = 32;
   static constexpr int kFloatsPerPage = 3 * kPageVoxels;
 
-  struct Chunk {
-    alignas(64) float values[kPagesPerChunk * kFloatsPerPage];
-    // Apart by buffer: while a page writes the next buffer's, its neighbours read the current one's.
-    RowMasks masks[2][kPagesPerChunk];
-    PageInfo infos[kPagesPerChunk];
-  };
-
-  [[nodiscard]] Chunk& chunk(PhysicalPage page) const {
-    return *chunks_[static_cast<std::uint32_t>(page) / kPagesPerChunk];
-  }
+  static std::size_t index(PhysicalPage page) { return static_cast<std::size_t>(page); }
   [[nodiscard]] float* values(PhysicalPage page) const {
-    return chunk(page).values +
-           std::size_t{static_cast<std::uint32_t>(page) % kPagesPerChunk} * kFloatsPerPage;
+    return values_.data() + index(page) * kFloatsPerPage;
   }
 
-  std::vector<std::unique_ptr<Chunk>> chunks_;
+  ReservedArray<float> values_;
+  ReservedArray<RowMasks> masks_[2];
+  ReservedArray<PageInfo> infos_;
 };
 
 }  // namespace tidemark

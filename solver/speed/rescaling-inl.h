@@ -16,8 +16,8 @@ namespace tidemark::HWY_NAMESPACE {
 inline constexpr double kFullSignChange = 0.1;
 
 // phi (g_phi - |grad phi|), the gradient taken from the side of the surface. Beside the surface the mean of
-// both one-sided gradients stands in, which keeps the surface where it is to about a tenth of a voxel. The one
-// goes over into the other continuously as a neighbour changes sign: a switch would leave voxels flipping
+// both one-sided gradients stands in, which keeps the surface where it is to about a tenth of a voxel. The
+// one goes over into the other continuously as a neighbour changes sign: a switch would leave voxels flipping
 // between the two for ever, and the surface would never come to rest.
 template <class V, class Real>
 HWY_INLINE V rescaling_speed(const Differences<V>& d, const StepConstants<Real>& k) {

@@ -76,15 +76,17 @@ HWY_INLINE Differences<V> differences(const Stencil<V>& s, const StepConstants<R
   }
 
   const V zero = V(Real(0));
-  V growing = zero;
-  V shrinking = zero;
+  V growing;
+  V shrinking;
   for (int axis = 0; axis < 3; ++axis) {
     const V rise_ahead = max(d.plus[axis], zero);
     const V fall_behind = min(d.minus[axis], zero);
     const V fall_ahead = min(d.plus[axis], zero);
     const V rise_behind = max(d.minus[axis], zero);
-    growing = growing + (rise_ahead * rise_ahead + fall_behind * fall_behind);
-    shrinking = shrinking + (fall_ahead * fall_ahead + rise_behind * rise_behind);
+    const V growing_here = rise_ahead * rise_ahead + fall_behind * fall_behind;
+    const V shrinking_here = fall_ahead * fall_ahead + rise_behind * rise_behind;
+    growing = axis == 0 ? growing_here : growing + growing_here;
+    shrinking = axis == 0 ? shrinking_here : shrinking + shrinking_here;
   }
   d.upwind_growing = sqrt(growing);
   d.upwind_shrinking = sqrt(shrinking);

@@ -30,7 +30,7 @@ HWY_INLINE V updated_phi(const Differences<V>& d, V source, const StepConstants<
   }
   change = change + V(k.rescaling_weight) * rescaling_speed(d, k);
   const V phi = d.phi + V(k.time_step) * change;
-  return max(min(phi, V(k.band)), V(-k.band));
+  return max(min(phi, V(k.band)), V(k.minus_band));
 }
 
 }  // namespace tidemark::HWY_NAMESPACE
