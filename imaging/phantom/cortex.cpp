@@ -25,7 +25,7 @@ Result<Phantom> make_cortex(const PhantomOptions& options, ThreadPool& pool, con
   constexpr double kHalfThickness = 2.6;
   const glm::dvec3 radii(95.0, 98.0, 74.0);
   const Folds folds(
-      hash(options.random_seed, 1),
+      hash(kShapeSeed, 1),
       {.wavelength_mm = 19.0, .ridge_mm = 8.0, .valley_mm = 9.0, .fillet_mm = 4.0, .widening_mm = 0.0});
   Scene scene;
   scene.size = {256, 256, 175};

@@ -166,7 +166,7 @@ class Head {
 }  // namespace
 
 Result<Phantom> make_head(const PhantomOptions& options, ThreadPool& pool, const Progress& progress) {
-  const Head head(options.random_seed);
+  const Head head(kShapeSeed);
   Scene scene;
   scene.size = {192, 224, 176};
   scene.description = "T1 head";

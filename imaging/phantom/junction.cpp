@@ -101,7 +101,7 @@ class Junction {
 }  // namespace
 
 Result<Phantom> make_junction(const PhantomOptions& options, ThreadPool& pool, const Progress& progress) {
-  const Junction junction(options.random_seed);
+  const Junction junction(kShapeSeed);
   Scene scene;
   scene.size = {512, 512, 61};
   scene.description = "Membranes of two cells";

@@ -139,7 +139,7 @@ class Abdomen {
 }  // namespace
 
 Result<Phantom> make_organ(const PhantomOptions& options, ThreadPool& pool, const Progress& progress) {
-  const Abdomen abdomen(options.random_seed);
+  const Abdomen abdomen(kShapeSeed);
   Scene scene;
   scene.size = {256, 256, 256};
   scene.spacing_mm = kVoxel;

@@ -34,8 +34,9 @@ struct Phantom {
 const std::vector<std::string_view>& phantom_kinds();
 
 struct PhantomOptions {
-  double noise_percent = -1.0;    // standard deviation in % of the brightest tissue; < 0: the kind's default
-  std::uint64_t random_seed = 1;  // the same seed gives the same voxels on every machine
+  double noise_percent = -1.0;  // standard deviation in % of the brightest tissue; < 0: the kind's default
+  // Of the noise; the body and the truth stay the same. The same seed gives the same voxels on every machine.
+  std::uint64_t random_seed = 1;
 };
 
 // Fails (ErrorKind::usage) on an unknown kind.

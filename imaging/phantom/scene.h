@@ -12,6 +12,9 @@
 
 namespace tidemark::phantom {
 
+// Of folds, lobes and textures: the body stays the same, the caller's random seed makes the noise.
+inline constexpr std::uint64_t kShapeSeed = 1;
+
 // A body and the scanner that looks at it.
 struct Scene {
   Index3 size;

@@ -24,8 +24,8 @@ double tumour_distance(const glm::dvec3& p, const RandomWaves& unevenness) {
 
 Result<Phantom> make_tumour(const PhantomOptions& options, ThreadPool& pool, const Progress& progress) {
   constexpr double kScalp = 950.0, kSkull = 90.0, kFluid = 220.0, kBrain = 470.0, kTumour = 750.0;
-  const RandomWaves unevenness(hash(options.random_seed, 1), 10, 22.0, 40.0);
-  const RandomWaves texture(hash(options.random_seed, 2), 16, 10.0, 30.0);
+  const RandomWaves unevenness(hash(kShapeSeed, 1), 10, 22.0, 40.0);
+  const RandomWaves texture(hash(kShapeSeed, 2), 16, 10.0, 30.0);
 
   Scene scene;
   scene.size = {256, 256, 175};
