@@ -188,6 +188,13 @@ class RescalingTest : public QObject {
       QVERIFY(std::abs(statistics.volume_ml - volume) < 0.01 * volume);
       QVERIFY(std::abs(statistics.surface_mm2 - area) < 0.02 * area);
       QCOMPARE(statistics.voxels_inside, level_set->snapshot().mask().count());
+
+      // The measure does not take phi for a distance.
+      set_phi(*level_set, geometry,
+              [&](glm::dvec3 p) { return 2.5 * (15.0 - glm::distance(p, centre_of(geometry))) / smallest; });
+      const SurfaceStatistics steep = measure(level_set->snapshot());
+      QVERIFY(std::abs(steep.volume_ml - volume) < 0.01 * volume);
+      QVERIFY(std::abs(steep.surface_mm2 - area) < 0.02 * area);
     }
   }
 };
