@@ -6,7 +6,7 @@ tidemark_packages=(
   g++ cmake ninja-build ccache pkg-config
   qt6-base-dev libgl-dev
   libglm-dev libfmt-dev libspdlog-dev libexpected-dev nlohmann-json3-dev libcli11-dev libhwy-dev
-  libdcmtk-dev libopenjp2-7-dev
+  libdcmtk-dev libnsl-dev libopenjp2-7-dev
   libinsighttoolkit5-dev libgdcm-dev zlib1g-dev
   libopenvdb-dev libtbb-dev libboost-dev
   dicom3tools locales
