@@ -160,8 +160,11 @@ bool HostExecutor::surroundings_are_constant(PhysicalPage page, bool inside) con
 Status HostExecutor::check_budget(std::int64_t more_pages) const {
   const std::int64_t capacity =
       std::max<std::int64_t>(table_.capacity(), table_.capacity() + more_pages - table_.free_count());
-  const std::int64_t bytes =
-      PagePool::state_bytes(capacity) + PagePool::source_bytes(capacity) + table_.bytes();
+  // The lists and tables that grow with the pages take at most this much more for each, their reserve
+  // included.
+  constexpr std::int64_t kListBytesPerPage = 64;
+  const std::int64_t bytes = PagePool::state_bytes(capacity) + PagePool::source_bytes(capacity) +
+                             table_.bytes() + capacity * kListBytesPerPage;
   if (bytes <= options_.memory_budget_bytes) return {};
   return fail(ErrorKind::capability, "the surface needs {} pages, {} MB, and the memory budget is {} MB",
               capacity, bytes >> 20, options_.memory_budget_bytes >> 20);

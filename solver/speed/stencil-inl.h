@@ -76,20 +76,18 @@ HWY_INLINE Differences<V> differences(const Stencil<V>& s, const StepConstants<R
   }
 
   const V zero = V(Real(0));
-  V growing;
-  V shrinking;
+  V growing[3];
+  V shrinking[3];
   for (int axis = 0; axis < 3; ++axis) {
     const V rise_ahead = max(d.plus[axis], zero);
     const V fall_behind = min(d.minus[axis], zero);
     const V fall_ahead = min(d.plus[axis], zero);
     const V rise_behind = max(d.minus[axis], zero);
-    const V growing_here = rise_ahead * rise_ahead + fall_behind * fall_behind;
-    const V shrinking_here = fall_ahead * fall_ahead + rise_behind * rise_behind;
-    growing = axis == 0 ? growing_here : growing + growing_here;
-    shrinking = axis == 0 ? shrinking_here : shrinking + shrinking_here;
+    growing[axis] = rise_ahead * rise_ahead + fall_behind * fall_behind;
+    shrinking[axis] = fall_ahead * fall_ahead + rise_behind * rise_behind;
   }
-  d.upwind_growing = sqrt(growing);
-  d.upwind_shrinking = sqrt(shrinking);
+  d.upwind_growing = sqrt(growing[0] + growing[1] + growing[2]);
+  d.upwind_shrinking = sqrt(shrinking[0] + shrinking[1] + shrinking[2]);
   d.lowest_product =
       min(min(min(s.xm * s.c, s.xp * s.c), min(s.ym * s.c, s.yp * s.c)), min(s.zm * s.c, s.zp * s.c));
   return d;
