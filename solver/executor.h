@@ -25,7 +25,7 @@ struct Advance {
 // It is taken over the voxels beside the surface, those with |phi| at most the largest spacing (1 on an
 // isotropic grid), from the change of phi over two steps, so that a voxel that
 // flips between two values does not count as motion.
-inline constexpr double kConvergedSpeed = 0.005;
+inline constexpr double kConvergedSpeed = 0.01;
 inline constexpr int kConvergenceWindow = 16;
 
 // What a run of steps cost.

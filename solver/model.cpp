@@ -12,21 +12,22 @@ double default_band(const Geometry& geometry) {
   return std::max(2.5, 2.0 * glm::compMax(geometry.spacing_mm) / glm::compMin(geometry.spacing_mm));
 }
 
-Model::Model(const Geometry& geometry, std::pair<float, float> source_range, const Parameters& parameters)
+Model::Model(const Volume& source, const Parameters& parameters)
     : parameters_(parameters),
-      smallest_spacing_mm_(glm::compMin(geometry.spacing_mm)),
+      smallest_spacing_mm_(glm::compMin(source.geometry.spacing_mm)),
       // Rounded to what the executors compute with, so that all of them clamp to the same value.
-      band_(static_cast<float>(parameters.band.value_or(default_band(geometry)))) {
-  spacing_ = geometry.spacing_mm / smallest_spacing_mm_;
+      band_(static_cast<float>(parameters.band.value_or(default_band(source.geometry)))) {
+  spacing_ = source.geometry.spacing_mm / smallest_spacing_mm_;
   rescale_ = parameters.rescale.value_or(0.75 / band_);
-  time_step_ = stable_time_step(largest_data_speed(source_range));
+  time_step_ = stable_time_step(largest_data_speed(source));
 }
 
-double Model::largest_data_speed(std::pair<float, float> source_range) const {
+double Model::largest_data_speed(const Volume& source) const {
   if (!parameters_.data_term) return 0.0;
   if (parameters_.data_form == DataForm::clamped) return 1.0;
+  const auto [low, high] = source.range();
   const auto raw = [&](double value) { return parameters_.range - std::abs(value - parameters_.target); };
-  return std::max({std::abs(raw(source_range.first)), std::abs(raw(source_range.second)), parameters_.range});
+  return std::max({std::abs(raw(low)), std::abs(raw(high)), parameters_.range});
 }
 
 // Forward Euler: an advective part (data and rescaling move the level sets at up to these speeds along every

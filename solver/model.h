@@ -2,9 +2,8 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <utility>
 
-#include "core/geometry.h"
+#include "core/volume.h"
 #include "solver/parameters.h"
 
 namespace tidemark {
@@ -29,10 +28,10 @@ struct StepConstants {
   Real data_floor;
 };
 
-// A level set's equation on its grid. source_range (smallest and largest value) bounds raw D.
+// A level set's equation on its grid. The source's values bound raw D, and with it the time step.
 class Model {
  public:
-  Model(const Geometry& geometry, std::pair<float, float> source_range, const Parameters& parameters);
+  Model(const Volume& source, const Parameters& parameters);
 
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
   [[nodiscard]] double band() const { return band_; }  // W as resolved
@@ -44,7 +43,7 @@ class Model {
   [[nodiscard]] StepConstants<Real> constants() const;
 
  private:
-  [[nodiscard]] double largest_data_speed(std::pair<float, float> source_range) const;
+  [[nodiscard]] double largest_data_speed(const Volume& source) const;
   [[nodiscard]] double stable_time_step(double largest_data) const;
 
   Parameters parameters_;

@@ -13,7 +13,7 @@ class DenseStencil final : public Contestant {
  public:
   explicit DenseStencil(const Problem& problem)
       : geometry_(problem.source->geometry),
-        model_(geometry_, problem.source->range(), problem.parameters),
+        model_(*problem.source, problem.parameters),
         constants_(model_.constants<float>()),
         pool_(kThreads) {
     row_ = kDenseMargin + geometry_.size.x + kDenseMargin;

@@ -34,7 +34,7 @@ class OpenVdbTracker final : public Contestant {
       : problem_(problem), threads_(tbb::global_control::max_allowed_parallelism, kThreads) {
     Parameters unscaled = problem.parameters;
     unscaled.rescaling_term = false;
-    const Model model(problem.source->geometry, problem.source->range(), unscaled);
+    const Model model(*problem.source, unscaled);
     constants_ = model.constants<float>();
 
     std::vector<float> start = start_distance(problem, kHalfWidth);

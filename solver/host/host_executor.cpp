@@ -45,8 +45,7 @@ Result<std::unique_ptr<Executor>> HostExecutor::create(std::shared_ptr<const Vol
 HostExecutor::HostExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters,
                            const ExecutorOptions& options, PageKernels kernels)
     : source_(std::move(source)),
-      source_range_(source_->range()),
-      model_(source_->geometry, source_range_, parameters),
+      model_(*source_, parameters),
       constants_(model_.constants<float>()),
       options_(options),
       kernels_(std::move(kernels)),
@@ -58,7 +57,7 @@ HostExecutor::HostExecutor(std::shared_ptr<const Volume> source, const Parameter
 
 Status HostExecutor::set_parameters(const Parameters& parameters) {
   if (auto status = check(parameters); !status) return status;
-  const Model model(source_->geometry, source_range_, parameters);
+  const Model model(*source_, parameters);
   if (model.band() != model_.band()) return fail(ErrorKind::usage, "the band W cannot change in mid-run");
   model_ = model;
   constants_ = model_.constants<float>();

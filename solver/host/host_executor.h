@@ -80,7 +80,6 @@ class HostExecutor final : public Executor {
   }
 
   std::shared_ptr<const Volume> source_;
-  std::pair<float, float> source_range_;
   Model model_;
   StepConstants<float> constants_;
   ExecutorOptions options_;

@@ -46,10 +46,7 @@ Stencil<double> gather(const std::vector<double>& phi, const Geometry& geometry,
 }  // namespace
 
 ReferenceExecutor::ReferenceExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters)
-    : source_(std::move(source)),
-      source_values_(source_->values()),
-      source_range_(source_->range()),
-      model_(source_->geometry, source_range_, parameters) {
+    : source_(std::move(source)), source_values_(source_->values()), model_(*source_, parameters) {
   set_values(std::vector<double>(source_values_.size(), -model_.band()));
 }
 
@@ -100,7 +97,7 @@ Status ReferenceExecutor::paint(const Sphere& sphere, Brush brush) {
 
 Status ReferenceExecutor::set_parameters(const Parameters& parameters) {
   if (auto status = check(parameters); !status) return status;
-  const Model model(source_->geometry, source_range_, parameters);
+  const Model model(*source_, parameters);
   if (model.band() != model_.band()) return fail(ErrorKind::usage, "the band cannot change in mid-run");
   model_ = model;
   restart_window();
@@ -116,8 +113,7 @@ void ReferenceExecutor::step() {
       for (std::int64_t x = 0; x < geometry.size.x; ++x) {
         const auto i = static_cast<std::size_t>(geometry.offset({x, y, z}));
         const auto d = HWY_NAMESPACE::differences<true>(gather(phi_, geometry, {x, y, z}), constants);
-        next_[i] =
-            HWY_NAMESPACE::updated_phi<kPaper>(d, static_cast<double>(source_values_[i]), constants);
+        next_[i] = HWY_NAMESPACE::updated_phi<kPaper>(d, static_cast<double>(source_values_[i]), constants);
         if (std::abs(next_[i]) <= constants.near) {
           const double change = next_[i] - previous_[i];
           motion_.squared_change += change * change;

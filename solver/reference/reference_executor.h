@@ -37,7 +37,6 @@ class ReferenceExecutor final : public Executor {
 
   std::shared_ptr<const Volume> source_;
   std::vector<float> source_values_;
-  std::pair<float, float> source_range_;
   Model model_;
   std::vector<double> phi_;
   std::vector<double> previous_;  // of one step earlier

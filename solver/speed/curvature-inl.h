@@ -36,7 +36,7 @@ HWY_INLINE Curvature<V> curvature(const Differences<V>& d) {
   const V mixed = mul_add(xy, d.mixed[0], mul_add(xz, d.mixed[1], yz * d.mixed[2]));
   const V squared = max(x2 + y2 + z2, V(Real(kSmallestGradientSquared)));
   const V inverse = inverse_sqrt(squared);
-  const V kappa = (pure - (mixed + mixed)) * (inverse * inverse * inverse);
+  const V kappa = mul_add(mixed, V(Real(-2)), pure) * (inverse * inverse * inverse);
   const V limit = V(Real(kLargestCurvature));
   return {max(min(kappa, limit), V(Real(-kLargestCurvature))), squared * inverse};
 }

@@ -25,11 +25,11 @@ HWY_INLINE V updated_phi(const Differences<V>& d, V source, const StepConstants<
     const V speed = data + V(k.curvature_weight) * bend.kappa;
     change = speed * if_positive(speed, d.upwind_growing, d.upwind_shrinking);
   } else {
-    change = data * if_positive(data, d.upwind_growing, d.upwind_shrinking) +
-             V(k.curvature_weight) * (bend.kappa * bend.gradient);
+    change = mul_add(data, if_positive(data, d.upwind_growing, d.upwind_shrinking),
+                     V(k.curvature_weight) * (bend.kappa * bend.gradient));
   }
-  change = change + V(k.rescaling_weight) * rescaling_speed(d, k);
-  const V phi = d.phi + V(k.time_step) * change;
+  change = mul_add(V(k.rescaling_weight), rescaling_speed(d, k), change);
+  const V phi = mul_add(V(k.time_step), change, d.phi);
   return max(min(phi, V(k.band)), V(k.minus_band));
 }
 
