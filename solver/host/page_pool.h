@@ -47,11 +47,11 @@ class PagePool {
     return masks_[buffer][index(page)];
   }
 
-  // Asks for a page's values to be brought into the cache.
+  // Asks for a page's values to be brought into the second-level cache; the first would be too small.
   void prefetch(PhysicalPage page) const {
     constexpr int kFloatsPerLine = 16;
     const float* first = values(page);
-    for (int i = 0; i < kFloatsPerPage; i += kFloatsPerLine) __builtin_prefetch(first + i);
+    for (int i = 0; i < kFloatsPerPage; i += kFloatsPerLine) __builtin_prefetch(first + i, 0, 2);
   }
 
   // Bytes that `pages` pages take for phi and what is kept beside it, and for the source.
