@@ -113,7 +113,6 @@ Status HostExecutor::paint(const Sphere& sphere, Brush brush) {
         if (std::equal(values.begin(), values.end(), pool_.phi(current_, page))) continue;
         std::copy(values.begin(), values.end(), pool_.phi(current_, page));
         refresh_masks(page);
-        wake(page);
         wake_around(page);
       }
     }

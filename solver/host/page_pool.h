@@ -28,6 +28,7 @@ struct PageInfo {
   bool woke_neighbours = false;     // in this window
 };
 
+// Pages lie one after the other in reserved address space: phi of buffer 0, of buffer 1, then the source.
 class PagePool {
  public:
   // Room for at most `capacity` pages; memory is taken as pages are used.
