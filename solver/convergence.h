@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-// Summed over the steps of a window and the voxels beside the surface (StepConstants::near): the squared
+// Summed over samples in a window of steps and the voxels beside the surface (StepConstants::near): the squared
 // changes of phi over the last two steps, and how many voxels there were.
 struct SurfaceMotion {
   double squared_change = 0.0;

@@ -84,16 +84,16 @@ std::int64_t HostExecutor::update_page(std::size_t index, Tile& tile) {
 
   PageResult result;
   if (rows != 0) {
-    gather(pool_, current_, info, rows, tile);
     PageJob job;
+    job.pool = &pool_;
+    job.buffer = current_;
+    job.info = &info;
     job.tile = &tile;
     job.source = pool_.source(page);
     job.next = phi;
     job.rows = rows;
-    job.valid_x = info.valid[0];
     job.constants = &constants_;
-    const auto& variants = model_.parameters().scheme == Scheme::paper ? kernels_.paper : kernels_.split;
-    variants[model_.spacing() == glm::dvec3(1.0) ? 0 : 1](job, result);
+    kernel_(job, result);
   }
   masks = result.masks;
   masks.inside |= work.inside;
@@ -104,7 +104,7 @@ std::int64_t HostExecutor::update_page(std::size_t index, Tile& tile) {
   masks.outside_last |= work.outside;
   masks.add_padding(info.padding);
 
-  info.change += 0.5F * result.largest_change;  // the change was over two steps
+  info.change += result.largest_change;
   info.squared_change += result.squared_change;
   info.near_voxels += result.near_voxels;
   codes_[index] = page_code(page, next);
@@ -112,6 +112,10 @@ std::int64_t HostExecutor::update_page(std::size_t index, Tile& tile) {
 }
 
 void HostExecutor::step() {
+  // The change over two steps is known after the second of them.
+  const bool motion = steps_in_window_ % 2 == 1;
+  kernel_ = kernels_.kernels[model_.parameters().scheme == Scheme::paper ? 1 : 0]
+                            [model_.spacing() == glm::dvec3(1.0) ? 0 : 1][motion ? 1 : 0];
   std::fill(updates_.begin(), updates_.end(), 0);
   constexpr std::int64_t kGrain = 4;
   constexpr std::size_t kPrefetchAhead = 2;  // pages: 1 comes too late, 4 are driven out again (measured)
@@ -123,6 +127,7 @@ void HostExecutor::step() {
                          if (index + kPrefetchAhead < active_.size()) {
                            pool_.prefetch(active_[index + kPrefetchAhead]);
                          }
+                         if (index + 1 < active_.size()) pool_.prefetch_apron(current_, active_[index + 1]);
                          updates_[m] += update_page(index, *tiles_[m]);
                        }
                      });
@@ -135,7 +140,7 @@ bool HostExecutor::finish_window() {
   if (++steps_in_window_ < kConvergenceWindow) return false;
   steps_in_window_ = 0;
   SurfaceMotion motion;
-  motion.voxels = quiet_near_voxels_ * kConvergenceWindow;
+  motion.voxels = quiet_near_voxels_ * kMotionSamples;
   for (const PhysicalPage page : active_) {
     motion.squared_change += static_cast<double>(pool_.info(page).squared_change);
     motion.voxels += pool_.info(page).near_voxels;

@@ -42,6 +42,9 @@ class HostExecutor final : public Executor {
   HostExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters,
                const ExecutorOptions& options, PageKernels kernels);
 
+  // How often motion is measured in a window: every two steps, over both of them.
+  static constexpr int kMotionSamples = kConvergenceWindow / 2;
+
   // Steps (host_executor.cpp).
   void step();
   std::int64_t update_page(std::size_t index, Tile& tile);
@@ -84,6 +87,7 @@ class HostExecutor final : public Executor {
   StepConstants<float> constants_;
   ExecutorOptions options_;
   PageKernels kernels_;
+  PageKernels::Kernel kernel_ = nullptr;  // of this step
   std::unique_ptr<ThreadPool> threads_;
   std::vector<std::unique_ptr<Tile>> tiles_;  // one a thread
   std::vector<std::int64_t> updates_;         // voxels computed in the step, one a thread

@@ -16,42 +16,92 @@ HWY_BEFORE_NAMESPACE();
 namespace tidemark::HWY_NAMESPACE {
 namespace {
 
-// A vector of a row's voxels, or of two rows' that follow each other.
-HWY_INLINE Lanes load_rows(const float* row) {
+// Copies `lanes of D` voxels of a page, whole rows, with those to their left and right into the tile.
+template <class D>
+HWY_INLINE void gather_rows(D d, const PageRow& from, int offset, Tile& tile, int to) {
+  const hn::RebindToSigned<D> di;
+  const auto lane = hn::Iota(di, 0);
+  const auto x = hn::And(lane, hn::Set(di, kPageSide - 1));
+  const auto row = hn::Sub(lane, x);
+  const auto turned = [&](int by) HWY_ATTR {
+    return hn::IndicesFromVec(
+        d, hn::Add(row, hn::And(hn::Add(x, hn::Set(di, by)), hn::Set(di, kPageSide - 1))));
+  };
+  const auto first = hn::RebindMask(d, hn::Eq(x, hn::Zero(di)));
+  const auto last = hn::RebindMask(d, hn::Eq(x, hn::Set(di, kPageSide - 1)));
+  const auto before = hn::LoadU(d, from.before + offset);
+  const auto page = hn::LoadU(d, from.page + offset);
+  const auto after = hn::LoadU(d, from.after + offset);
+  hn::StoreU(hn::TableLookupLanes(hn::IfThenElse(last, before, page), turned(-1)), d, tile.left + to);
+  hn::StoreU(page, d, tile.centre + to);
+  hn::StoreU(hn::TableLookupLanes(hn::IfThenElse(first, after, page), turned(1)), d, tile.right + to);
+}
+
+// One row where vectors are shorter than that.
+HWY_INLINE void gather_row(const PageRow& from, int offset, Tile& tile, int to) {
+  const hn::CappedTag<float, kPageSide> d;
+  if (hn::Lanes(d) == kPageSide) {
+    gather_rows(d, from, offset, tile, to);
+    return;
+  }
+  const float* page = from.page + offset;
+  std::memcpy(tile.centre + to, page, sizeof(float) * kPageSide);
+  std::memcpy(tile.left + to + 1, page, sizeof(float) * (kPageSide - 1));
+  tile.left[to] = from.before[offset + kPageSide - 1];
+  std::memcpy(tile.right + to, page + 1, sizeof(float) * (kPageSide - 1));
+  tile.right[to + kPageSide - 1] = from.after[offset];
+}
+
+// Gathers slices of a page that is surrounded by pages.
+HWY_INLINE void gather_inner(const PageJob& job, unsigned slices) {
   const LanesTag d;
-#if HWY_CAP_GE512
-  const hn::Half<LanesTag> one_row;
-  return Lanes(hn::Combine(d, hn::LoadU(one_row, row + Tile::kRowStride), hn::LoadU(one_row, row)));
-#else
-  return Lanes(hn::LoadU(d, row));
-#endif
+  Tile& tile = *job.tile;
+  for (; slices != 0; slices &= slices - 1) {
+    const int z = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(slices)) - 1;
+    const int dz = z < 0 ? -1 : z >= kPageSide ? 1 : 0;
+    const int slice = (z & (kPageSide - 1)) * kPageRows;
+    const int to = Tile::row(0, z);
+    gather_row(page_row(*job.pool, job.buffer, *job.info, -1, dz), slice + kPageRows - kPageSide, tile,
+               to - Tile::kRowStride);
+    const PageRow own = page_row(*job.pool, job.buffer, *job.info, 0, dz);
+    if (hn::Lanes(d) > kPageSide) {
+      for (int i = 0; i < kPageRows; i += static_cast<int>(hn::Lanes(d))) {
+        gather_rows(d, own, slice + i, tile, to + i);
+      }
+    } else {
+      for (int i = 0; i < kPageRows; i += kPageSide) gather_row(own, slice + i, tile, to + i);
+    }
+    gather_row(page_row(*job.pool, job.buffer, *job.info, 1, dz), slice, tile, to + kPageRows);
+  }
 }
 
 // The stencil of the voxels that begin at `at` in the tile.
 HWY_INLINE Stencil<Lanes> load_stencil(const Tile& tile, int at) {
   constexpr int kY = Tile::kRowStride;
   constexpr int kZ = Tile::kSliceStride;
-  const float* centre = tile.values + at;
+  const auto load = [at](const float* values, int shift) HWY_ATTR {
+    return Lanes(hn::LoadU(LanesTag(), values + at + shift));
+  };
   Stencil<Lanes> s;
-  s.c = load_rows(centre);
-  s.xm = load_rows(centre - 1);
-  s.xp = load_rows(centre + 1);
-  s.ym = load_rows(centre - kY);
-  s.yp = load_rows(centre + kY);
-  s.zm = load_rows(centre - kZ);
-  s.zp = load_rows(centre + kZ);
-  s.xmym = load_rows(centre - 1 - kY);
-  s.xmyp = load_rows(centre - 1 + kY);
-  s.xpym = load_rows(centre + 1 - kY);
-  s.xpyp = load_rows(centre + 1 + kY);
-  s.xmzm = load_rows(centre - 1 - kZ);
-  s.xmzp = load_rows(centre - 1 + kZ);
-  s.xpzm = load_rows(centre + 1 - kZ);
-  s.xpzp = load_rows(centre + 1 + kZ);
-  s.ymzm = load_rows(centre - kY - kZ);
-  s.ymzp = load_rows(centre - kY + kZ);
-  s.ypzm = load_rows(centre + kY - kZ);
-  s.ypzp = load_rows(centre + kY + kZ);
+  s.c = load(tile.centre, 0);
+  s.xm = load(tile.left, 0);
+  s.xp = load(tile.right, 0);
+  s.ym = load(tile.centre, -kY);
+  s.yp = load(tile.centre, kY);
+  s.zm = load(tile.centre, -kZ);
+  s.zp = load(tile.centre, kZ);
+  s.xmym = load(tile.left, -kY);
+  s.xmyp = load(tile.left, kY);
+  s.xpym = load(tile.right, -kY);
+  s.xpyp = load(tile.right, kY);
+  s.xmzm = load(tile.left, -kZ);
+  s.xmzp = load(tile.left, kZ);
+  s.xpzm = load(tile.right, -kZ);
+  s.xpzp = load(tile.right, kZ);
+  s.ymzm = load(tile.centre, -kY - kZ);
+  s.ymzp = load(tile.centre, -kY + kZ);
+  s.ypzm = load(tile.centre, kY - kZ);
+  s.ypzp = load(tile.centre, kY + kZ);
   return s;
 }
 
@@ -104,16 +154,24 @@ HWY_INLINE StepConstants<Lanes> in_every_lane(const StepConstants<float>& k) {
   return lanes;
 }
 
-template <bool kPaper, bool kAnisotropic>
+template <bool kPaper, bool kAnisotropic, bool kMotion>
 void update_page(const PageJob& job, PageResult& result) {
   const LanesTag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const int rows_per_vector = lanes > kPageSide ? lanes / kPageSide : 1;
   const StepConstants<Lanes> constants = in_every_lane(*job.constants);
 
+  const unsigned slices = slices_read(job.rows);
+  if (at_border(*job.info)) {
+    gather_at_border(*job.pool, job.buffer, *job.info, slices, *job.tile);
+  } else {
+    gather_inner(job, slices);
+  }
+
   // The largest |phi| of a voxel whose change counts; padding never does.
+  const int valid_x = job.info->valid[0];
   alignas(64) float near_limit[16];
-  for (int i = 0; i < 16; ++i) near_limit[i] = i % kPageSide < job.valid_x ? job.constants->near : -1.0F;
+  for (int i = 0; i < 16; ++i) near_limit[i] = i % kPageSide < valid_x ? job.constants->near : -1.0F;
 
   auto largest_change = hn::Zero(d);
   auto squared_change = hn::Zero(d);
@@ -132,11 +190,13 @@ void update_page(const PageJob& job, PageResult& result) {
       const Lanes source(hn::LoadU(d, job.source + voxel));
       const auto phi =
           updated_phi<kPaper>(differences<kAnisotropic>(stencil, constants), source, constants).v;
-      const auto near = hn::Le(hn::Abs(phi), hn::LoadU(d, near_limit + x));
-      const auto change = hn::IfThenElseZero(near, hn::Abs(hn::Sub(phi, hn::LoadU(d, job.next + voxel))));
-      largest_change = hn::Max(largest_change, change);
-      squared_change = hn::MulAdd(change, change, squared_change);
-      near_voxels = hn::Add(near_voxels, hn::IfThenElseZero(near, hn::Set(d, 1.0F)));
+      if constexpr (kMotion) {
+        const auto near = hn::Le(hn::Abs(phi), hn::LoadU(d, near_limit + x));
+        const auto change = hn::IfThenElseZero(near, hn::Abs(hn::Sub(phi, hn::LoadU(d, job.next + voxel))));
+        largest_change = hn::Max(largest_change, change);
+        squared_change = hn::MulAdd(change, change, squared_change);
+        near_voxels = hn::Add(near_voxels, hn::IfThenElseZero(near, hn::Set(d, 1.0F)));
+      }
       hn::StoreU(phi, d, job.next + voxel);
       inside |= mask_bits(hn::Eq(phi, constants.band.v)) << static_cast<unsigned>(x);
       outside |= mask_bits(hn::Eq(phi, constants.minus_band.v)) << static_cast<unsigned>(x);
@@ -147,7 +207,7 @@ void update_page(const PageJob& job, PageResult& result) {
     }
   }
   // Padding voxels count as constant: only the others are asked for.
-  const auto valid = static_cast<std::uint8_t>((1U << static_cast<unsigned>(job.valid_x)) - 1U);
+  const auto valid = static_cast<std::uint8_t>((1U << static_cast<unsigned>(valid_x)) - 1U);
   const auto last = static_cast<std::uint8_t>(0x80U & valid);
   result.masks.inside = rows_where(constant.inside, valid) & job.rows;
   result.masks.inside_first = rows_where(constant.inside, 0x01U) & job.rows;
@@ -160,17 +220,10 @@ void update_page(const PageJob& job, PageResult& result) {
   result.near_voxels = static_cast<std::int32_t>(hn::GetLane(hn::SumOfLanes(d, near_voxels)));
 }
 
-void split_isotropic(const PageJob& job, PageResult& result) {
-  update_page<false, false>(job, result);
-}
-void split_anisotropic(const PageJob& job, PageResult& result) {
-  update_page<false, true>(job, result);
-}
-void paper_isotropic(const PageJob& job, PageResult& result) {
-  update_page<true, false>(job, result);
-}
-void paper_anisotropic(const PageJob& job, PageResult& result) {
-  update_page<true, true>(job, result);
+template <bool kPaper, bool kAnisotropic>
+void set_kernels(PageKernels& kernels) {
+  kernels.kernels[kPaper][kAnisotropic][false] = update_page<kPaper, kAnisotropic, false>;
+  kernels.kernels[kPaper][kAnisotropic][true] = update_page<kPaper, kAnisotropic, true>;
 }
 
 }  // namespace
@@ -178,10 +231,10 @@ void paper_anisotropic(const PageJob& job, PageResult& result) {
 // This instruction set's kernels.
 PageKernels page_kernels() {
   PageKernels kernels;
-  kernels.split[0] = split_isotropic;
-  kernels.split[1] = split_anisotropic;
-  kernels.paper[0] = paper_isotropic;
-  kernels.paper[1] = paper_anisotropic;
+  set_kernels<false, false>(kernels);
+  set_kernels<false, true>(kernels);
+  set_kernels<true, false>(kernels);
+  set_kernels<true, true>(kernels);
   kernels.rows_per_vector = static_cast<int>(hn::Lanes(LanesTag()) + kPageSide - 1) / kPageSide;
   return kernels;
 }

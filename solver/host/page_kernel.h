@@ -12,17 +12,20 @@
 namespace tidemark {
 
 struct PageJob {
-  const Tile* tile = nullptr;
+  const PagePool* pool = nullptr;
+  int buffer = 0;  // of the pool: the one that holds phi
+  const PageInfo* info = nullptr;
+  Tile* tile = nullptr;           // scratch
   const float* source = nullptr;  // of the page
-  float* next = nullptr;          // in: phi of one step earlier; out: the new phi, in the rows of `rows`
+  float* next = nullptr;          // out: the new phi, in the rows of `rows`; in, for motion: phi a step ago
   Rows rows = 0;                  // a multiple of PageKernels::rows_per_vector neighbouring rows
-  int valid_x = kPageSide;        // voxels of a row that are inside the volume
   const StepConstants<float>* constants = nullptr;
 };
 
 struct PageResult {
   RowMasks masks;  // of the computed rows
-  // Over the computed voxels beside the surface (StepConstants::near), the change over two steps:
+  // If motion is measured: over the computed voxels beside the surface (StepConstants::near), the change over
+  // two steps.
   float largest_change = 0.0F;
   float squared_change = 0.0F;
   std::int32_t near_voxels = 0;
@@ -31,8 +34,7 @@ struct PageResult {
 // The kernel for one instruction set.
 struct PageKernels {
   using Kernel = void (*)(const PageJob&, PageResult&);
-  Kernel split[2] = {};  // Scheme::split; [1]: anisotropic spacing
-  Kernel paper[2] = {};  // Scheme::paper
+  Kernel kernels[2][2][2] = {};  // [Scheme::paper][anisotropic spacing][motion is measured]
   int rows_per_vector = 1;
   std::string name;  // "sse4", "avx2", "avx512"
 };

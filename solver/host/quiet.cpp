@@ -68,7 +68,7 @@ void HostExecutor::judge_quiet_pages() {
   for (const PhysicalPage page : active_) {
     PageInfo& info = pool_.info(page);
     // A sleeping page keeps its count: its voxels belong to the surface, and they do not move.
-    info.near_voxels = info.asleep ? info.near_voxels / kConvergenceWindow : 0;
+    info.near_voxels = info.asleep ? info.near_voxels / kMotionSamples : 0;
     info.change = 0.0F;
     info.squared_change = 0.0F;
     info.woke_neighbours = false;

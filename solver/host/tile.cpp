@@ -1,9 +1,7 @@
 #include "solver/host/tile.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cstring>
 
 namespace tidemark {
 namespace {
@@ -76,72 +74,6 @@ unsigned all_three(unsigned apron) {
   return apron & (apron >> 1U) & (apron >> 2U);
 }
 
-using NeededRows = std::array<unsigned, Tile::kSide>;  // bit y + 1 of element z + 1
-
-// The values of a column of three pages along x.
-struct Column {
-  const float* before;
-  const float* page;
-  const float* after;
-};
-
-Column column(const PagePool& pool, int buffer, const PageInfo& info, int dy, int dz) {
-  const PhysicalPage* pages = info.neighbours + neighbour(0, dy, dz);
-  const auto values = [&](PhysicalPage page) { return page == kNoPage ? nullptr : pool.phi(buffer, page); };
-  return {values(pages[-1]), values(pages[0]), values(pages[1])};
-}
-
-inline void copy_row(const Column& from, int offset, float* to) {
-  std::memcpy(to, from.page + offset, sizeof(float) * kPageSide);
-  to[-1] = from.before[offset + kPageSide - 1];
-  to[kPageSide] = from.after[offset];
-}
-
-// Pages that are surrounded by pages: rows of the page itself follow each other without a test.
-void gather_inner(const PagePool& pool, int buffer, const PageInfo& info, const NeededRows& needed,
-                  Tile& tile) {
-  for (int z = -1; z <= kPageSide; ++z) {
-    const unsigned bits = needed[static_cast<std::size_t>(z + 1)];
-    if (bits == 0) continue;
-    const int dz = page_step(z);
-    const int slice = (z & 7) * kPageRows;
-    float* to = tile.values + Tile::row(0, z);
-    const Column own = column(pool, buffer, info, 0, dz);
-    for (unsigned rows = bits >> 1U & 0xffU; rows != 0; rows &= rows - 1) {
-      const int y = std::countr_zero(rows);
-      copy_row(own, slice + y * kPageSide, to + y * Tile::kRowStride);
-    }
-    if ((bits & 1U) != 0) {
-      copy_row(column(pool, buffer, info, -1, dz), slice + 7 * kPageSide, to - Tile::kRowStride);
-    }
-    if ((bits & 0x200U) != 0) {
-      copy_row(column(pool, buffer, info, 1, dz), slice, to + kPageSide * Tile::kRowStride);
-    }
-  }
-}
-
-// Pages at the volume's border: there the index is clamped.
-void gather_at_border(const PagePool& pool, int buffer, const PageInfo& info, const NeededRows& needed,
-                      Tile& tile) {
-  const Span y_range = y_span(info);
-  const Span z_range = z_span(info);
-  const int width = info.valid[0];
-  for (int z = -1; z <= kPageSide; ++z) {
-    const int from_z = z_range.clamp(z);
-    for (unsigned bits = needed[static_cast<std::size_t>(z + 1)]; bits != 0; bits &= bits - 1) {
-      const int y = std::countr_zero(bits) - 1;
-      const int from_y = y_range.clamp(y);
-      const Column from = column(pool, buffer, info, page_step(from_y), page_step(from_z));
-      const int offset = ((from_z & 7) * kPageSide + (from_y & 7)) * kPageSide;
-      float* to = tile.values + Tile::row(y, z);
-      std::memcpy(to, from.page + offset, sizeof(float) * kPageSide);
-      std::fill(to + width, to + kPageSide, to[width - 1]);
-      to[-1] = from.before == nullptr ? to[0] : from.before[offset + kPageSide - 1];
-      to[kPageSide] = from.after == nullptr ? to[kPageSide - 1] : from.after[offset];
-    }
-  }
-}
-
 }  // namespace
 
 RowWork find_row_work(const PagePool& pool, int buffer, const PageInfo& info) {
@@ -177,20 +109,40 @@ RowWork find_row_work(const PagePool& pool, int buffer, const PageInfo& info) {
   return work;
 }
 
-void gather(const PagePool& pool, int buffer, const PageInfo& info, Rows rows, Tile& tile) {
-  // A row's stencil reaches one row further along y and z.
-  NeededRows needed{};
-  for (int z = 0; z < kPageSide; ++z) {
-    const unsigned byte = static_cast<unsigned>(rows >> (8 * z)) & 0xffU;
-    const unsigned reach = byte | byte << 1U | byte << 2U;
-    for (int level = z; level <= z + 2; ++level) needed[static_cast<std::size_t>(level)] |= reach;
+bool at_border(const PageInfo& info) {
+  return std::any_of(std::begin(kFaceNeighbours), std::end(kFaceNeighbours),
+                     [&](int n) { return info.neighbours[n] == kNoPage; });
+}
+
+unsigned slices_read(Rows rows) {
+  unsigned slices = 0;
+  for (unsigned z = 0; z < kPageSide; ++z) {
+    if ((rows >> (8 * z) & 0xffU) != 0) slices |= 7U << z;
   }
-  const bool border = std::any_of(std::begin(kFaceNeighbours), std::end(kFaceNeighbours),
-                                  [&](int n) { return info.neighbours[n] == kNoPage; });
-  if (border) {
-    gather_at_border(pool, buffer, info, needed, tile);
-  } else {
-    gather_inner(pool, buffer, info, needed, tile);
+  return slices;
+}
+
+void gather_at_border(const PagePool& pool, int buffer, const PageInfo& info, unsigned slices, Tile& tile) {
+  const Span y_range = y_span(info);
+  const Span z_range = z_span(info);
+  const int width = info.valid[0];
+  for (; slices != 0; slices &= slices - 1) {
+    const int z = std::countr_zero(slices) - 1;
+    const int from_z = z_range.clamp(z);
+    for (int y = -1; y <= kPageSide; ++y) {
+      const int from_y = y_range.clamp(y);
+      const PageRow from = page_row(pool, buffer, info, page_step(from_y), page_step(from_z));
+      const int offset = ((from_z & 7) * kPageSide + (from_y & 7)) * kPageSide;
+      float row[kPageSide + 2];  // x = -1..8
+      std::copy_n(from.page + offset, width, row + 1);
+      std::fill(row + 1 + width, std::end(row), row[width]);
+      row[0] = from.before == nullptr ? row[1] : from.before[offset + kPageSide - 1];
+      if (from.after != nullptr) row[kPageSide + 1] = from.after[offset];
+      const int to = Tile::row(y, z);
+      std::copy_n(row, kPageSide, tile.left + to);
+      std::copy_n(row + 1, kPageSide, tile.centre + to);
+      std::copy_n(row + 2, kPageSide, tile.right + to);
+    }
   }
 }
 

@@ -6,17 +6,21 @@
 
 namespace tidemark {
 
-// phi at (x, y, z), each of x, y and z in -1..8, is values[row(y, z) + x]. A row takes one cache line, so
-// that vectors of 8 that begin one voxel to the left or to the right do not cross a line.
+// phi at (x, y, z), x in 0..7, y and z in -1..8, is centre[row(y, z) + x]; `left` and `right` hold the values
+// one voxel to the left and to the right at the same place. Rows follow each other without a gap, so that a
+// vector may hold several of them, and every operand of the stencil is one load.
 struct Tile {
   static constexpr int kSide = kPageSide + 2;
-  static constexpr int kRowStride = 16;
+  static constexpr int kRowStride = kPageSide;
   static constexpr int kSliceStride = kSide * kRowStride;
-  static constexpr int kFirst = 4;  // of a row's line
+  static constexpr int kFirst = 8;  // row (0, z) begins a cache line
 
   static constexpr int row(int y, int z) { return (z + 1) * kSliceStride + (y + 1) * kRowStride + kFirst; }
 
-  alignas(64) float values[kSide * kSliceStride];
+  using Values = float[kSide * kSliceStride + 2 * kFirst];
+  alignas(64) Values left;
+  alignas(64) Values centre;
+  alignas(64) Values right;
 };
 
 // The rows of a page that may change in the next step, and what the others are.
@@ -30,7 +34,28 @@ struct RowWork {
 // neighbouring pages that touch them.
 RowWork find_row_work(const PagePool& pool, int buffer, const PageInfo& info);
 
-// Gathers what computing `rows` of a page reads. At the volume's border the index is clamped (Neumann).
-void gather(const PagePool& pool, int buffer, const PageInfo& info, Rows rows, Tile& tile);
+// Rows of three pages side by side along x.
+struct PageRow {
+  const float* before;
+  const float* page;
+  const float* after;
+};
+
+// The pages at (dy, dz) beside a page; null where the volume ends.
+inline PageRow page_row(const PagePool& pool, int buffer, const PageInfo& info, int dy, int dz) {
+  const PhysicalPage* pages = info.neighbours + 13 + 3 * dy + 9 * dz;
+  const auto values = [&](PhysicalPage page) { return page == kNoPage ? nullptr : pool.phi(buffer, page); };
+  return {values(pages[-1]), values(pages[0]), values(pages[1])};
+}
+
+// Whether the volume ends at a face of the page.
+bool at_border(const PageInfo& info);
+
+// The slices of the tile, bit z + 1 for slice z, that computing `rows` reads.
+unsigned slices_read(Rows rows);
+
+// Gathers those slices of a page at the volume's border; the index is clamped there (Neumann). The kernels
+// gather the other pages by themselves.
+void gather_at_border(const PagePool& pool, int buffer, const PageInfo& info, unsigned slices, Tile& tile);
 
 }  // namespace tidemark

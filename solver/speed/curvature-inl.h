@@ -17,28 +17,39 @@ inline constexpr double kSmallestGradientSquared = 1e-3;
 // Nothing smaller than a third of a voxel has a curvature.
 inline constexpr double kLargestCurvature = 6.0;
 
-template <class V>
-struct Curvature {
-  V kappa;     // per smallest spacing; < 0 on a ball
-  V gradient;  // |grad phi|, central
-};
-
-// The direct form with second derivatives. 0 where phi is flat.
+// kappa |grad phi|, what the curvature term adds to dphi/dt, by the direct form with second derivatives and the
+// central gradient g: tr(H) - (g . H g) / |g|^2. It is bounded by phi's second derivatives, and 0 where phi is
+// flat.
 template <class Real, class V>
-HWY_INLINE Curvature<V> curvature(const Differences<V>& d) {
-  const V x2 = d.central[0] * d.central[0];
-  const V y2 = d.central[1] * d.central[1];
-  const V z2 = d.central[2] * d.central[2];
-  const V xy = d.central[0] * d.central[1];
-  const V xz = d.central[0] * d.central[2];
-  const V yz = d.central[1] * d.central[2];
-  const V pure = mul_add(d.second[0], y2 + z2, mul_add(d.second[1], x2 + z2, d.second[2] * (x2 + y2)));
-  const V mixed = mul_add(xy, d.mixed[0], mul_add(xz, d.mixed[1], yz * d.mixed[2]));
-  const V squared = max(x2 + y2 + z2, V(Real(kSmallestGradientSquared)));
-  const V inverse = inverse_sqrt(squared);
-  const V kappa = mul_add(mixed, V(Real(-2)), pure) * (inverse * inverse * inverse);
+HWY_INLINE V curvature_motion(const Differences<V>& d, V& four_squared_gradient) {
+  const V* g = d.two_central;
+  const V x2 = g[0] * g[0];
+  const V y2 = g[1] * g[1];
+  const V z2 = g[2] * g[2];
+  const V squared = x2 + y2 + z2;
+  const V trace = d.second[0] + d.second[1] + d.second[2];
+  const V pure = mul_add(x2, d.second[0], mul_add(y2, d.second[1], z2 * d.second[2]));
+  const V two_mixed = mul_add(g[0], mul_add(g[1], d.four_mixed[0], g[2] * d.four_mixed[1]),
+                              g[1] * (g[2] * d.four_mixed[2]));
+  const V along_gradient = mul_add(two_mixed, V(Real(0.5)), pure);
+  four_squared_gradient = max(squared, V(Real(4.0 * kSmallestGradientSquared)));
+  return (squared * trace - along_gradient) * inverse(four_squared_gradient);
+}
+
+template <class Real, class V>
+HWY_INLINE V curvature_motion(const Differences<V>& d) {
+  V four_squared_gradient;
+  return curvature_motion<Real>(d, four_squared_gradient);
+}
+
+// kappa per smallest spacing; < 0 on a ball.
+template <class Real, class V>
+HWY_INLINE V curvature(const Differences<V>& d) {
+  V four_squared_gradient;
+  const V motion = curvature_motion<Real>(d, four_squared_gradient);
+  const V kappa = motion * V(Real(2)) / sqrt(four_squared_gradient);
   const V limit = V(Real(kLargestCurvature));
-  return {max(min(kappa, limit), V(Real(-kLargestCurvature))), squared * inverse};
+  return max(min(kappa, limit), V(Real(-kLargestCurvature)));
 }
 
 }  // namespace tidemark::HWY_NAMESPACE

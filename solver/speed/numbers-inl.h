@@ -28,8 +28,8 @@ HWY_INLINE double abs(double a) {
 HWY_INLINE double sqrt(double a) {
   return std::sqrt(a);
 }
-HWY_INLINE double inverse_sqrt(double a) {
-  return 1.0 / std::sqrt(a);
+HWY_INLINE double inverse(double a) {
+  return 1.0 / a;
 }
 HWY_INLINE double mul_add(double a, double b, double c) {
   return a * b + c;
@@ -55,15 +55,15 @@ struct Lanes {
   friend HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return Lanes(hn::Add(a.v, b.v)); }
   friend HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return Lanes(hn::Sub(a.v, b.v)); }
   friend HWY_INLINE Lanes operator*(Lanes a, Lanes b) { return Lanes(hn::Mul(a.v, b.v)); }
+  friend HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return Lanes(hn::Div(a.v, b.v)); }
   friend HWY_INLINE Lanes max(Lanes a, Lanes b) { return Lanes(hn::Max(a.v, b.v)); }
   friend HWY_INLINE Lanes min(Lanes a, Lanes b) { return Lanes(hn::Min(a.v, b.v)); }
   friend HWY_INLINE Lanes abs(Lanes a) { return Lanes(hn::Abs(a.v)); }
   friend HWY_INLINE Lanes sqrt(Lanes a) { return Lanes(hn::Sqrt(a.v)); }
-  // The processor's estimate after one Newton step: some 22 bits, a fraction of the cost of 1 / sqrt.
-  friend HWY_INLINE Lanes inverse_sqrt(Lanes a) {
-    const auto estimate = hn::ApproximateReciprocalSqrt(a.v);
-    const auto half = hn::Mul(a.v, hn::Set(LanesTag(), 0.5F));
-    const auto error = hn::NegMulAdd(hn::Mul(half, estimate), estimate, hn::Set(LanesTag(), 1.5F));
+  // The processor's estimate after one Newton step: some 22 bits, a fraction of the cost of a division.
+  friend HWY_INLINE Lanes inverse(Lanes a) {
+    const auto estimate = hn::ApproximateReciprocal(a.v);
+    const auto error = hn::NegMulAdd(a.v, estimate, hn::Set(LanesTag(), 2.0F));
     return Lanes(hn::Mul(estimate, error));
   }
   friend HWY_INLINE Lanes mul_add(Lanes a, Lanes b, Lanes c) { return Lanes(hn::MulAdd(a.v, b.v, c.v)); }

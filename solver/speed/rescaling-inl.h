@@ -21,10 +21,10 @@ inline constexpr double kFullSignChange = 0.1;
 // between the two for ever, and the surface would never come to rest.
 template <class V, class Real>
 HWY_INLINE V rescaling_speed(const Differences<V>& d, const StepConstants<Real>& k) {
-  const V toward_surface = if_positive(d.phi, d.upwind_shrinking, d.upwind_growing);
-  const V both = (d.upwind_growing + d.upwind_shrinking) * V(Real(0.5));
-  const V share = max(min(d.lowest_product * V(Real(-1.0 / kFullSignChange)), V(Real(1))), V(Real(0)));
-  const V gradient = mul_add(share, both - toward_surface, toward_surface);
+  const V toward = if_positive(d.phi, d.upwind_shrinking, d.upwind_growing);
+  const V away = if_positive(d.phi, d.upwind_growing, d.upwind_shrinking);
+  const V share = max(min(d.lowest_product * V(Real(-0.5 / kFullSignChange)), V(Real(0.5))), V(Real(0)));
+  const V gradient = mul_add(share, away - toward, toward);
   return d.phi * (V(k.target_gradient) - gradient);
 }
 

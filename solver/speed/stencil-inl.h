@@ -33,10 +33,9 @@ struct Stencil {
 template <class V>
 struct Differences {
   V phi;
-  V minus[3], plus[3];  // one-sided first differences D-, D+
-  V central[3];         // central first differences
+  V two_central[3];     // twice the central first differences
   V second[3];          // pure second differences
-  V mixed[3];           // d2/dxdy, d2/dxdz, d2/dydz
+  V four_mixed[3];      // four times d2/dxdy, d2/dxdz, d2/dydz
   V upwind_growing;     // |grad phi| for a speed F > 0 (Osher and Sethian)
   V upwind_shrinking;   // |grad phi| for a speed F < 0
   V lowest_product;     // least product of phi with a face neighbour: < 0 beside the surface
@@ -47,42 +46,37 @@ template <bool kAnisotropic, class V, class Real>
 HWY_INLINE Differences<V> differences(const Stencil<V>& s, const StepConstants<Real>& k) {
   Differences<V> d;
   d.phi = s.c;
-  d.minus[0] = s.c - s.xm;
-  d.plus[0] = s.xp - s.c;
-  d.minus[1] = s.c - s.ym;
-  d.plus[1] = s.yp - s.c;
-  d.minus[2] = s.c - s.zm;
-  d.plus[2] = s.zp - s.c;
-  const V quarter = V(Real(0.25));
-  d.mixed[0] = ((s.xpyp - s.xpym) - (s.xmyp - s.xmym)) * quarter;
-  d.mixed[1] = ((s.xpzp - s.xpzm) - (s.xmzp - s.xmzm)) * quarter;
-  d.mixed[2] = ((s.ypzp - s.ypzm) - (s.ymzp - s.ymzm)) * quarter;
-  const V half = V(Real(0.5));
+  // One-sided first differences D- and D+.
+  V minus[3] = {s.c - s.xm, s.c - s.ym, s.c - s.zm};
+  V plus[3] = {s.xp - s.c, s.yp - s.c, s.zp - s.c};
   for (int axis = 0; axis < 3; ++axis) {
-    d.second[axis] = d.plus[axis] - d.minus[axis];
-    d.central[axis] = (d.plus[axis] + d.minus[axis]) * half;
+    d.second[axis] = plus[axis] - minus[axis];
+    d.two_central[axis] = plus[axis] + minus[axis];
   }
+  d.four_mixed[0] = (s.xpyp - s.xpym) - (s.xmyp - s.xmym);
+  d.four_mixed[1] = (s.xpzp - s.xpzm) - (s.xmzp - s.xmzm);
+  d.four_mixed[2] = (s.ypzp - s.ypzm) - (s.ymzp - s.ymzm);
   if constexpr (kAnisotropic) {
     const V inverse[3] = {V(k.inverse_spacing[0]), V(k.inverse_spacing[1]), V(k.inverse_spacing[2])};
     for (int axis = 0; axis < 3; ++axis) {
-      d.minus[axis] = d.minus[axis] * inverse[axis];
-      d.plus[axis] = d.plus[axis] * inverse[axis];
-      d.central[axis] = d.central[axis] * inverse[axis];
+      minus[axis] = minus[axis] * inverse[axis];
+      plus[axis] = plus[axis] * inverse[axis];
+      d.two_central[axis] = d.two_central[axis] * inverse[axis];
       d.second[axis] = d.second[axis] * (inverse[axis] * inverse[axis]);
     }
-    d.mixed[0] = d.mixed[0] * (inverse[0] * inverse[1]);
-    d.mixed[1] = d.mixed[1] * (inverse[0] * inverse[2]);
-    d.mixed[2] = d.mixed[2] * (inverse[1] * inverse[2]);
+    d.four_mixed[0] = d.four_mixed[0] * (inverse[0] * inverse[1]);
+    d.four_mixed[1] = d.four_mixed[1] * (inverse[0] * inverse[2]);
+    d.four_mixed[2] = d.four_mixed[2] * (inverse[1] * inverse[2]);
   }
 
   const V zero = V(Real(0));
   V growing[3];
   V shrinking[3];
   for (int axis = 0; axis < 3; ++axis) {
-    const V rise_ahead = max(d.plus[axis], zero);
-    const V fall_behind = min(d.minus[axis], zero);
-    const V fall_ahead = min(d.plus[axis], zero);
-    const V rise_behind = max(d.minus[axis], zero);
+    const V rise_ahead = max(plus[axis], zero);
+    const V fall_behind = min(minus[axis], zero);
+    const V fall_ahead = min(plus[axis], zero);
+    const V rise_behind = max(minus[axis], zero);
     growing[axis] = rise_ahead * rise_ahead + fall_behind * fall_behind;
     shrinking[axis] = fall_ahead * fall_ahead + rise_behind * rise_behind;
   }

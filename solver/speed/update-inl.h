@@ -19,14 +19,13 @@ namespace tidemark::HWY_NAMESPACE {
 template <bool kPaper, class V, class Real>
 HWY_INLINE V updated_phi(const Differences<V>& d, V source, const StepConstants<Real>& k) {
   const V data = V(k.data_weight) * data_speed(source, k);
-  const Curvature<V> bend = curvature<Real>(d);
   V change;
   if constexpr (kPaper) {
-    const V speed = data + V(k.curvature_weight) * bend.kappa;
+    const V speed = data + V(k.curvature_weight) * curvature<Real>(d);
     change = speed * if_positive(speed, d.upwind_growing, d.upwind_shrinking);
   } else {
     change = mul_add(data, if_positive(data, d.upwind_growing, d.upwind_shrinking),
-                     V(k.curvature_weight) * (bend.kappa * bend.gradient));
+                     V(k.curvature_weight) * curvature_motion<Real>(d));
   }
   change = mul_add(V(k.rescaling_weight), rescaling_speed(d, k), change);
   const V phi = mul_add(V(k.time_step), change, d.phi);

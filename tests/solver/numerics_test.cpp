@@ -23,8 +23,7 @@ HWY_NAMESPACE::Stencil<double> stencil_of(const Function& phi, glm::dvec3 p) {
 
 double kappa(const Function& phi, glm::dvec3 p) {
   const StepConstants<double> constants{};
-  return HWY_NAMESPACE::curvature<double>(HWY_NAMESPACE::differences<false>(stencil_of(phi, p), constants))
-      .kappa;
+  return HWY_NAMESPACE::curvature<double>(HWY_NAMESPACE::differences<false>(stencil_of(phi, p), constants));
 }
 
 // The largest relative error of kappa at points of the surface, off the axes.
