@@ -127,7 +127,6 @@ void HostExecutor::step() {
                          if (index + kPrefetchAhead < active_.size()) {
                            pool_.prefetch(active_[index + kPrefetchAhead]);
                          }
-                         if (index + 1 < active_.size()) pool_.prefetch_apron(current_, active_[index + 1]);
                          updates_[m] += update_page(index, *tiles_[m]);
                        }
                      });

@@ -56,22 +56,26 @@ HWY_INLINE void gather_row(const PageRow& from, int offset, Tile& tile, int to) 
 HWY_INLINE void gather_inner(const PageJob& job, unsigned slices) {
   const LanesTag d;
   Tile& tile = *job.tile;
-  for (; slices != 0; slices &= slices - 1) {
-    const int z = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(slices)) - 1;
-    const int dz = z < 0 ? -1 : z >= kPageSide ? 1 : 0;
-    const int slice = (z & (kPageSide - 1)) * kPageRows;
-    const int to = Tile::row(0, z);
-    gather_row(page_row(*job.pool, job.buffer, *job.info, -1, dz), slice + kPageRows - kPageSide, tile,
-               to - Tile::kRowStride);
+  for (int dz = -1; dz <= 1; ++dz) {
+    // Bit z + 1 for slice z: the pages below give slice -1, those above slice 8.
+    const unsigned of_pages = dz < 0 ? 0x001U : dz > 0 ? 0x200U : 0x1feU;
+    const PageRow below = page_row(*job.pool, job.buffer, *job.info, -1, dz);
     const PageRow own = page_row(*job.pool, job.buffer, *job.info, 0, dz);
-    if (hn::Lanes(d) > kPageSide) {
-      for (int i = 0; i < kPageRows; i += static_cast<int>(hn::Lanes(d))) {
-        gather_rows(d, own, slice + i, tile, to + i);
+    const PageRow above = page_row(*job.pool, job.buffer, *job.info, 1, dz);
+    for (unsigned rest = slices & of_pages; rest != 0; rest &= rest - 1) {
+      const int z = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest)) - 1;
+      const int slice = (z & (kPageSide - 1)) * kPageRows;
+      const int to = Tile::row(0, z);
+      gather_row(below, slice + kPageRows - kPageSide, tile, to - Tile::kRowStride);
+      if (hn::Lanes(d) > kPageSide) {
+        for (int i = 0; i < kPageRows; i += static_cast<int>(hn::Lanes(d))) {
+          gather_rows(d, own, slice + i, tile, to + i);
+        }
+      } else {
+        for (int i = 0; i < kPageRows; i += kPageSide) gather_row(own, slice + i, tile, to + i);
       }
-    } else {
-      for (int i = 0; i < kPageRows; i += kPageSide) gather_row(own, slice + i, tile, to + i);
+      gather_row(above, slice, tile, to + kPageRows);
     }
-    gather_row(page_row(*job.pool, job.buffer, *job.info, 1, dz), slice, tile, to + kPageRows);
   }
 }
 

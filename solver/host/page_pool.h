@@ -15,7 +15,7 @@ struct PageInfo {
   PhysicalPage neighbours[27];
   Rows padding = 0;  // rows beyond the volume
 
-  // Since the window began, over the voxels beside the surface (StepConstants::near): the sum of the steps'
+  // Since the window began, over the voxels beside the surface (StepConstants::near): the sum of the
   // largest changes, the sum of the squared changes, and the number of voxels.
   float change = 0.0F;
   float squared_change = 0.0F;
@@ -48,27 +48,11 @@ class PagePool {
     return masks_[buffer][index(page)];
   }
 
-  // Asks for what computing a page touches to be brought into the second-level cache (the first would be too
-  // small): prefetch() well ahead, for the page itself, and prefetch_apron() later, when what the first
-  // brought names the neighbours.
+  // Asks for a page's values to be brought into the second-level cache; the first would be too small.
   void prefetch(PhysicalPage page) const {
+    constexpr int kFloatsPerLine = 16;
     const float* first = values(page);
     for (int i = 0; i < kFloatsPerPage; i += kFloatsPerLine) __builtin_prefetch(first + i, 0, 2);
-    __builtin_prefetch(&info(page), 0, 2);
-    __builtin_prefetch(&info(page).neighbours[16], 0, 2);
-  }
-  void prefetch_apron(int buffer, PhysicalPage page) const {
-    const PageInfo& around = info(page);
-    if (const PhysicalPage above = around.neighbours[kAbove]; above != kNoPage) {
-      for (int row = 0; row < kPageRows; row += kPageSide) {
-        __builtin_prefetch(phi(buffer, above) + row * kPageSide, 0, 2);
-      }
-    }
-    if (const PhysicalPage behind = around.neighbours[kBehind]; behind != kNoPage) {
-      for (int i = 0; i < kPageRows; i += kFloatsPerLine) {
-        __builtin_prefetch(phi(buffer, behind) + i, 0, 2);
-      }
-    }
   }
 
   // Bytes that `pages` pages take for phi and what is kept beside it, and for the source.
@@ -77,9 +61,6 @@ class PagePool {
 
  private:
   static constexpr int kFloatsPerPage = 3 * kPageVoxels;
-  static constexpr int kFloatsPerLine = 16;
-  static constexpr int kAbove = 17;   // the neighbour at y + 1, which is not visited yet
-  static constexpr int kBehind = 23;  // the one at z + 1
 
   static std::size_t index(PhysicalPage page) { return static_cast<std::size_t>(page); }
   [[nodiscard]] float* values(PhysicalPage page) const {

@@ -37,74 +37,62 @@ int page_step(int local) {
   return local < 0 ? -1 : local >= kPageSide ? 1 : 0;
 }
 
-// Constant rows of a column of pages (dy, dz) with the voxels beside them along x.
+// Rows of the pages at (dy, dz) that are constant together with the voxels beside them along x.
 struct ConstantRows {
   Rows inside;
   Rows outside;
 };
 
-ConstantRows constant_rows(const PagePool& pool, int buffer, const PageInfo& info, int dy, int dz) {
-  const RowMasks& centre = pool.masks(buffer, info.neighbours[neighbour(0, dy, dz)]);
+ConstantRows constant_rows(const PagePool& pool, int buffer, const PhysicalPage* pages) {
+  const RowMasks& centre = pool.masks(buffer, pages[0]);
   ConstantRows rows{centre.inside, centre.outside};
-  if (const PhysicalPage left = info.neighbours[neighbour(-1, dy, dz)]; left != kNoPage) {
-    rows.inside &= pool.masks(buffer, left).inside_last;
-    rows.outside &= pool.masks(buffer, left).outside_last;
+  if (pages[-1] != kNoPage) {
+    rows.inside &= pool.masks(buffer, pages[-1]).inside_last;
+    rows.outside &= pool.masks(buffer, pages[-1]).outside_last;
   }
-  if (const PhysicalPage right = info.neighbours[neighbour(1, dy, dz)]; right != kNoPage) {
-    rows.inside &= pool.masks(buffer, right).inside_first;
-    rows.outside &= pool.masks(buffer, right).outside_first;
+  if (pages[1] != kNoPage) {
+    rows.inside &= pool.masks(buffer, pages[1]).inside_first;
+    rows.outside &= pool.masks(buffer, pages[1]).outside_first;
   }
   return rows;
 }
 
-// The bits of a slice for y = -1..8, as bits 0..9.
-unsigned apron_bits(Rows below, Rows page, Rows above, int local_z, const Span& y) {
-  const auto byte = [&](Rows rows) { return static_cast<unsigned>(rows >> (8 * local_z)) & 0xffU; };
-  unsigned bits = byte(page) << 1U;
-  bits |= y.low < 0 ? byte(below) >> 7U : byte(page) & 1U;
-  if (y.high == kPageSide) return bits | (byte(above) & 1U) << 9U;
-  // Rows beyond the border repeat the last row.
-  const unsigned last = 1U << static_cast<unsigned>(y.high + 1);
-  const unsigned kept = (last << 1U) - 1U;
-  return (bits & kept) | ((bits & last) != 0 ? ~kept & 0x3ffU : 0U);
+// Row y is kept where the rows y - 1, y and y + 1 are set; `below` and `above` are the pages at y - 1 and y + 1.
+Rows three_along_y(Rows below, Rows page, Rows above) {
+  constexpr Rows kLowY = 0x0101010101010101U;
+  const Rows before = (page & ~(kLowY << 7U)) << 1U | (below >> 7U & kLowY);
+  const Rows after = (page >> 1U & ~(kLowY << 7U)) | (above & kLowY) << 7U;
+  return page & before & after;
 }
 
-// Bit y is set when bits y - 1, y and y + 1 of the page are (bits y, y + 1 and y + 2 of the apron).
-unsigned all_three(unsigned apron) {
-  return apron & (apron >> 1U) & (apron >> 2U);
+Rows three_along_z(Rows below, Rows page, Rows above) {
+  return page & (page << 8U | below >> 56U) & (page >> 8U | above << 56U);
+}
+
+// The constant rows of the three columns at dz whose neighbours along y are constant, too.
+ConstantRows constant_slices(const PagePool& pool, int buffer, const PhysicalPage* pages) {
+  const ConstantRows page = constant_rows(pool, buffer, pages);
+  // The volume's last row stands for the one beyond it.
+  ConstantRows below{page.inside << 7U, page.outside << 7U};
+  ConstantRows above{page.inside >> 7U, page.outside >> 7U};
+  if (pages[-3] != kNoPage) below = constant_rows(pool, buffer, pages - 3);
+  if (pages[3] != kNoPage) above = constant_rows(pool, buffer, pages + 3);
+  return {three_along_y(below.inside, page.inside, above.inside),
+          three_along_y(below.outside, page.outside, above.outside)};
 }
 
 }  // namespace
 
 RowWork find_row_work(const PagePool& pool, int buffer, const PageInfo& info) {
-  const Span y_range = y_span(info);
-  const Span z_range = z_span(info);
-  ConstantRows columns[3][3];  // [dz + 1][dy + 1]
-  for (int dz = z_range.low < 0 ? -1 : 0; dz <= (z_range.high == kPageSide ? 1 : 0); ++dz) {
-    for (int dy = y_range.low < 0 ? -1 : 0; dy <= (y_range.high == kPageSide ? 1 : 0); ++dy) {
-      columns[dz + 1][dy + 1] = constant_rows(pool, buffer, info, dy, dz);
-    }
-  }
-  unsigned inside[Tile::kSide];
-  unsigned outside[Tile::kSide];
-  for (int z = -1; z <= kPageSide; ++z) {
-    const int from = z_range.clamp(z);
-    const ConstantRows* column = columns[page_step(from) + 1];
-    const int local = from & 7;
-    inside[z + 1] =
-        all_three(apron_bits(column[0].inside, column[1].inside, column[2].inside, local, y_range));
-    outside[z + 1] =
-        all_three(apron_bits(column[0].outside, column[1].outside, column[2].outside, local, y_range));
-  }
+  const PhysicalPage* pages = info.neighbours + neighbour(0, 0, 0);
+  const ConstantRows page = constant_slices(pool, buffer, pages);
+  ConstantRows below{page.inside << 56U, page.outside << 56U};
+  ConstantRows above{page.inside >> 56U, page.outside >> 56U};
+  if (pages[-9] != kNoPage) below = constant_slices(pool, buffer, pages - 9);
+  if (pages[9] != kNoPage) above = constant_slices(pool, buffer, pages + 9);
   RowWork work;
-  for (int z = 0; z < kPageSide; ++z) {
-    const Rows stays_inside = inside[z] & inside[z + 1] & inside[z + 2] & 0xffU;
-    const Rows stays_outside = outside[z] & outside[z + 1] & outside[z + 2] & 0xffU;
-    work.inside |= stays_inside << (8 * z);
-    work.outside |= stays_outside << (8 * z);
-  }
-  work.inside &= ~info.padding;
-  work.outside &= ~info.padding;
+  work.inside = three_along_z(below.inside, page.inside, above.inside) & ~info.padding;
+  work.outside = three_along_z(below.outside, page.outside, above.outside) & ~info.padding;
   work.compute = ~(work.inside | work.outside | info.padding);
   return work;
 }
