@@ -26,3 +26,6 @@ target_link_libraries(tidemark_itk INTERFACE
 find_package(ZLIB REQUIRED)
 
 find_package(TidemarkOpenVDB REQUIRED)
+
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)

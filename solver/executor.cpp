@@ -1,18 +1,43 @@
 #include "solver/executor.h"
 
+#include "gpu/device.h"
+#include "solver/compute/compute_executor.h"
 #include "solver/host/host_executor.h"
 #include "solver/reference/reference_executor.h"
 
 namespace tidemark {
+namespace {
+
+// A context on a real GPU, if this machine has one: where the processor plays the GPU, host is far faster.
+std::shared_ptr<gpu::Device> hardware_device(const ExecutorOptions& options) {
+  auto device = options.device;
+  if (device == nullptr) {
+    auto made = gpu::Device::create_headless({gpu::GlVersion::gl45, options.debug});
+    if (!made) return nullptr;
+    device = *made;
+  }
+  const gpu::Capabilities& capabilities = device->capabilities();
+  return capabilities.software || !capabilities.at_least(4, 5) ? nullptr : device;
+}
+
+}  // namespace
 
 Result<std::unique_ptr<Executor>> make_executor(ExecutorKind kind, std::shared_ptr<const Volume> source,
                                                 const Parameters& parameters,
                                                 const ExecutorOptions& options) {
   if (auto status = check(parameters); !status) return pass_on(status);
   switch (kind) {
+    case ExecutorKind::automatic:
+      if (auto device = hardware_device(options); device != nullptr) {
+        ExecutorOptions on_gpu = options;
+        on_gpu.device = std::move(device);
+        return ComputeExecutor::create(std::move(source), parameters, on_gpu);
+      }
+      break;
+    case ExecutorKind::compute:
+      return ComputeExecutor::create(std::move(source), parameters, options);
     case ExecutorKind::reference:
       return std::make_unique<ReferenceExecutor>(std::move(source), parameters);
-    case ExecutorKind::automatic:
     case ExecutorKind::host:
       break;
   }

@@ -13,6 +13,10 @@
 
 namespace tidemark {
 
+namespace gpu {
+class Device;
+}
+
 // When a run of steps ends.
 struct Advance {
   std::int64_t steps = 1;        // at most
@@ -27,6 +31,8 @@ struct Advance {
 // flips between two values does not count as motion.
 inline constexpr double kConvergedSpeed = 0.01;
 inline constexpr int kConvergenceWindow = 16;
+// A page may rest when phi changed by no more than this over such a window, beside the surface.
+inline constexpr float kQuietChange = 1e-3F;
 
 // What a run of steps cost.
 struct AdvanceReport {
@@ -57,7 +63,8 @@ class Executor {
   // Replaces phi. Fails (ErrorKind::usage) when the grid or the band is not this level set's, and
   // (ErrorKind::capability) when the memory budget does not allow it; phi is then as before.
   virtual Status restore(const Field& phi) = 0;
-  [[nodiscard]] virtual Field snapshot() const = 0;
+  // Fails (ErrorKind::capability) when a graphics driver has lost its context, and phi with it.
+  [[nodiscard]] virtual Result<Field> snapshot() const = 0;
 
   // phi = max(phi, d) to add or min(phi, -d) to erase, d the signed distance to the sphere. Wakes what it
   // touches. Fails (ErrorKind::capability) when the memory budget is reached.
@@ -84,9 +91,16 @@ struct ExecutorOptions {
   int threads = 0;                                           // 0: all processors of this process
   std::int64_t memory_budget_bytes = std::int64_t{8} << 30;  // for state and source beside the pages
   bool skip_quiet_pages = true;
+
+  // For executors on a GPU: the context to use (else each makes its own), messages of the driver, and the shape
+  // of a page where the executor leaves a choice.
+  std::shared_ptr<gpu::Device> device = nullptr;
+  bool debug = false;
+  Index3 page_shape = kDefaultPageShape;
 };
 
-enum class ExecutorKind { automatic, host, reference };
+// automatic: compute on a GPU; host where OpenGL is the processor's work or absent.
+enum class ExecutorKind { automatic, host, compute, reference };
 
 // A level set on `source`, everywhere outside at first. `source` is kept. Fails (ErrorKind::usage) on
 // parameters that check() refuses, (ErrorKind::capability) when the machine cannot run the executor.

@@ -32,6 +32,17 @@ std::int64_t Field::resident_pages() const {
   return static_cast<std::int64_t>(pages.size()) / layout.voxels_per_page();
 }
 
+Status Field::check_fits(const Geometry& grid, double wanted_band) const {
+  if (geometry.size != grid.size) {
+    return fail(ErrorKind::usage, "phi has {} x {} x {} voxels, the volume has {} x {} x {}", geometry.size.x,
+                geometry.size.y, geometry.size.z, grid.size.x, grid.size.y, grid.size.z);
+  }
+  if (static_cast<float>(band) != static_cast<float>(wanted_band)) {
+    return fail(ErrorKind::usage, "phi has a band of {} voxels, the level set one of {}", band, wanted_band);
+  }
+  return {};
+}
+
 std::vector<float> Field::dense() const {
   std::vector<float> values(static_cast<std::size_t>(geometry.voxel_count()));
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {

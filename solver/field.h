@@ -29,6 +29,9 @@ struct Field {
   [[nodiscard]] Volume to_volume() const;          // a float volume, for saving and for the surface
   [[nodiscard]] Mask mask() const;                 // phi > 0
 
+  // Fails (ErrorKind::usage) unless this is phi on that grid with that band.
+  [[nodiscard]] Status check_fits(const Geometry& grid, double wanted_band) const;
+
   // All outside.
   static Field empty(const Geometry& geometry, double band, Index3 page_shape = kDefaultPageShape);
   // Values in voxel order; pages that are +band or -band throughout are not stored.

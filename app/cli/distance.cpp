@@ -100,7 +100,9 @@ Status run(Program& program, const DistanceOptions& options) {
   if (!report) return tl::unexpected<Error>(report.error());
   if (console.interrupted()) return cancelled_error();
 
-  const Volume distance = in_millimetres(solver.snapshot());
+  auto phi = solver.snapshot();
+  if (!phi) return pass_on(phi);
+  const Volume distance = in_millimetres(*phi);
   for (const std::string& file : options.out) {
     const auto write = [&](const std::filesystem::path& name) { return write_volume_file(distance, name); };
     if (Status staged = outputs.stage(file, write); !staged) return staged;

@@ -178,7 +178,9 @@ Status Segmentation::evolve() {
   figures_.band = solver.band();
   figures_.time_step = solver.time_step();
   figures_.memory = solver.memory();
-  phi_ = solver.snapshot();
+  auto phi = solver.snapshot();
+  if (!phi) return pass_on(phi);
+  phi_ = std::move(*phi);
   mask_ = phi_.mask();
   figures_.surface = measure(phi_);
   if (truth_) figures_.dice = dice(mask_, *truth_);

@@ -139,7 +139,9 @@ Status start(Executor& executor, const Volume& source, const StartOptions& optio
   if (Status done = restore_init(executor, source, options, console); !done) return done;
   if (Status done = paint_all(executor, source.geometry, options.seeds, Brush::add); !done) return done;
   if (Status done = paint_all(executor, source.geometry, options.erasers, Brush::erase); !done) return done;
-  if (executor.snapshot().mask().count() == 0) {
+  const auto phi = executor.snapshot();
+  if (!phi) return tl::unexpected<Error>(phi.error());
+  if (phi->mask().count() == 0) {
     return fail(ErrorKind::usage, "the start is empty: no voxel is inside ({})", describe(options));
   }
   return {};

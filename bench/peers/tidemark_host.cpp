@@ -30,7 +30,7 @@ class TidemarkHost final : public Contestant {
     if (!report) return pass_on(report);
     return Cost{report->steps, report->seconds, report->voxel_updates, report->paging_seconds};
   }
-  Mask finish() override { return executor_->snapshot().mask(); }
+  Mask finish() override { return executor_->snapshot().value().mask(); }
   [[nodiscard]] const Executor* executor() const override { return executor_.get(); }
 
  private:
@@ -46,7 +46,9 @@ Result<Convergence> converge(const Problem& problem, bool skip_quiet_pages) {
   Convergence run;
   run.steps = report->steps;
   run.converged = report->converged;
-  run.result = (*executor)->snapshot().mask();
+  auto phi = (*executor)->snapshot();
+  if (!phi) return pass_on(phi);
+  run.result = phi->mask();
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;
 }

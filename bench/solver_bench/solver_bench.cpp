@@ -80,7 +80,9 @@ Status measure_run(const std::shared_ptr<const Volume>& source, const Settings& 
                static_cast<double>(run->voxel_updates) / run->seconds / 1e6,
                100.0 * run->paging_seconds / run->seconds, (*executor)->memory().resident_pages);
   }
-  const SurfaceStatistics surface = measure((*executor)->snapshot());
+  auto phi = (*executor)->snapshot();
+  if (!phi) return pass_on(phi);
+  const SurfaceStatistics surface = measure(*phi);
   fmt::print("  {} voxels inside, {:.1f} mm^2 of surface\n", surface.voxels_inside, surface.surface_mm2);
   return (*executor)->validate();
 }

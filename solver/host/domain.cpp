@@ -279,7 +279,7 @@ Status HostExecutor::validate() const {
     }
   });
   if (!result) return result;
-  return tidemark::validate(snapshot());
+  return tidemark::validate(*snapshot());
 }
 
 }  // namespace tidemark

@@ -10,14 +10,7 @@
 namespace tidemark {
 
 Status HostExecutor::restore(const Field& phi) {
-  if (phi.geometry.size != source_->geometry.size) {
-    return fail(ErrorKind::usage, "phi has {} x {} x {} voxels, the volume has {} x {} x {}",
-                phi.geometry.size.x, phi.geometry.size.y, phi.geometry.size.z, source_->geometry.size.x,
-                source_->geometry.size.y, source_->geometry.size.z);
-  }
-  if (static_cast<float>(phi.band) != constants_.band) {
-    return fail(ErrorKind::usage, "phi has a band of {} voxels, the level set one of {}", phi.band, band());
-  }
+  if (auto status = phi.check_fits(source_->geometry, band()); !status) return status;
   if (phi.layout.page_shape() != kDefaultPageShape) {
     return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band));
   }
@@ -52,7 +45,7 @@ Status HostExecutor::restore(const Field& phi) {
   return activate_all();
 }
 
-Field HostExecutor::snapshot() const {
+Result<Field> HostExecutor::snapshot() const {
   Field field = Field::empty(source_->geometry, model_.band());
   field.pages.reserve(static_cast<std::size_t>(table_.resident() * kPageVoxels));
   for (std::int64_t page = 0; page < table_.layout().page_count(); ++page) {

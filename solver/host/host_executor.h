@@ -26,7 +26,7 @@ class HostExecutor final : public Executor {
 
   [[nodiscard]] std::string_view name() const override { return "host"; }
   Status restore(const Field& phi) override;
-  [[nodiscard]] Field snapshot() const override;
+  [[nodiscard]] Result<Field> snapshot() const override;
   Status paint(const Sphere& sphere, Brush brush) override;
   Status set_parameters(const Parameters& parameters) override;
   [[nodiscard]] const Parameters& parameters() const override { return model_.parameters(); }

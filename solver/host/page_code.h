@@ -13,7 +13,4 @@ constexpr std::uint8_t request_bit(int face) {
   return static_cast<std::uint8_t>(1U << static_cast<unsigned>(face));
 }
 
-// A page whose phi changes by no more than this (summed over a window, near the surface) is quiet.
-inline constexpr float kQuietChange = 1e-3F;
-
 }  // namespace tidemark

@@ -71,7 +71,7 @@ Status ReferenceExecutor::restore(const Field& phi) {
   return {};
 }
 
-Field ReferenceExecutor::snapshot() const {
+Result<Field> ReferenceExecutor::snapshot() const {
   const std::vector<float> values(phi_.begin(), phi_.end());
   return Field::from_dense(source_->geometry, values, model_.band());
 }

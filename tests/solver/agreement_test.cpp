@@ -125,10 +125,10 @@ class AgreementTest : public QObject {
       seed(*host, geometry, random);
       for (int step = 0; step < 8; ++step) {
         run(*host, 3);  // some way between the comparisons
-        QCOMPARE(failure(reference.restore(host->snapshot())), QString());
+        QCOMPARE(failure(reference.restore(host->snapshot().value())), QString());
         run(*host, 1);
         QVERIFY(reference.advance({}));
-        const Field phi = host->snapshot();
+        const Field phi = host->snapshot().value();
         const std::vector<float> values = phi.dense();
         for (std::size_t i = 0; i < values.size(); ++i) {
           worst = std::max(worst, std::abs(static_cast<double>(values[i]) - reference.values()[i]));
@@ -147,26 +147,26 @@ class AgreementTest : public QObject {
     const auto reference = evolution.start(ExecutorKind::reference, 1);
     run(*host, 500);
     run(*reference, 500);
-    const double overlap = dice(host->snapshot().mask(), reference->snapshot().mask());
+    const double overlap = dice(host->snapshot().value().mask(), reference->snapshot().value().mask());
     qInfo("T5: Dice after 500 steps %.5f", overlap);
     QVERIFY(overlap >= 0.999);
-    QVERIFY(host->snapshot().mask().count() > 5000);
+    QVERIFY(host->snapshot().value().mask().count() > 5000);
   }
 
   void the_bits_do_not_depend_on_threads_or_chunks() {
     const Evolution evolution;
     const auto expected = evolution.start(ExecutorKind::host, 1);
     run(*expected, 210);
-    const Field phi = expected->snapshot();
+    const Field phi = expected->snapshot().value();
     for (const int threads : {2, 5}) {
       const auto other = evolution.start(ExecutorKind::host, threads);
       run(*other, 210);
-      QVERIFY(same_bits(phi, other->snapshot()));
+      QVERIFY(same_bits(phi, other->snapshot().value()));
     }
     for (const int chunk : {1, 7, 30}) {
       const auto other = evolution.start(ExecutorKind::host, 2);
       for (int done = 0; done < 210; done += chunk) run(*other, chunk);
-      QVERIFY(same_bits(phi, other->snapshot()));
+      QVERIFY(same_bits(phi, other->snapshot().value()));
     }
   }
 
@@ -185,7 +185,7 @@ class AgreementTest : public QObject {
       }
       QVERIFY((*made)->paint({centre_of(evolution.geometry), 5.0}, Brush::add));
       run(**made, 300);
-      masks.push_back((*made)->snapshot().mask());
+      masks.push_back((*made)->snapshot().value().mask());
       names.emplace_back(name);
     }
     qunsetenv("TIDEMARK_SIMD");
@@ -210,12 +210,12 @@ class AgreementTest : public QObject {
     const Evolution evolution;
     const auto unbroken = evolution.start(ExecutorKind::host, 2);
     run(*unbroken, 60);
-    const Field saved = Field::from_dense(evolution.geometry, unbroken->snapshot().dense(), unbroken->band());
+    const Field saved = Field::from_dense(evolution.geometry, unbroken->snapshot().value().dense(), unbroken->band());
     const auto resumed = executor(ExecutorKind::host, evolution.source, evolution.parameters);
     QCOMPARE(failure(resumed->restore(saved)), QString());
     run(*unbroken, 60);
     run(*resumed, 60);
-    QCOMPARE(unbroken->snapshot().mask().voxels, resumed->snapshot().mask().voxels);
+    QCOMPARE(unbroken->snapshot().value().mask().voxels, resumed->snapshot().value().mask().voxels);
     QVERIFY(resumed->validate());
   }
 };

@@ -51,7 +51,7 @@ double shrinking_error(ExecutorKind kind, int n, double rate, bool clamped) {
   if (!level_set->validate()) return 1.0;
   // Every level set shrinks alike, so that phi itself is known: its mean error at the surface is the
   // radius's.
-  const Field phi = level_set->snapshot();
+  const Field phi = level_set->snapshot().value();
   double sum = 0.0;
   int count = 0;
   for (std::int64_t i = 0; i < geometry.voxel_count(); ++i) {
@@ -110,7 +110,7 @@ class MotionTest : public QObject {
       const double r0 = grow ? 10.0 : 24.0;
       set_phi(*level_set, geometry, [&](glm::dvec3 p) { return r0 - glm::distance(p, centre); });
       run(*level_set, steps);
-      const double radius = mean_radius(level_set->snapshot(), centre);
+      const double radius = mean_radius(level_set->snapshot().value(), centre);
       const double exact = grow ? 24.0 : 10.0;
       qInfo("T2: radius %.3f, exact %.0f", radius, exact);
       QVERIFY(std::abs(radius - exact) < 0.6);
@@ -131,7 +131,7 @@ class MotionTest : public QObject {
       set_phi(*level_set, geometry, [](glm::dvec3 p) { return 30.25 - p.x; });
       run(*level_set, steps);
       double position = 0.0;
-      for_each_crossing(level_set->snapshot(), [&](glm::dvec3 p) { position = p.x; });
+      for_each_crossing(level_set->snapshot().value(), [&](glm::dvec3 p) { position = p.x; });
       qInfo("T2b: plane at %.5f, exact 50.25 (%s)", position, clamped ? "in the band" : "unclamped");
       QVERIFY(std::abs(position - 50.25) < (clamped ? 0.025 * 20.0 : 2e-4));
       QVERIFY(level_set->validate());
@@ -154,7 +154,7 @@ class MotionTest : public QObject {
     const auto level_set = executor(ExecutorKind::host, source, parameters);
     set_phi(*level_set, geometry, [&](glm::dvec3 p) { return exact(p, 0.0); });
     run(*level_set, steps);
-    const Field phi = level_set->snapshot();
+    const Field phi = level_set->snapshot().value();
     double overshoot = 0.0;
     double surface_error = 0.0;
     for (std::int64_t x = 0; x < geometry.size.x; ++x) {
@@ -183,7 +183,7 @@ class MotionTest : public QObject {
       const auto level_set = executor(ExecutorKind::host, source, parameters);
       QVERIFY(level_set->paint({centre, 15.0}, Brush::add));
       const AdvanceReport report = run(*level_set, 20000, true);
-      const double radius = mean_radius(level_set->snapshot(), centre);
+      const double radius = mean_radius(level_set->snapshot().value(), centre);
       qInfo("T3: alpha %.1f: radius %.3f, exact %.3f, after %lld steps", alpha, radius, exact,
             static_cast<long long>(report.steps));
       QVERIFY(report.converged);
@@ -202,11 +202,11 @@ class MotionTest : public QObject {
     for (double x = -14; x <= 14; x += 1) {
       QVERIFY(level_set->paint({c + glm::dvec3(x, 0, 0), 3.5}, Brush::add));
     }
-    QCOMPARE(connected_components(level_set->snapshot().mask()).count, std::int64_t{1});
+    QCOMPARE(connected_components(level_set->snapshot().value().mask()).count, std::int64_t{1});
     std::int64_t components = 1;
     for (int i = 0; i < 60 && components == 1; ++i) {
       run(*level_set, 5);
-      components = connected_components(level_set->snapshot().mask()).count;
+      components = connected_components(level_set->snapshot().value().mask()).count;
     }
     QCOMPARE(components, std::int64_t{2});
     QVERIFY(level_set->validate());
@@ -219,10 +219,10 @@ class MotionTest : public QObject {
     parameters.rescaling_term = false;
     const auto level_set = executor(ExecutorKind::host, zero_volume(geometry), parameters);
     set_phi(*level_set, geometry, [&](glm::dvec3 p) { return 20.0 - glm::distance(p, centre); });
-    const double before = smooth_volume(level_set->snapshot());
+    const double before = smooth_volume(level_set->snapshot().value());
     const AdvanceReport report = run(*level_set, 20);
     const double time = static_cast<double>(report.steps) * level_set->time_step();
-    const double after = smooth_volume(level_set->snapshot());
+    const double after = smooth_volume(level_set->snapshot().value());
     const double radius = std::sqrt(20.0 * 20.0 - 4.0 * time / 2.0);  // at half time
     const double rate = (after - before) / time;
     const double exact = -8.0 * std::numbers::pi * radius;

@@ -68,7 +68,7 @@ std::vector<float> evolved(const Geometry& geometry, const std::vector<float>& s
   const auto level_set = executor(ExecutorKind::host, volume, parameters);
   if (!level_set->restore(Field::from_dense(geometry, phi, level_set->band()))) qFatal("restore failed");
   run(*level_set, steps);
-  return level_set->snapshot().dense();
+  return level_set->snapshot().value().dense();
 }
 
 double largest_difference(const std::vector<float>& a, const std::vector<float>& b) {
@@ -101,7 +101,7 @@ class NumericsTest : public QObject {
       const auto level_set = executor(ExecutorKind::host, zero_volume(geometry), parameters);
       set_phi(*level_set, geometry, ripple);
       run(*level_set, 200);
-      const Field phi = level_set->snapshot();
+      const Field phi = level_set->snapshot().value();
       double worst = 0.0;
       for (std::int64_t y = 4; y < 20; ++y) {
         worst = std::max(worst, std::abs(static_cast<double>(phi.at({12, y, 12}) - phi.at({12, y + 1, 12}))));
@@ -131,9 +131,9 @@ class NumericsTest : public QObject {
       QVERIFY(level_set->paint({centre_of(geometry), 8.0}, Brush::add));
       // Unstable runs flip voxels to and fro by much of the band in every step.
       run(*level_set, 300);
-      const std::vector<float> before = level_set->snapshot().dense();
+      const std::vector<float> before = level_set->snapshot().value().dense();
       run(*level_set, 1);
-      const double jump = largest_difference(before, level_set->snapshot().dense());
+      const double jump = largest_difference(before, level_set->snapshot().value().dense());
       QVERIFY2(jump < 0.5, qPrintable(QString("trial %1: %2").arg(trial).arg(jump)));
       QCOMPARE(failure(level_set->validate()), QString());
     }
@@ -245,7 +245,7 @@ class NumericsTest : public QObject {
       const double way = 6.0 * spacing;  // at speed 0.1
       run(*level_set, static_cast<std::int64_t>(way / 0.1 / level_set->time_step()));
       double position = 0.0;
-      for_each_crossing(level_set->snapshot(), [&](glm::dvec3 p) { position = p.z; });
+      for_each_crossing(level_set->snapshot().value(), [&](glm::dvec3 p) { position = p.z; });
       const double share = (position - start) / way;
       qInfo("T11: spacing 1:%.1f: %.1f %% of the way", spacing, 100.0 * share);
       QVERIFY(share >= 0.9 && share <= 1.05);
@@ -271,7 +271,7 @@ class NumericsTest : public QObject {
       if (!level_set->paint({centre, 12.0}, Brush::add)) qFatal("paint failed");
       run(*level_set, 4000, true);
       if (!level_set->validate()) qFatal("validate failed");
-      return level_set->snapshot();
+      return level_set->snapshot().value();
     };
     // The surface of the isotropic grid, as the source's value on it.
     const Field isotropic = converge(1.0);
@@ -308,7 +308,7 @@ class NumericsTest : public QObject {
       QVERIFY(level_set->paint({centre, 13.0}, Brush::add));
       const AdvanceReport active = run(*level_set, 20);
       run(*level_set, 3000);
-      radius[skip ? 1 : 0] = mean_radius(level_set->snapshot(), centre);
+      radius[skip ? 1 : 0] = mean_radius(level_set->snapshot().value(), centre);
       const AdvanceReport rest = run(*level_set, 20);
       if (skip) {
         qInfo("at rest %lld voxel updates in 20 steps, %lld while it moved",
@@ -319,7 +319,7 @@ class NumericsTest : public QObject {
         wider.target = 16.0;
         QVERIFY(level_set->set_parameters(wider));
         run(*level_set, 1500, true);
-        const double wider_radius = mean_radius(level_set->snapshot(), centre);
+        const double wider_radius = mean_radius(level_set->snapshot().value(), centre);
         qInfo("radius %.3f, then %.3f", radius[1], wider_radius);
         QVERIFY(wider_radius > radius[1] + 1.5);
       }

@@ -103,7 +103,7 @@ class PagingTest : public QObject {
     });
     const auto level_set = executor(ExecutorKind::host, zero_volume(geometry), Parameters());
     QVERIFY(level_set->restore(Field::from_dense(geometry, values, 2.5)));
-    const Field field = level_set->snapshot();
+    const Field field = level_set->snapshot().value();
     QCOMPARE(failure(validate(field)), QString());
     Field broken = field;
     broken.pages[100] = std::numeric_limits<float>::quiet_NaN();
@@ -141,7 +141,7 @@ class PagingTest : public QObject {
     QCOMPARE(failure(level_set->validate()), QString());
     // And filling everything leaves nothing to compute.
     QVERIFY(level_set->paint(sphere_at_voxel(geometry, {45, 35, 25}, 100.0), Brush::add));
-    QCOMPARE(level_set->snapshot().mask().count(), geometry.voxel_count());
+    QCOMPARE(level_set->snapshot().value().mask().count(), geometry.voxel_count());
     QCOMPARE(failure(level_set->validate()), QString());
   }
 
@@ -158,7 +158,7 @@ class PagingTest : public QObject {
       QVERIFY(host->paint(sphere, brush));
       QVERIFY(reference.paint(sphere, brush));
     }
-    const std::vector<float> phi = host->snapshot().dense();
+    const std::vector<float> phi = host->snapshot().value().dense();
     for (std::size_t i = 0; i < phi.size(); ++i) {
       QVERIFY(std::abs(static_cast<double>(phi[i]) - reference.values()[i]) < 1e-5);
     }
@@ -187,7 +187,7 @@ class PagingTest : public QObject {
       break;
     }
     QVERIFY(steps > 20);
-    QCOMPARE(limited->snapshot().dense(), unlimited->snapshot().dense());
+    QCOMPARE(limited->snapshot().value().dense(), unlimited->snapshot().value().dense());
     QVERIFY(limited->memory().state_bytes + limited->memory().source_bytes <= small.memory_budget_bytes);
     // It goes on when the surface needs less.
     QVERIFY(limited->paint({centre_of(geometry), 100.0}, Brush::erase));
@@ -211,11 +211,11 @@ class PagingTest : public QObject {
         ReferenceExecutor reference(source, parameters);
         QVERIFY(host->paint({centre_of(geometry), 4.0}, Brush::add));
         for (int step = 0; step < 6; ++step) {
-          QVERIFY(reference.restore(host->snapshot()));
+          QVERIFY(reference.restore(host->snapshot().value()));
           const AdvanceReport report = run(*host, 1);
           QVERIFY(reference.advance({}));
           QVERIFY(report.voxel_updates <= geometry.voxel_count());
-          const std::vector<float> phi = host->snapshot().dense();
+          const std::vector<float> phi = host->snapshot().value().dense();
           for (std::size_t i = 0; i < phi.size(); ++i) {
             QVERIFY(std::abs(static_cast<double>(phi[i]) - reference.values()[i]) < 1e-5);
           }

@@ -81,7 +81,7 @@ class RescalingTest : public QObject {
         const auto steps = static_cast<std::int64_t>(std::ceil((until - time) / level_set->time_step()));
         run(*level_set, steps);
         time += static_cast<double>(steps) * level_set->time_step();
-        const Field phi = level_set->snapshot();
+        const Field phi = level_set->snapshot().value();
         const double drift = std::abs(mean_radius(phi, centre) - 18.0);
         const double error = gradient_error(phi);
         qInfo("T4: from phi x %.1f, at time %.0f: drift %.3f voxel, mean | |grad| - 1 | %.4f", factor, time,
@@ -130,7 +130,7 @@ class RescalingTest : public QObject {
       const auto level_set = executor(ExecutorKind::host, zero_volume(geometry), rescaling_alone());
       QVERIFY(level_set->restore(distance_transform(mask_of(geometry, shape), level_set->band())));
       run(*level_set, 300, true);
-      const std::vector<float> phi = level_set->snapshot().dense();
+      const std::vector<float> phi = level_set->snapshot().value().dense();
       const std::vector<float> exact = sample(geometry, shape);
       double worst = 0.0;
       for (std::size_t i = 0; i < phi.size(); ++i) {
@@ -153,7 +153,7 @@ class RescalingTest : public QObject {
       const auto ball = executor(ExecutorKind::host, zero_volume(geometry), parameters);
       set_phi(*ball, geometry, [&](glm::dvec3 p) { return 0.5 * (15.0 - glm::distance(p, centre)); });
       run(*ball, 60);
-      const Field distance = ball->snapshot();
+      const Field distance = ball->snapshot().value();
       double sum = 0.0;
       double worst = 0.0;
       int count = 0;
@@ -180,19 +180,19 @@ class RescalingTest : public QObject {
       const auto level_set = executor(ExecutorKind::host, zero_volume(geometry), Parameters());
       set_phi(*level_set, geometry,
               [&](glm::dvec3 p) { return (15.0 - glm::distance(p, centre_of(geometry))) / smallest; });
-      const SurfaceStatistics statistics = measure(level_set->snapshot());
+      const SurfaceStatistics statistics = measure(level_set->snapshot().value());
       const double volume = 4.0 / 3.0 * std::numbers::pi * 15.0 * 15.0 * 15.0 / 1000.0;
       const double area = 4.0 * std::numbers::pi * 15.0 * 15.0;
       qInfo("ball: %.4f ml of %.4f, %.1f mm2 of %.1f", statistics.volume_ml, volume, statistics.surface_mm2,
             area);
       QVERIFY(std::abs(statistics.volume_ml - volume) < 0.01 * volume);
       QVERIFY(std::abs(statistics.surface_mm2 - area) < 0.02 * area);
-      QCOMPARE(statistics.voxels_inside, level_set->snapshot().mask().count());
+      QCOMPARE(statistics.voxels_inside, level_set->snapshot().value().mask().count());
 
       // The measure does not take phi for a distance.
       set_phi(*level_set, geometry,
               [&](glm::dvec3 p) { return 2.5 * (15.0 - glm::distance(p, centre_of(geometry))) / smallest; });
-      const SurfaceStatistics steep = measure(level_set->snapshot());
+      const SurfaceStatistics steep = measure(level_set->snapshot().value());
       QVERIFY(std::abs(steep.volume_ml - volume) < 0.01 * volume);
       QVERIFY(std::abs(steep.surface_mm2 - area) < 0.02 * area);
     }

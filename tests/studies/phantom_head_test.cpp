@@ -36,7 +36,7 @@ class PhantomHeadTest : public QObject {
         const auto report = (*level_set)->advance(run);
         QCOMPARE(failure(report), QString());
         QCOMPARE(failure((*level_set)->validate()), QString());
-        const double overlap = dice((*level_set)->snapshot().mask(), head->truth);
+        const double overlap = dice((*level_set)->snapshot().value().mask(), head->truth);
         qInfo("T13: noise %.0f %%, random seed %d: Dice %.4f after %lld steps in %.2f s", noise,
               static_cast<int>(random_seed), overlap, static_cast<long long>(report->steps), report->seconds);
         QVERIFY(overlap >= 0.93);

@@ -89,7 +89,7 @@ class SegmentationTest : public QObject {
     const auto report = (*level_set)->advance(run);
     QCOMPARE(failure(report), QString());
     QCOMPARE(failure((*level_set)->validate()), QString());
-    const double overlap = dice((*level_set)->snapshot().mask(), reference);
+    const double overlap = dice((*level_set)->snapshot().value().mask(), reference);
     qInfo("%s: Dice %.4f after %lld steps in %.2f s (%s)", study.name, overlap,
           static_cast<long long>(report->steps), report->seconds,
           report->converged ? "converged" : "still moving");

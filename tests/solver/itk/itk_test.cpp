@@ -29,7 +29,7 @@ Result<Field> our_steady_state(const Problem& problem, double alpha) {
   if (!run) return pass_on(run);
   if (!run->converged) return fail(ErrorKind::internal, "not converged after {} steps", run->steps);
   if (auto status = (*executor)->validate(); !status) return pass_on(status);
-  return (*executor)->snapshot();
+  return (*executor)->snapshot().value();
 }
 
 // phi of ITK's threshold filter, when what is left moves by less than 0.005 voxel a step; < 0 inside.

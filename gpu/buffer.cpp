@@ -1,0 +1,113 @@
+#include "gpu/buffer.h"
+
+#include "gpu/gl.h"
+#include "gpu/label.h"
+
+namespace tidemark::gpu {
+
+// Buffers are edited through a binding that nothing draws from, which works in every version.
+
+Result<Buffer> Buffer::create(Device& device, std::int64_t bytes, std::string_view label) {
+  if (auto status = device.check("allocating a buffer"); !status) return pass_on(status);
+  Buffer buffer;
+  GLuint id = 0;
+  glGenBuffers(1, &id);
+  buffer.handle_ = BufferHandle(device, id);
+  buffer.bytes_ = bytes;
+  const std::vector<std::byte> zeros(static_cast<std::size_t>(bytes));
+  glBindBuffer(GL_COPY_WRITE_BUFFER, id);
+  glBufferData(GL_COPY_WRITE_BUFFER, bytes, zeros.data(), GL_DYNAMIC_COPY);
+  set_label(device, GL_BUFFER, id, label);
+  if (auto status = device.check("allocating a buffer"); !status) return pass_on(status);
+  return buffer;
+}
+
+void Buffer::upload(std::int64_t offset, std::span<const std::byte> data) {
+  if (data.empty()) return;
+  glBindBuffer(GL_COPY_WRITE_BUFFER, handle_.id());
+  glBufferSubData(GL_COPY_WRITE_BUFFER, offset, static_cast<GLsizeiptr>(data.size()), data.data());
+}
+
+void Buffer::copy_from(const Buffer& source, std::int64_t from, std::int64_t to, std::int64_t bytes) {
+  glBindBuffer(GL_COPY_READ_BUFFER, source.id());
+  glBindBuffer(GL_COPY_WRITE_BUFFER, handle_.id());
+  glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, from, to, bytes);
+}
+
+void Buffer::download(std::int64_t offset, std::span<std::byte> data) const {
+  if (data.empty()) return;
+  glBindBuffer(GL_COPY_READ_BUFFER, handle_.id());
+  glGetBufferSubData(GL_COPY_READ_BUFFER, offset, static_cast<GLsizeiptr>(data.size()), data.data());
+}
+
+void Buffer::bind_storage(unsigned binding) const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, handle_.id());
+}
+
+void Buffer::bind_as_dispatch_arguments() const {
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, handle_.id());
+}
+
+void Buffer::bind_as_pixel_source() const {
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, handle_.id());
+}
+
+Fence::Fence(Fence&& other) noexcept
+    : device_(std::exchange(other.device_, nullptr)), sync_(std::exchange(other.sync_, nullptr)) {}
+
+Fence& Fence::operator=(Fence&& other) noexcept {
+  std::swap(device_, other.device_);
+  std::swap(sync_, other.sync_);
+  return *this;
+}
+
+Fence::~Fence() {
+  if (sync_ != nullptr && !device_->lost() && device_->make_current()) glDeleteSync(static_cast<GLsync>(sync_));
+}
+
+Fence Fence::insert(Device& device) {
+  Fence fence;
+  fence.device_ = &device;
+  fence.sync_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  glFlush();  // or the place may never be reached
+  return fence;
+}
+
+bool Fence::reached() const {
+  if (sync_ == nullptr) return true;
+  const GLenum state = glClientWaitSync(static_cast<GLsync>(sync_), 0, 0);
+  return state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
+}
+
+Status Fence::wait() const {
+  if (sync_ == nullptr) return {};
+  constexpr GLuint64 kNanosecondsPerTry = 100'000'000;
+  for (;;) {
+    const GLenum state = glClientWaitSync(static_cast<GLsync>(sync_), GL_SYNC_FLUSH_COMMANDS_BIT, kNanosecondsPerTry);
+    if (state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED) return {};
+    if (auto status = device_->check("waiting for the GPU"); !status) return status;
+    if (state == GL_WAIT_FAILED) return fail(ErrorKind::internal, "OpenGL: waiting for the GPU failed");
+  }
+}
+
+Result<Readback> Readback::create(Device& device, std::int64_t bytes, std::string_view label) {
+  auto staging = Buffer::create(device, bytes, label);
+  if (!staging) return pass_on(staging);
+  Readback readback;
+  readback.staging_ = std::move(*staging);
+  readback.fence_ = Fence();
+  return readback;
+}
+
+void Readback::start(Device& device, const Buffer& from, std::int64_t offset) {
+  staging_.copy_from(from, offset, 0, staging_.bytes());
+  fence_ = Fence::insert(device);
+}
+
+Status Readback::finish(std::span<std::byte> data) {
+  if (auto status = fence_.wait(); !status) return status;
+  staging_.download(0, data);
+  return {};
+}
+
+}  // namespace tidemark::gpu

@@ -1,0 +1,160 @@
+#include "gpu/texture.h"
+
+#include "core/checked.h"
+#include "gpu/framebuffer.h"
+#include "gpu/gl.h"
+#include "gpu/label.h"
+
+namespace tidemark::gpu {
+namespace {
+
+struct GlFormat {
+  GLenum internal, format, type;
+  std::int64_t bytes;
+};
+
+GlFormat gl_format(TexelFormat format) {
+  switch (format) {
+    case TexelFormat::r32f: return {GL_R32F, GL_RED, GL_FLOAT, 4};
+    case TexelFormat::rgba32f: return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+    case TexelFormat::r16f: return {GL_R16F, GL_RED, GL_HALF_FLOAT, 2};
+    case TexelFormat::rgba16f: return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
+    case TexelFormat::r8: return {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
+    case TexelFormat::rgba8: return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+    case TexelFormat::r16i: return {GL_R16I, GL_RED_INTEGER, GL_SHORT, 2};
+    case TexelFormat::r16ui: return {GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT, 2};
+    case TexelFormat::r32i: return {GL_R32I, GL_RED_INTEGER, GL_INT, 4};
+  }
+  return {};
+}
+
+void fetch_only(GLenum target, bool mipmaps) {
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, mipmaps ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
+  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glTexParameteri(target, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+}
+
+unsigned new_texture(GLenum target) {
+  GLuint id = 0;
+  glGenTextures(1, &id);
+  glBindTexture(target, id);
+  return id;
+}
+
+}  // namespace
+
+std::int64_t bytes_per_texel(TexelFormat format) { return gl_format(format).bytes; }
+
+Result<Texture2D> Texture2D::create(Device& device, TexelFormat format, std::int64_t width,
+                                    std::int64_t height, std::string_view label, bool mipmaps) {
+  const std::int64_t limit = device.capabilities().largest_texture;
+  if (width > limit || height > limit) {
+    return fail(ErrorKind::capability, "a texture of {} x {} is needed; this driver allows {} along an axis",
+                width, height, limit);
+  }
+  if (auto status = device.check("allocating a texture"); !status) return pass_on(status);
+  Texture2D texture;
+  texture.handle_ = TextureHandle(device, new_texture(GL_TEXTURE_2D));
+  texture.format_ = format;
+  texture.width_ = width;
+  texture.height_ = height;
+  const GlFormat gl = gl_format(format);
+  fetch_only(GL_TEXTURE_2D, mipmaps);
+  glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(gl.internal), static_cast<GLsizei>(width),
+               static_cast<GLsizei>(height), 0, gl.format, gl.type, nullptr);
+  if (mipmaps) {
+    glGenerateMipmap(GL_TEXTURE_2D);
+  } else {
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+  }
+  set_label(device, GL_TEXTURE, texture.id(), label);
+  if (auto status = device.check("allocating a texture"); !status) return pass_on(status);
+  return texture;
+}
+
+void Texture2D::upload(const TexelRect& rect, std::span<const std::byte> data) {
+  const GlFormat gl = gl_format(format_);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glBindTexture(GL_TEXTURE_2D, id());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(rect.x), static_cast<GLint>(rect.y),
+                  static_cast<GLsizei>(rect.width), static_cast<GLsizei>(rect.height), gl.format, gl.type,
+                  data.data());
+}
+
+Status Texture2D::download(const TexelRect& rect, std::span<std::byte> data, int level) const {
+  Device& device = handle_.device();
+  auto source = Framebuffer::create(device, {this}, "download", level);
+  if (!source) return pass_on(source);
+  const GlFormat gl = gl_format(format_);
+  source->bind();
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glReadPixels(static_cast<GLint>(rect.x), static_cast<GLint>(rect.y), static_cast<GLsizei>(rect.width),
+               static_cast<GLsizei>(rect.height), gl.format, gl.type, data.data());
+  return device.check("reading a texture");
+}
+
+void Texture2D::generate_mipmaps() {
+  glBindTexture(GL_TEXTURE_2D, id());
+  glGenerateMipmap(GL_TEXTURE_2D);
+}
+
+void Texture2D::bind(unsigned unit) const {
+  glActiveTexture(GL_TEXTURE0 + unit);
+  glBindTexture(GL_TEXTURE_2D, id());
+}
+
+void Texture2D::bind_image(unsigned unit, bool writable) const {
+  glBindImageTexture(unit, id(), 0, GL_FALSE, 0, writable ? GL_READ_WRITE : GL_READ_ONLY,
+                     gl_format(format_).internal);
+}
+
+Result<Texture3D> Texture3D::create(Device& device, TexelFormat format, Index3 size,
+                                    std::span<const std::byte> data, std::string_view label) {
+  const std::int64_t limit = device.capabilities().largest_volume_texture;
+  if (size.x > limit || size.y > limit || size.z > limit) {
+    return fail(ErrorKind::capability,
+                "a volume of {} x {} x {} voxels is needed as a texture; this driver allows {} along an axis",
+                size.x, size.y, size.z, limit);
+  }
+  if (auto status = device.check("allocating a volume texture"); !status) return pass_on(status);
+  Texture3D texture;
+  texture.handle_ = TextureHandle(device, new_texture(GL_TEXTURE_3D));
+  const GlFormat gl = gl_format(format);
+  fetch_only(GL_TEXTURE_3D, false);
+  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAX_LEVEL, 0);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glTexImage3D(GL_TEXTURE_3D, 0, static_cast<GLint>(gl.internal), static_cast<GLsizei>(size.x),
+               static_cast<GLsizei>(size.y), static_cast<GLsizei>(size.z), 0, gl.format, gl.type, data.data());
+  set_label(device, GL_TEXTURE, texture.id(), label);
+  if (auto status = device.check("allocating a volume texture"); !status) return pass_on(status);
+  return texture;
+}
+
+void Texture3D::bind(unsigned unit) const {
+  glActiveTexture(GL_TEXTURE0 + unit);
+  glBindTexture(GL_TEXTURE_3D, id());
+}
+
+Result<IntegerBufferTexture> IntegerBufferTexture::create(Device& device, const Buffer& buffer,
+                                                          std::string_view label) {
+  if (buffer.bytes() / 4 > device.capabilities().largest_buffer_texture) {
+    return fail(ErrorKind::capability, "a table of {} entries is needed; this driver allows {}",
+                buffer.bytes() / 4, device.capabilities().largest_buffer_texture);
+  }
+  IntegerBufferTexture texture;
+  texture.handle_ = TextureHandle(device, new_texture(GL_TEXTURE_BUFFER));
+  glTexBuffer(GL_TEXTURE_BUFFER, GL_R32I, buffer.id());
+  set_label(device, GL_TEXTURE, texture.handle_.id(), label);
+  if (auto status = device.check("making a table readable"); !status) return pass_on(status);
+  return texture;
+}
+
+void IntegerBufferTexture::bind(unsigned unit) const {
+  glActiveTexture(GL_TEXTURE0 + unit);
+  glBindTexture(GL_TEXTURE_BUFFER, handle_.id());
+}
+
+}  // namespace tidemark::gpu

@@ -1,0 +1,27 @@
+#include "solver/compute/page_memory.glsl"
+
+// At the end of a window, one invocation: has the surface stopped? Then begins a new active list.
+
+layout(local_size_x = 1) in;
+
+uniform bool judge_motion;  // false when the list is only made anew
+uniform uint samples;       // of motion in a window
+uniform float time_step;
+uniform float converged_speed;
+
+void main() {
+  control.list_is_rebuilt = !judge_motion || control.step_ran != 0u ? 1u : 0u;
+  if (control.list_is_rebuilt == 0u) return;
+  if (judge_motion) {
+    float squared = float(control.squared_change.y) * 256.0 + float(control.squared_change.x) / 16777216.0;
+    uint voxels = control.near_voxels + control.quiet_near_voxels * samples;
+    control.surface_speed = voxels == 0u ? 0.0 : sqrt(squared / float(voxels)) / (2.0 * time_step);
+    control.converged = control.surface_speed < converged_speed ? 1u : 0u;
+  }
+  control.squared_change = uvec2(0u);
+  control.near_voxels = 0u;
+  control.quiet_near_voxels = 0u;
+  control.quiet_pages = 0u;
+  control.active_count = 0u;
+  control.active_groups = uvec4(1u, 1u, 1u, 0u);
+}

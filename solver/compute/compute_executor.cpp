@@ -1,0 +1,287 @@
+#include "solver/compute/compute_executor.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "solver/paging/validate.h"
+
+namespace tidemark {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// How often motion is measured in a window: every two steps, over both of them.
+constexpr unsigned kMotionSamples = kConvergenceWindow / 2;
+
+// G grows by an eighth, so that little of it lies idle.
+std::int64_t with_reserve(std::int64_t pages) { return pages + std::max<std::int64_t>(pages / 8, 16); }
+
+}  // namespace
+
+Result<std::unique_ptr<Executor>> ComputeExecutor::create(std::shared_ptr<const Volume> source,
+                                                          const Parameters& parameters,
+                                                          const ExecutorOptions& options) {
+  std::shared_ptr<gpu::Device> device = options.device;
+  if (device == nullptr) {
+    auto made = gpu::Device::create_headless({gpu::GlVersion::gl45, options.debug});
+    if (!made) return pass_on(made);
+    device = std::move(*made);
+  }
+  if (!device->capabilities().at_least(4, 5)) {
+    return fail(ErrorKind::capability, "the compute executor needs OpenGL 4.5; {} offers {}.{}",
+                device->capabilities().renderer, device->capabilities().major, device->capabilities().minor);
+  }
+  if (auto status = device->make_current(); !status) return pass_on(status);
+  std::unique_ptr<ComputeExecutor> executor(
+      new ComputeExecutor(std::move(device), std::move(source), parameters, options));
+  if (auto status = executor->compile(); !status) return pass_on(status);
+  const Field nothing = Field::empty(executor->source_->geometry, executor->band(),
+                                     executor->layout_.layout().page_shape());
+  if (auto status = executor->restore(nothing); !status) return pass_on(status);
+  return executor;
+}
+
+ComputeExecutor::ComputeExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source,
+                                 const Parameters& parameters, const ExecutorOptions& options)
+    : device_(std::move(device)),
+      source_(std::move(source)),
+      model_(*source_, parameters),
+      options_(options),
+      layout_(PageLayout(source_->geometry.size, options.page_shape),
+              device_->capabilities().largest_texture) {}
+
+Status ComputeExecutor::compile() {
+  auto texture = SourceTexture::create(*device_, *source_);
+  if (!texture) return pass_on(texture);
+  source_texture_ = std::move(*texture);
+  struct Kernel {
+    gpu::Program& program;
+    const char* path;
+  };
+  for (const Kernel& kernel : {Kernel{maintain_, "maintain"}, Kernel{judge_, "judge"},
+                               Kernel{conclude_, "conclude"}, Kernel{rebuild_, "rebuild"}, Kernel{paint_, "paint"}}) {
+    auto program = gpu::Program::compute(*device_, fmt::format("solver/compute/{}.comp", kernel.path),
+                                         layout_.defines());
+    if (!program) return pass_on(program);
+    kernel.program = std::move(*program);
+  }
+  auto readback = gpu::Readback::create(*device_, sizeof(ComputeControl), "control on its way");
+  if (!readback) return pass_on(readback);
+  readback_ = std::move(*readback);
+  return compile_update();
+}
+
+// The kernel of the scheme that the parameters ask for.
+Status ComputeExecutor::compile_update() {
+  gpu::Defines defines = layout_.defines();
+  for (const gpu::Defines& more : {step_defines(model_), source_texture_.defines()}) {
+    defines.insert(defines.end(), more.begin(), more.end());
+  }
+  if (!device_->capabilities().software) defines.emplace_back("SHARED_APRON", "");
+  auto update = gpu::Program::compute(*device_, "solver/compute/update.comp", defines);
+  if (!update) return pass_on(update);
+  defines.emplace_back("MEASURE_ONLY", "");
+  auto measure = gpu::Program::compute(*device_, "solver/compute/update.comp", defines);
+  if (!measure) return pass_on(measure);
+  update_ = std::move(*update);
+  measure_ = std::move(*measure);
+  return {};
+}
+
+void ComputeExecutor::order_update(const gpu::Program& program, int now) {
+  program.use();
+  layout_.set_uniforms(program);
+  set_step_uniforms(program, model_.constants<float>());
+  source_texture_.set_uniforms(program, 1);
+  memory_.field().phi(now).bind(0);
+  program.set("phi_now", 0);
+  program.set("face_layers", 1);
+  memory_.field().phi(1 - now).bind_image(0, true);
+}
+
+void ComputeExecutor::order_maintenance(bool count_step) {
+  maintain_.use();
+  layout_.set_uniforms(maintain_);
+  maintain_.set("band", static_cast<float>(band()));
+  maintain_.set("quiet_change", static_cast<float>(kQuietChange));
+  maintain_.set("count_step", count_step ? 1 : 0);
+  memory_.field().phi(0).bind_image(0, true);
+  memory_.field().phi(1).bind_image(1, true);
+  gpu::dispatch(memory_.control(), 0);
+  gpu::finish_writes();
+}
+
+void ComputeExecutor::order_step(int now, int step_in_window) {
+  order_update(update_, now);
+  // The change over two steps is known after the second of them.
+  update_.set("measure_motion", step_in_window % 2);
+  gpu::dispatch(memory_.control(), 0);
+  gpu::finish_writes();
+  order_maintenance(true);
+  if (step_in_window + 1 == kConvergenceWindow) order_end_of_window(1 - now, true);
+}
+
+void ComputeExecutor::order_end_of_window(int now, bool judge) {
+  if (judge) {
+    judge_.use();
+    layout_.set_uniforms(judge_);
+    judge_.set("quiet_change", static_cast<float>(kQuietChange));
+    judge_.set("skip_quiet_pages", options_.skip_quiet_pages ? 1 : 0);
+    gpu::dispatch(memory_.control(), 0);
+    gpu::finish_writes();
+  }
+  conclude_.use();
+  conclude_.set("judge_motion", judge ? 1 : 0);
+  conclude_.set("samples", kMotionSamples);
+  conclude_.set("time_step", static_cast<float>(time_step()));
+  conclude_.set("converged_speed", static_cast<float>(kConvergedSpeed));
+  gpu::dispatch(glm::ivec3(1));
+  gpu::finish_writes();
+  rebuild_.use();
+  layout_.set_uniforms(rebuild_);
+  rebuild_.set("wake_all", judge ? 0 : 1);
+  rebuild_.set("samples", kMotionSamples);
+  memory_.field().phi(now).bind_image(0, true);
+  memory_.field().phi(1 - now).bind_image(1, true);
+  constexpr std::int64_t kGroupsPerRow = 32768;  // as in page_memory.glsl
+  const std::int64_t pages = memory_.capacity() - kFirstPage;
+  gpu::dispatch({static_cast<int>(std::min(pages, kGroupsPerRow)),
+                 static_cast<int>((pages + kGroupsPerRow - 1) / kGroupsPerRow), 1});
+  gpu::finish_writes();
+}
+
+// Orders `count` steps and waits for them.
+Result<ComputeControl> ComputeExecutor::run_steps(std::int64_t count, bool until_converged) {
+  control_.stop_at_convergence = until_converged ? 1 : 0;
+  control_.steps_done = 0;
+  control_.voxel_updates[0] = control_.voxel_updates[1] = 0;
+  memory_.write_control(control_);
+  memory_.bind();
+  for (std::int64_t i = 0; i < count; ++i) {
+    order_step(static_cast<int>((current_ + i) % 2),
+               static_cast<int>((steps_in_window_ + i) % kConvergenceWindow));
+  }
+  readback_.start(*device_, memory_.control(), 0);
+  ComputeControl control{};
+  if (auto status = readback_.finish(std::as_writable_bytes(std::span(&control, 1))); !status) {
+    return pass_on(status);
+  }
+  if (auto status = device_->check("computing steps"); !status) return pass_on(status);
+  current_ = static_cast<int>((current_ + control.steps_done) % 2);
+  steps_in_window_ = static_cast<int>((steps_in_window_ + control.steps_done) % kConvergenceWindow);
+  note_memory(control);
+  return control;
+}
+
+void ComputeExecutor::note_memory(const ComputeControl& control) {
+  control_ = control;
+  const std::int64_t resident = memory_.capacity() - kFirstPage - control.free_pages();
+  peak_resident_ = std::max(peak_resident_, resident);
+  peak_bytes_ = std::max(peak_bytes_, PageMemory::bytes_for(layout_, memory_.capacity()));
+}
+
+// Both copies exist while G grows.
+Status ComputeExecutor::grow(std::int64_t more_pages) {
+  const std::int64_t capacity = layout_.whole_rows(memory_.capacity() + more_pages);
+  const std::int64_t bytes =
+      PageMemory::bytes_for(layout_, capacity) + PageMemory::bytes_for(layout_, memory_.capacity());
+  if (bytes > options_.memory_budget_bytes) {
+    return fail(ErrorKind::capability, "the surface needs {} pages, {} MB while they are copied, and the memory budget is {} MB",
+                capacity, bytes >> 20, options_.memory_budget_bytes >> 20);
+  }
+  if (auto status = memory_.grow(*device_, capacity); !status) return status;
+  note_memory(memory_.read_control());
+  return {};
+}
+
+Status ComputeExecutor::settle() {
+  unsettled_ = true;
+  for (;;) {
+    control_ = memory_.read_control();
+    control_.starved = 0;
+    control_.converged = 0;
+    memory_.write_control(control_);
+    memory_.bind();
+    order_update(measure_, current_);
+    gpu::dispatch(memory_.control(), 0);
+    gpu::finish_writes();
+    order_maintenance(false);
+    note_memory(memory_.read_control());
+    if (auto status = device_->check("making pages resident"); !status) return status;
+    if (control_.starved == 0) break;
+    if (auto status = grow(with_reserve(memory_.capacity()) - memory_.capacity()); !status) return status;
+  }
+  unsettled_ = false;
+  return {};
+}
+
+Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
+  constexpr double kSecondsPerRun = 0.008;
+  constexpr std::int64_t kMostStepsPerRun = 64;
+  const Clock::time_point start = Clock::now();
+  AdvanceReport report;
+  if (auto status = device_->make_current(); !status) return pass_on(status);
+  if (unsettled_) {
+    if (auto status = settle(); !status) return pass_on(status);
+  }
+  control_.converged = 0;
+  while (report.steps < run.steps && !run.progress.cancelled()) {
+    const std::int64_t count = std::min(run.steps - report.steps, steps_per_run_);
+    const Clock::time_point run_start = Clock::now();
+    auto control = run_steps(count, run.until_converged);
+    if (!control) return pass_on(control);
+    report.steps += control->steps_done;
+    report.voxel_updates +=
+        static_cast<std::int64_t>(control->voxel_updates[1]) << 32 | control->voxel_updates[0];
+    report.surface_speed = static_cast<double>(control->surface_speed);
+    report.converged = control->converged != 0;
+    if (control->starved != 0) {
+      if (auto status = settle(); !status) {
+        return fail(status.error().kind, "after {} steps: {}", report.steps, status.error().message);
+      }
+      control_.converged = 0;
+    } else {
+      const double seconds = std::max(seconds_since(run_start), 1e-6);
+      steps_per_run_ = std::clamp(static_cast<std::int64_t>(static_cast<double>(count) * kSecondsPerRun / seconds),
+                                  std::int64_t{1}, std::min(kMostStepsPerRun, 2 * steps_per_run_));
+    }
+    run.progress(static_cast<double>(report.steps) / static_cast<double>(run.steps), "steps");
+    if (report.converged && run.until_converged) break;
+  }
+  report.seconds = seconds_since(start);
+  return report;
+}
+
+Result<Field> ComputeExecutor::snapshot() const {
+  if (auto status = device_->make_current(); !status) return pass_on(status);
+  auto phi = memory_.download(source_->geometry, band(), current_);
+  if (!phi) return pass_on(phi);
+  if (auto status = device_->check("reading phi back"); !status) return pass_on(status);
+  return phi;
+}
+
+MemoryReport ComputeExecutor::memory() const {
+  MemoryReport report;
+  report.resident_pages = memory_.capacity() - kFirstPage - control_.free_pages();
+  report.peak_resident_pages = peak_resident_;
+  report.quiet_pages = control_.quiet_pages;
+  report.state_bytes = PageMemory::bytes_for(layout_, memory_.capacity());
+  report.peak_state_bytes = peak_bytes_;
+  report.source_bytes = 0;  // the source is one texture, whatever is resident
+  report.page_shape = layout_.layout().page_shape();
+  return report;
+}
+
+Status ComputeExecutor::validate() const {
+  if (auto status = device_->make_current(); !status) return status;
+  if (auto status = memory_.validate(); !status) return status;
+  auto phi = snapshot();
+  if (!phi) return pass_on(phi);
+  return tidemark::validate(*phi);
+}
+
+}  // namespace tidemark

@@ -1,0 +1,75 @@
+// The level set on a GPU: pages are computed, allocated and freed by compute shaders.
+#pragma once
+
+#include <memory>
+
+#include "gpu/device.h"
+#include "gpu/program.h"
+#include "solver/compute/page_memory.h"
+#include "solver/executor.h"
+#include "solver/gl/step_uniforms.h"
+#include "solver/model.h"
+
+namespace tidemark {
+
+// A step is two dispatches: update (new phi, and a code of what each page needs) and maintain (grants it). After every
+// window of steps three more find out which pages are quiet. The processor hands over runs of steps and reads nothing
+// in between; when a run ends early, because no page was free or the surface has stopped, the rest of its dispatches do
+// nothing, and the counters say how far it came.
+class ComputeExecutor final : public Executor {
+ public:
+  // On options.device, else on a context of its own. Fails (ErrorKind::capability) without OpenGL 4.5.
+  static Result<std::unique_ptr<Executor>> create(std::shared_ptr<const Volume> source,
+                                                  const Parameters& parameters,
+                                                  const ExecutorOptions& options);
+
+  [[nodiscard]] std::string_view name() const override { return "compute"; }
+  Status restore(const Field& phi) override;
+  [[nodiscard]] Result<Field> snapshot() const override;
+  Status paint(const Sphere& sphere, Brush brush) override;
+  Status set_parameters(const Parameters& parameters) override;
+  [[nodiscard]] const Parameters& parameters() const override { return model_.parameters(); }
+  Result<AdvanceReport> advance(const Advance& run) override;
+  [[nodiscard]] MemoryReport memory() const override;
+  [[nodiscard]] Status validate() const override;
+  [[nodiscard]] double band() const override { return model_.band(); }
+  [[nodiscard]] double time_step() const override { return model_.time_step(); }
+
+ private:
+  ComputeExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source,
+                  const Parameters& parameters, const ExecutorOptions& options);
+  Status compile();
+  Status compile_update();
+
+  // Orders the dispatches of one step, the `index`th of this run, which reads phi from buffer `now`.
+  void order_step(int now, int step_in_window);
+  void order_update(const gpu::Program& program, int now);
+  void order_maintenance(bool count_step);
+  void order_end_of_window(int now, bool judge);
+  Result<ComputeControl> run_steps(std::int64_t count, bool until_converged);
+
+  // Grants every request of phi as it is; G grows as it must.
+  Status settle();
+  Status grow(std::int64_t more_pages);
+  void note_memory(const ComputeControl& control);
+
+  std::shared_ptr<gpu::Device> device_;  // first: it outlives everything below
+  std::shared_ptr<const Volume> source_;
+  Model model_;
+  ExecutorOptions options_;
+  PackedLayout layout_;
+  SourceTexture source_texture_;
+  gpu::Program update_, measure_, maintain_, judge_, conclude_, rebuild_, paint_;
+  PageMemory memory_;
+  gpu::Readback readback_;
+
+  int current_ = 0;  // the buffer that holds phi
+  int steps_in_window_ = 0;
+  bool unsettled_ = false;  // the budget stopped an allocation
+  std::int64_t steps_per_run_ = 1;
+  ComputeControl control_{};  // as last read
+  std::int64_t peak_resident_ = 0;
+  std::int64_t peak_bytes_ = 0;
+};
+
+}  // namespace tidemark

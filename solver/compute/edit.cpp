@@ -1,0 +1,83 @@
+// Replacing and painting phi, and changing parameters, in the compute executor.
+#include <glm/common.hpp>
+
+#include "solver/compute/compute_executor.h"
+
+namespace tidemark {
+
+Status ComputeExecutor::restore(const Field& phi) {
+  if (auto status = phi.check_fits(source_->geometry, band()); !status) return status;
+  if (phi.layout.page_shape() != layout_.layout().page_shape()) {
+    return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band, layout_.layout().page_shape()));
+  }
+  if (auto status = device_->make_current(); !status) return status;
+  constexpr std::int64_t kFewPages = 16;
+  const std::int64_t pages = phi.resident_pages() + kFewPages;
+  const std::int64_t bytes = PageMemory::bytes_for(layout_, pages);
+  if (bytes > options_.memory_budget_bytes) {
+    return fail(ErrorKind::capability, "the surface needs {} pages, {} MB, and the memory budget is {} MB", pages,
+                bytes >> 20, options_.memory_budget_bytes >> 20);
+  }
+  auto memory = PageMemory::create(*device_, layout_, phi, pages);
+  if (!memory) return pass_on(memory);
+  memory_ = std::move(*memory);
+  current_ = 0;
+  steps_in_window_ = 0;
+  peak_resident_ = peak_bytes_ = 0;
+  return settle();
+}
+
+Status ComputeExecutor::set_parameters(const Parameters& parameters) {
+  if (auto status = check(parameters); !status) return status;
+  const Model model(*source_, parameters);
+  if (model.band() != model_.band()) return fail(ErrorKind::usage, "the band W cannot change in mid-run");
+  if (auto status = device_->make_current(); !status) return status;
+  const bool other_kernel = model_.parameters().scheme != parameters.scheme;
+  model_ = model;
+  if (other_kernel) {
+    if (auto status = compile_update(); !status) return status;
+  }
+  memory_.bind();
+  order_end_of_window(current_, false);
+  steps_in_window_ = 0;
+  note_memory(memory_.read_control());
+  return device_->check("waking all pages");
+}
+
+Status ComputeExecutor::paint(const Sphere& sphere, Brush brush) {
+  if (auto status = device_->make_current(); !status) return status;
+  const Geometry& geometry = source_->geometry;
+  const glm::dvec3 centre = geometry.to_voxel(sphere.centre_mm);
+  const double unit = model_.smallest_spacing_mm();
+  const glm::dvec3 reach = (sphere.radius_mm + band() * unit) / geometry.spacing_mm;
+  const glm::dvec3 last_voxel(geometry.size - Index3(1));
+  const Index3 shape = layout_.layout().page_shape();
+  const Index3 first = Index3(glm::clamp(glm::floor(centre - reach), glm::dvec3(0), last_voxel)) / shape;
+  const Index3 last = Index3(glm::clamp(glm::ceil(centre + reach), glm::dvec3(0), last_voxel)) / shape;
+  const Index3 pages = last - first + Index3(1);
+
+  // Every page that may be drawn into finds room, so that a sphere is drawn whole or not at all.
+  const std::int64_t missing = pages.x * pages.y * pages.z - memory_.read_control().free_pages();
+  if (missing > 0) {
+    if (auto status = grow(missing); !status) return status;
+  }
+  control_ = memory_.read_control();
+  control_.free_tail_ready = control_.free_tail;
+  memory_.write_control(control_);
+  memory_.bind();
+  paint_.use();
+  layout_.set_uniforms(paint_);
+  paint_.set("first_page", glm::ivec3(first));
+  paint_.set("centre", glm::vec3(centre));
+  paint_.set("radius", static_cast<float>(sphere.radius_mm / unit));
+  paint_.set("spacing", glm::vec3(geometry.spacing_mm / unit));
+  paint_.set("band", static_cast<float>(band()));
+  paint_.set("erase", brush == Brush::erase ? 1 : 0);
+  memory_.field().phi(current_).bind_image(0, true);
+  memory_.field().phi(1 - current_).bind_image(1, true);
+  gpu::dispatch(glm::ivec3(pages));
+  gpu::finish_writes();
+  return settle();
+}
+
+}  // namespace tidemark

@@ -1,0 +1,187 @@
+#include "solver/compute/page_memory.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace tidemark {
+namespace {
+
+// The free list is a ring, and its indices run on past 2^32: its length must divide that.
+std::int64_t ring_length(std::int64_t capacity) {
+  return static_cast<std::int64_t>(std::bit_ceil(static_cast<std::uint64_t>(capacity)));
+}
+
+}  // namespace
+
+std::int64_t PageMemory::bytes_for(const PackedLayout& layout, std::int64_t capacity) {
+  const std::int64_t pages = layout.whole_rows(capacity);
+  const std::int64_t phi = 2 * pages * layout.layout().voxels_per_page() * 4;
+  const auto state = static_cast<std::int64_t>(sizeof(ComputePageState));
+  return phi + pages * (4 + state + 4) + ring_length(pages) * 4 + layout.layout().page_count() * 4 +
+         static_cast<std::int64_t>(sizeof(ComputeControl));
+}
+
+Result<PageMemory> PageMemory::create(gpu::Device& device, const PackedLayout& layout, const Field& phi,
+                                      std::int64_t capacity) {
+  PageMemory memory;
+  const std::int64_t resident = phi.resident_pages();
+  auto field = PackedField::create(device, layout, std::max(capacity, resident + kFirstPage),
+                                   static_cast<float>(phi.band));
+  if (!field) return pass_on(field);
+  memory.field_ = std::move(*field);
+  memory.field_.upload(phi.pages);
+
+  const std::int64_t pages = memory.capacity();
+  std::vector<std::int32_t> table(phi.table.size());
+  std::vector<std::int32_t> inverse(static_cast<std::size_t>(pages), -1);
+  std::vector<std::int32_t> active;
+  std::vector<ComputePageState> states(static_cast<std::size_t>(pages));
+  for (std::size_t page = 0; page < table.size(); ++page) {
+    const std::int32_t entry = phi.table[page];
+    if (entry < 0) {
+      table[page] = entry == Field::kInside ? kInsidePage : kOutsidePage;
+      continue;
+    }
+    const PhysicalPage physical = entry + kFirstPage;
+    table[page] = physical;
+    inverse[static_cast<std::size_t>(physical)] = static_cast<std::int32_t>(page);
+    states[static_cast<std::size_t>(physical)].flags = 2;  // listed
+    active.push_back(physical);
+  }
+  auto page_table = gpu::Buffer::create(device, static_cast<std::int64_t>(table.size()) * 4, "page table");
+  if (!page_table) return pass_on(page_table);
+  memory.page_table_ = std::move(*page_table);
+  memory.page_table_.upload_values<std::int32_t>(0, table);
+  auto control = gpu::Buffer::create(device, sizeof(ComputeControl), "control");
+  if (!control) return pass_on(control);
+  memory.control_ = std::move(*control);
+  memory.write_control({});
+  if (auto status = memory.allocate_lists(device, pages, inverse, states, active); !status) {
+    return pass_on(status);
+  }
+  return memory;
+}
+
+// New lists for `capacity` pages with the given contents; all pages that hold nothing are free.
+Status PageMemory::allocate_lists(gpu::Device& device, std::int64_t capacity,
+                                  const std::vector<std::int32_t>& inverse,
+                                  const std::vector<ComputePageState>& states,
+                                  const std::vector<std::int32_t>& active) {
+  std::vector<std::int32_t> free;
+  for (std::size_t page = kFirstPage; page < static_cast<std::size_t>(capacity); ++page) {
+    if (page >= inverse.size() || inverse[page] < 0) free.push_back(static_cast<std::int32_t>(page));
+  }
+  auto new_inverse = gpu::Buffer::create(device, capacity * 4, "inverse page table");
+  auto new_states = gpu::Buffer::create(
+      device, capacity * static_cast<std::int64_t>(sizeof(ComputePageState)), "page states");
+  auto new_active = gpu::Buffer::create(device, capacity * 4, "active list");
+  auto new_free = gpu::Buffer::create(device, ring_length(capacity) * 4, "free list");
+  for (auto* made : {&new_inverse, &new_states, &new_active, &new_free}) {
+    if (!*made) return pass_on(*made);
+  }
+  const std::vector<std::int32_t> nobody(static_cast<std::size_t>(capacity), -1);
+  new_inverse->upload_values<std::int32_t>(0, nobody);
+  new_inverse->upload_values<std::int32_t>(0, inverse);
+  new_states->upload_values<ComputePageState>(0, states);
+  new_active->upload_values<std::int32_t>(0, active);
+  new_free->upload_values<std::int32_t>(0, free);
+  inverse_table_ = std::move(*new_inverse);
+  states_ = std::move(*new_states);
+  active_list_ = std::move(*new_active);
+  free_list_ = std::move(*new_free);
+
+  constexpr std::uint32_t kGroupsPerRow = 32768;  // as in page_memory.glsl
+  ComputeControl control = read_control();
+  const auto count = static_cast<std::uint32_t>(active.size());
+  control.active_count = count;
+  control.active_groups[0] = std::clamp<std::uint32_t>(count, 1, kGroupsPerRow);
+  control.active_groups[1] = std::max<std::uint32_t>(1, (count + kGroupsPerRow - 1) / kGroupsPerRow);
+  control.active_groups[2] = 1;
+  control.free_head = 0;
+  control.free_tail = control.free_tail_ready = static_cast<std::uint32_t>(free.size());
+  write_control(control);
+  return device.check("making the lists of pages");
+}
+
+Status PageMemory::grow(gpu::Device& device, std::int64_t capacity) {
+  const std::int64_t old = this->capacity();
+  const std::int64_t pages = field_.layout().whole_rows(capacity);
+  const auto inverse = inverse_table_.download_values<std::int32_t>(0, old);
+  const auto states = states_.download_values<ComputePageState>(0, old);
+  const auto active = active_list_.download_values<std::int32_t>(0, read_control().active_count);
+  if (auto status = device.check("growing the lists of pages"); !status) return status;
+  if (auto status = field_.grow(device, pages); !status) return status;
+  return allocate_lists(device, pages, inverse, states, active);
+}
+
+ComputeControl PageMemory::read_control() const {
+  return control_.download_values<ComputeControl>(0, 1).front();
+}
+
+void PageMemory::write_control(const ComputeControl& control) {
+  control_.upload(0, std::as_bytes(std::span(&control, 1)));
+}
+
+void PageMemory::bind() const {
+  page_table_.bind_storage(0);
+  inverse_table_.bind_storage(1);
+  states_.bind_storage(2);
+  control_.bind_storage(3);
+  active_list_.bind_storage(4);
+  free_list_.bind_storage(5);
+}
+
+Result<Field> PageMemory::download(const Geometry& geometry, double band, int buffer) const {
+  auto physical = field_.download(buffer);
+  if (!physical) return pass_on(physical);
+  const PageLayout& layout = field_.layout().layout();
+  Field phi = Field::empty(geometry, band, layout.page_shape());
+  const auto table = page_table_.download_values<std::int32_t>(0, layout.page_count());
+  const std::int64_t voxels = layout.voxels_per_page();
+  for (std::size_t page = 0; page < table.size(); ++page) {
+    if (table[page] < kFirstPage) {
+      if (table[page] == kInsidePage) phi.table[page] = Field::kInside;
+      continue;
+    }
+    phi.table[page] = static_cast<std::int32_t>(phi.resident_pages());
+    const float* values = physical->data() + table[page] * voxels;
+    phi.pages.insert(phi.pages.end(), values, values + voxels);
+  }
+  return phi;
+}
+
+Status PageMemory::validate() const {
+  const ComputeControl control = read_control();
+  const auto table = page_table_.download_values<std::int32_t>(0, field_.layout().layout().page_count());
+  const auto inverse = inverse_table_.download_values<std::int32_t>(0, capacity());
+  const auto ring = free_list_.download_values<std::int32_t>(0, ring_length(capacity()));
+  std::vector<int> seen(inverse.size());
+  std::int64_t resident = 0;
+  for (std::size_t page = 0; page < table.size(); ++page) {
+    const std::int32_t entry = table[page];
+    if (entry == kOutsidePage || entry == kInsidePage) continue;
+    if (entry < kFirstPage || entry >= capacity()) {
+      return fail(ErrorKind::internal, "page table: page {} maps to page {} of {}", page, entry, capacity());
+    }
+    const auto physical = static_cast<std::size_t>(entry);
+    if (inverse[physical] != static_cast<std::int32_t>(page)) {
+      return fail(ErrorKind::internal, "page table: page {} maps to {}, which maps back to {}", page, entry,
+                  inverse[physical]);
+    }
+    ++resident;
+    ++seen[physical];
+  }
+  for (std::uint32_t i = control.free_head; i != control.free_tail; ++i) {
+    const auto page = static_cast<std::size_t>(ring[i % ring.size()]);
+    if (page >= seen.size() || ++seen[page] > 1 || inverse[page] != -1) {
+      return fail(ErrorKind::internal, "free list: page {} is in use or there twice", page);
+    }
+  }
+  if (resident + control.free_pages() + kFirstPage != capacity()) {
+    return fail(ErrorKind::internal, "{} pages in use, {} free and {} static are not the capacity of {}",
+                resident, control.free_pages(), kFirstPage, capacity());
+  }
+  return {};
+}
+
+}  // namespace tidemark

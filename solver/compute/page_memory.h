@@ -1,0 +1,89 @@
+// The virtual memory of the compute executor: tables and lists in buffers that its shaders change by themselves
+// (resources/shaders/solver/compute/page_memory.glsl).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "solver/field.h"
+#include "solver/gl/packed_field.h"
+
+namespace tidemark {
+
+// As the shaders lay it out (std430).
+struct ComputeControl {
+  std::uint32_t active_groups[4];  // dispatch arguments
+  std::uint32_t active_count;
+  std::uint32_t steps_done;
+  std::uint32_t starved;
+  std::uint32_t converged;
+  std::uint32_t stop_at_convergence;
+  std::uint32_t free_head;
+  std::uint32_t free_tail;
+  std::uint32_t free_tail_ready;
+  std::uint32_t voxel_updates[2];
+  std::uint32_t squared_change[2];
+  std::uint32_t near_voxels;
+  std::uint32_t quiet_near_voxels;
+  std::uint32_t quiet_pages;
+  float surface_speed;
+  std::uint32_t step_ran;
+  std::uint32_t list_is_rebuilt;
+
+  [[nodiscard]] std::int64_t free_pages() const { return free_tail - free_head; }
+};
+static_assert(sizeof(ComputeControl) == 88);
+
+struct ComputePageState {
+  std::uint32_t flags;
+  std::uint32_t code;
+  std::uint32_t constant_steps;
+  std::uint32_t near_voxels;
+  float change;
+  float squared_change;
+};
+static_assert(sizeof(ComputePageState) == 24);
+
+class PageMemory {
+ public:
+  PageMemory() = default;
+  // Holds `phi`, every resident page active. Room for `capacity` physical pages at least. Fails
+  // (ErrorKind::capability) when it does not fit.
+  static Result<PageMemory> create(gpu::Device& device, const PackedLayout& layout, const Field& phi,
+                                   std::int64_t capacity);
+
+  // Room for more pages, by copy. On failure it is as before.
+  Status grow(gpu::Device& device, std::int64_t capacity);
+
+  // A copy of phi from the given buffer. Waits for the GPU.
+  Result<Field> download(const Geometry& geometry, double band, int buffer) const;
+  // The tables agree both ways, used and free pages make up the capacity, and no page is there twice.
+  Status validate() const;
+
+  [[nodiscard]] const PackedField& field() const { return field_; }
+  [[nodiscard]] const gpu::Buffer& control() const { return control_; }
+  [[nodiscard]] ComputeControl read_control() const;
+  void write_control(const ComputeControl& control);
+
+  // Binds the tables and lists where the shaders expect them.
+  void bind() const;
+
+  [[nodiscard]] std::int64_t capacity() const { return field_.capacity(); }
+  // Bytes that so many pages need, tables and lists included.
+  [[nodiscard]] static std::int64_t bytes_for(const PackedLayout& layout, std::int64_t capacity);
+
+ private:
+  Status allocate_lists(gpu::Device& device, std::int64_t capacity, const std::vector<std::int32_t>& inverse,
+                        const std::vector<ComputePageState>& states, const std::vector<std::int32_t>& active);
+
+  PackedField field_;
+  gpu::Buffer page_table_;
+  gpu::Buffer inverse_table_;
+  gpu::Buffer states_;
+  gpu::Buffer active_list_;
+  gpu::Buffer free_list_;
+  gpu::Buffer control_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,101 @@
+#include "solver/gl/packed_field.h"
+
+#include "gpu/framebuffer.h"
+
+namespace tidemark {
+
+Result<std::array<gpu::Texture2D, 2>> PackedField::make_textures(gpu::Device& device,
+                                                                 const PackedLayout& layout,
+                                                                 std::int64_t capacity) {
+  if (capacity > layout.largest_capacity()) {
+    return fail(ErrorKind::capability, "the surface needs {} pages; this driver's textures hold {}", capacity,
+                layout.largest_capacity());
+  }
+  const glm::i64vec2 size = layout.texture_size(capacity);
+  std::array<gpu::Texture2D, 2> textures;
+  for (gpu::Texture2D& texture : textures) {
+    auto made = gpu::Texture2D::create(device, gpu::TexelFormat::r32f, size.x, size.y, "physical memory G");
+    if (!made) return pass_on(made);
+    texture = std::move(*made);
+  }
+  return textures;
+}
+
+Result<PackedField> PackedField::create(gpu::Device& device, const PackedLayout& layout, std::int64_t capacity,
+                                        float band) {
+  auto textures = make_textures(device, layout, capacity);
+  if (!textures) return pass_on(textures);
+  PackedField field;
+  field.layout_ = layout;
+  field.capacity_ = layout.whole_rows(capacity);
+  field.band_ = band;
+  field.phi_ = std::move(*textures);
+  field.write_static_pages();
+  if (auto status = device.check("making physical memory"); !status) return pass_on(status);
+  return field;
+}
+
+void PackedField::write_static_pages() {
+  const gpu::TexelRect outside = layout_.rect(kOutsidePage);
+  std::vector<float> values(static_cast<std::size_t>(outside.width * outside.height));
+  for (const PhysicalPage page : {kOutsidePage, kInsidePage}) {
+    std::fill(values.begin(), values.end(), page == kInsidePage ? band_ : -band_);
+    for (gpu::Texture2D& texture : phi_) texture.upload(layout_.rect(page), std::as_bytes(std::span(values)));
+  }
+}
+
+Status PackedField::grow(gpu::Device& device, std::int64_t capacity) {
+  auto textures = make_textures(device, layout_, capacity);
+  if (!textures) return pass_on(textures);
+  for (std::size_t buffer = 0; buffer < 2; ++buffer) {
+    const gpu::Texture2D& old = phi_[buffer];
+    auto source = gpu::Framebuffer::create(device, {&old}, "growing G");
+    if (!source) return pass_on(source);
+    source->copy_to({0, 0, old.width(), old.height()}, (*textures)[buffer], 0, 0);
+  }
+  if (auto status = device.check("growing physical memory"); !status) return status;
+  phi_ = std::move(*textures);
+  capacity_ = layout_.whole_rows(capacity);
+  return {};
+}
+
+void PackedField::upload(std::span<const float> pages) {
+  const std::int64_t voxels = layout_.layout().voxels_per_page();
+  const std::int64_t count = static_cast<std::int64_t>(pages.size()) / voxels;
+  const std::int64_t row_length = phi_[0].width();
+  const glm::i64vec2 tile = layout_.tile();
+  // Whole rows of tiles at a time; the static pages are the first two of the first row.
+  std::vector<float> rows(static_cast<std::size_t>(row_length * tile.y));
+  const std::int64_t per_row = layout_.pages_per_row();
+  for (std::int64_t row = 0; row * per_row < count + kFirstPage; ++row) {
+    for (std::int64_t column = 0; column < per_row; ++column) {
+      const std::int64_t index = row * per_row + column - kFirstPage;
+      if (index < 0 || index >= count) continue;
+      layout_.pack(pages.data() + index * voxels, rows.data() + column * tile.x, row_length);
+    }
+    for (gpu::Texture2D& texture : phi_) {
+      texture.upload({0, row * tile.y, row_length, tile.y}, std::as_bytes(std::span(rows)));
+    }
+  }
+  write_static_pages();
+}
+
+Result<std::vector<float>> PackedField::download(int buffer) const {
+  const gpu::Texture2D& texture = phi(buffer);
+  std::vector<float> texels(static_cast<std::size_t>(texture.width() * texture.height()));
+  if (auto status = texture.download({0, 0, texture.width(), texture.height()},
+                                     std::as_writable_bytes(std::span(texels)));
+      !status) {
+    return pass_on(status);
+  }
+  const std::int64_t voxels = layout_.layout().voxels_per_page();
+  std::vector<float> pages(texels.size());
+  for (PhysicalPage page = 0; page < capacity_; ++page) {
+    const gpu::TexelRect rect = layout_.rect(page);
+    layout_.unpack(texels.data() + rect.y * texture.width() + rect.x, texture.width(),
+                   pages.data() + page * voxels);
+  }
+  return pages;
+}
+
+}  // namespace tidemark

@@ -1,0 +1,73 @@
+#include "solver/gl/packed_layout.h"
+
+#include <algorithm>
+
+namespace tidemark {
+
+PackedLayout::PackedLayout(const PageLayout& layout, std::int64_t largest_texture)
+    : layout_(layout), largest_texture_(largest_texture) {
+  const Index3 shape = layout.page_shape();
+  std::int64_t least = -1;
+  for (std::int64_t columns = 1; columns <= shape.z; ++columns) {
+    if (shape.z % columns != 0) continue;
+    const std::int64_t difference = std::abs(shape.x * columns - shape.y * (shape.z / columns));
+    if (least >= 0 && difference > least) continue;
+    least = difference;
+    tile_columns_ = columns;
+  }
+  tile_ = {shape.x * tile_columns_, shape.y * (shape.z / tile_columns_)};
+  // As few pages a row as the height allows: G then grows in small steps.
+  constexpr std::int64_t kLeastPagesPerRow = 32;
+  const std::int64_t rows = std::max<std::int64_t>(1, largest_texture / tile_.y);
+  const std::int64_t pages = layout.page_count() + kFirstPage;
+  pages_per_row_ = std::clamp((pages + rows - 1) / rows, kLeastPagesPerRow,
+                              std::max(kLeastPagesPerRow, largest_texture / tile_.x));
+}
+
+gpu::TexelRect PackedLayout::rect(PhysicalPage page) const {
+  return {page % pages_per_row_ * tile_.x, page / pages_per_row_ * tile_.y, tile_.x, tile_.y};
+}
+
+std::int64_t PackedLayout::whole_rows(std::int64_t capacity) const {
+  return (capacity + pages_per_row_ - 1) / pages_per_row_ * pages_per_row_;
+}
+
+glm::i64vec2 PackedLayout::texture_size(std::int64_t capacity) const {
+  return {pages_per_row_ * tile_.x, whole_rows(capacity) / pages_per_row_ * tile_.y};
+}
+
+void PackedLayout::pack(const float* voxels, float* tile, std::int64_t row_length) const {
+  const Index3 shape = layout_.page_shape();
+  for (std::int64_t z = 0; z < shape.z; ++z) {
+    float* slice = tile + z % tile_columns_ * shape.x + z / tile_columns_ * shape.y * row_length;
+    for (std::int64_t y = 0; y < shape.y; ++y) {
+      std::copy_n(voxels + (y + shape.y * z) * shape.x, shape.x, slice + y * row_length);
+    }
+  }
+}
+
+void PackedLayout::unpack(const float* tile, std::int64_t row_length, float* voxels) const {
+  const Index3 shape = layout_.page_shape();
+  for (std::int64_t z = 0; z < shape.z; ++z) {
+    const float* slice = tile + z % tile_columns_ * shape.x + z / tile_columns_ * shape.y * row_length;
+    for (std::int64_t y = 0; y < shape.y; ++y) {
+      std::copy_n(slice + y * row_length, shape.x, voxels + (y + shape.y * z) * shape.x);
+    }
+  }
+}
+
+gpu::Defines PackedLayout::defines() const {
+  const Index3 shape = layout_.page_shape();
+  return {{"PAGE_X", fmt::to_string(shape.x)},
+          {"PAGE_Y", fmt::to_string(shape.y)},
+          {"PAGE_Z", fmt::to_string(shape.z)},
+          {"TILE_COLUMNS", fmt::to_string(tile_columns_)},
+          {"PAGES_PER_ROW", fmt::to_string(pages_per_row_)}};
+}
+
+void PackedLayout::set_uniforms(const gpu::Program& program) const {
+  program.set("volume_size", glm::ivec3(layout_.volume_size()));
+  program.set("page_grid", glm::ivec3(layout_.pages()));
+}
+
+}  // namespace tidemark
