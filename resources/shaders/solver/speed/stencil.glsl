@@ -1,6 +1,10 @@
 // The 19 values of phi around a voxel, and the differences that every speed term is made of. Lengths are in units
 // of the smallest spacing.
 
+#if __VERSION__ < 400
+#define precise  // unknown to OpenGL 3.3
+#endif
+
 struct Stencil {
   float c;                              // phi at the voxel
   float xm, xp, ym, yp, zm, zp;         // its face neighbours (xm: x - 1, xp: x + 1)
