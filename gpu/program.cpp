@@ -129,4 +129,6 @@ void finish_writes() {
                   GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
+void wait_for_gpu() { glFinish(); }
+
 }  // namespace tidemark::gpu

@@ -53,5 +53,7 @@ void dispatch(glm::ivec3 groups);
 void dispatch(const Buffer& arguments, std::int64_t offset);
 // What shaders wrote to buffers, textures and dispatch arguments is there for the commands that follow.
 void finish_writes();
+// Waits until the GPU has done everything.
+void wait_for_gpu();
 
 }  // namespace tidemark::gpu

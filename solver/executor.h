@@ -39,7 +39,7 @@ struct AdvanceReport {
   std::int64_t steps = 0;
   bool converged = false;
   double seconds = 0.0;         // wall time in the solver
-  double paging_seconds = 0.0;  // of these, allocation, freeing and lists
+  double paging_seconds = 0.0;  // of these, allocation, freeing and lists (compute: see time_paging)
   std::int64_t voxel_updates =
       0;                       // voxels really computed: quiet pages, clamped rows and padding do not count
   double surface_speed = 0.0;  // as measured for convergence, in the last full window
@@ -96,11 +96,12 @@ struct ExecutorOptions {
   // of a page where the executor leaves a choice.
   std::shared_ptr<gpu::Device> device = nullptr;
   bool debug = false;
+  bool time_paging = false;  // find out paging_seconds by waiting between dispatches, which costs some time
   Index3 page_shape = kDefaultPageShape;
 };
 
 // automatic: compute on a GPU; host where OpenGL is the processor's work or absent.
-enum class ExecutorKind { automatic, host, compute, reference };
+enum class ExecutorKind { automatic, host, compute, stream, reference };
 
 // A level set on `source`, everywhere outside at first. `source` is kept. Fails (ErrorKind::usage) on
 // parameters that check() refuses, (ErrorKind::capability) when the machine cannot run the executor.

@@ -160,8 +160,10 @@ Status run(Program& program, const BenchOptions& options) {
   const auto benchmark = make_case(options, console);
   if (!benchmark) return tl::unexpected<Error>(benchmark.error());
   if (console.interrupted()) return cancelled_error();
+  ExecutorOptions executor_options = options.solver.executor_options();
+  executor_options.time_paging = true;
   auto executor = make_executor(options.solver.kind, benchmark->volume, benchmark->parameters,
-                                options.solver.executor_options());
+                                executor_options);
   if (!executor) return pass_on(executor);
   Executor& solver = **executor;
   const auto& [i, j, k, radius_mm] = benchmark->seed;

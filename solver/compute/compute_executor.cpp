@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "solver/paging/validate.h"
 
@@ -19,6 +20,13 @@ constexpr unsigned kMotionSamples = kConvergenceWindow / 2;
 
 // G grows by an eighth, so that little of it lies idle.
 std::int64_t with_reserve(std::int64_t pages) { return pages + std::max<std::int64_t>(pages / 8, 16); }
+
+// "F(0) F(1) ... ", for a macro that applies another one.
+std::string repeated(std::int64_t count) {
+  std::string text;
+  for (std::int64_t i = 0; i < count; ++i) text += fmt::format("F({}) ", i);
+  return text;
+}
 
 }  // namespace
 
@@ -62,10 +70,12 @@ Status ComputeExecutor::compile() {
     gpu::Program& program;
     const char* path;
   };
+  gpu::Defines defines = layout_.defines();
+  // Invocations that look after a page: on a software driver, one vector of them.
+  defines.emplace_back("MAINTAINERS", software() ? "8" : "32");
   for (const Kernel& kernel : {Kernel{maintain_, "maintain"}, Kernel{judge_, "judge"},
                                Kernel{conclude_, "conclude"}, Kernel{rebuild_, "rebuild"}, Kernel{paint_, "paint"}}) {
-    auto program = gpu::Program::compute(*device_, fmt::format("solver/compute/{}.comp", kernel.path),
-                                         layout_.defines());
+    auto program = gpu::Program::compute(*device_, fmt::format("solver/compute/{}.comp", kernel.path), defines);
     if (!program) return pass_on(program);
     kernel.program = std::move(*program);
   }
@@ -81,7 +91,12 @@ Status ComputeExecutor::compile_update() {
   for (const gpu::Defines& more : {step_defines(model_), source_texture_.defines()}) {
     defines.insert(defines.end(), more.begin(), more.end());
   }
-  if (!device_->capabilities().software) defines.emplace_back("SHARED_APRON", "");
+  // A software driver runs the columns along x in the lanes of a vector, and its shared memory is slow.
+  const std::int64_t block = software() ? layout_.layout().page_shape().y : 1;
+  defines.emplace_back("BLOCK", fmt::to_string(block));
+  defines.emplace_back("FOR_BLOCK(F)", repeated(block));
+  defines.emplace_back("FOR_ROWS(F)", repeated(block + 2));
+  if (!software()) defines.emplace_back("SHARED_APRON", "");
   auto update = gpu::Program::compute(*device_, "solver/compute/update.comp", defines);
   if (!update) return pass_on(update);
   defines.emplace_back("MEASURE_ONLY", "");
@@ -99,7 +114,6 @@ void ComputeExecutor::order_update(const gpu::Program& program, int now) {
   source_texture_.set_uniforms(program, 1);
   memory_.field().phi(now).bind(0);
   program.set("phi_now", 0);
-  program.set("face_layers", 1);
   memory_.field().phi(1 - now).bind_image(0, true);
 }
 
@@ -121,8 +135,17 @@ void ComputeExecutor::order_step(int now, int step_in_window) {
   update_.set("measure_motion", step_in_window % 2);
   gpu::dispatch(memory_.control(), 0);
   gpu::finish_writes();
+  if (!options_.time_paging) return order_paging(1 - now, step_in_window);
+  gpu::wait_for_gpu();
+  const Clock::time_point start = Clock::now();
+  order_paging(1 - now, step_in_window);
+  gpu::wait_for_gpu();
+  paging_seconds_ += seconds_since(start);
+}
+
+void ComputeExecutor::order_paging(int next, int step_in_window) {
   order_maintenance(true);
-  if (step_in_window + 1 == kConvergenceWindow) order_end_of_window(1 - now, true);
+  if (step_in_window + 1 == kConvergenceWindow) order_end_of_window(next, true);
 }
 
 void ComputeExecutor::order_end_of_window(int now, bool judge) {
@@ -253,6 +276,7 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
     if (report.converged && run.until_converged) break;
   }
   report.seconds = seconds_since(start);
+  report.paging_seconds = std::exchange(paging_seconds_, 0.0);
   return report;
 }
 

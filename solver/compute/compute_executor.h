@@ -38,6 +38,7 @@ class ComputeExecutor final : public Executor {
  private:
   ComputeExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source,
                   const Parameters& parameters, const ExecutorOptions& options);
+  [[nodiscard]] bool software() const { return device_->capabilities().software; }
   Status compile();
   Status compile_update();
 
@@ -45,6 +46,7 @@ class ComputeExecutor final : public Executor {
   void order_step(int now, int step_in_window);
   void order_update(const gpu::Program& program, int now);
   void order_maintenance(bool count_step);
+  void order_paging(int next, int step_in_window);
   void order_end_of_window(int now, bool judge);
   Result<ComputeControl> run_steps(std::int64_t count, bool until_converged);
 
@@ -67,6 +69,7 @@ class ComputeExecutor final : public Executor {
   int steps_in_window_ = 0;
   bool unsettled_ = false;  // the budget stopped an allocation
   std::int64_t steps_per_run_ = 1;
+  double paging_seconds_ = 0.0;  // since the last report
   ComputeControl control_{};  // as last read
   std::int64_t peak_resident_ = 0;
   std::int64_t peak_bytes_ = 0;

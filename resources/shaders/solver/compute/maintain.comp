@@ -4,7 +4,8 @@
 // the page's code asks for, gives the page back when it has become constant, and wakes the pages around it when it
 // moves.
 
-layout(local_size_x = 64) in;
+layout(local_size_x = MAINTAINERS) in;
+const int kInvocations = MAINTAINERS;  // 8 at least
 
 layout(binding = 0, r32f) uniform restrict writeonly image2D phi_a;
 layout(binding = 1, r32f) uniform restrict writeonly image2D phi_b;
@@ -25,9 +26,8 @@ void grant_request(int face, int number, uint code) {
   if (!contains_page(across)) return;
   int across_number = page_number(across);
   int entry = page_table[across_number];
-  bool asks = entry == kInsidePage ? (code & kFaceNotInside << face) != 0u
-                                   : entry == kOutsidePage && (code & kFaceNotOutside << face) != 0u;
-  if (!asks) return;
+  // Another page may have asked for the same one.
+  if ((code & kAsks << face) == 0u || (entry != kInsidePage && entry != kOutsidePage)) return;
   made[face] = make_resident(across_number, entry);
   made_of[face] = entry == kInsidePage ? band : -band;
 }
@@ -73,22 +73,29 @@ void main() {
   if (number < 0) return;
   uint code = page_state[page].code;
 
+  // Most pages need nothing.
+  bool asks = (code & kAsks * 63u) != 0u;
+  bool moved = page_state[page].change > quiet_change && (page_state[page].flags & kWokeNeighbours) == 0u;
+  bool constant = (code & kNotInside) == 0u || (code & kNotOutside) == 0u;
+  if (!asks && !moved && !constant) {
+    if (index == 0) page_state[page].constant_steps = 0u;
+    return;
+  }
+
   if (index < 6) grant_request(index, number, code);
   barrier();
   for (int face = 0; face < 6; ++face) {
     if (made[face] < 0) continue;
     ivec2 origin = page_origin(made[face]);
-    for (int i = index; i < kTile.x * kTile.y; i += 64) {
+    for (int i = index; i < kTile.x * kTile.y; i += kInvocations) {
       ivec2 texel = origin + ivec2(i % kTile.x, i / kTile.x);
       imageStore(phi_a, texel, vec4(made_of[face]));
       imageStore(phi_b, texel, vec4(made_of[face]));
     }
   }
 
-  bool moved = page_state[page].change > quiet_change && (page_state[page].flags & kWokeNeighbours) == 0u;
-  barrier();
-  if (moved && index < 27) {
-    ivec3 step = neighbour_step(index);
+  for (int i = index; moved && i < 27; i += kInvocations) {
+    ivec3 step = neighbour_step(i);
     ivec3 other = page_coordinates(number) + step;
     if (dot(step, step) <= 2 && contains_page(other)) {
       int entry = page_table[page_number(other)];

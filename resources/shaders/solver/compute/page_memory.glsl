@@ -51,6 +51,7 @@ const uint kFaceNotInside = 1u;       // << face: near that face a voxel is not 
 const uint kFaceNotOutside = 1u << 6; // << face: near that face a voxel is not -W
 const uint kNotInside = 1u << 12;     // a voxel is not W
 const uint kNotOutside = 1u << 13;    // a voxel is not -W
+const uint kAsks = 1u << 14;          // << face: the page across that face must become resident
 
 // A page table entry while a page is being made for it.
 const int kClaimed = -1;

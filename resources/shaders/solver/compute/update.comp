@@ -2,20 +2,25 @@
 #include "solver/speed/update.glsl"
 #include "solver/source.glsl"
 
-// One step of phi in the active pages, a work group each; an invocation computes a column of voxels along z. Each
-// page's code says afterwards what it needs. With MEASURE_ONLY nothing is computed but the code of phi as it is.
+// One step of phi in the active pages, a work group each. Each page's code says afterwards what it needs. With
+// MEASURE_ONLY nothing is computed but the code of phi as it is.
 //
-// SHARED_APRON: the page and the voxels around it are brought to shared memory first (a GPU's way). Otherwise each
-// invocation keeps three slices of its column in registers, which suits a processor that plays the GPU.
+// An invocation computes a block of BLOCK columns along z that lie side by side along y. With SHARED_APRON the page and
+// the voxels around it are brought to shared memory first, and a block is one column: a GPU's way. Otherwise each
+// invocation fetches what its block needs, and a larger block needs fewer fetches a voxel: the way of a processor
+// that plays the GPU. Padding beyond the volume is computed along with the rest, but never counted.
+//
+// FOR_BLOCK(F) is F(0) F(1) ... for the columns of a block, FOR_ROWS(F) likewise for them and one more on each side:
+// written out, because software drivers do not unroll such loops and then index registers through memory.
 
-layout(local_size_x = PAGE_X, local_size_y = PAGE_Y) in;
+layout(local_size_x = PAGE_X, local_size_y = PAGE_Y / BLOCK) in;
+const int kInvocations = PAGE_X * (PAGE_Y / BLOCK);
 
 uniform sampler2D phi_now;
 layout(binding = 0, r32f) uniform restrict image2D phi_next;  // holds phi of one step earlier
 
 uniform bool measure_motion;
 uniform float near;  // |phi| of a voxel beside the surface is at most this
-uniform int face_layers;
 
 shared int neighbours[27];
 shared uint group_code;
@@ -24,16 +29,28 @@ shared uint group_squared_change;  // in units of 2^-24
 shared uint group_near_voxels;
 
 // Of the page.
+ivec2 origin;
 ivec3 first_voxel;
 ivec3 lowest;   // the least and the greatest local coordinate with a voxel of its own, -1..PAGE
 ivec3 highest;
+ivec3 last;     // the last voxel of the page that is inside the volume
+
+ivec2 block_start;  // the block's first column in the page
+
+// Of the invocation.
+uint code = 0u;
+float largest_change = 0.0;
+float squared_change = 0.0;
+uint near_voxels = 0u;
 
 void find_neighbours(int page) {
   ivec3 coordinates = page_coordinates(inverse_table[page]);
+  origin = page_origin(page);
   first_voxel = coordinates * kPageShape;
   lowest = -ivec3(greaterThan(first_voxel, ivec3(0)));
   highest = min(kPageShape, volume_size - 1 - first_voxel);
-  for (int i = int(gl_LocalInvocationIndex); i < 27; i += PAGE_X * PAGE_Y) {
+  last = min(kPageShape - 1, highest);
+  for (int i = int(gl_LocalInvocationIndex); i < 27; i += kInvocations) {
     ivec3 other = coordinates + neighbour_step(i);
     neighbours[i] = contains_page(other) ? page_table[page_number(other)] : page;
   }
@@ -44,69 +61,119 @@ ivec3 page_step(ivec3 local) {
   return ivec3(greaterThanEqual(local, kPageShape)) - ivec3(lessThan(local, ivec3(0)));
 }
 
-// phi at a local coordinate in -1..PAGE; clamped at the volume's border.
-ivec2 texel_at(ivec3 local) {
-  ivec3 voxel = clamp(local, lowest, highest);
-  ivec3 step = page_step(voxel);
-  int page = neighbours[13 + step.x + 3 * step.y + 9 * step.z];
-  return page_origin(page) + texel_in_page(voxel - step * kPageShape);
-}
+// phi in and around the block in a slice: three values along x for each row, from y - 1 on.
+#define SLICE_VALUES (3 * (BLOCK + 2))
 
-// The 3 x 3 values around a column in a slice: [0] x - 1, y - 1; [4] the column itself; [8] x + 1, y + 1.
 #ifdef SHARED_APRON
 const ivec3 kApron = kPageShape + 2;
 shared float apron[kApron.x * kApron.y * kApron.z];
 
 void gather_apron() {
-  for (int i = int(gl_LocalInvocationIndex); i < kApron.x * kApron.y * kApron.z; i += PAGE_X * PAGE_Y) {
+  for (int i = int(gl_LocalInvocationIndex); i < kApron.x * kApron.y * kApron.z; i += kInvocations) {
     ivec3 local = ivec3(i % kApron.x, i / kApron.x % kApron.y, i / (kApron.x * kApron.y)) - 1;
-    apron[i] = texelFetch(phi_now, texel_at(local), 0).r;
+    ivec3 voxel = clamp(local, lowest, highest);  // Neumann at the volume's border
+    ivec3 step = page_step(voxel);
+    ivec2 page = page_origin(neighbours[13 + step.x + 3 * step.y + 9 * step.z]);
+    apron[i] = texelFetch(phi_now, page + texel_in_page(voxel - step * kPageShape), 0).r;
   }
 }
-void load_slice(int z, out float slice[9]) {
-  ivec2 local = ivec2(gl_LocalInvocationID.xy);
-  int first = local.x + kApron.x * (local.y + kApron.y * (z + 1));
-  for (int y = 0; y < 3; ++y) {
-    for (int x = 0; x < 3; ++x) slice[3 * y + x] = apron[first + x + kApron.x * y];
-  }
+void load_slice(int z, out float slice[SLICE_VALUES]) {
+  int first = block_start.x + kApron.x * (block_start.y + kApron.y * (z + 1));
+#define LOAD_ROW(row)                                \
+  slice[3 * row] = apron[first + kApron.x * row];         \
+  slice[3 * row + 1] = apron[first + kApron.x * row + 1]; \
+  slice[3 * row + 2] = apron[first + kApron.x * row + 2];
+  FOR_ROWS(LOAD_ROW)
 }
 #else
-ivec2 columns[9];  // the texel of each column's first slice in the page that is being walked
+// The texels at which columns begin in the page that is being walked along z: at x - 1, x and x + 1, each before the
+// block, at its first column and behind it.
+ivec2 column_start[9];
 
 void find_columns(int page_along_z) {
   for (int i = 0; i < 9; ++i) {
-    ivec3 local = clamp(ivec3(gl_LocalInvocationID.xy + uvec2(i % 3, i / 3), 0) - ivec3(1, 1, 0), lowest, highest);
-    ivec3 step = page_step(local);
-    columns[i] = page_origin(neighbours[13 + step.x + 3 * step.y + 9 * page_along_z]) + local.xy -
-                 step.xy * kPageShape.xy;
+    ivec2 place = block_start + ivec2(i % 3 - 1, i / 3 == 0 ? -1 : i / 3 == 1 ? 0 : BLOCK);
+    ivec3 voxel = clamp(ivec3(place, 0), lowest, highest);  // Neumann at the volume's border
+    ivec3 step = page_step(voxel);
+    ivec2 page = page_origin(neighbours[13 + step.x + 3 * step.y + 9 * page_along_z]);
+    column_start[i] = page + voxel.xy - step.xy * kPageShape.xy;
   }
 }
-void load_slice(int z, out float slice[9]) {
+void load_row(int row, ivec2 shift, inout float slice[SLICE_VALUES]) {
+  int part = row == 0 ? 0 : row == BLOCK + 1 ? 2 : 1;
+  // Rows of the block beyond the volume repeat its last row.
+  ivec2 texel = shift + ivec2(0, part == 1 ? clamp(highest.y - block_start.y, 0, row - 1) : 0);
+  slice[3 * row] = texelFetch(phi_now, column_start[3 * part] + texel, 0).r;
+  slice[3 * row + 1] = texelFetch(phi_now, column_start[3 * part + 1] + texel, 0).r;
+  slice[3 * row + 2] = texelFetch(phi_now, column_start[3 * part + 2] + texel, 0).r;
+}
+void load_slice(int z, out float slice[SLICE_VALUES]) {
   int inside = clamp(z, lowest.z, highest.z);
   int page_along_z = inside < 0 ? -1 : inside >= PAGE_Z ? 1 : 0;
   // At the volume's end the last slice is read again, and the columns stay.
   if (z == -1 || z == 0 || z == PAGE_Z) find_columns(page_along_z);
   ivec2 shift = texel_in_page(ivec3(0, 0, inside - page_along_z * PAGE_Z));
-  for (int i = 0; i < 9; ++i) slice[i] = texelFetch(phi_now, columns[i] + shift, 0).r;
+#define LOAD_ROW(row) load_row(row, shift, slice);
+  FOR_ROWS(LOAD_ROW)
 }
 #endif
 
-Stencil stencil_of(float below[9], float here[9], float above[9]) {
-  return Stencil(here[4], here[3], here[5], here[1], here[7], below[4], above[4],  //
-                 here[0], here[6], here[2], here[8],                              //
-                 below[3], above[3], below[5], above[5],                          //
-                 below[1], above[1], below[7], above[7]);
+// The stencil of column `i` of the block.
+Stencil stencil_of(int i, float below[SLICE_VALUES], float here[SLICE_VALUES], float above[SLICE_VALUES]) {
+  int c = 3 * (i + 1) + 1;
+  return Stencil(here[c], here[c - 1], here[c + 1], here[c - 3], here[c + 3], below[c], above[c],  //
+                 here[c - 4], here[c + 2], here[c - 2], here[c + 4],                               //
+                 below[c - 1], above[c - 1], below[c + 1], above[c + 1],                           //
+                 below[c - 3], above[c - 3], below[c + 3], above[c + 3]);
 }
 
 // What a voxel adds to the page's code.
 uint code_of(float phi, ivec3 local) {
-  bool not_inside = phi != band;
-  bool not_outside = phi != -band;
-  ivec3 last = min(kPageShape, volume_size - first_voxel) - 1;
-  uint faces = uint(local.x < face_layers) | uint(local.x > last.x - face_layers) << 1 |
-               uint(local.y < face_layers) << 2 | uint(local.y > last.y - face_layers) << 3 |
-               uint(local.z < face_layers) << 4 | uint(local.z > last.z - face_layers) << 5;
-  return (not_inside ? faces | kNotInside : 0u) | (not_outside ? faces << 6 | kNotOutside : 0u);
+  uint faces = uint(local.x == 0) | uint(local.x == last.x) << 1 | uint(local.y == 0) << 2 |
+               uint(local.y == last.y) << 3 | uint(local.z == 0) << 4 | uint(local.z == last.z) << 5;
+  return (phi != band ? faces | kNotInside : 0u) | (phi != -band ? faces << 6 | kNotOutside : 0u);
+}
+
+void note(float phi, float phi_before, ivec3 local) {
+  bool in_volume = all(lessThanEqual(local, last));
+  code |= in_volume ? code_of(phi, local) : 0u;
+  bool counts = in_volume && abs(phi) <= near;
+  float change = counts ? abs(phi - phi_before) : 0.0;
+  largest_change = max(largest_change, change);
+  squared_change += change * change;
+  near_voxels += uint(counts);
+}
+
+void compute_voxel(int i, int z, float below[SLICE_VALUES], float here[SLICE_VALUES], float above[SLICE_VALUES]) {
+  ivec3 local = ivec3(block_start + ivec2(0, i), z);
+  ivec2 texel = origin + texel_in_page(local);
+  float source = source_at(first_voxel + min(local, last));
+  float phi = updated_phi(differences(stencil_of(i, below, here, above)), source);
+  note(phi, measure_motion ? imageLoad(phi_next, texel).r : phi, local);
+  imageStore(phi_next, texel, vec4(phi));
+}
+
+void compute_block() {
+  float below[SLICE_VALUES], here[SLICE_VALUES], above[SLICE_VALUES];
+  load_slice(-1, below);
+  load_slice(0, here);
+  for (int z = 0; z < PAGE_Z; ++z) {
+    load_slice(z + 1, above);
+#define COMPUTE_VOXEL(i) compute_voxel(i, z, below, here, above);
+    FOR_BLOCK(COMPUTE_VOXEL)
+    below = here;
+    here = above;
+  }
+}
+
+void measure_block() {
+  for (int z = 0; z < PAGE_Z; ++z) {
+    for (int i = 0; i < BLOCK; ++i) {
+      ivec3 local = ivec3(block_start + ivec2(0, i), z);
+      float phi = texelFetch(phi_now, origin + texel_in_page(local), 0).r;
+      note(phi, phi, local);
+    }
+  }
 }
 
 void main() {
@@ -115,11 +182,11 @@ void main() {
     control.step_ran = stopped ? 0u : 1u;
     control.free_tail_ready = control.free_tail;
   }
-  if (stopped) return;
-  if (work_group() >= control.active_count) return;
+  if (stopped || work_group() >= control.active_count) return;
   int page = active_list[work_group()];
   if (inverse_table[page] < 0) return;
 
+  block_start = ivec2(gl_LocalInvocationID.xy) * ivec2(1, BLOCK);
   find_neighbours(page);
   if (gl_LocalInvocationIndex == 0u) {
     group_code = 0u;
@@ -128,63 +195,38 @@ void main() {
     group_near_voxels = 0u;
   }
   barrier();
-#if defined(SHARED_APRON) && !defined(MEASURE_ONLY)
+#ifdef MEASURE_ONLY
+  measure_block();
+#else
+#ifdef SHARED_APRON
   gather_apron();
   barrier();
 #endif
-
-  ivec2 column = ivec2(gl_LocalInvocationID.xy);
-  ivec2 origin = page_origin(page);
-  bool in_volume = all(lessThanEqual(column, highest.xy));
-  uint code = 0u;
-  if (in_volume) {
-    float largest_change = 0.0;
-    float squared_change = 0.0;
-    uint near_voxels = 0u;
-#ifndef MEASURE_ONLY
-    float below[9], here[9], above[9];
-    load_slice(-1, below);
-    load_slice(0, here);
+  compute_block();
 #endif
-    for (int z = 0; z < PAGE_Z; ++z) {
-      if (z > highest.z) break;
-      ivec3 local = ivec3(column, z);
-      ivec2 texel = origin + texel_in_page(local);
-#ifdef MEASURE_ONLY
-      float phi = texelFetch(phi_now, texel, 0).r;
-#else
-      load_slice(z + 1, above);
-      float phi = updated_phi(differences(stencil_of(below, here, above)), source_at(first_voxel + local));
-      if (measure_motion && abs(phi) <= near) {
-        float change = abs(phi - imageLoad(phi_next, texel).r);
-        largest_change = max(largest_change, change);
-        squared_change += change * change;
-        ++near_voxels;
-      }
-      imageStore(phi_next, texel, vec4(phi));
-      below = here;
-      here = above;
-#endif
-      code |= code_of(phi, local);
-    }
-    atomicOr(group_code, code);
-    if (measure_motion && near_voxels > 0u) {
-      atomicMax(group_largest_change, floatBitsToUint(largest_change));
-      atomicAdd(group_squared_change, uint(squared_change * 16777216.0));
-      atomicAdd(group_near_voxels, near_voxels);
-    }
+  atomicOr(group_code, code);
+  if (measure_motion) {
+    atomicMax(group_largest_change, floatBitsToUint(largest_change));
+    atomicAdd(group_squared_change, uint(squared_change * 16777216.0));
+    atomicAdd(group_near_voxels, near_voxels);
   }
   barrier();
   if (gl_LocalInvocationIndex != 0u) return;
-  page_state[page].code = group_code;
+  uint asked = 0u;
+  for (int face = 0; face < 6; ++face) {
+    ivec3 step = kFaceSteps[face];
+    int across = neighbours[13 + step.x + 3 * step.y + 9 * step.z];
+    uint differs = across == kInsidePage ? kFaceNotInside : across == kOutsidePage ? kFaceNotOutside : 0u;
+    if ((group_code & differs << face) != 0u) asked |= kAsks << face;
+  }
+  page_state[page].code = group_code | asked;
 #ifndef MEASURE_ONLY
   if (measure_motion) {
     page_state[page].change += uintBitsToFloat(group_largest_change);
     page_state[page].squared_change += float(group_squared_change) / 16777216.0;
     page_state[page].near_voxels += group_near_voxels;
   }
-  ivec3 valid = min(kPageShape, highest + 1);
-  uint voxels = uint(valid.x * valid.y * valid.z);
+  uint voxels = uint((last.x + 1) * (last.y + 1) * (last.z + 1));
   uint old = atomicAdd(control.voxel_updates.x, voxels);
   if (old + voxels < old) atomicAdd(control.voxel_updates.y, 1u);
 #endif
