@@ -96,6 +96,11 @@ Status Texture2D::download(const TexelRect& rect, std::span<std::byte> data, int
   return device.check("reading a texture");
 }
 
+void Texture2D::limit_levels(int last) {
+  glBindTexture(GL_TEXTURE_2D, id());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, last);
+}
+
 void Texture2D::generate_mipmaps() {
   glBindTexture(GL_TEXTURE_2D, id());
   glGenerateMipmap(GL_TEXTURE_2D);

@@ -40,6 +40,8 @@ class Texture2D {
   void upload(const TexelRect& rect, std::span<const std::byte> data);
   // Waits for the GPU.
   Status download(const TexelRect& rect, std::span<std::byte> data, int level = 0) const;
+  // With mipmaps: the levels up to this one are all there are.
+  void limit_levels(int last);
   void generate_mipmaps();
 
   void bind(unsigned unit) const;

@@ -4,6 +4,7 @@
 #include "solver/compute/compute_executor.h"
 #include "solver/host/host_executor.h"
 #include "solver/reference/reference_executor.h"
+#include "solver/stream/stream_executor.h"
 
 namespace tidemark {
 namespace {
@@ -36,6 +37,8 @@ Result<std::unique_ptr<Executor>> make_executor(ExecutorKind kind, std::shared_p
       break;
     case ExecutorKind::compute:
       return ComputeExecutor::create(std::move(source), parameters, options);
+    case ExecutorKind::stream:
+      return StreamExecutor::create(std::move(source), parameters, options);
     case ExecutorKind::reference:
       return std::make_unique<ReferenceExecutor>(std::move(source), parameters);
     case ExecutorKind::host:

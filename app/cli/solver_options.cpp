@@ -14,6 +14,7 @@ ExecutorKind executor_kind(const std::string& name) {
   if (name == "host") return ExecutorKind::host;
   if (name == "reference") return ExecutorKind::reference;  // the slow truth of the tests: not in the help
   if (name == "compute") return ExecutorKind::compute;
+  if (name == "stream") return ExecutorKind::stream;
   throw CLI::ValidationError("--executor", "'" + name + "' is unknown; use auto, host or compute");
 }
 

@@ -11,17 +11,38 @@ uniform float data_weight;
 uniform float curvature_weight;
 uniform float rescaling_weight;
 
-// The new phi of a voxel. With PAPER_SCHEME, eq. 6 literally: one upwind gradient for the total speed.
-float updated_phi(Differences d, float source) {
-  float data = data_weight * data_speed(source);
+// The terms with their weights.
+struct Speeds {
+  float data;
+  float curvature;  // times |grad phi|, except with PAPER_SCHEME
+  float rescaling;
+};
+
+Speeds speeds(Differences d, float source) {
+  Speeds s;
+  s.data = data_weight * data_speed(source);
 #ifdef PAPER_SCHEME
-  float speed = data + curvature_weight * curvature(d);
-  float change = speed * (speed > 0.0 ? d.upwind_growing : d.upwind_shrinking);
+  s.curvature = curvature_weight * curvature(d);
 #else
   float four_squared_gradient;
-  float change = data * (data > 0.0 ? d.upwind_growing : d.upwind_shrinking) +
-                 curvature_weight * curvature_motion(d, four_squared_gradient);
+  s.curvature = curvature_weight * curvature_motion(d, four_squared_gradient);
 #endif
-  change += rescaling_weight * rescaling_speed(d);
-  return clamp(d.phi + time_step * change, -band, band);
+  s.rescaling = rescaling_weight * rescaling_speed(d);
+  return s;
+}
+
+// The new phi of a voxel. With PAPER_SCHEME, eq. 6 literally: one upwind gradient for the total speed.
+float upwind_update(float phi, Speeds s, float upwind_growing, float upwind_shrinking) {
+#ifdef PAPER_SCHEME
+  float speed = s.data + s.curvature;
+  float change = speed * (speed > 0.0 ? upwind_growing : upwind_shrinking);
+#else
+  float change = s.data * (s.data > 0.0 ? upwind_growing : upwind_shrinking) + s.curvature;
+#endif
+  change += s.rescaling;
+  return clamp(phi + time_step * change, -band, band);
+}
+
+float updated_phi(Differences d, float source) {
+  return upwind_update(d.phi, speeds(d, source), d.upwind_growing, d.upwind_shrinking);
 }

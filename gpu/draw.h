@@ -1,0 +1,43 @@
+// Drawing as computing: primitives whose vertices shaders make from their numbers, one fragment a result.
+#pragma once
+
+#include <cstdint>
+
+#include "gpu/handles.h"
+
+namespace tidemark::gpu {
+
+enum class Primitive { points, lines, triangles };
+
+// What core contexts want bound while something is drawn; this one has no attributes.
+class VertexArray {
+ public:
+  VertexArray() = default;
+  static VertexArray create(Device& device);
+  void bind() const;
+
+ private:
+  VertexArrayHandle handle_;
+};
+
+// Draws with the program, the framebuffer and the vertex array in use; vertices are numbered from 0.
+void draw(Primitive primitive, std::int64_t vertices);
+
+// Fragments reach their texels as they are: no test, no blending, no dithering, lines and points one texel
+// wide.
+void begin_exact_drawing();
+
+// The first `count` textures of the framebuffer in use become 0.
+void clear_colours(int count);
+
+// How fragments combine with what is in the texture, while the object lives.
+enum class Blending { add, largest, smallest };
+class BlendScope {
+ public:
+  explicit BlendScope(Blending blending);
+  BlendScope(const BlendScope&) = delete;
+  BlendScope& operator=(const BlendScope&) = delete;
+  ~BlendScope();
+};
+
+}  // namespace tidemark::gpu

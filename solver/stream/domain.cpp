@@ -1,0 +1,188 @@
+// The computational domain of the stream executor (paper section 4.4): pages are allocated and freed from the
+// messages that the pages send.
+#include <algorithm>
+
+#include "solver/paging/validate.h"
+#include "solver/stream/stream_executor.h"
+
+namespace tidemark {
+namespace {
+
+constexpr int kFaces = 6;
+constexpr Index3 kFaceSteps[kFaces] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
+
+// How many steps in a row a page must be constant before it is freed: a front that hovers at its edge would
+// otherwise allocate and free it all the time.
+constexpr int kConstantStepsBeforeRelease = 2;
+
+// G grows by an eighth, so that little of it lies idle.
+std::int64_t with_reserve(std::int64_t pages) {
+  return pages + std::max<std::int64_t>(pages / 8, 16);
+}
+
+}  // namespace
+
+// Of G, the tables and the geometry; the intermediate buffers are pooled and come on top.
+std::int64_t StreamExecutor::state_bytes(std::int64_t capacity) const {
+  const auto beside = static_cast<std::int64_t>(sizeof(PageInfo) + sizeof(PhysicalPage));
+  return PhysicalMemory::bytes_for(layout_, capacity) + GeometryEngine::bytes_for(capacity) + table_.bytes() +
+         capacity * beside;
+}
+
+// Both copies exist while G grows.
+Status StreamExecutor::make_room(std::int64_t more_pages) {
+  const std::int64_t needed = table_.capacity() + std::max<std::int64_t>(0, more_pages - table_.free_count());
+  if (needed <= memory_.capacity()) return {};
+  const auto bytes = [&](std::int64_t capacity) {
+    return state_bytes(capacity) + state_bytes(memory_.capacity());
+  };
+  std::int64_t capacity = layout_.whole_rows(with_reserve(needed));
+  if (bytes(capacity) > options_.memory_budget_bytes || capacity > layout_.largest_capacity()) {
+    capacity = layout_.whole_rows(needed);
+  }
+  if (bytes(capacity) > options_.memory_budget_bytes) {
+    return fail(ErrorKind::capability,
+                "the surface needs {} pages, {} MB while they are copied, and the memory budget is {} MB",
+                capacity, bytes(capacity) >> 20, options_.memory_budget_bytes >> 20);
+  }
+  if (auto status = memory_.grow(*device_, capacity); !status) return status;
+  peak_bytes_ = std::max(peak_bytes_, state_bytes(memory_.capacity()));
+  return {};
+}
+
+// Makes a page resident with the constant that stood for it. Its voxels are written by fill_new_pages().
+Result<PhysicalPage> StreamExecutor::make_resident(std::int64_t virtual_page) {
+  if (auto status = make_room(1); !status) return pass_on(status);
+  const bool inside = table_.physical(virtual_page) == kInsidePage;
+  const PhysicalPage page = table_.allocate(virtual_page);
+  infos_.resize(static_cast<std::size_t>(table_.capacity()));
+  info(page) = PageInfo();
+  new_[inside ? 1 : 0].push_back(page);
+  peak_resident_ = std::max(peak_resident_, table_.resident());
+  active_list_is_stale_ = true;
+  return page;
+}
+
+Status StreamExecutor::grant_requests(PhysicalPage page, PageMessage message) {
+  const PageLayout& layout = table_.layout();
+  const Index3 coordinates = layout.page_coordinates(table_.virtual_page(page));
+  for (int face = 0; face < kFaces; ++face) {
+    if (!message.differs_across(face)) continue;
+    const Index3 across = coordinates + kFaceSteps[face];
+    // Most are resident, or were made so for another page.
+    if (!is_static_page(table_.physical(across))) continue;
+    if (auto made = make_resident(layout.page_number(across)); !made) return pass_on(made);
+  }
+  return {};
+}
+
+Status StreamExecutor::fill_new_pages() {
+  for (const bool inside : {false, true}) {
+    std::vector<PhysicalPage>& pages = new_[inside ? 1 : 0];
+    if (pages.empty()) continue;
+    if (auto status = special_geometry_.describe(*device_, table_, pages); !status) return status;
+    passes_.fill(special_geometry_, memory_, static_cast<float>(inside ? band() : -band()));
+    pages.clear();
+  }
+  return {};
+}
+
+void StreamExecutor::release_page(PhysicalPage page, bool inside) {
+  table_.release(table_.virtual_page(page), inside);
+  active_list_is_stale_ = true;
+}
+
+// Maintenance after a step: grants the requests, frees pages that have become constant, wakes neighbours of
+// pages that move. Fails when the budget does not allow a page; what could be done is done then.
+Status StreamExecutor::update_domain(const std::vector<PageMessage>& messages) {
+  Status result;
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    const PhysicalPage page = active_[i];
+    const PageMessage message = messages[i];
+    if (message.differs_across_any() && result) {
+      result = grant_requests(page, message);
+      unsettled_ = !result;
+    }
+    if (message.moved() && !info(page).woke_neighbours) wake_around(page);
+    std::uint8_t& constant_steps = info(page).constant_steps;
+    if (message.is_mixed()) {
+      constant_steps = 0;
+    } else if (constant_steps + 1 < kConstantStepsBeforeRelease) {
+      ++constant_steps;
+    } else if (!message.differs_across_any()) {
+      release_page(page, message.is_inside());
+    }
+  }
+  const Status filled = fill_new_pages();
+  return result ? filled : result;
+}
+
+// Grants every request of phi as it is, after phi was replaced or painted.
+Status StreamExecutor::settle() {
+  unsettled_ = true;
+  std::vector<PhysicalPage> asked;
+  for_each_resident([&](PhysicalPage page) { asked.push_back(page); });
+  // Pages that are made resident on the way may ask for more.
+  while (!asked.empty()) {
+    if (auto status = special_geometry_.describe(*device_, table_, asked); !status) return status;
+    if (auto status = passes_.reserve(*device_, special_geometry_.size()); !status) return status;
+    auto messages =
+        passes_.message(special_geometry_, memory_, current_, static_cast<float>(band()), kQuietChange);
+    if (!messages) return pass_on(messages);
+    Status result;
+    for (std::size_t i = 0; i < asked.size() && result; ++i)
+      result = grant_requests(asked[i], (*messages)[i]);
+    asked = new_[0];
+    asked.insert(asked.end(), new_[1].begin(), new_[1].end());
+    if (auto status = fill_new_pages(); !status) return status;
+    if (!result) return result;
+  }
+  unsettled_ = false;
+  return device_->check("making pages resident");
+}
+
+Status StreamExecutor::validate_sleeping_pages() const {
+  auto first = memory_.field().download(0);
+  auto second = memory_.field().download(1);
+  if (!first) return pass_on(first);
+  if (!second) return pass_on(second);
+  const auto differs = [&](PhysicalPage page, Index3 valid) {
+    const auto begin = static_cast<std::size_t>(page * layout_.layout().voxels_per_page());
+    for (std::int64_t i = 0; i < valid.x * valid.y; ++i) {
+      const auto at =
+          begin + static_cast<std::size_t>(i % valid.x + i / valid.x * layout_.layout().page_shape().x);
+      if ((*first)[at] != (*second)[at]) return true;
+    }
+    return false;
+  };
+  Status result;
+  for_each_resident([&](PhysicalPage page) {
+    if (!result || !info(page).asleep ||
+        !differs(page, table_.layout().valid_shape(table_.virtual_page(page))))
+      return;
+    result = fail(ErrorKind::internal, "page {} is quiet, but its two buffers differ", page);
+  });
+  for (const PhysicalPage page : {kOutsidePage, kInsidePage}) {
+    const auto constant = static_cast<float>(page == kInsidePage ? band() : -band());
+    for (std::int64_t i = 0; i < layout_.layout().voxels_per_page() && result; ++i) {
+      const auto at = static_cast<std::size_t>(page * layout_.layout().voxels_per_page() + i);
+      if ((*first)[at] == constant && (*second)[at] == constant) continue;
+      result = fail(ErrorKind::internal, "static page {} is not constant", page);
+    }
+  }
+  return result;
+}
+
+Status StreamExecutor::validate() const {
+  if (auto status = device_->make_current(); !status) return status;
+  if (auto status = table_.validate(); !status) return status;
+  if (table_.capacity() > memory_.capacity()) {
+    return fail(ErrorKind::internal, "the tables hold {} pages, G {}", table_.capacity(), memory_.capacity());
+  }
+  if (auto status = validate_sleeping_pages(); !status) return status;
+  auto phi = snapshot();
+  if (!phi) return pass_on(phi);
+  return tidemark::validate(*phi);
+}
+
+}  // namespace tidemark

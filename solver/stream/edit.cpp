@@ -1,0 +1,203 @@
+// Replacing and painting phi, and changing parameters, in the stream executor.
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "solver/stream/stream_executor.h"
+
+namespace tidemark {
+namespace {
+
+// What a sphere makes of pages.
+struct PaintJob {
+  const Geometry& geometry;
+  const PageLayout& layout;
+  Sphere sphere;
+  Brush brush;
+  glm::dvec3 centre;  // voxels
+  double unit;        // the smallest spacing, mm
+  float band;
+
+  // What phi is combined with, in the voxels of a page.
+  [[nodiscard]] std::vector<float> values(Index3 page) const {
+    std::vector<float> values;
+    const Index3 first = page * layout.page_shape();
+    for (std::int64_t y = 0; y < layout.page_shape().y; ++y) {
+      for (std::int64_t x = 0; x < layout.page_shape().x; ++x) {
+        const glm::dvec3 offset = (glm::dvec3(first + Index3(x, y, 0)) - centre) * geometry.spacing_mm;
+        const double distance = (sphere.radius_mm - glm::length(offset)) / unit;
+        const float d = std::clamp(static_cast<float>(distance), -band, band);
+        values.push_back(brush == Brush::add ? d : -d);
+      }
+    }
+    return values;
+  }
+  // The value that changes nothing, and the one that nothing withstands.
+  [[nodiscard]] float neutral() const { return brush == Brush::add ? -band : band; }
+
+  [[nodiscard]] Index3 first_page() const { return page_at(glm::floor(centre - reach())); }
+  [[nodiscard]] Index3 last_page() const { return page_at(glm::ceil(centre + reach())); }
+
+ private:
+  [[nodiscard]] glm::dvec3 reach() const {
+    return (sphere.radius_mm + static_cast<double>(band) * unit) / geometry.spacing_mm;
+  }
+  [[nodiscard]] Index3 page_at(glm::dvec3 voxel) const {
+    return Index3(glm::clamp(voxel, glm::dvec3(0), glm::dvec3(geometry.size - Index3(1)))) /
+           layout.page_shape();
+  }
+};
+
+bool all_equal(const std::vector<float>& values, float value) {
+  return std::all_of(values.begin(), values.end(), [&](float v) { return v == value; });
+}
+
+}  // namespace
+
+Status StreamExecutor::restore(const Field& phi) {
+  if (auto status = phi.check_fits(source_->geometry, band()); !status) return status;
+  if (phi.layout.page_shape() != layout_.layout().page_shape()) {
+    return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band, layout_.layout().page_shape()));
+  }
+  if (auto status = device_->make_current(); !status) return status;
+  gpu::begin_exact_drawing();
+  constexpr std::int64_t kFewPages = 16;
+  const std::int64_t pages = phi.resident_pages() + kFirstPage + kFewPages;
+  if (state_bytes(pages) > options_.memory_budget_bytes) {
+    return fail(ErrorKind::capability, "the surface needs {} pages, {} MB, and the memory budget is {} MB",
+                pages, state_bytes(pages) >> 20, options_.memory_budget_bytes >> 20);
+  }
+  auto memory = PhysicalMemory::create(*device_, layout_, pages, static_cast<float>(band()));
+  if (!memory) return pass_on(memory);
+  memory->field().upload(phi.pages);
+  memory_ = std::move(*memory);
+
+  // Pages are allocated in the order in which they lie in the field.
+  table_ = PageTable(layout_.layout());
+  std::vector<std::int64_t> in_order(static_cast<std::size_t>(phi.resident_pages()));
+  for (std::int64_t page = 0; page < table_.layout().page_count(); ++page) {
+    const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
+    if (entry == Field::kInside) table_.set_static(page, true);
+    if (entry >= 0) in_order[static_cast<std::size_t>(entry)] = page;
+  }
+  for (const std::int64_t page : in_order) table_.allocate(page);
+  infos_.assign(static_cast<std::size_t>(table_.capacity()), PageInfo());
+  for (auto& pages_to_fill : new_) pages_to_fill.clear();
+  current_ = 0;
+  steps_in_window_ = 0;
+  active_list_is_stale_ = true;
+  peak_resident_ = table_.resident();
+  peak_bytes_ = state_bytes(memory_.capacity());
+  if (auto status = settle(); !status) return status;
+  return rebuild_active_list();
+}
+
+Result<Field> StreamExecutor::snapshot() const {
+  if (auto status = device_->make_current(); !status) return pass_on(status);
+  auto physical = memory_.field().download(current_);
+  if (!physical) return pass_on(physical);
+  Field phi = Field::empty(source_->geometry, band(), layout_.layout().page_shape());
+  const std::int64_t voxels = layout_.layout().voxels_per_page();
+  phi.pages.reserve(static_cast<std::size_t>(table_.resident() * voxels));
+  for (std::int64_t page = 0; page < table_.layout().page_count(); ++page) {
+    std::int32_t& entry = phi.table[static_cast<std::size_t>(page)];
+    const PhysicalPage from = table_.physical(page);
+    if (from == kInsidePage) {
+      entry = Field::kInside;
+    } else if (from != kOutsidePage) {
+      entry = static_cast<std::int32_t>(phi.resident_pages());
+      const float* values = physical->data() + from * voxels;
+      phi.pages.insert(phi.pages.end(), values, values + voxels);
+    }
+  }
+  return phi;
+}
+
+Status StreamExecutor::set_parameters(const Parameters& parameters) {
+  if (auto status = check(parameters); !status) return status;
+  const Model model(*source_, parameters);
+  if (model.band() != model_.band()) return fail(ErrorKind::usage, "the band W cannot change in mid-run");
+  if (auto status = device_->make_current(); !status) return status;
+  if (model_.parameters().scheme != parameters.scheme) {
+    if (auto status = passes_.compile_step(*device_, active_geometry_, source_texture_, model); !status)
+      return status;
+  }
+  model_ = model;
+  for_each_resident([&](PhysicalPage page) { wake(page); });
+  return rebuild_active_list();
+}
+
+Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
+  if (auto status = device_->make_current(); !status) return status;
+  gpu::begin_exact_drawing();
+  const PageLayout& layout = table_.layout();
+  const PaintJob job{source_->geometry,
+                     layout,
+                     sphere,
+                     brush,
+                     source_->geometry.to_voxel(sphere.centre_mm),
+                     model_.smallest_spacing_mm(),
+                     static_cast<float>(band())};
+  struct Drawn {
+    std::int64_t page;
+    std::vector<float> values;
+  };
+  std::vector<Drawn> to_draw;
+  std::vector<std::int64_t> to_flip;  // not resident, and changing from all outside to inside or back
+  std::int64_t to_allocate = 0;
+  const Index3 first = job.first_page();
+  const Index3 last = job.last_page();
+  for (std::int64_t z = first.z; z <= last.z; ++z) {
+    for (std::int64_t y = first.y; y <= last.y; ++y) {
+      for (std::int64_t x = first.x; x <= last.x; ++x) {
+        const std::int64_t page = layout.page_number({x, y, z});
+        const PhysicalPage physical = table_.physical(page);
+        const float constant = physical == kInsidePage ? job.band : -job.band;
+        std::vector<float> values = job.values({x, y, z});
+        if (all_equal(values, job.neutral())) continue;
+        if (is_static_page(physical)) {
+          if (constant != job.neutral()) continue;  // there is nothing to add or to erase
+          if (all_equal(values, -job.neutral())) {
+            to_flip.push_back(page);
+            continue;
+          }
+          ++to_allocate;
+        }
+        to_draw.push_back({page, std::move(values)});
+      }
+    }
+  }
+  // Every page that is drawn into finds room, so that a sphere is drawn whole or not at all.
+  if (auto status = make_room(to_allocate); !status) return status;
+  for (const std::int64_t page : to_flip) table_.set_static(page, brush == Brush::add);
+
+  std::vector<PhysicalPage> pages;
+  std::vector<float> values;
+  for (const Drawn& drawn : to_draw) {
+    PhysicalPage page = table_.physical(drawn.page);
+    if (is_static_page(page)) {
+      auto made = make_resident(drawn.page);
+      if (!made) return pass_on(made);
+      page = *made;
+    }
+    pages.push_back(page);
+    values.insert(values.end(), drawn.values.begin(), drawn.values.end());
+  }
+  if (auto status = fill_new_pages(); !status) return status;
+  if (!pages.empty()) {
+    if (auto status = special_geometry_.describe(*device_, table_, pages); !status) return status;
+    const auto blending = brush == Brush::add ? gpu::Blending::largest : gpu::Blending::smallest;
+    if (auto status = passes_.paint(*device_, special_geometry_, memory_, values, blending); !status)
+      return status;
+  }
+  for (const PhysicalPage page : pages) {
+    wake_around(page);
+    info(page).woke_neighbours = false;
+    info(page).constant_steps = 0;
+  }
+  active_list_is_stale_ = true;
+  if (auto status = settle(); !status) return status;
+  return rebuild_active_list();
+}
+
+}  // namespace tidemark

@@ -1,0 +1,72 @@
+#include "solver/stream/physical_memory.h"
+
+#include "gpu/draw.h"
+
+namespace tidemark {
+
+std::int64_t PhysicalMemory::bytes_for(const PackedLayout& layout, std::int64_t capacity) {
+  constexpr std::int64_t kPhiBytes = 2 * 4;
+  const auto motion = static_cast<std::int64_t>(sizeof(PageMotion));
+  return layout.whole_rows(capacity) * (layout.layout().voxels_per_page() * kPhiBytes + motion);
+}
+
+Result<PhysicalMemory::Motion> PhysicalMemory::make_motion(gpu::Device& device, const PackedLayout& layout,
+                                                           std::int64_t capacity) {
+  const std::int64_t width = layout.pages_per_row();
+  auto texture = gpu::Texture2D::create(device, gpu::TexelFormat::rgba32f, width,
+                                        layout.whole_rows(capacity) / width, "motion of pages");
+  if (!texture) return pass_on(texture);
+  auto target = gpu::Framebuffer::create(device, {&*texture}, "motion of pages");
+  if (!target) return pass_on(target);
+  target->bind();
+  gpu::clear_colours(1);
+  return Motion{std::move(*texture), std::move(*target)};
+}
+
+Status PhysicalMemory::make_targets(gpu::Device& device) {
+  auto first = gpu::Framebuffer::create(device, {&field_.phi(0)}, "G, first texture");
+  auto second = gpu::Framebuffer::create(device, {&field_.phi(1)}, "G, second texture");
+  auto both = gpu::Framebuffer::create(device, {&field_.phi(0), &field_.phi(1)}, "G");
+  for (auto* made : {&first, &second, &both}) {
+    if (!*made) return pass_on(*made);
+  }
+  targets_ = {std::move(*first), std::move(*second)};
+  both_ = std::move(*both);
+  return {};
+}
+
+Result<PhysicalMemory> PhysicalMemory::create(gpu::Device& device, const PackedLayout& layout,
+                                              std::int64_t capacity, float band) {
+  auto field = PackedField::create(device, layout, capacity, band);
+  if (!field) return pass_on(field);
+  auto motion = make_motion(device, layout, capacity);
+  if (!motion) return pass_on(motion);
+  PhysicalMemory memory;
+  memory.field_ = std::move(*field);
+  memory.motion_ = std::move(motion->texture);
+  memory.motion_target_ = std::move(motion->target);
+  if (auto status = memory.make_targets(device); !status) return pass_on(status);
+  return memory;
+}
+
+Status PhysicalMemory::grow(gpu::Device& device, std::int64_t capacity) {
+  auto motion = make_motion(device, field_.layout(), capacity);
+  if (!motion) return pass_on(motion);
+  motion_target_.copy_to({0, 0, motion_.width(), motion_.height()}, motion->texture, 0, 0);
+  if (auto status = field_.grow(device, capacity); !status) return status;
+  motion_ = std::move(motion->texture);
+  motion_target_ = std::move(motion->target);
+  return make_targets(device);
+}
+
+Result<std::vector<PageMotion>> PhysicalMemory::read_motion() const {
+  std::vector<PageMotion> pages(static_cast<std::size_t>(motion_.width() * motion_.height()));
+  if (auto status = motion_.download({0, 0, motion_.width(), motion_.height()},
+                                     std::as_writable_bytes(std::span(pages)));
+      !status) {
+    return pass_on(status);
+  }
+  return pages;
+}
+
+}  // namespace tidemark

@@ -1,0 +1,60 @@
+// G of the stream executor: the packed field, what is drawn into it, and each physical page's motion.
+#pragma once
+
+#include <array>
+
+#include "gpu/framebuffer.h"
+#include "solver/gl/packed_field.h"
+
+namespace tidemark {
+
+// How a page moved in a window of steps, over its voxels beside the surface (StepConstants::near).
+struct PageMotion {
+  float change = 0.0F;          // the sum of the largest changes
+  float squared_change = 0.0F;  // the sum of the squared changes
+  float near_voxels = 0.0F;
+  float unused = 0.0F;  // a texel has four channels
+};
+
+class PhysicalMemory {
+ public:
+  PhysicalMemory() = default;
+  // Fails (ErrorKind::capability) when it does not fit.
+  static Result<PhysicalMemory> create(gpu::Device& device, const PackedLayout& layout, std::int64_t capacity,
+                                       float band);
+  // By copy. On failure it is as before.
+  Status grow(gpu::Device& device, std::int64_t capacity);
+
+  [[nodiscard]] PackedField& field() { return field_; }
+  [[nodiscard]] const PackedField& field() const { return field_; }
+  [[nodiscard]] std::int64_t capacity() const { return field_.capacity(); }
+  [[nodiscard]] glm::ivec2 size() const { return {field_.phi(0).width(), field_.phi(0).height()}; }
+
+  // Drawing goes to one texture of phi, to both, to the motion (a texel a page).
+  void draw_into(int buffer) const { targets_[static_cast<std::size_t>(buffer)].bind(); }
+  void draw_into_both() const { both_.bind(); }
+  void draw_into_motion() const { motion_target_.bind(); }
+  [[nodiscard]] const gpu::Texture2D& motion() const { return motion_; }
+  [[nodiscard]] glm::ivec2 motion_size() const { return {motion_.width(), motion_.height()}; }
+  // By physical page. Waits for the GPU.
+  [[nodiscard]] Result<std::vector<PageMotion>> read_motion() const;
+
+  // Bytes of so many pages.
+  [[nodiscard]] static std::int64_t bytes_for(const PackedLayout& layout, std::int64_t capacity);
+
+ private:
+  struct Motion {
+    gpu::Texture2D texture;
+    gpu::Framebuffer target;
+  };
+  static Result<Motion> make_motion(gpu::Device& device, const PackedLayout& layout, std::int64_t capacity);
+  Status make_targets(gpu::Device& device);
+
+  PackedField field_;
+  gpu::Texture2D motion_;
+  std::array<gpu::Framebuffer, 2> targets_;
+  gpu::Framebuffer both_;
+  gpu::Framebuffer motion_target_;
+};
+
+}  // namespace tidemark

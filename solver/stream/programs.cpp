@@ -1,0 +1,83 @@
+// The programs of the stream executor's passes.
+#include "solver/stream/region_passes.h"
+
+namespace tidemark {
+namespace {
+
+struct Wanted {
+  gpu::Program& program;
+  Substream substream;
+  const char* fragment;
+  gpu::Defines defines;
+};
+
+Status compile(gpu::Device& device, const GeometryEngine& geometry, const gpu::Defines& common,
+               const Wanted& wanted) {
+  gpu::Defines defines = geometry.defines(wanted.substream);
+  defines.insert(defines.end(), common.begin(), common.end());
+  defines.insert(defines.end(), wanted.defines.begin(), wanted.defines.end());
+  auto program = gpu::Program::render(device, GeometryEngine::vertex_shader(wanted.substream), "",
+                                      fmt::format("solver/stream/{}.frag", wanted.fragment), defines);
+  if (!program) return pass_on(program);
+  wanted.program = std::move(*program);
+  return {};
+}
+
+}  // namespace
+
+Result<RegionPasses> RegionPasses::create(gpu::Device& device, const GeometryEngine& geometry,
+                                          const SourceTexture& source, const Model& model,
+                                          const PageLayout& layout, std::int64_t largest_region) {
+  RegionPasses passes;
+  constexpr std::int64_t kRow = GeometryEngine::kPlacesPerRow;
+  passes.largest_region_ = std::max(kRow, (largest_region + kRow - 1) / kRow * kRow);
+  passes.has_partial_pages_ = layout.volume_size().x % layout.page_shape().x != 0 ||
+                              layout.volume_size().y % layout.page_shape().y != 0;
+  const gpu::Defines in_memory = {{"IN_MEMORY", ""}};
+  const gpu::Defines across_faces = {{"NEIGHBOURS", "6"}};
+  for (const Wanted& wanted : {Wanted{passes.neighbours_[0], Substream::interior, "neighbours", across_faces},
+                               Wanted{passes.neighbours_[1], Substream::edges, "neighbours", across_faces},
+                               Wanted{passes.neighbours_[2], Substream::corners, "neighbours", across_faces},
+                               Wanted{passes.motion_blocks_, Substream::blocks, "motion_blocks", {}},
+                               Wanted{passes.motion_pages_, Substream::page_point, "motion_pages", in_memory},
+                               Wanted{passes.code_, Substream::page_point, "code", {}},
+                               Wanted{passes.fill_, Substream::whole_page, "constant", in_memory},
+                               Wanted{passes.fill_points_, Substream::page_point, "constant", in_memory},
+                               Wanted{passes.copy_, Substream::whole_page, "copy", in_memory},
+                               Wanted{passes.paint_, Substream::whole_page, "paint", in_memory}}) {
+    if (auto status = compile(device, geometry, {}, wanted); !status) return pass_on(status);
+  }
+  if (auto status = passes.compile_step(device, geometry, source, model); !status) return pass_on(status);
+  return passes;
+}
+
+Status RegionPasses::compile_step(gpu::Device& device, const GeometryEngine& geometry,
+                                  const SourceTexture& source, const Model& model) {
+  gpu::Defines common = step_defines(model);
+  for (const auto& define : source.defines()) common.push_back(define);
+  const gpu::Defines all_neighbours = {{"NEIGHBOURS", "18"}};
+  for (const Wanted& wanted : {Wanted{derivatives_[0], Substream::interior, "derivatives", all_neighbours},
+                               Wanted{derivatives_[1], Substream::edges, "derivatives", all_neighbours},
+                               Wanted{derivatives_[2], Substream::corners, "derivatives", all_neighbours},
+                               Wanted{speeds_, Substream::whole_page, "speeds", {}},
+                               Wanted{update_, Substream::whole_page, "update", {{"IN_MEMORY", ""}}}}) {
+    if (auto status = compile(device, geometry, common, wanted); !status) return status;
+  }
+  return {};
+}
+
+std::vector<std::pair<const char*, const gpu::Program*>> RegionPasses::programs() const {
+  return {{"derivatives, interior", &derivatives_[0]},
+          {"derivatives, edges", &derivatives_[1]},
+          {"derivatives, corners", &derivatives_[2]},
+          {"speeds", &speeds_},
+          {"update", &update_},
+          {"neighbours, interior", &neighbours_[0]},
+          {"neighbours, edges", &neighbours_[1]},
+          {"neighbours, corners", &neighbours_[2]},
+          {"code", &code_},
+          {"motion, blocks", &motion_blocks_},
+          {"motion, pages", &motion_pages_}};
+}
+
+}  // namespace tidemark

@@ -1,0 +1,131 @@
+// Quiet pages of the stream executor: where nothing moves, nothing is drawn.
+//
+// A page is still when phi changed by at most kQuietChange in it over a window of steps, judged beside the
+// surface. It sleeps when it and the pages around it are still, and wakes as soon as one of them moves.
+// "Around" is as far as the band reaches: these pages are one slice thick, so that the surface on which a
+// page's values depend may lie several pages below or above it.
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "solver/convergence.h"
+#include "solver/stream/stream_executor.h"
+
+namespace tidemark {
+namespace {
+
+// How often motion is measured in a window: every two steps, over both of them.
+constexpr int kMotionSamples = kConvergenceWindow / 2;
+
+// Calls visit(coordinates) for a page and those around it, `reach` pages far along each axis, until it
+// returns false.
+template <class Visit>
+bool all_within(Index3 reach, Index3 page, Visit visit) {
+  for (std::int64_t z = -reach.z; z <= reach.z; ++z) {
+    for (std::int64_t y = -reach.y; y <= reach.y; ++y) {
+      for (std::int64_t x = -reach.x; x <= reach.x; ++x) {
+        if (!visit(page + Index3(x, y, z))) return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+void StreamExecutor::wake(PhysicalPage page) {
+  if (!info(page).asleep) return;
+  info(page).asleep = false;
+  info(page).near_voxels = 0;
+  active_list_is_stale_ = true;
+}
+
+// How many pages away the surface can be whose distance a page's voxels hold.
+Index3 StreamExecutor::band_reach() const {
+  const Index3 shape = layout_.layout().page_shape();
+  if (!std::isfinite(band())) return Index3(1);  // nothing sleeps then
+  return Index3(glm::ceil(glm::dvec3(band()) / (model_.spacing() * glm::dvec3(shape))));
+}
+
+void StreamExecutor::wake_around(PhysicalPage page) {
+  info(page).woke_neighbours = true;
+  all_within(band_reach(), table_.layout().page_coordinates(table_.virtual_page(page)),
+             [&](Index3 coordinates) {
+               const PhysicalPage other = table_.physical(coordinates);
+               if (other >= kFirstPage) wake(other);
+               return true;
+             });
+}
+
+// Ends the window of steps over which motion is summed up, when this step does: judges convergence and which
+// pages are quiet. Returns whether it did.
+Result<bool> StreamExecutor::finish_window() {
+  if (++steps_in_window_ < kConvergenceWindow) return false;
+  steps_in_window_ = 0;
+  SurfaceMotion motion;
+  motion.voxels = quiet_near_voxels_ * kMotionSamples;
+  if (!active_.empty()) {
+    auto pages = memory_.read_motion();
+    if (!pages) return pass_on(pages);
+    for (const PhysicalPage page : active_) {
+      const PageMotion& moved = (*pages)[static_cast<std::size_t>(page)];
+      motion.squared_change += static_cast<double>(moved.squared_change);
+      motion.voxels += static_cast<std::int64_t>(moved.near_voxels);
+    }
+    if (auto status = judge_quiet_pages(*pages); !status) return pass_on(status);
+    memory_.draw_into_motion();
+    gpu::clear_colours(1);
+  }
+  surface_speed_ = surface_speed(motion, model_.time_step());
+  return true;
+}
+
+Status StreamExecutor::judge_quiet_pages(const std::vector<PageMotion>& motion) {
+  const auto still = [&](Index3 coordinates) {
+    const PhysicalPage page = table_.physical(coordinates);
+    return page < kFirstPage || info(page).asleep ||
+           motion[static_cast<std::size_t>(page)].change <= kQuietChange;
+  };
+  const Index3 reach = band_reach();
+  std::vector<PhysicalPage> quiet;
+  // A page that waits for a page must not sleep over it.
+  if (options_.skip_quiet_pages && !unsettled_ && std::isfinite(band())) {
+    for (const PhysicalPage page : active_) {
+      if (table_.virtual_page(page) < 0) continue;  // freed in this step
+      if (all_within(reach, table_.layout().page_coordinates(table_.virtual_page(page)), still))
+        quiet.push_back(page);
+    }
+  }
+  for (const PhysicalPage page : active_) info(page).woke_neighbours = false;
+  if (quiet.empty()) return {};
+  for (const PhysicalPage page : quiet) {
+    info(page).asleep = true;
+    // Its voxels still belong to the surface, and they do not move.
+    info(page).near_voxels =
+        static_cast<std::int32_t>(motion[static_cast<std::size_t>(page)].near_voxels) / kMotionSamples;
+  }
+  active_list_is_stale_ = true;
+  if (auto status = special_geometry_.describe(*device_, table_, quiet); !status) return status;
+  passes_.copy(special_geometry_, memory_, current_);
+  return {};
+}
+
+Status StreamExecutor::rebuild_active_list() {
+  active_.clear();
+  quiet_pages_ = 0;
+  quiet_near_voxels_ = 0;
+  for_each_resident([&](PhysicalPage page) {
+    if (info(page).asleep) {
+      ++quiet_pages_;
+      quiet_near_voxels_ += info(page).near_voxels;
+    } else {
+      active_.push_back(page);
+    }
+  });
+  if (auto status = passes_.reserve(*device_, static_cast<std::int64_t>(active_.size())); !status)
+    return status;
+  if (auto status = active_geometry_.describe(*device_, table_, active_); !status) return status;
+  active_list_is_stale_ = false;
+  return {};
+}
+
+}  // namespace tidemark

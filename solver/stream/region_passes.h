@@ -1,0 +1,86 @@
+// The render passes over the pages of a list, sub-region by sub-region, in pooled intermediate buffers (paper
+// sections 4.3 to 4.5).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "gpu/framebuffer.h"
+#include "solver/gl/step_uniforms.h"
+#include "solver/stream/geometry_engine.h"
+#include "solver/stream/page_message.h"
+#include "solver/stream/physical_memory.h"
+
+namespace tidemark {
+
+class RegionPasses {
+ public:
+  // Pages of the largest sub-region: 512 x 512 texels.
+  static constexpr std::int64_t kLargestRegion = 1024;
+
+  RegionPasses() = default;
+  // `largest_region` in pages, rounded up to a whole row of places.
+  static Result<RegionPasses> create(gpu::Device& device, const GeometryEngine& geometry,
+                                     const SourceTexture& source, const Model& model,
+                                     const PageLayout& layout, std::int64_t largest_region);
+  // Makes the variants of the passes that the model needs.
+  Status compile_step(gpu::Device& device, const GeometryEngine& geometry, const SourceTexture& source,
+                      const Model& model);
+  // Buffers for a list of so many pages. Fails (ErrorKind::capability) when memory is short.
+  Status reserve(gpu::Device& device, std::int64_t pages);
+
+  // One step of phi in all pages of the list: reads phi from buffer `now`, writes the other one.
+  void step(const GeometryEngine& geometry, const PhysicalMemory& memory, const SourceTexture& source,
+            const StepConstants<float>& constants, int now, bool measure_motion) const;
+  // What the pages of the list send, of phi in the given buffer. Waits for the GPU.
+  Result<std::vector<PageMessage>> message(const GeometryEngine& geometry, const PhysicalMemory& memory,
+                                           int buffer, float band, float quiet_change);
+
+  // The pages of the list: both buffers become `value`, and their motion 0.
+  void fill(const GeometryEngine& geometry, const PhysicalMemory& memory, float value) const;
+  // ... the other buffer becomes equal to `now`.
+  void copy(const GeometryEngine& geometry, const PhysicalMemory& memory, int now) const;
+  // ... both buffers are combined with `values`, 256 a page: the larger or the smaller remains.
+  Status paint(gpu::Device& device, const GeometryEngine& geometry, const PhysicalMemory& memory,
+               std::span<const float> values, gpu::Blending blending) const;
+
+  // The names and programs of the solver's passes, for tests.
+  [[nodiscard]] std::vector<std::pair<const char*, const gpu::Program*>> programs() const;
+
+  [[nodiscard]] std::int64_t pooled_bytes() const;
+
+ private:
+  struct Region {
+    std::int64_t first;
+    std::int64_t count;
+  };
+  [[nodiscard]] std::vector<Region> regions(std::int64_t pages) const;
+  [[nodiscard]] glm::ivec2 size() const { return {upwind_.width(), upwind_.height()}; }
+
+  void differentiate(const GeometryEngine& geometry, const PhysicalMemory& memory,
+                     const StepConstants<float>& constants, int now, bool measure_motion,
+                     Region region) const;
+  void compute_speeds(const GeometryEngine& geometry, const SourceTexture& source,
+                      const StepConstants<float>& constants, Region region) const;
+  void update(const GeometryEngine& geometry, const PhysicalMemory& memory,
+              const StepConstants<float>& constants, int next, Region region) const;
+  void add_motion(const GeometryEngine& geometry, const PhysicalMemory& memory,
+                  const StepConstants<float>& constants, int next, Region region) const;
+  void note_neighbours(const GeometryEngine& geometry, const PhysicalMemory& memory, int buffer, float band,
+                       Region region) const;
+  void encode(const GeometryEngine& geometry, const PhysicalMemory& memory, float quiet_change,
+              Region region);
+  Result<std::vector<PageMessage>> read_message(std::int64_t pages) const;
+
+  std::int64_t largest_region_ = kLargestRegion;
+  bool has_partial_pages_ = false;
+  std::array<gpu::Program, 3> derivatives_, neighbours_;  // interior, edges, corners
+  gpu::Program speeds_, update_, motion_blocks_, motion_pages_, code_;
+  gpu::Program fill_, fill_points_, copy_, paint_;
+
+  std::int64_t capacity_ = 0;  // of the pool, pages
+  gpu::Texture2D upwind_, central_, second_, mixed_, speed_terms_, blocks_, in_slice_, slices_, message_;
+  gpu::Framebuffer differences_target_, speeds_target_, blocks_target_, neighbours_target_, message_target_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,127 @@
+// The level set by the paper's own render passes: OpenGL 3.3, one byte a page sent to the processor, which
+// keeps page table, inverse page table and free stack (paper sections 3 and 4).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "gpu/device.h"
+#include "solver/executor.h"
+#include "solver/gl/step_uniforms.h"
+#include "solver/model.h"
+#include "solver/paging/page_table.h"
+#include "solver/stream/geometry_engine.h"
+#include "solver/stream/physical_memory.h"
+#include "solver/stream/region_passes.h"
+
+namespace tidemark {
+
+// What the pages' messages cost.
+struct MessageCost {
+  std::int64_t messages = 0;
+  std::int64_t bytes = 0;
+  double seconds = 0.0;  // reduction, reading, and decoding
+};
+
+// Its pages are the paper's, (16,16,1). A step draws the pages of the active list; then their messages are
+// read, and the processor allocates and frees pages before the next step.
+class StreamExecutor final : public Executor {
+ public:
+  // On options.device, else on a context of its own. Fails (ErrorKind::capability) without OpenGL 3.3.
+  // `largest_region` is how many pages are computed at a time in the intermediate buffers.
+  static Result<std::unique_ptr<Executor>> create(std::shared_ptr<const Volume> source,
+                                                  const Parameters& parameters,
+                                                  const ExecutorOptions& options,
+                                                  std::int64_t largest_region = RegionPasses::kLargestRegion);
+
+  [[nodiscard]] std::string_view name() const override { return "stream"; }
+  Status restore(const Field& phi) override;
+  [[nodiscard]] Result<Field> snapshot() const override;
+  Status paint(const Sphere& sphere, Brush brush) override;
+  Status set_parameters(const Parameters& parameters) override;
+  [[nodiscard]] const Parameters& parameters() const override { return model_.parameters(); }
+  Result<AdvanceReport> advance(const Advance& run) override;
+  [[nodiscard]] MemoryReport memory() const override;
+  [[nodiscard]] Status validate() const override;
+  [[nodiscard]] double band() const override { return model_.band(); }
+  [[nodiscard]] double time_step() const override { return model_.time_step(); }
+
+  [[nodiscard]] const MessageCost& message_cost() const { return message_cost_; }
+  [[nodiscard]] std::int64_t pooled_bytes() const { return passes_.pooled_bytes(); }
+  [[nodiscard]] const RegionPasses& passes() const { return passes_; }
+
+ private:
+  StreamExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source,
+                 const Parameters& parameters, const ExecutorOptions& options);
+  Status start(std::int64_t largest_region);
+
+  // What is kept beside a physical page.
+  struct PageInfo {
+    std::int32_t near_voxels = 0;  // of a sleeping page, as last seen
+    std::uint8_t constant_steps = 0;
+    bool asleep = false;
+    bool woke_neighbours = false;  // in this window
+  };
+  PageInfo& info(PhysicalPage page) { return infos_[static_cast<std::size_t>(page)]; }
+  [[nodiscard]] const PageInfo& info(PhysicalPage page) const {
+    return infos_[static_cast<std::size_t>(page)];
+  }
+
+  // Steps (stream_executor.cpp).
+  Status step();
+  Status handle_message(bool& window_ended, Status& domain);
+
+  // Which pages are resident (domain.cpp).
+  [[nodiscard]] std::int64_t state_bytes(std::int64_t capacity) const;
+  Status make_room(std::int64_t more_pages);
+  Result<PhysicalPage> make_resident(std::int64_t virtual_page);
+  Status grant_requests(PhysicalPage page, PageMessage message);
+  Status fill_new_pages();
+  void release_page(PhysicalPage page, bool inside);
+  Status update_domain(const std::vector<PageMessage>& messages);
+  Status settle();
+  Status validate_sleeping_pages() const;
+
+  // Quiet pages (quiet.cpp).
+  void wake(PhysicalPage page);
+  [[nodiscard]] Index3 band_reach() const;
+  void wake_around(PhysicalPage page);
+  Result<bool> finish_window();
+  Status judge_quiet_pages(const std::vector<PageMotion>& motion);
+  Status rebuild_active_list();
+
+  template <class Visit>
+  void for_each_resident(Visit visit) const {
+    for (PhysicalPage page = kFirstPage; page < table_.capacity(); ++page) {
+      if (table_.virtual_page(page) >= 0) visit(page);
+    }
+  }
+
+  std::shared_ptr<gpu::Device> device_;  // first: it outlives everything below
+  std::shared_ptr<const Volume> source_;
+  Model model_;
+  ExecutorOptions options_;
+  PackedLayout layout_;
+  SourceTexture source_texture_;
+  PhysicalMemory memory_;
+  GeometryEngine active_geometry_;   // of the active list
+  GeometryEngine special_geometry_;  // of pages that are filled, copied, painted or asked
+  RegionPasses passes_;
+
+  PageTable table_;
+  std::vector<PageInfo> infos_;       // by physical page
+  std::vector<PhysicalPage> active_;  // the pages that are computed
+  std::vector<PhysicalPage> new_[2];  // resident since this maintenance, not filled yet: outside, inside
+  int current_ = 0;                   // the buffer that holds phi
+  bool active_list_is_stale_ = true;
+  bool unsettled_ = false;  // the budget stopped an allocation
+  int steps_in_window_ = 0;
+  std::int64_t quiet_pages_ = 0;
+  std::int64_t quiet_near_voxels_ = 0;
+  double surface_speed_ = 0.0;  // in the last full window
+  std::int64_t peak_resident_ = 0;
+  std::int64_t peak_bytes_ = 0;
+  MessageCost message_cost_;
+};
+
+}  // namespace tidemark

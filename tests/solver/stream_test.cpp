@@ -1,0 +1,376 @@
+// The stream executor: substreams, messages, sub-regions, and agreement with the host.
+#include <random>
+#include <regex>
+
+#include "gpu/device.h"
+#include "gpu/draw.h"
+#include "gpu/shader_source.h"
+#include "level_sets.h"
+#include "solver/stream/stream_executor.h"
+#include "tests/support/support.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+namespace {
+
+constexpr Index3 kPageShape{16, 16, 1};
+constexpr std::int64_t kPageTexels = 256;
+
+std::shared_ptr<gpu::Device> device() {
+  auto made = gpu::Device::create_headless({gpu::GlVersion::gl33, true});
+  if (!made) qFatal("%s", made.error().message.c_str());
+  return *made;
+}
+
+template <class T>
+T good(Result<T> result) {
+  if (!result) qFatal("%s", result.error().message.c_str());
+  return std::move(*result);
+}
+
+// Physical memory with every page of a volume resident.
+struct FullMemory {
+  std::shared_ptr<gpu::Device> gpu = device();
+  PageLayout pages;
+  PackedLayout layout;
+  PageTable table;
+  std::vector<PhysicalPage> list;
+  PhysicalMemory memory;
+  GeometryEngine geometry;
+
+  explicit FullMemory(Index3 size)
+      : pages(size, kPageShape), layout(pages, gpu->capabilities().largest_texture), table(pages) {
+    for (std::int64_t page = 0; page < pages.page_count(); ++page) list.push_back(table.allocate(page));
+    memory = good(PhysicalMemory::create(*gpu, layout, table.capacity(), 2.5F));
+    geometry = GeometryEngine::create(*gpu, layout);
+    if (!geometry.describe(*gpu, table, list)) qFatal("describe failed");
+    gpu::begin_exact_drawing();
+  }
+
+  // How often each texel of G is drawn, in the order of physical pages.
+  std::vector<float> count(std::initializer_list<Substream> substreams) {
+    memory.draw_into(0);
+    gpu::clear_colours(1);
+    for (const Substream substream : substreams) {
+      gpu::Defines defines = geometry.defines(substream);
+      defines.emplace_back("IN_MEMORY", "");
+      const auto program = good(gpu::Program::render(*gpu, GeometryEngine::vertex_shader(substream), "",
+                                                     "solver/stream/constant.frag", defines));
+      const gpu::BlendScope added(gpu::Blending::add);
+      program.use();
+      program.set("value", glm::vec4(1.0F));
+      geometry.draw(program, substream, 0, geometry.size(), memory.size());
+    }
+    return good(memory.field().download(0));
+  }
+};
+
+// Whether each voxel is drawn once, and nothing else is drawn.
+bool drawn_once(const FullMemory& full, const std::vector<float>& counts) {
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const auto page = static_cast<PhysicalPage>(i / kPageTexels);
+    const auto x = static_cast<std::int64_t>(i % 16);
+    const auto y = static_cast<std::int64_t>(i / 16 % 16);
+    bool is_voxel = page >= kFirstPage && page < full.table.capacity();
+    if (is_voxel) {
+      const Index3 valid = full.pages.valid_shape(full.table.virtual_page(page));
+      is_voxel = x < valid.x && y < valid.y;
+    }
+    if (counts[i] != (is_voxel ? 1.0F : 0.0F)) return false;
+  }
+  return true;
+}
+
+// A lumpy source with a ball in it.
+struct Scene {
+  Geometry geometry;
+  std::shared_ptr<const Volume> source;
+  Parameters parameters;
+
+  explicit Scene(Index3 size, glm::dvec3 spacing = glm::dvec3(1.0)) : geometry(grid(size, spacing)) {
+    source = volume_of(geometry, [this](glm::dvec3 p) {
+      const double r = glm::distance(p, centre_of(geometry));
+      return 100.0 - 6.0 * std::max(0.0, r - 12.0 - 2.0 * std::sin(p.x / 3.0)) + 5.0 * std::sin(p.y * 7.0);
+    });
+    parameters.target = 100.0;
+    parameters.range = 25.0;
+    parameters.alpha = 0.6;
+  }
+
+  std::unique_ptr<Executor> start(ExecutorKind kind, ExecutorOptions options = {}) const {
+    auto level_set = executor(kind, source, parameters, options);
+    if (!level_set->paint({centre_of(geometry), 5.0}, Brush::add)) qFatal("paint failed");
+    return level_set;
+  }
+};
+
+double largest_difference(const Executor& a, const Executor& b) {
+  const std::vector<float> first = good(a.snapshot()).dense();
+  const std::vector<float> second = good(b.snapshot()).dense();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    largest = std::max(largest, static_cast<double>(std::abs(first[i] - second[i])));
+  }
+  return largest;
+}
+
+bool same_bits(const Executor& a, const Executor& b) {
+  const Field first = good(a.snapshot());
+  const Field second = good(b.snapshot());
+  return first.table == second.table && first.dense() == second.dense();
+}
+
+}  // namespace
+
+class StreamTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void every_voxel_of_every_page_is_covered_once() {
+    for (const Index3 size :
+         {Index3(48, 48, 3), Index3(61, 7, 5), Index3(7, 61, 3), Index3(17, 18, 3), Index3(19, 33, 2),
+          Index3(1, 1, 4), Index3(2, 3, 2), Index3(34, 50, 1), Index3(600, 300, 2)}) {
+      FullMemory full(size);
+      const auto substreams = full.count({Substream::interior, Substream::edges, Substream::corners});
+      QVERIFY2(drawn_once(full, substreams),
+               qPrintable(QString("substreams, %1 x %2").arg(size.x).arg(size.y)));
+      const auto whole = full.count({Substream::whole_page});
+      QVERIFY2(drawn_once(full, whole), qPrintable(QString("whole pages, %1 x %2").arg(size.x).arg(size.y)));
+      QCOMPARE(full.gpu->severe_messages(), 0);
+    }
+  }
+
+  void interior_edges_and_corners_have_the_papers_shares() {
+    FullMemory full({64, 48, 3});
+    const auto share = [&](Substream substream) {
+      double sum = 0.0;
+      for (const float count : full.count({substream})) sum += static_cast<double>(count);
+      return sum / (64.0 * 48.0 * 3.0);
+    };
+    QCOMPARE(share(Substream::interior), 196.0 / 256.0);  // 76.6 %
+    QCOMPARE(share(Substream::edges), 56.0 / 256.0);      // 21.9 %
+    QCOMPARE(share(Substream::corners), 4.0 / 256.0);     // 1.6 %
+  }
+
+  void each_single_voxel_makes_its_bit_arrive() {
+    const Geometry geometry = grid({48, 48, 3});
+    const auto source = zero_volume(geometry);
+    const Model model(*source, {});
+    const auto gpu = device();
+    const PageLayout pages(geometry.size, kPageShape);
+    const PackedLayout layout(pages, gpu->capabilities().largest_texture);
+    PageTable table(pages);
+    const PhysicalPage page = table.allocate(pages.page_number({1, 1, 1}));
+    const float band = 2.5F;
+    auto memory = good(PhysicalMemory::create(*gpu, layout, table.capacity(), band));
+    auto geometry_engine = GeometryEngine::create(*gpu, layout);
+    const PhysicalPage list[] = {page};
+    QVERIFY(geometry_engine.describe(*gpu, table, list));
+    const auto texture = good(SourceTexture::create(*gpu, *source));
+    auto passes = good(RegionPasses::create(*gpu, geometry_engine, texture, model, pages, 32));
+    QVERIFY(passes.reserve(*gpu, 1));
+    gpu::begin_exact_drawing();
+    std::vector<float> values(kPageTexels, -band);
+    memory.field().upload(values);
+    QCOMPARE(int(good(passes.message(geometry_engine, memory, 0, band, 1e-3F)).at(0).code), 0);
+    for (int lit = 0; lit < kPageTexels; ++lit) {
+      for (const float value : {0.0F, band}) {
+        std::fill(values.begin(), values.end(), -band);
+        values[static_cast<std::size_t>(lit)] = value;
+        memory.field().upload(values);
+        const PageMessage message = good(passes.message(geometry_engine, memory, lit % 2, band, 1e-3F)).at(0);
+        const int x = lit % 16;
+        const int y = lit / 16;
+        const bool expected[] = {x == 0, x == 15, y == 0, y == 15, true, true};
+        for (int face = 0; face < 6; ++face) QCOMPARE(message.differs_across(face), expected[face]);
+        QVERIFY(message.is_mixed());
+        QVERIFY(!message.moved());
+      }
+    }
+    std::fill(values.begin(), values.end(), band);
+    memory.field().upload(values);
+    const PageMessage inside = good(passes.message(geometry_engine, memory, 0, band, 1e-3F)).at(0);
+    QVERIFY(inside.is_inside() && inside.differs_across_any());
+  }
+
+  void thirty_steps_are_the_hosts() {
+    double worst = 0.0;
+    for (const glm::dvec3 spacing : {glm::dvec3(1.0), glm::dvec3(1.0, 1.0, 3.0)}) {
+      for (const Scheme scheme : {Scheme::split, Scheme::paper}) {
+        Scene scene({61, 47, 40}, spacing);
+        scene.parameters.scheme = scheme;
+        const auto host = scene.start(ExecutorKind::host);
+        const auto stream = scene.start(ExecutorKind::stream);
+        QCOMPARE(largest_difference(*host, *stream), 0.0);
+        run(*host, 1);
+        run(*stream, 1);
+        QVERIFY2(largest_difference(*host, *stream) <= 2e-6, "one step");
+        run(*host, 29);
+        run(*stream, 29);
+        worst = std::max(worst, largest_difference(*host, *stream));
+        QCOMPARE(failure(stream->validate()), QString());
+      }
+    }
+    qInfo("largest difference from the host after 30 steps: %.2g", worst);
+    QVERIFY(worst <= 1e-4);
+  }
+
+  void thirty_steps_are_the_references() {
+    const Scene scene({40, 36, 33});
+    const auto reference = scene.start(ExecutorKind::reference);
+    const auto stream = scene.start(ExecutorKind::stream);
+    run(*reference, 30);
+    run(*stream, 30);
+    QVERIFY(largest_difference(*reference, *stream) <= 1e-4);
+  }
+
+  void partial_pages_are_computed_and_padding_is_not() {
+    for (const Index3 size :
+         {Index3(7, 61, 9), Index3(61, 7, 9), Index3(17, 33, 20), Index3(1, 20, 20), Index3(7, 7, 7)}) {
+      Scene scene(size);
+      ExecutorOptions options;
+      options.skip_quiet_pages = false;
+      const auto host = scene.start(ExecutorKind::host, options);
+      const auto stream = scene.start(ExecutorKind::stream, options);
+      run(*host, 30);
+      const AdvanceReport report = run(*stream, 30);
+      QVERIFY(report.voxel_updates > 0 && report.voxel_updates <= 30 * scene.geometry.voxel_count());
+      QVERIFY(largest_difference(*host, *stream) <= 1e-4);
+      QCOMPARE(failure(stream->validate()), QString());
+    }
+  }
+
+  void sub_regions_change_no_bit() {
+    const Scene scene({90, 90, 40});
+    const auto start = [&](std::int64_t largest_region) {
+      auto made = good(StreamExecutor::create(scene.source, scene.parameters, {}, largest_region));
+      if (!made->paint({centre_of(scene.geometry), 12.0}, Brush::add)) qFatal("paint failed");
+      return made;
+    };
+    const auto whole = start(1024);
+    const auto parts = start(32);
+    for (int chunk = 0; chunk < 4; ++chunk) {
+      const AdvanceReport a = run(*whole, 10);
+      const AdvanceReport b = run(*parts, 10);
+      QVERIFY(whole->memory().resident_pages > 3 * 32);
+      QVERIFY(same_bits(*whole, *parts));
+      QCOMPARE(a.voxel_updates, b.voxel_updates);
+      QCOMPARE(a.surface_speed, b.surface_speed);
+    }
+  }
+
+  void churn_with_growth_loses_nothing() {
+    const Scene scene({100, 100, 60});
+    std::mt19937 random(3);
+    const auto host = scene.start(ExecutorKind::host);
+    const auto stream = scene.start(ExecutorKind::stream);
+    std::int64_t most = 0;
+    for (int round = 0; round < 12; ++round) {
+      const glm::dvec3 voxel(random() % 100, random() % 100, random() % 60);
+      const Sphere sphere = sphere_at_voxel(scene.geometry, voxel, 4.0 + random() % 24);
+      const Brush brush = round % 3 == 2 ? Brush::erase : Brush::add;
+      for (Executor* level_set : {host.get(), stream.get()}) {
+        QCOMPARE(failure(level_set->paint(sphere, brush)), QString());
+        run(*level_set, 5);
+      }
+      QCOMPARE(failure(stream->validate()), QString());
+      QVERIFY(largest_difference(*host, *stream) <= 2e-3);
+      most = std::max(most, stream->memory().resident_pages);
+    }
+    QVERIFY(most > 400);
+    QVERIFY(stream->paint({centre_of(scene.geometry), 200.0}, Brush::erase));
+    run(*stream, 3);
+    QCOMPARE(stream->memory().resident_pages, 0);
+    QCOMPARE(failure(stream->validate()), QString());
+  }
+
+  void the_budget_stops_a_run_and_keeps_what_is_computed() {
+    const Geometry geometry = grid({128, 128, 64});
+    Parameters parameters;
+    parameters.alpha = 1.0;
+    ExecutorOptions options;
+    options.memory_budget_bytes = std::int64_t{3} << 20;
+    const auto source = zero_volume(geometry);
+    const auto stream = executor(ExecutorKind::stream, source, parameters, options);
+    QVERIFY(stream->paint({centre_of(geometry), 8.0}, Brush::add));
+    const auto report = stream->advance(Advance{1000, false, {}});
+    QVERIFY(!report);
+    QVERIFY(report.error().kind == ErrorKind::capability);
+    const QString message = QString::fromStdString(report.error().message);
+    QVERIFY2(message.startsWith("after ") && message.contains("memory budget"), qPrintable(message));
+    const std::int64_t steps = message.section(' ', 1, 1).toLongLong();
+    const auto host = executor(ExecutorKind::host, source, parameters);
+    QVERIFY(host->paint({centre_of(geometry), 8.0}, Brush::add));
+    run(*host, steps);
+    QVERIFY(largest_difference(*host, *stream) <= 1e-3);
+    QVERIFY(!stream->advance(Advance{1, false, {}}));
+    QVERIFY(stream->paint({centre_of(geometry), 100.0}, Brush::erase));
+    QVERIFY(stream->paint({centre_of(geometry), 8.0}, Brush::add));
+    QCOMPARE(run(*stream, 5).steps, 5);
+    QCOMPARE(failure(stream->validate()), QString());
+  }
+
+  void it_converges_with_the_host_and_rests() {
+    const Scene scene({61, 47, 40});
+    const auto host = scene.start(ExecutorKind::host);
+    const auto stream = scene.start(ExecutorKind::stream);
+    const AdvanceReport expected = run(*host, 2000, true);
+    const AdvanceReport report = run(*stream, 2000, true);
+    QVERIFY(expected.converged && report.converged);
+    QCOMPARE(report.steps, expected.steps);
+    QVERIFY(std::abs(report.surface_speed - expected.surface_speed) < 1e-3);
+    run(*stream, 800);
+    QVERIFY(stream->memory().quiet_pages > 0);
+    QCOMPARE(failure(stream->validate()), QString());
+    // A sleeping page wakes with its parameters.
+    QVERIFY(stream->set_parameters(scene.parameters));
+    QCOMPARE(stream->memory().quiet_pages, 0);
+  }
+
+  void a_snapshot_resumes_to_the_same_bits() {
+    const Scene scene({61, 47, 40});
+    ExecutorOptions options;
+    options.skip_quiet_pages = false;
+    const auto stream = scene.start(ExecutorKind::stream, options);
+    run(*stream, 20);
+    const auto other = executor(ExecutorKind::stream, scene.source, scene.parameters, options);
+    QVERIFY(other->restore(good(stream->snapshot())));
+    run(*stream, 20);
+    run(*other, 20);
+    QCOMPARE(largest_difference(*stream, *other), 0.0);
+  }
+
+  void the_driver_has_no_severe_message_for_it() {
+    const Scene scene({61, 47, 40});
+    ExecutorOptions options;
+    options.device = device();
+    QVERIFY(options.device->debugging());
+    const auto stream = scene.start(ExecutorKind::stream, options);
+    run(*stream, 64);
+    QVERIFY(stream->paint({centre_of(scene.geometry), 9.0}, Brush::erase));
+    run(*stream, 5);
+    QCOMPARE(failure(stream->validate()), QString());
+    QCOMPARE(options.device->severe_messages(), 0);
+  }
+
+  void no_fragment_shader_looks_a_page_up() {
+    const std::regex sampler(R"(uniform\s+(?:highp\s+)?(\w*[sS]ampler\w*|SOURCE_SAMPLER)\s+(\w+))");
+    for (const char* name : {"derivatives", "speeds", "update", "neighbours", "code", "motion_blocks",
+                             "motion_pages", "constant", "copy", "paint"}) {
+      const auto source =
+          good(gpu::assemble_shader(fmt::format("solver/stream/{}.frag", name), "330 core", {}));
+      for (std::sregex_iterator i(source.text.begin(), source.text.end(), sampler), end; i != end; ++i) {
+        const std::string type = (*i)[1];
+        const std::string uniform = (*i)[2];
+        QVERIFY2(type == "sampler2D" || uniform == "source_volume", uniform.c_str());
+        QVERIFY2(uniform.find("table") == std::string::npos && uniform.find("record") == std::string::npos,
+                 uniform.c_str());
+      }
+      QVERIFY2(source.text.find("page_origin") == std::string::npos, name);
+    }
+  }
+};
+
+QTEST_GUILESS_MAIN(StreamTest)
+#include "stream_test.moc"
