@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <glm/common.hpp>
 #include <utility>
 
 #include "solver/paging/validate.h"
@@ -107,9 +109,19 @@ Status ComputeExecutor::compile_update() {
   return {};
 }
 
+void ComputeExecutor::set_layout(const gpu::Program& program) const {
+  layout_.set_uniforms(program);
+  const Index3 shape = layout_.layout().page_shape();
+  // An endless band holds the whole volume awake.
+  const glm::dvec3 reach = std::isfinite(band())
+                               ? glm::ceil(glm::dvec3(band()) / (model_.spacing() * glm::dvec3(shape)))
+                               : glm::dvec3(layout_.layout().pages());
+  program.set("quiet_reach", glm::ivec3(reach));
+}
+
 void ComputeExecutor::order_update(const gpu::Program& program, int now) {
   program.use();
-  layout_.set_uniforms(program);
+  set_layout(program);
   set_step_uniforms(program, model_.constants<float>());
   source_texture_.set_uniforms(program, 1);
   memory_.field().phi(now).bind(0);
@@ -119,7 +131,7 @@ void ComputeExecutor::order_update(const gpu::Program& program, int now) {
 
 void ComputeExecutor::order_maintenance(bool count_step) {
   maintain_.use();
-  layout_.set_uniforms(maintain_);
+  set_layout(maintain_);
   maintain_.set("band", static_cast<float>(band()));
   maintain_.set("quiet_change", static_cast<float>(kQuietChange));
   maintain_.set("count_step", count_step ? 1 : 0);
@@ -151,7 +163,7 @@ void ComputeExecutor::order_paging(int next, int step_in_window) {
 void ComputeExecutor::order_end_of_window(int now, bool judge) {
   if (judge) {
     judge_.use();
-    layout_.set_uniforms(judge_);
+    set_layout(judge_);
     judge_.set("quiet_change", static_cast<float>(kQuietChange));
     judge_.set("skip_quiet_pages", options_.skip_quiet_pages ? 1 : 0);
     gpu::dispatch(memory_.control(), 0);
@@ -165,7 +177,7 @@ void ComputeExecutor::order_end_of_window(int now, bool judge) {
   gpu::dispatch(glm::ivec3(1));
   gpu::finish_writes();
   rebuild_.use();
-  layout_.set_uniforms(rebuild_);
+  set_layout(rebuild_);
   rebuild_.set("wake_all", judge ? 0 : 1);
   rebuild_.set("samples", kMotionSamples);
   memory_.field().phi(now).bind_image(0, true);

@@ -44,6 +44,7 @@ class ComputeExecutor final : public Executor {
 
   // Orders the dispatches of one step, the `index`th of this run, which reads phi from buffer `now`.
   void order_step(int now, int step_in_window);
+  void set_layout(const gpu::Program& program) const;
   void order_update(const gpu::Program& program, int now);
   void order_maintenance(bool count_step);
   void order_paging(int next, int step_in_window);
@@ -53,6 +54,7 @@ class ComputeExecutor final : public Executor {
   // Grants every request of phi as it is; G grows as it must.
   Status settle();
   Status grow(std::int64_t more_pages);
+  void order_sphere(const Sphere& sphere, Brush brush, bool only_count);
   void note_memory(const ComputeControl& control);
 
   std::shared_ptr<gpu::Device> device_;  // first: it outlives everything below

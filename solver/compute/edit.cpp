@@ -44,8 +44,8 @@ Status ComputeExecutor::set_parameters(const Parameters& parameters) {
   return device_->check("waking all pages");
 }
 
-Status ComputeExecutor::paint(const Sphere& sphere, Brush brush) {
-  if (auto status = device_->make_current(); !status) return status;
+// Orders the drawing of a sphere, or only the count of the pages that must be made for it.
+void ComputeExecutor::order_sphere(const Sphere& sphere, Brush brush, bool only_count) {
   const Geometry& geometry = source_->geometry;
   const glm::dvec3 centre = geometry.to_voxel(sphere.centre_mm);
   const double unit = model_.smallest_spacing_mm();
@@ -54,29 +54,40 @@ Status ComputeExecutor::paint(const Sphere& sphere, Brush brush) {
   const Index3 shape = layout_.layout().page_shape();
   const Index3 first = Index3(glm::clamp(glm::floor(centre - reach), glm::dvec3(0), last_voxel)) / shape;
   const Index3 last = Index3(glm::clamp(glm::ceil(centre + reach), glm::dvec3(0), last_voxel)) / shape;
-  const Index3 pages = last - first + Index3(1);
 
-  // Every page that may be drawn into finds room, so that a sphere is drawn whole or not at all.
-  const std::int64_t missing = pages.x * pages.y * pages.z - memory_.read_control().free_pages();
-  if (missing > 0) {
-    if (auto status = grow(missing); !status) return status;
-  }
-  control_ = memory_.read_control();
-  control_.free_tail_ready = control_.free_tail;
-  memory_.write_control(control_);
   memory_.bind();
   paint_.use();
-  layout_.set_uniforms(paint_);
+  set_layout(paint_);
   paint_.set("first_page", glm::ivec3(first));
   paint_.set("centre", glm::vec3(centre));
   paint_.set("radius", static_cast<float>(sphere.radius_mm / unit));
   paint_.set("spacing", glm::vec3(geometry.spacing_mm / unit));
   paint_.set("band", static_cast<float>(band()));
   paint_.set("erase", brush == Brush::erase ? 1 : 0);
+  paint_.set("only_count", only_count ? 1 : 0);
   memory_.field().phi(current_).bind_image(0, true);
   memory_.field().phi(1 - current_).bind_image(1, true);
-  gpu::dispatch(glm::ivec3(pages));
+  gpu::dispatch(glm::ivec3(last - first + Index3(1)));
   gpu::finish_writes();
+}
+
+Status ComputeExecutor::paint(const Sphere& sphere, Brush brush) {
+  if (auto status = device_->make_current(); !status) return status;
+  // A sphere is drawn whole or not at all: its pages find room first.
+  ComputeControl control = memory_.read_control();
+  control.pages_wanted = 0;
+  memory_.write_control(control);
+  order_sphere(sphere, brush, true);
+  control = memory_.read_control();
+  if (auto status = device_->check("measuring a sphere"); !status) return status;
+  const std::int64_t missing = control.pages_wanted - control.free_pages();
+  if (missing > 0) {
+    if (auto status = grow(missing); !status) return status;
+  }
+  control = memory_.read_control();
+  control.free_tail_ready = control.free_tail;
+  memory_.write_control(control);
+  order_sphere(sphere, brush, false);
   return settle();
 }
 

@@ -30,10 +30,12 @@ struct ComputeControl {
   float surface_speed;
   std::uint32_t step_ran;
   std::uint32_t list_is_rebuilt;
+  std::uint32_t pages_wanted;
+  std::uint32_t padding;
 
   [[nodiscard]] std::int64_t free_pages() const { return free_tail - free_head; }
 };
-static_assert(sizeof(ComputeControl) == 88);
+static_assert(sizeof(ComputeControl) == 96);
 
 struct ComputePageState {
   std::uint32_t flags;

@@ -1,7 +1,7 @@
 #include "solver/compute/page_memory.glsl"
 
-// At the end of a window of steps, an invocation a page of the active list: is it quiet? A page is when it and the 18
-// pages that its stencil reaches have been still.
+// At the end of a window of steps, an invocation a page of the active list: is it quiet? A page is when it and
+// those around it have been still.
 
 layout(local_size_x = 64) in;
 
@@ -37,10 +37,9 @@ void main() {
   add_64((whole & 255u) << 24);
   // A page that waits for a page must not sleep over it.
   if (!skip_quiet_pages || control.starved != 0u) return;
-  for (int i = 0; i < 27; ++i) {
-    ivec3 step = neighbour_step(i);
-    ivec3 other = page_coordinates(number) + step;
-    if (dot(step, step) <= 2 && contains_page(other) && !is_still(page_table[page_number(other)])) return;
+  for (int i = 0; i < pages_in_reach(); ++i) {
+    ivec3 other = page_coordinates(number) + step_in_reach(i);
+    if (contains_page(other) && !is_still(page_table[page_number(other)])) return;
   }
   atomicOr(page_state[page].flags, kFallsAsleep);
 }

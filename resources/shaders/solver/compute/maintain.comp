@@ -94,13 +94,11 @@ void main() {
     }
   }
 
-  for (int i = index; moved && i < 27; i += kInvocations) {
-    ivec3 step = neighbour_step(i);
-    ivec3 other = page_coordinates(number) + step;
-    if (dot(step, step) <= 2 && contains_page(other)) {
-      int entry = page_table[page_number(other)];
-      if (entry >= kFirstPage) wake(entry);
-    }
+  for (int i = index; moved && i < pages_in_reach(); i += kInvocations) {
+    ivec3 other = page_coordinates(number) + step_in_reach(i);
+    if (!contains_page(other)) continue;
+    int entry = page_table[page_number(other)];
+    if (entry >= kFirstPage) wake(entry);
   }
   if (index != 0) return;
   if (moved) atomicOr(page_state[page].flags, kWokeNeighbours);

@@ -36,6 +36,7 @@ layout(std430, binding = 3) coherent buffer Control {
   float surface_speed;
   uint step_ran;          // 0 when the run has ended before this step
   uint list_is_rebuilt;   // 0 when the window's end is not to be judged
+  uint pages_wanted;      // that a sphere needs
 } control;
 
 layout(std430, binding = 4) coherent buffer ActiveList { int active_list[]; };
@@ -114,6 +115,19 @@ void make_free(int page, int constant) {
 
 const ivec3 kFaceSteps[6] =
     ivec3[6](ivec3(-1, 0, 0), ivec3(1, 0, 0), ivec3(0, -1, 0), ivec3(0, 1, 0), ivec3(0, 0, -1), ivec3(0, 0, 1));
+
+// How many pages away along each axis the surface can be whose distance a page's voxels hold: so far a page's motion
+// keeps others awake.
+uniform ivec3 quiet_reach;
+
+int pages_in_reach() {
+  ivec3 width = 2 * quiet_reach + 1;
+  return width.x * width.y * width.z;
+}
+ivec3 step_in_reach(int index) {
+  ivec3 width = 2 * quiet_reach + 1;
+  return ivec3(index % width.x, index / width.x % width.y, index / (width.x * width.y)) - quiet_reach;
+}
 
 // The step to neighbour `index` of 27; 13 is the page itself.
 ivec3 neighbour_step(int index) {

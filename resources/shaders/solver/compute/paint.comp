@@ -13,6 +13,7 @@ uniform float radius;         // in units of the smallest spacing
 uniform vec3 spacing;         // likewise
 uniform float band;
 uniform bool erase;
+uniform bool only_count;  // the pages that must be made
 
 shared uint group_code;
 shared int page;
@@ -55,6 +56,11 @@ void main() {
   atomicOr(group_code, code);
   barrier();
   if (!changed) return;
+  bool constant_after = (group_code & kNotInside) == 0u || (group_code & kNotOutside) == 0u;
+  if (only_count) {
+    if (gl_LocalInvocationIndex == 0u && !resident && !constant_after) atomicAdd(control.pages_wanted, 1u);
+    return;
+  }
   if (gl_LocalInvocationIndex == 0u) {
     // A page that is one constant throughout needs no memory.
     if (!resident && (group_code & kNotOutside) == 0u) {
@@ -77,8 +83,8 @@ void main() {
     }
   }
   // What touches the page is computed again.
-  for (int i = int(gl_LocalInvocationIndex); i < 27; i += PAGE_X * PAGE_Y) {
-    ivec3 other = coordinates + neighbour_step(i);
+  for (int i = int(gl_LocalInvocationIndex); i < pages_in_reach(); i += PAGE_X * PAGE_Y) {
+    ivec3 other = coordinates + step_in_reach(i);
     if (!contains_page(other)) continue;
     int touched = page_table[page_number(other)];
     if (touched >= kFirstPage) wake(touched);

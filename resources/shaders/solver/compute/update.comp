@@ -29,13 +29,13 @@ shared uint group_squared_change;  // in units of 2^-24
 shared uint group_near_voxels;
 
 // Of the page.
-ivec2 origin;
-ivec3 first_voxel;
-ivec3 lowest;   // the least and the greatest local coordinate with a voxel of its own, -1..PAGE
-ivec3 highest;
-ivec3 last;     // the last voxel of the page that is inside the volume
+ivec2 origin = ivec2(0);
+ivec3 first_voxel = ivec3(0);
+ivec3 lowest = ivec3(0);   // the least and the greatest local coordinate with a voxel of its own, -1..PAGE
+ivec3 highest = ivec3(0);
+ivec3 last = ivec3(0);     // the last voxel of the page that is inside the volume
 
-ivec2 block_start;  // the block's first column in the page
+ivec2 block_start = ivec2(0);  // the block's first column in the page
 
 // Of the invocation.
 uint code = 0u;

@@ -1,0 +1,159 @@
+// The layer over OpenGL on a context without a window.
+#include <QTest>
+#include <numeric>
+
+#include "gpu/framebuffer.h"
+#include "gpu/program.h"
+#include "gpu/texture.h"
+#include "gpu/timer.h"
+
+using namespace tidemark;
+using namespace tidemark::gpu;
+
+namespace {
+
+std::shared_ptr<Device> make_device(GlVersion version = GlVersion::gl45) {
+  auto device = Device::create_headless({version, true});
+  if (!device) qFatal("%s", device.error().message.c_str());
+  return *device;
+}
+
+}  // namespace
+
+class DeviceTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void capabilities_are_known_and_printable() {
+    const auto device = make_device();
+    const Capabilities& capabilities = device->capabilities();
+    QVERIFY(capabilities.at_least(4, 5));
+    QVERIFY(!capabilities.renderer.empty());
+    QVERIFY(capabilities.largest_texture >= 16384);
+    QVERIFY(capabilities.largest_storage_buffer >= 1 << 27);
+    for (const auto& [name, value] : capabilities.entries()) QVERIFY2(!value.empty(), name.c_str());
+  }
+
+  void an_older_context_can_be_had() {
+    const auto device = make_device(GlVersion::gl33);
+    QVERIFY(device->capabilities().at_least(3, 3));
+    QVERIFY(device->make_current());
+  }
+
+  void two_contexts_take_turns() {
+    const auto one = make_device();
+    const auto other = make_device();
+    QVERIFY(one->make_current());
+    auto a = Buffer::create(*one, 4, "a");
+    QVERIFY(other->make_current());
+    auto b = Buffer::create(*other, 4, "b");
+    QVERIFY(a && b);
+    const std::int32_t value = 7;
+    QVERIFY(one->make_current());
+    a->upload_values<std::int32_t>(0, std::span(&value, 1));
+    QCOMPARE(a->download_values<std::int32_t>(0, 1).front(), 7);
+    QVERIFY(other->make_current());
+    QCOMPARE(b->download_values<std::int32_t>(0, 1).front(), 0);
+  }
+
+  void buffers_and_textures_keep_what_they_are_given() {
+    const auto device = make_device();
+    std::vector<float> values(12 * 5);
+    std::iota(values.begin(), values.end(), 1.0F);
+    auto texture = Texture2D::create(*device, TexelFormat::r32f, 16, 8, "test");
+    QVERIFY(texture);
+    texture->upload({2, 1, 12, 5}, std::as_bytes(std::span(values)));
+    auto larger = Texture2D::create(*device, TexelFormat::r32f, 32, 32, "larger");
+    auto source = Framebuffer::create(*device, {&*texture}, "copy");
+    QVERIFY(larger && source);
+    source->copy_to({2, 1, 12, 5}, *larger, 20, 27);
+    std::vector<float> read(values.size());
+    QVERIFY(larger->download({20, 27, 12, 5}, std::as_writable_bytes(std::span(read))));
+    QCOMPARE(read, values);
+    QCOMPARE(device->severe_messages(), std::int64_t{0});
+  }
+
+  void readback_arrives_later() {
+    const auto device = make_device();
+    auto buffer = Buffer::create(*device, 64, "numbers");
+    auto readback = Readback::create(*device, 16, "on its way");
+    QVERIFY(buffer && readback);
+    std::vector<std::int32_t> numbers(16);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    buffer->upload_values<std::int32_t>(0, numbers);
+    readback->start(*device, *buffer, 32);
+    std::vector<std::int32_t> read(4);
+    QVERIFY(readback->finish(std::as_writable_bytes(std::span(read))));
+    QCOMPARE(read, (std::vector<std::int32_t>{8, 9, 10, 11}));
+    QVERIFY(readback->ready());
+  }
+
+  void handles_are_counted_and_move() {
+    const auto device = make_device();
+    {
+      auto first = Buffer::create(*device, 4, "first");
+      QVERIFY(first);
+      QCOMPARE(device->handles(), std::int64_t{1});
+      Buffer second = std::move(*first);
+      QCOMPARE(device->handles(), std::int64_t{1});
+      second = Buffer();
+      QCOMPARE(device->handles(), std::int64_t{0});
+    }
+    QCOMPARE(device->handles(), std::int64_t{0});
+  }
+
+  void a_shader_that_does_not_compile_says_where() {
+    const auto device = make_device();
+    const auto program = Program::compute(*device, "solver/compute/update.comp", {});
+    QVERIFY(!program);
+    QCOMPARE(program.error().kind, ErrorKind::internal);
+    QVERIFY2(program.error().message.find("solver/compute/update.comp:") != std::string::npos,
+             program.error().message.c_str());
+  }
+
+  void what_is_too_large_is_refused() {
+    const auto device = make_device();
+    const std::int64_t limit = device->capabilities().largest_texture;
+    const auto texture = Texture2D::create(*device, TexelFormat::r32f, limit + 1, 4, "too wide");
+    QVERIFY(!texture);
+    QCOMPARE(texture.error().kind, ErrorKind::capability);
+    const Index3 size(device->capabilities().largest_volume_texture + 1, 1, 1);
+    QCOMPARE(Texture3D::create(*device, TexelFormat::r8, size, {}, "too long").error().kind,
+             ErrorKind::capability);
+  }
+
+  void a_lost_context_stays_lost_and_nothing_is_deleted_in_it() {
+    const auto device = make_device();
+    {
+      auto buffer = Buffer::create(*device, 4, "goes with its context");
+      QVERIFY(buffer);
+      device->lose_at_check(2);
+      QVERIFY(device->check("the first"));
+      const auto lost = device->check("the second");
+      QVERIFY(!lost);
+      QCOMPARE(lost.error().kind, ErrorKind::capability);
+      QVERIFY(lost.error().message.find("the second") != std::string::npos);
+      QVERIFY(device->lost());
+      QVERIFY(!Buffer::create(*device, 4, "too late"));
+    }
+    QCOMPARE(device->handles(), std::int64_t{0});
+  }
+
+  void the_gpus_clock_runs() {
+    const auto device = make_device();
+    const Timer timer = Timer::create(*device);
+    timer.begin();
+    auto texture = Texture2D::create(*device, TexelFormat::rgba32f, 64, 64, "work", true);
+    QVERIFY(texture);
+    texture->generate_mipmaps();
+    timer.end();
+    // Software drivers count when commands are queued, if at all.
+    const double seconds = timer.seconds();
+    QVERIFY(seconds >= 0.0);
+    QVERIFY(device->capabilities().software || seconds < 1.0);
+    QCOMPARE(device->severe_messages(), std::int64_t{0});
+  }
+};
+
+QTEST_APPLESS_MAIN(DeviceTest)
+#include "device_test.moc"
