@@ -1,27 +1,33 @@
-// The host executor alone: no file, no phantom, no library but the solver's own, so that this program is
-// easily taken to another machine.
-//
-//   solver_bench [SIZE [THREADS [STEPS]]]     a tumour in SIZE^3 voxels (256), all processors, 400 steps
+// The executors side by side: no file, no phantom of the library, nothing but the solver and OpenGL, so that this
+// program is easily taken to another machine. Everything grows from a seed in SIZE^3 voxels.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "dense_gl.h"
 #include "core/thread_pool.h"
 #include "core/volume.h"
+#include "gpu/device.h"
 #include "solver/executor.h"
+#include "solver/model.h"
 #include "solver/statistics.h"
 
 namespace tidemark {
 namespace {
 
 struct Settings {
+  std::vector<std::string> executors = {"host"};
   std::int64_t size = 256;
   int threads = 0;
   std::int64_t steps = 400;
+  int page_side = 8;  // 16: pages of 16 x 16 x 1
+  bool all_pages = false;
+  bool time_paging = false;
 };
 
 // 750 in four balls that have grown into each other, 470 around them, with fine mottle.
@@ -54,57 +60,111 @@ Volume blobs(std::int64_t size, ThreadPool& pool) {
   return volume;
 }
 
-Status measure_run(const std::shared_ptr<const Volume>& source, const Settings& settings, bool skip_quiet) {
+Parameters parameters() {
   Parameters parameters;
   parameters.target = 750.0;
   parameters.range = 140.0;
   parameters.alpha = 0.5;
+  return parameters;
+}
+
+void print_run(const std::string& stage, const AdvanceReport& run, const Executor& executor) {
+  const MemoryReport memory = executor.memory();
+  fmt::print("  {:<16} {:>7} {:>12.0f} {:>13.1f} {:>9.1f} {:>9} {:>9}\n", stage, run.steps,
+             static_cast<double>(run.steps) / run.seconds,
+             static_cast<double>(run.voxel_updates) / run.seconds / 1e6,
+             100.0 * run.paging_seconds / run.seconds, memory.resident_pages, memory.quiet_pages);
+}
+
+Result<ExecutorKind> kind_of(const std::string& name) {
+  if (name == "host") return ExecutorKind::host;
+  if (name == "compute") return ExecutorKind::compute;
+  if (name == "stream") return ExecutorKind::stream;
+  return fail(ErrorKind::usage, "the executor '{}' is unknown; use host, compute, stream or dense", name);
+}
+
+// phi when `settings.steps` steps are done.
+Result<Field> measure_executor(const std::shared_ptr<const Volume>& source, const Settings& settings,
+                               const std::string& name) {
+  const auto kind = kind_of(name);
+  if (!kind) return tl::unexpected<Error>(kind.error());
   ExecutorOptions options;
   options.threads = settings.threads;
-  options.skip_quiet_pages = skip_quiet;
-  auto executor = make_executor(ExecutorKind::host, source, parameters, options);
+  options.skip_quiet_pages = !settings.all_pages;
+  options.time_paging = settings.time_paging;
+  options.memory_budget_bytes = std::int64_t{64} << 30;
+  if (settings.page_side == 16) options.page_shape = {16, 16, 1};
+  auto executor = make_executor(*kind, source, parameters(), options);
   if (!executor) return tl::unexpected<Error>(executor.error());
   const double unit = static_cast<double>(settings.size) / 256.0;
   const Sphere seed = sphere_at_voxel(source->geometry, glm::dvec3(128.0 * unit), 10.0 * unit);
-  if (auto status = (*executor)->paint(seed, Brush::add); !status) return status;
+  if (auto status = (*executor)->paint(seed, Brush::add); !status) return pass_on(status);
+  if (auto first = (*executor)->advance({}); !first) return pass_on(first);  // compiles kernels
 
-  fmt::print("{}\n  {:>10} {:>12} {:>14} {:>10} {:>12}\n",
-             skip_quiet ? "as users get it" : "no page is quiet", "steps", "steps/s", "M updates/s",
-             "paging %", "pages");
+  fmt::print("{}\n  {:<16} {:>7} {:>12} {:>13} {:>9} {:>9} {:>9}\n", name, "stage", "steps", "steps/s",
+             "M updates/s", "paging %", "pages", "quiet");
   const std::int64_t stage = std::max<std::int64_t>(settings.steps / 4, 1);
   for (int i = 1; i <= 4; ++i) {
     auto run = (*executor)->advance({.steps = stage});
     if (!run) return tl::unexpected<Error>(run.error());
-    fmt::print("  {:>10} {:>12.0f} {:>14.1f} {:>10.1f} {:>12}\n", i * stage,
-               static_cast<double>(run->steps) / run->seconds,
-               static_cast<double>(run->voxel_updates) / run->seconds / 1e6,
-               100.0 * run->paging_seconds / run->seconds, (*executor)->memory().resident_pages);
+    print_run(fmt::format("quarter {}", i), *run, **executor);
   }
   auto phi = (*executor)->snapshot();
   if (!phi) return pass_on(phi);
+  const MemoryReport memory = (*executor)->memory();
+  const Index3 shape = memory.page_shape;
+  const auto resident = static_cast<double>(memory.peak_resident_pages * shape.x * shape.y * shape.z);
+  auto rest = (*executor)->advance({.steps = 20 * settings.steps});
+  if (!rest) return tl::unexpected<Error>(rest.error());
+  auto converged = (*executor)->advance({.steps = settings.steps});
+  if (!converged) return tl::unexpected<Error>(converged.error());
+  print_run("at rest", *converged, **executor);
   const SurfaceStatistics surface = measure(*phi);
-  fmt::print("  {} voxels inside, {:.1f} mm^2 of surface\n", surface.voxels_inside, surface.surface_mm2);
-  return (*executor)->validate();
+  fmt::print("  {} voxels inside, {:.1f} mm^2 of surface; {:.2f} bytes of state per resident voxel; a step at rest {:.1f} us\n",
+             surface.voxels_inside, surface.surface_mm2, static_cast<double>(memory.peak_state_bytes) / resident,
+             1e6 * converged->seconds / static_cast<double>(converged->steps));
+  if (auto status = (*executor)->validate(); !status) return pass_on(status);
+  return phi;
 }
 
-int run(const Settings& settings) {
+Status measure_dense(const std::shared_ptr<const Volume>& source, const Settings& settings) {
+  const Field start = Field::empty(source->geometry, default_band(source->geometry));
+  const std::int64_t steps = std::clamp<std::int64_t>(settings.steps / 20, 3, 100);
+  const auto run = bench::run_dense_gl(*source, parameters(), start, steps);
+  if (!run) return tl::unexpected<Error>(run.error());
+  const double steps_per_second = static_cast<double>(run->steps) / run->seconds;
+  fmt::print("dense, the whole volume on OpenGL\n  {:>8.1f} steps/s {:>12.1f} M updates/s\n", steps_per_second,
+             steps_per_second * static_cast<double>(source->geometry.voxel_count()) / 1e6);
+  return {};
+}
+
+Status print_device() {
+  auto device = gpu::Device::create_headless({});
+  if (!device) return pass_on(device);
+  for (const auto& [name, value] : (*device)->capabilities().entries()) fmt::print("  {:<24} {}\n", name, value);
+  return {};
+}
+
+Status run(const Settings& settings) {
   ThreadPool pool(settings.threads);
   const auto source = std::make_shared<const Volume>(blobs(settings.size, pool));
   fmt::print("{}^3 voxels, {} threads\n", settings.size, pool.threads());
-  for (const bool skip_quiet : {true, false}) {
-    if (auto status = measure_run(source, settings, skip_quiet); !status) {
-      fmt::print(stderr, "solver_bench: {}\n", status.error().message);
-      return exit_code(status.error().kind);
-    }
+  if (settings.executors != std::vector<std::string>{"host"}) {
+    if (auto status = print_device(); !status) return status;
   }
-  return 0;
-}
-
-// A number in [low, high], or -1.
-std::int64_t parse(const char* text, std::int64_t low, std::int64_t high) {
-  char* end = nullptr;
-  const long long value = std::strtoll(text, &end, 10);
-  return *end == '\0' && value >= low && value <= high ? value : -1;
+  std::optional<Mask> first;
+  for (const std::string& name : settings.executors) {
+    if (name == "dense") {
+      if (auto status = measure_dense(source, settings); !status) return status;
+      continue;
+    }
+    auto phi = measure_executor(source, settings, name);
+    if (!phi) return pass_on(phi);
+    const Mask mask = phi->mask();
+    if (first) fmt::print("  Dice with the first executor {:.5f}\n", dice(*first, mask));
+    if (!first) first = mask;
+  }
+  return {};
 }
 
 }  // namespace
@@ -112,12 +172,17 @@ std::int64_t parse(const char* text, std::int64_t low, std::int64_t high) {
 
 int main(int argc, char** argv) {
   tidemark::Settings settings;
-  if (argc > 1) settings.size = tidemark::parse(argv[1], 32, 1024);
-  if (argc > 2) settings.threads = static_cast<int>(tidemark::parse(argv[2], 0, 1024));
-  if (argc > 3) settings.steps = tidemark::parse(argv[3], 4, 1000000);
-  if (argc > 4 || settings.size < 0 || settings.threads < 0 || settings.steps < 0) {
-    fmt::print(stderr, "usage: solver_bench [SIZE [THREADS [STEPS]]]  (32 to 1024, 0 for all, 4 and more)\n");
-    return 2;
-  }
-  return tidemark::run(settings);
+  CLI::App app("The executors side by side on a volume made in memory", "solver_bench");
+  app.add_option("--executor", settings.executors, "host, compute, stream or dense; several are compared");
+  app.add_option("--size", settings.size, "Voxels along each axis (256)")->check(CLI::Range(32, 1024));
+  app.add_option("--threads", settings.threads, "Of host (0: all processors)")->check(CLI::Range(0, 1024));
+  app.add_option("--steps", settings.steps, "From the seed on (400)")->check(CLI::Range(4, 1000000));
+  app.add_option("--page-side", settings.page_side, "8: 8 x 8 x 8; 16: 16 x 16 x 1")->check(CLI::IsMember({8, 16}));
+  app.add_flag("--all-pages", settings.all_pages, "Compute quiet pages, too");
+  app.add_flag("--time-paging", settings.time_paging, "Wait between dispatches to find out what paging takes");
+  CLI11_PARSE(app, argc, argv);
+  const auto status = tidemark::run(settings);
+  if (status) return 0;
+  fmt::print(stderr, "solver_bench: {}\n", status.error().message);
+  return tidemark::exit_code(status.error().kind);
 }

@@ -1,0 +1,22 @@
+// The level set without pages on the GPU: every voxel of the volume, every step.
+#pragma once
+
+#include <memory>
+
+#include "core/volume.h"
+#include "solver/field.h"
+#include "solver/parameters.h"
+
+namespace tidemark::bench {
+
+struct DenseRun {
+  std::int64_t steps = 0;
+  double seconds = 0.0;
+};
+
+// Computes `steps` steps from `phi` on a context of its own. Fails (ErrorKind::capability) without OpenGL 4.5 or where
+// the volume does not fit a buffer.
+Result<DenseRun> run_dense_gl(const Volume& source, const Parameters& parameters, const Field& phi,
+                              std::int64_t steps);
+
+}  // namespace tidemark::bench
