@@ -117,11 +117,16 @@ Status StreamExecutor::update_domain(const std::vector<PageMessage>& messages) {
   return result ? filled : result;
 }
 
-// Grants every request of phi as it is, after phi was replaced or painted.
-Status StreamExecutor::settle() {
+std::vector<PhysicalPage> StreamExecutor::resident_pages() const {
+  std::vector<PhysicalPage> pages;
+  for_each_resident([&](PhysicalPage page) { pages.push_back(page); });
+  return pages;
+}
+
+// Grants every request of phi as it is, after phi was replaced or painted; `asked` are the pages that may
+// have some.
+Status StreamExecutor::settle(std::vector<PhysicalPage> asked) {
   unsettled_ = true;
-  std::vector<PhysicalPage> asked;
-  for_each_resident([&](PhysicalPage page) { asked.push_back(page); });
   // Pages that are made resident on the way may ask for more.
   while (!asked.empty()) {
     if (auto status = special_geometry_.describe(*device_, table_, asked); !status) return status;

@@ -3,6 +3,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "solver/stream/pages_around.h"
 #include "solver/stream/stream_executor.h"
 
 namespace tidemark {
@@ -88,7 +89,7 @@ Status StreamExecutor::restore(const Field& phi) {
   active_list_is_stale_ = true;
   peak_resident_ = table_.resident();
   peak_bytes_ = state_bytes(memory_.capacity());
-  if (auto status = settle(); !status) return status;
+  if (auto status = settle(resident_pages()); !status) return status;
   return rebuild_active_list();
 }
 
@@ -127,9 +128,8 @@ Status StreamExecutor::set_parameters(const Parameters& parameters) {
   return rebuild_active_list();
 }
 
-Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
-  if (auto status = device_->make_current(); !status) return status;
-  gpu::begin_exact_drawing();
+// Sorts the pages that the sphere may touch by what it does to them.
+StreamExecutor::PaintPlan StreamExecutor::plan_paint(const Sphere& sphere, Brush brush) const {
   const PageLayout& layout = table_.layout();
   const PaintJob job{source_->geometry,
                      layout,
@@ -138,13 +138,7 @@ Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
                      source_->geometry.to_voxel(sphere.centre_mm),
                      model_.smallest_spacing_mm(),
                      static_cast<float>(band())};
-  struct Drawn {
-    std::int64_t page;
-    std::vector<float> values;
-  };
-  std::vector<Drawn> to_draw;
-  std::vector<std::int64_t> to_flip;  // not resident, and changing from all outside to inside or back
-  std::int64_t to_allocate = 0;
+  PaintPlan plan;
   const Index3 first = job.first_page();
   const Index3 last = job.last_page();
   for (std::int64_t z = first.z; z <= last.z; ++z) {
@@ -152,51 +146,63 @@ Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
       for (std::int64_t x = first.x; x <= last.x; ++x) {
         const std::int64_t page = layout.page_number({x, y, z});
         const PhysicalPage physical = table_.physical(page);
-        const float constant = physical == kInsidePage ? job.band : -job.band;
-        std::vector<float> values = job.values({x, y, z});
+        const std::vector<float> values = job.values({x, y, z});
         if (all_equal(values, job.neutral())) continue;
         if (is_static_page(physical)) {
+          const float constant = physical == kInsidePage ? job.band : -job.band;
           if (constant != job.neutral()) continue;  // there is nothing to add or to erase
           if (all_equal(values, -job.neutral())) {
-            to_flip.push_back(page);
+            plan.to_flip.push_back(page);
             continue;
           }
-          ++to_allocate;
+          ++plan.to_allocate;
         }
-        to_draw.push_back({page, std::move(values)});
+        plan.to_draw.push_back(page);
+        plan.values.insert(plan.values.end(), values.begin(), values.end());
       }
     }
   }
-  // Every page that is drawn into finds room, so that a sphere is drawn whole or not at all.
-  if (auto status = make_room(to_allocate); !status) return status;
-  for (const std::int64_t page : to_flip) table_.set_static(page, brush == Brush::add);
+  return plan;
+}
 
+Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
+  if (auto status = device_->make_current(); !status) return status;
+  gpu::begin_exact_drawing();
+  const PaintPlan plan = plan_paint(sphere, brush);
+  // Every page that is drawn into finds room, so that a sphere is drawn whole or not at all.
+  if (auto status = make_room(plan.to_allocate); !status) return status;
   std::vector<PhysicalPage> pages;
-  std::vector<float> values;
-  for (const Drawn& drawn : to_draw) {
-    PhysicalPage page = table_.physical(drawn.page);
-    if (is_static_page(page)) {
-      auto made = make_resident(drawn.page);
-      if (!made) return pass_on(made);
-      page = *made;
+  for (const std::int64_t page : plan.to_draw) {
+    if (is_static_page(table_.physical(page))) {
+      if (auto made = make_resident(page); !made) return pass_on(made);
     }
-    pages.push_back(page);
-    values.insert(values.end(), drawn.values.begin(), drawn.values.end());
+    pages.push_back(table_.physical(page));
   }
   if (auto status = fill_new_pages(); !status) return status;
   if (!pages.empty()) {
     if (auto status = special_geometry_.describe(*device_, table_, pages); !status) return status;
     const auto blending = brush == Brush::add ? gpu::Blending::largest : gpu::Blending::smallest;
-    if (auto status = passes_.paint(*device_, special_geometry_, memory_, values, blending); !status)
+    if (auto status = passes_.paint(*device_, special_geometry_, memory_, plan.values, blending); !status) {
       return status;
+    }
   }
   for (const PhysicalPage page : pages) {
     wake_around(page);
     info(page).woke_neighbours = false;
     info(page).constant_steps = 0;
   }
+  for (const std::int64_t page : plan.to_flip) table_.set_static(page, brush == Brush::add);
+  for (const std::int64_t page : plan.to_flip) {
+    all_within(Index3(1), table_.layout().page_coordinates(page), [&](Index3 coordinates) {
+      const PhysicalPage other = table_.physical(coordinates);
+      if (other >= kFirstPage) pages.push_back(other);
+      return true;
+    });
+  }
+  std::sort(pages.begin(), pages.end());
+  pages.erase(std::unique(pages.begin(), pages.end()), pages.end());
   active_list_is_stale_ = true;
-  if (auto status = settle(); !status) return status;
+  if (auto status = settle(unsettled_ ? resident_pages() : std::move(pages)); !status) return status;
   return rebuild_active_list();
 }
 

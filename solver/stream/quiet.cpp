@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 
 #include "solver/convergence.h"
+#include "solver/stream/pages_around.h"
 #include "solver/stream/stream_executor.h"
 
 namespace tidemark {
@@ -15,20 +16,6 @@ namespace {
 
 // How often motion is measured in a window: every two steps, over both of them.
 constexpr int kMotionSamples = kConvergenceWindow / 2;
-
-// Calls visit(coordinates) for a page and those around it, `reach` pages far along each axis, until it
-// returns false.
-template <class Visit>
-bool all_within(Index3 reach, Index3 page, Visit visit) {
-  for (std::int64_t z = -reach.z; z <= reach.z; ++z) {
-    for (std::int64_t y = -reach.y; y <= reach.y; ++y) {
-      for (std::int64_t x = -reach.x; x <= reach.x; ++x) {
-        if (!visit(page + Index3(x, y, z))) return false;
-      }
-    }
-  }
-  return true;
-}
 
 }  // namespace
 

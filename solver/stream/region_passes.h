@@ -15,8 +15,10 @@ namespace tidemark {
 
 class RegionPasses {
  public:
-  // Pages of the largest sub-region: 512 x 512 texels.
+  // Pages of the largest sub-region: 512 x 512 texels, as in the paper. Where the processor plays the GPU,
+  // buffers that stay in its cache are a fifth faster.
   static constexpr std::int64_t kLargestRegion = 1024;
+  static constexpr std::int64_t kLargestRegionInCache = 256;
 
   RegionPasses() = default;
   // `largest_region` in pages, rounded up to a whole row of places.

@@ -50,6 +50,10 @@ Status StreamExecutor::start(std::int64_t largest_region) {
   source_texture_ = std::move(*texture);
   active_geometry_ = GeometryEngine::create(*device_, layout_);
   special_geometry_ = GeometryEngine::create(*device_, layout_);
+  if (largest_region == 0) {
+    largest_region =
+        device_->capabilities().software ? RegionPasses::kLargestRegionInCache : RegionPasses::kLargestRegion;
+  }
   auto passes = RegionPasses::create(*device_, active_geometry_, source_texture_, model_, layout_.layout(),
                                      largest_region);
   if (!passes) return pass_on(passes);
@@ -94,7 +98,7 @@ Result<AdvanceReport> StreamExecutor::advance(const Advance& run) {
   if (auto status = device_->make_current(); !status) return pass_on(status);
   gpu::begin_exact_drawing();
   if (unsettled_) {
-    if (auto status = settle(); !status) return pass_on(status);
+    if (auto status = settle(resident_pages()); !status) return pass_on(status);
   }
   if (active_list_is_stale_) {
     if (auto status = rebuild_active_list(); !status) return pass_on(status);

@@ -32,7 +32,7 @@ class StreamExecutor final : public Executor {
   static Result<std::unique_ptr<Executor>> create(std::shared_ptr<const Volume> source,
                                                   const Parameters& parameters,
                                                   const ExecutorOptions& options,
-                                                  std::int64_t largest_region = RegionPasses::kLargestRegion);
+                                                  std::int64_t largest_region = 0);
 
   [[nodiscard]] std::string_view name() const override { return "stream"; }
   Status restore(const Field& phi) override;
@@ -79,8 +79,18 @@ class StreamExecutor final : public Executor {
   Status fill_new_pages();
   void release_page(PhysicalPage page, bool inside);
   Status update_domain(const std::vector<PageMessage>& messages);
-  Status settle();
+  [[nodiscard]] std::vector<PhysicalPage> resident_pages() const;
+  Status settle(std::vector<PhysicalPage> asked);
   Status validate_sleeping_pages() const;
+
+  // Painting (edit.cpp).
+  struct PaintPlan {
+    std::vector<std::int64_t> to_draw;  // virtual pages, some of them to be made resident
+    std::vector<float> values;          // of each of these, what phi is combined with
+    std::vector<std::int64_t> to_flip;  // not resident, and changing from all outside to inside or back
+    std::int64_t to_allocate = 0;
+  };
+  [[nodiscard]] PaintPlan plan_paint(const Sphere& sphere, Brush brush) const;
 
   // Quiet pages (quiet.cpp).
   void wake(PhysicalPage page);

@@ -354,6 +354,34 @@ class StreamTest : public QObject {
     QCOMPARE(options.device->severe_messages(), 0);
   }
 
+  void it_shares_a_context_of_a_later_version() {
+    const Scene scene({61, 47, 40});
+    ExecutorOptions options;
+    options.device = good(gpu::Device::create_headless({gpu::GlVersion::gl45, true}));
+    const auto stream = scene.start(ExecutorKind::stream, options);
+    const auto other = scene.start(ExecutorKind::stream);
+    run(*stream, 20);
+    run(*other, 20);
+    QVERIFY(largest_difference(*stream, *other) <= 1e-4);
+    QCOMPARE(options.device->severe_messages(), 0);
+  }
+
+  void a_lost_context_is_an_error_at_every_stage() {
+    const Scene scene({40, 40, 20});
+    for (int stage = 1; stage < 200; stage += 17) {
+      ExecutorOptions options;
+      options.device = device();
+      const auto stream = scene.start(ExecutorKind::stream, options);
+      options.device->lose_at_check(stage);
+      const auto painted = stream->paint({centre_of(scene.geometry), 8.0}, Brush::add);
+      const auto report = stream->advance(Advance{40, false, {}});
+      QVERIFY2(!report || !options.device->lost(), "steps in a lost context");
+      if (!report) QVERIFY(report.error().kind == ErrorKind::capability);
+      if (!painted) QVERIFY(painted.error().kind == ErrorKind::capability);
+      QCOMPARE(stream->snapshot().has_value(), !options.device->lost());
+    }
+  }
+
   void no_fragment_shader_looks_a_page_up() {
     const std::regex sampler(R"(uniform\s+(?:highp\s+)?(\w*[sS]ampler\w*|SOURCE_SAMPLER)\s+(\w+))");
     for (const char* name : {"derivatives", "speeds", "update", "neighbours", "code", "motion_blocks",

@@ -1,0 +1,62 @@
+// The passes that change pages apart from the solver's steps: filling, copying, painting.
+#include <algorithm>
+
+#include "solver/stream/region_passes.h"
+
+namespace tidemark {
+namespace {
+
+constexpr std::int64_t kPageSide = 16;
+constexpr std::int64_t kPageTexels = kPageSide * kPageSide;
+constexpr std::int64_t kPlacesPerRow = GeometryEngine::kPlacesPerRow;
+
+}  // namespace
+
+void RegionPasses::fill(const GeometryEngine& geometry, const PhysicalMemory& memory, float value) const {
+  memory.draw_into_both();
+  fill_.use();
+  fill_.set("value", glm::vec4(value));
+  geometry.draw(fill_, Substream::whole_page, 0, geometry.size(), memory.size());
+  memory.draw_into_motion();
+  fill_points_.use();
+  fill_points_.set("value", glm::vec4(0.0F));
+  geometry.draw(fill_points_, Substream::page_point, 0, geometry.size(), memory.motion_size());
+}
+
+void RegionPasses::copy(const GeometryEngine& geometry, const PhysicalMemory& memory, int now) const {
+  memory.draw_into(1 - now);
+  copy_.use();
+  memory.field().phi(now).bind(1);
+  copy_.set("phi_now", 1);
+  geometry.draw(copy_, Substream::whole_page, 0, geometry.size(), memory.size());
+}
+
+Status RegionPasses::paint(gpu::Device& device, const GeometryEngine& geometry, const PhysicalMemory& memory,
+                           std::span<const float> values, gpu::Blending blending) const {
+  const std::int64_t most = std::min<std::int64_t>(geometry.size(), kLargestRegion);
+  const std::int64_t width = kPlacesPerRow * kPageSide;
+  auto texture =
+      gpu::Texture2D::create(device, gpu::TexelFormat::r32f, width,
+                             (most + kPlacesPerRow - 1) / kPlacesPerRow * kPageSide, "values to paint");
+  if (!texture) return pass_on(texture);
+  std::vector<float> texels(static_cast<std::size_t>(texture->width() * texture->height()));
+  const gpu::BlendScope combined(blending);
+  for (std::int64_t first = 0; first < geometry.size(); first += most) {
+    const std::int64_t count = std::min(most, geometry.size() - first);
+    for (std::int64_t i = 0; i < count; ++i) {
+      const float* page = values.data() + (first + i) * kPageTexels;
+      float* to = texels.data() + i / kPlacesPerRow * kPageSide * width + i % kPlacesPerRow * kPageSide;
+      for (std::int64_t y = 0; y < kPageSide; ++y)
+        std::copy_n(page + y * kPageSide, kPageSide, to + y * width);
+    }
+    texture->upload({0, 0, texture->width(), texture->height()}, std::as_bytes(std::span(texels)));
+    memory.draw_into_both();
+    paint_.use();
+    texture->bind(1);
+    paint_.set("values", 1);
+    geometry.draw(paint_, Substream::whole_page, first, count, memory.size());
+  }
+  return device.check("painting");
+}
+
+}  // namespace tidemark
