@@ -15,10 +15,10 @@ bool library_is_there(const char* name) {
 
 Result<EGLDisplay> open_display() {
   if (!library_is_there("libEGL.so.1")) {
-    return fail(ErrorKind::capability, "OpenGL cannot be used: libEGL.so.1 is not installed");
+    return fail(ErrorKind::capability, "OpenGL cannot be used: libEGL.so.1 cannot be loaded (Debian: libegl1)");
   }
   if (!library_is_there("libGL.so.1") && !library_is_there("libOpenGL.so.0")) {
-    return fail(ErrorKind::capability, "OpenGL cannot be used: libGL.so.1 is not installed");
+    return fail(ErrorKind::capability, "OpenGL cannot be used: libGL.so.1 cannot be loaded (Debian: libgl1)");
   }
   EGLDisplay display = EGL_NO_DISPLAY;
   if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) {

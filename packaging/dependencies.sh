@@ -4,7 +4,7 @@
 # The names are the same on Debian 12, Debian 13 and Ubuntu 24.04.
 tidemark_packages=(
   g++ cmake ninja-build ccache pkg-config
-  qt6-base-dev libgl-dev
+  qt6-base-dev libgl-dev libepoxy-dev libegl-dev libegl1 libgl1 libgl1-mesa-dri
   libglm-dev libfmt-dev libspdlog-dev libexpected-dev nlohmann-json3-dev libcli11-dev libhwy-dev
   libdcmtk-dev libnsl-dev libopenjp2-7-dev
   libinsighttoolkit5-dev libgdcm-dev zlib1g-dev

@@ -33,6 +33,7 @@ class CliFailureTest : public QObject {
   void a_phantom_on_a_full_disk_is_a_failed_write();
   void a_closed_standard_output_is_a_failed_write();
   void a_small_memory_budget_ends_with_4();
+  void a_machine_without_opengl_ends_with_4_and_host_still_runs();
 
  private:
   // Segments the path into out/; nothing may be there afterwards.
@@ -238,6 +239,30 @@ void CliFailureTest::a_small_memory_budget_ends_with_4() {
                "48,48,48,30", "--steps", "50", "--memory-budget", "1", "--out", text(out_ / "m.nrrd")});
   QVERIFY2(outcome.failed_in_one_line(4), outcome.told());
   QCOMPARE(names_in(out_), QStringList());
+}
+
+// Files of that name that are no libraries are found first, and nothing can be loaded from them.
+void CliFailureTest::a_machine_without_opengl_ends_with_4_and_host_still_runs() {
+  for (const char* missing : {"libEGL.so.1", "libGL.so.1"}) {
+    const TemporaryFolder libraries;
+    std::vector<const char*> names = {missing};
+    if (std::string_view(missing) == "libGL.so.1") names.push_back("libOpenGL.so.0");
+    for (const char* name : names) QVERIFY(QFile(text(libraries / name)).open(QIODevice::WriteOnly));
+    RunOptions options;
+    options.environment.insert("LD_LIBRARY_PATH", text(libraries / ""));
+    for (const char* executor : {"compute", "stream"}) {
+      const Outcome refused =
+          run_cli({"bench", "--case", "sphere", "--size", "32", "--executor", executor}, options);
+      QVERIFY2(refused.failed_in_one_line(4), refused.told());
+      QVERIFY2(refused.err.contains(missing), refused.told());
+    }
+    for (const char* executor : {"auto", "host"}) {
+      const Outcome outcome =
+          run_cli({"bench", "--case", "sphere", "--size", "32", "--steps", "5", "--executor", executor}, options);
+      QCOMPARE(outcome.code, 0);
+      QVERIFY2(outcome.out.contains("executor host"), outcome.told());
+    }
+  }
 }
 
 QTEST_GUILESS_MAIN(CliFailureTest)
