@@ -1,6 +1,7 @@
 #include "gpu/program.h"
 
 #include <glm/gtc/type_ptr.hpp>
+#include <sstream>
 #include <vector>
 
 #include "gpu/gl.h"
@@ -11,6 +12,16 @@ namespace {
 
 const char* glsl_version(const Device& device) {
   return device.capabilities().at_least(4, 5) ? "450 core" : "330 core";
+}
+
+// The first line of a compiler's messages that is an error: the others mostly follow from it.
+std::string first_error(const std::string& log) {
+  std::istringstream lines(log);
+  std::string line;
+  while (std::getline(lines, line)) {
+    if (line.find("error") != std::string::npos) return line;
+  }
+  return log.substr(0, log.find('\n'));
 }
 
 template <class Get, class GetLog>
@@ -34,8 +45,9 @@ Result<ShaderHandle> compile(Device& device, GLenum stage, std::string_view path
   glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
   if (compiled == GL_TRUE) return shader;
   if (auto status = device.check("compiling a shader"); !status) return pass_on(status);
-  return fail(ErrorKind::internal, "{}",
-              name_files(info_log(shader.id(), glGetShaderiv, glGetShaderInfoLog), *source));
+  const std::string log = name_files(info_log(shader.id(), glGetShaderiv, glGetShaderInfoLog), *source);
+  device.tell(log);
+  return fail(ErrorKind::internal, "{}", first_error(log));
 }
 
 Result<ProgramHandle> link(Device& device, std::string_view label, const std::vector<ShaderHandle>& shaders) {
