@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <glm/common.hpp>
 #include <utility>
 
@@ -87,6 +88,11 @@ Status ComputeExecutor::compile() {
   return compile_update();
 }
 
+bool ComputeExecutor::shared_apron() const {
+  const char* chosen = std::getenv("TIDEMARK_APRON");
+  return chosen == nullptr ? !software() : std::string_view(chosen) == "shared";
+}
+
 // The kernel of the scheme that the parameters ask for.
 Status ComputeExecutor::compile_update() {
   gpu::Defines defines = layout_.defines();
@@ -94,11 +100,11 @@ Status ComputeExecutor::compile_update() {
     defines.insert(defines.end(), more.begin(), more.end());
   }
   // A software driver runs the columns along x in the lanes of a vector, and its shared memory is slow.
-  const std::int64_t block = software() ? layout_.layout().page_shape().y : 1;
+  const std::int64_t block = shared_apron() ? 1 : layout_.layout().page_shape().y;
   defines.emplace_back("BLOCK", fmt::to_string(block));
   defines.emplace_back("FOR_BLOCK(F)", repeated(block));
   defines.emplace_back("FOR_ROWS(F)", repeated(block + 2));
-  if (!software()) defines.emplace_back("SHARED_APRON", "");
+  if (shared_apron()) defines.emplace_back("SHARED_APRON", "");
   auto update = gpu::Program::compute(*device_, "solver/compute/update.comp", defines);
   if (!update) return pass_on(update);
   defines.emplace_back("MEASURE_ONLY", "");

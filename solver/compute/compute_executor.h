@@ -19,6 +19,7 @@ namespace tidemark {
 class ComputeExecutor final : public Executor {
  public:
   // On options.device, else on a context of its own. Fails (ErrorKind::capability) without OpenGL 4.5.
+  // $TIDEMARK_APRON (shared or columns) forces an address mode; by default hardware shares and software does not.
   static Result<std::unique_ptr<Executor>> create(std::shared_ptr<const Volume> source,
                                                   const Parameters& parameters,
                                                   const ExecutorOptions& options);
@@ -39,6 +40,7 @@ class ComputeExecutor final : public Executor {
   ComputeExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source,
                   const Parameters& parameters, const ExecutorOptions& options);
   [[nodiscard]] bool software() const { return device_->capabilities().software; }
+  [[nodiscard]] bool shared_apron() const;
   Status compile();
   Status compile_update();
 

@@ -123,6 +123,22 @@ class ExecutorsTest : public QObject {
     }
   }
 
+  void both_address_modes_give_the_same_bits() {
+    const Scene scene = lumpy_scene({40, 37, 29}, {0.7, 0.9, 2.1});
+    for (const Index3 shape : {Index3(8, 8, 8), Index3(16, 16, 1)}) {
+      std::vector<float> results[2];
+      for (const int shared : {0, 1}) {
+        qputenv("TIDEMARK_APRON", shared != 0 ? "shared" : "columns");
+        const auto tested = Setting{ExecutorKind::compute, shape}.make(scene.source, scene.parameters);
+        qunsetenv("TIDEMARK_APRON");
+        QCOMPARE(failure(tested->paint(scene.seed, Brush::add)), QString());
+        run(*tested, 30);
+        results[shared] = tested->snapshot().value().dense();
+      }
+      QVERIFY(results[0] == results[1]);
+    }
+  }
+
   void it_goes_where_the_host_goes_data() { add_rows(); }
   void it_goes_where_the_host_goes() {
     const Setting setting = this_row();
