@@ -15,7 +15,7 @@ ExecutorKind executor_kind(const std::string& name) {
   if (name == "reference") return ExecutorKind::reference;  // the slow truth of the tests: not in the help
   if (name == "compute") return ExecutorKind::compute;
   if (name == "stream") return ExecutorKind::stream;
-  throw CLI::ValidationError("--executor", "'" + name + "' is unknown; use auto, host or compute");
+  throw CLI::ValidationError("--executor", "'" + name + "' is unknown; use auto, host, compute or stream");
 }
 
 }  // namespace
@@ -31,8 +31,9 @@ ExecutorOptions SolverOptions::executor_options() const {
 void add_solver_options(CLI::App& app, SolverOptions& options) {
   app.add_option_function<std::string>(
          "--executor", [&options](const std::string& name) { options.kind = executor_kind(name); },
-         "What computes: host (the processor), compute (OpenGL 4.5), or auto: compute on a GPU, else host (default)")
-      ->type_name("auto|host|compute");
+         "What computes: host (the processor), compute (OpenGL 4.5), stream (OpenGL 3.3, the paper's passes), or auto: "
+         "compute on a GPU, else host (default)")
+      ->type_name("auto|host|compute|stream");
   add_count(app, "--threads", options.threads, "Threads of the host executor (default: all processors)");
   add_count(app, "--memory-budget", options.memory_budget_mb,
             "Most memory for the solver, in MB (default: 8192); a run that needs more ends with code 4");
