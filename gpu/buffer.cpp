@@ -62,7 +62,8 @@ Fence& Fence::operator=(Fence&& other) noexcept {
 }
 
 Fence::~Fence() {
-  if (sync_ != nullptr && !device_->lost() && device_->make_current()) glDeleteSync(static_cast<GLsync>(sync_));
+  if (sync_ != nullptr && !device_->lost() && device_->make_current())
+    glDeleteSync(static_cast<GLsync>(sync_));
 }
 
 Fence Fence::insert(Device& device) {
@@ -83,7 +84,8 @@ Status Fence::wait() const {
   if (sync_ == nullptr) return {};
   constexpr GLuint64 kNanosecondsPerTry = 100'000'000;
   for (;;) {
-    const GLenum state = glClientWaitSync(static_cast<GLsync>(sync_), GL_SYNC_FLUSH_COMMANDS_BIT, kNanosecondsPerTry);
+    const GLenum state =
+        glClientWaitSync(static_cast<GLsync>(sync_), GL_SYNC_FLUSH_COMMANDS_BIT, kNanosecondsPerTry);
     if (state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED) return {};
     if (auto status = device_->check("waiting for the GPU"); !status) return status;
     if (state == GL_WAIT_FAILED) return fail(ErrorKind::internal, "OpenGL: waiting for the GPU failed");

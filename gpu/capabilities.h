@@ -14,8 +14,8 @@ struct Capabilities {
   std::string version;
   int major = 0;
   int minor = 0;
-  bool software = false;        // the processor plays the GPU (llvmpipe, softpipe, swrast)
-  bool reset_reported = false;  // a lost context is reported
+  bool software = false;                    // the processor plays the GPU (llvmpipe, softpipe, swrast)
+  bool reset_reported = false;              // a lost context is reported
   std::int64_t largest_texture = 0;         // texels along an axis, 2D
   std::int64_t largest_volume_texture = 0;  // voxels along an axis, 3D
   std::int64_t largest_buffer_texture = 0;  // texels

@@ -10,20 +10,28 @@ namespace {
 
 const char* error_name(GLenum error) {
   switch (error) {
-    case GL_INVALID_ENUM: return "invalid enum";
-    case GL_INVALID_VALUE: return "invalid value";
-    case GL_INVALID_OPERATION: return "invalid operation";
-    case GL_INVALID_FRAMEBUFFER_OPERATION: return "incomplete framebuffer";
-    case GL_OUT_OF_MEMORY: return "out of memory";
-    case GL_CONTEXT_LOST: return "context lost";
-    default: return "unknown error";
+    case GL_INVALID_ENUM:
+      return "invalid enum";
+    case GL_INVALID_VALUE:
+      return "invalid value";
+    case GL_INVALID_OPERATION:
+      return "invalid operation";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+      return "incomplete framebuffer";
+    case GL_OUT_OF_MEMORY:
+      return "out of memory";
+    case GL_CONTEXT_LOST:
+      return "context lost";
+    default:
+      return "unknown error";
   }
 }
 
 // Only the values of the specification are believed: drivers have been seen to return others.
 bool context_was_reset(const Capabilities& capabilities) {
   if (!capabilities.reset_reported) return false;
-  const GLenum status = capabilities.at_least(4, 5) ? glGetGraphicsResetStatus() : glGetGraphicsResetStatusARB();
+  const GLenum status =
+      capabilities.at_least(4, 5) ? glGetGraphicsResetStatus() : glGetGraphicsResetStatusARB();
   return status == GL_GUILTY_CONTEXT_RESET || status == GL_INNOCENT_CONTEXT_RESET ||
          status == GL_UNKNOWN_CONTEXT_RESET;
 }
@@ -104,19 +112,33 @@ Status Device::check(std::string_view stage) {
 void Device::destroy(SharedObject kind, unsigned id) {
   if (lost_ || !make_current()) return;
   switch (kind) {
-    case SharedObject::texture: glDeleteTextures(1, &id); break;
-    case SharedObject::buffer: glDeleteBuffers(1, &id); break;
-    case SharedObject::program: glDeleteProgram(id); break;
-    case SharedObject::shader: glDeleteShader(id); break;
+    case SharedObject::texture:
+      glDeleteTextures(1, &id);
+      break;
+    case SharedObject::buffer:
+      glDeleteBuffers(1, &id);
+      break;
+    case SharedObject::program:
+      glDeleteProgram(id);
+      break;
+    case SharedObject::shader:
+      glDeleteShader(id);
+      break;
   }
 }
 
 void Device::destroy(ContextObject kind, unsigned id) {
   if (lost_ || !make_current()) return;
   switch (kind) {
-    case ContextObject::vertex_array: glDeleteVertexArrays(1, &id); break;
-    case ContextObject::framebuffer: glDeleteFramebuffers(1, &id); break;
-    case ContextObject::query: glDeleteQueries(1, &id); break;
+    case ContextObject::vertex_array:
+      glDeleteVertexArrays(1, &id);
+      break;
+    case ContextObject::framebuffer:
+      glDeleteFramebuffers(1, &id);
+      break;
+    case ContextObject::query:
+      glDeleteQueries(1, &id);
+      break;
   }
 }
 

@@ -43,8 +43,8 @@ void Framebuffer::copy_to(const TexelRect& from, const Texture2D& to, std::int64
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   glBindTexture(GL_TEXTURE_2D, to.id());
   glCopyTexSubImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(x), static_cast<GLint>(y),
-                      static_cast<GLint>(from.x), static_cast<GLint>(from.y), static_cast<GLsizei>(from.width),
-                      static_cast<GLsizei>(from.height));
+                      static_cast<GLint>(from.x), static_cast<GLint>(from.y),
+                      static_cast<GLsizei>(from.width), static_cast<GLsizei>(from.height));
 }
 
 }  // namespace tidemark::gpu

@@ -15,7 +15,8 @@ bool library_is_there(const char* name) {
 
 Result<EGLDisplay> open_display() {
   if (!library_is_there("libEGL.so.1")) {
-    return fail(ErrorKind::capability, "OpenGL cannot be used: libEGL.so.1 cannot be loaded (Debian: libegl1)");
+    return fail(ErrorKind::capability,
+                "OpenGL cannot be used: libEGL.so.1 cannot be loaded (Debian: libegl1)");
   }
   if (!library_is_there("libGL.so.1") && !library_is_there("libOpenGL.so.0")) {
     return fail(ErrorKind::capability, "OpenGL cannot be used: libGL.so.1 cannot be loaded (Debian: libgl1)");
@@ -30,7 +31,8 @@ Result<EGLDisplay> open_display() {
       if (eglQueryDevicesEXT(8, devices, &count) == EGL_TRUE) {
         for (EGLint i = 0; i < count && display == EGL_NO_DISPLAY; ++i) {
           const char* extensions = eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS);
-          if (extensions != nullptr && std::string_view(extensions).find("software") != std::string_view::npos) {
+          if (extensions != nullptr &&
+              std::string_view(extensions).find("software") != std::string_view::npos) {
             continue;
           }
           EGLDisplay candidate = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr);
@@ -58,13 +60,17 @@ Result<EGLDisplay> open_display() {
 
 EGLContext make_context(EGLDisplay display, const DeviceOptions& options, bool robust) {
   const bool v45 = options.version == GlVersion::gl45;
-  const EGLint attributes[] = {
-      EGL_CONTEXT_MAJOR_VERSION_KHR, v45 ? 4 : 3,
-      EGL_CONTEXT_MINOR_VERSION_KHR, v45 ? 5 : 3,
-      EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
-      EGL_CONTEXT_FLAGS_KHR, options.debug ? EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR : 0,
-      robust ? EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT : EGL_NONE, EGL_LOSE_CONTEXT_ON_RESET_EXT,
-      EGL_NONE};
+  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION_KHR,
+                               v45 ? 4 : 3,
+                               EGL_CONTEXT_MINOR_VERSION_KHR,
+                               v45 ? 5 : 3,
+                               EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
+                               EGL_CONTEXT_FLAGS_KHR,
+                               options.debug ? EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR : 0,
+                               robust ? EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT : EGL_NONE,
+                               EGL_LOSE_CONTEXT_ON_RESET_EXT,
+                               EGL_NONE};
   return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
 }
 

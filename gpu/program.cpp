@@ -83,8 +83,9 @@ Result<Program> Program::compute(Device& device, std::string_view path, const De
 Result<Program> Program::render(Device& device, std::string_view vertex, std::string_view geometry,
                                 std::string_view fragment, const Defines& defines) {
   std::vector<ShaderHandle> shaders;
-  for (const auto& [stage, path] :
-       {std::pair{GL_VERTEX_SHADER, vertex}, {GL_GEOMETRY_SHADER, geometry}, {GL_FRAGMENT_SHADER, fragment}}) {
+  for (const auto& [stage, path] : {std::pair{GL_VERTEX_SHADER, vertex},
+                                    {GL_GEOMETRY_SHADER, geometry},
+                                    {GL_FRAGMENT_SHADER, fragment}}) {
     if (path.empty()) continue;
     auto shader = compile(device, static_cast<GLenum>(stage), path, defines);
     if (!shader) return pass_on(shader);
@@ -97,7 +98,9 @@ Result<Program> Program::render(Device& device, std::string_view vertex, std::st
   return program;
 }
 
-void Program::use() const { glUseProgram(handle_.id()); }
+void Program::use() const {
+  glUseProgram(handle_.id());
+}
 
 int Program::location(const char* name) const {
   const auto known = locations_.find(name);
@@ -107,14 +110,24 @@ int Program::location(const char* name) const {
   return location;
 }
 
-void Program::set(const char* name, int value) const { glUniform1i(location(name), value); }
-void Program::set(const char* name, unsigned value) const { glUniform1ui(location(name), value); }
-void Program::set(const char* name, float value) const { glUniform1f(location(name), value); }
-void Program::set(const char* name, glm::ivec2 value) const { glUniform2i(location(name), value.x, value.y); }
+void Program::set(const char* name, int value) const {
+  glUniform1i(location(name), value);
+}
+void Program::set(const char* name, unsigned value) const {
+  glUniform1ui(location(name), value);
+}
+void Program::set(const char* name, float value) const {
+  glUniform1f(location(name), value);
+}
+void Program::set(const char* name, glm::ivec2 value) const {
+  glUniform2i(location(name), value.x, value.y);
+}
 void Program::set(const char* name, glm::ivec3 value) const {
   glUniform3i(location(name), value.x, value.y, value.z);
 }
-void Program::set(const char* name, glm::vec2 value) const { glUniform2f(location(name), value.x, value.y); }
+void Program::set(const char* name, glm::vec2 value) const {
+  glUniform2f(location(name), value.x, value.y);
+}
 void Program::set(const char* name, glm::vec3 value) const {
   glUniform3f(location(name), value.x, value.y, value.z);
 }
@@ -141,6 +154,8 @@ void finish_writes() {
                   GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
-void wait_for_gpu() { glFinish(); }
+void wait_for_gpu() {
+  glFinish();
+}
 
 }  // namespace tidemark::gpu

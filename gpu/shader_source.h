@@ -33,8 +33,8 @@ struct ShaderSource {
 Result<ShaderSource> assemble_shader(std::string_view path, std::string_view version, const Defines& defines,
                                      const ShaderReader& read = read_shader);
 
-// Rewrites a compiler's messages: "0:12(3): error" (Mesa), "0(12) : error" (NVIDIA) and "ERROR: 0:12:" (Apple,
-// AMD) become "file:12: ...".
+// Rewrites a compiler's messages: "0:12(3): error" (Mesa), "0(12) : error" (NVIDIA) and "ERROR: 0:12:"
+// (Apple, AMD) become "file:12: ...".
 std::string name_files(std::string_view log, const ShaderSource& source);
 
 }  // namespace tidemark::gpu

@@ -15,15 +15,24 @@ struct GlFormat {
 
 GlFormat gl_format(TexelFormat format) {
   switch (format) {
-    case TexelFormat::r32f: return {GL_R32F, GL_RED, GL_FLOAT, 4};
-    case TexelFormat::rgba32f: return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
-    case TexelFormat::r16f: return {GL_R16F, GL_RED, GL_HALF_FLOAT, 2};
-    case TexelFormat::rgba16f: return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
-    case TexelFormat::r8: return {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
-    case TexelFormat::rgba8: return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
-    case TexelFormat::r16i: return {GL_R16I, GL_RED_INTEGER, GL_SHORT, 2};
-    case TexelFormat::r16ui: return {GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT, 2};
-    case TexelFormat::r32i: return {GL_R32I, GL_RED_INTEGER, GL_INT, 4};
+    case TexelFormat::r32f:
+      return {GL_R32F, GL_RED, GL_FLOAT, 4};
+    case TexelFormat::rgba32f:
+      return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+    case TexelFormat::r16f:
+      return {GL_R16F, GL_RED, GL_HALF_FLOAT, 2};
+    case TexelFormat::rgba16f:
+      return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
+    case TexelFormat::r8:
+      return {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
+    case TexelFormat::rgba8:
+      return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+    case TexelFormat::r16i:
+      return {GL_R16I, GL_RED_INTEGER, GL_SHORT, 2};
+    case TexelFormat::r16ui:
+      return {GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT, 2};
+    case TexelFormat::r32i:
+      return {GL_R32I, GL_RED_INTEGER, GL_INT, 4};
   }
   return {};
 }
@@ -45,7 +54,9 @@ unsigned new_texture(GLenum target) {
 
 }  // namespace
 
-std::int64_t bytes_per_texel(TexelFormat format) { return gl_format(format).bytes; }
+std::int64_t bytes_per_texel(TexelFormat format) {
+  return gl_format(format).bytes;
+}
 
 Result<Texture2D> Texture2D::create(Device& device, TexelFormat format, std::int64_t width,
                                     std::int64_t height, std::string_view label, bool mipmaps) {
@@ -132,7 +143,8 @@ Result<Texture3D> Texture3D::create(Device& device, TexelFormat format, Index3 s
   glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAX_LEVEL, 0);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   glTexImage3D(GL_TEXTURE_3D, 0, static_cast<GLint>(gl.internal), static_cast<GLsizei>(size.x),
-               static_cast<GLsizei>(size.y), static_cast<GLsizei>(size.z), 0, gl.format, gl.type, data.data());
+               static_cast<GLsizei>(size.y), static_cast<GLsizei>(size.z), 0, gl.format, gl.type,
+               data.data());
   set_label(device, GL_TEXTURE, texture.id(), label);
   if (auto status = device.check("allocating a volume texture"); !status) return pass_on(status);
   return texture;

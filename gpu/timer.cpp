@@ -12,8 +12,12 @@ Timer Timer::create(Device& device) {
   return timer;
 }
 
-void Timer::begin() const { glBeginQuery(GL_TIME_ELAPSED, query_.id()); }
-void Timer::end() const { glEndQuery(GL_TIME_ELAPSED); }
+void Timer::begin() const {
+  glBeginQuery(GL_TIME_ELAPSED, query_.id());
+}
+void Timer::end() const {
+  glEndQuery(GL_TIME_ELAPSED);
+}
 
 double Timer::seconds() const {
   GLuint64 nanoseconds = 0;

@@ -8,8 +8,8 @@
 
 namespace tidemark {
 
-// Summed over samples in a window of steps and the voxels beside the surface (StepConstants::near): the squared
-// changes of phi over the last two steps, and how many voxels there were.
+// Summed over samples in a window of steps and the voxels beside the surface (StepConstants::near): the
+// squared changes of phi over the last two steps, and how many voxels there were.
 struct SurfaceMotion {
   double squared_change = 0.0;
   std::int64_t voxels = 0;

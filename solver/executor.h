@@ -92,8 +92,8 @@ struct ExecutorOptions {
   std::int64_t memory_budget_bytes = std::int64_t{8} << 30;  // for state and source beside the pages
   bool skip_quiet_pages = true;
 
-  // For executors on a GPU: the context to use (else each makes its own), messages of the driver, and the shape
-  // of a page where the executor leaves a choice.
+  // For executors on a GPU: the context to use (else each makes its own), messages of the driver, and the
+  // shape of a page where the executor leaves a choice.
   std::shared_ptr<gpu::Device> device = nullptr;
   bool debug = false;
   bool time_paging = false;  // find out paging_seconds by waiting between dispatches, which costs some time

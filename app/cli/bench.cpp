@@ -21,7 +21,8 @@ constexpr const char* kDescription =
     "Measures the solver on a phantom made in memory: steps/s and voxel updates/s (voxels really computed) "
     "over\n"
     "three stages of equal length from the start (early, middle, late), then the run to convergence and the\n"
-    "cost of steps when everything rests. Machines drift: compare figures of one run, take the median of several.";
+    "cost of steps when everything rests. Machines drift: compare figures of one run, take the median of "
+    "several.";
 
 constexpr const char* kExamples =
     "  tidemark-cli bench\n"
@@ -78,7 +79,8 @@ Result<Case> make_case(const BenchOptions& options, Console& console) {
   if (options.kind == "sphere") return make_ball(options.size.value_or(kDefaultSize));
   auto phantom = make_phantom(options.kind, {}, console.progress());
   if (!phantom) return pass_on(phantom);
-  if (!phantom->seed && !phantom->init_threshold) return fail(ErrorKind::internal, "the phantom {} has no start", options.kind);
+  if (!phantom->seed && !phantom->init_threshold)
+    return fail(ErrorKind::internal, "the phantom {} has no start", options.kind);
   Case result;
   result.parameters.target = phantom->target;
   result.parameters.range = phantom->range;
@@ -87,7 +89,8 @@ Result<Case> make_case(const BenchOptions& options, Console& console) {
   if (phantom->init_threshold) {
     // The whole surface is there from the first step; a seed would take a thousand to reach it.
     const auto& [low, high] = *phantom->init_threshold;
-    result.start = distance_transform(threshold(*result.volume, low, high), default_band(result.volume->geometry));
+    result.start =
+        distance_transform(threshold(*result.volume, low, high), default_band(result.volume->geometry));
   } else {
     result.seed = *phantom->seed;
   }

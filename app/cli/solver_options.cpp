@@ -31,7 +31,8 @@ ExecutorOptions SolverOptions::executor_options() const {
 void add_solver_options(CLI::App& app, SolverOptions& options) {
   app.add_option_function<std::string>(
          "--executor", [&options](const std::string& name) { options.kind = executor_kind(name); },
-         "What computes: host (the processor), compute (OpenGL 4.5), stream (OpenGL 3.3, the paper's passes), or auto: "
+         "What computes: host (the processor), compute (OpenGL 4.5), stream (OpenGL 3.3, the paper's "
+         "passes), or auto: "
          "compute on a GPU, else host (default)")
       ->type_name("auto|host|compute|stream");
   add_count(app, "--threads", options.threads, "Threads of the host executor (default: all processors)");

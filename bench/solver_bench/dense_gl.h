@@ -14,8 +14,8 @@ struct DenseRun {
   double seconds = 0.0;
 };
 
-// Computes `steps` steps from `phi` on a context of its own. Fails (ErrorKind::capability) without OpenGL 4.5 or where
-// the volume does not fit a buffer.
+// Computes `steps` steps from `phi` on a context of its own. Fails (ErrorKind::capability) without OpenGL 4.5
+// or where the volume does not fit a buffer.
 Result<DenseRun> run_dense_gl(const Volume& source, const Parameters& parameters, const Field& phi,
                               std::int64_t steps);
 

@@ -1,5 +1,5 @@
-// The executors side by side: no file, no phantom of the library, nothing but the solver and OpenGL, so that this
-// program is easily taken to another machine. Everything grows from a seed in SIZE^3 voxels.
+// The executors side by side: no file, no phantom of the library, nothing but the solver and OpenGL, so that
+// this program is easily taken to another machine. Everything grows from a seed in SIZE^3 voxels.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "dense_gl.h"
 #include "core/thread_pool.h"
 #include "core/volume.h"
+#include "dense_gl.h"
 #include "gpu/device.h"
 #include "solver/executor.h"
 #include "solver/model.h"
@@ -120,9 +120,11 @@ Result<Field> measure_executor(const std::shared_ptr<const Volume>& source, cons
   if (!converged) return tl::unexpected<Error>(converged.error());
   print_run("at rest", *converged, **executor);
   const SurfaceStatistics surface = measure(*phi);
-  fmt::print("  {} voxels inside, {:.1f} mm^2 of surface; {:.2f} bytes of state per resident voxel; a step at rest {:.1f} us\n",
-             surface.voxels_inside, surface.surface_mm2, static_cast<double>(memory.peak_state_bytes) / resident,
-             1e6 * converged->seconds / static_cast<double>(converged->steps));
+  fmt::print(
+      "  {} voxels inside, {:.1f} mm^2 of surface; {:.2f} bytes of state per resident voxel; a step at rest "
+      "{:.1f} us\n",
+      surface.voxels_inside, surface.surface_mm2, static_cast<double>(memory.peak_state_bytes) / resident,
+      1e6 * converged->seconds / static_cast<double>(converged->steps));
   if (auto status = (*executor)->validate(); !status) return pass_on(status);
   return phi;
 }
@@ -133,15 +135,16 @@ Status measure_dense(const std::shared_ptr<const Volume>& source, const Settings
   const auto run = bench::run_dense_gl(*source, parameters(), start, steps);
   if (!run) return tl::unexpected<Error>(run.error());
   const double steps_per_second = static_cast<double>(run->steps) / run->seconds;
-  fmt::print("dense, the whole volume on OpenGL\n  {:>8.1f} steps/s {:>12.1f} M updates/s\n", steps_per_second,
-             steps_per_second * static_cast<double>(source->geometry.voxel_count()) / 1e6);
+  fmt::print("dense, the whole volume on OpenGL\n  {:>8.1f} steps/s {:>12.1f} M updates/s\n",
+             steps_per_second, steps_per_second * static_cast<double>(source->geometry.voxel_count()) / 1e6);
   return {};
 }
 
 Status print_device() {
   auto device = gpu::Device::create_headless({});
   if (!device) return pass_on(device);
-  for (const auto& [name, value] : (*device)->capabilities().entries()) fmt::print("  {:<24} {}\n", name, value);
+  for (const auto& [name, value] : (*device)->capabilities().entries())
+    fmt::print("  {:<24} {}\n", name, value);
   return {};
 }
 
@@ -177,9 +180,11 @@ int main(int argc, char** argv) {
   app.add_option("--size", settings.size, "Voxels along each axis (256)")->check(CLI::Range(32, 1024));
   app.add_option("--threads", settings.threads, "Of host (0: all processors)")->check(CLI::Range(0, 1024));
   app.add_option("--steps", settings.steps, "From the seed on (400)")->check(CLI::Range(4, 1000000));
-  app.add_option("--page-side", settings.page_side, "8: 8 x 8 x 8; 16: 16 x 16 x 1")->check(CLI::IsMember({8, 16}));
+  app.add_option("--page-side", settings.page_side, "8: 8 x 8 x 8; 16: 16 x 16 x 1")
+      ->check(CLI::IsMember({8, 16}));
   app.add_flag("--all-pages", settings.all_pages, "Compute quiet pages, too");
-  app.add_flag("--time-paging", settings.time_paging, "Wait between dispatches to find out what paging takes");
+  app.add_flag("--time-paging", settings.time_paging,
+               "Wait between dispatches to find out what paging takes");
   CLI11_PARSE(app, argc, argv);
   const auto status = tidemark::run(settings);
   if (status) return 0;

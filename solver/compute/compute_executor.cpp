@@ -22,7 +22,9 @@ double seconds_since(Clock::time_point start) {
 constexpr unsigned kMotionSamples = kConvergenceWindow / 2;
 
 // G grows by an eighth, so that little of it lies idle.
-std::int64_t with_reserve(std::int64_t pages) { return pages + std::max<std::int64_t>(pages / 8, 16); }
+std::int64_t with_reserve(std::int64_t pages) {
+  return pages + std::max<std::int64_t>(pages / 8, 16);
+}
 
 // "F(0) F(1) ... ", for a macro that applies another one.
 std::string repeated(std::int64_t count) {
@@ -50,8 +52,8 @@ Result<std::unique_ptr<Executor>> ComputeExecutor::create(std::shared_ptr<const 
   std::unique_ptr<ComputeExecutor> executor(
       new ComputeExecutor(std::move(device), std::move(source), parameters, options));
   if (auto status = executor->compile(); !status) return pass_on(status);
-  const Field nothing = Field::empty(executor->source_->geometry, executor->band(),
-                                     executor->layout_.layout().page_shape());
+  const Field nothing =
+      Field::empty(executor->source_->geometry, executor->band(), executor->layout_.layout().page_shape());
   if (auto status = executor->restore(nothing); !status) return pass_on(status);
   return executor;
 }
@@ -76,9 +78,11 @@ Status ComputeExecutor::compile() {
   gpu::Defines defines = layout_.defines();
   // Invocations that look after a page: on a software driver, one vector of them.
   defines.emplace_back("MAINTAINERS", software() ? "8" : "32");
-  for (const Kernel& kernel : {Kernel{maintain_, "maintain"}, Kernel{judge_, "judge"},
-                               Kernel{conclude_, "conclude"}, Kernel{rebuild_, "rebuild"}, Kernel{paint_, "paint"}}) {
-    auto program = gpu::Program::compute(*device_, fmt::format("solver/compute/{}.comp", kernel.path), defines);
+  for (const Kernel& kernel :
+       {Kernel{maintain_, "maintain"}, Kernel{judge_, "judge"}, Kernel{conclude_, "conclude"},
+        Kernel{rebuild_, "rebuild"}, Kernel{paint_, "paint"}}) {
+    auto program =
+        gpu::Program::compute(*device_, fmt::format("solver/compute/{}.comp", kernel.path), defines);
     if (!program) return pass_on(program);
     kernel.program = std::move(*program);
   }
@@ -231,7 +235,8 @@ Status ComputeExecutor::grow(std::int64_t more_pages) {
   const std::int64_t bytes =
       PageMemory::bytes_for(layout_, capacity) + PageMemory::bytes_for(layout_, memory_.capacity());
   if (bytes > options_.memory_budget_bytes) {
-    return fail(ErrorKind::capability, "the surface needs {} pages, {} MB while they are copied, and the memory budget is {} MB",
+    return fail(ErrorKind::capability,
+                "the surface needs {} pages, {} MB while they are copied, and the memory budget is {} MB",
                 capacity, bytes >> 20, options_.memory_budget_bytes >> 20);
   }
   if (auto status = memory_.grow(*device_, capacity); !status) return status;
@@ -287,8 +292,9 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
       control_.converged = 0;
     } else {
       const double seconds = std::max(seconds_since(run_start), 1e-6);
-      steps_per_run_ = std::clamp(static_cast<std::int64_t>(static_cast<double>(count) * kSecondsPerRun / seconds),
-                                  std::int64_t{1}, std::min(kMostStepsPerRun, 2 * steps_per_run_));
+      steps_per_run_ =
+          std::clamp(static_cast<std::int64_t>(static_cast<double>(count) * kSecondsPerRun / seconds),
+                     std::int64_t{1}, std::min(kMostStepsPerRun, 2 * steps_per_run_));
     }
     run.progress(static_cast<double>(report.steps) / static_cast<double>(run.steps), "steps");
     if (report.converged && run.until_converged) break;

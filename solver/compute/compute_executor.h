@@ -12,14 +12,15 @@
 
 namespace tidemark {
 
-// A step is two dispatches: update (new phi, and a code of what each page needs) and maintain (grants it). After every
-// window of steps three more find out which pages are quiet. The processor hands over runs of steps and reads nothing
-// in between; when a run ends early, because no page was free or the surface has stopped, the rest of its dispatches do
-// nothing, and the counters say how far it came.
+// A step is two dispatches: update (new phi, and a code of what each page needs) and maintain (grants it).
+// After every window of steps three more find out which pages are quiet. The processor hands over runs of
+// steps and reads nothing in between; when a run ends early, because no page was free or the surface has
+// stopped, the rest of its dispatches do nothing, and the counters say how far it came.
 class ComputeExecutor final : public Executor {
  public:
   // On options.device, else on a context of its own. Fails (ErrorKind::capability) without OpenGL 4.5.
-  // $TIDEMARK_APRON (shared or columns) forces an address mode; by default hardware shares and software does not.
+  // $TIDEMARK_APRON (shared or columns) forces an address mode; by default hardware shares and software does
+  // not.
   static Result<std::unique_ptr<Executor>> create(std::shared_ptr<const Volume> source,
                                                   const Parameters& parameters,
                                                   const ExecutorOptions& options);
@@ -74,7 +75,7 @@ class ComputeExecutor final : public Executor {
   bool unsettled_ = false;  // the budget stopped an allocation
   std::int64_t steps_per_run_ = 1;
   double paging_seconds_ = 0.0;  // since the last report
-  ComputeControl control_{};  // as last read
+  ComputeControl control_{};     // as last read
   std::int64_t peak_resident_ = 0;
   std::int64_t peak_bytes_ = 0;
 };

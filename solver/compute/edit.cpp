@@ -15,8 +15,8 @@ Status ComputeExecutor::restore(const Field& phi) {
   const std::int64_t pages = phi.resident_pages() + kFewPages;
   const std::int64_t bytes = PageMemory::bytes_for(layout_, pages);
   if (bytes > options_.memory_budget_bytes) {
-    return fail(ErrorKind::capability, "the surface needs {} pages, {} MB, and the memory budget is {} MB", pages,
-                bytes >> 20, options_.memory_budget_bytes >> 20);
+    return fail(ErrorKind::capability, "the surface needs {} pages, {} MB, and the memory budget is {} MB",
+                pages, bytes >> 20, options_.memory_budget_bytes >> 20);
   }
   auto memory = PageMemory::create(*device_, layout_, phi, pages);
   if (!memory) return pass_on(memory);

@@ -1,5 +1,5 @@
-// The virtual memory of the compute executor: tables and lists in buffers that its shaders change by themselves
-// (resources/shaders/solver/compute/page_memory.glsl).
+// The virtual memory of the compute executor: tables and lists in buffers that its shaders change by
+// themselves (resources/shaders/solver/compute/page_memory.glsl).
 #pragma once
 
 #include <cstdint>

@@ -21,8 +21,8 @@ Result<std::array<gpu::Texture2D, 2>> PackedField::make_textures(gpu::Device& de
   return textures;
 }
 
-Result<PackedField> PackedField::create(gpu::Device& device, const PackedLayout& layout, std::int64_t capacity,
-                                        float band) {
+Result<PackedField> PackedField::create(gpu::Device& device, const PackedLayout& layout,
+                                        std::int64_t capacity, float band) {
   auto textures = make_textures(device, layout, capacity);
   if (!textures) return pass_on(textures);
   PackedField field;

@@ -28,8 +28,8 @@ class PackedField {
   [[nodiscard]] std::int64_t bytes() const { return phi_[0].bytes() + phi_[1].bytes(); }
   [[nodiscard]] const gpu::Texture2D& phi(int buffer) const { return phi_[static_cast<std::size_t>(buffer)]; }
 
-  // Writes pages kFirstPage, kFirstPage + 1, ... of both buffers: `pages` holds their voxels one page after the
-  // other, i fastest.
+  // Writes pages kFirstPage, kFirstPage + 1, ... of both buffers: `pages` holds their voxels one page after
+  // the other, i fastest.
   void upload(std::span<const float> pages);
   // The voxels of all physical pages, in the same order, page 0 first. Waits for the GPU.
   Result<std::vector<float>> download(int buffer) const;

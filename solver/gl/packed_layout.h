@@ -1,4 +1,5 @@
-// Where a page's voxels lie in physical memory G, a 2D texture: the C++ side of resources/shaders/solver/paging.glsl.
+// Where a page's voxels lie in physical memory G, a 2D texture: the C++ side of
+// resources/shaders/solver/paging.glsl.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -22,7 +23,9 @@ class PackedLayout {
   [[nodiscard]] glm::i64vec2 tile() const { return tile_; }  // texels
   [[nodiscard]] std::int64_t pages_per_row() const { return pages_per_row_; }
   // The most physical pages that the driver's textures hold.
-  [[nodiscard]] std::int64_t largest_capacity() const { return pages_per_row_ * (largest_texture_ / tile_.y); }
+  [[nodiscard]] std::int64_t largest_capacity() const {
+    return pages_per_row_ * (largest_texture_ / tile_.y);
+  }
 
   // The texels of a page.
   [[nodiscard]] gpu::TexelRect rect(PhysicalPage page) const;

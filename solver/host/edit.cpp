@@ -24,8 +24,8 @@ Status HostExecutor::restore(const Field& phi) {
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
     if (phi.table[static_cast<std::size_t>(page)] >= 0) resident.push_back(page);
   }
-  // Pages are visited in the order in which they lie in memory. Blocks of pages that are near each other along
-  // every axis find each other's values still in the cache.
+  // Pages are visited in the order in which they lie in memory. Blocks of pages that are near each other
+  // along every axis find each other's values still in the cache.
   constexpr std::int64_t kBlockSide = 4;  // pages
   const auto block = [&](std::int64_t page) {
     const Index3 b = phi.layout.page_coordinates(page) / kBlockSide;

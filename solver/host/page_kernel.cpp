@@ -24,8 +24,8 @@ HWY_INLINE void gather_rows(D d, const PageRow& from, int offset, Tile& tile, in
   const auto x = hn::And(lane, hn::Set(di, kPageSide - 1));
   const auto row = hn::Sub(lane, x);
   const auto turned = [&](int by) HWY_ATTR {
-    return hn::IndicesFromVec(
-        d, hn::Add(row, hn::And(hn::Add(x, hn::Set(di, by)), hn::Set(di, kPageSide - 1))));
+    return hn::IndicesFromVec(d,
+                              hn::Add(row, hn::And(hn::Add(x, hn::Set(di, by)), hn::Set(di, kPageSide - 1))));
   };
   const auto first = hn::RebindMask(d, hn::Eq(x, hn::Zero(di)));
   const auto last = hn::RebindMask(d, hn::Eq(x, hn::Set(di, kPageSide - 1)));
@@ -83,9 +83,8 @@ HWY_INLINE void gather_inner(const PageJob& job, unsigned slices) {
 HWY_INLINE Stencil<Lanes> load_stencil(const Tile& tile, int at) {
   constexpr int kY = Tile::kRowStride;
   constexpr int kZ = Tile::kSliceStride;
-  const auto load = [at](const float* values, int shift) HWY_ATTR {
-    return Lanes(hn::LoadU(LanesTag(), values + at + shift));
-  };
+  const auto load = [at](const float* values, int shift)
+                        HWY_ATTR { return Lanes(hn::LoadU(LanesTag(), values + at + shift)); };
   Stencil<Lanes> s;
   s.c = load(tile.centre, 0);
   s.xm = load(tile.left, 0);

@@ -57,7 +57,8 @@ ConstantRows constant_rows(const PagePool& pool, int buffer, const PhysicalPage*
   return rows;
 }
 
-// Row y is kept where the rows y - 1, y and y + 1 are set; `below` and `above` are the pages at y - 1 and y + 1.
+// Row y is kept where the rows y - 1, y and y + 1 are set; `below` and `above` are the pages at y - 1 and y
+// + 1.
 Rows three_along_y(Rows below, Rows page, Rows above) {
   constexpr Rows kLowY = 0x0101010101010101U;
   const Rows before = (page & ~(kLowY << 7U)) << 1U | (below >> 7U & kLowY);

@@ -17,9 +17,9 @@ inline constexpr double kSmallestGradientSquared = 1e-3;
 // Nothing smaller than a third of a voxel has a curvature.
 inline constexpr double kLargestCurvature = 6.0;
 
-// kappa |grad phi|, what the curvature term adds to dphi/dt, by the direct form with second derivatives and the
-// central gradient g: tr(H) - (g . H g) / |g|^2. It is bounded by phi's second derivatives, and 0 where phi is
-// flat.
+// kappa |grad phi|, what the curvature term adds to dphi/dt, by the direct form with second derivatives and
+// the central gradient g: tr(H) - (g . H g) / |g|^2. It is bounded by phi's second derivatives, and 0 where
+// phi is flat.
 template <class Real, class V>
 HWY_INLINE V curvature_motion(const Differences<V>& d, V& four_squared_gradient) {
   const V* g = d.two_central;
@@ -29,8 +29,8 @@ HWY_INLINE V curvature_motion(const Differences<V>& d, V& four_squared_gradient)
   const V squared = x2 + y2 + z2;
   const V trace = d.second[0] + d.second[1] + d.second[2];
   const V pure = mul_add(x2, d.second[0], mul_add(y2, d.second[1], z2 * d.second[2]));
-  const V two_mixed = mul_add(g[0], mul_add(g[1], d.four_mixed[0], g[2] * d.four_mixed[1]),
-                              g[1] * (g[2] * d.four_mixed[2]));
+  const V two_mixed =
+      mul_add(g[0], mul_add(g[1], d.four_mixed[0], g[2] * d.four_mixed[1]), g[1] * (g[2] * d.four_mixed[2]));
   const V along_gradient = mul_add(two_mixed, V(Real(0.5)), pure);
   four_squared_gradient = max(squared, V(Real(4.0 * kSmallestGradientSquared)));
   return (squared * trace - along_gradient) * inverse(four_squared_gradient);

@@ -33,12 +33,12 @@ struct Stencil {
 template <class V>
 struct Differences {
   V phi;
-  V two_central[3];     // twice the central first differences
-  V second[3];          // pure second differences
-  V four_mixed[3];      // four times d2/dxdy, d2/dxdz, d2/dydz
-  V upwind_growing;     // |grad phi| for a speed F > 0 (Osher and Sethian)
-  V upwind_shrinking;   // |grad phi| for a speed F < 0
-  V lowest_product;     // least product of phi with a face neighbour: < 0 beside the surface
+  V two_central[3];    // twice the central first differences
+  V second[3];         // pure second differences
+  V four_mixed[3];     // four times d2/dxdy, d2/dxdz, d2/dydz
+  V upwind_growing;    // |grad phi| for a speed F > 0 (Osher and Sethian)
+  V upwind_shrinking;  // |grad phi| for a speed F < 0
+  V lowest_product;    // least product of phi with a face neighbour: < 0 beside the surface
 };
 
 // kAnisotropic = false leaves out the divisions by spacings that are all 1.

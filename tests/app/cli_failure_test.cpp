@@ -257,8 +257,8 @@ void CliFailureTest::a_machine_without_opengl_ends_with_4_and_host_still_runs() 
       QVERIFY2(refused.err.contains(missing), refused.told());
     }
     for (const char* executor : {"auto", "host"}) {
-      const Outcome outcome =
-          run_cli({"bench", "--case", "sphere", "--size", "32", "--steps", "5", "--executor", executor}, options);
+      const Outcome outcome = run_cli(
+          {"bench", "--case", "sphere", "--size", "32", "--steps", "5", "--executor", executor}, options);
       QCOMPARE(outcome.code, 0);
       QVERIFY2(outcome.out.contains("executor host"), outcome.told());
     }

@@ -58,9 +58,7 @@ void CliUsageTest::help_names_units_and_an_example() {
 
 void CliUsageTest::help_hides_what_is_not_built() {
   const QByteArray all = run_cli({"--help"}).out + run_cli({"segment", "--help"}).out;
-  for (const char* word :
-       {"render", "replay", "--picture", "--recipe", "compute", "stream", ".dcm", "reference"}) {
-    // "computes" is a word of English, the executor is not.
+  for (const char* word : {"render", "replay", "--picture", "--recipe", ".dcm", "reference"}) {
     const QRegularExpression whole(QString("(^|[\\s|])%1($|[\\s|,])").arg(QRegularExpression::escape(word)));
     QVERIFY2(!whole.match(QString::fromUtf8(all)).hasMatch(), word);
   }
@@ -140,9 +138,6 @@ void CliUsageTest::what_is_not_built_yet_says_so_data() {
   QTest::newRow("replay") << QStringList{"replay", "recipe.json", volume_};
   QTest::newRow("picture") << segment + QStringList{"--picture", "a.png"};
   QTest::newRow("recipe") << segment + QStringList{"--recipe", "a.json"};
-  QTest::newRow("compute") << segment + QStringList{"--executor", "compute"};
-  QTest::newRow("stream") << segment + QStringList{"--executor", "stream"};
-  QTest::newRow("bench on compute") << QStringList{"bench", "--executor", "compute"};
   QTest::newRow("DICOM SEG") << segment + QStringList{"--out", text(folder_ / "mask.dcm")};
   QTest::newRow("recipe out") << segment + QStringList{"--out", text(folder_ / "recipe.json")};
 }

@@ -210,7 +210,8 @@ class AgreementTest : public QObject {
     const Evolution evolution;
     const auto unbroken = evolution.start(ExecutorKind::host, 2);
     run(*unbroken, 60);
-    const Field saved = Field::from_dense(evolution.geometry, unbroken->snapshot().value().dense(), unbroken->band());
+    const Field saved =
+        Field::from_dense(evolution.geometry, unbroken->snapshot().value().dense(), unbroken->band());
     const auto resumed = executor(ExecutorKind::host, evolution.source, evolution.parameters);
     QCOMPARE(failure(resumed->restore(saved)), QString());
     run(*unbroken, 60);

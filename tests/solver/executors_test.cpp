@@ -1,11 +1,12 @@
-// What every executor on OpenGL must do, row by row: the same level set as the others, page for page of its own.
+// What every executor on OpenGL must do, row by row: the same level set as the others, page for page of its
+// own.
 #include <QTest>
 #include <numbers>
 #include <random>
 
 #include "gpu/device.h"
-#include "solver/reference/reference_executor.h"
 #include "level_sets.h"
+#include "solver/reference/reference_executor.h"
 #include "tests/support/support.h"
 
 using namespace tidemark;
@@ -71,7 +72,8 @@ Scene lumpy_scene(Index3 size, glm::dvec3 spacing = glm::dvec3(1.0)) {
   const glm::dvec3 centre = centre_of(scene.geometry);
   scene.source = volume_of(scene.geometry, [&](glm::dvec3 p) {
     const glm::dvec3 q = p - centre;
-    return 100.0 - 2.0 * glm::length(q) + 15.0 * std::sin(q.x / 3.0) * std::sin(q.y / 4.0 + 1.0) * std::cos(q.z / 5.0);
+    return 100.0 - 2.0 * glm::length(q) +
+           15.0 * std::sin(q.x / 3.0) * std::sin(q.y / 4.0 + 1.0) * std::cos(q.z / 5.0);
   });
   scene.parameters.target = 85.0;
   scene.parameters.range = 30.0;
@@ -231,8 +233,9 @@ class ExecutorsTest : public QObject {
       auto source = std::make_shared<Volume>(*scene.source);
       source->voxels = mirrored(scene.source->values());
       const auto other = setting.make(source, scene.parameters);
-      QCOMPARE(failure(other->restore(Field::from_dense(scene.geometry, mirrored(start.dense()), start.band))),
-               QString());
+      QCOMPARE(
+          failure(other->restore(Field::from_dense(scene.geometry, mirrored(start.dense()), start.band))),
+          QString());
       run(*other, 30);
       QVERIFY(mirrored(other->snapshot().value().dense()) == expected);
     }
@@ -372,8 +375,7 @@ class ExecutorsTest : public QObject {
     const Setting setting = this_row();
     const Geometry geometry = grid({128, 128, 128});
     const auto level_set = setting.make(zero_volume(geometry), Parameters());
-    set_phi(*level_set, geometry,
-            [&](glm::dvec3 p) { return 45.0 - glm::distance(p, centre_of(geometry)); });
+    set_phi(*level_set, geometry, [&](glm::dvec3 p) { return 45.0 - glm::distance(p, centre_of(geometry)); });
     const MemoryReport memory = level_set->memory();
     const auto voxels = static_cast<double>(memory.resident_pages * memory.page_shape.x *
                                             memory.page_shape.y * memory.page_shape.z);
