@@ -33,6 +33,12 @@ GlFormat gl_format(TexelFormat format) {
       return {GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT, 2};
     case TexelFormat::r32i:
       return {GL_R32I, GL_RED_INTEGER, GL_INT, 4};
+    case TexelFormat::rg32f:
+      return {GL_RG32F, GL_RG, GL_FLOAT, 8};
+    case TexelFormat::r16_snorm:
+      return {GL_R16_SNORM, GL_RED, GL_SHORT, 2};
+    case TexelFormat::r16_unorm:
+      return {GL_R16, GL_RED, GL_UNSIGNED_SHORT, 2};
   }
   return {};
 }
@@ -128,7 +134,7 @@ void Texture2D::bind_image(unsigned unit, bool writable) const {
 }
 
 Result<Texture3D> Texture3D::create(Device& device, TexelFormat format, Index3 size,
-                                    std::span<const std::byte> data, std::string_view label) {
+                                    std::span<const std::byte> data, std::string_view label, Filter filter) {
   const std::int64_t limit = device.capabilities().largest_volume_texture;
   if (size.x > limit || size.y > limit || size.z > limit) {
     return fail(ErrorKind::capability,
@@ -140,6 +146,10 @@ Result<Texture3D> Texture3D::create(Device& device, TexelFormat format, Index3 s
   texture.handle_ = TextureHandle(device, new_texture(GL_TEXTURE_3D));
   const GlFormat gl = gl_format(format);
   fetch_only(GL_TEXTURE_3D, false);
+  if (filter == Filter::linear) {
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  }
   glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAX_LEVEL, 0);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   glTexImage3D(GL_TEXTURE_3D, 0, static_cast<GLint>(gl.internal), static_cast<GLsizei>(size.x),
@@ -155,21 +165,22 @@ void Texture3D::bind(unsigned unit) const {
   glBindTexture(GL_TEXTURE_3D, id());
 }
 
-Result<IntegerBufferTexture> IntegerBufferTexture::create(Device& device, const Buffer& buffer,
-                                                          std::string_view label) {
-  if (buffer.bytes() / 4 > device.capabilities().largest_buffer_texture) {
-    return fail(ErrorKind::capability, "a table of {} entries is needed; this driver allows {}",
-                buffer.bytes() / 4, device.capabilities().largest_buffer_texture);
+Result<BufferTexture> BufferTexture::create(Device& device, const Buffer& buffer, TexelFormat format,
+                                            std::string_view label) {
+  const std::int64_t texels = buffer.bytes() / bytes_per_texel(format);
+  if (texels > device.capabilities().largest_buffer_texture) {
+    return fail(ErrorKind::capability, "a table of {} entries is needed; this driver allows {}", texels,
+                device.capabilities().largest_buffer_texture);
   }
-  IntegerBufferTexture texture;
+  BufferTexture texture;
   texture.handle_ = TextureHandle(device, new_texture(GL_TEXTURE_BUFFER));
-  glTexBuffer(GL_TEXTURE_BUFFER, GL_R32I, buffer.id());
+  glTexBuffer(GL_TEXTURE_BUFFER, gl_format(format).internal, buffer.id());
   set_label(device, GL_TEXTURE, texture.handle_.id(), label);
   if (auto status = device.check("making a table readable"); !status) return pass_on(status);
   return texture;
 }
 
-void IntegerBufferTexture::bind(unsigned unit) const {
+void BufferTexture::bind(unsigned unit) const {
   glActiveTexture(GL_TEXTURE0 + unit);
   glBindTexture(GL_TEXTURE_BUFFER, handle_.id());
 }

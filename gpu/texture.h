@@ -1,4 +1,4 @@
-// Textures of texels that are fetched, not filtered.
+// Textures.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,21 @@
 
 namespace tidemark::gpu {
 
-enum class TexelFormat { r32f, rgba32f, r16f, rgba16f, r8, rgba8, r16i, r16ui, r32i };
+enum class TexelFormat {
+  r32f,
+  rgba32f,
+  r16f,
+  rgba16f,
+  r8,
+  rgba8,
+  r16i,
+  r16ui,
+  r32i,
+  rg32f,
+  r16_snorm,
+  r16_unorm
+};
+enum class Filter { nearest, linear };
 
 std::int64_t bytes_per_texel(TexelFormat format);
 
@@ -59,7 +73,8 @@ class Texture3D {
  public:
   Texture3D() = default;
   static Result<Texture3D> create(Device& device, TexelFormat format, Index3 size,
-                                  std::span<const std::byte> data, std::string_view label);
+                                  std::span<const std::byte> data, std::string_view label,
+                                  Filter filter = Filter::nearest);
 
   [[nodiscard]] unsigned id() const { return handle_.id(); }
   void bind(unsigned unit) const;
@@ -68,12 +83,13 @@ class Texture3D {
   TextureHandle handle_;
 };
 
-// A buffer of 32-bit integers that shaders of OpenGL 3.3 fetch from (isamplerBuffer). It follows what is
-// written to the buffer, and must not outlive it.
-class IntegerBufferTexture {
+// A buffer that shaders of OpenGL 3.3 fetch from, as isamplerBuffer (r32i) or samplerBuffer (rg32f, rgba32f).
+// It follows what is written to the buffer, and must not outlive it.
+class BufferTexture {
  public:
-  IntegerBufferTexture() = default;
-  static Result<IntegerBufferTexture> create(Device& device, const Buffer& buffer, std::string_view label);
+  BufferTexture() = default;
+  static Result<BufferTexture> create(Device& device, const Buffer& buffer, TexelFormat format,
+                                      std::string_view label);
   void bind(unsigned unit) const;
 
  private:

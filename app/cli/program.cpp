@@ -15,7 +15,7 @@ namespace tidemark::cli {
 namespace {
 
 // Words of the contract that a later version brings; asking for them is answered clearly.
-constexpr std::array<std::string_view, 2> kLaterCommands{"render", "replay"};
+constexpr std::array<std::string_view, 1> kLaterCommands{"replay"};
 
 constexpr const char* kDescription =
     "tidemark-cli segments medical volumes with a level set: a surface that grows from a seed while the\n"
@@ -64,6 +64,7 @@ void add_all(CLI::App& app, Program& program) {
   add_segment(app, program);
   add_distance(app, program);
   add_convert(app, program);
+  add_render(app, program);
   add_phantom(app, program);
   add_bench(app, program);
 }

@@ -36,6 +36,7 @@ void add_info(CLI::App& app, Program& program);
 void add_segment(CLI::App& app, Program& program);
 void add_distance(CLI::App& app, Program& program);
 void add_convert(CLI::App& app, Program& program);
+void add_render(CLI::App& app, Program& program);
 void add_phantom(CLI::App& app, Program& program);
 void add_bench(CLI::App& app, Program& program);
 

@@ -97,7 +97,7 @@ Status GeometryEngine::describe(gpu::Device& device, const PageTable& table,
     auto buffer =
         gpu::Buffer::create(device, bytes_for(size_ + std::max(size_ / 8, kFewPages)), "page records");
     if (!buffer) return pass_on(buffer);
-    auto records = gpu::IntegerBufferTexture::create(device, *buffer, "page records");
+    auto records = gpu::BufferTexture::create(device, *buffer, gpu::TexelFormat::r32i, "page records");
     if (!records) return pass_on(records);
     records_ = std::move(*records);
     buffer_ = std::move(*buffer);

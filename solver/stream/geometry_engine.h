@@ -52,7 +52,7 @@ class GeometryEngine {
   PackedLayout layout_;
   gpu::VertexArray vertices_;
   gpu::Buffer buffer_;
-  gpu::IntegerBufferTexture records_;
+  gpu::BufferTexture records_;
   std::vector<std::int32_t> staging_;
   std::int64_t size_ = 0;
   std::int64_t voxels_ = 0;

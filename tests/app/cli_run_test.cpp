@@ -37,6 +37,7 @@ class CliRunTest : public QObject {
   void a_resumed_run_equals_an_unbroken_one();
   void the_start_is_a_mask_or_a_threshold_or_a_fill();
   void a_mask_with_other_axes_is_matched_by_its_geometry();
+  void pictures_are_drawn_from_masks_and_fields();
   void host_and_reference_agree();
   void each_term_can_be_switched_off();
   void an_automatic_start_says_what_it_chose();
@@ -241,6 +242,35 @@ void CliRunTest::a_mask_with_other_axes_is_matched_by_its_geometry() {
                                     "500", "--alpha", "1", "--init-threshold", "1000,1000", "--steps", "0",
                                     "--truth", text(folder_ / "stored.nrrd"), "--json"});
   QCOMPARE(json_of(outcome.out)["dice"].toDouble(), 1.0);
+}
+
+void CliRunTest::pictures_are_drawn_from_masks_and_fields() {
+  const TemporaryFolder folder;
+  const Volume volume = ball(Index3(32), 10.0);
+  const auto file = folder / "ball.nrrd";
+  QCOMPARE(failure(write_volume_file(volume, file)), QString());
+  must_run(QStringList{"segment", text(file)} + ball_arguments(Index3(32)) +
+           QStringList{"--out", text(folder / "mask.nrrd"), "--out-phi", text(folder / "phi.nrrd")});
+  const QList<QStringList> views = {
+      {"--mask", text(folder / "mask.nrrd"), "--camera", "30,20,1.2"},
+      {"--phi", text(folder / "phi.nrrd"), "--clip", "0,-1,0,-16", "--opacity", "0.5"},
+      {"--preset", "ct-bone", "--phi", text(folder / "phi.nrrd"), "--roi", "inside"},
+      {"--mask", text(folder / "mask.nrrd"), "--view", "sagittal", "--at", "16,16,16"},
+      {"--view", "speed", "--target", "1000", "--range", "500"},
+      {"--phi", text(folder / "phi.nrrd"), "--view", "pages", "--window", "500,1000"}};
+  for (const QStringList& view : views) {
+    const auto picture = folder / "picture.png";
+    const QJsonObject told = json_of(
+        must_run(QStringList{"render", text(file), "--size", "96x64", "--json", "--out", text(picture)} +
+                 view)
+            .out);
+    QCOMPARE(told["width"].toInt(), 96);
+    const QByteArray bytes = bytes_of(picture);
+    QVERIFY(bytes.startsWith("\x89PNG"));
+    // The header's first chunk holds the size, most significant byte first.
+    QCOMPARE(bytes.mid(16, 8), QByteArray("\0\0\0\x60\0\0\0\x40", 8));
+    QVERIFY2(bytes.size() > 300, "an even picture");
+  }
 }
 
 void CliRunTest::host_and_reference_agree() {

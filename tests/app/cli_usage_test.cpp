@@ -40,7 +40,7 @@ void CliUsageTest::initTestCase() {
 
 void CliUsageTest::help_names_units_and_an_example_data() {
   QTest::addColumn<QString>("command");
-  for (const char* command : {"info", "segment", "distance", "convert", "phantom", "bench"}) {
+  for (const char* command : {"info", "segment", "distance", "convert", "render", "phantom", "bench"}) {
     QTest::newRow(command) << command;
   }
 }
@@ -58,7 +58,7 @@ void CliUsageTest::help_names_units_and_an_example() {
 
 void CliUsageTest::help_hides_what_is_not_built() {
   const QByteArray all = run_cli({"--help"}).out + run_cli({"segment", "--help"}).out;
-  for (const char* word : {"render", "replay", "--picture", "--recipe", ".dcm", "reference"}) {
+  for (const char* word : {"replay", "--picture", "--recipe", ".dcm", "reference"}) {
     const QRegularExpression whole(QString("(^|[\\s|])%1($|[\\s|,])").arg(QRegularExpression::escape(word)));
     QVERIFY2(!whole.match(QString::fromUtf8(all)).hasMatch(), word);
   }
@@ -117,6 +117,18 @@ void CliUsageTest::wrong_usage_ends_with_2_and_one_line_data() {
   QTest::newRow("phantom to nowhere") << QStringList{"phantom", "sphere"};
   QTest::newRow("noise below 0") << QStringList{"phantom",           "sphere",  "--out",
                                                 text(folder_ / "p"), "--noise", "-1"};
+  const auto render = [&](const QStringList& more) {
+    return QStringList{"render", volume_, "--out", "a.png"} + more;
+  };
+  QTest::newRow("render nothing") << render({});
+  QTest::newRow("render a view of no name") << render({"--preset", "ct-bone", "--view", "front"});
+  QTest::newRow("render a preset of no name") << render({"--preset", "ct-none"});
+  QTest::newRow("render a picture too large") << render({"--preset", "ct-bone", "--size", "9000x9"});
+  QTest::newRow("render from nowhere") << render({"--preset", "ct-bone", "--camera", "1"});
+  QTest::newRow("render a plane without normal") << render({"--preset", "ct-bone", "--clip", "0,0,0,1"});
+  QTest::newRow("render a speed map without T") << render({"--view", "speed"});
+  QTest::newRow("render into no picture")
+      << QStringList{"render", volume_, "--preset", "ct-bone", "--out", "a.jpg"};
   QTest::newRow("convert to nothing") << QStringList{"convert", volume_};
   QTest::newRow("surface of no mask") << QStringList{"convert", volume_, "--out", text(folder_ / "s.stl")};
   QTest::newRow("unknown case") << QStringList{"bench", "--case", "teapot"};
@@ -134,7 +146,6 @@ void CliUsageTest::wrong_usage_ends_with_2_and_one_line() {
 void CliUsageTest::what_is_not_built_yet_says_so_data() {
   QTest::addColumn<QStringList>("arguments");
   const QStringList segment = QStringList{"segment", volume_} + ball_arguments(Index3(24));
-  QTest::newRow("render") << QStringList{"render", volume_, "--out", "a.png"};
   QTest::newRow("replay") << QStringList{"replay", "recipe.json", volume_};
   QTest::newRow("picture") << segment + QStringList{"--picture", "a.png"};
   QTest::newRow("recipe") << segment + QStringList{"--recipe", "a.json"};

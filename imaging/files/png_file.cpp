@@ -1,0 +1,34 @@
+#include "imaging/files/png_file.h"
+
+#include <png.h>
+
+#include <string>
+
+#include "core/atomic_file.h"
+
+namespace tidemark {
+
+Status write_png_file(std::int64_t width, std::int64_t height, std::span<const std::uint8_t> pixels,
+                      const std::filesystem::path& file) {
+  if (width < 1 || height < 1 || static_cast<std::int64_t>(pixels.size()) != 4 * width * height) {
+    return fail(ErrorKind::internal, "{}: {} bytes are not {} x {} pixels", file.string(), pixels.size(),
+                width, height);
+  }
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(width);
+  image.height = static_cast<png_uint_32>(height);
+  image.format = PNG_FORMAT_RGBA;
+  png_alloc_size_t size = 0;
+  const auto encode = [&](void* memory) {
+    return png_image_write_to_memory(&image, memory, &size, 0, pixels.data(), 0, nullptr) != 0;
+  };
+  std::string bytes;
+  if (!encode(nullptr)) return fail(ErrorKind::write, "{}: {}", file.string(), image.message);
+  bytes.resize(size);
+  if (!encode(bytes.data())) return fail(ErrorKind::write, "{}: {}", file.string(), image.message);
+  bytes.resize(size);
+  return write_file(file, bytes);
+}
+
+}  // namespace tidemark

@@ -1,0 +1,16 @@
+// The presets as they were when the program was built. Private to this folder; the .cpp is generated.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace tidemark {
+
+struct EmbeddedPreset {
+  std::string_view name;
+  std::string_view text;
+};
+
+std::span<const EmbeddedPreset> embedded_presets();
+
+}  // namespace tidemark
