@@ -28,6 +28,7 @@ struct Settings {
   int page_side = 8;  // 16: pages of 16 x 16 x 1
   bool all_pages = false;
   bool time_paging = false;
+  bool spheres = false;
 };
 
 // 750 in four balls that have grown into each other, 470 around them, with fine mottle.
@@ -83,6 +84,13 @@ Result<ExecutorKind> kind_of(const std::string& name) {
   return fail(ErrorKind::usage, "the executor '{}' is unknown; use host, compute, stream or dense", name);
 }
 
+// Voxels that are not clamped: those that a band no wider than need be would hold.
+std::int64_t needed_voxels(const Field& phi) {
+  const auto limit = static_cast<float>(phi.band);
+  const std::vector<float> values = phi.dense();
+  return std::count_if(values.begin(), values.end(), [limit](float v) { return std::abs(v) < limit; });
+}
+
 // phi when `settings.steps` steps are done.
 Result<Field> measure_executor(const std::shared_ptr<const Volume>& source, const Settings& settings,
                                const std::string& name) {
@@ -120,6 +128,9 @@ Result<Field> measure_executor(const std::shared_ptr<const Volume>& source, cons
   if (!converged) return tl::unexpected<Error>(converged.error());
   print_run("at rest", *converged, **executor);
   const SurfaceStatistics surface = measure(*phi);
+  fmt::print("  processed/needed voxels {:.2f}\n", static_cast<double>(phi->resident_pages()) *
+                                                       static_cast<double>(phi->layout.voxels_per_page()) /
+                                                       static_cast<double>(needed_voxels(*phi)));
   fmt::print(
       "  {} voxels inside, {:.1f} mm^2 of surface; {:.2f} bytes of state per resident voxel; a step at rest "
       "{:.1f} us\n",
@@ -127,6 +138,53 @@ Result<Field> measure_executor(const std::shared_ptr<const Volume>& source, cons
       1e6 * converged->seconds / static_cast<double>(converged->steps));
   if (auto status = (*executor)->validate(); !status) return pass_on(status);
   return phi;
+}
+
+// Spheres of growing radius, every page computed: is the cost a line over the resident voxels?
+Status measure_spheres(const std::shared_ptr<const Volume>& source, const Settings& settings,
+                       const std::string& name) {
+  const auto kind = kind_of(name);
+  if (!kind) return tl::unexpected<Error>(kind.error());
+  fmt::print("{}, spheres\n  {:>8} {:>16} {:>12} {:>14} {:>18}\n", name, "radius", "resident voxels",
+             "us/step", "state bytes", "processed/needed");
+  std::vector<glm::dvec3> points;  // resident voxels, seconds a step, bytes
+  for (const double part : {0.08, 0.16, 0.24, 0.32, 0.4}) {
+    ExecutorOptions options;
+    options.threads = settings.threads;
+    options.skip_quiet_pages = false;
+    options.memory_budget_bytes = std::int64_t{64} << 30;
+    if (settings.page_side == 16) options.page_shape = {16, 16, 1};
+    auto executor = make_executor(*kind, source, parameters(), options);
+    if (!executor) return tl::unexpected<Error>(executor.error());
+    const double radius = part * static_cast<double>(settings.size);
+    const Sphere ball = sphere_at_voxel(source->geometry, 0.5 * glm::dvec3(source->geometry.size), radius);
+    if (auto status = (*executor)->paint(ball, Brush::add); !status) return status;
+    if (auto first = (*executor)->advance({.steps = 2}); !first) return pass_on(first);
+    const auto run = (*executor)->advance({.steps = std::max<std::int64_t>(settings.steps / 10, 1)});
+    if (!run) return tl::unexpected<Error>(run.error());
+    const auto phi = (*executor)->snapshot();
+    if (!phi) return tl::unexpected<Error>(phi.error());
+    const MemoryReport memory = (*executor)->memory();
+    const auto resident = static_cast<double>(memory.resident_pages * memory.page_shape.x *
+                                              memory.page_shape.y * memory.page_shape.z);
+    points.emplace_back(resident, run->seconds / static_cast<double>(run->steps), memory.state_bytes);
+    fmt::print("  {:>8.0f} {:>16.0f} {:>12.0f} {:>14} {:>18.2f}\n", radius, resident, 1e6 * points.back().y,
+               memory.state_bytes, resident / static_cast<double>(needed_voxels(*phi)));
+  }
+  for (const int what : {1, 2}) {
+    glm::dvec3 mean(0.0);
+    for (const glm::dvec3& p : points) mean += p / static_cast<double>(points.size());
+    double xx = 0.0;
+    double xy = 0.0;
+    double yy = 0.0;
+    for (const glm::dvec3& p : points) {
+      xx += (p.x - mean.x) * (p.x - mean.x);
+      xy += (p.x - mean.x) * (p[what] - mean[what]);
+      yy += (p[what] - mean[what]) * (p[what] - mean[what]);
+    }
+    fmt::print("  {} over resident voxels: R^2 {:.4f}\n", what == 1 ? "time" : "bytes", xy * xy / (xx * yy));
+  }
+  return {};
 }
 
 Status measure_dense(const std::shared_ptr<const Volume>& source, const Settings& settings) {
@@ -157,6 +215,10 @@ Status run(const Settings& settings) {
   }
   std::optional<Mask> first;
   for (const std::string& name : settings.executors) {
+    if (settings.spheres) {
+      if (auto status = measure_spheres(source, settings, name); !status) return status;
+      continue;
+    }
     if (name == "dense") {
       if (auto status = measure_dense(source, settings); !status) return status;
       continue;
@@ -185,6 +247,7 @@ int main(int argc, char** argv) {
   app.add_flag("--all-pages", settings.all_pages, "Compute quiet pages, too");
   app.add_flag("--time-paging", settings.time_paging,
                "Wait between dispatches to find out what paging takes");
+  app.add_flag("--spheres", settings.spheres, "Cost of spheres of growing radius instead");
   CLI11_PARSE(app, argc, argv);
   const auto status = tidemark::run(settings);
   if (status) return 0;
