@@ -99,11 +99,20 @@ Status Outputs::announce(const std::string& option, const std::filesystem::path&
   return announce_file(option, file);
 }
 
-Status Outputs::announce_json(const std::string& option, const std::filesystem::path& file) {
-  if (lower_suffix(file) != ".json") {
-    return fail(ErrorKind::usage, "{} {}: the name must end in .json", option, file.string());
+Status Outputs::announce_suffix(const std::string& option, const std::filesystem::path& file,
+                                const std::string& suffix) {
+  if (lower_suffix(file) != suffix) {
+    return fail(ErrorKind::usage, "{} {}: the name must end in {}", option, file.string(), suffix);
   }
   return announce_file(option, file);
+}
+
+Status Outputs::announce_json(const std::string& option, const std::filesystem::path& file) {
+  return announce_suffix(option, file, ".json");
+}
+
+Status Outputs::announce_png(const std::string& option, const std::filesystem::path& file) {
+  return announce_suffix(option, file, ".png");
 }
 
 Status Outputs::spare(const std::filesystem::path& input) const {

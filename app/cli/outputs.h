@@ -22,6 +22,7 @@ class Outputs {
   Status announce(const std::string& option, const std::filesystem::path& file,
                   const std::vector<FileForm>& forms);
   Status announce_json(const std::string& option, const std::filesystem::path& file);
+  Status announce_png(const std::string& option, const std::filesystem::path& file);
 
   // Fails (ErrorKind::usage) when an announced file is this input: inputs are never written to.
   [[nodiscard]] Status spare(const std::filesystem::path& input) const;
@@ -34,6 +35,8 @@ class Outputs {
   Status commit();
 
  private:
+  Status announce_suffix(const std::string& option, const std::filesystem::path& file,
+                         const std::string& suffix);
   Status announce_file(const std::string& option, const std::filesystem::path& file);
 
   std::vector<std::filesystem::path> files_;

@@ -3,11 +3,12 @@
 
 #include "app/cli/align.h"
 #include "app/cli/arguments.h"
+#include "app/cli/outputs.h"
 #include "app/cli/program.h"
 #include "gpu/device.h"
 #include "imaging/files/png_file.h"
 #include "imaging/study.h"
-#include "renderer/renderer.h"
+#include "renderer/overview.h"
 #include "solver/distance_transform.h"
 #include "solver/model.h"
 
@@ -104,10 +105,7 @@ Result<Field> surface_of(const RenderOptions& options, const Volume& source, Con
 
 WindowLevel window_of(const RenderOptions& options, const Volume& source) {
   if (options.window) return {(*options.window)[0], (*options.window)[1]};
-  if (source.window) return *source.window;
-  const auto [low, high] = source.range();
-  return {0.5 * (static_cast<double>(low) + static_cast<double>(high)),
-          std::max(1.0, static_cast<double>(high) - static_cast<double>(low))};
+  return tidemark::window_of(source);
 }
 
 Result<VolumeView> volume_view(const RenderOptions& options, const Volume& source) {
@@ -174,9 +172,6 @@ Status check(const RenderOptions& options) {
       options.transfer_function.empty()) {
     return fail(ErrorKind::usage, "nothing to show: give --mask, --phi, --preset or --tf");
   }
-  if (std::filesystem::path(options.out).extension() != ".png") {
-    return fail(ErrorKind::usage, "--out {}: pictures are .png files", options.out);
-  }
   return {};
 }
 
@@ -185,6 +180,8 @@ Status run(Program& program, const RenderOptions& options) {
   if (Status good = check(options); !good) return good;
   const auto size = parse_size(options.size);
   if (!size) return tl::unexpected<Error>(size.error());
+  Outputs outputs;
+  if (Status announced = outputs.announce_png("--out", options.out); !announced) return announced;
   auto loaded = load_volume(options.input, options.series, console.progress());
   if (!loaded) return pass_on(loaded);
   const auto source = std::make_shared<const Volume>(std::move(*loaded));
@@ -211,10 +208,11 @@ Status run(Program& program, const RenderOptions& options) {
     picture = (*renderer)->draw(*view, parameters, size->width, size->height);
   }
   if (!picture) return pass_on(picture);
-  if (Status written = write_png_file(picture->width, picture->height, picture->pixels, options.out);
-      !written) {
-    return written;
-  }
+  const auto write = [&](const std::filesystem::path& name) {
+    return write_png_file(picture->width, picture->height, picture->pixels, name);
+  };
+  if (Status staged = outputs.stage(options.out, write); !staged) return staged;
+  if (Status done = outputs.commit(); !done) return done;
   console.say("Picture    {} x {} pixels in {}", picture->width, picture->height, options.out);
   Json object;
   object["file"] = options.out;

@@ -8,10 +8,13 @@
 #include "app/cli/report.h"
 #include "app/cli/segment_options.h"
 #include "core/thread_pool.h"
+#include "gpu/device.h"
+#include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/filters/filters.h"
 #include "imaging/study.h"
 #include "imaging/surface/surface.h"
+#include "renderer/overview.h"
 
 namespace tidemark::cli {
 namespace {
@@ -64,10 +67,17 @@ class Segmentation {
   Field phi_;
   Mask mask_;
   RunFigures figures_;
+  std::shared_ptr<gpu::Device> device_;  // for the picture
 };
 
 Status Segmentation::run() {
   if (Status done = check(options_, outputs_); !done) return done;
+  if (!options_.picture.empty()) {
+    // Found out before the long work.
+    auto device = gpu::Device::create_headless({gpu::GlVersion::gl33, false});
+    if (!device) return pass_on(device);
+    device_ = std::move(*device);
+  }
   for (const auto step : {&Segmentation::load, &Segmentation::load_truth, &Segmentation::suggest,
                           &Segmentation::evolve, &Segmentation::write}) {
     if (Status done = (this->*step)(); !done) return done;
@@ -76,7 +86,7 @@ Status Segmentation::run() {
   if (Status done = outputs_.commit(); !done) return done;
   say(console_, figures_);
   for (const std::string& file : options_.out) console_.say("Wrote      {}", file);
-  for (const std::string& file : {options_.out_phi, options_.stats}) {
+  for (const std::string& file : {options_.out_phi, options_.picture, options_.stats}) {
     if (!file.empty()) console_.say("Wrote      {}", file);
   }
   say_warnings();
@@ -211,6 +221,17 @@ Status Segmentation::write() {
       return write_volume_file(dense_field(), name);
     };
     if (Status staged = outputs_.stage(options_.out_phi, write_phi); !staged) return staged;
+  }
+  if (!options_.picture.empty()) {
+    auto renderer = Renderer::create(device_, source_, phi_);
+    if (!renderer) return pass_on(renderer);
+    constexpr std::int64_t kSide = 512;
+    const auto picture = draw_overview(**renderer, window_of(*source_), middle_of(mask_), kSide);
+    if (!picture) return tl::unexpected<Error>(picture.error());
+    const auto write_picture = [&](const std::filesystem::path& name) {
+      return write_png_file(picture->width, picture->height, picture->pixels, name);
+    };
+    if (Status staged = outputs_.stage(options_.picture, write_picture); !staged) return staged;
   }
   if (!options_.stats.empty()) {
     const auto write_stats = [&](const std::filesystem::path& name) {

@@ -78,6 +78,9 @@ void add_result_options(CLI::App& app, SegmentOptions& options) {
                  "of the smallest voxel spacing")
       ->type_name("FILE")
       ->group(kGroup);
+  app.add_option("--picture", options.picture, "Three slices and the surface in 3D, .png (needs OpenGL 3.3)")
+      ->type_name("FILE.png")
+      ->group(kGroup);
   app.add_option("--stats", options.stats, "Figures of the run as JSON (ml, mm^2, voxels, steps/s, bytes)")
       ->type_name("FILE.json")
       ->group(kGroup);
@@ -160,7 +163,6 @@ void add_segment_options(CLI::App& app, SegmentOptions& options) {
   add_start_options(app, options.start);
   add_run_options(app, options);
   add_result_options(app, options);
-  add_later_option(app, "--picture");
   add_later_option(app, "--recipe");
 }
 
@@ -177,6 +179,9 @@ Status check(const SegmentOptions& options, Outputs& outputs) {
   }
   if (!options.stats.empty()) {
     if (Status good = outputs.announce_json("--stats", options.stats); !good) return good;
+  }
+  if (!options.picture.empty()) {
+    if (Status good = outputs.announce_png("--picture", options.picture); !good) return good;
   }
   for (const auto& input :
        {std::optional(options.input), options.start.mask, options.start.phi, options.truth}) {

@@ -31,7 +31,7 @@ struct SegmentOptions {
   std::optional<std::string> truth;
   std::optional<std::int64_t> truth_label;
   std::vector<std::string> out;
-  std::string out_phi, stats;
+  std::string out_phi, stats, picture;
 
   [[nodiscard]] bool until_converged() const { return !steps; }
   [[nodiscard]] std::int64_t step_limit() const;

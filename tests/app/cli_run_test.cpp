@@ -250,7 +250,9 @@ void CliRunTest::pictures_are_drawn_from_masks_and_fields() {
   const auto file = folder / "ball.nrrd";
   QCOMPARE(failure(write_volume_file(volume, file)), QString());
   must_run(QStringList{"segment", text(file)} + ball_arguments(Index3(32)) +
-           QStringList{"--out", text(folder / "mask.nrrd"), "--out-phi", text(folder / "phi.nrrd")});
+           QStringList{"--out", text(folder / "mask.nrrd"), "--out-phi", text(folder / "phi.nrrd"),
+                       "--picture", text(folder / "overview.png")});
+  QVERIFY(bytes_of(folder / "overview.png").startsWith("\x89PNG"));
   const QList<QStringList> views = {
       {"--mask", text(folder / "mask.nrrd"), "--camera", "30,20,1.2"},
       {"--phi", text(folder / "phi.nrrd"), "--clip", "0,-1,0,-16", "--opacity", "0.5"},

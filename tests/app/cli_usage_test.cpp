@@ -58,7 +58,7 @@ void CliUsageTest::help_names_units_and_an_example() {
 
 void CliUsageTest::help_hides_what_is_not_built() {
   const QByteArray all = run_cli({"--help"}).out + run_cli({"segment", "--help"}).out;
-  for (const char* word : {"replay", "--picture", "--recipe", ".dcm", "reference"}) {
+  for (const char* word : {"replay", "--recipe", ".dcm", "reference"}) {
     const QRegularExpression whole(QString("(^|[\\s|])%1($|[\\s|,])").arg(QRegularExpression::escape(word)));
     QVERIFY2(!whole.match(QString::fromUtf8(all)).hasMatch(), word);
   }
@@ -147,7 +147,6 @@ void CliUsageTest::what_is_not_built_yet_says_so_data() {
   QTest::addColumn<QStringList>("arguments");
   const QStringList segment = QStringList{"segment", volume_} + ball_arguments(Index3(24));
   QTest::newRow("replay") << QStringList{"replay", "recipe.json", volume_};
-  QTest::newRow("picture") << segment + QStringList{"--picture", "a.png"};
   QTest::newRow("recipe") << segment + QStringList{"--recipe", "a.json"};
   QTest::newRow("DICOM SEG") << segment + QStringList{"--out", text(folder_ / "mask.dcm")};
   QTest::newRow("recipe out") << segment + QStringList{"--out", text(folder_ / "recipe.json")};
