@@ -23,7 +23,7 @@ constexpr unsigned kMotionSamples = kConvergenceWindow / 2;
 
 // G grows by an eighth, so that little of it lies idle.
 std::int64_t with_reserve(std::int64_t pages) {
-  return pages + std::max<std::int64_t>(pages / 8, 16);
+  return pages + std::max<std::int64_t>(pages / 8, 8);
 }
 
 // "F(0) F(1) ... ", for a macro that applies another one.

@@ -17,7 +17,7 @@ PackedLayout::PackedLayout(const PageLayout& layout, std::int64_t largest_textur
   }
   tile_ = {shape.x * tile_columns_, shape.y * (shape.z / tile_columns_)};
   // As few pages a row as the height allows: G then grows in small steps.
-  constexpr std::int64_t kLeastPagesPerRow = 32;
+  constexpr std::int64_t kLeastPagesPerRow = 16;
   const std::int64_t rows = std::max<std::int64_t>(1, largest_texture / tile_.y);
   const std::int64_t pages = layout.page_count() + kFirstPage;
   pages_per_row_ = std::clamp((pages + rows - 1) / rows, kLeastPagesPerRow,
