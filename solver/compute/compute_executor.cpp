@@ -18,6 +18,9 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// Runs of steps, and pieces of a step, take about this long.
+constexpr double kSecondsPerRun = 0.008;
+
 // How often motion is measured in a window: every two steps, over both of them.
 constexpr unsigned kMotionSamples = kConvergenceWindow / 2;
 
@@ -151,12 +154,31 @@ void ComputeExecutor::order_maintenance(bool count_step) {
   gpu::finish_writes();
 }
 
-void ComputeExecutor::order_step(int now, int step_in_window) {
+// A step that takes long is submitted in pieces, so that no driver thinks it has hung. A step of its own
+// (`in_pieces`) has as many pages as were counted when the last one ended.
+void ComputeExecutor::dispatch_update(bool in_pieces) {
+  const auto wanted = static_cast<std::int64_t>(std::ceil(seconds_per_step_ / kSecondsPerRun));
+  if (!in_pieces || wanted <= 1) {
+    gpu::dispatch(memory_.control(), 0);
+  } else {
+    constexpr std::int64_t kMostGroups = 32768;
+    const std::int64_t pages = std::max<std::int64_t>(control_.active_count, 1);
+    const std::int64_t piece = std::clamp<std::int64_t>((pages + wanted - 1) / wanted, 1, kMostGroups);
+    for (std::int64_t first = 0; first < pages; first += piece) {
+      update_.set("first_group", static_cast<unsigned>(first));
+      gpu::dispatch({static_cast<int>(std::min(piece, pages - first)), 1, 1});
+      gpu::Fence::insert(*device_);  // sends it on its way
+    }
+    update_.set("first_group", 0U);
+  }
+  gpu::finish_writes();
+}
+
+void ComputeExecutor::order_step(int now, int step_in_window, bool in_pieces) {
   order_update(update_, now);
   // The change over two steps is known after the second of them.
   update_.set("measure_motion", step_in_window % 2);
-  gpu::dispatch(memory_.control(), 0);
-  gpu::finish_writes();
+  dispatch_update(in_pieces);
   if (!options_.time_paging) return order_paging(1 - now, step_in_window);
   gpu::wait_for_gpu();
   const Clock::time_point start = Clock::now();
@@ -208,7 +230,7 @@ Result<ComputeControl> ComputeExecutor::run_steps(std::int64_t count, bool until
   memory_.bind();
   for (std::int64_t i = 0; i < count; ++i) {
     order_step(static_cast<int>((current_ + i) % 2),
-               static_cast<int>((steps_in_window_ + i) % kConvergenceWindow));
+               static_cast<int>((steps_in_window_ + i) % kConvergenceWindow), count == 1);
   }
   readback_.start(*device_, memory_.control(), 0);
   ComputeControl control{};
@@ -266,7 +288,6 @@ Status ComputeExecutor::settle() {
 }
 
 Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
-  constexpr double kSecondsPerRun = 0.008;
   constexpr std::int64_t kMostStepsPerRun = 64;
   const Clock::time_point start = Clock::now();
   AdvanceReport report;
@@ -292,6 +313,7 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
       control_.converged = 0;
     } else {
       const double seconds = std::max(seconds_since(run_start), 1e-6);
+      seconds_per_step_ = seconds / static_cast<double>(count);
       steps_per_run_ =
           std::clamp(static_cast<std::int64_t>(static_cast<double>(count) * kSecondsPerRun / seconds),
                      std::int64_t{1}, std::min(kMostStepsPerRun, 2 * steps_per_run_));

@@ -45,11 +45,12 @@ class ComputeExecutor final : public Executor {
   Status compile();
   Status compile_update();
 
-  // Orders the dispatches of one step, the `index`th of this run, which reads phi from buffer `now`.
-  void order_step(int now, int step_in_window);
+  // Orders the dispatches of one step, which reads phi from buffer `now`.
+  void order_step(int now, int step_in_window, bool in_pieces);
   void set_layout(const gpu::Program& program) const;
   void order_update(const gpu::Program& program, int now);
   void order_maintenance(bool count_step);
+  void dispatch_update(bool in_pieces);
   void order_paging(int next, int step_in_window);
   void order_end_of_window(int now, bool judge);
   Result<ComputeControl> run_steps(std::int64_t count, bool until_converged);
@@ -74,8 +75,9 @@ class ComputeExecutor final : public Executor {
   int steps_in_window_ = 0;
   bool unsettled_ = false;  // the budget stopped an allocation
   std::int64_t steps_per_run_ = 1;
-  double paging_seconds_ = 0.0;  // since the last report
-  ComputeControl control_{};     // as last read
+  double seconds_per_step_ = 0.0;  // as last measured
+  double paging_seconds_ = 0.0;    // since the last report
+  ComputeControl control_{};       // as last read
   std::int64_t peak_resident_ = 0;
   std::int64_t peak_bytes_ = 0;
 };

@@ -60,8 +60,10 @@ const int kClaimed = -1;
 // Lists of more groups than this are wrapped into rows: a dispatch may be no longer along x.
 const uint kGroupsPerRow = 32768u;
 
+uniform uint first_group;  // where a long list is dispatched in several pieces
+
 uint work_group() {
-  return gl_WorkGroupID.x + kGroupsPerRow * gl_WorkGroupID.y;
+  return first_group + gl_WorkGroupID.x + kGroupsPerRow * gl_WorkGroupID.y;
 }
 
 void add_to_active_list(int page) {
