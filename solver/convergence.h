@@ -8,6 +8,9 @@
 
 namespace tidemark {
 
+// How often motion is measured in a window: every two steps, over both of them.
+inline constexpr int kMotionSamples = kConvergenceWindow / 2;
+
 // Summed over samples in a window of steps and the voxels beside the surface (StepConstants::near): the
 // squared changes of phi over the last two steps, and how many voxels there were.
 struct SurfaceMotion {

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "solver/convergence.h"
 #include "solver/paging/validate.h"
 
 namespace tidemark {
@@ -20,9 +21,6 @@ double seconds_since(Clock::time_point start) {
 
 // Runs of steps, and pieces of a step, take about this long.
 constexpr double kSecondsPerRun = 0.008;
-
-// How often motion is measured in a window: every two steps, over both of them.
-constexpr unsigned kMotionSamples = kConvergenceWindow / 2;
 
 // G grows by an eighth, so that little of it lies idle.
 std::int64_t with_reserve(std::int64_t pages) {
@@ -203,7 +201,7 @@ void ComputeExecutor::order_end_of_window(int now, bool judge) {
   }
   conclude_.use();
   conclude_.set("judge_motion", judge ? 1 : 0);
-  conclude_.set("samples", kMotionSamples);
+  conclude_.set("samples", static_cast<unsigned>(kMotionSamples));
   conclude_.set("time_step", static_cast<float>(time_step()));
   conclude_.set("converged_speed", static_cast<float>(kConvergedSpeed));
   gpu::dispatch(glm::ivec3(1));
@@ -211,7 +209,7 @@ void ComputeExecutor::order_end_of_window(int now, bool judge) {
   rebuild_.use();
   set_layout(rebuild_);
   rebuild_.set("wake_all", judge ? 0 : 1);
-  rebuild_.set("samples", kMotionSamples);
+  rebuild_.set("samples", static_cast<unsigned>(kMotionSamples));
   memory_.field().phi(now).bind_image(0, true);
   memory_.field().phi(1 - now).bind_image(1, true);
   constexpr std::int64_t kGroupsPerRow = 32768;  // as in page_memory.glsl

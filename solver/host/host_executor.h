@@ -42,9 +42,6 @@ class HostExecutor final : public Executor {
   HostExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters,
                const ExecutorOptions& options, PageKernels kernels);
 
-  // How often motion is measured in a window: every two steps, over both of them.
-  static constexpr int kMotionSamples = kConvergenceWindow / 2;
-
   // Steps (host_executor.cpp).
   void step();
   std::int64_t update_page(std::size_t index, Tile& tile);

@@ -12,12 +12,6 @@
 #include "solver/stream/stream_executor.h"
 
 namespace tidemark {
-namespace {
-
-// How often motion is measured in a window: every two steps, over both of them.
-constexpr int kMotionSamples = kConvergenceWindow / 2;
-
-}  // namespace
 
 void StreamExecutor::wake(PhysicalPage page) {
   if (!info(page).asleep) return;
