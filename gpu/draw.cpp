@@ -40,6 +40,16 @@ void clear_colours(int count) {
   for (GLint i = 0; i < count; ++i) glClearBufferfv(GL_COLOR, i, kZeros);
 }
 
+ScissorScope::ScissorScope(const TexelRect& rect) {
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(static_cast<GLint>(rect.x), static_cast<GLint>(rect.y), static_cast<GLsizei>(rect.width),
+            static_cast<GLsizei>(rect.height));
+}
+
+ScissorScope::~ScissorScope() {
+  glDisable(GL_SCISSOR_TEST);
+}
+
 BlendScope::BlendScope(Blending blending) {
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE);

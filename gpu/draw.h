@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "gpu/handles.h"
+#include "gpu/texture.h"
 
 namespace tidemark::gpu {
 
@@ -29,6 +30,15 @@ void begin_exact_drawing();
 
 // The first `count` textures of the framebuffer in use become 0.
 void clear_colours(int count);
+
+// Only this rectangle is drawn to, while the object lives.
+class ScissorScope {
+ public:
+  explicit ScissorScope(const TexelRect& rect);
+  ScissorScope(const ScissorScope&) = delete;
+  ScissorScope& operator=(const ScissorScope&) = delete;
+  ~ScissorScope();
+};
 
 // How fragments combine with what is in the texture, while the object lives.
 enum class Blending { add, largest, smallest };

@@ -31,6 +31,8 @@ GlFormat gl_format(TexelFormat format) {
       return {GL_R16I, GL_RED_INTEGER, GL_SHORT, 2};
     case TexelFormat::r16ui:
       return {GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT, 2};
+    case TexelFormat::r8ui:
+      return {GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1};
     case TexelFormat::r32i:
       return {GL_R32I, GL_RED_INTEGER, GL_INT, 4};
     case TexelFormat::rg32f:

@@ -21,6 +21,7 @@ enum class TexelFormat {
   rgba8,
   r16i,
   r16ui,
+  r8ui,
   r32i,
   rg32f,
   r16_snorm,

@@ -1,156 +1,233 @@
 #include "renderer/renderer.h"
 
-#include <algorithm>
-#include <glm/common.hpp>
+#include <glm/ext/matrix_transform.hpp>
 
-#include "gpu/framebuffer.h"
+#include "renderer/uniforms.h"
 #include "solver/gl/step_uniforms.h"
 
 namespace tidemark {
 namespace {
 
-glm::vec3 spacing_of(const Geometry& geometry) {
-  return glm::vec3(geometry.spacing_mm);
+// Texture units.
+constexpr int kPhiUnit = 0;
+constexpr int kSourceUnit = 3;
+constexpr int kLabelUnit = 5;
+
+// The view moved by a part of a picture's pixels.
+glm::dmat4 moved_by(glm::dvec2 pixels, PictureSize size) {
+  return glm::translate(glm::dmat4(1.0), glm::dvec3(2.0 * pixels / glm::dvec2(size.width, size.height), 0.0));
 }
 
-// The plane in voxel coordinates: dot(xyz, voxel) > w is hidden.
-glm::vec4 in_voxels(const ClipPlane& plane, const Geometry& geometry) {
-  const glm::dvec3 zero = geometry.to_patient(glm::dvec3(0.0));
-  glm::dvec4 result(0.0);
-  for (int axis = 0; axis < 3; ++axis) {
-    glm::dvec3 one(0.0);
-    one[axis] = 1.0;
-    result[axis] = glm::dot(plane.normal, geometry.to_patient(one) - zero);
-  }
-  result.w = plane.offset_mm - glm::dot(plane.normal, zero);
-  return glm::vec4(result / glm::length(glm::dvec3(result)));
+// Digits of `index` mirrored at the point: fills [0, 1) evenly (van der Corput).
+double mirrored(int index, int base) {
+  double result = 0.0;
+  for (double share = 1.0 / base; index > 0; index /= base, share /= base) result += share * (index % base);
+  return result;
 }
 
-void set_transfer_function(const gpu::Program& program, const TransferFunction& function) {
-  program.set("primitive_count", static_cast<int>(function.source.size()));
-  for (std::size_t i = 0; i < function.source.size(); ++i) {
-    const TransferPrimitive& p = function.source[i];
-    const float kind = p.kind == TransferPrimitive::Kind::ramp ? 1.0F : 0.0F;
-    program.set(fmt::format("primitive_shape[{}]", i).c_str(), glm::vec4(kind, p.start, p.end, p.opacity));
-    program.set(fmt::format("primitive_colour[{}]", i).c_str(), p.colour);
-  }
+// Where in a pixel the rays of a round are, from its middle: in the middle first.
+glm::dvec2 offset_of_round(int round) {
+  if (round == 0) return glm::dvec2(0.0);
+  return glm::dvec2(mirrored(round, 2), mirrored(round, 3)) - 0.5;
 }
 
 }  // namespace
 
 Renderer::Renderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source)
-    : device_(std::move(device)), source_(std::move(source)) {}
+    : device_(std::move(device)),
+      source_(std::move(source)),
+      constants_(Model(*source_, Parameters()).constants<float>()) {}
 
 Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> device,
-                                                   std::shared_ptr<const Volume> source, const Field& phi) {
+                                                   std::shared_ptr<const Volume> source,
+                                                   const PageLayout& layout) {
+  if (layout.volume_size() != source->geometry.size) {
+    return fail(ErrorKind::usage, "the pages are not those of the volume");
+  }
   if (auto status = device->make_current(); !status) return pass_on(status);
   std::unique_ptr<Renderer> renderer(new Renderer(std::move(device), std::move(source)));
   gpu::Device& gl = *renderer->device_;
-  renderer->vertices_ = gpu::VertexArray::create(gl);
-  if (auto status = renderer->set_phi(phi); !status) return pass_on(status);
   ThreadPool pool;
-  auto source_picture = SourcePicture::create(gl, *renderer->source_, phi.layout, pool);
+  auto source_picture = SourcePicture::create(gl, *renderer->source_, layout, pool);
   if (!source_picture) return pass_on(source_picture);
   renderer->source_picture_ = std::move(*source_picture);
-  const gpu::Defines defines = renderer->phi_picture_.layout().defines();
-  auto volume = gpu::Program::render(gl, "render/full_view.vert", "", "render/volume.frag", defines);
-  if (!volume) return pass_on(volume);
-  renderer->volume_ = std::move(*volume);
-  auto slice = gpu::Program::render(gl, "render/full_view.vert", "", "render/slice.frag", defines);
-  if (!slice) return pass_on(slice);
-  renderer->slice_ = std::move(*slice);
-  return renderer;
-}
-
-Status Renderer::set_phi(const Field& phi) {
-  if (phi.geometry.size != source_->geometry.size) {
-    return fail(ErrorKind::usage, "phi and the volume differ in size");
-  }
-  if (auto status = device_->make_current(); !status) return status;
-  auto picture = PhiPicture::create(*device_, phi);
-  if (!picture) return pass_on(picture);
-  phi_picture_ = std::move(*picture);
-  return {};
-}
-
-Result<Picture> Renderer::draw(const VolumeView& view, std::int64_t width, std::int64_t height) {
-  if (auto status = device_->make_current(); !status) return pass_on(status);
-  const Geometry& geometry = source_->geometry;
-  volume_.use();
-  phi_picture_.set_uniforms(volume_, 0);
-  source_picture_.set_uniforms(volume_, 2);
-  const double aspect = static_cast<double>(width) / static_cast<double>(height);
-  volume_.set("voxel_from_view", glm::mat4(view.camera.voxel_from_view(geometry, aspect)));
-  volume_.set("spacing", spacing_of(geometry));
-  volume_.set("step_voxels", static_cast<float>(view.step_voxels));
-  volume_.set("jitter", 0.5F);
-  volume_.set("surface_colour", view.surface_colour);
-  volume_.set("show_surface", view.surface ? 1 : 0);
-  volume_.set("show_source", view.source ? 1 : 0);
-  if (view.source) set_transfer_function(volume_, *view.source);
-  volume_.set("region", static_cast<int>(view.region));
-  volume_.set("clip", view.clip ? 1 : 0);
-  if (view.clip) volume_.set("clip_plane", in_voxels(*view.clip, geometry));
-  volume_.set("window", glm::vec2(view.window.centre, view.window.width));
-  volume_.set("background", view.background);
-  return finish(width, height);
-}
-
-Result<Picture> Renderer::draw(const SliceView& view, const Parameters& parameters, std::int64_t width,
-                               std::int64_t height) {
-  if (auto status = device_->make_current(); !status) return pass_on(status);
-  const Geometry& geometry = source_->geometry;
-  slice_.use();
-  phi_picture_.set_uniforms(slice_, 0);
-  source_picture_.set_uniforms(slice_, 2);
-  const double aspect = static_cast<double>(width) / static_cast<double>(height);
-  slice_.set("voxel_from_view",
-             glm::mat4(slice_from_view(geometry, view.plane, view.position_mm, view.zoom, aspect)));
-  slice_.set("spacing", spacing_of(geometry));
-  slice_.set("window", glm::vec2(view.window.centre, view.window.width));
-  slice_.set("content", static_cast<int>(view.content));
-  slice_.set("nearest", view.nearest ? 1 : 0);
-  slice_.set("show_surface", view.surface ? 1 : 0);
-  slice_.set("line_pixels", static_cast<float>(view.line_pixels));
-  slice_.set("background", view.background);
-  // The speed map shows D; the other constants are not used.
-  const StepConstants<float> constants = Model(*source_, parameters).constants<float>();
-  slice_.set("target", constants.target);
-  slice_.set("data_peak", constants.data_peak);
-  slice_.set("data_slope", constants.data_slope);
-  slice_.set("data_floor", constants.data_floor);
-  return finish(width, height);
-}
-
-// Draws with the program in use, and reads the picture.
-Result<Picture> Renderer::finish(std::int64_t width, std::int64_t height) {
-  if (target_.width() != width || target_.height() != height) {
-    auto target = gpu::Texture2D::create(*device_, gpu::TexelFormat::rgba8, width, height, "picture");
-    if (!target) return pass_on(target);
-    target_ = std::move(*target);
-  }
-  auto framebuffer = gpu::Framebuffer::create(*device_, {&target_}, "picture");
-  if (!framebuffer) return pass_on(framebuffer);
-  framebuffer->bind();
-  vertices_.bind();
-  gpu::begin_exact_drawing();
-  gpu::draw(gpu::Primitive::triangles, 3);
-  Picture picture;
-  picture.width = width;
-  picture.height = height;
-  picture.pixels.resize(static_cast<std::size_t>(4 * width * height));
-  if (auto status =
-          target_.download({0, 0, width, height}, std::as_writable_bytes(std::span(picture.pixels)));
+  auto phi = PhiPicture::create(gl, layout, default_band(renderer->source_->geometry));
+  if (!phi) return pass_on(phi);
+  renderer->phi_ = std::move(*phi);
+  const std::vector<std::uint8_t> none(1);
+  auto labels = gpu::Texture3D::create(gl, gpu::TexelFormat::r8ui, Index3(1), std::as_bytes(std::span(none)),
+                                       "no labels");
+  if (!labels) return pass_on(labels);
+  renderer->labels_ = std::move(*labels);
+  if (auto status = renderer->set_phi(
+          Field::empty(renderer->source_->geometry, renderer->phi_.band(), layout.page_shape()));
       !status) {
     return pass_on(status);
   }
-  // OpenGL's rows begin at the bottom.
-  const std::int64_t row = 4 * width;
-  for (std::int64_t y = 0; y < height / 2; ++y) {
-    std::swap_ranges(picture.pixels.begin() + y * row, picture.pixels.begin() + (y + 1) * row,
-                     picture.pixels.begin() + (height - 1 - y) * row);
+  return renderer;
+}
+
+Status Renderer::set_phi(const Field& phi, std::span<const std::int64_t> quiet) {
+  if (phi.geometry.size != source_->geometry.size || phi.layout != phi_.layout().layout()) {
+    return fail(ErrorKind::usage, "phi and the volume differ in size or in pages");
   }
-  return picture;
+  if (auto status = device_->make_current(); !status) return status;
+  if (phi.band != phi_.band()) {
+    auto anew = PhiPicture::create(*device_, phi.layout, phi.band);
+    if (!anew) return pass_on(anew);
+    phi_ = std::move(*anew);
+  }
+  return phi_.update(*device_, phi, quiet);
+}
+
+void Renderer::set_parameters(const Parameters& parameters) {
+  constants_ = Model(*source_, parameters).constants<float>();
+}
+
+Status Renderer::set_labels(std::span<const std::uint8_t> labels) {
+  if (static_cast<std::int64_t>(labels.size()) != source_->geometry.voxel_count()) {
+    return fail(ErrorKind::usage, "there are {} labels for {} voxels", labels.size(),
+                source_->geometry.voxel_count());
+  }
+  if (auto status = device_->make_current(); !status) return status;
+  auto texture = gpu::Texture3D::create(*device_, gpu::TexelFormat::r8ui, source_->geometry.size,
+                                        std::as_bytes(labels), "labels");
+  if (!texture) return pass_on(texture);
+  labels_ = std::move(*texture);
+  has_labels_ = true;
+  return {};
+}
+
+Result<const gpu::Program*> Renderer::use_program(const char* fragment, const gpu::Defines& variant) {
+  std::string key = fragment;
+  for (const auto& [name, value] : variant) key += fmt::format(" {}={}", name, value);
+  auto found = programs_.find(key);
+  if (found == programs_.end()) {
+    gpu::Defines defines = phi_.layout().defines();
+    defines.emplace_back("ANISOTROPIC", "");
+    if (device_->capabilities().software) defines.emplace_back("BOTH_SIDES_COMPUTED", "");
+    defines.insert(defines.end(), variant.begin(), variant.end());
+    auto made = gpu::Program::render(*device_, "render/full_view.vert", "", fragment, defines);
+    if (!made) return pass_on(made);
+    found = programs_.emplace(key, std::move(*made)).first;
+  }
+  const gpu::Program& program = found->second;
+  program.use();
+  set_step_uniforms(program, constants_);
+  phi_.set_uniforms(program, kPhiUnit);  // after the step's: the band is that of the phi shown
+  source_picture_.set_uniforms(program, kSourceUnit);
+  labels_.bind(kLabelUnit);
+  program.set("labels", kLabelUnit);
+  program.set("spacing", glm::vec3(source_->geometry.spacing_mm));
+  return &program;
+}
+
+Result<const gpu::Program*> Renderer::use_volume_program(const VolumeView& view, PictureSize size,
+                                                         gpu::Defines variant) {
+  const bool source = view.source && !view.source->source.empty();
+  const auto with = [&](bool wanted, const char* name) {
+    if (wanted) variant.emplace_back(name, "");
+  };
+  with(view.surface, "SURFACE");
+  with(source, "SOURCE");
+  with(source && (view.region != Region::everywhere || view.source->source_needs_phi()), "REGION");
+  with(source && view.source->source_needs_gradient(), "BY_GRADIENT");
+  with(view.clip.has_value(), "CLIP");
+  with(view.colouring != SurfaceColouring::plain, "TAUGHT");
+  with(view.lighting.occlusion > 0.0, "OCCLUSION");
+  with(source && view.quality.fast_gradient, "FAST_GRADIENT");
+  with(!view.quality.skip_empty, "NO_SKIP");
+  const gpu::Defines shading = shading_defines(view);
+  variant.insert(variant.end(), shading.begin(), shading.end());
+  const auto used = use_program("render/volume.frag", variant);
+  if (!used) return used;
+  const gpu::Program& program = **used;
+  const Geometry& geometry = source_->geometry;
+  set_shading(program, view, geometry);
+  if (source) source_picture_.set_transfer_function(*view.source, view.region, phi_.band());
+  program.set("voxel_from_view", glm::mat4(view.camera.voxel_from_view(geometry, size.aspect()) *
+                                           moved_by(offset_of_round(view.quality.round), size)));
+  program.set("pixel_mm", static_cast<float>(2.0 * view.camera.half_height_mm(geometry, size.aspect()) /
+                                             static_cast<double>(size.height)));
+  program.set("step_voxels", static_cast<float>(view.quality.step_voxels));
+  program.set("jitter_round", view.quality.round);
+  program.set("clip_surface", view.clip && view.clip->clips_surface ? 1 : 0);
+  program.set("clip_source", view.clip && view.clip->clips_source ? 1 : 0);
+  program.set("show_clip_picture", view.clip && view.clip->picture ? 1 : 0);
+  program.set("colouring", static_cast<int>(view.colouring));
+  program.set("occlusion", static_cast<float>(view.lighting.occlusion));
+  program.set("background", view.background);
+  return &program;
+}
+
+Result<Picture> Renderer::draw(const VolumeView& view, PictureSize size, const Progress& progress) {
+  if (auto status = device_->make_current(); !status) return pass_on(status);
+  if (const auto program = use_volume_program(view, size, {}); !program) {
+    return tl::unexpected<Error>(program.error());
+  }
+  return finish(size, progress);
+}
+
+Result<Picture> Renderer::draw(const SliceView& view, PictureSize size, const Progress& progress) {
+  if (auto status = device_->make_current(); !status) return pass_on(status);
+  const auto program = use_program("render/slice.frag", {});
+  if (!program) return tl::unexpected<Error>(program.error());
+  const gpu::Program& slice = **program;
+  slice.set("voxel_from_view",
+            glm::mat4(slice_from_view(source_->geometry, view.orientation, view.position_mm, view.zoom,
+                                      view.pan_mm, size.aspect())));
+  slice.set("window", glm::vec2(view.window.centre, view.window.width));
+  slice.set("content", static_cast<int>(view.content));
+  slice.set("term", static_cast<int>(view.term));
+  slice.set("nearest", view.nearest ? 1 : 0);
+  slice.set("show_surface", view.surface ? 1 : 0);
+  slice.set("line_pixels", static_cast<float>(view.line_pixels));
+  slice.set("label_opacity", has_labels_ ? static_cast<float>(view.label_opacity) : 0.0F);
+  slice.set("background", view.background);
+  return finish(size, progress);
+}
+
+Result<std::optional<Hit>> Renderer::pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel) {
+  if (auto status = device_->make_current(); !status) return pass_on(status);
+  VolumeView finely = view;
+  finely.quality = {};
+  const auto program = use_volume_program(finely, size, {{"PICK", ""}});
+  if (!program) return tl::unexpected<Error>(program.error());
+  // The whole view of this program is the one pixel.
+  const glm::dvec2 from_middle = pixel + 0.5 - 0.5 * glm::dvec2(size.width, size.height);
+  const glm::dmat4 pixel_from_view =
+      glm::scale(moved_by({from_middle.x, -from_middle.y}, size), glm::dvec3(0.0, 0.0, 1.0));
+  const Geometry& geometry = source_->geometry;
+  (*program)->set("voxel_from_view",
+                  glm::mat4(view.camera.voxel_from_view(geometry, size.aspect()) * pixel_from_view));
+  if (pick_canvas_.size() != PictureSize{1, 1}) {
+    auto made = Canvas::create(*device_, {1, 1}, gpu::TexelFormat::rgba32f);
+    if (!made) return pass_on(made);
+    pick_canvas_ = std::move(*made);
+  }
+  if (auto status = pick_canvas_.fill(*device_, {}); !status) return pass_on(status);
+  glm::vec4 found(0.0F);
+  if (auto status =
+          pick_canvas_.colour().download({0, 0, 1, 1}, std::as_writable_bytes(std::span(&found, 1)));
+      !status) {
+    return pass_on(status);
+  }
+  if (found.w == 0.0F) return std::optional<Hit>();
+  const glm::dvec3 voxel(found);
+  return std::optional<Hit>(
+      Hit{static_cast<Hit::Kind>(static_cast<int>(found.w)), voxel, geometry.to_patient(voxel)});
+}
+
+// Draws with the program in use, and reads the picture.
+Result<Picture> Renderer::finish(PictureSize size, const Progress& progress) {
+  if (canvas_.size() != size) {
+    auto made = Canvas::create(*device_, size, gpu::TexelFormat::rgba8);
+    if (!made) return pass_on(made);
+    canvas_ = std::move(*made);
+  }
+  if (auto status = canvas_.fill(*device_, progress); !status) return pass_on(status);
+  report_ = canvas_.report();
+  return canvas_.read();
 }
 
 }  // namespace tidemark

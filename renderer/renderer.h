@@ -2,87 +2,75 @@
 // and 6.2).
 #pragma once
 
-#include <cstdint>
-#include <glm/vec4.hpp>
+#include <map>
 #include <memory>
 #include <optional>
-#include <vector>
+#include <span>
+#include <string>
 
-#include "gpu/draw.h"
-#include "renderer/camera.h"
-#include "renderer/transfer_function.h"
-#include "renderer/view_data.h"
+#include "gpu/device.h"
+#include "renderer/canvas.h"
+#include "renderer/phi_picture.h"
+#include "renderer/source_picture.h"
+#include "renderer/views.h"
 #include "solver/model.h"
 
 namespace tidemark {
 
-// 8 bits each of red, green, blue and opacity (255), rows from the top.
-struct Picture {
-  std::int64_t width = 0;
-  std::int64_t height = 0;
-  std::vector<std::uint8_t> pixels;
-};
-
-// Everything in the patient where normal . p > offset is hidden, and the plane shows the source. LPS, mm.
-struct ClipPlane {
-  glm::dvec3 normal{0.0, 1.0, 0.0};
-  double offset_mm = 0.0;
-};
-
-enum class Region { everywhere, inside, outside };
-
-struct VolumeView {
-  Camera camera;
-  std::optional<TransferFunction> source;  // none: the surface alone
-  bool surface = true;
-  glm::vec4 surface_colour{0.93F, 0.72F, 0.45F, 1.0F};  // and opacity
-  Region region = Region::everywhere;                   // where the source shows
-  std::optional<ClipPlane> clip;
-  WindowLevel window;        // of the clip plane's picture
-  double step_voxels = 0.5;  // along a ray, in the smallest voxels' units
-  glm::vec3 background{0.07F, 0.08F, 0.10F};
-};
-
-enum class SliceContent { source, speed, pages };
-
-struct SliceView {
-  SlicePlane plane = SlicePlane::axial;
-  glm::dvec3 position_mm{0.0};  // a point of the slice
-  double zoom = 1.0;
-  SliceContent content = SliceContent::source;
-  WindowLevel window;
-  bool nearest = false;
-  bool surface = true;
-  double line_pixels = 2.0;
-  glm::vec3 background{0.0F};
+// What a ray meets first.
+struct Hit {
+  enum class Kind { clip_plane = 1, surface, source };  // as in render/volume.frag
+  Kind kind = Kind::surface;
+  glm::dvec3 voxel{0.0};       // voxel coordinates, integers at centres
+  glm::dvec3 patient_mm{0.0};  // LPS
 };
 
 class Renderer {
  public:
-  // Fails (ErrorKind::capability) where the driver lacks what is needed. `phi` and `source` are on the same
-  // grid.
+  // Pictures of level sets on `source` in pages of this layout. Fails (ErrorKind::capability) where the
+  // driver lacks what is needed.
   static Result<std::unique_ptr<Renderer>> create(std::shared_ptr<gpu::Device> device,
-                                                  std::shared_ptr<const Volume> source, const Field& phi);
+                                                  std::shared_ptr<const Volume> source,
+                                                  const PageLayout& layout);
 
-  // Takes a new phi of the same grid.
-  Status set_phi(const Field& phi);
+  // Shows phi from now on. `quiet`: virtual pages that are not computed at present. Fails (ErrorKind::usage)
+  // unless phi has the layout and the grid of create().
+  Status set_phi(const Field& phi, std::span<const std::int64_t> quiet = {});
+  // What the speed's terms are computed from.
+  void set_parameters(const Parameters& parameters);
+  // A label for each voxel, 0 for none. Fails (ErrorKind::usage) when there are not as many as voxels.
+  Status set_labels(std::span<const std::uint8_t> labels);
 
-  Result<Picture> draw(const VolumeView& view, std::int64_t width, std::int64_t height);
-  Result<Picture> draw(const SliceView& view, const Parameters& parameters, std::int64_t width,
-                       std::int64_t height);
+  // Fails (ErrorKind::cancelled) when told to stop, (ErrorKind::capability) when the context is lost.
+  Result<Picture> draw(const VolumeView& view, PictureSize size, const Progress& progress = {});
+  Result<Picture> draw(const SliceView& view, PictureSize size, const Progress& progress = {});
+
+  // What is seen at a pixel (from the picture's top left); none when nothing is.
+  Result<std::optional<Hit>> pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel);
+
+  [[nodiscard]] const DrawReport& last_draw() const { return report_; }
+  [[nodiscard]] std::int64_t pages_uploaded() const { return phi_.pages_uploaded(); }
+  [[nodiscard]] const Volume& source() const { return *source_; }
 
  private:
   Renderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source);
-  Result<Picture> finish(std::int64_t width, std::int64_t height);
+  // A program with what all programs look at set; the view's own uniforms are left.
+  Result<const gpu::Program*> use_program(const char* fragment, const gpu::Defines& variant);
+  Result<const gpu::Program*> use_volume_program(const VolumeView& view, PictureSize size,
+                                                 gpu::Defines variant);
+  Result<Picture> finish(PictureSize size, const Progress& progress);
 
   std::shared_ptr<gpu::Device> device_;
   std::shared_ptr<const Volume> source_;
+  StepConstants<float> constants_;
   SourcePicture source_picture_;
-  PhiPicture phi_picture_;
-  gpu::VertexArray vertices_;
-  gpu::Program volume_;
-  gpu::Program slice_;
-  gpu::Texture2D target_;
+  PhiPicture phi_;
+  gpu::Texture3D labels_;
+  bool has_labels_ = false;
+  std::map<std::string, gpu::Program> programs_;  // by shader and variant, made when first needed
+  Canvas canvas_;
+  Canvas pick_canvas_;
+  DrawReport report_;
 };
 
 }  // namespace tidemark

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <tuple>
+#include <utility>
 
 #include "renderer/embedded_presets.h"
 
@@ -13,34 +15,47 @@ namespace {
 
 using Json = nlohmann::json;
 
-Result<double> number(const Json& object, const std::string& where, const char* key) {
-  const auto found = object.find(key);
-  if (found == object.end() || !found->is_number() || !std::isfinite(found->get<double>())) {
-    return fail(ErrorKind::input, "{}.{}: a number is needed", where, key);
+// [a, b], two finite numbers.
+Result<std::pair<double, double>> two_numbers(const Json& list, const std::string& where) {
+  const auto finite = [](const Json& n) { return n.is_number() && std::isfinite(n.get<double>()); };
+  if (!list.is_array() || list.size() != 2 || !finite(list[0]) || !finite(list[1])) {
+    return fail(ErrorKind::input, "{}: two numbers are needed", where);
   }
-  return found->get<double>();
+  return std::pair{list[0].get<double>(), list[1].get<double>()};
 }
 
-Result<TransferPrimitive> primitive(const Json& object, const std::string& where) {
-  if (!object.is_object()) return fail(ErrorKind::input, "{}: an object is needed", where);
-  const std::string kind = object.value("kind", Json("")).is_string() ? object.value("kind", "") : "";
+Result<TransferFactor> read_factor(const Json& primitive, const std::string& of, const char* axis) {
+  TransferFactor factor;
+  if (!primitive.contains(axis)) return factor;
+  const std::string where = fmt::format("{}.{}", of, axis);
+  const Json& object = primitive[axis];
+  if (!object.is_object() || object.size() != 1) {
+    return fail(ErrorKind::input,
+                "{}: {{\"gaussian\": [centre, width]}} or {{\"ramp\": [start, end]}} is needed", where);
+  }
+  const std::string kind = object.begin().key();
   if (kind != "gaussian" && kind != "ramp") {
-    return fail(ErrorKind::input, "{}.kind: 'gaussian' or 'ramp' is needed", where);
+    return fail(ErrorKind::input, "{}: '{}' is neither gaussian nor ramp", where, kind);
   }
-  const bool gaussian = kind == "gaussian";
-  TransferPrimitive result;
-  result.kind = gaussian ? TransferPrimitive::Kind::gaussian : TransferPrimitive::Kind::ramp;
-  for (const auto& [member, key] : {std::pair{&TransferPrimitive::start, gaussian ? "centre" : "start"},
-                                    {&TransferPrimitive::end, gaussian ? "width" : "end"},
-                                    {&TransferPrimitive::opacity, "opacity"}}) {
-    const auto value = number(object, where, key);
-    if (!value) return tl::unexpected<Error>(value.error());
-    result.*member = *value;
+  const auto numbers = two_numbers(object.begin().value(), where + "." + kind);
+  if (!numbers) return tl::unexpected<Error>(numbers.error());
+  factor.kind = kind == "gaussian" ? TransferFactor::Kind::gaussian : TransferFactor::Kind::ramp;
+  std::tie(factor.start, factor.end) = *numbers;
+  if (kind == "gaussian" ? factor.end <= 0.0 : factor.end == factor.start) {
+    return fail(ErrorKind::input, "{}.{}: the {}", where, kind,
+                kind == "gaussian" ? "width must be above 0" : "end must be other than the start");
   }
-  if (gaussian ? result.end <= 0.0 : result.end == result.start) {
-    return fail(ErrorKind::input, "{}.{}: must be {}", where, gaussian ? "width" : "end",
-                gaussian ? "above 0" : "other than the start");
+  return factor;
+}
+
+// What primitives of both kinds have in common.
+template <class Primitive>
+Status read_material(const Json& object, const std::string& where, Primitive& result) {
+  const Json opacity = object.value("opacity", Json());
+  if (!opacity.is_number() || !std::isfinite(opacity.get<double>())) {
+    return fail(ErrorKind::input, "{}.opacity: a number is needed", where);
   }
+  result.opacity = opacity.get<double>();
   if (result.opacity < 0.0) return fail(ErrorKind::input, "{}.opacity: must not be negative", where);
   const Json colour = object.value("colour", Json::array());
   if (!colour.is_array() || colour.size() != 3 ||
@@ -49,25 +64,98 @@ Result<TransferPrimitive> primitive(const Json& object, const std::string& where
   }
   for (int c = 0; c < 3; ++c)
     result.colour[c] = std::clamp(colour[static_cast<std::size_t>(c)].get<float>(), 0.0F, 1.0F);
+  return {};
+}
+
+template <class Primitive>
+using Axes = std::initializer_list<std::pair<TransferFactor Primitive::*, const char*>>;
+
+template <class Primitive>
+Result<Primitive> read_primitive(const Json& object, const std::string& where, Axes<Primitive> axes) {
+  if (!object.is_object()) return fail(ErrorKind::input, "{}: an object is needed", where);
+  for (const auto& [key, value] : object.items()) {
+    const bool known =
+        key == "opacity" || key == "colour" ||
+        std::any_of(axes.begin(), axes.end(), [&](const auto& axis) { return key == axis.second; });
+    if (!known) return fail(ErrorKind::input, "{}.{}: unknown", where, key);
+  }
+  Primitive result;
+  for (const auto& [member, axis] : axes) {
+    const auto factor = read_factor(object, where, axis);
+    if (!factor) return tl::unexpected<Error>(factor.error());
+    result.*member = *factor;
+  }
+  if (Status good = read_material(object, where, result); !good) return pass_on(good);
   return result;
 }
 
+template <class Primitive>
+Status read_list(const Json& document, const char* name, Axes<Primitive> axes,
+                 std::vector<Primitive>& result) {
+  const Json list = document.value(name, Json::array());
+  if (!list.is_array()) return fail(ErrorKind::input, "{}: a list is needed", name);
+  if (list.size() > TransferFunction::kMostPrimitives) {
+    return fail(ErrorKind::input, "{}: {} primitives are more than {}", name, list.size(),
+                TransferFunction::kMostPrimitives);
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    auto one = read_primitive<Primitive>(list[i], fmt::format("{}[{}]", name, i), axes);
+    if (!one) return pass_on(one);
+    result.push_back(*one);
+  }
+  return {};
+}
+
 }  // namespace
+
+double TransferFactor::at(double x) const {
+  if (kind == Kind::everything) return 1.0;
+  const double u = (x - start) / (kind == Kind::gaussian ? end : end - start);
+  return kind == Kind::gaussian ? std::exp(-u * u) : std::clamp(u, 0.0, 1.0);
+}
+
+double TransferFactor::most(double low, double high) const {
+  // A ramp has its greatest value at one of the ends.
+  return kind == Kind::gaussian ? at(std::clamp(start, low, high)) : std::max(at(low), at(high));
+}
+
+bool TransferFunction::source_needs_gradient() const {
+  return std::any_of(source.begin(), source.end(), [](const SourcePrimitive& p) {
+    return p.gradient.kind != TransferFactor::Kind::everything;
+  });
+}
+
+bool TransferFunction::source_needs_phi() const {
+  return std::any_of(source.begin(), source.end(),
+                     [](const SourcePrimitive& p) { return p.phi.kind != TransferFactor::Kind::everything; });
+}
+
+double TransferFunction::most_opacity(double low, double high, double low_phi, double high_phi) const {
+  double opacity = 0.0;
+  for (const SourcePrimitive& p : source) {
+    opacity += p.opacity * p.value.most(low, high) * p.phi.most(low_phi, high_phi);
+  }
+  return opacity;
+}
 
 Result<TransferFunction> TransferFunction::parse(std::string_view json) {
   const Json document = Json::parse(json, nullptr, false);
   if (!document.is_object()) return fail(ErrorKind::input, "not a JSON object");
   TransferFunction function;
   if (document.contains("name") && document["name"].is_string()) function.name = document["name"];
-  const Json source = document.value("source", Json());
-  if (!source.is_array()) return fail(ErrorKind::input, "source: a list is needed");
-  if (source.size() > kMostPrimitives) {
-    return fail(ErrorKind::input, "source: {} primitives are more than {}", source.size(), kMostPrimitives);
-  }
-  for (std::size_t i = 0; i < source.size(); ++i) {
-    auto one = primitive(source[i], fmt::format("source[{}]", i));
-    if (!one) return pass_on(one);
-    function.source.push_back(*one);
+  Status good = read_list<SourcePrimitive>(document, "source",
+                                           {{&SourcePrimitive::value, "value"},
+                                            {&SourcePrimitive::gradient, "gradient"},
+                                            {&SourcePrimitive::phi, "phi"}},
+                                           function.source);
+  if (!good) return pass_on(good);
+  good = read_list<SurfacePrimitive>(
+      document, "surface",
+      {{&SurfacePrimitive::intensity, "intensity"}, {&SurfacePrimitive::distance, "distance"}},
+      function.surface);
+  if (!good) return pass_on(good);
+  if (function.source.empty() && function.surface.empty()) {
+    return fail(ErrorKind::input, "neither 'source' nor 'surface' has primitives");
   }
   return function;
 }

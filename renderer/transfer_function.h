@@ -1,4 +1,4 @@
-// How the source's values show: a sum of Gaussians and ramps, evaluated in the shader.
+// Transfer functions: how values of the source, and places of the surface, show (paper section 6.2).
 #pragma once
 
 #include <filesystem>
@@ -11,24 +11,59 @@
 
 namespace tidemark {
 
-struct TransferPrimitive {
-  enum class Kind { gaussian, ramp };
-  Kind kind = Kind::gaussian;
-  double start = 0.0;    // Gaussian: its centre; ramp: where it begins. In the source's units.
-  double end = 1.0;      // Gaussian: its width (1/e); ramp: where it is full
-  double opacity = 1.0;  // at the peak, of a millimetre
-  glm::vec3 colour{1.0F};
+// A factor of a primitive's opacity, along one axis.
+struct TransferFactor {
+  enum class Kind { everything, gaussian, ramp };
+  Kind kind = Kind::everything;
+  double start = 0.0;  // Gaussian: its centre; ramp: where it begins
+  double end = 1.0;    // Gaussian: its width (1/e); ramp: where it is 1
+
+  bool operator==(const TransferFactor&) const = default;
+  [[nodiscard]] double at(double x) const;
+  // The greatest factor in [low, high].
+  [[nodiscard]] double most(double low, double high) const;
 };
 
+// Of the source: opacity is that of a mm where all factors are 1.
+struct SourcePrimitive {
+  TransferFactor value;     // the source's units
+  TransferFactor gradient;  // its magnitude, source units a mm
+  TransferFactor phi;       // smallest voxel spacings, > 0 inside
+  double opacity = 1.0;
+  glm::vec3 colour{1.0F};
+
+  bool operator==(const SourcePrimitive&) const = default;
+};
+
+// Of the surface.
+struct SurfacePrimitive {
+  TransferFactor intensity;  // the source's units
+  TransferFactor distance;   // from the clip plane, mm; 0 without one
+  double opacity = 1.0;
+  glm::vec3 colour{1.0F};
+
+  bool operator==(const SurfacePrimitive&) const = default;
+};
+
+// Sums of primitives; colours are mixed by opacity. A surface without primitives has the view's colour.
 struct TransferFunction {
-  static constexpr std::size_t kMostPrimitives = 16;
+  static constexpr std::size_t kMostPrimitives = 16;  // of each list, as in render/transfer.glsl
 
   std::string name;
-  std::vector<TransferPrimitive> source;
+  std::vector<SourcePrimitive> source;
+  std::vector<SurfacePrimitive> surface;
 
-  // Reads what a preset file holds: {"name", "source": [{"kind": "gaussian", "centre", "width", "opacity",
-  // "colour": [r, g, b]} or {"kind": "ramp", "start", "end", "opacity", "colour"}]}. Fails (ErrorKind::input)
-  // and names the field.
+  bool operator==(const TransferFunction&) const = default;
+  [[nodiscard]] bool source_needs_gradient() const;
+  [[nodiscard]] bool source_needs_phi() const;
+  // The greatest opacity (of a mm) of any value and phi in these ranges.
+  [[nodiscard]] double most_opacity(double low, double high, double low_phi, double high_phi) const;
+
+  // Reads what a preset file holds:
+  //   {"name": "...", "source": [PRIMITIVE with "value", "gradient", "phi"], "surface": [PRIMITIVE with
+  //   "intensity", "distance"]}, a primitive having "opacity" and "colour": [r, g, b] (0 to 1), and for each
+  //   axis that matters {"gaussian": [centre, width]} or {"ramp": [start, end]}.
+  // Fails (ErrorKind::input) and names the field.
   static Result<TransferFunction> parse(std::string_view json);
   static Result<TransferFunction> load(const std::filesystem::path& file);
 };

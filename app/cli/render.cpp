@@ -1,4 +1,7 @@
 // tidemark-cli render: a picture of a study and its surface.
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <memory>
 
 #include "app/cli/align.h"
@@ -8,7 +11,7 @@
 #include "gpu/device.h"
 #include "imaging/files/png_file.h"
 #include "imaging/study.h"
-#include "renderer/overview.h"
+#include "renderer/sheet.h"
 #include "solver/distance_transform.h"
 #include "solver/model.h"
 
@@ -17,18 +20,22 @@ namespace {
 
 constexpr const char* kSummary = "Draws a picture of a study and its surface";
 constexpr const char* kDescription =
-    "Draws INPUT, with the surface of a mask or of a saved phi, into a PNG file. 3d: the surface, and with\n"
-    "--preset or --tf the source as a volume rendering. axial, coronal, sagittal: a slice with the "
-    "surface's\n"
-    "outline. speed: the axial slice coloured by D(I), orange where the surface grows, blue and hatched "
-    "where it\n"
-    "shrinks. pages: which pages are resident. Positions are voxel indices, NX,NY,NZ,D of the clip plane "
-    "patient\n"
-    "coordinates (LPS, mm): what lies where N . x > D is hidden.";
+    "Draws INPUT, with the surface of a mask or of a saved phi, into a PNG file.\n\n"
+    "  3d        the surface and, with --preset or --tf, the source as a volume rendering\n"
+    "  axial, coronal, sagittal   a slice with the surface's outline\n"
+    "  oblique   a slice across --normal\n"
+    "  speed     the axial slice coloured by a term of the speed: orange where the surface grows, blue and\n"
+    "            hatched where it shrinks\n"
+    "  pages     which pages of the level set are resident\n"
+    "  sheet     three slices, the speed map (with --target and --range) and the 3D view on one sheet\n\n"
+    "Positions are voxel indices; normals and planes are in patient coordinates (LPS, mm): what lies where\n"
+    "N . x > D of --clip is hidden.";
 constexpr const char* kExamples =
     "  tidemark-cli render head.nii.gz --mask brain.nii.gz --out brain.png\n"
     "  tidemark-cli render study/ --preset ct-bone --camera 30,20 --size 800x800 --out bone.png\n"
-    "  tidemark-cli render study/ --phi phi.nii.gz --view axial --at 0,0,40 --out slice.png\n";
+    "  tidemark-cli render study/ --phi phi.nii.gz --view axial --at 0,0,40 --out slice.png\n"
+    "  tidemark-cli render study/ --mask liver.nii.gz --preset ct-angio --roi inside --out vessels.png\n"
+    "  tidemark-cli render study/ --mask liver.nii.gz --view sheet --size 1200x800 --out sheet.png\n";
 
 constexpr std::int64_t kLargestPicture = 8192;
 
@@ -37,25 +44,68 @@ struct RenderOptions {
   std::string series;
   std::string mask;
   std::string phi;
+  std::string labels;
   std::string view = "3d";
   std::string preset;
   std::string transfer_function;
   std::string region = "off";
   std::string size = "512x512";
   std::optional<std::vector<double>> clip;
+  std::string clipped = "both";
+  std::optional<std::vector<double>> normal;
   std::optional<std::vector<double>> at;
   std::string camera = "0,0";
   std::optional<std::vector<double>> window;
   std::optional<double> target;
   std::optional<double> range;
+  std::optional<double> alpha;
+  std::string term = "data";
+  std::string colour = "plain";
   std::optional<double> opacity;
+  std::optional<double> occlusion;
+  bool fit = false;
+  bool nearest = false;
+  bool annotate = false;
   std::string out;
 };
 
-struct PictureSize {
-  std::int64_t width = 0;
-  std::int64_t height = 0;
-};
+// A word of an option and what it means.
+template <class Value>
+using Words = std::initializer_list<std::pair<const char*, Value>>;
+
+const Words<Region> kRegions{{"off", Region::everywhere},
+                             {"inside", Region::inside},
+                             {"outside", Region::outside},
+                             {"tinted", Region::tinted}};
+const Words<SpeedTerm> kTerms{{"data", SpeedTerm::data},
+                              {"curvature", SpeedTerm::curvature},
+                              {"rescaling", SpeedTerm::rescaling},
+                              {"total", SpeedTerm::total}};
+const Words<SurfaceColouring> kColourings{{"plain", SurfaceColouring::plain},
+                                          {"data", SurfaceColouring::data},
+                                          {"curvature-term", SurfaceColouring::curvature_term},
+                                          {"rescaling", SurfaceColouring::rescaling},
+                                          {"total", SurfaceColouring::total_speed},
+                                          {"curvature", SurfaceColouring::curvature},
+                                          {"pages", SurfaceColouring::pages}};
+const Words<int> kViews{{"3d", 0},      {"axial", 1}, {"coronal", 2}, {"sagittal", 3},
+                        {"oblique", 4}, {"speed", 5}, {"pages", 6},   {"sheet", 7}};
+const Words<int> kClipped{{"both", 0}, {"source", 1}, {"surface", 2}};
+
+template <class Value>
+std::string joined(const Words<Value>& words, const char* between) {
+  std::string all;
+  for (const auto& [word, value] : words) all += (all.empty() ? "" : between) + std::string(word);
+  return all;
+}
+
+template <class Value>
+Result<Value> meaning(const char* option, const std::string& text, const Words<Value>& words) {
+  for (const auto& [word, value] : words) {
+    if (text == word) return value;
+  }
+  return fail(ErrorKind::usage, "{} '{}' is unknown; use {}", option, text, joined(words, ", "));
+}
 
 Result<PictureSize> parse_size(const std::string& text) {
   const std::size_t cross = text.find('x');
@@ -75,7 +125,10 @@ Result<Camera> parse_camera(const std::string& text) {
   for (const std::size_t count : {2U, 3U}) {
     const auto numbers = parse_numbers(text, count);
     if (!numbers) continue;
-    Camera camera{(*numbers)[0], (*numbers)[1], count == 3 ? (*numbers)[2] : 1.0};
+    Camera camera;
+    camera.azimuth = (*numbers)[0];
+    camera.elevation = (*numbers)[1];
+    if (count == 3) camera.zoom = (*numbers)[2];
     if (camera.zoom > 0.0) return camera;
   }
   return fail(ErrorKind::usage, "--camera {}: AZIMUTH,ELEVATION[,ZOOM] is needed, in degrees", text);
@@ -108,27 +161,54 @@ WindowLevel window_of(const RenderOptions& options, const Volume& source) {
   return tidemark::window_of(source);
 }
 
-Result<VolumeView> volume_view(const RenderOptions& options, const Volume& source) {
+bool has_surface(const RenderOptions& options) {
+  return !options.mask.empty() || !options.phi.empty();
+}
+
+bool has_speed(const RenderOptions& options) {
+  return options.target && options.range;
+}
+
+Result<ClipPlane> clip_plane(const RenderOptions& options) {
+  const std::vector<double>& c = *options.clip;
+  const glm::dvec3 normal(c[0], c[1], c[2]);
+  const double length = glm::length(normal);
+  if (length <= 0.0) return fail(ErrorKind::usage, "--clip: the plane needs a normal");
+  const auto clipped = meaning("--clipped", options.clipped, kClipped);
+  if (!clipped) return tl::unexpected<Error>(clipped.error());
+  ClipPlane plane;
+  plane.normal = normal / length;
+  plane.offset_mm = c[3] / length;
+  plane.clips_source = *clipped != 2;
+  plane.clips_surface = *clipped != 1;
+  return plane;
+}
+
+Result<VolumeView> volume_view(const RenderOptions& options, const Volume& source, const Field& phi,
+                               double aspect) {
   VolumeView view;
   const auto camera = parse_camera(options.camera);
   if (!camera) return tl::unexpected<Error>(camera.error());
-  view.camera = *camera;
+  view.camera = options.fit ? camera->on(box_around(phi), source.geometry, aspect) : *camera;
   if (!options.preset.empty() || !options.transfer_function.empty()) {
     auto function =
         options.preset.empty() ? TransferFunction::load(options.transfer_function) : preset(options.preset);
     if (!function) return pass_on(function);
     view.source = std::move(*function);
   }
-  if (options.region == "inside") view.region = Region::inside;
-  if (options.region == "outside") view.region = Region::outside;
-  view.surface = !options.mask.empty() || !options.phi.empty();
+  const auto region = meaning("--roi", options.region, kRegions);
+  if (!region) return tl::unexpected<Error>(region.error());
+  view.region = *region;
+  const auto colouring = meaning("--colour", options.colour, kColourings);
+  if (!colouring) return tl::unexpected<Error>(colouring.error());
+  view.colouring = *colouring;
+  view.surface = has_surface(options);
   if (options.opacity) view.surface_colour.a = static_cast<float>(*options.opacity);
+  if (options.occlusion) view.lighting.occlusion = *options.occlusion;
   if (options.clip) {
-    const std::vector<double>& c = *options.clip;
-    const glm::dvec3 normal(c[0], c[1], c[2]);
-    const double length = glm::length(normal);
-    if (length <= 0.0) return fail(ErrorKind::usage, "--clip: the plane needs a normal");
-    view.clip = ClipPlane{normal / length, c[3] / length};
+    const auto plane = clip_plane(options);
+    if (!plane) return tl::unexpected<Error>(plane.error());
+    view.clip = *plane;
   }
   view.window = window_of(options, source);
   return view;
@@ -136,13 +216,21 @@ Result<VolumeView> volume_view(const RenderOptions& options, const Volume& sourc
 
 Result<SliceView> slice_view(const RenderOptions& options, const Volume& source) {
   SliceView view;
-  if (options.view == "coronal") view.plane = SlicePlane::coronal;
-  if (options.view == "sagittal") view.plane = SlicePlane::sagittal;
+  if (options.view == "coronal") view.orientation = kCoronal;
+  if (options.view == "sagittal") view.orientation = kSagittal;
+  if (options.view == "oblique") {
+    const std::vector<double>& n = *options.normal;
+    if (glm::length(glm::dvec3(n[0], n[1], n[2])) <= 0.0) {
+      return fail(ErrorKind::usage, "--normal: must not be 0");
+    }
+    view.orientation = oblique({n[0], n[1], n[2]});
+  }
   if (options.view == "speed") view.content = SliceContent::speed;
   if (options.view == "pages") view.content = SliceContent::pages;
-  if (view.content == SliceContent::speed && (!options.target || !options.range)) {
-    return fail(ErrorKind::usage, "--view speed needs --target and --range");
-  }
+  const auto term = meaning("--term", options.term, kTerms);
+  if (!term) return tl::unexpected<Error>(term.error());
+  view.term = *term;
+  view.nearest = options.nearest;
   view.position_mm = middle_of(source.geometry);
   if (options.at) {
     view.position_mm = source.geometry.to_patient({(*options.at)[0], (*options.at)[1], (*options.at)[2]});
@@ -152,27 +240,74 @@ Result<SliceView> slice_view(const RenderOptions& options, const Volume& source)
 }
 
 Status check(const RenderOptions& options) {
-  const std::vector<std::string> views = {"3d", "axial", "coronal", "sagittal", "speed", "pages"};
-  if (std::find(views.begin(), views.end(), options.view) == views.end()) {
-    return fail(ErrorKind::usage, "--view '{}' is unknown; use {}", options.view, fmt::join(views, ", "));
-  }
-  if (options.region != "off" && options.region != "inside" && options.region != "outside") {
-    return fail(ErrorKind::usage, "--roi '{}' is unknown; use off, inside or outside", options.region);
-  }
+  if (auto view = meaning("--view", options.view, kViews); !view) return pass_on(view);
   if (!options.mask.empty() && !options.phi.empty()) {
     return fail(ErrorKind::usage, "--mask and --phi exclude each other");
   }
   if (!options.preset.empty() && !options.transfer_function.empty()) {
     return fail(ErrorKind::usage, "--preset and --tf exclude each other");
   }
-  if (options.opacity && (*options.opacity < 0.0 || *options.opacity > 1.0)) {
-    return fail(ErrorKind::usage, "--opacity {}: must be 0 to 1", *options.opacity);
+  for (const auto& [name, value] :
+       {std::pair{"--opacity", options.opacity}, {"--occlusion", options.occlusion}}) {
+    if (value && (*value < 0.0 || *value > 1.0))
+      return fail(ErrorKind::usage, "{} {}: must be 0 to 1", name, *value);
   }
-  if (options.view == "3d" && options.mask.empty() && options.phi.empty() && options.preset.empty() &&
+  if (options.view == "oblique" && !options.normal)
+    return fail(ErrorKind::usage, "--view oblique needs --normal");
+  const bool by_speed =
+      options.view == "speed" ||
+      (options.colour != "plain" && options.colour != "curvature" && options.colour != "pages");
+  if (by_speed && !has_speed(options))
+    return fail(ErrorKind::usage, "a term of the speed needs --target and --range");
+  if (options.view == "3d" && !has_surface(options) && options.preset.empty() &&
       options.transfer_function.empty()) {
     return fail(ErrorKind::usage, "nothing to show: give --mask, --phi, --preset or --tf");
   }
   return {};
+}
+
+// Labels are numbered anew from 1 in the order of their values, so that any numbering gets colours.
+Result<std::vector<std::uint8_t>> load_labels(const std::string& file, const Geometry& grid,
+                                              Console& console) {
+  const auto volume = load_volume(file, {}, console.progress());
+  if (!volume) return tl::unexpected<Error>(volume.error());
+  const auto values = onto_grid(*volume, grid, file);
+  if (!values) return tl::unexpected<Error>(values.error());
+  std::map<float, std::uint8_t> numbers;
+  for (const float value : *values) {
+    if (value == 0.0F || numbers.contains(value)) continue;
+    if (value != std::round(value)) return fail(ErrorKind::input, "{}: {} is not a label", file, value);
+    if (numbers.size() == 255) return fail(ErrorKind::input, "{}: more than 255 labels", file);
+    numbers[value] = 0;
+  }
+  std::uint8_t next = 0;
+  for (auto& [value, number] : numbers) number = ++next;
+  numbers[0.0F] = 0;
+  std::vector<std::uint8_t> labels(values->size());
+  std::transform(values->begin(), values->end(), labels.begin(), [&](float value) { return numbers[value]; });
+  return labels;
+}
+
+Result<Picture> draw(Renderer& renderer, const RenderOptions& options, const Field& phi, PictureSize size,
+                     const Progress& progress) {
+  const Volume& source = renderer.source();
+  if (options.view == "3d") {
+    const auto view = volume_view(options, source, phi, size.aspect());
+    if (!view) return tl::unexpected<Error>(view.error());
+    return options.annotate ? draw_annotated(renderer, *view, size, progress)
+                            : renderer.draw(*view, size, progress);
+  }
+  const auto view = slice_view(options, source);
+  if (!view) return tl::unexpected<Error>(view.error());
+  if (options.view == "sheet") {
+    // The 3D view is two or three of the three columns wide, and one of the two rows high.
+    auto volume = volume_view(options, source, phi, size.aspect() * (has_speed(options) ? 4.0 / 3.0 : 2.0));
+    if (!volume) return pass_on(volume);
+    return draw_sheet(renderer, {view->position_mm, view->window, has_speed(options), view->term, *volume},
+                      size, progress);
+  }
+  return options.annotate ? draw_annotated(renderer, *view, size, progress)
+                          : renderer.draw(*view, size, progress);
 }
 
 Status run(Program& program, const RenderOptions& options) {
@@ -180,6 +315,11 @@ Status run(Program& program, const RenderOptions& options) {
   if (Status good = check(options); !good) return good;
   const auto size = parse_size(options.size);
   if (!size) return tl::unexpected<Error>(size.error());
+  Parameters parameters;
+  if (options.target) parameters.target = *options.target;
+  if (options.range) parameters.range = *options.range;
+  if (options.alpha) parameters.alpha = *options.alpha;
+  if (Status good = tidemark::check(parameters); !good) return good;
   Outputs outputs;
   if (Status announced = outputs.announce_png("--out", options.out); !announced) return announced;
   auto loaded = load_volume(options.input, options.series, console.progress());
@@ -191,23 +331,17 @@ Status run(Program& program, const RenderOptions& options) {
 
   auto device = gpu::Device::create_headless({gpu::GlVersion::gl33, false});
   if (!device) return pass_on(device);
-  auto renderer = Renderer::create(*device, source, *phi);
+  auto renderer = Renderer::create(*device, source, phi->layout);
   if (!renderer) return pass_on(renderer);
-  Result<Picture> picture = fail(ErrorKind::internal, "nothing drawn");
-  if (options.view == "3d") {
-    const auto view = volume_view(options, *source);
-    if (!view) return tl::unexpected<Error>(view.error());
-    picture = (*renderer)->draw(*view, size->width, size->height);
-  } else {
-    const auto view = slice_view(options, *source);
-    if (!view) return tl::unexpected<Error>(view.error());
-    Parameters parameters;
-    if (options.target) parameters.target = *options.target;
-    if (options.range) parameters.range = *options.range;
-    if (Status good = tidemark::check(parameters); !good) return good;
-    picture = (*renderer)->draw(*view, parameters, size->width, size->height);
+  if (Status shown = (*renderer)->set_phi(*phi); !shown) return shown;
+  (*renderer)->set_parameters(parameters);
+  if (!options.labels.empty()) {
+    const auto labels = load_labels(options.labels, source->geometry, console);
+    if (!labels) return tl::unexpected<Error>(labels.error());
+    if (Status taken = (*renderer)->set_labels(*labels); !taken) return taken;
   }
-  if (!picture) return pass_on(picture);
+  const auto picture = draw(**renderer, options, *phi, *size, console.progress());
+  if (!picture) return tl::unexpected<Error>(picture.error());
   const auto write = [&](const std::filesystem::path& name) {
     return write_png_file(picture->width, picture->height, picture->pixels, name);
   };
@@ -232,26 +366,36 @@ void add_render(CLI::App& app, Program& program) {
   command.add_option("--series", options->series, "UID of the series, where INPUT holds several");
   command.add_option("--mask", options->mask, "Mask whose surface is shown");
   command.add_option("--phi", options->phi, "Saved level set whose surface is shown");
-  command.add_option("--view", options->view, "What is drawn (default: 3d)")
-      ->type_name("3d|axial|coronal|sagittal|speed|pages");
+  command.add_option("--labels", options->labels, "Labels, shown as colours on slices");
+  command.add_option("--view", options->view, "What is drawn (default: 3d)")->type_name(joined(kViews, "|"));
   command.add_option("--preset", options->preset,
                      "Volume rendering: " + fmt::format("{}", fmt::join(preset_names(), ", ")));
   command.add_option("--tf", options->transfer_function,
                      "Volume rendering: a transfer function of your own, as JSON");
-  command
-      .add_option("--roi", options->region,
-                  "Where the volume rendering shows: off (everywhere), inside or outside")
-      ->type_name("off|inside|outside");
+  command.add_option("--roi", options->region, "Where the volume rendering shows: off is everywhere")
+      ->type_name(joined(kRegions, "|"));
+  command.add_option("--colour", options->colour, "What colours the surface (default: plain)")
+      ->type_name(joined(kColourings, "|"));
   command.add_option("--opacity", options->opacity, "Of the surface, 0 to 1 (default: 1)");
+  command.add_option("--occlusion", options->occlusion, "How much hollows of the surface darken, 0 to 1");
   add_numbers(command, "--clip", "NX,NY,NZ,D", options->clip, "Clip plane in the patient (LPS, mm)");
+  command.add_option("--clipped", options->clipped, "What it cuts (default: both)")
+      ->type_name(joined(kClipped, "|"));
+  add_numbers(command, "--normal", "NX,NY,NZ", options->normal, "Across the oblique slice (LPS)");
   add_numbers(command, "--at", "I,J,K", options->at,
               "A voxel that the slice goes through (default: the middle)");
   add_numbers(command, "--window", "CENTRE,WIDTH", options->window,
               "Window in the source's units (default: the file's)");
-  add_number(command, "--target", options->target, "T, for --view speed");
-  add_number(command, "--range", options->range, "epsilon, for --view speed");
+  command.add_flag("--nearest", options->nearest, "Slices show voxels as they are, not interpolated");
+  add_number(command, "--target", options->target, "T, for the speed");
+  add_number(command, "--range", options->range, "epsilon, for the speed");
+  add_number(command, "--alpha", options->alpha, "alpha, for the speed (default: 0.5)");
+  command.add_option("--term", options->term, "What --view speed shows (default: data, which is D(I))")
+      ->type_name(joined(kTerms, "|"));
   command.add_option("--camera", options->camera,
                      "AZIMUTH,ELEVATION[,ZOOM] in degrees; 0,0 looks from the front (default)");
+  command.add_flag("--fit", options->fit, "The camera looks at the surface and comes near");
+  command.add_flag("--annotate", options->annotate, "Orientation letters and a scale bar");
   command.add_option("--size", options->size, "Pixels (default: 512x512)")->type_name("WxH");
   command.add_option("--out", options->out, "Picture, .png")->required();
 }

@@ -14,7 +14,7 @@
 #include "imaging/filters/filters.h"
 #include "imaging/study.h"
 #include "imaging/surface/surface.h"
-#include "renderer/overview.h"
+#include "renderer/sheet.h"
 
 namespace tidemark::cli {
 namespace {
@@ -57,6 +57,7 @@ class Segmentation {
   Status suggest();
   Status evolve();
   Status write();
+  Result<Picture> draw_picture();
   void say_warnings();
 
   Console& console_;
@@ -223,10 +224,7 @@ Status Segmentation::write() {
     if (Status staged = outputs_.stage(options_.out_phi, write_phi); !staged) return staged;
   }
   if (!options_.picture.empty()) {
-    auto renderer = Renderer::create(device_, source_, phi_);
-    if (!renderer) return pass_on(renderer);
-    constexpr std::int64_t kSide = 512;
-    const auto picture = draw_overview(**renderer, window_of(*source_), middle_of(mask_), kSide);
+    const auto picture = draw_picture();
     if (!picture) return tl::unexpected<Error>(picture.error());
     const auto write_picture = [&](const std::filesystem::path& name) {
       return write_png_file(picture->width, picture->height, picture->pixels, name);
@@ -240,6 +238,23 @@ Status Segmentation::write() {
     if (Status staged = outputs_.stage(options_.stats, write_stats); !staged) return staged;
   }
   return {};
+}
+
+// The slices go through the middle of what was found, and the camera looks at it.
+Result<Picture> Segmentation::draw_picture() {
+  auto renderer = Renderer::create(device_, source_, phi_.layout);
+  if (!renderer) return pass_on(renderer);
+  if (Status shown = (*renderer)->set_phi(phi_); !shown) return pass_on(shown);
+  (*renderer)->set_parameters(options_.parameters());
+  constexpr PictureSize kSize{1200, 800};
+  SheetView view;
+  view.position_mm = middle_of(mask_);
+  view.window = window_of(*source_);
+  view.speed = true;
+  view.volume.camera.azimuth = 30.0;
+  view.volume.camera.elevation = 20.0;
+  view.volume.camera = view.volume.camera.on(box_around(phi_), source_->geometry, kSize.aspect() * 4.0 / 3.0);
+  return draw_sheet(**renderer, view, kSize, console_.progress());
 }
 
 void Segmentation::say_warnings() {

@@ -4,15 +4,15 @@
 
 namespace tidemark {
 
-Result<std::array<gpu::Texture2D, 2>> PackedField::make_textures(gpu::Device& device,
-                                                                 const PackedLayout& layout,
-                                                                 std::int64_t capacity) {
+Result<std::vector<gpu::Texture2D>> PackedField::make_textures(gpu::Device& device,
+                                                               const PackedLayout& layout,
+                                                               std::int64_t capacity, std::size_t count) {
   if (capacity > layout.largest_capacity()) {
     return fail(ErrorKind::capability, "the surface needs {} pages; this driver's textures hold {}", capacity,
                 layout.largest_capacity());
   }
   const glm::i64vec2 size = layout.texture_size(capacity);
-  std::array<gpu::Texture2D, 2> textures;
+  std::vector<gpu::Texture2D> textures(count);
   for (gpu::Texture2D& texture : textures) {
     auto made = gpu::Texture2D::create(device, gpu::TexelFormat::r32f, size.x, size.y, "physical memory G");
     if (!made) return pass_on(made);
@@ -22,8 +22,8 @@ Result<std::array<gpu::Texture2D, 2>> PackedField::make_textures(gpu::Device& de
 }
 
 Result<PackedField> PackedField::create(gpu::Device& device, const PackedLayout& layout,
-                                        std::int64_t capacity, float band) {
-  auto textures = make_textures(device, layout, capacity);
+                                        std::int64_t capacity, float band, int buffers) {
+  auto textures = make_textures(device, layout, capacity, static_cast<std::size_t>(buffers));
   if (!textures) return pass_on(textures);
   PackedField field;
   field.layout_ = layout;
@@ -45,9 +45,9 @@ void PackedField::write_static_pages() {
 }
 
 Status PackedField::grow(gpu::Device& device, std::int64_t capacity) {
-  auto textures = make_textures(device, layout_, capacity);
+  auto textures = make_textures(device, layout_, capacity, phi_.size());
   if (!textures) return pass_on(textures);
-  for (std::size_t buffer = 0; buffer < 2; ++buffer) {
+  for (std::size_t buffer = 0; buffer < phi_.size(); ++buffer) {
     const gpu::Texture2D& old = phi_[buffer];
     auto source = gpu::Framebuffer::create(device, {&old}, "growing G");
     if (!source) return pass_on(source);

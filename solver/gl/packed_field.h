@@ -1,7 +1,6 @@
 // Physical memory G (paper section 3.2): phi of the resident pages, packed in 2D textures.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -10,39 +9,41 @@
 
 namespace tidemark {
 
-// Two textures of R32F: a step reads phi from one and writes it to the other. Physical pages 0 and 1 hold the
-// constants that stand for everything that is not resident, -W and W.
+// Textures of R32F: two where a step reads phi from one and writes it to the other, one for pictures.
+// Physical pages 0 and 1 hold the constants that stand for everything that is not resident, -W and W.
 class PackedField {
  public:
   PackedField() = default;
   // Room for at least `capacity` physical pages, the static ones included. Fails (ErrorKind::capability) when
   // the driver's textures or its memory are too small.
   static Result<PackedField> create(gpu::Device& device, const PackedLayout& layout, std::int64_t capacity,
-                                    float band);
+                                    float band, int buffers = 2);
 
   // Enlarges G by copy. On failure it is as before.
   Status grow(gpu::Device& device, std::int64_t capacity);
 
   [[nodiscard]] const PackedLayout& layout() const { return layout_; }
   [[nodiscard]] std::int64_t capacity() const { return capacity_; }
-  [[nodiscard]] std::int64_t bytes() const { return phi_[0].bytes() + phi_[1].bytes(); }
+  [[nodiscard]] std::int64_t bytes() const {
+    return static_cast<std::int64_t>(phi_.size()) * phi_[0].bytes();
+  }
   [[nodiscard]] const gpu::Texture2D& phi(int buffer) const { return phi_[static_cast<std::size_t>(buffer)]; }
 
-  // Writes pages kFirstPage, kFirstPage + 1, ... of both buffers: `pages` holds their voxels one page after
+  // Writes pages kFirstPage, kFirstPage + 1, ... of all buffers: `pages` holds their voxels one page after
   // the other, i fastest.
   void upload(std::span<const float> pages);
   // The voxels of all physical pages, in the same order, page 0 first. Waits for the GPU.
   Result<std::vector<float>> download(int buffer) const;
 
  private:
-  static Result<std::array<gpu::Texture2D, 2>> make_textures(gpu::Device& device, const PackedLayout& layout,
-                                                             std::int64_t capacity);
+  static Result<std::vector<gpu::Texture2D>> make_textures(gpu::Device& device, const PackedLayout& layout,
+                                                           std::int64_t capacity, std::size_t count);
   void write_static_pages();
 
   PackedLayout layout_;
   std::int64_t capacity_ = 0;
   float band_ = 0.0F;
-  std::array<gpu::Texture2D, 2> phi_;
+  std::vector<gpu::Texture2D> phi_;
 };
 
 }  // namespace tidemark

@@ -1,8 +1,11 @@
-// A slice through the volume: the source in its window, the surface as a line of constant width, or the speed map.
+// A slice through the volume: the source in its window, a term of the speed or the pages; labels and the surface's outline
+// over it.
 
 #include "solver/phi.glsl"
 #include "render/source.glsl"
-#include "solver/speed/data.glsl"
+#include "render/speed_terms.glsl"
+#include "render/page_state.glsl"
+#include "render/colours.glsl"
 
 in vec2 view_position;
 out vec4 fragment;
@@ -10,50 +13,71 @@ out vec4 fragment;
 uniform mat4 voxel_from_view;
 uniform vec2 window;          // centre and width
 uniform vec3 spacing;         // mm
-uniform int content;          // 0 source, 1 speed D(I), 2 pages
+uniform int content;          // as enum class SliceContent
+uniform int term;             // as enum class SpeedTerm
 uniform bool nearest;
 uniform bool show_surface;
 uniform float line_pixels;
+uniform usampler3D labels;    // 0: nothing
+uniform float label_opacity;  // 0 without labels
 uniform vec3 background;
 
-// Diverging, told apart by colour-blind people, too: blue where the surface shrinks, orange where it grows.
-vec3 diverging(float x) {
-  vec3 cold = vec3(0.13, 0.36, 0.67), warm = vec3(0.80, 0.40, 0.05), middle = vec3(0.95);
-  return x < 0.0 ? mix(middle, cold, min(-x, 1.0)) : mix(middle, warm, min(x, 1.0));
+const int kSpeedContent = 1;
+const int kPageContent = 2;
+
+const int kLabelColours = 12;
+const vec3 kLabelColour[kLabelColours] =
+    vec3[](vec3(0.90, 0.62, 0.00), vec3(0.34, 0.71, 0.91), vec3(0.00, 0.62, 0.45), vec3(0.84, 0.37, 0.00),
+           vec3(0.80, 0.47, 0.65), vec3(0.00, 0.45, 0.70), vec3(0.94, 0.89, 0.26), vec3(0.60, 0.80, 0.20),
+           vec3(0.55, 0.35, 0.85), vec3(0.45, 0.30, 0.15), vec3(0.95, 0.60, 0.75), vec3(0.20, 0.80, 0.80));
+
+ivec3 nearest_voxel(vec3 p) {
+  return clamp(ivec3(floor(p + 0.5)), ivec3(0), volume_size - 1);
+}
+
+// Only D is defined away from the surface.
+vec3 speed_colour(vec3 p, float phi, vec3 grey) {
+  bool near = abs(phi) < band;
+  float speed = term == kDataSpeed ? data_speed(source_between(p)) : near ? speed_at(term, nearest_voxel(p)) : 0.0;
+  float across = length(vec2(dFdx(speed), dFdy(speed)));
+  if (term != kDataSpeed && !near) return 0.5 * grey;
+  vec3 colour = diverging(speed);
+  // Hatching where it shrinks, so that the sign needs no colour.
+  if (speed < 0.0 && mod(gl_FragCoord.x + gl_FragCoord.y, 8.0) < 1.5) colour *= 0.75;
+  return abs(speed) < 0.7 * across ? vec3(0.1) : colour;
+}
+
+vec3 page_picture(vec3 p, vec3 grey) {
+  int state = page_state(nearest_voxel(p) / kPageShape);
+  vec3 colour = mix(grey, page_colour(state), state >= 2 ? 0.45 : 0.2);
+  vec3 in_page = (p + 0.5) / vec3(kPageShape);
+  vec3 edge = abs(in_page - floor(in_page + 0.5));
+  // Along the slice's own axis there is no edge to be seen.
+  vec3 width = fwidth(in_page);
+  bvec3 seen = greaterThan(width, vec3(1e-6));
+  if (state >= 2 && any(lessThan(mix(vec3(1.0), edge, vec3(seen)), 0.6 * width))) colour = mix(colour, vec3(1.0), 0.5);
+  return colour;
 }
 
 void main() {
   vec4 at = voxel_from_view * vec4(view_position, 0.0, 1.0);
   vec3 p = at.xyz / at.w;
   bool outside = any(lessThan(p, vec3(-0.5))) || any(greaterThan(p, vec3(volume_size) - 0.5));
-  float value = source_between(nearest ? round(p) : p);
-  vec3 colour = vec3(clamp((value - window.x) / window.y + 0.5, 0.0, 1.0));
+  float value = source_between(nearest ? vec3(nearest_voxel(p)) : p);
+  vec3 grey = vec3(clamp((value - window.x) / window.y + 0.5, 0.0, 1.0));
   float phi = phi_between(p);
   float phi_slope_in_view = length(vec2(dFdx(phi), dFdy(phi)));
 
-  if (content == 1) {
-    float speed = data_speed(value);
-    float slope = length(vec2(dFdx(speed), dFdy(speed)));
-    colour = diverging(speed);
-    // Hatching where it shrinks, so that the sign needs no colour.
-    if (speed < 0.0 && mod(gl_FragCoord.x + gl_FragCoord.y, 8.0) < 1.5) colour *= 0.75;
-    if (abs(speed) < 0.7 * slope) colour = vec3(0.1);
-  } else if (content == 2) {
-    ivec3 voxel = clamp(ivec3(round(p)), ivec3(0), volume_size - 1);
-    ivec3 page = voxel / kPageShape;
-    int physical = physical_page(page);
-    vec3 tint = physical >= kFirstPage ? vec3(0.20, 0.55, 0.85) : physical == kInsidePage ? vec3(0.9, 0.75, 0.3) : vec3(0.35);
-    colour = mix(colour, tint, physical >= kFirstPage ? 0.45 : 0.2);
-    vec3 in_page = (p + 0.5) / vec3(kPageShape);
-    vec3 width = fwidth(in_page);
-    vec3 edge = abs(in_page - round(in_page));
-    if (physical >= kFirstPage && any(lessThan(edge, 0.6 * width))) colour = mix(colour, vec3(1.0), 0.5);
+  vec3 colour = content == kSpeedContent ? speed_colour(p, phi, grey) : content == kPageContent ? page_picture(p, grey) : grey;
+  if (label_opacity > 0.0) {
+    int label = int(texelFetch(labels, nearest_voxel(p), 0).r);
+    if (label > 0) colour = mix(colour, kLabelColour[(label - 1) % kLabelColours], label_opacity);
   }
   if (show_surface && abs(phi) < band) {
     // Where the slice grazes the surface phi hardly changes in it; the line must not become a patch.
     float pixel = length(dFdx(p) * spacing) / min(spacing.x, min(spacing.y, spacing.z));
     float pixels = abs(phi) / max(phi_slope_in_view, 0.4 * pixel);
-    colour = mix(vec3(1.0, 0.85, 0.0), colour, smoothstep(0.5 * line_pixels - 0.5, 0.5 * line_pixels + 0.5, pixels));
+    colour = mix(kOutlineYellow, colour, smoothstep(0.5 * line_pixels - 0.5, 0.5 * line_pixels + 0.5, pixels));
   }
   fragment = vec4(outside ? background : colour, 1.0);
 }

@@ -1,135 +1,346 @@
-// The volume rendering: a ray for each pixel, from page to page. The surface is found to a fraction of a voxel in phi's
+// The volume rendering by rays, each from page to page. The surface is found to a fraction of a voxel in phi's
 // resident pages; pages in which neither surface nor source shows anything are crossed in one stride.
+//
+// Variants: SURFACE and SOURCE show them; REGION where phi says which part of the source shows; CLIP with a clip
+// plane; TAUGHT where a term of the speed colours the surface; OCCLUSION darkens its hollows; PICK says where a ray
+// first meets something instead of a colour; FAST_GRADIENT lights the source less well; NO_SKIP computes what is empty,
+// too.
+//
+// What a ray does is arranged in loops that end at an event: a processor that plays the GPU computes both sides of every
+// branch, so that what is done once for a surface must not stand where each step would pay for it.
 
 #include "solver/phi.glsl"
 #include "render/source.glsl"
-#include "render/transfer.glsl"
+#include "render/shade.glsl"
+#include "render/page_state.glsl"
+#include "render/ray.glsl"
+#ifdef TAUGHT
+#include "render/speed_terms.glsl"
+#endif
 
 in vec2 view_position;
 out vec4 fragment;
 
-uniform mat4 voxel_from_view;       // from the view's cube to voxel coordinates
-uniform vec3 spacing;               // mm
-uniform samplerBuffer page_range;   // the source's least and greatest value in each page of V_P, and one voxel around
+uniform mat4 voxel_from_view;         // from the view's cube to voxel coordinates
+uniform samplerBuffer page_opacity;   // the most of any voxel in each page of V_P: all outside, all inside, mixed
 uniform float step_voxels;
-uniform float jitter;               // of the ray's first step, 0..1
-uniform vec4 surface_colour;        // and opacity
-uniform bool show_surface;
-uniform bool show_source;
-uniform int region;                 // where the source shows: 0 everywhere, 1 inside, 2 outside of the surface
-uniform bool clip;
-uniform vec4 clip_plane;            // in voxel coordinates: hidden where dot(xyz, p) > w
-uniform vec2 window;                // centre and width, of the clip plane's picture
+uniform int jitter_round;             // another offset of the samples in each round
+uniform float pixel_mm;
+uniform bool clip_surface;
+uniform bool clip_source;
+uniform bool show_clip_picture;
+uniform int colouring;                // as enum class SurfaceColouring
+uniform float occlusion;              // how much of the light hollows lose, 0..1
 uniform vec3 background;
 
-vec4 result = vec4(0.0);  // premultiplied, front to back
-vec3 light = vec3(0.0);   // mm, from the surface to the viewer
+#if defined(SURFACE) || defined(REGION)
+#define NEEDS_PHI
+#endif
 
-void add(vec3 colour, float opacity) {
-  result += (1.0 - result.a) * vec4(colour * opacity, opacity);
+const int kBending = 5;               // of colouring; 1 to 4 are the terms of the speed
+const int kActivity = 6;
+const int kPickedPlane = 1;
+const int kPickedSurface = 2;
+const int kPickedSource = 3;
+const int kMostLayers = 64;           // of surface and clip plane along a ray
+const float kLeastOpacity = 1e-4;
+
+float t = 0.0;
+vec2 for_surface = vec2(0.0);         // the parts of the ray in which they may show
+vec2 for_source = vec2(0.0);
+bool inside = false;                  // of the surface, at t
+vec4 picked = vec4(0.0);
+
+void pick(int kind, vec3 p) {
+  if (picked.w == 0.0 && result.a > 0.5) picked = vec4(p, float(kind));
 }
 
-// Blinn-Phong with the light at the viewer.
-vec3 lit(vec3 colour, vec3 slope) {
-  vec3 normal = slope / spacing;
-  float length_of = length(normal);
-  if (length_of < 1e-6) return colour;
-  float facing = abs(dot(normal / length_of, light));
-  return colour * (0.22 + 0.78 * facing) + vec3(0.25) * pow(facing, 40.0);
+// Offsets without a pattern that the eye finds (interleaved gradient noise, Jimenez 2014).
+float jitter() {
+  vec2 p = gl_FragCoord.xy + 5.588238 * float(jitter_round);
+  return max(fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715)))), 0.05);
 }
 
-// The picture on the clip plane: the source in its window, the surface's cut in yellow.
-void add_cut(vec3 p, float pixel_voxels) {
-  if (any(lessThan(p, vec3(-0.5))) || any(greaterThan(p, vec3(volume_size) - 0.5))) return;
-  float grey = clamp((source_between(p) - window.x) / window.y + 0.5, 0.0, 1.0);
+// How open the surface is at p, from what phi is above it: it would be minus the distance above a plain.
+float openness(vec3 p, vec3 outward) {
+  float unit = min(spacing.x, min(spacing.y, spacing.z));
+  float hidden = 0.0;
+  for (int i = 1; i <= 3; ++i) {
+    float up = 0.25 * float(i) * band;
+    hidden += clamp((up + phi_between(p + outward * (up * unit) / spacing)) / up, 0.0, 1.0) / 3.0;
+  }
+  return 1.0 - occlusion * hidden;
+}
+
+#ifdef TAUGHT
+vec3 taught_colour(vec3 p) {
+  ivec3 voxel = clamp(ivec3(floor(p + 0.5)), ivec3(0), volume_size - 1);
+  if (colouring == kActivity) return page_colour(page_state(voxel / kPageShape));
+  return diverging(colouring == kBending ? 2.0 * curvature_at(voxel) : speed_between(colouring - 1, p));
+}
+#endif
+
+void add_surface(vec3 p) {
+  vec4 material = material_of_surface(p);
+#ifdef TAUGHT
+  material.rgb = taught_colour(p);
+#endif
+  vec3 slope = phi_slope(p) / spacing;
+  float open = 1.0;
+#ifdef OCCLUSION
+  open = openness(p, -slope / max(length(slope), 1e-6));
+#endif
+  add(lit(material.rgb, slope, viewer, open), material.a);
+  pick(kPickedSurface, p);
+}
+
+#ifdef CLIP
+// The picture on the clip plane: the source in its window, the surface's cut as a line of constant width.
+void add_clip_picture(vec3 p) {
+  vec3 colour = windowed(source_between(p));
+#ifdef SURFACE
   float phi = phi_between(p);
-  float line = 1.0 - smoothstep(0.6, 1.2, abs(phi) / max(pixel_voxels, 0.05) * 0.8);
-  add(mix(vec3(grey), vec3(1.0, 0.85, 0.0), show_surface && abs(phi) < band ? line : 0.0), 1.0);
+  vec3 normal = normalize(clip_plane.xyz / spacing);
+  vec3 slope = phi_slope(p) / spacing;
+  float steepness = length(slope - normal * dot(slope, normal));
+  float pixels = abs(phi) / max(steepness * pixel_mm, 1e-6);
+  colour = mix(kOutlineYellow, colour, abs(phi) < band ? smoothstep(0.5, 1.5, pixels) : 1.0);
+#endif
+  add(colour, 1.0);
+  pick(kPickedPlane, p);
 }
+#endif
+
+// Where phi is 0 between two places of other signs, by false position (the Illinois variant).
+float crossing(float a, float b, float phi_a, float phi_b) {
+  float at = a;
+  for (int i = 0; i < 3; ++i) {
+    at = (a * phi_b - b * phi_a) / (phi_b - phi_a);
+    float phi = phi_between(on_ray(at));
+    bool like_b = (phi > 0.0) == (phi_b > 0.0);
+    a = like_b ? a : at;
+    b = like_b ? at : b;
+    phi_a = like_b ? 0.5 * phi_a : phi;
+    phi_b = like_b ? phi : 0.5 * phi_b;
+  }
+  return at;
+}
+
+// The next piece of the ray in which the surface is, from t: its ends and phi there.
+struct Piece {
+  bool found;
+  float a, b;
+  float phi_a, phi_b;
+};
+
+#ifndef SOURCE
+// Until `stop`, with the surface alone: phi says how far away it is at least.
+Piece march(float stop) {
+  Piece piece = Piece(false, t, t, 0.0, 0.0);
+  float unit = min(spacing.x, min(spacing.y, spacing.z));
+  // How far a voxel is from the ray where it is the nearest, in phi's units; from `near` on phi is interpolated.
+  float reach = 0.5 * length(spacing) / unit;
+  float near = min(reach + 0.5, 0.99 * band);
+  float before = t;
+  while (t < stop && !piece.found) {
+    while (t < stop) {
+      enter_page(t);
+      float distance_of = abs(nearest_phi(t));
+      bool resident = physical >= kFirstPage;
+#ifdef NO_SKIP
+      break;
+#endif
+      if (resident && distance_of < near) break;
+      before = t;
+      t = resident ? min(t + max((distance_of - reach) * unit / ray_mm, 0.1), page_end) : page_end;
+    }
+    // Step by step, while the surface may be near.
+    float a = t;
+    float phi_a = phi_between(on_ray(t));
+    bool passed = t < stop && (phi_a > 0.0) != inside;  // steeper than a distance: it was in the last stride
+    piece = Piece(passed, before, t, inside ? 1.0 : -1.0, phi_a);
+    while (t < stop && !piece.found) {
+      float next = min(t + step_voxels, stop);
+      float phi_b = phi_between(on_ray(next));
+      if ((phi_b > 0.0) != inside) piece = Piece(true, t, next, phi_a, phi_b);
+      before = t;
+      t = next;
+      phi_a = phi_b;
+#ifndef NO_SKIP
+      if (abs(phi_b) > near + 0.2 || abs(phi_b) >= band) break;
+#endif
+    }
+  }
+  return piece;
+}
+#else
+// In the page entered, from t, adding the source on the way; `resident` is a constant, so that phi is looked up only
+// where it varies.
+void march_in_page(const bool resident, float stride, inout Piece piece) {
+  float static_phi = physical == kInsidePage ? band : -band;
+  float value_a = source_between(on_ray(t));
+  float phi_a = static_phi;
+  if (resident) phi_a = phi_between(on_ray(t));
+  float phi_b = phi_a;
+  while (t < page_end && !piece.found && result.a < 0.99) {
+    // To the next piece that shows anything.
+    vec4 material = vec4(0.0);
+    float a = t;
+    float length_mm = 0.0;
+    vec3 gradient = vec3(0.0);
+    float middle = 0.0;
+    while (t < page_end && !piece.found && material.a * length_mm <= kLeastOpacity) {
+      a = t;
+      float next = min(t + stride, page_end);
+      stride = step_voxels;
+      float value_b = source_between(on_ray(next));
+      if (resident) {
+        phi_b = phi_between(on_ray(next));
+#ifdef SURFACE
+        if ((phi_b > 0.0) != inside) {
+          piece = Piece(true, t, next, phi_a, phi_b);
+          // Up to the surface; what is behind it comes after it.
+          float share = clamp(phi_a / (phi_a - phi_b), 0.0, 1.0);
+          next = mix(t, next, share);
+          value_b = mix(value_a, value_b, share);
+          phi_b = phi_a;
+        }
+#endif
+      }
+      length_mm = max(min(next, for_source.y) - max(t, for_source.x), 0.0) * ray_mm;
+#ifdef REGION
+      length_mm *= share_in_region(phi_a, phi_b);
+#endif
+      middle = 0.5 * (value_a + value_b);
+#ifdef BY_GRADIENT
+      gradient = source_gradient(on_ray(0.5 * (t + next)), spacing, middle);
+#endif
+      material = classify(value_a, value_b, length(gradient), 0.5 * (phi_a + phi_b));
+      value_a = value_b;
+      phi_a = phi_b;
+      t = next;
+    }
+#ifndef BY_GRADIENT
+    gradient = source_gradient(on_ray(0.5 * (a + t)), spacing, middle);
+#endif
+    if (material.a * length_mm > kLeastOpacity) {
+      add_source(material, gradient, viewer, phi_b, length_mm);
+      pick(kPickedSource, on_ray(a));
+    }
+  }
+}
+
+bool phi_varies() {
+#ifdef NEEDS_PHI
+  return physical >= kFirstPage;
+#else
+  return false;
+#endif
+}
+
+// Whether anything shows in the page entered.
+bool page_shows() {
+#ifdef NO_SKIP
+  return true;
+#endif
+  bool resident = physical >= kFirstPage;
+  vec3 opacity = texelFetch(page_opacity, page_number(page)).rgb;
+  float most = resident ? opacity.z : physical == kInsidePage ? opacity.y : opacity.x;
+#ifdef SURFACE
+  if (resident) most = 1.0;
+#endif
+  return most > kLeastOpacity;
+}
+
+// Until `stop`, adding the source on the way.
+Piece march(float stop) {
+  Piece piece = Piece(false, t, t, 0.0, 0.0);
+  float stride = jitter() * step_voxels;
+  while (t < stop && !piece.found && result.a < 0.99) {
+    // Pages without the surface, most of which show nothing.
+    bool varies = false;
+    while (t < stop && !varies && result.a < 0.99) {
+      bool shows = false;
+      while (t < stop && !shows) {
+        enter_page(t);
+        shows = page_shows();
+        if (!shows) t = page_end;
+      }
+      varies = shows && phi_varies();
+      page_end = varies ? t : min(page_end, stop);
+      march_in_page(false, stride, piece);
+    }
+#ifdef NEEDS_PHI
+    // Pages with it.
+    while (t < stop && varies && !piece.found && result.a < 0.99) {
+      enter_page(t);
+      page_end = min(page_end, stop);
+      varies = phi_varies() && page_shows();
+      if (!varies) page_end = t;
+      march_in_page(true, stride, piece);
+    }
+#endif
+  }
+  return piece;
+}
+#endif
 
 void main() {
-  vec4 a = voxel_from_view * vec4(view_position, -1.0, 1.0);
-  vec4 b = voxel_from_view * vec4(view_position, 1.0, 1.0);
-  vec3 start = a.xyz / a.w;
-  vec3 way = b.xyz / b.w - start;
-  vec3 direction = way / length(way);  // a unit of t is a voxel
-  light = -normalize(direction * spacing);
-  float step_mm = length(direction * spacing) * step_voxels;
-  float pixel_voxels = length(dFdx(start) + dFdy(start));
-
-  // The part of the ray inside the volume.
-  vec3 inverse = 1.0 / (direction + vec3(equal(direction, vec3(0.0))) * 1e-9);
-  vec3 to_low = (vec3(-0.5) - start) * inverse;
-  vec3 to_high = (vec3(volume_size) - 0.5 - start) * inverse;
-  vec3 enter = min(to_low, to_high);
-  vec3 leave = max(to_low, to_high);
-  float t = max(max(enter.x, max(enter.y, enter.z)), 0.0);
-  float end = min(leave.x, min(leave.y, leave.z));
-
-  float cut = -1.0;  // where the ray meets the clip plane from its hidden side
-  if (clip) {
-    float slope = dot(clip_plane.xyz, direction);
-    float distance_of = clip_plane.w - dot(clip_plane.xyz, start);
-    if (abs(slope) > 1e-6) {
-      float meets = distance_of / slope;
-      if (slope < 0.0) {
-        if (meets > t && meets < end) cut = meets;
-        t = max(t, meets);
-      } else {
-        end = min(end, meets);
-      }
-    } else if (distance_of < 0.0) {
-      end = t;
-    }
+  vec2 whole = begin_ray(voxel_from_view, view_position, spacing);
+  vec2 left = whole;
+  float cut = 1e9;  // where the plane's picture is
+#ifdef CLIP
+  float slope = dot(clip_plane.xyz, ray_direction);
+  float distance_of = clip_plane.w - dot(clip_plane.xyz, ray_start);
+  float meets = distance_of / (abs(slope) > 1e-6 ? slope : 1e-6);
+  if (abs(slope) <= 1e-6 && distance_of < 0.0) left.y = left.x;
+  if (slope < -1e-6) left.x = max(left.x, meets);
+  if (slope > 1e-6) left.y = min(left.y, meets);
+  if (show_clip_picture && abs(slope) > 1e-6 && meets >= whole.x && meets < whole.y) cut = meets;
+#endif
+  for_surface = clip_surface ? left : whole;
+  for_source = clip_source ? left : whole;
+  // From where anything shows to where nothing does any more.
+  float end = -1e9;
+  t = 1e9;
+#ifdef SURFACE
+  t = for_surface.x;
+  end = for_surface.y;
+#endif
+#ifdef SOURCE
+  t = min(t, for_source.x);
+  end = max(end, for_source.y);
+#endif
+#ifdef CLIP
+  if (cut < 1e9) {
+    t = min(t, cut);
+    end = max(end, cut);
   }
-  if (t < end) {
-    if (cut > 0.0) add_cut(start + cut * direction, pixel_voxels);
-    t += jitter * step_voxels;
-    float before = phi_between(start + t * direction);
-    for (int stride = 0; stride < 4096 && t < end && result.a < 0.99; ++stride) {
-      // The page that the ray is in, and where it leaves it.
-      vec3 p = start + (t + 1e-3) * direction;
-      ivec3 page = clamp(ivec3(p + 0.5) / kPageShape, ivec3(0), page_grid - 1);
-      vec3 low = vec3(page * kPageShape) - 0.5;
-      vec3 out_of = max((low - start) * inverse, (low + vec3(kPageShape) - start) * inverse);
-      float page_end = min(end, max(min(out_of.x, min(out_of.y, out_of.z)), t + 1e-3));
-      int physical = physical_page(page);
-      vec2 range = texelFetch(page_range, page_number(page)).rg;
-      bool source_shows = show_source && most_opacity(range.x, range.y) > 1e-4 &&
-                          !(physical < kFirstPage && region != 0 && (physical == kInsidePage) != (region == 1));
-      bool surface_shows = physical >= kFirstPage && (show_surface || region != 0);
-      if (!source_shows && !surface_shows) {
-        t = page_end;
-        before = physical < kFirstPage ? (physical == kInsidePage ? band : -band) : phi_between(start + t * direction);
-        continue;
-      }
-      while (t < page_end && result.a < 0.99) {
-        float next = t + step_voxels;
-        vec3 q = start + next * direction;
-        float phi = physical >= kFirstPage || surface_shows ? phi_between(q) : before;
-        if (show_surface && (before > 0.0) != (phi > 0.0)) {
-          // One step of false position after linear interpolation.
-          float at = t + step_voxels * before / (before - phi);
-          float there = phi_between(start + at * direction);
-          at += (there > 0.0) == (before > 0.0) ? (next - at) * there / (there - phi)
-                                                : (t - at) * there / (there - before);
-          vec3 hit = start + at * direction;
-          add(lit(surface_colour.rgb, phi_slope(hit)), surface_colour.a);
-        }
-        if (source_shows && (region == 0 || (phi > 0.0) == (region == 1))) {
-          vec4 material = classify(source_between(q));
-          if (material.a > 1e-4) {
-            const vec2 h = vec2(1.0, 0.0);
-            vec3 slope = vec3(source_between(q + h.xyy) - source_between(q - h.xyy),
-                              source_between(q + h.yxy) - source_between(q - h.yxy),
-                              source_between(q + h.yyx) - source_between(q - h.yyx));
-            add(lit(material.rgb, slope), 1.0 - exp(-material.a * step_mm));
-          }
-        }
-        before = phi;
-        t = next;
-      }
+#endif
+#ifdef NEEDS_PHI
+  inside = phi_between(on_ray(t)) > 0.0;
+#endif
+  for (int layer = 0; layer < kMostLayers && t <= end && whole.x < whole.y && result.a < 0.99; ++layer) {
+    float stop = cut < 1e9 ? cut : end;
+    Piece piece = march(stop);
+#ifdef SURFACE
+    if (piece.found) {
+      float at = crossing(piece.a, piece.b, piece.phi_a, piece.phi_b);
+      if (at >= for_surface.x && at <= for_surface.y) add_surface(on_ray(at));
+      inside = !inside;
     }
+#endif
+#ifdef CLIP
+    if (!piece.found && cut < 1e9 && result.a < 0.99) {
+      add_clip_picture(on_ray(cut));
+      cut = 1e9;
+    } else
+#endif
+    if (!piece.found) break;
   }
+#ifdef PICK
+  fragment = picked;
+#else
   fragment = vec4(result.rgb + (1.0 - result.a) * background, 1.0);
+#endif
 }

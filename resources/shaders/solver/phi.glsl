@@ -1,4 +1,5 @@
-// phi at any voxel and between voxels, straight from the packed pages.
+// phi at any voxel and between voxels, straight from the packed pages. BOTH_SIDES_COMPUTED: the driver computes both sides
+// of every branch (a processor that plays the GPU).
 
 #include "solver/paging.glsl"
 
@@ -11,10 +12,14 @@ int physical_page(ivec3 page) {
   return texelFetch(page_table, page_number(page)).r;
 }
 
+float phi_in(int physical, ivec3 local) {
+  return texelFetch(phi_pages, page_origin(physical) + texel_in_page(local), 0).r;
+}
+
 float phi_at(ivec3 voxel) {
   ivec3 v = clamp(voxel, ivec3(0), volume_size - 1);
   ivec3 page = v / kPageShape;
-  return texelFetch(phi_pages, page_origin(physical_page(page)) + texel_in_page(v - page * kPageShape), 0).r;
+  return phi_in(physical_page(page), v - page * kPageShape);
 }
 
 // Trilinear; `position` in voxel coordinates, integers at voxel centres.
@@ -22,24 +27,28 @@ float phi_between(vec3 position) {
   vec3 p = clamp(position, vec3(0.0), vec3(volume_size - 1));
   ivec3 low = min(ivec3(p), max(volume_size - 2, ivec3(0)));
   vec3 f = p - vec3(low);
+  const ivec2 u = ivec2(1, 0);
+  vec4 below, above;  // the corners (0,0), (1,0), (0,1), (1,1) along x and y
+#ifndef BOTH_SIDES_COMPUTED
   ivec3 page = low / kPageShape;
   ivec3 local = low - page * kPageShape;
-  float v[8];
   if (all(lessThan(local + 1, kPageShape))) {
     // All eight in one page, as most are.
     int physical = physical_page(page);
     if (physical < kFirstPage) return physical == kInsidePage ? band : -band;
-    ivec2 origin = page_origin(physical);
-    for (int i = 0; i < 8; ++i) {
-      ivec3 corner = local + ivec3(i & 1, i >> 1 & 1, i >> 2);
-      v[i] = texelFetch(phi_pages, origin + texel_in_page(corner), 0).r;
-    }
-  } else {
-    for (int i = 0; i < 8; ++i) v[i] = phi_at(low + ivec3(i & 1, i >> 1 & 1, i >> 2));
+    below = vec4(phi_in(physical, local), phi_in(physical, local + u.xyy), phi_in(physical, local + u.yxy),
+                 phi_in(physical, local + u.xxy));
+    above = vec4(phi_in(physical, local + u.yyx), phi_in(physical, local + u.xyx), phi_in(physical, local + u.yxx),
+                 phi_in(physical, local + u.xxx));
+  } else
+#endif
+  {
+    below = vec4(phi_at(low), phi_at(low + u.xyy), phi_at(low + u.yxy), phi_at(low + u.xxy));
+    above = vec4(phi_at(low + u.yyx), phi_at(low + u.xyx), phi_at(low + u.yxx), phi_at(low + u.xxx));
   }
-  vec4 along_x = mix(vec4(v[0], v[2], v[4], v[6]), vec4(v[1], v[3], v[5], v[7]), f.x);
-  vec2 along_y = mix(along_x.xz, along_x.yw, f.y);
-  return mix(along_y.x, along_y.y, f.z);
+  vec4 along_z = mix(below, above, f.z);
+  vec2 along_y = mix(along_z.xy, along_z.zw, f.y);
+  return mix(along_y.x, along_y.y, f.x);
 }
 
 // d phi / d voxel, from differences over a voxel to each side.

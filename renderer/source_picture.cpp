@@ -1,4 +1,4 @@
-#include "renderer/view_data.h"
+#include "renderer/source_picture.h"
 
 #include <algorithm>
 #include <variant>
@@ -47,6 +47,7 @@ std::vector<glm::vec2> page_ranges(const Volume& source, const PageLayout& layou
 Result<SourcePicture> SourcePicture::create(gpu::Device& device, const Volume& source,
                                             const PageLayout& layout, ThreadPool& pool) {
   SourcePicture picture;
+  picture.unit_ = 1.0F / glm::vec3(source.geometry.size);
   const auto stored = [](const auto& voxels) -> std::pair<gpu::TexelFormat, double> {
     using Scalar = typename std::decay_t<decltype(voxels)>::value_type;
     if constexpr (std::is_same_v<Scalar, std::int16_t>) return {gpu::TexelFormat::r16_snorm, 32767.0};
@@ -63,57 +64,42 @@ Result<SourcePicture> SourcePicture::create(gpu::Device& device, const Volume& s
       source.voxels);
   if (!texture) return pass_on(texture);
   picture.texture_ = std::move(*texture);
-  const std::vector<glm::vec2> ranges = page_ranges(source, layout, pool);
-  auto buffer = gpu::Buffer::create(device, static_cast<std::int64_t>(ranges.size() * sizeof(glm::vec2)),
-                                    "page ranges");
+  picture.ranges_ = page_ranges(source, layout, pool);
+  auto buffer = gpu::Buffer::create(
+      device, layout.page_count() * static_cast<std::int64_t>(sizeof(glm::vec4)), "page opacities");
   if (!buffer) return pass_on(buffer);
-  picture.range_buffer_ = std::move(*buffer);
-  picture.range_buffer_.upload_values<glm::vec2>(0, ranges);
-  auto view =
-      gpu::BufferTexture::create(device, picture.range_buffer_, gpu::TexelFormat::rg32f, "page ranges");
+  picture.opacity_buffer_ = std::move(*buffer);
+  auto view = gpu::BufferTexture::create(device, picture.opacity_buffer_, gpu::TexelFormat::rgba32f,
+                                         "page opacities");
   if (!view) return pass_on(view);
-  picture.ranges_ = std::move(*view);
+  picture.opacities_ = std::move(*view);
   return picture;
+}
+
+void SourcePicture::set_transfer_function(const TransferFunction& function, Region region, double band) {
+  Shown wanted{function, region, band};
+  if (shown_ == wanted) return;
+  std::vector<glm::vec4> opacities;
+  opacities.reserve(ranges_.size());
+  for (const glm::vec2 range : ranges_) {
+    const auto most = [&](double low_phi, double high_phi) {
+      return function.most_opacity(range.x, range.y, low_phi, high_phi);
+    };
+    // Of a page that is outside throughout, inside throughout, or holds the surface.
+    opacities.emplace_back(region == Region::inside ? 0.0 : most(-band, -band),
+                           region == Region::outside ? 0.0 : most(band, band), most(-band, band), 0.0);
+  }
+  opacity_buffer_.upload_values<glm::vec4>(0, opacities);
+  shown_ = std::move(wanted);
 }
 
 void SourcePicture::set_uniforms(const gpu::Program& program, int unit) const {
   texture_.bind(static_cast<unsigned>(unit));
   program.set("source_values", unit);
   program.set("source_scale", scale_);
-  ranges_.bind(static_cast<unsigned>(unit + 1));
-  program.set("page_range", unit + 1);
-}
-
-Result<PhiPicture> PhiPicture::create(gpu::Device& device, const Field& phi) {
-  PhiPicture picture;
-  const PackedLayout layout(phi.layout, device.capabilities().largest_texture);
-  auto field =
-      PackedField::create(device, layout, phi.resident_pages() + kFirstPage, static_cast<float>(phi.band));
-  if (!field) return pass_on(field);
-  picture.field_ = std::move(*field);
-  picture.field_.upload(phi.pages);
-  picture.band_ = static_cast<float>(phi.band);
-  std::vector<std::int32_t> table(phi.table.size());
-  std::transform(phi.table.begin(), phi.table.end(), table.begin(), [](std::int32_t entry) {
-    return entry >= 0 ? entry + kFirstPage : entry == Field::kInside ? kInsidePage : kOutsidePage;
-  });
-  auto buffer = gpu::Buffer::create(device, static_cast<std::int64_t>(table.size()) * 4, "page table");
-  if (!buffer) return pass_on(buffer);
-  picture.table_buffer_ = std::move(*buffer);
-  picture.table_buffer_.upload_values<std::int32_t>(0, table);
-  auto view = gpu::BufferTexture::create(device, picture.table_buffer_, gpu::TexelFormat::r32i, "page table");
-  if (!view) return pass_on(view);
-  picture.table_ = std::move(*view);
-  return picture;
-}
-
-void PhiPicture::set_uniforms(const gpu::Program& program, int unit) const {
-  layout().set_uniforms(program);
-  field_.phi(0).bind(static_cast<unsigned>(unit));
-  program.set("phi_pages", unit);
-  table_.bind(static_cast<unsigned>(unit + 1));
-  program.set("page_table", unit + 1);
-  program.set("band", band_);
+  program.set("source_unit", unit_);
+  opacities_.bind(static_cast<unsigned>(unit + 1));
+  program.set("page_opacity", unit + 1);
 }
 
 }  // namespace tidemark

@@ -1,0 +1,250 @@
+// How long pictures take: still and moving, with and without the skipping of what is empty, and of a level
+// set that evolves. See docs/performance.md.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include "gpu/device.h"
+#include "imaging/phantom/phantom.h"
+#include "renderer/quality_control.h"
+#include "renderer/renderer.h"
+#include "renderer/sheet.h"
+#include "solver/executor.h"
+
+using namespace tidemark;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+template <class T>
+T expect(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(*result);
+}
+
+void expect_done(const Status& status) {
+  if (!status) throw std::runtime_error(status.error().message);
+}
+
+struct Options {
+  std::string kind = "tumour";
+  std::string executor = "host";
+  std::int64_t side = 512;
+  int rounds = 5;
+};
+
+// A level set on a phantom, steered to where the phantom's own parameters lead.
+struct Study {
+  explicit Study(const Options& options) {
+    Phantom phantom = expect(make_phantom(options.kind));
+    parameters.target = phantom.target;
+    parameters.range = phantom.range;
+    parameters.alpha = phantom.alpha;
+    source = std::make_shared<const Volume>(std::move(phantom.volume));
+    ExecutorOptions executor_options;
+    ExecutorKind kind = ExecutorKind::host;
+    if (options.executor == "compute") kind = ExecutorKind::compute;
+    if (options.executor == "stream") kind = ExecutorKind::stream;
+    executor = expect(make_executor(kind, source, parameters, executor_options));
+    if (phantom.seed) {
+      const auto& s = *phantom.seed;
+      expect_done(executor->paint({source->geometry.to_patient({s[0], s[1], s[2]}), s[3]}, Brush::add));
+    }
+  }
+
+  Parameters parameters;
+  std::shared_ptr<const Volume> source;
+  std::unique_ptr<Executor> executor;
+};
+
+class Bench {
+ public:
+  Bench(const Options& options, Study& study) : options_(options), study_(study) {
+    device_ = expect(gpu::Device::create_headless({gpu::GlVersion::gl33, false}));
+    renderer_ = expect(Renderer::create(device_, study.source, study.executor->snapshot()->layout));
+    renderer_->set_parameters(study.parameters);
+  }
+
+  // Medians over rounds in which the contestants take turns.
+  void stills() {
+    const Field phi = expect(study_.executor->snapshot());
+    expect_done(renderer_->set_phi(phi));
+    struct Contestant {
+      std::string name;
+      VolumeView view;
+      std::int64_t side;
+      std::vector<double> seconds;
+      double longest_piece = 0.0;
+    };
+    std::vector<Contestant> contestants;
+    const auto enter = [&](const std::string& name, VolumeView view) {
+      view.camera.azimuth = 30.0;
+      view.camera.elevation = 20.0;
+      view.window = window_of(*study_.source);
+      contestants.push_back({name + ", still", view, options_.side, {}, 0.0});
+      const bool skip_empty = view.quality.skip_empty;
+      view.quality = kMovingQuality;
+      view.quality.skip_empty = skip_empty;
+      contestants.push_back({name + ", moving", view, options_.side / 2, {}, 0.0});
+    };
+    VolumeView surface;
+    enter("surface", surface);
+    VolumeView near = surface;
+    near.camera = surface.camera.on(box_around(phi), study_.source->geometry, 1.0);
+    enter("surface, fills the picture", near);
+    VolumeView whole = surface;
+    whole.quality.skip_empty = false;
+    enter("surface, nothing skipped", whole);
+    VolumeView volume = surface;
+    volume.source = volume_function();
+    enter("surface and source", volume);
+    volume.region = Region::inside;
+    volume.surface = false;
+    enter("source inside the surface", volume);
+    volume.region = Region::everywhere;
+    volume.clip = ClipPlane{{0.0, -1.0, 0.0}, -middle_of(study_.source->geometry).y};
+    enter("source with clip plane", volume);
+
+    for (int round = -1; round < options_.rounds; ++round) {  // the first one compiles
+      for (Contestant& c : contestants) {
+        const auto start = Clock::now();
+        expect(renderer_->draw(c.view, {c.side, c.side}));
+        if (round < 0) continue;
+        c.seconds.push_back(seconds_since(start));
+        c.longest_piece = std::max(c.longest_piece, renderer_->last_draw().longest_piece_seconds);
+      }
+    }
+    fmt::print("{:42} {:>10} {:>10} {:>12} {:>14}\n", "picture", "pixels", "ms", "pictures/s",
+               "longest piece");
+    for (Contestant& c : contestants) {
+      std::nth_element(c.seconds.begin(), c.seconds.begin() + c.seconds.size() / 2, c.seconds.end());
+      const double median = c.seconds[c.seconds.size() / 2];
+      fmt::print("{:42} {:>10} {:>10.1f} {:>12.1f} {:>11.1f} ms\n", c.name,
+                 fmt::format("{}x{}", c.side, c.side), 1e3 * median, 1.0 / median, 1e3 * c.longest_piece);
+    }
+  }
+
+  // The camera turns, and the budget of an interactive picture says how coarse it is.
+  void turning() {
+    constexpr int kPictures = 60;
+    fmt::print("\n{:42} {:>10} {:>12}\n", "turning, within the budget", "pixels", "pictures/s");
+    VolumeView volume;
+    volume.source = volume_function();
+    VolumeView inside = volume;
+    inside.surface = false;
+    inside.region = Region::inside;
+    for (auto [name, view] : {std::pair{"surface", VolumeView()},
+                              {"surface and source", volume},
+                              {"source inside the surface", inside}}) {
+      QualityControl control;
+      PictureSize size;
+      double seconds = 0.0;
+      for (int i = -10; i < kPictures; ++i) {  // the first ones compile, and tell what a pixel takes
+        control.moved();
+        const Pass pass = *control.next({options_.side, options_.side});
+        view.camera.azimuth = 3.0 * i;
+        view.quality = pass.quality;
+        const auto start = Clock::now();
+        expect(renderer_->draw(view, pass.size));
+        control.drawn(pass, seconds_since(start));
+        if (i >= 0) seconds += seconds_since(start);
+        size = pass.size;
+      }
+      fmt::print("{:42} {:>10} {:>12.1f}\n", name, fmt::format("{}x{}", size.width, size.height),
+                 kPictures / seconds);
+    }
+  }
+
+  // The level set runs; each picture follows it.
+  void evolving() {
+    constexpr int kPictures = 40;
+    constexpr std::int64_t kStepsPerPicture = 5;
+    VolumeView view;
+    view.quality = kMovingQuality;
+    double solving = 0.0;
+    double sending = 0.0;
+    double drawing = 0.0;
+    std::int64_t uploaded = 0;
+    std::int64_t resident = 0;
+    for (int i = 0; i < kPictures; ++i) {
+      auto start = Clock::now();
+      expect(study_.executor->advance({kStepsPerPicture}));
+      solving += seconds_since(start);
+      start = Clock::now();
+      const Field phi = expect(study_.executor->snapshot());
+      expect_done(renderer_->set_phi(phi));
+      sending += seconds_since(start);
+      uploaded += renderer_->pages_uploaded();
+      resident += phi.resident_pages();
+      start = Clock::now();
+      expect(renderer_->draw(view, {options_.side / 2, options_.side / 2}));
+      drawing += seconds_since(start);
+    }
+    fmt::print(
+        "\nevolving ({}): {} steps a picture, {:.1f} pictures/s; a picture: {:.1f} ms solving, {:.1f} ms "
+        "sending {} of {} "
+        "pages, {:.1f} ms drawing\n",
+        study_.executor->name(), kStepsPerPicture, kPictures / (solving + sending + drawing),
+        1e3 * solving / kPictures, 1e3 * sending / kPictures, uploaded / kPictures, resident / kPictures,
+        1e3 * drawing / kPictures);
+  }
+
+  [[nodiscard]] const gpu::Capabilities& capabilities() const { return device_->capabilities(); }
+
+ private:
+  // Brighter than half of what there is.
+  [[nodiscard]] TransferFunction volume_function() const {
+    const auto [low, high] = study_.source->range();
+    TransferFunction function;
+    SourcePrimitive bright;
+    bright.value = {TransferFactor::Kind::ramp, 0.5 * (low + high), static_cast<double>(high)};
+    bright.opacity = 0.2;
+    function.source.push_back(bright);
+    return function;
+  }
+
+  Options options_;
+  Study& study_;
+  std::shared_ptr<gpu::Device> device_;
+  std::unique_ptr<Renderer> renderer_;
+};
+
+void run(const Options& options) {
+  Study study(options);
+  Bench bench(options, study);
+  fmt::print("{}, {}, {} voxels, medians of {} rounds\n\n", bench.capabilities().renderer, options.kind,
+             fmt::format("{}x{}x{}", study.source->geometry.size.x, study.source->geometry.size.y,
+                         study.source->geometry.size.z),
+             options.rounds);
+  bench.evolving();
+  expect(study.executor->advance({2000, true}));
+  bench.stills();
+  bench.turning();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Times pictures of a phantom and its level set"};
+  Options options;
+  app.add_option("--case", options.kind, "A phantom with a seed: tumour, organ, head, ...");
+  app.add_option("--executor", options.executor, "host, compute or stream");
+  app.add_option("--side", options.side, "Pixels of the still picture")->check(CLI::Range(64, 4096));
+  app.add_option("--rounds", options.rounds)->check(CLI::Range(1, 1000));
+  CLI11_PARSE(app, argc, argv);
+  try {
+    run(options);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "render_bench: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,25 @@
+// What is written over pictures: where the patient's sides are, and how long a centimetre is.
+#pragma once
+
+#include <string_view>
+
+#include "renderer/camera.h"
+#include "renderer/picture.h"
+
+namespace tidemark {
+
+// Letters (orientation_letters()) at the four edges, and a scale bar with its length at the lower right;
+// white on a dark rim, so that they are seen on any picture. `right` and `up`: unit vectors in the patient
+// (LPS).
+void annotate(Picture& picture, glm::dvec3 right, glm::dvec3 up, double mm_per_pixel);
+
+// The longest of 1, 2 and 5 times a power of ten that is no longer than this, in mm.
+double scale_bar_mm(double longest_mm);
+
+// Writes at `at` (the upper left, in pixels) in letters of that height. Knows capital A F H L P R, digits,
+// '.', 'c', 'm' and the space, which is all there is to write; others leave a gap.
+void write_text(Picture& picture, glm::dvec2 at, double height, std::string_view text);
+// How wide that is, in pixels.
+double text_width(double height, std::string_view text);
+
+}  // namespace tidemark

@@ -1,0 +1,46 @@
+// Where pictures are drawn: a texture, filled in pieces so that nobody waits long for the GPU.
+#pragma once
+
+#include "core/progress.h"
+#include "gpu/draw.h"
+#include "gpu/framebuffer.h"
+#include "gpu/texture.h"
+#include "renderer/picture.h"
+
+namespace tidemark {
+
+// What drawing a picture took.
+struct DrawReport {
+  double seconds = 0.0;
+  double longest_piece_seconds = 0.0;
+  std::int64_t pieces = 0;
+};
+
+// On a processor that plays the GPU, contexts share one rasteriser, which works on one draw until that is
+// done: pieces are as small as it takes to keep each below kLongestPiece. A GPU gets the whole picture at
+// once.
+class Canvas {
+ public:
+  static constexpr double kLongestPiece = 0.020;  // seconds
+
+  Canvas() = default;
+  static Result<Canvas> create(gpu::Device& device, PictureSize size, gpu::TexelFormat format);
+
+  [[nodiscard]] PictureSize size() const { return {colour_.width(), colour_.height()}; }
+  [[nodiscard]] const gpu::Texture2D& colour() const { return colour_; }
+
+  // Draws a triangle over the picture with the program in use; what was there is lost. Fails
+  // (ErrorKind::cancelled) between two pieces when it is told to stop.
+  Status fill(gpu::Device& device, const Progress& progress);
+  // Waits for the GPU.
+  Result<Picture> read() const;
+  [[nodiscard]] const DrawReport& report() const { return report_; }
+
+ private:
+  gpu::Texture2D colour_;
+  gpu::Framebuffer framebuffer_;
+  gpu::VertexArray vertices_;
+  DrawReport report_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,165 @@
+#include "renderer/phi_picture.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "gpu/framebuffer.h"
+
+namespace tidemark {
+
+Result<PhiPicture::Array> PhiPicture::Array::create(gpu::Device& device, std::int64_t texels,
+                                                    gpu::TexelFormat format, std::string_view label) {
+  Array array;
+  auto buffer = gpu::Buffer::create(device, texels * gpu::bytes_per_texel(format), label);
+  if (!buffer) return pass_on(buffer);
+  array.buffer = std::move(*buffer);
+  auto texture = gpu::BufferTexture::create(device, array.buffer, format, label);
+  if (!texture) return pass_on(texture);
+  array.texture = std::move(*texture);
+  return array;
+}
+
+Result<PhiPicture> PhiPicture::create(gpu::Device& device, const PageLayout& layout, double band) {
+  PhiPicture picture;
+  const PackedLayout packed(layout, device.capabilities().largest_texture);
+  auto field = PackedField::create(device, packed, kFirstPage, static_cast<float>(band), 1);
+  if (!field) return pass_on(field);
+  picture.field_ = std::move(*field);
+  picture.table_ = PageTable(layout);
+  picture.shown_.band = band;
+  picture.shown_.layout = layout;
+  picture.shown_.table.assign(static_cast<std::size_t>(layout.page_count()), Field::kOutside);
+  auto table = Array::create(device, layout.page_count(), gpu::TexelFormat::r32i, "page table");
+  if (!table) return pass_on(table);
+  picture.page_table_ = std::move(*table);
+  auto flags = Array::create(device, layout.page_count(), gpu::TexelFormat::r32i, "page flags");
+  if (!flags) return pass_on(flags);
+  picture.page_flags_ = std::move(*flags);
+  auto scatter =
+      gpu::Program::render(device, "render/scatter.vert", "", "render/scatter.frag", packed.defines());
+  if (!scatter) return pass_on(scatter);
+  picture.scatter_ = std::move(*scatter);
+  picture.vertices_ = gpu::VertexArray::create(device);
+  constexpr std::int64_t kMostStaged = 8192;  // 16 MB of the default pages
+  picture.most_staged_ = std::clamp<std::int64_t>(
+      device.capabilities().largest_buffer_texture / layout.voxels_per_page(), 1, kMostStaged);
+  return picture;
+}
+
+// Makes the page table that of `phi`, and finds the pages that differ from what was shown.
+std::vector<PhiPicture::Change> PhiPicture::follow(const Field& phi) {
+  std::vector<Change> changes;
+  new_pages_.clear();
+  const auto voxels = static_cast<std::size_t>(phi.layout.voxels_per_page());
+  // First what is freed, so that its room is taken again.
+  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
+    const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
+    if (entry >= 0) continue;
+    if (is_static_page(table_.physical(page))) {
+      table_.set_static(page, entry == Field::kInside);
+    } else {
+      table_.release(page, entry == Field::kInside);
+    }
+  }
+  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
+    const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
+    if (entry < 0) continue;
+    const float* values = phi.pages.data() + static_cast<std::size_t>(entry) * voxels;
+    PhysicalPage physical = table_.physical(page);
+    if (is_static_page(physical)) {
+      physical = table_.allocate(page);
+      new_pages_.push_back(page);
+    } else if (!shown_.pages.empty()) {
+      const auto shown = static_cast<std::size_t>(shown_.table[static_cast<std::size_t>(page)]);
+      if (std::memcmp(values, shown_.pages.data() + shown * voxels, voxels * sizeof(float)) == 0) continue;
+    }
+    changes.push_back({page, physical});
+  }
+  return changes;
+}
+
+Status PhiPicture::update(gpu::Device& device, const Field& phi, std::span<const std::int64_t> quiet) {
+  const std::vector<Change> changes = follow(phi);
+  // Until everything is up there, nothing counts as shown.
+  shown_.pages.clear();
+  if (table_.capacity() > field_.capacity()) {
+    // By a quarter more than needed: a growing surface does not copy G with every picture.
+    const std::int64_t wanted = table_.capacity() + table_.capacity() / 4;
+    if (auto status = field_.grow(device, std::min(wanted, layout().largest_capacity())); !status)
+      return status;
+  }
+  for (std::size_t first = 0; first < changes.size(); first += static_cast<std::size_t>(most_staged_)) {
+    const std::size_t count = std::min(changes.size() - first, static_cast<std::size_t>(most_staged_));
+    if (auto status = upload(device, phi, std::span(changes).subspan(first, count)); !status) return status;
+  }
+  pages_uploaded_ = static_cast<std::int64_t>(changes.size());
+  upload_tables(phi, quiet);
+  shown_ = phi;
+  return device.check("sending phi to the pictures");
+}
+
+Status PhiPicture::upload(gpu::Device& device, const Field& phi, std::span<const Change> changes) {
+  const std::int64_t voxels = phi.layout.voxels_per_page();
+  const auto count = static_cast<std::int64_t>(changes.size());
+  std::vector<float> tiles(static_cast<std::size_t>(count * voxels));
+  std::vector<std::int32_t> addresses;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const Change& change = changes[static_cast<std::size_t>(i)];
+    const std::int64_t index = phi.table[static_cast<std::size_t>(change.page)];
+    layout().pack(phi.pages.data() + index * voxels, tiles.data() + i * voxels, layout().tile().x);
+    addresses.push_back(change.physical);
+  }
+  auto staged = Array::create(device, count * voxels, gpu::TexelFormat::r32f, "changed pages");
+  if (!staged) return pass_on(staged);
+  staged->buffer.upload_values<float>(0, tiles);
+  auto places = Array::create(device, count, gpu::TexelFormat::r32i, "addresses of changed pages");
+  if (!places) return pass_on(places);
+  places->buffer.upload_values<std::int32_t>(0, addresses);
+
+  const gpu::Texture2D& memory = field_.phi(0);
+  auto framebuffer = gpu::Framebuffer::create(device, {&memory}, "physical memory of pictures");
+  if (!framebuffer) return pass_on(framebuffer);
+  framebuffer->bind();
+  vertices_.bind();
+  scatter_.use();
+  layout().set_uniforms(scatter_);
+  staged->texture.bind(0);
+  scatter_.set("staged", 0);
+  places->texture.bind(1);
+  scatter_.set("addresses", 1);
+  scatter_.set("texture_size", glm::vec2(memory.width(), memory.height()));
+  gpu::begin_exact_drawing();
+  gpu::draw(gpu::Primitive::triangles, 6 * count);
+  return {};
+}
+
+void PhiPicture::upload_tables(const Field& phi, std::span<const std::int64_t> quiet) {
+  constexpr std::int32_t kQuiet = 1;  // as in render/page_state.glsl
+  constexpr std::int32_t kNew = 2;
+  const auto pages = static_cast<std::size_t>(phi.layout.page_count());
+  std::vector<std::int32_t> entries(pages);
+  for (std::size_t page = 0; page < pages; ++page) {
+    entries[page] = table_.physical(static_cast<std::int64_t>(page));
+  }
+  page_table_.buffer.upload_values<std::int32_t>(0, entries);
+  std::vector<std::int32_t> flags(pages);
+  for (const std::int64_t page : quiet) flags[static_cast<std::size_t>(page)] |= kQuiet;
+  // At first everything is new, which tells nothing.
+  if (static_cast<std::int64_t>(new_pages_.size()) < table_.resident()) {
+    for (const std::int64_t page : new_pages_) flags[static_cast<std::size_t>(page)] |= kNew;
+  }
+  page_flags_.buffer.upload_values<std::int32_t>(0, flags);
+}
+
+void PhiPicture::set_uniforms(const gpu::Program& program, int unit) const {
+  layout().set_uniforms(program);
+  field_.phi(0).bind(static_cast<unsigned>(unit));
+  program.set("phi_pages", unit);
+  page_table_.texture.bind(static_cast<unsigned>(unit + 1));
+  program.set("page_table", unit + 1);
+  page_flags_.texture.bind(static_cast<unsigned>(unit + 2));
+  program.set("page_flags", unit + 2);
+  program.set("band", static_cast<float>(shown_.band));
+}
+
+}  // namespace tidemark

@@ -1,0 +1,68 @@
+// The level set as pictures are drawn from it: phi's packed pages and their page table on the GPU.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gpu/draw.h"
+#include "gpu/program.h"
+#include "gpu/texture.h"
+#include "solver/field.h"
+#include "solver/gl/packed_field.h"
+#include "solver/paging/page_table.h"
+
+namespace tidemark {
+
+// A copy of phi that follows a level set computed elsewhere: only pages that changed since the last picture
+// go up, through one buffer and one draw that scatters them to their places.
+class PhiPicture {
+ public:
+  PhiPicture() = default;
+  static Result<PhiPicture> create(gpu::Device& device, const PageLayout& layout, double band);
+
+  // `phi` has the layout and the band of create(). `quiet`: virtual pages that are not computed at present.
+  // Fails (ErrorKind::capability) when memory is short; the picture of phi is then undefined until the
+  // next call that succeeds.
+  Status update(gpu::Device& device, const Field& phi, std::span<const std::int64_t> quiet);
+
+  // The uniforms of solver/phi.glsl and render/page_state.glsl, on three units from `unit`.
+  void set_uniforms(const gpu::Program& program, int unit) const;
+
+  [[nodiscard]] const PackedLayout& layout() const { return field_.layout(); }
+  [[nodiscard]] double band() const { return shown_.band; }
+  [[nodiscard]] std::int64_t pages_uploaded() const { return pages_uploaded_; }  // by the last update
+  // Physical memory G, packed like an executor's.
+  [[nodiscard]] const PackedField& field() const { return field_; }
+  [[nodiscard]] const PageTable& table() const { return table_; }
+
+ private:
+  // A buffer and the texture that shaders see it through.
+  struct Array {
+    gpu::Buffer buffer;
+    gpu::BufferTexture texture;
+    static Result<Array> create(gpu::Device& device, std::int64_t texels, gpu::TexelFormat format,
+                                std::string_view label);
+  };
+  struct Change {
+    std::int64_t page;  // virtual
+    PhysicalPage physical;
+  };
+
+  std::vector<Change> follow(const Field& phi);
+  Status upload(gpu::Device& device, const Field& phi, std::span<const Change> changes);
+  void upload_tables(const Field& phi, std::span<const std::int64_t> quiet);
+
+  PageTable table_;
+  Field shown_;  // what is on the GPU
+  PackedField field_;
+  Array page_table_;
+  Array page_flags_;
+  std::vector<std::int64_t> new_pages_;
+  gpu::Program scatter_;
+  gpu::VertexArray vertices_;
+  std::int64_t most_staged_ = 0;  // pages that one draw can scatter
+  std::int64_t pages_uploaded_ = 0;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,24 @@
+// A finished picture.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace tidemark {
+
+// 8 bits each of red, green, blue and opacity (255), rows from the top.
+struct Picture {
+  std::int64_t width = 0;
+  std::int64_t height = 0;
+  std::vector<std::uint8_t> pixels;
+};
+
+struct PictureSize {
+  std::int64_t width = 512;
+  std::int64_t height = 512;
+
+  bool operator==(const PictureSize&) const = default;
+  [[nodiscard]] double aspect() const { return static_cast<double>(width) / static_cast<double>(height); }
+};
+
+}  // namespace tidemark

@@ -1,0 +1,54 @@
+// Coarse pictures in time while something moves, better and better ones when nothing does. Knows no OpenGL.
+#pragma once
+
+#include <optional>
+
+#include "renderer/picture.h"
+#include "renderer/views.h"
+
+namespace tidemark {
+
+// One picture on the way to a finished one: smaller than the view when it has to be quick, to be shown
+// enlarged.
+struct Pass {
+  PictureSize size;
+  Quality quality;
+};
+
+class QualityControl {
+ public:
+  static constexpr double kInteractive = 0.033;  // seconds a picture may take while something moves
+  static constexpr std::int64_t kSmallest = 4;  // a moving picture has at least a fourth of the pixels a side
+  static constexpr int kRounds = 8;             // pictures of a still view, whose mean is the finished one
+
+  explicit QualityControl(double budget_seconds = kInteractive) : budget_seconds_(budget_seconds) {}
+
+  // The view (camera, level set, anything) has changed: what comes next is drawn to the budget.
+  void moved();
+  // What to draw now for a view of `full` physical pixels; none when the picture is finished.
+  [[nodiscard]] std::optional<Pass> next(PictureSize full) const;
+  // That is drawn and took so long.
+  void drawn(const Pass& pass, double seconds);
+
+ private:
+  double budget_seconds_;
+  int still_pictures_ = -1;              // since the view moved; -1: it has just moved
+  std::optional<double> pixel_seconds_;  // of moving pictures, as far as is known
+};
+
+// The mean of a still view's pictures.
+class PictureMean {
+ public:
+  // Starts anew with another size.
+  void add(const Picture& picture);
+  void clear() { count_ = 0; }
+  [[nodiscard]] int count() const { return count_; }
+  [[nodiscard]] Picture mean() const;
+
+ private:
+  PictureSize size_{0, 0};
+  int count_ = 0;
+  std::vector<std::uint32_t> sums_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,124 @@
+#include "renderer/sheet.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "renderer/annotation.h"
+
+namespace tidemark {
+namespace {
+
+void copy_into(Picture& whole, const Picture& part, std::int64_t left, std::int64_t top) {
+  for (std::int64_t y = 0; y < part.height; ++y) {
+    std::copy_n(part.pixels.begin() + 4 * y * part.width, 4 * part.width,
+                whole.pixels.begin() + 4 * ((top + y) * whole.width + left));
+  }
+}
+
+constexpr std::int64_t kGap = 2;  // pixels between the parts
+
+}  // namespace
+
+Result<Picture> draw_annotated(Renderer& renderer, const SliceView& view, PictureSize size,
+                               const Progress& progress) {
+  auto picture = renderer.draw(view, size, progress);
+  if (!picture) return picture;
+  const double half =
+      slice_half_height_mm(renderer.source().geometry, view.orientation, view.zoom, size.aspect());
+  annotate(*picture, view.orientation.right, view.orientation.up,
+           2.0 * half / static_cast<double>(size.height));
+  return picture;
+}
+
+Result<Picture> draw_annotated(Renderer& renderer, const VolumeView& view, PictureSize size,
+                               const Progress& progress) {
+  auto picture = renderer.draw(view, size, progress);
+  if (!picture) return picture;
+  const double half = view.camera.half_height_mm(renderer.source().geometry, size.aspect());
+  annotate(*picture, view.camera.right(), view.camera.up(), 2.0 * half / static_cast<double>(size.height));
+  return picture;
+}
+
+Result<Picture> draw_sheet(Renderer& renderer, const SheetView& view, PictureSize size,
+                           const Progress& progress) {
+  const PictureSize part{(size.width - 2 * kGap) / 3, (size.height - kGap) / 2};
+  Picture whole;
+  whole.width = 3 * part.width + 2 * kGap;
+  whole.height = 2 * part.height + kGap;
+  whole.pixels.resize(static_cast<std::size_t>(4 * whole.width * whole.height));
+  for (std::size_t i = 0; i < whole.pixels.size(); ++i) whole.pixels[i] = i % 4 == 3 ? 255 : 60;
+
+  SliceView slice;
+  slice.position_mm = view.position_mm;
+  slice.window = view.window;
+  std::int64_t column = 0;
+  const auto left = [&](std::int64_t at) { return at * (part.width + kGap); };
+  for (const SliceOrientation& orientation : {kAxial, kCoronal, kSagittal}) {
+    slice.orientation = orientation;
+    const auto picture = draw_annotated(renderer, slice, part, progress);
+    if (!picture) return picture;
+    copy_into(whole, *picture, left(column++), 0);
+  }
+  std::int64_t columns_left = 3;
+  if (view.speed) {
+    slice.orientation = kAxial;
+    slice.content = SliceContent::speed;
+    slice.term = view.term;
+    const auto picture = draw_annotated(renderer, slice, part, progress);
+    if (!picture) return picture;
+    copy_into(whole, *picture, 0, part.height + kGap);
+    columns_left = 2;
+  }
+  const PictureSize wide{columns_left * part.width + (columns_left - 1) * kGap, part.height};
+  const auto picture = draw_annotated(renderer, view.volume, wide, progress);
+  if (!picture) return picture;
+  copy_into(whole, *picture, left(3 - columns_left), part.height + kGap);
+  return whole;
+}
+
+glm::dvec3 middle_of(const Mask& mask) {
+  glm::dvec3 sum(0.0);
+  std::int64_t found = 0;
+  const Index3 size = mask.geometry.size;
+  for (std::int64_t z = 0; z < size.z; ++z) {
+    for (std::int64_t y = 0; y < size.y; ++y) {
+      for (std::int64_t x = 0; x < size.x; ++x) {
+        if (mask.voxels[static_cast<std::size_t>(mask.geometry.offset({x, y, z}))] == 0) continue;
+        sum += glm::dvec3(x, y, z);
+        ++found;
+      }
+    }
+  }
+  return found == 0 ? middle_of(mask.geometry) : mask.geometry.to_patient(sum / static_cast<double>(found));
+}
+
+Box box_around(const Field& phi) {
+  glm::dvec3 low(0.0);
+  glm::dvec3 high(phi.geometry.size - Index3(1));
+  if (phi.resident_pages() > 0) {
+    std::swap(low, high);
+    for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
+      if (phi.table[static_cast<std::size_t>(page)] < 0) continue;
+      const Index3 first = phi.layout.first_voxel(page);
+      low = glm::min(low, glm::dvec3(first));
+      high = glm::max(high, glm::dvec3(first + phi.layout.valid_shape(page) - Index3(1)));
+    }
+  }
+  Box box{glm::dvec3(1e300), glm::dvec3(-1e300)};
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 p = phi.geometry.to_patient(
+        {corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z});
+    box.low = glm::min(box.low, p);
+    box.high = glm::max(box.high, p);
+  }
+  return box;
+}
+
+WindowLevel window_of(const Volume& source) {
+  if (source.window) return *source.window;
+  const auto [low, high] = source.range();
+  return {0.5 * (static_cast<double>(low) + static_cast<double>(high)),
+          std::max(1.0, static_cast<double>(high) - static_cast<double>(low))};
+}
+
+}  // namespace tidemark

@@ -1,0 +1,35 @@
+// Three slices, the speed map and the surface in one picture.
+#pragma once
+
+#include "renderer/renderer.h"
+
+namespace tidemark {
+
+struct SheetView {
+  glm::dvec3 position_mm{0.0};  // the slices go through it (LPS)
+  WindowLevel window;
+  bool speed = false;  // with the speed map: the parameters are those of the study
+  SpeedTerm term = SpeedTerm::data;
+  VolumeView volume;
+};
+
+// Axial, coronal and sagittal side by side; below them the speed map (axial) and the 3D view, all with
+// orientation letters and a scale bar. The size is rounded down to what three columns and two rows share.
+Result<Picture> draw_sheet(Renderer& renderer, const SheetView& view, PictureSize size,
+                           const Progress& progress = {});
+
+// A slice or a 3D view with letters and scale bar.
+Result<Picture> draw_annotated(Renderer& renderer, const SliceView& view, PictureSize size,
+                               const Progress& progress = {});
+Result<Picture> draw_annotated(Renderer& renderer, const VolumeView& view, PictureSize size,
+                               const Progress& progress = {});
+
+// The middle of what is inside (LPS, mm), and the box around the pages that hold the surface; of the volume
+// when there is no surface.
+glm::dvec3 middle_of(const Mask& mask);
+Box box_around(const Field& phi);
+
+// The file's own window, or one from the least to the greatest value.
+WindowLevel window_of(const Volume& source);
+
+}  // namespace tidemark

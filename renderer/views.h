@@ -1,0 +1,81 @@
+// What is to be seen in a picture, and how.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+
+#include "core/volume.h"
+#include "renderer/camera.h"
+#include "renderer/transfer_function.h"
+
+namespace tidemark {
+
+// Everything in the patient where normal . p > offset is hidden, and the plane shows the source and, in
+// yellow, the surface's cut. LPS, mm; the normal has length 1.
+struct ClipPlane {
+  glm::dvec3 normal{0.0, 1.0, 0.0};
+  double offset_mm = 0.0;
+  bool clips_source = true;
+  bool clips_surface = true;
+  bool picture = true;
+};
+
+// Blinn-Phong. The shares of ambient and diffuse light make up the colour; specular light is white.
+struct Lighting {
+  double ambient = 0.22;
+  double diffuse = 0.78;
+  double specular = 0.25;
+  double shininess = 40.0;
+  std::optional<glm::dvec3> from;  // unit vector to the light in the patient (LPS); none: at the viewer
+  double occlusion = 0.0;          // how much of the light hollows of the surface lose, 0 to 1
+};
+
+// Numbered as in resources/shaders/render.
+enum class Region { everywhere, inside, outside, tinted };  // tinted: everywhere, with the inside coloured
+enum class SpeedTerm { total, data, curvature, rescaling };
+enum class SurfaceColouring { plain, total_speed, data, curvature_term, rescaling, curvature, pages };
+enum class SliceContent { source, speed, pages };
+
+// How much work goes into a volume rendering.
+struct Quality {
+  double step_voxels = 0.75;    // along a ray, in the smallest voxels' units
+  bool fast_gradient = false;  // lights the source from differences to one side
+  int round = 0;  // pictures of other rounds have their rays and samples at other places, for taking means
+  bool skip_empty = true;  // false only to find out what skipping saves
+};
+
+// While something moves.
+inline constexpr Quality kMovingQuality{1.5, true, 0, true};
+
+struct VolumeView {
+  Camera camera;
+  std::optional<TransferFunction> source;  // none: the surface alone
+  bool surface = true;
+  glm::vec4 surface_colour{0.93F, 0.72F, 0.45F, 1.0F};  // and opacity, where `source` says nothing of it
+  SurfaceColouring colouring = SurfaceColouring::plain;
+  Region region = Region::everywhere;  // where the source shows
+  std::optional<ClipPlane> clip;
+  Lighting lighting;
+  WindowLevel window;  // of the clip plane's picture
+  glm::vec3 background{0.07F, 0.08F, 0.10F};
+  Quality quality;
+};
+
+struct SliceView {
+  SliceOrientation orientation = kAxial;
+  glm::dvec3 position_mm{0.0};  // a point of the slice (LPS)
+  double zoom = 1.0;            // 1: the whole slice is seen
+  glm::dvec2 pan_mm{0.0};  // what is in the middle of the picture, to the right and up of the volume's middle
+  SliceContent content = SliceContent::source;
+  SpeedTerm term = SpeedTerm::data;  // of the speed map
+  WindowLevel window;
+  bool nearest = false;  // voxels as squares
+  bool surface = true;
+  double line_pixels = 2.0;
+  double label_opacity = 0.4;
+  glm::vec3 background{0.0F};
+};
+
+}  // namespace tidemark

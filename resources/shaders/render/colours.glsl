@@ -1,0 +1,15 @@
+// Colours with a meaning.
+
+const vec3 kOutlineYellow = vec3(1.0, 0.85, 0.0);
+
+// Blue below 0 and orange above, told apart by colour-blind people, too.
+vec3 diverging(float x) {
+  const vec3 cold = vec3(0.13, 0.36, 0.67), warm = vec3(0.80, 0.40, 0.05), middle = vec3(0.95);
+  return x < 0.0 ? mix(middle, cold, min(-x, 1.0)) : mix(middle, warm, min(x, 1.0));
+}
+
+// As enum class PageState: not resident (outside, inside), resident, resident and quiet, just made resident.
+vec3 page_colour(int state) {
+  return state == 4 ? vec3(0.85, 0.35, 0.60) : state == 3 ? vec3(0.10, 0.62, 0.47) : state == 2 ? vec3(0.20, 0.55, 0.85) :
+         state == 1 ? vec3(0.90, 0.75, 0.30) : vec3(0.35);
+}

@@ -1,0 +1,72 @@
+// The terms of the speed at a voxel near the surface, as the solver computes them; needs solver/phi.glsl and
+// render/source.glsl.
+
+#include "solver/speed/stencil.glsl"
+#include "solver/speed/data.glsl"
+#include "solver/speed/curvature.glsl"
+#include "solver/speed/rescaling.glsl"
+
+uniform float data_weight;
+uniform float curvature_weight;
+uniform float rescaling_weight;
+
+// As enum class SpeedTerm.
+const int kTotalSpeed = 0;
+const int kDataSpeed = 1;
+const int kCurvatureSpeed = 2;
+const int kRescalingSpeed = 3;
+
+Differences differences_at(ivec3 v) {
+  const ivec2 u = ivec2(1, 0);
+  Stencil s;
+  s.c = phi_at(v);
+  s.xm = phi_at(v - u.xyy);
+  s.xp = phi_at(v + u.xyy);
+  s.ym = phi_at(v - u.yxy);
+  s.yp = phi_at(v + u.yxy);
+  s.zm = phi_at(v - u.yyx);
+  s.zp = phi_at(v + u.yyx);
+  s.xmym = phi_at(v - u.xxy);
+  s.xpyp = phi_at(v + u.xxy);
+  s.xmyp = phi_at(v + ivec3(-1, 1, 0));
+  s.xpym = phi_at(v + ivec3(1, -1, 0));
+  s.xmzm = phi_at(v - u.xyx);
+  s.xpzp = phi_at(v + u.xyx);
+  s.xmzp = phi_at(v + ivec3(-1, 0, 1));
+  s.xpzm = phi_at(v + ivec3(1, 0, -1));
+  s.ymzm = phi_at(v - u.yxx);
+  s.ypzp = phi_at(v + u.yxx);
+  s.ymzp = phi_at(v + ivec3(0, -1, 1));
+  s.ypzm = phi_at(v + ivec3(0, 1, -1));
+  return differences(s);
+}
+
+// A weighted term, in units of the data term's: 1 is a front that moves at full speed outward.
+float speed_at(int term, ivec3 voxel) {
+  if (term == kDataSpeed) return data_weight * data_speed(source_between(vec3(voxel)));
+  Differences d = differences_at(voxel);
+  float bending = curvature_weight * curvature(d);
+  float rescaling = rescaling_weight * rescaling_speed(d);
+  if (term == kCurvatureSpeed) return bending;
+  if (term == kRescalingSpeed) return rescaling;
+  return data_weight * data_speed(source_between(vec3(voxel))) + bending + rescaling;
+}
+
+// Between voxels.
+float speed_between(int term, vec3 position) {
+  vec3 p = clamp(position, vec3(0.0), vec3(volume_size - 1));
+  ivec3 low = min(ivec3(p), max(volume_size - 2, ivec3(0)));
+  vec3 f = p - vec3(low);
+  float sum = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    ivec3 corner = ivec3(i & 1, i >> 1 & 1, i >> 2);
+    vec3 share = mix(1.0 - f, f, vec3(corner));
+    sum += share.x * share.y * share.z * speed_at(term, low + corner);
+  }
+  return sum;
+}
+
+// kappa, the sum of the principal curvatures, per smallest spacing.
+float curvature_at(ivec3 voxel) {
+  return curvature(differences_at(voxel));
+}
