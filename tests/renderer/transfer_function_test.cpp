@@ -27,43 +27,69 @@ class TransferFunctionTest : public QObject {
   void primitives_are_read() {
     const auto function = TransferFunction::parse(
         R"({"name": "x", "source": [
-          {"kind": "gaussian", "centre": 40, "width": 10, "opacity": 0.5, "colour": [1, 0.5, 0]},
-          {"kind": "ramp", "start": 300, "end": 200, "opacity": 1, "colour": [0, 0, 2]}]})");
+          {"value": {"gaussian": [40, 10]}, "phi": {"ramp": [0, 1]}, "opacity": 0.5, "colour": [1, 0.5, 0]},
+          {"value": {"ramp": [300, 200]}, "gradient": {"gaussian": [5, 1]}, "opacity": 1, "colour": [0, 0, 2]}],
+        "surface": [{"distance": {"ramp": [20, 0]}, "opacity": 0.7, "colour": [0.1, 0.2, 0.3]}]})");
     QCOMPARE(failure(function), QString());
     QCOMPARE(function->source.size(), std::size_t{2});
-    QCOMPARE(function->source[0].start, 40.0);
-    QCOMPARE(function->source[0].end, 10.0);
-    QVERIFY(function->source[1].kind == TransferPrimitive::Kind::ramp);
+    QVERIFY((function->source[0].value == TransferFactor{TransferFactor::Kind::gaussian, 40.0, 10.0}));
+    QVERIFY((function->source[0].phi == TransferFactor{TransferFactor::Kind::ramp, 0.0, 1.0}));
+    QVERIFY(function->source[0].gradient.kind == TransferFactor::Kind::everything);
+    QVERIFY(function->source[1].value.kind == TransferFactor::Kind::ramp);
     QCOMPARE(function->source[1].colour.b, 1.0F);
+    QVERIFY(function->source_needs_gradient() && function->source_needs_phi());
+    QCOMPARE(function->surface.size(), std::size_t{1});
+    QCOMPARE(function->surface[0].distance.start, 20.0);
+    QCOMPARE(function->surface[0].opacity, 0.7);
+  }
+
+  void nothing_in_a_range_is_more_opaque_than_its_bound() {
+    const auto function = TransferFunction::parse(
+        R"({"source": [{"value": {"gaussian": [40, 10]}, "opacity": 0.5, "colour": [1, 1, 1]},
+                       {"value": {"ramp": [60, 20]}, "phi": {"ramp": [-1, 1]}, "opacity": 0.3, "colour": [1, 1, 1]}]})");
+    QCOMPARE(failure(function), QString());
+    for (double low = -20.0; low < 100.0; low += 7.0) {
+      for (double high = low; high < 120.0; high += 9.0) {
+        for (const double phi : {-2.0, 0.3, 2.0}) {
+          const double most = function->most_opacity(low, high, phi, phi);
+          for (double value = low; value <= high; value += 0.5) {
+            double opacity = 0.0;
+            for (const SourcePrimitive& p : function->source)
+              opacity += p.opacity * p.value.at(value) * p.phi.at(phi);
+            QVERIFY(opacity <= most + 1e-12);
+          }
+        }
+      }
+    }
   }
 
   void what_is_wrong_is_named_data() {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("named");
-    QTest::newRow("no JSON") << "{"
-                             << "not a JSON object";
-    QTest::newRow("no list") << R"({"source": 3})"
-                             << "source: a list";
-    QTest::newRow("kind") << R"({"source": [{"kind": "box"}]})"
-                          << "source[0].kind";
-    QTest::newRow("kind of another type") << R"({"source": [{"kind": 7}]})"
-                                          << "source[0].kind";
-    QTest::newRow("centre") << R"({"source": [{"kind": "gaussian", "centre": "a"}]})"
-                            << "source[0].centre";
-    QTest::newRow("width") << R"({"source": [{"kind": "gaussian", "centre": 1, "width": 0, "opacity": 1}]})"
-                           << "source[0].width";
-    QTest::newRow("ramp without length")
-        << R"({"source": [{"kind": "ramp", "start": 5, "end": 5, "opacity": 1}]})"
-        << "source[0].end";
-    QTest::newRow("opacity") << R"({"source": [{"kind": "ramp", "start": 5, "end": 6, "opacity": -1}]})"
-                             << "source[0].opacity";
-    QTest::newRow("colour")
-        << R"({"source": [{"kind": "ramp", "start": 5, "end": 6, "opacity": 1, "colour": [1, 2]}]})"
-        << "source[0].colour";
+    const auto row = [](const char* name, const QString& text, const char* named) {
+      QTest::newRow(name) << text << QString(named);
+    };
+    row("no JSON", "{", "not a JSON object");
+    row("nothing", "{}", "neither 'source' nor 'surface'");
+    row("no list", R"({"source": 3})", "source: a list");
+    row("no object", R"({"source": [3]})", "source[0]: an object");
+    row("unknown axis", R"({"source": [{"distance": {"ramp": [0, 1]}}]})", "source[0].distance: unknown");
+    row("unknown factor", R"({"source": [{"value": {"box": [1, 2]}}]})", "source[0].value: 'box'");
+    row("two factors", R"({"source": [{"value": {"ramp": [1, 2], "gaussian": [1, 2]}}]})",
+        "source[0].value:");
+    row("centre", R"({"source": [{"phi": {"gaussian": ["a", 1]}}]})", "source[0].phi.gaussian: two numbers");
+    row("one number", R"({"source": [{"value": {"gaussian": [1]}}]})",
+        "source[0].value.gaussian: two numbers");
+    row("width", R"({"source": [{"value": {"gaussian": [1, 0]}}]})", "source[0].value.gaussian: the width");
+    row("ramp without length", R"({"surface": [{"intensity": {"ramp": [5, 5]}}]})",
+        "surface[0].intensity.ramp: the end");
+    row("no opacity", R"({"source": [{"value": {"ramp": [5, 6]}}]})", "source[0].opacity");
+    row("opacity", R"({"source": [{"value": {"ramp": [5, 6]}, "opacity": -1}]})", "source[0].opacity");
+    row("colour", R"({"source": [{"value": {"ramp": [5, 6]}, "opacity": 1, "colour": [1, 2]}]})",
+        "source[0].colour");
     QString many = R"({"source": [)";
     for (int i = 0; i < 17; ++i) many += QString(i > 0 ? "," : "") + "{}";
-    QTest::newRow("too many") << many + "]}"
-                              << "17 primitives";
+    row("too many", many + "]}", "17 primitives");
   }
   void what_is_wrong_is_named() {
     QFETCH(QString, text);

@@ -1,0 +1,123 @@
+// What goes up to the GPU when the level set changes, and in what pieces pictures are drawn.
+#include <QTest>
+
+#include "tests/renderer/scenes.h"
+#include "tests/support/support.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+namespace {
+
+Field ball(const Geometry& geometry, double radius, glm::dvec3 middle, Index3 page_shape) {
+  const double band = default_band(geometry);
+  return Field::from_dense(
+      geometry,
+      sample(geometry,
+             [&](glm::dvec3 p) { return std::clamp(radius - glm::length(p - middle), -band, band); }),
+      band, page_shape);
+}
+
+// What the shaders would find, read back from physical memory through the page table.
+std::vector<float> read_back(const PhiPicture& picture) {
+  const PageLayout& layout = picture.table().layout();
+  const std::vector<float> pages = *picture.field().download(0);
+  std::vector<float> values;
+  for (std::int64_t z = 0; z < layout.volume_size().z; ++z) {
+    for (std::int64_t y = 0; y < layout.volume_size().y; ++y) {
+      for (std::int64_t x = 0; x < layout.volume_size().x; ++x) {
+        const VirtualAddress at = layout.translate({x, y, z});
+        const PhysicalPage physical = picture.table().physical(at.page);
+        values.push_back(pages[static_cast<std::size_t>(physical * layout.voxels_per_page() + at.offset)]);
+      }
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
+class PhiPictureTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void what_was_sent_is_what_is_there_data() {
+    QTest::addColumn<int>("x");
+    QTest::addColumn<int>("y");
+    QTest::addColumn<int>("z");
+    QTest::newRow("8 8 8") << 8 << 8 << 8;
+    QTest::newRow("16 16 1") << 16 << 16 << 1;
+    QTest::newRow("4 4 4") << 4 << 4 << 4;
+  }
+  void what_was_sent_is_what_is_there() {
+    QFETCH(int, x);
+    QFETCH(int, y);
+    QFETCH(int, z);
+    const Geometry geometry = grid({43, 37, 29});
+    const Index3 shape(x, y, z);
+    auto device = gpu::Device::create_headless({gpu::GlVersion::gl33, true});
+    QCOMPARE(failure(device), QString());
+    auto picture = PhiPicture::create(**device, PageLayout(geometry.size, shape), default_band(geometry));
+    QCOMPARE(failure(picture), QString());
+    // A ball that grows, shrinks to nothing, comes back elsewhere, fills everything.
+    const glm::dvec3 middle(20.0, 18.0, 14.0);
+    std::vector<Field> fields;
+    for (const double radius : {4.0, 9.0, 12.0, 5.0, -50.0})
+      fields.push_back(ball(geometry, radius, middle, shape));
+    fields.push_back(ball(geometry, 6.0, {30.0, 10.0, 20.0}, shape));
+    fields.push_back(ball(geometry, 500.0, middle, shape));
+    fields.push_back(ball(geometry, 10.0, middle, shape));
+    for (const Field& phi : fields) {
+      QCOMPARE(failure(picture->update(**device, phi, {})), QString());
+      QVERIFY(read_back(*picture) == phi.dense());
+      QCOMPARE(failure(picture->table().validate()), QString());
+      QCOMPARE(picture->table().resident(), phi.resident_pages());
+    }
+    QCOMPARE((*device)->severe_messages(), 0);
+  }
+
+  void only_what_changed_goes_up() {
+    const Geometry geometry = grid({64, 64, 64});
+    const Scene scene = ball_scene(geometry, 20.0);
+    Painter draw(scene);
+    QCOMPARE(draw.renderer().pages_uploaded(), scene.phi.resident_pages());
+    QCOMPARE(failure(draw.renderer().set_phi(scene.phi)), QString());
+    QCOMPARE(draw.renderer().pages_uploaded(), 0);
+    Field touched = scene.phi;
+    touched.pages[5] += 0.25F;
+    QCOMPARE(failure(draw.renderer().set_phi(touched)), QString());
+    QCOMPARE(draw.renderer().pages_uploaded(), 1);
+  }
+
+  void phi_of_another_grid_is_refused() {
+    Painter draw(ball_scene(grid({32, 32, 32}), 8.0));
+    const Field other = Field::empty(grid({32, 32, 31}), 2.5);
+    QCOMPARE(draw.renderer().set_phi(other).error().kind, ErrorKind::usage);
+    const Field pages = Field::empty(grid({32, 32, 32}), 2.5, {16, 16, 1});
+    QCOMPARE(draw.renderer().set_phi(pages).error().kind, ErrorKind::usage);
+  }
+
+  void pictures_are_drawn_in_pieces_where_the_processor_is_the_gpu() {
+    Painter draw(ball_scene(grid({64, 64, 64}), 20.0));
+    draw(VolumeView(), 512, 512);
+    const bool software = draw.device().capabilities().software;
+    QVERIFY(software ? draw.renderer().last_draw().pieces > 8 : draw.renderer().last_draw().pieces == 1);
+    // Between two of them it can be told to stop.
+    std::stop_source stop;
+    stop.request_stop();
+    Progress progress;
+    progress.stop = stop.get_token();
+    const auto picture = draw.renderer().draw(VolumeView(), {512, 512}, progress);
+    if (software) QVERIFY(!picture && picture.error().kind == ErrorKind::cancelled);
+  }
+
+  void a_lost_context_is_reported() {
+    Painter draw(ball_scene(grid({32, 32, 32}), 8.0));
+    draw.device().lose_at_check(1);
+    const auto picture = draw.renderer().draw(VolumeView(), {64, 64});
+    QVERIFY(!picture && picture.error().kind == ErrorKind::capability);
+  }
+};
+
+QTEST_APPLESS_MAIN(PhiPictureTest)
+#include "phi_picture_test.moc"

@@ -1,0 +1,231 @@
+// Slices, the speed map, labels and the page view.
+#include <QTest>
+#include <cmath>
+#include <numbers>
+
+#include "tests/renderer/scenes.h"
+#include "tests/support/support.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+namespace {
+
+// How far the middle of the yellow line is from a circle around the picture's middle, at worst; pixels.
+double distance_from_circle(const Picture& picture, double radius_pixels) {
+  const glm::dvec2 middle(0.5 * static_cast<double>(picture.width - 1),
+                          0.5 * static_cast<double>(picture.height - 1));
+  double worst = 0.0;
+  for (int degree = 0; degree < 360; degree += 2) {
+    const double a = degree * std::numbers::pi / 180.0;
+    double sum = 0.0;
+    double yellow = 0.0;
+    for (double r = 0.7 * radius_pixels; r < 1.3 * radius_pixels; r += 0.1) {
+      const auto x = std::lround(middle.x + r * std::cos(a));
+      const auto y = std::lround(middle.y + r * std::sin(a));
+      if (x < 0 || y < 0 || x >= picture.width || y >= picture.height || !is_yellow(pixel(picture, x, y)))
+        continue;
+      sum += r;
+      ++yellow;
+    }
+    worst = std::max(worst, yellow > 0.0 ? std::abs(sum / yellow - radius_pixels) : 1e9);
+  }
+  return worst;
+}
+
+}  // namespace
+
+class SliceViewTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void the_outline_lies_on_the_circle_within_a_quarter_of_a_voxel() {
+    const Geometry geometry = grid({64, 64, 64});
+    const Scene scene = ball_scene(geometry, 20.0);
+    Painter draw(scene);
+    for (const double depth : {0.0, 7.3}) {
+      for (const SliceOrientation& orientation : {kAxial, kCoronal, kSagittal, oblique({1.0, 2.0, -1.5})}) {
+        SliceView view;
+        view.orientation = orientation;
+        view.position_mm = scene.middle + depth * orientation.into();
+        view.window = {50.0, 1000.0};
+        const Picture picture = draw(view, 512, 512);
+        const double side = 2.0 * slice_half_height_mm(geometry, orientation, 1.0, 1.0) / 512.0;
+        const double worst = side * distance_from_circle(picture, std::sqrt(400.0 - depth * depth) / side);
+        QVERIFY2(worst < 0.25, qPrintable(QString::number(worst)));
+      }
+    }
+  }
+
+  void thick_slices_look_right() {
+    const Geometry geometry = grid({60, 60, 16}, {0.5, 0.5, 2.0});
+    Painter draw(ball_scene(geometry, 10.0));
+    for (const SliceOrientation& orientation : {kAxial, kCoronal, kSagittal}) {
+      SliceView view;
+      view.orientation = orientation;
+      view.window = {50.0, 400.0};
+      const Picture picture = draw(view, 320, 320);
+      const double side = 2.0 * slice_half_height_mm(geometry, orientation, 1.0, 1.0) / 320.0;
+      const double worst = side * distance_from_circle(picture, 10.0 / side);
+      QVERIFY2(worst < 0.25, qPrintable(QString::number(worst)));
+    }
+  }
+
+  void the_outline_is_as_wide_on_any_zoom() {
+    const Geometry geometry = grid({64, 64, 64});
+    Painter draw(ball_scene(geometry, 20.0));
+    for (const double zoom : {0.5, 1.0, 1.4}) {
+      SliceView view;
+      view.zoom = zoom;
+      view.line_pixels = 3.0;
+      view.window = {50.0, 1000.0};
+      const Picture picture = draw(view, 400, 400);
+      const double side = 2.0 * slice_half_height_mm(geometry, kAxial, zoom, 1.0) / 400.0;
+      const double width =
+          static_cast<double>(count(picture, is_yellow)) / (2.0 * std::numbers::pi * 20.0 / side);
+      QVERIFY2(std::abs(width - 3.0) < 0.8, qPrintable(QString::number(width)));
+    }
+  }
+
+  void voxels_are_shown_as_they_are_or_interpolated() {
+    const Geometry geometry = grid({8, 8, 8});
+    Painter draw(ball_scene(geometry, 1.0,
+                            [](glm::dvec3 p) { return std::fmod(p.x + p.y, 2.0) < 0.5 ? 0.0 : 100.0; }));
+    SliceView view;
+    view.surface = false;
+    view.window = {50.0, 100.0};
+    view.nearest = true;
+    const auto grey = [](glm::ivec3 c) { return c.r > 5 && c.r < 250; };
+    QCOMPARE(count(draw(view, 160, 160), grey), 0);
+    view.nearest = false;
+    QVERIFY(count(draw(view, 160, 160), grey) > 160 * 160 / 2);
+  }
+
+  void a_slice_can_be_moved_and_enlarged() {
+    const Geometry geometry = grid({64, 64, 64});
+    Painter draw(ball_scene(geometry, 1.0, {10.0, -5.0, 0.0}));
+    SliceView view;
+    view.surface = false;
+    view.window = {500.0, 800.0};
+    view.zoom = 2.0;
+    view.pan_mm = {10.0, 5.0};  // to the left of the patient and, as up is anterior, forward
+    QVERIFY(glm::length(middle_of_pixels(draw(view, 160, 160), is_marker)) < 0.03);
+  }
+
+  void the_speed_map_tells_growing_from_shrinking() {
+    Painter draw(ball_scene(grid({40, 40, 40}), 10.0));
+    SliceView view;
+    view.content = SliceContent::speed;
+    view.surface = false;
+    const Picture picture = draw(view, 120, 120);
+    const glm::ivec3 grows = pixel(picture, 60, 60);
+    QVERIFY(grows.r > grows.b + 80);
+    // Shrinking is blue, and hatched: two shades of it.
+    std::int64_t light = 0;
+    std::int64_t dark = 0;
+    for (std::int64_t x = 0; x < 40; ++x) {
+      const glm::ivec3 c = pixel(picture, x, 10);
+      QVERIFY(c.b > c.r + 50);
+      (c.b > 150 ? light : dark) += 1;
+    }
+    QVERIFY(light > 20 && dark > 3);
+  }
+
+  void each_term_of_the_speed_has_its_map() {
+    const Geometry geometry = grid({40, 40, 40});
+    const Scene scene = ball_scene(geometry, 10.0);
+    Painter draw(scene);
+    SliceView view;
+    view.content = SliceContent::speed;
+    view.surface = false;
+    view.window = {50.0, 100.0};
+    const double side = 2.0 * slice_half_height_mm(geometry, kAxial, 1.0, 1.0) / 160.0;
+    // Just inside the surface, along 17 degrees, where no axis is.
+    const auto near = [&](SpeedTerm term) {
+      view.term = term;
+      const Picture picture = draw(view, 160, 160);
+      return pixel(picture, std::lround(79.5 + 9.0 / side * std::cos(0.3)),
+                   std::lround(79.5 + 9.0 / side * std::sin(0.3)));
+    };
+    QVERIFY(near(SpeedTerm::data).r > near(SpeedTerm::data).b + 80);
+    QVERIFY(near(SpeedTerm::curvature).b > near(SpeedTerm::curvature).r + 10);
+    const glm::ivec3 rescaling = near(SpeedTerm::rescaling);
+    QVERIFY(std::abs(rescaling.r - rescaling.b) < 40);
+    // alpha = 0.5: half the data term and half of kappa = -2 / 9.
+    const glm::ivec3 total = near(SpeedTerm::total);
+    QVERIFY(total.r > total.b + 20 && total.b > near(SpeedTerm::data).b);
+    // Away from the surface the other terms have no value.
+    view.term = SpeedTerm::total;
+    const glm::ivec3 far = pixel(draw(view, 160, 160), 8, 8);
+    QVERIFY(far.r == far.g && far.g == far.b);
+  }
+
+  void labels_lie_on_their_voxels() {
+    const Geometry geometry = grid({32, 32, 32});
+    const Scene scene = ball_scene(geometry, 5.0, [](glm::dvec3) { return 0.0; });
+    Painter draw(scene);
+    const auto values =
+        sample(geometry, [](glm::dvec3 p) { return p.x >= 16.0 ? (p.y >= 16.0 ? 2.0 : 1.0) : 0.0; });
+    const std::vector<std::uint8_t> labels(values.begin(), values.end());
+    QCOMPARE(draw.renderer().set_labels(std::span(labels).first(10)).error().kind, ErrorKind::usage);
+    QCOMPARE(failure(draw.renderer().set_labels(labels)), QString());
+    SliceView view;
+    view.surface = false;
+    view.window = {50.0, 100.0};
+    view.label_opacity = 1.0;
+    const Picture picture = draw(view, 128, 128);
+    QCOMPARE(pixel(picture, 20, 64), glm::ivec3(0));
+    const glm::ivec3 first = pixel(picture, 100, 20);
+    const glm::ivec3 second = pixel(picture, 100, 100);
+    QVERIFY(first.r > first.b + 100);   // orange
+    QVERIFY(second.b > second.r + 50);  // sky blue
+    QCOMPARE(pixel(picture, 63, 20), glm::ivec3(0));
+    QCOMPARE(pixel(picture, 64, 20), first);
+  }
+
+  void pages_are_seen_with_what_they_do() {
+    const Geometry geometry = grid({64, 64, 64});
+    const Scene scene = ball_scene(geometry, 20.0);
+    Painter draw(scene);
+    SliceView view;
+    view.content = SliceContent::pages;
+    view.surface = false;
+    view.window = {5000.0, 100.0};  // the source is black
+    const auto at = [&](double left_mm) {
+      const Picture picture = draw(view, 256, 256);
+      return pixel(picture, std::lround(127.5 + 4.0 * left_mm), 120);
+    };
+    const glm::ivec3 inside = at(0.0);
+    QVERIFY(inside.r > inside.b + 10);
+    const glm::ivec3 outside = at(-31.0);
+    QVERIFY(outside.r == outside.b);
+    const glm::ivec3 resident = at(20.0);
+    QVERIFY(resident.b > resident.r + 30);
+    // The page at the surface falls asleep, and then is one that has just come.
+    const PageLayout& layout = scene.phi.layout;
+    const std::int64_t page = layout.translate({51, 29, 32}).page;
+    QCOMPARE(failure(draw.renderer().set_phi(scene.phi, std::vector{page})), QString());
+    const glm::ivec3 quiet = at(20.0);
+    QVERIFY(quiet.g > quiet.b + 10);
+    Field without = scene.phi;
+    const double band = without.band;
+    auto values = without.dense();
+    for (std::int64_t z = 0; z < 64; ++z) {
+      for (std::int64_t y = 0; y < 64; ++y) {
+        for (std::int64_t x = 0; x < 64; ++x) {
+          if (layout.translate({x, y, z}).page == page) {
+            values[static_cast<std::size_t>(geometry.offset({x, y, z}))] = static_cast<float>(-band);
+          }
+        }
+      }
+    }
+    without = Field::from_dense(geometry, values, band);
+    QCOMPARE(failure(draw.renderer().set_phi(without)), QString());
+    QCOMPARE(failure(draw.renderer().set_phi(scene.phi)), QString());
+    const glm::ivec3 fresh = at(20.0);
+    QVERIFY(fresh.r > fresh.g + 20);
+  }
+};
+
+QTEST_APPLESS_MAIN(SliceViewTest)
+#include "slice_view_test.moc"
