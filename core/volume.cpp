@@ -42,6 +42,19 @@ std::pair<float, float> Volume::range() const {
       voxels);
 }
 
+std::pair<float, float> Volume::common_range() const {
+  constexpr std::int64_t kSample = 1'000'000;
+  // An odd stride does not follow rows or slices.
+  const std::int64_t stride = std::max<std::int64_t>(1, geometry.voxel_count() / kSample) | 1;
+  std::vector<float> sample;
+  for (std::int64_t i = 0; i < geometry.voxel_count(); i += stride) sample.push_back(value(i));
+  const auto one_in = static_cast<std::ptrdiff_t>(sample.size() / 200);
+  std::nth_element(sample.begin(), sample.begin() + one_in, sample.end());
+  const float low = sample[static_cast<std::size_t>(one_in)];
+  std::nth_element(sample.begin(), sample.end() - 1 - one_in, sample.end());
+  return {low, *(sample.end() - 1 - one_in)};
+}
+
 std::int64_t Mask::count() const {
   return std::count_if(voxels.begin(), voxels.end(), [](std::uint8_t v) { return v != 0; });
 }

@@ -36,6 +36,7 @@ glm::dvec2 offset_of_round(int round) {
 Renderer::Renderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source)
     : device_(std::move(device)),
       source_(std::move(source)),
+      common_range_(source_->common_range()),
       constants_(Model(*source_, Parameters()).constants<float>()) {}
 
 Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> device,
@@ -122,8 +123,12 @@ Result<const gpu::Program*> Renderer::use_program(const char* fragment, const gp
   return &program;
 }
 
-Result<const gpu::Program*> Renderer::use_volume_program(const VolumeView& view, PictureSize size,
+Result<const gpu::Program*> Renderer::use_volume_program(const VolumeView& asked, PictureSize size,
                                                          gpu::Defines variant) {
+  VolumeView view = asked;
+  if (view.colouring != SurfaceColouring::plain)
+    view.lighting.specular = 0.0;  // white would hide what is taught
+  if (view.source) view.source = view.source->for_range(common_range_.first, common_range_.second);
   const bool source = view.source && !view.source->source.empty();
   const auto with = [&](bool wanted, const char* name) {
     if (wanted) variant.emplace_back(name, "");

@@ -62,6 +62,7 @@ class Renderer {
 
   std::shared_ptr<gpu::Device> device_;
   std::shared_ptr<const Volume> source_;
+  std::pair<float, float> common_range_;
   StepConstants<float> constants_;
   SourcePicture source_picture_;
   PhiPicture phi_;

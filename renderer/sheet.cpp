@@ -116,9 +116,9 @@ Box box_around(const Field& phi) {
 
 WindowLevel window_of(const Volume& source) {
   if (source.window) return *source.window;
-  const auto [low, high] = source.range();
+  const auto [low, high] = source.common_range();
   return {0.5 * (static_cast<double>(low) + static_cast<double>(high)),
-          std::max(1.0, static_cast<double>(high) - static_cast<double>(low))};
+          std::max(1e-6, static_cast<double>(high) - static_cast<double>(low))};
 }
 
 }  // namespace tidemark

@@ -29,7 +29,7 @@ Result<Picture> draw_annotated(Renderer& renderer, const VolumeView& view, Pictu
 glm::dvec3 middle_of(const Mask& mask);
 Box box_around(const Field& phi);
 
-// The file's own window, or one from the least to the greatest value.
+// The file's own window, or one over the values that are common.
 WindowLevel window_of(const Volume& source);
 
 }  // namespace tidemark

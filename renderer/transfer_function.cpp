@@ -119,6 +119,24 @@ double TransferFactor::most(double low, double high) const {
   return kind == Kind::gaussian ? at(std::clamp(start, low, high)) : std::max(at(low), at(high));
 }
 
+TransferFunction TransferFunction::for_range(double low, double high) const {
+  TransferFunction function = *this;
+  if (!relative) return function;
+  function.relative = false;
+  const double extent = high - low;
+  const auto spread = [&](TransferFactor& factor, double offset) {
+    factor.start = offset + factor.start * extent;
+    factor.end =
+        factor.kind == TransferFactor::Kind::gaussian ? factor.end * extent : offset + factor.end * extent;
+  };
+  for (SourcePrimitive& p : function.source) {
+    spread(p.value, low);
+    spread(p.gradient, 0.0);
+  }
+  for (SurfacePrimitive& p : function.surface) spread(p.intensity, low);
+  return function;
+}
+
 bool TransferFunction::source_needs_gradient() const {
   return std::any_of(source.begin(), source.end(), [](const SourcePrimitive& p) {
     return p.gradient.kind != TransferFactor::Kind::everything;
@@ -143,6 +161,11 @@ Result<TransferFunction> TransferFunction::parse(std::string_view json) {
   if (!document.is_object()) return fail(ErrorKind::input, "not a JSON object");
   TransferFunction function;
   if (document.contains("name") && document["name"].is_string()) function.name = document["name"];
+  if (document.contains("relative")) {
+    if (!document["relative"].is_boolean())
+      return fail(ErrorKind::input, "relative: true or false is needed");
+    function.relative = document["relative"];
+  }
   Status good = read_list<SourcePrimitive>(document, "source",
                                            {{&SourcePrimitive::value, "value"},
                                             {&SourcePrimitive::gradient, "gradient"},

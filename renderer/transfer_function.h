@@ -50,19 +50,25 @@ struct TransferFunction {
   static constexpr std::size_t kMostPrimitives = 16;  // of each list, as in render/transfer.glsl
 
   std::string name;
+  // Values, intensities and gradients are shares of the source's common range (Volume::common_range(): 0 its
+  // low end, 1 its high end), for modalities whose values have no unit.
+  bool relative = false;
   std::vector<SourcePrimitive> source;
   std::vector<SurfacePrimitive> surface;
 
   bool operator==(const TransferFunction&) const = default;
+  // The same in a source's own units, whose common range is [low, high].
+  [[nodiscard]] TransferFunction for_range(double low, double high) const;
   [[nodiscard]] bool source_needs_gradient() const;
   [[nodiscard]] bool source_needs_phi() const;
   // The greatest opacity (of a mm) of any value and phi in these ranges.
   [[nodiscard]] double most_opacity(double low, double high, double low_phi, double high_phi) const;
 
   // Reads what a preset file holds:
-  //   {"name": "...", "source": [PRIMITIVE with "value", "gradient", "phi"], "surface": [PRIMITIVE with
-  //   "intensity", "distance"]}, a primitive having "opacity" and "colour": [r, g, b] (0 to 1), and for each
-  //   axis that matters {"gaussian": [centre, width]} or {"ramp": [start, end]}.
+  //   {"name": "...", "relative": true (else the source's units), "source": [PRIMITIVE with "value",
+  //   "gradient", "phi"], "surface": [PRIMITIVE with "intensity", "distance"]}, a primitive having "opacity"
+  //   and "colour": [r, g, b] (0 to 1), and for each axis that matters {"gaussian": [centre, width]} or
+  //   {"ramp": [start, end]}.
   // Fails (ErrorKind::input) and names the field.
   static Result<TransferFunction> parse(std::string_view json);
   static Result<TransferFunction> load(const std::filesystem::path& file);

@@ -42,31 +42,29 @@ Differences differences_at(ivec3 v) {
 }
 
 // A weighted term, in units of the data term's: 1 is a front that moves at full speed outward.
-float speed_at(int term, ivec3 voxel) {
-  if (term == kDataSpeed) return data_weight * data_speed(source_between(vec3(voxel)));
-  Differences d = differences_at(voxel);
+float speed_of(int term, Differences d, float value) {
+  float data = data_weight * data_speed(value);
   float bending = curvature_weight * curvature(d);
   float rescaling = rescaling_weight * rescaling_speed(d);
-  if (term == kCurvatureSpeed) return bending;
-  if (term == kRescalingSpeed) return rescaling;
-  return data_weight * data_speed(source_between(vec3(voxel))) + bending + rescaling;
+  return term == kDataSpeed ? data : term == kCurvatureSpeed ? bending : term == kRescalingSpeed ? rescaling
+         : data + bending + rescaling;
 }
 
-// Between voxels.
-float speed_between(int term, vec3 position) {
+float speed_at(int term, ivec3 voxel) {
+  return speed_of(term, differences_at(voxel), source_between(vec3(voxel)));
+}
+
+// Between voxels: the term, and kappa (the sum of the principal curvatures, per smallest spacing).
+vec2 speed_and_curvature_between(int term, vec3 position) {
   vec3 p = clamp(position, vec3(0.0), vec3(volume_size - 1));
   ivec3 low = min(ivec3(p), max(volume_size - 2, ivec3(0)));
   vec3 f = p - vec3(low);
-  float sum = 0.0;
+  vec2 sum = vec2(0.0);
   for (int i = 0; i < 8; ++i) {
     ivec3 corner = ivec3(i & 1, i >> 1 & 1, i >> 2);
     vec3 share = mix(1.0 - f, f, vec3(corner));
-    sum += share.x * share.y * share.z * speed_at(term, low + corner);
+    Differences d = differences_at(low + corner);
+    sum += share.x * share.y * share.z * vec2(speed_of(term, d, source_between(vec3(low + corner))), curvature(d));
   }
   return sum;
-}
-
-// kappa, the sum of the principal curvatures, per smallest spacing.
-float curvature_at(ivec3 voxel) {
-  return curvature(differences_at(voxel));
 }

@@ -76,7 +76,8 @@ float openness(vec3 p, vec3 outward) {
 vec3 taught_colour(vec3 p) {
   ivec3 voxel = clamp(ivec3(floor(p + 0.5)), ivec3(0), volume_size - 1);
   if (colouring == kActivity) return page_colour(page_state(voxel / kPageShape));
-  return diverging(colouring == kBending ? 2.0 * curvature_at(voxel) : speed_between(colouring - 1, p));
+  vec2 taught = speed_and_curvature_between(colouring - 1, p);
+  return diverging(colouring == kBending ? 2.0 * taught.y : taught.x);
 }
 #endif
 
@@ -134,40 +135,41 @@ struct Piece {
 };
 
 #ifndef SOURCE
-// Until `stop`, with the surface alone: phi says how far away it is at least.
+// Until `stop`, with the surface alone. Where phi is +-W the surface is some voxels away; elsewhere phi says how far, but
+// may be twice as steep as a distance.
 Piece march(float stop) {
   Piece piece = Piece(false, t, t, 0.0, 0.0);
-  float unit = min(spacing.x, min(spacing.y, spacing.z));
-  // How far a voxel is from the ray where it is the nearest, in phi's units; from `near` on phi is interpolated.
-  float reach = 0.5 * length(spacing) / unit;
-  float near = min(reach + 0.5, 0.99 * band);
+  float voxels_per_phi = min(spacing.x, min(spacing.y, spacing.z)) / ray_mm;
+  float nearly_band = 0.98 * band;
   float before = t;
   while (t < stop && !piece.found) {
     while (t < stop) {
       enter_page(t);
-      float distance_of = abs(nearest_phi(t));
       bool resident = physical >= kFirstPage;
 #ifdef NO_SKIP
       break;
 #endif
-      if (resident && distance_of < near) break;
+      if (resident && abs(nearest_phi(t)) < nearly_band) break;
       before = t;
-      t = resident ? min(t + max((distance_of - reach) * unit / ray_mm, 0.1), page_end) : page_end;
+      t = resident ? min(t + 1.0, page_end) : page_end;
     }
-    // Step by step, while the surface may be near.
-    float a = t;
+    // Step by step, while phi varies.
     float phi_a = phi_between(on_ray(t));
-    bool passed = t < stop && (phi_a > 0.0) != inside;  // steeper than a distance: it was in the last stride
+    bool passed = t < stop && (phi_a > 0.0) != inside;  // in the last stride
     piece = Piece(passed, before, t, inside ? 1.0 : -1.0, phi_a);
     while (t < stop && !piece.found) {
-      float next = min(t + step_voxels, stop);
+      float next = t + step_voxels;
+#ifndef NO_SKIP
+      next = max(next, t + 0.5 * abs(phi_a) * voxels_per_phi);
+#endif
+      next = min(next, stop);
       float phi_b = phi_between(on_ray(next));
       if ((phi_b > 0.0) != inside) piece = Piece(true, t, next, phi_a, phi_b);
       before = t;
       t = next;
       phi_a = phi_b;
 #ifndef NO_SKIP
-      if (abs(phi_b) > near + 0.2 || abs(phi_b) >= band) break;
+      if (abs(phi_b) > nearly_band) break;
 #endif
     }
   }
