@@ -214,7 +214,7 @@ Result<VolumeView> volume_view(const RenderOptions& options, const Volume& sourc
   return view;
 }
 
-Result<SliceView> slice_view(const RenderOptions& options, const Volume& source) {
+Result<SliceView> slice_view(const RenderOptions& options, const Volume& source, const Field& phi) {
   SliceView view;
   if (options.view == "coronal") view.orientation = kCoronal;
   if (options.view == "sagittal") view.orientation = kSagittal;
@@ -231,7 +231,8 @@ Result<SliceView> slice_view(const RenderOptions& options, const Volume& source)
   if (!term) return tl::unexpected<Error>(term.error());
   view.term = *term;
   view.nearest = options.nearest;
-  view.position_mm = middle_of(source.geometry);
+  const Box box = box_around(phi);
+  view.position_mm = 0.5 * (box.low + box.high);
   if (options.at) {
     view.position_mm = source.geometry.to_patient({(*options.at)[0], (*options.at)[1], (*options.at)[2]});
   }
@@ -297,7 +298,7 @@ Result<Picture> draw(Renderer& renderer, const RenderOptions& options, const Fie
     return options.annotate ? draw_annotated(renderer, *view, size, progress)
                             : renderer.draw(*view, size, progress);
   }
-  const auto view = slice_view(options, source);
+  const auto view = slice_view(options, source, phi);
   if (!view) return tl::unexpected<Error>(view.error());
   if (options.view == "sheet") {
     // The 3D view is two or three of the three columns wide, and one of the two rows high.
@@ -383,7 +384,7 @@ void add_render(CLI::App& app, Program& program) {
       ->type_name(joined(kClipped, "|"));
   add_numbers(command, "--normal", "NX,NY,NZ", options->normal, "Across the oblique slice (LPS)");
   add_numbers(command, "--at", "I,J,K", options->at,
-              "A voxel that the slice goes through (default: the middle)");
+              "A voxel that the slice goes through (default: the middle of the surface, or of the volume)");
   add_numbers(command, "--window", "CENTRE,WIDTH", options->window,
               "Window in the source's units (default: the file's)");
   command.add_flag("--nearest", options->nearest, "Slices show voxels as they are, not interpolated");
