@@ -22,6 +22,12 @@ void bind(const gpu::Program& program, unsigned unit, const gpu::Texture2D& text
 
 }  // namespace
 
+void RegionPasses::use(const gpu::Program& program, const PhysicalMemory& memory) const {
+  program.use();
+  program.set("phi_texel", 1.0F / glm::vec2(memory.size()));
+  program.set("place_texel", 1.0F / glm::vec2(size()));
+}
+
 std::vector<RegionPasses::Region> RegionPasses::regions(std::int64_t pages) const {
   std::vector<Region> regions;
   for (std::int64_t first = 0; first < pages; first += largest_region_) {
@@ -102,7 +108,7 @@ void RegionPasses::step(const GeometryEngine& geometry, const PhysicalMemory& me
                         bool measure_motion) const {
   for (const Region region : regions(geometry.size())) {
     differentiate(geometry, memory, constants, now, measure_motion, region);
-    compute_speeds(geometry, source, constants, region);
+    compute_speeds(geometry, memory, source, constants, region);
     update(geometry, memory, constants, 1 - now, region);
     if (measure_motion) add_motion(geometry, memory, constants, 1 - now, region);
   }
@@ -114,7 +120,7 @@ void RegionPasses::differentiate(const GeometryEngine& geometry, const PhysicalM
   differences_target_.bind();
   for (std::size_t i = 0; i < derivatives_.size(); ++i) {
     const gpu::Program& program = derivatives_[i];
-    program.use();
+    use(program, memory);
     set_step_uniforms(program, constants);
     program.set("measure_motion", measure_motion ? 1 : 0);
     bind(program, 1, memory.field().phi(now), "phi_now");
@@ -123,10 +129,11 @@ void RegionPasses::differentiate(const GeometryEngine& geometry, const PhysicalM
   }
 }
 
-void RegionPasses::compute_speeds(const GeometryEngine& geometry, const SourceTexture& source,
-                                  const StepConstants<float>& constants, Region region) const {
+void RegionPasses::compute_speeds(const GeometryEngine& geometry, const PhysicalMemory& memory,
+                                  const SourceTexture& source, const StepConstants<float>& constants,
+                                  Region region) const {
   speeds_target_.bind();
-  speeds_.use();
+  use(speeds_, memory);
   set_step_uniforms(speeds_, constants);
   bind(speeds_, 1, upwind_, "upwind_buffer");
   bind(speeds_, 2, central_, "central_buffer");
@@ -139,7 +146,7 @@ void RegionPasses::compute_speeds(const GeometryEngine& geometry, const SourceTe
 void RegionPasses::update(const GeometryEngine& geometry, const PhysicalMemory& memory,
                           const StepConstants<float>& constants, int next, Region region) const {
   memory.draw_into(next);
-  update_.use();
+  use(update_, memory);
   set_step_uniforms(update_, constants);
   bind(update_, 1, upwind_, "upwind_buffer");
   bind(update_, 2, speed_terms_, "speed_buffer");
@@ -149,7 +156,7 @@ void RegionPasses::update(const GeometryEngine& geometry, const PhysicalMemory& 
 void RegionPasses::add_motion(const GeometryEngine& geometry, const PhysicalMemory& memory,
                               const StepConstants<float>& constants, int next, Region region) const {
   blocks_target_.bind();
-  motion_blocks_.use();
+  use(motion_blocks_, memory);
   motion_blocks_.set("near", constants.near);
   bind(motion_blocks_, 1, memory.field().phi(next), "phi_next");
   bind(motion_blocks_, 2, central_, "central_buffer");
@@ -157,7 +164,7 @@ void RegionPasses::add_motion(const GeometryEngine& geometry, const PhysicalMemo
 
   const gpu::BlendScope added(gpu::Blending::add);
   memory.draw_into_motion();
-  motion_pages_.use();
+  use(motion_pages_, memory);
   bind(motion_pages_, 1, blocks_, "block_buffer");
   geometry.draw(motion_pages_, Substream::page_point, region.first, region.count, memory.motion_size());
 }
@@ -178,7 +185,7 @@ void RegionPasses::note_neighbours(const GeometryEngine& geometry, const Physica
   if (has_partial_pages_) gpu::clear_colours(2);  // padding, which is never drawn, gives notice of nothing
   for (std::size_t i = 0; i < neighbours_.size(); ++i) {
     const gpu::Program& program = neighbours_[i];
-    program.use();
+    use(program, memory);
     program.set("band", band);
     bind(program, 1, memory.field().phi(buffer), "phi_now");
     geometry.draw(program, kSubstreams[i], region.first, region.count, size());
@@ -190,7 +197,7 @@ void RegionPasses::encode(const GeometryEngine& geometry, const PhysicalMemory& 
   in_slice_.generate_mipmaps();
   slices_.generate_mipmaps();
   message_target_.bind();
-  code_.use();
+  use(code_, memory);
   code_.set("quiet_change", quiet_change);
   bind(code_, 1, in_slice_, "in_slice_buffer");
   bind(code_, 2, slices_, "slices_buffer");

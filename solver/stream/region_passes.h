@@ -59,11 +59,14 @@ class RegionPasses {
   [[nodiscard]] std::vector<Region> regions(std::int64_t pages) const;
   [[nodiscard]] glm::ivec2 size() const { return {upwind_.width(), upwind_.height()}; }
 
+  // Uses a program, and tells it the sizes of texels.
+  void use(const gpu::Program& program, const PhysicalMemory& memory) const;
   void differentiate(const GeometryEngine& geometry, const PhysicalMemory& memory,
                      const StepConstants<float>& constants, int now, bool measure_motion,
                      Region region) const;
-  void compute_speeds(const GeometryEngine& geometry, const SourceTexture& source,
-                      const StepConstants<float>& constants, Region region) const;
+  void compute_speeds(const GeometryEngine& geometry, const PhysicalMemory& memory,
+                      const SourceTexture& source, const StepConstants<float>& constants,
+                      Region region) const;
   void update(const GeometryEngine& geometry, const PhysicalMemory& memory,
               const StepConstants<float>& constants, int next, Region region) const;
   void add_motion(const GeometryEngine& geometry, const PhysicalMemory& memory,
