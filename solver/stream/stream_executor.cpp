@@ -54,8 +54,7 @@ Status StreamExecutor::start(std::int64_t largest_region) {
     largest_region =
         device_->capabilities().software ? RegionPasses::kLargestRegionInCache : RegionPasses::kLargestRegion;
   }
-  auto passes = RegionPasses::create(*device_, active_geometry_, source_texture_, model_, layout_.layout(),
-                                     largest_region);
+  auto passes = RegionPasses::create(*device_, active_geometry_, source_texture_, model_, largest_region);
   if (!passes) return pass_on(passes);
   passes_ = std::move(*passes);
   return restore(Field::empty(source_->geometry, band(), kPageShape));

@@ -168,7 +168,7 @@ class StreamTest : public QObject {
     const PhysicalPage list[] = {page};
     QVERIFY(geometry_engine.describe(*gpu, table, list));
     const auto texture = good(SourceTexture::create(*gpu, *source));
-    auto passes = good(RegionPasses::create(*gpu, geometry_engine, texture, model, pages, 32));
+    auto passes = good(RegionPasses::create(*gpu, geometry_engine, texture, model, 32));
     QVERIFY(passes.reserve(*gpu, 1));
     gpu::begin_exact_drawing();
     std::vector<float> values(kPageTexels, -band);
