@@ -18,7 +18,7 @@ class RegionPasses {
   // Pages of the largest sub-region: 512 x 512 texels, as in the paper. Where the processor plays the GPU,
   // buffers that stay in its cache are a fifth faster.
   static constexpr std::int64_t kLargestRegion = 1024;
-  static constexpr std::int64_t kLargestRegionInCache = 256;
+  static constexpr std::int64_t kLargestRegionInCache = 128;
   // Pages whose messages are made at a time, from buffers with a texel for 16 voxels.
   static constexpr std::int64_t kLargestMessage = 16384;
 

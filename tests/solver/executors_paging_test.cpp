@@ -176,7 +176,10 @@ class ExecutorsPagingTest : public QObject {
   void it_says_which_pages_are_quiet_data() { add_rows_with_host(); }
   void it_says_which_pages_are_quiet() {
     const Setting setting = this_row();
-    const Scene scene = lumpy_scene({61, 50, 47});
+    Scene scene = lumpy_scene({45, 40, 35});
+    scene.source = volume_of(scene.geometry, [&](glm::dvec3 p) {
+      return 100.0 - 2.0 * glm::distance(p, centre_of(scene.geometry));
+    });
     const auto level_set = setting.make(scene.source, scene.parameters);
     QCOMPARE(failure(level_set->paint(scene.seed, Brush::add)), QString());
     QVERIFY(level_set->quiet_pages().value().empty());
@@ -191,7 +194,7 @@ class ExecutorsPagingTest : public QObject {
     for (const std::int64_t page : at_rest) QVERIFY(phi.table[static_cast<std::size_t>(page)] >= 0);
 
     // A dent in the surface, on the low side of x.
-    Index3 voxel(0, 25, 23);
+    Index3 voxel(0, 20, 17);
     while (phi.at(voxel) <= 0.0F) ++voxel.x;
     QCOMPARE(failure(level_set->paint({scene.geometry.to_patient(voxel), 3.0}, Brush::erase)), QString());
     const std::vector<std::int64_t> quiet = level_set->quiet_pages().value();
