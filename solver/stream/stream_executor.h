@@ -15,13 +15,6 @@
 
 namespace tidemark {
 
-// What the pages' messages cost.
-struct MessageCost {
-  std::int64_t messages = 0;
-  std::int64_t bytes = 0;
-  double seconds = 0.0;  // reduction, reading, and decoding
-};
-
 // Its pages are the paper's, (16,16,1). A step draws the pages of the active list; then their messages are
 // read, and the processor allocates and frees pages before the next step.
 class StreamExecutor final : public ExecutorBase {
@@ -44,7 +37,6 @@ class StreamExecutor final : public ExecutorBase {
   bool packed_view(PackedView& view) override;
   [[nodiscard]] Status validate() const override;
 
-  [[nodiscard]] const MessageCost& message_cost() const { return message_cost_; }
   [[nodiscard]] std::int64_t pooled_bytes() const { return passes_.pooled_bytes(); }
   [[nodiscard]] const RegionPasses& passes() const { return passes_; }
 
@@ -126,7 +118,6 @@ class StreamExecutor final : public ExecutorBase {
   std::int64_t quiet_near_voxels_ = 0;
   std::int64_t peak_resident_ = 0;
   std::int64_t peak_bytes_ = 0;
-  MessageCost message_cost_;
 
   gpu::Buffer viewed_table_;          // the page table as packed_view() gave it last
   std::int64_t viewed_changes_ = -1;  // of the table, when it did
