@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "core/progress.h"
 #include "core/volume.h"
@@ -16,6 +17,7 @@ namespace tidemark {
 namespace gpu {
 class Device;
 }
+struct PackedView;
 
 // When a run of steps ends.
 struct Advance {
@@ -79,6 +81,11 @@ class Executor {
   virtual Result<AdvanceReport> advance(const Advance& run) = 0;
 
   [[nodiscard]] virtual MemoryReport memory() const = 0;
+  // The virtual pages that are resident, but not computed at present. Fails as snapshot() does.
+  [[nodiscard]] virtual Result<std::vector<std::int64_t>> quiet_pages() const = 0;
+  // Shows where phi lies on the GPU (solver/gl/packed_view.h), with the executor's context current. Returns
+  // false where it does not lie on one, or cannot be read there.
+  virtual bool packed_view(PackedView& /*view*/) { return false; }
 
   // Checks the invariants of the executor's own tables, and of phi; the error says which one is broken.
   [[nodiscard]] virtual Status validate() const = 0;

@@ -1,23 +1,17 @@
 #include "solver/compute/compute_executor.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <glm/common.hpp>
 #include <utility>
 
 #include "solver/convergence.h"
+#include "solver/gl/packed_view.h"
 #include "solver/paging/validate.h"
 
 namespace tidemark {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Runs of steps, and pieces of a step, take about this long.
 constexpr double kSecondsPerRun = 0.008;
@@ -61,9 +55,8 @@ Result<std::unique_ptr<Executor>> ComputeExecutor::create(std::shared_ptr<const 
 
 ComputeExecutor::ComputeExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source,
                                  const Parameters& parameters, const ExecutorOptions& options)
-    : device_(std::move(device)),
-      source_(std::move(source)),
-      model_(*source_, parameters),
+    : ExecutorBase(std::move(source), parameters),
+      device_(std::move(device)),
       options_(options),
       layout_(PageLayout(source_->geometry.size, options.page_shape),
               device_->capabilities().largest_texture) {}
@@ -130,13 +123,18 @@ void ComputeExecutor::set_layout(const gpu::Program& program) const {
   program.set("quiet_reach", glm::ivec3(reach));
 }
 
-void ComputeExecutor::order_update(const gpu::Program& program, int now) {
+// Tells an update kernel what stays the same for a run of steps.
+void ComputeExecutor::prepare_update(const gpu::Program& program) {
   program.use();
   set_layout(program);
   set_step_uniforms(program, model_.constants<float>());
   source_texture_.set_uniforms(program, 1);
-  memory_.field().phi(now).bind(0);
   program.set("phi_now", 0);
+}
+
+void ComputeExecutor::order_update(const gpu::Program& program, int now) {
+  program.use();
+  memory_.field().phi(now).bind(0);
   memory_.field().phi(1 - now).bind_image(0, true);
 }
 
@@ -226,6 +224,7 @@ Result<ComputeControl> ComputeExecutor::run_steps(std::int64_t count, bool until
   control_.voxel_updates[0] = control_.voxel_updates[1] = 0;
   memory_.write_control(control_);
   memory_.bind();
+  prepare_update(update_);
   for (std::int64_t i = 0; i < count; ++i) {
     order_step(static_cast<int>((current_ + i) % 2),
                static_cast<int>((steps_in_window_ + i) % kConvergenceWindow), count == 1);
@@ -272,6 +271,7 @@ Status ComputeExecutor::settle() {
     control_.converged = 0;
     memory_.write_control(control_);
     memory_.bind();
+    prepare_update(measure_);
     order_update(measure_, current_);
     gpu::dispatch(memory_.control(), 0);
     gpu::finish_writes();
@@ -342,6 +342,18 @@ MemoryReport ComputeExecutor::memory() const {
   report.source_bytes = 0;  // the source is one texture, whatever is resident
   report.page_shape = layout_.layout().page_shape();
   return report;
+}
+
+Result<std::vector<std::int64_t>> ComputeExecutor::quiet_pages() const {
+  if (auto status = device_->make_current(); !status) return pass_on(status);
+  std::vector<std::int64_t> pages = memory_.sleeping_pages();
+  if (auto status = device_->check("reading which pages are quiet"); !status) return pass_on(status);
+  return pages;
+}
+
+bool ComputeExecutor::packed_view(PackedView& view) {
+  view = {layout_, &memory_.field().phi(current_), &memory_.page_table(), static_cast<float>(band())};
+  return true;
 }
 
 Status ComputeExecutor::validate() const {

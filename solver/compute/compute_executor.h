@@ -6,9 +6,8 @@
 #include "gpu/device.h"
 #include "gpu/program.h"
 #include "solver/compute/page_memory.h"
-#include "solver/executor.h"
+#include "solver/executor_base.h"
 #include "solver/gl/step_uniforms.h"
-#include "solver/model.h"
 
 namespace tidemark {
 
@@ -16,7 +15,7 @@ namespace tidemark {
 // After every window of steps three more find out which pages are quiet. The processor hands over runs of
 // steps and reads nothing in between; when a run ends early, because no page was free or the surface has
 // stopped, the rest of its dispatches do nothing, and the counters say how far it came.
-class ComputeExecutor final : public Executor {
+class ComputeExecutor final : public ExecutorBase {
  public:
   // On options.device, else on a context of its own. Fails (ErrorKind::capability) without OpenGL 4.5.
   // $TIDEMARK_APRON (shared or columns) forces an address mode; by default hardware shares and software does
@@ -30,12 +29,11 @@ class ComputeExecutor final : public Executor {
   [[nodiscard]] Result<Field> snapshot() const override;
   Status paint(const Sphere& sphere, Brush brush) override;
   Status set_parameters(const Parameters& parameters) override;
-  [[nodiscard]] const Parameters& parameters() const override { return model_.parameters(); }
   Result<AdvanceReport> advance(const Advance& run) override;
   [[nodiscard]] MemoryReport memory() const override;
+  [[nodiscard]] Result<std::vector<std::int64_t>> quiet_pages() const override;
+  bool packed_view(PackedView& view) override;
   [[nodiscard]] Status validate() const override;
-  [[nodiscard]] double band() const override { return model_.band(); }
-  [[nodiscard]] double time_step() const override { return model_.time_step(); }
 
  private:
   ComputeExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source,
@@ -48,6 +46,7 @@ class ComputeExecutor final : public Executor {
   // Orders the dispatches of one step, which reads phi from buffer `now`.
   void order_step(int now, int step_in_window, bool in_pieces);
   void set_layout(const gpu::Program& program) const;
+  void prepare_update(const gpu::Program& program);
   void order_update(const gpu::Program& program, int now);
   void order_maintenance(bool count_step);
   void dispatch_update(bool in_pieces);
@@ -62,8 +61,6 @@ class ComputeExecutor final : public Executor {
   void note_memory(const ComputeControl& control);
 
   std::shared_ptr<gpu::Device> device_;  // first: it outlives everything below
-  std::shared_ptr<const Volume> source_;
-  Model model_;
   ExecutorOptions options_;
   PackedLayout layout_;
   SourceTexture source_texture_;

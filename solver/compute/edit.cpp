@@ -28,12 +28,11 @@ Status ComputeExecutor::restore(const Field& phi) {
 }
 
 Status ComputeExecutor::set_parameters(const Parameters& parameters) {
-  if (auto status = check(parameters); !status) return status;
-  const Model model(*source_, parameters);
-  if (model.band() != model_.band()) return fail(ErrorKind::usage, "the band W cannot change in mid-run");
+  auto model = model_with(parameters);
+  if (!model) return pass_on(model);
   if (auto status = device_->make_current(); !status) return status;
   const bool other_kernel = model_.parameters().scheme != parameters.scheme;
-  model_ = model;
+  model_ = *model;
   if (other_kernel) {
     if (auto status = compile_update(); !status) return status;
   }

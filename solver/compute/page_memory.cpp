@@ -150,6 +150,17 @@ Result<Field> PageMemory::download(const Geometry& geometry, double band, int bu
   return phi;
 }
 
+std::vector<std::int64_t> PageMemory::sleeping_pages() const {
+  constexpr std::uint32_t kAsleep = 1;  // as in page_memory.glsl
+  const auto inverse = inverse_table_.download_values<std::int32_t>(0, capacity());
+  const auto states = states_.download_values<ComputePageState>(0, capacity());
+  std::vector<std::int64_t> pages;
+  for (std::size_t page = kFirstPage; page < inverse.size(); ++page) {
+    if (inverse[page] >= 0 && (states[page].flags & kAsleep) != 0) pages.push_back(inverse[page]);
+  }
+  return pages;
+}
+
 Status PageMemory::validate() const {
   const ComputeControl control = read_control();
   const auto table = page_table_.download_values<std::int32_t>(0, field_.layout().layout().page_count());

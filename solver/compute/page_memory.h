@@ -64,6 +64,9 @@ class PageMemory {
   Status validate() const;
 
   [[nodiscard]] const PackedField& field() const { return field_; }
+  [[nodiscard]] const gpu::Buffer& page_table() const { return page_table_; }
+  // The virtual pages that are resident and quiet. Waits for the GPU.
+  [[nodiscard]] std::vector<std::int64_t> sleeping_pages() const;
   [[nodiscard]] const gpu::Buffer& control() const { return control_; }
   [[nodiscard]] ComputeControl read_control() const;
   void write_control(const ComputeControl& control);

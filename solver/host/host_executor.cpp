@@ -1,18 +1,11 @@
 #include "solver/host/host_executor.h"
 
 #include <bit>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 
 namespace tidemark {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Bits for whole groups of rows_per_vector rows: a vector computes all of its rows or none.
 Rows whole_vectors(Rows rows, int rows_per_vector) {
@@ -44,8 +37,7 @@ Result<std::unique_ptr<Executor>> HostExecutor::create(std::shared_ptr<const Vol
 
 HostExecutor::HostExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters,
                            const ExecutorOptions& options, PageKernels kernels)
-    : source_(std::move(source)),
-      model_(*source_, parameters),
+    : ExecutorBase(std::move(source), parameters),
       constants_(model_.constants<float>()),
       options_(options),
       kernels_(std::move(kernels)),
@@ -56,10 +48,9 @@ HostExecutor::HostExecutor(std::shared_ptr<const Volume> source, const Parameter
 }
 
 Status HostExecutor::set_parameters(const Parameters& parameters) {
-  if (auto status = check(parameters); !status) return status;
-  const Model model(*source_, parameters);
-  if (model.band() != model_.band()) return fail(ErrorKind::usage, "the band W cannot change in mid-run");
-  model_ = model;
+  auto model = model_with(parameters);
+  if (!model) return pass_on(model);
+  model_ = *model;
   constants_ = model_.constants<float>();
   wake_all();
   return {};
@@ -150,16 +141,12 @@ bool HostExecutor::finish_window() {
 }
 
 Result<AdvanceReport> HostExecutor::advance(const Advance& run) {
-  const Clock::time_point start = Clock::now();
-  Clock::time_point last_progress = start;
-  AdvanceReport report;
   if (needs_activation_) {
     if (auto status = activate_all(); !status) return pass_on(status);
   }
-  while (report.steps < run.steps && !run.progress.cancelled()) {
+  return run_steps(run, [this](AdvanceReport& report) -> Result<bool> {
     if (active_list_is_stale_) rebuild_active_list();
     step();
-    ++report.steps;
     for (const std::int64_t updates : updates_) report.voxel_updates += updates;
 
     const Clock::time_point paging_start = Clock::now();
@@ -169,18 +156,8 @@ Result<AdvanceReport> HostExecutor::advance(const Advance& run) {
     if (!domain) {
       return fail(domain.error().kind, "after {} steps: {}", report.steps, domain.error().message);
     }
-    if (seconds_since(last_progress) > 0.05) {
-      run.progress(static_cast<double>(report.steps) / static_cast<double>(run.steps), "steps");
-      last_progress = Clock::now();
-    }
-    if (window_ended) {
-      report.converged = surface_speed_ < kConvergedSpeed;
-      if (report.converged && run.until_converged) break;
-    }
-  }
-  report.surface_speed = surface_speed_;
-  report.seconds = seconds_since(start);
-  return report;
+    return window_ended;
+  });
 }
 
 MemoryReport HostExecutor::memory() const {

@@ -6,10 +6,9 @@
 
 #include "core/thread_pool.h"
 #include "solver/convergence.h"
-#include "solver/executor.h"
+#include "solver/executor_base.h"
 #include "solver/host/page_kernel.h"
 #include "solver/host/page_pool.h"
-#include "solver/model.h"
 #include "solver/paging/page_table.h"
 
 namespace tidemark {
@@ -17,7 +16,7 @@ namespace tidemark {
 // A step reads phi from one buffer and writes it to the other (Jacobi), so its result does not depend on the
 // order of pages: the same bits for any number of threads. Between steps pages are allocated and freed from
 // the codes that the pages wrote.
-class HostExecutor final : public Executor {
+class HostExecutor final : public ExecutorBase {
  public:
   // The instruction set is the widest one, or the one that $TIDEMARK_SIMD names.
   static Result<std::unique_ptr<Executor>> create(std::shared_ptr<const Volume> source,
@@ -29,12 +28,10 @@ class HostExecutor final : public Executor {
   [[nodiscard]] Result<Field> snapshot() const override;
   Status paint(const Sphere& sphere, Brush brush) override;
   Status set_parameters(const Parameters& parameters) override;
-  [[nodiscard]] const Parameters& parameters() const override { return model_.parameters(); }
   Result<AdvanceReport> advance(const Advance& run) override;
   [[nodiscard]] MemoryReport memory() const override;
+  [[nodiscard]] Result<std::vector<std::int64_t>> quiet_pages() const override;
   [[nodiscard]] Status validate() const override;
-  [[nodiscard]] double band() const override { return model_.band(); }
-  [[nodiscard]] double time_step() const override { return model_.time_step(); }
 
   [[nodiscard]] const std::string& instruction_set() const { return kernels_.name; }
 
@@ -79,8 +76,6 @@ class HostExecutor final : public Executor {
     }
   }
 
-  std::shared_ptr<const Volume> source_;
-  Model model_;
   StepConstants<float> constants_;
   ExecutorOptions options_;
   PageKernels kernels_;
@@ -101,7 +96,6 @@ class HostExecutor final : public Executor {
   std::int64_t quiet_near_voxels_ = 0;  // in quiet pages, as last seen
   std::int64_t peak_resident_ = 0;
   int steps_in_window_ = 0;
-  double surface_speed_ = 0.0;  // in the last full window
 };
 
 }  // namespace tidemark

@@ -76,6 +76,14 @@ void HostExecutor::judge_quiet_pages() {
   if (!quiet.empty()) active_list_is_stale_ = true;
 }
 
+Result<std::vector<std::int64_t>> HostExecutor::quiet_pages() const {
+  std::vector<std::int64_t> pages;
+  for_each_resident([&](PhysicalPage page) {
+    if (pool_.info(page).asleep) pages.push_back(table_.virtual_page(page));
+  });
+  return pages;
+}
+
 void HostExecutor::rebuild_active_list() {
   active_.clear();
   quiet_pages_ = 0;

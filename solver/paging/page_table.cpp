@@ -20,6 +20,7 @@ PhysicalPage PageTable::allocate(std::int64_t page) {
     inverse_[static_cast<std::size_t>(found)] = page;
   }
   table_[static_cast<std::size_t>(page)] = found;
+  ++changes_;
   return found;
 }
 
@@ -29,11 +30,13 @@ void PageTable::release(std::int64_t page, bool inside) {
   inverse_[static_cast<std::size_t>(freed)] = -1;
   free_.push_back(freed);
   table_[static_cast<std::size_t>(page)] = inside ? kInsidePage : kOutsidePage;
+  ++changes_;
 }
 
 void PageTable::set_static(std::int64_t page, bool inside) {
   assert(is_static_page(physical(page)));
   table_[static_cast<std::size_t>(page)] = inside ? kInsidePage : kOutsidePage;
+  ++changes_;
 }
 
 std::int64_t PageTable::bytes() const {

@@ -16,7 +16,9 @@ inline constexpr PhysicalPage kInsidePage = 1;
 inline constexpr PhysicalPage kFirstPage = 2;  // of those that are allocated and freed
 inline constexpr PhysicalPage kNoPage = -1;    // beyond the volume's border
 
-constexpr bool is_static_page(PhysicalPage page) { return page == kOutsidePage || page == kInsidePage; }
+constexpr bool is_static_page(PhysicalPage page) {
+  return page == kOutsidePage || page == kInsidePage;
+}
 
 // The page table V_P -> G_P, the inverse page table G_P -> V_P and the free-page stack.
 class PageTable {
@@ -53,6 +55,10 @@ class PageTable {
 
   [[nodiscard]] std::int64_t bytes() const;
 
+  // The physical pages of all virtual ones, and how often that has changed.
+  [[nodiscard]] const std::vector<PhysicalPage>& entries() const { return table_; }
+  [[nodiscard]] std::int64_t changes() const { return changes_; }
+
   // The tables agree both ways, used and free pages make up the capacity, and no page is there twice.
   [[nodiscard]] Status validate() const;
 
@@ -61,6 +67,7 @@ class PageTable {
   std::vector<PhysicalPage> table_;
   std::vector<std::int64_t> inverse_;
   std::vector<PhysicalPage> free_;  // a stack
+  std::int64_t changes_ = 0;
 };
 
 }  // namespace tidemark

@@ -1,7 +1,6 @@
 #include "solver/reference/reference_executor.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -46,7 +45,7 @@ Stencil<double> gather(const std::vector<double>& phi, const Geometry& geometry,
 }  // namespace
 
 ReferenceExecutor::ReferenceExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters)
-    : source_(std::move(source)), source_values_(source_->values()), model_(*source_, parameters) {
+    : ExecutorBase(std::move(source), parameters), source_values_(source_->values()) {
   set_values(std::vector<double>(source_values_.size(), -model_.band()));
 }
 
@@ -96,10 +95,9 @@ Status ReferenceExecutor::paint(const Sphere& sphere, Brush brush) {
 }
 
 Status ReferenceExecutor::set_parameters(const Parameters& parameters) {
-  if (auto status = check(parameters); !status) return status;
-  const Model model(*source_, parameters);
-  if (model.band() != model_.band()) return fail(ErrorKind::usage, "the band cannot change in mid-run");
-  model_ = model;
+  auto model = model_with(parameters);
+  if (!model) return pass_on(model);
+  model_ = *model;
   restart_window();
   return {};
 }
@@ -127,27 +125,18 @@ void ReferenceExecutor::step() {
 }
 
 Result<AdvanceReport> ReferenceExecutor::advance(const Advance& run) {
-  const auto start = std::chrono::steady_clock::now();
-  AdvanceReport report;
-  while (report.steps < run.steps && !run.progress.cancelled()) {
+  return run_steps(run, [this](AdvanceReport& report) -> Result<bool> {
     if (parameters().scheme == Scheme::paper) {
       step<true>();
     } else {
       step<false>();
     }
-    ++report.steps;
     report.voxel_updates += static_cast<std::int64_t>(phi_.size());
-    run.progress(static_cast<double>(report.steps) / static_cast<double>(run.steps), "steps");
-    if (++steps_in_window_ == kConvergenceWindow) {
-      surface_speed_ = surface_speed(motion_, model_.time_step());
-      restart_window();
-      report.converged = surface_speed_ < kConvergedSpeed;
-      if (report.converged && run.until_converged) break;
-    }
-  }
-  report.surface_speed = surface_speed_;
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return report;
+    if (++steps_in_window_ < kConvergenceWindow) return false;
+    surface_speed_ = surface_speed(motion_, model_.time_step());
+    restart_window();
+    return true;
+  });
 }
 
 MemoryReport ReferenceExecutor::memory() const {

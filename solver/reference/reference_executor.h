@@ -5,12 +5,11 @@
 #include <vector>
 
 #include "solver/convergence.h"
-#include "solver/executor.h"
-#include "solver/model.h"
+#include "solver/executor_base.h"
 
 namespace tidemark {
 
-class ReferenceExecutor final : public Executor {
+class ReferenceExecutor final : public ExecutorBase {
  public:
   ReferenceExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters);
 
@@ -19,12 +18,10 @@ class ReferenceExecutor final : public Executor {
   [[nodiscard]] Result<Field> snapshot() const override;
   Status paint(const Sphere& sphere, Brush brush) override;
   Status set_parameters(const Parameters& parameters) override;
-  [[nodiscard]] const Parameters& parameters() const override { return model_.parameters(); }
   Result<AdvanceReport> advance(const Advance& run) override;
   [[nodiscard]] MemoryReport memory() const override;
+  [[nodiscard]] Result<std::vector<std::int64_t>> quiet_pages() const override { return {}; }
   [[nodiscard]] Status validate() const override;
-  [[nodiscard]] double band() const override { return model_.band(); }
-  [[nodiscard]] double time_step() const override { return model_.time_step(); }
 
   // phi in voxel order, in full precision.
   [[nodiscard]] const std::vector<double>& values() const { return phi_; }
@@ -35,15 +32,12 @@ class ReferenceExecutor final : public Executor {
   void step();
   void restart_window();
 
-  std::shared_ptr<const Volume> source_;
   std::vector<float> source_values_;
-  Model model_;
   std::vector<double> phi_;
   std::vector<double> previous_;  // of one step earlier
   std::vector<double> next_;
   SurfaceMotion motion_;  // of the window so far
   int steps_in_window_ = 0;
-  double surface_speed_ = 0.0;
 };
 
 }  // namespace tidemark

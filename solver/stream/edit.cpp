@@ -75,6 +75,7 @@ Status StreamExecutor::restore(const Field& phi) {
 
   // Pages are allocated in the order in which they lie in the field.
   table_ = PageTable(layout_.layout());
+  viewed_changes_ = -1;
   std::vector<std::int64_t> in_order(static_cast<std::size_t>(phi.resident_pages()));
   for (std::int64_t page = 0; page < table_.layout().page_count(); ++page) {
     const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
@@ -115,15 +116,14 @@ Result<Field> StreamExecutor::snapshot() const {
 }
 
 Status StreamExecutor::set_parameters(const Parameters& parameters) {
-  if (auto status = check(parameters); !status) return status;
-  const Model model(*source_, parameters);
-  if (model.band() != model_.band()) return fail(ErrorKind::usage, "the band W cannot change in mid-run");
+  auto model = model_with(parameters);
+  if (!model) return pass_on(model);
   if (auto status = device_->make_current(); !status) return status;
   if (model_.parameters().scheme != parameters.scheme) {
-    if (auto status = passes_.compile_step(*device_, active_geometry_, source_texture_, model); !status)
+    if (auto status = passes_.compile_step(*device_, active_geometry_, source_texture_, *model); !status)
       return status;
   }
-  model_ = model;
+  model_ = *model;
   for_each_resident([&](PhysicalPage page) { wake(page); });
   return rebuild_active_list();
 }

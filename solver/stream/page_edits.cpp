@@ -25,7 +25,7 @@ void RegionPasses::fill(const GeometryEngine& geometry, const PhysicalMemory& me
 
 void RegionPasses::copy(const GeometryEngine& geometry, const PhysicalMemory& memory, int now) const {
   memory.draw_into(1 - now);
-  copy_.use();
+  use(copy_, memory);
   memory.field().phi(now).bind(1);
   copy_.set("phi_now", 1);
   geometry.draw(copy_, Substream::whole_page, 0, geometry.size(), memory.size());
@@ -51,7 +51,8 @@ Status RegionPasses::paint(gpu::Device& device, const GeometryEngine& geometry, 
     }
     texture->upload({0, 0, texture->width(), texture->height()}, std::as_bytes(std::span(texels)));
     memory.draw_into_both();
-    paint_.use();
+    use(paint_, memory);
+    paint_.set("place_texel", 1.0F / glm::vec2(texture->width(), texture->height()));
     texture->bind(1);
     paint_.set("values", 1);
     geometry.draw(paint_, Substream::whole_page, first, count, memory.size());

@@ -27,17 +27,13 @@ Status compile(gpu::Device& device, const GeometryEngine& geometry, const gpu::D
 
 Result<RegionPasses> RegionPasses::create(gpu::Device& device, const GeometryEngine& geometry,
                                           const SourceTexture& source, const Model& model,
-                                          const PageLayout& layout, std::int64_t largest_region) {
+                                          std::int64_t largest_region) {
   RegionPasses passes;
   constexpr std::int64_t kRow = GeometryEngine::kPlacesPerRow;
   passes.largest_region_ = std::max(kRow, (largest_region + kRow - 1) / kRow * kRow);
-  passes.has_partial_pages_ = layout.volume_size().x % layout.page_shape().x != 0 ||
-                              layout.volume_size().y % layout.page_shape().y != 0;
   const gpu::Defines in_memory = {{"IN_MEMORY", ""}};
-  const gpu::Defines across_faces = {{"NEIGHBOURS", "6"}};
-  for (const Wanted& wanted : {Wanted{passes.neighbours_[0], Substream::interior, "neighbours", across_faces},
-                               Wanted{passes.neighbours_[1], Substream::edges, "neighbours", across_faces},
-                               Wanted{passes.neighbours_[2], Substream::corners, "neighbours", across_faces},
+  const gpu::Defines neighbours = {{"NEIGHBOURS", ""}};
+  for (const Wanted& wanted : {Wanted{passes.neighbours_, Substream::blocks, "neighbours", neighbours},
                                Wanted{passes.motion_blocks_, Substream::blocks, "motion_blocks", {}},
                                Wanted{passes.motion_pages_, Substream::page_point, "motion_pages", in_memory},
                                Wanted{passes.code_, Substream::page_point, "code", {}},
@@ -55,10 +51,10 @@ Status RegionPasses::compile_step(gpu::Device& device, const GeometryEngine& geo
                                   const SourceTexture& source, const Model& model) {
   gpu::Defines common = step_defines(model);
   for (const auto& define : source.defines()) common.push_back(define);
-  const gpu::Defines all_neighbours = {{"NEIGHBOURS", "18"}};
-  for (const Wanted& wanted : {Wanted{derivatives_[0], Substream::interior, "derivatives", all_neighbours},
-                               Wanted{derivatives_[1], Substream::edges, "derivatives", all_neighbours},
-                               Wanted{derivatives_[2], Substream::corners, "derivatives", all_neighbours},
+  const gpu::Defines neighbours = {{"NEIGHBOURS", ""}};
+  for (const Wanted& wanted : {Wanted{derivatives_[0], Substream::interior, "derivatives", neighbours},
+                               Wanted{derivatives_[1], Substream::edges, "derivatives", neighbours},
+                               Wanted{derivatives_[2], Substream::corners, "derivatives", neighbours},
                                Wanted{speeds_, Substream::whole_page, "speeds", {}},
                                Wanted{update_, Substream::whole_page, "update", {{"IN_MEMORY", ""}}}}) {
     if (auto status = compile(device, geometry, common, wanted); !status) return status;
@@ -72,9 +68,7 @@ std::vector<std::pair<const char*, const gpu::Program*>> RegionPasses::programs(
           {"derivatives, corners", &derivatives_[2]},
           {"speeds", &speeds_},
           {"update", &update_},
-          {"neighbours, interior", &neighbours_[0]},
-          {"neighbours, edges", &neighbours_[1]},
-          {"neighbours, corners", &neighbours_[2]},
+          {"neighbours", &neighbours_},
           {"code", &code_},
           {"motion, blocks", &motion_blocks_},
           {"motion, pages", &motion_pages_}};

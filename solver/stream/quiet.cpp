@@ -90,6 +90,14 @@ Status StreamExecutor::judge_quiet_pages(const std::vector<PageMotion>& motion) 
   return {};
 }
 
+Result<std::vector<std::int64_t>> StreamExecutor::quiet_pages() const {
+  std::vector<std::int64_t> pages;
+  for_each_resident([&](PhysicalPage page) {
+    if (info(page).asleep) pages.push_back(table_.virtual_page(page));
+  });
+  return pages;
+}
+
 Status StreamExecutor::rebuild_active_list() {
   active_.clear();
   quiet_pages_ = 0;

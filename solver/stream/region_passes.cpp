@@ -8,7 +8,7 @@ namespace {
 
 constexpr Substream kSubstreams[] = {Substream::interior, Substream::edges, Substream::corners};
 constexpr std::int64_t kPageSide = 16;
-constexpr int kPageLevel = 4;  // of mipmaps: one texel a page
+constexpr int kPageLevel = 2;  // of mipmaps: one texel a page, from 4 x 4 blocks
 constexpr std::int64_t kPlacesPerRow = GeometryEngine::kPlacesPerRow;
 
 std::int64_t whole_rows(std::int64_t pages) {
@@ -22,10 +22,16 @@ void bind(const gpu::Program& program, unsigned unit, const gpu::Texture2D& text
 
 }  // namespace
 
-std::vector<RegionPasses::Region> RegionPasses::regions(std::int64_t pages) const {
+void RegionPasses::use(const gpu::Program& program, const PhysicalMemory& memory) const {
+  program.use();
+  program.set("phi_texel", 1.0F / glm::vec2(memory.size()));
+  program.set("place_texel", 1.0F / glm::vec2(size()));
+}
+
+std::vector<RegionPasses::Region> RegionPasses::regions(std::int64_t pages, std::int64_t largest) {
   std::vector<Region> regions;
-  for (std::int64_t first = 0; first < pages; first += largest_region_) {
-    regions.push_back({first, std::min(largest_region_, pages - first)});
+  for (std::int64_t first = 0; first < pages; first += largest) {
+    regions.push_back({first, std::min(largest, pages - first)});
   }
   return regions;
 }
@@ -39,7 +45,59 @@ std::int64_t RegionPasses::pooled_bytes() const {
   return bytes;
 }
 
+// How many pages of intermediate buffers a list needs; as many as there are while these do.
+std::int64_t RegionPasses::pool_size(std::int64_t pages, std::int64_t largest, std::int64_t present) {
+  const auto wanted = static_cast<std::int64_t>(
+      std::bit_ceil(static_cast<std::uint64_t>(std::max<std::int64_t>(pages, kPlacesPerRow))));
+  const std::int64_t size = std::min(wanted, largest);
+  return size <= present && present <= 4 * size ? present : size;
+}
+
+Status RegionPasses::make_pool(gpu::Device& device, std::int64_t pages,
+                               std::initializer_list<Pooled> textures) {
+  const std::int64_t width = kPlacesPerRow * kPageSide;
+  const std::int64_t height = pages / kPlacesPerRow * kPageSide;
+  for (const Pooled& pooled : textures) {
+    auto made = gpu::Texture2D::create(device, pooled.format, width / pooled.divisor, height / pooled.divisor,
+                                       pooled.label, pooled.mipmaps);
+    if (!made) return pass_on(made);
+    if (pooled.mipmaps) made->limit_levels(kPageLevel);
+    pooled.texture = std::move(*made);
+  }
+  return {};
+}
+
 Status RegionPasses::reserve(gpu::Device& device, std::int64_t pages) {
+  if (auto status = reserve_message(device, pages); !status) return status;
+  const std::int64_t capacity = pool_size(pages, largest_region_, capacity_);
+  if (capacity == capacity_) return {};
+  using gpu::TexelFormat;
+  capacity_ = 0;
+  if (auto status = make_pool(device, capacity,
+                              {{upwind_, TexelFormat::rgba32f, 1, false, "upwind gradients"},
+                               {central_, TexelFormat::rgba32f, 1, false, "central differences"},
+                               {second_, TexelFormat::rgba32f, 1, false, "second differences"},
+                               {mixed_, TexelFormat::rgba32f, 1, false, "mixed differences"},
+                               {speed_terms_, TexelFormat::rgba32f, 1, false, "speed terms"},
+                               {blocks_, TexelFormat::rgba32f, 4, false, "motion of blocks"}});
+      !status) {
+    return status;
+  }
+  auto differences =
+      gpu::Framebuffer::create(device, {&upwind_, &central_, &second_, &mixed_}, "differences");
+  auto speeds = gpu::Framebuffer::create(device, {&speed_terms_}, "speed terms");
+  auto blocks = gpu::Framebuffer::create(device, {&blocks_}, "motion of blocks");
+  for (auto* made : {&differences, &speeds, &blocks}) {
+    if (!*made) return pass_on(*made);
+  }
+  differences_target_ = std::move(*differences);
+  speeds_target_ = std::move(*speeds);
+  blocks_target_ = std::move(*blocks);
+  capacity_ = capacity;
+  return {};
+}
+
+Status RegionPasses::reserve_message(gpu::Device& device, std::int64_t pages) {
   using gpu::TexelFormat;
   const std::int64_t message_rows = whole_rows(std::max<std::int64_t>(pages, 1)) / kPlacesPerRow;
   if (message_.height() < message_rows) {
@@ -51,58 +109,28 @@ Status RegionPasses::reserve(gpu::Device& device, std::int64_t pages) {
     message_ = std::move(*message);
     message_target_ = std::move(*target);
   }
-  const auto wanted = static_cast<std::int64_t>(
-      std::bit_ceil(static_cast<std::uint64_t>(std::max<std::int64_t>(pages, kPlacesPerRow))));
-  const std::int64_t capacity = std::min(wanted, largest_region_);
-  if (capacity <= capacity_ && capacity_ <= 4 * capacity) return {};
-
-  const std::int64_t width = kPlacesPerRow * kPageSide;
-  const std::int64_t height = capacity / kPlacesPerRow * kPageSide;
-  struct Wanted {
-    gpu::Texture2D& texture;
-    TexelFormat format;
-    std::int64_t divisor;
-    bool mipmaps;
-    const char* label;
-  };
-  for (const Wanted& w :
-       {Wanted{upwind_, TexelFormat::rgba32f, 1, false, "upwind gradients"},
-        Wanted{central_, TexelFormat::rgba32f, 1, false, "central differences"},
-        Wanted{second_, TexelFormat::rgba32f, 1, false, "second differences"},
-        Wanted{mixed_, TexelFormat::rgba32f, 1, false, "mixed differences"},
-        Wanted{speed_terms_, TexelFormat::rgba32f, 1, false, "speed terms"},
-        Wanted{blocks_, TexelFormat::rgba32f, 4, false, "motion of blocks"},
-        Wanted{in_slice_, TexelFormat::rgba16f, 1, true, "neighbour information in the slice"},
-        Wanted{slices_, TexelFormat::rgba16f, 1, true, "neighbour information across slices"}}) {
-    capacity_ = 0;
-    auto made =
-        gpu::Texture2D::create(device, w.format, width / w.divisor, height / w.divisor, w.label, w.mipmaps);
-    if (!made) return pass_on(made);
-    if (w.mipmaps) made->limit_levels(kPageLevel);
-    w.texture = std::move(*made);
+  const std::int64_t capacity = pool_size(pages, kLargestMessage, message_capacity_);
+  if (capacity == message_capacity_) return {};
+  message_capacity_ = 0;
+  if (auto status = make_pool(device, capacity,
+                              {{in_slice_, TexelFormat::rgba16f, 4, true, "neighbours in the slice"},
+                               {slices_, TexelFormat::rgba16f, 4, true, "neighbours across slices"}});
+      !status) {
+    return status;
   }
-  auto differences =
-      gpu::Framebuffer::create(device, {&upwind_, &central_, &second_, &mixed_}, "differences");
-  auto speeds = gpu::Framebuffer::create(device, {&speed_terms_}, "speed terms");
-  auto blocks = gpu::Framebuffer::create(device, {&blocks_}, "motion of blocks");
   auto neighbours = gpu::Framebuffer::create(device, {&in_slice_, &slices_}, "neighbour information");
-  for (auto* made : {&differences, &speeds, &blocks, &neighbours}) {
-    if (!*made) return pass_on(*made);
-  }
-  differences_target_ = std::move(*differences);
-  speeds_target_ = std::move(*speeds);
-  blocks_target_ = std::move(*blocks);
+  if (!neighbours) return pass_on(neighbours);
   neighbours_target_ = std::move(*neighbours);
-  capacity_ = capacity;
+  message_capacity_ = capacity;
   return {};
 }
 
 void RegionPasses::step(const GeometryEngine& geometry, const PhysicalMemory& memory,
                         const SourceTexture& source, const StepConstants<float>& constants, int now,
                         bool measure_motion) const {
-  for (const Region region : regions(geometry.size())) {
+  for (const Region region : regions(geometry.size(), largest_region_)) {
     differentiate(geometry, memory, constants, now, measure_motion, region);
-    compute_speeds(geometry, source, constants, region);
+    compute_speeds(geometry, memory, source, constants, region);
     update(geometry, memory, constants, 1 - now, region);
     if (measure_motion) add_motion(geometry, memory, constants, 1 - now, region);
   }
@@ -114,7 +142,7 @@ void RegionPasses::differentiate(const GeometryEngine& geometry, const PhysicalM
   differences_target_.bind();
   for (std::size_t i = 0; i < derivatives_.size(); ++i) {
     const gpu::Program& program = derivatives_[i];
-    program.use();
+    use(program, memory);
     set_step_uniforms(program, constants);
     program.set("measure_motion", measure_motion ? 1 : 0);
     bind(program, 1, memory.field().phi(now), "phi_now");
@@ -123,10 +151,11 @@ void RegionPasses::differentiate(const GeometryEngine& geometry, const PhysicalM
   }
 }
 
-void RegionPasses::compute_speeds(const GeometryEngine& geometry, const SourceTexture& source,
-                                  const StepConstants<float>& constants, Region region) const {
+void RegionPasses::compute_speeds(const GeometryEngine& geometry, const PhysicalMemory& memory,
+                                  const SourceTexture& source, const StepConstants<float>& constants,
+                                  Region region) const {
   speeds_target_.bind();
-  speeds_.use();
+  use(speeds_, memory);
   set_step_uniforms(speeds_, constants);
   bind(speeds_, 1, upwind_, "upwind_buffer");
   bind(speeds_, 2, central_, "central_buffer");
@@ -139,7 +168,7 @@ void RegionPasses::compute_speeds(const GeometryEngine& geometry, const SourceTe
 void RegionPasses::update(const GeometryEngine& geometry, const PhysicalMemory& memory,
                           const StepConstants<float>& constants, int next, Region region) const {
   memory.draw_into(next);
-  update_.use();
+  use(update_, memory);
   set_step_uniforms(update_, constants);
   bind(update_, 1, upwind_, "upwind_buffer");
   bind(update_, 2, speed_terms_, "speed_buffer");
@@ -149,7 +178,7 @@ void RegionPasses::update(const GeometryEngine& geometry, const PhysicalMemory& 
 void RegionPasses::add_motion(const GeometryEngine& geometry, const PhysicalMemory& memory,
                               const StepConstants<float>& constants, int next, Region region) const {
   blocks_target_.bind();
-  motion_blocks_.use();
+  use(motion_blocks_, memory);
   motion_blocks_.set("near", constants.near);
   bind(motion_blocks_, 1, memory.field().phi(next), "phi_next");
   bind(motion_blocks_, 2, central_, "central_buffer");
@@ -157,7 +186,7 @@ void RegionPasses::add_motion(const GeometryEngine& geometry, const PhysicalMemo
 
   const gpu::BlendScope added(gpu::Blending::add);
   memory.draw_into_motion();
-  motion_pages_.use();
+  use(motion_pages_, memory);
   bind(motion_pages_, 1, blocks_, "block_buffer");
   geometry.draw(motion_pages_, Substream::page_point, region.first, region.count, memory.motion_size());
 }
@@ -165,7 +194,7 @@ void RegionPasses::add_motion(const GeometryEngine& geometry, const PhysicalMemo
 Result<std::vector<PageMessage>> RegionPasses::message(const GeometryEngine& geometry,
                                                        const PhysicalMemory& memory, int buffer, float band,
                                                        float quiet_change) {
-  for (const Region region : regions(geometry.size())) {
+  for (const Region region : regions(geometry.size(), kLargestMessage)) {
     note_neighbours(geometry, memory, buffer, band, region);
     encode(geometry, memory, quiet_change, region);
   }
@@ -175,14 +204,11 @@ Result<std::vector<PageMessage>> RegionPasses::message(const GeometryEngine& geo
 void RegionPasses::note_neighbours(const GeometryEngine& geometry, const PhysicalMemory& memory, int buffer,
                                    float band, Region region) const {
   neighbours_target_.bind();
-  if (has_partial_pages_) gpu::clear_colours(2);  // padding, which is never drawn, gives notice of nothing
-  for (std::size_t i = 0; i < neighbours_.size(); ++i) {
-    const gpu::Program& program = neighbours_[i];
-    program.use();
-    program.set("band", band);
-    bind(program, 1, memory.field().phi(buffer), "phi_now");
-    geometry.draw(program, kSubstreams[i], region.first, region.count, size());
-  }
+  use(neighbours_, memory);
+  neighbours_.set("band", band);
+  bind(neighbours_, 1, memory.field().phi(buffer), "phi_now");
+  geometry.draw(neighbours_, Substream::blocks, region.first, region.count,
+                {in_slice_.width(), in_slice_.height()});
 }
 
 void RegionPasses::encode(const GeometryEngine& geometry, const PhysicalMemory& memory, float quiet_change,
@@ -190,7 +216,7 @@ void RegionPasses::encode(const GeometryEngine& geometry, const PhysicalMemory& 
   in_slice_.generate_mipmaps();
   slices_.generate_mipmaps();
   message_target_.bind();
-  code_.use();
+  use(code_, memory);
   code_.set("quiet_change", quiet_change);
   bind(code_, 1, in_slice_, "in_slice_buffer");
   bind(code_, 2, slices_, "slices_buffer");

@@ -18,13 +18,15 @@ class RegionPasses {
   // Pages of the largest sub-region: 512 x 512 texels, as in the paper. Where the processor plays the GPU,
   // buffers that stay in its cache are a fifth faster.
   static constexpr std::int64_t kLargestRegion = 1024;
-  static constexpr std::int64_t kLargestRegionInCache = 256;
+  static constexpr std::int64_t kLargestRegionInCache = 128;
+  // Pages whose messages are made at a time, from buffers with a texel for 16 voxels.
+  static constexpr std::int64_t kLargestMessage = 16384;
 
   RegionPasses() = default;
   // `largest_region` in pages, rounded up to a whole row of places.
   static Result<RegionPasses> create(gpu::Device& device, const GeometryEngine& geometry,
                                      const SourceTexture& source, const Model& model,
-                                     const PageLayout& layout, std::int64_t largest_region);
+                                     std::int64_t largest_region);
   // Makes the variants of the passes that the model needs.
   Status compile_step(gpu::Device& device, const GeometryEngine& geometry, const SourceTexture& source,
                       const Model& model);
@@ -56,14 +58,28 @@ class RegionPasses {
     std::int64_t first;
     std::int64_t count;
   };
-  [[nodiscard]] std::vector<Region> regions(std::int64_t pages) const;
+  [[nodiscard]] static std::vector<Region> regions(std::int64_t pages, std::int64_t largest);
   [[nodiscard]] glm::ivec2 size() const { return {upwind_.width(), upwind_.height()}; }
 
+  struct Pooled {
+    gpu::Texture2D& texture;
+    gpu::TexelFormat format;
+    std::int64_t divisor;
+    bool mipmaps;
+    const char* label;
+  };
+  static std::int64_t pool_size(std::int64_t pages, std::int64_t largest, std::int64_t present);
+  static Status make_pool(gpu::Device& device, std::int64_t pages, std::initializer_list<Pooled> textures);
+  Status reserve_message(gpu::Device& device, std::int64_t pages);
+
+  // Uses a program, and tells it the sizes of texels.
+  void use(const gpu::Program& program, const PhysicalMemory& memory) const;
   void differentiate(const GeometryEngine& geometry, const PhysicalMemory& memory,
                      const StepConstants<float>& constants, int now, bool measure_motion,
                      Region region) const;
-  void compute_speeds(const GeometryEngine& geometry, const SourceTexture& source,
-                      const StepConstants<float>& constants, Region region) const;
+  void compute_speeds(const GeometryEngine& geometry, const PhysicalMemory& memory,
+                      const SourceTexture& source, const StepConstants<float>& constants,
+                      Region region) const;
   void update(const GeometryEngine& geometry, const PhysicalMemory& memory,
               const StepConstants<float>& constants, int next, Region region) const;
   void add_motion(const GeometryEngine& geometry, const PhysicalMemory& memory,
@@ -75,12 +91,13 @@ class RegionPasses {
   Result<std::vector<PageMessage>> read_message(std::int64_t pages) const;
 
   std::int64_t largest_region_ = kLargestRegion;
-  bool has_partial_pages_ = false;
-  std::array<gpu::Program, 3> derivatives_, neighbours_;  // interior, edges, corners
-  gpu::Program speeds_, update_, motion_blocks_, motion_pages_, code_;
+  std::array<gpu::Program, 3> derivatives_;  // interior, edges, corners
+  gpu::Program speeds_, update_, motion_blocks_, motion_pages_, neighbours_, code_;
   gpu::Program fill_, fill_points_, copy_, paint_;
 
-  std::int64_t capacity_ = 0;  // of the pool, pages
+  // Of the pools of a step and of the message, in pages.
+  std::int64_t capacity_ = 0;
+  std::int64_t message_capacity_ = 0;
   gpu::Texture2D upwind_, central_, second_, mixed_, speed_terms_, blocks_, in_slice_, slices_, message_;
   gpu::Framebuffer differences_target_, speeds_target_, blocks_target_, neighbours_target_, message_target_;
 };

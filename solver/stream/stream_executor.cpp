@@ -1,15 +1,9 @@
 #include "solver/stream/stream_executor.h"
 
-#include <chrono>
+#include "solver/gl/packed_view.h"
 
 namespace tidemark {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 constexpr Index3 kPageShape{16, 16, 1};  // the paper's
 
@@ -38,9 +32,8 @@ Result<std::unique_ptr<Executor>> StreamExecutor::create(std::shared_ptr<const V
 
 StreamExecutor::StreamExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source,
                                const Parameters& parameters, const ExecutorOptions& options)
-    : device_(std::move(device)),
-      source_(std::move(source)),
-      model_(*source_, parameters),
+    : ExecutorBase(std::move(source), parameters),
+      device_(std::move(device)),
       options_(options),
       layout_(PageLayout(source_->geometry.size, kPageShape), device_->capabilities().largest_texture) {}
 
@@ -54,8 +47,7 @@ Status StreamExecutor::start(std::int64_t largest_region) {
     largest_region =
         device_->capabilities().software ? RegionPasses::kLargestRegionInCache : RegionPasses::kLargestRegion;
   }
-  auto passes = RegionPasses::create(*device_, active_geometry_, source_texture_, model_, layout_.layout(),
-                                     largest_region);
+  auto passes = RegionPasses::create(*device_, active_geometry_, source_texture_, model_, largest_region);
   if (!passes) return pass_on(passes);
   passes_ = std::move(*passes);
   return restore(Field::empty(source_->geometry, band(), kPageShape));
@@ -68,33 +60,33 @@ Status StreamExecutor::step() {
   passes_.step(active_geometry_, memory_, source_texture_, model_.constants<float>(), current_,
                measure_motion);
   current_ = 1 - current_;
-  // The message's own time is to be known.
+  // The message's own time is to be known; the wait costs nothing that could be measured.
   return gpu::Fence::insert(*device_).wait();
 }
 
-// `domain` tells whether all pages could be allocated; the rest fails only with the graphics driver.
-Status StreamExecutor::handle_message(bool& window_ended, Status& domain) {
+// Handles the pages' messages, and the end of a window of steps. Returns whether one ended.
+Result<bool> StreamExecutor::finish_step(AdvanceReport& report) {
+  const Clock::time_point start = Clock::now();
+  Status domain;  // whether all pages could be allocated; the rest fails only with the graphics driver
   if (!active_.empty()) {
-    const Clock::time_point start = Clock::now();
     auto messages =
         passes_.message(active_geometry_, memory_, current_, static_cast<float>(band()), kQuietChange);
     if (!messages) return pass_on(messages);
     domain = update_domain(*messages);
-    ++message_cost_.messages;
-    message_cost_.bytes += static_cast<std::int64_t>(messages->size());
-    message_cost_.seconds += seconds_since(start);
   }
-  auto ended = finish_window();
-  if (!ended) return pass_on(ended);
-  window_ended = *ended;
-  if (active_list_is_stale_) return rebuild_active_list();
-  return {};
+  auto window_ended = finish_window();
+  if (!window_ended) return window_ended;
+  if (active_list_is_stale_) {
+    if (auto status = rebuild_active_list(); !status) return pass_on(status);
+  }
+  report.paging_seconds += seconds_since(start);
+  if (!domain) {
+    return fail(domain.error().kind, "after {} steps: {}", report.steps, domain.error().message);
+  }
+  return window_ended;
 }
 
 Result<AdvanceReport> StreamExecutor::advance(const Advance& run) {
-  const Clock::time_point start = Clock::now();
-  Clock::time_point last_progress = start;
-  AdvanceReport report;
   if (auto status = device_->make_current(); !status) return pass_on(status);
   gpu::begin_exact_drawing();
   if (unsettled_) {
@@ -103,33 +95,13 @@ Result<AdvanceReport> StreamExecutor::advance(const Advance& run) {
   if (active_list_is_stale_) {
     if (auto status = rebuild_active_list(); !status) return pass_on(status);
   }
-  while (report.steps < run.steps && !run.progress.cancelled()) {
+  return run_steps(run, [this](AdvanceReport& report) -> Result<bool> {
     if (!active_.empty()) {
       if (auto status = step(); !status) return pass_on(status);
       report.voxel_updates += active_geometry_.voxels();
     }
-    ++report.steps;
-
-    const Clock::time_point paging_start = Clock::now();
-    bool window_ended = false;
-    Status domain;
-    if (auto status = handle_message(window_ended, domain); !status) return pass_on(status);
-    report.paging_seconds += seconds_since(paging_start);
-    if (!domain) {
-      return fail(domain.error().kind, "after {} steps: {}", report.steps, domain.error().message);
-    }
-    if (seconds_since(last_progress) > 0.05) {
-      run.progress(static_cast<double>(report.steps) / static_cast<double>(run.steps), "steps");
-      last_progress = Clock::now();
-    }
-    if (window_ended) {
-      report.converged = surface_speed_ < kConvergedSpeed;
-      if (report.converged && run.until_converged) break;
-    }
-  }
-  report.surface_speed = surface_speed_;
-  report.seconds = seconds_since(start);
-  return report;
+    return finish_step(report);
+  });
 }
 
 MemoryReport StreamExecutor::memory() const {
@@ -142,6 +114,23 @@ MemoryReport StreamExecutor::memory() const {
   report.source_bytes = 0;  // the source is one texture, whatever is resident
   report.page_shape = kPageShape;
   return report;
+}
+
+bool StreamExecutor::packed_view(PackedView& view) {
+  const std::vector<PhysicalPage>& entries = table_.entries();
+  const auto bytes = static_cast<std::int64_t>(entries.size() * sizeof(PhysicalPage));
+  if (viewed_table_.bytes() != bytes) {
+    auto buffer = gpu::Buffer::create(*device_, bytes, "page table");
+    if (!buffer) return false;
+    viewed_table_ = std::move(*buffer);
+    viewed_changes_ = -1;
+  }
+  if (viewed_changes_ != table_.changes()) {
+    viewed_table_.upload_values<PhysicalPage>(0, entries);
+    viewed_changes_ = table_.changes();
+  }
+  view = {layout_, &memory_.field().phi(current_), &viewed_table_, static_cast<float>(band())};
+  return true;
 }
 
 }  // namespace tidemark

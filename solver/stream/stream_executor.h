@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "gpu/device.h"
-#include "solver/executor.h"
+#include "solver/executor_base.h"
 #include "solver/gl/step_uniforms.h"
-#include "solver/model.h"
 #include "solver/paging/page_table.h"
 #include "solver/stream/geometry_engine.h"
 #include "solver/stream/physical_memory.h"
@@ -16,16 +15,9 @@
 
 namespace tidemark {
 
-// What the pages' messages cost.
-struct MessageCost {
-  std::int64_t messages = 0;
-  std::int64_t bytes = 0;
-  double seconds = 0.0;  // reduction, reading, and decoding
-};
-
 // Its pages are the paper's, (16,16,1). A step draws the pages of the active list; then their messages are
 // read, and the processor allocates and frees pages before the next step.
-class StreamExecutor final : public Executor {
+class StreamExecutor final : public ExecutorBase {
  public:
   // On options.device, else on a context of its own. Fails (ErrorKind::capability) without OpenGL 3.3.
   // `largest_region` is how many pages are computed at a time in the intermediate buffers.
@@ -39,14 +31,12 @@ class StreamExecutor final : public Executor {
   [[nodiscard]] Result<Field> snapshot() const override;
   Status paint(const Sphere& sphere, Brush brush) override;
   Status set_parameters(const Parameters& parameters) override;
-  [[nodiscard]] const Parameters& parameters() const override { return model_.parameters(); }
   Result<AdvanceReport> advance(const Advance& run) override;
   [[nodiscard]] MemoryReport memory() const override;
+  [[nodiscard]] Result<std::vector<std::int64_t>> quiet_pages() const override;
+  bool packed_view(PackedView& view) override;
   [[nodiscard]] Status validate() const override;
-  [[nodiscard]] double band() const override { return model_.band(); }
-  [[nodiscard]] double time_step() const override { return model_.time_step(); }
 
-  [[nodiscard]] const MessageCost& message_cost() const { return message_cost_; }
   [[nodiscard]] std::int64_t pooled_bytes() const { return passes_.pooled_bytes(); }
   [[nodiscard]] const RegionPasses& passes() const { return passes_; }
 
@@ -69,7 +59,7 @@ class StreamExecutor final : public Executor {
 
   // Steps (stream_executor.cpp).
   Status step();
-  Status handle_message(bool& window_ended, Status& domain);
+  Result<bool> finish_step(AdvanceReport& report);
 
   // Which pages are resident (domain.cpp).
   [[nodiscard]] std::int64_t state_bytes(std::int64_t capacity) const;
@@ -108,8 +98,6 @@ class StreamExecutor final : public Executor {
   }
 
   std::shared_ptr<gpu::Device> device_;  // first: it outlives everything below
-  std::shared_ptr<const Volume> source_;
-  Model model_;
   ExecutorOptions options_;
   PackedLayout layout_;
   SourceTexture source_texture_;
@@ -128,10 +116,11 @@ class StreamExecutor final : public Executor {
   int steps_in_window_ = 0;
   std::int64_t quiet_pages_ = 0;
   std::int64_t quiet_near_voxels_ = 0;
-  double surface_speed_ = 0.0;  // in the last full window
   std::int64_t peak_resident_ = 0;
   std::int64_t peak_bytes_ = 0;
-  MessageCost message_cost_;
+
+  gpu::Buffer viewed_table_;          // the page table as packed_view() gave it last
+  std::int64_t viewed_changes_ = -1;  // of the table, when it did
 };
 
 }  // namespace tidemark

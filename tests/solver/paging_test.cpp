@@ -1,10 +1,9 @@
-// Virtual memory: address translation and tables for any page shape; pages that come and go (T6, T6b).
+// Virtual memory: address translation and tables for any page shape, and what is checked of a level set.
 #include <random>
 
 #include "level_sets.h"
 #include "solver/paging/page_table.h"
 #include "solver/paging/validate.h"
-#include "solver/reference/reference_executor.h"
 #include "tests/support/support.h"
 
 using namespace tidemark;
@@ -114,127 +113,6 @@ class PagingTest : public QObject {
     broken = field;  // a resident page dropped although its neighbours are not flat
     broken.table[static_cast<std::size_t>(field.layout.translate({16, 16, 8}).page)] = Field::kOutside;
     QVERIFY(!validate(broken));
-  }
-
-  void painting_and_erasing_leak_no_page() {  // T6
-    const Geometry geometry = grid({90, 70, 50});
-    const auto source = volume_of(geometry, [](glm::dvec3 p) { return 100.0 + 40.0 * std::sin(p.x / 4.0); });
-    Parameters parameters;
-    parameters.target = 100.0;
-    parameters.range = 30.0;
-    const auto level_set = executor(ExecutorKind::host, source, parameters);
-    std::mt19937 random(5);
-    for (int edit = 0; edit < 120; ++edit) {
-      const glm::dvec3 voxel(random() % 90, random() % 70, random() % 50);
-      const double radius = 1.0 + random() % 14;
-      QVERIFY(level_set->paint(sphere_at_voxel(geometry, voxel, radius),
-                               random() % 3 == 0 ? Brush::erase : Brush::add));
-      run(*level_set, random() % 4);
-      QCOMPARE(failure(level_set->validate()), QString());
-    }
-    const std::int64_t peak = level_set->memory().peak_resident_pages;
-    QVERIFY(peak > 200);
-    // Erasing everything gives every page back.
-    QVERIFY(level_set->paint(sphere_at_voxel(geometry, {45, 35, 25}, 100.0), Brush::erase));
-    run(*level_set, 8);
-    QCOMPARE(level_set->memory().resident_pages, std::int64_t{0});
-    QCOMPARE(failure(level_set->validate()), QString());
-    // And filling everything leaves nothing to compute.
-    QVERIFY(level_set->paint(sphere_at_voxel(geometry, {45, 35, 25}, 100.0), Brush::add));
-    QCOMPARE(level_set->snapshot().value().mask().count(), geometry.voxel_count());
-    QCOMPARE(failure(level_set->validate()), QString());
-  }
-
-  void painting_is_the_same_as_in_the_reference() {
-    const Geometry geometry = grid({30, 26, 22}, {0.7, 0.9, 1.8});
-    const auto source = zero_volume(geometry);
-    const auto host = executor(ExecutorKind::host, source, Parameters());
-    ReferenceExecutor reference(source, Parameters());
-    std::mt19937 random(11);
-    for (int edit = 0; edit < 20; ++edit) {
-      const glm::dvec3 voxel(random() % 30, random() % 26, random() % 22);
-      const Sphere sphere = sphere_at_voxel(geometry, voxel, 1.0 + random() % 8);
-      const Brush brush = edit % 3 == 2 ? Brush::erase : Brush::add;
-      QVERIFY(host->paint(sphere, brush));
-      QVERIFY(reference.paint(sphere, brush));
-    }
-    const std::vector<float> phi = host->snapshot().value().dense();
-    for (std::size_t i = 0; i < phi.size(); ++i) {
-      QVERIFY(std::abs(static_cast<double>(phi[i]) - reference.values()[i]) < 1e-5);
-    }
-  }
-
-  void the_budget_stops_the_run_and_keeps_what_was_computed() {  // T6
-    const Geometry geometry = grid({96, 96, 96});
-    const auto source = zero_volume(geometry);
-    Parameters parameters;
-    parameters.alpha = 1.0;
-    ExecutorOptions small;
-    small.memory_budget_bytes = 3 << 20;
-    const auto limited = executor(ExecutorKind::host, source, parameters, small);
-    const auto unlimited = executor(ExecutorKind::host, source, parameters);
-    const Sphere sphere{centre_of(geometry), 6.0};
-    QVERIFY(limited->paint(sphere, Brush::add));
-    QVERIFY(unlimited->paint(sphere, Brush::add));
-    int steps = 0;
-    for (;; ++steps) {
-      QVERIFY(steps < 500);
-      run(*unlimited, 1);
-      const auto report = limited->advance({});
-      if (report) continue;
-      QCOMPARE(report.error().kind, ErrorKind::capability);
-      QVERIFY(report.error().message.find("budget is 3 MB") != std::string::npos);
-      break;
-    }
-    QVERIFY(steps > 20);
-    QCOMPARE(limited->snapshot().value().dense(), unlimited->snapshot().value().dense());
-    QVERIFY(limited->memory().state_bytes + limited->memory().source_bytes <= small.memory_budget_bytes);
-    // It goes on when the surface needs less.
-    QVERIFY(limited->paint({centre_of(geometry), 100.0}, Brush::erase));
-    run(*limited, 5);
-    QCOMPARE(limited->memory().resident_pages, std::int64_t{0});
-  }
-
-  void padding_is_never_counted() {  // T6b
-    for (const std::int64_t n : {1, 7, 61, 175}) {
-      for (int axis = 0; axis < 3; ++axis) {
-        Index3 size(13, 10, 9);
-        size[axis] = n;
-        const Geometry geometry = grid(size);
-        const auto source =
-            volume_of(geometry, [](glm::dvec3 p) { return 10.0 * std::sin(p.x + p.y * 2 + p.z); });
-        Parameters parameters;
-        parameters.range = 5.0;
-        ExecutorOptions options;
-        options.skip_quiet_pages = false;
-        const auto host = executor(ExecutorKind::host, source, parameters, options);
-        ReferenceExecutor reference(source, parameters);
-        QVERIFY(host->paint({centre_of(geometry), 4.0}, Brush::add));
-        for (int step = 0; step < 6; ++step) {
-          QVERIFY(reference.restore(host->snapshot().value()));
-          const AdvanceReport report = run(*host, 1);
-          QVERIFY(reference.advance({}));
-          QVERIFY(report.voxel_updates <= geometry.voxel_count());
-          const std::vector<float> phi = host->snapshot().value().dense();
-          for (std::size_t i = 0; i < phi.size(); ++i) {
-            QVERIFY(std::abs(static_cast<double>(phi[i]) - reference.values()[i]) < 1e-5);
-          }
-          QCOMPARE(failure(host->validate()), QString());
-        }
-      }
-    }
-  }
-
-  void memory_follows_the_surface() {
-    const Geometry geometry = grid({128, 128, 128});
-    const auto level_set = executor(ExecutorKind::host, zero_volume(geometry), Parameters());
-    QVERIFY(level_set->paint({centre_of(geometry), 40.0}, Brush::add));
-    const MemoryReport memory = level_set->memory();
-    const double bytes =
-        static_cast<double>(memory.peak_state_bytes) / static_cast<double>(memory.peak_resident_pages * 512);
-    qInfo("%.2f bytes of state per resident voxel, %lld pages", bytes,
-          static_cast<long long>(memory.resident_pages));
-    QVERIFY(bytes <= 10.0);
   }
 };
 

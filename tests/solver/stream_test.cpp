@@ -168,7 +168,7 @@ class StreamTest : public QObject {
     const PhysicalPage list[] = {page};
     QVERIFY(geometry_engine.describe(*gpu, table, list));
     const auto texture = good(SourceTexture::create(*gpu, *source));
-    auto passes = good(RegionPasses::create(*gpu, geometry_engine, texture, model, pages, 32));
+    auto passes = good(RegionPasses::create(*gpu, geometry_engine, texture, model, 32));
     QVERIFY(passes.reserve(*gpu, 1));
     gpu::begin_exact_drawing();
     std::vector<float> values(kPageTexels, -band);
@@ -214,15 +214,6 @@ class StreamTest : public QObject {
     }
     qInfo("largest difference from the host after 30 steps: %.2g", worst);
     QVERIFY(worst <= 1e-4);
-  }
-
-  void thirty_steps_are_the_references() {
-    const Scene scene({40, 36, 33});
-    const auto reference = scene.start(ExecutorKind::reference);
-    const auto stream = scene.start(ExecutorKind::stream);
-    run(*reference, 30);
-    run(*stream, 30);
-    QVERIFY(largest_difference(*reference, *stream) <= 1e-4);
   }
 
   void partial_pages_are_computed_and_padding_is_not() {
@@ -285,49 +276,6 @@ class StreamTest : public QObject {
     QCOMPARE(failure(stream->validate()), QString());
   }
 
-  void the_budget_stops_a_run_and_keeps_what_is_computed() {
-    const Geometry geometry = grid({128, 128, 64});
-    Parameters parameters;
-    parameters.alpha = 1.0;
-    ExecutorOptions options;
-    options.memory_budget_bytes = std::int64_t{3} << 20;
-    const auto source = zero_volume(geometry);
-    const auto stream = executor(ExecutorKind::stream, source, parameters, options);
-    QVERIFY(stream->paint({centre_of(geometry), 8.0}, Brush::add));
-    const auto report = stream->advance(Advance{1000, false, {}});
-    QVERIFY(!report);
-    QVERIFY(report.error().kind == ErrorKind::capability);
-    const QString message = QString::fromStdString(report.error().message);
-    QVERIFY2(message.startsWith("after ") && message.contains("memory budget"), qPrintable(message));
-    const std::int64_t steps = message.section(' ', 1, 1).toLongLong();
-    const auto host = executor(ExecutorKind::host, source, parameters);
-    QVERIFY(host->paint({centre_of(geometry), 8.0}, Brush::add));
-    run(*host, steps);
-    QVERIFY(largest_difference(*host, *stream) <= 1e-3);
-    QVERIFY(!stream->advance(Advance{1, false, {}}));
-    QVERIFY(stream->paint({centre_of(geometry), 100.0}, Brush::erase));
-    QVERIFY(stream->paint({centre_of(geometry), 8.0}, Brush::add));
-    QCOMPARE(run(*stream, 5).steps, 5);
-    QCOMPARE(failure(stream->validate()), QString());
-  }
-
-  void it_converges_with_the_host_and_rests() {
-    const Scene scene({61, 47, 40});
-    const auto host = scene.start(ExecutorKind::host);
-    const auto stream = scene.start(ExecutorKind::stream);
-    const AdvanceReport expected = run(*host, 2000, true);
-    const AdvanceReport report = run(*stream, 2000, true);
-    QVERIFY(expected.converged && report.converged);
-    QCOMPARE(report.steps, expected.steps);
-    QVERIFY(std::abs(report.surface_speed - expected.surface_speed) < 1e-3);
-    run(*stream, 800);
-    QVERIFY(stream->memory().quiet_pages > 0);
-    QCOMPARE(failure(stream->validate()), QString());
-    // A sleeping page wakes with its parameters.
-    QVERIFY(stream->set_parameters(scene.parameters));
-    QCOMPARE(stream->memory().quiet_pages, 0);
-  }
-
   void a_snapshot_resumes_to_the_same_bits() {
     const Scene scene({61, 47, 40});
     ExecutorOptions options;
@@ -364,22 +312,6 @@ class StreamTest : public QObject {
     run(*other, 20);
     QVERIFY(largest_difference(*stream, *other) <= 1e-4);
     QCOMPARE(options.device->severe_messages(), 0);
-  }
-
-  void a_lost_context_is_an_error_at_every_stage() {
-    const Scene scene({40, 40, 20});
-    for (int stage = 1; stage < 200; stage += 17) {
-      ExecutorOptions options;
-      options.device = device();
-      const auto stream = scene.start(ExecutorKind::stream, options);
-      options.device->lose_at_check(stage);
-      const auto painted = stream->paint({centre_of(scene.geometry), 8.0}, Brush::add);
-      const auto report = stream->advance(Advance{40, false, {}});
-      QVERIFY2(!report || !options.device->lost(), "steps in a lost context");
-      if (!report) QVERIFY(report.error().kind == ErrorKind::capability);
-      if (!painted) QVERIFY(painted.error().kind == ErrorKind::capability);
-      QCOMPARE(stream->snapshot().has_value(), !options.device->lost());
-    }
   }
 
   void no_fragment_shader_looks_a_page_up() {

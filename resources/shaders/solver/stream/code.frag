@@ -10,7 +10,7 @@ flat in ivec2 physical_page;
 
 layout(location = 0) out float code;
 
-const int kPageLevel = 4;  // of the mipmaps: one texel a page of 16 x 16
+const int kPageLevel = 2;  // of the mipmaps: one texel a page, from 4 x 4 blocks
 
 void main() {
   vec4 in_slice = texelFetch(in_slice_buffer, place, kPageLevel);

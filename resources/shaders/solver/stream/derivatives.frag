@@ -1,3 +1,4 @@
+#include "solver/stream/coordinates.glsl"
 #include "solver/stream/differences.glsl"
 
 // Step A of the level-set computation (paper section 4.3): the neighbourhood is gathered once, all differences follow.
@@ -7,23 +8,23 @@ uniform sampler2D phi_now;
 uniform sampler2D phi_before;  // one step earlier
 uniform bool measure_motion;
 
-flat in ivec2 to_phi;
+flat in vec2 to_phi;
 
 layout(location = 0) out vec4 upwind;
 layout(location = 1) out vec4 central;
 layout(location = 2) out vec4 second;
 layout(location = 3) out vec4 mixed;
 
-float phi_at(ivec2 texel) { return texelFetch(phi_now, texel, 0).r; }
+float phi_at(vec2 position) { return textureLod(phi_now, position, 0.0).r; }
 
 #if defined(INTERIOR)
-flat in ivec4 slice_shifts;
+flat in vec4 slice_shifts;
 
-Stencil gather(ivec2 here) {
-  const ivec2 x = ivec2(1, 0);
-  const ivec2 y = ivec2(0, 1);
-  ivec2 below = here + slice_shifts.xy;
-  ivec2 above = here + slice_shifts.zw;
+Stencil gather(vec2 here) {
+  vec2 x = vec2(phi_texel.x, 0.0);
+  vec2 y = vec2(0.0, phi_texel.y);
+  vec2 below = here + slice_shifts.xy;
+  vec2 above = here + slice_shifts.zw;
   return Stencil(phi_at(here), phi_at(here - x), phi_at(here + x), phi_at(here - y), phi_at(here + y),
                  phi_at(below), phi_at(above),
                  phi_at(here - x - y), phi_at(here - x + y), phi_at(here + x - y), phi_at(here + x + y),
@@ -31,9 +32,9 @@ Stencil gather(ivec2 here) {
                  phi_at(below - y), phi_at(above - y), phi_at(below + y), phi_at(above + y));
 }
 #else
-flat in ivec4 shifts[9];
+flat in vec4 shifts[9];
 
-Stencil gather(ivec2 here) {
+Stencil gather(vec2 here) {
   return Stencil(phi_at(here), phi_at(here + shifts[0].xy), phi_at(here + shifts[0].zw),
                  phi_at(here + shifts[1].xy), phi_at(here + shifts[1].zw),
                  phi_at(here + shifts[2].xy), phi_at(here + shifts[2].zw),
@@ -47,8 +48,8 @@ Stencil gather(ivec2 here) {
 #endif
 
 void main() {
-  ivec2 here = ivec2(gl_FragCoord.xy) + to_phi;
-  float earlier = measure_motion ? texelFetch(phi_before, here, 0).r : 0.0;
+  vec2 here = gl_FragCoord.xy * phi_texel + to_phi;
+  float earlier = measure_motion ? textureLod(phi_before, here, 0.0).r : 0.0;
   PackedDifferences d = pack(differences(gather(here)), earlier);
   upwind = d.upwind;
   central = d.central;

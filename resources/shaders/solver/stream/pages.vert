@@ -1,14 +1,15 @@
 #include "solver/stream/page_records.glsl"
+#include "solver/stream/coordinates.glsl"
 
 // The geometry engine (paper section 3.4): pages as primitives, and the whole translation of addresses.
 //
 // INTERIOR, EDGES, CORNERS: the nine substreams, as a quad, four lines and four points a page.
 // WHOLE: the page as one quad. QUARTERS: likewise, in a buffer of a quarter of the size.
 // IN_MEMORY: drawn into G, else into the intermediate buffers.
-// NEIGHBOURS 18: the addresses of all neighbours that the stencil reads; 6: of those across a face of the page.
+// NEIGHBOURS: with the addresses of the neighbours, which for QUARTERS are those across the faces of the page.
 
-flat out ivec2 to_phi;      // from the texel that is drawn to the same voxel's in G
-flat out ivec2 to_place;    // ... in the intermediate buffers
+flat out vec2 to_phi;       // from the texel that is drawn to the same voxel's in G, in G's texture coordinates
+flat out vec2 to_place;     // ... in the intermediate buffers, in theirs
 flat out ivec3 to_voxel;    // ... in the volume
 flat out ivec2 valid_texels;
 
@@ -58,23 +59,24 @@ bool place_vertex(int vertex, ivec2 valid, out vec2 at, out ivec2 local) {
 #endif
 
 #ifdef NEIGHBOURS
-#if defined(INTERIOR)
-flat out ivec4 slice_shifts;  // to the voxel below, and to the one above
-#else
-flat out ivec4 shifts[NEIGHBOURS / 2];  // to two neighbours each, in the order of Stencil
+#if defined(INTERIOR) || defined(QUARTERS)
+flat out vec4 slice_shifts;  // to the voxel below, and to the one above, in G's texture coordinates
+#endif
+#if defined(QUARTERS)
+flat out vec4 face_shifts[2];  // from a voxel on a face to the one across it: -x and +x, -y and +y
+#elif !defined(INTERIOR)
+flat out vec4 shifts[9];  // to two neighbours each, in the order of Stencil
+#endif
 
 // From a voxel to its neighbour, in G; clamped at the volume's border. `local` is the voxel's place in the page.
-ivec2 shift_to(int page, ivec3 first, ivec2 own, ivec2 local, ivec3 direction) {
+vec2 shift_to(int page, ivec3 first, ivec2 own, ivec2 local, ivec3 direction) {
   ivec2 lowest = -ivec2(greaterThan(first.xy, ivec2(0)));
   ivec2 highest = min(kPageShape.xy, volume_size.xy - 1 - first.xy);
   ivec2 there = clamp(local + direction.xy, lowest, highest);
   ivec2 step = ivec2(greaterThanEqual(there, kPageShape.xy)) - ivec2(lessThan(there, ivec2(0)));
-#if NEIGHBOURS == 6
-  if (direction.z == 0 && step == ivec2(0)) return ivec2(0);  // not across a face: compared with itself
-#endif
   int field = direction.z == 0 ? kOwnPage + step.x + 3 * step.y
                                : (direction.z < 0 ? kPageBelow : kPageAbove) + step.x + 2 * step.y;
-  return page_address(page, field) + there - step * kPageShape.xy - own - local;
+  return vec2(page_address(page, field) + there - step * kPageShape.xy - own - local) * phi_texel;
 }
 
 const ivec3 kDirections[18] = ivec3[18](
@@ -82,7 +84,6 @@ const ivec3 kDirections[18] = ivec3[18](
     ivec3(-1, -1, 0), ivec3(-1, 1, 0), ivec3(1, -1, 0), ivec3(1, 1, 0),
     ivec3(-1, 0, -1), ivec3(-1, 0, 1), ivec3(1, 0, -1), ivec3(1, 0, 1),
     ivec3(0, -1, -1), ivec3(0, -1, 1), ivec3(0, 1, -1), ivec3(0, 1, 1));
-#endif
 #endif
 
 void main() {
@@ -103,17 +104,29 @@ void main() {
 #else
   ivec2 origin = place;
 #endif
+#if defined(QUARTERS)
+  const int kTexelsAlong = 4;  // that a drawn texel stands for
+#else
+  const int kTexelsAlong = 1;
+#endif
   gl_Position = drawn ? clip_position(vec2(origin) + at) : kNowhere;
-  to_phi = own - origin;
-  to_place = place - origin;
+  to_phi = vec2(own - kTexelsAlong * origin) * phi_texel;
+  to_place = vec2(place - kTexelsAlong * origin) * place_texel;
   to_voxel = ivec3(first.xy - origin, first.z);
 #ifdef NEIGHBOURS
-#if defined(INTERIOR)
-  slice_shifts = ivec4(page_address(page, kPageBelow) - own, page_address(page, kPageAbove) - own);
-#else
-  for (int i = 0; i < NEIGHBOURS / 2; ++i) {
-    shifts[i] = ivec4(shift_to(page, first, own, local, kDirections[2 * i]),
-                      shift_to(page, first, own, local, kDirections[2 * i + 1]));
+#if defined(INTERIOR) || defined(QUARTERS)
+  slice_shifts = vec4(page_address(page, kPageBelow) - own, page_address(page, kPageAbove) - own) * phi_texel.xyxy;
+#endif
+#if defined(QUARTERS)
+  ivec2 last = valid_texels - 1;
+  face_shifts[0] = vec4(shift_to(page, first, own, ivec2(0), kDirections[0]),
+                        shift_to(page, first, own, last, kDirections[1]));
+  face_shifts[1] = vec4(shift_to(page, first, own, ivec2(0), kDirections[2]),
+                        shift_to(page, first, own, last, kDirections[3]));
+#elif !defined(INTERIOR)
+  for (int i = 0; i < 9; ++i) {
+    shifts[i] = vec4(shift_to(page, first, own, local, kDirections[2 * i]),
+                     shift_to(page, first, own, local, kDirections[2 * i + 1]));
   }
 #endif
 #endif

@@ -1,3 +1,4 @@
+#include "solver/stream/coordinates.glsl"
 #include "solver/stream/differences.glsl"
 
 // Step C (paper section 4.3): the upwind update, into G's other texture.
@@ -5,13 +6,13 @@
 uniform sampler2D upwind_buffer;
 uniform sampler2D speed_buffer;
 
-flat in ivec2 to_place;
+flat in vec2 to_place;
 
 layout(location = 0) out float phi_next;
 
 void main() {
-  ivec2 texel = ivec2(gl_FragCoord.xy) + to_place;
-  vec4 upwind = texelFetch(upwind_buffer, texel, 0);
-  vec4 terms = texelFetch(speed_buffer, texel, 0);
+  vec2 here = gl_FragCoord.xy * place_texel + to_place;
+  vec4 upwind = textureLod(upwind_buffer, here, 0.0);
+  vec4 terms = textureLod(speed_buffer, here, 0.0);
   phi_next = upwind_update(upwind.x, Speeds(terms.x, terms.y, terms.z), upwind.y, upwind.z);
 }

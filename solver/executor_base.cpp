@@ -1,0 +1,43 @@
+#include "solver/executor_base.h"
+
+namespace tidemark {
+
+double ExecutorBase::seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+ExecutorBase::ExecutorBase(std::shared_ptr<const Volume> source, const Parameters& parameters)
+    : source_(std::move(source)), model_(*source_, parameters) {}
+
+Result<Model> ExecutorBase::model_with(const Parameters& parameters) const {
+  if (auto status = check(parameters); !status) return pass_on(status);
+  Model model(*source_, parameters);
+  if (model.band() != model_.band()) return fail(ErrorKind::usage, "the band W cannot change in mid-run");
+  return model;
+}
+
+Result<AdvanceReport> ExecutorBase::run_steps(const Advance& run,
+                                              const std::function<Result<bool>(AdvanceReport&)>& step) {
+  constexpr double kSecondsBetweenReports = 0.05;
+  const Clock::time_point start = Clock::now();
+  Clock::time_point last_progress = start;
+  AdvanceReport report;
+  while (report.steps < run.steps && !run.progress.cancelled()) {
+    ++report.steps;
+    auto window_ended = step(report);
+    if (!window_ended) return pass_on(window_ended);
+    if (seconds_since(last_progress) > kSecondsBetweenReports) {
+      run.progress(static_cast<double>(report.steps) / static_cast<double>(run.steps), "steps");
+      last_progress = Clock::now();
+    }
+    if (*window_ended) {
+      report.converged = surface_speed_ < kConvergedSpeed;
+      if (report.converged && run.until_converged) break;
+    }
+  }
+  report.surface_speed = surface_speed_;
+  report.seconds = seconds_since(start);
+  return report;
+}
+
+}  // namespace tidemark

@@ -1,0 +1,38 @@
+// What executors have in common: the source, the equation's constants, and the frame of a run of steps.
+#pragma once
+
+#include <chrono>
+#include <functional>
+
+#include "solver/executor.h"
+#include "solver/model.h"
+
+namespace tidemark {
+
+class ExecutorBase : public Executor {
+ public:
+  [[nodiscard]] const Parameters& parameters() const final { return model_.parameters(); }
+  [[nodiscard]] double band() const final { return model_.band(); }
+  [[nodiscard]] double time_step() const final { return model_.time_step(); }
+
+ protected:
+  using Clock = std::chrono::steady_clock;
+  static double seconds_since(Clock::time_point start);
+
+  ExecutorBase(std::shared_ptr<const Volume> source, const Parameters& parameters);
+
+  // The model that other parameters make. Fails (ErrorKind::usage) on those that check() refuses or that
+  // change the band.
+  [[nodiscard]] Result<Model> model_with(const Parameters& parameters) const;
+
+  // Steps one by one until the run ends. `step` computes one, adds its voxels and its paging to the report,
+  // and returns whether a window of steps ended with it, so that surface_speed_ is new.
+  Result<AdvanceReport> run_steps(const Advance& run,
+                                  const std::function<Result<bool>(AdvanceReport&)>& step);
+
+  std::shared_ptr<const Volume> source_;
+  Model model_;
+  double surface_speed_ = 0.0;  // in the last full window
+};
+
+}  // namespace tidemark

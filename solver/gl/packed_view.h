@@ -1,0 +1,18 @@
+// phi where an executor on a GPU keeps it, for drawing without a copy.
+#pragma once
+
+#include "gpu/buffer.h"
+#include "solver/gl/packed_layout.h"
+
+namespace tidemark {
+
+// What resources/shaders/solver/phi.glsl reads. Valid until the executor is next told to do anything.
+struct PackedView {
+  PackedLayout layout;
+  const gpu::Texture2D* phi = nullptr;
+  const gpu::Buffer* page_table =
+      nullptr;  // V_P -> G_P, an int32 a page: kOutsidePage, kInsidePage or a page
+  float band = 0.0F;
+};
+
+}  // namespace tidemark

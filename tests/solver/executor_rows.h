@@ -1,0 +1,95 @@
+// Executors as rows of data, and a scene for them: what all of them must do is written once.
+#pragma once
+
+#include <QTest>
+
+#include "gpu/device.h"
+#include "level_sets.h"
+
+namespace tidemark::test {
+
+// One context for all tests, and its messages are watched.
+inline std::shared_ptr<gpu::Device> shared_device() {
+  static const std::shared_ptr<gpu::Device> device = [] {
+    auto made = gpu::Device::create_headless({gpu::GlVersion::gl45, true});
+    if (!made) qFatal("%s", made.error().message.c_str());
+    (*made)->on_message([](bool severe, const std::string& text) {
+      if (severe) qWarning("OpenGL: %s", text.c_str());
+    });
+    return *made;
+  }();
+  return device;
+}
+
+struct Setting {
+  ExecutorKind kind;
+  Index3 page_shape;
+
+  [[nodiscard]] ExecutorOptions options() const {
+    ExecutorOptions options;
+    if (kind != ExecutorKind::host) options.device = shared_device();
+    options.page_shape = page_shape;
+    return options;
+  }
+  [[nodiscard]] std::unique_ptr<Executor> make(std::shared_ptr<const Volume> source,
+                                               const Parameters& parameters) const {
+    return executor(kind, std::move(source), parameters, options());
+  }
+};
+
+// The executors on OpenGL, each with the shapes of pages that it has.
+inline void add_rows() {
+  QTest::addColumn<int>("kind");
+  QTest::addColumn<int>("layout");
+  QTest::newRow("compute, 8 x 8 x 8") << int(ExecutorKind::compute) << 0;
+  QTest::newRow("compute, 16 x 16 x 1") << int(ExecutorKind::compute) << 1;
+  QTest::newRow("stream") << int(ExecutorKind::stream) << 1;
+}
+
+inline void add_rows_with_host() {
+  add_rows();
+  QTest::newRow("host") << int(ExecutorKind::host) << 0;
+}
+
+inline Setting this_row() {
+  QFETCH(int, kind);
+  QFETCH(int, layout);
+  constexpr Index3 kShapes[] = {{8, 8, 8}, {16, 16, 1}, {4, 4, 4}};
+  return {static_cast<ExecutorKind>(kind), kShapes[layout]};
+}
+
+// A lumpy source, a start and parameters under which everything is in motion.
+struct Scene {
+  Geometry geometry;
+  std::shared_ptr<const Volume> source;
+  Parameters parameters;
+  Sphere seed;
+};
+
+inline Scene lumpy_scene(Index3 size, glm::dvec3 spacing = glm::dvec3(1.0)) {
+  Scene scene;
+  scene.geometry = grid(size, spacing);
+  const glm::dvec3 centre = centre_of(scene.geometry);
+  scene.source = volume_of(scene.geometry, [&](glm::dvec3 p) {
+    const glm::dvec3 q = p - centre;
+    return 100.0 - 2.0 * glm::length(q) +
+           15.0 * std::sin(q.x / 3.0) * std::sin(q.y / 4.0 + 1.0) * std::cos(q.z / 5.0);
+  });
+  scene.parameters.target = 85.0;
+  scene.parameters.range = 30.0;
+  scene.parameters.alpha = 0.7;
+  scene.seed = {centre + glm::dvec3(1.3, -0.7, 0.4), 7.0};
+  return scene;
+}
+
+inline double largest_difference(const Executor& one, const Executor& other) {
+  const std::vector<float> a = one.snapshot().value().dense();
+  const std::vector<float> b = other.snapshot().value().dense();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
+  }
+  return largest;
+}
+
+}  // namespace tidemark::test

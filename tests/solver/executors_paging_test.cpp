@@ -1,0 +1,248 @@
+// What every executor with pages must do, row by row: pages that come and go (T6, T6b), that rest, and that
+// can be looked at.
+#include <algorithm>
+#include <random>
+
+#include "executor_rows.h"
+#include "solver/gl/packed_view.h"
+#include "tests/support/support.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+namespace {
+
+// phi in voxel order as a shader finds it: by the page table, in the texture of packed pages.
+std::vector<float> seen_through(const PackedView& view) {
+  const PageLayout& pages = view.layout.layout();
+  const auto table = view.page_table->download_values<PhysicalPage>(0, pages.page_count());
+  const std::int64_t width = view.phi->width();
+  std::vector<float> texels(static_cast<std::size_t>(width * view.phi->height()));
+  if (!view.phi->download({0, 0, width, view.phi->height()}, std::as_writable_bytes(std::span(texels)))) {
+    qFatal("phi cannot be read");
+  }
+  const Geometry geometry = grid(pages.volume_size());
+  std::vector<float> phi(static_cast<std::size_t>(geometry.voxel_count()));
+  std::vector<float> voxels(static_cast<std::size_t>(pages.voxels_per_page()));
+  const Index3 shape = pages.page_shape();
+  for (std::int64_t page = 0; page < pages.page_count(); ++page) {
+    const gpu::TexelRect rect = view.layout.rect(table[static_cast<std::size_t>(page)]);
+    view.layout.unpack(texels.data() + rect.y * width + rect.x, width, voxels.data());
+    const Index3 first = pages.first_voxel(page);
+    const Index3 valid = pages.valid_shape(page);
+    for (std::int64_t z = 0; z < valid.z; ++z) {
+      for (std::int64_t y = 0; y < valid.y; ++y) {
+        const float* row = voxels.data() + (y + shape.y * z) * shape.x;
+        std::copy_n(row, valid.x, phi.data() + geometry.offset(first + Index3(0, y, z)));
+      }
+    }
+  }
+  return phi;
+}
+
+}  // namespace
+
+class ExecutorsPagingTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void painting_and_erasing_leak_no_page_data() { add_rows_with_host(); }
+  void painting_and_erasing_leak_no_page() {  // T6
+    const Setting setting = this_row();
+    const Geometry geometry = grid({90, 70, 50});
+    const auto source = volume_of(geometry, [](glm::dvec3 p) { return 100.0 + 40.0 * std::sin(p.x / 4.0); });
+    Parameters parameters;
+    parameters.target = 100.0;
+    parameters.range = 30.0;
+    const auto level_set = setting.make(source, parameters);
+    const auto host = executor(ExecutorKind::host, source, parameters);
+    std::mt19937 random(5);
+    for (int edit = 0; edit < 60; ++edit) {
+      const glm::dvec3 voxel(random() % 90, random() % 70, random() % 50);
+      const Sphere sphere = sphere_at_voxel(geometry, voxel, 1.0 + random() % 14);
+      const Brush brush = random() % 3 == 0 ? Brush::erase : Brush::add;
+      const std::int64_t steps = random() % 4;
+      for (Executor* each : {level_set.get(), host.get()}) {
+        QCOMPARE(failure(each->paint(sphere, brush)), QString());
+        run(*each, steps);
+      }
+      QCOMPARE(failure(level_set->validate()), QString());
+    }
+    QVERIFY(dice(level_set->snapshot().value().mask(), host->snapshot().value().mask()) >= 0.999);
+    QVERIFY(level_set->memory().peak_resident_pages > 200);
+    // Erasing everything gives every page back.
+    QVERIFY(level_set->paint(sphere_at_voxel(geometry, {45, 35, 25}, 100.0), Brush::erase));
+    run(*level_set, 8);
+    QCOMPARE(level_set->memory().resident_pages, std::int64_t{0});
+    QCOMPARE(failure(level_set->validate()), QString());
+    // And filling everything leaves nothing to compute.
+    QVERIFY(level_set->paint(sphere_at_voxel(geometry, {45, 35, 25}, 100.0), Brush::add));
+    QCOMPARE(level_set->snapshot().value().mask().count(), geometry.voxel_count());
+    QCOMPARE(failure(level_set->validate()), QString());
+  }
+
+  void painting_is_the_same_as_in_the_reference_data() { add_rows_with_host(); }
+  void painting_is_the_same_as_in_the_reference() {
+    const Setting setting = this_row();
+    const Geometry geometry = grid({30, 26, 22}, {0.7, 0.9, 1.8});
+    const auto source = zero_volume(geometry);
+    const auto tested = setting.make(source, Parameters());
+    const auto reference = executor(ExecutorKind::reference, source, Parameters());
+    std::mt19937 random(11);
+    for (int edit = 0; edit < 20; ++edit) {
+      const glm::dvec3 voxel(random() % 30, random() % 26, random() % 22);
+      const Sphere sphere = sphere_at_voxel(geometry, voxel, 1.0 + random() % 8);
+      const Brush brush = edit % 3 == 2 ? Brush::erase : Brush::add;
+      QVERIFY(tested->paint(sphere, brush));
+      QVERIFY(reference->paint(sphere, brush));
+    }
+    QVERIFY(largest_difference(*tested, *reference) < 1e-5);
+  }
+
+  void padding_is_never_counted_data() { add_rows_with_host(); }
+  void padding_is_never_counted() {  // T6b
+    const Setting setting = this_row();
+    for (const std::int64_t n : {1, 7, 61, 175}) {
+      for (int axis = 0; axis < 3; ++axis) {
+        Index3 size(13, 10, 9);
+        size[axis] = n;
+        const Geometry geometry = grid(size);
+        const auto source =
+            volume_of(geometry, [](glm::dvec3 p) { return 10.0 * std::sin(p.x + p.y * 2 + p.z); });
+        Parameters parameters;
+        parameters.range = 5.0;
+        const auto tested = setting.make(source, parameters);
+        const auto reference = executor(ExecutorKind::reference, source, parameters);
+        QVERIFY(tested->paint({centre_of(geometry), 4.0}, Brush::add));
+        for (int step = 0; step < 4; ++step) {
+          QVERIFY(reference->restore(tested->snapshot().value()));
+          QVERIFY(run(*tested, 1).voxel_updates <= geometry.voxel_count());
+          run(*reference, 1);
+          QVERIFY(largest_difference(*tested, *reference) < 1e-5);
+          QCOMPARE(failure(tested->validate()), QString());
+        }
+      }
+    }
+  }
+
+  void the_budget_stops_the_run_and_keeps_what_was_computed_data() { add_rows_with_host(); }
+  void the_budget_stops_the_run_and_keeps_what_was_computed() {  // T6
+    const Setting setting = this_row();
+    const Geometry geometry = grid({96, 96, 96});
+    const auto source = zero_volume(geometry);
+    Parameters parameters;
+    parameters.alpha = 1.0;
+    ExecutorOptions small = setting.options();
+    small.memory_budget_bytes = 5 << 20;
+    const auto limited = executor(setting.kind, source, parameters, small);
+    const auto unlimited = setting.make(source, parameters);
+    const Sphere sphere{centre_of(geometry), 6.0};
+    QCOMPARE(failure(limited->paint(sphere, Brush::add)), QString());
+    QVERIFY(unlimited->paint(sphere, Brush::add));
+    int steps = 0;
+    for (;; ++steps) {
+      QVERIFY(steps < 500);
+      run(*unlimited, 1);
+      const auto report = limited->advance({});
+      if (report) continue;
+      QCOMPARE(report.error().kind, ErrorKind::capability);
+      QVERIFY2(report.error().message.find("budget is 5 MB") != std::string::npos,
+               report.error().message.c_str());
+      break;
+    }
+    QVERIFY(steps > 5);
+    QVERIFY(limited->snapshot().value().dense() == unlimited->snapshot().value().dense());
+    QVERIFY(limited->memory().state_bytes + limited->memory().source_bytes <= small.memory_budget_bytes);
+    // It goes on when the surface needs less.
+    QCOMPARE(failure(limited->paint({centre_of(geometry), 100.0}, Brush::erase)), QString());
+    run(*limited, 5);
+    QCOMPARE(limited->memory().resident_pages, std::int64_t{0});
+  }
+
+  void memory_follows_the_surface_data() { add_rows_with_host(); }
+  void memory_follows_the_surface() {
+    const Setting setting = this_row();
+    const Geometry geometry = grid({128, 128, 128});
+    const auto level_set = setting.make(zero_volume(geometry), Parameters());
+    set_phi(*level_set, geometry, [&](glm::dvec3 p) { return 45.0 - glm::distance(p, centre_of(geometry)); });
+    const MemoryReport memory = level_set->memory();
+    const auto voxels = static_cast<double>(memory.resident_pages * memory.page_shape.x *
+                                            memory.page_shape.y * memory.page_shape.z);
+    QVERIFY(memory.resident_pages > 300);
+    QVERIFY2(static_cast<double>(memory.state_bytes) / voxels <= 10.0,
+             qPrintable(QString::number(static_cast<double>(memory.state_bytes) / voxels)));
+  }
+
+  void it_says_which_pages_are_quiet_data() { add_rows_with_host(); }
+  void it_says_which_pages_are_quiet() {
+    const Setting setting = this_row();
+    Scene scene = lumpy_scene({45, 40, 35});
+    scene.source = volume_of(scene.geometry, [&](glm::dvec3 p) {
+      return 100.0 - 2.0 * glm::distance(p, centre_of(scene.geometry));
+    });
+    const auto level_set = setting.make(scene.source, scene.parameters);
+    QCOMPARE(failure(level_set->paint(scene.seed, Brush::add)), QString());
+    QVERIFY(level_set->quiet_pages().value().empty());
+    for (int i = 0; i < 40 && level_set->memory().quiet_pages < level_set->memory().resident_pages; ++i) {
+      run(*level_set, 100);
+    }
+    const std::vector<std::int64_t> at_rest = level_set->quiet_pages().value();
+    const Field phi = level_set->snapshot().value();
+    QVERIFY(at_rest.size() > 20);
+    QCOMPARE(static_cast<std::int64_t>(at_rest.size()), phi.resident_pages());
+    QCOMPARE(static_cast<std::int64_t>(at_rest.size()), level_set->memory().quiet_pages);
+    for (const std::int64_t page : at_rest) QVERIFY(phi.table[static_cast<std::size_t>(page)] >= 0);
+
+    // A dent in the surface, on the low side of x.
+    Index3 voxel(0, 20, 17);
+    while (phi.at(voxel) <= 0.0F) ++voxel.x;
+    QCOMPARE(failure(level_set->paint({scene.geometry.to_patient(voxel), 3.0}, Brush::erase)), QString());
+    const std::vector<std::int64_t> quiet = level_set->quiet_pages().value();
+    QVERIFY(!quiet.empty() && quiet.size() < at_rest.size());
+    for (const Index3 step : {Index3(-3, 0, 0), Index3(3, 0, 0), Index3(0, -3, 0), Index3(0, 3, 0),
+                              Index3(0, 0, -3), Index3(0, 0, 3)}) {
+      const std::int64_t page = phi.layout.translate(voxel + step).page;
+      QVERIFY(std::find(quiet.begin(), quiet.end(), page) == quiet.end());
+    }
+  }
+
+  void its_phi_can_be_drawn_where_it_lies_data() { add_rows(); }
+  void its_phi_can_be_drawn_where_it_lies() {
+    const Setting setting = this_row();
+    const Scene scene = lumpy_scene({61, 50, 47});
+    const auto level_set = setting.make(scene.source, scene.parameters);
+    PackedView view;
+    const auto shows_the_level_set = [&] {
+      return level_set->packed_view(view) && view.band == static_cast<float>(level_set->band()) &&
+             seen_through(view) == level_set->snapshot().value().dense();
+    };
+    QVERIFY(shows_the_level_set());
+    QCOMPARE(failure(level_set->paint(scene.seed, Brush::add)), QString());
+    QVERIFY(shows_the_level_set());
+    const std::int64_t bytes = level_set->memory().state_bytes;
+    for (const std::int64_t steps : {1, 2, 40, 41, 60}) {
+      run(*level_set, steps);
+      QVERIFY(shows_the_level_set());
+    }
+    QVERIFY(level_set->memory().state_bytes > bytes);  // it has grown
+    QCOMPARE(failure(level_set->paint({scene.seed.centre_mm, 100.0}, Brush::add)), QString());
+    QVERIFY(shows_the_level_set());
+    QCOMPARE(failure(level_set->restore(Field::empty(scene.geometry, level_set->band()))), QString());
+    QVERIFY(shows_the_level_set());
+  }
+
+  void on_the_processor_there_is_nothing_to_draw_from() {
+    const Scene scene = lumpy_scene({20, 20, 20});
+    PackedView view;
+    for (const ExecutorKind kind : {ExecutorKind::host, ExecutorKind::reference}) {
+      QVERIFY(!executor(kind, scene.source, scene.parameters)->packed_view(view));
+    }
+  }
+
+  void the_driver_had_no_complaint() {  // last: after all that went before
+    QCOMPARE(shared_device()->severe_messages(), std::int64_t{0});
+  }
+};
+
+QTEST_APPLESS_MAIN(ExecutorsPagingTest)
+#include "executors_paging_test.moc"
