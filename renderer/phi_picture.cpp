@@ -93,7 +93,8 @@ Status PhiPicture::update(gpu::Device& device, const Field& phi, std::span<const
     if (auto status = upload(device, phi, std::span(changes).subspan(first, count)); !status) return status;
   }
   pages_uploaded_ = static_cast<std::int64_t>(changes.size());
-  upload_tables(phi, quiet);
+  upload_tables(quiet);
+  viewed_.reset();
   shown_ = phi;
   return device.check("sending phi to the pictures");
 }
@@ -133,29 +134,53 @@ Status PhiPicture::upload(gpu::Device& device, const Field& phi, std::span<const
   return {};
 }
 
-void PhiPicture::upload_tables(const Field& phi, std::span<const std::int64_t> quiet) {
+void PhiPicture::upload_tables(std::span<const std::int64_t> quiet) {
+  page_table_.buffer.upload_values<std::int32_t>(0, table_.entries());
+  upload_flags(quiet, table_.resident());
+}
+
+void PhiPicture::upload_flags(std::span<const std::int64_t> quiet, std::int64_t resident) {
   constexpr std::int32_t kQuiet = 1;  // as in render/page_state.glsl
   constexpr std::int32_t kNew = 2;
-  const auto pages = static_cast<std::size_t>(phi.layout.page_count());
-  std::vector<std::int32_t> entries(pages);
-  for (std::size_t page = 0; page < pages; ++page) {
-    entries[page] = table_.physical(static_cast<std::int64_t>(page));
-  }
-  page_table_.buffer.upload_values<std::int32_t>(0, entries);
-  std::vector<std::int32_t> flags(pages);
+  std::vector<std::int32_t> flags(static_cast<std::size_t>(layout().layout().page_count()));
   for (const std::int64_t page : quiet) flags[static_cast<std::size_t>(page)] |= kQuiet;
   // At first everything is new, which tells nothing.
-  if (static_cast<std::int64_t>(new_pages_.size()) < table_.resident()) {
+  if (static_cast<std::int64_t>(new_pages_.size()) < resident) {
     for (const std::int64_t page : new_pages_) flags[static_cast<std::size_t>(page)] |= kNew;
   }
   page_flags_.buffer.upload_values<std::int32_t>(0, flags);
 }
 
+Status PhiPicture::look_at(gpu::Device& device, const PackedView& view,
+                           const std::optional<std::vector<std::int64_t>>& quiet) {
+  if (view.layout.defines() != layout().defines() || view.band != static_cast<float>(shown_.band)) {
+    return fail(ErrorKind::usage, "pictures and executor differ in pages or in the band");
+  }
+  // Executors give their buffer a new place when it grows.
+  auto table =
+      gpu::BufferTexture::create(device, *view.page_table, gpu::TexelFormat::r32i, "executor's page table");
+  if (!table) return pass_on(table);
+  std::vector<PhysicalPage> before = viewed_ ? std::move(viewed_->entries) : std::vector<PhysicalPage>();
+  viewed_ = Viewed{view, std::move(*table), {}};
+  pages_uploaded_ = 0;
+  if (!quiet) return {};
+  viewed_->entries = view.page_table->download_values<PhysicalPage>(0, layout().layout().page_count());
+  new_pages_.clear();
+  std::int64_t resident = 0;
+  for (std::size_t page = 0; page < viewed_->entries.size(); ++page) {
+    if (is_static_page(viewed_->entries[page])) continue;
+    ++resident;
+    if (before.empty() || is_static_page(before[page])) new_pages_.push_back(static_cast<std::int64_t>(page));
+  }
+  upload_flags(*quiet, resident);
+  return device.check("looking at the executor's pages");
+}
+
 void PhiPicture::set_uniforms(const gpu::Program& program, int unit) const {
   layout().set_uniforms(program);
-  field_.phi(0).bind(static_cast<unsigned>(unit));
+  (viewed_ ? *viewed_->view.phi : field_.phi(0)).bind(static_cast<unsigned>(unit));
   program.set("phi_pages", unit);
-  page_table_.texture.bind(static_cast<unsigned>(unit + 1));
+  (viewed_ ? viewed_->table : page_table_.texture).bind(static_cast<unsigned>(unit + 1));
   program.set("page_table", unit + 1);
   page_flags_.texture.bind(static_cast<unsigned>(unit + 2));
   program.set("page_flags", unit + 2);

@@ -10,6 +10,7 @@
 #include "gpu/texture.h"
 #include "solver/field.h"
 #include "solver/gl/packed_field.h"
+#include "solver/gl/packed_view.h"
 #include "solver/paging/page_table.h"
 
 namespace tidemark {
@@ -25,6 +26,12 @@ class PhiPicture {
   // Fails (ErrorKind::capability) when memory is short; the picture of phi is then undefined until the
   // next call that succeeds.
   Status update(gpu::Device& device, const Field& phi, std::span<const std::int64_t> quiet);
+
+  // Looks at an executor's own memory from now on; to be called again after each run of steps. With `quiet`,
+  // what pages do is found out, too, for which the page table is read back. Fails (ErrorKind::usage) on
+  // another layout or band.
+  Status look_at(gpu::Device& device, const PackedView& view,
+                 const std::optional<std::vector<std::int64_t>>& quiet);
 
   // The uniforms of solver/phi.glsl and render/page_state.glsl, on three units from `unit`.
   void set_uniforms(const gpu::Program& program, int unit) const;
@@ -51,7 +58,8 @@ class PhiPicture {
 
   std::vector<Change> follow(const Field& phi);
   Status upload(gpu::Device& device, const Field& phi, std::span<const Change> changes);
-  void upload_tables(const Field& phi, std::span<const std::int64_t> quiet);
+  void upload_tables(std::span<const std::int64_t> quiet);
+  void upload_flags(std::span<const std::int64_t> quiet, std::int64_t resident);
 
   PageTable table_;
   Field shown_;  // what is on the GPU
@@ -63,6 +71,13 @@ class PhiPicture {
   gpu::VertexArray vertices_;
   std::int64_t most_staged_ = 0;  // pages that one draw can scatter
   std::int64_t pages_uploaded_ = 0;
+
+  struct Viewed {
+    PackedView view;
+    gpu::BufferTexture table;
+    std::vector<PhysicalPage> entries;  // when pages were last asked after
+  };
+  std::optional<Viewed> viewed_;
 };
 
 }  // namespace tidemark

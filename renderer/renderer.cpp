@@ -81,6 +81,16 @@ Status Renderer::set_phi(const Field& phi, std::span<const std::int64_t> quiet) 
   return phi_.update(*device_, phi, quiet);
 }
 
+Status Renderer::look_at(const PackedView& view, const std::optional<std::vector<std::int64_t>>& quiet) {
+  if (auto status = device_->make_current(); !status) return status;
+  if (static_cast<double>(view.band) != phi_.band()) {
+    auto anew = PhiPicture::create(*device_, phi_.layout().layout(), static_cast<double>(view.band));
+    if (!anew) return pass_on(anew);
+    phi_ = std::move(*anew);
+  }
+  return phi_.look_at(*device_, view, quiet);
+}
+
 void Renderer::set_parameters(const Parameters& parameters) {
   constants_ = Model(*source_, parameters).constants<float>();
 }

@@ -36,6 +36,11 @@ class Renderer {
   // Shows phi from now on. `quiet`: virtual pages that are not computed at present. Fails (ErrorKind::usage)
   // unless phi has the layout and the grid of create().
   Status set_phi(const Field& phi, std::span<const std::int64_t> quiet = {});
+  // Draws from now on what an executor on this device keeps on the GPU (Executor::packed_view()); to be
+  // called again after each run of steps. With `quiet` (Executor::quiet_pages()) the page views are right,
+  // too. Fails (ErrorKind::usage) unless the pages are those of create().
+  Status look_at(const PackedView& view,
+                 const std::optional<std::vector<std::int64_t>>& quiet = std::nullopt);
   // What the speed's terms are computed from.
   void set_parameters(const Parameters& parameters);
   // A label for each voxel, 0 for none. Fails (ErrorKind::usage) when there are not as many as voxels.

@@ -13,6 +13,7 @@
 #include "renderer/renderer.h"
 #include "renderer/sheet.h"
 #include "solver/executor.h"
+#include "solver/gl/packed_view.h"
 
 using namespace tidemark;
 
@@ -44,14 +45,18 @@ struct Options {
 // A level set on a phantom, steered to where the phantom's own parameters lead.
 struct Study {
   explicit Study(const Options& options) {
+    const bool compute = options.executor == "compute";
+    device =
+        expect(gpu::Device::create_headless({compute ? gpu::GlVersion::gl45 : gpu::GlVersion::gl33, false}));
     Phantom phantom = expect(make_phantom(options.kind));
     parameters.target = phantom.target;
     parameters.range = phantom.range;
     parameters.alpha = phantom.alpha;
     source = std::make_shared<const Volume>(std::move(phantom.volume));
     ExecutorOptions executor_options;
+    executor_options.device = device;
     ExecutorKind kind = ExecutorKind::host;
-    if (options.executor == "compute") kind = ExecutorKind::compute;
+    if (compute) kind = ExecutorKind::compute;
     if (options.executor == "stream") kind = ExecutorKind::stream;
     executor = expect(make_executor(kind, source, parameters, executor_options));
     if (phantom.seed) {
@@ -60,6 +65,7 @@ struct Study {
     }
   }
 
+  std::shared_ptr<gpu::Device> device;
   Parameters parameters;
   std::shared_ptr<const Volume> source;
   std::unique_ptr<Executor> executor;
@@ -68,7 +74,7 @@ struct Study {
 class Bench {
  public:
   Bench(const Options& options, Study& study) : options_(options), study_(study) {
-    device_ = expect(gpu::Device::create_headless({gpu::GlVersion::gl33, false}));
+    device_ = study.device;
     renderer_ = expect(Renderer::create(device_, study.source, study.executor->snapshot()->layout));
     renderer_->set_parameters(study.parameters);
   }
@@ -179,11 +185,15 @@ class Bench {
       expect(study_.executor->advance({kStepsPerPicture}));
       solving += seconds_since(start);
       start = Clock::now();
-      const Field phi = expect(study_.executor->snapshot());
-      expect_done(renderer_->set_phi(phi));
+      PackedView view_of_executor;
+      if (study_.executor->packed_view(view_of_executor)) {
+        expect_done(renderer_->look_at(view_of_executor));
+      } else {
+        expect_done(renderer_->set_phi(expect(study_.executor->snapshot())));
+      }
       sending += seconds_since(start);
       uploaded += renderer_->pages_uploaded();
-      resident += phi.resident_pages();
+      resident += study_.executor->memory().resident_pages;
       start = Clock::now();
       expect(renderer_->draw(view, {options_.side / 2, options_.side / 2}));
       drawing += seconds_since(start);
