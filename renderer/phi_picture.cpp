@@ -178,8 +178,10 @@ Status PhiPicture::look_at(gpu::Device& device, const PackedView& view,
 
 void PhiPicture::set_uniforms(const gpu::Program& program, int unit) const {
   layout().set_uniforms(program);
-  (viewed_ ? *viewed_->view.phi : field_.phi(0)).bind(static_cast<unsigned>(unit));
+  const gpu::Texture2D& phi = viewed_ ? *viewed_->view.phi : field_.phi(0);
+  phi.bind(static_cast<unsigned>(unit));
   program.set("phi_pages", unit);
+  program.set("phi_texel", 1.0F / glm::vec2(phi.width(), phi.height()));
   (viewed_ ? viewed_->table : page_table_.texture).bind(static_cast<unsigned>(unit + 1));
   program.set("page_table", unit + 1);
   page_flags_.texture.bind(static_cast<unsigned>(unit + 2));

@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 
 #include "renderer/annotation.h"
+#include "renderer/quality_control.h"
 
 namespace tidemark {
 namespace {
@@ -30,9 +31,21 @@ Result<Picture> draw_annotated(Renderer& renderer, const SliceView& view, Pictur
   return picture;
 }
 
+Result<Picture> draw_still(Renderer& renderer, const VolumeView& view, PictureSize size,
+                           const Progress& progress) {
+  PictureMean mean;
+  VolumeView one = view;
+  for (one.quality.round = 0; one.quality.round < QualityControl::kRounds; ++one.quality.round) {
+    const auto picture = renderer.draw(one, size, progress);
+    if (!picture) return picture;
+    mean.add(*picture);
+  }
+  return mean.mean();
+}
+
 Result<Picture> draw_annotated(Renderer& renderer, const VolumeView& view, PictureSize size,
                                const Progress& progress) {
-  auto picture = renderer.draw(view, size, progress);
+  auto picture = draw_still(renderer, view, size, progress);
   if (!picture) return picture;
   const double half = view.camera.half_height_mm(renderer.source().geometry, size.aspect());
   annotate(*picture, view.camera.right(), view.camera.up(), 2.0 * half / static_cast<double>(size.height));

@@ -18,7 +18,11 @@ struct SheetView {
 Result<Picture> draw_sheet(Renderer& renderer, const SheetView& view, PictureSize size,
                            const Progress& progress = {});
 
-// A slice or a 3D view with letters and scale bar.
+// The finished picture of a still view: the mean of all its rounds (QualityControl::kRounds).
+Result<Picture> draw_still(Renderer& renderer, const VolumeView& view, PictureSize size,
+                           const Progress& progress = {});
+
+// A slice or a still 3D view with letters and scale bar.
 Result<Picture> draw_annotated(Renderer& renderer, const SliceView& view, PictureSize size,
                                const Progress& progress = {});
 Result<Picture> draw_annotated(Renderer& renderer, const VolumeView& view, PictureSize size,

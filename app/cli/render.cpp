@@ -296,7 +296,7 @@ Result<Picture> draw(Renderer& renderer, const RenderOptions& options, const Fie
     const auto view = volume_view(options, source, phi, size.aspect());
     if (!view) return tl::unexpected<Error>(view.error());
     return options.annotate ? draw_annotated(renderer, *view, size, progress)
-                            : renderer.draw(*view, size, progress);
+                            : draw_still(renderer, *view, size, progress);
   }
   const auto view = slice_view(options, source, phi);
   if (!view) return tl::unexpected<Error>(view.error());

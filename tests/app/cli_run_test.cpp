@@ -253,12 +253,26 @@ void CliRunTest::pictures_are_drawn_from_masks_and_fields() {
            QStringList{"--out", text(folder / "mask.nrrd"), "--out-phi", text(folder / "phi.nrrd"),
                        "--picture", text(folder / "overview.png")});
   QVERIFY(bytes_of(folder / "overview.png").startsWith("\x89PNG"));
+  const auto tf = folder / "tf.json";
+  QFile file_of_tf(text(tf));
+  QVERIFY(file_of_tf.open(QIODevice::WriteOnly));
+  file_of_tf.write(
+      R"({"relative": true, "source": [{"value": {"ramp": [0, 1]}, "opacity": 1, "colour": [1, 1, 1]}]})");
+  file_of_tf.close();
   const QList<QStringList> views = {
       {"--mask", text(folder / "mask.nrrd"), "--camera", "30,20,1.2"},
       {"--phi", text(folder / "phi.nrrd"), "--clip", "0,-1,0,-16", "--opacity", "0.5"},
       {"--preset", "ct-bone", "--phi", text(folder / "phi.nrrd"), "--roi", "inside"},
       {"--mask", text(folder / "mask.nrrd"), "--view", "sagittal", "--at", "16,16,16"},
+      {"--mask", text(folder / "mask.nrrd"), "--fit", "--colour", "curvature", "--occlusion", "0.5",
+       "--annotate"},
+      {"--mask", text(folder / "mask.nrrd"), "--clip", "0,-1,0,-16", "--clipped", "source", "--tf", text(tf)},
+      {"--mask", text(folder / "mask.nrrd"), "--view", "oblique", "--normal", "1,1,0.5", "--nearest",
+       "--annotate"},
+      {"--view", "axial", "--labels", text(folder / "mask.nrrd")},
       {"--view", "speed", "--target", "1000", "--range", "500"},
+      {"--phi", text(folder / "phi.nrrd"), "--view", "speed", "--target", "1000", "--range", "500", "--term",
+       "total"},
       {"--phi", text(folder / "phi.nrrd"), "--view", "pages", "--window", "500,1000"}};
   for (const QStringList& view : views) {
     const auto picture = folder / "picture.png";
@@ -273,6 +287,14 @@ void CliRunTest::pictures_are_drawn_from_masks_and_fields() {
     QCOMPARE(bytes.mid(16, 8), QByteArray("\0\0\0\x60\0\0\0\x40", 8));
     QVERIFY2(bytes.size() > 300, "an even picture");
   }
+  // Three columns and two rows share the sheet, with two pixels between them.
+  const auto sheet = folder / "sheet.png";
+  const QJsonObject told =
+      json_of(must_run({"render", text(file), "--mask", text(folder / "mask.nrrd"), "--view", "sheet",
+                        "--size", "300x200", "--json", "--out", text(sheet)})
+                  .out);
+  QCOMPARE(told["width"].toInt(), 298);
+  QCOMPARE(told["height"].toInt(), 200);
 }
 
 void CliRunTest::host_and_reference_agree() {

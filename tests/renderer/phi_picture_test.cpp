@@ -1,6 +1,8 @@
 // What goes up to the GPU when the level set changes, and in what pieces pictures are drawn.
 #include <QTest>
 
+#include "solver/executor.h"
+#include "solver/gl/packed_view.h"
 #include "tests/renderer/scenes.h"
 #include "tests/support/support.h"
 
@@ -87,6 +89,49 @@ class PhiPictureTest : public QObject {
     touched.pages[5] += 0.25F;
     QCOMPARE(failure(draw.renderer().set_phi(touched)), QString());
     QCOMPARE(draw.renderer().pages_uploaded(), 1);
+  }
+
+  // What an executor keeps on the GPU is drawn as a copy of it is, also after its memory has grown.
+  void an_executors_own_memory_gives_the_same_picture_data() {
+    QTest::addColumn<int>("kind");
+    QTest::newRow("compute") << static_cast<int>(ExecutorKind::compute);
+    QTest::newRow("stream") << static_cast<int>(ExecutorKind::stream);
+  }
+  void an_executors_own_memory_gives_the_same_picture() {
+    QFETCH(int, kind);
+    const Geometry geometry = grid({64, 64, 48});
+    const Scene scene = ball_scene(geometry, 22.0);
+    auto device = gpu::Device::create_headless({gpu::GlVersion::gl45, true});
+    QCOMPARE(failure(device), QString());
+    Parameters parameters;
+    parameters.target = 100.0;
+    parameters.range = 50.0;
+    ExecutorOptions options;
+    options.device = *device;
+    auto executor = make_executor(static_cast<ExecutorKind>(kind), scene.source, parameters, options);
+    QCOMPARE(failure(executor), QString());
+    QCOMPARE(failure((*executor)->paint({scene.middle, 5.0}, Brush::add)), QString());
+    const PageLayout layout = (*executor)->snapshot()->layout;
+    auto of_copy = Renderer::create(*device, scene.source, layout);
+    auto of_memory = Renderer::create(*device, scene.source, layout);
+    QCOMPARE(failure(of_copy), QString());
+    QCOMPARE(failure(of_memory), QString());
+    SliceView pages;
+    pages.content = SliceContent::pages;
+    pages.position_mm = scene.middle;
+    for (int run = 0; run < 4; ++run) {
+      QCOMPARE(failure((*executor)->advance({20})), QString());
+      PackedView view;
+      QVERIFY((*executor)->packed_view(view));
+      const auto quiet = (*executor)->quiet_pages();
+      QCOMPARE(failure((*of_memory)->look_at(view, *quiet)), QString());
+      const auto phi = (*executor)->snapshot();
+      QCOMPARE(failure((*of_copy)->set_phi(*phi, *quiet)), QString());
+      QVERIFY((*of_memory)->draw(VolumeView(), {96, 96})->pixels ==
+              (*of_copy)->draw(VolumeView(), {96, 96})->pixels);
+      QVERIFY((*of_memory)->draw(pages, {96, 96})->pixels == (*of_copy)->draw(pages, {96, 96})->pixels);
+    }
+    QCOMPARE((*device)->severe_messages(), 0);
   }
 
   void phi_of_another_grid_is_refused() {
