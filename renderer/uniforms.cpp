@@ -60,6 +60,22 @@ void set_clip_plane(const gpu::Program& program, const ClipPlane& plane, const G
 
 }  // namespace
 
+bool shows_source(const VolumeView& view) {
+  return view.source && !view.source->source.empty();
+}
+
+bool needs_phi(const VolumeView& view) {
+  return view.surface ||
+         (shows_source(view) && (view.region != Region::everywhere || view.source->source_needs_phi()));
+}
+
+bool needs_source(const VolumeView& view) {
+  const bool taught =
+      view.colouring == SurfaceColouring::data || view.colouring == SurfaceColouring::total_speed;
+  return shows_source(view) || (view.clip && view.clip->picture) ||
+         (view.surface && (taught || (view.source && !view.source->surface.empty())));
+}
+
 gpu::Defines shading_defines(const VolumeView& view) {
   const TransferFunction function = view.source.value_or(TransferFunction());
   gpu::Defines defines{{"SOURCE_PRIMITIVES", fmt::to_string(function.source.size())},

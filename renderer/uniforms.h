@@ -6,6 +6,12 @@
 
 namespace tidemark {
 
+// What a view looks at: whether the source shows between surface and clip plane, and whether phi and values
+// of the source are needed for anything.
+bool shows_source(const VolumeView& view);
+bool needs_phi(const VolumeView& view);
+bool needs_source(const VolumeView& view);
+
 // What render/transfer.glsl is compiled with for this view.
 gpu::Defines shading_defines(const VolumeView& view);
 // render/transfer.glsl, lighting.glsl and shade.glsl.

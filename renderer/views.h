@@ -40,7 +40,7 @@ enum class SliceContent { source, speed, pages };
 
 // How much work goes into a volume rendering.
 struct Quality {
-  double step_voxels = 0.75;    // along a ray, in the smallest voxels' units
+  double step_voxels = 0.75;   // along a ray, in the smallest voxels' units
   bool fast_gradient = false;  // lights the source from differences to one side
   int round = 0;  // pictures of other rounds have their rays and samples at other places, for taking means
   bool skip_empty = true;  // false only to find out what skipping saves
@@ -49,7 +49,12 @@ struct Quality {
 // While something moves.
 inline constexpr Quality kMovingQuality{1.5, true, 0, true};
 
+// How the volume rendering is made: by a ray for each pixel, or from 2D slices that are reconstructed one
+// after the other (paper section 5), which needs no 3D texture of the source.
+enum class Mode { raycast, slices };
+
 struct VolumeView {
+  Mode mode = Mode::raycast;
   Camera camera;
   std::optional<TransferFunction> source;  // none: the surface alone
   bool surface = true;
