@@ -185,7 +185,7 @@ Result<Picture> Renderer::draw_from_slices(const VolumeView& view, PictureSize s
     table.push_back(phi_.table().physical(page));
   }
   const SliceCaster::Scene scene{*source_, phi_, table, source_picture_.page_opacities()};
-  if (auto status = slice_caster_.draw(*device_, **slab, scene, view, size, kPhiUnit, kFreeUnit, progress);
+  if (auto status = slice_caster_.draw(*device_, **slab, scene, view, size, {kPhiUnit, kFreeUnit}, progress);
       !status) {
     return pass_on(status);
   }

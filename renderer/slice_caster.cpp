@@ -75,7 +75,7 @@ Status SliceCaster::prepare(gpu::Device& device, const Scene& scene, const Slice
 }
 
 Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, const Scene& scene,
-                         const VolumeView& view, PictureSize size, int phi_unit, int unit,
+                         const VolumeView& view, PictureSize size, const Units& units,
                          const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const Geometry& geometry = scene.source.geometry;
@@ -84,64 +84,74 @@ Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, 
   const SliceBounds bounds = bounds_of(axis, scene, view);
   const glm::dmat4 view_from_voxel = glm::inverse(view.camera.voxel_from_view(geometry, size.aspect()));
   const double along = direction_in_voxels(view, geometry)[axis.along];
-  const bool by_phi = needs_phi(view);
-  const bool by_source = needs_source(view);
   Pace pace(device, progress);
   phi_->begin(scene.table);
   framebuffer_.bind();
   gpu::clear_colours(1);
-
   const std::vector<Slab> all = slabs(axis.count(), along > 0.0);
-  for (const Slab& slab : all) {
-    const gpu::TexelRect rect = bounds.pixels(slab.front_slice, slab.back_slice, slab.front_plane,
-                                              slab.back_plane, view_from_voxel, size);
-    if (rect.width == 0) continue;
-    int next = unit;
-    slab_program.use();
-    const auto show = [&](const char* name, const gpu::Texture2D& texture) {
-      slab_program.set(name, next);
-      texture.bind(static_cast<unsigned>(next++));
-    };
-    for (const std::int64_t slice : {slab.front_slice, slab.back_slice}) {
-      if (by_phi) {
-        auto status = phi_->reconstruct(scene.phi, slice, phi_unit, unit, pace);
-        if (!status) return status;
-      }
-      if (by_source) {
-        if (auto status = source_->prepare(scene.source, slice, unit, pace); !status) return status;
-      }
-    }
-    slab_program.use();
-    if (by_phi) {
-      show("phi_front", phi_->texture(slab.front_slice));
-      show("phi_back", phi_->texture(slab.back_slice));
-    }
-    if (by_source) {
-      show("source_front", source_->texture(slab.front_slice));
-      show("source_back", source_->texture(slab.back_slice));
-    }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Slab& slab = all[i];
+    const gpu::TexelRect pixels = bounds.pixels(slab.front_slice, slab.back_slice, slab.front_plane,
+                                                slab.back_plane, view_from_voxel, size);
+    if (pixels.width == 0) continue;
+    if (auto status = show_slices(slab_program, scene, view, slab, units, pace); !status) return status;
     const double length = std::abs((slab.back_plane - slab.front_plane) / along);  // of a ray, in voxels
     const int steps = std::max(1, static_cast<int>(std::ceil(length / view.quality.step_voxels - 0.01)));
-    slab_program.set("front_slice", static_cast<float>(slab.front_slice));
-    slab_program.set("back_slice", static_cast<float>(slab.back_slice));
-    slab_program.set("front_plane", static_cast<float>(slab.front_plane));
-    slab_program.set("back_plane", static_cast<float>(slab.back_plane));
-    slab_program.set("steps", steps);
-    framebuffer_.bind();
-    vertices_.bind();
-    gpu::begin_exact_drawing();
-    const gpu::BlendScope under(gpu::Blending::under);
-    const auto part = [](const gpu::TexelRect& pixels) {
-      const gpu::ScissorScope scissor(pixels);
-      gpu::draw(gpu::Primitive::triangles, 3);
-    };
-    if (auto status = pace.rectangle(rect, steps, part); !status) return status;
-    progress(static_cast<double>(&slab - all.data() + 1) / static_cast<double>(all.size()), "drawing");
+    if (auto status = draw_slab(slab_program, slab, steps, pixels, pace); !status) return status;
+    progress(static_cast<double>(i + 1) / static_cast<double>(all.size()), "drawing");
   }
   if (auto status = pace.settle(); !status) return status;
   report_ = pace.report();
   report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return device.check("drawing a picture from slices");
+}
+
+// Makes sure that the slab's two slices are there, and binds them.
+Status SliceCaster::show_slices(const gpu::Program& slab_program, const Scene& scene, const VolumeView& view,
+                                const Slab& slab, const Units& units, Pace& pace) {
+  const bool by_phi = needs_phi(view);
+  const bool by_source = needs_source(view);
+  for (const std::int64_t slice : {slab.front_slice, slab.back_slice}) {
+    if (by_phi) {
+      auto status = phi_->reconstruct(scene.phi, slice, units.phi, units.free, pace);
+      if (!status) return status;
+    }
+    if (by_source) {
+      if (auto status = source_->prepare(scene.source, slice, units.free, pace); !status) return status;
+    }
+  }
+  slab_program.use();
+  int next = units.free;
+  const auto show = [&](const char* name, const gpu::Texture2D& texture) {
+    slab_program.set(name, next);
+    texture.bind(static_cast<unsigned>(next++));
+  };
+  if (by_phi) {
+    show("phi_front", phi_->texture(slab.front_slice));
+    show("phi_back", phi_->texture(slab.back_slice));
+  }
+  if (by_source) {
+    show("source_front", source_->texture(slab.front_slice));
+    show("source_back", source_->texture(slab.back_slice));
+  }
+  return {};
+}
+
+Status SliceCaster::draw_slab(const gpu::Program& slab_program, const Slab& slab, int steps,
+                              const gpu::TexelRect& pixels, Pace& pace) {
+  slab_program.set("front_slice", static_cast<float>(slab.front_slice));
+  slab_program.set("back_slice", static_cast<float>(slab.back_slice));
+  slab_program.set("front_plane", static_cast<float>(slab.front_plane));
+  slab_program.set("back_plane", static_cast<float>(slab.back_plane));
+  slab_program.set("steps", steps);
+  framebuffer_.bind();
+  vertices_.bind();
+  gpu::begin_exact_drawing();
+  const gpu::BlendScope under(gpu::Blending::under);
+  return pace.rectangle(pixels, steps, [](const gpu::TexelRect& part) {
+    const gpu::ScissorScope scissor(part);
+    gpu::draw(gpu::Primitive::triangles, 3);
+  });
 }
 
 }  // namespace tidemark

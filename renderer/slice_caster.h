@@ -19,13 +19,19 @@ class SliceCaster {
     std::span<const glm::vec4> page_opacity;  // SourcePicture::page_opacities()
   };
 
+  // Texture units: three of phi's, and those from `free` on.
+  struct Units {
+    int phi = 0;
+    int free = 0;
+  };
+
   // The axis that is most along the view's direction: slices are cut across it.
   static SliceAxis axis_for(const VolumeView& view, const Geometry& geometry);
 
-  // With `slab`, the program of render/slab.frag for that axis, whose other uniforms are set. Texture units
-  // from `unit` are free, those of phi begin at `phi_unit`. What is drawn is in layers(), premultiplied.
-  Status draw(gpu::Device& device, const gpu::Program& slab, const Scene& scene, const VolumeView& view,
-              PictureSize size, int phi_unit, int unit, const Progress& progress);
+  // With the program of render/slab.frag for that axis, whose uniforms of the view are set. What is drawn is
+  // in layers(), premultiplied. Fails (ErrorKind::cancelled) when it is told to stop.
+  Status draw(gpu::Device& device, const gpu::Program& slab_program, const Scene& scene,
+              const VolumeView& view, PictureSize size, const Units& units, const Progress& progress);
 
   [[nodiscard]] const gpu::Texture2D& layers() const { return layers_; }
   [[nodiscard]] const DrawReport& report() const { return report_; }
@@ -38,6 +44,10 @@ class SliceCaster {
   };
   static std::vector<Slab> slabs(std::int64_t slices, bool forward);
   Status prepare(gpu::Device& device, const Scene& scene, const SliceAxis& axis, PictureSize size);
+  Status show_slices(const gpu::Program& slab_program, const Scene& scene, const VolumeView& view,
+                     const Slab& slab, const Units& units, Pace& pace);
+  Status draw_slab(const gpu::Program& slab_program, const Slab& slab, int steps,
+                   const gpu::TexelRect& pixels, Pace& pace);
 
   gpu::Texture2D layers_;
   gpu::Framebuffer framebuffer_;
