@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "renderer/uniforms.h"
 
 namespace tidemark {
 
@@ -24,20 +27,32 @@ SliceBounds::SliceBounds(const SliceAxis& axis, const PageLayout& pages)
       layers_(static_cast<std::size_t>(pages.pages()[axis.along]),
               Rect{0, 0, pages.pages()[axis.u()] - 1, pages.pages()[axis.v()] - 1}) {}
 
-SliceBounds::SliceBounds(const SliceAxis& axis, const PageLayout& pages, std::span<const PhysicalPage> table,
-                         bool surface, std::span<const glm::vec4> opacity)
+SliceBounds::SliceBounds(const SliceAxis& axis, const PageLayout& pages, const VolumeView& view,
+                         const Geometry& geometry, std::span<const PhysicalPage> table,
+                         std::span<const glm::vec4> opacity)
     : axis_(axis), pages_(pages), layers_(static_cast<std::size_t>(pages.pages()[axis.along])) {
-  constexpr float kLeastOpacity = 1e-4F;  // as in render/events.glsl
-  for (std::int64_t number = 0; number < pages.page_count(); ++number) {
+  const bool by_source = shows_source(view);
+  const auto source_shows = [&](std::int64_t number) {
+    constexpr float kLeastOpacity = 1e-4F;  // as in render/events.glsl
     const PhysicalPage physical = table[static_cast<std::size_t>(number)];
-    bool shows = surface && !is_static_page(physical);
-    if (!opacity.empty()) {
-      const glm::vec4 most = opacity[static_cast<std::size_t>(number)];
-      shows |= (physical == kOutsidePage  ? most.x
-                : physical == kInsidePage ? most.y
-                                          : most.z) > kLeastOpacity;
+    const glm::vec4 most = opacity[static_cast<std::size_t>(number)];
+    return (physical == kOutsidePage ? most.x : physical == kInsidePage ? most.y : most.z) > kLeastOpacity;
+  };
+  const VoxelPlane plane = view.clip ? clip_plane_in_voxels(*view.clip, geometry) : VoxelPlane();
+  const glm::dvec3 half = 0.5 * glm::dvec3(pages.page_shape());
+  for (std::int64_t number = 0; number < pages.page_count(); ++number) {
+    bool surface = view.surface && !is_static_page(table[static_cast<std::size_t>(number)]);
+    bool source = by_source && source_shows(number);
+    bool picture = false;
+    if (view.clip) {
+      const glm::dvec3 middle = glm::dvec3(pages.first_voxel(number)) + half - 0.5;
+      const double beyond = glm::dot(plane.normal, middle) - plane.offset;
+      const double reach = glm::dot(glm::abs(plane.normal), half);
+      surface &= beyond <= reach || !view.clip->clips_surface;
+      source &= beyond <= reach || !view.clip->clips_source;
+      picture = view.clip->picture && std::abs(beyond) <= reach;
     }
-    if (!shows) continue;
+    if (!surface && !source && !picture) continue;
     const Index3 page = pages.page_coordinates(number);
     const std::int64_t u = page[axis.u()];
     const std::int64_t v = page[axis.v()];

@@ -7,6 +7,7 @@
 
 #include "renderer/picture.h"
 #include "renderer/slice_axis.h"
+#include "renderer/views.h"
 #include "solver/paging/page_layout.h"
 #include "solver/paging/page_table.h"
 
@@ -17,10 +18,12 @@ class SliceBounds {
  public:
   // All of the volume.
   SliceBounds(const SliceAxis& axis, const PageLayout& pages);
-  // Resident pages if `surface`, and pages where the source shows. `opacity` (or none, without the source):
-  // see SourcePicture::page_opacities().
-  SliceBounds(const SliceAxis& axis, const PageLayout& pages, std::span<const PhysicalPage> table,
-              bool surface, std::span<const glm::vec4> opacity);
+  // Resident pages when the view has a surface, pages where its source shows, and those that the clip plane's
+  // picture passes, less what the plane hides. `table`: the physical page of each virtual one; `opacity`: see
+  // SourcePicture::page_opacities().
+  SliceBounds(const SliceAxis& axis, const PageLayout& pages, const VolumeView& view,
+              const Geometry& geometry, std::span<const PhysicalPage> table,
+              std::span<const glm::vec4> opacity);
 
   // The pixels of what is between two planes across the axis and near these slices; empty when nothing shows.
   [[nodiscard]] gpu::TexelRect pixels(std::int64_t slice_a, std::int64_t slice_b, double plane_a,

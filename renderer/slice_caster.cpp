@@ -19,9 +19,8 @@ glm::dvec3 direction_in_voxels(const VolumeView& view, const Geometry& geometry)
 
 SliceBounds bounds_of(const SliceAxis& axis, const SliceCaster::Scene& scene, const VolumeView& view) {
   const PageLayout& pages = scene.phi.layout().layout();
-  if (!view.quality.skip_empty || (view.clip && view.clip->picture)) return {axis, pages};
-  return {axis, pages, scene.table, view.surface,
-          shows_source(view) ? scene.page_opacity : std::span<const glm::vec4>()};
+  if (!view.quality.skip_empty) return {axis, pages};
+  return {axis, pages, view, scene.source.geometry, scene.table, scene.page_opacity};
 }
 
 }  // namespace
