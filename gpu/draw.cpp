@@ -35,9 +35,8 @@ void begin_exact_drawing() {
   glPointSize(1.0F);
 }
 
-void clear_colours(int count) {
-  constexpr GLfloat kZeros[4] = {};
-  for (GLint i = 0; i < count; ++i) glClearBufferfv(GL_COLOR, i, kZeros);
+void clear_colours(int count, glm::vec4 value) {
+  for (GLint i = 0; i < count; ++i) glClearBufferfv(GL_COLOR, i, &value.x);
 }
 
 ScissorScope::ScissorScope(const TexelRect& rect) {
@@ -52,8 +51,10 @@ ScissorScope::~ScissorScope() {
 
 BlendScope::BlendScope(Blending blending) {
   glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE);
-  glBlendEquation(blending == Blending::add ? GL_FUNC_ADD : blending == Blending::largest ? GL_MAX : GL_MIN);
+  glBlendFunc(blending == Blending::under ? GL_ONE_MINUS_DST_ALPHA : GL_ONE, GL_ONE);
+  glBlendEquation(blending == Blending::largest    ? GL_MAX
+                  : blending == Blending::smallest ? GL_MIN
+                                                   : GL_FUNC_ADD);
 }
 
 BlendScope::~BlendScope() {

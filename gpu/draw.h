@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec4.hpp>
 
 #include "gpu/handles.h"
 #include "gpu/texture.h"
@@ -28,8 +29,8 @@ void draw(Primitive primitive, std::int64_t vertices);
 // wide.
 void begin_exact_drawing();
 
-// The first `count` textures of the framebuffer in use become 0.
-void clear_colours(int count);
+// The first `count` textures of the framebuffer in use get this value.
+void clear_colours(int count, glm::vec4 value = glm::vec4(0.0F));
 
 // Only this rectangle is drawn to, while the object lives.
 class ScissorScope {
@@ -40,8 +41,9 @@ class ScissorScope {
   ~ScissorScope();
 };
 
-// How fragments combine with what is in the texture, while the object lives.
-enum class Blending { add, largest, smallest };
+// How fragments combine with what is in the texture, while the object lives. `under`: fragments, multiplied
+// by their opacity, lie behind what is there.
+enum class Blending { add, largest, smallest, under };
 class BlendScope {
  public:
   explicit BlendScope(Blending blending);

@@ -53,10 +53,17 @@ void fetch_only(GLenum target, bool mipmaps) {
   glTexParameteri(target, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
 }
 
+// Textures are made and written on a unit of their own, so that what is bound to be drawn with stays bound.
+void bind_for_editing(GLenum target, GLuint id) {
+  constexpr GLenum kUnit = GL_TEXTURE0 + 15;
+  glActiveTexture(kUnit);
+  glBindTexture(target, id);
+}
+
 unsigned new_texture(GLenum target) {
   GLuint id = 0;
   glGenTextures(1, &id);
-  glBindTexture(target, id);
+  bind_for_editing(target, id);
   return id;
 }
 
@@ -96,7 +103,7 @@ Result<Texture2D> Texture2D::create(Device& device, TexelFormat format, std::int
 void Texture2D::upload(const TexelRect& rect, std::span<const std::byte> data) {
   const GlFormat gl = gl_format(format_);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-  glBindTexture(GL_TEXTURE_2D, id());
+  bind_for_editing(GL_TEXTURE_2D, id());
   glTexSubImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(rect.x), static_cast<GLint>(rect.y),
                   static_cast<GLsizei>(rect.width), static_cast<GLsizei>(rect.height), gl.format, gl.type,
                   data.data());
@@ -116,13 +123,20 @@ Status Texture2D::download(const TexelRect& rect, std::span<std::byte> data, int
 }
 
 void Texture2D::limit_levels(int last) {
-  glBindTexture(GL_TEXTURE_2D, id());
+  bind_for_editing(GL_TEXTURE_2D, id());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, last);
 }
 
 void Texture2D::generate_mipmaps() {
-  glBindTexture(GL_TEXTURE_2D, id());
+  bind_for_editing(GL_TEXTURE_2D, id());
   glGenerateMipmap(GL_TEXTURE_2D);
+}
+
+void Texture2D::set_filter(Filter filter) {
+  const GLint way = filter == Filter::linear ? GL_LINEAR : GL_NEAREST;
+  bind_for_editing(GL_TEXTURE_2D, id());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, way);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, way);
 }
 
 void Texture2D::bind(unsigned unit) const {

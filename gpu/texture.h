@@ -59,6 +59,9 @@ class Texture2D {
   void limit_levels(int last);
   void generate_mipmaps();
 
+  // How texture() reads between texels; nearest at first. Not with mipmaps.
+  void set_filter(Filter filter);
+
   void bind(unsigned unit) const;
   void bind_image(unsigned unit, bool writable) const;  // OpenGL 4.2
 

@@ -164,7 +164,7 @@ Status PhiPicture::look_at(gpu::Device& device, const PackedView& view,
   viewed_ = Viewed{view, std::move(*table), {}};
   pages_uploaded_ = 0;
   if (!quiet) return {};
-  viewed_->entries = view.page_table->download_values<PhysicalPage>(0, layout().layout().page_count());
+  viewed_->entries = page_entries();
   new_pages_.clear();
   std::int64_t resident = 0;
   for (std::size_t page = 0; page < viewed_->entries.size(); ++page) {
@@ -174,6 +174,11 @@ Status PhiPicture::look_at(gpu::Device& device, const PackedView& view,
   }
   upload_flags(*quiet, resident);
   return device.check("looking at the executor's pages");
+}
+
+std::vector<PhysicalPage> PhiPicture::page_entries() const {
+  if (!viewed_) return table_.entries();
+  return viewed_->view.page_table->download_values<PhysicalPage>(0, layout().layout().page_count());
 }
 
 void PhiPicture::set_uniforms(const gpu::Program& program, int unit) const {

@@ -37,6 +37,8 @@ class PhiPicture {
   void set_uniforms(const gpu::Program& program, int unit) const;
 
   [[nodiscard]] const PackedLayout& layout() const { return field_.layout(); }
+  // The physical page of each virtual one; of an executor's memory, read back.
+  [[nodiscard]] std::vector<PhysicalPage> page_entries() const;
   [[nodiscard]] double band() const { return shown_.band; }
   [[nodiscard]] std::int64_t pages_uploaded() const { return pages_uploaded_; }  // by the last update
   // Physical memory G, packed like an executor's.

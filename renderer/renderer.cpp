@@ -1,7 +1,9 @@
 #include "renderer/renderer.h"
 
+#include <algorithm>
 #include <glm/ext/matrix_transform.hpp>
 
+#include "renderer/source_plane.h"
 #include "renderer/uniforms.h"
 #include "solver/gl/step_uniforms.h"
 
@@ -12,6 +14,7 @@ namespace {
 constexpr int kPhiUnit = 0;
 constexpr int kSourceUnit = 3;
 constexpr int kLabelUnit = 5;
+constexpr int kFreeUnit = 6;  // and those behind it
 
 // The view moved by a part of a picture's pixels.
 glm::dmat4 moved_by(glm::dvec2 pixels, PictureSize size) {
@@ -41,7 +44,7 @@ Renderer::Renderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Vo
 
 Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> device,
                                                    std::shared_ptr<const Volume> source,
-                                                   const PageLayout& layout) {
+                                                   const PageLayout& layout, std::int64_t largest_volume) {
   if (layout.volume_size() != source->geometry.size) {
     return fail(ErrorKind::usage, "the pages are not those of the volume");
   }
@@ -49,7 +52,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> 
   std::unique_ptr<Renderer> renderer(new Renderer(std::move(device), std::move(source)));
   gpu::Device& gl = *renderer->device_;
   ThreadPool pool;
-  auto source_picture = SourcePicture::create(gl, *renderer->source_, layout, pool);
+  const std::int64_t largest = std::min(largest_volume, gl.capabilities().largest_volume_texture);
+  auto source_picture = SourcePicture::create(gl, *renderer->source_, layout, largest, pool);
   if (!source_picture) return pass_on(source_picture);
   renderer->source_picture_ = std::move(*source_picture);
   auto phi = PhiPicture::create(gl, layout, default_band(renderer->source_->geometry));
@@ -133,13 +137,18 @@ Result<const gpu::Program*> Renderer::use_program(const char* fragment, const gp
   return &program;
 }
 
-Result<const gpu::Program*> Renderer::use_volume_program(const VolumeView& asked, PictureSize size,
-                                                         gpu::Defines variant) {
+// The view in the source's own units.
+VolumeView Renderer::resolved(const VolumeView& asked) const {
   VolumeView view = asked;
+  if (view.source) view.source = view.source->for_range(common_range_.first, common_range_.second);
   if (view.colouring != SurfaceColouring::plain)
     view.lighting.specular = 0.0;  // white would hide what is taught
-  if (view.source) view.source = view.source->for_range(common_range_.first, common_range_.second);
-  const bool source = view.source && !view.source->source.empty();
+  return view;
+}
+
+Result<const gpu::Program*> Renderer::use_volume_program(const char* fragment, const VolumeView& view,
+                                                         PictureSize size, gpu::Defines variant) {
+  const bool source = shows_source(view);
   const auto with = [&](bool wanted, const char* name) {
     if (wanted) variant.emplace_back(name, "");
   };
@@ -154,7 +163,7 @@ Result<const gpu::Program*> Renderer::use_volume_program(const VolumeView& asked
   with(!view.quality.skip_empty, "NO_SKIP");
   const gpu::Defines shading = shading_defines(view);
   variant.insert(variant.end(), shading.begin(), shading.end());
-  const auto used = use_program("render/volume.frag", variant);
+  const auto used = use_program(fragment, variant);
   if (!used) return used;
   const gpu::Program& program = **used;
   const Geometry& geometry = source_->geometry;
@@ -175,22 +184,62 @@ Result<const gpu::Program*> Renderer::use_volume_program(const VolumeView& asked
   return &program;
 }
 
-Result<Picture> Renderer::draw(const VolumeView& view, PictureSize size, const Progress& progress) {
+Result<Picture> Renderer::draw(const VolumeView& asked, PictureSize size, const Progress& progress) {
   if (auto status = device_->make_current(); !status) return pass_on(status);
-  if (const auto program = use_volume_program(view, size, {}); !program) {
+  const VolumeView view = resolved(asked);
+  if (view.mode == Mode::slices || !source_picture_.has_volume()) {
+    return draw_from_slices(view, size, progress);
+  }
+  if (const auto program = use_volume_program("render/volume.frag", view, size, {}); !program) {
     return tl::unexpected<Error>(program.error());
   }
   return finish(size, progress);
 }
 
+Result<Picture> Renderer::draw_from_slices(const VolumeView& view, PictureSize size,
+                                           const Progress& progress) {
+  const SliceAxis axis = SliceCaster::axis_for(view, source_->geometry);
+  const auto slab = use_volume_program("render/slab.frag", view, size, {axis.define()});
+  if (!slab) return tl::unexpected<Error>(slab.error());
+  const std::vector<PhysicalPage> table = phi_.page_entries();
+  const SliceCaster::Scene scene{*source_, phi_, table, source_picture_.page_opacities()};
+  if (auto status = slice_caster_.draw(*device_, **slab, scene, view, size, {kPhiUnit, kFreeUnit}, progress);
+      !status) {
+    return pass_on(status);
+  }
+  const auto over = use_program("render/over_background.frag", {});
+  if (!over) return tl::unexpected<Error>(over.error());
+  slice_caster_.layers().bind(kFreeUnit);
+  (*over)->set("layers", kFreeUnit);
+  (*over)->set("background", view.background);
+  auto picture = finish(size, progress);
+  report_ = slice_caster_.report();
+  return picture;
+}
+
 Result<Picture> Renderer::draw(const SliceView& view, PictureSize size, const Progress& progress) {
   if (auto status = device_->make_current(); !status) return pass_on(status);
-  const auto program = use_program("render/slice.frag", {});
+  const bool by_plane = !source_picture_.has_volume();
+  const auto program =
+      use_program("render/slice.frag", by_plane ? gpu::Defines{{"SOURCE_PLANE", ""}} : gpu::Defines());
   if (!program) return tl::unexpected<Error>(program.error());
   const gpu::Program& slice = **program;
-  slice.set("voxel_from_view",
-            glm::mat4(slice_from_view(source_->geometry, view.orientation, view.position_mm, view.zoom,
-                                      view.pan_mm, size.aspect())));
+  const glm::dmat4 voxel_from_view = slice_from_view(source_->geometry, view.orientation, view.position_mm,
+                                                     view.zoom, view.pan_mm, size.aspect());
+  slice.set("voxel_from_view", glm::mat4(voxel_from_view));
+  gpu::Texture2D plane;
+  if (by_plane) {
+    // Sums of terms are those of the nearest voxel.
+    const bool total = view.content == SliceContent::speed && view.term == SpeedTerm::total;
+    const std::vector<float> values = source_on_plane(*source_, voxel_from_view, size, view.nearest || total);
+    auto made = gpu::Texture2D::create(*device_, gpu::TexelFormat::r32f, size.width, size.height,
+                                       "source on a plane");
+    if (!made) return pass_on(made);
+    plane = std::move(*made);
+    plane.upload({0, 0, size.width, size.height}, std::as_bytes(std::span(values)));
+    plane.bind(kFreeUnit);
+    slice.set("source_plane", kFreeUnit);
+  }
   slice.set("window", glm::vec2(view.window.centre, view.window.width));
   slice.set("content", static_cast<int>(view.content));
   slice.set("term", static_cast<int>(view.term));
@@ -204,9 +253,10 @@ Result<Picture> Renderer::draw(const SliceView& view, PictureSize size, const Pr
 
 Result<std::optional<Hit>> Renderer::pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel) {
   if (auto status = device_->make_current(); !status) return pass_on(status);
-  VolumeView finely = view;
+  VolumeView finely = resolved(view);
   finely.quality = {};
-  const auto program = use_volume_program(finely, size, {{"PICK", ""}});
+  if (!source_picture_.has_volume()) finely.source.reset();  // rays cannot see it
+  const auto program = use_volume_program("render/volume.frag", finely, size, {{"PICK", ""}});
   if (!program) return tl::unexpected<Error>(program.error());
   // The whole view of this program is the one pixel.
   const glm::dvec2 from_middle = pixel + 0.5 - 0.5 * glm::dvec2(size.width, size.height);

@@ -11,6 +11,7 @@
 #include "gpu/device.h"
 #include "renderer/canvas.h"
 #include "renderer/phi_picture.h"
+#include "renderer/slice_caster.h"
 #include "renderer/source_picture.h"
 #include "renderer/views.h"
 #include "solver/model.h"
@@ -27,11 +28,13 @@ struct Hit {
 
 class Renderer {
  public:
-  // Pictures of level sets on `source` in pages of this layout. Fails (ErrorKind::capability) where the
-  // driver lacks what is needed.
+  // Pictures of level sets on `source` in pages of this layout. A source with more than `largest_volume`
+  // voxels along an axis, or more than the driver allows, is never kept as a 3D texture: it is drawn from
+  // slices. Fails (ErrorKind::capability) where the driver lacks what is needed.
   static Result<std::unique_ptr<Renderer>> create(std::shared_ptr<gpu::Device> device,
                                                   std::shared_ptr<const Volume> source,
-                                                  const PageLayout& layout);
+                                                  const PageLayout& layout,
+                                                  std::int64_t largest_volume = 1 << 30);
 
   // Shows phi from now on. `quiet`: virtual pages that are not computed at present. Fails (ErrorKind::usage)
   // unless phi has the layout and the grid of create().
@@ -50,7 +53,8 @@ class Renderer {
   Result<Picture> draw(const VolumeView& view, PictureSize size, const Progress& progress = {});
   Result<Picture> draw(const SliceView& view, PictureSize size, const Progress& progress = {});
 
-  // What is seen at a pixel (from the picture's top left); none when nothing is.
+  // What is seen at a pixel (from the picture's top left); none when nothing is. The source is not met where
+  // it has no 3D texture.
   Result<std::optional<Hit>> pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel);
 
   [[nodiscard]] const DrawReport& last_draw() const { return report_; }
@@ -61,8 +65,10 @@ class Renderer {
   Renderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source);
   // A program with what all programs look at set; the view's own uniforms are left.
   Result<const gpu::Program*> use_program(const char* fragment, const gpu::Defines& variant);
-  Result<const gpu::Program*> use_volume_program(const VolumeView& view, PictureSize size,
-                                                 gpu::Defines variant);
+  Result<const gpu::Program*> use_volume_program(const char* fragment, const VolumeView& view,
+                                                 PictureSize size, gpu::Defines variant);
+  [[nodiscard]] VolumeView resolved(const VolumeView& asked) const;
+  Result<Picture> draw_from_slices(const VolumeView& view, PictureSize size, const Progress& progress);
   Result<Picture> finish(PictureSize size, const Progress& progress);
 
   std::shared_ptr<gpu::Device> device_;
@@ -74,6 +80,7 @@ class Renderer {
   gpu::Texture3D labels_;
   bool has_labels_ = false;
   std::map<std::string, gpu::Program> programs_;  // by shader and variant, made when first needed
+  SliceCaster slice_caster_;
   Canvas canvas_;
   Canvas pick_canvas_;
   DrawReport report_;

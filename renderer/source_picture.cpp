@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <variant>
 
+#include "renderer/source_stack.h"
+
 namespace tidemark {
 namespace {
 
@@ -45,21 +47,21 @@ std::vector<glm::vec2> page_ranges(const Volume& source, const PageLayout& layou
 }  // namespace
 
 Result<SourcePicture> SourcePicture::create(gpu::Device& device, const Volume& source,
-                                            const PageLayout& layout, ThreadPool& pool) {
+                                            const PageLayout& layout, std::int64_t largest,
+                                            ThreadPool& pool) {
   SourcePicture picture;
   picture.unit_ = 1.0F / glm::vec3(source.geometry.size);
-  const auto stored = [](const auto& voxels) -> std::pair<gpu::TexelFormat, double> {
-    using Scalar = typename std::decay_t<decltype(voxels)>::value_type;
-    if constexpr (std::is_same_v<Scalar, std::int16_t>) return {gpu::TexelFormat::r16_snorm, 32767.0};
-    if constexpr (std::is_same_v<Scalar, std::uint16_t>) return {gpu::TexelFormat::r16_unorm, 65535.0};
-    return {gpu::TexelFormat::r32f, 1.0};
-  };
+  const auto [format, scale] = stored_as(source);
+  picture.scale_ = scale;
+  const Index3 size = source.geometry.size;
+  picture.has_volume_ = std::max({size.x, size.y, size.z}) <= largest;
+  const std::vector<std::byte> nothing(static_cast<std::size_t>(gpu::bytes_per_texel(format)));
   auto texture = std::visit(
-      [&](const auto& voxels) {
-        const auto [format, full] = stored(voxels);
-        picture.scale_ = glm::vec2(source.slope * full, source.intercept);
-        return gpu::Texture3D::create(device, format, source.geometry.size, std::as_bytes(std::span(voxels)),
-                                      "source for pictures", gpu::Filter::linear);
+      [&, format = format](const auto& voxels) {
+        const std::span<const std::byte> all = std::as_bytes(std::span(voxels));
+        return gpu::Texture3D::create(device, format, picture.has_volume_ ? size : Index3(1),
+                                      picture.has_volume_ ? all : std::span(nothing), "source for pictures",
+                                      gpu::Filter::linear);
       },
       source.voxels);
   if (!texture) return pass_on(texture);
@@ -79,17 +81,17 @@ Result<SourcePicture> SourcePicture::create(gpu::Device& device, const Volume& s
 void SourcePicture::set_transfer_function(const TransferFunction& function, Region region, double band) {
   Shown wanted{function, region, band};
   if (shown_ == wanted) return;
-  std::vector<glm::vec4> opacities;
-  opacities.reserve(ranges_.size());
+  page_opacities_.clear();
+  page_opacities_.reserve(ranges_.size());
   for (const glm::vec2 range : ranges_) {
     const auto most = [&](double low_phi, double high_phi) {
       return function.most_opacity(range.x, range.y, low_phi, high_phi);
     };
     // Of a page that is outside throughout, inside throughout, or holds the surface.
-    opacities.emplace_back(region == Region::inside ? 0.0 : most(-band, -band),
-                           region == Region::outside ? 0.0 : most(band, band), most(-band, band), 0.0);
+    page_opacities_.emplace_back(region == Region::inside ? 0.0 : most(-band, -band),
+                                 region == Region::outside ? 0.0 : most(band, band), most(-band, band), 0.0);
   }
-  opacity_buffer_.upload_values<glm::vec4>(0, opacities);
+  opacity_buffer_.upload_values<glm::vec4>(0, page_opacities_);
   shown_ = std::move(wanted);
 }
 

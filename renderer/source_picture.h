@@ -14,23 +14,32 @@
 namespace tidemark {
 
 // The source as a texture that the hardware filters, and how opaque it is at most in each page of V_P, so
-// that rays skip pages that show nothing.
+// that rays and slices skip pages that show nothing.
 class SourcePicture {
  public:
   SourcePicture() = default;
-  // Fails (ErrorKind::capability) when the volume is beyond the driver's limit or its memory.
+  // Volumes with more than `largest` voxels along an axis get no texture. Fails (ErrorKind::capability) when
+  // memory is short.
   static Result<SourcePicture> create(gpu::Device& device, const Volume& source, const PageLayout& layout,
-                                      ThreadPool& pool);
+                                      std::int64_t largest, ThreadPool& pool);
+
+  // Whether there is a texture. If not, pictures are made from slices (SourceStack, source_on_plane()).
+  [[nodiscard]] bool has_volume() const { return has_volume_; }
 
   // From now on the transfer function, for that region and that band, says what pages show.
   void set_transfer_function(const TransferFunction& function, Region region, double band);
+
+  // The most that a page shows by that function: when it is outside throughout, inside throughout, mixed.
+  [[nodiscard]] const std::vector<glm::vec4>& page_opacities() const { return page_opacities_; }
 
   // The uniforms of render/source.glsl, and page_opacity on the next unit.
   void set_uniforms(const gpu::Program& program, int unit) const;
 
  private:
   gpu::Texture3D texture_;
+  bool has_volume_ = false;
   std::vector<glm::vec2> ranges_;  // least and greatest value in each page, and one voxel around
+  std::vector<glm::vec4> page_opacities_;
   gpu::Buffer opacity_buffer_;
   gpu::BufferTexture opacities_;
   struct Shown {

@@ -45,7 +45,9 @@ std::string kinds(const std::vector<Primitive>& primitives, TransferFactor Primi
   return list;
 }
 
-void set_clip_plane(const gpu::Program& program, const ClipPlane& plane, const Geometry& geometry) {
+}  // namespace
+
+VoxelPlane clip_plane_in_voxels(const ClipPlane& plane, const Geometry& geometry) {
   // dot(normal, p) - offset in mm is linear in the voxel coordinates.
   const glm::dvec3 zero = geometry.to_patient(glm::dvec3(0.0));
   glm::dvec3 slope(0.0);
@@ -53,12 +55,24 @@ void set_clip_plane(const gpu::Program& program, const ClipPlane& plane, const G
     slope[axis] = glm::dot(plane.normal, geometry.direction[axis]) * geometry.spacing_mm[axis];
   }
   const double mm = glm::length(slope);
-  program.set("clip_plane",
-              glm::vec4(glm::dvec4(slope, plane.offset_mm - glm::dot(plane.normal, zero)) / mm));
-  program.set("clip_mm", static_cast<float>(mm));
+  return {slope / mm, (plane.offset_mm - glm::dot(plane.normal, zero)) / mm, mm};
 }
 
-}  // namespace
+bool shows_source(const VolumeView& view) {
+  return view.source && !view.source->source.empty();
+}
+
+bool needs_phi(const VolumeView& view) {
+  return view.surface ||
+         (shows_source(view) && (view.region != Region::everywhere || view.source->source_needs_phi()));
+}
+
+bool needs_source(const VolumeView& view) {
+  const bool taught =
+      view.colouring == SurfaceColouring::data || view.colouring == SurfaceColouring::total_speed;
+  return shows_source(view) || (view.clip && view.clip->picture) ||
+         (view.surface && (taught || (view.source && !view.source->surface.empty())));
+}
 
 gpu::Defines shading_defines(const VolumeView& view) {
   const TransferFunction function = view.source.value_or(TransferFunction());
@@ -83,7 +97,11 @@ void set_shading(const gpu::Program& program, const VolumeView& view, const Geom
   program.set("window", glm::vec2(view.window.centre, view.window.width));
   set_transfer_function(program, view.source.value_or(TransferFunction()));
   program.set("clip", view.clip ? 1 : 0);
-  if (view.clip) set_clip_plane(program, *view.clip, geometry);
+  if (view.clip) {
+    const VoxelPlane plane = clip_plane_in_voxels(*view.clip, geometry);
+    program.set("clip_plane", glm::vec4(plane.normal, plane.offset));
+    program.set("clip_mm", static_cast<float>(plane.mm));
+  }
   const Lighting& light = view.lighting;
   program.set("light_shares", glm::vec4(light.ambient, light.diffuse, light.specular, light.shininess));
   const glm::dvec3 from = light.from ? glm::transpose(geometry.direction) * *light.from : glm::dvec3(0.0);

@@ -6,6 +6,20 @@
 
 namespace tidemark {
 
+// What a view looks at: whether the source shows between surface and clip plane, and whether phi and values
+// of the source are needed for anything.
+bool shows_source(const VolumeView& view);
+bool needs_phi(const VolumeView& view);
+bool needs_source(const VolumeView& view);
+
+// A clip plane in voxel coordinates: what lies where dot(normal, p) > offset is hidden.
+struct VoxelPlane {
+  glm::dvec3 normal{0.0};  // length 1
+  double offset = 0.0;
+  double mm = 1.0;  // a unit of dot(normal, p), in mm
+};
+VoxelPlane clip_plane_in_voxels(const ClipPlane& plane, const Geometry& geometry);
+
 // What render/transfer.glsl is compiled with for this view.
 gpu::Defines shading_defines(const VolumeView& view);
 // render/transfer.glsl, lighting.glsl and shade.glsl.

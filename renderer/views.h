@@ -49,7 +49,12 @@ struct Quality {
 // While something moves.
 inline constexpr Quality kMovingQuality{1.5, true, 0, true};
 
+// How the volume rendering is made: by a ray for each pixel, or from 2D slices that are reconstructed one
+// after the other (paper section 5), which needs no 3D texture of the source.
+enum class Mode { raycast, slices };
+
 struct VolumeView {
+  Mode mode = Mode::raycast;
   Camera camera;
   std::optional<TransferFunction> source;  // none: the surface alone
   bool surface = true;

@@ -55,6 +55,7 @@ struct RenderOptions {
   std::optional<std::vector<double>> normal;
   std::optional<std::vector<double>> at;
   std::string camera = "0,0";
+  std::string mode = "raycast";
   std::optional<std::vector<double>> window;
   std::optional<double> target;
   std::optional<double> range;
@@ -90,6 +91,7 @@ const Words<SurfaceColouring> kColourings{{"plain", SurfaceColouring::plain},
                                           {"pages", SurfaceColouring::pages}};
 const Words<int> kViews{{"3d", 0},      {"axial", 1}, {"coronal", 2}, {"sagittal", 3},
                         {"oblique", 4}, {"speed", 5}, {"pages", 6},   {"sheet", 7}};
+const Words<Mode> kModes{{"raycast", Mode::raycast}, {"slices", Mode::slices}};
 const Words<int> kClipped{{"both", 0}, {"source", 1}, {"surface", 2}};
 
 template <class Value>
@@ -187,6 +189,9 @@ Result<ClipPlane> clip_plane(const RenderOptions& options) {
 Result<VolumeView> volume_view(const RenderOptions& options, const Volume& source, const Field& phi,
                                double aspect) {
   VolumeView view;
+  const auto mode = meaning("--mode", options.mode, kModes);
+  if (!mode) return tl::unexpected<Error>(mode.error());
+  view.mode = *mode;
   const auto camera = parse_camera(options.camera);
   if (!camera) return tl::unexpected<Error>(camera.error());
   view.camera = options.fit ? camera->on(box_around(phi), source.geometry, aspect) : *camera;
@@ -395,6 +400,8 @@ void add_render(CLI::App& app, Program& program) {
       ->type_name(joined(kTerms, "|"));
   command.add_option("--camera", options->camera,
                      "AZIMUTH,ELEVATION[,ZOOM] in degrees; 0,0 looks from the front (default)");
+  command.add_option("--mode", options->mode, "How 3D pictures are made (default: raycast)")
+      ->type_name(joined(kModes, "|"));
   command.add_flag("--fit", options->fit, "The camera looks at the surface and comes near");
   command.add_flag("--annotate", options->annotate, "Orientation letters and a scale bar");
   command.add_option("--size", options->size, "Pixels (default: 512x512)")->type_name("WxH");

@@ -103,6 +103,9 @@ class Bench {
     };
     VolumeView surface;
     enter("surface", surface);
+    VolumeView by_slices = surface;
+    by_slices.mode = Mode::slices;
+    enter("surface, slices", by_slices);
     VolumeView near = surface;
     near.camera = surface.camera.on(box_around(phi), study_.source->geometry, 1.0);
     enter("surface, fills the picture", near);
@@ -112,6 +115,9 @@ class Bench {
     VolumeView volume = surface;
     volume.source = volume_function();
     enter("surface and source", volume);
+    by_slices = volume;
+    by_slices.mode = Mode::slices;
+    enter("surface and source, slices", by_slices);
     volume.region = Region::inside;
     volume.surface = false;
     enter("source inside the surface", volume);

@@ -2,7 +2,11 @@
 // over it.
 
 #include "solver/phi.glsl"
+#ifdef SOURCE_PLANE
+#include "render/source_plane.glsl"
+#else
 #include "render/source.glsl"
+#endif
 #include "render/speed_terms.glsl"
 #include "render/page_state.glsl"
 #include "render/colours.glsl"

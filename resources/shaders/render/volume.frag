@@ -17,6 +17,7 @@
 #ifdef TAUGHT
 #include "render/speed_terms.glsl"
 #endif
+#include "render/events.glsl"
 
 in vec2 view_position;
 out vec4 fragment;
@@ -25,92 +26,22 @@ uniform mat4 voxel_from_view;         // from the view's cube to voxel coordinat
 uniform samplerBuffer page_opacity;   // the most of any voxel in each page of V_P: all outside, all inside, mixed
 uniform float step_voxels;
 uniform int jitter_round;             // another offset of the samples in each round
-uniform float pixel_mm;
-uniform bool clip_surface;
-uniform bool clip_source;
-uniform bool show_clip_picture;
-uniform int colouring;                // as enum class SurfaceColouring
-uniform float occlusion;              // how much of the light hollows lose, 0..1
 uniform vec3 background;
 
 #if defined(SURFACE) || defined(REGION)
 #define NEEDS_PHI
 #endif
 
-const int kBending = 5;               // of colouring; 1 to 4 are the terms of the speed
-const int kActivity = 6;
-const int kPickedPlane = 1;
-const int kPickedSurface = 2;
-const int kPickedSource = 3;
 const int kMostLayers = 64;           // of surface and clip plane along a ray
-const float kLeastOpacity = 1e-4;
 
 float t = 0.0;
-vec2 for_surface = vec2(0.0);         // the parts of the ray in which they may show
-vec2 for_source = vec2(0.0);
 bool inside = false;                  // of the surface, at t
-vec4 picked = vec4(0.0);
-
-void pick(int kind, vec3 p) {
-  if (picked.w == 0.0 && result.a > 0.5) picked = vec4(p, float(kind));
-}
 
 // Offsets without a pattern that the eye finds (interleaved gradient noise, Jimenez 2014).
 float jitter() {
   vec2 p = gl_FragCoord.xy + 5.588238 * float(jitter_round);
   return max(fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715)))), 0.05);
 }
-
-// How open the surface is at p, from what phi is above it: it would be minus the distance above a plain.
-float openness(vec3 p, vec3 outward) {
-  float unit = min(spacing.x, min(spacing.y, spacing.z));
-  float hidden = 0.0;
-  for (int i = 1; i <= 3; ++i) {
-    float up = 0.25 * float(i) * band;
-    hidden += clamp((up + phi_between(p + outward * (up * unit) / spacing)) / up, 0.0, 1.0) / 3.0;
-  }
-  return 1.0 - occlusion * hidden;
-}
-
-#ifdef TAUGHT
-vec3 taught_colour(vec3 p) {
-  ivec3 voxel = clamp(ivec3(floor(p + 0.5)), ivec3(0), volume_size - 1);
-  if (colouring == kActivity) return page_colour(page_state(voxel / kPageShape));
-  vec2 taught = speed_and_curvature_between(colouring - 1, p);
-  return diverging(colouring == kBending ? 2.0 * taught.y : taught.x);
-}
-#endif
-
-void add_surface(vec3 p) {
-  vec4 material = material_of_surface(p);
-#ifdef TAUGHT
-  material.rgb = taught_colour(p);
-#endif
-  vec3 slope = phi_slope(p) / spacing;
-  float open = 1.0;
-#ifdef OCCLUSION
-  open = openness(p, -slope / max(length(slope), 1e-6));
-#endif
-  add(lit(material.rgb, slope, viewer, open), material.a);
-  pick(kPickedSurface, p);
-}
-
-#ifdef CLIP
-// The picture on the clip plane: the source in its window, the surface's cut as a line of constant width.
-void add_clip_picture(vec3 p) {
-  vec3 colour = windowed(source_between(p));
-#ifdef SURFACE
-  float phi = phi_between(p);
-  vec3 normal = normalize(clip_plane.xyz / spacing);
-  vec3 slope = phi_slope(p) / spacing;
-  float steepness = length(slope - normal * dot(slope, normal));
-  float pixels = abs(phi) / max(steepness * pixel_mm, 1e-6);
-  colour = mix(kOutlineYellow, colour, abs(phi) < band ? smoothstep(0.5, 1.5, pixels) : 1.0);
-#endif
-  add(colour, 1.0);
-  pick(kPickedPlane, p);
-}
-#endif
 
 // Where phi is 0 between two places of other signs, by false position (the Illinois variant).
 float crossing(float a, float b, float phi_a, float phi_b) {
@@ -289,19 +220,7 @@ Piece march(float stop) {
 
 void main() {
   vec2 whole = begin_ray(voxel_from_view, view_position, spacing);
-  vec2 left = whole;
-  float cut = 1e9;  // where the plane's picture is
-#ifdef CLIP
-  float slope = dot(clip_plane.xyz, ray_direction);
-  float distance_of = clip_plane.w - dot(clip_plane.xyz, ray_start);
-  float meets = distance_of / (abs(slope) > 1e-6 ? slope : 1e-6);
-  if (abs(slope) <= 1e-6 && distance_of < 0.0) left.y = left.x;
-  if (slope < -1e-6) left.x = max(left.x, meets);
-  if (slope > 1e-6) left.y = min(left.y, meets);
-  if (show_clip_picture && abs(slope) > 1e-6 && meets >= whole.x && meets < whole.y) cut = meets;
-#endif
-  for_surface = clip_surface ? left : whole;
-  for_source = clip_source ? left : whole;
+  clip_ray(whole);
   // From where anything shows to where nothing does any more.
   float end = -1e9;
   t = 1e9;
@@ -314,7 +233,7 @@ void main() {
   end = max(end, for_source.y);
 #endif
 #ifdef CLIP
-  if (cut < 1e9) {
+  if (cut < kNever) {
     t = min(t, cut);
     end = max(end, cut);
   }
@@ -323,19 +242,23 @@ void main() {
   inside = phi_between(on_ray(t)) > 0.0;
 #endif
   for (int layer = 0; layer < kMostLayers && t <= end && whole.x < whole.y && result.a < 0.99; ++layer) {
-    float stop = cut < 1e9 ? cut : end;
+    float stop = cut < kNever ? cut : end;
     Piece piece = march(stop);
 #ifdef SURFACE
     if (piece.found) {
       float at = crossing(piece.a, piece.b, piece.phi_a, piece.phi_b);
-      if (at >= for_surface.x && at <= for_surface.y) add_surface(on_ray(at));
+      if (at >= for_surface.x && at <= for_surface.y) add_surface(on_ray(at), phi_slope(on_ray(at)));
       inside = !inside;
     }
 #endif
 #ifdef CLIP
-    if (!piece.found && cut < 1e9 && result.a < 0.99) {
-      add_clip_picture(on_ray(cut));
-      cut = 1e9;
+    if (!piece.found && cut < kNever && result.a < 0.99) {
+#ifdef SURFACE
+      add_clip_picture(on_ray(cut), phi_between(on_ray(cut)), phi_slope(on_ray(cut)));
+#else
+      add_clip_picture(on_ray(cut), 0.0, vec3(0.0));
+#endif
+      cut = kNever;
     } else
 #endif
     if (!piece.found) break;

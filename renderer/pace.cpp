@@ -1,0 +1,60 @@
+#include "renderer/pace.h"
+
+#include <algorithm>
+
+#include "gpu/device.h"
+
+namespace tidemark {
+namespace {
+
+// Leaves room for work that is harder than what was measured.
+constexpr double kWantedPiece = 0.3 * Canvas::kLongestPiece;
+
+}  // namespace
+
+Status Pace::before(double work) {
+  if (progress_.cancelled()) return cancelled_error();
+  if (on_its_way_ > 0.0 && (on_its_way_ + work) * seconds_each_ > kWantedPiece) {
+    if (auto status = settle(); !status) return status;
+  }
+  if (on_its_way_ == 0.0) begun_ = Clock::now();
+  on_its_way_ += work;
+  return {};
+}
+
+Status Pace::settle() {
+  if (!device_.capabilities().software || on_its_way_ == 0.0) return {};
+  if (auto status = gpu::Fence::insert(device_).wait(); !status) return status;
+  const double took = std::chrono::duration<double>(Clock::now() - begun_).count();
+  ++report_.pieces;
+  report_.seconds += took;
+  report_.longest_piece_seconds = std::max(report_.longest_piece_seconds, took);
+  // Slowly to quicker work, as behind empty places hard ones may come.
+  seconds_each_ = std::max(took / on_its_way_, 0.7 * seconds_each_);
+  on_its_way_ = 0.0;
+  return {};
+}
+
+Status Pace::things(std::int64_t count, std::int64_t fragments_each, double weight, const DrawSome& draw) {
+  if (!device_.capabilities().software) {
+    draw(0, count);
+    return {};
+  }
+  const double each = weight * static_cast<double>(std::max<std::int64_t>(fragments_each, 1));
+  for (std::int64_t first = 0; first < count;) {
+    const auto most = static_cast<std::int64_t>(kWantedPiece / (each * seconds_each_));
+    const std::int64_t some = std::clamp<std::int64_t>(most, 1, count - first);
+    if (auto status = before(each * static_cast<double>(some)); !status) return status;
+    draw(first, some);
+    first += some;
+  }
+  return {};
+}
+
+Status Pace::rectangle(const gpu::TexelRect& rect, double weight, const Draw& draw) {
+  return things(rect.height, rect.width, weight, [&](std::int64_t first, std::int64_t count) {
+    draw({rect.x, rect.y + first, rect.width, count});
+  });
+}
+
+}  // namespace tidemark

@@ -1,0 +1,44 @@
+// Where slices show anything, so that nothing is drawn elsewhere.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <span>
+#include <vector>
+
+#include "renderer/picture.h"
+#include "renderer/slice_axis.h"
+#include "renderer/views.h"
+#include "solver/paging/page_layout.h"
+#include "solver/paging/page_table.h"
+
+namespace tidemark {
+
+// The parts of a volume's layers of pages in which a picture has something to show.
+class SliceBounds {
+ public:
+  // All of the volume.
+  SliceBounds(const SliceAxis& axis, const PageLayout& pages);
+  // Resident pages when the view has a surface, pages where its source shows, and those that the clip plane's
+  // picture passes, less what the plane hides. `table`: the physical page of each virtual one; `opacity`: see
+  // SourcePicture::page_opacities().
+  SliceBounds(const SliceAxis& axis, const PageLayout& pages, const VolumeView& view,
+              const Geometry& geometry, std::span<const PhysicalPage> table,
+              std::span<const glm::vec4> opacity);
+
+  // The pixels of what is between two planes across the axis and near these slices; empty when nothing shows.
+  [[nodiscard]] gpu::TexelRect pixels(std::int64_t slice_a, std::int64_t slice_b, double plane_a,
+                                      double plane_b, const glm::dmat4& view_from_voxel,
+                                      PictureSize size) const;
+
+ private:
+  struct Rect {  // pages of a layer
+    std::int64_t low_u = 1, low_v = 1, high_u = 0, high_v = 0;
+    [[nodiscard]] bool empty() const { return low_u > high_u; }
+    void include(const Rect& other);
+  };
+  SliceAxis axis_;
+  PageLayout pages_;
+  std::vector<Rect> layers_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,60 @@
+// Volume rendering from slices, front to back (paper section 5): a slab between two slices at a time.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "renderer/slice_stack.h"
+#include "renderer/source_stack.h"
+#include "renderer/views.h"
+
+namespace tidemark {
+
+class SliceCaster {
+ public:
+  struct Scene {
+    const Volume& source;
+    const PhiPicture& phi;
+    std::span<const PhysicalPage> table;      // of phi's virtual pages
+    std::span<const glm::vec4> page_opacity;  // SourcePicture::page_opacities()
+  };
+
+  // Texture units: three of phi's, and those from `free` on.
+  struct Units {
+    int phi = 0;
+    int free = 0;
+  };
+
+  // The axis that is most along the view's direction: slices are cut across it.
+  static SliceAxis axis_for(const VolumeView& view, const Geometry& geometry);
+
+  // With the program of render/slab.frag for that axis, whose uniforms of the view are set. What is drawn is
+  // in layers(), premultiplied. Fails (ErrorKind::cancelled) when it is told to stop.
+  Status draw(gpu::Device& device, const gpu::Program& slab_program, const Scene& scene,
+              const VolumeView& view, PictureSize size, const Units& units, const Progress& progress);
+
+  [[nodiscard]] const gpu::Texture2D& layers() const { return layers_; }
+  [[nodiscard]] const DrawReport& report() const { return report_; }
+
+ private:
+  // Between two neighbouring slices, or a slice and the volume's face; planes are where it begins and ends.
+  struct Slab {
+    std::int64_t front_slice, back_slice;
+    double front_plane, back_plane;
+  };
+  static std::vector<Slab> slabs(std::int64_t slices, bool forward);
+  Status prepare(gpu::Device& device, const Scene& scene, const SliceAxis& axis, PictureSize size);
+  Status show_slices(const gpu::Program& slab_program, const Scene& scene, const VolumeView& view,
+                     const Slab& slab, const Units& units, Pace& pace);
+  Status draw_slab(const gpu::Program& slab_program, const Slab& slab, int steps,
+                   const gpu::TexelRect& pixels, Pace& pace);
+
+  gpu::Texture2D layers_;
+  gpu::Framebuffer framebuffer_;
+  gpu::VertexArray vertices_;
+  std::optional<SliceStack> phi_;
+  std::optional<SourceStack> source_;
+  DrawReport report_;
+};
+
+}  // namespace tidemark

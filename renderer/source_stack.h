@@ -1,0 +1,56 @@
+// The source as 2D slices along an axis, sent to the GPU when it is their turn: no volume is too large for
+// it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/volume.h"
+#include "gpu/draw.h"
+#include "renderer/pace.h"
+#include "renderer/slice_pair.h"
+
+namespace tidemark {
+
+// Two slices are there at a time, of the source's values and its gradient; they are made from three slices as
+// they are stored, from differences over a voxel to each side.
+class SourceStack {
+ public:
+  SourceStack() = default;
+  static Result<SourceStack> create(gpu::Device& device, const Volume& source, const SliceAxis& axis);
+
+  // Makes sure that a slice is there. `source` is that of create(). Uses three units.
+  Status prepare(const Volume& source, std::int64_t slice, int unit, Pace& pace);
+
+  [[nodiscard]] const SliceAxis& axis() const { return axis_; }
+  [[nodiscard]] const gpu::Texture2D& texture(std::int64_t slice) const { return pair_.texture(slice); }
+
+ private:
+  struct Stored {
+    gpu::Texture2D texture;
+    std::int64_t slice = -1;
+  };
+  Status send(const Volume& source, std::int64_t slice, Pace& pace);
+  template <class Scalar>
+  std::span<const std::byte> gather(const std::vector<Scalar>& voxels, std::int64_t slice);
+
+  SliceAxis axis_;
+  SlicePair pair_;
+  std::array<Stored, 3> stored_;
+  glm::vec2 scale_{1.0F, 0.0F};  // of stored values
+  gpu::Program program_;
+  gpu::VertexArray vertices_;
+  std::vector<std::byte> gathered_;  // slices from first_gathered_ on, where they do not lie in one piece
+  std::int64_t first_gathered_ = -1;
+};
+
+// How a volume's stored values are kept in textures, and how to get its values from those:
+// value = scale.x * texel + scale.y.
+struct StoredAs {
+  gpu::TexelFormat format = gpu::TexelFormat::r32f;
+  glm::vec2 scale{1.0F, 0.0F};
+};
+StoredAs stored_as(const Volume& source);
+
+}  // namespace tidemark

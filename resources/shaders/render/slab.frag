@@ -1,0 +1,91 @@
+// What lies between two slices that are next to each other, in as many steps as the step's length asks for (paper section
+// 5): interpolated, classified, lit, and laid under what is in front of it. Variants as of volume.frag.
+
+#include "solver/phi.glsl"
+#include "render/slices.glsl"
+#include "render/shade.glsl"
+#include "render/page_state.glsl"
+#include "render/ray.glsl"
+#ifdef TAUGHT
+#include "render/speed_terms.glsl"
+#endif
+#include "render/events.glsl"
+
+in vec2 view_position;
+out vec4 fragment;  // premultiplied
+
+uniform mat4 voxel_from_view;  // from the view's cube to voxel coordinates
+uniform float front_plane;     // the slab's ends: voxel coordinates along the axis
+uniform float back_plane;
+uniform int steps;
+
+// A place of the ray with what the slices say of it.
+struct Sample {
+  float t;
+  vec4 phi;     // and d phi / d voxel
+  vec4 source;  // and its gradient a voxel
+};
+
+Sample sample_at(float t) {
+  vec3 p = on_ray(t);
+  Sample s = Sample(t, vec4(-band, 0.0, 0.0, 0.0), vec4(0.0));
+#if defined(SURFACE) || defined(REGION)
+  s.phi = between_slices(phi_front, phi_back, p);
+#endif
+#ifdef SOURCE
+  s.source = between_slices(source_front, source_back, p);
+#endif
+  return s;
+}
+
+#ifdef SOURCE
+void add_source_between(Sample a, Sample b) {
+  float length_mm = max(min(b.t, for_source.y) - max(a.t, for_source.x), 0.0) * ray_mm;
+#ifdef REGION
+  length_mm *= share_in_region(a.phi.x, b.phi.x);
+#endif
+  vec3 gradient = 0.5 * (a.source.yzw + b.source.yzw) / spacing;
+  vec4 material = classify(a.source.x, b.source.x, length(gradient), 0.5 * (a.phi.x + b.phi.x));
+  add_source(material, gradient, viewer, b.phi.x, length_mm);
+}
+#endif
+
+void main() {
+  vec2 whole = begin_ray(voxel_from_view, view_position, spacing);
+  clip_ray(whole);
+  vec2 planes = (vec2(front_plane, back_plane) - ray_start.ALONG) / ray_direction.ALONG;
+  float begin = max(planes.x, whole.x);
+  float end = min(planes.y, whole.y);
+  float step_length = (planes.y - planes.x) / float(steps);
+  bool meets_picture = cut >= begin && cut < end;
+  if (meets_picture) end = cut;
+  Sample a = sample_at(begin);
+  while (a.t < end) {
+    float next = a.t + step_length;
+    Sample b = sample_at(next > end - 0.01 * step_length ? end : next);
+#ifdef SURFACE
+    bool crosses = (a.phi.x > 0.0) != (b.phi.x > 0.0);
+    Sample back = b;
+    if (crosses) {
+      // Up to the surface; what is behind it comes next.
+      float share = a.phi.x / (a.phi.x - b.phi.x);
+      b = Sample(mix(a.t, b.t, share), mix(a.phi, b.phi, share), mix(a.source, b.source, share));
+      b.phi.x = a.phi.x;
+    }
+#endif
+#ifdef SOURCE
+    add_source_between(a, b);
+#endif
+#ifdef SURFACE
+    if (crosses) {
+      if (b.t >= for_surface.x && b.t <= for_surface.y) add_surface(on_ray(b.t), b.phi.yzw);
+      b.phi.x = back.phi.x;
+    }
+#endif
+    a = b;
+  }
+#ifdef CLIP
+  if (meets_picture) add_clip_picture(on_ray(cut), a.phi.x, a.phi.yzw);
+#endif
+  fragment = result;
+}
