@@ -1,5 +1,5 @@
-// Pictures of phantoms against those that were looked at and found good. Drivers differ in the last digits, and sometimes in
-// more: only the one that the golden pictures were made with is held to them.
+// Pictures of phantoms against those that were looked at and found good. Drivers differ in the last digits,
+// and sometimes in more: only the one that the golden pictures were made with is held to them.
 //
 //   TIDEMARK_WRITE_GOLDEN=folder golden_test     writes the pictures there instead of comparing them
 #include <QImage>
@@ -26,7 +26,8 @@ constexpr const char* kDriver = "Mesa 22.3";
 
 // sRGB to CIELAB (D65), in which distances are as large as the eye finds them.
 glm::dvec3 to_lab(glm::dvec3 rgb) {
-  for (int c = 0; c < 3; ++c) rgb[c] = rgb[c] <= 0.04045 ? rgb[c] / 12.92 : std::pow((rgb[c] + 0.055) / 1.055, 2.4);
+  for (int c = 0; c < 3; ++c)
+    rgb[c] = rgb[c] <= 0.04045 ? rgb[c] / 12.92 : std::pow((rgb[c] + 0.055) / 1.055, 2.4);
   const glm::dvec3 xyz((0.4124 * rgb.r + 0.3576 * rgb.g + 0.1805 * rgb.b) / 0.9505,
                        0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b,
                        (0.0193 * rgb.r + 0.1192 * rgb.g + 0.9505 * rgb.b) / 1.089);
@@ -70,7 +71,8 @@ Picture read_png(const std::filesystem::path& file) {
   const QImage image = QImage(QString::fromStdString(file.string())).convertToFormat(QImage::Format_RGBA8888);
   Picture picture{image.width(), image.height(), {}};
   for (int y = 0; y < image.height(); ++y) {
-    picture.pixels.insert(picture.pixels.end(), image.constScanLine(y), image.constScanLine(y) + 4 * image.width());
+    picture.pixels.insert(picture.pixels.end(), image.constScanLine(y),
+                          image.constScanLine(y) + 4 * image.width());
   }
   return picture;
 }
@@ -159,13 +161,16 @@ void add_surfaces(std::map<std::string, Golden>& all, const std::string& suffix,
   const auto add = [&](const char* name, const std::function<void(VolumeView&, const Patient&)>& change) {
     all[name + suffix] = {"organ", volume([change, mode](VolumeView& view, const Patient& patient) {
                             view.mode = mode;
-                            view.camera = view.camera.on(box_around(patient.scene.phi), patient.scene.source->geometry, 1.0);
+                            view.camera = view.camera.on(box_around(patient.scene.phi),
+                                                         patient.scene.source->geometry, 1.0);
                             change(view, patient);
                           })};
   };
   add("surface", [](VolumeView&, const Patient&) {});
   add("surface-translucent", [](VolumeView& view, const Patient&) { view.surface_colour.a = 0.3F; });
-  add("surface-lit-from-above", [](VolumeView& view, const Patient&) { view.lighting.from = {0.0, 0.0, 1.0}; });
+  add("surface-lit-from-above", [](VolumeView& view, const Patient&) {
+    view.lighting.from = {0.0, 0.0, 1.0};
+  });
   add("surface-and-bone", [](VolumeView& view, const Patient&) {
     view.camera.focus_mm.reset();
     view.camera.zoom = 1.0;
@@ -175,7 +180,7 @@ void add_surfaces(std::map<std::string, Golden>& all, const std::string& suffix,
                                      {"region-outside", Region::outside},
                                      {"region-tinted", Region::tinted}}) {
     add(name, [region = region](VolumeView& view, const Patient&) {
-      view.source = *preset("ct-angio");
+      view.source = *preset("ct-soft-tissue");
       view.surface = false;
       view.region = region;
       view.camera.zoom *= 0.6;
@@ -200,14 +205,15 @@ void add_teaching(std::map<std::string, Golden>& all) {
                                         {"rescaling", SurfaceColouring::rescaling},
                                         {"curvature", SurfaceColouring::curvature},
                                         {"pages", SurfaceColouring::pages}}) {
-    all[std::string("teaching-") + name] = {"organ", volume([colouring = colouring](VolumeView& view, const Patient& p) {
-                                              view.camera =
-                                                  view.camera.on(box_around(p.scene.phi), p.scene.source->geometry, 1.0);
-                                              view.colouring = colouring;
-                                            })};
+    all[std::string("teaching-") + name] = {
+        "organ", volume([colouring = colouring](VolumeView& view, const Patient& p) {
+          view.camera = view.camera.on(box_around(p.scene.phi), p.scene.source->geometry, 1.0);
+          view.colouring = colouring;
+        })};
   }
   all["surface-occlusion"] = {"organ", volume([](VolumeView& view, const Patient& p) {
-                                view.camera = view.camera.on(box_around(p.scene.phi), p.scene.source->geometry, 1.0);
+                                view.camera =
+                                    view.camera.on(box_around(p.scene.phi), p.scene.source->geometry, 1.0);
                                 view.lighting.occlusion = 1.0;
                               })};
   all["moving"] = {"head", volume([](VolumeView& view, const Patient&) {
@@ -222,14 +228,16 @@ void add_slices(std::map<std::string, Golden>& all) {
                                           {"sagittal", kSagittal},
                                           {"oblique", oblique({1.0, 0.6, 0.8})}}) {
     all[std::string("slice-") + name] = {
-        "organ", slice([orientation = orientation](SliceView& view, Patient&) { view.orientation = orientation; })};
+        "organ",
+        slice([orientation = orientation](SliceView& view, Patient&) { view.orientation = orientation; })};
   }
   all["slice-nearest"] = {"head", slice([](SliceView& view, Patient&) {
                             view.nearest = true;
                             view.zoom = 6.0;
                           })};
   all["slice-labels"] = {"organ", slice([](SliceView& view, Patient& patient) {
-                           if (const Status set = patient.painter->renderer().set_labels(patient.labels); !set) {
+                           if (const Status set = patient.painter->renderer().set_labels(patient.labels);
+                               !set) {
                              qFatal("%s", set.error().message.c_str());
                            }
                            view.label_opacity = 0.5;
@@ -240,6 +248,8 @@ void add_slices(std::map<std::string, Golden>& all) {
                                    {"rescaling", SpeedTerm::rescaling}}) {
     all[std::string("speed-") + name] = {"organ", slice([term = term](SliceView& view, Patient&) {
                                            view.content = SliceContent::speed;
+                                           view.surface = false;
+                                           view.zoom = 2.0;
                                            view.term = term;
                                          })};
   }
@@ -276,7 +286,8 @@ class GoldenTest : public QObject {
  private slots:
   void pictures_are_as_they_were_found_good_data() {
     QTest::addColumn<QString>("name");
-    for (const auto& [name, golden] : golden_pictures()) QTest::newRow(name.c_str()) << QString::fromStdString(name);
+    for (const auto& [name, golden] : golden_pictures())
+      QTest::newRow(name.c_str()) << QString::fromStdString(name);
   }
   void pictures_are_as_they_were_found_good() {
     QFETCH(QString, name);
@@ -296,7 +307,8 @@ class GoldenTest : public QObject {
     }
     const std::string driver = patient->painter->device().capabilities().version;
     if (driver.find(kDriver) == std::string::npos || !patient->painter->device().capabilities().software) {
-      QSKIP(qPrintable(QString("the golden pictures are those of %1, not of %2").arg(kDriver).arg(driver.c_str())));
+      QSKIP(qPrintable(
+          QString("the golden pictures are those of %1, not of %2").arg(kDriver).arg(driver.c_str())));
     }
     const Picture expected = read_png(std::filesystem::path(TIDEMARK_GOLDEN_PICTURES) / file);
     QVERIFY2(expected.width > 0, "there is no golden picture of that name");
