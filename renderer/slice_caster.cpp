@@ -60,16 +60,19 @@ Status SliceCaster::prepare(gpu::Device& device, const Scene& scene, const Slice
     framebuffer_ = std::move(*framebuffer);
     vertices_ = gpu::VertexArray::create(device);
   }
-  if (!phi_ || phi_->axis() != axis) {
+  auto& phi = phi_[static_cast<std::size_t>(axis.along)];
+  if (!phi) {
     auto stack = SliceStack::create(device, scene.phi.layout(), axis);
     if (!stack) return pass_on(stack);
-    phi_ = std::move(*stack);
+    phi = std::move(*stack);
   }
-  if (!source_ || source_->axis() != axis) {
+  auto& source = source_[static_cast<std::size_t>(axis.along)];
+  if (!source) {
     auto stack = SourceStack::create(device, scene.source, axis);
     if (!stack) return pass_on(stack);
-    source_ = std::move(*stack);
+    source = std::move(*stack);
   }
+  phi->begin(scene.table);
   return {};
 }
 
@@ -84,7 +87,6 @@ Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, 
   const glm::dmat4 view_from_voxel = glm::inverse(view.camera.voxel_from_view(geometry, size.aspect()));
   const double along = direction_in_voxels(view, geometry)[axis.along];
   Pace pace(device, progress);
-  phi_->begin(scene.table);
   framebuffer_.bind();
   gpu::clear_colours(1);
   const std::vector<Slab> all = slabs(axis.count(), along > 0.0);
@@ -93,7 +95,8 @@ Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, 
     const gpu::TexelRect pixels = bounds.pixels(slab.front_slice, slab.back_slice, slab.front_plane,
                                                 slab.back_plane, view_from_voxel, size);
     if (pixels.width == 0) continue;
-    if (auto status = show_slices(slab_program, scene, view, slab, units, pace); !status) return status;
+    if (auto status = show_slices(slab_program, scene, view, axis.along, slab, units, pace); !status)
+      return status;
     const double length = std::abs((slab.back_plane - slab.front_plane) / along);  // of a ray, in voxels
     const int steps = std::max(1, static_cast<int>(std::ceil(length / view.quality.step_voxels - 0.01)));
     if (auto status = draw_slab(slab_program, slab, steps, pixels, pace); !status) return status;
@@ -101,22 +104,29 @@ Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, 
   }
   if (auto status = pace.settle(); !status) return status;
   report_ = pace.report();
+  const bool in_one = report_.pieces == 0;  // a GPU is not waited for
   report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (in_one) {
+    report_.pieces = 1;
+    report_.longest_piece_seconds = report_.seconds;
+  }
   return device.check("drawing a picture from slices");
 }
 
 // Makes sure that the slab's two slices are there, and binds them.
 Status SliceCaster::show_slices(const gpu::Program& slab_program, const Scene& scene, const VolumeView& view,
-                                const Slab& slab, const Units& units, Pace& pace) {
+                                int axis, const Slab& slab, const Units& units, Pace& pace) {
+  SliceStack& phi = *phi_[static_cast<std::size_t>(axis)];
+  SourceStack& source = *source_[static_cast<std::size_t>(axis)];
   const bool by_phi = needs_phi(view);
   const bool by_source = needs_source(view);
   for (const std::int64_t slice : {slab.front_slice, slab.back_slice}) {
     if (by_phi) {
-      auto status = phi_->reconstruct(scene.phi, slice, units.phi, units.free, pace);
-      if (!status) return status;
+      if (auto status = phi.reconstruct(scene.phi, slice, units.phi, units.free, pace); !status)
+        return status;
     }
     if (by_source) {
-      if (auto status = source_->prepare(scene.source, slice, units.free, pace); !status) return status;
+      if (auto status = source.prepare(scene.source, slice, units.free, pace); !status) return status;
     }
   }
   slab_program.use();
@@ -126,12 +136,12 @@ Status SliceCaster::show_slices(const gpu::Program& slab_program, const Scene& s
     texture.bind(static_cast<unsigned>(next++));
   };
   if (by_phi) {
-    show("phi_front", phi_->texture(slab.front_slice));
-    show("phi_back", phi_->texture(slab.back_slice));
+    show("phi_front", phi.texture(slab.front_slice));
+    show("phi_back", phi.texture(slab.back_slice));
   }
   if (by_source) {
-    show("source_front", source_->texture(slab.front_slice));
-    show("source_back", source_->texture(slab.back_slice));
+    show("source_front", source.texture(slab.front_slice));
+    show("source_back", source.texture(slab.back_slice));
   }
   return {};
 }
