@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "renderer/slice_bounds.h"
 #include "renderer/uniforms.h"
 
 namespace tidemark {
@@ -73,6 +72,7 @@ Status SliceCaster::prepare(gpu::Device& device, const Scene& scene, const Slice
     source = std::move(*stack);
   }
   phi->begin(scene.table);
+  source->begin();
   return {};
 }
 
@@ -92,13 +92,18 @@ Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, 
   const std::vector<Slab> all = slabs(axis.count(), along > 0.0);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Slab& slab = all[i];
-    const gpu::TexelRect pixels = bounds.pixels(slab.front_slice, slab.back_slice, slab.front_plane,
-                                                slab.back_plane, view_from_voxel, size);
+    const SliceBounds::Across across = bounds.across(slab.front_slice, slab.back_slice);
+    if (across.empty()) continue;
+    const gpu::TexelRect pixels =
+        bounds.pixels(across, slab.front_plane, slab.back_plane, view_from_voxel, size);
     if (pixels.width == 0) continue;
-    if (auto status = show_slices(slab_program, scene, view, axis.along, slab, units, pace); !status)
+    if (auto status = show_slices(slab_program, scene, view, bounds, slab, units, pace); !status)
       return status;
     const double length = std::abs((slab.back_plane - slab.front_plane) / along);  // of a ray, in voxels
     const int steps = std::max(1, static_cast<int>(std::ceil(length / view.quality.step_voxels - 0.01)));
+    slab_program.set("low_across", glm::vec2(across.low));
+    slab_program.set("high_across", glm::vec2(across.high));
+    slab_program.set("steps", steps);
     if (auto status = draw_slab(slab_program, slab, steps, pixels, pace); !status) return status;
     progress(static_cast<double>(i + 1) / static_cast<double>(all.size()), "drawing");
   }
@@ -115,9 +120,10 @@ Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, 
 
 // Makes sure that the slab's two slices are there, and binds them.
 Status SliceCaster::show_slices(const gpu::Program& slab_program, const Scene& scene, const VolumeView& view,
-                                int axis, const Slab& slab, const Units& units, Pace& pace) {
-  SliceStack& phi = *phi_[static_cast<std::size_t>(axis)];
-  SourceStack& source = *source_[static_cast<std::size_t>(axis)];
+                                const SliceBounds& bounds, const Slab& slab, const Units& units, Pace& pace) {
+  const auto along = static_cast<std::size_t>(bounds.axis().along);
+  SliceStack& phi = *phi_[along];
+  SourceStack& source = *source_[along];
   const bool by_phi = needs_phi(view);
   const bool by_source = needs_source(view);
   for (const std::int64_t slice : {slab.front_slice, slab.back_slice}) {
@@ -126,7 +132,8 @@ Status SliceCaster::show_slices(const gpu::Program& slab_program, const Scene& s
         return status;
     }
     if (by_source) {
-      if (auto status = source.prepare(scene.source, slice, units.free, pace); !status) return status;
+      auto status = source.prepare(scene.source, slice, bounds.voxels(slice), units.free, pace);
+      if (!status) return status;
     }
   }
   slab_program.use();
@@ -152,7 +159,6 @@ Status SliceCaster::draw_slab(const gpu::Program& slab_program, const Slab& slab
   slab_program.set("back_slice", static_cast<float>(slab.back_slice));
   slab_program.set("front_plane", static_cast<float>(slab.front_plane));
   slab_program.set("back_plane", static_cast<float>(slab.back_plane));
-  slab_program.set("steps", steps);
   framebuffer_.bind();
   vertices_.bind();
   gpu::begin_exact_drawing();

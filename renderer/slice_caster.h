@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "renderer/slice_bounds.h"
 #include "renderer/slice_stack.h"
 #include "renderer/source_stack.h"
 #include "renderer/views.h"
@@ -45,8 +46,8 @@ class SliceCaster {
   };
   static std::vector<Slab> slabs(std::int64_t slices, bool forward);
   Status prepare(gpu::Device& device, const Scene& scene, const SliceAxis& axis, PictureSize size);
-  Status show_slices(const gpu::Program& slab_program, const Scene& scene, const VolumeView& view, int axis,
-                     const Slab& slab, const Units& units, Pace& pace);
+  Status show_slices(const gpu::Program& slab_program, const Scene& scene, const VolumeView& view,
+                     const SliceBounds& bounds, const Slab& slab, const Units& units, Pace& pace);
   Status draw_slab(const gpu::Program& slab_program, const Slab& slab, int steps,
                    const gpu::TexelRect& pixels, Pace& pace);
 
