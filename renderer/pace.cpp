@@ -13,7 +13,6 @@ constexpr double kWantedPiece = 0.3 * Canvas::kLongestPiece;
 }  // namespace
 
 Status Pace::before(double work) {
-  if (progress_.cancelled()) return cancelled_error();
   if (on_its_way_ > 0.0 && (on_its_way_ + work) * seconds_each_ > kWantedPiece) {
     if (auto status = settle(); !status) return status;
   }
@@ -37,6 +36,7 @@ Status Pace::settle() {
 
 Status Pace::things(std::int64_t count, std::int64_t fragments_each, double weight, const DrawSome& draw) {
   if (!device_.capabilities().software) {
+    if (progress_.cancelled()) return cancelled_error();
     draw(0, count);
     return {};
   }
@@ -44,6 +44,7 @@ Status Pace::things(std::int64_t count, std::int64_t fragments_each, double weig
   for (std::int64_t first = 0; first < count;) {
     const auto most = static_cast<std::int64_t>(kWantedPiece / (each * seconds_each_));
     const std::int64_t some = std::clamp<std::int64_t>(most, 1, count - first);
+    if (progress_.cancelled()) return cancelled_error();
     if (auto status = before(each * static_cast<double>(some)); !status) return status;
     draw(first, some);
     first += some;

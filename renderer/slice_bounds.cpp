@@ -60,24 +60,43 @@ SliceBounds::SliceBounds(const SliceAxis& axis, const PageLayout& pages, const V
   }
 }
 
-gpu::TexelRect SliceBounds::pixels(std::int64_t slice_a, std::int64_t slice_b, double plane_a, double plane_b,
-                                   const glm::dmat4& view_from_voxel, PictureSize size) const {
+gpu::TexelRect SliceBounds::voxels(std::int64_t slice) const {
+  Rect pages = layer_of(slice);
+  pages.include(layer_of(std::max<std::int64_t>(slice - 1, 0)));
+  pages.include(layer_of(std::min(slice + 1, axis_.count() - 1)));
+  if (pages.empty()) return {};
+  // Filtering reaches a voxel further.
   const Index3 shape = pages_.page_shape();
-  Rect pages = layers_[static_cast<std::size_t>(slice_a / shape[axis_.along])];
-  pages.include(layers_[static_cast<std::size_t>(slice_b / shape[axis_.along])]);
+  const auto begin = [&](std::int64_t page, int axis) {
+    return std::max<std::int64_t>(page * shape[axis] - 1, 0);
+  };
+  const auto end = [&](std::int64_t page, int axis) {
+    return std::min((page + 1) * shape[axis] + 1, axis_.size[axis]);
+  };
+  gpu::TexelRect rect{begin(pages.low_u, axis_.u()), begin(pages.low_v, axis_.v())};
+  rect.width = end(pages.high_u, axis_.u()) - rect.x;
+  rect.height = end(pages.high_v, axis_.v()) - rect.y;
+  return rect;
+}
+
+SliceBounds::Across SliceBounds::across(std::int64_t slice_a, std::int64_t slice_b) const {
+  Rect pages = layer_of(slice_a);
+  pages.include(layer_of(slice_b));
   if (pages.empty()) return {};
   // Voxels reach half a voxel beyond their centres.
-  const auto begin = [&](std::int64_t page, int axis) {
-    return static_cast<double>(page * shape[axis]) - 0.5;
-  };
-  const std::array<double, 2> us{begin(pages.low_u, axis_.u()), begin(pages.high_u + 1, axis_.u())};
-  const std::array<double, 2> vs{begin(pages.low_v, axis_.v()), begin(pages.high_v + 1, axis_.v())};
+  const glm::dvec2 shape(pages_.page_shape()[axis_.u()], pages_.page_shape()[axis_.v()]);
+  return {glm::dvec2(pages.low_u, pages.low_v) * shape - 0.5,
+          glm::dvec2(pages.high_u + 1, pages.high_v + 1) * shape - 0.5};
+}
+
+gpu::TexelRect SliceBounds::pixels(const Across& across, double plane_a, double plane_b,
+                                   const glm::dmat4& view_from_voxel, PictureSize size) const {
   glm::dvec2 low(1e30);
   glm::dvec2 high(-1e30);
   for (int corner = 0; corner < 8; ++corner) {
     glm::dvec4 p(0.0, 0.0, 0.0, 1.0);
-    p[axis_.u()] = us[static_cast<std::size_t>(corner & 1)];
-    p[axis_.v()] = vs[static_cast<std::size_t>(corner >> 1 & 1)];
+    p[axis_.u()] = (corner & 1) != 0 ? across.high.x : across.low.x;
+    p[axis_.v()] = (corner & 2) != 0 ? across.high.y : across.low.y;
     p[axis_.along] = corner < 4 ? plane_a : plane_b;
     const glm::dvec2 pixel =
         (glm::dvec2(view_from_voxel * p) * 0.5 + 0.5) * glm::dvec2(size.width, size.height);

@@ -25,10 +25,19 @@ class SliceBounds {
               const Geometry& geometry, std::span<const PhysicalPage> table,
               std::span<const glm::vec4> opacity);
 
-  // The pixels of what is between two planes across the axis and near these slices; empty when nothing shows.
-  [[nodiscard]] gpu::TexelRect pixels(std::int64_t slice_a, std::int64_t slice_b, double plane_a,
-                                      double plane_b, const glm::dmat4& view_from_voxel,
-                                      PictureSize size) const;
+  [[nodiscard]] const SliceAxis& axis() const { return axis_; }
+  // The part of a slice that what shows beside it is interpolated from.
+  [[nodiscard]] gpu::TexelRect voxels(std::int64_t slice) const;
+  // What shows between two slices, along a slice's own axes, in voxel coordinates; empty when nothing does.
+  struct Across {
+    glm::dvec2 low{0.0};
+    glm::dvec2 high{0.0};
+    [[nodiscard]] bool empty() const { return low.x >= high.x; }
+  };
+  [[nodiscard]] Across across(std::int64_t slice_a, std::int64_t slice_b) const;
+  // The pixels of that between two planes across the axis; empty when it is out of the picture.
+  [[nodiscard]] gpu::TexelRect pixels(const Across& across, double plane_a, double plane_b,
+                                      const glm::dmat4& view_from_voxel, PictureSize size) const;
 
  private:
   struct Rect {  // pages of a layer
@@ -36,6 +45,10 @@ class SliceBounds {
     [[nodiscard]] bool empty() const { return low_u > high_u; }
     void include(const Rect& other);
   };
+  [[nodiscard]] const Rect& layer_of(std::int64_t slice) const {
+    return layers_[static_cast<std::size_t>(slice / pages_.page_shape()[axis_.along])];
+  }
+
   SliceAxis axis_;
   PageLayout pages_;
   std::vector<Rect> layers_;

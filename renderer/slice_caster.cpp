@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "renderer/slice_bounds.h"
 #include "renderer/uniforms.h"
 
 namespace tidemark {
@@ -60,16 +59,20 @@ Status SliceCaster::prepare(gpu::Device& device, const Scene& scene, const Slice
     framebuffer_ = std::move(*framebuffer);
     vertices_ = gpu::VertexArray::create(device);
   }
-  if (!phi_ || phi_->axis() != axis) {
+  auto& phi = phi_[static_cast<std::size_t>(axis.along)];
+  if (!phi) {
     auto stack = SliceStack::create(device, scene.phi.layout(), axis);
     if (!stack) return pass_on(stack);
-    phi_ = std::move(*stack);
+    phi = std::move(*stack);
   }
-  if (!source_ || source_->axis() != axis) {
+  auto& source = source_[static_cast<std::size_t>(axis.along)];
+  if (!source) {
     auto stack = SourceStack::create(device, scene.source, axis);
     if (!stack) return pass_on(stack);
-    source_ = std::move(*stack);
+    source = std::move(*stack);
   }
+  phi->begin(scene.table);
+  source->begin();
   return {};
 }
 
@@ -84,39 +87,53 @@ Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, 
   const glm::dmat4 view_from_voxel = glm::inverse(view.camera.voxel_from_view(geometry, size.aspect()));
   const double along = direction_in_voxels(view, geometry)[axis.along];
   Pace pace(device, progress);
-  phi_->begin(scene.table);
   framebuffer_.bind();
   gpu::clear_colours(1);
   const std::vector<Slab> all = slabs(axis.count(), along > 0.0);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Slab& slab = all[i];
-    const gpu::TexelRect pixels = bounds.pixels(slab.front_slice, slab.back_slice, slab.front_plane,
-                                                slab.back_plane, view_from_voxel, size);
+    const SliceBounds::Across across = bounds.across(slab.front_slice, slab.back_slice);
+    if (across.empty()) continue;
+    const gpu::TexelRect pixels =
+        bounds.pixels(across, slab.front_plane, slab.back_plane, view_from_voxel, size);
     if (pixels.width == 0) continue;
-    if (auto status = show_slices(slab_program, scene, view, slab, units, pace); !status) return status;
+    if (auto status = show_slices(slab_program, scene, view, bounds, slab, units, pace); !status)
+      return status;
     const double length = std::abs((slab.back_plane - slab.front_plane) / along);  // of a ray, in voxels
     const int steps = std::max(1, static_cast<int>(std::ceil(length / view.quality.step_voxels - 0.01)));
+    slab_program.set("low_across", glm::vec2(across.low));
+    slab_program.set("high_across", glm::vec2(across.high));
+    slab_program.set("steps", steps);
     if (auto status = draw_slab(slab_program, slab, steps, pixels, pace); !status) return status;
     progress(static_cast<double>(i + 1) / static_cast<double>(all.size()), "drawing");
   }
   if (auto status = pace.settle(); !status) return status;
   report_ = pace.report();
+  const bool in_one = report_.pieces == 0;  // a GPU is not waited for
   report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (in_one) {
+    report_.pieces = 1;
+    report_.longest_piece_seconds = report_.seconds;
+  }
   return device.check("drawing a picture from slices");
 }
 
 // Makes sure that the slab's two slices are there, and binds them.
 Status SliceCaster::show_slices(const gpu::Program& slab_program, const Scene& scene, const VolumeView& view,
-                                const Slab& slab, const Units& units, Pace& pace) {
+                                const SliceBounds& bounds, const Slab& slab, const Units& units, Pace& pace) {
+  const auto along = static_cast<std::size_t>(bounds.axis().along);
+  SliceStack& phi = *phi_[along];
+  SourceStack& source = *source_[along];
   const bool by_phi = needs_phi(view);
   const bool by_source = needs_source(view);
   for (const std::int64_t slice : {slab.front_slice, slab.back_slice}) {
     if (by_phi) {
-      auto status = phi_->reconstruct(scene.phi, slice, units.phi, units.free, pace);
-      if (!status) return status;
+      if (auto status = phi.reconstruct(scene.phi, slice, units.phi, units.free, pace); !status)
+        return status;
     }
     if (by_source) {
-      if (auto status = source_->prepare(scene.source, slice, units.free, pace); !status) return status;
+      auto status = source.prepare(scene.source, slice, bounds.voxels(slice), units.free, pace);
+      if (!status) return status;
     }
   }
   slab_program.use();
@@ -126,12 +143,12 @@ Status SliceCaster::show_slices(const gpu::Program& slab_program, const Scene& s
     texture.bind(static_cast<unsigned>(next++));
   };
   if (by_phi) {
-    show("phi_front", phi_->texture(slab.front_slice));
-    show("phi_back", phi_->texture(slab.back_slice));
+    show("phi_front", phi.texture(slab.front_slice));
+    show("phi_back", phi.texture(slab.back_slice));
   }
   if (by_source) {
-    show("source_front", source_->texture(slab.front_slice));
-    show("source_back", source_->texture(slab.back_slice));
+    show("source_front", source.texture(slab.front_slice));
+    show("source_back", source.texture(slab.back_slice));
   }
   return {};
 }
@@ -142,7 +159,6 @@ Status SliceCaster::draw_slab(const gpu::Program& slab_program, const Slab& slab
   slab_program.set("back_slice", static_cast<float>(slab.back_slice));
   slab_program.set("front_plane", static_cast<float>(slab.front_plane));
   slab_program.set("back_plane", static_cast<float>(slab.back_plane));
-  slab_program.set("steps", steps);
   framebuffer_.bind();
   vertices_.bind();
   gpu::begin_exact_drawing();

@@ -1,9 +1,11 @@
 // Volume rendering from slices, front to back (paper section 5): a slab between two slices at a time.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
+#include "renderer/slice_bounds.h"
 #include "renderer/slice_stack.h"
 #include "renderer/source_stack.h"
 #include "renderer/views.h"
@@ -45,15 +47,15 @@ class SliceCaster {
   static std::vector<Slab> slabs(std::int64_t slices, bool forward);
   Status prepare(gpu::Device& device, const Scene& scene, const SliceAxis& axis, PictureSize size);
   Status show_slices(const gpu::Program& slab_program, const Scene& scene, const VolumeView& view,
-                     const Slab& slab, const Units& units, Pace& pace);
+                     const SliceBounds& bounds, const Slab& slab, const Units& units, Pace& pace);
   Status draw_slab(const gpu::Program& slab_program, const Slab& slab, int steps,
                    const gpu::TexelRect& pixels, Pace& pace);
 
   gpu::Texture2D layers_;
   gpu::Framebuffer framebuffer_;
   gpu::VertexArray vertices_;
-  std::optional<SliceStack> phi_;
-  std::optional<SourceStack> source_;
+  std::array<std::optional<SliceStack>, 3> phi_;  // by axis, made when first needed
+  std::array<std::optional<SourceStack>, 3> source_;
   DrawReport report_;
 };
 

@@ -23,7 +23,6 @@ class SliceStack {
   // Makes sure that a slice is there. Units: three of phi's, one of the list of pages.
   Status reconstruct(const PhiPicture& phi, std::int64_t slice, int phi_unit, int list_unit, Pace& pace);
 
-  [[nodiscard]] const SliceAxis& axis() const { return axis_; }
   [[nodiscard]] const gpu::Texture2D& texture(std::int64_t slice) const { return pair_.texture(slice); }
 
  private:

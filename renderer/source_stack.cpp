@@ -90,7 +90,8 @@ Status SourceStack::send(const Volume& source, std::int64_t slice, Pace& pace) {
   return {};
 }
 
-Status SourceStack::prepare(const Volume& source, std::int64_t slice, int unit, Pace& pace) {
+Status SourceStack::prepare(const Volume& source, std::int64_t slice, const gpu::TexelRect& part, int unit,
+                            Pace& pace) {
   constexpr double kWeight = 0.3;  // of a fragment, beside one of a slab
   if (pair_.holds(slice)) return {};
   const std::array<std::int64_t, 3> slices{std::max<std::int64_t>(slice - 1, 0), slice,
@@ -109,12 +110,10 @@ Status SourceStack::prepare(const Volume& source, std::int64_t slice, int unit, 
     stored_[static_cast<std::size_t>(one % 3)].texture.bind(static_cast<unsigned>(next));
     program_.set(name, next++);
   }
-  Status drawn = pace.rectangle(axis_.rect(), kWeight, [](const gpu::TexelRect& part) {
-    const gpu::ScissorScope scissor(part);
+  return pace.rectangle(part, kWeight, [](const gpu::TexelRect& piece) {
+    const gpu::ScissorScope scissor(piece);
     gpu::draw(gpu::Primitive::triangles, 3);
   });
-  if (!drawn) pair_.forget();
-  return drawn;
 }
 
 }  // namespace tidemark

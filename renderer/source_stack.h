@@ -20,10 +20,11 @@ class SourceStack {
   SourceStack() = default;
   static Result<SourceStack> create(gpu::Device& device, const Volume& source, const SliceAxis& axis);
 
-  // Makes sure that a slice is there. `source` is that of create(). Uses three units.
-  Status prepare(const Volume& source, std::int64_t slice, int unit, Pace& pace);
+  // Begins a picture.
+  void begin() { pair_.forget(); }
+  // Makes sure that a slice is there, at least its `part`. `source` is that of create(). Uses three units.
+  Status prepare(const Volume& source, std::int64_t slice, const gpu::TexelRect& part, int unit, Pace& pace);
 
-  [[nodiscard]] const SliceAxis& axis() const { return axis_; }
   [[nodiscard]] const gpu::Texture2D& texture(std::int64_t slice) const { return pair_.texture(slice); }
 
  private:

@@ -17,6 +17,8 @@ out vec4 fragment;  // premultiplied
 uniform mat4 voxel_from_view;  // from the view's cube to voxel coordinates
 uniform float front_plane;     // the slab's ends: voxel coordinates along the axis
 uniform float back_plane;
+uniform vec2 low_across;       // and where anything shows in it: along the slices' own axes
+uniform vec2 high_across;
 uniform int steps;
 
 // A place of the ray with what the slices say of it.
@@ -54,8 +56,12 @@ void main() {
   vec2 whole = begin_ray(voxel_from_view, view_position, spacing);
   clip_ray(whole);
   vec2 planes = (vec2(front_plane, back_plane) - ray_start.ALONG) / ray_direction.ALONG;
-  float begin = max(planes.x, whole.x);
-  float end = min(planes.y, whole.y);
+  vec2 to_low = (low_across - ray_start.ACROSS) * ray_inverse.ACROSS;
+  vec2 to_high = (high_across - ray_start.ACROSS) * ray_inverse.ACROSS;
+  vec2 enter = min(to_low, to_high);
+  vec2 leave = max(to_low, to_high);
+  float begin = max(max(planes.x, whole.x), max(enter.x, enter.y));
+  float end = min(min(planes.y, whole.y), min(leave.x, leave.y));
   float step_length = (planes.y - planes.x) / float(steps);
   bool meets_picture = cut >= begin && cut < end;
   if (meets_picture) end = cut;

@@ -11,12 +11,11 @@ uniform vec2 source_scale;  // value = x * texel + y
 out vec4 value_and_gradient;
 
 void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  ivec2 last = textureSize(stored, 0) - 1;
+  vec2 at = gl_FragCoord.xy / vec2(textureSize(stored, 0));
   const ivec2 u = ivec2(1, 0);
   vec3 gradient;
-  gradient.ACROSS = vec2(texelFetch(stored, min(at + u.xy, last), 0).r - texelFetch(stored, max(at - u.xy, ivec2(0)), 0).r,
-                         texelFetch(stored, min(at + u.yx, last), 0).r - texelFetch(stored, max(at - u.yx, ivec2(0)), 0).r);
-  gradient.ALONG = texelFetch(stored_behind, at, 0).r - texelFetch(stored_before, at, 0).r;
-  value_and_gradient = vec4(source_scale.x * texelFetch(stored, at, 0).r + source_scale.y, 0.5 * source_scale.x * gradient);
+  gradient.ACROSS = vec2(textureLodOffset(stored, at, 0.0, u.xy).r - textureLodOffset(stored, at, 0.0, -u.xy).r,
+                         textureLodOffset(stored, at, 0.0, u.yx).r - textureLodOffset(stored, at, 0.0, -u.yx).r);
+  gradient.ALONG = textureLod(stored_behind, at, 0.0).r - textureLod(stored_before, at, 0.0).r;
+  value_and_gradient = vec4(source_scale.x * textureLod(stored, at, 0.0).r + source_scale.y, 0.5 * source_scale.x * gradient);
 }
