@@ -17,5 +17,6 @@ void main() {
   gradient.ACROSS = vec2(textureLodOffset(stored, at, 0.0, u.xy).r - textureLodOffset(stored, at, 0.0, -u.xy).r,
                          textureLodOffset(stored, at, 0.0, u.yx).r - textureLodOffset(stored, at, 0.0, -u.yx).r);
   gradient.ALONG = textureLod(stored_behind, at, 0.0).r - textureLod(stored_before, at, 0.0).r;
-  value_and_gradient = vec4(source_scale.x * textureLod(stored, at, 0.0).r + source_scale.y, 0.5 * source_scale.x * gradient);
+  float value = source_scale.x * textureLod(stored, at, 0.0).r + source_scale.y;
+  value_and_gradient = vec4(value, 0.5 * source_scale.x * gradient);
 }
