@@ -17,7 +17,8 @@ class TransferFunctionTest : public QObject {
     for (const std::string& name : names) {
       const auto function = preset(name);
       QVERIFY2(function.has_value(), name.c_str());
-      QVERIFY(!function->name.empty() && !function->source.empty());
+      QVERIFY(!function->name.empty());
+      QVERIFY(!function->source.empty() || !function->surface.empty());
     }
     const auto unknown = preset("ct-none");
     QCOMPARE(unknown.error().kind, ErrorKind::usage);
@@ -41,6 +42,18 @@ class TransferFunctionTest : public QObject {
     QCOMPARE(function->surface.size(), std::size_t{1});
     QCOMPARE(function->surface[0].distance.start, 20.0);
     QCOMPARE(function->surface[0].opacity, 0.7);
+  }
+
+  void relative_values_are_shares_of_the_common_range() {
+    const auto function = TransferFunction::parse(
+        R"({"relative": true, "source": [{"value": {"gaussian": [0.5, 0.1]}, "gradient": {"ramp": [0, 0.25]},
+            "phi": {"ramp": [-1, 1]}, "opacity": 1, "colour": [1, 1, 1]}]})");
+    QCOMPARE(failure(function), QString());
+    const TransferFunction own = function->for_range(-100.0, 300.0);
+    QVERIFY((own.source[0].value == TransferFactor{TransferFactor::Kind::gaussian, 100.0, 40.0}));
+    QVERIFY((own.source[0].gradient == TransferFactor{TransferFactor::Kind::ramp, 0.0, 100.0}));
+    QVERIFY(own.source[0].phi == function->source[0].phi);
+    QVERIFY(own.for_range(0.0, 1.0) == own);
   }
 
   void nothing_in_a_range_is_more_opaque_than_its_bound() {
@@ -70,6 +83,7 @@ class TransferFunctionTest : public QObject {
       QTest::newRow(name) << text << QString(named);
     };
     row("no JSON", "{", "not a JSON object");
+    row("relative", R"({"relative": 1, "source": []})", "relative: true or false");
     row("nothing", "{}", "neither 'source' nor 'surface'");
     row("no list", R"({"source": 3})", "source: a list");
     row("no object", R"({"source": [3]})", "source[0]: an object");
