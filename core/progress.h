@@ -17,6 +17,16 @@ struct Progress {
   void operator()(double fraction, std::string_view what) const {
     if (report) report(fraction, what);
   }
+  // Of the index-th of `count` equal parts of this work.
+  [[nodiscard]] Progress part(int index, int count) const {
+    Progress one{nullptr, stop};
+    if (report) {
+      one.report = [all = report, index, count](double fraction, std::string_view what) {
+        all((index + fraction) / count, what);
+      };
+    }
+    return one;
+  }
   [[nodiscard]] bool cancelled() const { return stop.stop_requested(); }
 };
 

@@ -153,9 +153,6 @@ void PhiPicture::upload_flags(std::span<const std::int64_t> quiet, std::int64_t 
 
 Status PhiPicture::look_at(gpu::Device& device, const PackedView& view,
                            const std::optional<std::vector<std::int64_t>>& quiet) {
-  if (view.layout.defines() != layout().defines() || view.band != static_cast<float>(shown_.band)) {
-    return fail(ErrorKind::usage, "pictures and executor differ in pages or in the band");
-  }
   // Executors give their buffer a new place when it grows.
   auto table =
       gpu::BufferTexture::create(device, *view.page_table, gpu::TexelFormat::r32i, "executor's page table");
@@ -163,7 +160,10 @@ Status PhiPicture::look_at(gpu::Device& device, const PackedView& view,
   std::vector<PhysicalPage> before = viewed_ ? std::move(viewed_->entries) : std::vector<PhysicalPage>();
   viewed_ = Viewed{view, std::move(*table), {}};
   pages_uploaded_ = 0;
-  if (!quiet) return {};
+  if (!quiet) {
+    viewed_->entries = std::move(before);
+    return {};
+  }
   viewed_->entries = page_entries();
   new_pages_.clear();
   std::int64_t resident = 0;

@@ -28,8 +28,8 @@ class PhiPicture {
   Status update(gpu::Device& device, const Field& phi, std::span<const std::int64_t> quiet);
 
   // Looks at an executor's own memory from now on; to be called again after each run of steps. With `quiet`,
-  // what pages do is found out, too, for which the page table is read back. Fails (ErrorKind::usage) on
-  // another layout or band.
+  // what pages do is found out, too, for which the page table is read back. The view has the
+  // layout and the band of create().
   Status look_at(gpu::Device& device, const PackedView& view,
                  const std::optional<std::vector<std::int64_t>>& quiet);
 

@@ -13,7 +13,7 @@ std::optional<Pass> QualityControl::next(PictureSize full) const {
   if (still_pictures_ >= 0) {
     Quality quality;
     quality.round = still_pictures_;
-    return Pass{full, quality};
+    return Pass{full, quality, false};
   }
   // The first picture of a study tells how long its pixels take; it is small to be safe.
   std::int64_t divisor = kSmallest;
@@ -26,16 +26,17 @@ std::optional<Pass> QualityControl::next(PictureSize full) const {
   }
   return Pass{
       {std::max<std::int64_t>(1, full.width / divisor), std::max<std::int64_t>(1, full.height / divisor)},
-      kMovingQuality};
+      kMovingQuality,
+      true};
 }
 
 void QualityControl::drawn(const Pass& pass, double seconds) {
-  if (still_pictures_ < 0) {
+  if (pass.moving) {
     const double measured = seconds / static_cast<double>(pass.size.width * pass.size.height);
     // Half of what it was before: one slow picture on a busy machine does not make the next ones coarse.
     pixel_seconds_ = pixel_seconds_ ? 0.5 * (*pixel_seconds_ + measured) : measured;
   }
-  ++still_pictures_;
+  if (pass.moving == (still_pictures_ < 0)) ++still_pictures_;
 }
 
 void PictureMean::add(const Picture& picture) {

@@ -13,6 +13,7 @@ namespace tidemark {
 struct Pass {
   PictureSize size;
   Quality quality;
+  bool moving = false;
 };
 
 class QualityControl {
@@ -27,7 +28,8 @@ class QualityControl {
   void moved();
   // What to draw now for a view of `full` physical pixels; none when the picture is finished.
   [[nodiscard]] std::optional<Pass> next(PictureSize full) const;
-  // That is drawn and took so long.
+  // That is drawn and took so long. When the view moved meanwhile, it does not count as a picture of the new
+  // one.
   void drawn(const Pass& pass, double seconds);
 
  private:

@@ -86,8 +86,11 @@ Status Renderer::set_phi(const Field& phi, std::span<const std::int64_t> quiet) 
 }
 
 Status Renderer::look_at(const PackedView& view, const std::optional<std::vector<std::int64_t>>& quiet) {
+  if (view.layout.layout() != phi_.layout().layout()) {
+    return fail(ErrorKind::usage, "pictures and executor differ in pages");
+  }
   if (auto status = device_->make_current(); !status) return status;
-  if (static_cast<double>(view.band) != phi_.band()) {
+  if (view.band != static_cast<float>(phi_.band())) {
     auto anew = PhiPicture::create(*device_, phi_.layout().layout(), static_cast<double>(view.band));
     if (!anew) return pass_on(anew);
     phi_ = std::move(*anew);

@@ -40,8 +40,9 @@ class Renderer {
   // unless phi has the layout and the grid of create().
   Status set_phi(const Field& phi, std::span<const std::int64_t> quiet = {});
   // Draws from now on what an executor on this device keeps on the GPU (Executor::packed_view()); to be
-  // called again after each run of steps. With `quiet` (Executor::quiet_pages()) the page views are right,
-  // too. Fails (ErrorKind::usage) unless the pages are those of create().
+  // called again after each run of steps, and before any picture once the executor was told something. With
+  // `quiet` (Executor::quiet_pages()) the page views are right, too. Fails (ErrorKind::usage) unless the
+  // pages are those of create().
   Status look_at(const PackedView& view,
                  const std::optional<std::vector<std::int64_t>>& quiet = std::nullopt);
   // What the speed's terms are computed from.

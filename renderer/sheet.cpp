@@ -33,10 +33,14 @@ Result<Picture> draw_annotated(Renderer& renderer, const SliceView& view, Pictur
 
 Result<Picture> draw_still(Renderer& renderer, const VolumeView& view, PictureSize size,
                            const Progress& progress) {
+  // Many pixels need no rounds to look smooth.
+  constexpr std::int64_t kManyPixels = 4'000'000;
+  const int rounds = size.width * size.height > kManyPixels ? 1 : QualityControl::kRounds;
   PictureMean mean;
   VolumeView one = view;
-  for (one.quality.round = 0; one.quality.round < QualityControl::kRounds; ++one.quality.round) {
-    const auto picture = renderer.draw(one, size, progress);
+  for (int round = 0; round < rounds; ++round) {
+    one.quality.round = round;
+    const auto picture = renderer.draw(one, size, progress.part(round, rounds));
     if (!picture) return picture;
     mean.add(*picture);
   }
@@ -64,11 +68,13 @@ Result<Picture> draw_sheet(Renderer& renderer, const SheetView& view, PictureSiz
   SliceView slice;
   slice.position_mm = view.position_mm;
   slice.window = view.window;
+  constexpr int kPictures = 5;
+  int pictures = 0;
   std::int64_t column = 0;
   const auto left = [&](std::int64_t at) { return at * (part.width + kGap); };
   for (const SliceOrientation& orientation : {kAxial, kCoronal, kSagittal}) {
     slice.orientation = orientation;
-    const auto picture = draw_annotated(renderer, slice, part, progress);
+    const auto picture = draw_annotated(renderer, slice, part, progress.part(pictures++, kPictures));
     if (!picture) return picture;
     copy_into(whole, *picture, left(column++), 0);
   }
@@ -77,13 +83,13 @@ Result<Picture> draw_sheet(Renderer& renderer, const SheetView& view, PictureSiz
     slice.orientation = kAxial;
     slice.content = SliceContent::speed;
     slice.term = view.term;
-    const auto picture = draw_annotated(renderer, slice, part, progress);
+    const auto picture = draw_annotated(renderer, slice, part, progress.part(pictures++, kPictures));
     if (!picture) return picture;
     copy_into(whole, *picture, 0, part.height + kGap);
     columns_left = 2;
   }
   const PictureSize wide{columns_left * part.width + (columns_left - 1) * kGap, part.height};
-  const auto picture = draw_annotated(renderer, view.volume, wide, progress);
+  const auto picture = draw_annotated(renderer, view.volume, wide, progress.part(pictures++, kPictures));
   if (!picture) return picture;
   copy_into(whole, *picture, left(3 - columns_left), part.height + kGap);
   return whole;
@@ -102,7 +108,10 @@ glm::dvec3 middle_of(const Mask& mask) {
       }
     }
   }
-  return found == 0 ? middle_of(mask.geometry) : mask.geometry.to_patient(sum / static_cast<double>(found));
+  // A slice that was taken, not a mixture of two.
+  const glm::dvec3 middle =
+      found == 0 ? 0.5 * glm::dvec3(size - Index3(1)) : sum / static_cast<double>(found);
+  return mask.geometry.to_patient(glm::floor(middle + 0.5));
 }
 
 Box box_around(const Field& phi) {
@@ -131,7 +140,7 @@ WindowLevel window_of(const Volume& source) {
   if (source.window) return *source.window;
   const auto [low, high] = source.common_range();
   return {0.5 * (static_cast<double>(low) + static_cast<double>(high)),
-          std::max(1e-6, static_cast<double>(high) - static_cast<double>(low))};
+          high > low ? static_cast<double>(high) - static_cast<double>(low) : 1.0};
 }
 
 }  // namespace tidemark

@@ -33,7 +33,7 @@ SliceBounds::SliceBounds(const SliceAxis& axis, const PageLayout& pages, const V
     : axis_(axis), pages_(pages), layers_(static_cast<std::size_t>(pages.pages()[axis.along])) {
   const bool by_source = shows_source(view);
   const auto source_shows = [&](std::int64_t number) {
-    constexpr float kLeastOpacity = 1e-4F;  // as in render/events.glsl
+    constexpr float kLeastOpacity = 1e-6F;  // as in render/events.glsl
     const PhysicalPage physical = table[static_cast<std::size_t>(number)];
     const glm::vec4 most = opacity[static_cast<std::size_t>(number)];
     return (physical == kOutsidePage ? most.x : physical == kInsidePage ? most.y : most.z) > kLeastOpacity;
@@ -41,7 +41,12 @@ SliceBounds::SliceBounds(const SliceAxis& axis, const PageLayout& pages, const V
   const VoxelPlane plane = view.clip ? clip_plane_in_voxels(*view.clip, geometry) : VoxelPlane();
   const glm::dvec3 half = 0.5 * glm::dvec3(pages.page_shape());
   for (std::int64_t number = 0; number < pages.page_count(); ++number) {
-    bool surface = view.surface && !is_static_page(table[static_cast<std::size_t>(number)]);
+    const Index3 page = pages.page_coordinates(number);
+    const PhysicalPage physical = table[static_cast<std::size_t>(number)];
+    // Where the inside meets the volume's border the surface is closed.
+    const bool at_border =
+        glm::any(glm::equal(page, Index3(0))) || glm::any(glm::equal(page, pages.pages() - Index3(1)));
+    bool surface = view.surface && (!is_static_page(physical) || (physical == kInsidePage && at_border));
     bool source = by_source && source_shows(number);
     bool picture = false;
     if (view.clip) {
@@ -53,7 +58,6 @@ SliceBounds::SliceBounds(const SliceAxis& axis, const PageLayout& pages, const V
       picture = view.clip->picture && std::abs(beyond) <= reach;
     }
     if (!surface && !source && !picture) continue;
-    const Index3 page = pages.page_coordinates(number);
     const std::int64_t u = page[axis.u()];
     const std::int64_t v = page[axis.v()];
     layers_[static_cast<std::size_t>(page[axis.along])].include({u, v, u, v});

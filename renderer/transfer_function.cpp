@@ -56,7 +56,10 @@ Status read_material(const Json& object, const std::string& where, Primitive& re
     return fail(ErrorKind::input, "{}.opacity: a number is needed", where);
   }
   result.opacity = opacity.get<double>();
-  if (result.opacity < 0.0) return fail(ErrorKind::input, "{}.opacity: must not be negative", where);
+  constexpr double kMostOpacity = 1e6;
+  if (result.opacity < 0.0 || result.opacity > kMostOpacity) {
+    return fail(ErrorKind::input, "{}.opacity: must be 0 to {}", where, kMostOpacity);
+  }
   const Json colour = object.value("colour", Json::array());
   if (!colour.is_array() || colour.size() != 3 ||
       !std::all_of(colour.begin(), colour.end(), [](const Json& c) { return c.is_number(); })) {
@@ -159,6 +162,11 @@ double TransferFunction::most_opacity(double low, double high, double low_phi, d
 Result<TransferFunction> TransferFunction::parse(std::string_view json) {
   const Json document = Json::parse(json, nullptr, false);
   if (!document.is_object()) return fail(ErrorKind::input, "not a JSON object");
+  for (const auto& [key, value] : document.items()) {
+    if (key != "name" && key != "relative" && key != "source" && key != "surface") {
+      return fail(ErrorKind::input, "{}: unknown", key);
+    }
+  }
   TransferFunction function;
   if (document.contains("name") && document["name"].is_string()) function.name = document["name"];
   if (document.contains("relative")) {
@@ -185,7 +193,9 @@ Result<TransferFunction> TransferFunction::parse(std::string_view json) {
 
 Result<TransferFunction> TransferFunction::load(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) return fail(ErrorKind::input, "{}: cannot be read", file.string());
+  std::error_code ignored;
+  if (!stream || !std::filesystem::is_regular_file(file, ignored))
+    return fail(ErrorKind::input, "{}: cannot be read", file.string());
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   auto function = parse(text);
   if (!function) return fail(function.error().kind, "{}: {}", file.string(), function.error().message);

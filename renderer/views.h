@@ -40,7 +40,7 @@ enum class SliceContent { source, speed, pages };
 
 // How much work goes into a volume rendering.
 struct Quality {
-  double step_voxels = 1.0;    // along a ray, in the smallest voxels' units
+  double step_voxels = 1.0;    // along a ray
   bool fast_gradient = false;  // lights the source from differences to one side
   int round = 0;  // pictures of other rounds have their rays and samples at other places, for taking means
   bool skip_empty = true;  // false only to find out what skipping saves

@@ -131,7 +131,12 @@ Result<Camera> parse_camera(const std::string& text) {
     camera.azimuth = (*numbers)[0];
     camera.elevation = (*numbers)[1];
     if (count == 3) camera.zoom = (*numbers)[2];
-    if (camera.zoom > 0.0) return camera;
+    constexpr double kMostZoom = 1000.0;
+    constexpr double kMostDegrees = 3600.0;
+    if (camera.zoom >= 1.0 / kMostZoom && camera.zoom <= kMostZoom &&
+        std::abs(camera.azimuth) <= kMostDegrees && std::abs(camera.elevation) <= kMostDegrees) {
+      return camera;
+    }
   }
   return fail(ErrorKind::usage, "--camera {}: AZIMUTH,ELEVATION[,ZOOM] is needed, in degrees", text);
 }
@@ -152,8 +157,11 @@ Result<Field> surface_of(const RenderOptions& options, const Volume& source, Con
     auto values = onto_grid(*phi, source.geometry, options.phi);
     if (!values) return pass_on(values);
     const auto [low, high] = phi->range();
+    if (low > 0.0F || high <= 0.0F)
+      return fail(ErrorKind::input, "{}: phi has one sign: there is no surface", options.phi);
+    // Distances beyond the band add nothing to a picture, and would make pages of the whole volume.
     return Field::from_dense(source.geometry, *values,
-                             static_cast<double>(std::max(std::abs(low), std::abs(high))));
+                             std::min(band, static_cast<double>(std::max(-low, high))));
   }
   return Field::empty(source.geometry, band);
 }
@@ -186,18 +194,26 @@ Result<ClipPlane> clip_plane(const RenderOptions& options) {
   return plane;
 }
 
-Result<VolumeView> volume_view(const RenderOptions& options, const Volume& source, const Field& phi,
-                               double aspect) {
+Result<TransferFunction> transfer_function(const RenderOptions& options) {
+  auto function =
+      options.preset.empty() ? TransferFunction::load(options.transfer_function) : preset(options.preset);
+  if (function && function->source_needs_phi() && !has_surface(options)) {
+    return fail(ErrorKind::usage, "'{}' looks at the surface: give --mask or --phi", function->name);
+  }
+  return function;
+}
+
+// What needs no volume yet.
+Result<VolumeView> volume_view(const RenderOptions& options) {
   VolumeView view;
   const auto mode = meaning("--mode", options.mode, kModes);
   if (!mode) return tl::unexpected<Error>(mode.error());
   view.mode = *mode;
   const auto camera = parse_camera(options.camera);
   if (!camera) return tl::unexpected<Error>(camera.error());
-  view.camera = options.fit ? camera->on(box_around(phi), source.geometry, aspect) : *camera;
+  view.camera = *camera;
   if (!options.preset.empty() || !options.transfer_function.empty()) {
-    auto function =
-        options.preset.empty() ? TransferFunction::load(options.transfer_function) : preset(options.preset);
+    auto function = transfer_function(options);
     if (!function) return pass_on(function);
     view.source = std::move(*function);
   }
@@ -210,16 +226,16 @@ Result<VolumeView> volume_view(const RenderOptions& options, const Volume& sourc
   view.surface = has_surface(options);
   if (options.opacity) view.surface_colour.a = static_cast<float>(*options.opacity);
   if (options.occlusion) view.lighting.occlusion = *options.occlusion;
+  if (auto clipped = meaning("--clipped", options.clipped, kClipped); !clipped) return pass_on(clipped);
   if (options.clip) {
     const auto plane = clip_plane(options);
     if (!plane) return tl::unexpected<Error>(plane.error());
     view.clip = *plane;
   }
-  view.window = window_of(options, source);
   return view;
 }
 
-Result<SliceView> slice_view(const RenderOptions& options, const Volume& source, const Field& phi) {
+Result<SliceView> slice_view(const RenderOptions& options) {
   SliceView view;
   if (options.view == "coronal") view.orientation = kCoronal;
   if (options.view == "sagittal") view.orientation = kSagittal;
@@ -236,13 +252,33 @@ Result<SliceView> slice_view(const RenderOptions& options, const Volume& source,
   if (!term) return tl::unexpected<Error>(term.error());
   view.term = *term;
   view.nearest = options.nearest;
-  const Box box = box_around(phi);
-  view.position_mm = 0.5 * (box.low + box.high);
-  if (options.at) {
-    view.position_mm = source.geometry.to_patient({(*options.at)[0], (*options.at)[1], (*options.at)[2]});
-  }
-  view.window = window_of(options, source);
   return view;
+}
+
+struct Views {
+  VolumeView volume;
+  SliceView slice;
+};
+
+// All options, whether the view that is asked for uses them or not, before anything long is begun.
+Result<Views> views_of(const RenderOptions& options) {
+  const auto volume = volume_view(options);
+  if (!volume) return tl::unexpected<Error>(volume.error());
+  const auto slice = slice_view(options);
+  if (!slice) return tl::unexpected<Error>(slice.error());
+  return Views{*volume, *slice};
+}
+
+// What depends on the study: where the middle is and which values are common.
+void place(Views& views, const RenderOptions& options, const Volume& source, const Field& phi,
+           double aspect) {
+  views.volume.window = views.slice.window = window_of(options, source);
+  if (options.fit) views.volume.camera = views.volume.camera.on(box_around(phi), source.geometry, aspect);
+  views.slice.position_mm = middle_of(phi.mask());
+  if (options.at) {
+    views.slice.position_mm =
+        source.geometry.to_patient({(*options.at)[0], (*options.at)[1], (*options.at)[2]});
+  }
 }
 
 Status check(const RenderOptions& options) {
@@ -255,7 +291,7 @@ Status check(const RenderOptions& options) {
   }
   for (const auto& [name, value] :
        {std::pair{"--opacity", options.opacity}, {"--occlusion", options.occlusion}}) {
-    if (value && (*value < 0.0 || *value > 1.0))
+    if (value && !(*value >= 0.0 && *value <= 1.0))
       return fail(ErrorKind::usage, "{} {}: must be 0 to 1", name, *value);
   }
   if (options.view == "oblique" && !options.normal)
@@ -265,6 +301,15 @@ Status check(const RenderOptions& options) {
       (options.colour != "plain" && options.colour != "curvature" && options.colour != "pages");
   if (by_speed && !has_speed(options))
     return fail(ErrorKind::usage, "a term of the speed needs --target and --range");
+  if (options.window && !((*options.window)[1] > 0.0)) {
+    return fail(ErrorKind::usage, "--window: the width must be above 0");
+  }
+  if (options.target.has_value() != options.range.has_value()) {
+    return fail(ErrorKind::usage, "--target and --range belong together");
+  }
+  if ((options.region == "inside" || options.region == "outside") && !has_surface(options)) {
+    return fail(ErrorKind::usage, "--roi {} needs --mask or --phi", options.region);
+  }
   if (options.view == "3d" && !has_surface(options) && options.preset.empty() &&
       options.transfer_function.empty()) {
     return fail(ErrorKind::usage, "nothing to show: give --mask, --phi, --preset or --tf");
@@ -294,26 +339,29 @@ Result<std::vector<std::uint8_t>> load_labels(const std::string& file, const Geo
   return labels;
 }
 
-Result<Picture> draw(Renderer& renderer, const RenderOptions& options, const Field& phi, PictureSize size,
+// The 3D view of a sheet is two or three of its three columns wide, and one of its two rows high.
+double volume_aspect(const RenderOptions& options, PictureSize size) {
+  return options.view == "sheet" ? size.aspect() * (has_speed(options) ? 4.0 / 3.0 : 2.0) : size.aspect();
+}
+
+Result<Picture> draw(Renderer& renderer, const RenderOptions& options, const Views& views, PictureSize size,
                      const Progress& progress) {
-  const Volume& source = renderer.source();
-  if (options.view == "3d") {
-    const auto view = volume_view(options, source, phi, size.aspect());
-    if (!view) return tl::unexpected<Error>(view.error());
-    return options.annotate ? draw_annotated(renderer, *view, size, progress)
-                            : draw_still(renderer, *view, size, progress);
-  }
-  const auto view = slice_view(options, source, phi);
-  if (!view) return tl::unexpected<Error>(view.error());
   if (options.view == "sheet") {
-    // The 3D view is two or three of the three columns wide, and one of the two rows high.
-    auto volume = volume_view(options, source, phi, size.aspect() * (has_speed(options) ? 4.0 / 3.0 : 2.0));
-    if (!volume) return pass_on(volume);
-    return draw_sheet(renderer, {view->position_mm, view->window, has_speed(options), view->term, *volume},
-                      size, progress);
+    const SheetView sheet{views.slice.position_mm, views.slice.window, has_speed(options), views.slice.term,
+                          views.volume};
+    return draw_sheet(renderer, sheet, size, progress);
   }
-  return options.annotate ? draw_annotated(renderer, *view, size, progress)
-                          : renderer.draw(*view, size, progress);
+  if (options.view == "3d") {
+    return options.annotate ? draw_annotated(renderer, views.volume, size, progress)
+                            : draw_still(renderer, views.volume, size, progress);
+  }
+  return options.annotate ? draw_annotated(renderer, views.slice, size, progress)
+                          : renderer.draw(views.slice, size, progress);
+}
+
+bool is_even(const Picture& picture) {
+  const auto& pixels = picture.pixels;
+  return std::equal(pixels.begin() + 4, pixels.end(), pixels.begin());
 }
 
 Status run(Program& program, const RenderOptions& options) {
@@ -321,6 +369,8 @@ Status run(Program& program, const RenderOptions& options) {
   if (Status good = check(options); !good) return good;
   const auto size = parse_size(options.size);
   if (!size) return tl::unexpected<Error>(size.error());
+  auto views = views_of(options);
+  if (!views) return pass_on(views);
   Parameters parameters;
   if (options.target) parameters.target = *options.target;
   if (options.range) parameters.range = *options.range;
@@ -346,8 +396,10 @@ Status run(Program& program, const RenderOptions& options) {
     if (!labels) return tl::unexpected<Error>(labels.error());
     if (Status taken = (*renderer)->set_labels(*labels); !taken) return taken;
   }
-  const auto picture = draw(**renderer, options, *phi, *size, console.progress());
+  place(*views, options, *source, *phi, volume_aspect(options, *size));
+  const auto picture = draw(**renderer, options, *views, *size, console.progress());
   if (!picture) return tl::unexpected<Error>(picture.error());
+  if (is_even(*picture)) console.warn("the picture shows nothing but its background");
   const auto write = [&](const std::filesystem::path& name) {
     return write_png_file(picture->width, picture->height, picture->pixels, name);
   };
@@ -371,7 +423,8 @@ void add_render(CLI::App& app, Program& program) {
   command.add_option("INPUT", options->input, "DICOM folder or file, or a volume file")->required();
   command.add_option("--series", options->series, "UID of the series, where INPUT holds several");
   command.add_option("--mask", options->mask, "Mask whose surface is shown");
-  command.add_option("--phi", options->phi, "Saved level set whose surface is shown");
+  command.add_option("--phi", options->phi,
+                     "Saved level set whose surface is shown: above 0 inside, in smallest voxels");
   command.add_option("--labels", options->labels, "Labels, shown as colours on slices");
   command.add_option("--view", options->view, "What is drawn (default: 3d)")->type_name(joined(kViews, "|"));
   command.add_option("--preset", options->preset,
@@ -399,10 +452,11 @@ void add_render(CLI::App& app, Program& program) {
   command.add_option("--term", options->term, "What --view speed shows (default: data, which is D(I))")
       ->type_name(joined(kTerms, "|"));
   command.add_option("--camera", options->camera,
-                     "AZIMUTH,ELEVATION[,ZOOM] in degrees; 0,0 looks from the front (default)");
+                     "AZIMUTH,ELEVATION[,ZOOM] in degrees: 0,0 looks from the front (default); azimuth goes\n"
+                     "towards the patient's left, elevation towards the head");
   command.add_option("--mode", options->mode, "How 3D pictures are made (default: raycast)")
       ->type_name(joined(kModes, "|"));
-  command.add_flag("--fit", options->fit, "The camera looks at the surface and comes near");
+  command.add_flag("--fit", options->fit, "The camera looks at the pages around the surface and comes near");
   command.add_flag("--annotate", options->annotate, "Orientation letters and a scale bar");
   command.add_option("--size", options->size, "Pixels (default: 512x512)")->type_name("WxH");
   command.add_option("--out", options->out, "Picture, .png")->required();

@@ -252,7 +252,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Times pictures of a phantom and its level set"};
   Options options;
   app.add_option("--case", options.kind, "A phantom with a seed: tumour, organ, head, ...");
-  app.add_option("--executor", options.executor, "host, compute or stream");
+  app.add_option("--executor", options.executor, "host, compute or stream")
+      ->check(CLI::IsMember({"host", "compute", "stream"}));
   app.add_option("--side", options.side, "Pixels of the still picture")->check(CLI::Range(64, 4096));
   app.add_option("--rounds", options.rounds)->check(CLI::Range(1, 1000));
   CLI11_PARSE(app, argc, argv);

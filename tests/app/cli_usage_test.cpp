@@ -131,6 +131,13 @@ void CliUsageTest::wrong_usage_ends_with_2_and_one_line_data() {
   QTest::newRow("render an oblique slice without normal") << render({"--view", "oblique"});
   QTest::newRow("render with a colour of no name") << render({"--mask", volume_, "--colour", "red"});
   QTest::newRow("render a surface more than opaque") << render({"--mask", volume_, "--opacity", "1.5"});
+  QTest::newRow("render a surface of no number") << render({"--mask", volume_, "--occlusion", "nan"});
+  QTest::newRow("render an inside without surface") << render({"--preset", "ct-bone", "--roi", "inside"});
+  QTest::newRow("render a region preset without surface") << render({"--preset", "roi-tissue"});
+  QTest::newRow("render a window without width") << render({"--view", "axial", "--window", "40,0"});
+  QTest::newRow("render T without epsilon") << render({"--view", "sheet", "--target", "500"});
+  QTest::newRow("render a slice in a mode of no name") << render({"--view", "axial", "--mode", "x"});
+  QTest::newRow("render from too near") << render({"--preset", "ct-bone", "--camera", "0,0,1e300"});
   QTest::newRow("render into no picture")
       << QStringList{"render", volume_, "--preset", "ct-bone", "--out", "a.jpg"};
   QTest::newRow("convert to nothing") << QStringList{"convert", volume_};

@@ -59,6 +59,18 @@ class QualityControlTest : public QObject {
     QVERIFY(control.next({640, 480})->quality.fast_gradient);
   }
 
+  void a_view_that_moves_while_a_still_picture_is_drawn_gets_its_own() {
+    QualityControl control;
+    control.moved();
+    control.drawn(*control.next({640, 480}), 1e-4);
+    const Pass still = *control.next({640, 480});
+    control.moved();
+    control.drawn(still, 5.0);  // of the old view, and slow
+    const Pass pass = *control.next({640, 480});
+    QVERIFY(pass.moving);
+    QCOMPARE(pass.size.width, 640);  // as fine as moving pictures were
+  }
+
   void the_mean_of_rounds_has_smooth_edges_and_no_bands() {
     Painter draw(ball_scene(grid({48, 48, 48}), 12.0));
     VolumeView view;

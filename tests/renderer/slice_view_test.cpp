@@ -87,6 +87,19 @@ class SliceViewTest : public QObject {
     }
   }
 
+  void an_outline_half_way_between_two_slices_of_a_mask_is_no_patch() {
+    // Neighbouring slices differ: half-way between them phi of the mask is 0 over an area.
+    const Geometry geometry = grid({32, 32, 2}, {1.0, 1.0, 4.0});
+    Scene scene = ball_scene(geometry, 4.0);
+    const double band = scene.phi.band;
+    scene.phi = Field::from_dense(
+        geometry, sample(geometry, [&](glm::dvec3 p) { return p.z > 2.0 ? 0.5 : -0.5; }), band);
+    Painter draw(scene);
+    SliceView view;
+    view.window = {50.0, 1000.0};
+    QCOMPARE(count(draw(view, 128, 128), is_yellow), 0);
+  }
+
   void voxels_are_shown_as_they_are_or_interpolated() {
     const Geometry geometry = grid({8, 8, 8});
     Painter draw(ball_scene(geometry, 1.0,

@@ -84,6 +84,9 @@ class TransferFunctionTest : public QObject {
     };
     row("no JSON", "{", "not a JSON object");
     row("relative", R"({"relative": 1, "source": []})", "relative: true or false");
+    row("unknown list", R"({"surfaces": []})", "surfaces: unknown");
+    row("too opaque", R"({"source": [{"value": {"ramp": [5, 6]}, "opacity": 1e7}]})",
+        "source[0].opacity: must be 0 to");
     row("nothing", "{}", "neither 'source' nor 'surface'");
     row("no list", R"({"source": 3})", "source: a list");
     row("no object", R"({"source": [3]})", "source[0]: an object");

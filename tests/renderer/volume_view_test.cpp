@@ -254,6 +254,46 @@ class VolumeViewTest : public QObject {
     QVERIFY(pages.b > pages.r + 60);  // resident, not quiet
   }
 
+  void a_surface_is_closed_where_it_meets_the_volumes_border() {
+    // A ball that the front face of the volume cuts through its middle.
+    const Geometry geometry = grid({64, 32, 64});
+    Scene scene = ball_scene(geometry, 5.0);
+    const glm::dvec3 front(31.5, -0.5, 31.5);
+    const double band = scene.phi.band;
+    scene.phi = Field::from_dense(
+        geometry,
+        sample(geometry,
+               [&](glm::dvec3 p) { return std::clamp(20.0 - glm::length(p - front), -band, band); }),
+        band);
+    Painter draw(scene);
+    VolumeView view;
+    view.lighting.specular = 0.0;
+    for (const Mode mode : {Mode::raycast, Mode::slices}) {
+      view.mode = mode;
+      const Picture picture = draw(view, 128, 128);
+      const double side = pixel_mm(view, geometry, 128);
+      // A disc, as bright everywhere as what faces the viewer is.
+      const double area = static_cast<double>(count(picture, is_surface)) * side * side;
+      QVERIFY2(std::abs(area / (std::numbers::pi * 400.0) - 1.0) < 0.02, qPrintable(QString::number(area)));
+      for (const std::int64_t x : {40, 64, 88}) {
+        const int expected = std::lround(255.0 * view.surface_colour.r);
+        QVERIFY2(std::abs(pixel(picture, x, 64).r - expected) <= 1,
+                 qPrintable(QString::number(pixel(picture, x, 64).r)));
+      }
+    }
+    const auto hit = draw.renderer().pick(view, {128, 128}, {64.0, 64.0});
+    QVERIFY(hit && hit->has_value() && (*hit)->kind == Hit::Kind::surface);
+    QVERIFY(std::abs((*hit)->voxel.y + 0.5) < 0.01);
+    // All inside: a box.
+    std::vector<float> ones(static_cast<std::size_t>(geometry.voxel_count()), static_cast<float>(band));
+    scene.phi = Field::from_dense(geometry, ones, band);
+    Painter box(scene);
+    for (const Mode mode : {Mode::raycast, Mode::slices}) {
+      view.mode = mode;
+      QVERIFY(is_surface(pixel(box(view, 64, 64), 32, 32)));
+    }
+  }
+
   void hollows_lose_light() {
     const Geometry geometry = grid({64, 64, 64});
     Scene scene = ball_scene(geometry, 20.0);

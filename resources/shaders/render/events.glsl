@@ -14,7 +14,7 @@ const int kActivity = 6;
 const int kPickedPlane = 1;
 const int kPickedSurface = 2;
 const int kPickedSource = 3;
-const float kLeastOpacity = 1e-4;
+const float kLeastOpacity = 1e-6;
 const float kNever = 1e9;
 
 vec2 for_surface = vec2(0.0);         // the parts of the ray in which they may show

@@ -7,7 +7,7 @@ uniform vec3 light_fixed;     // unit vector to the light, in mm along the voxel
 // ambient light away.
 vec3 lit(vec3 colour, vec3 slope, vec3 viewer, float open) {
   float steepness = length(slope);
-  if (steepness < 1e-6) return colour;
+  if (steepness < 1e-30) return colour;
   vec3 normal = slope / steepness;
   vec3 light = light_fixed == vec3(0.0) ? viewer : light_fixed;
   float facing = abs(dot(normal, light));

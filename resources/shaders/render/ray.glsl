@@ -32,6 +32,12 @@ vec2 begin_ray(mat4 voxel_from_view, vec2 view_position, vec3 spacing) {
   return vec2(max(max(enter.x, max(enter.y, enter.z)), 0.0), min(leave.x, min(leave.y, leave.z)));
 }
 
+// The normal of the volume's face that p is on, in mm.
+vec3 face_at(vec3 p) {
+  vec3 to_face = min(abs(p + 0.5), abs(p - (vec3(volume_size) - 0.5)));
+  return vec3(lessThanEqual(to_face, vec3(min(to_face.x, min(to_face.y, to_face.z)) + 1e-3)));
+}
+
 // The page that the ray is in just behind t, and where it leaves it.
 void enter_page(float t) {
   vec3 p = on_ray(t + 1e-3);

@@ -66,6 +66,12 @@ void main() {
   bool meets_picture = cut >= begin && cut < end;
   if (meets_picture) end = cut;
   Sample a = sample_at(begin);
+#ifdef SURFACE
+  // Where the inside meets the volume's border the surface is closed.
+  if (begin < end && begin <= whole.x + 1e-3 && a.phi.x > 0.0 && for_surface.x <= begin) {
+    add_surface(on_ray(begin), face_at(on_ray(begin)) * spacing);
+  }
+#endif
   while (a.t < end) {
     float next = a.t + step_length;
     Sample b = sample_at(next > end - 0.01 * step_length ? end : next);
@@ -90,6 +96,11 @@ void main() {
 #endif
     a = b;
   }
+#ifdef SURFACE
+  if (begin < end && end >= whole.y - 1e-3 && a.phi.x > 0.0 && for_surface.y >= end) {
+    add_surface(on_ray(end), face_at(on_ray(end)) * spacing);
+  }
+#endif
 #ifdef CLIP
   if (meets_picture) add_clip_picture(on_ray(cut), a.phi.x, a.phi.yzw);
 #endif

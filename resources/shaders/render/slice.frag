@@ -41,8 +41,8 @@ ivec3 nearest_voxel(vec3 p) {
 
 // Only D is defined away from the surface.
 vec3 speed_colour(vec3 p, float phi, vec3 grey) {
-  bool near = abs(phi) < band;
-  float speed = term == kDataSpeed ? data_speed(source_between(p)) : near ? speed_at(term, nearest_voxel(p)) : 0.0;
+  bool near = abs(phi) < 0.98 * band;
+  float speed = term == kDataSpeed ? data_speed(source_between(p)) : speed_and_curvature_between(term, p).x;
   float across = length(vec2(dFdx(speed), dFdy(speed)));
   if (term != kDataSpeed && !near) return 0.5 * grey;
   vec3 colour = diverging(speed);
@@ -81,7 +81,10 @@ void main() {
     // Where the slice grazes the surface phi hardly changes in it; the line must not become a patch.
     float pixel = length(dFdx(p) * spacing) / min(spacing.x, min(spacing.y, spacing.z));
     float pixels = abs(phi) / max(phi_slope_in_view, 0.4 * pixel);
-    colour = mix(kOutlineYellow, colour, smoothstep(0.5 * line_pixels - 0.5, 0.5 * line_pixels + 0.5, pixels));
+    float line = 1.0 - smoothstep(0.5 * line_pixels - 0.5, 0.5 * line_pixels + 0.5, pixels);
+    // Nor where phi is 0 over a whole area, half-way between two slices of a mask.
+    line *= smoothstep(0.1, 0.4, phi_slope_in_view / pixel);
+    colour = mix(colour, kOutlineYellow, line);
   }
   fragment = vec4(outside ? background : colour, 1.0);
 }

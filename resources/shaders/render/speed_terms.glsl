@@ -50,10 +50,6 @@ float speed_of(int term, Differences d, float value) {
          : data + bending + rescaling;
 }
 
-float speed_at(int term, ivec3 voxel) {
-  return speed_of(term, differences_at(voxel), source_between(vec3(voxel)));
-}
-
 // Between voxels: the term, and kappa (the sum of the principal curvatures, per smallest spacing).
 vec2 speed_and_curvature_between(int term, vec3 position) {
   vec3 p = clamp(position, vec3(0.0), vec3(volume_size - 1));

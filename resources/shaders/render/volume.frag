@@ -241,15 +241,25 @@ void main() {
 #ifdef NEEDS_PHI
   inside = phi_between(on_ray(t)) > 0.0;
 #endif
+  bool enters_inside = false;
+#ifdef SURFACE
+  // Where the inside meets the volume's border the surface is closed.
+  enters_inside = inside && t <= whole.x + 1e-3;
+#endif
   for (int layer = 0; layer < kMostLayers && t <= end && whole.x < whole.y && result.a < 0.99; ++layer) {
     float stop = cut < kNever ? cut : end;
-    Piece piece = march(stop);
+    Piece piece = Piece(false, t, t, 0.0, 0.0);
+    bool enters = layer == 0 && enters_inside;
+    if (!enters) piece = march(stop);
 #ifdef SURFACE
-    if (piece.found) {
-      float at = crossing(piece.a, piece.b, piece.phi_a, piece.phi_b);
-      if (at >= for_surface.x && at <= for_surface.y) add_surface(on_ray(at), phi_slope(on_ray(at)));
-      inside = !inside;
+    bool leaves = !enters && !piece.found && inside && stop >= whole.y - 1e-3;
+    if (piece.found || enters || leaves) {
+      float at = enters ? whole.x : leaves ? whole.y : crossing(piece.a, piece.b, piece.phi_a, piece.phi_b);
+      vec3 rise = enters || leaves ? face_at(on_ray(at)) * spacing : phi_slope(on_ray(at));
+      if (at >= for_surface.x && at <= for_surface.y) add_surface(on_ray(at), rise);
+      if (piece.found) inside = !inside;
     }
+    piece.found = piece.found || enters;
 #endif
 #ifdef CLIP
     if (!piece.found && cut < kNever && result.a < 0.99) {
