@@ -61,6 +61,7 @@ Device::~Device() {
 Status Device::start(const DeviceOptions& options) {
   if (auto status = make_current(); !status) return status;
   capabilities_ = query_capabilities();
+  if (options.as_gpu) capabilities_.software = false;
   const bool wants_compute = options.version == GlVersion::gl45;
   if (!(wants_compute ? capabilities_.at_least(4, 5) : capabilities_.at_least(3, 3))) {
     return fail(ErrorKind::capability, "OpenGL {} is needed; {} offers {}.{}", wants_compute ? "4.5" : "3.3",

@@ -156,6 +156,37 @@ class PhiPictureTest : public QObject {
     if (software) QVERIFY(!picture && picture.error().kind == ErrorKind::cancelled);
   }
 
+  // A GPU gets other variants of the shaders, and pictures in one piece.
+  void a_gpu_draws_the_same_picture() {
+    const Scene scene = ball_scene(grid({44, 40, 37}, {1.0, 1.0, 1.6}), 15.0);
+    Painter software(scene);
+    Painter hardware(scene, reporting_device(true));
+    VolumeView volume;
+    volume.camera.azimuth = 20.0;
+    volume.source = transfer_function(
+        R"({"source": [{"value": {"ramp": [0, 100]}, "opacity": 0.03, "colour": [1, 0.8, 0.5]}]})");
+    volume.surface_colour.a = 0.5F;
+    volume.clip = ClipPlane{{0.0, 0.0, 1.0}, 35.0};
+    VolumeView slices = volume;
+    slices.mode = Mode::slices;
+    SliceView speed;
+    speed.content = SliceContent::speed;
+    speed.term = SpeedTerm::total;
+    const auto compare = [&](const auto& view) {
+      const Picture expected = software(view, 160, 120);
+      const Picture found = hardware(view, 160, 120);
+      int most = 0;
+      for (std::size_t i = 0; i < expected.pixels.size(); ++i) {
+        most = std::max(most, std::abs(int(expected.pixels[i]) - int(found.pixels[i])));
+      }
+      QVERIFY2(most <= 1, qPrintable(QString::number(most)));
+    };
+    compare(volume);
+    compare(slices);
+    compare(speed);
+    QVERIFY(hardware.renderer().last_draw().pieces == 1);
+  }
+
   void a_lost_context_is_reported() {
     Painter draw(ball_scene(grid({32, 32, 32}), 8.0));
     draw.device().lose_at_check(1);

@@ -58,13 +58,17 @@ Scene ball_scene(const Geometry& geometry, double radius, const std::function<do
   return scene_of(geometry, radius, source, kDefaultPageShape);
 }
 
-Painter::Painter(const Scene& scene) : middle_(scene.middle) {
-  auto device = gpu::Device::create_headless({gpu::GlVersion::gl33, true});
+std::shared_ptr<gpu::Device> reporting_device(bool as_gpu) {
+  auto device = gpu::Device::create_headless({gpu::GlVersion::gl33, true, as_gpu});
   if (!device) qFatal("%s", device.error().message.c_str());
-  device_ = *device;
-  device_->on_message([](bool severe, const std::string& text) {
+  (*device)->on_message([](bool severe, const std::string& text) {
     if (severe) qFatal("OpenGL: %s", text.c_str());
   });
+  return *device;
+}
+
+Painter::Painter(const Scene& scene, std::shared_ptr<gpu::Device> device)
+    : middle_(scene.middle), device_(std::move(device)) {
   auto renderer = Renderer::create(device_, scene.source, scene.phi.layout);
   if (!renderer) qFatal("%s", renderer.error().message.c_str());
   renderer_ = std::move(*renderer);

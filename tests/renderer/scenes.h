@@ -27,10 +27,13 @@ Scene ball_scene(const Geometry& geometry, double radius, glm::dvec3 marker = gl
 // The same with a source of one's own.
 Scene ball_scene(const Geometry& geometry, double radius, const std::function<double(glm::dvec3)>& source);
 
-// Draws a scene, with a driver that reports; ends the test program when something fails.
+// A device whose messages of high severity end the test program.
+std::shared_ptr<gpu::Device> reporting_device(bool as_gpu = false);
+
+// Draws a scene; ends the test program when something fails.
 class Painter {
  public:
-  explicit Painter(const Scene& scene);
+  explicit Painter(const Scene& scene, std::shared_ptr<gpu::Device> device = reporting_device());
 
   Picture operator()(const VolumeView& view, std::int64_t width, std::int64_t height);
   // A view without a position goes through the middle. T is 100, epsilon 50.

@@ -5,8 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "gpu/device.h"
-#include "renderer/renderer.h"
+#include "tests/renderer/scenes.h"
 #include "tests/support/support.h"
 
 using namespace tidemark;
@@ -17,40 +16,22 @@ namespace {
 constexpr PictureSize kSize{144, 128};
 constexpr std::int64_t kTooSmall = 16;  // a limit of 3D textures that no test's volume keeps
 
-Geometry grid(Index3 size, glm::dvec3 spacing = glm::dvec3(1.0)) {
-  Geometry geometry;
-  geometry.size = size;
-  geometry.spacing_mm = spacing;
-  return geometry;
-}
-
-std::vector<double> sample(const Geometry& geometry, const std::function<double(glm::dvec3)>& function) {
-  std::vector<double> values;
-  for (std::int64_t z = 0; z < geometry.size.z; ++z) {
-    for (std::int64_t y = 0; y < geometry.size.y; ++y) {
-      for (std::int64_t x = 0; x < geometry.size.x; ++x) {
-        values.push_back(function(geometry.to_patient({x, y, z}) - middle_of(geometry)));
-      }
-    }
-  }
-  return values;
+// A function of the place as seen from the volume's middle.
+std::vector<float> sample_around_middle(const Geometry& geometry,
+                                        const std::function<double(glm::dvec3)>& function) {
+  return sample(geometry, [&](glm::dvec3 p) { return function(p - middle_of(geometry)); });
 }
 
 template <class Scalar>
-std::vector<Scalar> stored(const std::vector<double>& values) {
+std::vector<Scalar> stored(const std::vector<float>& values) {
   return {values.begin(), values.end()};
 }
 
 enum class Stored { int16, uint16, real };
 
-// Two balls of different size, to no axis alike; the source has a bright and a dark place of its own.
-struct Scene {
-  std::shared_ptr<const Volume> source;
-  Field phi;
-};
-
 using Distance = std::function<double(glm::dvec3)>;  // mm, > 0 inside
 
+// To no axis alike; the source has a bright and a dark place of its own.
 double two_balls(glm::dvec3 p) {
   return std::max(11.0 - glm::length(p - glm::dvec3(3.0, -2.0, 1.0)),
                   5.0 - glm::length(p - glm::dvec3(-9.0, 6.0, 8.0)));
@@ -58,7 +39,7 @@ double two_balls(glm::dvec3 p) {
 
 Scene scene(const Geometry& geometry, Index3 page_shape = kDefaultPageShape, Stored kind = Stored::int16,
             const Distance& distance = two_balls) {
-  const auto values = sample(geometry, [](glm::dvec3 p) {
+  const auto values = sample_around_middle(geometry, [](glm::dvec3 p) {
     const auto hill = [&](glm::dvec3 middle, double width) {
       return std::exp(-glm::dot(p - middle, p - middle) / (width * width));
     };
@@ -73,20 +54,13 @@ Scene scene(const Geometry& geometry, Index3 page_shape = kDefaultPageShape, Sto
   volume->intercept = -50.0;
   const double unit = std::min({geometry.spacing_mm.x, geometry.spacing_mm.y, geometry.spacing_mm.z});
   const double band = default_band(geometry);
-  const auto phi =
-      sample(geometry, [&](glm::dvec3 p) { return std::clamp(distance(p) / unit, -band, band); });
-  return {volume, Field::from_dense(geometry, stored<float>(phi), band, page_shape)};
+  const auto phi = sample_around_middle(
+      geometry, [&](glm::dvec3 p) { return std::clamp(distance(p) / unit, -band, band); });
+  return {volume, Field::from_dense(geometry, phi, band, page_shape), middle_of(geometry)};
 }
 
 std::shared_ptr<gpu::Device> device() {
-  static const auto made = [] {
-    auto device = gpu::Device::create_headless({gpu::GlVersion::gl33, true});
-    if (!device) qFatal("%s", device.error().message.c_str());
-    (*device)->on_message([](bool severe, const std::string& text) {
-      if (severe) qFatal("OpenGL: %s", text.c_str());
-    });
-    return *device;
-  }();
+  static const auto made = reporting_device();
   return made;
 }
 
