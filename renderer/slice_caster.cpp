@@ -59,6 +59,14 @@ Status SliceCaster::prepare(gpu::Device& device, const Scene& scene, const Slice
     framebuffer_ = std::move(*framebuffer);
     vertices_ = gpu::VertexArray::create(device);
   }
+  // A camera that turns to and fro makes no slices anew, unless they are large.
+  constexpr std::int64_t kLargeSlice = std::int64_t{1}
+                                       << 20;  // texels; 16 bytes each, and four of them an axis
+  for (std::size_t other = 0; other < 3; ++other) {
+    if (other == static_cast<std::size_t>(axis.along) || axis.width() * axis.height() < kLargeSlice) continue;
+    phi_[other].reset();
+    source_[other].reset();
+  }
   auto& phi = phi_[static_cast<std::size_t>(axis.along)];
   if (!phi) {
     auto stack = SliceStack::create(device, scene.phi.layout(), axis);

@@ -55,15 +55,21 @@ Result<SourcePicture> SourcePicture::create(gpu::Device& device, const Volume& s
   picture.scale_ = scale;
   const Index3 size = source.geometry.size;
   picture.has_volume_ = std::max({size.x, size.y, size.z}) <= largest;
+  const auto make_texture = [&, format = format](Index3 extent, std::span<const std::byte> texels) {
+    return gpu::Texture3D::create(device, format, extent, texels, "source for pictures", gpu::Filter::linear);
+  };
   const std::vector<std::byte> nothing(static_cast<std::size_t>(gpu::bytes_per_texel(format)));
-  auto texture = std::visit(
-      [&, format = format](const auto& voxels) {
-        const std::span<const std::byte> all = std::as_bytes(std::span(voxels));
-        return gpu::Texture3D::create(device, format, picture.has_volume_ ? size : Index3(1),
-                                      picture.has_volume_ ? all : std::span(nothing), "source for pictures",
-                                      gpu::Filter::linear);
-      },
-      source.voxels);
+  auto texture =
+      picture.has_volume_
+          ? std::visit(
+                [&](const auto& voxels) { return make_texture(size, std::as_bytes(std::span(voxels))); },
+                source.voxels)
+          : make_texture(Index3(1), nothing);
+  if (!texture && picture.has_volume_ && !device.lost()) {
+    // The GPU's memory is too small for it; slices will do.
+    picture.has_volume_ = false;
+    texture = make_texture(Index3(1), nothing);
+  }
   if (!texture) return pass_on(texture);
   picture.texture_ = std::move(*texture);
   picture.ranges_ = page_ranges(source, layout, pool);
