@@ -11,12 +11,12 @@ namespace tidemark {
 
 // A series of DICOM files, or one volume file, that may make a volume.
 struct Series {
-  std::string uid;          // DICOM Series Instance UID; for a volume file, its file name
-  std::string modality;     // DICOM (0008,0060); empty for volume files
-  std::string description;  // DICOM (0008,103E), else the file name
-  std::vector<std::filesystem::path> files;  // in slice order when loadable
-  Geometry geometry;                         // meaningful when loadable
-  std::string scalar;                        // of the volume when loaded: "int16", "uint16" or "float"
+  std::string uid;                             // DICOM Series Instance UID; for a volume file, its file name
+  std::string modality;                        // DICOM (0008,0060); empty for volume files
+  std::string description;                     // DICOM (0008,103E), else the file name
+  std::vector<std::filesystem::path> files;    // in slice order when loadable
+  Geometry geometry;                           // meaningful when loadable
+  std::string scalar;                          // of the volume when loaded: "int16", "uint16" or "float"
   std::vector<std::string> transfer_syntaxes;  // UIDs, each once; empty for volume files
   bool loadable = false;
   std::string reason;                 // why it is not loadable: one line that names the files at fault

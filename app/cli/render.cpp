@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "app/cli/align.h"
-#include "app/cli/arguments.h"
 #include "app/cli/outputs.h"
 #include "app/cli/program.h"
+#include "app/cli/render_options.h"
 #include "gpu/device.h"
 #include "imaging/files/png_file.h"
 #include "imaging/study.h"
@@ -36,111 +36,6 @@ constexpr const char* kExamples =
     "  tidemark-cli render study/ --phi phi.nii.gz --view axial --at 0,0,40 --out slice.png\n"
     "  tidemark-cli render study/ --mask liver.nii.gz --preset ct-angio --roi inside --out vessels.png\n"
     "  tidemark-cli render study/ --mask liver.nii.gz --view sheet --size 1200x800 --out sheet.png\n";
-
-constexpr std::int64_t kLargestPicture = 8192;
-
-struct RenderOptions {
-  std::string input;
-  std::string series;
-  std::string mask;
-  std::string phi;
-  std::string labels;
-  std::string view = "3d";
-  std::string preset;
-  std::string transfer_function;
-  std::string region = "off";
-  std::string size = "512x512";
-  std::optional<std::vector<double>> clip;
-  std::string clipped = "both";
-  std::optional<std::vector<double>> normal;
-  std::optional<std::vector<double>> at;
-  std::string camera = "0,0";
-  std::string mode = "raycast";
-  std::optional<std::vector<double>> window;
-  std::optional<double> target;
-  std::optional<double> range;
-  std::optional<double> alpha;
-  std::string term = "data";
-  std::string colour = "plain";
-  std::optional<double> opacity;
-  std::optional<double> occlusion;
-  bool fit = false;
-  bool nearest = false;
-  bool annotate = false;
-  std::string out;
-};
-
-// A word of an option and what it means.
-template <class Value>
-using Words = std::initializer_list<std::pair<const char*, Value>>;
-
-const Words<Region> kRegions{{"off", Region::everywhere},
-                             {"inside", Region::inside},
-                             {"outside", Region::outside},
-                             {"tinted", Region::tinted}};
-const Words<SpeedTerm> kTerms{{"data", SpeedTerm::data},
-                              {"curvature", SpeedTerm::curvature},
-                              {"rescaling", SpeedTerm::rescaling},
-                              {"total", SpeedTerm::total}};
-const Words<SurfaceColouring> kColourings{{"plain", SurfaceColouring::plain},
-                                          {"data", SurfaceColouring::data},
-                                          {"curvature-term", SurfaceColouring::curvature_term},
-                                          {"rescaling", SurfaceColouring::rescaling},
-                                          {"total", SurfaceColouring::total_speed},
-                                          {"curvature", SurfaceColouring::curvature},
-                                          {"pages", SurfaceColouring::pages}};
-const Words<int> kViews{{"3d", 0},      {"axial", 1}, {"coronal", 2}, {"sagittal", 3},
-                        {"oblique", 4}, {"speed", 5}, {"pages", 6},   {"sheet", 7}};
-const Words<Mode> kModes{{"raycast", Mode::raycast}, {"slices", Mode::slices}};
-const Words<int> kClipped{{"both", 0}, {"source", 1}, {"surface", 2}};
-
-template <class Value>
-std::string joined(const Words<Value>& words, const char* between) {
-  std::string all;
-  for (const auto& [word, value] : words) all += (all.empty() ? "" : between) + std::string(word);
-  return all;
-}
-
-template <class Value>
-Result<Value> meaning(const char* option, const std::string& text, const Words<Value>& words) {
-  for (const auto& [word, value] : words) {
-    if (text == word) return value;
-  }
-  return fail(ErrorKind::usage, "{} '{}' is unknown; use {}", option, text, joined(words, ", "));
-}
-
-Result<PictureSize> parse_size(const std::string& text) {
-  const std::size_t cross = text.find('x');
-  if (cross != std::string::npos) {
-    const auto width = parse_count(text.substr(0, cross));
-    const auto height = parse_count(text.substr(cross + 1));
-    if (width && height && *width >= 16 && *height >= 16 && *width <= kLargestPicture &&
-        *height <= kLargestPicture) {
-      return PictureSize{*width, *height};
-    }
-  }
-  return fail(ErrorKind::usage, "--size {}: WIDTHxHEIGHT is needed, each from 16 to {} pixels", text,
-              kLargestPicture);
-}
-
-Result<Camera> parse_camera(const std::string& text) {
-  for (const std::size_t count : {2U, 3U}) {
-    const auto numbers = parse_numbers(text, count);
-    if (!numbers) continue;
-    Camera camera;
-    camera.azimuth = (*numbers)[0];
-    camera.elevation = (*numbers)[1];
-    if (count == 3) camera.zoom = (*numbers)[2];
-    constexpr double kMostZoom = 1000.0;
-    constexpr double kMostDegrees = 3600.0;
-    if (camera.zoom >= 1.0 / kMostZoom && camera.zoom <= kMostZoom &&
-        std::abs(camera.azimuth) <= kMostDegrees && std::abs(camera.elevation) <= kMostDegrees) {
-      return camera;
-    }
-  }
-  return fail(ErrorKind::usage, "--camera {}: AZIMUTH,ELEVATION[,ZOOM] is needed, in degrees", text);
-}
-
 // phi of the mask or the saved phi; outside everywhere without either.
 Result<Field> surface_of(const RenderOptions& options, const Volume& source, Console& console) {
   const double band = default_band(source.geometry);
@@ -165,110 +60,10 @@ Result<Field> surface_of(const RenderOptions& options, const Volume& source, Con
   }
   return Field::empty(source.geometry, band);
 }
-
 WindowLevel window_of(const RenderOptions& options, const Volume& source) {
   if (options.window) return {(*options.window)[0], (*options.window)[1]};
   return tidemark::window_of(source);
 }
-
-bool has_surface(const RenderOptions& options) {
-  return !options.mask.empty() || !options.phi.empty();
-}
-
-bool has_speed(const RenderOptions& options) {
-  return options.target && options.range;
-}
-
-Result<ClipPlane> clip_plane(const RenderOptions& options) {
-  const std::vector<double>& c = *options.clip;
-  const glm::dvec3 normal(c[0], c[1], c[2]);
-  const double length = glm::length(normal);
-  if (length <= 0.0) return fail(ErrorKind::usage, "--clip: the plane needs a normal");
-  const auto clipped = meaning("--clipped", options.clipped, kClipped);
-  if (!clipped) return tl::unexpected<Error>(clipped.error());
-  ClipPlane plane;
-  plane.normal = normal / length;
-  plane.offset_mm = c[3] / length;
-  plane.clips_source = *clipped != 2;
-  plane.clips_surface = *clipped != 1;
-  return plane;
-}
-
-Result<TransferFunction> transfer_function(const RenderOptions& options) {
-  auto function =
-      options.preset.empty() ? TransferFunction::load(options.transfer_function) : preset(options.preset);
-  if (function && function->source_needs_phi() && !has_surface(options)) {
-    return fail(ErrorKind::usage, "'{}' looks at the surface: give --mask or --phi", function->name);
-  }
-  return function;
-}
-
-// What needs no volume yet.
-Result<VolumeView> volume_view(const RenderOptions& options) {
-  VolumeView view;
-  const auto mode = meaning("--mode", options.mode, kModes);
-  if (!mode) return tl::unexpected<Error>(mode.error());
-  view.mode = *mode;
-  const auto camera = parse_camera(options.camera);
-  if (!camera) return tl::unexpected<Error>(camera.error());
-  view.camera = *camera;
-  if (!options.preset.empty() || !options.transfer_function.empty()) {
-    auto function = transfer_function(options);
-    if (!function) return pass_on(function);
-    view.source = std::move(*function);
-  }
-  const auto region = meaning("--roi", options.region, kRegions);
-  if (!region) return tl::unexpected<Error>(region.error());
-  view.region = *region;
-  const auto colouring = meaning("--colour", options.colour, kColourings);
-  if (!colouring) return tl::unexpected<Error>(colouring.error());
-  view.colouring = *colouring;
-  view.surface = has_surface(options);
-  if (options.opacity) view.surface_colour.a = static_cast<float>(*options.opacity);
-  if (options.occlusion) view.lighting.occlusion = *options.occlusion;
-  if (auto clipped = meaning("--clipped", options.clipped, kClipped); !clipped) return pass_on(clipped);
-  if (options.clip) {
-    const auto plane = clip_plane(options);
-    if (!plane) return tl::unexpected<Error>(plane.error());
-    view.clip = *plane;
-  }
-  return view;
-}
-
-Result<SliceView> slice_view(const RenderOptions& options) {
-  SliceView view;
-  if (options.view == "coronal") view.orientation = kCoronal;
-  if (options.view == "sagittal") view.orientation = kSagittal;
-  if (options.view == "oblique") {
-    const std::vector<double>& n = *options.normal;
-    if (glm::length(glm::dvec3(n[0], n[1], n[2])) <= 0.0) {
-      return fail(ErrorKind::usage, "--normal: must not be 0");
-    }
-    view.orientation = oblique({n[0], n[1], n[2]});
-  }
-  if (options.view == "speed") view.content = SliceContent::speed;
-  if (options.view == "pages") view.content = SliceContent::pages;
-  const auto term = meaning("--term", options.term, kTerms);
-  if (!term) return tl::unexpected<Error>(term.error());
-  view.term = *term;
-  view.nearest = options.nearest;
-  return view;
-}
-
-struct Views {
-  VolumeView volume;
-  SliceView slice;
-};
-
-// All options, whether the view that is asked for uses them or not, before anything long is begun.
-Result<Views> views_of(const RenderOptions& options) {
-  const auto volume = volume_view(options);
-  if (!volume) return tl::unexpected<Error>(volume.error());
-  const auto slice = slice_view(options);
-  if (!slice) return tl::unexpected<Error>(slice.error());
-  return Views{*volume, *slice};
-}
-
 // What depends on the study: where the middle is and which values are common.
 void place(Views& views, const RenderOptions& options, const Volume& source, const Field& phi,
            double aspect) {
@@ -280,43 +75,6 @@ void place(Views& views, const RenderOptions& options, const Volume& source, con
         source.geometry.to_patient({(*options.at)[0], (*options.at)[1], (*options.at)[2]});
   }
 }
-
-Status check(const RenderOptions& options) {
-  if (auto view = meaning("--view", options.view, kViews); !view) return pass_on(view);
-  if (!options.mask.empty() && !options.phi.empty()) {
-    return fail(ErrorKind::usage, "--mask and --phi exclude each other");
-  }
-  if (!options.preset.empty() && !options.transfer_function.empty()) {
-    return fail(ErrorKind::usage, "--preset and --tf exclude each other");
-  }
-  for (const auto& [name, value] :
-       {std::pair{"--opacity", options.opacity}, {"--occlusion", options.occlusion}}) {
-    if (value && !(*value >= 0.0 && *value <= 1.0))
-      return fail(ErrorKind::usage, "{} {}: must be 0 to 1", name, *value);
-  }
-  if (options.view == "oblique" && !options.normal)
-    return fail(ErrorKind::usage, "--view oblique needs --normal");
-  const bool by_speed =
-      options.view == "speed" ||
-      (options.colour != "plain" && options.colour != "curvature" && options.colour != "pages");
-  if (by_speed && !has_speed(options))
-    return fail(ErrorKind::usage, "a term of the speed needs --target and --range");
-  if (options.window && !((*options.window)[1] > 0.0)) {
-    return fail(ErrorKind::usage, "--window: the width must be above 0");
-  }
-  if (options.target.has_value() != options.range.has_value()) {
-    return fail(ErrorKind::usage, "--target and --range belong together");
-  }
-  if ((options.region == "inside" || options.region == "outside") && !has_surface(options)) {
-    return fail(ErrorKind::usage, "--roi {} needs --mask or --phi", options.region);
-  }
-  if (options.view == "3d" && !has_surface(options) && options.preset.empty() &&
-      options.transfer_function.empty()) {
-    return fail(ErrorKind::usage, "nothing to show: give --mask, --phi, --preset or --tf");
-  }
-  return {};
-}
-
 // Labels are numbered anew from 1 in the order of their values, so that any numbering gets colours.
 Result<std::vector<std::uint8_t>> load_labels(const std::string& file, const Geometry& grid,
                                               Console& console) {
@@ -338,14 +96,14 @@ Result<std::vector<std::uint8_t>> load_labels(const std::string& file, const Geo
   std::transform(values->begin(), values->end(), labels.begin(), [&](float value) { return numbers[value]; });
   return labels;
 }
-
 // The 3D view of a sheet is two or three of its three columns wide, and one of its two rows high.
 double volume_aspect(const RenderOptions& options, PictureSize size) {
   return options.view == "sheet" ? size.aspect() * (has_speed(options) ? 4.0 / 3.0 : 2.0) : size.aspect();
 }
 
-Result<Picture> draw(Renderer& renderer, const RenderOptions& options, const Views& views, PictureSize size,
+Result<Picture> draw(Renderer& renderer, const RenderOptions& options, const Views& views,
                      const Progress& progress) {
+  const PictureSize size = views.size;
   if (options.view == "sheet") {
     const SheetView sheet{views.slice.position_mm, views.slice.window, has_speed(options), views.slice.term,
                           views.volume};
@@ -366,16 +124,8 @@ bool is_even(const Picture& picture) {
 
 Status run(Program& program, const RenderOptions& options) {
   Console& console = program.console;
-  if (Status good = check(options); !good) return good;
-  const auto size = parse_size(options.size);
-  if (!size) return tl::unexpected<Error>(size.error());
   auto views = views_of(options);
   if (!views) return pass_on(views);
-  Parameters parameters;
-  if (options.target) parameters.target = *options.target;
-  if (options.range) parameters.range = *options.range;
-  if (options.alpha) parameters.alpha = *options.alpha;
-  if (Status good = tidemark::check(parameters); !good) return good;
   Outputs outputs;
   if (Status announced = outputs.announce_png("--out", options.out); !announced) return announced;
   auto loaded = load_volume(options.input, options.series, console.progress());
@@ -390,14 +140,14 @@ Status run(Program& program, const RenderOptions& options) {
   auto renderer = Renderer::create(*device, source, phi->layout);
   if (!renderer) return pass_on(renderer);
   if (Status shown = (*renderer)->set_phi(*phi); !shown) return shown;
-  (*renderer)->set_parameters(parameters);
+  (*renderer)->set_parameters(views->parameters);
   if (!options.labels.empty()) {
     const auto labels = load_labels(options.labels, source->geometry, console);
     if (!labels) return tl::unexpected<Error>(labels.error());
     if (Status taken = (*renderer)->set_labels(*labels); !taken) return taken;
   }
-  place(*views, options, *source, *phi, volume_aspect(options, *size));
-  const auto picture = draw(**renderer, options, *views, *size, console.progress());
+  place(*views, options, *source, *phi, volume_aspect(options, views->size));
+  const auto picture = draw(**renderer, options, *views, console.progress());
   if (!picture) return tl::unexpected<Error>(picture.error());
   if (is_even(*picture)) console.warn("the picture shows nothing but its background");
   const auto write = [&](const std::filesystem::path& name) {
@@ -420,46 +170,7 @@ void add_render(CLI::App& app, Program& program) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App& command = add_command(app, program, {"render", kSummary, kDescription, kExamples},
                                   [&program, options] { return run(program, *options); });
-  command.add_option("INPUT", options->input, "DICOM folder or file, or a volume file")->required();
-  command.add_option("--series", options->series, "UID of the series, where INPUT holds several");
-  command.add_option("--mask", options->mask, "Mask whose surface is shown");
-  command.add_option("--phi", options->phi,
-                     "Saved level set whose surface is shown: above 0 inside, in smallest voxels");
-  command.add_option("--labels", options->labels, "Labels, shown as colours on slices");
-  command.add_option("--view", options->view, "What is drawn (default: 3d)")->type_name(joined(kViews, "|"));
-  command.add_option("--preset", options->preset,
-                     "Volume rendering: " + fmt::format("{}", fmt::join(preset_names(), ", ")));
-  command.add_option("--tf", options->transfer_function,
-                     "Volume rendering: a transfer function of your own, as JSON");
-  command.add_option("--roi", options->region, "Where the volume rendering shows: off is everywhere")
-      ->type_name(joined(kRegions, "|"));
-  command.add_option("--colour", options->colour, "What colours the surface (default: plain)")
-      ->type_name(joined(kColourings, "|"));
-  command.add_option("--opacity", options->opacity, "Of the surface, 0 to 1 (default: 1)");
-  command.add_option("--occlusion", options->occlusion, "How much hollows of the surface darken, 0 to 1");
-  add_numbers(command, "--clip", "NX,NY,NZ,D", options->clip, "Clip plane in the patient (LPS, mm)");
-  command.add_option("--clipped", options->clipped, "What it cuts (default: both)")
-      ->type_name(joined(kClipped, "|"));
-  add_numbers(command, "--normal", "NX,NY,NZ", options->normal, "Across the oblique slice (LPS)");
-  add_numbers(command, "--at", "I,J,K", options->at,
-              "A voxel that the slice goes through (default: the middle of the surface, or of the volume)");
-  add_numbers(command, "--window", "CENTRE,WIDTH", options->window,
-              "Window in the source's units (default: the file's)");
-  command.add_flag("--nearest", options->nearest, "Slices show voxels as they are, not interpolated");
-  add_number(command, "--target", options->target, "T, for the speed");
-  add_number(command, "--range", options->range, "epsilon, for the speed");
-  add_number(command, "--alpha", options->alpha, "alpha, for the speed (default: 0.5)");
-  command.add_option("--term", options->term, "What --view speed shows (default: data, which is D(I))")
-      ->type_name(joined(kTerms, "|"));
-  command.add_option("--camera", options->camera,
-                     "AZIMUTH,ELEVATION[,ZOOM] in degrees: 0,0 looks from the front (default); azimuth goes\n"
-                     "towards the patient's left, elevation towards the head");
-  command.add_option("--mode", options->mode, "How 3D pictures are made (default: raycast)")
-      ->type_name(joined(kModes, "|"));
-  command.add_flag("--fit", options->fit, "The camera looks at the pages around the surface and comes near");
-  command.add_flag("--annotate", options->annotate, "Orientation letters and a scale bar");
-  command.add_option("--size", options->size, "Pixels (default: 512x512)")->type_name("WxH");
-  command.add_option("--out", options->out, "Picture, .png")->required();
+  add_render_options(command, *options);
 }
 
 }  // namespace tidemark::cli

@@ -28,7 +28,9 @@ bool PageLayout::contains_page(Index3 coordinates) const {
          coordinates.y < pages_.y && coordinates.z < pages_.z;
 }
 
-Index3 PageLayout::first_voxel(std::int64_t page) const { return page_coordinates(page) * page_shape_; }
+Index3 PageLayout::first_voxel(std::int64_t page) const {
+  return page_coordinates(page) * page_shape_;
+}
 
 Index3 PageLayout::valid_shape(std::int64_t page) const {
   return glm::min(page_shape_, volume_size_ - first_voxel(page));

@@ -42,8 +42,9 @@ Status validate_face(const Field& phi, Index3 first, Index3 valid, int axis, int
       const std::int64_t page = phi.layout.translate(other).page;
       if (phi.table[static_cast<std::size_t>(page)] >= 0) return {};  // resident
       if (phi.at(other) != phi.at(voxel)) {
-        return fail(ErrorKind::internal, "phi is {} at voxel ({}, {}, {}), beside a page that is not resident",
-                    phi.at(voxel), voxel.x, voxel.y, voxel.z);
+        return fail(ErrorKind::internal,
+                    "phi is {} at voxel ({}, {}, {}), beside a page that is not resident", phi.at(voxel),
+                    voxel.x, voxel.y, voxel.z);
       }
     }
   }

@@ -251,8 +251,8 @@ void CliRunTest::pictures_are_drawn_from_masks_and_fields() {
   QCOMPARE(failure(write_volume_file(volume, file)), QString());
   must_run(QStringList{"segment", text(file)} + ball_arguments(Index3(32)) +
            QStringList{"--out", text(folder / "mask.nrrd"), "--out-phi", text(folder / "phi.nrrd"),
-                       "--picture", text(folder / "overview.png")});
-  QVERIFY(bytes_of(folder / "overview.png").startsWith("\x89PNG"));
+                       "--picture", text(folder / "sheet-of-segment.png")});
+  QVERIFY(bytes_of(folder / "sheet-of-segment.png").startsWith("\x89PNG"));
   const auto tf = folder / "tf.json";
   QFile file_of_tf(text(tf));
   QVERIFY(file_of_tf.open(QIODevice::WriteOnly));

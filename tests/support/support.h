@@ -35,9 +35,9 @@ QString failure(const Result<T>& result) {
 }  // namespace tidemark::test
 
 // main() of a test that works on the real studies.
-#define TIDEMARK_STUDY_TEST_MAIN(Class)                                            \
-  int main(int argc, char** argv) {                                                \
+#define TIDEMARK_STUDY_TEST_MAIN(Class)                                             \
+  int main(int argc, char** argv) {                                                 \
     if (const int code = tidemark::test::require_studies(); code != 0) return code; \
-    Class test;                                                                    \
-    return QTest::qExec(&test, argc, argv);                                        \
+    Class test;                                                                     \
+    return QTest::qExec(&test, argc, argv);                                         \
   }

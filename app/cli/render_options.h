@@ -1,0 +1,64 @@
+// What `tidemark-cli render` can be asked for.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/picture.h"
+#include "renderer/views.h"
+#include "solver/parameters.h"
+
+namespace tidemark::cli {
+
+struct RenderOptions {
+  std::string input;
+  std::string series;
+  std::string mask;
+  std::string phi;
+  std::string labels;
+  std::string view = "3d";
+  std::string preset;
+  std::string transfer_function;
+  std::string region = "off";
+  std::string size = "512x512";
+  std::optional<std::vector<double>> clip;
+  std::string clipped = "both";
+  std::optional<std::vector<double>> normal;
+  std::optional<std::vector<double>> at;
+  std::string camera = "0,0";
+  std::string mode = "raycast";
+  std::optional<std::vector<double>> window;
+  std::optional<double> target;
+  std::optional<double> range;
+  std::optional<double> alpha;
+  std::string term = "data";
+  std::string colour = "plain";
+  std::optional<double> opacity;
+  std::optional<double> occlusion;
+  bool fit = false;
+  bool nearest = false;
+  bool annotate = false;
+  std::string out;
+};
+
+// The views that the options ask for, less what depends on the study: where its middle is, which values are
+// common.
+struct Views {
+  PictureSize size;
+  VolumeView volume;
+  SliceView slice;
+  Parameters parameters;
+};
+
+bool has_surface(const RenderOptions& options);
+bool has_speed(const RenderOptions& options);
+
+// Checks all options, whether the view that is asked for uses them or not. Fails (ErrorKind::usage, or
+// ErrorKind::input for what is wrong in a file of a transfer function).
+Result<Views> views_of(const RenderOptions& options);
+
+void add_render_options(CLI::App& command, RenderOptions& options);
+
+}  // namespace tidemark::cli
