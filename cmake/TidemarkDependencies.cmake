@@ -9,7 +9,7 @@ find_package(CLI11 REQUIRED)
 find_package(hwy REQUIRED)
 find_package(DCMTK REQUIRED)
 find_package(OpenJPEG REQUIRED)
-find_package(Qt6 6.4 REQUIRED COMPONENTS Core Test)
+find_package(Qt6 6.4 REQUIRED COMPONENTS Core Gui Widgets OpenGL OpenGLWidgets Svg Test)
 
 # ITK without its Use file: include directories and libraries go to the targets that need them, no others.
 # Its configuration finds every library that any of its modules may use and says much about each.
@@ -30,3 +30,5 @@ find_package(TidemarkOpenVDB REQUIRED)
 
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
+pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)

@@ -23,3 +23,11 @@ function(tidemark_test name)
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 900 SKIP_RETURN_CODE 77
                        ENVIRONMENT QTEST_FUNCTION_TIMEOUT=900000)
 endfunction()
+
+# A test that opens windows: the same, on a screen of its own that nobody sees.
+function(tidemark_gui_test name)
+  tidemark_test(${name} ${ARGN})
+  set_property(TARGET ${name} PROPERTY CROSSCOMPILING_EMULATOR
+               xvfb-run -a -s "-screen 0 2600x1700x24 -nolisten tcp")
+  set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT QT_QPA_PLATFORM=xcb)
+endfunction()

@@ -15,6 +15,8 @@ namespace tidemark {
 struct WindowLevel {
   double centre = 0.0;  // in rescaled units (HU for CT)
   double width = 1.0;
+
+  bool operator==(const WindowLevel&) const = default;
 };
 
 // Stored values in voxel order (i fastest); a voxel's value is slope * stored + intercept.

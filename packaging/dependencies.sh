@@ -1,16 +1,19 @@
 # What a machine needs to build and test Tidemark, and how it is installed. Sourced by run and test.
 # What each package is for: docs/5-dependencies.md.
 
-# The names are the same on Debian 12, Debian 13 and Ubuntu 24.04.
+# These names are the same on Debian 12, Debian 13 and Ubuntu 24.04.
 tidemark_packages=(
   g++ cmake ninja-build ccache pkg-config
-  qt6-base-dev libgl-dev libepoxy-dev libegl-dev libegl1 libgl1 libgl1-mesa-dri
+  qt6-base-dev qt6-svg-dev xvfb xauth fonts-dejavu-core libgl-dev libepoxy-dev libegl-dev libegl1 libgl1 libgl1-mesa-dri
   libglm-dev libfmt-dev libspdlog-dev libexpected-dev nlohmann-json3-dev libcli11-dev libhwy-dev
-  libdcmtk-dev libnsl-dev libopenjp2-7-dev
+  libzip-dev libssl-dev libdcmtk-dev libnsl-dev libopenjp2-7-dev
   libinsighttoolkit5-dev libgdcm-dev zlib1g-dev libpng-dev
   libopenvdb-dev libtbb-dev libboost-dev
   dicom3tools locales
 )
+
+# Qt's OpenGL classes are a package of their own on Debian 12, and part of qt6-base-dev later.
+if grep -qs '^VERSION_CODENAME=bookworm' /etc/os-release; then tidemark_packages+=(libqt6opengl6-dev); fi
 
 # The packages of the list that are not installed, one a line.
 tidemark_missing_packages() {

@@ -24,6 +24,8 @@ struct Camera {
   double zoom = 1.0;                                  // 1: the whole volume is in view from every side
   std::optional<glm::dvec3> focus_mm = std::nullopt;  // what is in the middle; none: the volume's middle
 
+  bool operator==(const Camera&) const = default;
+
   // Unit vectors in the patient: to the right and up in the picture.
   [[nodiscard]] glm::dvec3 right() const;
   [[nodiscard]] glm::dvec3 up() const;
@@ -39,6 +41,8 @@ struct Camera {
 struct SliceOrientation {
   glm::dvec3 right{1.0, 0.0, 0.0};
   glm::dvec3 up{0.0, -1.0, 0.0};
+
+  bool operator==(const SliceOrientation&) const = default;
 
   // From the viewer into the picture.
   [[nodiscard]] glm::dvec3 into() const;

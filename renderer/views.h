@@ -20,6 +20,8 @@ struct ClipPlane {
   bool clips_source = true;
   bool clips_surface = true;
   bool picture = true;
+
+  bool operator==(const ClipPlane&) const = default;
 };
 
 // Blinn-Phong. The shares of ambient and diffuse light make up the colour; specular light is white.

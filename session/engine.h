@@ -1,0 +1,70 @@
+// The one thread that computes and draws, with the one OpenGL context.
+#pragma once
+
+#include <QObject>
+#include <QOffscreenSurface>
+#include <QOpenGLContext>
+#include <array>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "core/result.h"
+#include "gpu/device.h"
+
+namespace tidemark {
+
+// What is waiting is done in this order; jobs of the same priority in the order in which they came.
+enum class Priority {
+  edit,        // what a user did: always first, so that it is seen in the next picture
+  picture,     // pictures to be seen now
+  step,        // a chunk of steps of a level set that plays
+  refine,      // better pictures of views in which nothing moves
+  background,  // measurements and checkpoints
+};
+
+// A queue of small jobs, drained by one thread that owns the context, the executors and the renderers.
+// Created and destroyed on the thread of the user interface, which never waits for it but at the very end.
+class Engine : public QObject {
+  Q_OBJECT
+ public:
+  enum class Graphics { hardware, software, none };
+
+  // Without OpenGL there is an engine all the same: it computes, but draws nothing; why, says
+  // graphics_problem(). `use_opengl` false asks for that.
+  explicit Engine(bool use_opengl = true);
+  ~Engine() override;
+
+  [[nodiscard]] Graphics graphics() const { return graphics_; }
+  [[nodiscard]] const std::string& graphics_problem() const { return graphics_problem_; }
+  [[nodiscard]] const gpu::Capabilities& capabilities() const { return capabilities_; }
+  // For contexts that are to see the engine's textures; null without OpenGL.
+  [[nodiscard]] QOpenGLContext* context() const { return context_.get(); }
+
+  // A job takes a stop token, which asks it to end early when the engine closes or the job is cancelled. Jobs
+  // of an `owner` (any address) that still wait are forgotten by cancel(owner), and the running one is asked
+  // to stop. Any thread may call these.
+  using Job = std::function<void(std::stop_token)>;
+  void post(Priority priority, const void* owner, Job job);
+  void cancel(const void* owner);
+  // Asks the running job to stop if it is less urgent than `priority` and belongs to `owner` (null:
+  // anyone's).
+  void interrupt(Priority priority, const void* owner = nullptr);
+  // Waits until everything that was posted before is done (tests, and closing).
+  void finish();
+
+  // On the engine's thread: the device, null without OpenGL.
+  [[nodiscard]] const std::shared_ptr<gpu::Device>& device() const { return device_; }
+  [[nodiscard]] bool on_engine_thread() const { return std::this_thread::get_id() == thread_.get_id(); }
+  // Contexts made since the start: 1, and one more for each that was lost.
+  [[nodiscard]] int contexts_made() const { return contexts_made_; }
+};
+
+}  // namespace tidemark

@@ -1,0 +1,26 @@
+// How often values occur in a volume.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/volume.h"
+
+namespace tidemark {
+
+// For panels and the transfer function editor; measured once when a study is opened.
+struct SourceSummary {
+  float low = 0.0F;  // Volume::common_range()
+  float high = 1.0F;
+  float lowest = 0.0F;  // Volume::range()
+  float highest = 1.0F;
+  static constexpr int kBins = 256;  // of [lowest, highest]
+  std::vector<std::int64_t> values;  // kBins counts
+  float steepest = 1.0F;             // the gradient magnitude (units a mm) that 1 in 200 exceeds
+  std::vector<std::int64_t>
+      value_gradient;  // kBins x kBins counts over [low, high] x [0, steepest], value fastest
+};
+SourceSummary summarise(const Volume& volume, const Progress& progress = {});
+
+}  // namespace tidemark

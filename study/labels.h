@@ -1,0 +1,56 @@
+// Several labels over the volume: what was segmented so far.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/volume.h"
+
+namespace tidemark {
+
+struct Label {
+  std::uint8_t id = 1;  // 1 to 255; 0 is no label
+  std::string name;
+  std::array<std::uint8_t, 3> colour{255, 255, 0};
+  bool visible = true;
+  bool locked = false;  // its voxels are not changed by others
+
+  bool operator==(const Label&) const = default;
+};
+
+class Labels {
+ public:
+  explicit Labels(const Geometry& geometry) : geometry_(geometry) {}
+
+  [[nodiscard]] const Geometry& geometry() const { return geometry_; }
+  [[nodiscard]] const std::vector<Label>& list() const { return list_; }
+  // A label id for each voxel in voxel order; empty while no voxel has a label.
+  [[nodiscard]] std::span<const std::uint8_t> voxels() const { return voxels_; }
+  [[nodiscard]] std::uint64_t revision() const { return revision_; }  // another after each change of voxels
+
+  // A new label with a colour that differs from the others'. Fails (ErrorKind::usage) when there are 255.
+  Result<std::uint8_t> add(std::string name);
+  Status set(const Label& label);  // name, colour, visible, locked of the label with that id
+  Status remove(std::uint8_t id);  // and clears its voxels
+
+  // Gives the voxels of `mask` to the label; voxels of locked labels stay. With `replace`, the label's other
+  // voxels are cleared. Fails (ErrorKind::usage) when the label is locked or unknown, or the grid differs.
+  Status accept(const Mask& mask, std::uint8_t id, bool replace = true);
+  [[nodiscard]] Mask mask(std::uint8_t id) const;
+};
+
+// What is inside a label or a surface.
+struct RegionStatistics {
+  std::int64_t voxels = 0;
+  double volume_ml = 0.0;
+  double mean = 0.0;                // of the volume's values, in its units
+  double standard_deviation = 0.0;  // of the population
+};
+RegionStatistics statistics_in(const Volume& volume, const Mask& mask);
+// Of all labels at once, by id (256 entries).
+std::vector<RegionStatistics> statistics_by_label(const Volume& volume, const Labels& labels);
+
+}  // namespace tidemark

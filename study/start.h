@@ -1,0 +1,55 @@
+// How a level set begins, as data: what a recipe records and a user can do again.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/progress.h"
+#include "solver/executor.h"
+
+namespace tidemark {
+
+// Voxels with low <= value <= high, in the source's units.
+struct ThresholdStart {
+  double low = 0.0;
+  double high = 0.0;
+  bool operator==(const ThresholdStart&) const = default;
+};
+
+// Those of them that are connected to `voxel` across faces.
+struct FloodStart {
+  Index3 voxel{0};
+  double low = 0.0;
+  double high = 0.0;
+  bool operator==(const FloodStart&) const = default;
+};
+
+// A mask of which one knows where it comes from ("truth.nii.gz", "label Liver").
+struct MaskStart {
+  std::shared_ptr<const Mask> mask;
+  std::string origin;
+};
+
+// A level set that was saved.
+struct FieldStart {
+  std::shared_ptr<const Field> phi;
+  std::string origin;
+};
+
+// The first part, then seeds are added, then erasers are taken away.
+struct Start {
+  std::variant<std::monostate, ThresholdStart, FloodStart, MaskStart, FieldStart> from;
+  std::vector<Sphere> seeds;
+  std::vector<Sphere> erasers;
+
+  // One line for people: "2 seeds, 1 eraser", "mask truth.nii.gz, 1 seed".
+  [[nodiscard]] std::string describe() const;
+};
+
+// Gives the executor its start; what it held before is lost. `source` is the volume as the solver sees it.
+// Fails with ErrorKind::usage when a part is outside the volume or nothing is inside; phi is then as before.
+Status begin(Executor& executor, const Volume& source, const Start& start, const Progress& progress = {});
+
+}  // namespace tidemark

@@ -1,0 +1,1 @@
+// The transfer function editor comes here.
