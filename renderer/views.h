@@ -32,6 +32,8 @@ struct Lighting {
   double shininess = 40.0;
   std::optional<glm::dvec3> from;  // unit vector to the light in the patient (LPS); none: at the viewer
   double occlusion = 0.0;          // how much of the light hollows of the surface lose, 0 to 1
+
+  bool operator==(const Lighting&) const = default;
 };
 
 // Numbered as in resources/shaders/render.
@@ -46,6 +48,8 @@ struct Quality {
   bool fast_gradient = false;  // lights the source from differences to one side
   int round = 0;  // pictures of other rounds have their rays and samples at other places, for taking means
   bool skip_empty = true;  // false only to find out what skipping saves
+
+  bool operator==(const Quality&) const = default;
 };
 
 // While something moves.
@@ -68,6 +72,8 @@ struct VolumeView {
   WindowLevel window;  // of the clip plane's picture
   glm::vec3 background{0.07F, 0.08F, 0.10F};
   Quality quality;
+
+  bool operator==(const VolumeView&) const = default;
 };
 
 struct SliceView {
@@ -83,6 +89,8 @@ struct SliceView {
   double line_pixels = 2.0;
   double label_opacity = 0.4;
   glm::vec3 background{0.0F};
+
+  bool operator==(const SliceView&) const = default;
 };
 
 }  // namespace tidemark

@@ -4,12 +4,15 @@
 
 #include <QObject>
 #include <QString>
-#include <deque>
+#include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/progress.h"
+#include "renderer/renderer.h"
+#include "session/case_state.h"
 #include "session/display.h"
 #include "session/engine.h"
 #include "session/source_summary.h"
@@ -20,41 +23,8 @@
 namespace tidemark {
 
 class CaseRunner;
-
-// A point of the curves that show how the level set develops.
-struct CurvePoint {
-  std::int64_t step = 0;
-  double volume_ml = 0.0;
-  double surface_mm2 = 0.0;
-  double surface_speed = 0.0;  // root mean square, smallest spacings per unit of time (kConvergedSpeed)
-};
-
-// What a case was like after the engine's last job for it.
-struct CaseState {
-  Parameters parameters;
-  std::int64_t step = 0;  // since the start
-  bool begun = false;     // there is a surface
-  bool playing = false;
-  bool converged = false;
-  double time_step = 0.0;
-  double band = 2.5;
-  double smoothed_mm = 0.0;
-  QString executor;               // "host", "compute", "stream"
-  double steps_per_second = 0.0;  // while it plays, in the last second: steps by time, pictures included
-  double solver_steps_per_second = 0.0;  // in the solver's own time
-  MemoryReport memory;
-  std::shared_ptr<const Field> phi;  // at most a second old while it plays, else as it is
-  std::vector<CurvePoint> curve;     // since the start, thinned
-  SurfaceStatistics surface;         // as of the last measurement
-  RegionStatistics inside;           // of the volume's values, under the surface; measured when it rests
-  std::vector<Label> labels;
-  std::vector<RegionStatistics> label_statistics;                 // in the order of `labels`
-  std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null while there are none
-  QString undo_text;                                              // what undo would take back; empty: nothing
-  QString redo_text;
-  bool modified = false;  // something would be lost
-  QString start_text;     // how it began
-};
+class LockStep;
+class Outlet;
 
 // Lives on the thread of the user interface. Commands return at once; their outcome comes with
 // state_changed(), what went wrong with failed().
@@ -111,6 +81,19 @@ class CaseSession : public QObject {
   void accept_surface(std::uint8_t label);  // the surface's inside becomes the label
   void begin_from_label(std::uint8_t label);
 
+  // What is seen at a pixel of a 3D view (from its top left, physical pixels); the answer comes later, or
+  // never when the case is closed before.
+  void pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel,
+            std::function<void(std::optional<Hit>)> answer);
+
+  // Plays cases together, always at the same step; in no group any more when there are none.
+  static void play_in_lock_step(const std::vector<CaseSession*>& sessions);
+  void leave_lock_step();
+  [[nodiscard]] bool in_lock_step() const { return lock_step_ != nullptr; }
+
+  // The case on the engine's thread, for views.
+  [[nodiscard]] const std::shared_ptr<CaseRunner>& runner() const { return runner_; }
+
  signals:
   void state_changed();
   void failed(const QString& message);
@@ -118,11 +101,23 @@ class CaseSession : public QObject {
   void progressed(double fraction, const QString& what);
 
  private:
+  using Command = std::function<Status(CaseRunner&, const Progress&)>;
+  void tell(Command command);
+  void take(CaseState state);
+  void set_playing(bool playing);
+
   Engine& engine_;
   Opened opened_;
   Display display_;
+  std::shared_ptr<Outlet> outlet_;
+  std::shared_ptr<CaseRunner> runner_;
+  std::shared_ptr<LockStep> lock_step_;
   CaseState state_;
   Parameters wanted_parameters_;
+  std::int64_t steps_per_picture_ = 0;
+  bool pause_at_convergence_ = true;
+  std::uint64_t edits_sent_ = 0;
+  std::shared_ptr<std::atomic<std::uint64_t>> edits_done_ = std::make_shared<std::atomic<std::uint64_t>>(0);
 };
 
 }  // namespace tidemark

@@ -4,7 +4,9 @@
 #include <QObject>
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
+#include <QThread>
 #include <array>
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -14,7 +16,6 @@
 #include <optional>
 #include <stop_token>
 #include <string>
-#include <thread>
 
 #include "core/result.h"
 #include "gpu/device.h"
@@ -57,14 +58,49 @@ class Engine : public QObject {
   // Asks the running job to stop if it is less urgent than `priority` and belongs to `owner` (null:
   // anyone's).
   void interrupt(Priority priority, const void* owner = nullptr);
-  // Waits until everything that was posted before is done (tests, and closing).
+  // Waits until nothing waits and nothing runs (tests). A level set that plays never lets that happen.
   void finish();
 
   // On the engine's thread: the device, null without OpenGL.
   [[nodiscard]] const std::shared_ptr<gpu::Device>& device() const { return device_; }
-  [[nodiscard]] bool on_engine_thread() const { return std::this_thread::get_id() == thread_.get_id(); }
+  // On the engine's thread, after the device was lost: a new context. What was made on the lost device must
+  // be let go by its owners. Fails (ErrorKind::capability) when there is no other context to be had.
+  Status renew_graphics();
   // Contexts made since the start: 1, and one more for each that was lost.
   [[nodiscard]] int contexts_made() const { return contexts_made_; }
+
+ private:
+  struct Waiting {
+    const void* owner;
+    Job job;
+  };
+  struct Running {
+    Priority priority;
+    const void* owner;
+    std::stop_source stop;
+  };
+  static constexpr std::size_t kPriorities = 5;
+
+  Status make_context();
+  void run();
+  std::optional<Waiting> next(std::unique_lock<std::mutex>& lock);
+  void let_graphics_go();
+
+  std::unique_ptr<QOffscreenSurface> surface_;
+  std::unique_ptr<QOpenGLContext> context_;
+  std::shared_ptr<gpu::Device> device_;
+  gpu::Capabilities capabilities_;
+  Graphics graphics_ = Graphics::none;
+  std::string graphics_problem_;
+  std::atomic<int> contexts_made_{0};
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::array<std::deque<Waiting>, kPriorities> waiting_;
+  std::optional<Running> running_;
+  bool started_ = false;
+  bool closing_ = false;
+  std::unique_ptr<QThread> thread_;
 };
 
 }  // namespace tidemark

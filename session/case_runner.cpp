@@ -1,0 +1,262 @@
+#include "session/case_runner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "session/lock_step.h"
+
+namespace tidemark {
+namespace {
+
+constexpr double kChunkSeconds = 0.016;   // of steps between two pictures
+constexpr std::int64_t kMostSteps = 256;  // between two pictures: it should be seen how the surface moves
+
+}  // namespace
+
+CaseRunner::CaseRunner(Engine& engine, CaseSession::Opened opened, ExecutorKind executor, Receiver receiver)
+    : engine_(engine), opened_(std::move(opened)), executor_kind_(executor), receiver_(std::move(receiver)) {}
+
+void CaseRunner::post(Command command) {
+  engine_.interrupt(Priority::step, this);  // refinement can wait
+  auto job = [self = shared_from_this(), command = std::move(command)](const std::stop_token& stop) {
+    Progress progress;
+    progress.stop = stop;
+    progress.report = [self](double fraction, std::string_view what) {
+      self->receiver_.outlet->send(
+          [report = self->receiver_.progressed, fraction,
+           text = QString::fromUtf8(what.data(), static_cast<qsizetype>(what.size()))] {
+            report(fraction, text);
+          });
+    };
+    if (auto status = self->follow_graphics(); !status) self->tell(status.error());
+    if (auto status = command(*self, progress); !status) self->tell(status.error());
+    if (!self->case_) return;
+    self->show_pictures();
+    self->post_measurement();
+    self->publish();
+  };
+  engine_.post(Priority::edit, this, std::move(job));
+}
+
+Status CaseRunner::open() {
+  painter_.use(engine_.device());
+  graphics_ = engine_.contexts_made();
+  auto made =
+      Case::create(opened_.volume, opened_.origin, opened_.parameters, executor_kind_, executor_options());
+  if (!made) return pass_on(made);
+  case_ = std::move(*made);
+  return {};
+}
+
+void CaseRunner::close() {
+  playing_ = false;
+  painter_.forget();
+  painter_.use(nullptr);
+  case_.reset();
+}
+
+ExecutorOptions CaseRunner::executor_options() const {
+  ExecutorOptions options;
+  options.device = engine_.device();
+  return options;
+}
+
+// After a lost context: the executor goes on from its last checkpoint on the new one.
+Status CaseRunner::follow_graphics() {
+  const auto& device = engine_.device();
+  if (device && device->lost()) {
+    if (auto status = engine_.renew_graphics(); !status) {
+      painter_.forget();
+      painter_.use(nullptr);
+      return status;
+    }
+  }
+  if (!case_ || graphics_ == engine_.contexts_made()) return {};
+  graphics_ = engine_.contexts_made();
+  painter_.forget();
+  painter_.use(engine_.device());
+  auto status = case_->level_set().rebuild(executor_options());
+  phi_changed();
+  return status;
+}
+
+void CaseRunner::tell(const Error& error) {
+  if (error.kind == ErrorKind::cancelled) return;
+  receiver_.outlet->send(
+      [failed = receiver_.failed, text = QString::fromStdString(error.message)] { failed(text); });
+}
+
+void CaseRunner::phi_changed() {
+  painter_.phi_changed();
+  meter_.edited(case_->level_set().step());
+}
+
+Status CaseRunner::edit(Status outcome) {
+  if (outcome) phi_changed();
+  return outcome;
+}
+
+Status CaseRunner::adjust(Status outcome) {
+  painter_.look_changed();
+  meter_.adjusted();
+  return outcome;
+}
+
+// Playing.
+
+void CaseRunner::set_playing(bool playing) {
+  const bool begins = playing && !playing_;
+  playing_ = playing && case_->level_set().begun();
+  if (begins && playing_) post_steps();
+  if (!playing_) case_->level_set().end_run();
+}
+
+std::int64_t CaseRunner::steps_to_next_picture() const {
+  if (steps_per_picture_ > 0) return steps_per_picture_;
+  const double seconds = meter_.seconds_per_step();
+  if (seconds <= 0.0) return 1;
+  return std::clamp(std::llround(kChunkSeconds / seconds), 1LL, static_cast<long long>(kMostSteps));
+}
+
+void CaseRunner::post_steps() {
+  engine_.post(Priority::step, this,
+               [self = shared_from_this()](std::stop_token stop) { self->run_steps(std::move(stop)); });
+}
+
+void CaseRunner::run_steps(std::stop_token stop) {
+  if (!playing_ || !case_) return;
+  Status status = follow_graphics();
+  const auto group = group_.lock();
+  const Progress progress{nullptr, std::move(stop)};
+  if (status) status = group ? group->advance(*this, progress) : advance(steps_to_next_picture(), progress);
+  if (!status && status.error().kind != ErrorKind::cancelled &&
+      !(engine_.device() && engine_.device()->lost())) {
+    set_playing(false);
+    tell(status.error());
+  }
+  if (playing_) {
+    post_steps();
+  } else {
+    case_->level_set().end_run();
+    post_measurement();
+  }
+  show_pictures();
+  publish();
+}
+
+Status CaseRunner::advance(std::int64_t steps, const Progress& progress) {
+  LevelSet& level_set = case_->level_set();
+  Advance run{steps, pause_at_convergence_, progress};
+  run.progress.report = nullptr;
+  const auto report = level_set.advance(run);
+  if (!report) return tl::unexpected<Error>(report.error());
+  meter_.computed(*report, level_set.step());
+  painter_.phi_changed();
+  if (report->converged && pause_at_convergence_) playing_ = false;
+  if (meter_.due(level_set.executor().name() != "host")) {
+    const auto phi = painter_.phi(*case_);
+    if (!phi) return tl::unexpected<Error>(phi.error());
+    meter_.measure(*phi, level_set.step(), *case_, false);
+  }
+  return {};
+}
+
+Status CaseRunner::change_executor(ExecutorKind kind) {
+  executor_kind_ = kind;
+  painter_.forget();
+  auto status = case_->level_set().change_executor(kind, executor_options());
+  phi_changed();
+  return status;
+}
+
+// Pictures.
+
+void CaseRunner::view_changed(const std::shared_ptr<ViewSlot>& slot) {
+  engine_.interrupt(Priority::step, this);
+  post_picture(slot, Priority::picture);
+}
+
+void CaseRunner::show_pictures() {
+  for (const auto& slot : painter_.views()) {
+    if (painter_.out_of_date(*slot)) post_picture(slot, Priority::picture);
+  }
+}
+
+void CaseRunner::post_picture(const std::shared_ptr<ViewSlot>& slot, Priority priority) {
+  // A view waits once; a better picture of what has changed meanwhile is not wanted.
+  auto& waiting = priority == Priority::picture ? slot->waiting : slot->refining;
+  if (waiting.exchange(true)) return;
+  engine_.post(priority, this, [self = shared_from_this(), slot, &waiting](std::stop_token stop) {
+    waiting = false;
+    self->draw(slot, std::move(stop));
+  });
+}
+
+void CaseRunner::draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token stop) {
+  if (!case_) return;
+  if (auto status = follow_graphics(); !status) return tell(status.error());
+  const auto more = painter_.draw(*slot, *case_, std::move(stop));
+  if (more) {
+    if (*more) post_picture(slot, Priority::refine);
+  } else if (more.error().kind == ErrorKind::cancelled) {
+    post_picture(slot, Priority::refine);
+  } else if (engine_.device() && engine_.device()->lost()) {
+    post_picture(slot, Priority::picture);  // on the next context
+  } else {
+    tell(more.error());
+  }
+}
+
+// Figures.
+
+void CaseRunner::post_measurement() {
+  if (playing_ || meter_.thorough() || std::exchange(measurement_waits_, true)) return;
+  engine_.post(Priority::background, this, [self = shared_from_this()](const std::stop_token&) {
+    self->measurement_waits_ = false;
+    if (!self->case_ || self->playing_) return;
+    const auto phi = self->painter_.phi(*self->case_);
+    if (!phi) return self->tell(phi.error());
+    self->meter_.measure(*phi, self->case_->level_set().step(), *self->case_, true);
+    self->publish();
+  });
+}
+
+void CaseRunner::publish() {
+  if (!case_) return;
+  LevelSet& level_set = case_->level_set();
+  CaseState state;
+  state.parameters = level_set.parameters();
+  state.step = level_set.step();
+  state.begun = level_set.begun();
+  state.playing = playing_;
+  state.time_step = level_set.executor().time_step();
+  state.band = level_set.executor().band();
+  state.smoothed_mm = case_->smoothed_mm();
+  state.executor = QString::fromUtf8(level_set.executor().name().data(),
+                                     static_cast<qsizetype>(level_set.executor().name().size()));
+  state.memory = level_set.executor().memory();
+  state.labels = case_->labels().list();
+  state.label_voxels = case_->labels().shared_voxels();
+  state.undo_text = QString::fromStdString(case_->history().undo_text());
+  state.redo_text = QString::fromStdString(case_->history().redo_text());
+  state.modified = case_->changed_since_save();
+  state.start_text = QString::fromStdString(level_set.recipe().start.describe());
+  meter_.report(state);
+  {
+    const std::lock_guard lock(post_->mutex);
+    post_->state = std::move(state);
+    if (std::exchange(post_->announced, true)) return;
+  }
+  receiver_.outlet->send([arrived = receiver_.state_arrived, post = post_] {
+    CaseState newest;
+    {
+      const std::lock_guard lock(post->mutex);
+      post->announced = false;
+      newest = std::move(post->state);
+    }
+    arrived(std::move(newest));
+  });
+}
+
+}  // namespace tidemark

@@ -1,0 +1,98 @@
+// A case on the engine's thread: commands are carried out, steps are computed, pictures drawn, figures taken.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "session/case_meter.h"
+#include "session/case_painter.h"
+#include "session/case_session.h"
+#include "session/outlet.h"
+
+namespace tidemark {
+
+class LockStep;
+
+// Everything but post(), add_view() and view_changed() belongs to the engine's thread.
+class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
+ public:
+  // Called on the session's thread through the outlet.
+  struct Receiver {
+    std::shared_ptr<Outlet> outlet;
+    std::function<void(CaseState)> state_arrived;
+    std::function<void(QString)> failed;
+    std::function<void(double, QString)> progressed;
+  };
+  // Does something to the case. What it returns as an error is told to the user.
+  using Command = std::function<Status(CaseRunner&, const Progress&)>;
+
+  CaseRunner(Engine& engine, CaseSession::Opened opened, ExecutorKind executor, Receiver receiver);
+
+  // Any thread. Before anything else is done, the command is; then all that shows the case is brought up to
+  // date.
+  void post(Command command);
+  void add_view(const std::shared_ptr<ViewSlot>& slot) { painter_.add(slot); }
+  void view_changed(const std::shared_ptr<ViewSlot>& slot);
+
+  // The first command: makes the document.
+  Status open();
+  // The last one: lets go of everything that lives on the engine's thread.
+  void close();
+
+  [[nodiscard]] bool opened() const { return case_ != nullptr; }
+  [[nodiscard]] Case& document() { return *case_; }
+  [[nodiscard]] CasePainter& painter() { return painter_; }
+  // After a command that has changed phi, or else what is seen: hands its outcome on.
+  Status edit(Status outcome);
+  Status adjust(Status outcome);
+
+  [[nodiscard]] bool playing() const { return playing_; }
+  void set_playing(bool playing);
+  void set_steps_per_picture(std::int64_t steps) { steps_per_picture_ = steps; }
+  void set_pause_at_convergence(bool pause) { pause_at_convergence_ = pause; }
+  [[nodiscard]] std::int64_t steps_to_next_picture() const;
+  // Computes steps and takes note of what came of it; a level set that has converged stops playing.
+  Status advance(std::int64_t steps, const Progress& progress);
+  Status change_executor(ExecutorKind kind);
+  void join(std::weak_ptr<LockStep> group) { group_ = std::move(group); }
+
+  void publish();
+  void show_pictures();  // posts those that are out of date
+
+ private:
+  void phi_changed();
+  void post_steps();
+  void run_steps(std::stop_token stop);
+  void post_picture(const std::shared_ptr<ViewSlot>& slot, Priority priority);
+  void draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token stop);
+  void post_measurement();
+  Status follow_graphics();
+  void tell(const Error& error);
+  [[nodiscard]] ExecutorOptions executor_options() const;
+
+  Engine& engine_;
+  CaseSession::Opened opened_;
+  ExecutorKind executor_kind_;
+  Receiver receiver_;
+
+  std::unique_ptr<Case> case_;
+  CasePainter painter_;
+  CaseMeter meter_;
+  int graphics_ = 0;  // Engine::contexts_made() when the executor was made
+  std::weak_ptr<LockStep> group_;
+
+  bool playing_ = false;
+  bool pause_at_convergence_ = true;
+  bool measurement_waits_ = false;
+  std::int64_t steps_per_picture_ = 0;
+
+  // The newest state, until the session has taken it.
+  struct Post {
+    std::mutex mutex;
+    CaseState state;
+    bool announced = false;
+  };
+  std::shared_ptr<Post> post_ = std::make_shared<Post>();
+};
+
+}  // namespace tidemark

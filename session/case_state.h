@@ -1,0 +1,50 @@
+// What a case is like, for those who show it.
+#pragma once
+
+#include <QString>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "solver/executor.h"
+#include "solver/statistics.h"
+#include "study/labels.h"
+
+namespace tidemark {
+
+// A point of the curves that show how the level set develops.
+struct CurvePoint {
+  std::int64_t step = 0;
+  double volume_ml = 0.0;
+  double surface_mm2 = 0.0;
+  double surface_speed = 0.0;  // root mean square, smallest spacings per unit of time (kConvergedSpeed)
+};
+
+// What a case was like after the engine's last job for it.
+struct CaseState {
+  Parameters parameters;
+  std::int64_t step = 0;  // since the start
+  bool begun = false;     // there is a surface
+  bool playing = false;
+  bool converged = false;
+  double time_step = 0.0;
+  double band = 2.5;
+  double smoothed_mm = 0.0;
+  QString executor;               // "host", "compute", "stream"
+  double steps_per_second = 0.0;  // while it plays, in the last second: steps by time, pictures included
+  double solver_steps_per_second = 0.0;  // in the solver's own time
+  MemoryReport memory;
+  std::shared_ptr<const Field> phi;  // at most a second old while it plays, else as it is
+  std::vector<CurvePoint> curve;     // since the start, thinned
+  SurfaceStatistics surface;         // as of the last measurement
+  RegionStatistics inside;           // of the volume's values, under the surface; measured when it rests
+  std::vector<Label> labels;
+  std::vector<RegionStatistics> label_statistics;                 // in the order of `labels`
+  std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null while there are none
+  QString undo_text;                                              // what undo would take back; empty: nothing
+  QString redo_text;
+  bool modified = false;  // something would be lost
+  QString start_text;     // how it began
+};
+
+}  // namespace tidemark

@@ -1,0 +1,42 @@
+// A view between the user interface, which says what is to be seen, and the engine, which draws it.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "renderer/quality_control.h"
+#include "session/outlet.h"
+#include "session/picture_feed.h"
+
+namespace tidemark {
+
+struct ViewSlot {
+  struct Wish {
+    AnyView view;
+    PictureSize size;
+    bool operator==(const Wish&) const = default;
+  };
+
+  std::shared_ptr<Outlet> outlet;
+  std::function<void()> take;  // what the outlet is sent when there is a picture
+
+  std::mutex mutex;                    // of the next three
+  std::optional<Wish> wish;            // the newest; none before the first
+  bool wish_is_new = false;            // since it was last drawn
+  ShownPicture finished;               // what the engine drew last
+  std::atomic<bool> waiting{false};    // a job to draw it is in the queue
+  std::atomic<bool> refining{false};   // and one to draw it better
+  std::atomic<bool> announced{false};  // the user interface has been told of `finished`, and has not looked
+
+  // On the engine's thread alone.
+  QualityControl quality;
+  PictureMean mean;
+  std::int64_t drawn_phi = -1;   // revision of phi that was last drawn
+  std::uint64_t drawn_look = 0;  // revision of labels and parameters
+  std::uint64_t pictures = 0;
+};
+
+}  // namespace tidemark
