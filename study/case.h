@@ -1,23 +1,15 @@
 // The document: a volume, its level set, its labels, how it is shown, and its history.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "study/history.h"
 #include "study/labels.h"
 #include "study/level_set.h"
+#include "study/origin.h"
 
 namespace tidemark {
-
-// Where a case's volume came from, so that it can be found again.
-struct StudyOrigin {
-  std::filesystem::path path;  // empty: made here (phantom)
-  std::string series_uid;
-  std::string phantom;   // its kind, where the volume is a phantom
-  std::string checksum;  // SHA-256 of the volume's voxels and geometry, hexadecimal
-};
 
 class Case {
  public:
