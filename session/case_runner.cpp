@@ -15,8 +15,8 @@ constexpr std::int64_t kMostSteps = 256;  // between two pictures: it should be 
 
 }  // namespace
 
-CaseRunner::CaseRunner(Engine& engine, CaseSession::Opened opened, ExecutorKind executor, Receiver receiver)
-    : engine_(engine), opened_(std::move(opened)), executor_kind_(executor), receiver_(std::move(receiver)) {}
+CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor, Receiver receiver)
+    : engine_(engine), study_(std::move(study)), executor_kind_(executor), receiver_(std::move(receiver)) {}
 
 void CaseRunner::post(Command command) {
   engine_.interrupt(Priority::step, this);  // refinement can wait
@@ -44,7 +44,7 @@ Status CaseRunner::open() {
   painter_.use(engine_.device());
   graphics_ = engine_.contexts_made();
   auto made =
-      Case::create(opened_.volume, opened_.origin, opened_.parameters, executor_kind_, executor_options());
+      Case::create(study_->volume, study_->origin, study_->parameters, executor_kind_, executor_options());
   if (!made) return pass_on(made);
   case_ = std::move(*made);
   return {};

@@ -26,7 +26,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   // Does something to the case. What it returns as an error is told to the user.
   using Command = std::function<Status(CaseRunner&, const Progress&)>;
 
-  CaseRunner(Engine& engine, CaseSession::Opened opened, ExecutorKind executor, Receiver receiver);
+  CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor, Receiver receiver);
 
   // Any thread. Before anything else is done, the command is; then all that shows the case is brought up to
   // date.
@@ -73,7 +73,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   [[nodiscard]] ExecutorOptions executor_options() const;
 
   Engine& engine_;
-  CaseSession::Opened opened_;
+  std::shared_ptr<const LoadedStudy> study_;
   ExecutorKind executor_kind_;
   Receiver receiver_;
 

@@ -2,25 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "study/history.h"
 #include "study/labels.h"
 #include "study/level_set.h"
+#include "study/origin.h"
 
 namespace tidemark {
-
-// Where a case's volume came from, so that it can be found again.
-struct StudyOrigin {
-  std::filesystem::path path;  // empty: made here (phantom)
-  std::string series_uid;
-  std::string phantom;   // its kind, where the volume is a phantom
-  std::string checksum;  // SHA-256 of the volume's voxels and geometry, hexadecimal (see checksum.h)
-
-  bool operator==(const StudyOrigin&) const = default;
-};
 
 // Used on one thread at a time, as its level set.
 class Case {
