@@ -1,0 +1,33 @@
+// What all parts of the panels have in common: they show one case, the active one.
+#pragma once
+
+#include <QPointer>
+#include <QWidget>
+
+#include "session/case_session.h"
+
+namespace tidemark {
+
+class SessionWidget : public QWidget {
+  Q_OBJECT
+ public:
+  explicit SessionWidget(QWidget* parent = nullptr) : QWidget(parent) {}
+
+  // Null: none is open. A session that dies is forgotten.
+  void set_session(CaseSession* session);
+  [[nodiscard]] CaseSession* session() const { return session_; }
+
+ protected:
+  // Another session, or none any more; refresh() follows.
+  virtual void attach() {}
+  // Something has changed. Called only with a session, and while nobody looks only when it is shown again.
+  virtual void refresh() = 0;
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  void changed();
+  void forget();
+  QPointer<CaseSession> session_;
+};
+
+}  // namespace tidemark
