@@ -1,0 +1,271 @@
+// Icons and themes: everything can be seen, and told apart.
+#include <QApplication>
+#include <QPainter>
+#include <QTest>
+#include <algorithm>
+#include <cmath>
+
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+
+using namespace tidemark;
+
+namespace {
+
+// Names that the desktop asks for.
+const QStringList kNames =
+    QStringLiteral(
+        "open-folder open-file save save-as export phantom recent close undo redo play pause step step-back "
+        "restart "
+        "tool-window tool-crosshair tool-probe tool-probe-transfer tool-seed tool-paint tool-erase "
+        "tool-distance "
+        "tool-angle clip-plane layout-single layout-one-three layout-two-two layout-paper view-slice-axial "
+        "view-slice-coronal view-slice-sagittal view-oblique view-speed view-3d view-pages tile cascade tabs "
+        "link lock "
+        "unlock eye eye-off add remove duplicate colour camera reset-view maximise full-screen settings "
+        "about warning "
+        "info target curve label statistics keyboard theme-light theme-dark lockstep")
+        .split(QLatin1Char(' '));
+
+QImage drawn(const QString& name, int side, QIcon::Mode mode = QIcon::Normal) {
+  return icon(name).pixmap(QSize(side, side), mode).toImage().convertToFormat(QImage::Format_ARGB32);
+}
+
+double linear(double part) {
+  return part <= 0.04045 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4);
+}
+
+// Contrast ratio as in WCAG 2.1.
+double contrast(const QColor& one, const QColor& other) {
+  const auto luminance = [](const QColor& c) {
+    return 0.2126 * linear(c.redF()) + 0.7152 * linear(c.greenF()) + 0.0722 * linear(c.blueF());
+  };
+  const auto [low, high] = std::minmax({luminance(one), luminance(other)});
+  return (high + 0.05) / (low + 0.05);
+}
+
+// Sum of the opacities, in pixels.
+double ink(const QImage& image) {
+  double sum = 0.0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) sum += qAlpha(image.pixel(x, y)) / 255.0;
+  }
+  return sum;
+}
+
+// Largest difference of the red, green and blue of what is opaque from `colour`.
+int distance_to(const QImage& image, const QColor& colour) {
+  int largest = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const QColor pixel = image.pixelColor(x, y);
+      if (pixel.alpha() < 250) continue;
+      largest = std::max({largest, std::abs(pixel.red() - colour.red()),
+                          std::abs(pixel.green() - colour.green()), std::abs(pixel.blue() - colour.blue())});
+    }
+  }
+  return largest;
+}
+
+// All icons with their names, on the theme's window: for the eye.
+QImage contact_sheet(const QPalette& palette, int side, qreal scale) {
+  constexpr int kColumns = 11;
+  const QStringList names = icon_names();
+  const QSize cell(104, side + 34);
+  const int rows = (static_cast<int>(names.size()) + kColumns - 1) / kColumns;
+  QImage sheet(QSizeF(cell.width() * kColumns * scale, cell.height() * rows * scale).toSize(),
+               QImage::Format_RGB32);
+  sheet.setDevicePixelRatio(scale);
+  sheet.fill(palette.color(QPalette::Window));
+  QPainter painter(&sheet);
+  QFont font = painter.font();
+  font.setPixelSize(10);
+  painter.setFont(font);
+  painter.setPen(palette.color(QPalette::WindowText));
+  for (int i = 0; i < names.size(); ++i) {
+    const QPoint corner(i % kColumns * cell.width(), i / kColumns * cell.height());
+    const QIcon picture = icon(names[i]);
+    picture.paint(&painter, QRect(corner + QPoint(52 - side - 2, 8), QSize(side, side)));
+    picture.paint(&painter, QRect(corner + QPoint(54, 8), QSize(side, side)), Qt::AlignCenter,
+                  QIcon::Disabled);
+    painter.drawText(QRect(corner + QPoint(0, side + 12), QSize(cell.width(), 16)), Qt::AlignCenter,
+                     names[i]);
+  }
+  return sheet;
+}
+
+}  // namespace
+
+class LookTest : public QObject {
+  Q_OBJECT
+ private slots:
+  void initTestCase() { apply_theme(*qApp, Theme::system); }
+  void cleanup() { apply_theme(*qApp, Theme::light); }
+
+  void every_name_has_a_drawing() {
+    for (const QString& name : kNames) QVERIFY2(!icon(name).isNull(), qUtf8Printable(name));
+    QStringList extra = icon_names();
+    for (const QString& name : kNames) extra.removeAll(name);
+    QCOMPARE(extra, QStringList());  // a drawing that nobody asks for
+  }
+
+  void an_unknown_name_gives_a_null_icon_and_a_warning() {
+    QTest::ignoreMessage(QtWarningMsg, "There is no icon 'no-such-icon'");
+    QVERIFY(icon(u"no-such-icon").isNull());
+  }
+
+  void icons_take_the_colour_of_the_themes_text() {
+    for (const Theme theme : {Theme::light, Theme::dark}) {
+      apply_theme(*qApp, theme);
+      const QPalette palette = QApplication::palette();
+      for (const QString& name : icon_names()) {
+        const QImage normal = drawn(name, 48);
+        QVERIFY2(ink(normal) > 30.0, qUtf8Printable(name));
+        QVERIFY2(distance_to(normal, palette.color(QPalette::WindowText)) <= 2, qUtf8Printable(name));
+        QVERIFY2(distance_to(drawn(name, 48, QIcon::Disabled),
+                             palette.color(QPalette::Disabled, QPalette::WindowText)) <= 2,
+                 qUtf8Printable(name));
+        QVERIFY2(distance_to(drawn(name, 48, QIcon::Selected), palette.color(QPalette::HighlightedText)) <= 2,
+                 qUtf8Printable(name));
+      }
+    }
+  }
+
+  void an_icon_made_before_a_change_of_theme_follows_it() {
+    apply_theme(*qApp, Theme::light);
+    const QIcon play = icon(u"play");
+    const QImage before = play.pixmap(24).toImage();
+    apply_theme(*qApp, Theme::dark);
+    QVERIFY(before != play.pixmap(24).toImage());
+  }
+
+  void icons_differ_from_each_other_also_when_small() {
+    const QStringList names = icon_names();
+    for (int i = 0; i < names.size(); ++i) {
+      const QImage one = drawn(names[i], 16);
+      for (int j = i + 1; j < names.size(); ++j) {
+        const QImage other = drawn(names[j], 16);
+        double different = 0.0;
+        for (int y = 0; y < 16; ++y) {
+          for (int x = 0; x < 16; ++x)
+            different += std::abs(qAlpha(one.pixel(x, y)) - qAlpha(other.pixel(x, y))) / 255.0;
+        }
+        QVERIFY2(different > 6.0, qUtf8Printable(names[i] + QStringLiteral(" and ") + names[j]));
+      }
+    }
+  }
+
+  void icons_keep_off_the_edge_and_stand_in_the_middle() {
+    for (const QString& name : icon_names()) {
+      const QImage image = drawn(name, 96);
+      QRect used;
+      for (int y = 0; y < 96; ++y) {
+        for (int x = 0; x < 96; ++x) {
+          if (qAlpha(image.pixel(x, y)) > 32) used |= QRect(x, y, 1, 1);
+        }
+      }
+      QVERIFY2(QRect(4, 4, 88, 88).contains(used), qUtf8Printable(name));
+      const QPointF off = QRectF(used).center() - QPointF(48, 48);
+      QVERIFY2(std::abs(off.x()) <= 6 && std::abs(off.y()) <= 6,
+               qUtf8Printable(QStringLiteral("%1: %2, %3").arg(name).arg(off.x()).arg(off.y())));
+      QVERIFY2(std::max(used.width(), used.height()) >= 56, qUtf8Printable(name));
+    }
+  }
+
+  void icons_have_the_devices_pixels() {
+    const QPixmap twice = icon(u"save").pixmap(QSize(20, 20), 2.0);
+    QCOMPARE(twice.size(), QSize(40, 40));
+    QCOMPARE(twice.devicePixelRatio(), 2.0);
+    QCOMPARE(icon(u"save").pixmap(QSize(20, 20), 1.5).size(), QSize(30, 30));
+    // Drawn, not enlarged: the sharp one holds steps that an enlarged one cannot.
+    const QImage enlarged =
+        drawn(QStringLiteral("save"), 20).scaled(40, 40, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+    QVERIFY(twice.toImage().convertToFormat(QImage::Format_ARGB32) != enlarged);
+  }
+
+  void the_applications_icon_has_colours_at_all_sizes() {
+    for (const int side : {16, 32, 64, 256}) {
+      const QImage image = application_icon().pixmap(side, side).toImage();
+      QCOMPARE(image.width(), side);
+      int coloured = 0;
+      for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) coloured += image.pixelColor(x, y).hsvSaturation() > 60;
+      }
+      QVERIFY(coloured > side * side / 4);
+    }
+  }
+
+  void texts_have_enough_contrast_data() {
+    QTest::addColumn<QPalette>("palette");
+    QTest::newRow("light") << light_palette();
+    QTest::newRow("dark") << dark_palette();
+  }
+
+  void texts_have_enough_contrast() {
+    QFETCH(QPalette, palette);
+    using P = QPalette;
+    struct Pair {
+      P::ColorGroup group;
+      P::ColorRole text;
+      P::ColorRole behind;
+      double at_least;
+    };
+    const Pair pairs[] = {
+        {P::Active, P::Text, P::Base, 4.5},
+        {P::Active, P::Text, P::AlternateBase, 4.5},
+        {P::Active, P::WindowText, P::Window, 4.5},
+        {P::Active, P::WindowText, P::Midlight, 4.5},  // under the mouse, titles of docks
+        {P::Active, P::ButtonText, P::Button, 4.5},
+        {P::Active, P::HighlightedText, P::Highlight, 4.5},
+        {P::Active, P::ToolTipText, P::ToolTipBase, 4.5},
+        {P::Active, P::PlaceholderText, P::Base, 4.5},
+        {P::Active, P::Link, P::Base, 4.5},
+        {P::Active, P::Link, P::Window, 4.5},
+        {P::Active, P::LinkVisited, P::Base, 4.5},
+        {P::Inactive, P::HighlightedText, P::Highlight, 4.5},
+        {P::Disabled, P::Text, P::Base, 3.0},
+        {P::Disabled, P::WindowText, P::Window, 3.0},
+        {P::Disabled, P::ButtonText, P::Button, 3.0},
+        {P::Disabled, P::HighlightedText, P::Highlight, 3.0},
+    };
+    for (const auto& [group, text, behind, at_least] : pairs) {
+      const double ratio = contrast(palette.color(group, text), palette.color(group, behind));
+      QVERIFY2(
+          ratio >= at_least,
+          qUtf8Printable(
+              QStringLiteral("group %1, role %2 on %3: %4").arg(group).arg(text).arg(behind).arg(ratio)));
+    }
+    // What is chosen is told from what is not, and from the window, without its text.
+    QVERIFY(contrast(palette.color(P::Highlight), palette.color(P::Window)) >= 2.0);
+  }
+
+  void themes_change_while_the_program_runs() {
+    apply_theme(*qApp, Theme::dark);
+    QVERIFY(is_dark(QApplication::palette()));
+    QCOMPARE(QApplication::palette().color(QPalette::Base), dark_palette().color(QPalette::Base));
+    apply_theme(*qApp, Theme::light);
+    QVERIFY(!is_dark(QApplication::palette()));
+    apply_theme(*qApp, Theme::system);  // this platform's palette is light
+    QVERIFY(!is_dark(QApplication::palette()));
+  }
+
+  // TIDEMARK_CONTACT_SHEETS=folder keeps them, to be looked at.
+  void contact_sheets_can_be_drawn() {
+    for (const Theme theme : {Theme::light, Theme::dark}) {
+      apply_theme(*qApp, theme);
+      for (const qreal scale : {1.0, 2.0}) {
+        const QImage sheet = contact_sheet(QApplication::palette(), kIcon, scale);
+        QVERIFY(!sheet.isNull());
+        const QString folder = qEnvironmentVariable("TIDEMARK_CONTACT_SHEETS");
+        if (folder.isEmpty()) continue;
+        const QString file = QStringLiteral("%1/icons-%2-%3.png")
+                                 .arg(folder, theme == Theme::dark ? "dark" : "light")
+                                 .arg(scale * 100);
+        QVERIFY2(sheet.save(file), qUtf8Printable(file));
+      }
+    }
+  }
+};
+
+QTEST_MAIN(LookTest)
+#include "look_test.moc"

@@ -1,0 +1,21 @@
+// The pictures on buttons and in menus: drawings of one colour, which is the palette's.
+#pragma once
+
+#include <QIcon>
+#include <QStringList>
+#include <QStringView>
+
+namespace tidemark {
+
+// resources/icons/NAME.svg, in the colour that the application's palette has for text at the moment of
+// painting (enabled, disabled, selected), sharp at any size and scale. A null icon, and a warning, when there
+// is none of that name.
+QIcon icon(QStringView name);
+
+// All names that icon() knows, sorted.
+QStringList icon_names();
+
+// Tidemark's own, in its colours: for windows and "About".
+QIcon application_icon();
+
+}  // namespace tidemark

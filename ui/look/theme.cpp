@@ -1,0 +1,161 @@
+#include "ui/look/theme.h"
+
+#include <QApplication>
+#include <QStyleFactory>
+
+namespace tidemark {
+namespace {
+
+struct Colours {
+  QRgb window;
+  QRgb base;  // fields and lists
+  QRgb alternate;
+  QRgb button;
+  QRgb text;
+  QRgb disabled;
+  QRgb placeholder;
+  QRgb highlight;
+  QRgb highlighted_text;
+  QRgb disabled_highlight;
+  QRgb link;
+  QRgb visited;
+  QRgb tip;
+  QRgb light;  // from here on: bevels and lines
+  QRgb midlight;
+  QRgb mid;
+  QRgb dark;
+  QRgb shadow;
+};
+
+constexpr Colours kLight{
+    .window = 0xfff0f0f1,
+    .base = 0xffffffff,
+    .alternate = 0xfff6f6f7,
+    .button = 0xfff7f7f8,
+    .text = 0xff1c1d1f,
+    .disabled = 0xff7b7e82,
+    .placeholder = 0xff6a6d71,
+    .highlight = 0xff1d69ad,
+    .highlighted_text = 0xffffffff,
+    .disabled_highlight = 0xffe3e5e8,
+    .link = 0xff155fa3,
+    .visited = 0xff6b4a9c,
+    .tip = 0xfffafafa,
+    .light = 0xffffffff,
+    .midlight = 0xffe4e5e7,
+    .mid = 0xffc4c6c9,
+    .dark = 0xff9b9ea3,
+    .shadow = 0xff6d7074,
+};
+
+constexpr Colours kDark{
+    .window = 0xff252627,
+    .base = 0xff1a1b1c,
+    .alternate = 0xff202122,
+    .button = 0xff343536,
+    .text = 0xffe4e5e6,
+    .disabled = 0xff8b8d90,
+    .placeholder = 0xff98999c,
+    .highlight = 0xff2b6cab,
+    .highlighted_text = 0xffffffff,
+    .disabled_highlight = 0xff3c3e40,
+    .link = 0xff79b4ec,
+    .visited = 0xffb79ae0,
+    .tip = 0xff3a3b3d,
+    .light = 0xff4a4b4d,
+    .midlight = 0xff3e4041,
+    .mid = 0xff48494b,
+    .dark = 0xff151616,
+    .shadow = 0xff0b0b0c,
+};
+
+QPalette palette_of(const Colours& colours) {
+  QPalette palette;
+  using Role = QPalette::ColorRole;
+  const std::pair<Role, QRgb> all[] = {
+      {Role::Window, colours.window},
+      {Role::WindowText, colours.text},
+      {Role::Base, colours.base},
+      {Role::AlternateBase, colours.alternate},
+      {Role::Text, colours.text},
+      {Role::PlaceholderText, colours.placeholder},
+      {Role::Button, colours.button},
+      {Role::ButtonText, colours.text},
+      {Role::BrightText, colours.highlighted_text},
+      {Role::Highlight, colours.highlight},
+      {Role::HighlightedText, colours.highlighted_text},
+      {Role::Link, colours.link},
+      {Role::LinkVisited, colours.visited},
+      {Role::ToolTipBase, colours.tip},
+      {Role::ToolTipText, colours.text},
+      {Role::Light, colours.light},
+      {Role::Midlight, colours.midlight},
+      {Role::Mid, colours.mid},
+      {Role::Dark, colours.dark},
+      {Role::Shadow, colours.shadow},
+  };
+  for (const auto& [role, colour] : all) palette.setColor(role, QColor(colour));
+  for (const Role role : {Role::WindowText, Role::Text, Role::ButtonText, Role::HighlightedText}) {
+    palette.setColor(QPalette::Disabled, role, QColor(colours.disabled));
+  }
+  palette.setColor(QPalette::Disabled, Role::Base, QColor(colours.window));
+  palette.setColor(QPalette::Disabled, Role::Highlight, QColor(colours.disabled_highlight));
+  return palette;
+}
+
+// Slim bars, docks and groups that are parted by lines rather than boxes. %1 line, %2 under the mouse, %3
+// chosen, %4 accent, %5 tool tip, %6 text.
+constexpr const char* kStyleSheet = R"(
+QToolBar { border: none; padding: 2px 4px; spacing: 1px; }
+QToolBar::separator:horizontal { background: %1; width: 1px; margin: 4px 5px; }
+QToolBar::separator:vertical { background: %1; height: 1px; margin: 5px 4px; }
+QToolBar QToolButton { border: 1px solid transparent; border-radius: 4px; padding: 3px; }
+QToolBar QToolButton:hover { background: %2; }
+QToolBar QToolButton:pressed, QToolBar QToolButton:checked { background: %3; border-color: %4; }
+QToolBar QToolButton:focus { border-color: %4; }
+QToolBar QToolButton[popupMode="1"] { padding-right: 16px; }
+QToolBar QToolButton[popupMode="2"] { padding-right: 12px; }
+QToolBar QToolButton::menu-button { border: none; width: 14px; }
+QDockWidget::title { background: %2; padding: 4px 8px; }
+QMainWindow::separator { background: transparent; width: 5px; height: 5px; }
+QMainWindow::separator:hover { background: %4; }
+QGroupBox { border: none; border-top: 1px solid %1; margin-top: 1.3em; padding-top: 4px; }
+QGroupBox::title { subcontrol-origin: margin; subcontrol-position: top left; padding: 0 6px 2px 0; }
+QStatusBar::item { border: none; }
+QToolTip { background: %5; color: %6; border: 1px solid %1; padding: 3px 5px; }
+)";
+
+QString style_sheet(const QPalette& palette) {
+  const QColor highlight = palette.color(QPalette::Highlight);
+  QColor chosen = highlight;
+  chosen.setAlphaF(0.35F);
+  return QString::fromLatin1(kStyleSheet)
+      .arg(palette.color(QPalette::Mid).name(), palette.color(QPalette::Midlight).name(),
+           chosen.name(QColor::HexArgb), highlight.name(), palette.color(QPalette::ToolTipBase).name(),
+           palette.color(QPalette::ToolTipText).name());
+}
+
+}  // namespace
+
+QPalette light_palette() {
+  return palette_of(kLight);
+}
+QPalette dark_palette() {
+  return palette_of(kDark);
+}
+
+bool is_dark(const QPalette& palette) {
+  return palette.color(QPalette::WindowText).lightnessF() > palette.color(QPalette::Window).lightnessF();
+}
+
+void apply_theme(QApplication& application, Theme theme) {
+  // What the platform wants is known only before the first palette of ours.
+  static const bool system_is_dark = is_dark(QGuiApplication::palette());
+  const bool dark = theme == Theme::dark || (theme == Theme::system && system_is_dark);
+  const QPalette palette = dark ? dark_palette() : light_palette();
+  QApplication::setStyle(QStyleFactory::create("Fusion"));
+  QApplication::setPalette(palette);
+  application.setStyleSheet(style_sheet(palette));
+}
+
+}  // namespace tidemark

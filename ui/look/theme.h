@@ -1,0 +1,31 @@
+// Colours, distances and the style of the desktop.
+#pragma once
+
+#include <QPalette>
+
+class QApplication;
+
+namespace tidemark {
+
+// `system` is the one of light and dark that the platform's palette is nearer to when the program starts.
+enum class Theme { system, light, dark };
+
+// Also while the program runs: what is on the screen is painted anew.
+void apply_theme(QApplication& application, Theme theme);
+
+// Dark: greys without a tint, darker than what is looked at in an image. Light: for bright rooms and
+// projectors. Texts have a contrast of at least 4.5 to what they stand on, disabled ones at least 3.
+QPalette light_palette();
+QPalette dark_palette();
+bool is_dark(const QPalette& palette);
+
+// Distances of layouts, in pixels of the unscaled screen.
+inline constexpr int kSpaceTight = 4;    // between parts of one control
+inline constexpr int kSpace = 8;         // between controls, and from a panel's edge
+inline constexpr int kSpaceGroups = 16;  // between groups, and from a dialog's edge
+
+// Sides of icons.
+inline constexpr int kIconSmall = 16;  // in menus, lists and views
+inline constexpr int kIcon = 20;       // on tool bars
+
+}  // namespace tidemark
