@@ -78,8 +78,7 @@ void CurvePlot::paintEvent(QPaintEvent* /*event*/) {
   painter.setPen(palette().color(group, QPalette::WindowText));
   painter.drawText(text, Qt::AlignLeft | Qt::AlignVCenter, title_);
   painter.drawText(text, Qt::AlignRight | Qt::AlignVCenter, last_text());
-  const QRectF area =
-      QRectF(rect()).adjusted(0.5, text.height() + kSpaceTight, -0.5, -0.5);
+  const QRectF area = QRectF(rect()).adjusted(0.5, text.height() + kSpaceTight, -0.5, -0.5);
   painter.fillRect(area, palette().color(group, QPalette::Base));
   if (isEnabled() && !points_.empty()) paint_curve(painter, area.adjusted(4.0, 4.0, -4.0, -4.0));
 }

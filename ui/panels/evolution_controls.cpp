@@ -29,7 +29,8 @@ constexpr Choice kChoices[] = {{ExecutorKind::automatic, "automatic"},
 QString obstacle(ExecutorKind kind, const Engine& engine) {
   if (kind == ExecutorKind::automatic || kind == ExecutorKind::host) return {};
   if (engine.graphics() == Engine::Graphics::none) {
-    return EvolutionControls::tr("There is no OpenGL: %1").arg(QString::fromStdString(engine.graphics_problem()));
+    return EvolutionControls::tr("There is no OpenGL: %1")
+        .arg(QString::fromStdString(engine.graphics_problem()));
   }
   if (kind == ExecutorKind::compute && !engine.capabilities().at_least(4, 5)) {
     return EvolutionControls::tr("Needs OpenGL 4.5; this machine has %1.%2")
@@ -58,16 +59,19 @@ EvolutionControls::EvolutionControls(QWidget* parent) : SessionWidget(parent) {
   Form form(this);
   form.heading(tr("Evolution"));
   form.wide(make_buttons());
-  steps_ = form.choice(tr("Steps per picture"), tr("How many steps are computed between two pictures while it "
-                                                   "plays. Automatic: as many as keep the pictures fluent."));
+  steps_ =
+      form.choice(tr("Steps per picture"), tr("How many steps are computed between two pictures while it "
+                                              "plays. Automatic: as many as keep the pictures fluent."));
   for (const std::int64_t steps : kStepsPerPicture) {
-    steps_->addItem(steps == 0 ? tr("Automatic") : QString::number(steps), QVariant::fromValue<qint64>(steps));
+    steps_->addItem(steps == 0 ? tr("Automatic") : QString::number(steps),
+                    QVariant::fromValue<qint64>(steps));
   }
   connect(steps_, &QComboBox::activated, this, [this] {
     if (session()) session()->set_steps_per_picture(steps_->currentData().toLongLong());
   });
-  executor_ = form.choice(tr("Computed by"), tr("What computes the steps. It can be changed while the surface "
-                                                "moves."));
+  executor_ =
+      form.choice(tr("Computed by"), tr("What computes the steps. It can be changed while the surface "
+                                        "moves."));
   connect(executor_, &QComboBox::activated, this, [this](int index) {
     if (session()) session()->change_executor(kChoices[index].kind);
     refresh();

@@ -24,10 +24,11 @@ EvolutionFigures::EvolutionFigures(QWidget* parent) : SessionWidget(parent) {
   motion_ = new CurvePlot(tr("Motion"), QString(), true);
   volume_->setToolTip(tr("Inside the surface."));
   area_->setToolTip(tr("Of the surface."));
-  motion_->set_mark(kConvergedSpeed, tr("How fast the surface moves, on a logarithmic scale: 1 is a front "
-                                        "that the data drives as fast as can be. Below the dashed line (%1) it "
-                                        "counts as converged.")
-                                         .arg(number_text(kConvergedSpeed, 2)));
+  motion_->set_mark(kConvergedSpeed,
+                    tr("How fast the surface moves, on a logarithmic scale: 1 is a front "
+                       "that the data drives as fast as can be. Below the dashed line (%1) it "
+                       "counts as converged.")
+                        .arg(number_text(kConvergedSpeed, 2)));
   for (CurvePlot* plot : {volume_, area_, motion_}) form.wide(plot);
 }
 
@@ -42,7 +43,8 @@ void EvolutionFigures::show_curves() {
   const auto show = [&curve](CurvePlot* plot, double CurvePoint::*quantity) {
     std::vector<QPointF> points;
     points.reserve(curve.size());
-    for (const CurvePoint& point : curve) points.emplace_back(static_cast<double>(point.step), point.*quantity);
+    for (const CurvePoint& point : curve)
+      points.emplace_back(static_cast<double>(point.step), point.*quantity);
     plot->set_points(std::move(points));
   };
   show(volume_, &CurvePoint::volume_ml);

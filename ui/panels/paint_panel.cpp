@@ -31,14 +31,15 @@ PaintPanel::PaintPanel(QWidget* parent) : Panel(tr("Open a study to paint in it.
   radius_->set_range(kSmallest, kLargest, SliderNumber::Scale::logarithmic);
   radius_->set_unit(tr("mm"));
   connect(radius_, &SliderNumber::edited, this, [this](double value) {
-    if (session()) session()->display().change([=](DisplaySettings& settings) { settings.brush_mm = value; });
+    change_display([=](DisplaySettings& settings) { settings.brush_mm = value; });
   });
   voxels_ = form.figure(tr("In voxels"), tr("The radius along columns, rows and slices."));
   form.heading(tr("Take back"));
   form.wide(make_history());
   form.heading(tr("In a view"));
-  form.note(tr("Left drag: the chosen tool\nRight drag: the other one\nShift and wheel: radius\n"
-               "Alt and drag: window and level\nThe surface goes on moving while you paint."));
+  form.note(
+      tr("Left drag: the chosen tool\nRight drag: the other one\nShift and wheel: radius\n"
+         "Alt and drag: window and level\nThe surface goes on moving while you paint."));
   add(part);
 }
 

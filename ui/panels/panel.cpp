@@ -9,7 +9,10 @@
 namespace tidemark {
 
 Panel::Panel(const QString& hint, QWidget* parent)
-    : SessionWidget(parent), hint_(make_note(hint)), content_(new QWidget), parts_(new QVBoxLayout(content_)) {
+    : SessionWidget(parent),
+      hint_(make_note(hint)),
+      content_(new QWidget),
+      parts_(new QVBoxLayout(content_)) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(kSpace, kSpace, kSpace, kSpace);
   column->setSpacing(kSpace);

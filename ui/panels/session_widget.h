@@ -3,6 +3,7 @@
 
 #include <QPointer>
 #include <QWidget>
+#include <utility>
 
 #include "session/case_session.h"
 
@@ -23,6 +24,12 @@ class SessionWidget : public QWidget {
   // Something has changed. Called only with a session, and while nobody looks only when it is shown again.
   virtual void refresh() = 0;
   void showEvent(QShowEvent* event) override;
+
+  // change_display([&](DisplaySettings& settings) { settings.window = window; });
+  template <class Change>
+  void change_display(Change&& apply) {
+    if (session_) session_->display().change(std::forward<Change>(apply));
+  }
 
  private:
   void changed();

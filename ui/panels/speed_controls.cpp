@@ -37,12 +37,13 @@ void SpeedControls::add_numbers(Form& form) {
   target_ = form.slider(tr("Target T"), tr("The value in the middle of what is looked for: there the surface "
                                            "grows fastest."));
   range_ = form.slider(tr("Range ε"), tr("How far a value may be from T for the surface to grow there."));
-  alpha_ = form.slider(tr("Smoothness α"),
-                       tr("How the data and the smoothing share the speed. 1 is the data alone; at 0 the surface "
-                          "only becomes smoother, and shrinks."));
+  alpha_ =
+      form.slider(tr("Smoothness α"),
+                  tr("How the data and the smoothing share the speed. 1 is the data alone; at 0 the surface "
+                     "only becomes smoother, and shrinks."));
   alpha_->set_range(1.0, 0.0);
   alpha_->set_decimals(3);
-  alpha_->number()->setSingleStep(0.01);
+  alpha_->set_step(0.01);
 
   auto* ends = new QWidget;
   auto* row = new QHBoxLayout(ends);
@@ -86,8 +87,8 @@ void SpeedControls::add_terms(Form& form) {
     return check;
   };
   data_term_ = add(tr("Data"), tr("Moves the surface by the values of the source."), &Parameters::data_term);
-  curvature_term_ = add(tr("Curvature"), tr("Smooths the surface by its mean curvature."),
-                        &Parameters::curvature_term);
+  curvature_term_ =
+      add(tr("Curvature"), tr("Smooths the surface by its mean curvature."), &Parameters::curvature_term);
   rescaling_term_ = add(tr("Rescaling"),
                         tr("Keeps the slope of φ near 1, so that the band around the surface stays as wide."),
                         &Parameters::rescaling_term);

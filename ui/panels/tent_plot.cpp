@@ -44,9 +44,9 @@ TentPlot::TentPlot(QWidget* parent) : QWidget(parent) {
   setMouseTracking(true);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   setAccessibleName(tr("Speed over the values"));
-  setToolTip(
-      tr("How the data term moves the surface where the source has a value: between the feet it grows, beyond "
-         "them it shrinks. Drag the peak to move T, a foot to change ε; or use the arrow keys."));
+  setToolTip(tr(
+      "How the data term moves the surface where the source has a value: between the feet it grows, beyond "
+      "them it shrinks. Drag the peak to move T, a foot to change ε; or use the arrow keys."));
 }
 
 void TentPlot::set_source(const SourceSummary& summary, const QString& unit) {
@@ -67,9 +67,9 @@ void TentPlot::set_tent(double target, double range) {
   target_ = target;
   range_ = range;
   if (dragged_ == Handle::none) show_span();
-  setAccessibleDescription(tr("Grows from %1 to %2")
-                               .arg(number_text(target - range, decimals_, unit_),
-                                    number_text(target + range, decimals_, unit_)));
+  setAccessibleDescription(
+      tr("Grows from %1 to %2")
+          .arg(number_text(target - range, decimals_, unit_), number_text(target + range, decimals_, unit_)));
   update();
 }
 
@@ -303,7 +303,8 @@ void TentPlot::paint_values(QPainter& painter) const {
   const double left_width = metrics.horizontalAdvance(left);
   const double right_width = metrics.horizontalAdvance(right);
   if (axis.holds(target_ - range_)) {
-    place(left, std::min(left_foot().x() - left_width / 2.0, peak().x() - left_width - kSpaceTight), baseline);
+    place(left, std::min(left_foot().x() - left_width / 2.0, peak().x() - left_width - kSpaceTight),
+          baseline);
   }
   if (axis.holds(target_ + range_)) {
     place(right, std::max(right_foot().x() - right_width / 2.0, peak().x() + kSpaceTight), baseline);

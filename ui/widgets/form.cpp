@@ -28,13 +28,14 @@ Form::Form(QWidget* on) : layout_(new QFormLayout(on)) {
   layout_->setLabelAlignment(Qt::AlignLeft | Qt::AlignVCenter);
 }
 
-void Form::heading(const QString& text) {
+QLabel* Form::heading(const QString& text) {
   auto* label = new QLabel(text);
   QFont font = label->font();
   font.setBold(true);
   label->setFont(font);
   label->setContentsMargins(0, layout_->rowCount() == 0 ? 0 : kSpaceGroups - kSpaceTight, 0, 0);
   layout_->addRow(label);
+  return label;
 }
 
 void Form::row(const QString& label, QWidget* widget, const QString& tip) {

@@ -18,7 +18,7 @@ class Form {
  public:
   explicit Form(QWidget* on);
 
-  void heading(const QString& text);
+  QLabel* heading(const QString& text);
   // The label's text is the widget's accessible name.
   void row(const QString& label, QWidget* widget, const QString& tip);
   void wide(QWidget* widget);

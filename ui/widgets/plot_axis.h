@@ -12,12 +12,8 @@ struct PlotAxis {
   double from = 0.0;  // pixel of `low`
   double to = 1.0;    // pixel of `high`
 
-  [[nodiscard]] double pixel(double value) const {
-    return from + (value - low) / (high - low) * (to - from);
-  }
-  [[nodiscard]] double value(double pixel) const {
-    return low + (pixel - from) / (to - from) * (high - low);
-  }
+  [[nodiscard]] double pixel(double value) const { return from + (value - low) / (high - low) * (to - from); }
+  [[nodiscard]] double value(double pixel) const { return low + (pixel - from) / (to - from) * (high - low); }
   [[nodiscard]] bool holds(double value) const { return value >= low && value <= high; }
 };
 

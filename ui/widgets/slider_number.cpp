@@ -46,6 +46,9 @@ SliderNumber::SliderNumber(QWidget* parent)
 }
 
 void SliderNumber::set_range(double low, double high, double least, double most, Scale scale) {
+  if (low == low_ && high == high_ && least == number_->minimum() && most == number_->maximum() &&
+      scale == scale_)
+    return;
   const QSignalBlocker quiet(number_);
   low_ = low;
   high_ = high != low ? high : low + 1.0;
@@ -58,6 +61,10 @@ void SliderNumber::set_decimals(int decimals) {
   const QSignalBlocker quiet(number_);
   number_->setDecimals(decimals);
   number_->setSingleStep(std::pow(10.0, -decimals));
+}
+
+void SliderNumber::set_step(double step) {
+  number_->setSingleStep(step);
 }
 
 void SliderNumber::set_unit(const QString& unit) {
@@ -118,8 +125,8 @@ void SliderNumber::begin_gesture() {
 }
 
 void SliderNumber::announce() {
-  const bool follows = slider_->isSliderDown() ||
-                       (since_edit_.isValid() && since_edit_.elapsed() < kSameGestureMs);
+  const bool follows =
+      slider_->isSliderDown() || (since_edit_.isValid() && since_edit_.elapsed() < kSameGestureMs);
   if (gesture_ == 0 || !follows) begin_gesture();
   since_edit_.start();
   emit edited(number_->value(), gesture_);

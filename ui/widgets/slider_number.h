@@ -24,7 +24,8 @@ class SliderNumber : public QWidget {
   void set_range(double low, double high, Scale scale = Scale::linear) {
     set_range(low, high, std::min(low, high), std::max(low, high), scale);
   }
-  void set_decimals(int decimals);
+  void set_decimals(int decimals);  // and a step of one in the last place
+  void set_step(double step);       // of the arrows
   void set_unit(const QString& unit);
   void set_value(double value);  // without a signal; left alone while the user types
   [[nodiscard]] double value() const;

@@ -1,0 +1,36 @@
+// Beginning with what lies in a file.
+#pragma once
+
+#include <stop_token>
+
+#include "ui/panels/start_files.h"
+#include "ui/panels/start_page.h"
+
+class QLineEdit;
+
+namespace tidemark {
+
+class FileStartPage : public StartPage {
+  Q_OBJECT
+ public:
+  explicit FileStartPage(StartFile kind, QWidget* parent = nullptr);
+  ~FileStartPage() override;
+  [[nodiscard]] QString title() const override;
+  [[nodiscard]] QString sentence() const override;
+  [[nodiscard]] bool can_start() const override;
+  // Reads the file away from the user interface, then begins in the session for which it was asked.
+  void start() override;
+
+ protected:
+  void refresh() override {}
+
+ private:
+  void choose();
+
+  StartFile kind_;
+  QLineEdit* path_;
+  bool reading_ = false;
+  std::stop_source stop_;
+};
+
+}  // namespace tidemark
