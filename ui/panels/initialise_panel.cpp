@@ -6,9 +6,9 @@
 #include <QVBoxLayout>
 
 #include "ui/look/theme.h"
-#include "ui/panels/file_start_page.h"
+#include "ui/panels/file_start_method.h"
 #include "ui/panels/smoothing_controls.h"
-#include "ui/panels/start_pages.h"
+#include "ui/panels/start_methods.h"
 #include "ui/widgets/form.h"
 
 namespace tidemark {
@@ -21,24 +21,24 @@ InitialisePanel::InitialisePanel(QWidget* parent)
   form.heading(tr("Start"));
   from_ = form.choice(tr("Begin with"), tr("What the level set is at first."));
   add(part);
-  add_pages();
+  add_methods();
   add_start();
-  connect(from_, &QComboBox::currentIndexChanged, this, &InitialisePanel::show_page);
-  show_page(0);
+  connect(from_, &QComboBox::currentIndexChanged, this, &InitialisePanel::show_method);
+  show_method(0);
 }
 
-void InitialisePanel::add_pages() {
-  pages_ = {new SphereStartPage,
-            new ValueStartPage(ValueStartPage::Extent::everywhere),
-            new ValueStartPage(ValueStartPage::Extent::connected),
-            new FileStartPage(StartFile::mask),
-            new LabelStartPage,
-            new FileStartPage(StartFile::level_set)};
-  for (StartPage* page : pages_) {
-    from_->addItem(page->title());
-    add(page);
-    connect(page, &StartPage::changed, this, &InitialisePanel::show_sentence);
-    connect(page, &StartPage::failed, this, [this](const QString& message) {
+void InitialisePanel::add_methods() {
+  methods_ = {new SphereStartMethod,
+            new ValueStartMethod(ValueStartMethod::Extent::everywhere),
+            new ValueStartMethod(ValueStartMethod::Extent::connected),
+            new FileStartMethod(StartFile::mask),
+            new LabelStartMethod,
+            new FileStartMethod(StartFile::level_set)};
+  for (StartMethod* method : methods_) {
+    from_->addItem(method->title());
+    add(method);
+    connect(method, &StartMethod::changed, this, &InitialisePanel::show_sentence);
+    connect(method, &StartMethod::failed, this, [this](const QString& message) {
       problem_->setText(message);
       problem_->show();
     });
@@ -59,7 +59,7 @@ void InitialisePanel::add_start() {
   start_->setToolTip(tr("Begins the level set as said above."));
   connect(start_, &QPushButton::clicked, this, [this] {
     problem_->hide();
-    pages_[static_cast<std::size_t>(page_)]->start();
+    methods_[static_cast<std::size_t>(method_)]->start();
   });
   for (QWidget* widget : {static_cast<QWidget*>(sentence_), static_cast<QWidget*>(replaces_),
                           static_cast<QWidget*>(problem_), static_cast<QWidget*>(start_)}) {
@@ -68,10 +68,10 @@ void InitialisePanel::add_start() {
   add(part);
 }
 
-void InitialisePanel::show_page(int index) {
-  page_ = index;
-  for (int other = 0; other < static_cast<int>(pages_.size()); ++other) {
-    pages_[static_cast<std::size_t>(other)]->setVisible(other == index);
+void InitialisePanel::show_method(int index) {
+  method_ = index;
+  for (int other = 0; other < static_cast<int>(methods_.size()); ++other) {
+    methods_[static_cast<std::size_t>(other)]->setVisible(other == index);
   }
   problem_->hide();
   show_sentence();
@@ -79,10 +79,10 @@ void InitialisePanel::show_page(int index) {
 
 void InitialisePanel::show_sentence() {
   if (!session()) return;
-  const StartPage& page = *pages_[static_cast<std::size_t>(page_)];
-  sentence_->setText(page.sentence());
-  start_->setEnabled(page.can_start());
-  replaces_->setVisible(session()->state().begun && page.can_start());
+  const StartMethod& method = *methods_[static_cast<std::size_t>(method_)];
+  sentence_->setText(method.sentence());
+  start_->setEnabled(method.can_start());
+  replaces_->setVisible(session()->state().begun && method.can_start());
 }
 
 void InitialisePanel::attach() {

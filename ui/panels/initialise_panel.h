@@ -11,7 +11,7 @@ class QPushButton;
 
 namespace tidemark {
 
-class StartPage;
+class StartMethod;
 
 class InitialisePanel : public Panel {
   Q_OBJECT
@@ -23,13 +23,13 @@ class InitialisePanel : public Panel {
   void refresh() override;
 
  private:
-  void add_pages();
+  void add_methods();
   void add_start();
-  void show_page(int index);
+  void show_method(int index);
   void show_sentence();
 
-  std::vector<StartPage*> pages_;
-  int page_ = 0;
+  std::vector<StartMethod*> methods_;
+  int method_ = 0;
   QComboBox* from_;
   QLabel* sentence_;
   QLabel* replaces_;

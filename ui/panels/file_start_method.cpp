@@ -1,4 +1,4 @@
-#include "ui/panels/file_start_page.h"
+#include "ui/panels/file_start_method.h"
 
 #include <QFileDialog>
 #include <QHBoxLayout>
@@ -13,7 +13,7 @@
 
 namespace tidemark {
 
-FileStartPage::FileStartPage(StartFile kind, QWidget* parent) : StartPage(parent), kind_(kind) {
+FileStartMethod::FileStartMethod(StartFile kind, QWidget* parent) : StartMethod(parent), kind_(kind) {
   Form form(this);
   form.note(kind == StartFile::mask
                 ? tr("Takes a mask of the same grid as the study: every voxel that is not 0 is inside.")
@@ -32,19 +32,19 @@ FileStartPage::FileStartPage(StartFile kind, QWidget* parent) : StartPage(parent
   row->addWidget(path_, 1);
   row->addWidget(browse);
   form.wide(row);
-  connect(browse, &QToolButton::clicked, this, &FileStartPage::choose);
-  connect(path_, &QLineEdit::textChanged, this, &StartPage::changed);
+  connect(browse, &QToolButton::clicked, this, &FileStartMethod::choose);
+  connect(path_, &QLineEdit::textChanged, this, &StartMethod::changed);
 }
 
-FileStartPage::~FileStartPage() {
+FileStartMethod::~FileStartMethod() {
   stop_.request_stop();
 }
 
-QString FileStartPage::title() const {
+QString FileStartMethod::title() const {
   return kind_ == StartFile::mask ? tr("Mask file") : tr("Saved level set");
 }
 
-QString FileStartPage::sentence() const {
+QString FileStartMethod::sentence() const {
   if (reading_) return tr("Reading the file …");
   const QString name = QFileInfo(path_->text()).fileName();
   if (name.isEmpty()) return tr("Choose a file first.");
@@ -52,11 +52,11 @@ QString FileStartPage::sentence() const {
                                   : tr("Goes on with the level set in %1.").arg(name);
 }
 
-bool FileStartPage::can_start() const {
+bool FileStartMethod::can_start() const {
   return session() && !reading_ && !path_->text().isEmpty();
 }
 
-void FileStartPage::choose() {
+void FileStartMethod::choose() {
   auto* dialog = new QFileDialog(this, tr("Start from a file"), QFileInfo(path_->text()).path(),
                                  tr("Volumes (*.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;"
                                     "All files (*)"));
@@ -66,7 +66,7 @@ void FileStartPage::choose() {
   dialog->open();
 }
 
-void FileStartPage::start() {
+void FileStartMethod::start() {
   reading_ = true;
   emit changed();
   stop_ = {};

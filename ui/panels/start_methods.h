@@ -1,7 +1,7 @@
 // The ways in which a level set can begin (paper section 6.1): drawn spheres, values, what is there already.
 #pragma once
 
-#include "ui/panels/start_page.h"
+#include "ui/panels/start_method.h"
 
 class QComboBox;
 class QLabel;
@@ -12,10 +12,10 @@ namespace tidemark {
 class SliderNumber;
 
 // A sphere around the crosshair; in views spheres are drawn with the mouse.
-class SphereStartPage : public StartPage {
+class SphereStartMethod : public StartMethod {
   Q_OBJECT
  public:
-  explicit SphereStartPage(QWidget* parent = nullptr);
+  explicit SphereStartMethod(QWidget* parent = nullptr);
   [[nodiscard]] QString title() const override { return tr("Spheres"); }
   [[nodiscard]] QString sentence() const override;
   [[nodiscard]] bool can_start() const override;
@@ -30,11 +30,11 @@ class SphereStartPage : public StartPage {
 };
 
 // All voxels in a range of values, or those of them that are connected to the crosshair.
-class ValueStartPage : public StartPage {
+class ValueStartMethod : public StartMethod {
   Q_OBJECT
  public:
   enum class Extent { everywhere, connected };
-  explicit ValueStartPage(Extent extent, QWidget* parent = nullptr);
+  explicit ValueStartMethod(Extent extent, QWidget* parent = nullptr);
   [[nodiscard]] QString title() const override;
   [[nodiscard]] QString sentence() const override;
   [[nodiscard]] bool can_start() const override;
@@ -58,10 +58,10 @@ class ValueStartPage : public StartPage {
 };
 
 // What was segmented before.
-class LabelStartPage : public StartPage {
+class LabelStartMethod : public StartMethod {
   Q_OBJECT
  public:
-  explicit LabelStartPage(QWidget* parent = nullptr);
+  explicit LabelStartMethod(QWidget* parent = nullptr);
   [[nodiscard]] QString title() const override { return tr("Label"); }
   [[nodiscard]] QString sentence() const override;
   [[nodiscard]] bool can_start() const override;

@@ -1,4 +1,4 @@
-#include "ui/panels/start_pages.h"
+#include "ui/panels/start_methods.h"
 
 #include <QComboBox>
 #include <QLabel>
@@ -49,7 +49,7 @@ double count_between(const SourceSummary& summary, double low, double high) {
 
 // Spheres.
 
-SphereStartPage::SphereStartPage(QWidget* parent) : StartPage(parent) {
+SphereStartMethod::SphereStartMethod(QWidget* parent) : StartMethod(parent) {
   Form form(this);
   form.note(
       tr("Click and drag in a view to place a sphere: press at its centre, drag to its radius. Or place "
@@ -67,31 +67,31 @@ SphereStartPage::SphereStartPage(QWidget* parent) : StartPage(parent) {
   radius_->set_range(0.5, 100.0, SliderNumber::Scale::logarithmic);
   radius_->set_unit(tr("mm"));
   radius_->set_value(10.0);
-  connect(radius_, &SliderNumber::edited, this, &StartPage::changed);
+  connect(radius_, &SliderNumber::edited, this, &StartMethod::changed);
 }
 
-QString SphereStartPage::sentence() const {
+QString SphereStartMethod::sentence() const {
   return tr("Starts with one sphere of %1 around the crosshair.")
       .arg(number_text(radius_->value(), 1, tr("mm")));
 }
 
-bool SphereStartPage::can_start() const {
+bool SphereStartMethod::can_start() const {
   return session() != nullptr;
 }
 
-void SphereStartPage::start() {
+void SphereStartMethod::start() {
   Start start;
   start.seeds.push_back({session()->display().settings().cursor_mm, radius_->value()});
   session()->begin(start);
 }
 
-void SphereStartPage::refresh() {
+void SphereStartMethod::refresh() {
   draw_->setChecked(session()->display().settings().tool == Tool::seed);
 }
 
 // Values.
 
-ValueStartPage::ValueStartPage(Extent extent, QWidget* parent) : StartPage(parent), extent_(extent) {
+ValueStartMethod::ValueStartMethod(Extent extent, QWidget* parent) : StartMethod(parent), extent_(extent) {
   Form form(this);
   form.note(
       extent == Extent::everywhere
@@ -102,16 +102,16 @@ ValueStartPage::ValueStartPage(Extent extent, QWidget* parent) : StartPage(paren
   high_ = form.slider(tr("To"), tr("The largest value that is taken."));
   auto* tent = make_button(tr("Take T − ε to T + ε"), tr("The values for which the surface would grow."));
   form.wide(tent);
-  connect(tent, &QToolButton::clicked, this, &ValueStartPage::take_tent);
-  connect(low_, &SliderNumber::edited, this, &StartPage::changed);
-  connect(high_, &SliderNumber::edited, this, &StartPage::changed);
+  connect(tent, &QToolButton::clicked, this, &ValueStartMethod::take_tent);
+  connect(low_, &SliderNumber::edited, this, &StartMethod::changed);
+  connect(high_, &SliderNumber::edited, this, &StartMethod::changed);
 }
 
-QString ValueStartPage::title() const {
+QString ValueStartMethod::title() const {
   return extent_ == Extent::everywhere ? tr("Threshold") : tr("Flood fill");
 }
 
-void ValueStartPage::attach() {
+void ValueStartMethod::attach() {
   if (!session()) return;
   const SourceSummary& summary = session()->summary();
   const double lowest = summary.lowest;
@@ -125,7 +125,7 @@ void ValueStartPage::attach() {
   take_tent();
 }
 
-void ValueStartPage::take_tent() {
+void ValueStartMethod::take_tent() {
   if (!session()) return;
   const Parameters& parameters = session()->parameters();
   low_->set_value(parameters.target - parameters.range);
@@ -133,21 +133,21 @@ void ValueStartPage::take_tent() {
   emit changed();
 }
 
-QString ValueStartPage::range_text() const {
+QString ValueStartMethod::range_text() const {
   const QString unit = value_unit(session()->volume());
   const int decimals = decimals_for(session()->summary().high - session()->summary().low);
   return tr("%1 to %2")
       .arg(number_text(low_->value(), decimals), number_text(high_->value(), decimals, unit));
 }
 
-std::optional<Index3> ValueStartPage::voxel() const {
+std::optional<Index3> ValueStartMethod::voxel() const {
   const Geometry& geometry = session()->volume().geometry;
   const Index3 voxel = nearest_voxel(geometry.to_voxel(session()->display().settings().cursor_mm));
   if (!geometry.contains(voxel)) return std::nullopt;
   return voxel;
 }
 
-QString ValueStartPage::everywhere_text() const {
+QString ValueStartMethod::everywhere_text() const {
   const Volume& volume = session()->volume();
   const double count = count_between(session()->summary(), low_->value(), high_->value());
   const double share = 100.0 * count / static_cast<double>(volume.geometry.voxel_count());
@@ -156,7 +156,7 @@ QString ValueStartPage::everywhere_text() const {
            number_text(count * volume.geometry.voxel_volume_ml(), 1, tr("ml")));
 }
 
-QString ValueStartPage::connected_text() const {
+QString ValueStartMethod::connected_text() const {
   if (!voxel()) return tr("The crosshair is outside the study.");
   const double here = session()->volume().value(*voxel());
   if (here < low_->value() || here > high_->value()) {
@@ -165,13 +165,13 @@ QString ValueStartPage::connected_text() const {
   return tr("Starts with the voxels from %1 that are connected to the crosshair.").arg(range_text());
 }
 
-QString ValueStartPage::sentence() const {
+QString ValueStartMethod::sentence() const {
   if (!session()) return {};
   if (low_->value() > high_->value()) return tr("The first value is larger than the second.");
   return extent_ == Extent::everywhere ? everywhere_text() : connected_text();
 }
 
-bool ValueStartPage::can_start() const {
+bool ValueStartMethod::can_start() const {
   if (!session() || low_->value() > high_->value()) return false;
   if (extent_ == Extent::everywhere) return true;
   if (!voxel()) return false;
@@ -179,7 +179,7 @@ bool ValueStartPage::can_start() const {
   return here >= low_->value() && here <= high_->value();
 }
 
-void ValueStartPage::start() {
+void ValueStartMethod::start() {
   Start start;
   if (extent_ == Extent::everywhere) {
     start.from = ThresholdStart{low_->value(), high_->value()};
@@ -189,7 +189,7 @@ void ValueStartPage::start() {
   session()->begin(start);
 }
 
-void ValueStartPage::refresh() {
+void ValueStartMethod::refresh() {
   if (!here_) return;
   const auto at = voxel();
   here_->setText(at ? number_text(session()->volume().value(*at),
@@ -201,19 +201,19 @@ void ValueStartPage::refresh() {
 
 // Labels.
 
-LabelStartPage::LabelStartPage(QWidget* parent) : StartPage(parent) {
+LabelStartMethod::LabelStartMethod(QWidget* parent) : StartMethod(parent) {
   Form form(this);
   form.note(tr("Takes what was segmented before."));
   label_ = form.choice(tr("Label"), tr("The level set begins as its voxels."));
-  connect(label_, &QComboBox::activated, this, &StartPage::changed);
+  connect(label_, &QComboBox::activated, this, &StartMethod::changed);
 }
 
-void LabelStartPage::attach() {
+void LabelStartMethod::attach() {
   shown_.clear();
   label_->clear();
 }
 
-void LabelStartPage::refresh() {
+void LabelStartMethod::refresh() {
   const std::vector<Label>& labels = session()->state().labels;
   if (labels == shown_) return;
   shown_ = labels;
@@ -224,16 +224,16 @@ void LabelStartPage::refresh() {
   emit changed();
 }
 
-QString LabelStartPage::sentence() const {
+QString LabelStartMethod::sentence() const {
   if (label_->count() == 0) return tr("There are no labels yet.");
   return tr("Starts with the voxels of “%1”.").arg(label_->currentText());
 }
 
-bool LabelStartPage::can_start() const {
+bool LabelStartMethod::can_start() const {
   return session() && label_->count() > 0;
 }
 
-void LabelStartPage::start() {
+void LabelStartMethod::start() {
   session()->begin_from_label(static_cast<std::uint8_t>(label_->currentData().toUInt()));
 }
 

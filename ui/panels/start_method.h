@@ -5,7 +5,7 @@
 
 namespace tidemark {
 
-class StartPage : public SessionWidget {
+class StartMethod : public SessionWidget {
   Q_OBJECT
  public:
   using SessionWidget::SessionWidget;

@@ -4,17 +4,17 @@
 #include <stop_token>
 
 #include "ui/panels/start_files.h"
-#include "ui/panels/start_page.h"
+#include "ui/panels/start_method.h"
 
 class QLineEdit;
 
 namespace tidemark {
 
-class FileStartPage : public StartPage {
+class FileStartMethod : public StartMethod {
   Q_OBJECT
  public:
-  explicit FileStartPage(StartFile kind, QWidget* parent = nullptr);
-  ~FileStartPage() override;
+  explicit FileStartMethod(StartFile kind, QWidget* parent = nullptr);
+  ~FileStartMethod() override;
   [[nodiscard]] QString title() const override;
   [[nodiscard]] QString sentence() const override;
   [[nodiscard]] bool can_start() const override;
