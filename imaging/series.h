@@ -14,6 +14,7 @@ struct Series {
   std::string uid;                             // DICOM Series Instance UID; for a volume file, its file name
   std::string modality;                        // DICOM (0008,0060); empty for volume files
   std::string description;                     // DICOM (0008,103E), else the file name
+  std::string date;                            // of the study: "2004-07-31"; empty when unknown
   std::vector<std::filesystem::path> files;    // in slice order when loadable
   Geometry geometry;                           // meaningful when loadable
   std::string scalar;                          // of the volume when loaded: "int16", "uint16" or "float"

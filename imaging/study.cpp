@@ -62,37 +62,6 @@ std::string list_uids(const std::vector<Series>& series) {
   return text;
 }
 
-// The series to load; a reason to tell the user goes to `changes`.
-Result<const Series*> choose(const std::vector<Series>& all, const std::string& uid, const fs::path& path,
-                             std::vector<std::string>& changes) {
-  std::vector<const Series*> matching;
-  for (const Series& series : all) {
-    if (uid.empty() || series.uid == uid) matching.push_back(&series);
-  }
-  if (matching.empty()) {
-    return fail(ErrorKind::input, "{}: has no series {}; it has {}", path.string(), uid, list_uids(all));
-  }
-  std::vector<const Series*> loadable;
-  std::copy_if(matching.begin(), matching.end(), std::back_inserter(loadable),
-               [](const Series* series) { return series->loadable; });
-  if (loadable.empty()) {
-    const std::string others =
-        matching.size() == 1 ? "" : fmt::format(" (and {} more series)", matching.size() - 1);
-    return fail(ErrorKind::input, "{}: {}{}", path.string(), matching.front()->reason, others);
-  }
-  const Series* best = *std::max_element(
-      loadable.begin(), loadable.end(),
-      [](const Series* a, const Series* b) { return a->geometry.voxel_count() < b->geometry.voxel_count(); });
-  if (loadable.size() > 1) {
-    changes.push_back(uid.empty()
-                          ? fmt::format("{} series can be loaded; {} ({}) has the most voxels and was read",
-                                        loadable.size(), best->uid, best->description)
-                          : fmt::format("{} series have this UID; the one in {} was read", loadable.size(),
-                                        best->files.front().parent_path().filename().string()));
-  }
-  return best;
-}
-
 // Stored integers are finite, but slope and intercept may take them beyond what a float holds.
 Status require_finite_range(const Volume& volume, const std::string& source) {
   if (volume.geometry.voxel_count() <= 0) return fail(ErrorKind::input, "{}: has no voxels", source);
@@ -102,19 +71,70 @@ Status require_finite_range(const Volume& volume, const std::string& source) {
               volume.slope, volume.intercept);
 }
 
+Result<Volume> load_chosen(const Series& series, const Progress& progress) {
+  auto volume = is_volume_file(series) ? read_volume_file(series.files.front(), progress)
+                                       : load_dicom(series, progress);
+  if (!volume) return volume;
+  const fs::path& first = series.files.front();
+  const std::string source = is_volume_file(series) ? first.string() : first.parent_path().string();
+  if (auto finite = require_finite(*volume, source); !finite) return pass_on(finite);
+  if (auto finite = require_finite_range(*volume, source); !finite) return pass_on(finite);
+  return volume;
+}
+
+// The grid of one slice of a grid.
+Geometry geometry_of_slice(Geometry geometry, std::int64_t k) {
+  geometry.origin_mm = geometry.to_patient({0.0, 0.0, static_cast<double>(k)});
+  geometry.size.z = 1;
+  return geometry;
+}
+
+Volume cut_slice(const Volume& whole, std::int64_t k) {
+  Volume slice;
+  slice.geometry = geometry_of_slice(whole.geometry, k);
+  slice.slope = whole.slope;
+  slice.intercept = whole.intercept;
+  slice.modality = whole.modality;
+  slice.description = whole.description;
+  slice.window = whole.window;
+  std::visit(
+      [&](const auto& voxels) {
+        const auto begin = voxels.begin() + whole.geometry.offset({0, 0, k});
+        slice.voxels = std::decay_t<decltype(voxels)>(begin, begin + slice.geometry.voxel_count());
+      },
+      whole.voxels);
+  return slice;
+}
+
+Result<Volume> load_slice_of(const Series& series, std::int64_t k, const Progress& progress) {
+  if (k < 0 || k >= series.geometry.size.z) {
+    return fail(ErrorKind::usage, "{}: has no slice {}", series.description, k);
+  }
+  if (is_volume_file(series)) {
+    auto whole = load_chosen(series, progress);
+    if (!whole) return whole;
+    return cut_slice(*whole, k);
+  }
+  Series one = series;
+  one.files = {series.files.at(static_cast<std::size_t>(k))};
+  one.geometry = geometry_of_slice(series.geometry, k);
+  return load_chosen(one, progress);
+}
+
+// A series as the functions of this file take it from outside.
+Status require_loadable(const Series& series) {
+  if (series.loadable && !series.files.empty()) return {};
+  return fail(ErrorKind::input, "{}: cannot be loaded: {}", series.description, series.reason);
+}
+
 Result<Volume> load(const fs::path& path, const std::string& uid, const Progress& progress) {
   const auto catalogue = find_series(path, progress);
   if (!catalogue) return tl::unexpected(catalogue.error());
-  std::vector<std::string> changes;
-  const auto series = choose(catalogue->series, uid, path, changes);
-  if (!series) return tl::unexpected(series.error());
-  auto volume = is_volume_file(**series) ? read_volume_file((*series)->files.front(), progress)
-                                         : load_dicom(**series, progress);
+  const auto chosen = choose_series(*catalogue, uid, path);
+  if (!chosen) return tl::unexpected(chosen.error());
+  auto volume = load_chosen(chosen->series, progress);
   if (!volume) return volume;
-  const std::string source = is_volume_file(**series) ? (*series)->files.front().string() : path.string();
-  if (auto finite = require_finite(*volume, source); !finite) return pass_on(finite);
-  if (auto finite = require_finite_range(*volume, source); !finite) return pass_on(finite);
-  volume->changes.insert(volume->changes.begin(), changes.begin(), changes.end());
+  volume->changes.insert(volume->changes.begin(), chosen->remarks.begin(), chosen->remarks.end());
   return volume;
 }
 
@@ -163,8 +183,49 @@ Result<Catalogue> find_series(const fs::path& path, const Progress& progress) {
   });
 }
 
+Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string& uid, const fs::path& path) {
+  std::vector<const Series*> matching;
+  for (const Series& series : catalogue.series) {
+    if (uid.empty() || series.uid == uid) matching.push_back(&series);
+  }
+  if (matching.empty()) {
+    return fail(ErrorKind::input, "{}: has no series {}; it has {}", path.string(), uid,
+                list_uids(catalogue.series));
+  }
+  std::vector<const Series*> loadable;
+  std::copy_if(matching.begin(), matching.end(), std::back_inserter(loadable),
+               [](const Series* series) { return series->loadable; });
+  if (loadable.empty()) {
+    const std::string others =
+        matching.size() == 1 ? "" : fmt::format(" (and {} more series)", matching.size() - 1);
+    return fail(ErrorKind::input, "{}: {}{}", path.string(), matching.front()->reason, others);
+  }
+  const Series* best = *std::max_element(
+      loadable.begin(), loadable.end(),
+      [](const Series* a, const Series* b) { return a->geometry.voxel_count() < b->geometry.voxel_count(); });
+  ChosenSeries chosen{*best, {}};
+  if (loadable.size() > 1) {
+    chosen.remarks.push_back(
+        uid.empty() ? fmt::format("{} series can be loaded; {} ({}) has the most voxels and was read",
+                                  loadable.size(), best->uid, best->description)
+                    : fmt::format("{} series have this UID; the one in {} was read", loadable.size(),
+                                  best->files.front().parent_path().filename().string()));
+  }
+  return chosen;
+}
+
 Result<Volume> load_volume(const fs::path& path, const std::string& uid, const Progress& progress) {
   return guarded(path, [&] { return load(path, uid, progress); });
+}
+
+Result<Volume> load_series(const Series& series, const Progress& progress) {
+  if (auto loadable = require_loadable(series); !loadable) return pass_on(loadable);
+  return guarded(series.files.front(), [&] { return load_chosen(series, progress); });
+}
+
+Result<Volume> load_slice(const Series& series, std::int64_t k, const Progress& progress) {
+  if (auto loadable = require_loadable(series); !loadable) return pass_on(loadable);
+  return guarded(series.files.front(), [&] { return load_slice_of(series, k, progress); });
 }
 
 Result<Mask> load_mask(const fs::path& path, const Progress& progress) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/progress.h"
 #include "core/volume.h"
@@ -15,11 +16,27 @@ namespace tidemark {
 // its reason.
 Result<Catalogue> find_series(const std::filesystem::path& path, const Progress& progress = {});
 
-// Loads the series `uid` of `path`; an empty uid takes the only loadable series, or the one with the most
-// voxels (said in Volume::changes). The volume is finite everywhere. Fails (ErrorKind::input) naming the
-// file and the field at fault, or the UIDs to choose from when `uid` is not there.
+// The series `uid` of what find_series(path) gave; an empty uid takes the only loadable series, or the one
+// with the most voxels. Fails (ErrorKind::input) with the reason why none can be loaded, or with the UIDs to
+// choose from.
+struct ChosenSeries {
+  Series series;
+  std::vector<std::string> remarks;  // what a user should know about the choice
+};
+Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string& uid,
+                                   const std::filesystem::path& path);
+
+// Loads the series that choose_series() takes, and says so in Volume::changes where there were others. The
+// volume is finite everywhere. Fails (ErrorKind::input) naming the file and the field at fault.
 Result<Volume> load_volume(const std::filesystem::path& path, const std::string& uid = {},
                            const Progress& progress = {});
+
+// The same of a loadable series that find_series() gave.
+Result<Volume> load_series(const Series& series, const Progress& progress = {});
+
+// The slice `k` of a loadable series, on its place in the patient: of a DICOM series only that slice's file
+// is read. A volume file is read whole.
+Result<Volume> load_slice(const Series& series, std::int64_t k, const Progress& progress = {});
 
 // Loads a mask: every voxel that is not 0 is inside.
 Result<Mask> load_mask(const std::filesystem::path& path, const Progress& progress = {});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "session/change_text.h"
 #include "session/lock_step.h"
 
 namespace tidemark {
@@ -14,8 +15,8 @@ constexpr std::int64_t kMostSteps = 256;  // between two pictures: it should be 
 
 }  // namespace
 
-CaseRunner::CaseRunner(Engine& engine, CaseSession::Opened opened, ExecutorKind executor, Receiver receiver)
-    : engine_(engine), opened_(std::move(opened)), executor_kind_(executor), receiver_(std::move(receiver)) {}
+CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor, Receiver receiver)
+    : engine_(engine), study_(std::move(study)), executor_kind_(executor), receiver_(std::move(receiver)) {}
 
 void CaseRunner::post(Command command) {
   engine_.interrupt(Priority::step, this);  // refinement can wait
@@ -43,7 +44,7 @@ Status CaseRunner::open() {
   painter_.use(engine_.device());
   graphics_ = engine_.contexts_made();
   auto made =
-      Case::create(opened_.volume, opened_.origin, opened_.parameters, executor_kind_, executor_options());
+      Case::create(study_->volume, study_->origin, study_->parameters, executor_kind_, executor_options());
   if (!made) return pass_on(made);
   case_ = std::move(*made);
   return {};
@@ -109,7 +110,11 @@ void CaseRunner::set_playing(bool playing) {
   const bool begins = playing && !playing_;
   playing_ = playing && case_->level_set().begun();
   if (begins && playing_) post_steps();
-  if (!playing_) case_->level_set().end_run();
+  if (!playing_) end_run();
+}
+
+void CaseRunner::end_run() {
+  if (auto status = case_->level_set().end_run(); !status) tell(status.error());
 }
 
 std::int64_t CaseRunner::steps_to_next_picture() const {
@@ -138,7 +143,7 @@ void CaseRunner::run_steps(std::stop_token stop) {
   if (playing_) {
     post_steps();
   } else {
-    case_->level_set().end_run();
+    end_run();
     post_measurement();
   }
   show_pictures();
@@ -222,6 +227,16 @@ void CaseRunner::post_measurement() {
   });
 }
 
+std::shared_ptr<const std::vector<std::uint8_t>> CaseRunner::label_voxels() {
+  const Labels& labels = case_->labels();
+  if (labels.voxels().empty()) return nullptr;
+  if (!label_voxels_ || label_revision_ != labels.revision()) {
+    label_voxels_ = std::make_shared<const std::vector<std::uint8_t>>(labels.voxels().begin(), labels.voxels().end());
+    label_revision_ = labels.revision();
+  }
+  return label_voxels_;
+}
+
 void CaseRunner::publish() {
   if (!case_) return;
   LevelSet& level_set = case_->level_set();
@@ -237,9 +252,9 @@ void CaseRunner::publish() {
                                      static_cast<qsizetype>(level_set.executor().name().size()));
   state.memory = level_set.executor().memory();
   state.labels = case_->labels().list();
-  state.label_voxels = case_->labels().shared_voxels();
-  state.undo_text = QString::fromStdString(case_->history().undo_text());
-  state.redo_text = QString::fromStdString(case_->history().redo_text());
+  state.label_voxels = label_voxels();
+  if (const auto change = case_->history().undo_description()) state.undo_text = change_text(*change);
+  if (const auto change = case_->history().redo_description()) state.redo_text = change_text(*change);
   state.modified = case_->changed_since_save();
   state.start_text = QString::fromStdString(level_set.recipe().start.describe());
   meter_.report(state);

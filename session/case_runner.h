@@ -26,7 +26,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   // Does something to the case. What it returns as an error is told to the user.
   using Command = std::function<Status(CaseRunner&, const Progress&)>;
 
-  CaseRunner(Engine& engine, CaseSession::Opened opened, ExecutorKind executor, Receiver receiver);
+  CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor, Receiver receiver);
 
   // Any thread. Before anything else is done, the command is; then all that shows the case is brought up to
   // date.
@@ -66,12 +66,14 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void post_picture(const std::shared_ptr<ViewSlot>& slot, Priority priority);
   void draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token stop);
   void post_measurement();
+  void end_run();
+  std::shared_ptr<const std::vector<std::uint8_t>> label_voxels();
   Status follow_graphics();
   void tell(const Error& error);
   [[nodiscard]] ExecutorOptions executor_options() const;
 
   Engine& engine_;
-  CaseSession::Opened opened_;
+  std::shared_ptr<const LoadedStudy> study_;
   ExecutorKind executor_kind_;
   Receiver receiver_;
 
@@ -85,6 +87,9 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   bool pause_at_convergence_ = true;
   bool measurement_waits_ = false;
   std::int64_t steps_per_picture_ = 0;
+
+  std::shared_ptr<const std::vector<std::uint8_t>> label_voxels_;  // as of label_revision_
+  std::uint64_t label_revision_ = 0;
 
   // The newest state, until the session has taken it.
   struct Post {

@@ -8,18 +8,18 @@
 
 namespace tidemark {
 
-CaseSession::CaseSession(Engine& engine, Opened opened, ExecutorKind executor)
+CaseSession::CaseSession(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor)
     : engine_(engine),
-      opened_(std::move(opened)),
+      study_(std::move(study)),
       outlet_(std::make_shared<Outlet>(this)),
-      wanted_parameters_(opened_.parameters) {
+      wanted_parameters_(study_->parameters) {
   state_.parameters = wanted_parameters_;
   CaseRunner::Receiver receiver;
   receiver.outlet = outlet_;
   receiver.state_arrived = [this](CaseState state) { take(std::move(state)); };
   receiver.failed = [this](const QString& message) { emit failed(message); };
   receiver.progressed = [this](double fraction, const QString& what) { emit progressed(fraction, what); };
-  runner_ = std::make_shared<CaseRunner>(engine_, opened_, executor, std::move(receiver));
+  runner_ = std::make_shared<CaseRunner>(engine_, study_, executor, std::move(receiver));
   tell([](CaseRunner& runner, const Progress&) { return runner.open(); });
 }
 

@@ -15,7 +15,7 @@
 #include "session/case_state.h"
 #include "session/display.h"
 #include "session/engine.h"
-#include "session/source_summary.h"
+#include "session/study_loader.h"
 #include "solver/executor.h"
 #include "solver/statistics.h"
 #include "study/case.h"
@@ -31,21 +31,15 @@ class Outlet;
 class CaseSession : public QObject {
   Q_OBJECT
  public:
-  struct Opened {
-    std::shared_ptr<const Volume> volume;
-    StudyOrigin origin;
-    SourceSummary summary;
-    QString name;  // for titles; holds no patient's name
-    Parameters parameters;
-  };
-  CaseSession(Engine& engine, Opened opened, ExecutorKind executor);
+  CaseSession(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor);
   ~CaseSession() override;  // cancels what is running
 
   [[nodiscard]] const CaseState& state() const { return state_; }
-  [[nodiscard]] const Volume& volume() const { return *opened_.volume; }
-  [[nodiscard]] const SourceSummary& summary() const { return opened_.summary; }
-  [[nodiscard]] const StudyOrigin& origin() const { return opened_.origin; }
-  [[nodiscard]] const QString& name() const { return opened_.name; }
+  [[nodiscard]] const Volume& volume() const { return *study_->volume; }
+  [[nodiscard]] const SourceSummary& summary() const { return study_->summary; }
+  [[nodiscard]] const StudyOrigin& origin() const { return study_->origin; }
+  [[nodiscard]] const LoadedStudy& study() const { return *study_; }
+  [[nodiscard]] const QString& name() const { return study_->name; }
   [[nodiscard]] Display& display() { return display_; }
   [[nodiscard]] Engine& engine() { return engine_; }
   // The parameters as last set here, before the engine has taken them: what sliders show.
@@ -107,7 +101,7 @@ class CaseSession : public QObject {
   void set_playing(bool playing);
 
   Engine& engine_;
-  Opened opened_;
+  std::shared_ptr<const LoadedStudy> study_;
   Display display_;
   std::shared_ptr<Outlet> outlet_;
   std::shared_ptr<CaseRunner> runner_;

@@ -16,4 +16,10 @@ void Display::choose_tool(Tool tool) {
   });
 }
 
+void Display::set_pointer(std::optional<glm::dvec3> patient_mm) {
+  if (patient_mm == pointer_mm_) return;
+  pointer_mm_ = patient_mm;
+  emit pointer_moved();
+}
+
 }  // namespace tidemark

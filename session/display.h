@@ -8,6 +8,7 @@
 
 #include "core/result.h"
 #include "renderer/views.h"
+#include "session/measurement.h"
 
 namespace tidemark {
 
@@ -58,6 +59,7 @@ struct DisplaySettings {
   Tool last_tool = Tool::crosshair;  // Space goes back to it
   double brush_mm = 5.0;             // radius
   int chosen_primitive = 0;          // of transfer.source: what probing sets
+  std::vector<Measurement> measurements;
 
   bool operator==(const DisplaySettings&) const = default;
 };
@@ -76,11 +78,17 @@ class Display : public QObject {
   void set(DisplaySettings next);  // emits changed() unless nothing is different
   void choose_tool(Tool tool);     // remembers the one before
 
+  // Where the mouse is in the patient (LPS, mm), in whatever view: brushes and values follow it in all.
+  [[nodiscard]] const std::optional<glm::dvec3>& pointer_mm() const { return pointer_mm_; }
+  void set_pointer(std::optional<glm::dvec3> patient_mm);
+
  signals:
   void changed();
+  void pointer_moved();
 
  private:
   DisplaySettings settings_;
+  std::optional<glm::dvec3> pointer_mm_;
 };
 
 }  // namespace tidemark

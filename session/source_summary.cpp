@@ -6,23 +6,6 @@
 namespace tidemark {
 namespace {
 
-// The gradient's magnitude at a voxel by central differences (one-sided at the border), in units a mm.
-float gradient_at(const Volume& volume, Index3 voxel) {
-  const Geometry& geometry = volume.geometry;
-  double square = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    Index3 low = voxel;
-    Index3 high = voxel;
-    low[axis] = std::max<std::int64_t>(low[axis] - 1, 0);
-    high[axis] = std::min(high[axis] + 1, geometry.size[axis] - 1);
-    if (low[axis] == high[axis]) continue;
-    const double distance_mm = static_cast<double>(high[axis] - low[axis]) * geometry.spacing_mm[axis];
-    const double slope = (static_cast<double>(volume.value(high)) - volume.value(low)) / distance_mm;
-    square += slope * slope;
-  }
-  return static_cast<float>(std::sqrt(square));
-}
-
 int bin_of(float value, float low, float high) {
   if (!(high > low)) return 0;
   const float share = (value - low) / (high - low);
@@ -40,12 +23,28 @@ std::vector<std::pair<float, float>> sample(const Volume& volume, const Progress
   const Index3 size = volume.geometry.size;
   for (std::int64_t offset = 0; offset < count && !progress.cancelled(); offset += stride) {
     const Index3 voxel{offset % size.x, offset / size.x % size.y, offset / (size.x * size.y)};
-    samples.emplace_back(volume.value(offset), gradient_at(volume, voxel));
+    samples.emplace_back(volume.value(offset), gradient_magnitude(volume, voxel));
   }
   return samples;
 }
 
 }  // namespace
+
+float gradient_magnitude(const Volume& volume, Index3 voxel) {
+  const Geometry& geometry = volume.geometry;
+  double square = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    Index3 low = voxel;
+    Index3 high = voxel;
+    low[axis] = std::max<std::int64_t>(low[axis] - 1, 0);
+    high[axis] = std::min(high[axis] + 1, geometry.size[axis] - 1);
+    if (low[axis] == high[axis]) continue;
+    const double distance_mm = static_cast<double>(high[axis] - low[axis]) * geometry.spacing_mm[axis];
+    const double slope = (static_cast<double>(volume.value(high)) - volume.value(low)) / distance_mm;
+    square += slope * slope;
+  }
+  return static_cast<float>(std::sqrt(square));
+}
 
 SourceSummary summarise(const Volume& volume, const Progress& progress) {
   SourceSummary summary;

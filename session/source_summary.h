@@ -21,6 +21,8 @@ struct SourceSummary {
   std::vector<std::int64_t>
       value_gradient;  // kBins x kBins counts over [low, high] x [0, steepest], value fastest
 };
+// At a voxel, by central differences (to one side at the border), in units a mm.
+float gradient_magnitude(const Volume& volume, Index3 voxel);
 SourceSummary summarise(const Volume& volume, const Progress& progress = {});
 
 }  // namespace tidemark

@@ -79,6 +79,8 @@ class Executor {
   // Computes steps. Fails (ErrorKind::capability) when the memory budget is reached: every step up to there
   // is complete and kept. Cancelling is not a failure: the report says how many steps were done.
   virtual Result<AdvanceReport> advance(const Advance& run) = 0;
+  // How many steps the last advance() computed, also if it failed.
+  [[nodiscard]] virtual std::int64_t steps_of_last_run() const = 0;
 
   [[nodiscard]] virtual MemoryReport memory() const = 0;
   // The virtual pages that are resident, but not computed at present. Fails as snapshot() does.

@@ -22,8 +22,9 @@ Result<AdvanceReport> ExecutorBase::run_steps(const Advance& run,
   const Clock::time_point start = Clock::now();
   Clock::time_point last_progress = start;
   AdvanceReport report;
+  steps_of_last_run_ = 0;
   while (report.steps < run.steps && !run.progress.cancelled()) {
-    ++report.steps;
+    steps_of_last_run_ = ++report.steps;
     auto window_ended = step(report);
     if (!window_ended) return pass_on(window_ended);
     if (seconds_since(last_progress) > kSecondsBetweenReports) {

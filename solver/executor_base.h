@@ -14,6 +14,7 @@ class ExecutorBase : public Executor {
   [[nodiscard]] const Parameters& parameters() const final { return model_.parameters(); }
   [[nodiscard]] double band() const final { return model_.band(); }
   [[nodiscard]] double time_step() const final { return model_.time_step(); }
+  [[nodiscard]] std::int64_t steps_of_last_run() const final { return steps_of_last_run_; }
 
  protected:
   using Clock = std::chrono::steady_clock;
@@ -33,6 +34,7 @@ class ExecutorBase : public Executor {
   std::shared_ptr<const Volume> source_;
   Model model_;
   double surface_speed_ = 0.0;  // in the last full window
+  std::int64_t steps_of_last_run_ = 0;
 };
 
 }  // namespace tidemark

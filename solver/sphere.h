@@ -10,6 +10,8 @@ namespace tidemark {
 struct Sphere {
   glm::dvec3 centre_mm{0.0};  // patient LPS
   double radius_mm = 0.0;
+
+  bool operator==(const Sphere&) const = default;
 };
 
 enum class Brush { add, erase };

@@ -1,52 +1,65 @@
 // The document: a volume, its level set, its labels, how it is shown, and its history.
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <memory>
 #include <string>
 
 #include "study/history.h"
 #include "study/labels.h"
 #include "study/level_set.h"
+#include "study/origin.h"
 
 namespace tidemark {
 
-// Where a case's volume came from, so that it can be found again.
-struct StudyOrigin {
-  std::filesystem::path path;  // empty: made here (phantom)
-  std::string series_uid;
-  std::string phantom;   // its kind, where the volume is a phantom
-  std::string checksum;  // SHA-256 of the volume's voxels and geometry, hexadecimal
-};
-
+// Used on one thread at a time, as its level set.
 class Case {
  public:
+  // A checksum that the origin has not got is computed.
   static Result<std::unique_ptr<Case>> create(std::shared_ptr<const Volume> volume, StudyOrigin origin,
                                               const Parameters& parameters, ExecutorKind kind,
                                               const ExecutorOptions& options);
 
-  [[nodiscard]] const std::shared_ptr<const Volume>& volume() const;  // as loaded
-  [[nodiscard]] const StudyOrigin& origin() const;
-  LevelSet& level_set();
-  Labels& labels();
-  History& history();
+  Case(const Case&) = delete;
+  Case& operator=(const Case&) = delete;
+
+  [[nodiscard]] const std::shared_ptr<const Volume>& volume() const { return volume_; }  // as loaded
+  [[nodiscard]] const StudyOrigin& origin() const { return origin_; }
+  [[nodiscard]] LevelSet& level_set() { return *level_set_; }
+  [[nodiscard]] const LevelSet& level_set() const { return *level_set_; }
+  [[nodiscard]] Labels& labels() { return labels_; }
+  [[nodiscard]] const Labels& labels() const { return labels_; }
+  [[nodiscard]] History& history() { return history_; }
+  [[nodiscard]] const History& history() const { return history_; }
 
   // The source that the level set sees: the volume smoothed by that many mm (0: as it is).
   Status smooth_source(double sigma_mm, const Progress& progress = {});
-  [[nodiscard]] double smoothed_mm() const;
+  [[nodiscard]] double smoothed_mm() const { return level_set_->smoothed_mm(); }
 
   // Changes of labels that undo takes back, one entry each.
   Status accept_surface(std::uint8_t label);
   Status begin_from_label(std::uint8_t label);
 
   // One step back or forward in the history of everything.
-  Status undo();
-  Status redo();
+  Status undo() { return history_.undo(); }
+  Status redo() { return history_.redo(); }
 
   // How the case is shown: JSON of whoever shows it, kept in session files.
   std::string view_state;
 
-  [[nodiscard]] bool changed_since_save() const;
+  // Whether undo would lead to, or something has led to, another state than the one that was saved.
+  [[nodiscard]] bool changed_since_save() const { return history_.position() != saved_position_; }
+  void mark_saved() { saved_position_ = history_.position(); }
+
+ private:
+  Case(std::shared_ptr<const Volume> volume, StudyOrigin origin);
+
+  std::shared_ptr<const Volume> volume_;
+  StudyOrigin origin_;
+  History history_;  // before what its entries speak of
+  std::unique_ptr<LevelSet> level_set_;
+  Labels labels_;
+  std::uint64_t saved_position_ = 0;
 };
 
 }  // namespace tidemark

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/volume.h"
+#include "study/history.h"
 
 namespace tidemark {
 
@@ -23,10 +25,13 @@ struct Label {
 
 class Labels {
  public:
-  explicit Labels(const Geometry& geometry) : geometry_(geometry) {}
+  // Changes become entries of the history, if there is one; it must not be used any more when this is gone.
+  explicit Labels(const Geometry& geometry, History* history = nullptr)
+      : geometry_(geometry), history_(history) {}
 
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
   [[nodiscard]] const std::vector<Label>& list() const { return list_; }
+  [[nodiscard]] const Label* find(std::uint8_t id) const;  // null: there is none
   // A label id for each voxel in voxel order; empty while no voxel has a label.
   [[nodiscard]] std::span<const std::uint8_t> voxels() const { return voxels_; }
   [[nodiscard]] std::uint64_t revision() const { return revision_; }  // another after each change of voxels
@@ -40,6 +45,22 @@ class Labels {
   // voxels are cleared. Fails (ErrorKind::usage) when the label is locked or unknown, or the grid differs.
   Status accept(const Mask& mask, std::uint8_t id, bool replace = true);
   [[nodiscard]] Mask mask(std::uint8_t id) const;
+
+  // What was saved; not an entry of the history. Fails (ErrorKind::usage) when a voxel's label is not in the
+  // list, an id is there twice, or the number of voxels is neither 0 nor the grid's.
+  Status assign(std::vector<Label> list, std::vector<std::uint8_t> voxels);
+
+ private:
+  friend class LabelsChange;
+
+  // Lets `edit` change the list and the voxels, and makes an entry of what has changed.
+  Status change(ChangeKind kind, const std::string& name, const std::function<void()>& edit);
+
+  Geometry geometry_;
+  History* history_;
+  std::vector<Label> list_;
+  std::vector<std::uint8_t> voxels_;
+  std::uint64_t revision_ = 0;
 };
 
 // What is inside a label or a surface.

@@ -9,51 +9,113 @@
 #include "solver/executor.h"
 #include "study/history.h"
 #include "study/recipe.h"
+#include "study/rig.h"
 #include "study/start.h"
 
 namespace tidemark {
 
 // Used on one thread at a time: that of the executor's graphics context, where it has one.
-class LevelSet {
+//
+// phi is read back only when it has to be known: at the end of an entry of the history, for a checkpoint,
+// and before the first step after something was painted. Between these, `dirty_` says that known_ is not
+// phi any more.
+class LevelSet final : private OpenChange {
  public:
-  // Everywhere outside at first. Fails as make_executor() does.
-  static Result<std::unique_ptr<LevelSet>> create(std::shared_ptr<const Volume> source,
+  // Everywhere outside at first, on the volume as it is. Fails as make_executor() does. `history` must
+  // outlive it.
+  static Result<std::unique_ptr<LevelSet>> create(std::shared_ptr<const Volume> volume,
                                                   const Parameters& parameters, ExecutorKind kind,
                                                   const ExecutorOptions& options, History& history);
 
-  [[nodiscard]] const Executor& executor() const { return *executor_; }
-  [[nodiscard]] Executor& executor() { return *executor_; }
-  [[nodiscard]] const Parameters& parameters() const { return executor_->parameters(); }
-  [[nodiscard]] const std::shared_ptr<const Volume>& source() const { return source_; }
-  [[nodiscard]] std::int64_t step() const { return step_; }  // since the start
-  [[nodiscard]] bool begun() const;                          // there is a surface to steer
-  // Everything since the start, for export and replay.
-  [[nodiscard]] const Recipe& recipe() const { return recipe_; }
+  [[nodiscard]] const Executor& executor() const { return rig_.executor(); }
+  [[nodiscard]] Executor& executor() { return rig_.executor(); }
+  [[nodiscard]] const Parameters& parameters() const { return executor().parameters(); }
+  [[nodiscard]] const std::shared_ptr<const Volume>& source() const { return rig_.source(); }
+  [[nodiscard]] double smoothed_mm() const { return rig_.smoothed_mm(); }
+  [[nodiscard]] std::int64_t step() const { return recipe_.steps; }  // since the start
+  [[nodiscard]] bool begun() const { return recipe_.begun(); }       // there is a surface to steer
+  [[nodiscard]] const Recipe& recipe() const { return recipe_; }     // everything since the start
+  // Which volume it is, for recipes.
+  void set_source_identity(const RecipeSource& source) { recipe_.source = known_.recipe.source = source; }
 
   // Each of these is an entry of the history that undo takes back. Edits with the same `gesture` (not 0: one
-  // drag of a slider, one stroke of a brush), with whatever was computed between them, are one entry.
+  // drag of a slider, one stroke of a brush), with whatever was computed between them, are one entry. So is
+  // what is computed after the last of them until the next checkpoint.
   Status begin(const Start& start, const Progress& progress = {});
   Status paint(const Sphere& sphere, Brush brush, std::uint64_t gesture = 0);
   Status set_parameters(const Parameters& parameters, std::uint64_t gesture = 0);
-  // Steps, one after the other, are one entry until another edit or end_run().
+  // What the level set sees: the volume smoothed by that many mm (0: as it is).
+  Status smooth_source(double sigma_mm);
+  // Steps, one after the other, are one entry until another edit or end_run(). When a memory budget ends the
+  // run, what was computed up to there counts.
   Result<AdvanceReport> advance(const Advance& run);
-  void end_run();
+  Status end_run();
 
-  // Back to where the level set was `steps` steps ago, from the nearest checkpoint, by computing again:
-  // the same voxels. At most to the start. An entry of its own.
+  // Back to where the level set was `steps` steps ago, by computing again from where phi was last put in
+  // place: the same voxels. At most to the start. An entry of its own.
   Status step_back(std::int64_t steps, const Progress& progress = {});
   // Back to the start as it was before the first step, with the present parameters. An entry of its own.
   Status restart();
 
-  // Goes on with another executor, or with another source on the same grid (a smoothed one), from the same
-  // phi.
+  // Goes on with another executor from the same phi.
   Status change_executor(ExecutorKind kind, const ExecutorOptions& options);
-  Status change_source(std::shared_ptr<const Volume> source);
-  // After the graphics context was lost: a new executor on options.device, from the last checkpoint.
+  // After the graphics context was lost: a new executor on options.device, from the last checkpoint, with the
+  // present parameters.
   Status rebuild(const ExecutorOptions& options);
 
-  // phi for whoever saves or measures. Counts as a checkpoint (rebuild(), step_back()).
+  // phi for whoever saves or measures. Counts as a checkpoint for rebuild().
   Result<std::shared_ptr<const Field>> checkpoint();
+
+  // Goes on from what was saved: a recipe and the phi that it had led to. Not an entry of the history.
+  Status resume_from(const Recipe& recipe, std::shared_ptr<const Field> phi);
+
+ private:
+  friend class LevelSetChange;
+
+  // phi, how it came about, and phi before the first step (null: to be made from the recipe).
+  struct Point {
+    Recipe recipe;
+    std::shared_ptr<const Field> phi;
+    std::shared_ptr<const Field> start;
+
+    [[nodiscard]] bool same_as(const Point& other) const {
+      return phi == other.phi && recipe.steps == other.recipe.steps && recipe.events == other.recipe.events &&
+             recipe.parameters == other.recipe.parameters;
+    }
+  };
+  // An entry that goes on.
+  struct Open {
+    ChangeKind kind = ChangeKind::evolution;
+    std::uint64_t gesture = 0;
+    Point before;
+    std::optional<Point> settled;  // a checkpoint after the last edit of the gesture: there it can be divided
+  };
+
+  LevelSet(Rig rig, const Parameters& parameters, History& history);
+
+  ChangeDescription description() const override;
+  std::int64_t bytes() const override;
+  Status close() override;
+
+  Status end_other_change(std::uint64_t gesture);
+  void begin_change(ChangeKind kind, std::uint64_t gesture, Point before);
+  void record(RecipeEvent event);
+  void add_entry(ChangeKind kind, const Point& before, const Point& after);
+  Status know_phi();
+  void put_in_place(Point point);
+  Status go_to(Point point);
+  Status prepare_start();
+  Status compute_again(std::int64_t target, const Progress& progress);
+
+  Rig rig_;
+  History& history_;
+  Recipe recipe_;
+  std::shared_ptr<const Field> start_;  // phi before the first step
+  Point known_;                         // the last that is known of phi
+  bool dirty_ = false;                  // phi has changed since
+  Point in_place_;                      // where phi was last put in place; the executor has run on since
+  bool resumed_ = false;                // it was, and the recipe does not say so yet
+  std::optional<Open> open_;
 };
 
 }  // namespace tidemark

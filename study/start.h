@@ -44,12 +44,15 @@ struct Start {
   std::vector<Sphere> seeds;
   std::vector<Sphere> erasers;
 
+  [[nodiscard]] bool empty() const { return std::holds_alternative<std::monostate>(from) && seeds.empty(); }
   // One line for people: "2 seeds, 1 eraser", "mask truth.nii.gz, 1 seed".
   [[nodiscard]] std::string describe() const;
 };
 
 // Gives the executor its start; what it held before is lost. `source` is the volume as the solver sees it.
 // Fails with ErrorKind::usage when a part is outside the volume or nothing is inside; phi is then as before.
-Status begin(Executor& executor, const Volume& source, const Start& start, const Progress& progress = {});
+// phi as it then is.
+Result<Field> begin(Executor& executor, const Volume& source, const Start& start,
+                    const Progress& progress = {});
 
 }  // namespace tidemark

@@ -32,6 +32,7 @@ Json to_json(const Series& series) {
   object["uid"] = series.uid;
   object["modality"] = series.modality;
   object["description"] = series.description;
+  object["date"] = series.date;
   object["files"] = series.files.size();
   object["size"] = known ? Json::array({grid.size.x, grid.size.y, grid.size.z}) : Json();
   object["spacing_mm"] = known ? triple(grid.spacing_mm) : Json();
@@ -83,6 +84,7 @@ void say_geometry(Console& console, const Geometry& grid) {
 void say_series(Console& console, const Series& series) {
   console.say("{}{}{}", series.modality, series.modality.empty() ? "" : "  ", series.description);
   console.say("  uid         {}", series.uid);
+  if (!series.date.empty()) console.say("  date        {}", series.date);
   console.say("  files       {}", series.files.size());
   if (series.geometry.voxel_count() > 0) say_geometry(console, series.geometry);
   if (!series.scalar.empty()) console.say("  values      {}", series.scalar);

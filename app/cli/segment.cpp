@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "app/cli/align.h"
-#include "app/cli/auto_start.h"
 #include "app/cli/program.h"
 #include "app/cli/report.h"
 #include "app/cli/segment_options.h"
@@ -12,6 +11,7 @@
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/filters/filters.h"
+#include "imaging/filters/suggest_start.h"
 #include "imaging/study.h"
 #include "imaging/surface/surface.h"
 #include "renderer/sheet.h"
@@ -148,7 +148,8 @@ Status Segmentation::suggest() {
     looked_at = glm::clamp(Index3(glm::round(voxel)), Index3(0), source_->geometry.size - Index3(1));
   }
   const auto found = suggest_start(*source_, looked_at, console_.progress());
-  if (!found) return tl::unexpected<Error>(found.error());
+  if (console_.interrupted()) return cancelled_error();
+  if (!found) return fail(found.error().kind, "--auto-start: {}", found.error().message);
   if (needs_seed) {
     const std::string text =
         fmt::format("{},{},{},{:.4g}", found->voxel.x, found->voxel.y, found->voxel.z, found->radius_mm);

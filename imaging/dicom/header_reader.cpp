@@ -93,6 +93,15 @@ std::string in_utf8(std::string text, const std::string& character_set) {
   return text;
 }
 
+// "20040731", or "2004.07.31" of files older than DICOM 3 (PS3.5 6.2), as "2004-07-31"; a date's digits are
+// checked, not the calendar.
+std::string iso_date(std::string text) {
+  if (text.size() == 10 && text[4] == '.' && text[7] == '.') std::erase(text, '.');
+  const bool digits = std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (text.size() != 8 || !digits) return {};
+  return text.substr(0, 4) + '-' + text.substr(4, 2) + '-' + text.substr(6, 2);
+}
+
 bool is_enhanced(const std::string& sop_class) {
   constexpr std::array kClasses{UID_EnhancedCTImageStorage,
                                 UID_EnhancedMRImageStorage,
@@ -246,6 +255,7 @@ Result<SliceHeader> slice_header_of(DcmFileFormat& loaded, const fs::path& file)
   header.sop_instance_uid = in.text(DCM_SOPInstanceUID);
   header.modality = in.text(DCM_Modality);
   header.description = in_utf8(in.text(DCM_SeriesDescription), in.text(DCM_SpecificCharacterSet));
+  header.date = iso_date(in.text(DCM_StudyDate));
   const DcmXfer syntax(dataset.getOriginalXfer());
   header.transfer_syntax = syntax.getXferID();
   header.is_lossy = is_lossy_syntax(syntax.getXfer()) || in.text(DCM_LossyImageCompression) == "01";

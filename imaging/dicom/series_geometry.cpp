@@ -303,6 +303,7 @@ void describe(const Slices& slices, Series& series) {
         "the images name no series (SeriesInstanceUID is empty); those of one folder are taken together");
   }
   series.modality = first.modality;
+  series.date = first.date;
   series.description = first.description.empty() ? name(first) : first.description;
   for (const SliceHeader& slice : slices) {
     auto& known = series.transfer_syntaxes;

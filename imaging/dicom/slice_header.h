@@ -22,6 +22,7 @@ struct SliceHeader {
   std::string sop_instance_uid;  // (0008,0018)
   std::string modality;          // (0008,0060)
   std::string description;       // (0008,103E), UTF-8
+  std::string date;              // (0008,0020) as "2004-07-31"; empty when absent or not a date
   std::string transfer_syntax;   // UID
 
   std::int64_t rows = 0;     // (0028,0010)

@@ -289,6 +289,7 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
   constexpr std::int64_t kMostStepsPerRun = 64;
   const Clock::time_point start = Clock::now();
   AdvanceReport report;
+  steps_of_last_run_ = 0;
   if (auto status = device_->make_current(); !status) return pass_on(status);
   if (unsettled_) {
     if (auto status = settle(); !status) return pass_on(status);
@@ -300,6 +301,7 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
     auto control = run_steps(count, run.until_converged);
     if (!control) return pass_on(control);
     report.steps += control->steps_done;
+    steps_of_last_run_ = report.steps;
     report.voxel_updates +=
         static_cast<std::int64_t>(control->voxel_updates[1]) << 32 | control->voxel_updates[0];
     report.surface_speed = static_cast<double>(control->surface_speed);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "solver/reference/gather-inl.h"
 #include "solver/speed/update-inl.h"
 
 namespace tidemark {
@@ -11,35 +12,9 @@ namespace {
 
 using HWY_NAMESPACE::Stencil;
 
-// The stencil at a voxel; at the volume's border the index is clamped (Neumann).
 Stencil<double> gather(const std::vector<double>& phi, const Geometry& geometry, Index3 v) {
-  const auto at = [&](int dx, int dy, int dz) {
-    const Index3 n(std::clamp<std::int64_t>(v.x + dx, 0, geometry.size.x - 1),
-                   std::clamp<std::int64_t>(v.y + dy, 0, geometry.size.y - 1),
-                   std::clamp<std::int64_t>(v.z + dz, 0, geometry.size.z - 1));
-    return phi[static_cast<std::size_t>(geometry.offset(n))];
-  };
-  Stencil<double> s;
-  s.c = at(0, 0, 0);
-  s.xm = at(-1, 0, 0);
-  s.xp = at(1, 0, 0);
-  s.ym = at(0, -1, 0);
-  s.yp = at(0, 1, 0);
-  s.zm = at(0, 0, -1);
-  s.zp = at(0, 0, 1);
-  s.xmym = at(-1, -1, 0);
-  s.xmyp = at(-1, 1, 0);
-  s.xpym = at(1, -1, 0);
-  s.xpyp = at(1, 1, 0);
-  s.xmzm = at(-1, 0, -1);
-  s.xmzp = at(-1, 0, 1);
-  s.xpzm = at(1, 0, -1);
-  s.xpzp = at(1, 0, 1);
-  s.ymzm = at(0, -1, -1);
-  s.ymzp = at(0, -1, 1);
-  s.ypzm = at(0, 1, -1);
-  s.ypzp = at(0, 1, 1);
-  return s;
+  return HWY_NAMESPACE::gather(
+      [&](Index3 n) { return phi[static_cast<std::size_t>(geometry.offset(n))]; }, geometry.size, v);
 }
 
 }  // namespace

@@ -87,6 +87,7 @@ Result<bool> StreamExecutor::finish_step(AdvanceReport& report) {
 }
 
 Result<AdvanceReport> StreamExecutor::advance(const Advance& run) {
+  steps_of_last_run_ = 0;
   if (auto status = device_->make_current(); !status) return pass_on(status);
   gpu::begin_exact_drawing();
   if (unsettled_) {

@@ -122,7 +122,7 @@ void CliRunTest::info_lists_what_the_contract_names() {
     if (one.toObject()["modality"].toString() == "MR") series = one.toObject();
   }
   for (const char* key :
-       {"uid", "modality", "description", "files", "size", "spacing_mm", "direction", "origin_mm", "scalar",
+       {"uid", "modality", "description", "date", "files", "size", "spacing_mm", "direction", "origin_mm", "scalar",
         "transfer_syntaxes", "loadable", "reason", "changes", "warnings"}) {
     QVERIFY2(series.contains(key), key);
   }

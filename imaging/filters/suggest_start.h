@@ -3,13 +3,13 @@
 
 #include <optional>
 
-#include "app/cli/console.h"
+#include "core/progress.h"
 #include "core/volume.h"
 
-namespace tidemark::cli {
+namespace tidemark {
 
 // What a person would read off the screen with the mouse.
-struct Suggestion {
+struct SuggestedStart {
   Index3 voxel{0};         // where to seed
   double radius_mm = 0.0;  // of the seed
   double target = 0.0;     // T and epsilon, in the volume's units
@@ -23,6 +23,7 @@ struct Suggestion {
 // axis, the one whose 5 x 5 x 5 neighbourhood varies least, the nearest to the centre among equals. That is
 // some even, bright tissue, not necessarily the wanted one. Fails (ErrorKind::input) when all values are
 // equal.
-Result<Suggestion> suggest_start(const Volume& volume, std::optional<Index3> seed, const Progress& progress);
+Result<SuggestedStart> suggest_start(const Volume& volume, std::optional<Index3> seed = {},
+                                     const Progress& progress = {});
 
-}  // namespace tidemark::cli
+}  // namespace tidemark

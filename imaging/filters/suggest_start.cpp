@@ -1,4 +1,4 @@
-#include "app/cli/auto_start.h"
+#include "imaging/filters/suggest_start.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark {
 namespace {
 
 constexpr int kBins = 1024;
@@ -142,11 +142,11 @@ std::optional<Index3> most_even_voxel(const Volume& volume, double threshold, co
 
 }  // namespace
 
-Result<Suggestion> suggest_start(const Volume& volume, std::optional<Index3> seed, const Progress& progress) {
+Result<SuggestedStart> suggest_start(const Volume& volume, std::optional<Index3> seed,
+                                     const Progress& progress) {
   const auto [lowest, highest] = volume.range();
   if (!(highest > lowest)) {
-    return fail(ErrorKind::input, "--auto-start: all voxels have the value {}: there is nothing to find",
-                lowest);
+    return fail(ErrorKind::input, "all voxels have the value {}: there is nothing to find", lowest);
   }
   const Histogram values = histogram(volume, lowest, highest);
   if (!seed) seed = most_even_voxel(volume, otsu_threshold(values), progress);
@@ -157,7 +157,7 @@ Result<Suggestion> suggest_start(const Volume& volume, std::optional<Index3> see
   const double span = values.percentile(0.99) - values.percentile(0.01);
   const glm::dvec3 spacing = volume.geometry.spacing_mm;
 
-  Suggestion suggestion;
+  SuggestedStart suggestion;
   suggestion.voxel = voxel;
   suggestion.radius_mm = kSeedSpacings * std::min({spacing.x, spacing.y, spacing.z});
   suggestion.target = spread.mean;
@@ -166,4 +166,4 @@ Result<Suggestion> suggest_start(const Volume& volume, std::optional<Index3> see
   return suggestion;
 }
 
-}  // namespace tidemark::cli
+}  // namespace tidemark

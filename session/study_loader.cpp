@@ -1,0 +1,203 @@
+#include "session/study_loader.h"
+
+#include <QCoreApplication>
+#include <QStringList>
+#include <algorithm>
+#include <mutex>
+#include <new>
+
+#include "imaging/filters/suggest_start.h"
+#include "imaging/phantom/phantom.h"
+#include "imaging/study.h"
+#include "session/background_job.h"
+
+namespace tidemark {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Steps as the folders below name them, for translators.
+[[maybe_unused]] constexpr const char* kSteps[] = {
+    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "reading headers"),
+    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "decoding slices"),
+    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "reading the volume"),
+    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "measuring values"),
+    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "looking for a start"),
+    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "making the phantom"),
+};
+
+// In the user's language, with a capital letter.
+QString step_text(const QString& what) {
+  QString text = QCoreApplication::translate("tidemark::LoadingStep", what.toUtf8().constData());
+  if (!text.isEmpty()) text[0] = text[0].toUpper();
+  return text;
+}
+
+// T and epsilon of a study that nobody has looked at yet.
+Parameters suggest_parameters(const Volume& volume, const Progress& progress) {
+  Parameters parameters;
+  if (const auto suggestion = suggest_start(volume, {}, progress)) {
+    parameters.target = suggestion->target;
+    parameters.range = suggestion->range;
+    parameters.alpha = suggestion->alpha;
+  } else {
+    parameters.target = static_cast<double>(volume.range().first);  // all voxels have this value
+  }
+  return parameters;
+}
+
+Result<LoadedStudy> load_study(const ChosenSeries& chosen, const Progress& progress) {
+  const Series& series = chosen.series;
+  auto volume = load_series(series, progress);
+  if (!volume) return pass_on(volume);
+  volume->changes.insert(volume->changes.begin(), chosen.remarks.begin(), chosen.remarks.end());
+  LoadedStudy study;
+  study.volume = std::make_shared<const Volume>(std::move(*volume));
+  study.origin.path = StudyLoader::place_of(series);
+  study.origin.series_uid = series.uid;
+  study.name = StudyLoader::name_of(series);
+  progress(0.0, "measuring values");
+  study.summary = summarise(*study.volume, progress);
+  study.parameters = suggest_parameters(*study.volume, progress);
+  if (progress.cancelled()) return cancelled_error();
+  return study;
+}
+
+// The series to load of what lies under the path.
+Result<LoadedStudy> find_and_load(const fs::path& path, const std::string& uid, const Progress& progress) {
+  const auto catalogue = find_series(path, progress);
+  if (!catalogue) return tl::unexpected<Error>(catalogue.error());
+  const auto chosen = choose_series(*catalogue, uid, path);
+  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  return load_study(*chosen, progress);
+}
+
+Result<LoadedStudy> make_phantom_study(const std::string& kind, const Progress& progress) {
+  progress(0.0, "making the phantom");
+  auto phantom = tidemark::make_phantom(kind, {}, progress);
+  if (!phantom) return pass_on(phantom);
+  LoadedStudy study;
+  study.origin.phantom = phantom->kind;
+  study.name = QString::fromStdString(phantom->volume.description);
+  study.volume = std::make_shared<const Volume>(std::move(phantom->volume));
+  study.parameters.target = phantom->target;
+  study.parameters.range = phantom->range;
+  study.parameters.alpha = phantom->alpha;
+  study.start = PhantomStart{phantom->seed, phantom->init_threshold};
+  progress(0.0, "measuring values");
+  study.summary = summarise(*study.volume, progress);
+  if (progress.cancelled()) return cancelled_error();
+  return study;
+}
+
+template <class Make>
+auto without_exceptions(const Make& make, const Progress& progress) -> decltype(make(progress)) {
+  try {
+    return make(progress);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::capability, "there is not enough memory");
+  } catch (const std::exception& error) {
+    return fail(ErrorKind::internal, "{}", error.what());
+  }
+}
+
+}  // namespace
+
+// What the work says on its way: the last word counts, and at most one is waiting to be heard.
+struct StudyLoader::Report {
+  std::mutex mutex;
+  double fraction = 0.0;
+  QString step;
+  bool waiting = false;
+};
+
+StudyLoader::~StudyLoader() {
+  if (job_) job_->abandon();
+}
+
+// Calls make(progress) on a thread and deliver(result) here.
+template <class Make, class Deliver>
+void StudyLoader::run(Make make, Deliver deliver) {
+  if (job_) job_->abandon();
+  job_ = BackgroundJob::start(this, [this, make, deliver](BackgroundJob& job) {
+    const auto last = std::make_shared<Report>();
+    Progress progress;
+    progress.stop = job.stop();
+    progress.report = [this, last, &job](double fraction, std::string_view what) {
+      const std::lock_guard lock(last->mutex);
+      last->fraction = fraction;
+      last->step = QString::fromUtf8(what.data(), static_cast<qsizetype>(what.size()));
+      if (std::exchange(last->waiting, true)) return;
+      job.deliver([this, last] {
+        std::unique_lock heard(last->mutex);
+        last->waiting = false;
+        const double at = last->fraction;
+        const QString step = step_text(last->step);
+        heard.unlock();
+        emit progressed(at, step);
+      });
+    };
+    auto result = std::make_shared<decltype(make(progress))>(without_exceptions(make, progress));
+    job.deliver([this, deliver, result] {
+      job_.reset();
+      if (*result) return deliver(std::move(**result));
+      emit failed(QString::fromStdString(result->error().message));
+    });
+  });
+}
+
+void StudyLoader::scan(const fs::path& path) {
+  run([path](const Progress& progress) { return find_series(path, progress); },
+      [this](Catalogue&& catalogue) { emit found(std::make_shared<const Catalogue>(std::move(catalogue))); });
+}
+
+void StudyLoader::load(const fs::path& path, const std::string& uid) {
+  run([path, uid](const Progress& progress) { return find_and_load(path, uid, progress); },
+      [this](LoadedStudy&& study) { emit loaded(std::make_shared<const LoadedStudy>(std::move(study))); });
+}
+
+void StudyLoader::load(const Series& series) {
+  run(
+      [series](const Progress& progress) {
+        return load_study({series, {}}, progress);
+      },
+      [this](LoadedStudy&& study) { emit loaded(std::make_shared<const LoadedStudy>(std::move(study))); });
+}
+
+void StudyLoader::make_phantom(const std::string& kind) {
+  run([kind](const Progress& progress) { return make_phantom_study(kind, progress); },
+      [this](LoadedStudy&& study) { emit loaded(std::make_shared<const LoadedStudy>(std::move(study))); });
+}
+
+void StudyLoader::cancel() {
+  if (!job_) return;
+  job_->abandon();
+  job_.reset();
+  emit cancelled();
+}
+
+fs::path StudyLoader::place_of(const Series& series) {
+  if (series.files.empty()) return {};
+  if (series.transfer_syntaxes.empty()) return series.files.front();  // a volume file
+  fs::path folder = series.files.front().parent_path();
+  for (const fs::path& file : series.files) {
+    while (std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first != folder.end()) {
+      folder = folder.parent_path();
+    }
+  }
+  return folder;
+}
+
+QString StudyLoader::name_of(const Series& series) {
+  const QString description = QString::fromStdString(series.description).trimmed();
+  const bool is_file = series.transfer_syntaxes.empty();
+  // A series without a description lists its first file's name, which may be the patient's.
+  const bool is_described =
+      is_file || (!series.files.empty() && series.description != series.files.front().filename().string());
+  if (is_described && !description.isEmpty()) return description;
+  const QStringList known{QString::fromStdString(series.modality), QString::fromStdString(series.date)};
+  const QString text = known.join(QLatin1Char(' ')).trimmed();
+  return text.isEmpty() ? tr("Series without a description") : text;
+}
+
+}  // namespace tidemark

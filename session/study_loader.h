@@ -1,0 +1,77 @@
+// Finds and loads studies without ever keeping the user interface waiting.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "core/volume.h"
+#include "imaging/series.h"
+#include "session/source_summary.h"
+#include "solver/parameters.h"
+#include "study/origin.h"
+
+namespace tidemark {
+
+class BackgroundJob;
+
+// Where a phantom can be started from; where there are both, the threshold is the quick way.
+struct PhantomStart {
+  std::optional<std::array<double, 4>> seed;           // i, j, k (voxels), radius (mm)
+  std::optional<std::pair<double, double>> threshold;  // low, high, in the volume's units
+};
+
+// All that a case begins with.
+struct LoadedStudy {
+  std::shared_ptr<const Volume> volume;
+  StudyOrigin origin;
+  SourceSummary summary;
+  QString name;           // for titles; never the patient's
+  Parameters parameters;  // that suit some even, bright tissue in the middle, or the phantom
+  std::optional<PhantomStart> start;
+};
+
+// Lives on the thread of the user interface; the work is done on others. One piece of work at a time: whoever
+// asks for the next gives up the one before, of which nothing is heard any more.
+class StudyLoader : public QObject {
+  Q_OBJECT
+ public:
+  using QObject::QObject;
+  ~StudyLoader() override;  // gives up what runs, and waits for nothing
+
+  // Ends with found() or failed().
+  void scan(const std::filesystem::path& path);
+  // End with loaded() or failed(). An empty uid: the only loadable series, or the one with the most voxels.
+  void load(const std::filesystem::path& path, const std::string& uid);
+  void load(const Series& series);
+  void make_phantom(const std::string& kind);  // of phantom_kinds()
+
+  [[nodiscard]] bool busy() const { return job_ != nullptr; }
+  void cancel();  // emits cancelled() when something was given up
+
+  // The folder or file under which a series is found again: the one folder that holds all its files.
+  [[nodiscard]] static std::filesystem::path place_of(const Series& series);
+  // What a series is called in titles: its description, else modality and date.
+  [[nodiscard]] static QString name_of(const Series& series);
+
+ signals:
+  // fraction in 0..1 of the step named by `step` ("Reading headers"); below 0 when unknown.
+  void progressed(double fraction, const QString& step);
+  void found(std::shared_ptr<const tidemark::Catalogue> catalogue);
+  void loaded(std::shared_ptr<const tidemark::LoadedStudy> study);
+  void failed(const QString& message);
+  void cancelled();
+
+ private:
+  struct Report;
+  template <class Make, class Deliver>
+  void run(Make make, Deliver deliver);
+
+  std::shared_ptr<BackgroundJob> job_;
+};
+
+}  // namespace tidemark

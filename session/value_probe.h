@@ -1,0 +1,49 @@
+// Mean and spread of what the mouse was dragged over (paper section 6.2).
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <set>
+
+#include "core/volume.h"
+
+namespace tidemark {
+
+// Each voxel counts once, however slowly the mouse goes.
+class ValueProbe {
+ public:
+  explicit ValueProbe(const Volume& volume) : volume_(&volume) {}
+
+  // Adds the voxels within `radius_mm` of the way from `from` to `to` (LPS, mm).
+  void add(glm::dvec3 from_mm, glm::dvec3 to_mm, double radius_mm);
+
+  struct Spread {
+    double mean = 0.0;
+    double deviation = 0.0;  // standard deviation of the population
+  };
+  [[nodiscard]] std::int64_t count() const { return static_cast<std::int64_t>(seen_.size()); }
+  [[nodiscard]] Spread values() const { return spread(value_); }        // the volume's units
+  [[nodiscard]] Spread gradients() const { return spread(gradient_); }  // magnitude, units a mm
+
+ private:
+  // Sums by Welford: no loss of digits for large values of small spread.
+  struct Sums {
+    double mean = 0.0;
+    double squares = 0.0;
+  };
+  void add(Index3 voxel);
+  void count_in(Sums& sums, double value) const;
+  [[nodiscard]] Spread spread(const Sums& sums) const;
+
+  const Volume* volume_;
+  std::set<std::int64_t> seen_;
+  Sums value_;
+  Sums gradient_;
+};
+
+// The range epsilon that a probe may set at least: a hundredth of the range of common values, so that one
+// even patch does not make the level set see nothing else.
+double least_probed_range(double common_low, double common_high);
+
+}  // namespace tidemark

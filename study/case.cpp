@@ -1,0 +1,49 @@
+#include "study/case.h"
+
+#include <utility>
+
+#include "study/checksum.h"
+
+namespace tidemark {
+
+Case::Case(std::shared_ptr<const Volume> volume, StudyOrigin origin)
+    : volume_(std::move(volume)), origin_(std::move(origin)), labels_(volume_->geometry, &history_) {}
+
+Result<std::unique_ptr<Case>> Case::create(std::shared_ptr<const Volume> volume, StudyOrigin origin,
+                                           const Parameters& parameters, ExecutorKind kind,
+                                           const ExecutorOptions& options) {
+  if (origin.checksum.empty()) origin.checksum = checksum_of(*volume);
+  std::unique_ptr<Case> made(new Case(std::move(volume), std::move(origin)));
+  auto level_set = LevelSet::create(made->volume_, parameters, kind, options, made->history_);
+  if (!level_set) return pass_on(level_set);
+  made->level_set_ = std::move(*level_set);
+  const Geometry& geometry = made->volume_->geometry;
+  made->level_set_->set_source_identity(
+      {geometry.size, geometry.spacing_mm, made->origin_.series_uid, made->origin_.checksum});
+  return made;
+}
+
+Status Case::smooth_source(double sigma_mm, const Progress& progress) {
+  progress(0.0, "smoothing");
+  Status smoothed = level_set_->smooth_source(sigma_mm);
+  progress(1.0, "smoothing");
+  return smoothed;
+}
+
+Status Case::accept_surface(std::uint8_t label) {
+  if (!level_set_->begun()) return fail(ErrorKind::usage, "there is no surface to accept");
+  if (Status ended = level_set_->end_run(); !ended) return ended;
+  const auto phi = level_set_->checkpoint();
+  if (!phi) return tl::unexpected<Error>(phi.error());
+  return labels_.accept((*phi)->mask(), label);
+}
+
+Status Case::begin_from_label(std::uint8_t label) {
+  const Label* known = labels_.find(label);
+  if (known == nullptr) return fail(ErrorKind::usage, "there is no label {}", label);
+  Start start;
+  start.from = MaskStart{std::make_shared<const Mask>(labels_.mask(label)), "label " + known->name};
+  return level_set_->begin(start);
+}
+
+}  // namespace tidemark

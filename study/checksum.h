@@ -1,0 +1,21 @@
+// What tells one volume, or one file, from another.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "core/volume.h"
+
+namespace tidemark {
+
+// SHA-256 in hexadecimal; empty only if there is no memory for it.
+[[nodiscard]] std::string sha256(std::span<const std::byte> bytes);
+// Fails with ErrorKind::input.
+Result<std::string> sha256_of_file(const std::filesystem::path& file);
+
+// Of a volume's voxels, their scale and their geometry.
+[[nodiscard]] std::string checksum_of(const Volume& volume);
+
+}  // namespace tidemark

@@ -1,0 +1,37 @@
+// What differs between two level sets on one grid: the pages that are not the same, both ways.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/field.h"
+
+namespace tidemark {
+
+class FieldDelta {
+ public:
+  // The fields must have the same grid and band. Their pages may differ in shape; the delta has the second's.
+  FieldDelta(const Field& before, const Field& after);
+
+  [[nodiscard]] bool empty() const { return pages_.empty(); }
+  [[nodiscard]] std::int64_t bytes() const;
+
+  // The other field, from one of the two (its pages may have any shape).
+  [[nodiscard]] Field before(const Field& after) const { return replaced(after, before_); }
+  [[nodiscard]] Field after(const Field& before) const { return replaced(before, after_); }
+
+ private:
+  struct Side {
+    std::vector<std::int32_t> table;  // for each changed page: which of `values`, or a constant of Field's
+    std::vector<float> values;
+  };
+  static void keep(const Field& field, std::int64_t page, Side& side);
+  [[nodiscard]] Field replaced(const Field& field, const Side& side) const;
+
+  PageLayout layout_;
+  std::vector<std::int64_t> pages_;  // ascending
+  Side before_;
+  Side after_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,109 @@
+// What was done, in order, with the way back and forward again: one history for everything in a case.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/result.h"
+
+namespace tidemark {
+
+enum class ChangeKind {
+  start,
+  paint,
+  erase,
+  target,      // T
+  range,       // epsilon
+  smoothing,   // alpha
+  parameters,  // several of them, or another one
+  evolution,
+  step_back,
+  restart,
+  source,  // the volume as the level set sees it
+  new_label,
+  label_settings,
+  remove_label,
+  accept,
+};
+
+// What a change was, for people. The interface words it in the user's language, describe() in English.
+struct ChangeDescription {
+  ChangeKind kind = ChangeKind::start;
+  std::int64_t steps = 0;  // of evolution and step_back
+  std::string name;        // of a label
+
+  bool operator==(const ChangeDescription&) const = default;
+};
+[[nodiscard]] std::string describe(const ChangeDescription& change);  // "evolution, 120 steps"
+
+// A change that was made. When one of its functions fails, everything is as it was.
+class Change {
+ public:
+  virtual ~Change() = default;
+  virtual Status undo() = 0;
+  virtual Status redo() = 0;
+  [[nodiscard]] virtual std::int64_t bytes() const = 0;
+};
+
+// A change that still goes on: a stroke of the brush, a run of steps.
+class OpenChange {
+ public:
+  [[nodiscard]] virtual ChangeDescription description() const = 0;
+  [[nodiscard]] virtual std::int64_t bytes() const = 0;
+  // Ends it and adds it to the history. It is over even if this fails.
+  virtual Status close() = 0;
+
+ protected:
+  ~OpenChange() = default;
+};
+
+class History {
+ public:
+  static constexpr std::int64_t kDefaultLimit = std::int64_t{1} << 30;  // bytes
+
+  // The oldest entries are dropped to stay below it; the latest one is kept whatever its size.
+  void set_limit(std::int64_t bytes);
+  [[nodiscard]] std::int64_t bytes() const;
+
+  // An entry for what was just done. What could be redone is forgotten.
+  void add(ChangeDescription description, std::unique_ptr<Change> change);
+
+  // A change begins that goes on; its owner must have closed the one before. Forgets what could be redone.
+  void open(OpenChange& change);
+  // Ends the change that goes on, if there is one.
+  Status close();
+
+  // Both end the change that goes on. Fail (ErrorKind::usage) when there is nothing to undo or redo.
+  Status undo();
+  Status redo();
+  // What they would take back or do again.
+  [[nodiscard]] std::optional<ChangeDescription> undo_description() const;
+  [[nodiscard]] std::optional<ChangeDescription> redo_description() const;
+
+  // Names the present state: the same number after an undo as before the change. While a change goes on, a
+  // number that no state has.
+  [[nodiscard]] std::uint64_t position() const;
+  // Grows by one with each change, undo and redo: how much was done, for whoever saves now and then.
+  [[nodiscard]] std::uint64_t edits() const { return edits_; }
+
+ private:
+  struct Entry {
+    ChangeDescription description;
+    std::unique_ptr<Change> change;
+    std::uint64_t id = 0;  // of the state after it
+  };
+  void keep_below_limit();
+
+  std::deque<Entry> done_;
+  std::deque<Entry> undone_;  // the next to redo is the last
+  OpenChange* open_ = nullptr;
+  std::uint64_t base_id_ = 0;  // of the state before the first entry
+  std::uint64_t last_id_ = 0;
+  std::uint64_t edits_ = 0;
+  std::int64_t limit_ = kDefaultLimit;
+};
+
+}  // namespace tidemark

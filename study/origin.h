@@ -1,0 +1,19 @@
+// Where a case's volume came from.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace tidemark {
+
+// So that it can be found again.
+struct StudyOrigin {
+  std::filesystem::path path;  // empty: made here (phantom)
+  std::string series_uid;
+  std::string phantom;   // its kind, where the volume is a phantom
+  std::string checksum;  // SHA-256 of the volume's voxels and geometry, hexadecimal (see checksum.h)
+
+  bool operator==(const StudyOrigin&) const = default;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,54 @@
+// An executor with all that it was made from, so that it can be made anew and driven by a recipe.
+#pragma once
+
+#include <memory>
+
+#include "core/progress.h"
+#include "solver/executor.h"
+#include "study/recipe.h"
+
+namespace tidemark {
+
+class Rig {
+ public:
+  // phi is outside everywhere. Fails as make_executor() and smooth() do.
+  static Result<Rig> create(std::shared_ptr<const Volume> volume, double smoothed_mm,
+                            const Parameters& parameters, ExecutorKind kind, const ExecutorOptions& options);
+
+  [[nodiscard]] Executor& executor() { return *executor_; }
+  [[nodiscard]] const Executor& executor() const { return *executor_; }
+  [[nodiscard]] const std::shared_ptr<const Volume>& volume() const { return volume_; }  // as loaded
+  [[nodiscard]] const std::shared_ptr<const Volume>& source() const { return source_; }  // as it is seen
+  [[nodiscard]] double smoothed_mm() const { return smoothed_mm_; }
+  [[nodiscard]] RecipeExecutor description() const;
+
+  // Each makes another executor that goes on from the same phi. When it fails, everything is as it was.
+  Status smooth_source(double sigma_mm);
+  Status change_executor(ExecutorKind kind, const ExecutorOptions& options);
+  // Another executor in place of one that is lost, with `phi`.
+  Status rebuild(const ExecutorOptions& options, const Field& phi);
+
+  // phi is put back as it is: see ResumeEvent.
+  Status resume();
+
+  // Does what the recipe says from its `first_event` on until `last_step` steps have been computed, and the
+  // edits after the last of them. `step` have been computed.
+  Status play(const Recipe& recipe, std::size_t first_event, std::int64_t step, std::int64_t last_step,
+              const Progress& progress);
+  // Does what one event says.
+  Status apply(const RecipeEvent& event);
+
+ private:
+  Rig() = default;
+  Status remake(std::shared_ptr<const Volume> source, ExecutorKind kind, const ExecutorOptions& options,
+                const Field& phi);
+
+  std::shared_ptr<const Volume> volume_;
+  std::shared_ptr<const Volume> source_;
+  double smoothed_mm_ = 0.0;
+  ExecutorKind kind_ = ExecutorKind::automatic;
+  ExecutorOptions options_;
+  std::unique_ptr<Executor> executor_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,169 @@
+#include "ui/main/actions.h"
+
+#include <QSettings>
+
+#include "ui/look/icons.h"
+
+namespace tidemark {
+namespace {
+
+constexpr const char* kOwnKey = "own_key";  // property: the key that the program gives
+
+QString settings_key(const QAction* action) { return QStringLiteral("keys/") + action->objectName(); }
+
+// "Play (P)"
+void show_key(QAction* action) {
+  const QString key = action->shortcut().toString(QKeySequence::NativeText);
+  const QString tip = action->property("tip").toString();
+  action->setToolTip(key.isEmpty() ? tip : QStringLiteral("%1 (%2)").arg(tip, key));
+}
+
+}  // namespace
+
+Actions::Actions(QObject* parent) : QObject(parent) {
+  make_files();
+  make_evolution();
+  make_tools();
+  make_views();
+  make_windows();
+}
+
+QAction* Actions::make(const char* name, const char* picture, const QString& text, const QKeySequence& key,
+                       bool of_case, const QString& tip) {
+  auto* action = new QAction(text, this);
+  if (picture) action->setIcon(icon(QString::fromLatin1(picture)));
+  action->setObjectName(QString::fromLatin1(name));
+  action->setProperty(kOwnKey, key.toString());
+  action->setProperty("tip", tip.isEmpty() ? QString(text).remove('&').remove(QStringLiteral("...")) : tip);
+  const QVariant chosen = QSettings().value(settings_key(action));
+  action->setShortcut(chosen.isValid() ? QKeySequence(chosen.toString()) : key);
+  show_key(action);
+  all_.push_back(action);
+  if (of_case) of_cases_.push_back(action);
+  return action;
+}
+
+void Actions::set_key(QAction* action, const QKeySequence& key) {
+  if (key.isEmpty()) {
+    QSettings().remove(settings_key(action));
+    action->setShortcut(QKeySequence(action->property(kOwnKey).toString()));
+  } else {
+    QSettings().setValue(settings_key(action), key.toString());
+    action->setShortcut(key);
+  }
+  show_key(action);
+}
+
+void Actions::make_files() {
+  open_folder = make("open-folder", "open-folder", tr("Open &folder..."), QKeySequence("Ctrl+O"), false,
+                     tr("Open a folder with a DICOM study"));
+  open_file = make("open-file", "open-file", tr("Open f&ile..."), QKeySequence("Ctrl+Shift+O"), false,
+                   tr("Open a DICOM file, NIfTI, NRRD, MetaImage or GIPL"));
+  open_session = make("open-session", "open-file", tr("Open &session..."), {}, false,
+                      tr("Go on with a session that was saved"));
+  save = make("save", "save", tr("&Save session"), QKeySequence("Ctrl+S"), true);
+  save_as = make("save-as", "save-as", tr("Save session &as..."), QKeySequence("Ctrl+Shift+S"), true);
+  export_mask = make("export-mask", "export", tr("&Mask or labels..."), QKeySequence("Ctrl+E"), true,
+                     tr("Write what is inside the surface, or the labels"));
+  export_mesh = make("export-mesh", nullptr, tr("&Surface as polygons..."), {}, true,
+                     tr("Write the surface as STL, PLY or OBJ, in mm of the patient"));
+  export_picture = make("export-picture", "camera", tr("&Picture of the view..."), QKeySequence("Ctrl+P"), true,
+                        tr("Write the active view as PNG, without the patient's text"));
+  export_statistics = make("export-statistics", "statistics", tr("S&tatistics..."), {}, true);
+  export_recipe = make("export-recipe", nullptr, tr("&Recipe..."), {}, true,
+                       tr("Write all steps and edits, to be repeated by tidemark-cli replay"));
+  close = make("close", "close", tr("&Close study"), QKeySequence("Ctrl+W"), true);
+  quit = make("quit", nullptr, tr("&Quit"), QKeySequence("Ctrl+Q"), false);
+  undo = make("undo", "undo", tr("&Undo"), QKeySequence("Ctrl+Z"), true);
+  redo = make("redo", "redo", tr("&Redo"), QKeySequence("Ctrl+Shift+Z"), true);
+  keys = make("keys", "keyboard", tr("&Keys..."), {}, false, tr("See and change the keys"));
+}
+
+void Actions::make_evolution() {
+  play = make("play", "play", tr("&Play"), QKeySequence("P"), true, tr("Let the surface evolve, or hold it"));
+  play->setCheckable(true);
+  step = make("step", "step", tr("One &step"), QKeySequence("."), true, tr("Compute one step"));
+  step_back = make("step-back", "step-back", tr("One step &back"), QKeySequence(","), true, tr("Take one step back"));
+  restart = make("restart", "restart", tr("&Restart"), QKeySequence("Home"), true,
+                 tr("Back to the start, with the parameters as they are now"));
+}
+
+void Actions::make_tools() {
+  tools = new QActionGroup(this);
+  const auto tool = [this](Tool which, const char* name, const char* picture, const QString& text, const char* key,
+                           const QString& tip) {
+    QAction* action = make(name, picture, text, QKeySequence(QString::fromLatin1(key)), true, tip);
+    action->setCheckable(true);
+    action->setData(static_cast<int>(which));
+    tools->addAction(action);
+  };
+  tool(Tool::window, "tool-window", "tool-window", tr("&Window and level"), "W",
+       tr("Drag on a slice for window and level, in 3D to turn"));
+  tool(Tool::crosshair, "tool-crosshair", "tool-crosshair", tr("&Crosshair"), "C",
+       tr("Move all slices to the point under the mouse"));
+  tool(Tool::probe_speed, "tool-probe-speed", "tool-probe", tr("&Probe T and ε"), "T",
+       tr("Drag over the tissue: T becomes its mean, ε its standard deviation"));
+  tool(Tool::probe_transfer, "tool-probe-transfer", "tool-probe-transfer", tr("Probe t&ransfer function"), "G",
+       tr("Drag over the tissue to set the chosen Gaussian of the transfer function"));
+  tool(Tool::seed, "tool-seed", "tool-seed", tr("&Sphere"), "S",
+       tr("Press in the middle and drag: a sphere to start from (right button: takes away)"));
+  tool(Tool::paint, "tool-paint", "tool-paint", tr("P&aint"), "B",
+       tr("Add to the surface with a 3D brush (right button: erase)"));
+  tool(Tool::erase, "tool-erase", "tool-erase", tr("&Erase"), "E",
+       tr("Take away from the surface with a 3D brush (right button: paint)"));
+  tool(Tool::measure_distance, "tool-distance", "tool-distance", tr("&Distance"), "D", tr("Measure a distance"));
+  tool(Tool::measure_angle, "tool-angle", "tool-angle", tr("A&ngle"), "A",
+       tr("Measure an angle: one drag to the vertex, one to the other end"));
+  last_tool = make("last-tool", nullptr, tr("&Last tool"), QKeySequence("Space"), true,
+                   tr("Change between the last two tools"));
+}
+
+void Actions::make_views() {
+  layouts = new QActionGroup(this);
+  const auto layout = [this](int number, const char* picture, const QString& text) {
+    QAction* action = make(picture, picture, text, QKeySequence(QStringLiteral("Ctrl+%1").arg(number + 1)), true);
+    action->setData(number);
+    layouts->addAction(action);
+  };
+  layout(0, "layout-single", tr("&One view"));
+  layout(1, "layout-one-three", tr("One &large, three small"));
+  layout(2, "layout-two-two", tr("&Two by two"));
+  layout(3, "layout-paper", tr("Slice, &speed map and 3D"));
+  reset_view = make("reset-view", "reset-view", tr("&Reset views"), QKeySequence("R"), true,
+                    tr("Zoom, position and camera as they were at first"));
+  clip = make("clip", "clip-plane", tr("&Clip plane"), QKeySequence("X"), true, tr("Cut the 3D view open"));
+  clip->setCheckable(true);
+  hide_interface = make("hide-interface", nullptr, tr("&Hide panels"), QKeySequence("F3"), false);
+  hide_interface->setCheckable(true);
+  full_screen = make("full-screen", "full-screen", tr("&Full screen"), QKeySequence("F11"), false);
+  full_screen->setCheckable(true);
+  themes = new QActionGroup(this);
+  const auto theme = [this](int number, const char* name, const char* picture, const QString& text) {
+    QAction* action = make(name, picture, text, {}, false);
+    action->setCheckable(true);
+    action->setData(number);
+    themes->addAction(action);
+  };
+  theme(0, "theme-system", nullptr, tr("As the &system"));
+  theme(1, "theme-light", "theme-light", tr("&Light"));
+  theme(2, "theme-dark", "theme-dark", tr("&Dark"));
+}
+
+void Actions::make_windows() {
+  tile = make("tile", "tile", tr("&Tile"), {}, false);
+  cascade = make("cascade", "cascade", tr("&Cascade"), {}, false);
+  tabs = make("tabs", "tabs", tr("Ta&bs"), {}, false);
+  tabs->setCheckable(true);
+  link = make("link", "link", tr("&Link cases"), QKeySequence("L"), false,
+              tr("Cursor, slices, window and cameras of all cases move together"));
+  link->setCheckable(true);
+  lock_step = make("lock-step", "lockstep", tr("Play in &lock-step"), QKeySequence("Ctrl+L"), false,
+                   tr("All cases play together, always at the same step"));
+  lock_step->setCheckable(true);
+  first_steps = make("first-steps", "info", tr("&First steps and mouse"), QKeySequence("F1"), false);
+  about = make("about", "about", tr("&About Tidemark"), {}, false);
+}
+
+QAction* Actions::tool(Tool tool) const { return tools->actions().at(static_cast<int>(tool)); }
+
+}  // namespace tidemark

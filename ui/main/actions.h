@@ -1,0 +1,81 @@
+// Everything that menus, tool bars and keys can do, made once.
+#pragma once
+
+#include <QAction>
+#include <QActionGroup>
+#include <QObject>
+#include <vector>
+
+#include "session/display.h"
+
+namespace tidemark {
+
+// Names, pictures and keys; what they do is connected by those who can do it. Keys are kept in the settings and
+// can be changed (KeysDialog).
+class Actions : public QObject {
+  Q_OBJECT
+ public:
+  explicit Actions(QObject* parent);
+
+  // File.
+  QAction* open_folder;
+  QAction* open_file;
+  QAction* open_session;
+  QAction* save;
+  QAction* save_as;
+  QAction* export_mask;
+  QAction* export_mesh;
+  QAction* export_picture;
+  QAction* export_statistics;
+  QAction* export_recipe;
+  QAction* close;
+  QAction* quit;
+  // Edit.
+  QAction* undo;
+  QAction* redo;
+  QAction* keys;
+  // Evolution.
+  QAction* play;
+  QAction* step;
+  QAction* step_back;
+  QAction* restart;
+  // Tools, in the order of Tool.
+  QActionGroup* tools;
+  QAction* last_tool;
+  // View.
+  QActionGroup* layouts;
+  QAction* reset_view;
+  QAction* clip;
+  QAction* hide_interface;
+  QAction* full_screen;
+  QActionGroup* themes;
+  // Window.
+  QAction* tile;
+  QAction* cascade;
+  QAction* tabs;
+  QAction* link;
+  QAction* lock_step;
+  // Help.
+  QAction* first_steps;
+  QAction* about;
+
+  [[nodiscard]] QAction* tool(Tool tool) const;
+  // Those that need a case, and those whose keys can be changed.
+  [[nodiscard]] const std::vector<QAction*>& of_cases() const { return of_cases_; }
+  [[nodiscard]] const std::vector<QAction*>& all() const { return all_; }
+  void set_key(QAction* action, const QKeySequence& key);  // an empty one: its own again
+
+ private:
+  QAction* make(const char* name, const char* icon, const QString& text, const QKeySequence& key, bool of_case,
+                const QString& tip = {});
+  void make_files();
+  void make_evolution();
+  void make_tools();
+  void make_views();
+  void make_windows();
+
+  std::vector<QAction*> of_cases_;
+  std::vector<QAction*> all_;
+};
+
+}  // namespace tidemark

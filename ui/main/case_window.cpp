@@ -1,0 +1,290 @@
+#include "ui/main/case_window.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDataStream>
+#include <QDockWidget>
+#include <QSettings>
+#include <algorithm>
+
+#include "renderer/sheet.h"
+#include "ui/views/slice_view.h"
+#include "ui/views/view_bar.h"
+#include "ui/views/volume_view.h"
+
+namespace tidemark {
+namespace {
+
+constexpr const char* kKind = "view_kind";  // property of a dock
+constexpr int kStateVersion = 1;
+
+ViewKind kind_of(const QDockWidget* dock) { return static_cast<ViewKind>(dock->property(kKind).toInt()); }
+
+PictureView* view_of(const QDockWidget* dock) { return qobject_cast<PictureView*>(dock->widget()); }
+
+// What a new case is looked at like.
+DisplaySettings first_settings(const CaseSession& session) {
+  const Volume& volume = session.volume();
+  DisplaySettings settings;
+  settings.cursor_mm = settings.slice_centre_mm = middle_of(volume.geometry);
+  settings.window = window_of(volume);
+  settings.clip.normal = {0.0, -1.0, 0.0};
+  settings.clip.offset_mm = -middle_of(volume.geometry).y;
+  settings.camera.azimuth = 30.0;
+  settings.camera.elevation = 20.0;
+  const glm::dvec3 extent = glm::dvec3(volume.geometry.size) * volume.geometry.spacing_mm;
+  settings.brush_mm = 0.03 * std::max({extent.x, extent.y, extent.z});
+  return settings;
+}
+
+}  // namespace
+
+QString text_of(ViewKind kind) {
+  switch (kind) {
+    case ViewKind::axial:
+      return CaseWindow::tr("Axial slice");
+    case ViewKind::coronal:
+      return CaseWindow::tr("Coronal slice");
+    case ViewKind::sagittal:
+      return CaseWindow::tr("Sagittal slice");
+    case ViewKind::oblique:
+      return CaseWindow::tr("Oblique slice");
+    case ViewKind::speed:
+      return CaseWindow::tr("Speed map");
+    case ViewKind::pages:
+      return CaseWindow::tr("Pages of memory");
+    case ViewKind::volume:
+      return CaseWindow::tr("3D rendering");
+  }
+  return {};
+}
+
+CaseWindow::CaseWindow(std::unique_ptr<CaseSession> session, Actions& actions, QWidget* parent)
+    : QMainWindow(parent), session_(std::move(session)), actions_(actions) {
+  setWindowFlags(Qt::Widget);
+  setDockNestingEnabled(true);
+  setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowNestedDocks | QMainWindow::AllowTabbedDocks);
+  setContextMenuPolicy(Qt::NoContextMenu);
+  for (const Qt::DockWidgetArea area : {Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea, Qt::TopDockWidgetArea}) {
+    setTabPosition(area, QTabWidget::North);
+  }
+  session_->display().set(first_settings(*session_));
+  connect(session_.get(), &CaseSession::state_changed, this, &CaseWindow::follow_state);
+  follow_state();
+  const int remembered = QSettings().value("layout", static_cast<int>(ViewLayout::paper)).toInt();
+  set_layout(static_cast<ViewLayout>(std::clamp(remembered, 0, static_cast<int>(ViewLayout::paper))));
+}
+
+CaseWindow::~CaseWindow() {
+  // Views speak of the session to their end.
+  qDeleteAll(docks_);
+}
+
+void CaseWindow::follow_state() {
+  setWindowTitle(session_->name() + QStringLiteral("[*]"));
+  setWindowModified(session_->state().modified);
+}
+
+// Views.
+
+PictureView* CaseWindow::make_view(ViewKind kind) {
+  switch (kind) {
+    case ViewKind::axial:
+      return new SliceViewWidget(*session_, SlicePlane::axial, SliceContent::source);
+    case ViewKind::coronal:
+      return new SliceViewWidget(*session_, SlicePlane::coronal, SliceContent::source);
+    case ViewKind::sagittal:
+      return new SliceViewWidget(*session_, SlicePlane::sagittal, SliceContent::source);
+    case ViewKind::oblique:
+      return new SliceViewWidget(*session_, SlicePlane::oblique, SliceContent::source);
+    case ViewKind::speed:
+      return new SliceViewWidget(*session_, SlicePlane::axial, SliceContent::speed);
+    case ViewKind::pages:
+      return new SliceViewWidget(*session_, SlicePlane::axial, SliceContent::pages);
+    case ViewKind::volume:
+      break;
+  }
+  return new VolumeViewWidget(*session_);
+}
+
+QDockWidget* CaseWindow::make_dock(ViewKind kind) {
+  PictureView* view = make_view(kind);
+  auto* dock = new QDockWidget(view->title(), this);
+  dock->setObjectName(QStringLiteral("view-%1").arg(++docks_made_));
+  dock->setProperty(kKind, static_cast<int>(kind));
+  dock->setWidget(view);
+  auto* bar = new ViewBar(*session_, view->title(), {actions_.play, actions_.step}, actions_.tools->actions());
+  dock->setTitleBarWidget(bar);
+  connect(bar, &ViewBar::close_wanted, dock, &QDockWidget::close);
+  connect(bar, &ViewBar::float_wanted, dock, [dock] { dock->setFloating(!dock->isFloating()); });
+  connect(bar, &ViewBar::maximise_wanted, this, [this, dock] { toggle_maximised(dock); });
+  connect(view, &PictureView::maximise_wanted, this, [this, dock] { toggle_maximised(dock); });
+  connect(view, &PictureView::activated, this, [this, view] { active_ = view; });
+  docks_ << dock;
+  return dock;
+}
+
+QDockWidget* CaseWindow::dock(ViewKind kind) {
+  for (QDockWidget* dock : docks_) {
+    if (kind_of(dock) == kind) return dock;
+  }
+  return make_dock(kind);
+}
+
+PictureView* CaseWindow::add_view(ViewKind kind) {
+  // One that was closed comes back before another is made.
+  for (QDockWidget* dock : docks_) {
+    if (kind_of(dock) != kind || !dock->isHidden()) continue;
+    dock->show();
+    dock->raise();
+    return view_of(dock);
+  }
+  QDockWidget* beside = active_ ? dock_of(active_) : docks_.value(0);
+  QDockWidget* dock = make_dock(kind);
+  addDockWidget(Qt::LeftDockWidgetArea, dock);
+  if (beside && !beside->isFloating()) tabifyDockWidget(beside, dock);
+  dock->show();
+  dock->raise();
+  return view_of(dock);
+}
+
+void CaseWindow::set_layout(ViewLayout layout) {
+  layout_ = layout;
+  before_maximised_.clear();
+  QSettings().setValue("layout", static_cast<int>(layout));
+  for (QDockWidget* dock : docks_) {
+    dock->setFloating(false);
+    removeDockWidget(dock);
+  }
+  QList<QDockWidget*> shown;
+  const auto first = [&](ViewKind kind) {
+    shown << dock(kind);
+    addDockWidget(Qt::LeftDockWidgetArea, shown.back());
+  };
+  const auto split = [&](qsizetype from, ViewKind kind, Qt::Orientation orientation) {
+    shown << dock(kind);
+    splitDockWidget(shown[from], shown.back(), orientation);
+  };
+  switch (layout) {
+    case ViewLayout::single:
+      first(ViewKind::axial);
+      break;
+    case ViewLayout::one_three:
+      first(ViewKind::volume);
+      split(0, ViewKind::axial, Qt::Horizontal);
+      split(1, ViewKind::coronal, Qt::Vertical);
+      split(2, ViewKind::sagittal, Qt::Vertical);
+      break;
+    case ViewLayout::two_two:
+      first(ViewKind::axial);
+      split(0, ViewKind::sagittal, Qt::Horizontal);
+      split(0, ViewKind::coronal, Qt::Vertical);
+      split(1, ViewKind::volume, Qt::Vertical);
+      break;
+    case ViewLayout::paper:
+      first(ViewKind::axial);
+      split(0, ViewKind::volume, Qt::Horizontal);
+      split(0, ViewKind::speed, Qt::Vertical);
+      break;
+  }
+  for (QDockWidget* dock : shown) dock->show();
+  const int whole = std::max(width(), 600);
+  const int high = std::max(height(), 400);
+  if (layout == ViewLayout::one_three) {
+    resizeDocks({shown[0], shown[1]}, {2 * whole / 3, whole / 3}, Qt::Horizontal);
+    resizeDocks({shown[1], shown[2], shown[3]}, {high / 3, high / 3, high / 3}, Qt::Vertical);
+  } else if (shown.size() > 2) {
+    resizeDocks({shown[0], shown[1]}, {whole / 2, whole / 2}, Qt::Horizontal);
+    resizeDocks({shown[0], shown[2]}, {high / 2, high / 2}, Qt::Vertical);
+  }
+  active_ = view_of(shown.front());
+}
+
+void CaseWindow::toggle_maximised(QDockWidget* dock) {
+  if (dock->isFloating()) {
+    dock->isMaximized() ? dock->showNormal() : dock->showMaximized();
+    return;
+  }
+  if (!before_maximised_.isEmpty()) {
+    restoreState(std::exchange(before_maximised_, {}), kStateVersion);
+    return;
+  }
+  before_maximised_ = saveState(kStateVersion);
+  for (QDockWidget* other : docks_) {
+    if (other != dock && !other->isFloating()) other->hide();
+  }
+}
+
+PictureView* CaseWindow::active_view() const {
+  if (active_ && active_->isVisible()) return active_;
+  for (PictureView* view : views()) {
+    if (view->isVisible()) return view;
+  }
+  return nullptr;
+}
+
+QList<PictureView*> CaseWindow::views() const {
+  QList<PictureView*> views;
+  for (const QDockWidget* dock : docks_) views << view_of(dock);
+  return views;
+}
+
+QDockWidget* CaseWindow::dock_of(const PictureView* view) const {
+  for (QDockWidget* dock : docks_) {
+    if (dock->widget() == view) return dock;
+  }
+  return nullptr;
+}
+
+void CaseWindow::reset_views() {
+  const DisplaySettings first = first_settings(*session_);
+  session_->display().change([&](DisplaySettings& settings) {
+    settings.cursor_mm = first.cursor_mm;
+    settings.slice_centre_mm = first.slice_centre_mm;
+    settings.slice_zoom = first.slice_zoom;
+    settings.window = first.window;
+    settings.camera = first.camera;
+  });
+}
+
+// Session files.
+
+QByteArray CaseWindow::arrangement() const {
+  QByteArray bytes;
+  QDataStream stream(&bytes, QIODevice::WriteOnly);
+  stream.setVersion(QDataStream::Qt_6_4);
+  QList<int> kinds;
+  for (const QDockWidget* dock : docks_) kinds << static_cast<int>(kind_of(dock));
+  stream << static_cast<int>(layout_) << kinds << saveState(kStateVersion);
+  return bytes;
+}
+
+void CaseWindow::restore_arrangement(const QByteArray& arrangement) {
+  QDataStream stream(arrangement);
+  stream.setVersion(QDataStream::Qt_6_4);
+  int layout = -1;
+  QList<int> kinds;
+  QByteArray state;
+  stream >> layout >> kinds >> state;
+  constexpr int kMostViews = 64;
+  if (stream.status() != QDataStream::Ok || kinds.size() > kMostViews) return;
+  if (layout < 0 || layout > static_cast<int>(ViewLayout::paper)) return;
+  for (const int kind : kinds) {
+    if (kind < 0 || kind > static_cast<int>(ViewKind::volume)) return;
+  }
+  qDeleteAll(std::exchange(docks_, {}));
+  docks_made_ = 0;
+  layout_ = static_cast<ViewLayout>(layout);
+  for (const int kind : kinds) addDockWidget(Qt::LeftDockWidgetArea, make_dock(static_cast<ViewKind>(kind)));
+  if (!restoreState(state, kStateVersion)) set_layout(layout_);
+}
+
+void CaseWindow::closeEvent(QCloseEvent* event) { emit close_wanted(event); }
+
+void CaseWindow::changeEvent(QEvent* event) {
+  QMainWindow::changeEvent(event);
+  // Qt hands the title of the inner window to the MDI child.
+  if (event->type() == QEvent::ModifiedChange && parentWidget()) parentWidget()->setWindowModified(isWindowModified());
+}
+
+}  // namespace tidemark

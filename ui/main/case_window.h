@@ -1,0 +1,74 @@
+// One case: its views as docks.
+#pragma once
+
+#include <QMainWindow>
+#include <QPointer>
+#include <memory>
+
+#include "session/case_session.h"
+#include "ui/main/actions.h"
+
+class QDockWidget;
+
+namespace tidemark {
+
+class PictureView;
+class ViewBar;
+
+enum class ViewKind { axial, coronal, sagittal, oblique, speed, pages, volume };
+enum class ViewLayout { single, one_three, two_two, paper };
+
+QString text_of(ViewKind kind);
+
+// Child of the MDI area. Views float, tab, close and come back; how they stand is remembered from one case to the
+// next.
+class CaseWindow : public QMainWindow {
+  Q_OBJECT
+ public:
+  CaseWindow(std::unique_ptr<CaseSession> session, Actions& actions, QWidget* parent = nullptr);
+  ~CaseWindow() override;
+
+  [[nodiscard]] CaseSession& session() { return *session_; }
+
+  // Another view, as a tab behind the active one.
+  PictureView* add_view(ViewKind kind);
+  void set_layout(ViewLayout layout);
+  [[nodiscard]] ViewLayout view_layout() const { return layout_; }
+  // The one that was last clicked or has the keyboard; the first where there is none such. Null without views.
+  [[nodiscard]] PictureView* active_view() const;
+  [[nodiscard]] QList<PictureView*> views() const;
+  [[nodiscard]] QDockWidget* dock_of(const PictureView* view) const;
+  void reset_views();
+
+  // How the docks stand, for session files.
+  [[nodiscard]] QByteArray arrangement() const;
+  void restore_arrangement(const QByteArray& arrangement);
+
+  // The case's own file, once it has one.
+  QString session_file;
+
+ signals:
+  // The case may go: nothing would be lost, or the user does not mind.
+  void close_wanted(QCloseEvent* event);
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  PictureView* make_view(ViewKind kind);
+  QDockWidget* make_dock(ViewKind kind);
+  QDockWidget* dock(ViewKind kind);  // one that is there, else a new one
+  void toggle_maximised(QDockWidget* dock);
+  void follow_state();
+
+  std::unique_ptr<CaseSession> session_;
+  Actions& actions_;
+  QList<QDockWidget*> docks_;
+  int docks_made_ = 0;  // for names
+  ViewLayout layout_ = ViewLayout::paper;
+  QByteArray before_maximised_;
+  QPointer<PictureView> active_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,87 @@
+// The desktop: cases side by side, and the panels that act on the active one.
+#pragma once
+
+#include <QMainWindow>
+#include <memory>
+
+#include "session/engine.h"
+#include "ui/main/actions.h"
+#include "ui/main/case_window.h"
+
+class QMdiArea;
+class QMdiSubWindow;
+class QStackedWidget;
+
+namespace tidemark {
+
+class CaseLinks;
+class LoadingView;
+class PanelDocks;
+class RecentStudies;
+class SavedCases;
+class StudyOpener;
+class ValueBar;
+struct LoadedStudy;
+
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+ public:
+  explicit MainWindow(Engine& engine, QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  // A folder, an image file or a session file.
+  void open(const QString& path);
+  void open_phantom(const QString& kind);
+  CaseWindow* add_case(std::shared_ptr<const LoadedStudy> study);
+
+  [[nodiscard]] CaseWindow* active_case() const;  // null: none
+  [[nodiscard]] QList<CaseWindow*> cases() const;
+  [[nodiscard]] Actions& actions() { return *actions_; }
+  [[nodiscard]] PanelDocks& panels() { return *panels_; }
+  [[nodiscard]] SavedCases& saved_cases() { return *saved_; }
+  // With which executor cases begin.
+  void set_executor(ExecutorKind kind) { executor_ = kind; }
+  void tell(const QString& message);  // a sentence that stays until it is dismissed or the next one comes
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+ private:
+  void make_centre();
+  void make_menus();
+  void make_tool_bar();
+  void make_status_bar();
+  void connect_files();
+  void connect_evolution();
+  void connect_views();
+  void connect_windows();
+  void ask_for_folder();
+  void ask_for_file();
+  void ask_for_session();
+  void activate(QMdiSubWindow* window);
+  void follow_case();
+  void follow_tool(QAction* chosen);
+  void set_interface_hidden(bool hidden);
+  // A case as it is wanted by an action; nothing happens without one.
+  template <class Do>
+  void with_case(QAction* action, Do act);
+
+  Engine& engine_;
+  Actions* actions_;
+  ExecutorKind executor_ = ExecutorKind::automatic;
+  QMdiArea* area_ = nullptr;
+  QStackedWidget* centre_ = nullptr;
+  PanelDocks* panels_ = nullptr;
+  CaseLinks* links_ = nullptr;
+  RecentStudies* recent_ = nullptr;
+  StudyOpener* opener_ = nullptr;
+  LoadingView* loading_ = nullptr;
+  ValueBar* values_ = nullptr;
+  SavedCases* saved_ = nullptr;
+  QPointer<CaseWindow> active_;
+  QList<QMetaObject::Connection> active_connections_;
+};
+
+}  // namespace tidemark

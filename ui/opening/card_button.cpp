@@ -1,0 +1,126 @@
+#include "ui/opening/card_button.h"
+
+#include <QEvent>
+#include <QFontMetrics>
+#include <QKeyEvent>
+#include <QPainter>
+
+namespace tidemark {
+namespace {
+
+constexpr int kPadding = 12;
+constexpr int kGap = 3;  // between title and sentence
+constexpr double kRadius = 6.0;
+constexpr int kWishedWidth = 300;
+constexpr int kLeastWidth = 150;
+
+}  // namespace
+
+QColor mixed(const QColor& from, const QColor& to, double share) {
+  const auto part = [&](double a, double b) { return static_cast<float>(a + (b - a) * share); };
+  return QColor::fromRgbF(part(from.redF(), to.redF()), part(from.greenF(), to.greenF()),
+                          part(from.blueF(), to.blueF()));
+}
+
+CardButton::CardButton(const QString& title, const QString& sentence, QWidget* parent)
+    : QAbstractButton(parent), sentence_(sentence) {
+  setText(title);
+  setAccessibleName(title);
+  setAccessibleDescription(sentence);
+  setFocusPolicy(Qt::StrongFocus);
+  setCursor(Qt::PointingHandCursor);
+  QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  policy.setHeightForWidth(true);
+  setSizePolicy(policy);
+}
+
+void CardButton::set_emphasised(bool emphasised) {
+  emphasised_ = emphasised;
+  update();
+}
+
+void CardButton::set_one_line(bool one_line) {
+  one_line_ = one_line;
+  setToolTip(one_line ? sentence_ : QString());
+  updateGeometry();
+}
+
+QFont CardButton::title_font() const {
+  QFont bold = font();
+  bold.setWeight(QFont::DemiBold);
+  return bold;
+}
+
+QSize CardButton::sizeHint() const {
+  return {kWishedWidth, heightForWidth(kWishedWidth)};
+}
+
+QSize CardButton::minimumSizeHint() const {
+  return {kLeastWidth, heightForWidth(one_line_ ? kLeastWidth : kWishedWidth)};
+}
+
+int CardButton::heightForWidth(int width) const {
+  const QFontMetrics text(font());
+  const int room = std::max(1, width - 2 * kPadding);
+  const int lines =
+      one_line_ ? text.height() : text.boundingRect(0, 0, room, 10'000, Qt::TextWordWrap, sentence_).height();
+  return 2 * kPadding + QFontMetrics(title_font()).height() + kGap + lines;
+}
+
+void CardButton::paint_frame(QPainter& painter) const {
+  const QPalette& colours = palette();
+  const QColor accent = colours.color(QPalette::Highlight);
+  const QColor text = colours.color(QPalette::WindowText);
+  QColor fill = colours.color(QPalette::Base);
+  QColor line = mixed(colours.color(QPalette::Window), text, 0.22);
+  if (emphasised_) {
+    fill = mixed(fill, accent, 0.16);
+    line = accent;
+  }
+  if (isEnabled() && underMouse()) fill = mixed(fill, accent, 0.12);
+  if (isDown()) fill = mixed(fill, accent, 0.25);
+  const double width = hasFocus() ? 2.0 : 1.0;
+  painter.setPen(QPen(hasFocus() ? accent : line, width));
+  painter.setBrush(fill);
+  painter.drawRoundedRect(QRectF(rect()).adjusted(1.0, 1.0, -1.0, -1.0), kRadius, kRadius);
+  if (emphasised_ && hasFocus()) {  // its line has the colour of focus anyway
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRoundedRect(QRectF(rect()).adjusted(4.0, 4.0, -4.0, -4.0), kRadius - 2.0, kRadius - 2.0);
+  }
+}
+
+void CardButton::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  paint_frame(painter);
+  const QPalette::ColorGroup group = isEnabled() ? QPalette::Active : QPalette::Disabled;
+  const QColor strong = palette().color(group, QPalette::WindowText);
+  const QRect inside = rect().adjusted(kPadding, kPadding, -kPadding, -kPadding);
+  const QFontMetrics title(title_font());
+  painter.setFont(title_font());
+  painter.setPen(strong);
+  painter.drawText(inside, Qt::AlignTop | Qt::AlignLeft | Qt::TextSingleLine,
+                   title.elidedText(text(), Qt::ElideRight, inside.width()));
+  painter.setFont(font());
+  painter.setPen(mixed(strong, palette().color(QPalette::Base), 0.25));
+  const QRect below = inside.adjusted(0, title.height() + kGap, 0, 0);
+  const QString shown =
+      one_line_ ? fontMetrics().elidedText(sentence_, Qt::ElideMiddle, below.width()) : sentence_;
+  painter.drawText(below, Qt::AlignTop | Qt::AlignLeft | (one_line_ ? Qt::TextSingleLine : Qt::TextWordWrap),
+                   shown);
+}
+
+void CardButton::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) {
+    click();
+  } else {
+    QAbstractButton::keyPressEvent(event);
+  }
+}
+
+bool CardButton::event(QEvent* event) {
+  if (event->type() == QEvent::Enter || event->type() == QEvent::Leave) update();
+  return QAbstractButton::event(event);
+}
+
+}  // namespace tidemark

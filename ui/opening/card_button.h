@@ -1,0 +1,40 @@
+// A button with a title and a sentence below it.
+#pragma once
+
+#include <QAbstractButton>
+
+namespace tidemark {
+
+class CardButton : public QAbstractButton {
+  Q_OBJECT
+ public:
+  CardButton(const QString& title, const QString& sentence, QWidget* parent = nullptr);
+
+  // Stands out among its neighbours: what to try first.
+  void set_emphasised(bool emphasised);
+  // The sentence stays on one line and loses its middle where it is too long (paths).
+  void set_one_line(bool one_line);
+
+  [[nodiscard]] QSize sizeHint() const override;
+  [[nodiscard]] QSize minimumSizeHint() const override;
+  [[nodiscard]] bool hasHeightForWidth() const override { return !one_line_; }
+  [[nodiscard]] int heightForWidth(int width) const override;
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  bool event(QEvent* event) override;
+
+ private:
+  [[nodiscard]] QFont title_font() const;
+  void paint_frame(QPainter& painter) const;
+
+  QString sentence_;
+  bool emphasised_ = false;
+  bool one_line_ = false;
+};
+
+// `share` of the way from one colour to the other.
+QColor mixed(const QColor& from, const QColor& to, double share);
+
+}  // namespace tidemark

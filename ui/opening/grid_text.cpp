@@ -1,0 +1,23 @@
+#include "ui/opening/grid_text.h"
+
+#include <QCoreApplication>
+#include <QLocale>
+
+namespace tidemark {
+
+QString size_text(const Geometry& geometry) {
+  return QStringLiteral("%1 × %2 × %3").arg(geometry.size.x).arg(geometry.size.y).arg(geometry.size.z);
+}
+
+QString spacing_text(const Geometry& geometry) {
+  const auto number = [](double mm) { return QLocale().toString(mm, 'g', 3); };
+  const glm::dvec3& spacing = geometry.spacing_mm;
+  return QStringLiteral("%1 × %2 × %3").arg(number(spacing.x), number(spacing.y), number(spacing.z));
+}
+
+QString grid_text(const Geometry& geometry) {
+  return QCoreApplication::translate("tidemark::GridText", "%1 voxels of %2 mm")
+      .arg(size_text(geometry), spacing_text(geometry));
+}
+
+}  // namespace tidemark

@@ -1,0 +1,114 @@
+#include "ui/opening/recent_studies.h"
+
+#include <QFileInfo>
+#include <QSettings>
+
+#include "session/background_job.h"
+
+namespace tidemark {
+namespace {
+
+const QString kGroup = QStringLiteral("recent_studies");
+
+// A text that a menu shows as it is.
+QString menu_text(QString text) {
+  return text.replace(QLatin1Char('&'), QStringLiteral("&&"));
+}
+
+}  // namespace
+
+RecentStudies::RecentStudies(QObject* parent) : QObject(parent) {
+  QSettings settings;
+  const int count = qMin(settings.beginReadArray(kGroup), kMost);
+  for (int index = 0; index < count; ++index) {
+    settings.setArrayIndex(index);
+    RecentStudy study{settings.value("path").toString(), settings.value("uid").toString(),
+                      settings.value("name").toString()};
+    if (!study.path.isEmpty()) list_.push_back(study);
+  }
+}
+
+RecentStudies::~RecentStudies() {
+  if (job_) job_->abandon();
+}
+
+void RecentStudies::add(const QString& path, const QString& uid, const QString& name) {
+  list_.removeIf([&](const RecentStudy& study) { return study.path == path && study.uid == uid; });
+  list_.push_front({path, uid, name});
+  if (list_.size() > kMost) list_.resize(kMost);
+  save();
+  emit changed();
+}
+
+void RecentStudies::clear() {
+  list_.clear();
+  save();
+  emit changed();
+}
+
+void RecentStudies::save() const {
+  QSettings settings;
+  settings.remove(kGroup);
+  settings.beginWriteArray(kGroup, static_cast<int>(list_.size()));
+  for (int index = 0; index < list_.size(); ++index) {
+    settings.setArrayIndex(index);
+    settings.setValue("path", list_[index].path);
+    settings.setValue("uid", list_[index].uid);
+    settings.setValue("name", list_[index].name);
+  }
+}
+
+void RecentStudies::check() {
+  if (job_) job_->abandon();
+  QStringList paths;
+  for (const RecentStudy& study : list_) paths.push_back(study.path);
+  job_ = BackgroundJob::start(this, [this, paths](BackgroundJob& job) {
+    QStringList missing;
+    for (const QString& path : paths) {
+      if (job.stop().stop_requested()) return;
+      if (!QFileInfo::exists(path)) missing.push_back(path);
+    }
+    job.deliver([this, missing] {
+      job_.reset();
+      bool different = false;
+      for (RecentStudy& study : list_) {
+        const bool is_missing = missing.contains(study.path);
+        different = different || study.missing != is_missing;
+        study.missing = is_missing;
+      }
+      if (different) emit changed();
+    });
+  });
+}
+
+QMenu* RecentStudies::make_menu(QWidget* parent) {
+  auto* menu = new QMenu(tr("Open &Recent"), parent);
+  menu->setToolTipsVisible(true);
+  connect(this, &RecentStudies::changed, menu, [this, menu] { fill(*menu); });
+  connect(menu, &QMenu::aboutToShow, this, &RecentStudies::check);
+  fill(*menu);
+  return menu;
+}
+
+void RecentStudies::fill(QMenu& menu) {
+  menu.clear();
+  int number = 1;
+  for (const RecentStudy& study : list_) {
+    const QString place = QFileInfo(study.path).fileName();
+    QString text = study.missing ? tr("%1 (%2, not found)") : tr("%1 (%2)");
+    text = menu_text(text.arg(study.name, place));
+    // Keys 1 to 9, and 0 for the tenth.
+    QAction* action = menu.addAction(QStringLiteral("&%1  %2").arg(QString::number(number++ % 10), text));
+    action->setToolTip(study.path);
+    action->setEnabled(!study.missing);
+    connect(action, &QAction::triggered, this,
+            [this, path = study.path, uid = study.uid] { emit chosen(path, uid); });
+  }
+  if (list_.isEmpty()) menu.addAction(tr("No studies yet"))->setEnabled(false);
+  menu.addSeparator();
+  QAction* clear_all = menu.addAction(tr("&Clear List"));
+  clear_all->setEnabled(!list_.isEmpty());
+  connect(clear_all, &QAction::triggered, this, &RecentStudies::clear);
+}
+
+}  // namespace tidemark

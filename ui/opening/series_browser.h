@@ -1,0 +1,48 @@
+// Choose one of the series that were found under a path.
+#pragma once
+
+#include <QDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSortFilterProxyModel>
+#include <QTableView>
+#include <QTextBrowser>
+#include <memory>
+
+#include "imaging/series.h"
+
+namespace tidemark {
+
+class SeriesModel;
+
+class SeriesBrowser : public QDialog {
+  Q_OBJECT
+ public:
+  explicit SeriesBrowser(QWidget* parent = nullptr);
+
+  void show_catalogue(std::shared_ptr<const Catalogue> catalogue, const QString& path);
+  // Null where none is chosen.
+  [[nodiscard]] const Series* selected() const;
+
+ signals:
+  void chosen(const tidemark::Series& series);  // one that is loadable; the dialog is then closed
+
+ private:
+  void build_table();
+  void lay_out();
+  void choose();
+  void follow_selection();
+
+  std::shared_ptr<const Catalogue> catalogue_;
+  SeriesModel* model_;
+  QSortFilterProxyModel* shown_;
+  QLabel* heading_;
+  QLineEdit* filter_;
+  QTableView* table_;
+  QTextBrowser* details_;
+  QLabel* skipped_;
+  QPushButton* open_;
+};
+
+}  // namespace tidemark

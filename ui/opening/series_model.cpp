@@ -1,0 +1,202 @@
+#include "ui/opening/series_model.h"
+
+#include <QApplication>
+#include <QIcon>
+#include <QMimeData>
+#include <QPainter>
+#include <QPalette>
+#include <QStyle>
+#include <algorithm>
+#include <cmath>
+
+#include "session/study_loader.h"
+#include "ui/opening/dropped_paths.h"
+#include "ui/opening/grid_text.h"
+
+namespace tidemark {
+namespace {
+
+bool has_grid(const Series& series) {
+  return series.geometry.voxel_count() > 0;
+}
+
+QString notes_text(const Series& series) {
+  if (!series.loadable) return SeriesModel::tr("Cannot be loaded");
+  const auto warnings = static_cast<int>(series.warnings.size());
+  const auto changes = static_cast<int>(series.changes.size());
+  if (warnings == 1) return SeriesModel::tr("1 warning");
+  if (warnings > 1) return SeriesModel::tr("%1 warnings").arg(warnings);
+  if (changes == 1) return SeriesModel::tr("1 change");
+  if (changes > 1) return SeriesModel::tr("%1 changes").arg(changes);
+  return SeriesModel::tr("Ready");
+}
+
+// Worse is larger.
+int severity(const Series& series) {
+  if (!series.loadable) return 3;
+  if (!series.warnings.empty()) return 2;
+  return series.changes.empty() ? 0 : 1;
+}
+
+QVariant alignment(int column) {
+  const bool is_number = column == SeriesModel::kFiles;
+  return QVariant::fromValue(Qt::Alignment(is_number ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+}
+
+QIcon notes_icon(const Series& series) {
+  constexpr QStyle::StandardPixmap kIcons[] = {QStyle::SP_DialogApplyButton, QStyle::SP_MessageBoxInformation,
+                                               QStyle::SP_MessageBoxWarning, QStyle::SP_MessageBoxCritical};
+  return QApplication::style()->standardIcon(kIcons[severity(series)]);
+}
+
+}  // namespace
+
+SeriesModel::SeriesModel(QObject* parent) : QAbstractTableModel(parent), previews_(new SeriesPreviews(this)) {
+  connect(previews_, &SeriesPreviews::made, this, &SeriesModel::keep);
+}
+
+void SeriesModel::show(std::shared_ptr<const Catalogue> catalogue, double device_pixel_ratio) {
+  beginResetModel();
+  previews_->forget();
+  pictures_.clear();
+  rows_.clear();
+  device_pixel_ratio_ = device_pixel_ratio;
+  catalogue_ = std::move(catalogue);
+  for (const Series& series : catalogue_->series) rows_.push_back(&series);
+  std::stable_sort(rows_.begin(), rows_.end(), [](const Series* a, const Series* b) {
+    return std::pair(a->loadable, a->geometry.voxel_count()) >
+           std::pair(b->loadable, b->geometry.voxel_count());
+  });
+  endResetModel();
+}
+
+int SeriesModel::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(rows_.size());
+}
+
+int SeriesModel::columnCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : kColumns;
+}
+
+QString SeriesModel::text(const Series& series, int column) const {
+  switch (column) {
+    case kSeries:
+      return StudyLoader::name_of(series);
+    case kModality:
+      return QString::fromStdString(series.modality);
+    case kDate:
+      return QString::fromStdString(series.date);
+    case kSize:
+      return has_grid(series) ? size_text(series.geometry) : QString();
+    case kSpacing:
+      return has_grid(series) ? spacing_text(series.geometry) : QString();
+    case kFiles:
+      return QString::number(series.files.size());
+    default:
+      return notes_text(series);
+  }
+}
+
+QVariant SeriesModel::sort_key(const Series& series, int column) const {
+  switch (column) {
+    case kSize:
+      return static_cast<qlonglong>(series.geometry.voxel_count());
+    case kSpacing: {
+      const glm::dvec3& spacing = series.geometry.spacing_mm;
+      return has_grid(series) ? spacing.x * spacing.y * spacing.z : 0.0;
+    }
+    case kFiles:
+      return static_cast<qlonglong>(series.files.size());
+    case kNotes:
+      return severity(series);
+    default:
+      return text(series, column);
+  }
+}
+
+QVariant SeriesModel::data(const QModelIndex& index, int role) const {
+  if (!index.isValid()) return {};
+  const Series& one = series(index.row());
+  switch (role) {
+    case Qt::DisplayRole:
+      return text(one, index.column());
+    case kSortRole:
+      return sort_key(one, index.column());
+    case Qt::DecorationRole:
+      if (index.column() == kSeries) return preview(index.row());
+      return index.column() == kNotes ? QVariant(notes_icon(one)) : QVariant();
+    case Qt::ForegroundRole:
+      if (one.loadable || index.column() == kNotes) return {};
+      return QApplication::palette().brush(QPalette::Disabled, QPalette::Text);
+    case Qt::ToolTipRole:
+      return one.loadable ? QVariant() : QVariant(QString::fromStdString(one.reason));
+    case Qt::TextAlignmentRole:
+      return alignment(index.column());
+    default:
+      return {};
+  }
+}
+
+QVariant SeriesModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal) return {};
+  if (role == Qt::TextAlignmentRole) {
+    return alignment(section);
+  }
+  if (role != Qt::DisplayRole) return {};
+  const QString titles[kColumns] = {tr("Series"),       tr("Modality"), tr("Date"), tr("Voxels"),
+                                    tr("Spacing (mm)"), tr("Files"),    tr("Notes")};
+  return titles[section];
+}
+
+Qt::ItemFlags SeriesModel::flags(const QModelIndex& index) const {
+  const Qt::ItemFlags basic = QAbstractTableModel::flags(index);
+  return index.isValid() && series(index.row()).loadable ? basic | Qt::ItemIsDragEnabled : basic;
+}
+
+QStringList SeriesModel::mimeTypes() const {
+  return {QString::fromLatin1(kSeriesMimeType)};
+}
+
+QMimeData* SeriesModel::mimeData(const QModelIndexList& indexes) const {
+  if (indexes.isEmpty()) return nullptr;
+  const Series& one = series(indexes.front().row());
+  auto* data = new QMimeData;
+  put_series(*data,
+             {QString::fromStdString(StudyLoader::place_of(one).string()), QString::fromStdString(one.uid)});
+  return data;
+}
+
+QPixmap SeriesModel::preview(int row) const {
+  const auto known = pictures_.find(row);
+  if (known != pictures_.end()) return known->second;
+  const Series& one = series(row);
+  if (one.loadable) {
+    previews_->request(row, one, static_cast<int>(std::ceil(kPreviewSize * device_pixel_ratio_)));
+  }
+  return pictures_.emplace(row, frame({})).first->second;
+}
+
+void SeriesModel::keep(int row, const QImage& picture) {
+  pictures_[row] = frame(picture);
+  const QModelIndex changed = index(row, kSeries);
+  emit dataChanged(changed, changed, {Qt::DecorationRole});
+}
+
+// The picture in the middle of a black square, as films are; without one a faint square.
+QPixmap SeriesModel::frame(const QImage& picture) const {
+  const int side = static_cast<int>(std::ceil(kPreviewSize * device_pixel_ratio_));
+  QPixmap square(side, side);
+  if (picture.isNull()) {
+    QColor faint = QApplication::palette().color(QPalette::Text);
+    faint.setAlphaF(0.08F);
+    square.fill(Qt::transparent);
+    QPainter(&square).fillRect(square.rect(), faint);
+  } else {
+    square.fill(Qt::black);
+    QPainter(&square).drawImage((side - picture.width()) / 2, (side - picture.height()) / 2, picture);
+  }
+  square.setDevicePixelRatio(device_pixel_ratio_);
+  return square;
+}
+
+}  // namespace tidemark

@@ -1,0 +1,51 @@
+// The series of a catalogue as a table.
+#pragma once
+
+#include <QAbstractTableModel>
+#include <QPixmap>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "imaging/series.h"
+#include "session/series_preview.h"
+
+namespace tidemark {
+
+// Those that can be loaded first, the largest on top. A picture is made when its row is first painted. Rows
+// can be dragged (kSeriesMimeType).
+class SeriesModel : public QAbstractTableModel {
+  Q_OBJECT
+ public:
+  enum Column { kSeries, kModality, kDate, kSize, kSpacing, kFiles, kNotes, kColumns };
+  static constexpr int kSortRole = Qt::UserRole;
+  static constexpr int kPreviewSize = 64;  // in points, wide and high
+
+  explicit SeriesModel(QObject* parent = nullptr);
+
+  void show(std::shared_ptr<const Catalogue> catalogue, double device_pixel_ratio);
+  [[nodiscard]] const Series& series(int row) const { return *rows_[static_cast<std::size_t>(row)]; }
+
+  [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
+  [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
+  [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
+  [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+  [[nodiscard]] Qt::ItemFlags flags(const QModelIndex& index) const override;
+  [[nodiscard]] QStringList mimeTypes() const override;
+  [[nodiscard]] QMimeData* mimeData(const QModelIndexList& indexes) const override;
+
+ private:
+  [[nodiscard]] QString text(const Series& series, int column) const;
+  [[nodiscard]] QVariant sort_key(const Series& series, int column) const;
+  [[nodiscard]] QPixmap preview(int row) const;
+  void keep(int row, const QImage& picture);
+  [[nodiscard]] QPixmap frame(const QImage& picture) const;
+
+  std::shared_ptr<const Catalogue> catalogue_;
+  std::vector<const Series*> rows_;
+  double device_pixel_ratio_ = 1.0;
+  SeriesPreviews* previews_;
+  mutable std::map<int, QPixmap> pictures_;  // an empty frame from when it was asked for
+};
+
+}  // namespace tidemark

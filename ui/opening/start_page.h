@@ -1,0 +1,47 @@
+// What is shown while no case is open: ways to open one.
+#pragma once
+
+#include <QStringList>
+#include <QWidget>
+
+class QBoxLayout;
+class QVBoxLayout;
+
+namespace tidemark {
+
+class RecentStudies;
+
+class StartPage : public QWidget {
+  Q_OBJECT
+ public:
+  explicit StartPage(RecentStudies& recent, QWidget* parent = nullptr);
+
+ signals:
+  void open_folder();  // asks which
+  void open_file();
+  void dropped(const QStringList& paths);
+  void recent_chosen(const QString& path, const QString& uid);
+  void phantom_chosen(const QString& kind);
+
+ protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dragLeaveEvent(QDragLeaveEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  void build();
+  QWidget* build_opening();
+  QWidget* build_phantoms();
+  void fill_recent();
+
+  RecentStudies& recent_;
+  QBoxLayout* columns_ = nullptr;
+  QVBoxLayout* recent_list_ = nullptr;
+  QWidget* content_ = nullptr;
+  bool is_dragged_over_ = false;
+};
+
+}  // namespace tidemark

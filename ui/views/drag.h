@@ -1,0 +1,59 @@
+// What a mouse button does between press and release.
+#pragma once
+
+#include <QPainter>
+#include <QPointF>
+#include <QSizeF>
+#include <QString>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "session/case_session.h"
+
+namespace tidemark {
+
+// Where the mouse is.
+struct Pointer {
+  QPointF position;  // logical pixels from the view's top left
+  Qt::MouseButton button = Qt::NoButton;
+  Qt::KeyboardModifiers modifiers;
+  std::optional<glm::dvec3> patient_mm;  // on the slice, the clip plane or the surface
+};
+
+// A view as drags see it.
+struct DragView {
+  CaseSession& session;
+  QSizeF size;
+  double mm_per_pixel = 1.0;
+  std::function<QPointF(glm::dvec3)> position_of;  // of a point of the patient
+};
+
+// One gesture. Made at the press, told of every move, gone after the release.
+class Drag {
+ public:
+  explicit Drag(DragView view) : view_(std::move(view)) {}
+  virtual ~Drag() = default;
+  Drag(const Drag&) = delete;
+  Drag& operator=(const Drag&) = delete;
+
+  virtual void move(const Pointer& pointer) = 0;
+  virtual void release() {}
+  virtual void paint(QPainter& /*painter*/) const {}     // over the view, while it lasts
+  [[nodiscard]] virtual QString text() const { return {}; }  // beside the mouse: what it has found so far
+
+ protected:
+  [[nodiscard]] CaseSession& session() const { return view_.session; }
+  [[nodiscard]] const DragView& view() const { return view_; }
+  [[nodiscard]] Display& display() const { return view_.session.display(); }
+
+ private:
+  DragView view_;
+};
+
+// What the buttons do in any view (docs/user: mouse and keys). None where there is nothing to do, as for a tool
+// that needs a point of the patient and has none.
+std::unique_ptr<Drag> tool_drag(Tool tool, DragView view, const Pointer& pressed);
+std::unique_ptr<Drag> window_drag(DragView view, const Pointer& pressed);
+
+}  // namespace tidemark

@@ -1,0 +1,60 @@
+#include "ui/views/edit_drags.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "ui/views/overlay.h"
+
+namespace tidemark {
+
+SphereDrag::SphereDrag(DragView view, const Pointer& pressed, Brush brush)
+    : Drag(std::move(view)),
+      brush_(brush),
+      centre_mm_(*pressed.patient_mm),
+      radius_mm_(display().settings().brush_mm) {}
+
+void SphereDrag::move(const Pointer& pointer) {
+  if (!pointer.patient_mm) return;
+  // A click alone makes a sphere of the brush's size.
+  const double way_mm = glm::distance(*pointer.patient_mm, centre_mm_);
+  if (way_mm > 2.0 * view().mm_per_pixel) radius_mm_ = way_mm;
+}
+
+void SphereDrag::release() {
+  session().paint({centre_mm_, radius_mm_}, brush_, CaseSession::new_gesture());
+}
+
+void SphereDrag::paint(QPainter& painter) const {
+  paint_circle(painter, view().position_of(centre_mm_), radius_mm_ / view().mm_per_pixel, brush_ == Brush::erase);
+}
+
+QString SphereDrag::text() const {
+  return QCoreApplication::translate("SphereDrag", "radius %1 mm").arg(radius_mm_, 0, 'f', 1);
+}
+
+StrokeDrag::StrokeDrag(DragView view, const Pointer& pressed, Brush brush)
+    : Drag(std::move(view)),
+      brush_(brush),
+      gesture_(CaseSession::new_gesture()),
+      radius_mm_(display().settings().brush_mm),
+      last_mm_(*pressed.patient_mm) {
+  dab(last_mm_);
+}
+
+void StrokeDrag::dab(glm::dvec3 at_mm) { session().paint({at_mm, radius_mm_}, brush_, gesture_); }
+
+void StrokeDrag::move(const Pointer& pointer) {
+  if (!pointer.patient_mm) return;
+  // Spheres so near to each other that the stroke looks like a tube.
+  const double stride_mm = 0.4 * radius_mm_;
+  const glm::dvec3 way = *pointer.patient_mm - last_mm_;
+  const auto strides = static_cast<int>(glm::length(way) / stride_mm);
+  for (int stride = 1; stride <= strides; ++stride) {
+    dab(last_mm_ + way * (static_cast<double>(stride) / strides));
+  }
+  if (strides > 0) last_mm_ = *pointer.patient_mm;
+}
+
+}  // namespace tidemark

@@ -1,0 +1,38 @@
+// Spheres that add to the level set or take from it.
+#pragma once
+
+#include "ui/views/drag.h"
+
+namespace tidemark {
+
+// From the centre outwards; painted when the button is let go.
+class SphereDrag : public Drag {
+ public:
+  SphereDrag(DragView view, const Pointer& pressed, Brush brush);
+  void move(const Pointer& pointer) override;
+  void release() override;
+  void paint(QPainter& painter) const override;
+  [[nodiscard]] QString text() const override;
+
+ private:
+  Brush brush_;
+  glm::dvec3 centre_mm_;
+  double radius_mm_;
+};
+
+// A brush along the way of the mouse: one stroke is one entry of the history.
+class StrokeDrag : public Drag {
+ public:
+  StrokeDrag(DragView view, const Pointer& pressed, Brush brush);
+  void move(const Pointer& pointer) override;
+
+ private:
+  void dab(glm::dvec3 at_mm);
+
+  Brush brush_;
+  std::uint64_t gesture_;
+  double radius_mm_;
+  glm::dvec3 last_mm_;
+};
+
+}  // namespace tidemark

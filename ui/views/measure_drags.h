@@ -1,0 +1,30 @@
+// Distances and angles.
+#pragma once
+
+#include "ui/views/drag.h"
+
+namespace tidemark {
+
+// From one end to the other. A drag of no length leaves nothing.
+class DistanceDrag : public Drag {
+ public:
+  DistanceDrag(DragView view, const Pointer& pressed);
+  void move(const Pointer& pointer) override;
+  void release() override;
+
+ private:
+  Measurement measurement_;
+};
+
+// The first drag is one leg, ending in the vertex; the next one, begun anywhere, points to the other end.
+class AngleDrag : public Drag {
+ public:
+  AngleDrag(DragView view, const Pointer& pressed);
+  void move(const Pointer& pointer) override;
+  void release() override;
+
+ private:
+  bool second_leg_ = false;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,107 @@
+#include "ui/views/overlay.h"
+
+#include <QCoreApplication>
+#include <QPainterPath>
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/annotation.h"
+
+namespace tidemark {
+namespace {
+
+const QColor kRim(0, 0, 0, 170);
+constexpr double kMargin = 8.0;
+
+QString number(double value, int digits) { return QString::number(value, 'f', digits); }
+
+}  // namespace
+
+void paint_text(QPainter& painter, const QRectF& where, Qt::Alignment alignment, const QString& text) {
+  const int flags = static_cast<int>(alignment) | Qt::TextDontClip;
+  painter.setPen(kRim);
+  for (const auto& [dx, dy] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}, {1, 1}}) {
+    painter.drawText(where.translated(dx, dy), flags, text);
+  }
+  painter.setPen(QColor(240, 240, 240));
+  painter.drawText(where, flags, text);
+}
+
+void paint_line(QPainter& painter, const QPolygonF& line, const QColor& colour, double width) {
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(kRim, width + 1.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.drawPolyline(line);
+  painter.setPen(QPen(colour, width, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.drawPolyline(line);
+}
+
+void paint_circle(QPainter& painter, QPointF centre, double radius, bool erases) {
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(kRim, 3.0));
+  painter.drawEllipse(centre, radius, radius);
+  painter.setPen(QPen(erases ? QColor(255, 120, 90) : QColor(255, 255, 255), 1.5,
+                      erases ? Qt::DashLine : Qt::SolidLine));
+  painter.drawEllipse(centre, radius, radius);
+}
+
+void paint_orientation(QPainter& painter, QSizeF size, glm::dvec3 right, glm::dvec3 up) {
+  const auto letters = [](glm::dvec3 direction) { return QString::fromStdString(orientation_letters(direction)); };
+  const QRectF all(QPointF(kMargin, kMargin), size - QSizeF(2 * kMargin, 2 * kMargin));
+  paint_text(painter, all, Qt::AlignRight | Qt::AlignVCenter, letters(right));
+  paint_text(painter, all, Qt::AlignLeft | Qt::AlignVCenter, letters(-right));
+  paint_text(painter, all, Qt::AlignTop | Qt::AlignHCenter, letters(up));
+  paint_text(painter, all, Qt::AlignBottom | Qt::AlignHCenter, letters(-up));
+}
+
+void paint_scale_bar(QPainter& painter, QSizeF size, double mm_per_pixel) {
+  const double length_mm = scale_bar_mm(0.2 * size.width() * mm_per_pixel);
+  if (length_mm <= 0.0) return;
+  const double length = length_mm / mm_per_pixel;
+  const double y = size.height() - kMargin - 3.0;
+  const double x = size.width() - kMargin - length;
+  paint_line(painter, QPolygonF({QPointF(x, y - 4), QPointF(x, y), QPointF(x + length, y), QPointF(x + length, y - 4)}));
+  const QString text = length_mm >= 10.0 ? QCoreApplication::translate("View", "%1 cm").arg(length_mm / 10.0)
+                                         : QCoreApplication::translate("View", "%1 mm").arg(length_mm);
+  paint_text(painter, QRectF(x, y - 24, length, 18), Qt::AlignHCenter | Qt::AlignBottom, text);
+}
+
+void paint_crosshair(QPainter& painter, QSizeF size, QPointF at) {
+  constexpr double kGap = 10.0;
+  const QColor colour(120, 200, 255, 170);
+  painter.setPen(QPen(colour, 1.0));
+  painter.drawLine(QPointF(0, at.y()), QPointF(at.x() - kGap, at.y()));
+  painter.drawLine(QPointF(at.x() + kGap, at.y()), QPointF(size.width(), at.y()));
+  painter.drawLine(QPointF(at.x(), 0), QPointF(at.x(), at.y() - kGap));
+  painter.drawLine(QPointF(at.x(), at.y() + kGap), QPointF(at.x(), size.height()));
+}
+
+QString text_of(const Measurement& measurement) {
+  if (measurement.kind == Measurement::Kind::distance) {
+    return QCoreApplication::translate("View", "%1 mm").arg(number(measurement.value(), 1));
+  }
+  return QCoreApplication::translate("View", "%1°").arg(number(measurement.value(), 1));
+}
+
+void paint_measurements(QPainter& painter, const std::vector<Measurement>& measurements, const SliceScreen& screen,
+                        double reach_mm) {
+  for (const Measurement& measurement : measurements) {
+    QPolygonF line;
+    bool near = true;
+    for (const glm::dvec3& point : measurement.points_mm) {
+      near = near && std::abs(screen.distance_mm(point)) <= reach_mm;
+      line << screen.position_of(point);
+    }
+    if (!near || line.isEmpty()) continue;
+    paint_line(painter, line, QColor(140, 230, 160));
+    for (const QPointF& end : line) {
+      painter.setBrush(QColor(140, 230, 160));
+      painter.drawEllipse(end, 2.5, 2.5);
+    }
+    if (!measurement.complete()) continue;
+    const QPointF at = measurement.kind == Measurement::Kind::angle ? line[1] : line.last();
+    paint_text(painter, QRectF(at + QPointF(8, -18), QSizeF(120, 16)), Qt::AlignLeft | Qt::AlignVCenter,
+               text_of(measurement));
+  }
+}
+
+}  // namespace tidemark

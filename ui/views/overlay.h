@@ -1,0 +1,32 @@
+// What is drawn over pictures: seen on bright and on dark ones.
+#pragma once
+
+#include <QPainter>
+#include <QPolygonF>
+#include <QString>
+
+#include "core/geometry.h"
+#include "renderer/camera.h"
+#include "session/measurement.h"
+#include "ui/views/view_geometry.h"
+
+namespace tidemark {
+
+// Light with a dark rim.
+void paint_text(QPainter& painter, const QRectF& where, Qt::Alignment alignment, const QString& text);
+void paint_line(QPainter& painter, const QPolygonF& line, const QColor& colour = Qt::white, double width = 1.5);
+// A sphere's outline; one that takes away is dashed.
+void paint_circle(QPainter& painter, QPointF centre, double radius, bool erases);
+
+// The letters of the patient's sides in the middle of the four edges.
+void paint_orientation(QPainter& painter, QSizeF size, glm::dvec3 right, glm::dvec3 up);
+// How long a round number of millimetres is.
+void paint_scale_bar(QPainter& painter, QSizeF size, double mm_per_pixel);
+// With a gap in the middle.
+void paint_crosshair(QPainter& painter, QSizeF size, QPointF at);
+// Measurements whose points are near the slice; `reach_mm` is how far in front or behind.
+void paint_measurements(QPainter& painter, const std::vector<Measurement>& measurements, const SliceScreen& screen,
+                        double reach_mm);
+QString text_of(const Measurement& measurement);
+
+}  // namespace tidemark

@@ -1,0 +1,246 @@
+#include "ui/views/picture_view.h"
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "ui/views/overlay.h"
+
+namespace tidemark {
+namespace {
+
+constexpr int kWheelClick = 120;  // eighths of a degree (Qt)
+constexpr double kZoomStep = 1.15;
+constexpr double kSmallestBrush = 0.2;  // mm
+constexpr double kLargestBrush = 200.0;
+
+bool edits(Tool tool) { return tool == Tool::paint || tool == Tool::erase || tool == Tool::seed; }
+
+Qt::CursorShape cursor_for(Tool tool) {
+  switch (tool) {
+    case Tool::window:
+      return Qt::ArrowCursor;
+    case Tool::paint:
+    case Tool::erase:
+    case Tool::seed:
+    case Tool::crosshair:
+    case Tool::probe_speed:
+    case Tool::probe_transfer:
+    case Tool::measure_distance:
+    case Tool::measure_angle:
+      return Qt::CrossCursor;
+  }
+  return Qt::ArrowCursor;
+}
+
+}  // namespace
+
+PictureView::PictureView(CaseSession& session, QWidget* parent) : QWidget(parent), session_(session), feed_(session) {
+  setMouseTracking(true);
+  setFocusPolicy(Qt::StrongFocus);
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  connect(&feed_, &PictureFeed::arrived, this, qOverload<>(&QWidget::update));
+  connect(&display(), &Display::changed, this, &PictureView::follow_display);
+  connect(&display(), &Display::pointer_moved, this, qOverload<>(&QWidget::update));
+  follow_display();
+}
+
+PictureView::~PictureView() = default;
+
+PictureSize PictureView::physical_size() const {
+  const double ratio = devicePixelRatioF();
+  return {std::llround(width() * ratio), std::llround(height() * ratio)};
+}
+
+QImage PictureView::grab_picture() {
+  const PictureSize size = physical_size();
+  QImage image(static_cast<int>(size.width), static_cast<int>(size.height), QImage::Format_RGB32);
+  image.setDevicePixelRatio(devicePixelRatioF());
+  QPainter painter(&image);
+  paint_picture(painter);
+  paint_overlay(painter);
+  return image;
+}
+
+DragView PictureView::drag_view() {
+  return {session_, QSizeF(size()), mm_per_pixel(), [this](glm::dvec3 point) { return position_of(point); }};
+}
+
+void PictureView::ask() {
+  if (isVisible() && width() > 0 && height() > 0) feed_.request(wanted(), physical_size());
+}
+
+void PictureView::follow_display() {
+  setCursor(cursor_for(settings().tool));
+  ask();
+  update();
+}
+
+// Painting.
+
+void PictureView::paintEvent(QPaintEvent* /*event*/) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  paint_picture(painter);
+  paint_overlay(painter);
+  paint_brush(painter);
+  if (!drag_) return;
+  drag_->paint(painter);
+  paint_text(painter, QRectF(mouse_ + QPointF(16, 10), QSizeF(240, 18)), Qt::AlignLeft | Qt::AlignVCenter,
+             drag_->text());
+}
+
+void PictureView::paint_picture(QPainter& painter) {
+  const QImage& image = feed_.shown().image;
+  if (!image.isNull()) {
+    // Coarse pictures are enlarged while something moves.
+    painter.setRenderHint(QPainter::SmoothPixmapTransform, image.size() != size() * devicePixelRatioF());
+    painter.drawImage(QRectF(rect()), image);
+    return;
+  }
+  painter.fillRect(rect(), QColor(18, 20, 24));
+  if (session_.engine().graphics() != Engine::Graphics::none) return;
+  paint_text(painter, QRectF(rect()).adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
+             tr("Pictures need OpenGL 3.3, which this computer does not offer:\n%1.\n\nSegmentation works "
+                "all the same: figures and exports are right.")
+                 .arg(QString::fromStdString(session_.engine().graphics_problem())));
+}
+
+// The brush, and its cross-section in the other views.
+void PictureView::paint_brush(QPainter& painter) {
+  const auto& pointer = display().pointer_mm();
+  if (!pointer || drag_ || !edits(settings().tool)) return;
+  const double off_mm = glm::distance(*pointer, patient_at(position_of(*pointer)).value_or(*pointer));
+  const double square = settings().brush_mm * settings().brush_mm - off_mm * off_mm;
+  if (square <= 0.0) return;
+  paint_circle(painter, position_of(*pointer), std::sqrt(square) / mm_per_pixel(), settings().tool == Tool::erase);
+}
+
+void PictureView::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  ask();
+}
+
+void PictureView::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  ask();
+}
+
+bool PictureView::event(QEvent* event) {
+  // Another screen has other pixels.
+  if (event->type() == QEvent::ScreenChangeInternal || event->type() == QEvent::DevicePixelRatioChange) ask();
+  return QWidget::event(event);
+}
+
+// The mouse.
+
+Pointer PictureView::pointer_at(const QMouseEvent& event) const {
+  return {event.position(), event.button() != Qt::NoButton ? event.button() : button_, event.modifiers(),
+          patient_at(event.position())};
+}
+
+void PictureView::set_drag(std::unique_ptr<Drag> drag) {
+  drag_ = std::move(drag);
+  update();
+}
+
+std::unique_ptr<Drag> PictureView::begin_drag(const Pointer& pressed) {
+  const Tool tool = settings().tool;
+  if (pressed.button == Qt::LeftButton && pressed.modifiers.testFlag(Qt::AltModifier)) {
+    return window_drag(drag_view(), pressed);
+  }
+  const bool with_tool =
+      pressed.button == Qt::LeftButton || (pressed.button == Qt::RightButton && edits(tool));
+  if (with_tool) {
+    if (auto drag = tool_drag(tool, drag_view(), pressed)) return drag;
+  }
+  return navigation_drag(pressed);
+}
+
+void PictureView::mousePressEvent(QMouseEvent* event) {
+  if (button_ != Qt::NoButton) return;  // one gesture at a time
+  button_ = event->button();
+  mouse_ = event->position();
+  set_drag(begin_drag(pointer_at(*event)));
+}
+
+void PictureView::mouseMoveEvent(QMouseEvent* event) {
+  mouse_ = event->position();
+  const Pointer pointer = pointer_at(*event);
+  display().set_pointer(pointer.patient_mm);
+  if (drag_) {
+    drag_->move(pointer);
+    update();
+  } else if (button_ == Qt::NoButton && event->modifiers().testFlag(Qt::ShiftModifier) && pointer.patient_mm) {
+    display().change([&](DisplaySettings& settings) { settings.cursor_mm = *pointer.patient_mm; });
+  }
+}
+
+void PictureView::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() != button_) return;
+  button_ = Qt::NoButton;
+  if (drag_) drag_->release();
+  set_drag(nullptr);
+}
+
+void PictureView::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton && !edits(settings().tool)) emit maximise_wanted();
+}
+
+void PictureView::leaveEvent(QEvent* event) {
+  QWidget::leaveEvent(event);
+  display().set_pointer(std::nullopt);
+}
+
+void PictureView::focusInEvent(QFocusEvent* event) {
+  QWidget::focusInEvent(event);
+  emit activated();
+}
+
+void PictureView::wheelEvent(QWheelEvent* event) {
+  // Shift turns the wheel sideways on some platforms.
+  const QPoint angle = event->angleDelta();
+  wheel_remainder_ += angle.y() != 0 ? angle.y() : angle.x();
+  const int clicks = wheel_remainder_ / kWheelClick;
+  wheel_remainder_ -= clicks * kWheelClick;
+  event->accept();
+  if (clicks == 0) return;
+  if (event->modifiers().testFlag(Qt::ControlModifier)) {
+    zoom(std::pow(kZoomStep, clicks), event->position());
+  } else if (event->modifiers().testFlag(Qt::ShiftModifier)) {
+    display().change([&](DisplaySettings& settings) {
+      settings.brush_mm = std::clamp(settings.brush_mm * std::pow(1.1, clicks), kSmallestBrush, kLargestBrush);
+    });
+  } else {
+    scroll(clicks);
+  }
+}
+
+void PictureView::keyPressEvent(QKeyEvent* event) {
+  switch (event->key()) {
+    case Qt::Key_Up:
+      return scroll(1);
+    case Qt::Key_Down:
+      return scroll(-1);
+    case Qt::Key_PageUp:
+      return scroll(10);
+    case Qt::Key_PageDown:
+      return scroll(-10);
+    case Qt::Key_Plus:
+    case Qt::Key_Equal:
+      return zoom(kZoomStep, rect().center());
+    case Qt::Key_Minus:
+      return zoom(1.0 / kZoomStep, rect().center());
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      return emit maximise_wanted();
+    default:
+      QWidget::keyPressEvent(event);
+  }
+}
+
+}  // namespace tidemark

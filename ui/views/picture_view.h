@@ -1,0 +1,84 @@
+// A view of a case: a picture from the engine, what is drawn over it, and the mouse.
+#pragma once
+
+#include <QWidget>
+#include <memory>
+#include <optional>
+
+#include "session/picture_feed.h"
+#include "ui/views/drag.h"
+
+namespace tidemark {
+
+class PictureView : public QWidget {
+  Q_OBJECT
+ public:
+  explicit PictureView(CaseSession& session, QWidget* parent = nullptr);
+  ~PictureView() override;
+
+  [[nodiscard]] CaseSession& session() const { return session_; }
+  [[nodiscard]] const PictureFeed& feed() const { return feed_; }
+  [[nodiscard]] virtual QString title() const = 0;
+  [[nodiscard]] PictureSize physical_size() const;
+  // What is seen, with all that is drawn over it, in physical pixels.
+  [[nodiscard]] QImage grab_picture();
+
+  // Of a point of the patient (LPS, mm), in logical pixels.
+  [[nodiscard]] virtual QPointF position_of(glm::dvec3 patient_mm) const = 0;
+  // On the slice or the clip plane; none beside it.
+  [[nodiscard]] virtual std::optional<glm::dvec3> patient_at(QPointF position) const = 0;
+  [[nodiscard]] virtual double mm_per_pixel() const = 0;
+
+  [[nodiscard]] QSize sizeHint() const override { return {420, 380}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {120, 100}; }
+
+ signals:
+  void maximise_wanted();
+  void activated();  // clicked, or given the keyboard
+
+ protected:
+  [[nodiscard]] Display& display() const { return session_.display(); }
+  [[nodiscard]] const DisplaySettings& settings() const { return session_.display().settings(); }
+  [[nodiscard]] DragView drag_view();
+
+  [[nodiscard]] virtual AnyView wanted() const = 0;
+  virtual void paint_overlay(QPainter& painter) = 0;
+  // Drags that are about the view itself; `first_choice`: the left button of a tool that has nothing to do here.
+  virtual std::unique_ptr<Drag> navigation_drag(const Pointer& pressed) = 0;
+  virtual void scroll(int clicks) = 0;
+  virtual void zoom(double factor, QPointF about) = 0;
+  // What the left or right button starts with the tool that is chosen.
+  virtual std::unique_ptr<Drag> begin_drag(const Pointer& pressed);
+  void set_drag(std::unique_ptr<Drag> drag);
+  [[nodiscard]] bool dragging() const { return drag_ != nullptr; }
+  [[nodiscard]] bool pressed() const { return button_ != Qt::NoButton; }
+
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void showEvent(QShowEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  bool event(QEvent* event) override;
+
+ private:
+  void ask();
+  void follow_display();
+  void paint_picture(QPainter& painter);
+  void paint_brush(QPainter& painter);
+  [[nodiscard]] Pointer pointer_at(const QMouseEvent& event) const;
+
+  CaseSession& session_;
+  PictureFeed feed_;
+  std::unique_ptr<Drag> drag_;
+  Qt::MouseButton button_ = Qt::NoButton;  // that is held down
+  QPointF mouse_;
+  int wheel_remainder_ = 0;  // of mice that turn by less than a click
+};
+
+}  // namespace tidemark

@@ -1,0 +1,92 @@
+#include "ui/views/probe_drags.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+
+#include "ui/views/overlay.h"
+
+namespace tidemark {
+namespace {
+
+QString tr(const char* text) { return QCoreApplication::translate("ProbeDrag", text); }
+
+// A voxel beside the mouse counts too: a drag over a thin structure then has enough of them.
+double reach_mm(const Geometry& geometry) {
+  const glm::dvec3 spacing = geometry.spacing_mm;
+  return 1.1 * std::min({spacing.x, spacing.y, spacing.z});
+}
+
+}  // namespace
+
+ProbeDrag::ProbeDrag(DragView view, const Pointer& pressed)
+    : Drag(std::move(view)), probe_(session().volume()), last_mm_(*pressed.patient_mm) {
+  probe_.add(last_mm_, last_mm_, reach_mm(session().volume().geometry));
+  way_mm_.push_back(last_mm_);
+}
+
+void ProbeDrag::move(const Pointer& pointer) {
+  if (!pointer.patient_mm) return;
+  probe_.add(last_mm_, *pointer.patient_mm, reach_mm(session().volume().geometry));
+  last_mm_ = *pointer.patient_mm;
+  way_mm_.push_back(last_mm_);
+  if (probe_.count() >= kEnough) set();
+}
+
+void ProbeDrag::paint(QPainter& painter) const {
+  QPolygonF line;
+  for (const glm::dvec3& point : way_mm_) line << view().position_of(point);
+  paint_line(painter, line);
+}
+
+void SpeedProbeDrag::set() {
+  const SourceSummary& summary = session().summary();
+  const ValueProbe::Spread values = probe().values();
+  Parameters parameters = session().parameters();
+  parameters.target = values.mean;
+  parameters.range = std::max(values.deviation, least_probed_range(summary.low, summary.high));
+  session().set_parameters(parameters, gesture_);
+}
+
+QString SpeedProbeDrag::text() const {
+  const ValueProbe::Spread values = probe().values();
+  return tr("T %1   ε %2   (%3 voxels)")
+      .arg(values.mean, 0, 'f', 1)
+      .arg(values.deviation, 0, 'f', 1)
+      .arg(probe().count());
+}
+
+void TransferProbeDrag::set() {
+  const SourceSummary& summary = session().summary();
+  const ValueProbe::Spread values = probe().values();
+  const ValueProbe::Spread gradients = probe().gradients();
+  display().change([&](DisplaySettings& settings) {
+    settings.transfer = settings.transfer.for_range(summary.low, summary.high);
+    auto& primitives = settings.transfer.source;
+    if (primitives.empty()) primitives.push_back({});
+    const auto chosen =
+        std::min(static_cast<std::size_t>(std::max(settings.chosen_primitive, 0)), primitives.size() - 1);
+    SourcePrimitive& primitive = primitives[chosen];
+    // A Gaussian here falls to 1/e at its width, which is sqrt(2) standard deviations.
+    constexpr double kWidth = 1.4142135623730951;
+    const double least = least_probed_range(summary.low, summary.high);
+    primitive.value = {TransferFactor::Kind::gaussian, values.mean, std::max(kWidth * values.deviation, least)};
+    if (primitive.gradient.kind == TransferFactor::Kind::gaussian) {
+      primitive.gradient.start = gradients.mean;
+      primitive.gradient.end = std::max(kWidth * gradients.deviation, 0.01 * static_cast<double>(summary.steepest));
+    }
+    settings.chosen_primitive = static_cast<int>(chosen);
+    settings.show_source = true;
+  });
+}
+
+QString TransferProbeDrag::text() const {
+  const ValueProbe::Spread values = probe().values();
+  const ValueProbe::Spread gradients = probe().gradients();
+  return tr("value %1 ± %2   gradient %3 ± %4")
+      .arg(values.mean, 0, 'f', 1)
+      .arg(values.deviation, 0, 'f', 1)
+      .arg(gradients.mean, 0, 'f', 1)
+      .arg(gradients.deviation, 0, 'f', 1);
+}
+
+}  // namespace tidemark

@@ -1,0 +1,48 @@
+// Drags that set parameters from the values they go over (paper section 6.2).
+#pragma once
+
+#include "session/value_probe.h"
+#include "ui/views/drag.h"
+
+namespace tidemark {
+
+class ProbeDrag : public Drag {
+ public:
+  ProbeDrag(DragView view, const Pointer& pressed);
+  void move(const Pointer& pointer) override;
+  void paint(QPainter& painter) const override;
+
+ protected:
+  // Enough for a mean and a spread: before, nothing is set.
+  static constexpr std::int64_t kEnough = 6;
+  [[nodiscard]] const ValueProbe& probe() const { return probe_; }
+  virtual void set() = 0;
+
+ private:
+  ValueProbe probe_;
+  glm::dvec3 last_mm_;
+  std::vector<glm::dvec3> way_mm_;
+};
+
+// T = mean, epsilon = standard deviation, at least least_probed_range().
+class SpeedProbeDrag : public ProbeDrag {
+ public:
+  using ProbeDrag::ProbeDrag;
+  [[nodiscard]] QString text() const override;
+
+ private:
+  void set() override;
+  std::uint64_t gesture_ = CaseSession::new_gesture();
+};
+
+// Centre and width, in value and gradient, of the chosen primitive of the transfer function.
+class TransferProbeDrag : public ProbeDrag {
+ public:
+  using ProbeDrag::ProbeDrag;
+  [[nodiscard]] QString text() const override;
+
+ private:
+  void set() override;
+};
+
+}  // namespace tidemark

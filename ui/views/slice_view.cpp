@@ -1,0 +1,209 @@
+#include "ui/views/slice_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "ui/views/overlay.h"
+
+namespace tidemark {
+namespace {
+
+constexpr double kLeastZoom = 0.2;
+constexpr double kMostZoom = 40.0;
+
+class PanDrag : public Drag {
+ public:
+  PanDrag(DragView view, const Pointer& pressed, SliceOrientation orientation)
+      : Drag(std::move(view)), from_(pressed.position), orientation_(orientation) {
+    centre_mm_ = display().settings().slice_centre_mm;
+  }
+  void move(const Pointer& pointer) override {
+    const QPointF way = (pointer.position - from_) * view().mm_per_pixel;
+    const glm::dvec3 centre = centre_mm_ - orientation_.right * way.x() + orientation_.up * way.y();
+    display().change([&](DisplaySettings& settings) { settings.slice_centre_mm = centre; });
+  }
+
+ private:
+  QPointF from_;
+  SliceOrientation orientation_;
+  glm::dvec3 centre_mm_;
+};
+
+class ZoomDrag : public Drag {
+ public:
+  ZoomDrag(DragView view, const Pointer& pressed) : Drag(std::move(view)), from_(pressed.position) {
+    zoom_ = display().settings().slice_zoom;
+  }
+  void move(const Pointer& pointer) override {
+    const double zoom = std::clamp(zoom_ * std::exp((from_.y() - pointer.position.y()) / 150.0), kLeastZoom, kMostZoom);
+    display().change([&](DisplaySettings& settings) { settings.slice_zoom = zoom; });
+  }
+
+ private:
+  QPointF from_;
+  double zoom_ = 1.0;
+};
+
+QString term_name(SpeedTerm term) {
+  switch (term) {
+    case SpeedTerm::total:
+      return SliceViewWidget::tr("total speed");
+    case SpeedTerm::data:
+      return SliceViewWidget::tr("data term D");
+    case SpeedTerm::curvature:
+      return SliceViewWidget::tr("curvature term");
+    case SpeedTerm::rescaling:
+      return SliceViewWidget::tr("rescaling term");
+  }
+  return {};
+}
+
+}  // namespace
+
+SliceViewWidget::SliceViewWidget(CaseSession& session, SlicePlane plane, SliceContent content, QWidget* parent)
+    : PictureView(session, parent), plane_(plane), content_(content) {
+  setAccessibleName(title());
+}
+
+QString SliceViewWidget::title() const {
+  QString plane;
+  switch (plane_) {
+    case SlicePlane::axial:
+      plane = tr("Axial");
+      break;
+    case SlicePlane::coronal:
+      plane = tr("Coronal");
+      break;
+    case SlicePlane::sagittal:
+      plane = tr("Sagittal");
+      break;
+    case SlicePlane::oblique:
+      plane = tr("Oblique");
+      break;
+  }
+  if (content_ == SliceContent::speed) return tr("Speed map, %1").arg(plane.toLower());
+  if (content_ == SliceContent::pages) return tr("Pages, %1").arg(plane.toLower());
+  return plane;
+}
+
+void SliceViewWidget::set_plane(SlicePlane plane) {
+  plane_ = plane;
+  setAccessibleName(title());
+  emit display().changed();
+}
+
+SliceOrientation SliceViewWidget::orientation() const {
+  SliceOrientation orientation = kAxial;
+  if (plane_ == SlicePlane::coronal) orientation = kCoronal;
+  if (plane_ == SlicePlane::sagittal) orientation = kSagittal;
+  if (plane_ == SlicePlane::oblique) orientation = settings().oblique;
+  // The convention is about left and right: sagittal slices have neither.
+  if (!settings().radiological && plane_ != SlicePlane::sagittal) orientation.right = -orientation.right;
+  return orientation;
+}
+
+SliceView SliceViewWidget::slice() const {
+  const DisplaySettings& s = settings();
+  SliceView view;
+  view.orientation = orientation();
+  view.position_mm = s.cursor_mm;
+  view.zoom = s.slice_zoom;
+  const glm::dvec3 shift = s.slice_centre_mm - middle_of(session().volume().geometry);
+  view.pan_mm = {glm::dot(shift, view.orientation.right), glm::dot(shift, view.orientation.up)};
+  view.content = content_;
+  view.term = s.speed_term;
+  view.window = s.window;
+  view.nearest = s.nearest;
+  view.surface = s.outline;
+  view.line_pixels = s.line_pixels * devicePixelRatioF();
+  view.label_opacity = s.label_opacity;
+  return view;
+}
+
+SliceScreen SliceViewWidget::screen() const {
+  return {slice(), QSizeF(size()), session().volume().geometry};
+}
+
+QPointF SliceViewWidget::position_of(glm::dvec3 patient_mm) const { return screen().position_of(patient_mm); }
+
+std::optional<glm::dvec3> SliceViewWidget::patient_at(QPointF position) const {
+  return screen().patient_at(position);
+}
+
+SliceViewWidget::Place SliceViewWidget::place() const {
+  const Geometry& geometry = session().volume().geometry;
+  const glm::dvec3 into = orientation().into();
+  // Slices of an oblique view are as far apart as the voxels are along its normal.
+  double extent_mm = 0.0;
+  double spacing_mm = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double share = std::abs(glm::dot(into, geometry.direction[axis]));
+    extent_mm += share * geometry.spacing_mm[axis] * static_cast<double>(geometry.size[axis] - 1);
+    spacing_mm += share * share * geometry.spacing_mm[axis];
+  }
+  const double from_middle = glm::dot(settings().cursor_mm - middle_of(geometry), into);
+  Place place;
+  place.thickness_mm = spacing_mm;
+  place.slices = std::llround(extent_mm / spacing_mm) + 1;
+  place.slice = std::clamp<std::int64_t>(std::llround((from_middle + 0.5 * extent_mm) / spacing_mm) + 1, 1, place.slices);
+  return place;
+}
+
+void SliceViewWidget::scroll(int clicks) {
+  const Place now = place();
+  const std::int64_t slice = std::clamp<std::int64_t>(now.slice + clicks, 1, now.slices);
+  const glm::dvec3 into = orientation().into();
+  const double way_mm = static_cast<double>(slice - now.slice) * now.thickness_mm;
+  display().change([&](DisplaySettings& settings) { settings.cursor_mm += into * way_mm; });
+}
+
+void SliceViewWidget::zoom(double factor, QPointF about) {
+  // What is under the mouse stays there.
+  const glm::dvec3 point = screen().patient_at(about);
+  display().change([&](DisplaySettings& s) {
+    const double zoom = std::clamp(s.slice_zoom * factor, kLeastZoom, kMostZoom);
+    const SliceOrientation o = orientation();
+    const glm::dvec3 way = point - s.slice_centre_mm;
+    const double share = 1.0 - s.slice_zoom / zoom;
+    s.slice_centre_mm += (o.right * glm::dot(way, o.right) + o.up * glm::dot(way, o.up)) * share;
+    s.slice_zoom = zoom;
+  });
+}
+
+std::unique_ptr<Drag> SliceViewWidget::navigation_drag(const Pointer& pressed) {
+  if (pressed.button == Qt::MiddleButton) return std::make_unique<PanDrag>(drag_view(), pressed, orientation());
+  if (pressed.button == Qt::RightButton) return std::make_unique<ZoomDrag>(drag_view(), pressed);
+  return nullptr;
+}
+
+void SliceViewWidget::paint_overlay(QPainter& painter) {
+  const SliceScreen on_screen = screen();
+  const SliceOrientation o = orientation();
+  if (settings().crosshair) paint_crosshair(painter, size(), on_screen.position_of(settings().cursor_mm));
+  paint_measurements(painter, settings().measurements, on_screen, 0.5 * place().thickness_mm + 1e-6);
+  paint_orientation(painter, size(), o.right, o.up);
+  paint_scale_bar(painter, size(), on_screen.mm_per_pixel());
+  paint_corners(painter);
+}
+
+void SliceViewWidget::paint_corners(QPainter& painter) const {
+  const DisplaySettings& s = settings();
+  const QRectF all = QRectF(rect()).adjusted(8, 6, -8, -6);
+  const Place now = place();
+  QStringList upper_left;
+  if (content_ == SliceContent::speed) upper_left << term_name(s.speed_term);
+  if (s.patient_text) upper_left << QString::fromStdString(session().volume().description).left(40);
+  paint_text(painter, all, Qt::AlignLeft | Qt::AlignTop, upper_left.join('\n'));
+  paint_text(painter, all, Qt::AlignRight | Qt::AlignTop,
+             plane_ == SlicePlane::sagittal ? QString() : s.radiological ? tr("radiological") : tr("neurological"));
+  QStringList lower_left;
+  lower_left << tr("%1 / %2   %3 mm").arg(now.slice).arg(now.slices).arg(now.thickness_mm, 0, 'g', 3);
+  if (content_ == SliceContent::source) {
+    lower_left << tr("W %1  L %2").arg(s.window.width, 0, 'f', 0).arg(s.window.centre, 0, 'f', 0);
+  }
+  lower_left << tr("Zoom %1 %").arg(100.0 * s.slice_zoom, 0, 'f', 0);
+  paint_text(painter, all, Qt::AlignLeft | Qt::AlignBottom, lower_left.join('\n'));
+}
+
+}  // namespace tidemark

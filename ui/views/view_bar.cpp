@@ -1,0 +1,124 @@
+#include "ui/views/view_bar.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QMenu>
+#include <QSignalBlocker>
+#include <algorithm>
+#include <cmath>
+
+#include "ui/look/icons.h"
+
+namespace tidemark {
+namespace {
+
+constexpr int kWidthForNumbers = 390;
+constexpr int kWidthForEvolution = 220;
+
+}  // namespace
+
+ViewBar::ViewBar(CaseSession& session, const QString& title, const QList<QAction*>& evolution,
+                 const QList<QAction*>& tools, QWidget* parent)
+    : QWidget(parent), session_(session), tools_(tools) {
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(8, 1, 2, 1);
+  layout->setSpacing(2);
+  title_ = new QLabel(title);
+  title_->setMinimumWidth(0);
+  title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  layout->addWidget(title_, 1);
+  for (QAction* action : evolution) {
+    auto* button = new QToolButton;
+    button->setDefaultAction(action);
+    button->setAutoRaise(true);
+    button->setFocusPolicy(Qt::TabFocus);
+    layout->addWidget(button);
+    evolution_ << button;
+  }
+  target_ = add_number(tr("T"), tr("Target T"), tr("T: the brightness that attracts the surface"));
+  range_ = add_number(tr("ε"), tr("Range epsilon"), tr("ε: the surface grows where brightness is within T ± ε"));
+  tool_ = new QToolButton;
+  tool_->setAutoRaise(true);
+  tool_->setPopupMode(QToolButton::InstantPopup);
+  tool_->setAccessibleName(tr("Tool"));
+  auto* menu = new QMenu(tool_);
+  menu->addActions(tools);
+  tool_->setMenu(menu);
+  layout->addWidget(tool_);
+  connect(add_button("maximise", tr("Maximise or restore the view (double click)")), &QToolButton::clicked, this,
+          &ViewBar::maximise_wanted);
+  connect(add_button("duplicate", tr("Let the view float, or put it back")), &QToolButton::clicked, this,
+          &ViewBar::float_wanted);
+  connect(add_button("close", tr("Close the view")), &QToolButton::clicked, this, &ViewBar::close_wanted);
+  connect(&session_, &CaseSession::state_changed, this, &ViewBar::follow_state);
+  connect(&session_.display(), &Display::changed, this, &ViewBar::follow_tool);
+  follow_state();
+  follow_tool();
+}
+
+QToolButton* ViewBar::add_button(const char* picture, const QString& text) {
+  auto* button = new QToolButton;
+  button->setIcon(icon(QString::fromLatin1(picture)));
+  button->setToolTip(text);
+  button->setAccessibleName(text);
+  button->setAutoRaise(true);
+  button->setFocusPolicy(Qt::TabFocus);
+  layout()->addWidget(button);
+  return button;
+}
+
+QDoubleSpinBox* ViewBar::add_number(const QString& label, const QString& name, const QString& tip) {
+  auto* text = new QLabel(label);
+  auto* number = new QDoubleSpinBox;
+  text->setBuddy(number);
+  number->setAccessibleName(name);
+  number->setToolTip(tip);
+  number->setFrame(false);
+  number->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  number->setAlignment(Qt::AlignRight);
+  number->setFixedWidth(62);
+  number->setKeyboardTracking(false);
+  const SourceSummary& summary = session_.summary();
+  const double span = std::max<double>(summary.highest - summary.lowest, 1e-3);
+  number->setRange(-1e7, 1e7);
+  number->setDecimals(span > 100.0 ? 1 : 4);
+  number->setSingleStep(span / 500.0);
+  layout()->addWidget(text);
+  layout()->addWidget(number);
+  numbers_ << text << number;
+  connect(number, &QDoubleSpinBox::valueChanged, this, &ViewBar::change_parameters);
+  return number;
+}
+
+void ViewBar::set_title(const QString& title) { title_->setText(title); }
+
+void ViewBar::change_parameters() {
+  Parameters parameters = session_.parameters();
+  parameters.target = target_->value();
+  parameters.range = std::max(range_->value(), kMinimumRange);
+  session_.set_parameters(parameters);
+}
+
+void ViewBar::follow_state() {
+  const QSignalBlocker quiet_target(target_);
+  const QSignalBlocker quiet_range(range_);
+  if (!target_->hasFocus() || std::abs(target_->value() - session_.parameters().target) > 0.0) {
+    target_->setValue(session_.parameters().target);
+  }
+  range_->setValue(session_.parameters().range);
+}
+
+void ViewBar::follow_tool() {
+  const auto chosen = static_cast<qsizetype>(session_.display().settings().tool);
+  if (chosen >= tools_.size()) return;
+  tool_->setIcon(tools_[chosen]->icon());
+  tool_->setToolTip(tr("Tool: %1").arg(tools_[chosen]->toolTip()));
+}
+
+void ViewBar::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  for (QWidget* number : numbers_) number->setVisible(width() >= kWidthForNumbers);
+  for (QWidget* button : evolution_) button->setVisible(width() >= kWidthForEvolution);
+}
+
+}  // namespace tidemark

@@ -1,0 +1,50 @@
+// The slim bar over a view: its name, the controls that steer the level set, and the window's buttons.
+#pragma once
+
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QToolButton>
+#include <QWidget>
+
+#include "session/case_session.h"
+
+namespace tidemark {
+
+class ViewBar : public QWidget {
+  Q_OBJECT
+ public:
+  // `evolution` and `tools`: the actions whose buttons stand here.
+  ViewBar(CaseSession& session, const QString& title, const QList<QAction*>& evolution, const QList<QAction*>& tools,
+          QWidget* parent = nullptr);
+
+  void set_title(const QString& title);
+  void set_floating(bool floating);
+
+  [[nodiscard]] QSize minimumSizeHint() const override { return {60, sizeHint().height()}; }
+
+ signals:
+  void maximise_wanted();
+  void float_wanted();
+  void close_wanted();
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  QToolButton* add_button(const char* picture, const QString& text);
+  QDoubleSpinBox* add_number(const QString& label, const QString& name, const QString& tip);
+  void follow_state();
+  void follow_tool();
+  void change_parameters();
+
+  CaseSession& session_;
+  QLabel* title_;
+  QToolButton* tool_;
+  QList<QAction*> tools_;
+  QList<QWidget*> numbers_;   // hidden first when the bar is narrow
+  QList<QWidget*> evolution_;  // and these next
+  QDoubleSpinBox* target_;
+  QDoubleSpinBox* range_;
+};
+
+}  // namespace tidemark

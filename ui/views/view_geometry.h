@@ -1,0 +1,59 @@
+// Where the pixels of views lie in the patient.
+#pragma once
+
+#include <QPointF>
+#include <QSizeF>
+#include <glm/mat4x4.hpp>
+#include <optional>
+#include <vector>
+
+#include "renderer/views.h"
+
+namespace tidemark {
+
+// A slice on the screen. Positions in logical pixels from the view's top left; patient coordinates LPS, mm.
+class SliceScreen {
+ public:
+  SliceScreen(const SliceView& view, QSizeF size, const Geometry& geometry);
+
+  [[nodiscard]] glm::dvec3 patient_at(QPointF position) const;
+  [[nodiscard]] QPointF position_of(glm::dvec3 patient_mm) const;  // of its foot on the slice
+  [[nodiscard]] double distance_mm(glm::dvec3 patient_mm) const;   // in front of the slice, < 0, or behind
+  [[nodiscard]] double mm_per_pixel() const { return mm_per_pixel_; }
+
+ private:
+  SliceOrientation orientation_;
+  glm::dvec3 centre_mm_;
+  QSizeF size_;
+  double mm_per_pixel_ = 1.0;
+};
+
+// A 3D view on the screen (parallel projection).
+class VolumeScreen {
+ public:
+  VolumeScreen(const Camera& camera, QSizeF size, const Geometry& geometry);
+
+  struct Ray {
+    glm::dvec3 origin_mm;
+    glm::dvec3 direction;  // unit, into the picture
+  };
+  [[nodiscard]] Ray ray_at(QPointF position) const;
+  [[nodiscard]] QPointF position_of(glm::dvec3 patient_mm) const;
+  // Where the ray through a position meets a plane; none when they are parallel.
+  [[nodiscard]] std::optional<glm::dvec3> on_plane(QPointF position, glm::dvec3 normal, double offset_mm) const;
+  [[nodiscard]] double mm_per_pixel() const { return mm_per_pixel_; }
+  [[nodiscard]] glm::dvec3 into() const { return into_; }
+
+ private:
+  glm::dvec3 right_;
+  glm::dvec3 up_;
+  glm::dvec3 into_;
+  glm::dvec3 centre_mm_;
+  QSizeF size_;
+  double mm_per_pixel_ = 1.0;
+};
+
+// The polygon in which a plane cuts the volume's box (patient mm), in order; empty when it does not.
+std::vector<glm::dvec3> cut_of_box(const Geometry& geometry, const ClipPlane& plane);
+
+}  // namespace tidemark

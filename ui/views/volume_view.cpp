@@ -1,0 +1,226 @@
+#include "ui/views/volume_view.h"
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPointer>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "ui/views/overlay.h"
+
+namespace tidemark {
+namespace {
+
+constexpr double kDegreesPerPixel = 0.4;
+constexpr double kLeastZoom = 0.2;
+constexpr double kMostZoom = 40.0;
+
+// Turns the camera around what it looks at.
+class RotateDrag : public Drag {
+ public:
+  RotateDrag(DragView view, const Pointer& pressed) : Drag(std::move(view)), from_(pressed.position) {
+    camera_ = display().settings().camera;
+  }
+  void move(const Pointer& pointer) override {
+    const QPointF way = pointer.position - from_;
+    Camera camera = camera_;
+    camera.azimuth = std::remainder(camera_.azimuth - kDegreesPerPixel * way.x(), 360.0);
+    camera.elevation = std::clamp(camera_.elevation + kDegreesPerPixel * way.y(), -90.0, 90.0);
+    display().change([&](DisplaySettings& settings) { settings.camera = camera; });
+  }
+
+ private:
+  QPointF from_;
+  Camera camera_;
+};
+
+class CameraPanDrag : public Drag {
+ public:
+  CameraPanDrag(DragView view, const Pointer& pressed) : Drag(std::move(view)), from_(pressed.position) {
+    camera_ = display().settings().camera;
+  }
+  void move(const Pointer& pointer) override {
+    const QPointF way = (pointer.position - from_) * view().mm_per_pixel;
+    Camera camera = camera_;
+    camera.focus_mm = camera_.focus_mm.value_or(middle_of(session().volume().geometry)) -
+                      camera_.right() * way.x() + camera_.up() * way.y();
+    display().change([&](DisplaySettings& settings) { settings.camera = camera; });
+  }
+
+ private:
+  QPointF from_;
+  Camera camera_;
+};
+
+class CameraZoomDrag : public Drag {
+ public:
+  CameraZoomDrag(DragView view, const Pointer& pressed) : Drag(std::move(view)), from_(pressed.position) {
+    zoom_ = display().settings().camera.zoom;
+  }
+  void move(const Pointer& pointer) override {
+    const double zoom = std::clamp(zoom_ * std::exp((from_.y() - pointer.position.y()) / 150.0), kLeastZoom, kMostZoom);
+    display().change([&](DisplaySettings& settings) { settings.camera.zoom = zoom; });
+  }
+
+ private:
+  QPointF from_;
+  double zoom_ = 1.0;
+};
+
+}  // namespace
+
+VolumeViewWidget::VolumeViewWidget(CaseSession& session, QWidget* parent) : PictureView(session, parent) {
+  setAccessibleName(title());
+}
+
+VolumeView VolumeViewWidget::view() const {
+  const DisplaySettings& s = settings();
+  VolumeView view;
+  view.mode = s.mode;
+  view.camera = s.camera;
+  view.surface = s.surface;
+  view.surface_colour = s.surface_colour;
+  view.colouring = s.colouring;
+  view.region = s.region;
+  view.lighting.occlusion = s.occlusion;
+  view.window = s.window;
+  if (s.clip_on) view.clip = s.clip;
+  if (s.show_source || !s.transfer.surface.empty()) {
+    view.source = s.transfer;
+    if (!s.show_source) view.source->source.clear();
+  }
+  return view;
+}
+
+VolumeScreen VolumeViewWidget::screen() const {
+  return {settings().camera, QSizeF(size()), session().volume().geometry};
+}
+
+ClipHandles VolumeViewWidget::handles() const { return {settings().clip, screen(), session().volume().geometry}; }
+
+std::optional<glm::dvec3> VolumeViewWidget::patient_at(QPointF position) const {
+  if (grip_mm_) {
+    const VolumeScreen on_screen = screen();
+    const glm::dvec3 facing = on_screen.into();
+    return on_screen.on_plane(position, facing, glm::dot(*grip_mm_, facing));
+  }
+  if (!settings().clip_on) return std::nullopt;
+  const auto point = screen().on_plane(position, settings().clip.normal, settings().clip.offset_mm);
+  if (!point || !ClipHandles::is_in_box(*point, session().volume().geometry)) return std::nullopt;
+  return point;
+}
+
+std::unique_ptr<Drag> VolumeViewWidget::begin_drag(const Pointer& pressed) {
+  if (settings().clip_on && pressed.button == Qt::LeftButton) {
+    if (const auto grip = handles().grip_at(pressed.position)) {
+      return clip_drag(drag_view(), pressed, *grip, screen());
+    }
+  }
+  const Tool tool = settings().tool;
+  const bool turns = tool == Tool::window && !pressed.modifiers.testFlag(Qt::AltModifier);
+  if (turns) return navigation_drag(pressed);
+  if (!pressed.patient_mm && pressed.button != Qt::MiddleButton) {
+    const bool erases = pressed.button == Qt::RightButton;
+    if (!erases || tool == Tool::paint || tool == Tool::erase || tool == Tool::seed) {
+      pick_and_begin(pressed);
+      return nullptr;
+    }
+  }
+  return PictureView::begin_drag(pressed);
+}
+
+// What is under the mouse has to be asked for. Where nothing is, the drag turns the camera.
+void VolumeViewWidget::pick_and_begin(const Pointer& pressed) {
+  const double ratio = devicePixelRatioF();
+  const glm::dvec2 pixel(pressed.position.x() * ratio, pressed.position.y() * ratio);
+  const auto answer = [self = QPointer(this), pressed, number = ++press_number_](std::optional<Hit> hit) {
+    if (!self || !self->pressed() || self->press_number_ != number) return;
+    if (!hit) return self->set_drag(self->navigation_drag(pressed));
+    self->grip_mm_ = hit->patient_mm;
+    Pointer there = pressed;
+    there.patient_mm = hit->patient_mm;
+    self->set_drag(self->PictureView::begin_drag(there));
+  };
+  session().pick(view(), physical_size(), pixel, answer);
+}
+
+void VolumeViewWidget::mouseMoveEvent(QMouseEvent* event) {
+  PictureView::mouseMoveEvent(event);
+  if (settings().clip_on) update();  // the grip under the mouse
+}
+
+void VolumeViewWidget::mouseReleaseEvent(QMouseEvent* event) {
+  PictureView::mouseReleaseEvent(event);
+  if (!pressed()) {
+    grip_mm_.reset();
+    ++press_number_;
+  }
+}
+
+std::unique_ptr<Drag> VolumeViewWidget::navigation_drag(const Pointer& pressed) {
+  if (pressed.button == Qt::MiddleButton) return std::make_unique<CameraPanDrag>(drag_view(), pressed);
+  if (pressed.button == Qt::RightButton) return std::make_unique<CameraZoomDrag>(drag_view(), pressed);
+  return std::make_unique<RotateDrag>(drag_view(), pressed);
+}
+
+// Through the slices of the clip plane; nearer and farther without one.
+void VolumeViewWidget::scroll(int clicks) {
+  if (!settings().clip_on) return zoom(std::pow(1.1, clicks), rect().center());
+  const glm::dvec3 spacing = session().volume().geometry.spacing_mm;
+  const double stride_mm = std::min({spacing.x, spacing.y, spacing.z});
+  display().change([&](DisplaySettings& settings) { settings.clip.offset_mm += clicks * stride_mm; });
+}
+
+void VolumeViewWidget::zoom(double factor, QPointF /*about*/) {
+  display().change([&](DisplaySettings& settings) {
+    settings.camera.zoom = std::clamp(settings.camera.zoom * factor, kLeastZoom, kMostZoom);
+  });
+}
+
+void VolumeViewWidget::keyPressEvent(QKeyEvent* event) {
+  const bool tilts = event->modifiers().testFlag(Qt::ControlModifier) && settings().clip_on;
+  const auto turn = [&](double azimuth, double elevation) {
+    display().change([&](DisplaySettings& settings) {
+      if (tilts) {
+        // The plane turns about the axes of the screen.
+        const glm::dvec3 axis = azimuth != 0.0 ? settings.camera.up() : settings.camera.right();
+        const double angle = glm::radians(azimuth != 0.0 ? azimuth : elevation);
+        const glm::dvec3 n = settings.clip.normal;
+        const glm::dvec3 turned = n * std::cos(angle) + glm::cross(axis, n) * std::sin(angle) +
+                                  axis * (glm::dot(axis, n) * (1.0 - std::cos(angle)));
+        const glm::dvec3 middle = middle_of(session().volume().geometry);
+        const glm::dvec3 pivot = middle + n * (settings.clip.offset_mm - glm::dot(middle, n));
+        settings.clip.normal = glm::normalize(turned);
+        settings.clip.offset_mm = glm::dot(pivot, settings.clip.normal);
+      } else {
+        settings.camera.azimuth = std::remainder(settings.camera.azimuth + azimuth, 360.0);
+        settings.camera.elevation = std::clamp(settings.camera.elevation + elevation, -90.0, 90.0);
+      }
+    });
+  };
+  constexpr double kTurn = 5.0;
+  switch (event->key()) {
+    case Qt::Key_Left:
+      return turn(-kTurn, 0.0);
+    case Qt::Key_Right:
+      return turn(kTurn, 0.0);
+    case Qt::Key_Up:
+      return turn(0.0, kTurn);
+    case Qt::Key_Down:
+      return turn(0.0, -kTurn);
+    default:
+      PictureView::keyPressEvent(event);
+  }
+}
+
+void VolumeViewWidget::paint_overlay(QPainter& painter) {
+  const Camera& camera = settings().camera;
+  paint_orientation(painter, size(), camera.right(), camera.up());
+  paint_scale_bar(painter, size(), mm_per_pixel());
+  if (!settings().clip_on) return;
+  const ClipHandles on_screen = handles();
+  on_screen.paint(painter, on_screen.grip_at(mapFromGlobal(QCursor::pos())));
+}
+
+}  // namespace tidemark

@@ -1,0 +1,41 @@
+// The 3D rendering.
+#pragma once
+
+#include "ui/views/clip_handles.h"
+#include "ui/views/picture_view.h"
+
+namespace tidemark {
+
+class VolumeViewWidget : public PictureView {
+  Q_OBJECT
+ public:
+  explicit VolumeViewWidget(CaseSession& session, QWidget* parent = nullptr);
+
+  [[nodiscard]] QString title() const override { return tr("3D"); }
+  [[nodiscard]] QPointF position_of(glm::dvec3 patient_mm) const override { return screen().position_of(patient_mm); }
+  [[nodiscard]] std::optional<glm::dvec3> patient_at(QPointF position) const override;
+  [[nodiscard]] double mm_per_pixel() const override { return screen().mm_per_pixel(); }
+  [[nodiscard]] ClipHandles handles() const;
+  [[nodiscard]] VolumeView view() const;
+
+ protected:
+  [[nodiscard]] AnyView wanted() const override { return view(); }
+  void paint_overlay(QPainter& painter) override;
+  std::unique_ptr<Drag> begin_drag(const Pointer& pressed) override;
+  std::unique_ptr<Drag> navigation_drag(const Pointer& pressed) override;
+  void scroll(int clicks) override;
+  void zoom(double factor, QPointF about) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+
+ private:
+  [[nodiscard]] VolumeScreen screen() const;
+  void pick_and_begin(const Pointer& pressed);
+
+  // A drag that began on the surface goes on in the plane through that point that faces the viewer.
+  std::optional<glm::dvec3> grip_mm_;
+  std::uint64_t press_number_ = 0;
+};
+
+}  // namespace tidemark
