@@ -6,9 +6,9 @@
 #include <QPointer>
 #include <QToolButton>
 
+#include "session/background_job.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
-#include "ui/widgets/background.h"
 #include "ui/widgets/form.h"
 
 namespace tidemark {
@@ -37,7 +37,7 @@ FileStartMethod::FileStartMethod(StartFile kind, QWidget* parent) : StartMethod(
 }
 
 FileStartMethod::~FileStartMethod() {
-  stop_.request_stop();
+  if (reading_) reading_->abandon();
 }
 
 QString FileStartMethod::title() const {
@@ -67,25 +67,25 @@ void FileStartMethod::choose() {
 }
 
 void FileStartMethod::start() {
-  reading_ = true;
-  emit changed();
-  stop_ = {};
   const QPointer<CaseSession> wanted(session());
-  run_in_background(
-      this,
-      [kind = kind_, path = std::filesystem::path(path_->text().toStdU16String()),
-       grid = session()->volume().geometry, band = session()->state().band, stop = stop_.get_token()] {
-        return load_start(kind, path, grid, band, Progress{nullptr, stop});
-      },
-      [this, wanted](Result<Start> start) {
-        reading_ = false;
-        if (!start) {
-          emit failed(QString::fromStdString(start.error().message));
-        } else if (wanted) {
-          wanted->begin(*start);
-        }
-        emit changed();
-      });
+  const std::filesystem::path path(path_->text().toStdU16String());
+  reading_ = BackgroundJob::start(this, [this, wanted, kind = kind_, path,
+                                         grid = session()->volume().geometry,
+                                         band = session()->state().band](BackgroundJob& job) {
+    auto start = std::make_shared<Result<Start>>(load_start(kind, path, grid, band, {nullptr, job.stop()}));
+    job.deliver([this, wanted, start] { take(*start, wanted); });
+  });
+  emit changed();
+}
+
+void FileStartMethod::take(const Result<Start>& start, CaseSession* session) {
+  reading_.reset();
+  if (!start) {
+    emit failed(QString::fromStdString(start.error().message));
+  } else if (session) {
+    session->begin(*start);
+  }
+  emit changed();
 }
 
 }  // namespace tidemark

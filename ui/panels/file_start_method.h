@@ -1,7 +1,7 @@
 // Beginning with what lies in a file.
 #pragma once
 
-#include <stop_token>
+#include <memory>
 
 #include "ui/panels/start_files.h"
 #include "ui/panels/start_method.h"
@@ -9,6 +9,8 @@
 class QLineEdit;
 
 namespace tidemark {
+
+class BackgroundJob;
 
 class FileStartMethod : public StartMethod {
   Q_OBJECT
@@ -26,11 +28,11 @@ class FileStartMethod : public StartMethod {
 
  private:
   void choose();
+  void take(const Result<Start>& start, CaseSession* session);
 
   StartFile kind_;
   QLineEdit* path_;
-  bool reading_ = false;
-  std::stop_source stop_;
+  std::shared_ptr<BackgroundJob> reading_;
 };
 
 }  // namespace tidemark

@@ -29,11 +29,11 @@ InitialisePanel::InitialisePanel(QWidget* parent)
 
 void InitialisePanel::add_methods() {
   methods_ = {new SphereStartMethod,
-            new ValueStartMethod(ValueStartMethod::Extent::everywhere),
-            new ValueStartMethod(ValueStartMethod::Extent::connected),
-            new FileStartMethod(StartFile::mask),
-            new LabelStartMethod,
-            new FileStartMethod(StartFile::level_set)};
+              new ValueStartMethod(ValueStartMethod::Extent::everywhere),
+              new ValueStartMethod(ValueStartMethod::Extent::connected),
+              new FileStartMethod(StartFile::mask),
+              new LabelStartMethod,
+              new FileStartMethod(StartFile::level_set)};
   for (StartMethod* method : methods_) {
     from_->addItem(method->title());
     add(method);

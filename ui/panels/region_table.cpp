@@ -37,7 +37,7 @@ QStringList cells(const RegionRow& row, const Notation& notation) {
 QStringList cells(const Measurement& measurement, const QString& name, const Notation& notation) {
   QStringList row(kFigures + 1);
   row.first() = name;
-  row.last() = notation.number(measurement.value, 2);
+  row.last() = notation.number(measurement.value(), 2);
   return row;
 }
 
@@ -61,6 +61,11 @@ QString with_unit(const QString& name, const QString& unit) {
 QString kind_text(Measurement::Kind kind) {
   return kind == Measurement::Kind::distance ? text(QT_TRANSLATE_NOOP("RegionTable", "Distance"))
                                              : text(QT_TRANSLATE_NOOP("RegionTable", "Angle"));
+}
+
+QString unit_text(Measurement::Kind kind) {
+  return kind == Measurement::Kind::distance ? text(QT_TRANSLATE_NOOP("RegionTable", "mm"))
+                                             : QStringLiteral("°");
 }
 
 std::vector<RegionRow> region_rows(const CaseState& state) {
@@ -102,6 +107,7 @@ std::string to_csv(const std::vector<RegionRow>& rows, const std::vector<Measure
     csv += csv_line(line << QString());
   }
   for (const Measurement& measurement : measurements) {
+    if (!measurement.complete()) continue;
     const bool distance = measurement.kind == Measurement::Kind::distance;
     QStringList line =
         cells(measurement, distance ? QStringLiteral("distance") : QStringLiteral("angle"), notation);
@@ -125,7 +131,8 @@ QString to_text(const std::vector<RegionRow>& rows, const std::vector<Measuremen
                .join(u'\t');
   for (const RegionRow& row : rows) lines << cells(row, notation).join(u'\t');
   for (const Measurement& measurement : measurements) {
-    const QString name = with_unit(kind_text(measurement.kind), measurement.unit);
+    if (!measurement.complete()) continue;
+    const QString name = with_unit(kind_text(measurement.kind), unit_text(measurement.kind));
     lines << cells(measurement, name, notation).join(u'\t');
   }
   return lines.join(u'\n') + u'\n';

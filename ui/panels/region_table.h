@@ -1,4 +1,5 @@
-// The figures of a case as a table, to be shown, copied and exported.
+// The figures of a case as a table, to be shown, copied and exported. Measurements that are not complete are
+// left out.
 #pragma once
 
 #include <QString>
@@ -7,7 +8,7 @@
 #include <vector>
 
 #include "session/case_state.h"
-#include "ui/panels/measurement.h"
+#include "session/measurement.h"
 
 namespace tidemark {
 
@@ -31,5 +32,6 @@ QString to_text(const std::vector<RegionRow>& rows, const std::vector<Measuremen
                 const QString& unit);
 
 QString kind_text(Measurement::Kind kind);
+QString unit_text(Measurement::Kind kind);  // of its value
 
 }  // namespace tidemark

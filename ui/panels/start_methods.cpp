@@ -123,6 +123,11 @@ void ValueStartMethod::attach() {
     number->set_unit(unit);
   }
   take_tent();
+  const auto& known = session()->study().start;
+  if (known && known->threshold) {
+    low_->set_value(known->threshold->first);
+    high_->set_value(known->threshold->second);
+  }
 }
 
 void ValueStartMethod::take_tent() {

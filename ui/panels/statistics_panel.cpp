@@ -10,11 +10,11 @@
 #include <QVBoxLayout>
 
 #include "core/atomic_file.h"
+#include "session/background_job.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/panels/region_table.h"
 #include "ui/panels/value_unit.h"
-#include "ui/widgets/background.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
 
@@ -59,12 +59,28 @@ void fill_row(QTableWidget* table, int row, const QStringList& cells) {
   }
 }
 
+// A table without rows is not there, nor is its title.
+void fill(QTableWidget* table, QLabel* title, const std::vector<QStringList>& lines) {
+  const auto count = static_cast<int>(lines.size());
+  if (table->rowCount() != count) {
+    table->setRowCount(count);
+    table->updateGeometry();
+  }
+  for (int row = 0; row < count; ++row) fill_row(table, row, lines[static_cast<std::size_t>(row)]);
+  title->setVisible(count > 0);
+  table->setVisible(count > 0);
+}
+
 }  // namespace
 
 StatisticsPanel::StatisticsPanel(QWidget* parent) : Panel(tr("Open a study to measure in it."), parent) {
   add(make_surface());
   add(make_tables());
   add(make_buttons());
+}
+
+StatisticsPanel::~StatisticsPanel() {
+  if (writing_) writing_->abandon();
 }
 
 QWidget* StatisticsPanel::make_surface() {
@@ -114,24 +130,21 @@ QWidget* StatisticsPanel::make_buttons() {
   return part;
 }
 
-void StatisticsPanel::set_measurements(const std::vector<Measurement>& measurements) {
-  if (measurements == measurements_) return;
-  measurements_ = measurements;
-  measured_->setRowCount(static_cast<int>(measurements.size()));
-  for (int row = 0; row < measured_->rowCount(); ++row) {
-    const Measurement& measurement = measurements[static_cast<std::size_t>(row)];
-    fill_row(measured_, row,
-             {kind_text(measurement.kind), number_text(measurement.value, 1, measurement.unit)});
+void StatisticsPanel::show_measurements(const std::vector<Measurement>& measurements) {
+  std::vector<QStringList> lines;
+  for (const Measurement& measurement : measurements) {
+    if (!measurement.complete()) continue;
+    lines.push_back(
+        {kind_text(measurement.kind), number_text(measurement.value(), 1, unit_text(measurement.kind))});
   }
-  measurements_title_->setVisible(!measurements.empty());
-  measured_->setVisible(!measurements.empty());
-  measured_->updateGeometry();
+  fill(measured_, measurements_title_, lines);
 }
 
 void StatisticsPanel::copy() const {
   if (!session()) return;
-  QGuiApplication::clipboard()->setText(
-      to_text(region_rows(session()->state()), measurements_, value_unit(session()->volume())));
+  QGuiApplication::clipboard()->setText(to_text(region_rows(session()->state()),
+                                                session()->display().settings().measurements,
+                                                value_unit(session()->volume())));
 }
 
 void StatisticsPanel::choose_file() {
@@ -149,12 +162,16 @@ void StatisticsPanel::choose_file() {
 void StatisticsPanel::export_csv(const std::filesystem::path& file) {
   if (!session()) return;
   const std::string csv =
-      to_csv(region_rows(session()->state()), measurements_, value_unit(session()->volume()));
-  run_in_background(
-      this, [file, csv] { return write_file(file, csv); },
-      [this, name = QString::fromStdU16String(file.filename().u16string())](Status written) {
-        say(written ? tr("Written: %1").arg(name) : QString::fromStdString(written.error().message));
-      });
+      to_csv(region_rows(session()->state()), session()->display().settings().measurements,
+             value_unit(session()->volume()));
+  const QString name = QString::fromStdU16String(file.filename().u16string());
+  if (writing_) writing_->abandon();
+  writing_ = BackgroundJob::start(this, [this, file, csv, name](BackgroundJob& job) {
+    const Status written = write_file(file, csv);
+    const QString outcome =
+        written ? tr("Written: %1").arg(name) : QString::fromStdString(written.error().message);
+    job.deliver([this, outcome] { say(outcome); });
+  });
 }
 
 void StatisticsPanel::say(const QString& message) {
@@ -165,10 +182,10 @@ void StatisticsPanel::say(const QString& message) {
 void StatisticsPanel::attach() {
   Panel::attach();
   say({});
-  set_measurements({});
   if (session()) return;
   show_surface({});
   show_labels({});
+  show_measurements({});
 }
 
 void StatisticsPanel::show_surface(const std::vector<RegionRow>& rows) {
@@ -190,20 +207,14 @@ void StatisticsPanel::show_labels(const std::vector<RegionRow>& rows) {
                      row.values ? number_text(row.values->mean, 1) : kNothing,
                      row.values ? number_text(row.values->standard_deviation, 1) : kNothing});
   }
-  const auto count = static_cast<int>(lines.size());
-  if (labels_->rowCount() != count) {
-    labels_->setRowCount(count);
-    labels_->updateGeometry();
-  }
-  for (int row = 0; row < count; ++row) fill_row(labels_, row, lines[static_cast<std::size_t>(row)]);
-  labels_title_->setVisible(count > 0);
-  labels_->setVisible(count > 0);
+  fill(labels_, labels_title_, lines);
 }
 
 void StatisticsPanel::refresh() {
   const auto rows = region_rows(session()->state());
   show_surface(rows);
   show_labels(rows);
+  show_measurements(session()->display().settings().measurements);
 }
 
 }  // namespace tidemark

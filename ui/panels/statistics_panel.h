@@ -2,8 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
-#include "ui/panels/measurement.h"
 #include "ui/panels/panel.h"
 
 class QLabel;
@@ -11,14 +11,15 @@ class QTableWidget;
 
 namespace tidemark {
 
+class BackgroundJob;
 struct RegionRow;
 
 class StatisticsPanel : public Panel {
   Q_OBJECT
  public:
   explicit StatisticsPanel(QWidget* parent = nullptr);
+  ~StatisticsPanel() override;
 
-  void set_measurements(const std::vector<Measurement>& measurements);
   void copy() const;  // to the clipboard
   // Written away from the user interface; how it went is said in the panel.
   void export_csv(const std::filesystem::path& file);
@@ -33,10 +34,10 @@ class StatisticsPanel : public Panel {
   QWidget* make_buttons();
   void show_surface(const std::vector<RegionRow>& rows);
   void show_labels(const std::vector<RegionRow>& rows);
+  void show_measurements(const std::vector<Measurement>& measurements);
   void choose_file();
   void say(const QString& message);
 
-  std::vector<Measurement> measurements_;
   QLabel* volume_;
   QLabel* area_;
   QLabel* voxels_;
@@ -47,6 +48,7 @@ class StatisticsPanel : public Panel {
   QLabel* measurements_title_;
   QTableWidget* measured_;
   QLabel* message_;
+  std::shared_ptr<BackgroundJob> writing_;
 };
 
 }  // namespace tidemark
