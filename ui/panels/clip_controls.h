@@ -1,0 +1,39 @@
+// The clip plane (paper section 6.2), by numbers: 3D views drag it.
+#pragma once
+
+#include "ui/panels/session_widget.h"
+
+class QCheckBox;
+class QToolButton;
+
+namespace tidemark {
+
+class Form;
+class SliderNumber;
+
+class ClipControls : public SessionWidget {
+  Q_OBJECT
+ public:
+  explicit ClipControls(QWidget* parent = nullptr);
+
+ protected:
+  void refresh() override;
+
+ private:
+  QWidget* make_orientations();
+  void add_effects(Form& form);
+  // Across that direction, through the crosshair, so that what is hidden is on the viewer's side.
+  void lay_across(glm::dvec3 direction);
+  void flip();
+  [[nodiscard]] glm::dvec3 towards_viewer() const;
+
+  QCheckBox* on_;
+  QWidget* orientations_;
+  SliderNumber* distance_;
+  QToolButton* flip_;
+  QCheckBox* source_;
+  QCheckBox* surface_;
+  QCheckBox* picture_;
+};
+
+}  // namespace tidemark

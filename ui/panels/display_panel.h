@@ -1,0 +1,14 @@
+// How the active case is shown.
+#pragma once
+
+#include "ui/panels/panel.h"
+
+namespace tidemark {
+
+class DisplayPanel : public Panel {
+  Q_OBJECT
+ public:
+  explicit DisplayPanel(QWidget* parent = nullptr);
+};
+
+}  // namespace tidemark

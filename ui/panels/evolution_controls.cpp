@@ -1,0 +1,142 @@
+#include "ui/panels/evolution_controls.h"
+
+#include <QAction>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QStandardItemModel>
+#include <QToolButton>
+
+#include "ui/look/theme.h"
+#include "ui/widgets/form.h"
+
+namespace tidemark {
+namespace {
+
+constexpr std::int64_t kStepsPerPicture[] = {0, 1, 2, 5, 10, 50, 100};
+
+struct Choice {
+  ExecutorKind kind;
+  const char* name;  // Executor::name()
+};
+constexpr Choice kChoices[] = {{ExecutorKind::automatic, "automatic"},
+                               {ExecutorKind::host, "host"},
+                               {ExecutorKind::compute, "compute"},
+                               {ExecutorKind::stream, "stream"}};
+
+// Why this machine cannot run it; empty when it can.
+QString obstacle(ExecutorKind kind, const Engine& engine) {
+  if (kind == ExecutorKind::automatic || kind == ExecutorKind::host) return {};
+  if (engine.graphics() == Engine::Graphics::none) {
+    return EvolutionControls::tr("There is no OpenGL: %1")
+        .arg(QString::fromStdString(engine.graphics_problem()));
+  }
+  if (kind == ExecutorKind::compute && !engine.capabilities().at_least(4, 5)) {
+    return EvolutionControls::tr("Needs OpenGL 4.5; this machine has %1.%2")
+        .arg(engine.capabilities().major)
+        .arg(engine.capabilities().minor);
+  }
+  return {};
+}
+
+QString title(ExecutorKind kind) {
+  switch (kind) {
+    case ExecutorKind::host:
+      return EvolutionControls::tr("Host: the processor");
+    case ExecutorKind::compute:
+      return EvolutionControls::tr("Compute: the GPU");
+    case ExecutorKind::stream:
+      return EvolutionControls::tr("Stream: the GPU, as in the paper");
+    default:
+      return EvolutionControls::tr("Automatic");
+  }
+}
+
+}  // namespace
+
+EvolutionControls::EvolutionControls(QWidget* parent) : SessionWidget(parent) {
+  Form form(this);
+  form.heading(tr("Evolution"));
+  form.wide(make_buttons());
+  steps_ =
+      form.choice(tr("Steps per picture"), tr("How many steps are computed between two pictures while it "
+                                              "plays. Automatic: as many as keep the pictures fluent."));
+  for (const std::int64_t steps : kStepsPerPicture) {
+    steps_->addItem(steps == 0 ? tr("Automatic") : QString::number(steps),
+                    QVariant::fromValue<qint64>(steps));
+  }
+  connect(steps_, &QComboBox::activated, this, [this] {
+    if (session()) session()->set_steps_per_picture(steps_->currentData().toLongLong());
+  });
+  executor_ =
+      form.choice(tr("Computed by"), tr("What computes the steps. It can be changed while the surface "
+                                        "moves."));
+  connect(executor_, &QComboBox::activated, this, [this](int index) {
+    if (session()) session()->change_executor(kChoices[index].kind);
+    refresh();
+  });
+  pause_ = form.check(tr("Pause at convergence"), tr("Pauses as soon as the surface has stopped moving."));
+  connect(pause_, &QCheckBox::clicked, this, [this](bool on) {
+    if (session()) session()->set_pause_at_convergence(on);
+  });
+}
+
+QLayout* EvolutionControls::make_buttons() {
+  auto* row = new QHBoxLayout;
+  row->setSpacing(kSpaceTight);
+  for (QToolButton*& button : buttons_) {
+    button = new QToolButton;
+    button->setIconSize({kIcon, kIcon});
+    button->setAutoRaise(true);
+    button->setFocusPolicy(Qt::StrongFocus);
+    button->hide();  // until it has an action
+    row->addWidget(button);
+  }
+  state_ = new QLabel;
+  state_->setAccessibleName(tr("State of the evolution"));
+  row->addStretch(1);
+  row->addWidget(state_);
+  return row;
+}
+
+void EvolutionControls::set_actions(const EvolutionActions& actions) {
+  QAction* const in_order[] = {actions.restart, actions.step_back, actions.play, actions.step};
+  for (std::size_t index = 0; index < buttons_.size(); ++index) {
+    buttons_[index]->setDefaultAction(in_order[index]);
+    buttons_[index]->setVisible(in_order[index] != nullptr);
+  }
+}
+
+void EvolutionControls::fill_executors() {
+  executor_->clear();
+  auto* items = qobject_cast<QStandardItemModel*>(executor_->model());
+  for (const Choice& choice : kChoices) {
+    executor_->addItem(title(choice.kind), QLatin1String(choice.name));
+    const QString why = obstacle(choice.kind, session()->engine());
+    if (why.isEmpty()) continue;
+    items->item(executor_->count() - 1)->setEnabled(false);
+    executor_->setItemText(executor_->count() - 1, tr("%1 (not here)").arg(title(choice.kind)));
+    executor_->setItemData(executor_->count() - 1, why, Qt::ToolTipRole);
+  }
+}
+
+void EvolutionControls::attach() {
+  state_->clear();
+  if (session()) fill_executors();
+}
+
+void EvolutionControls::refresh() {
+  const CaseState& state = session()->state();
+  state_->setText(!state.begun      ? tr("not begun")
+                  : state.playing   ? tr("playing")
+                  : state.converged ? tr("converged")
+                                    : tr("paused"));
+  steps_->setCurrentIndex(
+      std::max(0, steps_->findData(QVariant::fromValue<qint64>(session()->steps_per_picture()))));
+  pause_->setChecked(session()->pause_at_convergence());
+  // What computes is shown, not how it came to be chosen.
+  executor_->setCurrentIndex(executor_->findData(state.executor));
+}
+
+}  // namespace tidemark

@@ -1,0 +1,46 @@
+// How the level set runs: buttons, steps per picture, when it pauses, on what it is computed.
+#pragma once
+
+#include <array>
+
+#include "ui/panels/session_widget.h"
+
+class QAction;
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QToolButton;
+
+namespace tidemark {
+
+// The main window's, so that buttons, menus and keys are one.
+struct EvolutionActions {
+  QAction* play = nullptr;  // and pause
+  QAction* step = nullptr;
+  QAction* step_back = nullptr;
+  QAction* restart = nullptr;
+};
+
+class EvolutionControls : public SessionWidget {
+  Q_OBJECT
+ public:
+  explicit EvolutionControls(QWidget* parent = nullptr);
+
+  void set_actions(const EvolutionActions& actions);
+
+ protected:
+  void attach() override;
+  void refresh() override;
+
+ private:
+  QLayout* make_buttons();
+  void fill_executors();
+
+  std::array<QToolButton*, 4> buttons_{};  // restart, step back, play, step
+  QLabel* state_;
+  QComboBox* steps_;
+  QCheckBox* pause_;
+  QComboBox* executor_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,33 @@
+// What the evolution has come to: curves over its steps, and figures.
+#pragma once
+
+#include "ui/panels/session_widget.h"
+
+class QLabel;
+
+namespace tidemark {
+
+class CurvePlot;
+
+class EvolutionFigures : public SessionWidget {
+  Q_OBJECT
+ public:
+  explicit EvolutionFigures(QWidget* parent = nullptr);
+
+ protected:
+  void attach() override;
+  void refresh() override;
+
+ private:
+  void show_curves();
+
+  CurvePlot* volume_;
+  CurvePlot* area_;
+  CurvePlot* motion_;
+  QLabel* step_;
+  QLabel* pages_;
+  QLabel* bytes_;
+  QLabel* pace_;
+};
+
+}  // namespace tidemark

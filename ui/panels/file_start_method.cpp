@@ -1,0 +1,91 @@
+#include "ui/panels/file_start_method.h"
+
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLineEdit>
+#include <QPointer>
+#include <QToolButton>
+
+#include "session/background_job.h"
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+#include "ui/widgets/form.h"
+
+namespace tidemark {
+
+FileStartMethod::FileStartMethod(StartFile kind, QWidget* parent) : StartMethod(parent), kind_(kind) {
+  Form form(this);
+  form.note(kind == StartFile::mask
+                ? tr("Takes a mask of the same grid as the study: every voxel that is not 0 is inside.")
+                : tr("Goes on with a level set that was saved as a volume of φ, on the grid of the study."));
+  path_ = new QLineEdit;
+  path_->setPlaceholderText(tr("No file chosen"));
+  path_->setAccessibleName(tr("File"));
+  path_->setClearButtonEnabled(true);
+  auto* browse = new QToolButton;
+  browse->setIcon(icon(u"open-file"));
+  browse->setToolTip(tr("Choose a file"));
+  browse->setAccessibleName(tr("Choose a file"));
+  browse->setFocusPolicy(Qt::StrongFocus);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(kSpaceTight);
+  row->addWidget(path_, 1);
+  row->addWidget(browse);
+  form.wide(row);
+  connect(browse, &QToolButton::clicked, this, &FileStartMethod::choose);
+  connect(path_, &QLineEdit::textChanged, this, &StartMethod::changed);
+}
+
+FileStartMethod::~FileStartMethod() {
+  if (reading_) reading_->abandon();
+}
+
+QString FileStartMethod::title() const {
+  return kind_ == StartFile::mask ? tr("Mask file") : tr("Saved level set");
+}
+
+QString FileStartMethod::sentence() const {
+  if (reading_) return tr("Reading the file …");
+  const QString name = QFileInfo(path_->text()).fileName();
+  if (name.isEmpty()) return tr("Choose a file first.");
+  return kind_ == StartFile::mask ? tr("Starts with the mask in %1.").arg(name)
+                                  : tr("Goes on with the level set in %1.").arg(name);
+}
+
+bool FileStartMethod::can_start() const {
+  return session() && !reading_ && !path_->text().isEmpty();
+}
+
+void FileStartMethod::choose() {
+  auto* dialog = new QFileDialog(this, tr("Start from a file"), QFileInfo(path_->text()).path(),
+                                 tr("Volumes (*.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;"
+                                    "All files (*)"));
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setFileMode(QFileDialog::ExistingFile);
+  connect(dialog, &QFileDialog::fileSelected, path_, &QLineEdit::setText);
+  dialog->open();
+}
+
+void FileStartMethod::start() {
+  const QPointer<CaseSession> wanted(session());
+  const std::filesystem::path path(path_->text().toStdU16String());
+  reading_ = BackgroundJob::start(this, [this, wanted, kind = kind_, path,
+                                         grid = session()->volume().geometry,
+                                         band = session()->state().band](BackgroundJob& job) {
+    auto start = std::make_shared<Result<Start>>(load_start(kind, path, grid, band, {nullptr, job.stop()}));
+    job.deliver([this, wanted, start] { take(*start, wanted); });
+  });
+  emit changed();
+}
+
+void FileStartMethod::take(const Result<Start>& start, CaseSession* session) {
+  reading_.reset();
+  if (!start) {
+    emit failed(QString::fromStdString(start.error().message));
+  } else if (session) {
+    session->begin(*start);
+  }
+  emit changed();
+}
+
+}  // namespace tidemark

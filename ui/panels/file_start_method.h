@@ -1,0 +1,38 @@
+// Beginning with what lies in a file.
+#pragma once
+
+#include <memory>
+
+#include "ui/panels/start_files.h"
+#include "ui/panels/start_method.h"
+
+class QLineEdit;
+
+namespace tidemark {
+
+class BackgroundJob;
+
+class FileStartMethod : public StartMethod {
+  Q_OBJECT
+ public:
+  explicit FileStartMethod(StartFile kind, QWidget* parent = nullptr);
+  ~FileStartMethod() override;
+  [[nodiscard]] QString title() const override;
+  [[nodiscard]] QString sentence() const override;
+  [[nodiscard]] bool can_start() const override;
+  // Reads the file away from the user interface, then begins in the session for which it was asked.
+  void start() override;
+
+ protected:
+  void refresh() override {}
+
+ private:
+  void choose();
+  void take(const Result<Start>& start, CaseSession* session);
+
+  StartFile kind_;
+  QLineEdit* path_;
+  std::shared_ptr<BackgroundJob> reading_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,97 @@
+#include "ui/panels/initialise_panel.h"
+
+#include <QComboBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "ui/look/theme.h"
+#include "ui/panels/file_start_method.h"
+#include "ui/panels/smoothing_controls.h"
+#include "ui/panels/start_methods.h"
+#include "ui/widgets/form.h"
+
+namespace tidemark {
+
+InitialisePanel::InitialisePanel(QWidget* parent)
+    : Panel(tr("Open a study to begin a level set in it."), parent) {
+  add(new SmoothingControls);
+  auto* part = new QWidget;
+  Form form(part);
+  form.heading(tr("Start"));
+  from_ = form.choice(tr("Begin with"), tr("What the level set is at first."));
+  add(part);
+  add_methods();
+  add_start();
+  connect(from_, &QComboBox::currentIndexChanged, this, &InitialisePanel::show_method);
+  show_method(0);
+}
+
+void InitialisePanel::add_methods() {
+  methods_ = {new SphereStartMethod,
+              new ValueStartMethod(ValueStartMethod::Extent::everywhere),
+              new ValueStartMethod(ValueStartMethod::Extent::connected),
+              new FileStartMethod(StartFile::mask),
+              new LabelStartMethod,
+              new FileStartMethod(StartFile::level_set)};
+  for (StartMethod* method : methods_) {
+    from_->addItem(method->title());
+    add(method);
+    connect(method, &StartMethod::changed, this, &InitialisePanel::show_sentence);
+    connect(method, &StartMethod::failed, this, [this](const QString& message) {
+      problem_->setText(message);
+      problem_->show();
+    });
+  }
+}
+
+void InitialisePanel::add_start() {
+  auto* part = new QWidget;
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(kSpace);
+  sentence_ = make_note({});
+  replaces_ = make_note(tr("It replaces the present surface; Undo brings that back."));
+  replaces_->setForegroundRole(QPalette::PlaceholderText);
+  problem_ = make_note({});
+  problem_->hide();
+  start_ = new QPushButton(tr("Start"));
+  start_->setToolTip(tr("Begins the level set as said above."));
+  connect(start_, &QPushButton::clicked, this, [this] {
+    problem_->hide();
+    methods_[static_cast<std::size_t>(method_)]->start();
+  });
+  for (QWidget* widget : {static_cast<QWidget*>(sentence_), static_cast<QWidget*>(replaces_),
+                          static_cast<QWidget*>(problem_), static_cast<QWidget*>(start_)}) {
+    column->addWidget(widget);
+  }
+  add(part);
+}
+
+void InitialisePanel::show_method(int index) {
+  method_ = index;
+  for (int other = 0; other < static_cast<int>(methods_.size()); ++other) {
+    methods_[static_cast<std::size_t>(other)]->setVisible(other == index);
+  }
+  problem_->hide();
+  show_sentence();
+}
+
+void InitialisePanel::show_sentence() {
+  if (!session()) return;
+  const StartMethod& method = *methods_[static_cast<std::size_t>(method_)];
+  sentence_->setText(method.sentence());
+  start_->setEnabled(method.can_start());
+  replaces_->setVisible(session()->state().begun && method.can_start());
+}
+
+void InitialisePanel::attach() {
+  Panel::attach();
+  problem_->hide();
+}
+
+void InitialisePanel::refresh() {
+  show_sentence();
+}
+
+}  // namespace tidemark

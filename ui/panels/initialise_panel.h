@@ -1,0 +1,40 @@
+// How the level set begins.
+#pragma once
+
+#include <vector>
+
+#include "ui/panels/panel.h"
+
+class QComboBox;
+class QLabel;
+class QPushButton;
+
+namespace tidemark {
+
+class StartMethod;
+
+class InitialisePanel : public Panel {
+  Q_OBJECT
+ public:
+  explicit InitialisePanel(QWidget* parent = nullptr);
+
+ protected:
+  void attach() override;
+  void refresh() override;
+
+ private:
+  void add_methods();
+  void add_start();
+  void show_method(int index);
+  void show_sentence();
+
+  std::vector<StartMethod*> methods_;
+  int method_ = 0;
+  QComboBox* from_;
+  QLabel* sentence_;
+  QLabel* replaces_;
+  QLabel* problem_;
+  QPushButton* start_;
+};
+
+}  // namespace tidemark

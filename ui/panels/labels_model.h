@@ -1,0 +1,41 @@
+// The labels of a case as rows of a table.
+#pragma once
+
+#include <QAbstractTableModel>
+#include <vector>
+
+#include "session/case_state.h"
+
+namespace tidemark {
+
+class LabelsModel : public QAbstractTableModel {
+  Q_OBJECT
+ public:
+  enum Column { visible, locked, colour, name, volume, columns };
+  using QAbstractTableModel::QAbstractTableModel;
+
+  // Rows keep what was edited here until the case has another list.
+  void show(const std::vector<Label>& labels, const std::vector<RegionStatistics>& statistics);
+  [[nodiscard]] const Label* label(int row) const;  // null: there is no such row
+  void set_colour(int row, const QColor& colour);
+
+  [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
+  [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
+  [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
+  bool setData(const QModelIndex& index, const QVariant& value, int role) override;
+  [[nodiscard]] Qt::ItemFlags flags(const QModelIndex& index) const override;
+  [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+ signals:
+  void edited(const Label& label);  // by the user
+
+ private:
+  [[nodiscard]] QVariant text(const Label& label, int row, int column) const;
+  void announce(int row);
+
+  std::vector<Label> labels_;
+  std::vector<Label> given_;
+  std::vector<RegionStatistics> statistics_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,174 @@
+#include "ui/panels/labels_panel.h"
+
+#include <QColorDialog>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QPushButton>
+#include <QTableView>
+#include <QToolButton>
+
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+#include "ui/panels/labels_model.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/slider_number.h"
+
+namespace tidemark {
+namespace {
+
+constexpr int kMarkColumn = 30;  // a check box, or a colour
+constexpr int kTableHeight = 180;
+
+}  // namespace
+
+LabelsPanel::LabelsPanel(QWidget* parent)
+    : Panel(tr("Open a study to keep what you segment as labels."), parent), model_(new LabelsModel(this)) {
+  add(make_table());
+  add(make_actions());
+  connect(model_, &LabelsModel::edited, this, [this](const Label& label) {
+    if (session()) session()->set_label(label);
+  });
+}
+
+QWidget* LabelsPanel::make_table() {
+  table_ = new QTableView;
+  table_->setModel(model_);
+  table_->setAccessibleName(tr("Labels"));
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->setSelectionMode(QAbstractItemView::SingleSelection);
+  table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
+  table_->setTabKeyNavigation(false);
+  table_->setShowGrid(false);
+  table_->setMinimumHeight(kTableHeight);
+  table_->verticalHeader()->hide();
+  QHeaderView* header = table_->horizontalHeader();
+  header->setMinimumSectionSize(kMarkColumn);
+  header->setHighlightSections(false);
+  for (const int column : {LabelsModel::visible, LabelsModel::locked, LabelsModel::colour}) {
+    header->setSectionResizeMode(column, QHeaderView::Fixed);
+    header->resizeSection(column, kMarkColumn);
+  }
+  header->setSectionResizeMode(LabelsModel::name, QHeaderView::Stretch);
+  header->setSectionResizeMode(LabelsModel::volume, QHeaderView::ResizeToContents);
+  connect(table_, &QTableView::clicked, this, &LabelsPanel::choose_colour);
+  connect(table_, &QTableView::activated, this, &LabelsPanel::choose_colour);
+  connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &LabelsPanel::show_buttons);
+
+  auto* part = new QWidget;
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(kSpaceTight);
+  column->addWidget(table_);
+  column->addWidget(make_table_buttons());
+  return part;
+}
+
+QWidget* LabelsPanel::make_table_buttons() {
+  auto* buttons = new QWidget;
+  auto* row = new QHBoxLayout(buttons);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(kSpaceTight);
+  const auto make = [row](const QString& text, QStringView picture, const QString& tip) {
+    auto* button = new QToolButton;
+    button->setText(text);
+    button->setIcon(icon(picture));
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    button->setIconSize({kIconSmall, kIconSmall});
+    button->setFocusPolicy(Qt::StrongFocus);
+    button->setToolTip(tip);
+    button->setAccessibleName(text);
+    row->addWidget(button);
+    return button;
+  };
+  auto* add = make(tr("Add"), u"add", tr("Adds an empty label."));
+  remove_ = make(tr("Remove"), u"remove", tr("Removes the chosen label and what it holds."));
+  row->addStretch(1);
+  connect(add, &QToolButton::clicked, this, &LabelsPanel::add_label);
+  connect(remove_, &QToolButton::clicked, this, [this] {
+    if (session() && chosen()) session()->remove_label(chosen()->id);
+  });
+  return buttons;
+}
+
+QWidget* LabelsPanel::make_actions() {
+  auto* part = new QWidget;
+  Form form(part);
+  accept_ = new QPushButton(tr("Accept surface into label"));
+  accept_->setToolTip(tr("The surface's inside becomes the chosen label. Voxels of locked labels stay."));
+  form.wide(accept_);
+  connect(accept_, &QPushButton::clicked, this, [this] {
+    if (session() && chosen()) session()->accept_surface(chosen()->id);
+  });
+  begin_ = new QPushButton(tr("Start again from label"));
+  begin_->setToolTip(tr("The level set begins anew as the chosen label, to go on with it."));
+  form.wide(begin_);
+  connect(begin_, &QPushButton::clicked, this, [this] {
+    if (session() && chosen()) session()->begin_from_label(chosen()->id);
+  });
+  opacity_ = form.slider(tr("Opacity"), tr("Of all labels, in slices."));
+  opacity_->set_decimals(0);
+  opacity_->set_range(0.0, 100.0);
+  opacity_->set_unit(QStringLiteral("%"));
+  connect(opacity_, &SliderNumber::edited, this, [this](double value) {
+    change_display([=](DisplaySettings& settings) { settings.label_opacity = value / 100.0; });
+  });
+  return part;
+}
+
+const Label* LabelsPanel::chosen() const {
+  const QModelIndexList rows = table_->selectionModel()->selectedRows();
+  return rows.isEmpty() ? nullptr : model_->label(rows.first().row());
+}
+
+void LabelsPanel::add_label() {
+  if (!session()) return;
+  choose_new_ = true;
+  session()->add_label(tr("Label %1").arg(model_->rowCount() + 1));
+}
+
+void LabelsPanel::choose_colour(const QModelIndex& index) {
+  const Label* label = model_->label(index.row());
+  if (!label || index.column() != LabelsModel::colour) return;
+  auto* dialog = new QColorDialog(QColor(label->colour[0], label->colour[1], label->colour[2]), this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &QColorDialog::colorSelected, this, [this, id = label->id](const QColor& colour) {
+    for (int row = 0; row < model_->rowCount(); ++row) {
+      if (model_->label(row)->id == id) model_->set_colour(row, colour);
+    }
+  });
+  dialog->open();
+}
+
+void LabelsPanel::attach() {
+  Panel::attach();
+  choose_new_ = false;
+  if (!session()) model_->show({}, {});
+}
+
+void LabelsPanel::refresh() {
+  const CaseState& state = session()->state();
+  const int before = model_->rowCount();
+  const std::optional<std::uint8_t> was = chosen() ? std::optional<std::uint8_t>(chosen()->id) : std::nullopt;
+  model_->show(state.labels, state.label_statistics);
+  const int rows = model_->rowCount();
+  if (rows != before) {
+    // A reset forgets what was chosen.
+    int row = rows - 1;
+    for (int other = 0; was && other < rows && !(choose_new_ && rows > before); ++other) {
+      if (model_->label(other)->id == *was) row = other;
+    }
+    if (row >= 0) table_->selectRow(row);
+    choose_new_ = false;
+  }
+  opacity_->set_value(100.0 * session()->display().settings().label_opacity);
+  show_buttons();
+}
+
+void LabelsPanel::show_buttons() {
+  const Label* label = chosen();
+  remove_->setEnabled(label != nullptr);
+  accept_->setEnabled(label && !label->locked && session() && session()->state().begun);
+  begin_->setEnabled(label != nullptr);
+}
+
+}  // namespace tidemark

@@ -1,0 +1,45 @@
+// What was segmented so far.
+#pragma once
+
+#include <optional>
+
+#include "ui/panels/panel.h"
+
+class QModelIndex;
+class QPushButton;
+class QTableView;
+class QToolButton;
+
+namespace tidemark {
+
+class LabelsModel;
+class SliderNumber;
+
+class LabelsPanel : public Panel {
+  Q_OBJECT
+ public:
+  explicit LabelsPanel(QWidget* parent = nullptr);
+
+ protected:
+  void attach() override;
+  void refresh() override;
+
+ private:
+  QWidget* make_table();
+  QWidget* make_table_buttons();
+  QWidget* make_actions();
+  void add_label();
+  void choose_colour(const QModelIndex& index);
+  void show_buttons();
+  [[nodiscard]] const Label* chosen() const;
+
+  LabelsModel* model_;
+  QTableView* table_;
+  QToolButton* remove_;
+  QPushButton* accept_;
+  QPushButton* begin_;
+  SliderNumber* opacity_;
+  bool choose_new_ = false;  // a label was added here: it becomes the chosen one
+};
+
+}  // namespace tidemark

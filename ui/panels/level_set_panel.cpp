@@ -1,0 +1,15 @@
+#include "ui/panels/level_set_panel.h"
+
+#include "ui/panels/evolution_figures.h"
+#include "ui/panels/speed_controls.h"
+
+namespace tidemark {
+
+LevelSetPanel::LevelSetPanel(QWidget* parent)
+    : Panel(tr("Open a study to steer a level set in it."), parent), evolution_(new EvolutionControls) {
+  add(evolution_);
+  add(new SpeedControls);
+  add(new EvolutionFigures);
+}
+
+}  // namespace tidemark

@@ -1,0 +1,113 @@
+#include "ui/panels/paint_panel.h"
+
+#include <QAction>
+#include <QButtonGroup>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/number_text.h"
+#include "ui/widgets/slider_number.h"
+
+namespace tidemark {
+namespace {
+
+constexpr double kSmallest = 0.5;  // mm
+constexpr double kLargest = 100.0;
+
+}  // namespace
+
+PaintPanel::PaintPanel(QWidget* parent) : Panel(tr("Open a study to paint in it."), parent) {
+  auto* part = new QWidget;
+  Form form(part);
+  form.heading(tr("Brush"));
+  form.wide(make_tools());
+  radius_ = form.slider(tr("Radius"), tr("Of the sphere that is painted or erased. In a view: Shift and the "
+                                         "wheel."));
+  radius_->set_decimals(1);
+  radius_->set_range(kSmallest, kLargest, SliderNumber::Scale::logarithmic);
+  radius_->set_unit(tr("mm"));
+  connect(radius_, &SliderNumber::edited, this, [this](double value) {
+    change_display([=](DisplaySettings& settings) { settings.brush_mm = value; });
+  });
+  voxels_ = form.figure(tr("In voxels"), tr("The radius along columns, rows and slices."));
+  form.heading(tr("Take back"));
+  form.wide(make_history());
+  form.heading(tr("In a view"));
+  form.note(
+      tr("Left drag: the chosen tool\nRight drag: the other one\nShift and wheel: radius\n"
+         "Alt and drag: window and level\nThe surface goes on moving while you paint."));
+  add(part);
+}
+
+QWidget* PaintPanel::make_tools() {
+  auto* row = new QWidget;
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(kSpace);
+  tools_ = new QButtonGroup(this);
+  const auto add_tool = [&](Tool tool, QStringView picture, const QString& text, const QString& tip) {
+    auto* button = new QToolButton;
+    button->setText(text);
+    button->setIcon(icon(picture));
+    button->setIconSize({kIcon, kIcon});
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    button->setCheckable(true);
+    button->setFocusPolicy(Qt::StrongFocus);
+    button->setToolTip(tip);
+    button->setAccessibleName(text);
+    tools_->addButton(button, static_cast<int>(tool));
+    layout->addWidget(button);
+  };
+  add_tool(Tool::paint, u"tool-paint", tr("Paint"), tr("Adds spheres to the inside of the surface."));
+  add_tool(Tool::erase, u"tool-erase", tr("Erase"), tr("Takes spheres away from it."));
+  connect(tools_, &QButtonGroup::idClicked, this, [this](int tool) {
+    if (session()) session()->display().choose_tool(static_cast<Tool>(tool));
+  });
+  return row;
+}
+
+QWidget* PaintPanel::make_history() {
+  auto* row = new QWidget;
+  auto* layout = new QVBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(kSpaceTight);
+  for (QToolButton** button : {&undo_, &redo_}) {
+    *button = new QToolButton;
+    (*button)->setIconSize({kIcon, kIcon});
+    (*button)->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    // Their texts say what is taken back, and must not make the panel wider.
+    (*button)->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    (*button)->setFocusPolicy(Qt::StrongFocus);
+    (*button)->hide();  // until it has an action
+    layout->addWidget(*button);
+  }
+  return row;
+}
+
+void PaintPanel::set_actions(QAction* undo, QAction* redo) {
+  undo_->setDefaultAction(undo);
+  redo_->setDefaultAction(redo);
+  undo_->setVisible(undo != nullptr);
+  redo_->setVisible(redo != nullptr);
+}
+
+void PaintPanel::refresh() {
+  const DisplaySettings& settings = session()->display().settings();
+  // With another tool neither is chosen, which an exclusive group does not allow otherwise.
+  tools_->setExclusive(false);
+  for (QAbstractButton* button : tools_->buttons()) {
+    button->setChecked(tools_->id(button) == static_cast<int>(settings.tool));
+  }
+  tools_->setExclusive(true);
+  radius_->set_value(settings.brush_mm);
+  const glm::dvec3 radius = settings.brush_mm / session()->volume().geometry.spacing_mm;
+  voxels_->setText(QStringLiteral("%1 × %2 × %3")
+                       .arg(number_text(radius.x, 1), number_text(radius.y, 1), number_text(radius.z, 1)));
+}
+
+}  // namespace tidemark

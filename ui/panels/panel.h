@@ -1,0 +1,35 @@
+// A dock's content.
+#pragma once
+
+#include <initializer_list>
+#include <vector>
+
+#include "ui/panels/session_widget.h"
+
+class QLabel;
+class QVBoxLayout;
+
+namespace tidemark {
+
+// Parts below each other. Without a session they are grey, and a sentence says what is missing.
+class Panel : public SessionWidget {
+  Q_OBJECT
+ public:
+  // `hint`: "Open a study to ..."
+  explicit Panel(const QString& hint, QWidget* parent = nullptr);
+
+ protected:
+  void add(QWidget* part);
+  void add(SessionWidget* part);  // which gets the session, too
+  void attach() override;
+  void refresh() override {}
+  [[nodiscard]] QWidget* content() const { return content_; }
+
+ private:
+  QLabel* hint_;
+  QWidget* content_;
+  QVBoxLayout* parts_;
+  std::vector<SessionWidget*> session_parts_;
+};
+
+}  // namespace tidemark

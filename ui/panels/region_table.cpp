@@ -1,0 +1,141 @@
+#include "ui/panels/region_table.h"
+
+#include <QCoreApplication>
+#include <QLocale>
+#include <QStringList>
+
+namespace tidemark {
+namespace {
+
+QString text(const char* words) {
+  return QCoreApplication::translate("RegionTable", words);
+}
+
+// How a table writes its numbers.
+struct Notation {
+  QLocale locale;
+  [[nodiscard]] QString number(double value, int decimals) const {
+    return locale.toString(value, 'f', decimals);
+  }
+  [[nodiscard]] QString count(std::int64_t value) const {
+    return locale.toString(static_cast<qlonglong>(value));
+  }
+};
+
+constexpr int kFigures = 6;  // volume, area, voxels, mean, SD, length or angle
+
+QStringList cells(const RegionRow& row, const Notation& notation) {
+  return {row.name,
+          notation.number(row.volume_ml, 3),
+          row.area_mm2 ? notation.number(*row.area_mm2, 1) : QString(),
+          notation.count(row.voxels),
+          row.values ? notation.number(row.values->mean, 3) : QString(),
+          row.values ? notation.number(row.values->standard_deviation, 3) : QString(),
+          QString()};
+}
+
+QStringList cells(const Measurement& measurement, const QString& name, const Notation& notation) {
+  QStringList row(kFigures + 1);
+  row.first() = name;
+  row.last() = notation.number(measurement.value(), 2);
+  return row;
+}
+
+std::string csv_line(const QStringList& cells) {
+  QStringList quoted;
+  for (QString cell : cells) {
+    if (cell.contains(u',') || cell.contains(u'"') || cell.contains(u'\n') || cell.contains(u'\r')) {
+      cell = u'"' + cell.replace(u'"', QStringLiteral("\"\"")) + u'"';
+    }
+    quoted << cell;
+  }
+  return quoted.join(u',').toStdString() + "\r\n";
+}
+
+QString with_unit(const QString& name, const QString& unit) {
+  return unit.isEmpty() ? name : QStringLiteral("%1 (%2)").arg(name, unit);
+}
+
+}  // namespace
+
+QString kind_text(Measurement::Kind kind) {
+  return kind == Measurement::Kind::distance ? text(QT_TRANSLATE_NOOP("RegionTable", "Distance"))
+                                             : text(QT_TRANSLATE_NOOP("RegionTable", "Angle"));
+}
+
+QString unit_text(Measurement::Kind kind) {
+  return kind == Measurement::Kind::distance ? text(QT_TRANSLATE_NOOP("RegionTable", "mm"))
+                                             : QStringLiteral("°");
+}
+
+std::vector<RegionRow> region_rows(const CaseState& state) {
+  std::vector<RegionRow> rows;
+  if (state.begun) {
+    RegionRow row{text(QT_TRANSLATE_NOOP("RegionTable", "Surface")), state.surface.volume_ml,
+                  state.surface.surface_mm2, state.surface.voxels_inside, std::nullopt};
+    // Values are measured when the surface rests; those of another surface would mislead.
+    if (row.voxels > 0 && state.inside.voxels == row.voxels) row.values = state.inside;
+    rows.push_back(std::move(row));
+  }
+  for (std::size_t index = 0; index < state.labels.size(); ++index) {
+    RegionRow row;
+    row.name = QString::fromStdString(state.labels[index].name);
+    if (index < state.label_statistics.size()) {
+      const RegionStatistics& values = state.label_statistics[index];
+      row.volume_ml = values.volume_ml;
+      row.voxels = values.voxels;
+      if (values.voxels > 0) row.values = values;
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+// Names of columns do not depend on the language: programs read them.
+std::string to_csv(const std::vector<RegionRow>& rows, const std::vector<Measurement>& measurements,
+                   const QString& unit) {
+  QLocale plain = QLocale::c();
+  plain.setNumberOptions(QLocale::OmitGroupSeparator);
+  const Notation notation{plain};
+  std::string csv =
+      csv_line({QStringLiteral("name"), QStringLiteral("volume_ml"), QStringLiteral("area_mm2"),
+                QStringLiteral("voxels"), QStringLiteral("mean"), QStringLiteral("sd"),
+                QStringLiteral("value_unit"), QStringLiteral("measured"), QStringLiteral("measured_unit")});
+  for (const RegionRow& row : rows) {
+    QStringList line = cells(row, notation);
+    line.insert(kFigures, row.values ? unit : QString());
+    csv += csv_line(line << QString());
+  }
+  for (const Measurement& measurement : measurements) {
+    if (!measurement.complete()) continue;
+    const bool distance = measurement.kind == Measurement::Kind::distance;
+    QStringList line =
+        cells(measurement, distance ? QStringLiteral("distance") : QStringLiteral("angle"), notation);
+    line.insert(kFigures, QString());
+    csv += csv_line(line << (distance ? QStringLiteral("mm") : QStringLiteral("degrees")));
+  }
+  return csv;
+}
+
+QString to_text(const std::vector<RegionRow>& rows, const std::vector<Measurement>& measurements,
+                const QString& unit) {
+  const Notation notation{QLocale()};
+  QStringList lines;
+  lines << QStringList{text(QT_TRANSLATE_NOOP("RegionTable", "Region")),
+                       text(QT_TRANSLATE_NOOP("RegionTable", "Volume (ml)")),
+                       text(QT_TRANSLATE_NOOP("RegionTable", "Area (mm²)")),
+                       text(QT_TRANSLATE_NOOP("RegionTable", "Voxels")),
+                       with_unit(text(QT_TRANSLATE_NOOP("RegionTable", "Mean")), unit),
+                       with_unit(text(QT_TRANSLATE_NOOP("RegionTable", "SD")), unit),
+                       text(QT_TRANSLATE_NOOP("RegionTable", "Measured"))}
+               .join(u'\t');
+  for (const RegionRow& row : rows) lines << cells(row, notation).join(u'\t');
+  for (const Measurement& measurement : measurements) {
+    if (!measurement.complete()) continue;
+    const QString name = with_unit(kind_text(measurement.kind), unit_text(measurement.kind));
+    lines << cells(measurement, name, notation).join(u'\t');
+  }
+  return lines.join(u'\n') + u'\n';
+}
+
+}  // namespace tidemark

@@ -1,0 +1,37 @@
+// The figures of a case as a table, to be shown, copied and exported. Measurements that are not complete are
+// left out.
+#pragma once
+
+#include <QString>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session/case_state.h"
+#include "session/measurement.h"
+
+namespace tidemark {
+
+struct RegionRow {
+  QString name;
+  double volume_ml = 0.0;
+  std::optional<double> area_mm2;  // of the surface alone
+  std::int64_t voxels = 0;
+  std::optional<RegionStatistics> values;  // of the source inside; none before it was measured
+};
+
+// The surface first, if there is one, then the labels.
+std::vector<RegionRow> region_rows(const CaseState& state);
+
+// RFC 4180, numbers with a point in every locale. `unit` is that of the values (may be empty).
+std::string to_csv(const std::vector<RegionRow>& rows, const std::vector<Measurement>& measurements,
+                   const QString& unit);
+
+// Columns parted by tabs, numbers as the user's language writes them: for spreadsheets and reports.
+QString to_text(const std::vector<RegionRow>& rows, const std::vector<Measurement>& measurements,
+                const QString& unit);
+
+QString kind_text(Measurement::Kind kind);
+QString unit_text(Measurement::Kind kind);  // of its value
+
+}  // namespace tidemark

@@ -1,0 +1,36 @@
+#include "ui/panels/session_widget.h"
+
+namespace tidemark {
+
+void SessionWidget::set_session(CaseSession* session) {
+  if (session_ == session) return;
+  if (session_) {
+    session_->disconnect(this);
+    session_->display().disconnect(this);
+  }
+  session_ = session;
+  if (session) {
+    connect(session, &CaseSession::state_changed, this, &SessionWidget::changed);
+    connect(&session->display(), &Display::changed, this, &SessionWidget::changed);
+    connect(session, &QObject::destroyed, this, &SessionWidget::forget);
+  }
+  attach();
+  if (session) refresh();
+}
+
+void SessionWidget::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  if (session_) refresh();
+}
+
+void SessionWidget::changed() {
+  if (isVisible()) refresh();
+}
+
+// The session is half gone: nothing of it may be used.
+void SessionWidget::forget() {
+  session_.clear();
+  attach();
+}
+
+}  // namespace tidemark

@@ -1,0 +1,36 @@
+// How slices look.
+#pragma once
+
+#include "ui/panels/session_widget.h"
+
+class QCheckBox;
+class QComboBox;
+
+namespace tidemark {
+
+class Form;
+class SliderNumber;
+
+class SliceControls : public SessionWidget {
+  Q_OBJECT
+ public:
+  explicit SliceControls(QWidget* parent = nullptr);
+
+ protected:
+  void refresh() override;
+
+ private:
+  void add_picture(Form& form);
+  void add_overlays(Form& form);
+
+  QComboBox* voxels_;
+  QComboBox* side_;
+  QComboBox* term_;
+  QCheckBox* outline_;
+  SliderNumber* line_;
+  SliderNumber* labels_;
+  QCheckBox* crosshair_;
+  QCheckBox* patient_;
+};
+
+}  // namespace tidemark

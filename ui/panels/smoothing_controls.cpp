@@ -1,0 +1,58 @@
+#include "ui/panels/smoothing_controls.h"
+
+#include <QLabel>
+#include <QPushButton>
+
+#include "ui/widgets/form.h"
+#include "ui/widgets/number_text.h"
+#include "ui/widgets/slider_number.h"
+
+namespace tidemark {
+namespace {
+
+constexpr double kMost = 5.0;  // mm
+constexpr int kDecimals = 2;
+
+}  // namespace
+
+SmoothingControls::SmoothingControls(QWidget* parent) : SessionWidget(parent) {
+  Form form(this);
+  form.heading(tr("Noise"));
+  now_ = form.note({});
+  sigma_ = form.slider(tr("Smoothing σ"),
+                       tr("Standard deviation of the Gaussian with which the level set's view "
+                          "of the study is smoothed; 0: not at all. Pictures stay as they are."));
+  sigma_->set_decimals(kDecimals);
+  sigma_->set_range(0.0, kMost);
+  sigma_->set_step(0.1);
+  sigma_->set_unit(tr("mm"));
+  connect(sigma_, &SliderNumber::edited, this, &SmoothingControls::show_button);
+  apply_ = new QPushButton(tr("Smooth"));
+  apply_->setToolTip(tr("Smooths the study for the level set; takes some seconds where it is large."));
+  form.wide(apply_);
+  connect(apply_, &QPushButton::clicked, this, [this] {
+    if (session()) session()->smooth_source(sigma_->value());
+  });
+}
+
+void SmoothingControls::attach() {
+  if (session()) sigma_->set_value(session()->state().smoothed_mm);
+}
+
+void SmoothingControls::refresh() {
+  const double now = session()->state().smoothed_mm;
+  now_->setText(
+      now > 0.0
+          ? tr("The level set sees the study smoothed by %1.").arg(number_text(now, kDecimals, tr("mm")))
+          : tr("The level set sees the study as it is."));
+  show_button();
+}
+
+void SmoothingControls::show_button() {
+  if (!session()) return;
+  const bool undoes = sigma_->value() == 0.0 && session()->state().smoothed_mm > 0.0;
+  apply_->setText(undoes ? tr("Use the study as it is") : tr("Smooth"));
+  apply_->setEnabled(std::abs(sigma_->value() - session()->state().smoothed_mm) > 1e-6);
+}
+
+}  // namespace tidemark

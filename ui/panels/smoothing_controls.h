@@ -1,0 +1,30 @@
+// The source can be smoothed before the level set sees it.
+#pragma once
+
+#include "ui/panels/session_widget.h"
+
+class QLabel;
+class QPushButton;
+
+namespace tidemark {
+
+class SliderNumber;
+
+class SmoothingControls : public SessionWidget {
+  Q_OBJECT
+ public:
+  explicit SmoothingControls(QWidget* parent = nullptr);
+
+ protected:
+  void attach() override;
+  void refresh() override;
+
+ private:
+  void show_button();
+
+  SliderNumber* sigma_;
+  QLabel* now_;
+  QPushButton* apply_;
+};
+
+}  // namespace tidemark

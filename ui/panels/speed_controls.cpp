@@ -1,0 +1,137 @@
+#include "ui/panels/speed_controls.h"
+
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <cmath>
+
+#include "ui/look/theme.h"
+#include "ui/panels/tent_plot.h"
+#include "ui/panels/value_unit.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/number_text.h"
+#include "ui/widgets/slider_number.h"
+
+namespace tidemark {
+
+SpeedControls::SpeedControls(QWidget* parent) : SessionWidget(parent) {
+  Form form(this);
+  form.heading(tr("Speed"));
+  tent_ = new TentPlot;
+  form.wide(tent_);
+  connect(tent_, &TentPlot::edited, this, [this](double target, double range, std::uint64_t gesture) {
+    change(
+        [=](Parameters& parameters) {
+          parameters.target = target;
+          parameters.range = range;
+        },
+        gesture);
+  });
+  add_numbers(form);
+  add_terms(form);
+}
+
+void SpeedControls::add_numbers(Form& form) {
+  target_ = form.slider(tr("Target T"), tr("The value in the middle of what is looked for: there the surface "
+                                           "grows fastest."));
+  range_ = form.slider(tr("Range ε"), tr("How far a value may be from T for the surface to grow there."));
+  alpha_ =
+      form.slider(tr("Smoothness α"),
+                  tr("How the data and the smoothing share the speed. 1 is the data alone; at 0 the surface "
+                     "only becomes smoother, and shrinks."));
+  alpha_->set_range(1.0, 0.0);
+  alpha_->set_decimals(3);
+  alpha_->set_step(0.01);
+
+  auto* ends = new QWidget;
+  auto* row = new QHBoxLayout(ends);
+  row->setContentsMargins(0, 0, alpha_->number()->width() + kSpace, 0);
+  const std::pair<QString, Qt::Alignment> texts[] = {{tr("1 Data"), Qt::AlignLeft},
+                                                     {tr("Smoothing 0"), Qt::AlignRight}};
+  for (const auto& [text, side] : texts) {
+    auto* end = new QLabel(text);
+    end->setForegroundRole(QPalette::PlaceholderText);
+    row->addWidget(end, 1, side);
+  }
+  form.wide(ends);
+  paper_alpha_ = form.figure(tr("α as in the paper"),
+                             tr("The paper does not divide the data term by ε. With this α its own equation "
+                                "balances the terms as here."));
+
+  connect(target_, &SliderNumber::edited, this, [this](double value, std::uint64_t gesture) {
+    change([value](Parameters& parameters) { parameters.target = value; }, gesture);
+  });
+  connect(range_, &SliderNumber::edited, this, [this](double value, std::uint64_t gesture) {
+    change([value](Parameters& parameters) { parameters.range = value; }, gesture);
+  });
+  connect(alpha_, &SliderNumber::edited, this, [this](double value, std::uint64_t gesture) {
+    change([value](Parameters& parameters) { parameters.alpha = value; }, gesture);
+  });
+}
+
+void SpeedControls::add_terms(Form& form) {
+  auto* terms = new QWidget;
+  auto* row = new QHBoxLayout(terms);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(kSpace);
+  const auto add = [&](const QString& text, const QString& tip, bool Parameters::*term) {
+    auto* check = new QCheckBox(text);
+    check->setToolTip(tip);
+    check->setAccessibleName(tr("%1 term").arg(text));
+    row->addWidget(check);
+    connect(check, &QCheckBox::clicked, this, [this, term](bool on) {
+      change([=](Parameters& parameters) { parameters.*term = on; }, CaseSession::new_gesture());
+    });
+    return check;
+  };
+  data_term_ = add(tr("Data"), tr("Moves the surface by the values of the source."), &Parameters::data_term);
+  curvature_term_ =
+      add(tr("Curvature"), tr("Smooths the surface by its mean curvature."), &Parameters::curvature_term);
+  rescaling_term_ = add(tr("Rescaling"),
+                        tr("Keeps the slope of φ near 1, so that the band around the surface stays as wide."),
+                        &Parameters::rescaling_term);
+  row->addStretch(1);
+  form.heading(tr("Terms"));
+  form.wide(terms);
+}
+
+void SpeedControls::attach() {
+  if (!session()) return;
+  const SourceSummary& summary = session()->summary();
+  const QString unit = value_unit(session()->volume());
+  const double span = std::max<double>(summary.high - summary.low, 1e-6);
+  const double all = std::max<double>(summary.highest - summary.lowest, span);
+  const int decimals = decimals_for(span);
+  tent_->set_source(summary, unit);
+  target_->set_decimals(decimals);
+  target_->set_range(summary.low, summary.high, summary.lowest - all, summary.highest + all);
+  target_->set_unit(unit);
+  const double smallest = std::max(kMinimumRange, std::pow(10.0, -decimals));
+  range_->set_decimals(decimals);
+  range_->set_range(std::max(smallest, span / 1000.0), span, smallest, 2.0 * all,
+                    SliderNumber::Scale::logarithmic);
+  range_->set_unit(unit);
+}
+
+void SpeedControls::refresh() {
+  const Parameters& parameters = session()->parameters();
+  tent_->set_tent(parameters.target, parameters.range);
+  target_->set_value(parameters.target);
+  range_->set_value(parameters.range);
+  alpha_->set_value(parameters.alpha);
+  paper_alpha_->setText(short_text(paper_alpha(parameters)));
+  data_term_->setChecked(parameters.data_term);
+  curvature_term_->setChecked(parameters.curvature_term);
+  rescaling_term_->setChecked(parameters.rescaling_term);
+}
+
+void SpeedControls::change(const std::function<void(Parameters&)>& apply, std::uint64_t gesture) {
+  if (!session()) return;
+  Parameters parameters = session()->parameters();
+  apply(parameters);
+  session()->set_parameters(parameters, gesture);
+}
+
+}  // namespace tidemark

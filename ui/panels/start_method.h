@@ -1,0 +1,24 @@
+// One way in which a level set can begin.
+#pragma once
+
+#include "ui/panels/session_widget.h"
+
+namespace tidemark {
+
+class StartMethod : public SessionWidget {
+  Q_OBJECT
+ public:
+  using SessionWidget::SessionWidget;
+
+  [[nodiscard]] virtual QString title() const = 0;
+  // What start() would do, in words.
+  [[nodiscard]] virtual QString sentence() const = 0;
+  [[nodiscard]] virtual bool can_start() const = 0;
+  virtual void start() = 0;
+
+ signals:
+  void changed();  // what the sentence says
+  void failed(const QString& message);
+};
+
+}  // namespace tidemark

@@ -1,0 +1,79 @@
+// The ways in which a level set can begin (paper section 6.1): drawn spheres, values, what is there already.
+#pragma once
+
+#include "ui/panels/start_method.h"
+
+class QComboBox;
+class QLabel;
+class QToolButton;
+
+namespace tidemark {
+
+class SliderNumber;
+
+// A sphere around the crosshair; in views spheres are drawn with the mouse.
+class SphereStartMethod : public StartMethod {
+  Q_OBJECT
+ public:
+  explicit SphereStartMethod(QWidget* parent = nullptr);
+  [[nodiscard]] QString title() const override { return tr("Spheres"); }
+  [[nodiscard]] QString sentence() const override;
+  [[nodiscard]] bool can_start() const override;
+  void start() override;
+
+ protected:
+  void refresh() override;
+
+ private:
+  QToolButton* draw_;
+  SliderNumber* radius_;
+};
+
+// All voxels in a range of values, or those of them that are connected to the crosshair.
+class ValueStartMethod : public StartMethod {
+  Q_OBJECT
+ public:
+  enum class Extent { everywhere, connected };
+  explicit ValueStartMethod(Extent extent, QWidget* parent = nullptr);
+  [[nodiscard]] QString title() const override;
+  [[nodiscard]] QString sentence() const override;
+  [[nodiscard]] bool can_start() const override;
+  void start() override;
+
+ protected:
+  void attach() override;
+  void refresh() override;
+
+ private:
+  void take_tent();
+  [[nodiscard]] QString range_text() const;
+  [[nodiscard]] std::optional<Index3> voxel() const;  // under the crosshair
+  [[nodiscard]] QString everywhere_text() const;
+  [[nodiscard]] QString connected_text() const;
+
+  Extent extent_;
+  SliderNumber* low_;
+  SliderNumber* high_;
+  QLabel* here_ = nullptr;  // the value under the crosshair
+};
+
+// What was segmented before.
+class LabelStartMethod : public StartMethod {
+  Q_OBJECT
+ public:
+  explicit LabelStartMethod(QWidget* parent = nullptr);
+  [[nodiscard]] QString title() const override { return tr("Label"); }
+  [[nodiscard]] QString sentence() const override;
+  [[nodiscard]] bool can_start() const override;
+  void start() override;
+
+ protected:
+  void attach() override;
+  void refresh() override;
+
+ private:
+  std::vector<Label> shown_;
+  QComboBox* label_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,220 @@
+#include "ui/panels/statistics_panel.h"
+
+#include <QClipboard>
+#include <QFileDialog>
+#include <QGuiApplication>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPushButton>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include "core/atomic_file.h"
+#include "session/background_job.h"
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+#include "ui/panels/region_table.h"
+#include "ui/panels/value_unit.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/number_text.h"
+
+namespace tidemark {
+namespace {
+
+const QString kNothing = QStringLiteral("–");
+
+QTableWidget* make_table(const QStringList& headings, const QString& name) {
+  auto* table = new QTableWidget(0, static_cast<int>(headings.size()));
+  table->setHorizontalHeaderLabels(headings);
+  table->setAccessibleName(name);
+  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table->setTabKeyNavigation(false);
+  table->setShowGrid(false);
+  table->verticalHeader()->hide();
+  table->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
+  table->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  QHeaderView* header = table->horizontalHeader();
+  header->setHighlightSections(false);
+  header->setSectionResizeMode(QHeaderView::ResizeToContents);
+  header->setSectionResizeMode(0, QHeaderView::Stretch);
+  for (int column = 0; column < table->columnCount(); ++column) {
+    table->horizontalHeaderItem(column)->setTextAlignment((column == 0 ? Qt::AlignLeft : Qt::AlignRight) |
+                                                          Qt::AlignVCenter);
+  }
+  return table;
+}
+
+// The first cell is a name, the others are numbers.
+void fill_row(QTableWidget* table, int row, const QStringList& cells) {
+  for (int column = 0; column < cells.size(); ++column) {
+    QTableWidgetItem* item = table->item(row, column);
+    if (!item) {
+      item = new QTableWidgetItem;
+      item->setTextAlignment((column == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
+      table->setItem(row, column, item);
+    }
+    item->setText(cells[column]);
+    if (column == 0) item->setToolTip(cells[column]);
+  }
+}
+
+// A table without rows is not there, nor is its title.
+void fill(QTableWidget* table, QLabel* title, const std::vector<QStringList>& lines) {
+  const auto count = static_cast<int>(lines.size());
+  if (table->rowCount() != count) {
+    table->setRowCount(count);
+    table->updateGeometry();
+  }
+  for (int row = 0; row < count; ++row) fill_row(table, row, lines[static_cast<std::size_t>(row)]);
+  title->setVisible(count > 0);
+  table->setVisible(count > 0);
+}
+
+}  // namespace
+
+StatisticsPanel::StatisticsPanel(QWidget* parent) : Panel(tr("Open a study to measure in it."), parent) {
+  add(make_surface());
+  add(make_tables());
+  add(make_buttons());
+}
+
+StatisticsPanel::~StatisticsPanel() {
+  if (writing_) writing_->abandon();
+}
+
+QWidget* StatisticsPanel::make_surface() {
+  auto* part = new QWidget;
+  Form form(part);
+  form.heading(tr("Surface"));
+  volume_ = form.figure(tr("Volume"), tr("Inside the surface, at sub-voxel precision."));
+  area_ = form.figure(tr("Area"), tr("Of the surface, without the study's own border."));
+  voxels_ = form.figure(tr("Voxels"), tr("Voxels whose centre is inside."));
+  mean_ = form.figure(tr("Mean"), tr("Of the study's values inside; measured when the surface rests."));
+  deviation_ = form.figure(tr("SD"), tr("Standard deviation of the study's values inside; measured when the "
+                                        "surface rests."));
+  return part;
+}
+
+QWidget* StatisticsPanel::make_tables() {
+  auto* part = new QWidget;
+  Form form(part);
+  labels_title_ = form.heading(tr("Labels"));
+  labels_ = make_table({tr("Label"), tr("ml"), tr("Mean"), tr("SD")}, tr("Figures of the labels"));
+  form.wide(labels_);
+  measurements_title_ = form.heading(tr("Measurements"));
+  measured_ = make_table({tr("Kind"), tr("Value")}, tr("Measurements"));
+  form.wide(measured_);
+  return part;
+}
+
+QWidget* StatisticsPanel::make_buttons() {
+  auto* part = new QWidget;
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(kSpace);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(kSpace);
+  auto* copy_button = new QPushButton(icon(u"duplicate"), tr("Copy"));
+  copy_button->setToolTip(tr("All figures as text, for a spreadsheet or a report."));
+  auto* export_button = new QPushButton(icon(u"export"), tr("Export CSV …"));
+  export_button->setToolTip(tr("All figures as a file of comma-separated values."));
+  row->addWidget(copy_button);
+  row->addWidget(export_button);
+  message_ = make_note({});
+  message_->hide();
+  column->addLayout(row);
+  column->addWidget(message_);
+  connect(copy_button, &QPushButton::clicked, this, &StatisticsPanel::copy);
+  connect(export_button, &QPushButton::clicked, this, &StatisticsPanel::choose_file);
+  return part;
+}
+
+void StatisticsPanel::show_measurements(const std::vector<Measurement>& measurements) {
+  std::vector<QStringList> lines;
+  for (const Measurement& measurement : measurements) {
+    if (!measurement.complete()) continue;
+    lines.push_back(
+        {kind_text(measurement.kind), number_text(measurement.value(), 1, unit_text(measurement.kind))});
+  }
+  fill(measured_, measurements_title_, lines);
+}
+
+void StatisticsPanel::copy() const {
+  if (!session()) return;
+  QGuiApplication::clipboard()->setText(to_text(region_rows(session()->state()),
+                                                session()->display().settings().measurements,
+                                                value_unit(session()->volume())));
+}
+
+void StatisticsPanel::choose_file() {
+  if (!session()) return;
+  auto* dialog = new QFileDialog(this, tr("Export figures"), session()->name() + QStringLiteral(".csv"),
+                                 tr("Comma-separated values (*.csv)"));
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setAcceptMode(QFileDialog::AcceptSave);
+  dialog->setDefaultSuffix(QStringLiteral("csv"));
+  connect(dialog, &QFileDialog::fileSelected, this,
+          [this](const QString& file) { export_csv(file.toStdU16String()); });
+  dialog->open();
+}
+
+void StatisticsPanel::export_csv(const std::filesystem::path& file) {
+  if (!session()) return;
+  const std::string csv =
+      to_csv(region_rows(session()->state()), session()->display().settings().measurements,
+             value_unit(session()->volume()));
+  const QString name = QString::fromStdU16String(file.filename().u16string());
+  if (writing_) writing_->abandon();
+  writing_ = BackgroundJob::start(this, [this, file, csv, name](BackgroundJob& job) {
+    const Status written = write_file(file, csv);
+    const QString outcome =
+        written ? tr("Written: %1").arg(name) : QString::fromStdString(written.error().message);
+    job.deliver([this, outcome] { say(outcome); });
+  });
+}
+
+void StatisticsPanel::say(const QString& message) {
+  message_->setText(message);
+  message_->setVisible(!message.isEmpty());
+}
+
+void StatisticsPanel::attach() {
+  Panel::attach();
+  say({});
+  if (session()) return;
+  show_surface({});
+  show_labels({});
+  show_measurements({});
+}
+
+void StatisticsPanel::show_surface(const std::vector<RegionRow>& rows) {
+  const bool there = !rows.empty() && rows.front().area_mm2.has_value();
+  const bool measured = there && rows.front().values.has_value();
+  const QString unit = session() ? value_unit(session()->volume()) : QString();
+  volume_->setText(there ? number_text(rows.front().volume_ml, 2, tr("ml")) : kNothing);
+  area_->setText(there ? number_text(*rows.front().area_mm2, 0, tr("mm²")) : kNothing);
+  voxels_->setText(there ? count_text(rows.front().voxels) : kNothing);
+  mean_->setText(measured ? number_text(rows.front().values->mean, 1, unit) : kNothing);
+  deviation_->setText(measured ? number_text(rows.front().values->standard_deviation, 1, unit) : kNothing);
+}
+
+void StatisticsPanel::show_labels(const std::vector<RegionRow>& rows) {
+  std::vector<QStringList> lines;
+  for (const RegionRow& row : rows) {
+    if (row.area_mm2) continue;
+    lines.push_back({row.name, number_text(row.volume_ml, 1),
+                     row.values ? number_text(row.values->mean, 1) : kNothing,
+                     row.values ? number_text(row.values->standard_deviation, 1) : kNothing});
+  }
+  fill(labels_, labels_title_, lines);
+}
+
+void StatisticsPanel::refresh() {
+  const auto rows = region_rows(session()->state());
+  show_surface(rows);
+  show_labels(rows);
+  show_measurements(session()->display().settings().measurements);
+}
+
+}  // namespace tidemark

@@ -1,0 +1,37 @@
+// How the 3D view looks: surface and source.
+#pragma once
+
+#include "ui/panels/session_widget.h"
+
+class QCheckBox;
+class QComboBox;
+
+namespace tidemark {
+
+class ColourButton;
+class Form;
+class SliderNumber;
+
+class SurfaceControls : public SessionWidget {
+  Q_OBJECT
+ public:
+  explicit SurfaceControls(QWidget* parent = nullptr);
+
+ protected:
+  void refresh() override;
+
+ private:
+  void add_surface(Form& form);
+  void add_source(Form& form);
+
+  QComboBox* mode_;
+  QCheckBox* surface_;
+  QComboBox* colouring_;
+  ColourButton* colour_;
+  SliderNumber* opacity_;
+  SliderNumber* occlusion_;
+  QCheckBox* source_;
+  QComboBox* region_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,31 @@
+// Window and level: which values are black, and which white.
+#pragma once
+
+#include <vector>
+
+#include "ui/panels/session_widget.h"
+#include "ui/panels/window_presets.h"
+
+class QComboBox;
+
+namespace tidemark {
+
+class SliderNumber;
+
+class WindowControls : public SessionWidget {
+  Q_OBJECT
+ public:
+  explicit WindowControls(QWidget* parent = nullptr);
+
+ protected:
+  void attach() override;
+  void refresh() override;
+
+ private:
+  SliderNumber* width_;
+  SliderNumber* level_;
+  QComboBox* preset_;
+  std::vector<WindowPreset> presets_;
+};
+
+}  // namespace tidemark

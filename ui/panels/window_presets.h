@@ -1,0 +1,20 @@
+// Windows that radiologists know by name.
+#pragma once
+
+#include <QString>
+#include <vector>
+
+#include "core/volume.h"
+#include "session/source_summary.h"
+
+namespace tidemark {
+
+struct WindowPreset {
+  QString name;
+  WindowLevel window;
+};
+
+// For CT those of its tissues; for all the file's own, if there is one, and the full range of values.
+std::vector<WindowPreset> window_presets(const Volume& volume, const SourceSummary& summary);
+
+}  // namespace tidemark

@@ -1,0 +1,97 @@
+#include "ui/widgets/form.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QLabel>
+
+#include "ui/look/theme.h"
+#include "ui/widgets/slider_number.h"
+#include "ui/widgets/wheel_guard.h"
+
+namespace tidemark {
+
+QLabel* make_note(const QString& text) {
+  auto* note = new QLabel(text);
+  note->setWordWrap(true);
+  note->setTextFormat(Qt::PlainText);
+  note->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  // A long word must not make the panel wider.
+  note->setMinimumWidth(1);
+  return note;
+}
+
+Form::Form(QWidget* on) : layout_(new QFormLayout(on)) {
+  layout_->setContentsMargins(0, 0, 0, 0);
+  layout_->setHorizontalSpacing(kSpace);
+  layout_->setVerticalSpacing(kSpaceTight + 2);
+  layout_->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
+  layout_->setLabelAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+}
+
+QLabel* Form::heading(const QString& text) {
+  auto* label = new QLabel(text);
+  QFont font = label->font();
+  font.setBold(true);
+  label->setFont(font);
+  label->setContentsMargins(0, layout_->rowCount() == 0 ? 0 : kSpaceGroups - kSpaceTight, 0, 0);
+  layout_->addRow(label);
+  return label;
+}
+
+void Form::row(const QString& label, QWidget* widget, const QString& tip) {
+  auto* text = new QLabel(label);
+  text->setBuddy(widget);
+  text->setToolTip(tip);
+  widget->setToolTip(tip);
+  widget->setAccessibleName(label);
+  layout_->addRow(text, widget);
+}
+
+void Form::wide(QWidget* widget) {
+  layout_->addRow(widget);
+}
+
+void Form::wide(QLayout* layout) {
+  layout_->addRow(layout);
+}
+
+QLabel* Form::note(const QString& text) {
+  auto* note = make_note(text);
+  layout_->addRow(note);
+  return note;
+}
+
+QLabel* Form::figure(const QString& label, const QString& tip) {
+  auto* figure = new QLabel;
+  figure->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  figure->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  figure->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  row(label, figure, tip);
+  return figure;
+}
+
+SliderNumber* Form::slider(const QString& label, const QString& tip) {
+  auto* slider = new SliderNumber;
+  row(label, slider, tip);
+  slider->set_name(label, tip);
+  return slider;
+}
+
+QCheckBox* Form::check(const QString& text, const QString& tip) {
+  auto* check = new QCheckBox(text);
+  check->setToolTip(tip);
+  layout_->addRow(check);
+  return check;
+}
+
+QComboBox* Form::choice(const QString& label, const QString& tip) {
+  auto* choice = new QComboBox;
+  choice->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  choice->setMinimumContentsLength(6);
+  choice->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  guard_wheel(choice);
+  row(label, choice, tip);
+  return choice;
+}
+
+}  // namespace tidemark

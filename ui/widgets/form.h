@@ -1,0 +1,43 @@
+// The shape of a panel: headings, and rows with a label on the left.
+#pragma once
+
+#include <QFormLayout>
+#include <QString>
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QToolButton;
+
+namespace tidemark {
+
+class SliderNumber;
+
+// Builds one column of rows; all labels of a panel share a column when they share a form.
+class Form {
+ public:
+  explicit Form(QWidget* on);
+
+  QLabel* heading(const QString& text);
+  // The label's text is the widget's accessible name.
+  void row(const QString& label, QWidget* widget, const QString& tip);
+  void wide(QWidget* widget);
+  void wide(QLayout* layout);
+  // Words of explanation across the panel.
+  QLabel* note(const QString& text);
+  // A number to be read, at the right.
+  QLabel* figure(const QString& label, const QString& tip);
+  SliderNumber* slider(const QString& label, const QString& tip);
+  QCheckBox* check(const QString& text, const QString& tip);
+  QComboBox* choice(const QString& label, const QString& tip);
+
+  [[nodiscard]] QFormLayout* layout() const { return layout_; }
+
+ private:
+  QFormLayout* layout_;
+};
+
+// A label that wraps and whose text can be copied.
+QLabel* make_note(const QString& text);
+
+}  // namespace tidemark

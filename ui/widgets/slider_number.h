@@ -1,0 +1,59 @@
+// A number that can be dragged, typed, and stepped by keys.
+#pragma once
+
+#include <QElapsedTimer>
+#include <QWidget>
+#include <algorithm>
+#include <cstdint>
+
+class QDoubleSpinBox;
+class QSlider;
+
+namespace tidemark {
+
+// A slider and a spin box side by side, always of the same value.
+class SliderNumber : public QWidget {
+  Q_OBJECT
+ public:
+  enum class Scale { linear, logarithmic };
+  explicit SliderNumber(QWidget* parent = nullptr);
+
+  // What the slider spans from its left to its right end (low may be the greater one); a number outside can
+  // be typed as long as it is within [least, most]. A logarithmic scale needs numbers > 0.
+  void set_range(double low, double high, double least, double most, Scale scale = Scale::linear);
+  void set_range(double low, double high, Scale scale = Scale::linear) {
+    set_range(low, high, std::min(low, high), std::max(low, high), scale);
+  }
+  void set_decimals(int decimals);  // and a step of one in the last place
+  void set_step(double step);       // of the arrows
+  void set_unit(const QString& unit);
+  void set_value(double value);  // without a signal; left alone while the user types
+  [[nodiscard]] double value() const;
+
+  void set_name(const QString& name, const QString& tip);  // for those who hear it, and those who hover
+  [[nodiscard]] QSlider* slider() const { return slider_; }
+  [[nodiscard]] QDoubleSpinBox* number() const { return number_; }
+
+ signals:
+  // By the user. One drag of the slider is one gesture (CaseSession::new_gesture()), and so are keys that
+  // follow each other quickly.
+  void edited(double value, std::uint64_t gesture);
+
+ private:
+  void slider_moved();
+  void number_changed(double value);
+  void announce();
+  void begin_gesture();
+  void show_in_slider(double value);
+  [[nodiscard]] double value_at(int position) const;
+
+  QSlider* slider_;
+  QDoubleSpinBox* number_;
+  double low_ = 0.0;
+  double high_ = 1.0;
+  Scale scale_ = Scale::linear;
+  std::uint64_t gesture_ = 0;
+  QElapsedTimer since_edit_;
+};
+
+}  // namespace tidemark

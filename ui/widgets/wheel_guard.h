@@ -1,0 +1,11 @@
+// The wheel scrolls a panel; it does not change what the pointer happens to pass over.
+#pragma once
+
+class QWidget;
+
+namespace tidemark {
+
+// The widget takes the wheel only while it has the focus, and does not get the focus from the wheel.
+void guard_wheel(QWidget* widget);
+
+}  // namespace tidemark
