@@ -13,6 +13,7 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
+#include <QVBoxLayout>
 
 #include "ui/look/about_dialog.h"
 #include "ui/look/icons.h"
@@ -30,6 +31,7 @@
 #include "ui/opening/loading_view.h"
 #include "ui/opening/phantom_menu.h"
 #include "ui/opening/recent_studies.h"
+#include "ui/opening/series_browser.h"
 #include "ui/opening/start_page.h"
 #include "ui/opening/study_opener.h"
 #include "ui/views/picture_view.h"

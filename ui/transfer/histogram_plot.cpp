@@ -28,7 +28,7 @@ std::vector<Handle> HistogramPlot::handles_of(const AxisPrimitive& primitive) co
   return curve_handles(primitive, shown_x());
 }
 
-PlotAxis HistogramPlot::fitted_y() const {
+TransferAxis HistogramPlot::fitted_y() const {
   double most = 0.0;
   for (const AxisPrimitive& primitive : primitives()) most = std::max(most, primitive.opacity);
   double top = 2.0;

@@ -48,7 +48,7 @@ std::vector<Handle> PlanePlot::handles_of(const AxisPrimitive& primitive) const 
   return plane_handles(primitive, shown_x(), shown_y());
 }
 
-PlotAxis PlanePlot::fitted_y() const {
+TransferAxis PlanePlot::fitted_y() const {
   Extent extent{y_.low, y_.high};
   for (const AxisPrimitive& primitive : primitives()) include(extent, primitive.factors[1]);
   return {extent.low, std::max(extent.high, extent.low + 1e-6)};

@@ -17,19 +17,19 @@ double round_step(double least) {
 
 }  // namespace
 
-double PlotAxis::to_pixel(double value) const {
+double TransferAxis::to_pixel(double value) const {
   const double share = (value - low) / (high - low);
   const double placed = power == 1.0 ? share : std::copysign(std::pow(std::abs(share), power), share);
   return pixel_low + placed * (pixel_high - pixel_low);
 }
 
-double PlotAxis::to_value(double pixel) const {
+double TransferAxis::to_value(double pixel) const {
   const double placed = (pixel - pixel_low) / (pixel_high - pixel_low);
   const double share = power == 1.0 ? placed : std::copysign(std::pow(std::abs(placed), 1.0 / power), placed);
   return low + share * (high - low);
 }
 
-std::vector<double> ticks(const PlotAxis& axis, double pixels) {
+std::vector<double> ticks(const TransferAxis& axis, double pixels) {
   const double room = std::abs(axis.pixel_high - axis.pixel_low);
   std::vector<double> values;
   if (!(axis.extent() > 0.0) || room < pixels) return values;

@@ -5,7 +5,7 @@
 
 namespace tidemark {
 
-struct PlotAxis {
+struct TransferAxis {
   double low = 0.0;
   double high = 1.0;
   // Pixels are linear in (value - low)^power; below 1 it gives small values more room.
@@ -19,6 +19,6 @@ struct PlotAxis {
 };
 
 // Round values within the axis, at least `pixels` from each other.
-std::vector<double> ticks(const PlotAxis& axis, double pixels);
+std::vector<double> ticks(const TransferAxis& axis, double pixels);
 
 }  // namespace tidemark

@@ -57,7 +57,7 @@ PlotMargins plot_margins(const QFontMetrics& metrics) {
           static_cast<int>(kTick + kGap) + 2 * metrics.height() + 2};
 }
 
-void draw_bottom_axis(QPainter& painter, const QRectF& area, const PlotAxis& axis, const QString& title,
+void draw_bottom_axis(QPainter& painter, const QRectF& area, const TransferAxis& axis, const QString& title,
                       const QColor& colour) {
   painter.setPen(QPen(colour, 1.0));
   const QFontMetricsF metrics(painter.font());
@@ -73,7 +73,7 @@ void draw_bottom_axis(QPainter& painter, const QRectF& area, const PlotAxis& axi
   painter.drawText(line, Qt::AlignCenter, title);
 }
 
-void draw_left_axis(QPainter& painter, const QRectF& area, const PlotAxis& axis, const QString& title,
+void draw_left_axis(QPainter& painter, const QRectF& area, const TransferAxis& axis, const QString& title,
                     const QColor& colour) {
   painter.setPen(QPen(colour, 1.0));
   const QFontMetricsF metrics(painter.font());

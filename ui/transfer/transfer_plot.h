@@ -20,8 +20,8 @@ class TransferPlot : public QWidget {
   void set_primitives(const std::vector<AxisPrimitive>& primitives, int chosen);
   void reset_zoom();
 
-  [[nodiscard]] const PlotAxis& x_axis() const { return x_axis_; }
-  [[nodiscard]] const PlotAxis& y_axis() const { return y_axis_; }
+  [[nodiscard]] const TransferAxis& x_axis() const { return x_axis_; }
+  [[nodiscard]] const TransferAxis& y_axis() const { return y_axis_; }
   // Of the chosen primitive.
   [[nodiscard]] std::vector<Handle> handles() const;
   [[nodiscard]] std::optional<HandleKind> selected_handle() const { return selected_; }
@@ -44,7 +44,7 @@ class TransferPlot : public QWidget {
   [[nodiscard]] virtual std::optional<double> distance(const AxisPrimitive& primitive,
                                                        QPointF pointer) const = 0;
   // What the second axis shows, given all primitives.
-  [[nodiscard]] virtual PlotAxis fitted_y() const = 0;
+  [[nodiscard]] virtual TransferAxis fitted_y() const = 0;
   virtual void paint_background(QPainter& painter) = 0;
   virtual void paint_primitive(QPainter& painter, const AxisPrimitive& primitive, int number,
                                bool chosen) = 0;
@@ -96,8 +96,8 @@ class TransferPlot : public QWidget {
   void zoom(double factor, double about);
   void show_cursor(QPointF pointer);
 
-  PlotAxis x_axis_;
-  PlotAxis y_axis_;
+  TransferAxis x_axis_;
+  TransferAxis y_axis_;
   std::vector<AxisPrimitive> primitives_;
   int chosen_ = 0;
   std::optional<HandleKind> selected_;  // of the chosen primitive: what keys move

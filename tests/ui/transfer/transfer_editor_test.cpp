@@ -184,7 +184,7 @@ class TransferEditorTest : public QObject {
     });
     TransferPlot& plot = *f.editor.surface_page()->shown_plot();
     const HandleKind start{Grip::none, Grip::start, false};
-    const PlotAxis y = plot.y_axis();
+    const TransferAxis y = plot.y_axis();
     const QPoint from = f.at(start);
     f.drag(plot, from, from + QPoint(0, -20));
     QVERIFY(std::abs(f.function().surface[0].distance.start - y.to_value(y.to_pixel(25.0) - 20.0)) < 1e-6);

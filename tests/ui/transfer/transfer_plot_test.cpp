@@ -12,7 +12,7 @@ class TransferPlotTest : public QObject {
     EditorFixture f;
     QVERIFY(f.is_shown());
     const QPoint from = f.at(kCentre);
-    const PlotAxis axis = f.plot().x_axis();
+    const TransferAxis axis = f.plot().x_axis();
     f.drag(f.plot(), from, from + QPoint(40, 0));
     QVERIFY(std::abs(f.function().source[0].value.start -
                      40.0 * axis.extent() / (axis.pixel_high - axis.pixel_low)) < 1e-6);
@@ -36,12 +36,12 @@ class TransferPlotTest : public QObject {
   void the_side_sets_the_width_and_the_peak_the_opacity() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    const PlotAxis x = f.plot().x_axis();
+    const TransferAxis x = f.plot().x_axis();
     QPoint from = f.at(kAbove);
     f.drag(f.plot(), from, from + QPoint(-20, 7));
     QVERIFY(std::abs(f.function().source[0].value.end -
                      (200.0 - 20.0 * x.extent() / (x.pixel_high - x.pixel_low))) < 1e-6);
-    const PlotAxis y = f.plot().y_axis();
+    const TransferAxis y = f.plot().y_axis();
     from = f.at(kOpacity);
     f.drag(f.plot(), from, from + QPoint(11, -30));
     QVERIFY(std::abs(f.function().source[0].opacity - y.to_value(y.to_pixel(0.25) - 30.0)) < 1e-6);
@@ -80,8 +80,8 @@ class TransferPlotTest : public QObject {
   void a_click_on_a_curve_chooses_it_and_a_drag_moves_it() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    const PlotAxis x = f.plot().x_axis();
-    const PlotAxis y = f.plot().y_axis();
+    const TransferAxis x = f.plot().x_axis();
+    const TransferAxis y = f.plot().y_axis();
     const QPoint on_ramp(static_cast<int>(x.to_pixel(650.0)), static_cast<int>(y.to_pixel(0.4)));
     const TransferFunction before = f.function();
     QTest::mouseClick(&f.plot(), Qt::LeftButton, {}, on_ramp);
@@ -200,8 +200,8 @@ class TransferPlotTest : public QObject {
       if (button->text().contains("gradient")) QTest::mouseClick(button, Qt::LeftButton);
     }
     const HandleKind middle{Grip::whole, Grip::whole, false};
-    const PlotAxis x = f.plot().x_axis();
-    const PlotAxis y = f.plot().y_axis();
+    const TransferAxis x = f.plot().x_axis();
+    const TransferAxis y = f.plot().y_axis();
     const QPoint from = f.at(middle);
     QVERIFY(from.x() > 0);
     f.drag(f.plot(), from, from + QPoint(-24, 16));
@@ -216,7 +216,7 @@ class TransferPlotTest : public QObject {
   void ctrl_and_wheel_zoom_about_the_pointer() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    const PlotAxis before = f.plot().x_axis();
+    const TransferAxis before = f.plot().x_axis();
     const QPointF at(before.to_pixel(100.0), 60.0);
     const auto wheel = [&](Qt::KeyboardModifiers keys) {
       QWheelEvent event(at, f.plot().mapToGlobal(at), {}, {0, 240}, Qt::NoButton, keys, Qt::NoScrollPhase,
