@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QSignalSpy>
 #include <QToolButton>
 
 #include "tests/ui/panels/panel_case.h"

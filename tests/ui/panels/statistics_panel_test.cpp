@@ -148,7 +148,7 @@ class StatisticsPanelTest : public QObject {
   }
   QStringList exported() {
     panel_->export_csv(folder_ / "figures.csv");
-    QTest::qWaitFor([&] { return said(QStringLiteral("figures.csv")); });
+    if (!QTest::qWaitFor([&] { return said(QStringLiteral("figures.csv")); })) return {};
     QFile file(path("figures.csv"));
     if (!file.open(QIODevice::ReadOnly)) return {};
     return QString::fromUtf8(file.readAll()).split(QStringLiteral("\r\n"));
