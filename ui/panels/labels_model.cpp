@@ -99,11 +99,11 @@ bool LabelsModel::setData(const QModelIndex& index, const QVariant& value, int r
   return true;
 }
 
-void LabelsModel::set_colour(int row, const QColor& colour) {
+void LabelsModel::set_colour(int row, const QColor& chosen) {
   if (!label(row)) return;
-  labels_[static_cast<std::size_t>(row)].colour = {static_cast<std::uint8_t>(colour.red()),
-                                                   static_cast<std::uint8_t>(colour.green()),
-                                                   static_cast<std::uint8_t>(colour.blue())};
+  labels_[static_cast<std::size_t>(row)].colour = {static_cast<std::uint8_t>(chosen.red()),
+                                                   static_cast<std::uint8_t>(chosen.green()),
+                                                   static_cast<std::uint8_t>(chosen.blue())};
   announce(row);
 }
 

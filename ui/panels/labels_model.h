@@ -17,7 +17,7 @@ class LabelsModel : public QAbstractTableModel {
   // Rows keep what was edited here until the case has another list.
   void show(const std::vector<Label>& labels, const std::vector<RegionStatistics>& statistics);
   [[nodiscard]] const Label* label(int row) const;  // null: there is no such row
-  void set_colour(int row, const QColor& colour);
+  void set_colour(int row, const QColor& chosen);
 
   [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
   [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;

@@ -148,14 +148,14 @@ void LabelsPanel::attach() {
 void LabelsPanel::refresh() {
   const CaseState& state = session()->state();
   const int before = model_->rowCount();
-  const std::optional<std::uint8_t> was = chosen() ? std::optional<std::uint8_t>(chosen()->id) : std::nullopt;
+  const int was = chosen() ? chosen()->id : 0;  // 0: none
   model_->show(state.labels, state.label_statistics);
   const int rows = model_->rowCount();
   if (rows != before) {
     // A reset forgets what was chosen.
     int row = rows - 1;
-    for (int other = 0; was && other < rows && !(choose_new_ && rows > before); ++other) {
-      if (model_->label(other)->id == *was) row = other;
+    for (int other = 0; other < rows && !(choose_new_ && rows > before); ++other) {
+      if (model_->label(other)->id == was) row = other;
     }
     if (row >= 0) table_->selectRow(row);
     choose_new_ = false;

@@ -1,8 +1,6 @@
 // What was segmented so far.
 #pragma once
 
-#include <optional>
-
 #include "ui/panels/panel.h"
 
 class QModelIndex;

@@ -10,8 +10,8 @@ void SessionWidget::set_session(CaseSession* session) {
   }
   session_ = session;
   if (session) {
-    connect(session, &CaseSession::state_changed, this, &SessionWidget::changed);
-    connect(&session->display(), &Display::changed, this, &SessionWidget::changed);
+    connect(session, &CaseSession::state_changed, this, &SessionWidget::follow);
+    connect(&session->display(), &Display::changed, this, &SessionWidget::follow);
     connect(session, &QObject::destroyed, this, &SessionWidget::forget);
   }
   attach();
@@ -23,7 +23,7 @@ void SessionWidget::showEvent(QShowEvent* event) {
   if (session_) refresh();
 }
 
-void SessionWidget::changed() {
+void SessionWidget::follow() {
   if (isVisible()) refresh();
 }
 

@@ -32,7 +32,7 @@ class SessionWidget : public QWidget {
   }
 
  private:
-  void changed();
+  void follow();
   void forget();
   QPointer<CaseSession> session_;
 };

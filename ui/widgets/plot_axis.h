@@ -1,9 +1,6 @@
 // From values to pixels.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 namespace tidemark {
 
 struct PlotAxis {
@@ -16,15 +13,5 @@ struct PlotAxis {
   [[nodiscard]] double value(double pixel) const { return low + (pixel - from) / (to - from) * (high - low); }
   [[nodiscard]] bool holds(double value) const { return value >= low && value <= high; }
 };
-
-// The step of a scale with at most `most` marks on a span: 1, 2 or 5 times a power of ten.
-inline double scale_step(double span, int most) {
-  const double rough = span / std::max(most, 1);
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= rough) return factor * power;
-  }
-  return 10.0 * power;
-}
 
 }  // namespace tidemark

@@ -1,0 +1,228 @@
+#include "ui/panels/initialise_panel.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QToolButton>
+
+#include "imaging/files/volume_file.h"
+#include "tests/ui/panels/panel_case.h"
+
+namespace tidemark {
+
+using namespace test;
+
+class InitialisePanelTest : public QObject {
+  Q_OBJECT
+ private slots:
+  void init() {
+    the_case_ = std::make_unique<PanelCase>();
+    panel_ = std::make_unique<InitialisePanel>();
+    panel_->set_session(the_case_->session.get());
+    panel_->resize(300, 700);
+    show(*panel_);
+  }
+  void cleanup() {
+    panel_.reset();
+    the_case_.reset();
+  }
+
+  void a_sphere_by_numbers_lies_around_the_crosshair() {
+    choose(tr("Spheres"));
+    type(tr("Radius"), "8");
+    QVERIFY(says(QLocale().toString(8.0, 'f', 1)));
+    start();
+    const double ml = 4.0 / 3.0 * M_PI * 512.0 / 1000.0;
+    QVERIFY(std::abs(the_case_->state().surface.volume_ml - ml) < 0.05 * ml);
+  }
+
+  void the_tool_that_draws_spheres_is_chosen_here_and_shown_when_chosen_elsewhere() {
+    choose(tr("Spheres"));
+    auto* draw = button<QToolButton>(*panel_, tr("Draw in a view"));
+    QTest::mouseClick(draw, Qt::LeftButton);
+    QCOMPARE(the_case_->session->display().settings().tool, Tool::seed);
+    the_case_->session->display().choose_tool(Tool::window);
+    QVERIFY(!draw->isChecked());
+    the_case_->session->display().choose_tool(Tool::seed);
+    QVERIFY(draw->isChecked());
+  }
+
+  void a_threshold_starts_with_as_many_voxels_as_it_says() {
+    choose(tr("Threshold"));
+    type(tr("From"), "60");
+    type(tr("To"), "105");
+    const double share = 100.0 * ball_ml() / study_ml();
+    QVERIFY2(says(QLocale().toString(share, 'f', 0) + QChar(QChar::Nbsp) + '%'), qPrintable(sentence()));
+    start();
+    QVERIFY(std::abs(the_case_->state().surface.volume_ml - ball_ml()) < 0.08 * ball_ml());
+  }
+
+  void limits_in_the_wrong_order_cannot_start() {
+    choose(tr("Threshold"));
+    type(tr("From"), "90");
+    type(tr("To"), "10");
+    QVERIFY(!start_button()->isEnabled());
+  }
+
+  void a_flood_begins_at_the_crosshair_and_says_when_it_cannot() {
+    choose(tr("Flood fill"));
+    type(tr("From"), "60");
+    type(tr("To"), "105");
+    QVERIFY(start_button()->isEnabled());
+    start();
+    QVERIFY(std::abs(the_case_->state().surface.volume_ml - ball_ml()) < 0.08 * ball_ml());
+    the_case_->session->display().change(
+        [](DisplaySettings& settings) { settings.cursor_mm = glm::dvec3(1.0); });
+    QVERIFY(!start_button()->isEnabled());
+    QVERIFY(says(tr("The value at the crosshair is not")));
+    the_case_->session->display().change(
+        [](DisplaySettings& settings) { settings.cursor_mm = glm::dvec3(-500.0); });
+    QVERIFY(says(tr("outside the study")));
+  }
+
+  void a_mask_file_is_read_away_from_the_interface() {
+    Mask mask{the_case_->session->volume().geometry, {}};
+    mask.voxels.assign(static_cast<std::size_t>(mask.geometry.voxel_count()), 0);
+    for (std::int64_t k = 8; k < 14; ++k) {
+      for (std::int64_t j = 10; j < 30; ++j) {
+        for (std::int64_t i = 10; i < 20; ++i)
+          mask.voxels[static_cast<std::size_t>(mask.geometry.offset({i, j, k}))] = 1;
+      }
+    }
+    QCOMPARE(failure(write_mask_file(mask, folder_ / "box.nii.gz")), QString());
+    choose(tr("Mask file"));
+    QVERIFY(!start_button()->isEnabled());
+    type_path("box.nii.gz");
+    QVERIFY(says("box.nii.gz"));
+    QTest::mouseClick(start_button(), Qt::LeftButton);
+    QVERIFY(!start_button()->isEnabled());  // while it is read
+    QTRY_VERIFY(the_case_->state().begun);
+    the_case_->settle();
+    QCOMPARE(the_case_->state().surface.voxels_inside, mask.count());
+    QVERIFY(start_button()->isEnabled());
+  }
+
+  void a_mask_of_another_grid_is_refused_with_the_reason() {
+    Geometry other = the_case_->session->volume().geometry;
+    other.size.x -= 1;
+    Mask mask{other, std::vector<std::uint8_t>(static_cast<std::size_t>(other.voxel_count()), 1)};
+    QCOMPARE(failure(write_mask_file(mask, folder_ / "other.nii.gz")), QString());
+    choose(tr("Mask file"));
+    type_path("other.nii.gz");
+    QTest::mouseClick(start_button(), Qt::LeftButton);
+    QTRY_VERIFY(says("other.nii.gz: its grid"));
+    QVERIFY(!the_case_->state().begun);
+  }
+
+  void a_saved_level_set_goes_on() {
+    the_case_->begin(7.0);
+    const double before = the_case_->state().surface.volume_ml;
+    QCOMPARE(failure(write_volume_file(the_case_->state().phi->to_volume(), folder_ / "phi.nrrd")),
+             QString());
+    the_case_->begin(4.0);
+    choose(tr("Saved level set"));
+    type_path("phi.nrrd");
+    QTest::mouseClick(start_button(), Qt::LeftButton);
+    QTRY_VERIFY(std::abs(the_case_->state().surface.volume_ml - before) < 1e-6);
+  }
+
+  void a_label_can_be_gone_on_with() {
+    choose(tr("Label"));
+    QVERIFY(!start_button()->isEnabled());
+    the_case_->begin(7.0);
+    the_case_->session->add_label(QStringLiteral("Liver"));
+    the_case_->settle();
+    the_case_->session->accept_surface(the_case_->state().labels.front().id);
+    const auto voxels = the_case_->state().surface.voxels_inside;
+    the_case_->begin(3.0);
+    QVERIFY(says(QStringLiteral("Liver")));
+    start();
+    QCOMPARE(the_case_->state().surface.voxels_inside, voxels);
+  }
+
+  void smoothing_is_said_and_can_be_taken_back() {
+    auto* apply = button<QPushButton>(*panel_, tr("Smooth"));
+    QVERIFY(!apply->isEnabled());
+    type(tr("Smoothing σ"), "1.5");
+    QTest::mouseClick(apply, Qt::LeftButton);
+    the_case_->settle();
+    QCOMPARE(the_case_->state().smoothed_mm, 1.5);
+    QVERIFY(says(QLocale().toString(1.5, 'f', 2)));
+    type(tr("Smoothing σ"), "0");
+    QTest::mouseClick(apply, Qt::LeftButton);
+    the_case_->settle();
+    QCOMPARE(the_case_->state().smoothed_mm, 0.0);
+  }
+
+  void a_session_may_die_while_a_file_is_read() {
+    Mask mask{the_case_->session->volume().geometry, {}};
+    mask.voxels.assign(static_cast<std::size_t>(mask.geometry.voxel_count()), 1);
+    QCOMPARE(failure(write_mask_file(mask, folder_ / "all.nii.gz")), QString());
+    choose(tr("Mask file"));
+    type_path("all.nii.gz");
+    QTest::mouseClick(start_button(), Qt::LeftButton);
+    the_case_->session.reset();
+    QTest::qWait(200);
+    QVERIFY(!start_button()->isEnabled());
+    QVERIFY(says(tr("Open a study to")));
+  }
+
+ private:
+  void choose(const QString& method) {
+    auto* from = named<QComboBox>(*panel_, tr("Begin with"));
+    const int index = from->findText(method);
+    QVERIFY(index >= 0);
+    from->setCurrentIndex(index);
+  }
+  // The number of that name that is seen.
+  void type(const QString& name, const char* text) {
+    for (auto* number : panel_->findChildren<QDoubleSpinBox*>()) {
+      if (number->accessibleName() != name || !number->isVisible()) continue;
+      number->setFocus();
+      number->selectAll();
+      QTest::keyClicks(number, text);
+      QTest::keyClick(number, Qt::Key_Return);
+      return;
+    }
+    QFAIL(qPrintable(name));
+  }
+  void type_path(const std::string& name) {
+    for (auto* path : panel_->findChildren<QLineEdit*>()) {
+      if (path->accessibleName() == tr("File") && path->isVisible()) {
+        path->setText(QString::fromStdString((folder_ / name).string()));
+      }
+    }
+  }
+  QPushButton* start_button() { return button<QPushButton>(*panel_, tr("Start")); }
+  void start() {
+    QVERIFY(start_button()->isEnabled());
+    QTest::mouseClick(start_button(), Qt::LeftButton);
+    the_case_->settle();
+    QVERIFY(the_case_->state().begun);
+  }
+  // All texts that are seen.
+  QString sentence() {
+    QString all;
+    for (auto* label : panel_->findChildren<QLabel*>()) {
+      if (label->isVisible()) all += label->text() + '\n';
+    }
+    return all;
+  }
+  bool says(const QString& text) { return sentence().contains(text); }
+  double study_ml() {
+    const Geometry& geometry = the_case_->session->volume().geometry;
+    return static_cast<double>(geometry.voxel_count()) * geometry.voxel_volume_ml();
+  }
+  static double ball_ml() { return 4.0 / 3.0 * M_PI * std::pow(kBallRadius, 3) / 1000.0; }
+
+  TemporaryFolder folder_;
+  std::unique_ptr<PanelCase> the_case_;
+  std::unique_ptr<InitialisePanel> panel_;
+};
+
+}  // namespace tidemark
+
+QTEST_MAIN(tidemark::InitialisePanelTest)
+#include "initialise_panel_test.moc"

@@ -1,0 +1,187 @@
+#include "ui/panels/labels_panel.h"
+
+#include <QColorDialog>
+#include <QDoubleSpinBox>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTableView>
+#include <QToolButton>
+
+#include "tests/ui/panels/panel_case.h"
+#include "ui/panels/labels_model.h"
+
+namespace tidemark {
+
+using namespace test;
+
+class LabelsPanelTest : public QObject {
+  Q_OBJECT
+ private slots:
+  void init() {
+    the_case_ = std::make_unique<PanelCase>();
+    panel_ = std::make_unique<LabelsPanel>();
+    panel_->set_session(the_case_->session.get());
+    panel_->resize(300, 500);
+    show(*panel_);
+  }
+  void cleanup() {
+    panel_.reset();
+    the_case_.reset();
+  }
+
+  void a_new_label_is_the_chosen_one() {
+    add();
+    add();
+    QCOMPARE(the_case_->state().labels.size(), std::size_t{2});
+    QCOMPARE(chosen_row(), 1);
+    QVERIFY(the_case_->state().labels[0].name != the_case_->state().labels[1].name);
+    QVERIFY(the_case_->state().labels[0].colour != the_case_->state().labels[1].colour);
+  }
+
+  void the_surface_is_accepted_into_the_chosen_label() {
+    add();
+    QVERIFY(!button<QPushButton>(*panel_, tr("Accept surface into label"))->isEnabled());  // no surface
+    the_case_->begin(8.0);
+    click(tr("Accept surface into label"));
+    const auto& statistics = the_case_->state().label_statistics;
+    QCOMPARE(statistics.front().voxels, the_case_->state().surface.voxels_inside);
+    const QString shown = text(0, LabelsModel::volume);
+    QCOMPARE(shown, QLocale().toString(statistics.front().volume_ml, 'f', 1));
+    QVERIFY(shown != QLocale().toString(0.0, 'f', 1));
+  }
+
+  void the_level_set_starts_again_from_a_label() {
+    add();
+    the_case_->begin(8.0);
+    click(tr("Accept surface into label"));
+    const auto voxels = the_case_->state().surface.voxels_inside;
+    the_case_->begin(3.0);
+    QVERIFY(the_case_->state().surface.voxels_inside != voxels);
+    click(tr("Start again from label"));
+    QCOMPARE(the_case_->state().surface.voxels_inside, voxels);
+  }
+
+  void a_name_is_edited_in_the_table() {
+    add();
+    auto& table = *panel_->findChild<QTableView*>();
+    table.setCurrentIndex(table.model()->index(0, LabelsModel::name));
+    table.setFocus();
+    QTest::keyClick(&table, Qt::Key_F2);
+    auto* editor = table.viewport()->findChild<QLineEdit*>();
+    QVERIFY(editor);
+    editor->selectAll();
+    QTest::keyClicks(editor, "Left kidney");
+    QTest::keyClick(editor, Qt::Key_Return);
+    the_case_->settle();
+    QCOMPARE(QString::fromStdString(the_case_->state().labels.front().name), QStringLiteral("Left kidney"));
+    QCOMPARE(text(0, LabelsModel::name), QStringLiteral("Left kidney"));
+  }
+
+  void boxes_show_and_lock_a_label_and_a_locked_one_takes_no_surface() {
+    add();
+    the_case_->begin(5.0);
+    auto& table = *panel_->findChild<QTableView*>();
+    tick(table, LabelsModel::visible);
+    tick(table, LabelsModel::locked);
+    the_case_->settle();
+    QVERIFY(!the_case_->state().labels.front().visible);
+    QVERIFY(the_case_->state().labels.front().locked);
+    QVERIFY(!button<QPushButton>(*panel_, tr("Accept surface into label"))->isEnabled());
+  }
+
+  void two_edits_before_the_engine_answers_are_both_kept() {
+    add();
+    auto& model = *panel_->findChild<LabelsModel*>();
+    model.setData(model.index(0, LabelsModel::locked), Qt::Checked, Qt::CheckStateRole);
+    model.setData(model.index(0, LabelsModel::name), QStringLiteral("Spleen"), Qt::EditRole);
+    the_case_->settle();
+    QVERIFY(the_case_->state().labels.front().locked);
+    QCOMPARE(the_case_->state().labels.front().name, std::string("Spleen"));
+  }
+
+  void an_empty_name_is_refused() {
+    add();
+    auto& model = *panel_->findChild<LabelsModel*>();
+    QVERIFY(!model.setData(model.index(0, LabelsModel::name), QStringLiteral("  "), Qt::EditRole));
+  }
+
+  void a_colour_is_chosen_in_a_dialog_that_blocks_nothing() {
+    add();
+    auto& table = *panel_->findChild<QTableView*>();
+    const QModelIndex cell = table.model()->index(0, LabelsModel::colour);
+    QTest::mouseClick(table.viewport(), Qt::LeftButton, {}, table.visualRect(cell).center());
+    auto* dialog = panel_->findChild<QColorDialog*>();
+    QVERIFY(dialog);
+    dialog->setCurrentColor(QColor(10, 200, 30));
+    dialog->accept();
+    the_case_->settle();
+    QCOMPARE(the_case_->state().labels.front().colour, (std::array<std::uint8_t, 3>{10, 200, 30}));
+  }
+
+  void a_removed_label_leaves_the_others_and_one_of_them_chosen() {
+    add();
+    add();
+    const auto kept = the_case_->state().labels.front().id;
+    QTest::mouseClick(button<QToolButton>(*panel_, tr("Remove")), Qt::LeftButton);
+    the_case_->settle();
+    QCOMPARE(the_case_->state().labels.size(), std::size_t{1});
+    QCOMPARE(the_case_->state().labels.front().id, kept);
+    QCOMPARE(chosen_row(), 0);
+  }
+
+  void a_label_added_elsewhere_shows() {
+    the_case_->session->add_label(QStringLiteral("Tumour"));
+    the_case_->settle();
+    QCOMPARE(text(0, LabelsModel::name), QStringLiteral("Tumour"));
+  }
+
+  void opacity_is_that_of_the_slices() {
+    auto* opacity = named<QDoubleSpinBox>(*panel_, tr("Opacity"));
+    opacity->setFocus();
+    opacity->selectAll();
+    QTest::keyClicks(opacity, "75");
+    QTest::keyClick(opacity, Qt::Key_Return);
+    QCOMPARE(the_case_->session->display().settings().label_opacity, 0.75);
+  }
+
+  void without_a_session_the_table_is_empty() {
+    add();
+    the_case_->session.reset();
+    QCOMPARE(panel_->findChild<LabelsModel*>()->rowCount(), 0);
+    QVERIFY(!panel_->findChild<QTableView*>()->isEnabled());
+  }
+
+ private:
+  void add() {
+    QTest::mouseClick(button<QToolButton>(*panel_, tr("Add")), Qt::LeftButton);
+    the_case_->settle();
+  }
+  void click(const QString& text) {
+    auto* one = button<QPushButton>(*panel_, text);
+    QVERIFY(one->isEnabled());
+    QTest::mouseClick(one, Qt::LeftButton);
+    the_case_->settle();
+  }
+  static void tick(QTableView& table, int column) {
+    const QModelIndex cell = table.model()->index(0, column);
+    table.setCurrentIndex(cell);
+    table.setFocus();
+    QTest::keyClick(&table, Qt::Key_Space);
+  }
+  QString text(int row, int column) {
+    const auto& model = *panel_->findChild<LabelsModel*>();
+    return model.data(model.index(row, column), Qt::DisplayRole).toString();
+  }
+  int chosen_row() {
+    const auto rows = panel_->findChild<QTableView*>()->selectionModel()->selectedRows();
+    return rows.isEmpty() ? -1 : rows.first().row();
+  }
+
+  std::unique_ptr<PanelCase> the_case_;
+  std::unique_ptr<LabelsPanel> panel_;
+};
+
+}  // namespace tidemark
+
+QTEST_MAIN(tidemark::LabelsPanelTest)
+#include "labels_panel_test.moc"

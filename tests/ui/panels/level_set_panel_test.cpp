@@ -1,0 +1,276 @@
+#include "ui/panels/level_set_panel.h"
+
+#include <QAction>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSignalSpy>
+#include <QSlider>
+#include <QStandardItemModel>
+#include <QStyle>
+#include <QStyleOptionSlider>
+#include <QToolButton>
+
+#include "tests/ui/panels/panel_case.h"
+#include "ui/panels/curve_plot.h"
+#include "ui/panels/tent_plot.h"
+
+namespace tidemark {
+
+using namespace test;
+
+// The middle of a slider's handle.
+static QPoint handle_of(QSlider& slider) {
+  QStyleOptionSlider option;
+  option.initFrom(&slider);
+  option.orientation = slider.orientation();
+  option.minimum = slider.minimum();
+  option.maximum = slider.maximum();
+  option.sliderPosition = slider.sliderPosition();
+  option.sliderValue = slider.value();
+  option.subControls = QStyle::SC_All;
+  return slider.style()
+      ->subControlRect(QStyle::CC_Slider, &option, QStyle::SC_SliderHandle, &slider)
+      .center();
+}
+
+static void drag(QWidget& widget, QPoint from, QPoint to, int moves = 5) {
+  QTest::mousePress(&widget, Qt::LeftButton, {}, from);
+  for (int move = 1; move <= moves; ++move) QTest::mouseMove(&widget, from + (to - from) * move / moves);
+  QTest::mouseRelease(&widget, Qt::LeftButton, {}, to);
+}
+
+class LevelSetPanelTest : public QObject {
+  Q_OBJECT
+ private slots:
+  void init() {
+    the_case_ = std::make_unique<PanelCase>();
+    panel_ = std::make_unique<LevelSetPanel>();
+    panel_->set_session(the_case_->session.get());
+    panel_->resize(300, 900);
+    show(*panel_);
+  }
+  void cleanup() {
+    panel_.reset();
+    the_case_.reset();
+  }
+
+  void a_slider_dragged_in_mid_run_reaches_the_level_set_and_is_one_entry_of_the_history() {
+    the_case_->begin();
+    CaseSession& session = *the_case_->session;
+    session.set_pause_at_convergence(false);
+    session.play();
+    QTRY_VERIFY(session.state().step > 5);
+    auto* slider = named<QSlider>(*panel_, tr("Target T"));
+    const QPoint handle = handle_of(*slider);
+    drag(*slider, handle, handle - QPoint(30, 0));
+    QVERIFY(session.state().playing);
+    const double wanted = session.parameters().target;
+    QVERIFY2(wanted < 90.0, qPrintable(QString::number(wanted)));
+    QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Target T"))->value(), wanted);
+    QTRY_COMPARE(session.state().parameters.target, wanted);
+    session.pause();
+    the_case_->settle();
+    session.undo();  // the drag, with the steps in between
+    the_case_->settle();
+    if (session.state().parameters.target != 100.0) session.undo();  // steps after it were an entry
+    the_case_->settle();
+    QCOMPARE(session.state().parameters.target, 100.0);
+  }
+
+  void a_typed_range_arrives() {
+    auto* number = named<QDoubleSpinBox>(*panel_, tr("Range ε"));
+    number->setFocus();
+    number->selectAll();
+    QTest::keyClicks(number, "33");
+    QTest::keyClick(number, Qt::Key_Return);
+    the_case_->settle();
+    QCOMPARE(the_case_->state().parameters.range, 33.0);
+    QCOMPARE(panel_->findChild<TentPlot*>()->range(), 33.0);
+  }
+
+  void to_the_right_the_surface_becomes_smoother() {
+    auto* slider = named<QSlider>(*panel_, tr("Smoothness α"));
+    slider->setFocus();
+    const double before = the_case_->session->parameters().alpha;
+    QTest::keyClick(slider, Qt::Key_Right);
+    QVERIFY(the_case_->session->parameters().alpha < before);
+    QTest::keyClick(slider, Qt::Key_End);
+    QCOMPARE(the_case_->session->parameters().alpha, 0.0);
+  }
+
+  void the_peak_of_the_tent_moves_t_alone() {
+    auto& tent = *panel_->findChild<TentPlot*>();
+    const QPoint peak = tent.peak().toPoint();
+    drag(tent, peak, peak - QPoint(40, 0));
+    the_case_->settle();
+    const Parameters& parameters = the_case_->state().parameters;
+    QVERIFY(parameters.target < 95.0);
+    QCOMPARE(parameters.range, 50.0);
+    the_case_->session->undo();
+    the_case_->settle();
+    QCOMPARE(the_case_->state().parameters.target, 100.0);
+    QVERIFY(the_case_->state().undo_text.isEmpty());
+  }
+
+  void a_foot_of_the_tent_changes_epsilon_alone() {
+    auto& tent = *panel_->findChild<TentPlot*>();
+    const QPoint foot = tent.left_foot().toPoint();
+    drag(tent, foot, foot + QPoint(20, 30));
+    the_case_->settle();
+    const Parameters& parameters = the_case_->state().parameters;
+    QVERIFY(parameters.range < 48.0);
+    QCOMPARE(parameters.target, 100.0);
+    QCOMPARE(parameters.range, named<QDoubleSpinBox>(*panel_, tr("Range ε"))->value());
+  }
+
+  void a_press_beside_the_tents_handles_changes_nothing() {
+    auto& tent = *panel_->findChild<TentPlot*>();
+    drag(tent, {40, tent.height() - 20}, {90, tent.height() - 20});
+    QCOMPARE(the_case_->session->parameters(), the_case_->session->study().parameters);
+  }
+
+  void arrow_keys_move_the_tent() {
+    auto& tent = *panel_->findChild<TentPlot*>();
+    tent.setFocus();
+    QTest::keyClick(&tent, Qt::Key_Left);
+    QVERIFY(the_case_->session->parameters().target < 100.0);
+    QTest::keyClick(&tent, Qt::Key_Up);
+    QVERIFY(the_case_->session->parameters().range > 50.0);
+  }
+
+  void terms_can_be_switched_off_and_on() {
+    auto* curvature = button<QCheckBox>(*panel_, tr("Curvature"));
+    QTest::mouseClick(curvature, Qt::LeftButton, {}, {8, curvature->height() / 2});
+    the_case_->settle();
+    QVERIFY(!the_case_->state().parameters.curvature_term);
+    QVERIFY(the_case_->state().parameters.data_term);
+    button<QCheckBox>(*panel_, tr("Data"))->setFocus();
+    QTest::keyClick(button<QCheckBox>(*panel_, tr("Data")), Qt::Key_Space);
+    QTest::mouseClick(curvature, Qt::LeftButton, {}, {8, curvature->height() / 2});
+    the_case_->settle();
+    QVERIFY(the_case_->state().parameters.curvature_term);
+    QVERIFY(!the_case_->state().parameters.data_term);
+  }
+
+  void what_is_changed_elsewhere_shows() {
+    Parameters parameters = the_case_->session->parameters();
+    parameters.target = 42.0;
+    parameters.alpha = 0.25;
+    parameters.rescaling_term = false;
+    the_case_->session->set_parameters(parameters);
+    QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Target T"))->value(), 42.0);
+    QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Smoothness α"))->value(), 0.25);
+    QCOMPARE(panel_->findChild<TentPlot*>()->target(), 42.0);
+    QVERIFY(!button<QCheckBox>(*panel_, tr("Rescaling"))->isChecked());
+    // alpha / (alpha + (1 - alpha) epsilon) = 0.25 / (0.25 + 0.75 * 50)
+    QVERIFY(named<QLabel>(*panel_, tr("α as in the paper"))
+                ->text()
+                .startsWith(QLocale().toString(0.0066, 'f', 4)));
+  }
+
+  void the_buttons_are_those_of_the_window() {
+    QAction play(tr("Play"));
+    QAction step(tr("Step"));
+    QAction back(tr("Back"));
+    QAction restart(tr("Restart"));
+    panel_->set_actions({&play, &step, &back, &restart});
+    QSignalSpy spy(&step, &QAction::triggered);
+    QTest::mouseClick(button<QToolButton>(*panel_, tr("Step")), Qt::LeftButton);
+    QCOMPARE(spy.count(), 1);
+    play.setEnabled(false);
+    QVERIFY(!button<QToolButton>(*panel_, tr("Play"))->isEnabled());
+  }
+
+  void steps_per_picture_and_pausing_are_the_sessions() {
+    auto* steps = named<QComboBox>(*panel_, tr("Steps per picture"));
+    steps->setFocus();
+    QTest::keyClicks(steps, "5");
+    QCOMPARE(the_case_->session->steps_per_picture(), std::int64_t{5});
+    auto* pause = button<QCheckBox>(*panel_, tr("Pause at convergence"));
+    QVERIFY(pause->isChecked());
+    QTest::mouseClick(pause, Qt::LeftButton, {}, {8, pause->height() / 2});
+    QVERIFY(!the_case_->session->pause_at_convergence());
+  }
+
+  void executors_that_cannot_run_are_grey_and_say_why() {
+    auto* executor = named<QComboBox>(*panel_, tr("Computed by"));
+    QCOMPARE(executor->currentData().toString(), QStringLiteral("host"));
+    auto* items = qobject_cast<QStandardItemModel*>(executor->model());
+    for (const char* name : {"compute", "stream"}) {
+      const int row = executor->findData(QLatin1String(name));
+      QVERIFY(!items->item(row)->isEnabled());
+      QVERIFY(executor->itemData(row, Qt::ToolTipRole).toString().contains(QStringLiteral("OpenGL")));
+    }
+    QVERIFY(items->item(executor->findData(QStringLiteral("automatic")))->isEnabled());
+    executor->setFocus();
+    executor->activated(executor->findData(QStringLiteral("automatic")));
+    the_case_->settle();
+    QCOMPARE(executor->currentData().toString(), QStringLiteral("host"));
+  }
+
+  void figures_and_curves_follow_the_run_to_convergence() {
+    the_case_->begin();
+    QVERIFY(button<QLabel>(*panel_, tr("paused")));
+    the_case_->session->play();
+    QTRY_VERIFY_WITH_TIMEOUT(the_case_->state().converged, 60000);
+    the_case_->settle();
+    QVERIFY(button<QLabel>(*panel_, tr("converged")));
+    QCOMPARE(named<QLabel>(*panel_, tr("Step"))->text(),
+             QLocale().toString(qlonglong(the_case_->state().step)));
+    auto* volume = named<CurvePlot>(*panel_, tr("Volume"));
+    QVERIFY(volume->points().size() > 1);
+    QCOMPARE(volume->points().back().y(), the_case_->state().surface.volume_ml);
+    const double ball_ml = 4.0 / 3.0 * M_PI * std::pow(kBallRadius, 3) / 1000.0;
+    QVERIFY(std::abs(volume->points().back().y() - ball_ml) < 0.1 * ball_ml);
+    const auto& motion = named<CurvePlot>(*panel_, tr("Motion"))->points();
+    QVERIFY(!motion.empty());
+    QVERIFY(motion.back().y() < kConvergedSpeed);
+  }
+
+  void without_a_session_it_is_grey_and_says_what_is_missing() {
+    panel_->set_session(nullptr);
+    QVERIFY(button<QLabel>(*panel_, tr("Open a study to steer a level set in it."))->isVisible());
+    QVERIFY(!named<QSlider>(*panel_, tr("Target T"))->isEnabled());
+    panel_->set_session(the_case_->session.get());
+    QVERIFY(named<QSlider>(*panel_, tr("Target T"))->isEnabled());
+  }
+
+  void a_session_may_die_while_the_panel_lives_even_in_a_drag() {
+    auto& tent = *panel_->findChild<TentPlot*>();
+    const QPoint peak = tent.peak().toPoint();
+    QTest::mousePress(&tent, Qt::LeftButton, {}, peak);
+    QTest::mouseMove(&tent, peak + QPoint(10, 0));
+    the_case_->session.reset();
+    QVERIFY(panel_->session() == nullptr);
+    QTest::mouseMove(&tent, peak + QPoint(20, 0));
+    QTest::mouseRelease(&tent, Qt::LeftButton, {}, peak + QPoint(20, 0));
+    QVERIFY(!tent.isEnabled());
+    panel_->grab();
+  }
+
+  void another_session_shows_its_own() {
+    PanelCase other;
+    Parameters parameters = other.session->parameters();
+    parameters.target = 11.0;
+    other.session->set_parameters(parameters);
+    panel_->set_session(other.session.get());
+    QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Target T"))->value(), 11.0);
+    parameters = the_case_->session->parameters();
+    parameters.target = 77.0;
+    the_case_->session->set_parameters(parameters);  // no longer shown
+    QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Target T"))->value(), 11.0);
+    panel_->set_session(nullptr);
+  }
+
+ private:
+  std::unique_ptr<PanelCase> the_case_;
+  std::unique_ptr<LevelSetPanel> panel_;
+};
+
+}  // namespace tidemark
+
+QTEST_MAIN(tidemark::LevelSetPanelTest)
+#include "level_set_panel_test.moc"
