@@ -10,6 +10,7 @@
 namespace tidemark {
 namespace {
 
+constexpr int kColumnGap = 18;
 constexpr int kMostSkippedNamed = 20;  // in the tool tip
 
 QString item_list(const QString& title, const std::vector<std::string>& items) {
@@ -97,8 +98,8 @@ void SeriesBrowser::build_table() {
   table_->verticalHeader()->setDefaultSectionSize(SeriesModel::kPreviewSize + 10);
   QHeaderView* header = table_->horizontalHeader();
   header->setHighlightSections(false);
-  header->setSectionResizeMode(QHeaderView::ResizeToContents);
   header->setSectionResizeMode(SeriesModel::kSeries, QHeaderView::Stretch);
+  header->setStretchLastSection(false);
 }
 
 void SeriesBrowser::lay_out() {
@@ -133,6 +134,10 @@ void SeriesBrowser::show_catalogue(std::shared_ptr<const Catalogue> catalogue, c
   heading_->setText(count == 1 ? tr("1 series in %1").arg(path) : tr("%1 series in %2").arg(count).arg(path));
   skipped_->setText(skipped_text(catalogue_->skipped.size()));
   skipped_->setToolTip(skipped_list(catalogue_->skipped));
+  for (int column = SeriesModel::kModality; column < SeriesModel::kColumns; ++column) {
+    table_->resizeColumnToContents(column);
+    table_->setColumnWidth(column, table_->columnWidth(column) + kColumnGap);
+  }
   if (shown_->rowCount() > 0) table_->selectRow(0);
   table_->setFocus();
   follow_selection();

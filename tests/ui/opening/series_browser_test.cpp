@@ -66,6 +66,8 @@ class SeriesBrowserTest : public QObject {
       if (button->text() == "&Open") open_ = button;
     }
     browser_->show();
+    QVERIFY(QTest::qWaitForWindowExposed(browser_));
+    browser_->activateWindow();
     QVERIFY(QTest::qWaitForWindowActive(browser_));
   }
   void cleanup() {
@@ -186,7 +188,7 @@ class SeriesBrowserTest : public QObject {
     browser_->show_catalogue(std::make_shared<const Catalogue>(std::move(*found)), "series");
     const QModelIndex first = table_->model()->index(0, 0);
     const auto middle = [&] {
-      const QImage picture = first.data(Qt::DecorationRole).value<QPixmap>().toImage();
+      const QImage picture = first.data(Qt::DecorationRole).value<QIcon>().pixmap(64).toImage();
       return picture.pixelColor(picture.width() / 2, picture.height() / 2);
     };
     QTRY_COMPARE_WITH_TIMEOUT(middle(), QColor(Qt::white), 60'000);
