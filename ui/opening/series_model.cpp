@@ -17,7 +17,7 @@ namespace tidemark {
 namespace {
 
 const QVariant kAlignment = QVariant::fromValue(Qt::Alignment(Qt::AlignLeft | Qt::AlignVCenter));
-constexpr int kIconSize = 18;
+constexpr int kIconPixels = 64;  // enough for every scale; whoever draws them says how large they are
 
 bool has_grid(const Series& series) {
   return series.geometry.voxel_count() > 0;
@@ -48,11 +48,11 @@ QIcon untinted(const QPixmap& pixmap) {
   return icon;
 }
 
-QIcon notes_icon(const Series& series, double device_pixel_ratio) {
+QIcon notes_icon(const Series& series) {
   constexpr QStyle::StandardPixmap kIcons[] = {QStyle::SP_DialogApplyButton, QStyle::SP_MessageBoxInformation,
                                                QStyle::SP_MessageBoxWarning, QStyle::SP_MessageBoxCritical};
   const QIcon icon = QApplication::style()->standardIcon(kIcons[severity(series)]);
-  return untinted(icon.pixmap(QSize(kIconSize, kIconSize), device_pixel_ratio));
+  return untinted(icon.pixmap(kIconPixels));
 }
 
 }  // namespace
@@ -130,7 +130,7 @@ QVariant SeriesModel::data(const QModelIndex& index, int role) const {
       return sort_key(one, index.column());
     case Qt::DecorationRole:
       if (index.column() == kSeries) return untinted(preview(index.row()));
-      return index.column() == kNotes ? QVariant(notes_icon(one, device_pixel_ratio_)) : QVariant();
+      return index.column() == kNotes ? QVariant(notes_icon(one)) : QVariant();
     case Qt::ForegroundRole:
       if (one.loadable || index.column() == kNotes) return {};
       return QApplication::palette().brush(QPalette::Disabled, QPalette::Text);
