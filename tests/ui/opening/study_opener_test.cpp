@@ -85,7 +85,8 @@ class StudyOpenerTest : public QObject {
   void of_several_series_the_chosen_one_is_opened() {
     opener_->open(text(folder_ / "two"));
     QTRY_VERIFY_WITH_TIMEOUT(opener_->browser() != nullptr, kPatience);
-    QVERIFY(QTest::qWaitForWindowActive(opener_->browser()));
+    QVERIFY(!opener_->browser()->isModal());
+    QVERIFY(QTest::qWaitForWindowExposed(opener_->browser()));
     QCOMPARE(ended_->size(), 1);  // it is the user's turn
     auto* table = opener_->browser()->findChild<QTableView*>();
     QTest::keyClick(table, Qt::Key_Down);
