@@ -50,7 +50,7 @@ QPointF TransferPlot::pixel_of(const Handle& handle) const {
 }
 
 QRectF TransferPlot::area() const {
-  const PlotMargins margins = plot_margins(QFontMetrics(axis_font(font())));
+  const PlotMargins margins = plot_margins(QFontMetrics(axis_font(font())), shows_counts());
   return QRectF(rect()).adjusted(margins.left, margins.top, -margins.right, -margins.bottom);
 }
 

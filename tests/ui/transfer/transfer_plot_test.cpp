@@ -134,7 +134,7 @@ class TransferPlotTest : public QObject {
     f.press(f.plot(), again);
     f.editor.set_display(nullptr, nullptr);
     f.move(f.plot(), again, again + QPoint(40, 0));
-    QVERIFY(!f.editor.isEnabled());
+    QVERIFY(!f.editor.tabs()->isEnabled());
   }
 
   void keys_move_the_selected_handle() {
