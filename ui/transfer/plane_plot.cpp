@@ -127,8 +127,8 @@ void PlanePlot::paint_primitive(QPainter& painter, const AxisPrimitive& primitiv
                              ? reach.center() + QPointF(0.71 * reach.width(), -0.71 * reach.height()) / 2.0
                              : reach.intersected(room).topRight() + QPointF(-half - 2.0, half + 2.0);
   draw_number(painter,
-              {std::clamp(corner.x(), inner.left(), inner.right()),
-               std::clamp(corner.y(), inner.top(), inner.bottom())},
+              {std::clamp(corner.x(), inner.left(), std::max(inner.left(), inner.right())),
+               std::clamp(corner.y(), inner.top(), std::max(inner.top(), inner.bottom()))},
               number, chosen, palette());
 }
 
