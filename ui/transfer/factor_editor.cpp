@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/transfer/panel_scroll.h"
+
 namespace tidemark {
 namespace {
 
@@ -17,8 +19,11 @@ QDoubleSpinBox* number_box(QWidget* parent) {
   box->setRange(-kFarthest, kFarthest);
   box->setKeyboardTracking(false);
   // Its width is the layout's: nine digits would make every panel wide.
-  box->setMinimumWidth(76);
-  box->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  box->setMinimumWidth(64);
+  QSizePolicy policy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  policy.setRetainSizeWhenHidden(true);  // the rows of a form stay in line
+  box->setSizePolicy(policy);
+  guard_from_wheel(box);
   return box;
 }
 
@@ -29,6 +34,7 @@ FactorEditor::FactorEditor(QWidget* parent)
   kind_->addItem(tr("All"), static_cast<int>(Kind::everything));
   kind_->addItem(tr("Gaussian"), static_cast<int>(Kind::gaussian));
   kind_->addItem(tr("Ramp"), static_cast<int>(Kind::ramp));
+  guard_from_wheel(kind_);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(4);

@@ -90,8 +90,11 @@ void HistogramPlot::paint_primitive(QPainter& painter, const AxisPrimitive& prim
   painter.drawPolyline(curve);
   const QPointF top = pixel_of(handles_of(primitive).back());
   const double half = painter.fontMetrics().height() / 2.0 + 3.0;
-  draw_number(painter, {top.x(), std::max(top.y() - half - 8.0, room.top() + half)}, number, chosen,
-              palette());
+  const QRectF inner = room.adjusted(half, half, -half, -half);
+  draw_number(painter,
+              {std::clamp(top.x(), inner.left(), std::max(inner.left(), inner.right())),
+               std::max(top.y() - half - 8.0, inner.top())},
+              number, chosen, palette());
 }
 
 void HistogramPlot::paint_axes(QPainter& painter) {

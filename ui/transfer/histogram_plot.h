@@ -21,6 +21,7 @@ class HistogramPlot : public TransferPlot {
   [[nodiscard]] std::vector<Handle> handles_of(const AxisPrimitive& primitive) const override;
   [[nodiscard]] std::optional<double> distance(const AxisPrimitive& primitive,
                                                QPointF pointer) const override;
+  [[nodiscard]] bool shows_counts() const override { return true; }
   [[nodiscard]] TransferAxis fitted_y() const override;
   void paint_background(QPainter& painter) override;
   void paint_primitive(QPainter& painter, const AxisPrimitive& primitive, int number, bool chosen) override;

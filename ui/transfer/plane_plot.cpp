@@ -2,6 +2,7 @@
 
 #include <QPainter>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "ui/transfer/plot_painting.h"
@@ -90,19 +91,23 @@ void PlanePlot::paint_primitive(QPainter& painter, const AxisPrimitive& primitiv
   const QRectF room = area();
   // The product of both factors as it is, on a coarse grid that is smoothed.
   constexpr int kCells = 96;
-  QImage alpha(kCells, kCells, QImage::Format_ARGB32);
-  QColor colour = to_qcolor(primitive.colour);
+  std::array<double, kCells> along{};
+  for (int column = 0; column < kCells; ++column) {
+    const double x = x_axis().to_value(room.left() + (column + 0.5) / kCells * room.width());
+    along[static_cast<std::size_t>(column)] = primitive.factors[0].at(x);
+  }
+  const QRgb colour = to_qcolor(primitive.colour).rgb();
+  const double strength = chosen ? 0.65 : 0.40;
+  QImage shade(kCells, kCells, QImage::Format_ARGB32);
   for (int row = 0; row < kCells; ++row) {
     const double y = y_axis().to_value(room.top() + (row + 0.5) / kCells * room.height());
-    for (int column = 0; column < kCells; ++column) {
-      const double x = x_axis().to_value(room.left() + (column + 0.5) / kCells * room.width());
-      const double share = primitive.factors[0].at(x) * primitive.factors[1].at(y);
-      colour.setAlphaF(static_cast<float>((chosen ? 0.65 : 0.40) * share));
-      alpha.setPixelColor(column, row, colour);
-    }
+    const double up = 255.0 * strength * primitive.factors[1].at(y);
+    auto* line = reinterpret_cast<QRgb*>(shade.scanLine(row));
+    for (const double share : along)
+      *line++ = (colour & 0x00FFFFFFU) | static_cast<QRgb>(up * share + 0.5) << 24U;
   }
   painter.setRenderHint(QPainter::SmoothPixmapTransform);
-  painter.drawImage(room, alpha);
+  painter.drawImage(room, shade);
 
   const QRectF reach = reach_in_pixels(primitive);
   painter.setBrush(Qt::NoBrush);
@@ -122,8 +127,8 @@ void PlanePlot::paint_primitive(QPainter& painter, const AxisPrimitive& primitiv
                              ? reach.center() + QPointF(0.71 * reach.width(), -0.71 * reach.height()) / 2.0
                              : reach.intersected(room).topRight() + QPointF(-half - 2.0, half + 2.0);
   draw_number(painter,
-              {std::clamp(corner.x(), inner.left(), inner.right()),
-               std::clamp(corner.y(), inner.top(), inner.bottom())},
+              {std::clamp(corner.x(), inner.left(), std::max(inner.left(), inner.right())),
+               std::clamp(corner.y(), inner.top(), std::max(inner.top(), inner.bottom()))},
               number, chosen, palette());
 }
 

@@ -40,11 +40,11 @@ std::vector<double> ticks(const TransferAxis& axis, double pixels) {
     }
     return values;
   }
+  // Powers of ten, where small values have more room.
   values.push_back(axis.high);
-  for (double value = axis.high / 2.0; value > axis.high * 1e-5; value /= 10.0) {
-    const double round = round_step(value * 0.5);
-    if (std::abs(axis.to_pixel(round) - axis.to_pixel(values.back())) < pixels) continue;
-    values.push_back(round);
+  for (double value = std::pow(10.0, std::floor(std::log10(axis.high))); value > axis.high * 1e-5;
+       value /= 10.0) {
+    if (std::abs(axis.to_pixel(value) - axis.to_pixel(values.back())) >= pixels) values.push_back(value);
   }
   while (values.size() > 1 && std::abs(axis.to_pixel(values.back()) - axis.pixel_low) < pixels)
     values.pop_back();

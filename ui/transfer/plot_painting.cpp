@@ -50,11 +50,11 @@ QFont axis_font(const QFont& font) {
   return smaller;
 }
 
-PlotMargins plot_margins(const QFontMetrics& metrics) {
+PlotMargins plot_margins(const QFontMetrics& metrics, bool with_counts) {
   const int side = static_cast<int>(kTick + kGap) + metrics.height() + 2;
   return {side + metrics.horizontalAdvance(QStringLiteral("0.001")),
-          side + metrics.horizontalAdvance(QStringLiteral("10⁸")), metrics.height() / 2 + 2,
-          static_cast<int>(kTick + kGap) + 2 * metrics.height() + 2};
+          with_counts ? side + metrics.horizontalAdvance(QStringLiteral("10⁸")) : metrics.height(),
+          metrics.height() / 2 + 2, static_cast<int>(kTick + kGap) + 2 * metrics.height() + 2};
 }
 
 void draw_bottom_axis(QPainter& painter, const QRectF& area, const TransferAxis& axis, const QString& title,
@@ -77,7 +77,8 @@ void draw_left_axis(QPainter& painter, const QRectF& area, const TransferAxis& a
                     const QColor& colour) {
   painter.setPen(QPen(colour, 1.0));
   const QFontMetricsF metrics(painter.font());
-  for (const double value : ticks(axis, metrics.height() + 6.0)) {
+  for (const double value :
+       ticks(axis, axis.power == 1.0 ? 2.5 * metrics.height() : metrics.height() + 4.0)) {
     const double y = crisp(axis.to_pixel(value));
     painter.drawLine(QPointF(area.left() - kTick, y), QPointF(area.left(), y));
     const QRectF room(0.0, y - metrics.height() / 2.0, area.left() - kTick - kGap, metrics.height());

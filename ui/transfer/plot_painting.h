@@ -16,7 +16,7 @@ struct PlotMargins {
   int top = 0;
   int bottom = 0;
 };
-PlotMargins plot_margins(const QFontMetrics& metrics);
+PlotMargins plot_margins(const QFontMetrics& metrics, bool with_counts);
 
 // Labels of axes are a little smaller than other text.
 QFont axis_font(const QFont& font);

@@ -1,8 +1,11 @@
 #include "ui/transfer/preset_picker.h"
 
 #include <QEvent>
+#include <QListView>
+#include <QStylePainter>
 #include <algorithm>
 
+#include "ui/transfer/panel_scroll.h"
 #include "ui/transfer/preset_thumbnail.h"
 
 namespace tidemark {
@@ -13,7 +16,7 @@ PresetPicker::PresetPicker(QWidget* parent) : QComboBox(parent) {
   setIconSize(kThumbnailSize);
   setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   setMinimumContentsLength(8);
-  setPlaceholderText(tr("Own function"));
+  setPlaceholderText(tr("Custom"));
   for (const std::string& name : preset_names()) {
     auto one = preset(name);
     if (!one) continue;
@@ -21,6 +24,12 @@ PresetPicker::PresetPicker(QWidget* parent) : QComboBox(parent) {
     addItem(QString::fromStdString(presets_.back().name));
     setItemData(count() - 1, itemText(count() - 1), Qt::ToolTipRole);
   }
+  // Room between the pictures.
+  auto* list = new QListView(this);
+  list->setSpacing(2);
+  list->setIconSize(kThumbnailSize);
+  setView(list);
+  guard_from_wheel(this);
   setCurrentIndex(-1);
   draw_pictures();
   connect(this, &QComboBox::activated, this,
@@ -39,6 +48,21 @@ void PresetPicker::show_function(const TransferFunction& function) {
   };
   const auto found = std::find_if(presets_.begin(), presets_.end(), same);
   setCurrentIndex(found == presets_.end() ? -1 : static_cast<int>(found - presets_.begin()));
+}
+
+// As the box does it, but with an ellipsis where a name is longer than there is room.
+void PresetPicker::paintEvent(QPaintEvent* /*event*/) {
+  QStylePainter painter(this);
+  QStyleOptionComboBox option;
+  initStyleOption(&option);
+  if (currentIndex() < 0) option.currentText = placeholderText();
+  const QRect field =
+      style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, this);
+  constexpr int kAroundText = 12;
+  const int room = field.width() - (option.currentIcon.isNull() ? 0 : iconSize().width()) - kAroundText;
+  option.currentText = fontMetrics().elidedText(option.currentText, Qt::ElideRight, room);
+  painter.drawComplexControl(QStyle::CC_ComboBox, option);
+  painter.drawControl(QStyle::CE_ComboBoxLabel, option);
 }
 
 void PresetPicker::changeEvent(QEvent* event) {

@@ -23,6 +23,7 @@ class PresetPicker : public QComboBox {
   void picked(const tidemark::TransferFunction& preset);
 
  protected:
+  void paintEvent(QPaintEvent* event) override;
   void changeEvent(QEvent* event) override;
 
  private:

@@ -4,6 +4,7 @@
 #include <QGridLayout>
 #include <QHBoxLayout>
 
+#include "ui/transfer/panel_scroll.h"
 #include "ui/transfer/primitive_list.h"
 
 namespace tidemark {
@@ -36,6 +37,7 @@ PrimitiveForm::PrimitiveForm(PrimitiveKind kind, int axes, QWidget* parent)
   opacity_->setDecimals(4);
   opacity_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   opacity_->setKeyboardTracking(false);
+  guard_from_wheel(opacity_);
   colour_->setToolTip(tr("The colour that the primitive gives"));
   auto* row = new QHBoxLayout;
   row->setSpacing(4);
@@ -62,6 +64,7 @@ void PrimitiveForm::set_primitive(const std::optional<AxisPrimitive>& primitive)
   setEnabled(primitive.has_value());
   if (!primitive) {
     if (dialog_) dialog_->reject();
+    for (FactorEditor* editor : factors_) editor->set_factor({});
     return;
   }
   primitive_ = *primitive;

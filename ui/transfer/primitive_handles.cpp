@@ -34,7 +34,7 @@ Grip whole_of(const TransferFactor& factor) {
 double top_of(const TransferFactor& factor, const Extent& shown) {
   if (factor.kind != Kind::ramp) return middle_of(factor, shown);
   const double side = factor.end > factor.start ? shown.high : shown.low;
-  const double ahead = factor.end + 0.1 * std::copysign(shown.high - shown.low, factor.end - factor.start);
+  const double ahead = factor.end + 0.06 * std::copysign(shown.high - shown.low, factor.end - factor.start);
   return factor.end > factor.start ? std::max(std::min(ahead, side), factor.end)
                                    : std::min(std::max(ahead, side), factor.end);
 }

@@ -83,7 +83,7 @@ bool PrimitiveList::eventFilter(QObject* watched, QEvent* event) {
       return true;
     }
   }
-  if (watched == list_->viewport() && event->type() == QEvent::Paint && list_->count() == 0) {
+  if (watched == list_->viewport() && event->type() == QEvent::Paint && list_->count() == 0 && isEnabled()) {
     QPainter painter(list_->viewport());
     painter.setPen(palette().color(QPalette::PlaceholderText));
     painter.drawText(list_->viewport()->rect().adjusted(8, 4, -8, -4), Qt::AlignCenter | Qt::TextWordWrap,
@@ -103,7 +103,9 @@ QIcon colour_swatch(const QColor& colour, const QWidget& on) {
   painter.setPen(QPen(on.palette().color(QPalette::Text), 1.0));
   painter.setBrush(colour);
   painter.drawRoundedRect(QRectF(1.5, 1.5, kSwatch - 3.0, kSwatch - 3.0), 2.0, 2.0);
-  return QIcon(picture);
+  QIcon icon(picture);
+  icon.addPixmap(picture, QIcon::Selected);  // else the style would tint it
+  return icon;
 }
 
 }  // namespace tidemark

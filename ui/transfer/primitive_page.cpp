@@ -1,6 +1,6 @@
 #include "ui/transfer/primitive_page.h"
 
-#include <QToolButton>
+#include <QRadioButton>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -20,9 +20,7 @@ PrimitivePage::PrimitivePage(PrimitiveKind kind, int axes, const QString& when_e
       form_(new PrimitiveForm(kind, axes, this)) {
   auto* row = new QHBoxLayout(switches_);
   row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(4);
-  auto* over = new QLabel(tr("Axes"), switches_);
-  row->addWidget(over);
+  row->addWidget(new QLabel(tr("Axes"), switches_));
   row->addStretch();
   switches_->hide();
   greyed_->setWordWrap(true);
@@ -49,11 +47,9 @@ PrimitivePage::PrimitivePage(PrimitiveKind kind, int axes, const QString& when_e
 void PrimitivePage::add_plot(const QString& name, TransferPlot* plot) {
   const int index = plots_->addWidget(plot);
   all_plots_.push_back(plot);
-  auto* button = new QToolButton(switches_);
-  button->setText(name);
+  auto* button = new QRadioButton(name, switches_);
   button->setAccessibleName(tr("Plot of %1").arg(name));
   button->setToolTip(plot->accessibleName());
-  button->setCheckable(true);
   button->setChecked(index == 0);
   switch_group_->addButton(button, index);
   auto* row = static_cast<QHBoxLayout*>(switches_->layout());

@@ -2,37 +2,24 @@
 
 #include <QFileDialog>
 #include <QHBoxLayout>
-#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
 #include "core/atomic_file.h"
 #include "ui/transfer/histogram_plot.h"
+#include "ui/transfer/panel_scroll.h"
 #include "ui/transfer/plane_plot.h"
 #include "ui/transfer/preset_picker.h"
 #include "ui/transfer/primitive_page.h"
 
 namespace tidemark {
-namespace {
-
-// A panel may be lower than what is in it.
-QScrollArea* scrolled(QWidget* content) {
-  auto* area = new QScrollArea;
-  area->setWidget(content);
-  area->setWidgetResizable(true);
-  area->setFrameShape(QFrame::NoFrame);
-  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  area->setMinimumWidth(content->minimumSizeHint().width());
-  return area;
-}
-
-}  // namespace
-
 TransferFunctionEditor::TransferFunctionEditor(QWidget* parent)
     : QWidget(parent), message_(new QLabel(this)), tabs_(new QTabWidget(this)) {
   setWindowTitle(tr("Transfer function"));
   auto* column = new QVBoxLayout(this);
-  column->addWidget(make_top_row());
+  column->setContentsMargins(6, 6, 6, 6);
+  top_row_ = make_top_row();
+  column->addWidget(top_row_);
   message_->setWordWrap(true);
   message_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   message_->setAccessibleName(tr("Message"));
@@ -53,9 +40,14 @@ QWidget* TransferFunctionEditor::make_top_row() {
   load_button->setToolTip(tr("Reads a transfer function from a file"));
   save_ = new QPushButton(tr("Save…"), row);
   save_->setToolTip(tr("Writes the transfer function to a file"));
+  // One above the other: names of presets are long, and their pictures high.
+  auto* buttons = new QVBoxLayout;
+  buttons->setSpacing(2);
+  buttons->addWidget(load_button);
+  buttons->addWidget(save_);
+  presets_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   layout->addWidget(presets_, 1);
-  layout->addWidget(load_button);
-  layout->addWidget(save_);
+  layout->addLayout(buttons);
   connect(presets_, &PresetPicker::picked, this, &TransferFunctionEditor::replace);
   connect(load_button, &QPushButton::clicked, this, &TransferFunctionEditor::ask_load);
   connect(save_, &QPushButton::clicked, this, &TransferFunctionEditor::ask_save);
@@ -65,6 +57,7 @@ QWidget* TransferFunctionEditor::make_top_row() {
 QWidget* TransferFunctionEditor::make_volume_tab() {
   auto* tab = new QWidget;
   auto* column = new QVBoxLayout(tab);
+  column->setContentsMargins(6, 6, 6, 6);
   show_source_ = new QCheckBox(tr("Show the volume in 3D"), tab);
   show_source_->setToolTip(tr("Draws the values of the volume as this function says"));
   column->addWidget(show_source_);
@@ -81,6 +74,7 @@ QWidget* TransferFunctionEditor::make_volume_tab() {
   region_->addItem(tr("Only inside"), static_cast<int>(Region::inside));
   region_->addItem(tr("Only outside"), static_cast<int>(Region::outside));
   region_->addItem(tr("Everywhere, the inside tinted"), static_cast<int>(Region::tinted));
+  guard_from_wheel(region_);
   region_->setAccessibleName(tr("Level set as region of interest"));
   region_->setToolTip(tr("Where the volume shows: the level set is a region of interest"));
   auto* region_name = new QLabel(tr("Level set as region of interest"), tab);
@@ -96,12 +90,13 @@ QWidget* TransferFunctionEditor::make_volume_tab() {
   });
   connect(volume_page_, &PrimitivePage::edited, this,
           [this](const auto& primitives, int chosen) { edit(PrimitiveKind::source, primitives, chosen); });
-  return scrolled(tab);
+  return new PanelScroll(tab);
 }
 
 QWidget* TransferFunctionEditor::make_surface_tab() {
   auto* tab = new QWidget;
   auto* column = new QVBoxLayout(tab);
+  column->setContentsMargins(6, 6, 6, 6);
   surface_plane_ =
       new PlanePlot(tr("Primitives of the surface by intensity and distance from the clip plane"));
   surface_page_ = new PrimitivePage(PrimitiveKind::surface, 2,
@@ -110,24 +105,31 @@ QWidget* TransferFunctionEditor::make_surface_tab() {
   column->addWidget(surface_page_, 1);
   connect(surface_page_, &PrimitivePage::edited, this,
           [this](const auto& primitives, int chosen) { edit(PrimitiveKind::surface, primitives, chosen); });
-  return scrolled(tab);
+  return new PanelScroll(tab);
 }
 
 void TransferFunctionEditor::set_display(Display* display, const SourceSummary* summary,
                                          const QString& unit) {
+  // A colour that is just being chosen goes back to the case that it belongs to.
+  for (PrimitivePage* page : {volume_page_, surface_page_}) page->form()->set_primitive(std::nullopt);
   if (display_) display_->disconnect(this);
   display_ = summary ? display : nullptr;
-  setEnabled(!display_.isNull());
-  if (display_.isNull()) return say(tr("Open a study to choose how its volume and its surface show."));
-  summary_ = *summary;
+  summary_ = display_ ? *summary : SourceSummary();
   unit_ = unit;
   surface_chosen_ = 0;
   showing_ = false;
-  say({});
+  top_row_->setEnabled(!display_.isNull());
+  tabs_->setEnabled(!display_.isNull());
   presets_->set_summary(summary_);
   histogram_->set_counts(summary_.values, {summary_.lowest, summary_.highest});
   joint_->set_counts(summary_.value_gradient, SourceSummary::kBins, {summary_.low, summary_.high},
                      {0.0, summary_.steepest});
+  if (display_.isNull()) {
+    for (PrimitivePage* page : {volume_page_, surface_page_}) page->set_primitives({}, -1);
+    presets_->setCurrentIndex(-1);
+    return say(tr("Open a study to choose how its volume and its surface show."));
+  }
+  say({});
   connect(display_, &Display::changed, this, &TransferFunctionEditor::refresh);
   connect(display_, &QObject::destroyed, this, [this] { set_display(nullptr, nullptr); });
   refresh();
@@ -143,7 +145,7 @@ void TransferFunctionEditor::refresh_axes() {
   const PrimitiveAxis value{tr("Value"), unit_, low - margin, high + margin, {}};
   volume_page_->set_axes({value,
                           {tr("Gradient"), slope, 0.0, summary_.steepest, {}},
-                          {tr("Inside distance"), tr("voxels"), -2.0, 2.0, {}}});
+                          {tr("Inside"), tr("voxels"), -2.0, 2.0, {}}});
   const QString why = tr("Without a clip plane every distance is 0: switch it on to use the distance axis.");
   constexpr double kUsualDistance = 50.0;
   surface_page_->set_axes(

@@ -61,6 +61,7 @@ class TransferFunctionEditor : public QWidget {
   bool showing_ = false;   // anything
   int surface_chosen_ = 0;
 
+  QWidget* top_row_;
   PresetPicker* presets_;
   QPushButton* save_;
   QLabel* message_;

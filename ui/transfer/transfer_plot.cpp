@@ -3,7 +3,6 @@
 #include <QLocale>
 #include <QPainter>
 #include <algorithm>
-#include <cmath>
 
 #include "ui/transfer/plot_painting.h"
 
@@ -50,13 +49,17 @@ QPointF TransferPlot::pixel_of(const Handle& handle) const {
 }
 
 QRectF TransferPlot::area() const {
-  const PlotMargins margins = plot_margins(QFontMetrics(axis_font(font())));
+  const PlotMargins margins = plot_margins(QFontMetrics(axis_font(font())), shows_counts());
   return QRectF(rect()).adjusted(margins.left, margins.top, -margins.right, -margins.bottom);
 }
 
 Extent TransferPlot::whole_x() const {
   Extent extent{x_.low, x_.high};
   for (const AxisPrimitive& primitive : primitives_) include(extent, primitive.factors[0]);
+  // Beyond what lies outside there is room for a ramp's plateau, and to drag on.
+  const double room = 0.1 * (extent.high - extent.low);
+  if (extent.low < x_.low) extent.low -= room;
+  if (extent.high > x_.high) extent.high += room;
   return extent;
 }
 

@@ -43,6 +43,8 @@ class TransferPlot : public QWidget {
   // How far the pointer is from what is painted of the primitive; none when too far to mean it.
   [[nodiscard]] virtual std::optional<double> distance(const AxisPrimitive& primitive,
                                                        QPointF pointer) const = 0;
+  // Whether there is an axis at the right.
+  [[nodiscard]] virtual bool shows_counts() const { return false; }
   // What the second axis shows, given all primitives.
   [[nodiscard]] virtual TransferAxis fitted_y() const = 0;
   virtual void paint_background(QPainter& painter) = 0;

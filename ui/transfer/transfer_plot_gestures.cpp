@@ -1,8 +1,6 @@
 // TransferPlot's mouse and keys.
-#include <QGuiApplication>
 #include <QKeyEvent>
 #include <QMouseEvent>
-#include <QStyleHints>
 #include <algorithm>
 #include <cmath>
 

@@ -145,6 +145,40 @@ class TransferEditorTest : public QObject {
     }
   }
 
+  void a_colour_that_is_being_chosen_stays_with_its_case() {
+    EditorFixture f;
+    QVERIFY(f.is_shown());
+    tidemark::Display other;  // X11 has one, too
+    other.change([](DisplaySettings& s) { s.transfer = preset("ct-lung").value(); });
+    QTest::mouseClick(f.editor.volume_page()->form()->colour_button(), Qt::LeftButton);
+    auto* dialog = f.editor.findChild<QColorDialog*>();
+    QVERIFY(dialog != nullptr);
+    dialog->setCurrentColor(QColor(0, 255, 0));
+    f.editor.set_display(&other, &f.summary);
+    QVERIFY((f.function().source[0].colour == glm::vec3{0.9F, 0.4F, 0.3F}));
+    QVERIFY(other.settings().transfer == preset("ct-lung").value());
+    QVERIFY(!dialog->isVisible());
+    f.editor.set_display(nullptr, nullptr);
+  }
+
+  void a_wheel_that_scrolls_the_panel_changes_no_number() {
+    EditorFixture f;
+    QVERIFY(f.is_shown());
+    QDoubleSpinBox* box = f.editor.volume_page()->form()->factor(0)->start_box();
+    const auto wheel = [&] {
+      QWheelEvent event({5.0, 5.0}, box->mapToGlobal(QPointF(5.0, 5.0)), {}, {0, 120}, Qt::NoButton, {},
+                        Qt::NoScrollPhase, false);
+      QCoreApplication::sendEvent(box, &event);
+    };
+    wheel();
+    QCOMPARE(f.function().source[0].value.start, 0.0);
+    QVERIFY(QTest::qWaitForWindowActive(&f.editor));
+    box->setFocus();
+    QTRY_VERIFY(box->hasFocus());
+    wheel();
+    QVERIFY(f.function().source[0].value.start > 0.0);
+  }
+
   void the_region_of_interest_is_chosen() {
     EditorFixture f;
     QVERIFY(f.is_shown());
@@ -233,10 +267,10 @@ class TransferEditorTest : public QObject {
       f.display.change([](DisplaySettings& s) { s.transfer.source.clear(); });
       QCOMPARE(f.editor.volume_page()->list()->list()->count(), 3);
     }
-    QVERIFY(!f.editor.isEnabled());
+    QVERIFY(!f.editor.tabs()->isEnabled());
     QVERIFY(f.editor.message().contains("Open a study"));
     f.editor.set_display(&f.display, &f.summary, "HU");
-    QVERIFY(f.editor.isEnabled());
+    QVERIFY(f.editor.tabs()->isEnabled());
     QCOMPARE(f.editor.message(), QString());
     QCOMPARE(f.editor.volume_page()->list()->list()->count(), 0);
   }

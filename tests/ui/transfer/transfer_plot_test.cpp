@@ -134,7 +134,7 @@ class TransferPlotTest : public QObject {
     f.press(f.plot(), again);
     f.editor.set_display(nullptr, nullptr);
     f.move(f.plot(), again, again + QPoint(40, 0));
-    QVERIFY(!f.editor.isEnabled());
+    QVERIFY(!f.editor.tabs()->isEnabled());
   }
 
   void keys_move_the_selected_handle() {
@@ -211,6 +211,22 @@ class TransferPlotTest : public QObject {
     f.drag(f.plot(), top, top + QPoint(0, -10));
     QVERIFY(f.function().source[0].gradient.end > 50.0);
     QCOMPARE(f.function().source[0].value.end, 200.0);
+  }
+
+  void what_lies_beyond_the_common_values_is_within_reach() {
+    EditorFixture f;
+    QVERIFY(f.is_shown());
+    f.display.change([](DisplaySettings& s) {
+      s.transfer.source[0].value = {TransferFactor::Kind::ramp, 900.0, 2000.0};
+    });
+    for (const Handle& handle : f.plot().handles()) {
+      QVERIFY(handle.at.x > f.plot().x_axis().low);
+      QVERIFY(handle.at.x < f.plot().x_axis().high);
+    }
+    const QPoint end = f.at({Grip::end, Grip::none, false});
+    f.drag(f.plot(), end, end + QPoint(-20, 0));
+    QVERIFY(f.function().source[0].value.end < 2000.0);
+    QCOMPARE(f.function().source[0].value.start, 900.0);
   }
 
   void ctrl_and_wheel_zoom_about_the_pointer() {
