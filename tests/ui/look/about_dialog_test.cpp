@@ -1,10 +1,8 @@
 // What stands in "About", and that the list of third-party parts is one and the same everywhere.
 #include "ui/look/about_dialog.h"
 
-#include <QDialogButtonBox>
 #include <QFile>
 #include <QLabel>
-#include <QPushButton>
 #include <QTableWidget>
 #include <QTest>
 
