@@ -2,6 +2,7 @@
 
 #include <QCheckBox>
 #include <QGridLayout>
+#include <QPushButton>
 #include <QToolButton>
 #include <glm/geometric.hpp>
 
@@ -55,6 +56,10 @@ ClipControls::ClipControls(QWidget* parent) : SessionWidget(parent) {
       settings.clip.offset_mm = glm::dot(settings.clip.normal, middle) + value;
     });
   });
+  flip_ = new QPushButton(tr("Flip"));
+  flip_->setToolTip(tr("Hides the other side."));
+  form.wide(flip_);
+  connect(flip_, &QPushButton::clicked, this, &ClipControls::flip);
   add_effects(form);
 }
 
@@ -97,9 +102,6 @@ void ClipControls::add_effects(Form& form) {
       add(tr("Cuts the surface"), tr("Hides the surface in front of the plane."), &ClipPlane::clips_surface);
   picture_ = add(tr("Shows the slice"), tr("Shows the study on the plane, with the surface's cut in yellow."),
                  &ClipPlane::picture);
-  flip_ = make_button(tr("Flip"), u"restart", tr("Hides the other side."));
-  form.wide(flip_);
-  connect(flip_, &QToolButton::clicked, this, &ClipControls::flip);
 }
 
 glm::dvec3 ClipControls::towards_viewer() const {

@@ -4,7 +4,7 @@
 #include "ui/panels/session_widget.h"
 
 class QCheckBox;
-class QToolButton;
+class QPushButton;
 
 namespace tidemark {
 
@@ -30,7 +30,7 @@ class ClipControls : public SessionWidget {
   QCheckBox* on_;
   QWidget* orientations_;
   SliderNumber* distance_;
-  QToolButton* flip_;
+  QPushButton* flip_;
   QCheckBox* source_;
   QCheckBox* surface_;
   QCheckBox* picture_;

@@ -59,11 +59,10 @@ EvolutionControls::EvolutionControls(QWidget* parent) : SessionWidget(parent) {
   Form form(this);
   form.heading(tr("Evolution"));
   form.wide(make_buttons());
-  steps_ =
-      form.choice(tr("Steps per picture"), tr("How many steps are computed between two pictures while it "
-                                              "plays. Automatic: as many as keep the pictures fluent."));
+  steps_ = form.choice(tr("Picture every"), tr("How many steps are computed between two pictures while it "
+                                               "plays. Automatic: as many as keep the pictures fluent."));
   for (const std::int64_t steps : kStepsPerPicture) {
-    steps_->addItem(steps == 0 ? tr("Automatic") : QString::number(steps),
+    steps_->addItem(steps == 0 ? tr("Automatic") : (steps == 1 ? tr("step") : tr("%1 steps").arg(steps)),
                     QVariant::fromValue<qint64>(steps));
   }
   connect(steps_, &QComboBox::activated, this, [this] {

@@ -39,6 +39,9 @@ QWidget* LabelsPanel::make_table() {
   table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
   table_->setTabKeyNavigation(false);
   table_->setShowGrid(false);
+  table_->setWordWrap(false);
+  table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + kSpace);
   table_->setMinimumHeight(kTableHeight);
   table_->verticalHeader()->hide();
   QHeaderView* header = table_->horizontalHeader();
@@ -94,7 +97,6 @@ QWidget* LabelsPanel::make_actions() {
   auto* part = new QWidget;
   Form form(part);
   accept_ = new QPushButton(tr("Accept surface into label"));
-  accept_->setToolTip(tr("The surface's inside becomes the chosen label. Voxels of locked labels stay."));
   form.wide(accept_);
   connect(accept_, &QPushButton::clicked, this, [this] {
     if (session() && chosen()) session()->accept_surface(chosen()->id);
@@ -167,7 +169,13 @@ void LabelsPanel::refresh() {
 void LabelsPanel::show_buttons() {
   const Label* label = chosen();
   remove_->setEnabled(label != nullptr);
-  accept_->setEnabled(label && !label->locked && session() && session()->state().begun);
+  const bool begun = session() && session()->state().begun;
+  accept_->setEnabled(label && !label->locked && begun);
+  accept_->setToolTip(!label          ? tr("Add a label first.")
+                      : label->locked ? tr("The chosen label is locked.")
+                      : !begun        ? tr("There is no surface yet.")
+                                      : tr("The surface's inside becomes the chosen label. Voxels of locked "
+                                                  "labels stay."));
   begin_->setEnabled(label != nullptr);
 }
 

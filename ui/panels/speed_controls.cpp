@@ -45,17 +45,7 @@ void SpeedControls::add_numbers(Form& form) {
   alpha_->set_decimals(3);
   alpha_->set_step(0.01);
 
-  auto* ends = new QWidget;
-  auto* row = new QHBoxLayout(ends);
-  row->setContentsMargins(0, 0, alpha_->number()->width() + kSpace, 0);
-  const std::pair<QString, Qt::Alignment> texts[] = {{tr("1 Data"), Qt::AlignLeft},
-                                                     {tr("Smoothing 0"), Qt::AlignRight}};
-  for (const auto& [text, side] : texts) {
-    auto* end = new QLabel(text);
-    end->setForegroundRole(QPalette::PlaceholderText);
-    row->addWidget(end, 1, side);
-  }
-  form.wide(ends);
+  form.note(tr("1: the data alone, 0: smoothing alone"))->setForegroundRole(QPalette::PlaceholderText);
   paper_alpha_ = form.figure(tr("α as in the paper"),
                              tr("The paper does not divide the data term by ε. With this α its own equation "
                                 "balances the terms as here."));

@@ -31,6 +31,9 @@ QTableWidget* make_table(const QStringList& headings, const QString& name) {
   table->setSelectionBehavior(QAbstractItemView::SelectRows);
   table->setTabKeyNavigation(false);
   table->setShowGrid(false);
+  table->setWordWrap(false);
+  table->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  table->verticalHeader()->setDefaultSectionSize(table->fontMetrics().height() + kSpace);
   table->verticalHeader()->hide();
   table->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
   table->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);

@@ -13,20 +13,21 @@
 namespace tidemark {
 namespace {
 
-constexpr double kHandle = 5.0;  // radius
-constexpr double kGrab = 11.0;   // how near a press must be
-constexpr double kStep = 0.005;  // of what is shown, for a key
+constexpr std::size_t kBars = 64;  // few enough that whole numbers leave no gaps between them
+constexpr double kHandle = 5.0;    // radius
+constexpr double kGrab = 11.0;     // how near a press must be
+constexpr double kStep = 0.005;    // of what is shown, for a key
 
 // Heights of the histogram's bars. A few values (air, padding) are so frequent that the rest would not show:
 // bars are square roots of counts, and one in twenty is cut off.
 std::vector<double> bars_of(const SourceSummary& summary) {
-  std::vector<double> bars(SourceSummary::kBins, 0.0);
+  std::vector<double> bars(kBars, 0.0);
   for (std::size_t index = 0; index < summary.value_gradient.size(); ++index) {
-    bars[index % SourceSummary::kBins] += static_cast<double>(summary.value_gradient[index]);
+    const std::size_t bin = index % SourceSummary::kBins;
+    // The outermost hold all that lies beyond them.
+    if (bin == 0 || bin == SourceSummary::kBins - 1) continue;
+    bars[bin * kBars / SourceSummary::kBins] += static_cast<double>(summary.value_gradient[index]);
   }
-  // The outermost hold all that lies beyond them.
-  bars.front() = bars[1];
-  bars.back() = bars[SourceSummary::kBins - 2];
   for (double& bar : bars) bar = std::sqrt(bar);
   std::vector<double> sorted;
   std::copy_if(bars.begin(), bars.end(), std::back_inserter(sorted), [](double bar) { return bar > 0.0; });
@@ -73,11 +74,12 @@ void TentPlot::set_tent(double target, double range) {
   update();
 }
 
-// The common values, and the tent as far as there are values. Stays during a drag, so that nothing runs away
-// under the pointer.
+// The common values and the tent's feet, unless they are far away. Stays during a drag, so that nothing runs
+// away under the pointer.
 void TentPlot::show_span() {
-  shown_low_ = std::min(low_, std::max(lowest_, target_ - 1.2 * range_));
-  shown_high_ = std::max(high_, std::min(highest_, target_ + 1.2 * range_));
+  const double span = high_ - low_;
+  shown_low_ = std::min(low_, std::max(low_ - span, target_ - 1.2 * range_));
+  shown_high_ = std::max(high_, std::min(high_ + span, target_ + 1.2 * range_));
   shown_low_ = std::min(shown_low_, target_);
   shown_high_ = std::max(shown_high_, target_);
 }

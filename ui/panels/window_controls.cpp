@@ -10,6 +10,12 @@
 #include "ui/widgets/slider_number.h"
 
 namespace tidemark {
+namespace {
+
+constexpr double kFar =
+    1000.0;  // windows may lie far from what a study holds: a lung's for a phantom of water
+
+}  // namespace
 
 std::vector<WindowPreset> window_presets(const Volume& volume, const SourceSummary& summary) {
   const auto text = [](const char* name) { return QCoreApplication::translate("WindowPresets", name); };
@@ -68,9 +74,9 @@ void WindowControls::attach() {
     number->set_decimals(decimals);
     number->set_unit(unit);
   }
-  width_->set_range(std::max(smallest, span / 500.0), 1.5 * span, smallest, 4.0 * all,
+  width_->set_range(std::max(smallest, span / 500.0), 1.5 * span, smallest, kFar * all,
                     SliderNumber::Scale::logarithmic);
-  level_->set_range(summary.low, summary.high, summary.lowest - all, summary.highest + all);
+  level_->set_range(summary.low, summary.high, summary.lowest - kFar * all, summary.highest + kFar * all);
 }
 
 void WindowControls::refresh() {

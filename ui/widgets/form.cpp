@@ -2,6 +2,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QHBoxLayout>
 #include <QLabel>
 
 #include "ui/look/theme.h"
@@ -9,6 +10,12 @@
 #include "ui/widgets/wheel_guard.h"
 
 namespace tidemark {
+
+namespace {
+
+constexpr int kLabelWidth = 92;  // so that the parts of a panel share a column
+
+}  // namespace
 
 QLabel* make_note(const QString& text) {
   auto* note = new QLabel(text);
@@ -42,6 +49,7 @@ void Form::row(const QString& label, QWidget* widget, const QString& tip) {
   auto* text = new QLabel(label);
   text->setBuddy(widget);
   text->setToolTip(tip);
+  text->setMinimumWidth(kLabelWidth);
   widget->setToolTip(tip);
   widget->setAccessibleName(label);
   layout_->addRow(text, widget);
@@ -66,7 +74,16 @@ QLabel* Form::figure(const QString& label, const QString& tip) {
   figure->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   figure->setTextInteractionFlags(Qt::TextSelectableByMouse);
   figure->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
-  row(label, figure, tip);
+  figure->setToolTip(tip);
+  figure->setAccessibleName(label);
+  auto* text = new QLabel(label);
+  text->setToolTip(tip);
+  // Not in the column of labels: these may be long, and the numbers stand at the right in any case.
+  auto* line = new QHBoxLayout;
+  line->setSpacing(kSpace);
+  line->addWidget(text);
+  line->addWidget(figure, 1);
+  layout_->addRow(line);
   return figure;
 }
 

@@ -13,7 +13,7 @@ namespace tidemark {
 
 class SliderNumber;
 
-// Builds one column of rows; all labels of a panel share a column when they share a form.
+// Builds the rows of one part of a panel.
 class Form {
  public:
   explicit Form(QWidget* on);

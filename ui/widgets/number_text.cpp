@@ -27,6 +27,7 @@ QString count_text(qint64 count) {
 
 QString short_text(double value, int significant) {
   const double size = std::abs(value);
+  if (size == 0.0) return QStringLiteral("0");
   const int before = size >= 1.0 ? static_cast<int>(std::floor(std::log10(size))) + 1 : 1;
   if (size > 0.0 && size < 1e-3) return QLocale().toString(value, 'g', significant);
   const int leading = size > 0.0 && size < 1.0 ? static_cast<int>(-std::floor(std::log10(size))) - 1 : 0;

@@ -2,7 +2,6 @@
 
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
-#include <QLineEdit>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <algorithm>
@@ -74,7 +73,8 @@ void SliderNumber::set_unit(const QString& unit) {
 void SliderNumber::set_value(double value) {
   // What is being typed, or held by the mouse, is not taken out of the user's hands.
   if (slider_->isSliderDown()) return;
-  if (!(number_->hasFocus() && number_->findChild<QLineEdit*>()->isModified())) {
+  const bool typed = number_->hasFocus() && number_->cleanText() != number_->textFromValue(number_->value());
+  if (!typed) {
     const QSignalBlocker quiet(number_);
     number_->setValue(value);
   }
@@ -115,7 +115,6 @@ void SliderNumber::slider_moved() {
 }
 
 void SliderNumber::number_changed(double value) {
-  number_->findChild<QLineEdit*>()->setModified(false);
   show_in_slider(value);
   announce();
 }

@@ -4,6 +4,7 @@
 #include <QColorDialog>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QPushButton>
 #include <QToolButton>
 #include <glm/geometric.hpp>
 
@@ -131,7 +132,7 @@ class DisplayPanelTest : public QObject {
     const ClipPlane before = settings().clip;
     type(tr("Distance"), "7");
     QCOMPARE(settings().clip.offset_mm, before.offset_mm + 7.0);
-    QTest::mouseClick(button<QToolButton>(*panel_, tr("Flip")), Qt::LeftButton);
+    QTest::mouseClick(button<QPushButton>(*panel_, tr("Flip")), Qt::LeftButton);
     QCOMPARE(settings().clip.normal, -before.normal);
     QCOMPARE(settings().clip.offset_mm, -(before.offset_mm + 7.0));  // the same plane
     click(tr("Cuts the source"));

@@ -185,7 +185,7 @@ class LevelSetPanelTest : public QObject {
   }
 
   void steps_per_picture_and_pausing_are_the_sessions() {
-    auto* steps = named<QComboBox>(*panel_, tr("Steps per picture"));
+    auto* steps = named<QComboBox>(*panel_, tr("Picture every"));
     steps->setFocus();
     QTest::keyClicks(steps, "5");
     QCOMPARE(the_case_->session->steps_per_picture(), std::int64_t{5});

@@ -36,7 +36,8 @@ std::shared_ptr<const LoadedStudy> ball_study() {
 
 void show(QWidget& widget) {
   widget.show();
-  if (!QTest::qWaitForWindowExposed(&widget)) qFatal("the window does not show");
+  widget.activateWindow();
+  if (!QTest::qWaitForWindowActive(&widget)) qFatal("the window does not show");
 }
 
 PanelCase::PanelCase() : session(std::make_unique<CaseSession>(engine, ball_study(), ExecutorKind::host)) {
