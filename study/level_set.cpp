@@ -359,7 +359,8 @@ Status LevelSet::rebuild(const ExecutorOptions& options) {
   const Parameters present = parameters();
   if (Status back = go_to(known_); !back) return back;
   if (present == parameters()) return {};
-  // They are set by what goes on: sliders stay where they are.
+  if (!open_) return set_parameters(present);
+  // What goes on has set them.
   if (Status set = executor().set_parameters(present); !set) return set;
   if (begun()) {
     record({step(), ParametersEvent{present}});
