@@ -7,9 +7,7 @@
 namespace tidemark {
 
 bool is_page_shape(Index3 shape) {
-  constexpr std::int64_t kLongest = 64;
-  return shape.x >= 1 && shape.y >= 1 && shape.z >= 1 && shape.x <= kLongest && shape.y <= kLongest &&
-         shape.z <= kLongest && shape.x * shape.y * shape.z <= 4096;
+  return shape == Index3(8, 8, 8) || shape == Index3(16, 16, 1) || shape == Index3(4, 4, 4);
 }
 
 std::vector<float> pages_for_file(const Field& phi) {

@@ -20,7 +20,7 @@ Result<Field> field_from_file(const Geometry& geometry, double band, Index3 page
                               std::vector<std::int32_t> table, std::vector<float> pages,
                               const std::string& what);
 
-// Page shapes that files may name.
+// Page shapes that files may name: those that executors have.
 [[nodiscard]] bool is_page_shape(Index3 shape);
 
 }  // namespace tidemark

@@ -43,6 +43,7 @@ class JsonField {
   [[nodiscard]] std::string text(std::size_t longest = 4096) const;
   // Which of the words it is.
   [[nodiscard]] std::size_t word(const std::vector<std::string_view>& words) const;
+  void must_be(std::string_view word) const { static_cast<void>(this->word({word})); }
   [[nodiscard]] glm::dvec3 vector(double low = std::numeric_limits<double>::lowest(),
                                   double high = std::numeric_limits<double>::max()) const;
   [[nodiscard]] Index3 index(std::int64_t low, std::int64_t high) const;

@@ -284,7 +284,7 @@ Parameters read_parameters(const JsonField& field) {
   parameters.range = field.at("range").number();
   parameters.alpha = field.at("alpha").number();
   if (field.has("band") && field.at("band").is_text()) {
-    field.at("band").word({"infinite"});
+    field.at("band").must_be("infinite");
     parameters.band = std::numeric_limits<double>::infinity();
   } else {
     parameters.band = read_optional(field, "band");
@@ -325,7 +325,7 @@ Json to_json(const Recipe& recipe) {
 
 Recipe read_recipe(const JsonField& field) {
   Recipe recipe;
-  field.at("format").word({kFormat});
+  field.at("format").must_be(kFormat);
   const JsonField version = field.at("version");
   if (version.integer(0, 1 << 30) != Recipe::kVersion) version.wrong("this version cannot be read");
   if (!field.good()) return recipe;

@@ -51,8 +51,7 @@ Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume
   if (kind == recorded) executor_options.page_shape = recipe.executor.page_shape;
   auto rig = Rig::create(std::move(volume), recipe.smoothed_mm, recipe.parameters, kind, executor_options);
   if (!rig) return pass_on(rig);
-  auto begun = begin(rig->executor(), *rig->source(), recipe.start, progress);
-  if (!begun) return pass_on(begun);
+  if (Status begun = rig->begin(recipe, progress); !begun) return pass_on(begun);
   Replay result;
   if (Status played = rig->play(recipe, 0, 0, recipe.steps, progress, &result.advance); !played) {
     return pass_on(played);

@@ -82,6 +82,13 @@ Status Rig::rebuild(const ExecutorOptions& options, const Field& phi) {
   return remake(source_, kind_, options, phi);
 }
 
+Status Rig::begin(const Recipe& recipe, const Progress& progress) {
+  if (recipe.start.empty()) return executor_->restore(Field::empty(source_->geometry, executor_->band()));
+  if (auto begun = tidemark::begin(*executor_, *source_, recipe.start, progress); !begun)
+    return pass_on(begun);
+  return {};
+}
+
 Status Rig::resume() {
   const auto phi = executor_->snapshot();
   if (!phi) return tl::unexpected<Error>(phi.error());

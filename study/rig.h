@@ -28,6 +28,8 @@ class Rig {
   // Another executor in place of one that is lost, with `phi`.
   Status rebuild(const ExecutorOptions& options, const Field& phi);
 
+  // Begins as the recipe does, with the present parameters and source; an empty start: outside everywhere.
+  Status begin(const Recipe& recipe, const Progress& progress);
   // phi is put back as it is: see ResumeEvent.
   Status resume();
 
