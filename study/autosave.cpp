@@ -107,6 +107,10 @@ Result<Autosave> Autosave::create(const std::filesystem::path& folder, const std
   if (autosave.lock_ < 0) {
     return fail(ErrorKind::write, "{}: cannot be locked", lock_file(folder, case_id).string());
   }
+  for (int slot = 0; slot < kGenerations; ++slot) {
+    const auto there = valid_generation(session_file(folder, case_id, slot));
+    autosave.generation_ = std::max(autosave.generation_, there.value_or(0));
+  }
   return autosave;
 }
 
