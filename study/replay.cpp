@@ -59,7 +59,7 @@ Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume
   auto phi = rig->executor().snapshot();
   if (!phi) return pass_on(phi);
   result.phi = std::move(*phi);
-  result.executor = rig->executor().name();
+  result.executor = rig->description();
   result.memory = rig->executor().memory();
   result.band = rig->executor().band();
   result.time_step = rig->executor().time_step();

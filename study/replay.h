@@ -16,7 +16,7 @@ struct ReplayOptions {
 
 struct Replay {
   Field phi;
-  std::string executor;  // its name
+  RecipeExecutor executor;
   AdvanceReport advance;
   MemoryReport memory;
   double band = 0.0;
