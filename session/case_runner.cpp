@@ -15,8 +15,13 @@ constexpr std::int64_t kMostSteps = 256;  // between two pictures: it should be 
 
 }  // namespace
 
-CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor, Receiver receiver)
-    : engine_(engine), study_(std::move(study)), executor_kind_(executor), receiver_(std::move(receiver)) {}
+CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor,
+                       Receiver receiver, RestoredCase restored)
+    : engine_(engine),
+      study_(std::move(study)),
+      executor_kind_(executor),
+      receiver_(std::move(receiver)),
+      restored_(std::move(restored)) {}
 
 void CaseRunner::post(Command command) {
   engine_.interrupt(Priority::step, this);  // refinement can wait
@@ -43,11 +48,18 @@ void CaseRunner::post(Command command) {
 Status CaseRunner::open() {
   painter_.use(engine_.device());
   graphics_ = engine_.contexts_made();
-  auto made =
-      Case::create(study_->volume, study_->origin, study_->parameters, executor_kind_, executor_options());
+  auto made = restored_.contents
+                  ? restore_case(*restored_.contents, study_->volume, executor_kind_, executor_options())
+                  : Case::create(study_->volume, study_->origin, study_->parameters, executor_kind_,
+                                 executor_options());
   if (!made) return pass_on(made);
   case_ = std::move(*made);
   return {};
+}
+
+void CaseRunner::mark_saved(std::uint64_t position) {
+  case_->mark_saved(position);
+  restored_.rescued = false;
 }
 
 void CaseRunner::close() {
@@ -231,7 +243,8 @@ std::shared_ptr<const std::vector<std::uint8_t>> CaseRunner::label_voxels() {
   const Labels& labels = case_->labels();
   if (labels.voxels().empty()) return nullptr;
   if (!label_voxels_ || label_revision_ != labels.revision()) {
-    label_voxels_ = std::make_shared<const std::vector<std::uint8_t>>(labels.voxels().begin(), labels.voxels().end());
+    label_voxels_ =
+        std::make_shared<const std::vector<std::uint8_t>>(labels.voxels().begin(), labels.voxels().end());
     label_revision_ = labels.revision();
   }
   return label_voxels_;
@@ -255,7 +268,8 @@ void CaseRunner::publish() {
   state.label_voxels = label_voxels();
   if (const auto change = case_->history().undo_description()) state.undo_text = change_text(*change);
   if (const auto change = case_->history().redo_description()) state.redo_text = change_text(*change);
-  state.modified = case_->changed_since_save();
+  state.modified = case_->changed_since_save() || restored_.rescued;
+  state.edits = case_->history().edits();
   state.start_text = QString::fromStdString(level_set.recipe().start.describe());
   meter_.report(state);
   {

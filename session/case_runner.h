@@ -26,7 +26,8 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   // Does something to the case. What it returns as an error is told to the user.
   using Command = std::function<Status(CaseRunner&, const Progress&)>;
 
-  CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor, Receiver receiver);
+  CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor,
+             Receiver receiver, RestoredCase restored = {});
 
   // Any thread. Before anything else is done, the command is; then all that shows the case is brought up to
   // date.
@@ -56,6 +57,9 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   Status change_executor(ExecutorKind kind);
   void join(std::weak_ptr<LockStep> group) { group_ = std::move(group); }
 
+  // A file holds what the case was like at that position of its history.
+  void mark_saved(std::uint64_t position);
+
   void publish();
   void show_pictures();  // posts those that are out of date
 
@@ -76,6 +80,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   std::shared_ptr<const LoadedStudy> study_;
   ExecutorKind executor_kind_;
   Receiver receiver_;
+  RestoredCase restored_;
 
   std::unique_ptr<Case> case_;
   CasePainter painter_;

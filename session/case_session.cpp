@@ -8,18 +8,20 @@
 
 namespace tidemark {
 
-CaseSession::CaseSession(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor)
+CaseSession::CaseSession(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor,
+                         RestoredCase restored)
     : engine_(engine),
       study_(std::move(study)),
       outlet_(std::make_shared<Outlet>(this)),
-      wanted_parameters_(study_->parameters) {
+      wanted_parameters_(restored.contents ? restored.contents->recipe.final_parameters()
+                                           : study_->parameters) {
   state_.parameters = wanted_parameters_;
   CaseRunner::Receiver receiver;
   receiver.outlet = outlet_;
   receiver.state_arrived = [this](CaseState state) { take(std::move(state)); };
   receiver.failed = [this](const QString& message) { emit failed(message); };
   receiver.progressed = [this](double fraction, const QString& what) { emit progressed(fraction, what); };
-  runner_ = std::make_shared<CaseRunner>(engine_, study_, executor, std::move(receiver));
+  runner_ = std::make_shared<CaseRunner>(engine_, study_, executor, std::move(receiver), std::move(restored));
   tell([](CaseRunner& runner, const Progress&) { return runner.open(); });
 }
 
@@ -201,17 +203,25 @@ void CaseSession::pick(const VolumeView& view, PictureSize size, glm::dvec2 pixe
   });
 }
 
-void CaseSession::take_snapshot(std::function<void(std::shared_ptr<const CaseSnapshot>)> answer) {
-  tell([answer = std::move(answer), outlet = outlet_](CaseRunner& runner, const Progress&) -> Status {
+void CaseSession::take_snapshot(std::string view_state,
+                                std::function<void(std::shared_ptr<const Snapshot>)> answer) {
+  tell([view_state = std::move(view_state), answer = std::move(answer), outlet = outlet_](
+           CaseRunner& runner, const Progress&) -> Status {
     Case& document = runner.document();
-    const auto phi = runner.painter().phi(document);
-    if (!phi) return tl::unexpected<Error>(phi.error());
-    Labels labels(document.volume()->geometry);
-    const auto voxels = document.labels().voxels();
-    if (auto status = labels.assign(document.labels().list(), {voxels.begin(), voxels.end()}); !status) return status;
-    auto snapshot = std::make_shared<const CaseSnapshot>(
-        CaseSnapshot{document.volume(), *phi, std::move(labels), document.level_set().recipe()});
+    document.view_state = view_state;
+    if (auto status = document.history().close(); !status) return status;
+    auto contents = snapshot_of(document);
+    if (!contents) return pass_on(contents);
+    auto snapshot =
+        std::make_shared<const Snapshot>(Snapshot{std::move(*contents), document.history().position()});
     outlet->send([answer, snapshot] { answer(snapshot); });
+    return {};
+  });
+}
+
+void CaseSession::mark_saved(const Snapshot& snapshot) {
+  tell([position = snapshot.position](CaseRunner& runner, const Progress&) -> Status {
+    runner.mark_saved(position);
     return {};
   });
 }

@@ -12,7 +12,6 @@
 
 #include "core/progress.h"
 #include "renderer/renderer.h"
-#include "session/case_snapshot.h"
 #include "session/case_state.h"
 #include "session/display.h"
 #include "session/engine.h"
@@ -20,6 +19,7 @@
 #include "solver/executor.h"
 #include "solver/statistics.h"
 #include "study/case.h"
+#include "study/session_contents.h"
 
 namespace tidemark {
 
@@ -27,12 +27,19 @@ class CaseRunner;
 class LockStep;
 class Outlet;
 
+// A case as a session file had it. One that was rescued is in no file that the user knows.
+struct RestoredCase {
+  std::shared_ptr<const SessionContents> contents;
+  bool rescued = false;
+};
+
 // Lives on the thread of the user interface. Commands return at once; their outcome comes with
 // state_changed(), what went wrong with failed().
 class CaseSession : public QObject {
   Q_OBJECT
  public:
-  CaseSession(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor);
+  CaseSession(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor,
+              RestoredCase restored = {});
   ~CaseSession() override;  // cancels what is running
 
   [[nodiscard]] const CaseState& state() const { return state_; }
@@ -81,8 +88,15 @@ class CaseSession : public QObject {
   void pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel,
             std::function<void(std::optional<Hit>)> answer);
 
-  // What the case is like now, for whoever writes it; the answer comes as pick()'s does.
-  void take_snapshot(std::function<void(std::shared_ptr<const CaseSnapshot>)> answer);
+  // What the case is like now, for whoever writes it on another thread; the answer comes as pick()'s does.
+  // What goes on ends as an entry of the history.
+  struct Snapshot {
+    SessionContents contents;
+    std::uint64_t position = 0;  // for mark_saved()
+  };
+  void take_snapshot(std::string view_state, std::function<void(std::shared_ptr<const Snapshot>)> answer);
+  // A session file holds what the snapshot held.
+  void mark_saved(const Snapshot& snapshot);
 
   // Plays cases together, always at the same step; in no group any more when there are none.
   static void play_in_lock_step(const std::vector<CaseSession*>& sessions);

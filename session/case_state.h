@@ -43,8 +43,9 @@ struct CaseState {
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null while there are none
   QString undo_text;                                              // what undo would take back; empty: nothing
   QString redo_text;
-  bool modified = false;  // something would be lost
-  QString start_text;     // how it began
+  std::uint64_t edits = 0;  // how much was done: grows with each edit
+  bool modified = false;    // something would be lost
+  QString start_text;       // how it began
 };
 
 }  // namespace tidemark

@@ -49,7 +49,9 @@ class Case {
 
   // Whether undo would lead to, or something has led to, another state than the one that was saved.
   [[nodiscard]] bool changed_since_save() const { return history_.position() != saved_position_; }
-  void mark_saved() { saved_position_ = history_.position(); }
+  void mark_saved() { mark_saved(history_.position()); }
+  // What was saved was the state at that position of the history.
+  void mark_saved(std::uint64_t position) { saved_position_ = position; }
 
  private:
   Case(std::shared_ptr<const Volume> volume, StudyOrigin origin);

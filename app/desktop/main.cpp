@@ -11,6 +11,7 @@
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/main/main_window.h"
+#include "ui/main/saved_cases.h"
 
 namespace {
 
@@ -58,16 +59,19 @@ int main(int argc, char** argv) {
 
   QCommandLineParser parser;
   parser.setApplicationDescription(
-      QCoreApplication::translate("main", "Steers a level-set surface through a medical volume while it evolves.\n"
-                                          "Research use only. Not for diagnostic use."));
+      QCoreApplication::translate("main",
+                                  "Steers a level-set surface through a medical volume while it evolves.\n"
+                                  "Research use only. Not for diagnostic use."));
   parser.addHelpOption();
   parser.addVersionOption();
   parser.addPositionalArgument(
-      "studies", QCoreApplication::translate("main", "Folders, image files or session files to open."), "[studies...]");
+      "studies", QCoreApplication::translate("main", "Folders, image files or session files to open."),
+      "[studies...]");
   const QCommandLineOption diagnostics(
       "diagnostics", QCoreApplication::translate("main", "Say what this computer offers, and end."));
   const QCommandLineOption phantom(
-      "phantom", QCoreApplication::translate("main", "Open a synthetic study: tumour, head, organ, ..."), "kind");
+      "phantom", QCoreApplication::translate("main", "Open a synthetic study: tumour, head, organ, ..."),
+      "kind");
   const QCommandLineOption without_opengl(
       "no-opengl", QCoreApplication::translate("main", "Start without OpenGL: no pictures."));
   parser.addOptions({diagnostics, phantom, without_opengl});
@@ -78,10 +82,12 @@ int main(int argc, char** argv) {
     print_diagnostics(engine);
     return 0;
   }
+  QGuiApplication::setDesktopFileName("tidemark");
   QGuiApplication::setWindowIcon(application_icon());
   apply_theme(application, static_cast<Theme>(QSettings().value("theme", 0).toInt()));
   MainWindow window(engine);
   window.show();
+  window.saved_cases().offer_rescued();
   for (const QString& study : parser.positionalArguments()) window.open(study);
   if (parser.isSet(phantom)) window.open_phantom(parser.value(phantom));
   return QApplication::exec();

@@ -9,7 +9,9 @@ namespace {
 
 constexpr const char* kOwnKey = "own_key";  // property: the key that the program gives
 
-QString settings_key(const QAction* action) { return QStringLiteral("keys/") + action->objectName(); }
+QString settings_key(const QAction* action) {
+  return QStringLiteral("keys/") + action->objectName();
+}
 
 // "Play (P)"
 void show_key(QAction* action) {
@@ -67,8 +69,8 @@ void Actions::make_files() {
                      tr("Write what is inside the surface, or the labels"));
   export_mesh = make("export-mesh", nullptr, tr("&Surface as polygons..."), {}, true,
                      tr("Write the surface as STL, PLY or OBJ, in mm of the patient"));
-  export_picture = make("export-picture", "camera", tr("&Picture of the view..."), QKeySequence("Ctrl+P"), true,
-                        tr("Write the active view as PNG, without the patient's text"));
+  export_picture = make("export-picture", "camera", tr("&Picture of the view..."), QKeySequence("Ctrl+P"),
+                        true, tr("Write the active view as PNG, without the patient's text"));
   export_statistics = make("export-statistics", "statistics", tr("S&tatistics..."), {}, true);
   export_recipe = make("export-recipe", nullptr, tr("&Recipe..."), {}, true,
                        tr("Write all steps and edits, to be repeated by tidemark-cli replay"));
@@ -83,15 +85,16 @@ void Actions::make_evolution() {
   play = make("play", "play", tr("&Play"), QKeySequence("P"), true, tr("Let the surface evolve, or hold it"));
   play->setCheckable(true);
   step = make("step", "step", tr("One &step"), QKeySequence("."), true, tr("Compute one step"));
-  step_back = make("step-back", "step-back", tr("One step &back"), QKeySequence(","), true, tr("Take one step back"));
+  step_back =
+      make("step-back", "step-back", tr("One step &back"), QKeySequence(","), true, tr("Take one step back"));
   restart = make("restart", "restart", tr("&Restart"), QKeySequence("Home"), true,
                  tr("Back to the start, with the parameters as they are now"));
 }
 
 void Actions::make_tools() {
   tools = new QActionGroup(this);
-  const auto tool = [this](Tool which, const char* name, const char* picture, const QString& text, const char* key,
-                           const QString& tip) {
+  const auto tool = [this](Tool which, const char* name, const char* picture, const QString& text,
+                           const char* key, const QString& tip) {
     QAction* action = make(name, picture, text, QKeySequence(QString::fromLatin1(key)), true, tip);
     action->setCheckable(true);
     action->setData(static_cast<int>(which));
@@ -103,15 +106,16 @@ void Actions::make_tools() {
        tr("Move all slices to the point under the mouse"));
   tool(Tool::probe_speed, "tool-probe-speed", "tool-probe", tr("&Probe T and ε"), "T",
        tr("Drag over the tissue: T becomes its mean, ε its standard deviation"));
-  tool(Tool::probe_transfer, "tool-probe-transfer", "tool-probe-transfer", tr("Probe t&ransfer function"), "G",
-       tr("Drag over the tissue to set the chosen Gaussian of the transfer function"));
+  tool(Tool::probe_transfer, "tool-probe-transfer", "tool-probe-transfer", tr("Probe t&ransfer function"),
+       "G", tr("Drag over the tissue to set the chosen Gaussian of the transfer function"));
   tool(Tool::seed, "tool-seed", "tool-seed", tr("&Sphere"), "S",
        tr("Press in the middle and drag: a sphere to start from (right button: takes away)"));
   tool(Tool::paint, "tool-paint", "tool-paint", tr("P&aint"), "B",
        tr("Add to the surface with a 3D brush (right button: erase)"));
   tool(Tool::erase, "tool-erase", "tool-erase", tr("&Erase"), "E",
        tr("Take away from the surface with a 3D brush (right button: paint)"));
-  tool(Tool::measure_distance, "tool-distance", "tool-distance", tr("&Distance"), "D", tr("Measure a distance"));
+  tool(Tool::measure_distance, "tool-distance", "tool-distance", tr("&Distance"), "D",
+       tr("Measure a distance"));
   tool(Tool::measure_angle, "tool-angle", "tool-angle", tr("A&ngle"), "A",
        tr("Measure an angle: one drag to the vertex, one to the other end"));
   last_tool = make("last-tool", nullptr, tr("&Last tool"), QKeySequence("Space"), true,
@@ -121,7 +125,8 @@ void Actions::make_tools() {
 void Actions::make_views() {
   layouts = new QActionGroup(this);
   const auto layout = [this](int number, const char* picture, const QString& text) {
-    QAction* action = make(picture, picture, text, QKeySequence(QStringLiteral("Ctrl+%1").arg(number + 1)), true);
+    QAction* action =
+        make(picture, picture, text, QKeySequence(QStringLiteral("Ctrl+%1").arg(number + 1)), true);
     action->setData(number);
     layouts->addAction(action);
   };
@@ -164,6 +169,8 @@ void Actions::make_windows() {
   about = make("about", "about", tr("&About Tidemark"), {}, false);
 }
 
-QAction* Actions::tool(Tool tool) const { return tools->actions().at(static_cast<int>(tool)); }
+QAction* Actions::tool(Tool tool) const {
+  return tools->actions().at(static_cast<int>(tool));
+}
 
 }  // namespace tidemark

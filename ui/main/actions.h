@@ -10,8 +10,8 @@
 
 namespace tidemark {
 
-// Names, pictures and keys; what they do is connected by those who can do it. Keys are kept in the settings and
-// can be changed (KeysDialog).
+// Names, pictures and keys; what they do is connected by those who can do it. Keys are kept in the settings
+// and can be changed (KeysDialog).
 class Actions : public QObject {
   Q_OBJECT
  public:
@@ -66,8 +66,8 @@ class Actions : public QObject {
   void set_key(QAction* action, const QKeySequence& key);  // an empty one: its own again
 
  private:
-  QAction* make(const char* name, const char* icon, const QString& text, const QKeySequence& key, bool of_case,
-                const QString& tip = {});
+  QAction* make(const char* name, const char* icon, const QString& text, const QKeySequence& key,
+                bool of_case, const QString& tip = {});
   void make_files();
   void make_evolution();
   void make_tools();

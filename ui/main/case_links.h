@@ -14,8 +14,8 @@ class CaseLinks : public QObject {
   using QObject::QObject;
 
   void add(CaseWindow& window);
-  // Cursor, slices, window and level, camera and clip plane. Positions are the patient's: cases of one patient
-  // show the same place whatever their grids.
+  // Cursor, slices, window and level, camera and clip plane. Positions are the patient's: cases of one
+  // patient show the same place whatever their grids.
   void set_linked(bool linked);
   [[nodiscard]] bool linked() const { return linked_; }
 

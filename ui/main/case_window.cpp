@@ -4,10 +4,13 @@
 #include <QCloseEvent>
 #include <QDataStream>
 #include <QDockWidget>
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <QSettings>
 #include <algorithm>
 
 #include "renderer/sheet.h"
+#include "session/display_json.h"
 #include "ui/views/slice_view.h"
 #include "ui/views/view_bar.h"
 #include "ui/views/volume_view.h"
@@ -18,9 +21,13 @@ namespace {
 constexpr const char* kKind = "view_kind";  // property of a dock
 constexpr int kStateVersion = 1;
 
-ViewKind kind_of(const QDockWidget* dock) { return static_cast<ViewKind>(dock->property(kKind).toInt()); }
+ViewKind kind_of(const QDockWidget* dock) {
+  return static_cast<ViewKind>(dock->property(kKind).toInt());
+}
 
-PictureView* view_of(const QDockWidget* dock) { return qobject_cast<PictureView*>(dock->widget()); }
+PictureView* view_of(const QDockWidget* dock) {
+  return qobject_cast<PictureView*>(dock->widget());
+}
 
 // What a new case is looked at like.
 DisplaySettings first_settings(const CaseSession& session) {
@@ -65,17 +72,20 @@ CaseWindow::CaseWindow(std::unique_ptr<CaseSession> session, Actions& actions, Q
   setDockNestingEnabled(true);
   setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowNestedDocks | QMainWindow::AllowTabbedDocks);
   setContextMenuPolicy(Qt::NoContextMenu);
-  for (const Qt::DockWidgetArea area : {Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea, Qt::TopDockWidgetArea}) {
+  for (const Qt::DockWidgetArea area :
+       {Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea, Qt::TopDockWidgetArea}) {
     setTabPosition(area, QTabWidget::North);
   }
   session_->display().set(first_settings(*session_));
   connect(session_.get(), &CaseSession::state_changed, this, &CaseWindow::follow_state);
   follow_state();
+  autosave_ = std::make_unique<CaseAutosave>(*session_, recovery_folder(), [this] { return view_state(); });
   const int remembered = QSettings().value("layout", static_cast<int>(ViewLayout::paper)).toInt();
   set_layout(static_cast<ViewLayout>(std::clamp(remembered, 0, static_cast<int>(ViewLayout::paper))));
 }
 
 CaseWindow::~CaseWindow() {
+  autosave_.reset();
   // Views speak of the session to their end.
   qDeleteAll(docks_);
 }
@@ -113,7 +123,8 @@ QDockWidget* CaseWindow::make_dock(ViewKind kind) {
   dock->setObjectName(QStringLiteral("view-%1").arg(++docks_made_));
   dock->setProperty(kKind, static_cast<int>(kind));
   dock->setWidget(view);
-  auto* bar = new ViewBar(*session_, view->title(), {actions_.play, actions_.step}, actions_.tools->actions());
+  auto* bar =
+      new ViewBar(*session_, view->title(), {actions_.play, actions_.step}, actions_.tools->actions());
   dock->setTitleBarWidget(bar);
   connect(bar, &ViewBar::close_wanted, dock, &QDockWidget::close);
   connect(bar, &ViewBar::float_wanted, dock, [dock] { dock->setFloating(!dock->isFloating()); });
@@ -279,12 +290,38 @@ void CaseWindow::restore_arrangement(const QByteArray& arrangement) {
   if (!restoreState(state, kStateVersion)) set_layout(layout_);
 }
 
-void CaseWindow::closeEvent(QCloseEvent* event) { emit close_wanted(event); }
+std::string CaseWindow::view_state() const {
+  const QJsonObject state{{"display", QString::fromStdString(to_json(session_->display().settings()))},
+                          {"views", QString::fromLatin1(arrangement().toBase64())}};
+  return QJsonDocument(state).toJson(QJsonDocument::Compact).toStdString();
+}
+
+void CaseWindow::restore_view_state(const std::string& text) {
+  const QJsonObject state = QJsonDocument::fromJson(QByteArray::fromStdString(text)).object();
+  if (auto settings =
+          display_settings(state["display"].toString("{}").toStdString(), session_->display().settings())) {
+    session_->display().set(std::move(*settings));
+  }
+  const QByteArray views = QByteArray::fromBase64(state["views"].toString().toLatin1());
+  if (!views.isEmpty()) restore_arrangement(views);
+}
+
+void CaseWindow::close_saved() {
+  saved_ = true;
+  // The MDI child, and with it this.
+  if (parentWidget()) parentWidget()->close();
+}
+
+void CaseWindow::closeEvent(QCloseEvent* event) {
+  if (saved_) return event->accept();
+  emit close_wanted(*this, event);
+}
 
 void CaseWindow::changeEvent(QEvent* event) {
   QMainWindow::changeEvent(event);
   // Qt hands the title of the inner window to the MDI child.
-  if (event->type() == QEvent::ModifiedChange && parentWidget()) parentWidget()->setWindowModified(isWindowModified());
+  if (event->type() == QEvent::ModifiedChange && parentWidget())
+    parentWidget()->setWindowModified(isWindowModified());
 }
 
 }  // namespace tidemark

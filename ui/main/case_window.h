@@ -5,6 +5,7 @@
 #include <QPointer>
 #include <memory>
 
+#include "session/case_autosave.h"
 #include "session/case_session.h"
 #include "ui/main/actions.h"
 
@@ -20,8 +21,8 @@ enum class ViewLayout { single, one_three, two_two, paper };
 
 QString text_of(ViewKind kind);
 
-// Child of the MDI area. Views float, tab, close and come back; how they stand is remembered from one case to the
-// next.
+// Child of the MDI area. Views float, tab, close and come back; how they stand is remembered from one case to
+// the next.
 class CaseWindow : public QMainWindow {
   Q_OBJECT
  public:
@@ -34,22 +35,25 @@ class CaseWindow : public QMainWindow {
   PictureView* add_view(ViewKind kind);
   void set_layout(ViewLayout layout);
   [[nodiscard]] ViewLayout view_layout() const { return layout_; }
-  // The one that was last clicked or has the keyboard; the first where there is none such. Null without views.
+  // The one that was last clicked or has the keyboard; the first where there is none such. Null without
+  // views.
   [[nodiscard]] PictureView* active_view() const;
   [[nodiscard]] QList<PictureView*> views() const;
   [[nodiscard]] QDockWidget* dock_of(const PictureView* view) const;
   void reset_views();
 
-  // How the docks stand, for session files.
-  [[nodiscard]] QByteArray arrangement() const;
-  void restore_arrangement(const QByteArray& arrangement);
+  // How everything is shown, for session files; what makes no sense of it is left as it is.
+  [[nodiscard]] std::string view_state() const;
+  void restore_view_state(const std::string& state);
+  // Closes without a question: what there is to lose was just saved.
+  void close_saved();
 
   // The case's own file, once it has one.
   QString session_file;
 
  signals:
   // The case may go: nothing would be lost, or the user does not mind.
-  void close_wanted(QCloseEvent* event);
+  void close_wanted(CaseWindow& window, QCloseEvent* event);
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -61,14 +65,18 @@ class CaseWindow : public QMainWindow {
   QDockWidget* dock(ViewKind kind);  // one that is there, else a new one
   void toggle_maximised(QDockWidget* dock);
   void follow_state();
+  [[nodiscard]] QByteArray arrangement() const;
+  void restore_arrangement(const QByteArray& arrangement);
 
   std::unique_ptr<CaseSession> session_;
   Actions& actions_;
+  std::unique_ptr<CaseAutosave> autosave_;
   QList<QDockWidget*> docks_;
   int docks_made_ = 0;  // for names
   ViewLayout layout_ = ViewLayout::paper;
   QByteArray before_maximised_;
   QPointer<PictureView> active_;
+  bool saved_ = false;
 };
 
 }  // namespace tidemark

@@ -6,13 +6,17 @@
 namespace tidemark {
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("FirstSteps", text); }
+QString tr(const char* text) {
+  return QCoreApplication::translate("FirstSteps", text);
+}
 
 QString row(const QString& what, const QString& how) {
   return QStringLiteral("<tr><td>%1</td><td>&nbsp;&nbsp;</td><td>%2</td></tr>").arg(what, how);
 }
 
-QString key(const QAction* action) { return action->shortcut().toString(QKeySequence::NativeText); }
+QString key(const QAction* action) {
+  return action->shortcut().toString(QKeySequence::NativeText);
+}
 
 QString steps(const Actions& actions) {
   const QStringList steps = {
@@ -21,7 +25,8 @@ QString steps(const Actions& actions) {
           .arg(key(actions.tool(Tool::probe_speed))),
       tr("Choose <b>Sphere</b> (%1), press inside the tissue and drag: that is where the surface starts.")
           .arg(key(actions.tool(Tool::seed))),
-      tr("Press <b>Play</b> (%1) and watch. Change T, ε and α while it runs; α near 1 follows brightness, near 0 "
+      tr("Press <b>Play</b> (%1) and watch. Change T, ε and α while it runs; α near 1 follows brightness, "
+         "near 0 "
          "smooths.")
           .arg(key(actions.play)),
       tr("Paint (%1) or erase (%2) while it runs; undo (%3) takes anything back.")
@@ -37,8 +42,9 @@ QString mouse() {
       .arg(row(tr("left"), tr("the tool; window and level on slices, turning in 3D")) +
            row(tr("middle"), tr("move the picture")) +
            row(tr("right"), tr("zoom; the opposite of the brush while painting")) +
-           row(tr("wheel"), tr("slices; the clip plane or zoom in 3D")) + row(tr("Shift + wheel"), tr("size of the brush")) +
-           row(tr("Ctrl + wheel"), tr("zoom")) + row(tr("Shift + move"), tr("linked crosshair")) +
+           row(tr("wheel"), tr("slices; the clip plane or zoom in 3D")) +
+           row(tr("Shift + wheel"), tr("size of the brush")) + row(tr("Ctrl + wheel"), tr("zoom")) +
+           row(tr("Shift + move"), tr("linked crosshair")) +
            row(tr("Alt + left"), tr("window and level, whatever the tool")) +
            row(tr("double click"), tr("one view large, and back")));
 }
@@ -58,8 +64,9 @@ void show_first_steps(QWidget* parent, const Actions& actions) {
   page->setWindowFlags(Qt::Tool);
   page->setAttribute(Qt::WA_DeleteOnClose);
   page->setWindowTitle(tr("First steps, mouse and keys"));
-  page->setHtml(QStringLiteral("<h3>%1</h3>%2<h3>%3</h3>%4<h3>%5</h3>%6")
-                    .arg(tr("A first segmentation"), steps(actions), tr("Mouse"), mouse(), tr("Keys"), keys(actions)));
+  page->setHtml(
+      QStringLiteral("<h3>%1</h3>%2<h3>%3</h3>%4<h3>%5</h3>%6")
+          .arg(tr("A first segmentation"), steps(actions), tr("Mouse"), mouse(), tr("Keys"), keys(actions)));
   page->resize(560, 620);
   page->show();
 }

@@ -122,9 +122,10 @@ void MainWindow::make_status_bar() {
   if (engine_.graphics() == Engine::Graphics::hardware) return;
   const bool software = engine_.graphics() == Engine::Graphics::software;
   auto* note = new QLabel(software ? tr("Software OpenGL") : tr("No OpenGL"));
-  note->setToolTip(software ? tr("There is no graphics processor: pictures are drawn by the processor, the level set is "
-                                 "computed by the host executor.")
-                            : tr("Pictures cannot be drawn: %1").arg(QString::fromStdString(engine_.graphics_problem())));
+  note->setToolTip(
+      software ? tr("There is no graphics processor: pictures are drawn by the processor, the level set is "
+                    "computed by the host executor.")
+               : tr("Pictures cannot be drawn: %1").arg(QString::fromStdString(engine_.graphics_problem())));
   statusBar()->addPermanentWidget(note);
 }
 
@@ -138,7 +139,7 @@ void MainWindow::connect_files() {
   connect(opener_, &StudyOpener::progressed, loading_, &LoadingView::set_progress);
   connect(opener_, &StudyOpener::ended, loading_, &QWidget::hide);
   connect(opener_, &StudyOpener::failed, this, &MainWindow::tell);
-  connect(opener_, &StudyOpener::opened, this, &MainWindow::add_case);
+  connect(opener_, &StudyOpener::opened, this, [this](const auto& study) { add_case(study); });
   connect(loading_, &LoadingView::cancelled, opener_, &StudyOpener::cancel);
   connect(recent_, &RecentStudies::chosen, opener_, &StudyOpener::open_series);
   connect(actions_->open_folder, &QAction::triggered, this, &MainWindow::ask_for_folder);
@@ -178,14 +179,18 @@ void MainWindow::open(const QString& path) {
   }
 }
 
-void MainWindow::open_phantom(const QString& kind) { opener_->open_phantom(kind); }
+void MainWindow::open_phantom(const QString& kind) {
+  opener_->open_phantom(kind);
+}
 
-CaseWindow* MainWindow::add_case(std::shared_ptr<const LoadedStudy> study) {
+CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study,
+                                 const RestoredCase& restored) {
   if (!study->origin.path.empty()) {
     recent_->add(QString::fromStdString(study->origin.path.string()),
                  QString::fromStdString(study->origin.series_uid), study->name);
   }
-  auto* window = new CaseWindow(std::make_unique<CaseSession>(engine_, study, executor_), *actions_);
+  auto* window =
+      new CaseWindow(std::make_unique<CaseSession>(engine_, study, executor_, restored), *actions_);
   window->session().display().change([this](DisplaySettings& settings) {
     settings.tool = active_ ? active_->session().display().settings().tool : settings.tool;
   });
@@ -196,6 +201,7 @@ CaseWindow* MainWindow::add_case(std::shared_ptr<const LoadedStudy> study) {
   connect(window, &QWidget::windowTitleChanged, child, &QWidget::setWindowTitle);
   child->setWindowTitle(window->windowTitle());
   child->setWindowIcon(application_icon());
+  if (restored.contents) window->restore_view_state(restored.contents->view_state);
   links_->add(*window);
   centre_->setCurrentWidget(area_);
   if (area_->viewMode() == QMdiArea::TabbedView || area_->subWindowList().size() == 1) {
@@ -212,11 +218,15 @@ CaseWindow* MainWindow::add_case(std::shared_ptr<const LoadedStudy> study) {
   return window;
 }
 
-void MainWindow::tell(const QString& message) { messages_->show_text(message); }
+void MainWindow::tell(const QString& message) {
+  messages_->show_text(message);
+}
 
 // The active case.
 
-CaseWindow* MainWindow::active_case() const { return active_; }
+CaseWindow* MainWindow::active_case() const {
+  return active_;
+}
 
 QList<CaseWindow*> MainWindow::cases() const {
   QList<CaseWindow*> cases;
@@ -280,7 +290,8 @@ void MainWindow::connect_evolution() {
     window.session().display().choose_tool(window.session().display().settings().last_tool);
   });
   connect(actions_->tools, &QActionGroup::triggered, this, [this](QAction* chosen) {
-    for (CaseWindow* window : cases()) window->session().display().choose_tool(static_cast<Tool>(chosen->data().toInt()));
+    for (CaseWindow* window : cases())
+      window->session().display().choose_tool(static_cast<Tool>(chosen->data().toInt()));
   });
 }
 
@@ -290,7 +301,8 @@ void MainWindow::connect_views() {
   });
   with_case(actions_->reset_view, [](CaseWindow& window) { window.reset_views(); });
   with_case(actions_->clip, [](CaseWindow& window) {
-    window.session().display().change([](DisplaySettings& settings) { settings.clip_on = !settings.clip_on; });
+    window.session().display().change(
+        [](DisplaySettings& settings) { settings.clip_on = !settings.clip_on; });
   });
   connect(actions_->hide_interface, &QAction::toggled, panels_, &PanelDocks::set_hidden);
   connect(actions_->full_screen, &QAction::toggled, this,
@@ -312,9 +324,8 @@ void MainWindow::connect_windows() {
     actions_->tabs->setChecked(false);
     area_->cascadeSubWindows();
   });
-  connect(actions_->tabs, &QAction::toggled, this, [this](bool tabs) {
-    area_->setViewMode(tabs ? QMdiArea::TabbedView : QMdiArea::SubWindowView);
-  });
+  connect(actions_->tabs, &QAction::toggled, this,
+          [this](bool tabs) { area_->setViewMode(tabs ? QMdiArea::TabbedView : QMdiArea::SubWindowView); });
   connect(actions_->link, &QAction::toggled, links_, &CaseLinks::set_linked);
   connect(actions_->lock_step, &QAction::toggled, this, [this](bool together) {
     if (!together) {

@@ -33,7 +33,7 @@ class MainWindow : public QMainWindow {
   // A folder, an image file or a session file.
   void open(const QString& path);
   void open_phantom(const QString& kind);
-  CaseWindow* add_case(std::shared_ptr<const LoadedStudy> study);
+  CaseWindow* add_case(const std::shared_ptr<const LoadedStudy>& study, const RestoredCase& restored = {});
 
   [[nodiscard]] CaseWindow* active_case() const;  // null: none
   [[nodiscard]] QList<CaseWindow*> cases() const;

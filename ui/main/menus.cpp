@@ -23,8 +23,8 @@ void make_file_menu(MainWindow& window, Actions& actions, RecentStudies& recent)
   file->addSeparator();
   file->addActions({actions.save, actions.save_as});
   QMenu* exports = file->addMenu(icon(u"export"), MainWindow::tr("&Export"));
-  exports->addActions({actions.export_mask, actions.export_mesh, actions.export_picture, actions.export_statistics,
-                       actions.export_recipe});
+  exports->addActions({actions.export_mask, actions.export_mesh, actions.export_picture,
+                       actions.export_statistics, actions.export_recipe});
   file->addSeparator();
   file->addActions({actions.close, actions.quit});
 }

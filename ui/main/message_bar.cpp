@@ -30,7 +30,9 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent) {
   hide();
 }
 
-QString MessageBar::text() const { return isHidden() || shown_ ? QString() : text_->text(); }
+QString MessageBar::text() const {
+  return isHidden() || shown_ ? QString() : text_->text();
+}
 
 void MessageBar::show_text(const QString& text) {
   dismiss();

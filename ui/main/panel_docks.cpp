@@ -46,7 +46,8 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
   set_session(nullptr);
 }
 
-QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* panel, Qt::DockWidgetArea area) {
+QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* panel,
+                             Qt::DockWidgetArea area) {
   auto* scroll = new QScrollArea;
   scroll->setWidget(panel);
   scroll->setWidgetResizable(true);

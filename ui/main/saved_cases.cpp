@@ -9,10 +9,13 @@
 #include <QStatusBar>
 #include <filesystem>
 
+#include "core/atomic_file.h"
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/surface/surface.h"
 #include "session/background_job.h"
+#include "session/case_autosave.h"
+#include "study/session_file.h"
 #include "ui/main/main_window.h"
 #include "ui/main/panel_docks.h"
 #include "ui/panels/statistics_panel.h"
@@ -21,38 +24,53 @@
 namespace tidemark {
 namespace {
 
-std::filesystem::path path_of(const QString& file) { return file.toStdU16String(); }
+std::filesystem::path path_of(const QString& file) {
+  return file.toStdU16String();
+}
 
-Status write_label_file(const Labels& labels, const std::filesystem::path& file) {
+Status write_label_file(const SessionContents& contents, const std::filesystem::path& file) {
   Volume volume;
-  volume.geometry = labels.geometry();
-  volume.voxels = std::vector<std::uint16_t>(labels.voxels().begin(), labels.voxels().end());
+  volume.geometry = contents.geometry;
+  std::vector<std::uint16_t> voxels(static_cast<std::size_t>(contents.geometry.voxel_count()));
+  if (contents.label_voxels)
+    std::copy(contents.label_voxels->begin(), contents.label_voxels->end(), voxels.begin());
+  volume.voxels = std::move(voxels);
   return write_volume_file(volume, file);
 }
 
+const char* const kSessionSuffix = "tidemark";
+
 }  // namespace
 
-SavedCases::SavedCases(MainWindow& window) : QObject(&window), window_(window) {}
+SavedCases::SavedCases(MainWindow& window) : QObject(&window), window_(window) {
+  connect(&loader_, &StudyLoader::loaded, this, &SavedCases::restore);
+  connect(&loader_, &StudyLoader::failed, this, [this](const QString& message) {
+    window_.tell(tr("The study of the session %1 was not found: %2").arg(waiting_.file, message));
+    waiting_ = {};
+  });
+}
 
 SavedCases::~SavedCases() {
   for (const auto& job : jobs_) job->abandon();
 }
 
-void SavedCases::run(const QString& file, std::function<Status()> work) {
-  jobs_.push_back(BackgroundJob::start(this, [this, file, work = std::move(work)](BackgroundJob& job) {
+void SavedCases::run(const QString& file, std::function<Status()> work, std::function<void()> done) {
+  jobs_.push_back(BackgroundJob::start(this, [this, file, work = std::move(work), done](BackgroundJob& job) {
     const Status status = work();
-    job.deliver([this, file, status] {
+    job.deliver([this, file, status, done] {
       if (!status) return window_.tell(QString::fromStdString(status.error().message));
       window_.statusBar()->showMessage(tr("Wrote %1").arg(file), 8000);
+      if (done) done();
       emit written(file);
     });
   }));
 }
 
 void SavedCases::write(CaseWindow& window, const QString& file, Write work) {
-  window.session().take_snapshot([this, file, work = std::move(work)](const std::shared_ptr<const CaseSnapshot>& snapshot) {
-    run(file, [snapshot, work] { return work(*snapshot); });
-  });
+  window.session().take_snapshot(window.view_state(),
+                                 [this, file, work = std::move(work)](const auto& snapshot) {
+                                   run(file, [snapshot, work] { return work(snapshot->contents); });
+                                 });
 }
 
 QString SavedCases::ask_for_file(const CaseWindow& window, const QString& title, const QString& suffixes,
@@ -73,7 +91,8 @@ void SavedCases::export_mask(CaseWindow& window) {
   const bool has_labels = !window.session().state().labels.empty();
   QString what = tr("surface");
   if (has_labels) {
-    QMessageBox box(QMessageBox::Question, tr("Export"), tr("What is to be written?"), QMessageBox::Cancel, &window_);
+    QMessageBox box(QMessageBox::Question, tr("Export"), tr("What is to be written?"), QMessageBox::Cancel,
+                    &window_);
     QAbstractButton* surface = box.addButton(tr("Inside of the surface"), QMessageBox::AcceptRole);
     box.addButton(tr("All labels"), QMessageBox::AcceptRole);
     box.exec();
@@ -87,14 +106,14 @@ void SavedCases::export_mask(CaseWindow& window) {
 }
 
 void SavedCases::write_mask(CaseWindow& window, const QString& file) {
-  write(window, file, [path = path_of(file)](const CaseSnapshot& snapshot) {
-    return write_mask_file(snapshot.phi->mask(), path);
+  write(window, file, [path = path_of(file)](const SessionContents& contents) {
+    return write_mask_file(contents.phi->mask(), path);
   });
 }
 
 void SavedCases::write_labels(CaseWindow& window, const QString& file) {
   write(window, file,
-        [path = path_of(file)](const CaseSnapshot& snapshot) { return write_label_file(snapshot.labels, path); });
+        [path = path_of(file)](const SessionContents& contents) { return write_label_file(contents, path); });
 }
 
 void SavedCases::export_mesh(CaseWindow& window) {
@@ -104,8 +123,8 @@ void SavedCases::export_mesh(CaseWindow& window) {
 }
 
 void SavedCases::write_surface(CaseWindow& window, const QString& file) {
-  write(window, file, [path = path_of(file)](const CaseSnapshot& snapshot) -> Status {
-    const auto mesh = extract_surface(snapshot.phi->to_volume());
+  write(window, file, [path = path_of(file)](const SessionContents& contents) -> Status {
+    const auto mesh = extract_surface(contents.phi->to_volume());
     if (!mesh) return tl::unexpected<Error>(mesh.error());
     return write_mesh(*mesh, path);
   });
@@ -136,22 +155,138 @@ void SavedCases::export_statistics(CaseWindow& window) {
   if (!file.isEmpty()) window_.panels().statistics().export_csv(path_of(file));
 }
 
-void SavedCases::export_recipe(CaseWindow& /*window*/) {}
-void SavedCases::save(CaseWindow& /*window*/) {}
-void SavedCases::save_as(CaseWindow& /*window*/) {}
-void SavedCases::ask_and_open() {}
-void SavedCases::open(const QString& /*file*/) {}
+void SavedCases::export_recipe(CaseWindow& window) {
+  const QString file = ask_for_file(window, tr("Export the recipe"), tr("Recipe (*.json)"), "json");
+  if (file.isEmpty()) return;
+  write(window, file, [path = path_of(file)](const SessionContents& contents) -> Status {
+    const auto text = contents.recipe.to_text();
+    if (!text) return tl::unexpected<Error>(text.error());
+    return write_file(path, *text);
+  });
+}
 
-void SavedCases::close(QCloseEvent* event) {
-  auto* window = qobject_cast<CaseWindow*>(sender());
-  if (!window || !window->session().state().modified) return event->accept();
-  const auto answer =
-      QMessageBox::question(&window_, tr("Close"),
-                            tr("%1 has changes that are not in a session file. Close it all the same?")
-                                .arg(window->session().name()),
-                            QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
-  if (answer == QMessageBox::Save) save(*window);
+// Sessions.
+
+void SavedCases::save(CaseWindow& window) {
+  window.session_file.isEmpty() ? save_as(window) : save_to(window, window.session_file);
+}
+
+void SavedCases::save_as(CaseWindow& window) {
+  const QString file = ask_for_file(window, tr("Save the session"),
+                                    tr("Tidemark session (*.%1)").arg(kSessionSuffix), kSessionSuffix);
+  if (!file.isEmpty()) save_to(window, file);
+}
+
+void SavedCases::save_to(CaseWindow& window, const QString& file, std::function<void()> done) {
+  window.session().take_snapshot(
+      window.view_state(), [this, file, done, saved = QPointer(&window)](const auto& snapshot) {
+        run(
+            file, [snapshot, path = path_of(file)] { return write_session(snapshot->contents, path); },
+            [file, saved, snapshot, done] {
+              if (!saved) return;
+              saved->session_file = file;
+              saved->session().mark_saved(*snapshot);
+              if (done) done();
+            });
+      });
+}
+
+void SavedCases::ask_and_open() {
+  const QString file = QFileDialog::getOpenFileName(&window_, tr("Open a session"),
+                                                    QSettings().value("save/folder").toString(),
+                                                    tr("Tidemark session (*.%1)").arg(kSessionSuffix));
+  if (!file.isEmpty()) open(file);
+}
+
+void SavedCases::open(const QString& file) {
+  read(file, false, {});
+}
+
+void SavedCases::open_rescued(const Recoverable& copy) {
+  read(QString::fromStdU16String(copy.file.u16string()), true,
+       [id = copy.case_id] { discard(recovery_folder(), id); });
+}
+
+void SavedCases::read(const QString& file, bool rescued, std::function<void()> done) {
+  loader_.cancel();
+  waiting_ = {nullptr, file, rescued, std::move(done)};
+  jobs_.push_back(BackgroundJob::start(this, [this, path = path_of(file)](BackgroundJob& job) {
+    auto contents = load_session(path);
+    if (!contents) {
+      job.deliver(
+          [this, message = QString::fromStdString(contents.error().message)] { window_.tell(message); });
+      return;
+    }
+    job.deliver([this, contents = std::make_shared<const SessionContents>(std::move(*contents))] {
+      find_volume(contents);
+    });
+  }));
+}
+
+void SavedCases::find_volume(std::shared_ptr<const SessionContents> contents) {
+  waiting_.contents = std::move(contents);
+  const StudyOrigin& origin = waiting_.contents->origin;
+  if (!origin.phantom.empty()) return loader_.make_phantom(origin.phantom);
+  loader_.load(origin.path, origin.series_uid);
+}
+
+// The volume is here: is it the one that the session is about?
+void SavedCases::restore(const std::shared_ptr<const LoadedStudy>& study) {
+  const Waiting waiting = std::exchange(waiting_, {});
+  if (!waiting.contents) return;
+  const VolumeMatch found = match(*waiting.contents, *study->volume);
+  if (found == VolumeMatch::other_grid) {
+    return window_.tell(
+        tr("The study of the session %1 is another one now: its size or place differ").arg(waiting.file));
+  }
+  if (found == VolumeMatch::other_voxels &&
+      QMessageBox::question(
+          &window_, tr("Open a session"),
+          tr("The voxels of this study are not those that the session was saved with. Go on "
+             "all the same? Nothing is overwritten.")) != QMessageBox::Yes) {
+    return;
+  }
+  CaseWindow* window = window_.add_case(study, {waiting.contents, waiting.rescued});
+  if (!waiting.rescued) window->session_file = waiting.file;
+  if (waiting.done) waiting.done();
+}
+
+void SavedCases::offer_rescued() {
+  const auto copies = find_recoverable(recovery_folder());
+  if (copies.empty()) return;
+  QMessageBox box(QMessageBox::Question, tr("Rescued work"),
+                  tr("Tidemark did not end as it should the last time. It kept copies of %n case(s).",
+                     nullptr, static_cast<int>(copies.size())),
+                  QMessageBox::NoButton, &window_);
+  QPushButton* open = box.addButton(tr("Open them"), QMessageBox::AcceptRole);
+  QPushButton* remove = box.addButton(tr("Throw them away"), QMessageBox::DestructiveRole);
+  box.addButton(tr("Ask again later"), QMessageBox::RejectRole);
+  box.setDefaultButton(open);
+  box.exec();
+  for (const Recoverable& copy : copies) {
+    if (box.clickedButton() == open) open_rescued(copy);
+    if (box.clickedButton() == remove) discard(recovery_folder(), copy.case_id);
+  }
+}
+
+void SavedCases::close(CaseWindow& window, QCloseEvent* event) {
+  if (!window.session().state().modified) return event->accept();
+  const auto answer = QMessageBox::question(
+      &window_, tr("Close"),
+      tr("%1 has changes that are not in a session file.").arg(window.session().name()),
+      QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
   event->setAccepted(answer == QMessageBox::Discard);
+  if (answer != QMessageBox::Save) return;
+  // It closes itself once the file is written.
+  QString file = window.session_file;
+  if (file.isEmpty()) {
+    file = ask_for_file(window, tr("Save the session"), tr("Tidemark session (*.%1)").arg(kSessionSuffix),
+                        kSessionSuffix);
+  }
+  if (file.isEmpty()) return;
+  save_to(window, file, [closing = QPointer(&window)] {
+    if (closing) closing->close_saved();
+  });
 }
 
 }  // namespace tidemark

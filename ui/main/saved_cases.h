@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "core/result.h"
-#include "session/case_snapshot.h"
+#include "session/study_loader.h"
+#include "study/autosave.h"
 #include "ui/main/case_window.h"
 
 class QCloseEvent;
@@ -17,8 +18,8 @@ namespace tidemark {
 class BackgroundJob;
 class MainWindow;
 
-// Files are written on threads of their own, from what the case was like when it was asked for; how it went is
-// said in the window.
+// Files are written on threads of their own, from what the case was like when it was asked for; how it went
+// is said in the window.
 class SavedCases : public QObject {
   Q_OBJECT
  public:
@@ -44,19 +45,37 @@ class SavedCases : public QObject {
   void write_picture(CaseWindow& window, const QString& file);
 
   // Asks before something is lost.
-  void close(QCloseEvent* event);
+  void close(CaseWindow& window, QCloseEvent* event);
+
+  // Copies of cases that a program left behind that died: tells of them, and opens them if the user wants.
+  void offer_rescued();
+  void open_rescued(const Recoverable& copy);
 
  signals:
   void written(const QString& file);
 
  private:
-  using Write = std::function<Status(const CaseSnapshot&)>;
+  using Write = std::function<Status(const SessionContents&)>;
   [[nodiscard]] QString ask_for_file(const CaseWindow& window, const QString& title, const QString& suffixes,
                                      const QString& suffix);
   void write(CaseWindow& window, const QString& file, Write work);
-  void run(const QString& file, std::function<Status()> work);
+  void run(const QString& file, std::function<Status()> work, std::function<void()> done = {});
+  void save_to(CaseWindow& window, const QString& file, std::function<void()> done = {});
+  void read(const QString& file, bool rescued, std::function<void()> done);
+  void find_volume(std::shared_ptr<const SessionContents> contents);
+  void restore(const std::shared_ptr<const LoadedStudy>& study);
+
+  // A session that waits for its volume.
+  struct Waiting {
+    std::shared_ptr<const SessionContents> contents;
+    QString file;
+    bool rescued = false;
+    std::function<void()> done;
+  };
 
   MainWindow& window_;
+  StudyLoader loader_;
+  Waiting waiting_;
   std::vector<std::shared_ptr<BackgroundJob>> jobs_;
 };
 

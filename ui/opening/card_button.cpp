@@ -16,12 +16,6 @@ constexpr int kLeastWidth = 150;
 
 }  // namespace
 
-QColor mixed(const QColor& from, const QColor& to, double share) {
-  const auto part = [&](double a, double b) { return static_cast<float>(a + (b - a) * share); };
-  return QColor::fromRgbF(part(from.redF(), to.redF()), part(from.greenF(), to.greenF()),
-                          part(from.blueF(), to.blueF()));
-}
-
 CardButton::CardButton(const QString& title, const QString& sentence, QWidget* parent)
     : QAbstractButton(parent), sentence_(sentence) {
   setText(title);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QAbstractButton>
+#include "ui/look/colour.h"
 
 namespace tidemark {
 
@@ -33,8 +34,5 @@ class CardButton : public QAbstractButton {
   bool emphasised_ = false;
   bool one_line_ = false;
 };
-
-// `share` of the way from one colour to the other.
-QColor mixed(const QColor& from, const QColor& to, double share);
 
 }  // namespace tidemark

@@ -140,10 +140,4 @@ void draw_read_out(QPainter& painter, const QRectF& area, const QString& text, c
   painter.drawText(box, Qt::AlignCenter, text);
 }
 
-QColor mixed(const QColor& first, const QColor& second, double share) {
-  const auto mix = [&](double a, double b) { return static_cast<float>(a + share * (b - a)); };
-  return QColor::fromRgbF(mix(first.redF(), second.redF()), mix(first.greenF(), second.greenF()),
-                          mix(first.blueF(), second.blueF()), mix(first.alphaF(), second.alphaF()));
-}
-
 }  // namespace tidemark

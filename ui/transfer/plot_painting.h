@@ -5,6 +5,7 @@
 #include <QPalette>
 #include <QString>
 
+#include "ui/look/colour.h"
 #include "ui/transfer/plot_axis.h"
 
 namespace tidemark {
@@ -39,8 +40,5 @@ void draw_handle(QPainter& painter, QPointF at, HandleShape shape, HandleState s
 void draw_number(QPainter& painter, QPointF at, int number, bool chosen, const QPalette& palette);
 // What is being set, in a corner of the area.
 void draw_read_out(QPainter& painter, const QRectF& area, const QString& text, const QPalette& palette);
-
-// Between two colours: 0 the first, 1 the second.
-QColor mixed(const QColor& first, const QColor& second, double share);
 
 }  // namespace tidemark

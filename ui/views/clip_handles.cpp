@@ -9,13 +9,13 @@
 namespace tidemark {
 namespace {
 
-constexpr double kGripRadius = 7.0;   // as drawn, logical pixels
-constexpr double kReach = 12.0;       // as hit
+constexpr double kGripRadius = 7.0;  // as drawn, logical pixels
+constexpr double kReach = 12.0;      // as hit
 constexpr double kArrowLength = 70.0;
 const QColor kColour(255, 214, 90);
 
-// Where the grips are: the middle of the cut, and the tip of an arrow along the normal that is never too short
-// to be taken hold of.
+// Where the grips are: the middle of the cut, and the tip of an arrow along the normal that is never too
+// short to be taken hold of.
 glm::dvec3 middle_of_cut(const ClipPlane& plane, const Geometry& geometry) {
   const auto cut = cut_of_box(geometry, plane);
   glm::dvec3 middle(0.0);
@@ -37,7 +37,8 @@ class MoveDrag : public Drag {
     if (square > kShortest * kShortest * full * full) {
       mm_per_way_ = along / square;
     } else {
-      mm_per_way_ = QPointF(0.0, -screen.mm_per_pixel()) * (glm::dot(plane_.normal, screen.into()) < 0.0 ? -1.0 : 1.0);
+      mm_per_way_ =
+          QPointF(0.0, -screen.mm_per_pixel()) * (glm::dot(plane_.normal, screen.into()) < 0.0 ? -1.0 : 1.0);
     }
   }
   void move(const Pointer& pointer) override {
@@ -55,7 +56,10 @@ class MoveDrag : public Drag {
 class TiltDrag : public Drag {
  public:
   TiltDrag(DragView view, const Pointer& pressed, const VolumeScreen& screen)
-      : Drag(std::move(view)), from_(pressed.position), plane_(display().settings().clip), into_(screen.into()) {
+      : Drag(std::move(view)),
+        from_(pressed.position),
+        plane_(display().settings().clip),
+        into_(screen.into()) {
     right_ = screen.ray_at({1.0, 0.0}).origin_mm - screen.ray_at({0.0, 0.0}).origin_mm;
     down_ = screen.ray_at({0.0, 1.0}).origin_mm - screen.ray_at({0.0, 0.0}).origin_mm;
     pivot_mm_ = middle_of_cut(plane_, session().volume().geometry);
@@ -104,7 +108,8 @@ ClipHandles::ClipHandles(const ClipPlane& plane, const VolumeScreen& screen, con
   const QPointF way = tip_ - centre_;
   const double length = std::hypot(way.x(), way.y());
   constexpr double kShortest = 26.0;
-  if (length < kShortest) tip_ = centre_ + (length > 1.0 ? way * (kShortest / length) : QPointF(0.0, -kShortest));
+  if (length < kShortest)
+    tip_ = centre_ + (length > 1.0 ? way * (kShortest / length) : QPointF(0.0, -kShortest));
 }
 
 std::optional<ClipHandles::Grip> ClipHandles::grip_at(QPointF position) const {

@@ -9,7 +9,8 @@
 namespace tidemark {
 namespace {
 
-// Right and left: wider and narrower; down and up: the centre to higher and lower values, darker and brighter.
+// Right and left: wider and narrower; down and up: the centre to higher and lower values, darker and
+// brighter.
 class WindowDrag : public Drag {
  public:
   WindowDrag(DragView view, const Pointer& pressed)

@@ -39,7 +39,7 @@ class Drag {
 
   virtual void move(const Pointer& pointer) = 0;
   virtual void release() {}
-  virtual void paint(QPainter& /*painter*/) const {}     // over the view, while it lasts
+  virtual void paint(QPainter& /*painter*/) const {}         // over the view, while it lasts
   [[nodiscard]] virtual QString text() const { return {}; }  // beside the mouse: what it has found so far
 
  protected:
@@ -51,8 +51,8 @@ class Drag {
   DragView view_;
 };
 
-// What the buttons do in any view (docs/user: mouse and keys). None where there is nothing to do, as for a tool
-// that needs a point of the patient and has none.
+// What the buttons do in any view (docs/user: mouse and keys). None where there is nothing to do, as for a
+// tool that needs a point of the patient and has none.
 std::unique_ptr<Drag> tool_drag(Tool tool, DragView view, const Pointer& pressed);
 std::unique_ptr<Drag> window_drag(DragView view, const Pointer& pressed);
 

@@ -27,7 +27,8 @@ void SphereDrag::release() {
 }
 
 void SphereDrag::paint(QPainter& painter) const {
-  paint_circle(painter, view().position_of(centre_mm_), radius_mm_ / view().mm_per_pixel, brush_ == Brush::erase);
+  paint_circle(painter, view().position_of(centre_mm_), radius_mm_ / view().mm_per_pixel,
+               brush_ == Brush::erase);
 }
 
 QString SphereDrag::text() const {
@@ -43,7 +44,9 @@ StrokeDrag::StrokeDrag(DragView view, const Pointer& pressed, Brush brush)
   dab(last_mm_);
 }
 
-void StrokeDrag::dab(glm::dvec3 at_mm) { session().paint({at_mm, radius_mm_}, brush_, gesture_); }
+void StrokeDrag::dab(glm::dvec3 at_mm) {
+  session().paint({at_mm, radius_mm_}, brush_, gesture_);
+}
 
 void StrokeDrag::move(const Pointer& pointer) {
   if (!pointer.patient_mm) return;

@@ -13,7 +13,9 @@ namespace {
 const QColor kRim(0, 0, 0, 170);
 constexpr double kMargin = 8.0;
 
-QString number(double value, int digits) { return QString::number(value, 'f', digits); }
+QString number(double value, int digits) {
+  return QString::number(value, 'f', digits);
+}
 
 }  // namespace
 
@@ -45,7 +47,9 @@ void paint_circle(QPainter& painter, QPointF centre, double radius, bool erases)
 }
 
 void paint_orientation(QPainter& painter, QSizeF size, glm::dvec3 right, glm::dvec3 up) {
-  const auto letters = [](glm::dvec3 direction) { return QString::fromStdString(orientation_letters(direction)); };
+  const auto letters = [](glm::dvec3 direction) {
+    return QString::fromStdString(orientation_letters(direction));
+  };
   const QRectF all(QPointF(kMargin, kMargin), size - QSizeF(2 * kMargin, 2 * kMargin));
   paint_text(painter, all, Qt::AlignRight | Qt::AlignVCenter, letters(right));
   paint_text(painter, all, Qt::AlignLeft | Qt::AlignVCenter, letters(-right));
@@ -59,7 +63,8 @@ void paint_scale_bar(QPainter& painter, QSizeF size, double mm_per_pixel) {
   const double length = length_mm / mm_per_pixel;
   const double y = size.height() - kMargin - 3.0;
   const double x = size.width() - kMargin - length;
-  paint_line(painter, QPolygonF({QPointF(x, y - 4), QPointF(x, y), QPointF(x + length, y), QPointF(x + length, y - 4)}));
+  paint_line(painter, QPolygonF({QPointF(x, y - 4), QPointF(x, y), QPointF(x + length, y),
+                                 QPointF(x + length, y - 4)}));
   const QString text = length_mm >= 10.0 ? QCoreApplication::translate("View", "%1 cm").arg(length_mm / 10.0)
                                          : QCoreApplication::translate("View", "%1 mm").arg(length_mm);
   paint_text(painter, QRectF(x, y - 24, length, 18), Qt::AlignHCenter | Qt::AlignBottom, text);
@@ -82,8 +87,8 @@ QString text_of(const Measurement& measurement) {
   return QCoreApplication::translate("View", "%1°").arg(number(measurement.value(), 1));
 }
 
-void paint_measurements(QPainter& painter, const std::vector<Measurement>& measurements, const SliceScreen& screen,
-                        double reach_mm) {
+void paint_measurements(QPainter& painter, const std::vector<Measurement>& measurements,
+                        const SliceScreen& screen, double reach_mm) {
   for (const Measurement& measurement : measurements) {
     QPolygonF line;
     bool near = true;

@@ -15,7 +15,8 @@ namespace tidemark {
 // Light with a dark rim.
 // `flags`: Qt::AlignmentFlag and Qt::TextFlag.
 void paint_text(QPainter& painter, const QRectF& where, int flags, const QString& text);
-void paint_line(QPainter& painter, const QPolygonF& line, const QColor& colour = Qt::white, double width = 1.5);
+void paint_line(QPainter& painter, const QPolygonF& line, const QColor& colour = Qt::white,
+                double width = 1.5);
 // A sphere's outline; one that takes away is dashed.
 void paint_circle(QPainter& painter, QPointF centre, double radius, bool erases);
 
@@ -26,8 +27,8 @@ void paint_scale_bar(QPainter& painter, QSizeF size, double mm_per_pixel);
 // With a gap in the middle.
 void paint_crosshair(QPainter& painter, QSizeF size, QPointF at);
 // Measurements whose points are near the slice; `reach_mm` is how far in front or behind.
-void paint_measurements(QPainter& painter, const std::vector<Measurement>& measurements, const SliceScreen& screen,
-                        double reach_mm);
+void paint_measurements(QPainter& painter, const std::vector<Measurement>& measurements,
+                        const SliceScreen& screen, double reach_mm);
 QString text_of(const Measurement& measurement);
 
 }  // namespace tidemark

@@ -18,7 +18,9 @@ constexpr double kZoomStep = 1.15;
 constexpr double kSmallestBrush = 0.2;  // mm
 constexpr double kLargestBrush = 200.0;
 
-bool edits(Tool tool) { return tool == Tool::paint || tool == Tool::erase || tool == Tool::seed; }
+bool edits(Tool tool) {
+  return tool == Tool::paint || tool == Tool::erase || tool == Tool::seed;
+}
 
 Qt::CursorShape cursor_for(Tool tool) {
   switch (tool) {
@@ -39,7 +41,8 @@ Qt::CursorShape cursor_for(Tool tool) {
 
 }  // namespace
 
-PictureView::PictureView(CaseSession& session, QWidget* parent) : QWidget(parent), session_(session), feed_(session) {
+PictureView::PictureView(CaseSession& session, QWidget* parent)
+    : QWidget(parent), session_(session), feed_(session) {
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
@@ -117,7 +120,8 @@ void PictureView::paint_brush(QPainter& painter) {
   const double off_mm = glm::distance(*pointer, patient_at(position_of(*pointer)).value_or(*pointer));
   const double square = settings().brush_mm * settings().brush_mm - off_mm * off_mm;
   if (square <= 0.0) return;
-  paint_circle(painter, position_of(*pointer), std::sqrt(square) / mm_per_pixel(), settings().tool == Tool::erase);
+  paint_circle(painter, position_of(*pointer), std::sqrt(square) / mm_per_pixel(),
+               settings().tool == Tool::erase);
 }
 
 void PictureView::resizeEvent(QResizeEvent* event) {
@@ -175,7 +179,8 @@ void PictureView::mouseMoveEvent(QMouseEvent* event) {
   if (drag_) {
     drag_->move(pointer);
     update();
-  } else if (button_ == Qt::NoButton && event->modifiers().testFlag(Qt::ShiftModifier) && pointer.patient_mm) {
+  } else if (button_ == Qt::NoButton && event->modifiers().testFlag(Qt::ShiftModifier) &&
+             pointer.patient_mm) {
     display().change([&](DisplaySettings& settings) { settings.cursor_mm = *pointer.patient_mm; });
   }
 }
@@ -213,7 +218,8 @@ void PictureView::wheelEvent(QWheelEvent* event) {
     zoom(std::pow(kZoomStep, clicks), event->position());
   } else if (event->modifiers().testFlag(Qt::ShiftModifier)) {
     display().change([&](DisplaySettings& settings) {
-      settings.brush_mm = std::clamp(settings.brush_mm * std::pow(1.1, clicks), kSmallestBrush, kLargestBrush);
+      settings.brush_mm =
+          std::clamp(settings.brush_mm * std::pow(1.1, clicks), kSmallestBrush, kLargestBrush);
     });
   } else {
     scroll(clicks);

@@ -43,7 +43,8 @@ class PictureView : public QWidget {
 
   [[nodiscard]] virtual AnyView wanted() const = 0;
   virtual void paint_overlay(QPainter& painter) = 0;
-  // Drags that are about the view itself; `first_choice`: the left button of a tool that has nothing to do here.
+  // Drags that are about the view itself; `first_choice`: the left button of a tool that has nothing to do
+  // here.
   virtual std::unique_ptr<Drag> navigation_drag(const Pointer& pressed) = 0;
   virtual void scroll(int clicks) = 0;
   virtual void zoom(double factor, QPointF about) = 0;

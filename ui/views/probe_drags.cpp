@@ -8,7 +8,9 @@
 namespace tidemark {
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("ProbeDrag", text); }
+QString tr(const char* text) {
+  return QCoreApplication::translate("ProbeDrag", text);
+}
 
 // A voxel beside the mouse counts too: a drag over a thin structure then has enough of them.
 double reach_mm(const Geometry& geometry) {
@@ -69,10 +71,12 @@ void TransferProbeDrag::set() {
     // A Gaussian here falls to 1/e at its width, which is sqrt(2) standard deviations.
     constexpr double kWidth = 1.4142135623730951;
     const double least = least_probed_range(summary.low, summary.high);
-    primitive.value = {TransferFactor::Kind::gaussian, values.mean, std::max(kWidth * values.deviation, least)};
+    primitive.value = {TransferFactor::Kind::gaussian, values.mean,
+                       std::max(kWidth * values.deviation, least)};
     if (primitive.gradient.kind == TransferFactor::Kind::gaussian) {
       primitive.gradient.start = gradients.mean;
-      primitive.gradient.end = std::max(kWidth * gradients.deviation, 0.01 * static_cast<double>(summary.steepest));
+      primitive.gradient.end =
+          std::max(kWidth * gradients.deviation, 0.01 * static_cast<double>(summary.steepest));
     }
     settings.chosen_primitive = static_cast<int>(chosen);
     settings.show_source = true;

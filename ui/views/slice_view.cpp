@@ -36,7 +36,8 @@ class ZoomDrag : public Drag {
     zoom_ = display().settings().slice_zoom;
   }
   void move(const Pointer& pointer) override {
-    const double zoom = std::clamp(zoom_ * std::exp((from_.y() - pointer.position.y()) / 150.0), kLeastZoom, kMostZoom);
+    const double zoom =
+        std::clamp(zoom_ * std::exp((from_.y() - pointer.position.y()) / 150.0), kLeastZoom, kMostZoom);
     display().change([&](DisplaySettings& settings) { settings.slice_zoom = zoom; });
   }
 
@@ -61,7 +62,8 @@ QString term_name(SpeedTerm term) {
 
 }  // namespace
 
-SliceViewWidget::SliceViewWidget(CaseSession& session, SlicePlane plane, SliceContent content, QWidget* parent)
+SliceViewWidget::SliceViewWidget(CaseSession& session, SlicePlane plane, SliceContent content,
+                                 QWidget* parent)
     : PictureView(session, parent), plane_(plane), content_(content) {
   setAccessibleName(title());
 }
@@ -125,7 +127,9 @@ SliceScreen SliceViewWidget::screen() const {
   return {slice(), QSizeF(size()), session().volume().geometry};
 }
 
-QPointF SliceViewWidget::position_of(glm::dvec3 patient_mm) const { return screen().position_of(patient_mm); }
+QPointF SliceViewWidget::position_of(glm::dvec3 patient_mm) const {
+  return screen().position_of(patient_mm);
+}
 
 std::optional<glm::dvec3> SliceViewWidget::patient_at(QPointF position) const {
   return screen().patient_at(position);
@@ -146,7 +150,8 @@ SliceViewWidget::Place SliceViewWidget::place() const {
   Place place;
   place.thickness_mm = spacing_mm;
   place.slices = std::llround(extent_mm / spacing_mm) + 1;
-  place.slice = std::clamp<std::int64_t>(std::llround((from_middle + 0.5 * extent_mm) / spacing_mm) + 1, 1, place.slices);
+  place.slice = std::clamp<std::int64_t>(std::llround((from_middle + 0.5 * extent_mm) / spacing_mm) + 1, 1,
+                                         place.slices);
   return place;
 }
 
@@ -172,7 +177,8 @@ void SliceViewWidget::zoom(double factor, QPointF about) {
 }
 
 std::unique_ptr<Drag> SliceViewWidget::navigation_drag(const Pointer& pressed) {
-  if (pressed.button == Qt::MiddleButton) return std::make_unique<PanDrag>(drag_view(), pressed, orientation());
+  if (pressed.button == Qt::MiddleButton)
+    return std::make_unique<PanDrag>(drag_view(), pressed, orientation());
   if (pressed.button == Qt::RightButton) return std::make_unique<ZoomDrag>(drag_view(), pressed);
   return nullptr;
 }
@@ -196,7 +202,9 @@ void SliceViewWidget::paint_corners(QPainter& painter) const {
   if (s.patient_text) upper_left << QString::fromStdString(session().volume().description).left(40);
   paint_text(painter, all, Qt::AlignLeft | Qt::AlignTop, upper_left.join('\n'));
   paint_text(painter, all, Qt::AlignRight | Qt::AlignTop,
-             plane_ == SlicePlane::sagittal ? QString() : s.radiological ? tr("radiological") : tr("neurological"));
+             plane_ == SlicePlane::sagittal ? QString()
+             : s.radiological               ? tr("radiological")
+                                            : tr("neurological"));
   QStringList lower_left;
   lower_left << tr("%1 / %2   %3 mm").arg(now.slice).arg(now.slices).arg(now.thickness_mm, 0, 'g', 3);
   if (content_ == SliceContent::source) {

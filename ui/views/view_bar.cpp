@@ -36,7 +36,8 @@ ViewBar::ViewBar(CaseSession& session, const QString& title, const QList<QAction
     evolution_ << button;
   }
   target_ = add_number(tr("T"), tr("Target T"), tr("T: the brightness that attracts the surface"));
-  range_ = add_number(tr("ε"), tr("Range epsilon"), tr("ε: the surface grows where brightness is within T ± ε"));
+  range_ =
+      add_number(tr("ε"), tr("Range epsilon"), tr("ε: the surface grows where brightness is within T ± ε"));
   tool_ = new QToolButton;
   tool_->setAutoRaise(true);
   tool_->setPopupMode(QToolButton::InstantPopup);
@@ -45,8 +46,8 @@ ViewBar::ViewBar(CaseSession& session, const QString& title, const QList<QAction
   menu->addActions(tools);
   tool_->setMenu(menu);
   layout->addWidget(tool_);
-  connect(add_button("maximise", tr("Maximise or restore the view (double click)")), &QToolButton::clicked, this,
-          &ViewBar::maximise_wanted);
+  connect(add_button("maximise", tr("Maximise or restore the view (double click)")), &QToolButton::clicked,
+          this, &ViewBar::maximise_wanted);
   connect(add_button("duplicate", tr("Let the view float, or put it back")), &QToolButton::clicked, this,
           &ViewBar::float_wanted);
   connect(add_button("close", tr("Close the view")), &QToolButton::clicked, this, &ViewBar::close_wanted);
@@ -90,7 +91,9 @@ QDoubleSpinBox* ViewBar::add_number(const QString& label, const QString& name, c
   return number;
 }
 
-void ViewBar::set_title(const QString& title) { title_->setText(title); }
+void ViewBar::set_title(const QString& title) {
+  title_->setText(title);
+}
 
 void ViewBar::change_parameters() {
   Parameters parameters = session_.parameters();

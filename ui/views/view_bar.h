@@ -14,8 +14,8 @@ class ViewBar : public QWidget {
   Q_OBJECT
  public:
   // `evolution` and `tools`: the actions whose buttons stand here.
-  ViewBar(CaseSession& session, const QString& title, const QList<QAction*>& evolution, const QList<QAction*>& tools,
-          QWidget* parent = nullptr);
+  ViewBar(CaseSession& session, const QString& title, const QList<QAction*>& evolution,
+          const QList<QAction*>& tools, QWidget* parent = nullptr);
 
   void set_title(const QString& title);
   void set_floating(bool floating);
@@ -41,7 +41,7 @@ class ViewBar : public QWidget {
   QLabel* title_;
   QToolButton* tool_;
   QList<QAction*> tools_;
-  QList<QWidget*> numbers_;   // hidden first when the bar is narrow
+  QList<QWidget*> numbers_;    // hidden first when the bar is narrow
   QList<QWidget*> evolution_;  // and these next
   QDoubleSpinBox* target_;
   QDoubleSpinBox* range_;

@@ -7,7 +7,9 @@
 namespace tidemark {
 namespace {
 
-double aspect_of(QSizeF size) { return size.height() > 0.0 ? size.width() / size.height() : 1.0; }
+double aspect_of(QSizeF size) {
+  return size.height() > 0.0 ? size.width() / size.height() : 1.0;
+}
 
 QPointF position_on(QSizeF size, double mm_per_pixel, double right_mm, double up_mm) {
   return {0.5 * size.width() + right_mm / mm_per_pixel, 0.5 * size.height() - up_mm / mm_per_pixel};
@@ -19,8 +21,8 @@ SliceScreen::SliceScreen(const SliceView& view, QSizeF size, const Geometry& geo
     : orientation_(view.orientation), size_(size) {
   const glm::dvec3 middle = middle_of(geometry);
   const glm::dvec3 into = orientation_.into();
-  centre_mm_ = middle + into * glm::dot(view.position_mm - middle, into) + orientation_.right * view.pan_mm.x +
-               orientation_.up * view.pan_mm.y;
+  centre_mm_ = middle + into * glm::dot(view.position_mm - middle, into) +
+               orientation_.right * view.pan_mm.x + orientation_.up * view.pan_mm.y;
   mm_per_pixel_ = 2.0 * slice_half_height_mm(geometry, orientation_, view.zoom, aspect_of(size)) /
                   std::max(size.height(), 1.0);
 }
@@ -58,7 +60,8 @@ QPointF VolumeScreen::position_of(glm::dvec3 patient_mm) const {
   return position_on(size_, mm_per_pixel_, glm::dot(d, right_), glm::dot(d, up_));
 }
 
-std::optional<glm::dvec3> VolumeScreen::on_plane(QPointF position, glm::dvec3 normal, double offset_mm) const {
+std::optional<glm::dvec3> VolumeScreen::on_plane(QPointF position, glm::dvec3 normal,
+                                                 double offset_mm) const {
   constexpr double kSteepest = 0.02;  // sine of the angle below which a plane is seen from its edge
   const Ray ray = ray_at(position);
   const double slope = glm::dot(ray.direction, normal);
@@ -84,8 +87,8 @@ std::vector<glm::dvec3> cut_of_box(const Geometry& geometry, const ClipPlane& pl
       const double a = glm::dot(corners[static_cast<std::size_t>(corner)], plane.normal) - plane.offset_mm;
       const double b = glm::dot(corners[static_cast<std::size_t>(other)], plane.normal) - plane.offset_mm;
       if ((a < 0.0) == (b < 0.0)) continue;
-      points.push_back(glm::mix(corners[static_cast<std::size_t>(corner)], corners[static_cast<std::size_t>(other)],
-                                a / (a - b)));
+      points.push_back(glm::mix(corners[static_cast<std::size_t>(corner)],
+                                corners[static_cast<std::size_t>(other)], a / (a - b)));
     }
   }
   if (points.size() < 3) return {};
@@ -93,7 +96,9 @@ std::vector<glm::dvec3> cut_of_box(const Geometry& geometry, const ClipPlane& pl
   for (const glm::dvec3& point : points) middle += point / static_cast<double>(points.size());
   const glm::dvec3 x = glm::normalize(points.front() - middle);
   const glm::dvec3 y = glm::cross(plane.normal, x);
-  const auto angle = [&](glm::dvec3 p) { return std::atan2(glm::dot(p - middle, y), glm::dot(p - middle, x)); };
+  const auto angle = [&](glm::dvec3 p) {
+    return std::atan2(glm::dot(p - middle, y), glm::dot(p - middle, x));
+  };
   std::sort(points.begin(), points.end(), [&](glm::dvec3 p, glm::dvec3 q) { return angle(p) < angle(q); });
   return points;
 }

@@ -40,7 +40,8 @@ class VolumeScreen {
   [[nodiscard]] Ray ray_at(QPointF position) const;
   [[nodiscard]] QPointF position_of(glm::dvec3 patient_mm) const;
   // Where the ray through a position meets a plane; none when they are parallel.
-  [[nodiscard]] std::optional<glm::dvec3> on_plane(QPointF position, glm::dvec3 normal, double offset_mm) const;
+  [[nodiscard]] std::optional<glm::dvec3> on_plane(QPointF position, glm::dvec3 normal,
+                                                   double offset_mm) const;
   [[nodiscard]] double mm_per_pixel() const { return mm_per_pixel_; }
   [[nodiscard]] glm::dvec3 into() const { return into_; }
 

@@ -60,7 +60,8 @@ class CameraZoomDrag : public Drag {
     zoom_ = display().settings().camera.zoom;
   }
   void move(const Pointer& pointer) override {
-    const double zoom = std::clamp(zoom_ * std::exp((from_.y() - pointer.position.y()) / 150.0), kLeastZoom, kMostZoom);
+    const double zoom =
+        std::clamp(zoom_ * std::exp((from_.y() - pointer.position.y()) / 150.0), kLeastZoom, kMostZoom);
     display().change([&](DisplaySettings& settings) { settings.camera.zoom = zoom; });
   }
 
@@ -98,7 +99,9 @@ VolumeScreen VolumeViewWidget::screen() const {
   return {settings().camera, QSizeF(size()), session().volume().geometry};
 }
 
-ClipHandles VolumeViewWidget::handles() const { return {settings().clip, screen(), session().volume().geometry}; }
+ClipHandles VolumeViewWidget::handles() const {
+  return {settings().clip, screen(), session().volume().geometry};
+}
 
 std::optional<glm::dvec3> VolumeViewWidget::patient_at(QPointF position) const {
   if (grip_mm_) {

@@ -12,7 +12,9 @@ class VolumeViewWidget : public PictureView {
   explicit VolumeViewWidget(CaseSession& session, QWidget* parent = nullptr);
 
   [[nodiscard]] QString title() const override { return tr("3D"); }
-  [[nodiscard]] QPointF position_of(glm::dvec3 patient_mm) const override { return screen().position_of(patient_mm); }
+  [[nodiscard]] QPointF position_of(glm::dvec3 patient_mm) const override {
+    return screen().position_of(patient_mm);
+  }
   [[nodiscard]] std::optional<glm::dvec3> patient_at(QPointF position) const override;
   [[nodiscard]] double mm_per_pixel() const override { return screen().mm_per_pixel(); }
   [[nodiscard]] ClipHandles handles() const;

@@ -1,0 +1,56 @@
+// Copies of a case while it has changes that are in no file.
+#pragma once
+
+#include <QObject>
+#include <QPointer>
+#include <QTimer>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "session/case_session.h"
+#include "study/autosave.h"
+
+namespace tidemark {
+
+class BackgroundJob;
+
+// Written every kSeconds or kEdits edits, away from the user interface. A program that dies leaves the last
+// copy behind, for find_recoverable().
+class CaseAutosave : public QObject {
+  Q_OBJECT
+ public:
+  static constexpr int kSeconds = 30;
+  static constexpr std::uint64_t kEdits = 50;
+
+  // `view_state`: how the case is shown, asked for at each copy.
+  CaseAutosave(CaseSession& session, std::filesystem::path folder, std::function<std::string()> view_state);
+  // The case was closed because the user wanted it: nothing is left behind.
+  ~CaseAutosave() override;
+
+  void save_now();
+
+ signals:
+  void saved();
+  void failed(const QString& message);  // once: where one copy cannot be written, others cannot either
+
+ private:
+  struct Copies;
+  void follow();
+
+  CaseSession& session_;
+  std::function<std::string()> view_state_;
+  std::shared_ptr<Copies> copies_;
+  std::shared_ptr<BackgroundJob> job_;
+  QTimer timer_;
+  std::uint64_t saved_edits_ = 0;
+  std::int64_t saved_step_ = 0;
+  bool writing_ = false;
+  bool failed_ = false;
+};
+
+// Where copies are, for all cases of this user.
+std::filesystem::path recovery_folder();
+
+}  // namespace tidemark

@@ -1,0 +1,11 @@
+// Colours between others.
+#pragma once
+
+#include <QColor>
+
+namespace tidemark {
+
+// `share` 0: `from`; 1: `to`. Opacities are mixed, too.
+QColor mixed(const QColor& from, const QColor& to, double share);
+
+}  // namespace tidemark
