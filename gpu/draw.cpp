@@ -23,6 +23,11 @@ void draw(Primitive primitive, std::int64_t vertices) {
   if (vertices > 0) glDrawArrays(mode, 0, static_cast<GLsizei>(vertices));
 }
 
+void prepare_draw() {
+  const ScissorScope nowhere({0, 0, 0, 0});
+  draw(Primitive::triangles, 3);
+}
+
 void begin_exact_drawing() {
   for (const GLenum test :
        {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE, GL_BLEND, GL_DITHER, GL_MULTISAMPLE,
@@ -51,7 +56,8 @@ ScissorScope::~ScissorScope() {
 
 BlendScope::BlendScope(Blending blending) {
   glEnable(GL_BLEND);
-  glBlendFunc(blending == Blending::under ? GL_ONE_MINUS_DST_ALPHA : GL_ONE, GL_ONE);
+  glBlendFunc(blending == Blending::under ? GL_ONE_MINUS_DST_ALPHA : GL_ONE,
+              blending == Blending::replace ? GL_ZERO : GL_ONE);
   glBlendEquation(blending == Blending::largest    ? GL_MAX
                   : blending == Blending::smallest ? GL_MIN
                                                    : GL_FUNC_ADD);

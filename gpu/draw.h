@@ -25,6 +25,9 @@ class VertexArray {
 // Draws with the program, the framebuffer and the vertex array in use; vertices are numbered from 0.
 void draw(Primitive primitive, std::int64_t vertices);
 
+// Compiles what such a draw needs, in this thread: on a processor that plays the GPU. Draws nothing.
+void prepare_draw();
+
 // Fragments reach their texels as they are: no test, no blending, no dithering, lines and points one texel
 // wide.
 void begin_exact_drawing();
@@ -43,7 +46,7 @@ class ScissorScope {
 
 // How fragments combine with what is in the texture, while the object lives. `under`: fragments, multiplied
 // by their opacity, lie behind what is there.
-enum class Blending { add, largest, smallest, under };
+enum class Blending { add, largest, smallest, under, replace };
 class BlendScope {
  public:
   explicit BlendScope(Blending blending);

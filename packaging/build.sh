@@ -30,3 +30,8 @@ tidemark_build() {
   if (($# > 0)); then targets=(--target "$@"); fi
   NINJA_STATUS='[%f/%t, %es] ' cmake --build "$tidemark_root/build/$preset" -j "$(tidemark_jobs)" "${targets[@]}"
 }
+
+# tidemark_has_target PRESET TARGET: whether what was built last has a target of that name.
+tidemark_has_target() {
+  ninja -C "$tidemark_root/build/$1" -t query "$2" >/dev/null 2>&1
+}

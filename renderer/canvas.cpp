@@ -1,17 +1,12 @@
 #include "renderer/canvas.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+
+#include "core/stopwatch.h"
 
 namespace tidemark {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // The rasteriser's threads take squares of 64 pixels; two of them side by side keep two processors busy.
 constexpr std::int64_t kPieceColumns = 128;
@@ -40,13 +35,17 @@ Status Canvas::fill(gpu::Device& device, const Progress& progress) {
   vertices_.bind();
   gpu::begin_exact_drawing();
   report_ = {};
-  const auto start = Clock::now();
+  const Stopwatch whole;
   if (!device.capabilities().software) {
     gpu::draw(gpu::Primitive::triangles, 3);
     report_.pieces = 1;
-    report_.longest_piece_seconds = report_.seconds = seconds_since(start);
+    report_.longest_piece_seconds = report_.seconds = whole.seconds();
     return device.check("drawing a picture");
   }
+  // Without blending llvmpipe compiles two functions, one for blocks of pixels that are covered in full.
+  const gpu::BlendScope replace(gpu::Blending::replace);
+  gpu::prepare_draw();
+  report_.prepare_seconds = whole.seconds();
   const auto [width, height] = size();
   // From little on, as nobody knows how hard this picture is.
   std::int64_t wanted_rows = kLeastRows;
@@ -55,11 +54,11 @@ Status Canvas::fill(gpu::Device& device, const Progress& progress) {
     double longest = 0.0;
     for (std::int64_t left = 0; left < width; left += kPieceColumns) {
       if (progress.cancelled()) return cancelled_error();
-      const auto piece_start = Clock::now();
+      const Stopwatch piece;
       const gpu::ScissorScope scissor({left, top, std::min(kPieceColumns, width - left), rows});
       gpu::draw(gpu::Primitive::triangles, 3);
       if (auto status = gpu::Fence::insert(device).wait(); !status) return status;
-      longest = std::max(longest, seconds_since(piece_start));
+      longest = std::max(longest, piece.seconds());
       ++report_.pieces;
     }
     report_.longest_piece_seconds = std::max(report_.longest_piece_seconds, longest);
@@ -69,7 +68,7 @@ Status Canvas::fill(gpu::Device& device, const Progress& progress) {
         static_cast<double>(rows) * std::clamp(kWantedPiece / std::max(longest, 1e-6), 0.1, 1.5);
     wanted_rows = std::clamp(static_cast<std::int64_t>(std::ceil(wanted)), kLeastRows, kMostRows);
   }
-  report_.seconds = seconds_since(start);
+  report_.seconds = whole.seconds();
   return device.check("drawing a picture");
 }
 

@@ -11,7 +11,8 @@ namespace tidemark {
 
 // What drawing a picture took.
 struct DrawReport {
-  double seconds = 0.0;
+  double seconds = 0.0;          // all in all
+  double prepare_seconds = 0.0;  // of these, until the driver had compiled what it needs
   double longest_piece_seconds = 0.0;
   std::int64_t pieces = 0;
 };

@@ -12,11 +12,26 @@ constexpr double kWantedPiece = 0.3 * Canvas::kLongestPiece;
 
 }  // namespace
 
+// What a first draw compiles is no piece: that is done in this thread, and no other context waits for it. It
+// may depend on the program before (gpu::SamplerSlots).
+Status Pace::prepare(const gpu::Program& program) {
+  if (&program == in_use_) return {};
+  const std::pair change(in_use_, &program);
+  in_use_ = &program;
+  if (std::find(prepared_.begin(), prepared_.end(), change) != prepared_.end()) return {};
+  if (auto status = settle(); !status) return status;
+  const Stopwatch watch;
+  gpu::prepare_draw();
+  report_.prepare_seconds += watch.seconds();
+  prepared_.push_back(change);
+  return {};
+}
+
 Status Pace::before(double work) {
   if (on_its_way_ > 0.0 && (on_its_way_ + work) * seconds_each_ > kWantedPiece) {
     if (auto status = settle(); !status) return status;
   }
-  if (on_its_way_ == 0.0) begun_ = Clock::now();
+  if (on_its_way_ == 0.0) since_begun_.restart();
   on_its_way_ += work;
   return {};
 }
@@ -24,7 +39,7 @@ Status Pace::before(double work) {
 Status Pace::settle() {
   if (!device_.capabilities().software || on_its_way_ == 0.0) return {};
   if (auto status = gpu::Fence::insert(device_).wait(); !status) return status;
-  const double took = std::chrono::duration<double>(Clock::now() - begun_).count();
+  const double took = since_begun_.seconds();
   ++report_.pieces;
   report_.seconds += took;
   report_.longest_piece_seconds = std::max(report_.longest_piece_seconds, took);
@@ -34,12 +49,14 @@ Status Pace::settle() {
   return {};
 }
 
-Status Pace::things(std::int64_t count, std::int64_t fragments_each, double weight, const DrawSome& draw) {
+Status Pace::things(const gpu::Program& program, std::int64_t count, std::int64_t fragments_each,
+                    double weight, const DrawSome& draw) {
   if (!device_.capabilities().software) {
     if (progress_.cancelled()) return cancelled_error();
     draw(0, count);
     return {};
   }
+  if (auto status = prepare(program); !status) return status;
   const double each = weight * static_cast<double>(std::max<std::int64_t>(fragments_each, 1));
   for (std::int64_t first = 0; first < count;) {
     const auto most = static_cast<std::int64_t>(kWantedPiece / (each * seconds_each_));
@@ -52,8 +69,9 @@ Status Pace::things(std::int64_t count, std::int64_t fragments_each, double weig
   return {};
 }
 
-Status Pace::rectangle(const gpu::TexelRect& rect, double weight, const Draw& draw) {
-  return things(rect.height, rect.width, weight, [&](std::int64_t first, std::int64_t count) {
+Status Pace::rectangle(const gpu::Program& program, const gpu::TexelRect& rect, double weight,
+                       const Draw& draw) {
+  return things(program, rect.height, rect.width, weight, [&](std::int64_t first, std::int64_t count) {
     draw({rect.x, rect.y + first, rect.width, count});
   });
 }

@@ -1,11 +1,23 @@
 #include "renderer/phi_picture.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "gpu/framebuffer.h"
 
 namespace tidemark {
+namespace {
+
+// Llvmpipe compiles anew for textures whose height is a power of two: G never has such a one, while it grows.
+std::int64_t without_power_of_two(const PackedLayout& layout, std::int64_t capacity) {
+  while (std::has_single_bit(static_cast<std::uint64_t>(layout.texture_size(capacity).y))) {
+    capacity += layout.pages_per_row();
+  }
+  return std::min(capacity, layout.largest_capacity());
+}
+
+}  // namespace
 
 Result<PhiPicture::Array> PhiPicture::Array::create(gpu::Device& device, std::int64_t texels,
                                                     gpu::TexelFormat format, std::string_view label) {
@@ -22,7 +34,8 @@ Result<PhiPicture::Array> PhiPicture::Array::create(gpu::Device& device, std::in
 Result<PhiPicture> PhiPicture::create(gpu::Device& device, const PageLayout& layout, double band) {
   PhiPicture picture;
   const PackedLayout packed(layout, device.capabilities().largest_texture);
-  auto field = PackedField::create(device, packed, kFirstPage, static_cast<float>(band), 1);
+  auto field = PackedField::create(device, packed, without_power_of_two(packed, kFirstPage),
+                                   static_cast<float>(band), 1);
   if (!field) return pass_on(field);
   picture.field_ = std::move(*field);
   picture.table_ = PageTable(layout);
@@ -85,8 +98,7 @@ Status PhiPicture::update(gpu::Device& device, const Field& phi, std::span<const
   if (table_.capacity() > field_.capacity()) {
     // By a quarter more than needed: a growing surface does not copy G with every picture.
     const std::int64_t wanted = table_.capacity() + table_.capacity() / 4;
-    if (auto status = field_.grow(device, std::min(wanted, layout().largest_capacity())); !status)
-      return status;
+    if (auto status = field_.grow(device, without_power_of_two(layout(), wanted)); !status) return status;
   }
   for (std::size_t first = 0; first < changes.size(); first += static_cast<std::size_t>(most_staged_)) {
     const std::size_t count = std::min(changes.size() - first, static_cast<std::size_t>(most_staged_));

@@ -51,6 +51,9 @@ Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> 
   if (auto status = device->make_current(); !status) return pass_on(status);
   std::unique_ptr<Renderer> renderer(new Renderer(std::move(device), std::move(source)));
   gpu::Device& gl = *renderer->device_;
+  auto slots = gpu::SamplerSlots::create(gl);
+  if (!slots) return pass_on(slots);
+  renderer->slots_ = std::move(*slots);
   ThreadPool pool;
   const std::int64_t largest = std::min(largest_volume, gl.capabilities().largest_volume_texture);
   auto source_picture = SourcePicture::create(gl, *renderer->source_, layout, largest, pool);
@@ -82,6 +85,7 @@ Status Renderer::set_phi(const Field& phi, std::span<const std::int64_t> quiet) 
     if (!anew) return pass_on(anew);
     phi_ = std::move(*anew);
   }
+  slots_.clear();
   return phi_.update(*device_, phi, quiet);
 }
 
@@ -116,7 +120,8 @@ Status Renderer::set_labels(std::span<const std::uint8_t> labels) {
   return {};
 }
 
-Result<const gpu::Program*> Renderer::use_program(const char* fragment, const gpu::Defines& variant) {
+Result<const gpu::Program*> Renderer::find_program(const char* fragment, const gpu::Defines& variant) {
+  constexpr std::size_t kMostPrograms = 32;  // each kind of transfer function makes another one
   std::string key = fragment;
   for (const auto& [name, value] : variant) key += fmt::format(" {}={}", name, value);
   auto found = programs_.find(key);
@@ -127,9 +132,21 @@ Result<const gpu::Program*> Renderer::use_program(const char* fragment, const gp
     defines.insert(defines.end(), variant.begin(), variant.end());
     auto made = gpu::Program::render(*device_, "render/full_view.vert", "", fragment, defines);
     if (!made) return pass_on(made);
-    found = programs_.emplace(key, std::move(*made)).first;
+    if (programs_.size() == kMostPrograms) {
+      programs_.erase(
+          std::ranges::min_element(programs_, {}, [](const auto& named) { return named.second.used; }));
+    }
+    found = programs_.emplace(key, Made{std::move(*made)}).first;
   }
-  const gpu::Program& program = found->second;
+  found->second.used = ++uses_;
+  return &found->second.program;
+}
+
+Result<const gpu::Program*> Renderer::use_program(const char* fragment, const gpu::Defines& variant) {
+  const auto found = find_program(fragment, variant);
+  if (!found) return found;
+  const gpu::Program& program = **found;
+  slots_.clear();
   program.use();
   set_step_uniforms(program, constants_);
   phi_.set_uniforms(program, kPhiUnit);  // after the step's: the band is that of the phi shown

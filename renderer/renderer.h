@@ -9,6 +9,7 @@
 #include <string>
 
 #include "gpu/device.h"
+#include "gpu/sampler_slots.h"
 #include "renderer/canvas.h"
 #include "renderer/phi_picture.h"
 #include "renderer/slice_caster.h"
@@ -64,6 +65,8 @@ class Renderer {
 
  private:
   Renderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source);
+  // From those made already, or new. Of many, the one that was not used for longest is given back.
+  Result<const gpu::Program*> find_program(const char* fragment, const gpu::Defines& variant);
   // A program with what all programs look at set; the view's own uniforms are left.
   Result<const gpu::Program*> use_program(const char* fragment, const gpu::Defines& variant);
   Result<const gpu::Program*> use_volume_program(const char* fragment, const VolumeView& view,
@@ -74,13 +77,19 @@ class Renderer {
 
   std::shared_ptr<gpu::Device> device_;
   std::shared_ptr<const Volume> source_;
+  gpu::SamplerSlots slots_;
   std::pair<float, float> common_range_;
   StepConstants<float> constants_;
   SourcePicture source_picture_;
   PhiPicture phi_;
   gpu::Texture3D labels_;
   bool has_labels_ = false;
-  std::map<std::string, gpu::Program> programs_;  // by shader and variant, made when first needed
+  struct Made {
+    gpu::Program program;
+    std::int64_t used = 0;
+  };
+  std::map<std::string, Made> programs_;  // by shader and variant, made when first needed
+  std::int64_t uses_ = 0;
   SliceCaster slice_caster_;
   Canvas canvas_;
   Canvas pick_canvas_;

@@ -1,11 +1,11 @@
 #include "renderer/slice_caster.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/stopwatch.h"
 #include "renderer/uniforms.h"
 
 namespace tidemark {
@@ -87,7 +87,7 @@ Status SliceCaster::prepare(gpu::Device& device, const Scene& scene, const Slice
 Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, const Scene& scene,
                          const VolumeView& view, PictureSize size, const Units& units,
                          const Progress& progress) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch whole;
   const Geometry& geometry = scene.source.geometry;
   const SliceAxis axis = axis_for(view, geometry);
   if (auto status = prepare(device, scene, axis, size); !status) return status;
@@ -118,7 +118,7 @@ Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, 
   if (auto status = pace.settle(); !status) return status;
   report_ = pace.report();
   const bool in_one = report_.pieces == 0;  // a GPU is not waited for
-  report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report_.seconds = whole.seconds();
   if (in_one) {
     report_.pieces = 1;
     report_.longest_piece_seconds = report_.seconds;
@@ -171,7 +171,7 @@ Status SliceCaster::draw_slab(const gpu::Program& slab_program, const Slab& slab
   vertices_.bind();
   gpu::begin_exact_drawing();
   const gpu::BlendScope under(gpu::Blending::under);
-  return pace.rectangle(pixels, steps, [](const gpu::TexelRect& part) {
+  return pace.rectangle(slab_program, pixels, steps, [](const gpu::TexelRect& part) {
     const gpu::ScissorScope scissor(part);
     gpu::draw(gpu::Primitive::triangles, 3);
   });

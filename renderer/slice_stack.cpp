@@ -68,7 +68,7 @@ Status SliceStack::reconstruct(const PhiPicture& phi, std::int64_t slice, int ph
     program_.set("first_shown", static_cast<int>(layer_begins_[layer] + first));
     gpu::draw(gpu::Primitive::triangles, 6 * count);
   };
-  return pace.things(layer_begins_[layer + 1] - layer_begins_[layer], fragments, kWeight, draw);
+  return pace.things(program_, layer_begins_[layer + 1] - layer_begins_[layer], fragments, kWeight, draw);
 }
 
 }  // namespace tidemark

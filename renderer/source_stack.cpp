@@ -110,7 +110,7 @@ Status SourceStack::prepare(const Volume& source, std::int64_t slice, const gpu:
     stored_[static_cast<std::size_t>(one % 3)].texture.bind(static_cast<unsigned>(next));
     program_.set(name, next++);
   }
-  return pace.rectangle(part, kWeight, [](const gpu::TexelRect& piece) {
+  return pace.rectangle(program_, part, kWeight, [](const gpu::TexelRect& piece) {
     const gpu::ScissorScope scissor(piece);
     gpu::draw(gpu::Primitive::triangles, 3);
   });

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -71,7 +72,15 @@ Status read_material(const Json& object, const std::string& where, Primitive& re
 }
 
 template <class Primitive>
-using Axes = std::initializer_list<std::pair<TransferFactor Primitive::*, const char*>>;
+using Axis = std::pair<TransferFactor Primitive::*, const char*>;
+template <class Primitive>
+using Axes = std::span<const Axis<Primitive>>;
+
+constexpr Axis<SourcePrimitive> kSourceAxes[] = {{&SourcePrimitive::value, "value"},
+                                                 {&SourcePrimitive::gradient, "gradient"},
+                                                 {&SourcePrimitive::phi, "phi"}};
+constexpr Axis<SurfacePrimitive> kSurfaceAxes[] = {{&SurfacePrimitive::intensity, "intensity"},
+                                                   {&SurfacePrimitive::distance, "distance"}};
 
 template <class Primitive>
 Result<Primitive> read_primitive(const Json& object, const std::string& where, Axes<Primitive> axes) {
@@ -107,6 +116,34 @@ Status read_list(const Json& document, const char* name, Axes<Primitive> axes,
     result.push_back(*one);
   }
   return {};
+}
+
+// With their names in the order in which they are written.
+using OrderedJson = nlohmann::ordered_json;
+
+template <class Primitive>
+OrderedJson written(const Primitive& primitive, Axes<Primitive> axes) {
+  OrderedJson object = OrderedJson::object();
+  for (const auto& [member, axis] : axes) {
+    const TransferFactor& factor = primitive.*member;
+    if (factor.kind == TransferFactor::Kind::everything) continue;
+    const char* kind = factor.kind == TransferFactor::Kind::gaussian ? "gaussian" : "ramp";
+    object[axis][kind] = {factor.start, factor.end};
+  }
+  object["opacity"] = primitive.opacity;
+  for (int c = 0; c < 3; ++c) {
+    // The shortest number that is read as this float: 0.1, not 0.10000000149.
+    object["colour"].push_back(OrderedJson::parse(fmt::format("{}", primitive.colour[c])));
+  }
+  return object;
+}
+
+// A primitive a line.
+template <class Primitive>
+std::string written_list(const std::vector<Primitive>& list, Axes<Primitive> axes) {
+  std::vector<std::string> lines;
+  for (const Primitive& primitive : list) lines.push_back("    " + written(primitive, axes).dump());
+  return fmt::format("[\n{}\n  ]", fmt::join(lines, ",\n"));
 }
 
 }  // namespace
@@ -174,16 +211,9 @@ Result<TransferFunction> TransferFunction::parse(std::string_view json) {
       return fail(ErrorKind::input, "relative: true or false is needed");
     function.relative = document["relative"];
   }
-  Status good = read_list<SourcePrimitive>(document, "source",
-                                           {{&SourcePrimitive::value, "value"},
-                                            {&SourcePrimitive::gradient, "gradient"},
-                                            {&SourcePrimitive::phi, "phi"}},
-                                           function.source);
+  Status good = read_list<SourcePrimitive>(document, "source", kSourceAxes, function.source);
   if (!good) return pass_on(good);
-  good = read_list<SurfacePrimitive>(
-      document, "surface",
-      {{&SurfacePrimitive::intensity, "intensity"}, {&SurfacePrimitive::distance, "distance"}},
-      function.surface);
+  good = read_list<SurfacePrimitive>(document, "surface", kSurfaceAxes, function.surface);
   if (!good) return pass_on(good);
   if (function.source.empty() && function.surface.empty()) {
     return fail(ErrorKind::input, "neither 'source' nor 'surface' has primitives");
@@ -200,6 +230,15 @@ Result<TransferFunction> TransferFunction::load(const std::filesystem::path& fil
   auto function = parse(text);
   if (!function) return fail(function.error().kind, "{}: {}", file.string(), function.error().message);
   return function;
+}
+
+std::string TransferFunction::to_json() const {
+  std::string text =
+      fmt::format("{{\n  \"name\": {}", Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
+  if (relative) text += ",\n  \"relative\": true";
+  if (!source.empty()) text += ",\n  \"source\": " + written_list<SourcePrimitive>(source, kSourceAxes);
+  if (!surface.empty()) text += ",\n  \"surface\": " + written_list<SurfacePrimitive>(surface, kSurfaceAxes);
+  return text + "\n}\n";
 }
 
 std::vector<std::string> preset_names() {

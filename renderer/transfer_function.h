@@ -72,6 +72,8 @@ struct TransferFunction {
   // Fails (ErrorKind::input) and names the field.
   static Result<TransferFunction> parse(std::string_view json);
   static Result<TransferFunction> load(const std::filesystem::path& file);
+  // What parse() reads back as the same function, if all in it is as parse() allows it.
+  [[nodiscard]] std::string to_json() const;
 };
 
 // The presets that the program brings, by the name of their file without ".json".

@@ -201,6 +201,21 @@ void CaseSession::pick(const VolumeView& view, PictureSize size, glm::dvec2 pixe
   });
 }
 
+void CaseSession::take_snapshot(std::function<void(std::shared_ptr<const CaseSnapshot>)> answer) {
+  tell([answer = std::move(answer), outlet = outlet_](CaseRunner& runner, const Progress&) -> Status {
+    Case& document = runner.document();
+    const auto phi = runner.painter().phi(document);
+    if (!phi) return tl::unexpected<Error>(phi.error());
+    Labels labels(document.volume()->geometry);
+    const auto voxels = document.labels().voxels();
+    if (auto status = labels.assign(document.labels().list(), {voxels.begin(), voxels.end()}); !status) return status;
+    auto snapshot = std::make_shared<const CaseSnapshot>(
+        CaseSnapshot{document.volume(), *phi, std::move(labels), document.level_set().recipe()});
+    outlet->send([answer, snapshot] { answer(snapshot); });
+    return {};
+  });
+}
+
 void CaseSession::play_in_lock_step(const std::vector<CaseSession*>& sessions) {
   const auto group = sessions.empty() ? nullptr : std::make_shared<LockStep>();
   for (CaseSession* session : sessions) {

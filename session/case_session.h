@@ -12,6 +12,7 @@
 
 #include "core/progress.h"
 #include "renderer/renderer.h"
+#include "session/case_snapshot.h"
 #include "session/case_state.h"
 #include "session/display.h"
 #include "session/engine.h"
@@ -79,6 +80,9 @@ class CaseSession : public QObject {
   // never when the case is closed before.
   void pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel,
             std::function<void(std::optional<Hit>)> answer);
+
+  // What the case is like now, for whoever writes it; the answer comes as pick()'s does.
+  void take_snapshot(std::function<void(std::shared_ptr<const CaseSnapshot>)> answer);
 
   // Plays cases together, always at the same step; in no group any more when there are none.
   static void play_in_lock_step(const std::vector<CaseSession*>& sessions);

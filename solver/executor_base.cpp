@@ -1,5 +1,7 @@
 #include "solver/executor_base.h"
 
+#include "core/stopwatch.h"
+
 namespace tidemark {
 
 double ExecutorBase::seconds_since(Clock::time_point start) {
@@ -19,17 +21,17 @@ Result<Model> ExecutorBase::model_with(const Parameters& parameters) const {
 Result<AdvanceReport> ExecutorBase::run_steps(const Advance& run,
                                               const std::function<Result<bool>(AdvanceReport&)>& step) {
   constexpr double kSecondsBetweenReports = 0.05;
-  const Clock::time_point start = Clock::now();
-  Clock::time_point last_progress = start;
+  const Stopwatch whole;
+  Stopwatch since_report;
   AdvanceReport report;
   steps_of_last_run_ = 0;
   while (report.steps < run.steps && !run.progress.cancelled()) {
     steps_of_last_run_ = ++report.steps;
     auto window_ended = step(report);
     if (!window_ended) return pass_on(window_ended);
-    if (seconds_since(last_progress) > kSecondsBetweenReports) {
+    if (since_report.seconds() > kSecondsBetweenReports) {
       run.progress(static_cast<double>(report.steps) / static_cast<double>(run.steps), "steps");
-      last_progress = Clock::now();
+      since_report.restart();
     }
     if (*window_ended) {
       report.converged = surface_speed_ < kConvergedSpeed;
@@ -37,7 +39,7 @@ Result<AdvanceReport> ExecutorBase::run_steps(const Advance& run,
     }
   }
   report.surface_speed = surface_speed_;
-  report.seconds = seconds_since(start);
+  report.seconds = whole.seconds();
   return report;
 }
 

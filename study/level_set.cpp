@@ -263,8 +263,7 @@ Status LevelSet::prepare_start() {
   }
   if (Status set = executor().set_parameters(recipe_.parameters); !set) return set;
   if (start_ == nullptr) {
-    auto begun = tidemark::begin(executor(), *source(), recipe_.start);
-    if (!begun) return pass_on(begun);
+    if (Status begun = rig_.begin(recipe_, {}); !begun) return begun;
     return rig_.play(recipe_.up_to(0), 0, 0, 0, {});
   }
   if (Status restored = executor().restore(*start_); !restored) return restored;
@@ -359,7 +358,8 @@ Status LevelSet::rebuild(const ExecutorOptions& options) {
   const Parameters present = parameters();
   if (Status back = go_to(known_); !back) return back;
   if (present == parameters()) return {};
-  // They are set by what goes on: sliders stay where they are.
+  if (!open_) return set_parameters(present);
+  // What goes on has set them.
   if (Status set = executor().set_parameters(present); !set) return set;
   if (begun()) {
     record({step(), ParametersEvent{present}});

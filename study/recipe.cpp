@@ -1,6 +1,8 @@
 #include "study/recipe.h"
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 
 namespace tidemark {
 namespace {
@@ -14,6 +16,23 @@ const Event* last_event(const std::vector<RecipeEvent>& events) {
 }
 
 }  // namespace
+
+Result<Recipe> Recipe::load(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(), error.message());
+  if (size > kLargestFile) {
+    return fail(ErrorKind::input, "{}: {} bytes, more than {} are not read", file.string(), size,
+                kLargestFile);
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(size, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(size));
+  if (stream.gcount() != static_cast<std::streamsize>(size)) {
+    return fail(ErrorKind::input, "{}: cannot be read", file.string());
+  }
+  return parse(text, file.string());
+}
 
 bool Recipe::begun() const {
   return !start.empty() || std::any_of(events.begin(), events.end(), [](const RecipeEvent& event) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -58,6 +59,7 @@ struct RecipeExecutor {
 
 struct Recipe {
   static constexpr int kVersion = 1;
+  static constexpr std::size_t kLargestFile = std::size_t{64} << 20;  // bytes
 
   RecipeSource source;
   RecipeExecutor executor;
@@ -66,6 +68,13 @@ struct Recipe {
   Parameters parameters;  // at the start
   std::vector<RecipeEvent> events;
   std::int64_t steps = 0;  // in all
+
+  // JSON. Fails (ErrorKind::usage) when the start is too large for a file.
+  [[nodiscard]] Result<std::string> to_text() const;
+  // Fails (ErrorKind::input) naming `file` and the field: not JSON, an unknown version, something that is
+  // missing or not within its limits.
+  static Result<Recipe> parse(std::string_view text, const std::string& file);
+  static Result<Recipe> load(const std::filesystem::path& file);
 
   [[nodiscard]] bool begun() const;  // there is a surface
   [[nodiscard]] const Parameters& final_parameters() const;

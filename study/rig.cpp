@@ -19,6 +19,15 @@ Result<std::shared_ptr<const Volume>> smoothed(const std::shared_ptr<const Volum
   return std::make_shared<const Volume>(std::move(*source));
 }
 
+void add(const AdvanceReport& run, AdvanceReport& total) {
+  total.steps += run.steps;
+  total.converged = run.converged;
+  total.seconds += run.seconds;
+  total.paging_seconds += run.paging_seconds;
+  total.voxel_updates += run.voxel_updates;
+  total.surface_speed = run.surface_speed;
+}
+
 }  // namespace
 
 Result<Rig> Rig::create(std::shared_ptr<const Volume> volume, double smoothed_mm,
@@ -73,6 +82,13 @@ Status Rig::rebuild(const ExecutorOptions& options, const Field& phi) {
   return remake(source_, kind_, options, phi);
 }
 
+Status Rig::begin(const Recipe& recipe, const Progress& progress) {
+  if (recipe.start.empty()) return executor_->restore(Field::empty(source_->geometry, executor_->band()));
+  if (auto begun = tidemark::begin(*executor_, *source_, recipe.start, progress); !begun)
+    return pass_on(begun);
+  return {};
+}
+
 Status Rig::resume() {
   const auto phi = executor_->snapshot();
   if (!phi) return tl::unexpected<Error>(phi.error());
@@ -92,7 +108,7 @@ Status Rig::apply(const RecipeEvent& event) {
 }
 
 Status Rig::play(const Recipe& recipe, std::size_t first_event, std::int64_t step, std::int64_t last_step,
-                 const Progress& progress) {
+                 const Progress& progress, AdvanceReport* total) {
   const std::int64_t first_step = step;
   const auto advance_to = [&](std::int64_t target) -> Status {
     while (step < target) {
@@ -106,6 +122,7 @@ Status Rig::play(const Recipe& recipe, std::size_t first_event, std::int64_t ste
       const auto report = executor_->advance(run);
       if (!report) return tl::unexpected<Error>(report.error());
       step += report->steps;
+      if (total != nullptr) add(*report, *total);
     }
     return {};
   };

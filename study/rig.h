@@ -28,13 +28,15 @@ class Rig {
   // Another executor in place of one that is lost, with `phi`.
   Status rebuild(const ExecutorOptions& options, const Field& phi);
 
+  // Begins as the recipe does, with the present parameters and source; an empty start: outside everywhere.
+  Status begin(const Recipe& recipe, const Progress& progress);
   // phi is put back as it is: see ResumeEvent.
   Status resume();
 
   // Does what the recipe says from its `first_event` on until `last_step` steps have been computed, and the
-  // edits after the last of them. `step` have been computed.
+  // edits after the last of them. `step` have been computed. What it cost is added up in `total`.
   Status play(const Recipe& recipe, std::size_t first_event, std::int64_t step, std::int64_t last_step,
-              const Progress& progress);
+              const Progress& progress, AdvanceReport* total = nullptr);
   // Does what one event says.
   Status apply(const RecipeEvent& event);
 

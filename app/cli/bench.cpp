@@ -198,8 +198,8 @@ Status run(Program& program, const BenchOptions& options) {
   if (console.interrupted()) return cancelled_error();
   ExecutorOptions executor_options = options.solver.executor_options();
   executor_options.time_paging = true;
-  auto executor =
-      make_executor(options.solver.kind, benchmark->volume, benchmark->parameters, executor_options);
+  auto executor = make_executor(options.solver.kind.value_or(ExecutorKind::automatic), benchmark->volume,
+                                benchmark->parameters, executor_options);
   if (!executor) return pass_on(executor);
   Executor& solver = **executor;
   if (Status started = begin(solver, *benchmark); !started) return started;

@@ -91,8 +91,9 @@ Status run(Program& program, const DistanceOptions& options) {
   const auto mask = load_mask(options.mask, console.progress());
   if (!mask) return tl::unexpected<Error>(mask.error());
   if (console.interrupted()) return cancelled_error();
-  auto executor = make_executor(options.solver.kind, empty_source(mask->geometry),
-                                rescaling_alone(options.band), options.solver.executor_options());
+  auto executor =
+      make_executor(options.solver.kind.value_or(ExecutorKind::automatic), empty_source(mask->geometry),
+                    rescaling_alone(options.band), options.solver.executor_options());
   if (!executor) return pass_on(executor);
   Executor& solver = **executor;
   if (Status set = solver.restore(distance_transform(*mask, solver.band())); !set) return set;

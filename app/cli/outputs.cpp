@@ -21,6 +21,7 @@ std::string lower_suffix(const std::filesystem::path& file) {
 }
 
 bool has_form(const std::filesystem::path& file, FileForm form) {
+  if (form == FileForm::recipe) return lower_suffix(file) == ".json";
   return form == FileForm::mesh ? is_writable_mesh_file(file) : is_writable_volume_file(file);
 }
 
@@ -28,7 +29,8 @@ std::string suffixes(const std::vector<FileForm>& forms) {
   std::string text;
   for (const FileForm form : forms) {
     text += text.empty() ? "" : " ";
-    text += form == FileForm::mesh ? ".stl .ply .obj" : ".nii .nii.gz .nrrd .mha";
+    constexpr const char* kSuffixes[] = {".nii .nii.gz .nrrd .mha", ".stl .ply .obj", ".json"};
+    text += kSuffixes[static_cast<int>(form)];
   }
   return text;
 }
@@ -70,7 +72,8 @@ void rename_in_message(std::string& message, const std::string& from, const std:
 }  // namespace
 
 FileForm form_of(const std::filesystem::path& file) {
-  return is_writable_mesh_file(file) ? FileForm::mesh : FileForm::volume;
+  if (has_form(file, FileForm::recipe)) return FileForm::recipe;
+  return has_form(file, FileForm::mesh) ? FileForm::mesh : FileForm::volume;
 }
 
 Status Outputs::announce_file(const std::string& option, const std::filesystem::path& file) {
@@ -87,10 +90,8 @@ Status Outputs::announce_file(const std::string& option, const std::filesystem::
 
 Status Outputs::announce(const std::string& option, const std::filesystem::path& file,
                          const std::vector<FileForm>& forms) {
-  const std::string suffix = lower_suffix(file);
-  if (suffix == ".dcm" || suffix == ".json") {
-    return fail(ErrorKind::usage, "{} {}: {} files are not built in this version", option, file.string(),
-                suffix);
+  if (lower_suffix(file) == ".dcm") {
+    return fail(ErrorKind::usage, "{} {}: .dcm files are not built in this version", option, file.string());
   }
   if (std::none_of(forms.begin(), forms.end(), [&](FileForm form) { return has_form(file, form); })) {
     return fail(ErrorKind::usage, "{} {}: the name must end in one of {}", option, file.string(),

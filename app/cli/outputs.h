@@ -12,7 +12,7 @@
 namespace tidemark::cli {
 
 // What a file holds, by its suffix.
-enum class FileForm { volume, mesh };
+enum class FileForm { volume, mesh, recipe };
 
 class Outputs {
  public:
@@ -43,7 +43,7 @@ class Outputs {
   std::vector<AtomicFile> staged_;
 };
 
-// FileForm::mesh for .stl .ply .obj, else FileForm::volume; for files that were announced.
+// By the suffix of a file that was announced.
 [[nodiscard]] FileForm form_of(const std::filesystem::path& file);
 
 }  // namespace tidemark::cli

@@ -3,7 +3,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <memory>
 #include <string_view>
@@ -13,9 +12,6 @@
 
 namespace tidemark::cli {
 namespace {
-
-// Words of the contract that a later version brings; asking for them is answered clearly.
-constexpr std::array<std::string_view, 1> kLaterCommands{"replay"};
 
 constexpr const char* kDescription =
     "tidemark-cli segments medical volumes with a level set: a surface that grows from a seed while the\n"
@@ -62,6 +58,7 @@ class HelpFormatter : public CLI::Formatter {
 void add_all(CLI::App& app, Program& program) {
   add_info(app, program);
   add_segment(app, program);
+  add_replay(app, program);
   add_distance(app, program);
   add_convert(app, program);
   add_render(app, program);
@@ -77,9 +74,6 @@ Status check_command_word(const CLI::App& app, int argc, char** argv) {
   if (argc < 2) return fail(ErrorKind::usage, "a command is needed: {} (see tidemark-cli --help)", known);
   const std::string_view word = argv[1];
   if (word.starts_with('-')) return {};
-  if (std::find(kLaterCommands.begin(), kLaterCommands.end(), word) != kLaterCommands.end()) {
-    return fail(ErrorKind::usage, "{}: not built in this version", word);
-  }
   const bool found = std::any_of(commands.begin(), commands.end(),
                                  [&](const CLI::App* command) { return command->get_name() == word; });
   if (!found) return fail(ErrorKind::usage, "unknown command '{}': the commands are {}", word, known);

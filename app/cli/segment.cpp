@@ -4,17 +4,11 @@
 
 #include "app/cli/align.h"
 #include "app/cli/program.h"
-#include "app/cli/report.h"
 #include "app/cli/segment_options.h"
-#include "core/thread_pool.h"
-#include "gpu/device.h"
-#include "imaging/files/png_file.h"
-#include "imaging/files/volume_file.h"
 #include "imaging/filters/filters.h"
 #include "imaging/filters/suggest_start.h"
 #include "imaging/study.h"
-#include "imaging/surface/surface.h"
-#include "renderer/sheet.h"
+#include "study/checksum.h"
 
 namespace tidemark::cli {
 namespace {
@@ -47,7 +41,7 @@ std::string count_of(const Geometry& geometry) {
 class Segmentation {
  public:
   Segmentation(Program& program, SegmentOptions options)
-      : console_(program.console), options_(std::move(options)) {}
+      : console_(program.console), options_(std::move(options)), writer_(options_.results, console_) {}
 
   Status run();
 
@@ -56,42 +50,29 @@ class Segmentation {
   Status load_truth();
   Status suggest();
   Status evolve();
-  Status write();
-  Result<Picture> draw_picture();
   void say_warnings();
 
   Console& console_;
   SegmentOptions options_;
-  Outputs outputs_;
-  std::shared_ptr<const Volume> source_;  // as the solver sees it
+  ResultWriter writer_;
   std::optional<Mask> truth_;
-  Field phi_;
-  Mask mask_;
-  RunFigures figures_;
-  std::shared_ptr<gpu::Device> device_;  // for the picture
+  RunResults results_;
 };
 
 Status Segmentation::run() {
-  if (Status done = check(options_, outputs_); !done) return done;
-  if (!options_.picture.empty()) {
-    // Found out before the long work.
-    auto device = gpu::Device::create_headless({gpu::GlVersion::gl33, false});
-    if (!device) return pass_on(device);
-    device_ = std::move(*device);
+  if (Status done = check(options_); !done) return done;
+  if (Status done = writer_.prepare(); !done) return done;
+  for (const std::string& input : inputs_of(options_)) {
+    if (Status done = writer_.spare(input); !done) return done;
   }
-  for (const auto step : {&Segmentation::load, &Segmentation::load_truth, &Segmentation::suggest,
-                          &Segmentation::evolve, &Segmentation::write}) {
+  for (const auto step :
+       {&Segmentation::load, &Segmentation::load_truth, &Segmentation::suggest, &Segmentation::evolve}) {
     if (Status done = (this->*step)(); !done) return done;
     if (console_.interrupted()) return cancelled_error();
   }
-  if (Status done = outputs_.commit(); !done) return done;
-  say(console_, figures_);
-  for (const std::string& file : options_.out) console_.say("Wrote      {}", file);
-  for (const std::string& file : {options_.out_phi, options_.picture, options_.stats}) {
-    if (!file.empty()) console_.say("Wrote      {}", file);
-  }
+  if (Status done = writer_.write(results_); !done) return done;
   say_warnings();
-  console_.result(to_json(figures_));
+  console_.result(to_json(results_.figures));
   return {};
 }
 
@@ -99,21 +80,26 @@ Status Segmentation::load() {
   auto volume = load_volume(options_.input, options_.series, console_.progress());
   if (!volume) return pass_on(volume);
   if (Status inside = check_inside(options_.start, volume->geometry); !inside) return inside;
-  figures_.geometry = volume->geometry;
-  figures_.modality = volume->modality;
-  figures_.description = volume->description;
-  figures_.series_uid = options_.series;
-  figures_.changes = volume->changes;
-  figures_.smooth_mm = options_.smooth_mm;
+  RunFigures& figures = results_.figures;
+  figures.geometry = volume->geometry;
+  figures.modality = volume->modality;
+  figures.description = volume->description;
+  figures.series_uid = options_.series;
+  figures.changes = volume->changes;
+  figures.smooth_mm = options_.smooth_mm;
   console_.say("Loaded     {}{}{}, {}", volume->modality, volume->modality.empty() ? "" : ": ",
                count_of(volume->geometry), volume->scalar_name());
   for (const std::string& change : volume->changes) console_.say("           {}", change);
+  Recipe& recipe = results_.recipe;
+  recipe.source = {volume->geometry.size, volume->geometry.spacing_mm, options_.series, {}};
+  if (writer_.wants_recipe()) recipe.source.checksum = checksum_of(*volume);
+  recipe.smoothed_mm = options_.smooth_mm.value_or(0.0);
   if (options_.smooth_mm) {
     console_.log("smoothing by {} mm", *options_.smooth_mm);
     volume = smooth(*volume, *options_.smooth_mm);
     if (!volume) return pass_on(volume);
   }
-  source_ = std::make_shared<const Volume>(std::move(*volume));
+  results_.source = std::make_shared<const Volume>(std::move(*volume));
   return {};
 }
 
@@ -129,7 +115,7 @@ Status Segmentation::load_truth() {
         options_.truth_label ? value == static_cast<float>(*options_.truth_label) : value != 0.0F;
     mask.voxels[static_cast<std::size_t>(offset)] = inside ? 1 : 0;
   }
-  auto aligned = onto_grid(std::move(mask), source_->geometry, *options_.truth);
+  auto aligned = onto_grid(std::move(mask), results_.source->geometry, *options_.truth);
   if (!aligned) return pass_on(aligned);
   truth_ = std::move(*aligned);
   return {};
@@ -142,12 +128,12 @@ Status Segmentation::suggest() {
   if (!needs_seed && options_.target && options_.range && options_.alpha) return {};
   std::optional<Index3> looked_at;
   if (!options_.start.seeds.empty()) {
-    const auto sphere = options_.start.seeds.front().resolve(source_->geometry);
+    const auto sphere = options_.start.seeds.front().resolve(results_.source->geometry);
     if (!sphere) return tl::unexpected<Error>(sphere.error());
-    const glm::dvec3 voxel = source_->geometry.to_voxel(sphere->centre_mm);
-    looked_at = glm::clamp(Index3(glm::round(voxel)), Index3(0), source_->geometry.size - Index3(1));
+    const glm::dvec3 voxel = results_.source->geometry.to_voxel(sphere->centre_mm);
+    looked_at = glm::clamp(Index3(glm::round(voxel)), Index3(0), results_.source->geometry.size - Index3(1));
   }
-  const auto found = suggest_start(*source_, looked_at, console_.progress());
+  const auto found = suggest_start(*results_.source, looked_at, console_.progress());
   if (console_.interrupted()) return cancelled_error();
   if (!found) return fail(found.error().kind, "--auto-start: {}", found.error().message);
   if (needs_seed) {
@@ -168,107 +154,55 @@ Status Segmentation::suggest() {
 }
 
 Status Segmentation::evolve() {
-  figures_.parameters = options_.parameters();
-  figures_.start = describe(options_.start);
-  auto executor =
-      make_executor(options_.solver.kind, source_, figures_.parameters, options_.solver.executor_options());
+  RunFigures& figures = results_.figures;
+  Recipe& recipe = results_.recipe;
+  figures.parameters = recipe.parameters = options_.parameters();
+  auto executor = make_executor(options_.solver.kind.value_or(ExecutorKind::automatic), results_.source,
+                                figures.parameters, options_.solver.executor_options());
   if (!executor) return pass_on(executor);
   Executor& solver = **executor;
-  if (Status started = start(solver, *source_, options_.start, console_); !started) return started;
-  console_.say("Start      {}", figures_.start);
+  auto start = make_start(options_.start, results_.source->geometry, solver.band(), console_);
+  if (!start) return pass_on(start);
+  recipe.start = std::move(*start);
+  figures.start = recipe.start.describe();
+  if (auto begun = begin(solver, *results_.source, recipe.start, console_.progress()); !begun) {
+    return pass_on(begun);
+  }
+  console_.say("Start      {}", figures.start);
   if (options_.step_limit() > 0) {
     Advance advance{options_.step_limit(), options_.until_converged(), console_.progress()};
     auto report = solver.advance(advance);
     if (!report) return pass_on(report);
-    figures_.advance = *report;
+    figures.advance = *report;
   }
   if (console_.interrupted()) return cancelled_error();
-  figures_.executor = solver.name();
-  figures_.threads = options_.solver.kind == ExecutorKind::reference
-                         ? 1
-                         : static_cast<int>(options_.solver.threads.value_or(available_processors()));
-  figures_.band = solver.band();
-  figures_.time_step = solver.time_step();
-  figures_.memory = solver.memory();
+  figures.executor = solver.name();
+  figures.threads = threads_of(options_.solver, figures.executor);
+  figures.band = solver.band();
+  figures.time_step = solver.time_step();
+  figures.memory = solver.memory();
+  recipe.executor = {figures.executor, figures.memory.page_shape, !options_.solver.no_skip};
+  recipe.steps = figures.advance.steps;
   auto phi = solver.snapshot();
   if (!phi) return pass_on(phi);
-  phi_ = std::move(*phi);
-  mask_ = phi_.mask();
-  figures_.surface = measure(phi_);
-  if (truth_) figures_.dice = dice(mask_, *truth_);
+  results_.phi = std::move(*phi);
+  results_.mask = results_.phi.mask();
+  figures.surface = measure(results_.phi);
+  if (truth_) figures.dice = dice(results_.mask, *truth_);
   return {};
-}
-
-Status Segmentation::write() {
-  std::optional<Volume> field;
-  const auto dense_field = [&]() -> const Volume& {
-    if (!field) field = phi_.to_volume();
-    return *field;
-  };
-  std::optional<Mesh> mesh;
-  for (const std::string& file : options_.out) {
-    if (console_.interrupted()) return cancelled_error();
-    if (form_of(file) == FileForm::mesh && !mesh) {
-      auto surface = extract_surface(dense_field());
-      if (!surface) return pass_on(surface);
-      mesh = std::move(*surface);
-    }
-    const auto write_one = [&](const std::filesystem::path& name) {
-      return form_of(file) == FileForm::mesh ? write_mesh(*mesh, name) : write_mask_file(mask_, name);
-    };
-    if (Status staged = outputs_.stage(file, write_one); !staged) return staged;
-  }
-  if (!options_.out_phi.empty()) {
-    const auto write_phi = [&](const std::filesystem::path& name) {
-      return write_volume_file(dense_field(), name);
-    };
-    if (Status staged = outputs_.stage(options_.out_phi, write_phi); !staged) return staged;
-  }
-  if (!options_.picture.empty()) {
-    const auto picture = draw_picture();
-    if (!picture) return tl::unexpected<Error>(picture.error());
-    const auto write_picture = [&](const std::filesystem::path& name) {
-      return write_png_file(picture->width, picture->height, picture->pixels, name);
-    };
-    if (Status staged = outputs_.stage(options_.picture, write_picture); !staged) return staged;
-  }
-  if (!options_.stats.empty()) {
-    const auto write_stats = [&](const std::filesystem::path& name) {
-      return write_file(name, to_text(to_json(figures_)));
-    };
-    if (Status staged = outputs_.stage(options_.stats, write_stats); !staged) return staged;
-  }
-  return {};
-}
-
-// The slices go through the middle of what was found, and the camera looks at it.
-Result<Picture> Segmentation::draw_picture() {
-  auto renderer = Renderer::create(device_, source_, phi_.layout);
-  if (!renderer) return pass_on(renderer);
-  if (Status shown = (*renderer)->set_phi(phi_); !shown) return pass_on(shown);
-  (*renderer)->set_parameters(options_.parameters());
-  constexpr PictureSize kSize{1200, 800};
-  SheetView view;
-  view.position_mm = middle_of(mask_);
-  view.window = window_of(*source_);
-  view.speed = true;
-  view.volume.camera.azimuth = 30.0;
-  view.volume.camera.elevation = 20.0;
-  view.volume.camera = view.volume.camera.on(box_around(phi_), source_->geometry, kSize.aspect() * 4.0 / 3.0);
-  return draw_sheet(**renderer, view, kSize, console_.progress());
 }
 
 void Segmentation::say_warnings() {
-  const std::int64_t inside = figures_.surface.voxels_inside;
+  const std::int64_t inside = results_.figures.surface.voxels_inside;
   if (inside == 0) {
     console_.warn(
         "the surface has vanished: nothing is inside (is the target right? a larger range or alpha?)");
-  } else if (inside == figures_.geometry.voxel_count()) {
+  } else if (inside == results_.figures.geometry.voxel_count()) {
     console_.warn("the surface has filled the whole volume (a smaller range or alpha?)");
   }
-  if (options_.until_converged() && !figures_.advance.converged) {
-    console_.warn(
-        fmt::format("the surface was still moving after {} steps (--max-steps)", figures_.advance.steps));
+  if (options_.until_converged() && !results_.figures.advance.converged) {
+    console_.warn(fmt::format("the surface was still moving after {} steps (--max-steps)",
+                              results_.figures.advance.steps));
   }
 }
 

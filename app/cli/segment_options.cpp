@@ -22,13 +22,6 @@ void add_choice(CLI::App& app, const std::string& name, Value& value,
   app.add_option_function<std::string>(name, store, description)->type_name(type);
 }
 
-// Words of the contract that a later version brings: absent from the help, and refused clearly.
-void add_later_option(CLI::App& app, const std::string& name) {
-  app.add_option_function<std::string>(
-         name, [name](const std::string&) { throw CLI::ValidationError(name, "not built in this version"); })
-      ->group("");
-}
-
 void add_equation_options(CLI::App& app, SegmentOptions& options) {
   const char* const kGroup = "Equation";
   const auto number = [&](const char* name, std::optional<double>& value, const char* description) {
@@ -63,27 +56,8 @@ void add_run_options(CLI::App& app, SegmentOptions& options) {
   add_solver_options(app, options.solver);
 }
 
-void add_result_options(CLI::App& app, SegmentOptions& options) {
+void add_comparison_options(CLI::App& app, SegmentOptions& options) {
   const char* const kGroup = "Results";
-  app.add_option("--out", options.out,
-                 ".nii .nii.gz .nrrd .mha: the mask (1 inside);\n.stl .ply .obj: the surface in patient mm "
-                 "(LPS); may be "
-                 "repeated")
-      ->allow_extra_args(false)
-      ->type_name("FILE")
-      ->group(kGroup);
-  app.add_option("--out-phi", options.out_phi,
-                 "The level set itself, to go on from with --init-phi (.nii .nii.gz .nrrd .mha, float):\n> 0 "
-                 "inside, in units "
-                 "of the smallest voxel spacing")
-      ->type_name("FILE")
-      ->group(kGroup);
-  app.add_option("--picture", options.picture, "Three slices and the surface in 3D, .png (needs OpenGL 3.3)")
-      ->type_name("FILE.png")
-      ->group(kGroup);
-  app.add_option("--stats", options.stats, "Figures of the run as JSON (ml, mm^2, voxels, steps/s, bytes)")
-      ->type_name("FILE.json")
-      ->group(kGroup);
   app.add_option("--truth", options.truth, "A mask to compare with: the Dice overlap goes into the figures")
       ->type_name("MASK")
       ->group(kGroup);
@@ -162,33 +136,23 @@ void add_segment_options(CLI::App& app, SegmentOptions& options) {
   add_equation_options(app, options);
   add_start_options(app, options.start);
   add_run_options(app, options);
-  add_result_options(app, options);
-  add_later_option(app, "--recipe");
+  add_result_options(app, options.results);
+  add_comparison_options(app, options);
 }
 
-Status check(const SegmentOptions& options, Outputs& outputs) {
+Status check(const SegmentOptions& options) {
   if (Status good = check_present(options); !good) return good;
   if (Status good = check_numbers(options); !good) return good;
   if (Status good = check(options.start); !good) return good;
-  if (Status good = check(options.solver); !good) return good;
-  for (const std::string& file : options.out) {
-    if (Status good = outputs.announce("--out", file, {FileForm::volume, FileForm::mesh}); !good) return good;
+  return check(options.solver);
+}
+
+std::vector<std::string> inputs_of(const SegmentOptions& options) {
+  std::vector<std::string> inputs{options.input};
+  for (const auto& input : {options.start.mask, options.start.phi, options.truth}) {
+    if (input) inputs.push_back(*input);
   }
-  if (!options.out_phi.empty()) {
-    if (Status good = outputs.announce("--out-phi", options.out_phi, {FileForm::volume}); !good) return good;
-  }
-  if (!options.stats.empty()) {
-    if (Status good = outputs.announce_json("--stats", options.stats); !good) return good;
-  }
-  if (!options.picture.empty()) {
-    if (Status good = outputs.announce_png("--picture", options.picture); !good) return good;
-  }
-  for (const auto& input :
-       {std::optional(options.input), options.start.mask, options.start.phi, options.truth}) {
-    if (!input) continue;
-    if (Status good = outputs.spare(*input); !good) return good;
-  }
-  return {};
+  return inputs;
 }
 
 }  // namespace tidemark::cli

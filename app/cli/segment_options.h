@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/outputs.h"
+#include "app/cli/results.h"
 #include "app/cli/solver_options.h"
 #include "app/cli/start.h"
 #include "solver/parameters.h"
@@ -30,8 +30,7 @@ struct SegmentOptions {
   SolverOptions solver;
   std::optional<std::string> truth;
   std::optional<std::int64_t> truth_label;
-  std::vector<std::string> out;
-  std::string out_phi, stats, picture;
+  ResultOptions results;
 
   [[nodiscard]] bool until_converged() const { return !steps; }
   [[nodiscard]] std::int64_t step_limit() const;
@@ -41,7 +40,9 @@ struct SegmentOptions {
 
 void add_segment_options(CLI::App& app, SegmentOptions& options);
 
-// Everything that can be checked before a file is read; announces the results to `outputs`.
-Status check(const SegmentOptions& options, Outputs& outputs);
+// Everything that can be checked before a file is read, the results apart.
+Status check(const SegmentOptions& options);
+// The files that are read.
+[[nodiscard]] std::vector<std::string> inputs_of(const SegmentOptions& options);
 
 }  // namespace tidemark::cli

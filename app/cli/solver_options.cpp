@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "core/thread_pool.h"
+
 namespace tidemark::cli {
 namespace {
 
@@ -28,17 +30,23 @@ ExecutorOptions SolverOptions::executor_options() const {
   return options;
 }
 
-void add_solver_options(CLI::App& app, SolverOptions& options) {
+void add_solver_options(CLI::App& app, SolverOptions& options, const std::string& otherwise) {
   app.add_option_function<std::string>(
          "--executor", [&options](const std::string& name) { options.kind = executor_kind(name); },
          "What computes: host (the processor), compute (OpenGL 4.5), stream (OpenGL 3.3, the paper's "
          "passes), or auto: "
-         "compute on a GPU, else host (default)")
+         "compute on a GPU, else host (default: " +
+             otherwise + ")")
       ->type_name("auto|host|compute|stream");
   add_count(app, "--threads", options.threads, "Threads of the host executor (default: all processors)");
   add_count(app, "--memory-budget", options.memory_budget_mb,
             "Most memory for the solver, in MB (default: 8192); a run that needs more ends with code 4");
   app.add_flag("--no-skip", options.no_skip, "Compute also the pages in which nothing moves any more");
+}
+
+int threads_of(const SolverOptions& options, std::string_view executor) {
+  if (executor == "reference") return 1;
+  return static_cast<int>(options.threads.value_or(available_processors()));
 }
 
 Status check(const SolverOptions& options) {

@@ -4,6 +4,8 @@
 #include <CLI/App.hpp>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "app/cli/arguments.h"
 #include "solver/executor.h"
@@ -11,7 +13,7 @@
 namespace tidemark::cli {
 
 struct SolverOptions {
-  ExecutorKind kind = ExecutorKind::automatic;
+  std::optional<ExecutorKind> kind;              // unset: what the command takes otherwise
   std::optional<std::int64_t> threads;           // unset: all processors
   std::optional<std::int64_t> memory_budget_mb;  // unset: the executor's own limit
   bool no_skip = false;
@@ -19,8 +21,11 @@ struct SolverOptions {
   [[nodiscard]] ExecutorOptions executor_options() const;
 };
 
-// --executor, --threads, --memory-budget and --no-skip.
-void add_solver_options(CLI::App& app, SolverOptions& options);
+// --executor, --threads, --memory-budget and --no-skip; `otherwise` says what computes without --executor.
+void add_solver_options(CLI::App& app, SolverOptions& options, const std::string& otherwise = "auto");
+
+// How many threads that executor computes with.
+[[nodiscard]] int threads_of(const SolverOptions& options, std::string_view executor);
 
 // Fails (ErrorKind::usage) naming the option.
 Status check(const SolverOptions& options);

@@ -1,13 +1,10 @@
 #include "app/cli/start.h"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "app/cli/align.h"
-#include "imaging/filters/filters.h"
 #include "imaging/study.h"
-#include "solver/distance_transform.h"
 
 namespace tidemark::cli {
 namespace {
@@ -16,56 +13,37 @@ Index3 flood_seed(const std::vector<double>& flood) {
   return {std::llround(flood[0]), std::llround(flood[1]), std::llround(flood[2])};
 }
 
-Result<Mask> initial_mask(const Volume& source, const StartOptions& options, Console& console) {
-  if (options.threshold) return threshold(source, (*options.threshold)[0], (*options.threshold)[1]);
-  if (options.flood) {
-    const std::vector<double>& flood = *options.flood;
-    return flood_fill(source, flood_seed(flood), flood[3], flood[4]);
-  }
-  auto mask = load_mask(*options.mask, console.progress());
+Result<MaskStart> read_mask(const std::string& file, const Geometry& grid, Console& console) {
+  auto mask = load_mask(file, console.progress());
   if (!mask) return pass_on(mask);
-  return onto_grid(std::move(*mask), source.geometry, *options.mask);
+  auto aligned = onto_grid(std::move(*mask), grid, file);
+  if (!aligned) return pass_on(aligned);
+  return MaskStart{std::make_shared<const Mask>(std::move(*aligned)),
+                   std::filesystem::path(file).filename().string()};
 }
 
-Result<Field> saved_field(const Volume& source, const std::string& file, double band, Console& console) {
+Result<FieldStart> read_phi(const std::string& file, const Geometry& grid, double band, Console& console) {
   const auto volume = load_volume(file, {}, console.progress());
   if (!volume) return tl::unexpected<Error>(volume.error());
-  auto values = onto_grid(*volume, source.geometry, file);
+  auto values = onto_grid(*volume, grid, file);
   if (!values) return pass_on(values);
-  const auto limit = static_cast<float>(band);
-  for (float& value : *values) value = std::clamp(value, -limit, limit);
-  return Field::from_dense(source.geometry, *values, band);
+  return FieldStart{std::make_shared<const Field>(Field::from_dense(grid, *values, band)),
+                    std::filesystem::path(file).filename().string()};
 }
 
-Status restore_init(Executor& executor, const Volume& source, const StartOptions& options, Console& console) {
-  if (options.phi) {
-    const auto field = saved_field(source, *options.phi, executor.band(), console);
-    if (!field) return tl::unexpected<Error>(field.error());
-    return executor.restore(*field);
-  }
-  if (!options.mask && !options.threshold && !options.flood) return {};
-  const auto mask = initial_mask(source, options, console);
-  if (!mask) return tl::unexpected<Error>(mask.error());
-  return executor.restore(distance_transform(*mask, executor.band()));
-}
-
-Status paint_all(Executor& executor, const Geometry& geometry, const std::vector<SphereArgument>& spheres,
-                 Brush brush) {
-  for (const SphereArgument& argument : spheres) {
-    const auto sphere = argument.resolve(geometry);
+Result<std::vector<Sphere>> resolve(const std::vector<SphereArgument>& arguments, const Geometry& grid) {
+  std::vector<Sphere> spheres;
+  for (const SphereArgument& argument : arguments) {
+    const auto sphere = argument.resolve(grid);
     if (!sphere) return tl::unexpected<Error>(sphere.error());
-    if (Status painted = executor.paint(*sphere, brush); !painted) return painted;
+    spheres.push_back(*sphere);
   }
-  return {};
+  return spheres;
 }
 
 Status check_order(const std::string& option, double low, double high) {
   if (low <= high) return {};
   return fail(ErrorKind::usage, "{}: the lower limit {} is above the upper limit {}", option, low, high);
-}
-
-std::string counted(std::size_t count, const std::string& what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -121,10 +99,7 @@ Status check(const StartOptions& options) {
 
 Status check_inside(const StartOptions& options, const Geometry& geometry) {
   for (const auto* spheres : {&options.seeds, &options.erasers}) {
-    for (const SphereArgument& argument : *spheres) {
-      const auto sphere = argument.resolve(geometry);
-      if (!sphere) return tl::unexpected<Error>(sphere.error());
-    }
+    if (auto inside = resolve(*spheres, geometry); !inside) return pass_on(inside);
   }
   if (options.flood && !geometry.contains(flood_seed(*options.flood))) {
     const Index3 voxel = flood_seed(*options.flood);
@@ -135,30 +110,29 @@ Status check_inside(const StartOptions& options, const Geometry& geometry) {
   return {};
 }
 
-Status start(Executor& executor, const Volume& source, const StartOptions& options, Console& console) {
-  if (Status done = restore_init(executor, source, options, console); !done) return done;
-  if (Status done = paint_all(executor, source.geometry, options.seeds, Brush::add); !done) return done;
-  if (Status done = paint_all(executor, source.geometry, options.erasers, Brush::erase); !done) return done;
-  const auto phi = executor.snapshot();
-  if (!phi) return tl::unexpected<Error>(phi.error());
-  if (phi->mask().count() == 0) {
-    return fail(ErrorKind::usage, "the start is empty: no voxel is inside ({})", describe(options));
+Result<Start> make_start(const StartOptions& options, const Geometry& grid, double band, Console& console) {
+  Start start;
+  if (options.threshold) start.from = ThresholdStart{(*options.threshold)[0], (*options.threshold)[1]};
+  if (options.flood) {
+    start.from = FloodStart{flood_seed(*options.flood), (*options.flood)[3], (*options.flood)[4]};
   }
-  return {};
-}
-
-std::string describe(const StartOptions& options) {
-  std::string text;
-  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-  if (options.mask) add("mask " + std::filesystem::path(*options.mask).filename().string());
-  if (options.phi) add("phi " + std::filesystem::path(*options.phi).filename().string());
-  if (options.threshold)
-    add(fmt::format("values {} to {}", (*options.threshold)[0], (*options.threshold)[1]));
-  if (options.flood)
-    add(fmt::format("flood fill, values {} to {}", (*options.flood)[3], (*options.flood)[4]));
-  if (!options.seeds.empty()) add(counted(options.seeds.size(), "seed"));
-  if (!options.erasers.empty()) add(counted(options.erasers.size(), "eraser"));
-  return text;
+  if (options.mask) {
+    auto mask = read_mask(*options.mask, grid, console);
+    if (!mask) return pass_on(mask);
+    start.from = std::move(*mask);
+  }
+  if (options.phi) {
+    auto phi = read_phi(*options.phi, grid, band, console);
+    if (!phi) return pass_on(phi);
+    start.from = std::move(*phi);
+  }
+  auto seeds = resolve(options.seeds, grid);
+  if (!seeds) return pass_on(seeds);
+  start.seeds = std::move(*seeds);
+  auto erasers = resolve(options.erasers, grid);
+  if (!erasers) return pass_on(erasers);
+  start.erasers = std::move(*erasers);
+  return start;
 }
 
 }  // namespace tidemark::cli

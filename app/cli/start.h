@@ -9,7 +9,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/console.h"
 #include "core/volume.h"
-#include "solver/executor.h"
+#include "study/start.h"
 
 namespace tidemark::cli {
 
@@ -33,11 +33,8 @@ Status check(const StartOptions& options);
 // What needs the volume's grid: every centre inside it. Fails with ErrorKind::usage.
 Status check_inside(const StartOptions& options, const Geometry& geometry);
 
-// Gives the executor its start. `source` is the volume as the solver sees it. Fails with ErrorKind::input
-// when a file cannot be read or lies on another grid, with ErrorKind::usage when nothing is inside.
-Status start(Executor& executor, const Volume& source, const StartOptions& options, Console& console);
-
-// One line for people: "2 seeds, 1 eraser", "mask.nii.gz, 1 seed".
-[[nodiscard]] std::string describe(const StartOptions& options);
+// The start with its files read. `grid` and `band` are those of the level set. Fails with ErrorKind::input
+// when a file cannot be read or lies on another grid.
+Result<Start> make_start(const StartOptions& options, const Geometry& grid, double band, Console& console);
 
 }  // namespace tidemark::cli

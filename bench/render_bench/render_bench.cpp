@@ -4,9 +4,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
+#include "core/stopwatch.h"
 #include "gpu/device.h"
 #include "imaging/phantom/phantom.h"
 #include "renderer/quality_control.h"
@@ -18,12 +18,6 @@
 using namespace tidemark;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 template <class T>
 T expect(Result<T> result) {
@@ -88,6 +82,7 @@ class Bench {
       VolumeView view;
       std::int64_t side;
       std::vector<double> seconds;
+      double preparing = 0.0;
       double longest_piece = 0.0;
     };
     std::vector<Contestant> contestants;
@@ -95,11 +90,11 @@ class Bench {
       view.camera.azimuth = 30.0;
       view.camera.elevation = 20.0;
       view.window = window_of(*study_.source);
-      contestants.push_back({name + ", still", view, options_.side, {}, 0.0});
+      contestants.push_back({name + ", still", view, options_.side, {}});
       const bool skip_empty = view.quality.skip_empty;
       view.quality = kMovingQuality;
       view.quality.skip_empty = skip_empty;
-      contestants.push_back({name + ", moving", view, options_.side / 2, {}, 0.0});
+      contestants.push_back({name + ", moving", view, options_.side / 2, {}});
     };
     VolumeView surface;
     enter("surface", surface);
@@ -127,20 +122,21 @@ class Bench {
 
     for (int round = -1; round < options_.rounds; ++round) {  // the first one compiles
       for (Contestant& c : contestants) {
-        const auto start = Clock::now();
+        const Stopwatch watch;
         expect(renderer_->draw(c.view, {c.side, c.side}));
-        if (round < 0) continue;
-        c.seconds.push_back(seconds_since(start));
+        if (round >= 0) c.seconds.push_back(watch.seconds());
+        c.preparing = std::max(c.preparing, renderer_->last_draw().prepare_seconds);
         c.longest_piece = std::max(c.longest_piece, renderer_->last_draw().longest_piece_seconds);
       }
     }
-    fmt::print("{:42} {:>10} {:>10} {:>12} {:>14}\n", "picture", "pixels", "ms", "pictures/s",
-               "longest piece");
+    fmt::print("{:42} {:>10} {:>10} {:>12} {:>14} {:>14}\n", "picture", "pixels", "ms", "pictures/s",
+               "longest piece", "preparing");
     for (Contestant& c : contestants) {
       std::nth_element(c.seconds.begin(), c.seconds.begin() + c.seconds.size() / 2, c.seconds.end());
       const double median = c.seconds[c.seconds.size() / 2];
-      fmt::print("{:42} {:>10} {:>10.1f} {:>12.1f} {:>11.1f} ms\n", c.name,
-                 fmt::format("{}x{}", c.side, c.side), 1e3 * median, 1.0 / median, 1e3 * c.longest_piece);
+      fmt::print("{:42} {:>10} {:>10.1f} {:>12.1f} {:>11.1f} ms {:>11.1f} ms\n", c.name,
+                 fmt::format("{}x{}", c.side, c.side), 1e3 * median, 1.0 / median, 1e3 * c.longest_piece,
+                 1e3 * c.preparing);
     }
   }
 
@@ -164,10 +160,10 @@ class Bench {
         const Pass pass = *control.next({options_.side, options_.side});
         view.camera.azimuth = 3.0 * i;
         view.quality = pass.quality;
-        const auto start = Clock::now();
+        const Stopwatch watch;
         expect(renderer_->draw(view, pass.size));
-        control.drawn(pass, seconds_since(start));
-        if (i >= 0) seconds += seconds_since(start);
+        control.drawn(pass, watch.seconds());
+        if (i >= 0) seconds += watch.seconds();
         size = pass.size;
       }
       fmt::print("{:42} {:>10} {:>12.1f}\n", name, fmt::format("{}x{}", size.width, size.height),
@@ -187,22 +183,22 @@ class Bench {
     std::int64_t uploaded = 0;
     std::int64_t resident = 0;
     for (int i = 0; i < kPictures; ++i) {
-      auto start = Clock::now();
+      Stopwatch watch;
       expect(study_.executor->advance({kStepsPerPicture}));
-      solving += seconds_since(start);
-      start = Clock::now();
+      solving += watch.seconds();
+      watch.restart();
       PackedView view_of_executor;
       if (study_.executor->packed_view(view_of_executor)) {
         expect_done(renderer_->look_at(view_of_executor));
       } else {
         expect_done(renderer_->set_phi(expect(study_.executor->snapshot())));
       }
-      sending += seconds_since(start);
+      sending += watch.seconds();
       uploaded += renderer_->pages_uploaded();
       resident += study_.executor->memory().resident_pages;
-      start = Clock::now();
+      watch.restart();
       expect(renderer_->draw(view, {options_.side / 2, options_.side / 2}));
-      drawing += seconds_since(start);
+      drawing += watch.seconds();
     }
     fmt::print(
         "\nevolving ({}): {} steps a picture, {:.1f} pictures/s; a picture: {:.1f} ms solving, {:.1f} ms "

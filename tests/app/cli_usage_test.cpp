@@ -40,7 +40,8 @@ void CliUsageTest::initTestCase() {
 
 void CliUsageTest::help_names_units_and_an_example_data() {
   QTest::addColumn<QString>("command");
-  for (const char* command : {"info", "segment", "distance", "convert", "render", "phantom", "bench"}) {
+  for (const char* command :
+       {"info", "segment", "replay", "distance", "convert", "render", "phantom", "bench"}) {
     QTest::newRow(command) << command;
   }
 }
@@ -58,7 +59,7 @@ void CliUsageTest::help_names_units_and_an_example() {
 
 void CliUsageTest::help_hides_what_is_not_built() {
   const QByteArray all = run_cli({"--help"}).out + run_cli({"segment", "--help"}).out;
-  for (const char* word : {"replay", "--recipe", ".dcm", "reference"}) {
+  for (const char* word : {".dcm", "reference"}) {
     const QRegularExpression whole(QString("(^|[\\s|])%1($|[\\s|,])").arg(QRegularExpression::escape(word)));
     QVERIFY2(!whole.match(QString::fromUtf8(all)).hasMatch(), word);
   }
@@ -105,6 +106,9 @@ void CliUsageTest::wrong_usage_ends_with_2_and_one_line_data() {
   QTest::newRow("unknown suffix") << seeded + QStringList{"--out", text(folder_ / "mask.xyz")};
   QTest::newRow("mesh as phi") << seeded + QStringList{"--out-phi", text(folder_ / "phi.stl")};
   QTest::newRow("stats not json") << seeded + QStringList{"--stats", text(folder_ / "stats.txt")};
+  QTest::newRow("recipe not json") << seeded + QStringList{"--recipe", text(folder_ / "recipe.txt")};
+  QTest::newRow("replay without a volume") << QStringList{"replay", "recipe.json"};
+  QTest::newRow("replay with a start") << QStringList{"replay", "r.json", volume_, "--seed", "1,1,1,1"};
   QTest::newRow("one file twice") << seeded + QStringList{"--out", text(folder_ / "m.nrrd"), "--out-phi",
                                                           text(folder_ / "m.nrrd")};
   QTest::newRow("unknown executor") << seeded + QStringList{"--executor", "abacus"};
@@ -157,10 +161,7 @@ void CliUsageTest::wrong_usage_ends_with_2_and_one_line() {
 void CliUsageTest::what_is_not_built_yet_says_so_data() {
   QTest::addColumn<QStringList>("arguments");
   const QStringList segment = QStringList{"segment", volume_} + ball_arguments(Index3(24));
-  QTest::newRow("replay") << QStringList{"replay", "recipe.json", volume_};
-  QTest::newRow("recipe") << segment + QStringList{"--recipe", "a.json"};
   QTest::newRow("DICOM SEG") << segment + QStringList{"--out", text(folder_ / "mask.dcm")};
-  QTest::newRow("recipe out") << segment + QStringList{"--out", text(folder_ / "recipe.json")};
 }
 
 void CliUsageTest::what_is_not_built_yet_says_so() {

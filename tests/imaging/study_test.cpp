@@ -2,6 +2,7 @@
 #include <sys/stat.h>
 
 #include <fstream>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "imaging/dicom/dicom.h"
@@ -138,6 +139,52 @@ class StudyTest : public QObject {
     QVERIFY(!infinite);
     QVERIFY2(infinite.error().message.find("not finite") != std::string::npos,
              infinite.error().message.c_str());
+  }
+
+  // Of a DICOM series the other slices need not even be there.
+  void a_slice_is_loaded_alone() {
+    const test::TemporaryFolder folder;
+    const Volume volume = test::sample_volume({5, 4, 3});
+    test::write_series(volume, folder / "series");
+    QCOMPARE(test::failure(write_volume_file(volume, folder / "volume.nrrd")), QString());
+    for (const char* name : {"series", "volume.nrrd"}) {
+      const auto found = find_series(folder / name);
+      QCOMPARE(test::failure(found), QString());
+      const Series& series = found->series.front();
+      const auto whole = load_series(series);
+      QCOMPARE(test::failure(whole), QString());
+      QVERIFY(same_grid(whole->geometry, volume.geometry, 1e-4));
+      if (series.files.size() > 1) {
+        fs::remove(series.files.at(0));
+        fs::remove(series.files.at(2));
+      }
+      const auto slice = load_slice(series, 1);
+      QCOMPARE(test::failure(slice), QString());
+      const std::vector<float> all = whole->values();
+      QCOMPARE(slice->values(), std::vector<float>(all.begin() + 20, all.begin() + 40));
+      QCOMPARE(slice->geometry.size, Index3(5, 4, 1));
+      QVERIFY(glm::distance(slice->geometry.origin_mm, volume.geometry.to_patient({0.0, 0.0, 1.0})) < 1e-4);
+      for (const std::int64_t outside : {-1, 3}) {
+        QCOMPARE(load_slice(series, outside).error().kind, ErrorKind::usage);
+      }
+    }
+    Series damaged;
+    damaged.reason = "a slice is missing";
+    QVERIFY(load_slice(damaged, 0).error().message.ends_with("cannot be loaded: a slice is missing"));
+    QVERIFY(load_series(damaged).error().message.ends_with("cannot be loaded: a slice is missing"));
+  }
+
+  void the_studys_date_is_listed_when_it_is_one() {
+    const test::TemporaryFolder folder;
+    const auto files = test::write_series(test::sample_volume({4, 3, 2}), folder / "series");
+    const std::pair<const char*, const char*> dates[] = {
+        {"20040731", "2004-07-31"}, {"2004.07.31", "2004-07-31"}, {"", ""}, {"July", ""}, {"2004073", ""}};
+    for (const auto& [written, listed] : dates) {
+      for (const fs::path& file : files) test::set_text(file, 0x0008, 0x0020, written);
+      const auto found = find_series(folder / "series");
+      QCOMPARE(test::failure(found), QString());
+      QCOMPARE(found->series.front().date, std::string(listed));
+    }
   }
 
   void whatever_is_not_zero_is_inside_a_mask() {

@@ -44,6 +44,24 @@ class TransferFunctionTest : public QObject {
     QCOMPARE(function->surface[0].opacity, 0.7);
   }
 
+  void what_is_written_is_read_as_the_same_function() {
+    for (const std::string& name : preset_names()) {
+      const TransferFunction function = preset(name).value();
+      const auto again = TransferFunction::parse(function.to_json());
+      QCOMPARE(failure(again), QString());
+      QVERIFY2(*again == function, name.c_str());
+    }
+    TransferFunction odd = preset("ct-angio").value();
+    odd.name = "a \"name\"\nin two lines, µ";
+    odd.source[0].value.start = 1.0 / 3.0;
+    odd.source[0].phi = {TransferFactor::Kind::gaussian, -1e-12, 1e12};
+    odd.source[0].colour = {0.1F, 1.0F / 3.0F, 0.0F};
+    const auto again = TransferFunction::parse(odd.to_json());
+    QCOMPARE(failure(again), QString());
+    QVERIFY(*again == odd);
+    QVERIFY(odd.to_json().find("\"colour\":[0.1,") != std::string::npos);
+  }
+
   void relative_values_are_shares_of_the_common_range() {
     const auto function = TransferFunction::parse(
         R"({"relative": true, "source": [{"value": {"gaussian": [0.5, 0.1]}, "gradient": {"ramp": [0, 0.25]},

@@ -1,7 +1,8 @@
 #include "ui/look/theme.h"
 
 #include <QApplication>
-#include <QStyleFactory>
+
+#include "ui/look/style.h"
 
 namespace tidemark {
 namespace {
@@ -116,11 +117,20 @@ QToolBar QToolButton:focus { border-color: %4; }
 QToolBar QToolButton[popupMode="1"] { padding-right: 16px; }
 QToolBar QToolButton[popupMode="2"] { padding-right: 12px; }
 QToolBar QToolButton::menu-button { border: none; width: 14px; }
+QToolBar QToolButton::menu-indicator { subcontrol-origin: padding; subcontrol-position: right center; }
+QTabWidget::pane { border: none; border-top: 1px solid %1; }
+QTabBar::tab { border: 2px solid transparent; padding: 4px 10px; }
+QTabBar::tab:hover { background: %2; }
+QTabBar::tab:top:selected { border-bottom-color: %4; }
+QTabBar::tab:bottom:selected { border-top-color: %4; }
+QTabBar::tab:left:selected { border-right-color: %4; }
+QTabBar::tab:right:selected { border-left-color: %4; }
 QDockWidget::title { background: %2; padding: 4px 8px; }
 QMainWindow::separator { background: transparent; width: 5px; height: 5px; }
 QMainWindow::separator:hover { background: %4; }
 QGroupBox { border: none; border-top: 1px solid %1; margin-top: 1.3em; padding-top: 4px; }
 QGroupBox::title { subcontrol-origin: margin; subcontrol-position: top left; padding: 0 6px 2px 0; }
+QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QStatusBar::item { border: none; }
 QToolTip { background: %5; color: %6; border: 1px solid %1; padding: 3px 5px; }
 )";
@@ -153,7 +163,7 @@ void apply_theme(QApplication& application, Theme theme) {
   static const bool system_is_dark = is_dark(QGuiApplication::palette());
   const bool dark = theme == Theme::dark || (theme == Theme::system && system_is_dark);
   const QPalette palette = dark ? dark_palette() : light_palette();
-  QApplication::setStyle(QStyleFactory::create("Fusion"));
+  QApplication::setStyle(new Style);  // owned by the application
   QApplication::setPalette(palette);
   application.setStyleSheet(style_sheet(palette));
 }

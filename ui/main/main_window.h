@@ -16,6 +16,7 @@ namespace tidemark {
 
 class CaseLinks;
 class LoadingView;
+class MessageBar;
 class PanelDocks;
 class RecentStudies;
 class SavedCases;
@@ -50,7 +51,6 @@ class MainWindow : public QMainWindow {
 
  private:
   void make_centre();
-  void make_menus();
   void make_tool_bar();
   void make_status_bar();
   void connect_files();
@@ -59,11 +59,8 @@ class MainWindow : public QMainWindow {
   void connect_windows();
   void ask_for_folder();
   void ask_for_file();
-  void ask_for_session();
   void activate(QMdiSubWindow* window);
   void follow_case();
-  void follow_tool(QAction* chosen);
-  void set_interface_hidden(bool hidden);
   // A case as it is wanted by an action; nothing happens without one.
   template <class Do>
   void with_case(QAction* action, Do act);
@@ -78,6 +75,7 @@ class MainWindow : public QMainWindow {
   RecentStudies* recent_ = nullptr;
   StudyOpener* opener_ = nullptr;
   LoadingView* loading_ = nullptr;
+  MessageBar* messages_ = nullptr;
   ValueBar* values_ = nullptr;
   SavedCases* saved_ = nullptr;
   QPointer<CaseWindow> active_;

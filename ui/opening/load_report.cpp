@@ -17,13 +17,15 @@ LoadReport::LoadReport(const LoadedStudy& study, QWidget* parent) : QFrame(paren
   grid->setContentsMargins(14, 10, 10, 10);
   grid->setColumnStretch(0, 1);
 
-  auto* title = new QLabel(tr("%1: %2").arg(study.name, grid_text(study.volume->geometry)), this);
+  auto* title = new QLabel(study.name, this);
   title->setTextFormat(Qt::PlainText);
   title->setWordWrap(true);
   QFont bold = title->font();
   bold.setWeight(QFont::DemiBold);
   title->setFont(bold);
   grid->addWidget(title, 0, 0);
+
+  grid->addWidget(new QLabel(grid_text(study.volume->geometry), this), 1, 0);
 
   QString text;
   for (const std::string& change : changes) {
@@ -37,12 +39,12 @@ LoadReport::LoadReport(const LoadedStudy& study, QWidget* parent) : QFrame(paren
   what->setTextFormat(Qt::RichText);
   what->setWordWrap(true);
   what->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  grid->addWidget(what, 1, 0);
+  grid->addWidget(what, 2, 0);
 
   auto* close = new QPushButton(tr("Dismiss"), this);
   close->setAccessibleName(tr("Dismiss the report of loading"));
   connect(close, &QPushButton::clicked, this, &LoadReport::dismiss);
-  grid->addWidget(close, 0, 1, 2, 1, Qt::AlignTop);
+  grid->addWidget(close, 0, 1, 3, 1, Qt::AlignTop);
 }
 
 void LoadReport::dismiss() {

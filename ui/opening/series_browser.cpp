@@ -4,13 +4,28 @@
 #include <QDialogButtonBox>
 #include <QHeaderView>
 #include <QShortcut>
+#include <QStyledItemDelegate>
 
 #include "ui/opening/series_model.h"
 
 namespace tidemark {
 namespace {
 
+constexpr int kColumnGap = 14;
+constexpr int kNoteIconSize = 18;
 constexpr int kMostSkippedNamed = 20;  // in the tool tip
+
+// The table's icons are as large as its pictures; those of notes are not.
+class NotesDelegate : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+ protected:
+  void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
+    QStyledItemDelegate::initStyleOption(option, index);
+    option->decorationSize = {kNoteIconSize, kNoteIconSize};
+  }
+};
 
 QString item_list(const QString& title, const std::vector<std::string>& items) {
   if (items.empty()) return {};
@@ -76,7 +91,7 @@ SeriesBrowser::SeriesBrowser(QWidget* parent)
   connect(open_, &QPushButton::clicked, this, &SeriesBrowser::choose);
   auto* find = new QShortcut(QKeySequence::Find, this);
   connect(find, &QShortcut::activated, filter_, qOverload<>(&QWidget::setFocus));
-  resize(920, 560);
+  resize(1040, 600);
 }
 
 void SeriesBrowser::build_table() {
@@ -91,14 +106,15 @@ void SeriesBrowser::build_table() {
   table_->setShowGrid(false);
   table_->setWordWrap(false);
   table_->setIconSize({SeriesModel::kPreviewSize, SeriesModel::kPreviewSize});
+  table_->setItemDelegateForColumn(SeriesModel::kNotes, new NotesDelegate(table_));
   table_->setSortingEnabled(true);
   table_->sortByColumn(-1, Qt::AscendingOrder);  // the model's own order at first
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(SeriesModel::kPreviewSize + 10);
   QHeaderView* header = table_->horizontalHeader();
   header->setHighlightSections(false);
-  header->setSectionResizeMode(QHeaderView::ResizeToContents);
   header->setSectionResizeMode(SeriesModel::kSeries, QHeaderView::Stretch);
+  header->setStretchLastSection(false);
 }
 
 void SeriesBrowser::lay_out() {
@@ -133,6 +149,10 @@ void SeriesBrowser::show_catalogue(std::shared_ptr<const Catalogue> catalogue, c
   heading_->setText(count == 1 ? tr("1 series in %1").arg(path) : tr("%1 series in %2").arg(count).arg(path));
   skipped_->setText(skipped_text(catalogue_->skipped.size()));
   skipped_->setToolTip(skipped_list(catalogue_->skipped));
+  for (int column = SeriesModel::kModality; column < SeriesModel::kColumns; ++column) {
+    table_->resizeColumnToContents(column);
+    table_->setColumnWidth(column, table_->columnWidth(column) + kColumnGap);
+  }
   if (shown_->rowCount() > 0) table_->selectRow(0);
   table_->setFocus();
   follow_selection();

@@ -16,6 +16,9 @@
 namespace tidemark {
 namespace {
 
+const QVariant kAlignment = QVariant::fromValue(Qt::Alignment(Qt::AlignLeft | Qt::AlignVCenter));
+constexpr int kIconPixels = 64;  // enough for every scale; whoever draws them says how large they are
+
 bool has_grid(const Series& series) {
   return series.geometry.voxel_count() > 0;
 }
@@ -38,15 +41,18 @@ int severity(const Series& series) {
   return series.changes.empty() ? 0 : 1;
 }
 
-QVariant alignment(int column) {
-  const bool is_number = column == SeriesModel::kFiles;
-  return QVariant::fromValue(Qt::Alignment(is_number ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+// An icon that selecting its row does not colour.
+QIcon untinted(const QPixmap& pixmap) {
+  QIcon icon(pixmap);
+  icon.addPixmap(pixmap, QIcon::Selected);
+  return icon;
 }
 
 QIcon notes_icon(const Series& series) {
   constexpr QStyle::StandardPixmap kIcons[] = {QStyle::SP_DialogApplyButton, QStyle::SP_MessageBoxInformation,
                                                QStyle::SP_MessageBoxWarning, QStyle::SP_MessageBoxCritical};
-  return QApplication::style()->standardIcon(kIcons[severity(series)]);
+  const QIcon icon = QApplication::style()->standardIcon(kIcons[severity(series)]);
+  return untinted(icon.pixmap(kIconPixels));
 }
 
 }  // namespace
@@ -123,7 +129,7 @@ QVariant SeriesModel::data(const QModelIndex& index, int role) const {
     case kSortRole:
       return sort_key(one, index.column());
     case Qt::DecorationRole:
-      if (index.column() == kSeries) return preview(index.row());
+      if (index.column() == kSeries) return untinted(preview(index.row()));
       return index.column() == kNotes ? QVariant(notes_icon(one)) : QVariant();
     case Qt::ForegroundRole:
       if (one.loadable || index.column() == kNotes) return {};
@@ -131,7 +137,7 @@ QVariant SeriesModel::data(const QModelIndex& index, int role) const {
     case Qt::ToolTipRole:
       return one.loadable ? QVariant() : QVariant(QString::fromStdString(one.reason));
     case Qt::TextAlignmentRole:
-      return alignment(index.column());
+      return kAlignment;
     default:
       return {};
   }
@@ -139,9 +145,7 @@ QVariant SeriesModel::data(const QModelIndex& index, int role) const {
 
 QVariant SeriesModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal) return {};
-  if (role == Qt::TextAlignmentRole) {
-    return alignment(section);
-  }
+  if (role == Qt::TextAlignmentRole) return kAlignment;
   if (role != Qt::DisplayRole) return {};
   const QString titles[kColumns] = {tr("Series"),       tr("Modality"), tr("Date"), tr("Voxels"),
                                     tr("Spacing (mm)"), tr("Files"),    tr("Notes")};

@@ -150,7 +150,8 @@ QWidget* StartPage::build_phantoms() {
       card->set_emphasised(true);
       grid->addWidget(card, 0, 0, 1, 2);
     } else {
-      grid->addWidget(card, place / 2, place % 2);
+      const bool is_alone = kind == phantom_kinds().back() && place % 2 == 0;
+      grid->addWidget(card, place / 2, place % 2, 1, is_alone ? 2 : 1);
       ++place;
     }
   }

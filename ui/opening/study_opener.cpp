@@ -54,7 +54,7 @@ void StudyOpener::look_at(const std::shared_ptr<const Catalogue>& catalogue) {
   browser_->setAttribute(Qt::WA_DeleteOnClose);
   browser_->show_catalogue(catalogue, path_);
   connect(browser_, &SeriesBrowser::chosen, this, &StudyOpener::load);
-  browser_->open();
+  browser_->show();  // not modal: series can be dragged from it to a view
   emit ended();
 }
 

@@ -17,8 +17,8 @@ QString number(double value, int digits) { return QString::number(value, 'f', di
 
 }  // namespace
 
-void paint_text(QPainter& painter, const QRectF& where, Qt::Alignment alignment, const QString& text) {
-  const int flags = static_cast<int>(alignment) | Qt::TextDontClip;
+void paint_text(QPainter& painter, const QRectF& where, int flags, const QString& text) {
+  flags |= Qt::TextDontClip;
   painter.setPen(kRim);
   for (const auto& [dx, dy] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}, {1, 1}}) {
     painter.drawText(where.translated(dx, dy), flags, text);

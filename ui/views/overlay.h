@@ -13,7 +13,8 @@
 namespace tidemark {
 
 // Light with a dark rim.
-void paint_text(QPainter& painter, const QRectF& where, Qt::Alignment alignment, const QString& text);
+// `flags`: Qt::AlignmentFlag and Qt::TextFlag.
+void paint_text(QPainter& painter, const QRectF& where, int flags, const QString& text);
 void paint_line(QPainter& painter, const QPolygonF& line, const QColor& colour = Qt::white, double width = 1.5);
 // A sphere's outline; one that takes away is dashed.
 void paint_circle(QPainter& painter, QPointF centre, double radius, bool erases);

@@ -132,7 +132,7 @@ void PictureView::showEvent(QShowEvent* event) {
 
 bool PictureView::event(QEvent* event) {
   // Another screen has other pixels.
-  if (event->type() == QEvent::ScreenChangeInternal || event->type() == QEvent::DevicePixelRatioChange) ask();
+  if (event->type() == QEvent::ScreenChangeInternal) ask();
   return QWidget::event(event);
 }
 

@@ -1,6 +1,8 @@
 // Icons and themes: everything can be seen, and told apart.
 #include <QApplication>
 #include <QPainter>
+#include <QStyle>
+#include <QStyleOption>
 #include <QTest>
 #include <algorithm>
 #include <cmath>
@@ -247,6 +249,45 @@ class LookTest : public QObject {
     QVERIFY(!is_dark(QApplication::palette()));
     apply_theme(*qApp, Theme::system);  // this platform's palette is light
     QVERIFY(!is_dark(QApplication::palette()));
+  }
+
+  void buttons_of_windows_docks_and_tabs_stand_out_in_the_dark() {
+    apply_theme(*qApp, Theme::dark);
+    const QStyle& style = *QApplication::style();
+    QStyleOptionTitleBar title;
+    title.rect = QRect(0, 0, 200, 24);
+    title.palette = QApplication::palette();
+    title.titleBarFlags = Qt::WindowTitleHint | Qt::WindowSystemMenuHint | Qt::WindowCloseButtonHint;
+    title.titleBarState = 0;  // not the active window
+    title.subControls = QStyle::SC_TitleBarCloseButton | QStyle::SC_TitleBarLabel;
+    const auto brightest_of = [](const QImage& image) {
+      int brightest = 0;
+      for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) brightest = std::max(brightest, qGray(image.pixel(x, y)));
+      }
+      return brightest;
+    };
+    QImage picture(title.rect.size(), QImage::Format_RGB32);
+    picture.fill(Qt::black);
+    QPainter painter(&picture);
+    style.drawComplexControl(QStyle::CC_TitleBar, &title, &painter);
+    painter.end();
+    const QRect close = style.subControlRect(QStyle::CC_TitleBar, &title, QStyle::SC_TitleBarCloseButton);
+    QVERIFY(brightest_of(picture.copy(close)) > 200);
+
+    for (const auto which : {QStyle::SP_TitleBarCloseButton, QStyle::SP_TitleBarNormalButton}) {
+      const QImage button = style.standardIcon(which).pixmap(48).toImage();
+      QVERIFY(distance_to(button, QApplication::palette().color(QPalette::WindowText)) <= 2);
+    }
+    QStyleOption tab;
+    tab.rect = QRect(0, 0, 24, 24);
+    tab.palette = QApplication::palette();
+    picture = QImage(24, 24, QImage::Format_RGB32);
+    picture.fill(Qt::black);
+    painter.begin(&picture);
+    style.drawPrimitive(QStyle::PE_IndicatorTabClose, &tab, &painter);
+    painter.end();
+    QVERIFY(brightest_of(picture) > 200);
   }
 
   // TIDEMARK_CONTACT_SHEETS=folder keeps them, to be looked at.

@@ -1,0 +1,115 @@
+// tidemark-cli replay: does again what a recipe says.
+#include <memory>
+
+#include "app/cli/program.h"
+#include "app/cli/results.h"
+#include "app/cli/solver_options.h"
+#include "imaging/study.h"
+#include "study/checksum.h"
+#include "study/replay.h"
+
+namespace tidemark::cli {
+namespace {
+
+constexpr const char* kSummary = "Does again what a recipe says and writes mask, surface and figures";
+constexpr const char* kDescription =
+    "Replays RECIPE, which segment --recipe and the desktop write, on INPUT: the same start, parameters and\n"
+    "edits at the same steps. On the same volume with the same executor it gives the same voxels. Radii and\n"
+    "patient coordinates of the recipe are in mm; another spacing is warned about.";
+constexpr const char* kExamples =
+    "  tidemark-cli replay liver.json ct.nrrd --out liver.nii.gz --stats liver-stats.json\n"
+    "  tidemark-cli replay liver.json other/ --executor host --out other.stl\n";
+
+struct ReplayArguments {
+  std::string recipe, input, series;
+  SolverOptions solver;
+  ResultOptions results;
+};
+
+Status check(const ReplayArguments& arguments, ResultWriter& writer) {
+  if (Status good = check(arguments.solver); !good) return good;
+  if (Status good = writer.prepare(); !good) return good;
+  for (const std::string& input : {arguments.recipe, arguments.input}) {
+    if (Status good = writer.spare(input); !good) return good;
+  }
+  return {};
+}
+
+// What a replay left, with the figures that segment tells, too.
+RunResults results_of(const Recipe& recipe, const Volume& volume, Replay replayed,
+                      const ReplayArguments& arguments) {
+  RunResults results;
+  RunFigures& figures = results.figures;
+  figures.executor = replayed.executor.name;
+  figures.threads = threads_of(arguments.solver, figures.executor);
+  figures.geometry = volume.geometry;
+  figures.modality = volume.modality;
+  figures.description = volume.description;
+  figures.series_uid = arguments.series;
+  figures.changes = volume.changes;
+  figures.start = recipe.start.describe();
+  figures.parameters = recipe.final_parameters();
+  if (recipe.final_smoothed_mm() > 0.0) figures.smooth_mm = recipe.final_smoothed_mm();
+  figures.band = replayed.band;
+  figures.time_step = replayed.time_step;
+  figures.advance = replayed.advance;
+  figures.memory = replayed.memory;
+  figures.surface = measure(replayed.phi);
+  results.source = std::move(replayed.source);
+  results.mask = replayed.phi.mask();
+  results.phi = std::move(replayed.phi);
+  // The same recipe for the volume and the executor at hand.
+  results.recipe = recipe;
+  results.recipe.executor = replayed.executor;
+  results.recipe.source = {volume.geometry.size, volume.geometry.spacing_mm, arguments.series, {}};
+  return results;
+}
+
+Status run_replay(Program& program, const ReplayArguments& arguments) {
+  Console& console = program.console;
+  ResultWriter writer(arguments.results, console);
+  if (Status good = check(arguments, writer); !good) return good;
+  const auto recipe = Recipe::load(arguments.recipe);
+  if (!recipe) return tl::unexpected<Error>(recipe.error());
+  auto loaded = load_volume(arguments.input, arguments.series, console.progress());
+  if (!loaded) return pass_on(loaded);
+  const auto volume = std::make_shared<const Volume>(std::move(*loaded));
+  for (const std::string& difference : differences(*recipe, *volume)) console.warn(difference);
+  console.say("Recipe     {}; {} edits, {} steps", recipe->start.describe(), recipe->events.size(),
+              recipe->steps);
+
+  ReplayOptions options;
+  options.executor = arguments.solver.kind;
+  options.options = arguments.solver.executor_options();
+  auto replayed = replay(*recipe, volume, options, console.progress());
+  if (!replayed) {
+    // Arguments of ours were in order: what does not fit is the recipe.
+    Error error = replayed.error();
+    if (error.kind == ErrorKind::usage) error.kind = ErrorKind::input;
+    if (error.kind == ErrorKind::input) error.message = arguments.recipe + ": " + error.message;
+    return tl::unexpected<Error>(std::move(error));
+  }
+  RunResults results = results_of(*recipe, *volume, std::move(*replayed), arguments);
+  if (writer.wants_recipe()) results.recipe.source.checksum = checksum_of(*volume);
+  if (Status written = writer.write(results); !written) return written;
+  console.result(to_json(results.figures));
+  return {};
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, Program& program) {
+  auto arguments = std::make_shared<ReplayArguments>();
+  CLI::App& command = add_command(app, program, {"replay", kSummary, kDescription, kExamples},
+                                  [&program, arguments] { return run_replay(program, *arguments); });
+  command.add_option("RECIPE", arguments->recipe, "A recipe (.json)")->required()->type_name("");
+  command.add_option("INPUT", arguments->input, "A DICOM folder or file, or a volume file")
+      ->required()
+      ->type_name("");
+  command.add_option("--series", arguments->series, "The series to load when INPUT holds several (see info)")
+      ->type_name("UID");
+  add_solver_options(command, arguments->solver, "the recipe's");
+  add_result_options(command, arguments->results);
+}
+
+}  // namespace tidemark::cli

@@ -1,0 +1,151 @@
+#include "app/cli/results.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "gpu/device.h"
+#include "imaging/files/png_file.h"
+#include "imaging/files/volume_file.h"
+#include "imaging/surface/surface.h"
+#include "renderer/sheet.h"
+
+namespace tidemark::cli {
+
+void add_result_options(CLI::App& app, ResultOptions& options) {
+  const char* const kGroup = "Results";
+  app.add_option("--out", options.out,
+                 ".nii .nii.gz .nrrd .mha: the mask (1 inside);\n.stl .ply .obj: the surface in patient mm "
+                 "(LPS);\n.json: the recipe; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("FILE")
+      ->group(kGroup);
+  app.add_option("--out-phi", options.out_phi,
+                 "The level set itself, to go on from with --init-phi (.nii .nii.gz .nrrd .mha, float):\n> 0 "
+                 "inside, in units "
+                 "of the smallest voxel spacing")
+      ->type_name("FILE")
+      ->group(kGroup);
+  app.add_option("--picture", options.picture, "Three slices and the surface in 3D, .png (needs OpenGL 3.3)")
+      ->type_name("FILE.png")
+      ->group(kGroup);
+  app.add_option("--stats", options.stats, "Figures of the run as JSON (ml, mm^2, voxels, steps/s, bytes)")
+      ->type_name("FILE.json")
+      ->group(kGroup);
+  app.add_option("--recipe", options.recipe,
+                 "Start, parameters and number of steps as JSON: replay makes the same voxels of it")
+      ->type_name("FILE.json")
+      ->group(kGroup);
+}
+
+Status ResultWriter::prepare() {
+  for (const std::string& file : options_.out) {
+    Status good = outputs_.announce("--out", file, {FileForm::volume, FileForm::mesh, FileForm::recipe});
+    if (!good) return good;
+  }
+  if (!options_.out_phi.empty()) {
+    Status good = outputs_.announce("--out-phi", options_.out_phi, {FileForm::volume});
+    if (!good) return good;
+  }
+  for (const auto& [option, file] : {std::pair{"--stats", options_.stats}, {"--recipe", options_.recipe}}) {
+    if (file.empty()) continue;
+    if (Status good = outputs_.announce_json(option, file); !good) return good;
+  }
+  if (options_.picture.empty()) return {};
+  if (Status good = outputs_.announce_png("--picture", options_.picture); !good) return good;
+  auto device = gpu::Device::create_headless({gpu::GlVersion::gl33, false});
+  if (!device) return pass_on(device);
+  device_ = std::move(*device);
+  return {};
+}
+
+bool ResultWriter::wants_recipe() const {
+  return !options_.recipe.empty() ||
+         std::any_of(options_.out.begin(), options_.out.end(),
+                     [](const std::string& file) { return form_of(file) == FileForm::recipe; });
+}
+
+Status ResultWriter::stage_text(const std::string& file, const std::string& text) {
+  return outputs_.stage(file, [&](const std::filesystem::path& name) { return write_file(name, text); });
+}
+
+Status ResultWriter::stage_out(const RunResults& results) {
+  std::optional<Mesh> mesh;
+  for (const std::string& file : options_.out) {
+    if (console_.interrupted()) return cancelled_error();
+    const FileForm form = form_of(file);
+    if (form == FileForm::recipe) {
+      const auto text = results.recipe.to_text();
+      if (!text) return tl::unexpected<Error>(text.error());
+      if (Status staged = stage_text(file, *text); !staged) return staged;
+      continue;
+    }
+    if (form == FileForm::mesh && !mesh) {
+      auto surface = extract_surface(results.phi.to_volume());
+      if (!surface) return pass_on(surface);
+      mesh = std::move(*surface);
+    }
+    const auto write_one = [&](const std::filesystem::path& name) {
+      return form == FileForm::mesh ? write_mesh(*mesh, name) : write_mask_file(results.mask, name);
+    };
+    if (Status staged = outputs_.stage(file, write_one); !staged) return staged;
+  }
+  return {};
+}
+
+Status ResultWriter::stage(const RunResults& results) {
+  if (Status staged = stage_out(results); !staged) return staged;
+  if (!options_.out_phi.empty()) {
+    const auto write_phi = [&](const std::filesystem::path& name) {
+      return write_volume_file(results.phi.to_volume(), name);
+    };
+    if (Status staged = outputs_.stage(options_.out_phi, write_phi); !staged) return staged;
+  }
+  if (!options_.picture.empty()) {
+    const auto picture = draw(results);
+    if (!picture) return tl::unexpected<Error>(picture.error());
+    const auto write_picture = [&](const std::filesystem::path& name) {
+      return write_png_file(picture->width, picture->height, picture->pixels, name);
+    };
+    if (Status staged = outputs_.stage(options_.picture, write_picture); !staged) return staged;
+  }
+  if (!options_.stats.empty()) {
+    Status staged = stage_text(options_.stats, to_text(to_json(results.figures)));
+    if (!staged) return staged;
+  }
+  if (options_.recipe.empty()) return {};
+  const auto text = results.recipe.to_text();
+  if (!text) return tl::unexpected<Error>(text.error());
+  return stage_text(options_.recipe, *text);
+}
+
+// The slices go through the middle of what was found, and the camera looks at it.
+Result<Picture> ResultWriter::draw(const RunResults& results) {
+  auto renderer = Renderer::create(device_, results.source, results.phi.layout);
+  if (!renderer) return pass_on(renderer);
+  if (Status shown = (*renderer)->set_phi(results.phi); !shown) return pass_on(shown);
+  (*renderer)->set_parameters(results.figures.parameters);
+  constexpr PictureSize kSize{1200, 800};
+  SheetView view;
+  view.position_mm = middle_of(results.mask);
+  view.window = window_of(*results.source);
+  view.speed = true;
+  view.volume.camera.azimuth = 30.0;
+  view.volume.camera.elevation = 20.0;
+  view.volume.camera =
+      view.volume.camera.on(box_around(results.phi), results.source->geometry, kSize.aspect() * 4.0 / 3.0);
+  return draw_sheet(**renderer, view, kSize, console_.progress());
+}
+
+Status ResultWriter::write(const RunResults& results) {
+  if (Status staged = stage(results); !staged) return staged;
+  if (console_.interrupted()) return cancelled_error();
+  if (Status done = outputs_.commit(); !done) return done;
+  say(console_, results.figures);
+  for (const std::string& file : options_.out) console_.say("Wrote      {}", file);
+  for (const std::string& file : {options_.out_phi, options_.picture, options_.stats, options_.recipe}) {
+    if (!file.empty()) console_.say("Wrote      {}", file);
+  }
+  return {};
+}
+
+}  // namespace tidemark::cli

@@ -1,0 +1,59 @@
+// What commands that run the level set write: masks, surfaces, phi, figures, pictures, recipes.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/cli/outputs.h"
+#include "app/cli/report.h"
+#include "renderer/picture.h"
+#include "study/recipe.h"
+
+namespace tidemark::gpu {
+class Device;
+}
+
+namespace tidemark::cli {
+
+struct ResultOptions {
+  std::vector<std::string> out;
+  std::string out_phi, stats, picture, recipe;
+};
+void add_result_options(CLI::App& app, ResultOptions& options);
+
+// A finished run.
+struct RunResults {
+  std::shared_ptr<const Volume> source;  // as the solver saw it
+  Field phi;
+  Mask mask;
+  RunFigures figures;
+  Recipe recipe;
+};
+
+class ResultWriter {
+ public:
+  ResultWriter(ResultOptions options, Console& console) : options_(std::move(options)), console_(console) {}
+
+  // Everything that can be found out before the long work: names, folders, whether pictures can be drawn.
+  Status prepare();
+  [[nodiscard]] Status spare(const std::string& input) const { return outputs_.spare(input); }
+  [[nodiscard]] bool wants_recipe() const;
+
+  // Writes all files, or none, and says so.
+  Status write(const RunResults& results);
+
+ private:
+  Status stage(const RunResults& results);
+  Status stage_out(const RunResults& results);
+  Status stage_text(const std::string& file, const std::string& text);
+  Result<Picture> draw(const RunResults& results);
+
+  ResultOptions options_;
+  Console& console_;
+  Outputs outputs_;
+  std::shared_ptr<gpu::Device> device_;  // for the picture
+};
+
+}  // namespace tidemark::cli

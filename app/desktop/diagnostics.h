@@ -1,0 +1,39 @@
+// What a report of a problem has to say about the machine: the text of `tidemark --diagnostics`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "gpu/capabilities.h"
+
+namespace tidemark {
+
+// Holds nothing about patients, users or files, so that it can be sent to anybody as it is.
+struct Diagnostics {
+  std::string version;      // of Tidemark
+  std::string qt_version;   // the one that runs, not the one that was built with
+  std::string qt_platform;  // "xcb", "wayland"
+  std::string locale;
+
+  std::string graphics;          // the outcome: "hardware", "software" or "none"
+  std::string graphics_problem;  // why not more; may be empty
+  std::optional<gpu::Capabilities> opengl;
+
+  std::string automatic_executor;  // what `auto` takes here: "compute" or "host"
+  std::string instruction_set;     // of the host executor
+
+  std::string system;  // from here on: see describe_machine()
+  std::string architecture;
+  int processors = 0;
+  std::int64_t memory_bytes = 0;  // 0: not known
+  std::int64_t free_memory_bytes = 0;
+};
+
+// Fills in what the operating system knows; never the machine's name.
+void describe_machine(Diagnostics& diagnostics);
+
+// One "name: value" a line, in English whatever the locale.
+std::string text(const Diagnostics& diagnostics);
+
+}  // namespace tidemark

@@ -1,0 +1,88 @@
+// tidemark: the desktop.
+#include <QApplication>
+#include <QCommandLineParser>
+#include <QLocale>
+#include <QSettings>
+#include <QTextStream>
+#include <clocale>
+
+#include "app/desktop/diagnostics.h"
+#include "session/engine.h"
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+#include "ui/main/main_window.h"
+
+namespace {
+
+using namespace tidemark;
+
+std::string describe(Engine::Graphics graphics) {
+  switch (graphics) {
+    case Engine::Graphics::hardware:
+      return "hardware";
+    case Engine::Graphics::software:
+      return "software";
+    case Engine::Graphics::none:
+      return "none";
+  }
+  return {};
+}
+
+void print_diagnostics(const Engine& engine) {
+  Diagnostics diagnostics;
+  diagnostics.version = TIDEMARK_VERSION;
+  diagnostics.qt_version = qVersion();
+  diagnostics.qt_platform = QGuiApplication::platformName().toStdString();
+  diagnostics.locale = QLocale::system().name().toStdString();
+  diagnostics.graphics = describe(engine.graphics());
+  diagnostics.graphics_problem = engine.graphics_problem();
+  if (engine.graphics() != Engine::Graphics::none) diagnostics.opengl = engine.capabilities();
+  const bool compute =
+      engine.graphics() == Engine::Graphics::hardware && engine.capabilities().at_least(4, 5);
+  diagnostics.automatic_executor = compute ? "compute" : "host";
+  describe_machine(diagnostics);
+  QTextStream(stdout) << QString::fromStdString(text(diagnostics));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // Without it every undocking of a view would destroy its context.
+  QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
+  QCoreApplication::setOrganizationName("tidemark");
+  QCoreApplication::setApplicationName("tidemark");
+  QCoreApplication::setApplicationVersion(TIDEMARK_VERSION);
+  QApplication application(argc, argv);
+  // Qt has set the system's locale; what is parsed and written has a point in its numbers everywhere.
+  std::setlocale(LC_NUMERIC, "C");
+
+  QCommandLineParser parser;
+  parser.setApplicationDescription(
+      QCoreApplication::translate("main", "Steers a level-set surface through a medical volume while it evolves.\n"
+                                          "Research use only. Not for diagnostic use."));
+  parser.addHelpOption();
+  parser.addVersionOption();
+  parser.addPositionalArgument(
+      "studies", QCoreApplication::translate("main", "Folders, image files or session files to open."), "[studies...]");
+  const QCommandLineOption diagnostics(
+      "diagnostics", QCoreApplication::translate("main", "Say what this computer offers, and end."));
+  const QCommandLineOption phantom(
+      "phantom", QCoreApplication::translate("main", "Open a synthetic study: tumour, head, organ, ..."), "kind");
+  const QCommandLineOption without_opengl(
+      "no-opengl", QCoreApplication::translate("main", "Start without OpenGL: no pictures."));
+  parser.addOptions({diagnostics, phantom, without_opengl});
+  parser.process(application);
+
+  Engine engine(!parser.isSet(without_opengl));
+  if (parser.isSet(diagnostics)) {
+    print_diagnostics(engine);
+    return 0;
+  }
+  QGuiApplication::setWindowIcon(application_icon());
+  apply_theme(application, static_cast<Theme>(QSettings().value("theme", 0).toInt()));
+  MainWindow window(engine);
+  window.show();
+  for (const QString& study : parser.positionalArguments()) window.open(study);
+  if (parser.isSet(phantom)) window.open_phantom(parser.value(phantom));
+  return QApplication::exec();
+}

@@ -1,0 +1,18 @@
+// Bytes as a short text, for JSON: deflated, in base 64.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tidemark {
+
+[[nodiscard]] std::string pack_bytes(std::span<const std::byte> bytes);
+// Nothing unless the text holds exactly `size` bytes. Takes no more memory than the text can hold: deflate
+// makes at most 1032 bytes of one.
+[[nodiscard]] std::optional<std::vector<std::byte>> unpack_bytes(std::string_view text, std::size_t size);
+
+}  // namespace tidemark

@@ -1,0 +1,18 @@
+// Recipes and their parts as JSON, for recipe files and session files.
+#pragma once
+
+#include "study/json_field.h"
+#include "study/recipe.h"
+
+namespace tidemark {
+
+[[nodiscard]] Json to_json(const Recipe& recipe);
+[[nodiscard]] Json to_json(const Geometry& geometry);
+[[nodiscard]] Json to_json(const Parameters& parameters);
+
+// What is wrong is noted in the field's document.
+Recipe read_recipe(const JsonField& field);
+Geometry read_geometry(const JsonField& field);
+Parameters read_parameters(const JsonField& field);
+
+}  // namespace tidemark

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# manual_test.sh TIDEMARK_CLI PAGE: the commands and options in the program's help, and those in its page of the manual,
+# are the same.
+set -euo pipefail
+cli=$1
+page=$2
+
+options_in() { grep -oE -- '--[a-z][a-z-]+' | sort -u; }
+
+help=$("$cli" --help)
+commands=$(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p' <<<"$help")
+[[ $commands == *segment* ]] || { echo "no commands found in the help"; exit 1; }
+for command in $commands; do help+=$("$cli" "$command" --help); done
+in_help=$(options_in <<<"$help")
+[[ $in_help == *--target* ]] || { echo "no options found in the help of the commands"; exit 1; }
+
+# As the page prints it: without roff's backslashes.
+manual=$(sed 's/\\//g' "$page")
+difference=$(diff <(echo "$in_help") <(options_in <<<"$manual")) || {
+  echo "options in the help (<) and in $(basename "$page") (>) differ:"
+  echo "$difference"
+  exit 1
+}
+for command in $commands; do
+  grep -qE -- "^\.BI? $command( |\$)" <<<"$manual" || { echo "the command $command is not in $(basename "$page")"; exit 1; }
+done

@@ -1,0 +1,190 @@
+// Labels: what is given to whom, what locks keep, and the way back.
+#include <random>
+#include <set>
+
+#include "cases.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+namespace {
+
+Mask box(const Geometry& geometry, Index3 first, Index3 last) {
+  Mask mask{geometry, std::vector<std::uint8_t>(static_cast<std::size_t>(geometry.voxel_count()))};
+  for (std::int64_t z = first.z; z <= last.z; ++z) {
+    for (std::int64_t y = first.y; y <= last.y; ++y) {
+      for (std::int64_t x = first.x; x <= last.x; ++x) {
+        mask.voxels[static_cast<std::size_t>(geometry.offset({x, y, z}))] = 1;
+      }
+    }
+  }
+  return mask;
+}
+
+Geometry small_grid() {
+  return lumpy_volume({12, 11, 10})->geometry;
+}
+
+}  // namespace
+
+class LabelsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void voxels_of_locked_labels_stay() {
+    Labels labels(small_grid());
+    const std::uint8_t liver = labels.add("Liver").value();
+    const std::uint8_t tumour = labels.add("Tumour").value();
+    const Mask left = box(labels.geometry(), {0, 0, 0}, {5, 5, 5});
+    const Mask right = box(labels.geometry(), {4, 0, 0}, {9, 5, 5});
+    QCOMPARE(failure(labels.accept(left, liver)), QString());
+    QCOMPARE(labels.mask(liver).count(), std::int64_t{216});
+    Label locked = *labels.find(liver);
+    locked.locked = true;
+    QCOMPARE(failure(labels.set(locked)), QString());
+    QCOMPARE(failure(labels.accept(right, tumour)), QString());
+    QCOMPARE(labels.mask(liver).count(), std::int64_t{216});
+    QCOMPARE(labels.mask(tumour).count(), std::int64_t{144});
+    QCOMPARE(labels.accept(right, liver).error().kind, ErrorKind::usage);
+    QCOMPARE(labels.remove(liver).error().kind, ErrorKind::usage);
+    locked.locked = false;
+    QCOMPARE(failure(labels.set(locked)), QString());
+    QCOMPARE(failure(labels.accept(right, tumour)), QString());
+    QCOMPARE(labels.mask(liver).count(), std::int64_t{144});
+    QCOMPARE(labels.mask(tumour).count(), std::int64_t{216});
+  }
+
+  void accepting_replaces_or_adds() {
+    Labels labels(small_grid());
+    const std::uint8_t id = labels.add("one").value();
+    QCOMPARE(failure(labels.accept(box(labels.geometry(), {0, 0, 0}, {1, 1, 1}), id)), QString());
+    QCOMPARE(failure(labels.accept(box(labels.geometry(), {2, 0, 0}, {3, 1, 1}), id, false)), QString());
+    QCOMPARE(labels.mask(id).count(), std::int64_t{16});
+    QCOMPARE(failure(labels.accept(box(labels.geometry(), {2, 0, 0}, {3, 1, 1}), id)), QString());
+    QCOMPARE(labels.mask(id).count(), std::int64_t{8});
+  }
+
+  void what_cannot_be_done_is_refused() {
+    Labels labels(small_grid());
+    const Mask mask = box(labels.geometry(), {0, 0, 0}, {1, 1, 1});
+    QCOMPARE(labels.accept(mask, 3).error().kind, ErrorKind::usage);
+    QCOMPARE(labels.remove(3).error().kind, ErrorKind::usage);
+    QCOMPARE(labels.set({}).error().kind, ErrorKind::usage);
+    const std::uint8_t id = labels.add("one").value();
+    Mask other = mask;
+    other.geometry.size = {3, 3, 3};
+    other.voxels.resize(27);
+    QCOMPARE(labels.accept(other, id).error().kind, ErrorKind::usage);
+    QCOMPARE(labels.voxels().size(), std::size_t{0});
+  }
+
+  void there_is_room_for_255_with_colours_of_their_own() {
+    Labels labels(small_grid());
+    std::set<std::array<std::uint8_t, 3>> colours;
+    for (int i = 1; i <= 255; ++i) {
+      const std::uint8_t id = labels.add(std::to_string(i)).value();
+      QCOMPARE(int(id), i);
+      colours.insert(labels.find(id)->colour);
+    }
+    QCOMPARE(labels.add("one more").error().kind, ErrorKind::usage);
+    QCOMPARE(colours.size(), std::size_t{255});
+    QCOMPARE(failure(labels.remove(17)), QString());
+    QCOMPARE(int(labels.add("again").value()), 17);
+  }
+
+  void random_changes_are_taken_back_one_by_one() {
+    History history;
+    Labels labels(small_grid(), &history);
+    std::mt19937 random(3);
+    struct Seen {
+      std::vector<Label> list;
+      std::vector<std::uint8_t> masks;  // of label 1 and 2
+    };
+    const auto seen = [&] {
+      Seen now{labels.list(), labels.mask(1).voxels};
+      const Mask second = labels.mask(2);
+      now.masks.insert(now.masks.end(), second.voxels.begin(), second.voxels.end());
+      return now;
+    };
+    std::vector<Seen> states{seen()};
+    for (int round = 0; round < 50; ++round) {
+      const auto id = static_cast<std::uint8_t>(1 + random() % 2);
+      const Index3 first(random() % 8, random() % 8, random() % 8);
+      Status done;
+      if (labels.find(id) == nullptr) {
+        if (auto added = labels.add("label"); !added) done = pass_on(added);
+      } else if (random() % 8 == 0) {
+        done = labels.remove(id);
+      } else if (random() % 6 == 0) {
+        Label other = *labels.find(id);
+        other.name += "'";
+        other.visible = !other.visible;
+        done = labels.set(other);
+      } else {
+        done = labels.accept(box(labels.geometry(), first, first + Index3(2)), id, random() % 2 == 0);
+      }
+      QCOMPARE(failure(done), QString());
+      states.push_back(seen());
+    }
+    for (std::size_t i = states.size() - 1; i-- > 0;) {
+      QCOMPARE(failure(history.undo()), QString());
+      QVERIFY(seen().list == states[i].list);
+      QVERIFY(seen().masks == states[i].masks);
+    }
+    for (std::size_t i = 1; i < states.size(); ++i) {
+      QCOMPARE(failure(history.redo()), QString());
+      QVERIFY(seen().list == states[i].list);
+      QVERIFY(seen().masks == states[i].masks);
+    }
+  }
+
+  void statistics_are_of_the_volumes_values() {
+    auto volume = *lumpy_volume({12, 11, 10});
+    volume.slope = -2.0;
+    volume.intercept = 500.0;
+    Labels labels(volume.geometry);
+    const std::uint8_t id = labels.add("one").value();
+    const Mask mask = box(volume.geometry, {2, 3, 4}, {6, 7, 8});
+    QCOMPARE(failure(labels.accept(mask, id)), QString());
+    double sum = 0.0;
+    double squares = 0.0;
+    const std::vector<float> values = volume.values();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (mask.voxels[i] == 0) continue;
+      sum += values[i];
+      squares += static_cast<double>(values[i]) * values[i];
+    }
+    const double mean = sum / 125.0;
+    const double deviation = std::sqrt(squares / 125.0 - mean * mean);
+    const std::vector<RegionStatistics> all = statistics_by_label(volume, labels);
+    QCOMPARE(all.size(), std::size_t{256});
+    for (const RegionStatistics& found : {statistics_in(volume, mask), all[id]}) {
+      QCOMPARE(found.voxels, std::int64_t{125});
+      QVERIFY(std::abs(found.volume_ml - 125.0 * 1.3 / 1000.0) < 1e-12);
+      QVERIFY(std::abs(found.mean - mean) < 1e-6 * std::abs(mean));
+      QVERIFY(std::abs(found.standard_deviation - deviation) < 1e-4);
+    }
+    QCOMPARE(all[0].voxels, std::int64_t{0});
+  }
+
+  void a_surface_becomes_a_label_and_a_label_a_surface() {
+    const auto document = begun_case();
+    run(document->level_set(), 12);
+    const Mask surface = document->level_set().executor().snapshot().value().mask();
+    const std::uint8_t id = document->labels().add("Liver").value();
+    QCOMPARE(failure(document->accept_surface(id)), QString());
+    QVERIFY(document->labels().mask(id).voxels == surface.voxels);
+    QCOMPARE(describe(*document->history().undo_description()), std::string("accept into Liver"));
+    QCOMPARE(failure(document->undo()), QString());
+    QCOMPARE(document->labels().mask(id).count(), std::int64_t{0});
+    QCOMPARE(failure(document->redo()), QString());
+    run(document->level_set(), 5);
+    QCOMPARE(failure(document->begin_from_label(id)), QString());
+    QVERIFY(document->level_set().executor().snapshot().value().mask().voxels == surface.voxels);
+    QCOMPARE(document->level_set().recipe().start.describe(), std::string("mask label Liver"));
+    QCOMPARE(document->level_set().step(), std::int64_t{0});
+  }
+};
+
+QTEST_APPLESS_MAIN(LabelsTest)
+#include "labels_test.moc"

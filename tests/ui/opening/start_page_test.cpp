@@ -1,0 +1,176 @@
+// The start page, the list of recent studies and the menu of phantoms.
+#include "ui/opening/start_page.h"
+
+#include <QDragEnterEvent>
+#include <QDropEvent>
+#include <QMimeData>
+#include <QSettings>
+#include <QSignalSpy>
+#include <QToolButton>
+
+#include "imaging/phantom/phantom.h"
+#include "session/background_job.h"
+#include "tests/support/support.h"
+#include "ui/opening/card_button.h"
+#include "ui/opening/dropped_paths.h"
+#include "ui/opening/phantom_menu.h"
+#include "ui/opening/recent_studies.h"
+
+using namespace tidemark;
+
+class StartPageTest : public QObject {
+  Q_OBJECT
+
+  test::TemporaryFolder settings_;
+
+ private slots:
+  void initTestCase() {
+    QCoreApplication::setOrganizationName("tidemark-test");
+    QSettings::setDefaultFormat(QSettings::IniFormat);
+    QSettings::setPath(QSettings::IniFormat, QSettings::UserScope,
+                       QString::fromStdString(settings_.path().string()));
+  }
+  void init() { QSettings().clear(); }
+  void cleanup() { QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60))); }
+
+  void every_card_can_be_reached_and_pressed_by_keyboard() {
+    RecentStudies recent;
+    recent.add(QString::fromStdString(settings_.path().string()), "1.2.3", "T1 head");
+    StartPage page(recent);
+    page.resize(1000, 800);
+    page.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&page));
+    page.activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(&page));
+    QSignalSpy folder(&page, &StartPage::open_folder);
+    QSignalSpy file(&page, &StartPage::open_file);
+    QSignalSpy again(&page, &StartPage::recent_chosen);
+    QSignalSpy phantom(&page, &StartPage::phantom_chosen);
+    int pressed = 0;
+    for (int tab = 0; tab < 20; ++tab) {
+      QTest::keyClick(page.focusWidget() != nullptr ? page.focusWidget() : &page, Qt::Key_Tab);
+      auto* card = qobject_cast<CardButton*>(page.focusWidget());
+      if (card == nullptr) continue;
+      QVERIFY(!card->accessibleName().isEmpty() && !card->accessibleDescription().isEmpty());
+      QTest::keyClick(card, tab % 2 == 0 ? Qt::Key_Return : Qt::Key_Space);
+      ++pressed;
+    }
+    QVERIFY(pressed >= 11);
+    QVERIFY(folder.size() >= 1);
+    QVERIFY(file.size() >= 1);
+    QVERIFY(again.size() >= 1);
+    QCOMPARE(again[0][1].toString(), QString("1.2.3"));
+    QStringList kinds;
+    for (const auto& one : phantom) kinds.push_back(one[0].toString());
+    for (const std::string_view kind : phantom_kinds()) {
+      QVERIFY2(kinds.contains(QString::fromUtf8(kind.data(), qsizetype(kind.size()))), kind.data());
+    }
+  }
+
+  void folders_and_files_can_be_dropped() {
+    RecentStudies recent;
+    StartPage page(recent);
+    QSignalSpy dropped(&page, &StartPage::dropped);
+    QMimeData data;
+    data.setUrls({QUrl("file:///data/study"), QUrl("https://example.org/x"), QUrl("file:///data/a%20b.nii")});
+    QDragEnterEvent enter({10, 10}, Qt::CopyAction, &data, Qt::LeftButton, {});
+    QCoreApplication::sendEvent(&page, &enter);
+    QVERIFY(enter.isAccepted());
+    QDropEvent drop({10, 10}, Qt::CopyAction, &data, Qt::LeftButton, {});
+    QCoreApplication::sendEvent(&page, &drop);
+    QCOMPARE(dropped.size(), 1);
+    QCOMPARE(dropped[0][0].toStringList(), (QStringList{"/data/study", "/data/a b.nii"}));
+    QMimeData text;
+    text.setText("nothing to open");
+    QDragEnterEvent other({10, 10}, Qt::CopyAction, &text, Qt::LeftButton, {});
+    other.ignore();
+    QCoreApplication::sendEvent(&page, &other);
+    QVERIFY(!other.isAccepted());
+  }
+
+  void nothing_is_cut_off_when_the_window_is_small() {
+    RecentStudies recent;
+    StartPage page(recent);
+    const auto cut_off = [&] {
+      QStringList titles;
+      for (const auto* card : page.findChildren<CardButton*>()) {
+        const QRect seen(card->mapTo(&page, QPoint(0, 0)), card->size());
+        const bool is_whole = seen.left() >= 0 && seen.right() <= page.width() &&
+                              card->height() >= card->heightForWidth(card->width());
+        if (!is_whole) titles.push_back(card->text());
+      }
+      return titles;
+    };
+    page.show();
+    for (const int width : {420, 760, 1600}) {
+      page.resize(width, 500);
+      QVERIFY(QTest::qWaitForWindowExposed(&page));
+      QTRY_COMPARE(cut_off(), QStringList());
+    }
+  }
+
+  void ten_studies_are_remembered_the_latest_first() {
+    {
+      RecentStudies recent;
+      for (int number = 0; number < 12; ++number) {
+        recent.add(QString("/data/%1").arg(number), "uid", QString("Study %1").arg(number));
+      }
+      recent.add("/data/5", "uid", "Study 5 again");
+    }
+    const RecentStudies again;
+    QCOMPARE(again.list().size(), 10);
+    QCOMPARE(again.list()[0].name, QString("Study 5 again"));
+    QCOMPARE(again.list()[1].path, QString("/data/11"));
+    QCOMPARE(again.list()[9].path, QString("/data/2"));
+    QCOMPARE(again.list()[9].uid, QString("uid"));
+  }
+
+  void a_study_that_is_gone_is_greyed_and_the_list_can_be_cleared() {
+    RecentStudies recent;
+    const QString here = QString::fromStdString(settings_.path().string());
+    recent.add(here, "1", "Here & now");
+    recent.add("/nowhere/study", "2", "Gone");
+    StartPage page(recent);
+    page.show();
+    const std::unique_ptr<QMenu> menu(recent.make_menu(nullptr));
+    QVERIFY(menu->actions()[0]->isEnabled());  // not looked for yet
+    emit menu->aboutToShow();
+    QTRY_VERIFY_WITH_TIMEOUT(recent.list()[0].missing, 60'000);
+    QVERIFY(!recent.list()[1].missing);
+    QVERIFY(!menu->actions()[0]->isEnabled());
+    QVERIFY(menu->actions()[0]->text().contains("not found"));
+    QVERIFY(menu->actions()[1]->text().contains("Here && now"));
+    QSignalSpy chosen(&recent, &RecentStudies::chosen);
+    menu->actions()[1]->trigger();
+    QCOMPARE(chosen.size(), 1);
+    QCOMPARE(chosen[0][0].toString(), here);
+    QCOMPARE(chosen[0][1].toString(), QString("1"));
+
+    auto* clear_all = page.findChild<QToolButton*>("clear_recent");
+    QVERIFY(clear_all->isVisible());
+    QTest::mouseClick(clear_all, Qt::LeftButton);
+    QVERIFY(recent.list().isEmpty());
+    QVERIFY(!clear_all->isVisible());
+    QCOMPARE(menu->actions().size(), 3);  // "No studies yet", a line, "Clear"
+    QVERIFY(!menu->actions()[2]->isEnabled());
+    QVERIFY(RecentStudies().list().isEmpty());
+  }
+
+  void the_menu_offers_each_phantom_with_a_sentence() {
+    PhantomMenu menu;
+    QSignalSpy chosen(&menu, &PhantomMenu::chosen);
+    QCOMPARE(menu.actions().size(), static_cast<qsizetype>(phantom_kinds().size()));
+    for (const std::string_view kind : phantom_kinds()) {
+      const QString name = QString::fromUtf8(kind.data(), static_cast<qsizetype>(kind.size()));
+      auto* action = menu.findChild<QAction*>(name);
+      QVERIFY2(action != nullptr, kind.data());
+      QVERIFY(action->toolTip().endsWith('.'));
+      QVERIFY(action->text() != name);  // a title, not the kind itself
+      action->trigger();
+      QCOMPARE(chosen.takeFirst()[0].toString(), name);
+    }
+  }
+};
+
+QTEST_MAIN(StartPageTest)
+#include "start_page_test.moc"

@@ -1,0 +1,186 @@
+// From a path to a study, with what is shown on the way.
+#include "ui/opening/study_opener.h"
+
+#include <QSignalSpy>
+#include <QTableView>
+
+#include "imaging/dicom/dicom.h"
+#include "session/background_job.h"
+#include "tests/support/support.h"
+#include "ui/opening/load_report.h"
+#include "ui/opening/loading_view.h"
+#include "ui/opening/series_browser.h"
+
+using namespace tidemark;
+
+namespace {
+
+constexpr int kPatience = 60'000;
+
+// A series of three slices of that width.
+Status write_series(const std::filesystem::path& folder, std::int64_t width) {
+  Volume volume;
+  volume.geometry.size = {width, 24, 3};
+  std::vector<std::int16_t> voxels(static_cast<std::size_t>(volume.geometry.voxel_count()));
+  for (std::size_t v = 0; v < voxels.size(); ++v) voxels[v] = static_cast<std::int16_t>(v % 500);
+  volume.voxels = std::move(voxels);
+  DicomSeriesHeader header;
+  header.series_description = fmt::format("{} wide", width);
+  header.window = {250.0, 500.0};
+  return write_dicom_series(volume, header, folder);
+}
+
+QString text(const std::filesystem::path& path) {
+  return QString::fromStdString(path.string());
+}
+
+}  // namespace
+
+class StudyOpenerTest : public QObject {
+  Q_OBJECT
+
+  test::TemporaryFolder folder_;
+  QWidget* window_ = nullptr;
+  StudyOpener* opener_ = nullptr;
+  std::unique_ptr<QSignalSpy> began_, opened_, failed_, ended_;
+
+  std::shared_ptr<const LoadedStudy> study() const {
+    return opened_->first()[0].value<std::shared_ptr<const LoadedStudy>>();
+  }
+
+ private slots:
+  void initTestCase() {
+    QCOMPARE(test::failure(write_series(folder_ / "two/a", 20)), QString());
+    QCOMPARE(test::failure(write_series(folder_ / "two/b", 30)), QString());
+  }
+  void init() {
+    window_ = new QWidget;
+    opener_ = new StudyOpener(window_);
+    began_ = std::make_unique<QSignalSpy>(opener_, &StudyOpener::began);
+    opened_ = std::make_unique<QSignalSpy>(opener_, &StudyOpener::opened);
+    failed_ = std::make_unique<QSignalSpy>(opener_, &StudyOpener::failed);
+    ended_ = std::make_unique<QSignalSpy>(opener_, &StudyOpener::ended);
+  }
+  void cleanup() {
+    delete window_;
+    QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
+  }
+
+  void the_only_series_is_opened_at_once() {
+    opener_->open(text(folder_ / "two/a"));
+    QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
+    QVERIFY(opener_->browser() == nullptr);
+    QCOMPARE(study()->name, QString("20 wide"));
+    QCOMPARE(began_->first()[0].toString(), QString("a"));
+    QCOMPARE(began_->last()[0].toString(), QString("20 wide"));
+    QCOMPARE(ended_->size(), 1);
+  }
+
+  void it_is_asked_for_on_demand() {
+    opener_->open(text(folder_ / "two/a"), StudyOpener::Ask::always);
+    QTRY_VERIFY_WITH_TIMEOUT(opener_->browser() != nullptr, kPatience);
+    QCOMPARE(opened_->size(), 0);
+  }
+
+  void of_several_series_the_chosen_one_is_opened() {
+    opener_->open(text(folder_ / "two"));
+    QTRY_VERIFY_WITH_TIMEOUT(opener_->browser() != nullptr, kPatience);
+    QVERIFY(!opener_->browser()->isModal());
+    QVERIFY(QTest::qWaitForWindowExposed(opener_->browser()));
+    QCOMPARE(ended_->size(), 1);  // it is the user's turn
+    auto* table = opener_->browser()->findChild<QTableView*>();
+    QTest::keyClick(table, Qt::Key_Down);
+    QTest::keyClick(table, Qt::Key_Return);
+    QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
+    QCOMPARE(study()->name, QString("20 wide"));
+    QTRY_VERIFY(opener_->browser() == nullptr);
+  }
+
+  void a_series_is_opened_by_its_uid() {
+    opener_->open(text(folder_ / "two/b"));
+    QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
+    const std::string uid = study()->origin.series_uid;
+    opened_->clear();
+    opener_->open_series(text(folder_ / "two"), QString::fromStdString(uid));
+    QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
+    QCOMPARE(study()->name, QString("30 wide"));
+  }
+
+  void a_phantom_is_opened() {
+    opener_->open_phantom("sphere");
+    QCOMPARE(began_->first()[0].toString(), QString("Sphere"));
+    QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
+    QCOMPARE(study()->origin.phantom, std::string("sphere"));
+  }
+
+  void opening_can_be_given_up() {
+    opener_->open_phantom("sphere");
+    opener_->cancel();
+    QCOMPARE(ended_->size(), 1);
+    QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
+    QCoreApplication::processEvents();
+    QCOMPARE(opened_->size() + failed_->size(), 0);
+  }
+
+  void the_card_shows_how_far_it_is_and_what_went_wrong() {
+    LoadingView view(LoadingView::Shape::card);
+    connect(opener_, &StudyOpener::began, &view, &LoadingView::begin);
+    connect(opener_, &StudyOpener::progressed, &view, &LoadingView::set_progress);
+    connect(opener_, &StudyOpener::failed, &view, &LoadingView::fail);
+    connect(&view, &LoadingView::cancelled, opener_, &StudyOpener::cancel);
+    QSignalSpy closed(&view, &LoadingView::closed);
+    view.show();
+    auto* bar = view.findChild<QProgressBar*>();
+    auto* button = view.findChild<QPushButton*>();
+    const auto says = [&](const QString& part) {
+      const auto labels = view.findChildren<QLabel*>();
+      return std::any_of(labels.begin(), labels.end(),
+                         [&](QLabel* one) { return one->text().contains(part); });
+    };
+    opener_->open(text(folder_ / "nowhere"));
+    QVERIFY(says("nowhere"));
+    QCOMPARE(bar->maximum(), 0);  // not known yet
+    view.set_progress(0.25, "Decoding slices");
+    QCOMPARE(bar->value() * 4, bar->maximum());
+    QVERIFY(says("Decoding slices"));
+    QTRY_COMPARE_WITH_TIMEOUT(failed_->size(), 1, kPatience);
+    QVERIFY(says("no such file or folder"));
+    QVERIFY(!bar->isVisible());
+    QTest::mouseClick(button, Qt::LeftButton);
+    QCOMPARE(closed.size(), 1);
+    QCOMPARE(ended_->size(), 0);
+
+    opener_->open_phantom("sphere");
+    QVERIFY(says("Sphere"));
+    QVERIFY(bar->isVisible());
+    button->setFocus();
+    QTest::keyClick(button, Qt::Key_Escape);
+    QCOMPARE(ended_->size(), 1);
+  }
+
+  void the_report_lists_what_was_changed() {
+    LoadedStudy study;
+    auto volume = std::make_shared<Volume>();
+    volume->geometry.size = {256, 256, 100};
+    volume->geometry.spacing_mm = {1.0, 1.0, 2.5};
+    volume->changes = {"slices sorted by position", "<b>odd</b> description"};
+    study.name = "T1 head";
+    study.volume = volume;
+    LoadReport report(study);
+    QSignalSpy dismissed(&report, &LoadReport::dismissed);
+    const auto* what = report.findChild<QLabel*>("what");
+    QVERIFY(what->text().contains("slices sorted by position"));
+    QVERIFY(what->text().contains("&lt;b&gt;odd"));
+    report.show();
+    QTest::mouseClick(report.findChild<QPushButton*>(), Qt::LeftButton);
+    QCOMPARE(dismissed.size(), 1);
+    QVERIFY(!report.isVisible());
+
+    volume->changes.clear();
+    const LoadReport nothing(study);
+    QVERIFY(nothing.findChild<QLabel*>("what")->text().contains("Nothing was changed"));
+  }
+};
+
+QTEST_MAIN(StudyOpenerTest)
+#include "study_opener_test.moc"

@@ -1,0 +1,23 @@
+// What this program is, what it must not be used for, and what it is made of.
+#pragma once
+
+#include <QDialog>
+#include <span>
+
+namespace tidemark {
+
+// A part of others that runs with Tidemark. docs/third-party.md says more about each.
+struct ThirdPartyPart {
+  const char* name;
+  const char* licence;  // SPDX
+  const char* purpose;
+};
+std::span<const ThirdPartyPart> third_party_parts();
+
+class AboutDialog : public QDialog {
+  Q_OBJECT
+ public:
+  explicit AboutDialog(QWidget* parent = nullptr);
+};
+
+}  // namespace tidemark

@@ -1,0 +1,55 @@
+#include "ui/look/style.h"
+
+#include <QPainter>
+#include <QStyleOption>
+
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+
+namespace tidemark {
+
+Style::Style() : QProxyStyle(QStringLiteral("Fusion")) {}
+
+QIcon Style::standardIcon(StandardPixmap which, const QStyleOption* option, const QWidget* widget) const {
+  switch (which) {
+    case SP_TitleBarCloseButton:
+    case SP_DockWidgetCloseButton:
+      return icon(u"close");
+    case SP_TitleBarNormalButton:
+    case SP_TitleBarMaxButton:
+      return icon(u"maximise");
+    default:
+      return QProxyStyle::standardIcon(which, option, widget);
+  }
+}
+
+void Style::drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                          const QWidget* widget) const {
+  if (element != PE_IndicatorTabClose) {
+    QProxyStyle::drawPrimitive(element, option, painter, widget);
+    return;
+  }
+  if (option->state & State_MouseOver) painter->fillRect(option->rect, option->palette.midlight());
+  QRect cross(0, 0, kIconSmall, kIconSmall);
+  cross.moveCenter(option->rect.center());
+  icon(u"close").paint(painter, cross);
+}
+
+void Style::drawComplexControl(ComplexControl control, const QStyleOptionComplex* option, QPainter* painter,
+                               const QWidget* widget) const {
+  const auto* title = qstyleoption_cast<const QStyleOptionTitleBar*>(option);
+  const bool active = title != nullptr && (title->titleBarState & State_Active) != 0;
+  if (control != CC_TitleBar || title == nullptr || active || !is_dark(option->palette)) {
+    QProxyStyle::drawComplexControl(control, option, painter, widget);
+    return;
+  }
+  // Fusion draws the buttons of inactive windows black. Those of active ones are white, so it is told that
+  // this one is, in a colour that does not say so.
+  QStyleOptionTitleBar shown = *title;
+  shown.titleBarState |= State_Active;
+  shown.state |= State_Active;
+  shown.palette.setColor(QPalette::Highlight, shown.palette.color(QPalette::Window));
+  QProxyStyle::drawComplexControl(control, &shown, painter, widget);
+}
+
+}  // namespace tidemark

@@ -1,0 +1,24 @@
+// Fusion, with its few drawings that ignore the palette replaced: they are black, and lost in the dark theme.
+#pragma once
+
+#include <QProxyStyle>
+
+namespace tidemark {
+
+class Style : public QProxyStyle {
+  Q_OBJECT
+ public:
+  Style();
+
+  // Buttons in the titles of docks: our icons.
+  QIcon standardIcon(StandardPixmap which, const QStyleOption* option = nullptr,
+                     const QWidget* widget = nullptr) const override;
+  // A tab's cross.
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                     const QWidget* widget = nullptr) const override;
+  // Titles of windows inside the main window.
+  void drawComplexControl(ComplexControl control, const QStyleOptionComplex* option, QPainter* painter,
+                          const QWidget* widget = nullptr) const override;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,67 @@
+#include "ui/main/first_steps.h"
+
+#include <QCoreApplication>
+#include <QTextBrowser>
+
+namespace tidemark {
+namespace {
+
+QString tr(const char* text) { return QCoreApplication::translate("FirstSteps", text); }
+
+QString row(const QString& what, const QString& how) {
+  return QStringLiteral("<tr><td>%1</td><td>&nbsp;&nbsp;</td><td>%2</td></tr>").arg(what, how);
+}
+
+QString key(const QAction* action) { return action->shortcut().toString(QKeySequence::NativeText); }
+
+QString steps(const Actions& actions) {
+  const QStringList steps = {
+      tr("Open a study (%1), or a phantom from File &gt; Phantoms.").arg(key(actions.open_folder)),
+      tr("Choose <b>Probe T and ε</b> (%1) and drag over the tissue you want.")
+          .arg(key(actions.tool(Tool::probe_speed))),
+      tr("Choose <b>Sphere</b> (%1), press inside the tissue and drag: that is where the surface starts.")
+          .arg(key(actions.tool(Tool::seed))),
+      tr("Press <b>Play</b> (%1) and watch. Change T, ε and α while it runs; α near 1 follows brightness, near 0 "
+         "smooths.")
+          .arg(key(actions.play)),
+      tr("Paint (%1) or erase (%2) while it runs; undo (%3) takes anything back.")
+          .arg(key(actions.tool(Tool::paint)), key(actions.tool(Tool::erase)), key(actions.undo)),
+      tr("Accept the surface into a label, and export mask (%1) or polygons.").arg(key(actions.export_mask))};
+  QString text;
+  for (const QString& step : steps) text += QStringLiteral("<li>%1</li>").arg(step);
+  return QStringLiteral("<ol>%1</ol>").arg(text);
+}
+
+QString mouse() {
+  return QStringLiteral("<table>%1</table>")
+      .arg(row(tr("left"), tr("the tool; window and level on slices, turning in 3D")) +
+           row(tr("middle"), tr("move the picture")) +
+           row(tr("right"), tr("zoom; the opposite of the brush while painting")) +
+           row(tr("wheel"), tr("slices; the clip plane or zoom in 3D")) + row(tr("Shift + wheel"), tr("size of the brush")) +
+           row(tr("Ctrl + wheel"), tr("zoom")) + row(tr("Shift + move"), tr("linked crosshair")) +
+           row(tr("Alt + left"), tr("window and level, whatever the tool")) +
+           row(tr("double click"), tr("one view large, and back")));
+}
+
+QString keys(const Actions& actions) {
+  QString rows;
+  for (const QAction* action : actions.all()) {
+    if (!action->shortcut().isEmpty()) rows += row(key(action), action->property("tip").toString());
+  }
+  return QStringLiteral("<table>%1</table>").arg(rows);
+}
+
+}  // namespace
+
+void show_first_steps(QWidget* parent, const Actions& actions) {
+  auto* page = new QTextBrowser(parent);
+  page->setWindowFlags(Qt::Tool);
+  page->setAttribute(Qt::WA_DeleteOnClose);
+  page->setWindowTitle(tr("First steps, mouse and keys"));
+  page->setHtml(QStringLiteral("<h3>%1</h3>%2<h3>%3</h3>%4<h3>%5</h3>%6")
+                    .arg(tr("A first segmentation"), steps(actions), tr("Mouse"), mouse(), tr("Keys"), keys(actions)));
+  page->resize(560, 620);
+  page->show();
+}
+
+}  // namespace tidemark

@@ -1,0 +1,13 @@
+// One page of help: a first segmentation, the mouse and the keys.
+#pragma once
+
+#include "ui/main/actions.h"
+
+class QWidget;
+
+namespace tidemark {
+
+// Opens a window of its own that may stay beside the work.
+void show_first_steps(QWidget* parent, const Actions& actions);
+
+}  // namespace tidemark

@@ -1,0 +1,24 @@
+// All keys, to be looked at and changed.
+#pragma once
+
+#include <QDialog>
+
+#include "ui/main/actions.h"
+
+class QTableWidget;
+
+namespace tidemark {
+
+class KeysDialog : public QDialog {
+  Q_OBJECT
+ public:
+  explicit KeysDialog(Actions& actions, QWidget* parent = nullptr);
+
+ private:
+  void mark_conflicts();
+
+  Actions& actions_;
+  QTableWidget* table_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,352 @@
+#include "ui/main/main_window.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QLabel>
+#include <QMdiArea>
+#include <QMdiSubWindow>
+#include <QMenuBar>
+#include <QMimeData>
+#include <QSettings>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QVBoxLayout>
+
+#include "ui/look/about_dialog.h"
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+#include "ui/main/case_links.h"
+#include "ui/main/first_steps.h"
+#include "ui/main/keys_dialog.h"
+#include "ui/main/menus.h"
+#include "ui/main/message_bar.h"
+#include "ui/main/panel_docks.h"
+#include "ui/main/saved_cases.h"
+#include "ui/main/value_bar.h"
+#include "ui/opening/dropped_paths.h"
+#include "ui/opening/load_report.h"
+#include "ui/opening/loading_view.h"
+#include "ui/opening/phantom_menu.h"
+#include "ui/opening/recent_studies.h"
+#include "ui/opening/series_browser.h"
+#include "ui/opening/start_page.h"
+#include "ui/opening/study_opener.h"
+#include "ui/views/picture_view.h"
+
+namespace tidemark {
+namespace {
+
+constexpr int kStateVersion = 1;
+
+}  // namespace
+
+MainWindow::MainWindow(Engine& engine, QWidget* parent) : QMainWindow(parent), engine_(engine) {
+  setObjectName("main");
+  setWindowIcon(application_icon());
+  setAcceptDrops(true);
+  resize(1280, 800);
+  actions_ = new Actions(this);
+  recent_ = new RecentStudies(this);
+  opener_ = new StudyOpener(this);
+  links_ = new CaseLinks(this);
+  saved_ = new SavedCases(*this);
+  make_centre();
+  panels_ = new PanelDocks(*this, *actions_);
+  make_menus(*this, *actions_, {recent_, panels_});
+  make_tool_bar();
+  make_status_bar();
+  connect_files();
+  connect_evolution();
+  connect_views();
+  connect_windows();
+  restoreGeometry(QSettings().value("main/geometry").toByteArray());
+  restoreState(QSettings().value("main/state").toByteArray(), kStateVersion);
+  follow_case();
+}
+
+MainWindow::~MainWindow() = default;
+
+void MainWindow::make_centre() {
+  centre_ = new QStackedWidget;
+  auto* start = new StartPage(*recent_);
+  area_ = new QMdiArea;
+  area_->setTabsClosable(true);
+  area_->setTabsMovable(true);
+  area_->setDocumentMode(true);
+  centre_->addWidget(start);
+  centre_->addWidget(area_);
+  messages_ = new MessageBar;
+  auto* whole = new QWidget;
+  auto* layout = new QVBoxLayout(whole);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(messages_);
+  layout->addWidget(centre_, 1);
+  setCentralWidget(whole);
+  connect(area_, &QMdiArea::subWindowActivated, this, &MainWindow::activate);
+  connect(start, &StartPage::open_folder, this, &MainWindow::ask_for_folder);
+  connect(start, &StartPage::open_file, this, &MainWindow::ask_for_file);
+  connect(start, &StartPage::phantom_chosen, this, &MainWindow::open_phantom);
+  connect(start, &StartPage::recent_chosen, opener_, &StudyOpener::open_series);
+  connect(start, &StartPage::dropped, this, [this](const QStringList& paths) {
+    for (const QString& path : paths) open(path);
+  });
+}
+
+void MainWindow::make_tool_bar() {
+  QToolBar* bar = addToolBar(tr("Main tools"));
+  bar->setObjectName("tool-bar");
+  bar->setIconSize(QSize(kIcon, kIcon));
+  bar->addActions({actions_->open_folder, actions_->save});
+  bar->addSeparator();
+  bar->addActions({actions_->undo, actions_->redo});
+  bar->addSeparator();
+  bar->addActions({actions_->restart, actions_->step_back, actions_->play, actions_->step});
+  bar->addSeparator();
+  bar->addActions(actions_->tools->actions());
+  bar->addSeparator();
+  bar->addAction(actions_->clip);
+  bar->addSeparator();
+  bar->addActions(actions_->layouts->actions());
+}
+
+void MainWindow::make_status_bar() {
+  values_ = new ValueBar;
+  statusBar()->addWidget(values_, 1);
+  loading_ = new LoadingView(LoadingView::Shape::line);
+  loading_->hide();
+  statusBar()->addPermanentWidget(loading_);
+  if (engine_.graphics() == Engine::Graphics::hardware) return;
+  const bool software = engine_.graphics() == Engine::Graphics::software;
+  auto* note = new QLabel(software ? tr("Software OpenGL") : tr("No OpenGL"));
+  note->setToolTip(software ? tr("There is no graphics processor: pictures are drawn by the processor, the level set is "
+                                 "computed by the host executor.")
+                            : tr("Pictures cannot be drawn: %1").arg(QString::fromStdString(engine_.graphics_problem())));
+  statusBar()->addPermanentWidget(note);
+}
+
+// Files.
+
+void MainWindow::connect_files() {
+  connect(opener_, &StudyOpener::began, loading_, [this](const QString& what) {
+    loading_->begin(what);
+    loading_->show();
+  });
+  connect(opener_, &StudyOpener::progressed, loading_, &LoadingView::set_progress);
+  connect(opener_, &StudyOpener::ended, loading_, &QWidget::hide);
+  connect(opener_, &StudyOpener::failed, this, &MainWindow::tell);
+  connect(opener_, &StudyOpener::opened, this, &MainWindow::add_case);
+  connect(loading_, &LoadingView::cancelled, opener_, &StudyOpener::cancel);
+  connect(recent_, &RecentStudies::chosen, opener_, &StudyOpener::open_series);
+  connect(actions_->open_folder, &QAction::triggered, this, &MainWindow::ask_for_folder);
+  connect(actions_->open_file, &QAction::triggered, this, &MainWindow::ask_for_file);
+  connect(actions_->open_session, &QAction::triggered, saved_, &SavedCases::ask_and_open);
+  with_case(actions_->save, [this](CaseWindow& window) { saved_->save(window); });
+  with_case(actions_->save_as, [this](CaseWindow& window) { saved_->save_as(window); });
+  with_case(actions_->export_mask, [this](CaseWindow& window) { saved_->export_mask(window); });
+  with_case(actions_->export_mesh, [this](CaseWindow& window) { saved_->export_mesh(window); });
+  with_case(actions_->export_picture, [this](CaseWindow& window) { saved_->export_picture(window); });
+  with_case(actions_->export_statistics, [this](CaseWindow& window) { saved_->export_statistics(window); });
+  with_case(actions_->export_recipe, [this](CaseWindow& window) { saved_->export_recipe(window); });
+  connect(actions_->close, &QAction::triggered, area_, &QMdiArea::closeActiveSubWindow);
+  connect(actions_->quit, &QAction::triggered, this, &QWidget::close);
+}
+
+void MainWindow::ask_for_folder() {
+  const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a folder with a study"),
+                                                           QSettings().value("open/folder").toString());
+  if (folder.isEmpty()) return;
+  QSettings().setValue("open/folder", folder);
+  open(folder);
+}
+
+void MainWindow::ask_for_file() {
+  const QString file = QFileDialog::getOpenFileName(
+      this, tr("Open an image file"), QSettings().value("open/folder").toString(),
+      tr("Images (*.dcm *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;All files (*)"));
+  if (!file.isEmpty()) open(file);
+}
+
+void MainWindow::open(const QString& path) {
+  if (path.endsWith(".tidemark")) {
+    saved_->open(path);
+  } else {
+    opener_->open(path);
+  }
+}
+
+void MainWindow::open_phantom(const QString& kind) { opener_->open_phantom(kind); }
+
+CaseWindow* MainWindow::add_case(std::shared_ptr<const LoadedStudy> study) {
+  if (!study->origin.path.empty()) {
+    recent_->add(QString::fromStdString(study->origin.path.string()),
+                 QString::fromStdString(study->origin.series_uid), study->name);
+  }
+  auto* window = new CaseWindow(std::make_unique<CaseSession>(engine_, study, executor_), *actions_);
+  window->session().display().change([this](DisplaySettings& settings) {
+    settings.tool = active_ ? active_->session().display().settings().tool : settings.tool;
+  });
+  connect(&window->session(), &CaseSession::failed, this, &MainWindow::tell);
+  connect(window, &CaseWindow::close_wanted, saved_, &SavedCases::close);
+  QMdiSubWindow* child = area_->addSubWindow(window);
+  child->setAttribute(Qt::WA_DeleteOnClose);
+  connect(window, &QWidget::windowTitleChanged, child, &QWidget::setWindowTitle);
+  child->setWindowTitle(window->windowTitle());
+  child->setWindowIcon(application_icon());
+  links_->add(*window);
+  centre_->setCurrentWidget(area_);
+  if (area_->viewMode() == QMdiArea::TabbedView || area_->subWindowList().size() == 1) {
+    child->showMaximized();
+  } else {
+    child->show();
+    area_->tileSubWindows();
+  }
+  if (!study->volume->changes.empty()) {
+    auto* report = new LoadReport(*study);
+    messages_->show_widget(report);
+    connect(report, &LoadReport::dismissed, messages_, &MessageBar::dismiss);
+  }
+  return window;
+}
+
+void MainWindow::tell(const QString& message) { messages_->show_text(message); }
+
+// The active case.
+
+CaseWindow* MainWindow::active_case() const { return active_; }
+
+QList<CaseWindow*> MainWindow::cases() const {
+  QList<CaseWindow*> cases;
+  for (QMdiSubWindow* child : area_->subWindowList()) {
+    if (auto* window = qobject_cast<CaseWindow*>(child->widget())) cases << window;
+  }
+  return cases;
+}
+
+void MainWindow::activate(QMdiSubWindow* child) {
+  // While dialogs and docks have the focus no child is active, but the case still is.
+  if (!child && !area_->subWindowList().isEmpty()) return;
+  for (const auto& connection : std::exchange(active_connections_, {})) disconnect(connection);
+  active_ = child ? qobject_cast<CaseWindow*>(child->widget()) : nullptr;
+  if (!active_) centre_->setCurrentIndex(0);
+  CaseSession* session = active_ ? &active_->session() : nullptr;
+  panels_->set_session(session);
+  values_->set_session(session);
+  if (session) {
+    active_connections_ << connect(session, &CaseSession::state_changed, this, &MainWindow::follow_case)
+                        << connect(&session->display(), &Display::changed, this, &MainWindow::follow_case);
+  }
+  follow_case();
+}
+
+void MainWindow::follow_case() {
+  for (QAction* action : actions_->of_cases()) action->setEnabled(active_ != nullptr);
+  if (!active_) return;
+  const CaseState& state = active_->session().state();
+  actions_->play->setChecked(state.playing);
+  actions_->play->setIcon(icon(state.playing ? u"pause" : u"play"));
+  actions_->play->setText(state.playing ? tr("&Pause") : tr("&Play"));
+  for (QAction* action : {actions_->play, actions_->step, actions_->restart}) action->setEnabled(state.begun);
+  actions_->step_back->setEnabled(state.begun && state.step > 0);
+  actions_->undo->setEnabled(!state.undo_text.isEmpty());
+  actions_->undo->setText(state.undo_text.isEmpty() ? tr("&Undo") : tr("&Undo: %1").arg(state.undo_text));
+  actions_->redo->setEnabled(!state.redo_text.isEmpty());
+  actions_->redo->setText(state.redo_text.isEmpty() ? tr("&Redo") : tr("&Redo: %1").arg(state.redo_text));
+  for (QAction* action : {actions_->export_mesh, actions_->export_recipe}) action->setEnabled(state.begun);
+  const DisplaySettings& settings = active_->session().display().settings();
+  actions_->tool(settings.tool)->setChecked(true);
+  actions_->clip->setChecked(settings.clip_on);
+  setWindowTitle(tr("%1 - Tidemark").arg(active_->session().name()));
+}
+
+template <class Do>
+void MainWindow::with_case(QAction* action, Do act) {
+  connect(action, &QAction::triggered, this, [this, act] {
+    if (active_) act(*active_);
+  });
+}
+
+void MainWindow::connect_evolution() {
+  with_case(actions_->play, [](CaseWindow& window) { window.session().toggle_play(); });
+  with_case(actions_->step, [](CaseWindow& window) { window.session().step(); });
+  with_case(actions_->step_back, [](CaseWindow& window) { window.session().step_back(); });
+  with_case(actions_->restart, [](CaseWindow& window) { window.session().restart(); });
+  with_case(actions_->undo, [](CaseWindow& window) { window.session().undo(); });
+  with_case(actions_->redo, [](CaseWindow& window) { window.session().redo(); });
+  with_case(actions_->last_tool, [](CaseWindow& window) {
+    window.session().display().choose_tool(window.session().display().settings().last_tool);
+  });
+  connect(actions_->tools, &QActionGroup::triggered, this, [this](QAction* chosen) {
+    for (CaseWindow* window : cases()) window->session().display().choose_tool(static_cast<Tool>(chosen->data().toInt()));
+  });
+}
+
+void MainWindow::connect_views() {
+  connect(actions_->layouts, &QActionGroup::triggered, this, [this](QAction* chosen) {
+    if (active_) active_->set_layout(static_cast<ViewLayout>(chosen->data().toInt()));
+  });
+  with_case(actions_->reset_view, [](CaseWindow& window) { window.reset_views(); });
+  with_case(actions_->clip, [](CaseWindow& window) {
+    window.session().display().change([](DisplaySettings& settings) { settings.clip_on = !settings.clip_on; });
+  });
+  connect(actions_->hide_interface, &QAction::toggled, panels_, &PanelDocks::set_hidden);
+  connect(actions_->full_screen, &QAction::toggled, this,
+          [this](bool full) { full ? showFullScreen() : showNormal(); });
+  connect(actions_->themes, &QActionGroup::triggered, this, [](QAction* chosen) {
+    QSettings().setValue("theme", chosen->data());
+    apply_theme(*qApp, static_cast<Theme>(chosen->data().toInt()));
+  });
+  const int theme = QSettings().value("theme", 0).toInt();
+  for (QAction* action : actions_->themes->actions()) action->setChecked(action->data().toInt() == theme);
+}
+
+void MainWindow::connect_windows() {
+  connect(actions_->tile, &QAction::triggered, this, [this] {
+    actions_->tabs->setChecked(false);
+    area_->tileSubWindows();
+  });
+  connect(actions_->cascade, &QAction::triggered, this, [this] {
+    actions_->tabs->setChecked(false);
+    area_->cascadeSubWindows();
+  });
+  connect(actions_->tabs, &QAction::toggled, this, [this](bool tabs) {
+    area_->setViewMode(tabs ? QMdiArea::TabbedView : QMdiArea::SubWindowView);
+  });
+  connect(actions_->link, &QAction::toggled, links_, &CaseLinks::set_linked);
+  connect(actions_->lock_step, &QAction::toggled, this, [this](bool together) {
+    if (!together) {
+      for (CaseWindow* window : cases()) window->session().leave_lock_step();
+      return;
+    }
+    std::vector<CaseSession*> sessions;
+    for (CaseWindow* window : cases()) sessions.push_back(&window->session());
+    CaseSession::play_in_lock_step(sessions);
+  });
+  connect(actions_->keys, &QAction::triggered, this, [this] { KeysDialog(*actions_, this).exec(); });
+  connect(actions_->first_steps, &QAction::triggered, this, [this] { show_first_steps(this, *actions_); });
+  connect(actions_->about, &QAction::triggered, this, [this] { AboutDialog(this).exec(); });
+}
+
+// The window itself.
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  area_->closeAllSubWindows();
+  if (!area_->subWindowList().isEmpty()) return event->ignore();  // the user wants to keep one
+  if (!actions_->hide_interface->isChecked()) QSettings().setValue("main/state", saveState(kStateVersion));
+  QSettings().setValue("main/geometry", saveGeometry());
+  event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (!dropped_paths(*event->mimeData()).isEmpty()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  for (const QString& path : dropped_paths(*event->mimeData())) open(path);
+  event->acceptProposedAction();
+}
+
+}  // namespace tidemark

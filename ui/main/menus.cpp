@@ -1,0 +1,75 @@
+#include "ui/main/menus.h"
+
+#include <QMenuBar>
+
+#include "ui/look/icons.h"
+#include "ui/main/main_window.h"
+#include "ui/main/panel_docks.h"
+#include "ui/opening/phantom_menu.h"
+#include "ui/opening/recent_studies.h"
+
+namespace tidemark {
+namespace {
+
+void make_file_menu(MainWindow& window, Actions& actions, RecentStudies& recent) {
+  QMenu* file = window.menuBar()->addMenu(MainWindow::tr("&File"));
+  file->addActions({actions.open_folder, actions.open_file, actions.open_session});
+  file->addMenu(recent.make_menu(file));
+  auto* phantoms = new PhantomMenu(file);
+  phantoms->setTitle(MainWindow::tr("&Phantoms"));
+  phantoms->setIcon(icon(u"phantom"));
+  QObject::connect(phantoms, &PhantomMenu::chosen, &window, &MainWindow::open_phantom);
+  file->addMenu(phantoms);
+  file->addSeparator();
+  file->addActions({actions.save, actions.save_as});
+  QMenu* exports = file->addMenu(icon(u"export"), MainWindow::tr("&Export"));
+  exports->addActions({actions.export_mask, actions.export_mesh, actions.export_picture, actions.export_statistics,
+                       actions.export_recipe});
+  file->addSeparator();
+  file->addActions({actions.close, actions.quit});
+}
+
+void make_view_menu(MainWindow& window, Actions& actions, PanelDocks& panels) {
+  QMenu* view = window.menuBar()->addMenu(MainWindow::tr("&View"));
+  view->addActions(actions.layouts->actions());
+  QMenu* more = view->addMenu(icon(u"add"), MainWindow::tr("&Add a view"));
+  for (const ViewKind kind : {ViewKind::axial, ViewKind::coronal, ViewKind::sagittal, ViewKind::oblique,
+                              ViewKind::speed, ViewKind::pages, ViewKind::volume}) {
+    QObject::connect(more->addAction(text_of(kind)), &QAction::triggered, &window, [&window, kind] {
+      if (CaseWindow* active = window.active_case()) active->add_view(kind);
+    });
+  }
+  view->addSeparator();
+  view->addActions({actions.reset_view, actions.clip});
+  view->addSeparator();
+  QMenu* docks = view->addMenu(MainWindow::tr("&Panels"));
+  docks->addActions(panels.toggles());
+  view->addActions({actions.hide_interface, actions.full_screen});
+  QMenu* theme = view->addMenu(MainWindow::tr("&Theme"));
+  theme->addActions(actions.themes->actions());
+}
+
+}  // namespace
+
+void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts) {
+  make_file_menu(window, actions, *parts.recent);
+  QMenu* edit = window.menuBar()->addMenu(MainWindow::tr("&Edit"));
+  edit->addActions({actions.undo, actions.redo});
+  edit->addSeparator();
+  edit->addAction(actions.keys);
+  make_view_menu(window, actions, *parts.panels);
+  QMenu* evolution = window.menuBar()->addMenu(MainWindow::tr("E&volution"));
+  evolution->addActions({actions.play, actions.step, actions.step_back, actions.restart});
+  QMenu* tools = window.menuBar()->addMenu(MainWindow::tr("&Tools"));
+  tools->addActions(actions.tools->actions());
+  tools->addSeparator();
+  tools->addAction(actions.last_tool);
+  QMenu* windows = window.menuBar()->addMenu(MainWindow::tr("&Window"));
+  windows->addActions({actions.tile, actions.cascade, actions.tabs});
+  windows->addSeparator();
+  windows->addActions({actions.link, actions.lock_step});
+  QMenu* help = window.menuBar()->addMenu(MainWindow::tr("&Help"));
+  help->addActions({actions.first_steps, actions.about});
+}
+
+}  // namespace tidemark

@@ -1,0 +1,18 @@
+// The menu bar.
+#pragma once
+
+#include "ui/main/actions.h"
+
+namespace tidemark {
+
+class MainWindow;
+class PanelDocks;
+class RecentStudies;
+
+struct MenuParts {
+  RecentStudies* recent;
+  PanelDocks* panels;
+};
+void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts);
+
+}  // namespace tidemark

@@ -1,0 +1,56 @@
+#include "ui/main/message_bar.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+
+namespace tidemark {
+
+MessageBar::MessageBar(QWidget* parent) : QFrame(parent) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  line_ = new QWidget;
+  auto* row = new QHBoxLayout(line_);
+  row->setContentsMargins(kSpace, kSpaceTight, kSpace, kSpaceTight);
+  auto* sign = new QLabel;
+  sign->setPixmap(icon(u"warning").pixmap(kIcon, kIcon));
+  text_ = new QLabel;
+  text_->setWordWrap(true);
+  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  auto* button = new QPushButton(tr("Dismiss"));
+  row->addWidget(sign);
+  row->addWidget(text_, 1);
+  row->addWidget(button);
+  column->addWidget(line_);
+  connect(button, &QPushButton::clicked, this, &MessageBar::dismiss);
+  hide();
+}
+
+QString MessageBar::text() const { return isHidden() || shown_ ? QString() : text_->text(); }
+
+void MessageBar::show_text(const QString& text) {
+  dismiss();
+  text_->setText(text);
+  line_->show();
+  show();
+}
+
+void MessageBar::show_widget(QWidget* widget) {
+  dismiss();
+  line_->hide();
+  shown_ = widget;
+  layout()->addWidget(widget);
+  show();
+}
+
+void MessageBar::dismiss() {
+  if (shown_) shown_->deleteLater();
+  shown_ = nullptr;
+  hide();
+}
+
+}  // namespace tidemark

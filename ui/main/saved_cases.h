@@ -1,0 +1,63 @@
+// Cases in files: sessions, and what is exported.
+#pragma once
+
+#include <QObject>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/result.h"
+#include "session/case_snapshot.h"
+#include "ui/main/case_window.h"
+
+class QCloseEvent;
+
+namespace tidemark {
+
+class BackgroundJob;
+class MainWindow;
+
+// Files are written on threads of their own, from what the case was like when it was asked for; how it went is
+// said in the window.
+class SavedCases : public QObject {
+  Q_OBJECT
+ public:
+  explicit SavedCases(MainWindow& window);
+  ~SavedCases() override;
+
+  void save(CaseWindow& window);  // to its file; asks for one the first time
+  void save_as(CaseWindow& window);
+  void ask_and_open();
+  void open(const QString& file);
+
+  // Ask where to.
+  void export_mask(CaseWindow& window);
+  void export_mesh(CaseWindow& window);
+  void export_picture(CaseWindow& window);
+  void export_statistics(CaseWindow& window);
+  void export_recipe(CaseWindow& window);
+
+  // The same without asking. The suffix says which format.
+  void write_mask(CaseWindow& window, const QString& file);
+  void write_labels(CaseWindow& window, const QString& file);
+  void write_surface(CaseWindow& window, const QString& file);
+  void write_picture(CaseWindow& window, const QString& file);
+
+  // Asks before something is lost.
+  void close(QCloseEvent* event);
+
+ signals:
+  void written(const QString& file);
+
+ private:
+  using Write = std::function<Status(const CaseSnapshot&)>;
+  [[nodiscard]] QString ask_for_file(const CaseWindow& window, const QString& title, const QString& suffixes,
+                                     const QString& suffix);
+  void write(CaseWindow& window, const QString& file, Write work);
+  void run(const QString& file, std::function<Status()> work);
+
+  MainWindow& window_;
+  std::vector<std::shared_ptr<BackgroundJob>> jobs_;
+};
+
+}  // namespace tidemark

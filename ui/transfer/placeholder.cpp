@@ -1,1 +1,0 @@
-// The transfer function editor comes here.

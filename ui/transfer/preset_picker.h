@@ -1,0 +1,36 @@
+// The presets, each with a small picture of itself.
+#pragma once
+
+#include <QComboBox>
+#include <vector>
+
+#include "renderer/transfer_function.h"
+#include "session/source_summary.h"
+
+namespace tidemark {
+
+class PresetPicker : public QComboBox {
+  Q_OBJECT
+ public:
+  explicit PresetPicker(QWidget* parent = nullptr);
+
+  // Draws the pictures over this histogram.
+  void set_summary(const SourceSummary& summary);
+  // Shows which preset this is, in the source's units, if it is one.
+  void show_function(const TransferFunction& function);
+
+ signals:
+  void picked(const tidemark::TransferFunction& preset);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void draw_pictures();
+
+  std::vector<TransferFunction> presets_;
+  SourceSummary summary_;
+};
+
+}  // namespace tidemark

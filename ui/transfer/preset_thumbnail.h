@@ -1,0 +1,19 @@
+// A small picture of what a transfer function makes of values.
+#pragma once
+
+#include <QPalette>
+#include <QPixmap>
+
+#include "renderer/transfer_function.h"
+#include "session/source_summary.h"
+
+namespace tidemark {
+
+inline constexpr QSize kThumbnailSize{64, 40};  // logical pixels
+
+// Opacity over the histogram, in the colours that it gives; of the surface over the distance from the clip
+// plane when the function says nothing of the source. `function` is in the source's units.
+QPixmap preset_thumbnail(const TransferFunction& function, const SourceSummary& summary,
+                         const QPalette& palette, double pixel_ratio);
+
+}  // namespace tidemark

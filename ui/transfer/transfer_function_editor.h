@@ -1,0 +1,78 @@
+// Edits how the values of a case's volume and its surface show (paper section 6.2).
+#pragma once
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QLabel>
+#include <QPointer>
+#include <QPushButton>
+#include <QTabWidget>
+#include <filesystem>
+
+#include "session/display.h"
+#include "session/source_summary.h"
+
+namespace tidemark {
+
+class HistogramPlot;
+class PlanePlot;
+class PresetPicker;
+class PrimitivePage;
+enum class PrimitiveKind;
+struct AxisPrimitive;
+
+// Everything is read from the display and written to it at once: there is nothing to apply.
+class TransferFunctionEditor : public QWidget {
+  Q_OBJECT
+ public:
+  explicit TransferFunctionEditor(QWidget* parent = nullptr);
+
+  // From now on edits this; null: nothing. `unit` is that of the volume's values ("HU"), empty when it has
+  // none.
+  void set_display(Display* display, const SourceSummary* summary, const QString& unit = {});
+
+  // A file in the presets' format. What is wrong is shown, and nothing is changed then.
+  void load(const std::filesystem::path& file);
+  void save(const std::filesystem::path& file);
+
+  [[nodiscard]] PrimitivePage* volume_page() const { return volume_page_; }
+  [[nodiscard]] PrimitivePage* surface_page() const { return surface_page_; }
+  [[nodiscard]] PresetPicker* presets() const { return presets_; }
+  [[nodiscard]] QComboBox* region_box() const { return region_; }
+  [[nodiscard]] QTabWidget* tabs() const { return tabs_; }
+  [[nodiscard]] QString message() const { return message_->text(); }
+
+ private:
+  QWidget* make_top_row();
+  QWidget* make_volume_tab();
+  QWidget* make_surface_tab();
+  void refresh();
+  void refresh_axes();
+  void replace(const TransferFunction& function);
+  void edit(PrimitiveKind kind, const std::vector<AxisPrimitive>& primitives, int chosen);
+  void say(const QString& message);
+  void ask_load();
+  void ask_save();
+
+  QPointer<Display> display_;
+  SourceSummary summary_;
+  QString unit_;
+  DisplaySettings shown_;  // what the widgets were last set to
+  bool showing_ = false;   // anything
+  int surface_chosen_ = 0;
+
+  QWidget* top_row_;
+  PresetPicker* presets_;
+  QPushButton* save_;
+  QLabel* message_;
+  QTabWidget* tabs_;
+  QCheckBox* show_source_;
+  QComboBox* region_;
+  HistogramPlot* histogram_;
+  PlanePlot* joint_;
+  PlanePlot* surface_plane_;
+  PrimitivePage* volume_page_;
+  PrimitivePage* surface_page_;
+};
+
+}  // namespace tidemark
