@@ -51,6 +51,7 @@ ClipControls::ClipControls(QWidget* parent) : SessionWidget(parent) {
   distance_->set_decimals(1);
   distance_->set_unit(tr("mm"));
   connect(distance_, &SliderNumber::edited, this, [this](double value) {
+    if (!session()) return;
     const glm::dvec3 middle = middle_of(session()->volume().geometry);
     change_display([&](DisplaySettings& settings) {
       settings.clip.offset_mm = glm::dot(settings.clip.normal, middle) + value;

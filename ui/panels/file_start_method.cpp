@@ -21,6 +21,7 @@ FileStartMethod::FileStartMethod(StartFile kind, QWidget* parent) : StartMethod(
   path_ = new QLineEdit;
   path_->setPlaceholderText(tr("No file chosen"));
   path_->setAccessibleName(tr("File"));
+  path_->setToolTip(tr("The file's path."));
   path_->setClearButtonEnabled(true);
   auto* browse = new QToolButton;
   browse->setIcon(icon(u"open-file"));

@@ -28,6 +28,7 @@ LabelsPanel::LabelsPanel(QWidget* parent)
   connect(model_, &LabelsModel::edited, this, [this](const Label& label) {
     if (session()) session()->set_label(label);
   });
+  show_buttons();
 }
 
 QWidget* LabelsPanel::make_table() {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kPositions = 1000;
 constexpr qint64 kSameGestureMs = 700;  // between two presses of a key
-constexpr int kNumberWidth = 92;        // "-1024.0 HU" and the arrows
+constexpr int kArrows = 26;             // of the spin box, and its edges
 
 }  // namespace
 
@@ -34,7 +34,7 @@ SliderNumber::SliderNumber(QWidget* parent)
   slider_->setMinimumWidth(48);
   number_->setKeyboardTracking(false);
   number_->setAlignment(Qt::AlignRight);
-  number_->setFixedWidth(kNumberWidth);
+  number_->setFixedWidth(number_->fontMetrics().horizontalAdvance(QStringLiteral("-0000.0 HU")) + kArrows);
   setFocusProxy(number_);
   guard_wheel(slider_);
   guard_wheel(number_);
