@@ -11,7 +11,7 @@ namespace tidemark {
 namespace {
 
 constexpr double kChunkSeconds = 0.016;   // of steps between two pictures
-constexpr std::int64_t kMostSteps = 256;  // between two pictures: it should be seen how the surface moves
+constexpr std::int64_t kMostSteps = 50;  // between two pictures: it should be seen how the surface moves
 
 }  // namespace
 

@@ -34,6 +34,11 @@ DisplaySettings first_settings(const CaseSession& session) {
   const Volume& volume = session.volume();
   DisplaySettings settings;
   settings.cursor_mm = settings.slice_centre_mm = middle_of(volume.geometry);
+  if (const auto& start = session.study().start; start && start->seed) {
+    // Where a phantom wants to be started from.
+    const auto& seed = *start->seed;
+    settings.cursor_mm = volume.geometry.to_patient({seed[0], seed[1], seed[2]});
+  }
   settings.window = window_of(volume);
   settings.clip.normal = {0.0, -1.0, 0.0};
   settings.clip.offset_mm = -middle_of(volume.geometry).y;

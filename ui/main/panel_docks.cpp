@@ -12,6 +12,11 @@
 #include "ui/transfer/transfer_function_editor.h"
 
 namespace tidemark {
+namespace {
+
+constexpr int kWidth = 320;  // logical pixels: what the panels are made for
+
+}  // namespace
 
 PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window), window_(window) {
   auto* level_set = new LevelSetPanel;
@@ -24,30 +29,23 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
   statistics_ = new StatisticsPanel;
   transfer_ = new TransferFunctionEditor;
   panels_ = {level_set, initialise, paint, display, labels, statistics_};
-  // On the right what is used all the time, on the left what starts and ends a segmentation.
-  const auto right = Qt::RightDockWidgetArea;
-  const auto left = Qt::LeftDockWidgetArea;
-  QDockWidget* steering = add("level-set", tr("Level set"), level_set, right);
-  QDockWidget* showing = add("display", tr("Display"), display, right);
-  QDockWidget* transfer = add("transfer", tr("Transfer function"), transfer_, right);
-  window_.tabifyDockWidget(steering, showing);
-  window_.tabifyDockWidget(showing, transfer);
-  steering->raise();
-  QDockWidget* start = add("initialise", tr("Start"), initialise, left);
-  QDockWidget* brush = add("paint", tr("Paint"), paint, left);
-  window_.tabifyDockWidget(start, brush);
-  start->raise();
-  QDockWidget* result = add("labels", tr("Labels"), labels, left);
-  QDockWidget* figures = add("statistics", tr("Statistics"), statistics_, left);
-  window_.tabifyDockWidget(result, figures);
-  result->raise();
-  window_.setTabPosition(right, QTabWidget::North);
-  window_.setTabPosition(left, QTabWidget::North);
+  // One column with its tabs at the side: the views keep the room.
+  const QList<QDockWidget*> docks{add("initialise", tr("Start"), initialise),
+                                  add("level-set", tr("Level set"), level_set),
+                                  add("paint", tr("Paint"), paint),
+                                  add("display", tr("Display"), display),
+                                  add("transfer", tr("Transfer"), transfer_),
+                                  add("labels", tr("Labels"), labels),
+                                  add("statistics", tr("Statistics"), statistics_)};
+  for (qsizetype next = 1; next < docks.size(); ++next)
+    window_.tabifyDockWidget(docks[next - 1], docks[next]);
+  window_.setTabPosition(Qt::RightDockWidgetArea, QTabWidget::East);
+  window_.resizeDocks({docks[0]}, {kWidth}, Qt::Horizontal);
+  docks[0]->raise();
   set_session(nullptr);
 }
 
-QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* panel,
-                             Qt::DockWidgetArea area) {
+QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* panel) {
   auto* scroll = new QScrollArea;
   scroll->setWidget(panel);
   scroll->setWidgetResizable(true);
@@ -56,16 +54,27 @@ QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* pa
   auto* dock = new QDockWidget(title, &window_);
   dock->setObjectName(QString::fromLatin1(name));
   dock->setWidget(scroll);
-  dock->setMinimumWidth(300);
-  window_.addDockWidget(area, dock);
+  dock->setMinimumWidth(kWidth);
+  window_.addDockWidget(Qt::RightDockWidgetArea, dock);
   docks_ << dock;
   return dock;
 }
 
 void PanelDocks::set_session(CaseSession* session) {
   for (SessionWidget* panel : panels_) panel->set_session(session);
+  if (session_) disconnect(session_, nullptr, this, nullptr);
+  session_ = session;
+  begun_ = session && session->state().begun;
+  if (session_) connect(session_, &CaseSession::state_changed, this, &PanelDocks::follow_start);
   transfer_->set_display(session ? &session->display() : nullptr, session ? &session->summary() : nullptr,
                          session && session->volume().modality == "CT" ? tr("HU") : QString());
+}
+
+// Once there is a surface, what steers it comes to the front where the start was.
+void PanelDocks::follow_start() {
+  const bool began = !begun_ && session_->state().begun;
+  begun_ = session_->state().begun;
+  if (began && !docks_.first()->visibleRegion().isEmpty()) show("level-set");
 }
 
 void PanelDocks::set_hidden(bool hidden) {

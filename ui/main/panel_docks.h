@@ -4,6 +4,7 @@
 #include <QDockWidget>
 #include <QList>
 #include <QObject>
+#include <QPointer>
 
 #include "session/case_session.h"
 #include "ui/main/actions.h"
@@ -30,9 +31,13 @@ class PanelDocks : public QObject {
   void show(const QString& name);
 
  private:
-  QDockWidget* add(const char* name, const QString& title, QWidget* panel, Qt::DockWidgetArea area);
+  QDockWidget* add(const char* name, const QString& title, QWidget* panel);
+
+  void follow_start();
 
   QMainWindow& window_;
+  QPointer<CaseSession> session_;
+  bool begun_ = false;
   QList<QDockWidget*> docks_;
   QList<SessionWidget*> panels_;
   QList<QDockWidget*> open_;  // before they were hidden

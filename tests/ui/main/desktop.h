@@ -1,0 +1,92 @@
+// The desktop as tests drive it: real windows on a screen that nobody sees.
+#pragma once
+
+#include <QElapsedTimer>
+#include <QImage>
+#include <QTest>
+#include <QTimer>
+#include <functional>
+#include <memory>
+
+#include "session/engine.h"
+#include "tests/support/support.h"
+#include "ui/main/main_window.h"
+#include "ui/views/picture_view.h"
+#include "ui/views/slice_view.h"
+#include "ui/views/volume_view.h"
+
+namespace tidemark::test {
+
+// Notices how long the thread of the user interface does not come back to its event loop: a timer that should
+// fire every few milliseconds says by how much it was late.
+class Watchdog : public QObject {
+ public:
+  Watchdog();
+  [[nodiscard]] double longest_ms() const { return longest_ms_; }
+  void restart();
+
+ private:
+  QTimer timer_;
+  QElapsedTimer since_;
+  double longest_ms_ = 0.0;
+};
+
+// Settings, recovery and everything else of this program goes into a folder of its own that is gone after it.
+class Desktop {
+ public:
+  explicit Desktop(ExecutorKind executor = ExecutorKind::automatic, QSize size = {1280, 800});
+  ~Desktop();
+
+  [[nodiscard]] MainWindow& window() { return *window_; }
+  [[nodiscard]] Engine& engine() { return *engine_; }
+  [[nodiscard]] CaseSession& session() { return window_->active_case()->session(); }
+  [[nodiscard]] const CaseState& state() { return session().state(); }
+
+  // Opens and waits until the first pictures are there.
+  CaseWindow* open_phantom(const QString& kind);
+  CaseWindow* open(const QString& path);
+  // A view of the active case by its title; the test fails if it is not there.
+  template <class View>
+  View* view(const QString& title = {}) {
+    for (PictureView* view : window_->active_case()->views()) {
+      auto* wanted = qobject_cast<View*>(view);
+      if (wanted && wanted->isVisible() && (title.isEmpty() || wanted->title() == title)) return wanted;
+    }
+    return nullptr;
+  }
+  // Presses at one point of the patient, moves over the others, and lets go.
+  static void drag(PictureView& view, const std::vector<glm::dvec3>& patient_mm,
+                   Qt::MouseButton button = Qt::LeftButton, Qt::KeyboardModifiers modifiers = {});
+  static void drag(QWidget& widget, const std::vector<QPoint>& way, Qt::MouseButton button = Qt::LeftButton,
+                   Qt::KeyboardModifiers modifiers = {});
+  void press(Qt::Key key, Qt::KeyboardModifiers modifiers = {});
+
+  // Until the engine has done everything, and the user interface has seen it.
+  void settle();
+  static bool wait_for(const std::function<bool()>& condition, int milliseconds = 20000);
+  // Where TIDEMARK_SCREENSHOTS says, if it does.
+  void screenshot(const QString& name);
+
+ private:
+  TemporaryFolder home_;
+  std::unique_ptr<Engine> engine_;
+  std::unique_ptr<MainWindow> window_;
+};
+
+// Share of the pixels that differ by more than a little.
+double difference(const QImage& a, const QImage& b);
+
+}  // namespace tidemark::test
+
+// main() of a test that opens windows: Qt as the program itself sets it up.
+#define TIDEMARK_DESKTOP_TEST_MAIN(Class)   \
+  int main(int argc, char** argv) {         \
+    tidemark::test::prepare_desktop();      \
+    QApplication application(argc, argv);   \
+    Class test;                             \
+    return QTest::qExec(&test, argc, argv); \
+  }
+
+namespace tidemark::test {
+void prepare_desktop();
+}

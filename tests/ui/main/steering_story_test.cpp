@@ -1,0 +1,163 @@
+// A segmentation from the first look to the saved session, with every executor.
+#include <QApplication>
+#include <QObject>
+#include <cmath>
+
+#include "imaging/phantom/phantom.h"
+#include "imaging/study.h"
+#include "tests/ui/main/desktop.h"
+#include "ui/main/saved_cases.h"
+
+namespace tidemark::test {
+
+class SteeringStoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_study_is_opened_probed_steered_and_saved_data();
+  void a_study_is_opened_probed_steered_and_saved();
+};
+
+void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved_data() {
+  QTest::addColumn<int>("executor");
+  QTest::newRow("host") << static_cast<int>(ExecutorKind::host);
+  QTest::newRow("compute") << static_cast<int>(ExecutorKind::compute);
+  QTest::newRow("stream") << static_cast<int>(ExecutorKind::stream);
+}
+
+void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
+  QFETCH(int, executor);
+  const bool host = executor == static_cast<int>(ExecutorKind::host);
+  const TemporaryFolder folder;
+  const auto phantom = make_phantom("tumour");
+  QVERIFY(phantom);
+  QCOMPARE(failure(write_phantom(*phantom, folder.path())), QString());
+  Desktop desktop(static_cast<ExecutorKind>(executor));
+  Watchdog watchdog;
+
+  // A DICOM folder.
+  QVERIFY(desktop.open(QString::fromStdString((folder / "series").string())));
+  QCOMPARE(desktop.session().volume().geometry.size.x, std::int64_t{256});
+  auto* axial = desktop.view<SliceViewWidget>("Axial");
+  auto* speed = desktop.view<SliceViewWidget>("Speed map, axial");
+  auto* volume = desktop.view<VolumeViewWidget>();
+  QVERIFY(axial && speed && volume);
+  QVERIFY(!axial->feed().shown().image.isNull());
+  QVERIFY(desktop.engine().contexts_made() == 1);
+
+  // The slice of the tumour, by the linked cursor.
+  const Geometry& geometry = desktop.session().volume().geometry;
+  const auto& seed = *phantom->seed;
+  const glm::dvec3 centre = geometry.to_patient({seed[0], seed[1], seed[2]});
+  desktop.session().display().change([&](DisplaySettings& s) { s.cursor_mm = centre; });
+
+  // Probe: T and epsilon from the tissue.
+  desktop.press(Qt::Key_T);
+  QCOMPARE(desktop.session().display().settings().tool, Tool::probe_speed);
+  Desktop::drag(*axial, {centre - glm::dvec3(8, 0, 0), centre, centre + glm::dvec3(8, 4, 0)});
+  desktop.settle();
+  QVERIFY(std::abs(desktop.state().parameters.target - phantom->target) < 60.0);
+  const double probed_range = desktop.state().parameters.range;
+  QVERIFY(probed_range > 1.0 && probed_range < 200.0);
+  desktop.screenshot(QStringLiteral("story-%1-1-probed").arg(executor));
+  // One drag is one entry of the history.
+  desktop.press(Qt::Key_Z, Qt::ControlModifier);
+  desktop.settle();
+  QCOMPARE(desktop.state().parameters.range, desktop.session().study().parameters.range);
+  Parameters parameters = desktop.state().parameters;
+  parameters.target = phantom->target;
+  parameters.range = phantom->range;
+  parameters.alpha = phantom->alpha;
+  desktop.session().set_parameters(parameters);
+
+  // A sphere by press and drag.
+  desktop.press(Qt::Key_S);
+  Desktop::drag(*axial, {centre, centre + glm::dvec3(3, 0, 0), centre + glm::dvec3(7, 0, 0)});
+  desktop.settle();
+  QVERIFY(desktop.state().begun);
+  const double sphere_ml = 4.0 / 3.0 * M_PI * 7.0 * 7.0 * 7.0 / 1000.0;
+  QVERIFY2(std::abs(desktop.state().surface.volume_ml / sphere_ml - 1.0) < 0.25,
+           qPrintable(QString::number(desktop.state().surface.volume_ml)));
+
+  // Play, change T in mid-run, erase while it runs.
+  const std::uint64_t pictures = axial->feed().shown().number;
+  desktop.press(Qt::Key_P);
+  QVERIFY(Desktop::wait_for([&] { return desktop.state().playing && desktop.state().step > 20; }));
+  parameters.target += 5.0;
+  desktop.session().set_parameters(parameters);
+  QVERIFY(Desktop::wait_for([&] { return desktop.state().parameters.target == parameters.target; }));
+  desktop.press(Qt::Key_E);
+  const glm::dvec3 outwards = centre + glm::dvec3(5, 0, 0);
+  Desktop::drag(*axial, {centre, outwards});
+  QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }, 120000));
+  desktop.settle();
+  QVERIFY(axial->feed().shown().number > pictures);
+  QVERIFY(desktop.state().converged);
+  QVERIFY(desktop.state().surface.volume_ml > 100.0 && desktop.state().surface.volume_ml < 130.0);
+  desktop.screenshot(QStringLiteral("story-%1-2-converged").arg(executor));
+  qInfo("step %lld, %.0f steps/s with pictures", static_cast<long long>(desktop.state().step),
+        desktop.state().solver_steps_per_second);
+
+  // Undo takes the evolution back, redo brings it again.
+  const double volume_ml = desktop.state().surface.volume_ml;
+  const std::int64_t step = desktop.state().step;
+  desktop.press(Qt::Key_Z, Qt::ControlModifier);
+  desktop.settle();
+  QVERIFY(desktop.state().step < step);
+  desktop.press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  desktop.settle();
+  QCOMPARE(desktop.state().step, step);
+  QVERIFY(std::abs(desktop.state().surface.volume_ml - volume_ml) < 1e-9);
+
+  // Into a label, out as mask and polygons.
+  desktop.session().add_label("Tumour");
+  desktop.settle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  desktop.session().accept_surface(desktop.state().labels[0].id);
+  desktop.settle();
+  QCOMPARE(desktop.state().label_statistics[0].voxels, desktop.state().surface.voxels_inside);
+  int written = 0;
+  SavedCases& saved = desktop.window().saved_cases();
+  QObject::connect(&saved, &SavedCases::written, &saved, [&] { ++written; });
+  const QString mask_file = QString::fromStdString((folder / "mask.nii.gz").string());
+  saved.write_mask(*desktop.window().active_case(), mask_file);
+  saved.write_labels(*desktop.window().active_case(),
+                     QString::fromStdString((folder / "labels.nrrd").string()));
+  saved.write_surface(*desktop.window().active_case(),
+                      QString::fromStdString((folder / "surface.stl").string()));
+  QVERIFY(Desktop::wait_for([&] { return written == 3; }));
+  const auto mask = load_mask(folder / "mask.nii.gz");
+  QVERIFY(mask);
+  QCOMPARE(mask->count(), desktop.state().surface.voxels_inside);
+  QVERIFY(dice(*mask, phantom->truth) > 0.97);
+
+  // A session, closed and opened again: everything is there.
+  const QString session_file = QString::fromStdString((folder / "case.tidemark").string());
+  desktop.window().active_case()->session_file = session_file;
+  QVERIFY(desktop.state().modified);
+  desktop.press(Qt::Key_S, Qt::ControlModifier);
+  QVERIFY(Desktop::wait_for([&] { return written == 4; }));
+  desktop.settle();
+  QVERIFY(!desktop.state().modified);
+  const QImage before = volume->grab_picture();
+  desktop.press(Qt::Key_W, Qt::ControlModifier);
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().isEmpty(); }));
+  QVERIFY(desktop.open(session_file));
+  QCOMPARE(desktop.state().step, step);
+  QCOMPARE(desktop.state().surface.voxels_inside, mask->count());
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  QCOMPARE(desktop.state().parameters.target, parameters.target);
+  QVERIFY(!desktop.state().modified);
+  auto* volume_again = desktop.view<VolumeViewWidget>();
+  QVERIFY(volume_again);
+  QVERIFY(difference(volume_again->grab_picture(), before) < 0.02);
+  desktop.screenshot(QStringLiteral("story-%1-3-reopened").arg(executor));
+  QCOMPARE(desktop.engine().contexts_made(), 1);
+  qInfo("the user interface was late by %.0f ms at most (%s)", watchdog.longest_ms(),
+        host ? "host" : "GL executor");
+}
+
+}  // namespace tidemark::test
+
+TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::SteeringStoryTest)
+#include "steering_story_test.moc"
