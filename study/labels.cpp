@@ -65,11 +65,11 @@ std::vector<Run> changed_runs(const std::vector<std::uint8_t>& before,
 
 class LabelsChange : public Change {
  public:
-  LabelsChange(Labels& labels, std::vector<Label> list_before, const std::vector<std::uint8_t>& voxels_before)
+  LabelsChange(Labels& labels, std::vector<Label> list_before, std::vector<Run> runs)
       : labels_(labels),
         list_before_(std::move(list_before)),
         list_after_(labels.list_),
-        runs_(changed_runs(voxels_before, labels.voxels_)) {}
+        runs_(std::move(runs)) {}
 
   Status undo() override {
     labels_.list_ = list_before_;
@@ -83,7 +83,6 @@ class LabelsChange : public Change {
     return static_cast<std::int64_t>(sizeof(*this) + runs_.size() * sizeof(Run) +
                                      (list_before_.size() + list_after_.size()) * sizeof(Label));
   }
-  [[nodiscard]] bool moves_voxels() const { return !runs_.empty(); }
 
  private:
   Status put(std::uint8_t Run::*side) {
@@ -105,16 +104,25 @@ const Label* Labels::find(std::uint8_t id) const {
   return found == list_.end() ? nullptr : &*found;
 }
 
-Status Labels::change(ChangeKind kind, const std::string& name, const std::function<void()>& edit) {
+Status Labels::change(ChangeKind kind, const std::string& name, Touches what,
+                      const std::function<void()>& edit) {
   if (history_ != nullptr) {
     if (Status closed = history_->close(); !closed) return closed;
   }
   std::vector<Label> list_before = list_;
-  const std::vector<std::uint8_t> voxels_before = voxels_;
-  edit();
-  auto entry = std::make_unique<LabelsChange>(*this, std::move(list_before), voxels_before);
-  if (entry->moves_voxels()) ++revision_;
-  if (history_ != nullptr) history_->add({kind, 0, name}, std::move(entry));
+  std::vector<Run> runs;
+  if (what == Touches::list) {
+    edit();
+  } else {
+    const std::vector<std::uint8_t> voxels_before = voxels_;
+    edit();
+    runs = changed_runs(voxels_before, voxels_);
+    ++revision_;
+  }
+  if (history_ != nullptr) {
+    history_->add({kind, 0, name},
+                  std::make_unique<LabelsChange>(*this, std::move(list_before), std::move(runs)));
+  }
   return {};
 }
 
@@ -125,7 +133,7 @@ Result<std::uint8_t> Labels::add(std::string name) {
     label.id = static_cast<std::uint8_t>(id);
     label.name = name;
     label.colour = colour_of(label.id);
-    Status changed = change(ChangeKind::new_label, name, [&] { list_.push_back(label); });
+    Status changed = change(ChangeKind::new_label, name, Touches::list, [&] { list_.push_back(label); });
     if (!changed) return pass_on(changed);
     return label.id;
   }
@@ -137,14 +145,14 @@ Status Labels::set(const Label& label) {
   if (present == nullptr) return fail(ErrorKind::usage, "there is no label {}", label.id);
   if (*present == label) return {};
   const auto index = static_cast<std::size_t>(present - list_.data());
-  return change(ChangeKind::label_settings, label.name, [&] { list_[index] = label; });
+  return change(ChangeKind::label_settings, label.name, Touches::list, [&] { list_[index] = label; });
 }
 
 Status Labels::remove(std::uint8_t id) {
   const Label* present = find(id);
   if (present == nullptr) return fail(ErrorKind::usage, "there is no label {}", id);
   if (present->locked) return fail(ErrorKind::usage, "label {} is locked", present->name);
-  return change(ChangeKind::remove_label, present->name, [&] {
+  return change(ChangeKind::remove_label, present->name, Touches::voxels, [&] {
     std::erase_if(list_, [&](const Label& label) { return label.id == id; });
     std::replace(voxels_.begin(), voxels_.end(), id, std::uint8_t{0});
   });
@@ -160,7 +168,7 @@ Status Labels::accept(const Mask& mask, std::uint8_t id, bool replace) {
   std::array<bool, 256> free{};  // whose voxels may be given away
   free.fill(true);
   for (const Label& other : list_) free[other.id] = !other.locked;
-  return change(ChangeKind::accept, label->name, [&] {
+  return change(ChangeKind::accept, label->name, Touches::voxels, [&] {
     voxels_.resize(mask.voxels.size());
     for (std::size_t i = 0; i < mask.voxels.size(); ++i) {
       std::uint8_t& voxel = voxels_[i];

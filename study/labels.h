@@ -53,8 +53,9 @@ class Labels {
  private:
   friend class LabelsChange;
 
-  // Lets `edit` change the list and the voxels, and makes an entry of what has changed.
-  Status change(ChangeKind kind, const std::string& name, const std::function<void()>& edit);
+  // Lets `edit` change the list, or the list and the voxels, and makes an entry of what has changed.
+  enum class Touches { list, voxels };
+  Status change(ChangeKind kind, const std::string& name, Touches what, const std::function<void()>& edit);
 
   Geometry geometry_;
   History* history_;

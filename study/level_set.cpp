@@ -53,9 +53,6 @@ LevelSet::LevelSet(Rig rig, const Parameters& parameters, History& history)
   put_in_place({recipe_, start_, start_});
 }
 
-// --- what goes on
-// -------------------------------------------------------------------------------------------
-
 ChangeDescription LevelSet::description() const {
   ChangeKind kind = open_->kind;
   if (!moves_phi(kind)) kind = kind_of_change(open_->before.recipe.final_parameters(), parameters());
@@ -147,9 +144,6 @@ Result<std::shared_ptr<const Field>> LevelSet::checkpoint() {
   return known_.phi;
 }
 
-// --- edits
-// --------------------------------------------------------------------------------------------------
-
 Status LevelSet::begin(const Start& start, const Progress& progress) {
   if (Status ended = history_.close(); !ended) return ended;
   auto phi = tidemark::begin(executor(), *source(), start, progress);
@@ -223,9 +217,6 @@ Result<AdvanceReport> LevelSet::advance(const Advance& run) {
   return report;
 }
 
-// --- the way back
-// -------------------------------------------------------------------------------------------
-
 void LevelSet::put_in_place(Point point) {
   recipe_ = point.recipe;
   start_ = point.start;
@@ -235,25 +226,35 @@ void LevelSet::put_in_place(Point point) {
   resumed_ = false;
 }
 
-Status LevelSet::go_to(Point point) {
+// Gives the executor what the point has.
+Status LevelSet::hand_over(const Point& point) {
   const Parameters& wanted = point.recipe.final_parameters();
-  if (point.recipe.final_smoothed_mm() != smoothed_mm()) {
-    if (Status smoothed = rig_.smooth_source(point.recipe.final_smoothed_mm()); !smoothed) return smoothed;
+  if (const double sigma_mm = point.recipe.final_smoothed_mm(); sigma_mm != smoothed_mm()) {
+    if (Status smoothed = rig_.smooth_source(sigma_mm); !smoothed) return smoothed;
   }
   if (!(wanted == parameters())) {
     if (Status set = executor().set_parameters(wanted); !set) return set;
   }
-  if (Status restored = executor().restore(*point.phi); !restored) return restored;
+  return executor().restore(*point.phi);
+}
+
+// When there is no room for the point, back to what is known; no edit goes on then.
+Status LevelSet::go_to(Point point) {
+  Status gone = hand_over(point);
+  if (!gone) {
+    if (Status back = hand_over(known_); !back) return gone;
+    point = known_;
+  }
   point.recipe.executor = rig_.description();
   point.recipe.source = recipe_.source;
   put_in_place(std::move(point));
   resumed_ = true;
-  return {};
+  return gone;
 }
 
 Status LevelSet::resume_from(const Recipe& recipe, std::shared_ptr<const Field> phi) {
   if (Status ended = history_.close(); !ended) return ended;
-  return go_to({recipe, std::move(phi), recipe.steps == 0 ? phi : nullptr});
+  return go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr});
 }
 
 // Brings the executor back to the recipe's start, with the edits that were made before the first step.
@@ -277,12 +278,8 @@ Status LevelSet::prepare_start() {
 
 Status LevelSet::compute_again(std::int64_t target, const Progress& progress) {
   if (in_place_.recipe.steps > 0 && in_place_.recipe.steps <= target) {
+    if (Status there = hand_over(in_place_); !there) return there;
     const Recipe& from = in_place_.recipe;
-    if (from.final_smoothed_mm() != smoothed_mm()) {
-      if (Status smoothed = rig_.smooth_source(from.final_smoothed_mm()); !smoothed) return smoothed;
-    }
-    if (Status set = executor().set_parameters(from.final_parameters()); !set) return set;
-    if (Status restored = executor().restore(*in_place_.phi); !restored) return restored;
     return rig_.play(recipe_, from.events.size(), from.steps, target, progress);
   }
   if (Status prepared = prepare_start(); !prepared) return prepared;
@@ -339,12 +336,9 @@ Status LevelSet::restart() {
   return {};
 }
 
-// --- other executors
-// ----------------------------------------------------------------------------------------
-
 Status LevelSet::change_executor(ExecutorKind kind, const ExecutorOptions& options) {
   if (Status ended = history_.close(); !ended) return ended;
-  if (Status changed = rig_.change_executor(kind, options); !changed) return changed;
+  if (Status changed = rig_.change_executor(kind, options, *known_.phi); !changed) return changed;
   recipe_.executor = rig_.description();
   known_.recipe.executor = recipe_.executor;
   in_place_ = known_;
@@ -352,8 +346,9 @@ Status LevelSet::change_executor(ExecutorKind kind, const ExecutorOptions& optio
   return {};
 }
 
-Status LevelSet::rebuild(const ExecutorOptions& options) {
-  if (Status rebuilt = rig_.rebuild(options, *known_.phi); !rebuilt) return rebuilt;
+Status LevelSet::rebuild(const ExecutorOptions& options, std::optional<ExecutorKind> kind) {
+  const Status rebuilt = rig_.change_executor(kind.value_or(rig_.kind()), options, *known_.phi);
+  if (!rebuilt) return rebuilt;
   if (open_) open_->settled.reset();
   const Parameters present = parameters();
   if (Status back = go_to(known_); !back) return back;

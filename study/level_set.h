@@ -60,8 +60,8 @@ class LevelSet final : private OpenChange {
   // Goes on with another executor from the same phi.
   Status change_executor(ExecutorKind kind, const ExecutorOptions& options);
   // After the graphics context was lost: a new executor on options.device, from the last checkpoint, with the
-  // present parameters.
-  Status rebuild(const ExecutorOptions& options);
+  // present parameters; of another kind, where none of the same can be had.
+  Status rebuild(const ExecutorOptions& options, std::optional<ExecutorKind> kind = std::nullopt);
 
   // phi for whoever saves or measures. Counts as a checkpoint for rebuild().
   Result<std::shared_ptr<const Field>> checkpoint();
@@ -103,6 +103,7 @@ class LevelSet final : private OpenChange {
   void add_entry(ChangeKind kind, const Point& before, const Point& after);
   Status know_phi();
   void put_in_place(Point point);
+  Status hand_over(const Point& point);
   Status go_to(Point point);
   Status prepare_start();
   Status compute_again(std::int64_t target, const Progress& progress);

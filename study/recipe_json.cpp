@@ -28,9 +28,6 @@ Json index_json(const Index3& v) {
   return {v.x, v.y, v.z};
 }
 
-// --- spheres
-// ------------------------------------------------------------------------------------------------
-
 Json to_json(const Sphere& sphere) {
   return {{"centre_mm", vector_json(sphere.centre_mm)}, {"radius_mm", sphere.radius_mm}};
 }
@@ -54,9 +51,6 @@ std::vector<Sphere> read_spheres(const JsonField& field) {
   for (std::size_t i = 0; i < count && field.good(); ++i) spheres.push_back(read_sphere(field.at(i)));
   return spheres;
 }
-
-// --- the first part of a start
-// ------------------------------------------------------------------------------
 
 Json packed_mask(const Mask& mask) {
   std::vector<std::byte> bits((mask.voxels.size() + 7) / 8);
@@ -188,9 +182,6 @@ Start read_start(const JsonField& field) {
   start.erasers = read_spheres(field.at("erasers"));
   return start;
 }
-
-// --- events
-// -------------------------------------------------------------------------------------------------
 
 Json to_json(const RecipeEvent& event) {
   Json json{{"step", event.step}};

@@ -72,14 +72,8 @@ Status Rig::smooth_source(double sigma_mm) {
   return {};
 }
 
-Status Rig::change_executor(ExecutorKind kind, const ExecutorOptions& options) {
-  const auto phi = executor_->snapshot();
-  if (!phi) return tl::unexpected<Error>(phi.error());
-  return remake(source_, kind, options, *phi);
-}
-
-Status Rig::rebuild(const ExecutorOptions& options, const Field& phi) {
-  return remake(source_, kind_, options, phi);
+Status Rig::change_executor(ExecutorKind kind, const ExecutorOptions& options, const Field& phi) {
+  return remake(source_, kind, options, phi);
 }
 
 Status Rig::begin(const Recipe& recipe, const Progress& progress) {

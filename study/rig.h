@@ -20,13 +20,12 @@ class Rig {
   [[nodiscard]] const std::shared_ptr<const Volume>& volume() const { return volume_; }  // as loaded
   [[nodiscard]] const std::shared_ptr<const Volume>& source() const { return source_; }  // as it is seen
   [[nodiscard]] double smoothed_mm() const { return smoothed_mm_; }
+  [[nodiscard]] ExecutorKind kind() const { return kind_; }  // as it was asked for
   [[nodiscard]] RecipeExecutor description() const;
 
-  // Each makes another executor that goes on from the same phi. When it fails, everything is as it was.
+  // Each makes another executor; when it fails, everything is as it was. The first goes on from the same phi.
   Status smooth_source(double sigma_mm);
-  Status change_executor(ExecutorKind kind, const ExecutorOptions& options);
-  // Another executor in place of one that is lost, with `phi`.
-  Status rebuild(const ExecutorOptions& options, const Field& phi);
+  Status change_executor(ExecutorKind kind, const ExecutorOptions& options, const Field& phi);
 
   // Begins as the recipe does, with the present parameters and source; an empty start: outside everywhere.
   Status begin(const Recipe& recipe, const Progress& progress);

@@ -273,6 +273,47 @@ class HistoryTest : public QObject {
     QCOMPARE(undo_text(*document), std::string("evolution, 30 steps"));
   }
 
+  void a_lost_gpu_gives_way_to_the_processor() {
+    ExecutorOptions options;
+    options.device = gpu::Device::create_headless({gpu::GlVersion::gl45, false}).value();
+    const auto document = begun_case(ExecutorKind::compute, options);
+    LevelSet& level_set = document->level_set();
+    const Seen start(level_set);
+    run(level_set, 6);
+    options.device->lose_at_check(1);
+    QVERIFY(!level_set.advance({.steps = 5}));
+    QCOMPARE(failure(level_set.rebuild({}, ExecutorKind::host)), QString());
+    QCOMPARE(level_set.executor().name(), std::string_view("host"));
+    QVERIFY(Seen(level_set) == start);
+  }
+
+  void what_finds_no_room_leaves_everything_as_it_was() {
+    const auto document = begun_case();
+    LevelSet& level_set = document->level_set();
+    run(level_set, 40);
+    QCOMPARE(failure(level_set.restart()), QString());
+    QCOMPARE(failure(document->smooth_source(0.5)), QString());
+    QCOMPARE(failure(level_set.set_parameters(with_target(level_set.parameters(), 800.0))), QString());
+    const Seen before(level_set);
+    const std::string text = undo_text(*document);
+    ExecutorOptions tight;
+    tight.threads = 1;
+    const MemoryReport memory = level_set.executor().memory();
+    tight.memory_budget_bytes = (memory.state_bytes + memory.source_bytes) * 5 / 4;
+    QCOMPARE(failure(level_set.change_executor(ExecutorKind::host, tight)), QString());
+    // A point with other parameters, another source, and a surface everywhere.
+    Recipe recipe = level_set.recipe();
+    recipe.parameters.target = 900.0;
+    recipe.events.clear();
+    const Geometry& geometry = document->volume()->geometry;
+    const std::vector<float> values(static_cast<std::size_t>(geometry.voxel_count()), 0.5F);
+    const double band = level_set.executor().band();
+    const auto everywhere = std::make_shared<const Field>(Field::from_dense(geometry, values, band));
+    QCOMPARE(level_set.resume_from(recipe, everywhere).error().kind, ErrorKind::capability);
+    QVERIFY(Seen(level_set) == before);
+    QCOMPARE(undo_text(*document), text);
+  }
+
   void restart_keeps_the_parameters_and_what_was_painted_before_the_first_step() {
     const auto document = begun_case();
     LevelSet& level_set = document->level_set();

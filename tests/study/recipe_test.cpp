@@ -90,6 +90,22 @@ class RecipeTest : public QObject {
     QVERIFY(replayed(recipe, document->volume()) == values_of(document->level_set()));
   }
 
+  void putting_phi_back_is_part_of_what_happened() {
+    const auto document = make_case(lumpy_volume({61, 50, 47}, glm::dvec3(1.0)));
+    LevelSet& level_set = document->level_set();
+    QCOMPARE(failure(level_set.begin(seed_in(*document->volume()))), QString());
+    for (int i = 0; i < 100 && level_set.executor().memory().quiet_pages == 0; ++i) run(level_set, 40);
+    QVERIFY(level_set.executor().memory().quiet_pages > 0);
+    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {4, 0, 0}, 4.0), Brush::erase)), QString());
+    QCOMPARE(failure(document->undo()), QString());
+    run(level_set, 100);
+    Recipe recipe = again(level_set.recipe());
+    QVERIFY(replayed(recipe, document->volume()) == values_of(level_set));
+    QCOMPARE(recipe.events.size(), std::size_t{1});
+    recipe.events.clear();
+    QVERIFY(replayed(recipe, document->volume()) != values_of(level_set));
+  }
+
   void any_start_comes_back_data() {
     QTest::addColumn<int>("start");
     const char* const names[] = {"seeds", "threshold", "flood", "mask", "phi", "painted only"};

@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QMdiArea>
 #include <QMdiSubWindow>
+#include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QSettings>
@@ -198,6 +199,8 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
   connect(window, &CaseWindow::close_wanted, saved_, &SavedCases::close);
   QMdiSubWindow* child = area_->addSubWindow(window);
   child->setAttribute(Qt::WA_DeleteOnClose);
+  // Its own menu has keys that ours have, too.
+  for (QAction* action : child->systemMenu()->actions()) action->setShortcut({});
   connect(window, &QWidget::windowTitleChanged, child, &QWidget::setWindowTitle);
   child->setWindowTitle(window->windowTitle());
   child->setWindowIcon(application_icon());
