@@ -80,7 +80,6 @@ Json volume_json(const DisplaySettings& s) {
       {"surface_colour", {s.surface_colour.r, s.surface_colour.g, s.surface_colour.b, s.surface_colour.a}},
       {"colouring", static_cast<int>(s.colouring)},
       {"show_source", s.show_source},
-      {"transfer", s.transfer.to_json()},
       {"region", static_cast<int>(s.region)},
       {"occlusion", s.occlusion},
       {"clip_on", s.clip_on},
@@ -89,6 +88,8 @@ Json volume_json(const DisplaySettings& s) {
       {"clips_source", s.clip.clips_source},
       {"clips_surface", s.clip.clips_surface},
       {"clip_picture", s.clip.picture}};
+  const bool transfers = !s.transfer.source.empty() || !s.transfer.surface.empty();
+  if (transfers) json["transfer"] = s.transfer.to_json();
   if (s.camera.focus_mm) json["focus_mm"] = json_of(*s.camera.focus_mm);
   return json;
 }
@@ -108,6 +109,7 @@ void read_volume(const JsonField& field, DisplaySettings& s) {
   }
   read_enum(field, "colouring", 7, s.colouring);
   read(field, "show_source", s.show_source);
+  s.transfer = {};
   if (field.has("transfer")) {
     auto transfer = TransferFunction::parse(field.at("transfer").text(std::size_t{1} << 20U));
     if (transfer) {

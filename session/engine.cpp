@@ -1,6 +1,7 @@
 #include "session/engine.h"
 
 #include <QCoreApplication>
+#include <algorithm>
 #include <utility>
 
 namespace tidemark {
@@ -114,15 +115,10 @@ void Engine::interrupt(Priority priority, const void* owner) {
   }
 }
 
-void Engine::finish() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] {
-    if (running_) return false;
-    for (const auto& queue : waiting_) {
-      if (!queue.empty()) return false;
-    }
-    return true;
-  });
+bool Engine::idle() const {
+  const std::lock_guard lock(mutex_);
+  const auto nothing = [](const auto& queue) { return queue.empty(); };
+  return !running_ && std::all_of(waiting_.begin(), waiting_.end(), nothing);
 }
 
 // What to do next; none when the engine closes. Edits are done even then: owners let go of their objects so.
@@ -138,7 +134,6 @@ std::optional<Engine::Waiting> Engine::next(std::unique_lock<std::mutex>& lock) 
       return job;
     }
     if (closing_) return std::nullopt;
-    changed_.notify_all();  // finish() may be waiting
     changed_.wait(lock);
   }
 }

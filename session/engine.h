@@ -58,8 +58,8 @@ class Engine : public QObject {
   // Asks the running job to stop if it is less urgent than `priority` and belongs to `owner` (null:
   // anyone's).
   void interrupt(Priority priority, const void* owner = nullptr);
-  // Waits until nothing waits and nothing runs (tests). A level set that plays never lets that happen.
-  void finish();
+  // Whether nothing waits and nothing runs.
+  [[nodiscard]] bool idle() const;
 
   // On the engine's thread: the device, null without OpenGL.
   [[nodiscard]] const std::shared_ptr<gpu::Device>& device() const { return device_; }

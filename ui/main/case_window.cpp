@@ -301,14 +301,15 @@ std::string CaseWindow::view_state() const {
   return QJsonDocument(state).toJson(QJsonDocument::Compact).toStdString();
 }
 
-void CaseWindow::restore_view_state(const std::string& text) {
+Status CaseWindow::restore_view_state(const std::string& text) {
   const QJsonObject state = QJsonDocument::fromJson(QByteArray::fromStdString(text)).object();
-  if (auto settings =
-          display_settings(state["display"].toString("{}").toStdString(), session_->display().settings())) {
-    session_->display().set(std::move(*settings));
-  }
   const QByteArray views = QByteArray::fromBase64(state["views"].toString().toLatin1());
   if (!views.isEmpty()) restore_arrangement(views);
+  auto settings =
+      display_settings(state["display"].toString("{}").toStdString(), session_->display().settings());
+  if (!settings) return pass_on(settings);
+  session_->display().set(std::move(*settings));
+  return {};
 }
 
 void CaseWindow::close_saved() {

@@ -42,9 +42,10 @@ class CaseWindow : public QMainWindow {
   [[nodiscard]] QDockWidget* dock_of(const PictureView* view) const;
   void reset_views();
 
-  // How everything is shown, for session files; what makes no sense of it is left as it is.
+  // How everything is shown, for session files. Fails (ErrorKind::input) on settings that make no sense; they are
+  // then as before.
   [[nodiscard]] std::string view_state() const;
-  void restore_view_state(const std::string& state);
+  Status restore_view_state(const std::string& state);
   // Closes without a question: what there is to lose was just saved.
   void close_saved();
 

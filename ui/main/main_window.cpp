@@ -204,7 +204,6 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
   connect(window, &QWidget::windowTitleChanged, child, &QWidget::setWindowTitle);
   child->setWindowTitle(window->windowTitle());
   child->setWindowIcon(application_icon());
-  if (restored.contents) window->restore_view_state(restored.contents->view_state);
   links_->add(*window);
   centre_->setCurrentWidget(area_);
   if (area_->viewMode() == QMdiArea::TabbedView || area_->subWindowList().size() == 1) {
@@ -212,6 +211,10 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
   } else {
     child->show();
     area_->tileSubWindows();
+  }
+  if (restored.contents) {
+    const Status shown = window->restore_view_state(restored.contents->view_state);
+    if (!shown) tell(tr("How it was shown is lost: %1").arg(QString::fromStdString(shown.error().message)));
   }
   if (!study->volume->changes.empty()) {
     auto* report = new LoadReport(*study);

@@ -1,6 +1,7 @@
 #include "tests/ui/main/desktop.h"
 
-#include <QApplication>
+#include <QElapsedTimer>
+#include <QMetaEnum>
 #include <QSettings>
 #include <QStandardPaths>
 #include <algorithm>
@@ -10,12 +11,6 @@
 #include "ui/look/theme.h"
 
 namespace tidemark::test {
-namespace {
-
-constexpr int kTickMilliseconds = 5;
-
-}  // namespace
-
 void prepare_desktop() {
   QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
   QCoreApplication::setOrganizationName("tidemark-test");
@@ -23,20 +18,35 @@ void prepare_desktop() {
   QStandardPaths::setTestModeEnabled(true);
 }
 
-Watchdog::Watchdog() {
-  timer_.setTimerType(Qt::PreciseTimer);
-  connect(&timer_, &QTimer::timeout, this, [this] {
-    const double late = static_cast<double>(since_.nsecsElapsed()) / 1e6 - kTickMilliseconds;
-    longest_ms_ = std::max(longest_ms_, late);
-    since_.restart();
-  });
-  restart();
+bool WatchedApplication::notify(QObject* receiver, QEvent* event) {
+  // Events within events belong to the outermost one.
+  if (depth_ > 0) return QApplication::notify(receiver, event);
+  const QEvent::Type type = event->type();
+  const QString name = receiver ? receiver->metaObject()->className() : QString();
+  QElapsedTimer since;
+  since.start();
+  ++depth_;
+  const bool handled = QApplication::notify(receiver, event);
+  --depth_;
+  const double ms = static_cast<double>(since.nsecsElapsed()) / 1e6;
+  if (ms > longest_ms_) {
+    longest_ms_ = ms;
+    in_ = QStringLiteral("%1 of %2").arg(QMetaEnum::fromType<QEvent::Type>().valueToKey(type), name);
+  }
+  return handled;
 }
 
-void Watchdog::restart() {
+void WatchedApplication::restart() {
   longest_ms_ = 0.0;
-  since_.restart();
-  timer_.start(kTickMilliseconds);
+  in_.clear();
+}
+
+QString WatchedApplication::longest() const {
+  return QStringLiteral("%1 ms in %2").arg(longest_ms_, 0, 'f', 0).arg(in_);
+}
+
+WatchedApplication& WatchedApplication::instance() {
+  return static_cast<WatchedApplication&>(*qApp);
 }
 
 Desktop::Desktop(ExecutorKind executor, QSize size) {
@@ -102,7 +112,7 @@ void Desktop::settle() {
   // Pictures and figures ask for each other: twice nothing to do means that all is done.
   for (int quiet = 0; quiet < 2; ++quiet) {
     QTest::qWait(20);
-    engine_->finish();
+    wait_for([this] { return engine_->idle(); }, 60000);
     QTest::qWait(20);
   }
 }

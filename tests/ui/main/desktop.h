@@ -1,10 +1,9 @@
 // The desktop as tests drive it: real windows on a screen that nobody sees.
 #pragma once
 
-#include <QElapsedTimer>
+#include <QApplication>
 #include <QImage>
 #include <QTest>
-#include <QTimer>
 #include <functional>
 #include <memory>
 
@@ -17,18 +16,21 @@
 
 namespace tidemark::test {
 
-// Notices how long the thread of the user interface does not come back to its event loop: a timer that should
-// fire every few milliseconds says by how much it was late.
-class Watchdog : public QObject {
+// Notices how long the thread of the user interface is busy with one event, and with which.
+class WatchedApplication : public QApplication {
  public:
-  Watchdog();
-  [[nodiscard]] double longest_ms() const { return longest_ms_; }
+  using QApplication::QApplication;
+  bool notify(QObject* receiver, QEvent* event) override;
+
   void restart();
+  [[nodiscard]] double longest_ms() const { return longest_ms_; }
+  [[nodiscard]] QString longest() const;  // "31 ms in Paint of tidemark::VolumeViewWidget"
+  [[nodiscard]] static WatchedApplication& instance();
 
  private:
-  QTimer timer_;
-  QElapsedTimer since_;
+  int depth_ = 0;
   double longest_ms_ = 0.0;
+  QString in_;
 };
 
 // Settings, recovery and everything else of this program goes into a folder of its own that is gone after it.
@@ -79,12 +81,12 @@ double difference(const QImage& a, const QImage& b);
 }  // namespace tidemark::test
 
 // main() of a test that opens windows: Qt as the program itself sets it up.
-#define TIDEMARK_DESKTOP_TEST_MAIN(Class)   \
-  int main(int argc, char** argv) {         \
-    tidemark::test::prepare_desktop();      \
-    QApplication application(argc, argv);   \
-    Class test;                             \
-    return QTest::qExec(&test, argc, argv); \
+#define TIDEMARK_DESKTOP_TEST_MAIN(Class)                       \
+  int main(int argc, char** argv) {                             \
+    tidemark::test::prepare_desktop();                          \
+    tidemark::test::WatchedApplication application(argc, argv); \
+    Class test;                                                 \
+    return QTest::qExec(&test, argc, argv);                     \
   }
 
 namespace tidemark::test {

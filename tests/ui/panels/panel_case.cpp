@@ -46,7 +46,7 @@ PanelCase::PanelCase() : session(std::make_unique<CaseSession>(engine, ball_stud
 }
 
 void PanelCase::settle() {
-  engine.finish();
+  static_cast<void>(QTest::qWaitFor([this] { return engine.idle(); }, 60000));
   QCoreApplication::sendPostedEvents();
   QCoreApplication::processEvents();
 }
