@@ -9,7 +9,7 @@
 #include <QSettings>
 #include <algorithm>
 
-#include "renderer/sheet.h"
+#include "renderer/camera.h"
 #include "session/display_json.h"
 #include "ui/views/slice_view.h"
 #include "ui/views/view_bar.h"
@@ -39,7 +39,10 @@ DisplaySettings first_settings(const CaseSession& session) {
     const auto& seed = *start->seed;
     settings.cursor_mm = volume.geometry.to_patient({seed[0], seed[1], seed[2]});
   }
-  settings.window = window_of(volume);
+  // The file's own, else one over the values that are common.
+  const SourceSummary& summary = session.summary();
+  settings.window = volume.window.value_or(
+      WindowLevel{0.5 * (summary.low + summary.high), std::max<double>(summary.high - summary.low, 1e-6)});
   settings.clip.normal = {0.0, -1.0, 0.0};
   settings.clip.offset_mm = -middle_of(volume.geometry).y;
   settings.camera.azimuth = 30.0;

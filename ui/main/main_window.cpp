@@ -205,23 +205,31 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
   child->setWindowTitle(window->windowTitle());
   child->setWindowIcon(application_icon());
   links_->add(*window);
+  // The user interface draws breath between making a case and showing it.
+  const auto show = [this, child = QPointer(child), study, restored] {
+    if (child) show_case(*child, *study, restored);
+  };
+  QMetaObject::invokeMethod(this, show, Qt::QueuedConnection);
+  return window;
+}
+
+void MainWindow::show_case(QMdiSubWindow& child, const LoadedStudy& study, const RestoredCase& restored) {
   centre_->setCurrentWidget(area_);
   if (area_->viewMode() == QMdiArea::TabbedView || area_->subWindowList().size() == 1) {
-    child->showMaximized();
+    child.showMaximized();
   } else {
-    child->show();
+    child.show();
     area_->tileSubWindows();
   }
+  auto& window = static_cast<CaseWindow&>(*child.widget());
   if (restored.contents) {
-    const Status shown = window->restore_view_state(restored.contents->view_state);
+    const Status shown = window.restore_view_state(restored.contents->view_state);
     if (!shown) tell(tr("How it was shown is lost: %1").arg(QString::fromStdString(shown.error().message)));
   }
-  if (!study->volume->changes.empty()) {
-    auto* report = new LoadReport(*study);
-    messages_->show_widget(report);
-    connect(report, &LoadReport::dismissed, messages_, &MessageBar::dismiss);
-  }
-  return window;
+  if (study.volume->changes.empty()) return;
+  auto* report = new LoadReport(study);
+  messages_->show_widget(report);
+  connect(report, &LoadReport::dismissed, messages_, &MessageBar::dismiss);
 }
 
 void MainWindow::tell(const QString& message) {

@@ -59,6 +59,7 @@ class MainWindow : public QMainWindow {
   void connect_windows();
   void ask_for_folder();
   void ask_for_file();
+  void show_case(QMdiSubWindow& child, const LoadedStudy& study, const RestoredCase& restored);
   void activate(QMdiSubWindow* window);
   void follow_case();
   // A case as it is wanted by an action; nothing happens without one.

@@ -43,7 +43,7 @@ const char* const kSessionSuffix = "tidemark";
 }  // namespace
 
 SavedCases::SavedCases(MainWindow& window) : QObject(&window), window_(window) {
-  connect(&loader_, &StudyLoader::loaded, this, &SavedCases::restore);
+  connect(&loader_, &StudyLoader::loaded, this, &SavedCases::compare);
   connect(&loader_, &StudyLoader::failed, this, [this](const QString& message) {
     window_.tell(tr("The study of the session %1 was not found: %2").arg(waiting_.file, message));
     waiting_ = {};
@@ -230,20 +230,27 @@ void SavedCases::find_volume(std::shared_ptr<const SessionContents> contents) {
   loader_.load(origin.path, origin.series_uid);
 }
 
-// The volume is here: is it the one that the session is about?
-void SavedCases::restore(const std::shared_ptr<const LoadedStudy>& study) {
+// The volume is here: is it the one that the session is about? Comparing reads all of it.
+void SavedCases::compare(const std::shared_ptr<const LoadedStudy>& study) {
+  if (!waiting_.contents) return;
+  jobs_.push_back(BackgroundJob::start(this, [this, study, contents = waiting_.contents](BackgroundJob& job) {
+    const VolumeMatch found = match(*contents, *study->volume);
+    job.deliver([this, study, contents, found] {
+      if (waiting_.contents == contents) restore(study, found);
+    });
+  }));
+}
+
+void SavedCases::restore(const std::shared_ptr<const LoadedStudy>& study, VolumeMatch found) {
   const Waiting waiting = std::exchange(waiting_, {});
-  if (!waiting.contents) return;
-  const VolumeMatch found = match(*waiting.contents, *study->volume);
   if (found == VolumeMatch::other_grid) {
     return window_.tell(
         tr("The study of the session %1 is another one now: its size or place differ").arg(waiting.file));
   }
   if (found == VolumeMatch::other_voxels &&
-      QMessageBox::question(
-          &window_, tr("Open a session"),
-          tr("The voxels of this study are not those that the session was saved with. Go on "
-             "all the same? Nothing is overwritten.")) != QMessageBox::Yes) {
+      QMessageBox::question(&window_, tr("Open a session"),
+                            tr("The voxels of this study are not those that the session was saved with. Go on "
+                               "all the same? Nothing is overwritten.")) != QMessageBox::Yes) {
     return;
   }
   CaseWindow* window = window_.add_case(study, {waiting.contents, waiting.rescued});

@@ -63,7 +63,8 @@ class SavedCases : public QObject {
   void save_to(CaseWindow& window, const QString& file, std::function<void()> done = {});
   void read(const QString& file, bool rescued, std::function<void()> done);
   void find_volume(std::shared_ptr<const SessionContents> contents);
-  void restore(const std::shared_ptr<const LoadedStudy>& study);
+  void compare(const std::shared_ptr<const LoadedStudy>& study);
+  void restore(const std::shared_ptr<const LoadedStudy>& study, VolumeMatch found);
 
   // A session that waits for its volume.
   struct Waiting {

@@ -18,6 +18,10 @@ void prepare_desktop() {
   QStandardPaths::setTestModeEnabled(true);
 }
 
+namespace {
+constexpr double kWorthTelling = 30.0;  // milliseconds
+}
+
 bool WatchedApplication::notify(QObject* receiver, QEvent* event) {
   // Events within events belong to the outermost one.
   if (depth_ > 0) return QApplication::notify(receiver, event);
@@ -29,6 +33,9 @@ bool WatchedApplication::notify(QObject* receiver, QEvent* event) {
   const bool handled = QApplication::notify(receiver, event);
   --depth_;
   const double ms = static_cast<double>(since.nsecsElapsed()) / 1e6;
+  if (ms > kWorthTelling) {
+    qInfo("%.0f ms in %s of %s", ms, QMetaEnum::fromType<QEvent::Type>().valueToKey(type), qPrintable(name));
+  }
   if (ms > longest_ms_) {
     longest_ms_ = ms;
     in_ = QStringLiteral("%1 of %2").arg(QMetaEnum::fromType<QEvent::Type>().valueToKey(type), name);
