@@ -14,7 +14,29 @@ namespace {
 constexpr int kPhiUnit = 0;
 constexpr int kSourceUnit = 3;
 constexpr int kLabelUnit = 5;
-constexpr int kFreeUnit = 6;  // and those behind it
+constexpr int kFreeUnit = 6;         // and those behind it
+constexpr int kLabelColourUnit = 7;  // of slice views, which have no need of more free ones
+
+// After Okabe and Ito, and more; also for people who see few colours.
+std::vector<Renderer::LabelColour> first_label_colours() {
+  constexpr std::array<Renderer::LabelColour, 12> kColours{{{230, 158, 0, 255},
+                                                            {87, 181, 232, 255},
+                                                            {0, 158, 115, 255},
+                                                            {214, 94, 0, 255},
+                                                            {204, 120, 166, 255},
+                                                            {0, 115, 179, 255},
+                                                            {240, 227, 66, 255},
+                                                            {153, 204, 51, 255},
+                                                            {140, 89, 217, 255},
+                                                            {115, 77, 38, 255},
+                                                            {242, 153, 191, 255},
+                                                            {51, 204, 204, 255}}};
+  std::vector<Renderer::LabelColour> colours(Renderer::kLabels);
+  for (std::size_t label = 1; label < colours.size(); ++label) {
+    colours[label] = kColours[(label - 1) % kColours.size()];
+  }
+  return colours;
+}
 
 // The view moved by a part of a picture's pixels.
 glm::dmat4 moved_by(glm::dvec2 pixels, PictureSize size) {
@@ -67,6 +89,10 @@ Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> 
                                        "no labels");
   if (!labels) return pass_on(labels);
   renderer->labels_ = std::move(*labels);
+  auto colours = gpu::Texture2D::create(gl, gpu::TexelFormat::rgba8, kLabels, 1, "colours of labels");
+  if (!colours) return pass_on(colours);
+  renderer->label_colours_ = std::move(*colours);
+  if (auto status = renderer->set_label_colours(first_label_colours()); !status) return pass_on(status);
   if (auto status = renderer->set_phi(
           Field::empty(renderer->source_->geometry, renderer->phi_.band(), layout.page_shape()));
       !status) {
@@ -117,6 +143,13 @@ Status Renderer::set_labels(std::span<const std::uint8_t> labels) {
   if (!texture) return pass_on(texture);
   labels_ = std::move(*texture);
   has_labels_ = true;
+  return {};
+}
+
+Status Renderer::set_label_colours(std::span<const LabelColour> colours) {
+  if (colours.size() > kLabels) return fail(ErrorKind::usage, "there are more than {} labels", kLabels);
+  if (auto status = device_->make_current(); !status) return status;
+  label_colours_.upload({0, 0, static_cast<std::int64_t>(colours.size()), 1}, std::as_bytes(colours));
   return {};
 }
 
@@ -266,6 +299,8 @@ Result<Picture> Renderer::draw(const SliceView& view, PictureSize size, const Pr
   slice.set("nearest", view.nearest ? 1 : 0);
   slice.set("show_surface", view.surface ? 1 : 0);
   slice.set("line_pixels", static_cast<float>(view.line_pixels));
+  label_colours_.bind(kLabelColourUnit);
+  slice.set("label_colours", kLabelColourUnit);
   slice.set("label_opacity", has_labels_ ? static_cast<float>(view.label_opacity) : 0.0F);
   slice.set("background", view.background);
   return finish(size, progress);

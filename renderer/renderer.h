@@ -2,6 +2,7 @@
 // and 6.2).
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -50,6 +51,11 @@ class Renderer {
   void set_parameters(const Parameters& parameters);
   // A label for each voxel, 0 for none. Fails (ErrorKind::usage) when there are not as many as voxels.
   Status set_labels(std::span<const std::uint8_t> labels);
+  // Red, green, blue and opacity (0: hidden) of the labels from 0 on; at first all are seen, in colours that
+  // differ. Fails (ErrorKind::usage) on more than kLabels.
+  static constexpr std::size_t kLabels = 256;
+  using LabelColour = std::array<std::uint8_t, 4>;
+  Status set_label_colours(std::span<const LabelColour> colours);
 
   // Fails (ErrorKind::cancelled) when told to stop, (ErrorKind::capability) when the context is lost.
   Result<Picture> draw(const VolumeView& view, PictureSize size, const Progress& progress = {});
@@ -83,6 +89,7 @@ class Renderer {
   SourcePicture source_picture_;
   PhiPicture phi_;
   gpu::Texture3D labels_;
+  gpu::Texture2D label_colours_;
   bool has_labels_ = false;
   struct Made {
     gpu::Program program;

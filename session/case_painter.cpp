@@ -83,6 +83,22 @@ Status CasePainter::show_phi(Canvas& canvas, Case& document, bool with_pages) {
   return status;
 }
 
+Status CasePainter::show_labels(Canvas& canvas, const Labels& labels) {
+  if (canvas.labels != labels.revision() && !labels.voxels().empty()) {
+    if (auto status = canvas.renderer->set_labels(labels.voxels()); !status) return status;
+    canvas.labels = labels.revision();
+  }
+  if (canvas.label_list == labels.list()) return {};
+  std::vector<Renderer::LabelColour> colours(Renderer::kLabels);
+  for (const Label& label : labels.list()) {
+    const std::uint8_t opacity = label.visible ? 255 : 0;
+    colours[label.id] = {label.colour[0], label.colour[1], label.colour[2], opacity};
+  }
+  if (auto status = canvas.renderer->set_label_colours(colours); !status) return status;
+  canvas.label_list = labels.list();
+  return {};
+}
+
 Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>& source, Case& document,
                             bool with_pages) {
   LevelSet& level_set = document.level_set();
@@ -98,13 +114,7 @@ Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>&
     canvas.renderer->set_parameters(level_set.parameters());
     canvas.parameters = level_set.parameters();
   }
-  const Labels& labels = document.labels();
-  if (canvas.labels != labels.revision() && !labels.voxels().empty()) {
-    // Hidden labels are not there; shaders know the others by their number.
-    std::vector<std::uint8_t> shown(labels.voxels().begin(), labels.voxels().end());
-    if (auto status = canvas.renderer->set_labels(shown); !status) return status;
-    canvas.labels = labels.revision();
-  }
+  if (auto status = show_labels(canvas, document.labels()); !status) return status;
   if (canvas.phi != phi_revision_ || (with_pages && canvas.pages != phi_revision_)) {
     if (auto status = show_phi(canvas, document, with_pages); !status) return status;
     canvas.phi = phi_revision_;

@@ -51,14 +51,16 @@ class CasePainter {
     std::unique_ptr<Renderer> renderer;
     std::shared_ptr<const Volume> source;
     std::int64_t phi = -1;
-    std::int64_t pages = -1;  // revision of phi with which the pages' state was shown
-    std::uint64_t labels = 0;
+    std::int64_t pages = -1;   // revision of phi with which the pages' state was shown
+    std::uint64_t labels = 0;  // revision
+    std::vector<Label> label_list;
     std::optional<Parameters> parameters;
   };
 
   Result<Renderer*> renderer_for(const AnyView& view, Case& document);
   Status prepare(Canvas& canvas, const std::shared_ptr<const Volume>& source, Case& document,
                  bool with_pages);
+  static Status show_labels(Canvas& canvas, const Labels& labels);
   Status show_phi(Canvas& canvas, Case& document, bool with_pages);
   Result<bool> draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, Renderer& renderer, std::int64_t step,
                            const Progress& progress);

@@ -24,16 +24,11 @@ uniform bool show_surface;
 uniform float line_pixels;
 uniform usampler3D labels;    // 0: nothing
 uniform float label_opacity;  // 0 without labels
+uniform sampler2D label_colours;  // by label, 256 in a row; opacity 0 for those that are hidden
 uniform vec3 background;
 
 const int kSpeedContent = 1;
 const int kPageContent = 2;
-
-const int kLabelColours = 12;
-const vec3 kLabelColour[kLabelColours] =
-    vec3[](vec3(0.90, 0.62, 0.00), vec3(0.34, 0.71, 0.91), vec3(0.00, 0.62, 0.45), vec3(0.84, 0.37, 0.00),
-           vec3(0.80, 0.47, 0.65), vec3(0.00, 0.45, 0.70), vec3(0.94, 0.89, 0.26), vec3(0.60, 0.80, 0.20),
-           vec3(0.55, 0.35, 0.85), vec3(0.45, 0.30, 0.15), vec3(0.95, 0.60, 0.75), vec3(0.20, 0.80, 0.80));
 
 ivec3 nearest_voxel(vec3 p) {
   return clamp(ivec3(floor(p + 0.5)), ivec3(0), volume_size - 1);
@@ -75,7 +70,8 @@ void main() {
   vec3 colour = content == kSpeedContent ? speed_colour(p, phi, grey) : content == kPageContent ? page_picture(p, grey) : grey;
   if (label_opacity > 0.0) {
     int label = int(texelFetch(labels, nearest_voxel(p), 0).r);
-    if (label > 0) colour = mix(colour, kLabelColour[(label - 1) % kLabelColours], label_opacity);
+    vec4 label_colour = texture(label_colours, vec2((float(label) + 0.5) / 256.0, 0.5));
+    if (label > 0) colour = mix(colour, label_colour.rgb, label_opacity * label_colour.a);
   }
   if (show_surface && abs(phi) < band) {
     // Where the slice grazes the surface phi hardly changes in it; the line must not become a patch.

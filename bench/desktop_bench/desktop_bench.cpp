@@ -1,0 +1,159 @@
+// How quick the desktop is while a level set evolves: pictures and steps a second, and the time from a move
+// of the mouse to the picture that shows it. Opens a window: without a screen, run it by xvfb-run -a.
+//   desktop_bench [--executor host|compute|stream] [--phantom tumour] [--seconds 5]
+#include <QApplication>
+#include <QCommandLineParser>
+#include <QElapsedTimer>
+#include <QSettings>
+#include <QTemporaryDir>
+#include <QTimer>
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "session/engine.h"
+#include "ui/look/theme.h"
+#include "ui/main/main_window.h"
+#include "ui/views/picture_view.h"
+
+namespace {
+
+using namespace tidemark;
+
+// How long the thread of the user interface is busy with one event.
+class TimedApplication : public QApplication {
+ public:
+  using QApplication::QApplication;
+  bool notify(QObject* receiver, QEvent* event) override {
+    if (depth_ > 0) return QApplication::notify(receiver, event);
+    QElapsedTimer since;
+    since.start();
+    ++depth_;
+    const bool handled = QApplication::notify(receiver, event);
+    --depth_;
+    longest_ms = std::max(longest_ms, static_cast<double>(since.nsecsElapsed()) / 1e6);
+    return handled;
+  }
+  double longest_ms = 0.0;
+
+ private:
+  int depth_ = 0;
+};
+
+void wait(int milliseconds) {
+  QEventLoop loop;
+  QTimer::singleShot(milliseconds, &loop, &QEventLoop::quit);
+  loop.exec();
+}
+
+template <class Condition>
+bool wait_for(Condition condition, int milliseconds) {
+  QElapsedTimer since;
+  since.start();
+  while (!condition() && since.elapsed() < milliseconds) wait(1);
+  return condition();
+}
+
+ExecutorKind kind_of(const QString& name) {
+  if (name == "compute") return ExecutorKind::compute;
+  if (name == "stream") return ExecutorKind::stream;
+  return ExecutorKind::host;
+}
+
+void begin(CaseSession& session) {
+  Start start;
+  if (const auto& from = session.study().start; from && from->seed) {
+    const auto& seed = *from->seed;
+    start.seeds.push_back(sphere_at_voxel(session.volume().geometry, {seed[0], seed[1], seed[2]}, seed[3]));
+  } else if (from && from->threshold) {
+    start.from = ThresholdStart{from->threshold->first, from->threshold->second};
+  }
+  session.set_pause_at_convergence(false);
+  session.begin(start);
+}
+
+void measure_rates(CaseWindow& window, double seconds) {
+  CaseSession& session = window.session();
+  std::vector<std::uint64_t> before;
+  for (PictureView* view : window.views()) before.push_back(view->feed().shown().number);
+  const std::int64_t step = session.state().step;
+  QElapsedTimer since;
+  since.start();
+  wait(static_cast<int>(seconds * 1000.0));
+  const double passed = static_cast<double>(since.nsecsElapsed()) / 1e9;
+  std::size_t index = 0;
+  for (PictureView* view : window.views()) {
+    const auto pictures = static_cast<double>(view->feed().shown().number - before[index++]);
+    std::printf("  %-20s %4d x %4d  %5.1f pictures/s\n", qPrintable(view->title()), view->width(),
+                view->height(), pictures / passed);
+  }
+  std::printf("  steps                %12.0f steps/s\n",
+              static_cast<double>(session.state().step - step) / passed);
+}
+
+// From a change of what is to be seen to the first picture of it.
+void measure_latency(CaseWindow& window) {
+  for (PictureView* view : window.views()) {
+    std::vector<double> times;
+    for (int turn = 0; turn < 20; ++turn) {
+      QElapsedTimer since;
+      since.start();
+      window.session().display().change([](DisplaySettings& settings) {
+        settings.cursor_mm.z += 1.0;
+        settings.camera.azimuth += 3.0;
+      });
+      const DisplaySettings wanted = window.session().display().settings();
+      const auto shown = [&] {
+        const AnyView& now = view->feed().shown().view;
+        if (const auto* slice = std::get_if<SliceView>(&now)) return slice->position_mm == wanted.cursor_mm;
+        return std::get<VolumeView>(now).camera == wanted.camera;
+      };
+      if (wait_for(shown, 5000)) times.push_back(static_cast<double>(since.nsecsElapsed()) / 1e6);
+    }
+    std::sort(times.begin(), times.end());
+    if (times.empty()) continue;
+    std::printf("  %-20s input to picture: median %.0f ms, longest %.0f ms\n", qPrintable(view->title()),
+                times[times.size() / 2], times.back());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
+  QCoreApplication::setOrganizationName("tidemark-bench");
+  QCoreApplication::setApplicationName("tidemark-bench");
+  TimedApplication application(argc, argv);
+  const QTemporaryDir home;
+  QSettings::setDefaultFormat(QSettings::IniFormat);
+  QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, home.path());
+  QCommandLineParser parser;
+  parser.addHelpOption();
+  parser.addOptions({{"executor", "host, compute or stream", "name", "host"},
+                     {"phantom", "which synthetic study", "kind", "tumour"},
+                     {"seconds", "how long rates are measured", "s", "5"}});
+  parser.process(application);
+
+  apply_theme(application, Theme::light);
+  Engine engine;
+  MainWindow window(engine);
+  window.set_executor(kind_of(parser.value("executor")));
+  window.resize(1280, 800);
+  window.show();
+  window.open_phantom(parser.value("phantom"));
+  if (!wait_for([&] { return window.active_case() != nullptr; }, 60000)) return 1;
+  CaseSession& session = window.active_case()->session();
+  begin(session);
+  if (!wait_for([&] { return session.state().begun; }, 60000)) return 1;
+  wait(500);
+  application.longest_ms = 0.0;
+  session.play();
+  wait(1000);
+  std::printf("%s, %s, playing:\n", qPrintable(parser.value("phantom")),
+              qPrintable(session.state().executor));
+  measure_rates(*window.active_case(), parser.value("seconds").toDouble());
+  measure_latency(*window.active_case());
+  session.pause();
+  std::printf("  longest event of the user interface %.0f ms\n", application.longest_ms);
+  return 0;
+}
