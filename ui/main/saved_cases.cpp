@@ -45,8 +45,7 @@ const char* const kSessionSuffix = "tidemark";
 SavedCases::SavedCases(MainWindow& window) : QObject(&window), window_(window) {
   connect(&loader_, &StudyLoader::loaded, this, &SavedCases::restore);
   connect(&loader_, &StudyLoader::failed, this, [this](const QString& message) {
-    window_.tell(tr("The study of the session %1 was not found: %2").arg(waiting_.file, message));
-    waiting_ = {};
+    end_reading(tr("The study of the session %1 was not found: %2").arg(waiting_.front().file, message));
   });
 }
 
@@ -207,14 +206,19 @@ void SavedCases::open_rescued(const Recoverable& copy) {
        [id = copy.case_id] { discard(recovery_folder(), id); });
 }
 
+// Sessions that are opened together are opened one after the other.
 void SavedCases::read(const QString& file, bool rescued, std::function<void()> done) {
-  loader_.cancel();
-  waiting_ = {nullptr, file, rescued, std::move(done)};
-  jobs_.push_back(BackgroundJob::start(this, [this, path = path_of(file)](BackgroundJob& job) {
+  waiting_.push_back({nullptr, file, rescued, std::move(done)});
+  if (waiting_.size() == 1) read_next();
+}
+
+void SavedCases::read_next() {
+  const auto path = path_of(waiting_.front().file);
+  jobs_.push_back(BackgroundJob::start(this, [this, path](BackgroundJob& job) {
     auto contents = load_session(path);
     if (!contents) {
       job.deliver(
-          [this, message = QString::fromStdString(contents.error().message)] { window_.tell(message); });
+          [this, message = QString::fromStdString(contents.error().message)] { end_reading(message); });
       return;
     }
     job.deliver([this, contents = std::make_shared<const SessionContents>(std::move(*contents))] {
@@ -223,20 +227,25 @@ void SavedCases::read(const QString& file, bool rescued, std::function<void()> d
   }));
 }
 
+void SavedCases::end_reading(const QString& problem) {
+  if (!problem.isEmpty()) window_.tell(problem);
+  waiting_.pop_front();
+  if (!waiting_.empty()) read_next();
+}
+
 void SavedCases::find_volume(std::shared_ptr<const SessionContents> contents) {
-  waiting_.contents = std::move(contents);
-  const StudyOrigin& origin = waiting_.contents->origin;
+  const StudyOrigin& origin = contents->origin;
+  waiting_.front().contents = contents;
   if (!origin.phantom.empty()) return loader_.make_phantom(origin.phantom);
   loader_.load(origin.path, origin.series_uid);
 }
 
 // The volume is here: is it the one that the session is about?
 void SavedCases::restore(const std::shared_ptr<const LoadedStudy>& study) {
-  const Waiting waiting = std::exchange(waiting_, {});
-  if (!waiting.contents) return;
+  const Waiting waiting = waiting_.front();
   const VolumeMatch found = match(*waiting.contents, *study->volume);
   if (found == VolumeMatch::other_grid) {
-    return window_.tell(
+    return end_reading(
         tr("The study of the session %1 is another one now: its size or place differ").arg(waiting.file));
   }
   if (found == VolumeMatch::other_voxels &&
@@ -244,11 +253,12 @@ void SavedCases::restore(const std::shared_ptr<const LoadedStudy>& study) {
           &window_, tr("Open a session"),
           tr("The voxels of this study are not those that the session was saved with. Go on "
              "all the same? Nothing is overwritten.")) != QMessageBox::Yes) {
-    return;
+    return end_reading();
   }
   CaseWindow* window = window_.add_case(study, {waiting.contents, waiting.rescued});
   if (!waiting.rescued) window->session_file = waiting.file;
   if (waiting.done) waiting.done();
+  end_reading();
 }
 
 void SavedCases::offer_rescued() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QObject>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -62,6 +63,8 @@ class SavedCases : public QObject {
   void run(const QString& file, std::function<Status()> work, std::function<void()> done = {});
   void save_to(CaseWindow& window, const QString& file, std::function<void()> done = {});
   void read(const QString& file, bool rescued, std::function<void()> done);
+  void read_next();
+  void end_reading(const QString& problem = {});
   void find_volume(std::shared_ptr<const SessionContents> contents);
   void restore(const std::shared_ptr<const LoadedStudy>& study);
 
@@ -75,7 +78,7 @@ class SavedCases : public QObject {
 
   MainWindow& window_;
   StudyLoader loader_;
-  Waiting waiting_;
+  std::deque<Waiting> waiting_;  // the first is being read
   std::vector<std::shared_ptr<BackgroundJob>> jobs_;
 };
 
