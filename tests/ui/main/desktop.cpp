@@ -108,6 +108,18 @@ void Desktop::press(Qt::Key key, Qt::KeyboardModifiers modifiers) {
   QTest::keyClick(window_.get(), key, modifiers);
 }
 
+glm::dvec3 Desktop::seed_mm() {
+  const auto& seed = *session().study().start->seed;
+  return session().volume().geometry.to_patient({seed[0], seed[1], seed[2]});
+}
+
+void Desktop::begin(double radius_mm) {
+  Start start;
+  start.seeds.push_back({seed_mm(), radius_mm});
+  session().begin(start);
+  settle();
+}
+
 void Desktop::settle() {
   // Pictures and figures ask for each other: twice nothing to do means that all is done.
   for (int quiet = 0; quiet < 2; ++quiet) {
@@ -142,6 +154,15 @@ double difference(const QImage& a, const QImage& b) {
     }
   }
   return static_cast<double>(differing) / (static_cast<double>(a.width()) * a.height());
+}
+
+bool shows_a_picture(const PictureView& view) {
+  const ShownPicture& shown = view.feed().shown();
+  const QImage& image = shown.image;
+  if (image.isNull() || shown.size != view.physical_size()) return false;
+  QImage first(image.size(), QImage::Format_RGB32);
+  first.fill(image.pixelColor(0, 0));
+  return difference(image, first) > 0.002;
 }
 
 }  // namespace tidemark::test
