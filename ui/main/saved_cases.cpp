@@ -198,17 +198,16 @@ void SavedCases::ask_and_open() {
 }
 
 void SavedCases::open(const QString& file) {
-  read(file, false, {});
+  read(file, {});
 }
 
 void SavedCases::open_rescued(const Recoverable& copy) {
-  read(QString::fromStdU16String(copy.file.u16string()), true,
-       [id = copy.case_id] { discard(recovery_folder(), id); });
+  read(QString::fromStdU16String(copy.file.u16string()), copy.case_id);
 }
 
 // Sessions that are opened together are opened one after the other.
-void SavedCases::read(const QString& file, bool rescued, std::function<void()> done) {
-  waiting_.push_back({nullptr, file, rescued, std::move(done)});
+void SavedCases::read(const QString& file, const std::string& rescued) {
+  waiting_.push_back({nullptr, file, rescued});
   if (waiting_.size() == 1) read_next();
 }
 
@@ -255,10 +254,21 @@ void SavedCases::restore(const std::shared_ptr<const LoadedStudy>& study) {
              "all the same? Nothing is overwritten.")) != QMessageBox::Yes) {
     return end_reading();
   }
-  CaseWindow* window = window_.add_case(study, {waiting.contents, waiting.rescued});
-  if (!waiting.rescued) window->session_file = waiting.file;
-  if (waiting.done) waiting.done();
+  CaseWindow* window = window_.add_case(study, {waiting.contents, !waiting.rescued.empty()});
+  if (waiting.rescued.empty()) {
+    window->session_file = waiting.file;
+  } else {
+    keep_rescued(*window, waiting.rescued);
+  }
   end_reading();
+}
+
+// The copy goes once the case has one of its own, or the user has closed it.
+void SavedCases::keep_rescued(CaseWindow& window, const std::string& copy) {
+  const auto remove = [copy] { discard(recovery_folder(), copy); };
+  connect(&window.autosave(), &CaseAutosave::saved, this, remove, Qt::SingleShotConnection);
+  connect(&window, &QObject::destroyed, this, remove);
+  window.autosave().save_soon();
 }
 
 void SavedCases::offer_rescued() {

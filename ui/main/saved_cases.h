@@ -62,18 +62,18 @@ class SavedCases : public QObject {
   void write(CaseWindow& window, const QString& file, Write work);
   void run(const QString& file, std::function<Status()> work, std::function<void()> done = {});
   void save_to(CaseWindow& window, const QString& file, std::function<void()> done = {});
-  void read(const QString& file, bool rescued, std::function<void()> done);
+  void read(const QString& file, const std::string& rescued);
   void read_next();
   void end_reading(const QString& problem = {});
   void find_volume(std::shared_ptr<const SessionContents> contents);
+  void keep_rescued(CaseWindow& window, const std::string& copy);
   void restore(const std::shared_ptr<const LoadedStudy>& study);
 
   // A session that waits for its volume.
   struct Waiting {
     std::shared_ptr<const SessionContents> contents;
     QString file;
-    bool rescued = false;
-    std::function<void()> done;
+    std::string rescued;  // the copy's case; empty: a file of the user's
   };
 
   MainWindow& window_;
