@@ -3,6 +3,7 @@
 
 #include <QApplication>
 #include <QImage>
+#include <QMessageBox>
 #include <QTest>
 #include <functional>
 #include <memory>
@@ -62,6 +63,9 @@ class Desktop {
   static void drag(QWidget& widget, const std::vector<QPoint>& way, Qt::MouseButton button = Qt::LeftButton,
                    Qt::KeyboardModifiers modifiers = {});
   void press(Qt::Key key, Qt::KeyboardModifiers modifiers = {});
+
+  // Presses that button of the next question.
+  static void answer(QMessageBox::StandardButton button);
 
   // The active case's surface begins with a ball of that radius where the phantom's seed is.
   void begin(double radius_mm);

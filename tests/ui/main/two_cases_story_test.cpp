@@ -156,7 +156,7 @@ void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {
   set_alpha(*cases[0], 0.2);
   set_alpha(*cases[1], 0.8);
   begin_both(desktop, cases, 8.0);
-  Watchdog watchdog;
+  WatchedApplication::instance().restart();
   int rests = 0;
   int torn = 0;
   const auto look = [&] {
