@@ -51,14 +51,15 @@ CaseAutosave::~CaseAutosave() {
 }
 
 void CaseAutosave::follow() {
-  if (session_.state().edits >= saved_edits_ + kEdits) save_now();
+  if (soon_ || session_.state().edits >= saved_edits_ + kEdits) save_now();
 }
 
 void CaseAutosave::save_now() {
   const CaseState& state = session_.state();
-  const bool is_new = state.edits != saved_edits_ || state.step != saved_step_;
+  const bool is_new = soon_ || state.edits != saved_edits_ || state.step != saved_step_;
   if (!state.modified || !is_new || writing_ || failed_) return;
   writing_ = true;
+  soon_ = false;
   saved_edits_ = state.edits;
   saved_step_ = state.step;
   session_.take_snapshot(view_state_(), [self = QPointer(this)](const auto& snapshot) {

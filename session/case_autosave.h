@@ -30,6 +30,8 @@ class CaseAutosave : public QObject {
   ~CaseAutosave() override;
 
   void save_now();
+  // As soon as it is known what the case is like: a rescued one is in no file but the copy that it came from.
+  void save_soon() { soon_ = true; }
 
  signals:
   void saved();
@@ -46,6 +48,7 @@ class CaseAutosave : public QObject {
   QTimer timer_;
   std::uint64_t saved_edits_ = 0;
   std::int64_t saved_step_ = 0;
+  bool soon_ = false;
   bool writing_ = false;
   bool failed_ = false;
 };

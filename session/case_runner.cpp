@@ -10,7 +10,7 @@
 namespace tidemark {
 namespace {
 
-constexpr double kChunkSeconds = 0.016;   // of steps between two pictures
+constexpr double kChunkSeconds = 0.016;  // of steps between two pictures
 constexpr std::int64_t kMostSteps = 50;  // between two pictures: it should be seen how the surface moves
 
 }  // namespace
@@ -37,12 +37,15 @@ void CaseRunner::post(Command command) {
     };
     if (auto status = self->follow_graphics(); !status) self->tell(status.error());
     if (auto status = command(*self, progress); !status) self->tell(status.error());
-    if (!self->case_) return;
-    self->show_pictures();
-    self->post_measurement();
-    self->publish();
+    if (self->case_) self->show();
   };
   engine_.post(Priority::edit, this, std::move(job));
+}
+
+void CaseRunner::show() {
+  show_pictures();
+  post_measurement();
+  publish();
 }
 
 Status CaseRunner::open() {
@@ -119,6 +122,11 @@ Status CaseRunner::adjust(Status outcome) {
 // Playing.
 
 void CaseRunner::set_playing(bool playing) {
+  if (const auto group = group_.lock()) return group->set_playing(playing);
+  play_alone(playing);
+}
+
+void CaseRunner::play_alone(bool playing) {
   const bool begins = playing && !playing_;
   playing_ = playing && case_->level_set().begun();
   if (begins && playing_) post_steps();
@@ -156,21 +164,20 @@ void CaseRunner::run_steps(std::stop_token stop) {
     post_steps();
   } else {
     end_run();
-    post_measurement();
   }
-  show_pictures();
-  publish();
+  show();
 }
 
 Status CaseRunner::advance(std::int64_t steps, const Progress& progress) {
   LevelSet& level_set = case_->level_set();
-  Advance run{steps, pause_at_convergence_, progress};
+  const bool pauses = pause_at_convergence_ && group_.expired();
+  Advance run{steps, pauses, progress};
   run.progress.report = nullptr;
   const auto report = level_set.advance(run);
   if (!report) return tl::unexpected<Error>(report.error());
   meter_.computed(*report, level_set.step());
   painter_.phi_changed();
-  if (report->converged && pause_at_convergence_) playing_ = false;
+  if (report->converged && pauses) playing_ = false;
   if (meter_.due(level_set.executor().name() != "host")) {
     const auto phi = painter_.phi(*case_);
     if (!phi) return tl::unexpected<Error>(phi.error());

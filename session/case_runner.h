@@ -48,22 +48,29 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   Status adjust(Status outcome);
 
   [[nodiscard]] bool playing() const { return playing_; }
+  // With all that it is in lock-step with.
   void set_playing(bool playing);
+  void play_alone(bool playing);
   void set_steps_per_picture(std::int64_t steps) { steps_per_picture_ = steps; }
   void set_pause_at_convergence(bool pause) { pause_at_convergence_ = pause; }
   [[nodiscard]] std::int64_t steps_to_next_picture() const;
-  // Computes steps and takes note of what came of it; a level set that has converged stops playing.
+  // Computes steps and takes note of what came of it; a level set that has converged stops playing, unless it
+  // is in lock-step: then all go on until all have converged.
   Status advance(std::int64_t steps, const Progress& progress);
+  [[nodiscard]] bool may_rest() const { return pause_at_convergence_ && meter_.converged(); }
   Status change_executor(ExecutorKind kind);
   void join(std::weak_ptr<LockStep> group) { group_ = std::move(group); }
 
   // A file holds what the case was like at that position of its history.
   void mark_saved(std::uint64_t position);
 
-  void publish();
-  void show_pictures();  // posts those that are out of date
+  // Brings all that shows the case up to date.
+  void show();
+  void tell(const Error& error);
 
  private:
+  void publish();
+  void show_pictures();  // posts those that are out of date
   void phi_changed();
   void post_steps();
   void run_steps(std::stop_token stop);
@@ -73,7 +80,6 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void end_run();
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels();
   Status follow_graphics();
-  void tell(const Error& error);
   [[nodiscard]] ExecutorOptions executor_options() const;
 
   Engine& engine_;

@@ -65,12 +65,8 @@ void CaseSession::pause() {
 }
 
 void CaseSession::set_playing(bool playing) {
-  tell([playing, group = lock_step_](CaseRunner& runner, const Progress&) -> Status {
-    if (group) {
-      group->set_playing(playing);
-    } else {
-      runner.set_playing(playing);
-    }
+  tell([playing](CaseRunner& runner, const Progress&) -> Status {
+    runner.set_playing(playing);
     return {};
   });
 }

@@ -1,6 +1,7 @@
 // Cases that play together: always at the same step.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -19,12 +20,16 @@ class LockStep : public std::enable_shared_from_this<LockStep> {
   // A turn of `runner`: computes as many steps as take it to where the group goes next, none when it is there
   // already and others are not.
   Status advance(CaseRunner& runner, const Progress& progress);
-  // What one does, all do.
+  // What one does, all do. Those that played rest at the same step.
   void set_playing(bool playing);
 
  private:
-  [[nodiscard]] std::vector<std::shared_ptr<CaseRunner>> members();
+  using Members = std::vector<std::shared_ptr<CaseRunner>>;
+  [[nodiscard]] Members members();
+  void complete_leap(const Members& all) const;
+
   std::vector<std::weak_ptr<CaseRunner>> members_;
+  std::int64_t leap_ = 0;  // steps by which the first of them last went ahead
 };
 
 }  // namespace tidemark

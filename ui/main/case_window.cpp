@@ -207,6 +207,11 @@ void CaseWindow::set_layout(ViewLayout layout) {
       break;
   }
   for (QDockWidget* dock : shown) dock->show();
+  // The others go: restoreState() would show them again wherever they had been.
+  const auto unused = std::stable_partition(docks_.begin(), docks_.end(),
+                                            [&](QDockWidget* dock) { return shown.contains(dock); });
+  qDeleteAll(unused, docks_.end());
+  docks_.erase(unused, docks_.end());
   const int whole = std::max(width(), 600);
   const int high = std::max(height(), 400);
   if (layout == ViewLayout::one_three) {

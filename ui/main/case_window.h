@@ -42,13 +42,14 @@ class CaseWindow : public QMainWindow {
   [[nodiscard]] QDockWidget* dock_of(const PictureView* view) const;
   void reset_views();
 
-  // How everything is shown, for session files. Fails (ErrorKind::input) on settings that make no sense; they are
-  // then as before.
+  // How everything is shown, for session files. Fails (ErrorKind::input) on settings that make no sense; they
+  // are then as before.
   [[nodiscard]] std::string view_state() const;
   Status restore_view_state(const std::string& state);
   // Closes without a question: what there is to lose was just saved.
   void close_saved();
 
+  [[nodiscard]] CaseAutosave& autosave() { return *autosave_; }
   // The case's own file, once it has one.
   QString session_file;
 

@@ -153,7 +153,8 @@ void MainWindow::connect_files() {
   with_case(actions_->export_picture, [this](CaseWindow& window) { saved_->export_picture(window); });
   with_case(actions_->export_statistics, [this](CaseWindow& window) { saved_->export_statistics(window); });
   with_case(actions_->export_recipe, [this](CaseWindow& window) { saved_->export_recipe(window); });
-  connect(actions_->close, &QAction::triggered, area_, &QMdiArea::closeActiveSubWindow);
+  // The MDI area knows of no active window while a panel or a dialog has the keyboard.
+  with_case(actions_->close, [](CaseWindow& window) { window.parentWidget()->close(); });
   connect(actions_->quit, &QAction::triggered, this, &QWidget::close);
 }
 

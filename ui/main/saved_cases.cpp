@@ -45,8 +45,7 @@ const char* const kSessionSuffix = "tidemark";
 SavedCases::SavedCases(MainWindow& window) : QObject(&window), window_(window) {
   connect(&loader_, &StudyLoader::loaded, this, &SavedCases::compare);
   connect(&loader_, &StudyLoader::failed, this, [this](const QString& message) {
-    window_.tell(tr("The study of the session %1 was not found: %2").arg(waiting_.file, message));
-    waiting_ = {};
+    end_reading(tr("The study of the session %1 was not found: %2").arg(waiting_.front().file, message));
   });
 }
 
@@ -199,22 +198,26 @@ void SavedCases::ask_and_open() {
 }
 
 void SavedCases::open(const QString& file) {
-  read(file, false, {});
+  read(file, {});
 }
 
 void SavedCases::open_rescued(const Recoverable& copy) {
-  read(QString::fromStdU16String(copy.file.u16string()), true,
-       [id = copy.case_id] { discard(recovery_folder(), id); });
+  read(QString::fromStdU16String(copy.file.u16string()), copy.case_id);
 }
 
-void SavedCases::read(const QString& file, bool rescued, std::function<void()> done) {
-  loader_.cancel();
-  waiting_ = {nullptr, file, rescued, std::move(done)};
-  jobs_.push_back(BackgroundJob::start(this, [this, path = path_of(file)](BackgroundJob& job) {
+// Sessions that are opened together are opened one after the other.
+void SavedCases::read(const QString& file, const std::string& rescued) {
+  waiting_.push_back({nullptr, file, rescued});
+  if (waiting_.size() == 1) read_next();
+}
+
+void SavedCases::read_next() {
+  const auto path = path_of(waiting_.front().file);
+  jobs_.push_back(BackgroundJob::start(this, [this, path](BackgroundJob& job) {
     auto contents = load_session(path);
     if (!contents) {
       job.deliver(
-          [this, message = QString::fromStdString(contents.error().message)] { window_.tell(message); });
+          [this, message = QString::fromStdString(contents.error().message)] { end_reading(message); });
       return;
     }
     job.deliver([this, contents = std::make_shared<const SessionContents>(std::move(*contents))] {
@@ -223,39 +226,56 @@ void SavedCases::read(const QString& file, bool rescued, std::function<void()> d
   }));
 }
 
+void SavedCases::end_reading(const QString& problem) {
+  if (!problem.isEmpty()) window_.tell(problem);
+  waiting_.pop_front();
+  if (!waiting_.empty()) read_next();
+}
+
 void SavedCases::find_volume(std::shared_ptr<const SessionContents> contents) {
-  waiting_.contents = std::move(contents);
-  const StudyOrigin& origin = waiting_.contents->origin;
+  const StudyOrigin& origin = contents->origin;
+  waiting_.front().contents = contents;
   if (!origin.phantom.empty()) return loader_.make_phantom(origin.phantom);
   loader_.load(origin.path, origin.series_uid);
 }
 
 // The volume is here: is it the one that the session is about? Comparing reads all of it.
 void SavedCases::compare(const std::shared_ptr<const LoadedStudy>& study) {
-  if (!waiting_.contents) return;
-  jobs_.push_back(BackgroundJob::start(this, [this, study, contents = waiting_.contents](BackgroundJob& job) {
-    const VolumeMatch found = match(*contents, *study->volume);
-    job.deliver([this, study, contents, found] {
-      if (waiting_.contents == contents) restore(study, found);
-    });
-  }));
+  jobs_.push_back(
+      BackgroundJob::start(this, [this, study, contents = waiting_.front().contents](BackgroundJob& job) {
+        const VolumeMatch found = match(*contents, *study->volume);
+        job.deliver([this, study, found] { restore(study, found); });
+      }));
 }
 
 void SavedCases::restore(const std::shared_ptr<const LoadedStudy>& study, VolumeMatch found) {
-  const Waiting waiting = std::exchange(waiting_, {});
+  const Waiting waiting = waiting_.front();
   if (found == VolumeMatch::other_grid) {
-    return window_.tell(
+    return end_reading(
         tr("The study of the session %1 is another one now: its size or place differ").arg(waiting.file));
   }
   if (found == VolumeMatch::other_voxels &&
-      QMessageBox::question(&window_, tr("Open a session"),
-                            tr("The voxels of this study are not those that the session was saved with. Go on "
-                               "all the same? Nothing is overwritten.")) != QMessageBox::Yes) {
-    return;
+      QMessageBox::question(
+          &window_, tr("Open a session"),
+          tr("The voxels of this study are not those that the session was saved with. Go on "
+             "all the same? Nothing is overwritten.")) != QMessageBox::Yes) {
+    return end_reading();
   }
-  CaseWindow* window = window_.add_case(study, {waiting.contents, waiting.rescued});
-  if (!waiting.rescued) window->session_file = waiting.file;
-  if (waiting.done) waiting.done();
+  CaseWindow* window = window_.add_case(study, {waiting.contents, !waiting.rescued.empty()});
+  if (waiting.rescued.empty()) {
+    window->session_file = waiting.file;
+  } else {
+    keep_rescued(*window, waiting.rescued);
+  }
+  end_reading();
+}
+
+// The copy goes once the case has one of its own, or the user has closed it.
+void SavedCases::keep_rescued(CaseWindow& window, const std::string& copy) {
+  const auto remove = [copy] { discard(recovery_folder(), copy); };
+  connect(&window.autosave(), &CaseAutosave::saved, this, remove, Qt::SingleShotConnection);
+  connect(&window, &QObject::destroyed, this, remove);
+  window.autosave().save_soon();
 }
 
 void SavedCases::offer_rescued() {

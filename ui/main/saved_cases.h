@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QObject>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -61,8 +62,11 @@ class SavedCases : public QObject {
   void write(CaseWindow& window, const QString& file, Write work);
   void run(const QString& file, std::function<Status()> work, std::function<void()> done = {});
   void save_to(CaseWindow& window, const QString& file, std::function<void()> done = {});
-  void read(const QString& file, bool rescued, std::function<void()> done);
+  void read(const QString& file, const std::string& rescued);
+  void read_next();
+  void end_reading(const QString& problem = {});
   void find_volume(std::shared_ptr<const SessionContents> contents);
+  void keep_rescued(CaseWindow\& window, const std::string\& copy);
   void compare(const std::shared_ptr<const LoadedStudy>& study);
   void restore(const std::shared_ptr<const LoadedStudy>& study, VolumeMatch found);
 
@@ -70,13 +74,12 @@ class SavedCases : public QObject {
   struct Waiting {
     std::shared_ptr<const SessionContents> contents;
     QString file;
-    bool rescued = false;
-    std::function<void()> done;
+    std::string rescued;  // the copy's case; empty: a file of the user's
   };
 
   MainWindow& window_;
   StudyLoader loader_;
-  Waiting waiting_;
+  std::deque<Waiting> waiting_;  // the first is being read
   std::vector<std::shared_ptr<BackgroundJob>> jobs_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <QElapsedTimer>
 #include <QMetaEnum>
+#include <QPushButton>
 #include <QSettings>
 #include <QStandardPaths>
 #include <algorithm>
@@ -110,9 +111,34 @@ void Desktop::drag(PictureView& view, const std::vector<glm::dvec3>& patient_mm,
   drag(static_cast<QWidget&>(view), way, button, modifiers);
 }
 
+void Desktop::answer(QMessageBox::StandardButton button) {
+  auto* timer = new QTimer(qApp);
+  QObject::connect(timer, &QTimer::timeout, timer, [timer, button] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (!box || !box->button(button)) return;
+    timer->deleteLater();
+    box->button(button)->click();
+  });
+  timer->start(20);
+}
+
 void Desktop::press(Qt::Key key, Qt::KeyboardModifiers modifiers) {
+  // Keys go to the window that is active, which it is not at once after a dialog.
   window_->activateWindow();
+  if (!QTest::qWaitForWindowActive(window_.get())) qFatal("the window cannot be made active");
   QTest::keyClick(window_.get(), key, modifiers);
+}
+
+glm::dvec3 Desktop::seed_mm() {
+  const auto& seed = *session().study().start->seed;
+  return session().volume().geometry.to_patient({seed[0], seed[1], seed[2]});
+}
+
+void Desktop::begin(double radius_mm) {
+  Start start;
+  start.seeds.push_back({seed_mm(), radius_mm});
+  session().begin(start);
+  settle();
 }
 
 void Desktop::settle() {
@@ -149,6 +175,15 @@ double difference(const QImage& a, const QImage& b) {
     }
   }
   return static_cast<double>(differing) / (static_cast<double>(a.width()) * a.height());
+}
+
+bool shows_a_picture(const PictureView& view) {
+  const ShownPicture& shown = view.feed().shown();
+  const QImage& image = shown.image;
+  if (image.isNull() || shown.size != view.physical_size()) return false;
+  QImage first(image.size(), QImage::Format_RGB32);
+  first.fill(image.pixelColor(0, 0));
+  return difference(image, first) > 0.0005;
 }
 
 }  // namespace tidemark::test

@@ -3,6 +3,7 @@
 
 #include <QApplication>
 #include <QImage>
+#include <QMessageBox>
 #include <QTest>
 #include <functional>
 #include <memory>
@@ -63,6 +64,13 @@ class Desktop {
                    Qt::KeyboardModifiers modifiers = {});
   void press(Qt::Key key, Qt::KeyboardModifiers modifiers = {});
 
+  // Presses that button of the next question.
+  static void answer(QMessageBox::StandardButton button);
+
+  // The active case's surface begins with a ball of that radius where the phantom's seed is.
+  void begin(double radius_mm);
+  [[nodiscard]] glm::dvec3 seed_mm();
+
   // Until the engine has done everything, and the user interface has seen it.
   void settle();
   static bool wait_for(const std::function<bool()>& condition, int milliseconds = 20000);
@@ -77,6 +85,8 @@ class Desktop {
 
 // Share of the pixels that differ by more than a little.
 double difference(const QImage& a, const QImage& b);
+// Whether the view shows a picture of its own size that is not of one colour.
+bool shows_a_picture(const PictureView& view);
 
 }  // namespace tidemark::test
 

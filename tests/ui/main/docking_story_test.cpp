@@ -1,0 +1,177 @@
+// Views float, return, tab and move between windows, and show the same pictures afterwards.
+#include <QApplication>
+#include <QDockWidget>
+#include <QMdiSubWindow>
+#include <QToolButton>
+
+#include "tests/ui/main/desktop.h"
+
+namespace tidemark::test {
+
+class DockingStoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void fifty_moves_change_no_picture_and_cost_no_context();
+  void every_layout_shows_its_views();
+  void a_view_is_maximised_by_a_double_click_and_back();
+  void a_closed_view_comes_back();
+
+ private:
+  static QList<QImage> pictures(CaseWindow& window);
+  static QList<PictureView*> visible(CaseWindow& window);
+};
+
+QList<PictureView*> DockingStoryTest::visible(CaseWindow& window) {
+  QList<PictureView*> visible;
+  for (PictureView* view : window.views()) {
+    if (view->isVisible()) visible << view;
+  }
+  return visible;
+}
+
+QList<QImage> DockingStoryTest::pictures(CaseWindow& window) {
+  QList<QImage> pictures;
+  for (PictureView* view : window.views()) pictures << view->grab_picture();
+  return pictures;
+}
+
+void DockingStoryTest::fifty_moves_change_no_picture_and_cost_no_context() {
+  Desktop desktop(ExecutorKind::host, {1000, 700});
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(10.0);
+  WatchedApplication::instance().restart();
+  CaseWindow& window = *desktop.window().active_case();
+  window.set_layout(ViewLayout::paper);
+  desktop.settle();
+  const QList<QImage> before = pictures(window);
+  const QList<PictureView*> views = window.views();
+  QCOMPARE(views.size(), 3);
+  auto* child = qobject_cast<QMdiSubWindow*>(window.parentWidget());
+  QVERIFY(child);
+
+  Actions& actions = desktop.window().actions();
+  for (int round = 0; round < 50; ++round) {
+    PictureView* view = views[round % 3];
+    QDockWidget* dock = window.dock_of(view);
+    QDockWidget* other = window.dock_of(views[(round + 1) % 3]);
+    dock->setFloating(true);
+    QTest::qWait(10);
+    QVERIFY(dock->isWindow());
+    if (round % 10 == 0) {
+      desktop.settle();
+      QVERIFY(shows_a_picture(*view));
+    }
+    dock->setFloating(false);
+    window.tabifyDockWidget(other, dock);
+    QTest::qWait(5);
+    window.addDockWidget(Qt::LeftDockWidgetArea, dock, round % 2 == 0 ? Qt::Horizontal : Qt::Vertical);
+    actions.tabs->toggle();
+    round % 2 == 0 ? actions.tile->trigger() : actions.cascade->trigger();
+    QTest::qWait(5);
+    child->showMaximized();
+    if (round % 10 == 9) {
+      desktop.settle();
+      for (const PictureView* each : views) {
+        QVERIFY2(shows_a_picture(*each), qPrintable(QString("%1: %2, %3 x %4")
+                                                        .arg(round)
+                                                        .arg(each->title())
+                                                        .arg(each->width())
+                                                        .arg(each->height())));
+      }
+    }
+  }
+  window.set_layout(ViewLayout::paper);
+  desktop.settle();
+  QCOMPARE(window.views(), views);
+  const QList<QImage> after = pictures(window);
+  for (qsizetype index = 0; index < before.size(); ++index) {
+    QCOMPARE(after[index].size(), before[index].size());
+    QVERIFY2(difference(after[index], before[index]) < 0.005,
+             qPrintable(QString::number(difference(after[index], before[index]))));
+  }
+  QCOMPARE(desktop.engine().contexts_made(), 1);
+  qInfo("the longest event took %s", qPrintable(WatchedApplication::instance().longest()));
+}
+
+void DockingStoryTest::every_layout_shows_its_views() {
+  Desktop desktop(ExecutorKind::host, {1000, 700});
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(10.0);
+  CaseWindow& window = *desktop.window().active_case();
+  const QList<int> views{1, 4, 4, 3};
+  const QList<QAction*> layouts = desktop.window().actions().layouts->actions();
+  QCOMPARE(layouts.size(), views.size());
+  for (const int layout : {0, 1, 2, 3, 1, 0, 3, 2}) {
+    desktop.press(static_cast<Qt::Key>(Qt::Key_1 + layout), Qt::ControlModifier);
+    desktop.settle();
+    QCOMPARE(static_cast<int>(window.view_layout()), layout);
+    QCOMPARE(visible(window).size(), views[layout]);
+    for (const PictureView* view : visible(window)) {
+      QVERIFY2(shows_a_picture(*view), qPrintable(QString("%1: %2").arg(layout).arg(view->title())));
+      QVERIFY(view->width() >= 120 && view->height() >= 100);
+    }
+  }
+}
+
+void DockingStoryTest::a_view_is_maximised_by_a_double_click_and_back() {
+  Desktop desktop(ExecutorKind::host, {1000, 700});
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(10.0);
+  CaseWindow& window = *desktop.window().active_case();
+  window.set_layout(ViewLayout::two_two);
+  desktop.settle();
+  for (PictureView* view : visible(window)) {
+    const QSize small = view->size();
+    const QImage before = view->grab_picture();
+    QTest::mouseDClick(view, Qt::LeftButton, {}, view->rect().center() + QPoint(30, 30));
+    desktop.settle();
+    QCOMPARE(visible(window).size(), 1);
+    QVERIFY(view->width() > small.width() + 100 && view->height() > small.height() + 100);
+    QVERIFY(shows_a_picture(*view));
+    QTest::mouseDClick(view, Qt::LeftButton, {}, view->rect().center() + QPoint(30, 30));
+    desktop.settle();
+    QCOMPARE(visible(window).size(), 4);
+    QCOMPARE(view->size(), small);
+    QVERIFY(difference(view->grab_picture(), before) < 0.005);
+  }
+}
+
+void DockingStoryTest::a_closed_view_comes_back() {
+  Desktop desktop(ExecutorKind::host, {1000, 700});
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(10.0);
+  CaseWindow& window = *desktop.window().active_case();
+  window.set_layout(ViewLayout::paper);
+  desktop.settle();
+  for (const ViewKind kind : {ViewKind::volume, ViewKind::axial, ViewKind::speed}) {
+    const qsizetype views = window.views().size();
+    PictureView* view = window.add_view(kind);  // beside the first of its kind
+    desktop.settle();
+    QCOMPARE(window.views().size(), views + 1);
+    window.dock_of(view)->close();
+    desktop.settle();
+    QVERIFY(!view->isVisible());
+    // What happens meanwhile is seen when it is back.
+    desktop.session().step(5);
+    desktop.settle();
+    QCOMPARE(window.add_view(kind), view);
+    desktop.settle();
+    QVERIFY(view->isVisible());
+    QVERIFY(shows_a_picture(*view));
+    QCOMPARE(view->feed().shown().step, desktop.state().step);
+  }
+  // Nothing is shown when all are closed, and nothing breaks.
+  for (PictureView* view : window.views()) window.dock_of(view)->close();
+  desktop.settle();
+  QVERIFY(!window.active_view());
+  QVERIFY(window.add_view(ViewKind::volume));
+  desktop.settle();
+  QVERIFY(window.active_view());
+  QVERIFY(shows_a_picture(*window.active_view()));
+}
+
+}  // namespace tidemark::test
+
+TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::DockingStoryTest)
+#include "docking_story_test.moc"

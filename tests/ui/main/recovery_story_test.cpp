@@ -1,0 +1,158 @@
+// A program that is killed leaves its work behind, and the next one goes on with it.
+#include <QApplication>
+#include <QProcess>
+#include <QPushButton>
+#include <cstdio>
+#include <cstring>
+
+#include "imaging/phantom/phantom.h"
+#include "study/autosave.h"
+#include "tests/ui/main/desktop.h"
+#include "ui/main/saved_cases.h"
+
+namespace tidemark::test {
+
+constexpr const char* kVictim = "--work-until-killed";
+
+// What must come back, as text: the same in both programs.
+QString facts(const CaseSession& session) {
+  const CaseState& state = session.state();
+  return QStringLiteral("%1 step %2 inside %3 labels %4 of %5 voxels")
+      .arg(session.name())
+      .arg(state.step)
+      .arg(state.surface.voxels_inside)
+      .arg(state.labels.size())
+      .arg(state.label_statistics.empty() ? 0 : state.label_statistics.front().voxels);
+}
+
+std::size_t files_of_copies() {
+  std::size_t count = 0;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(recovery_folder(), ignored))
+    count += entry.path().extension() == ".sha256" ? 1 : 0;
+  return count;
+}
+
+// The program that will be killed: two cases with changes, of which copies are written by themselves.
+int work_until_killed() {
+  Desktop desktop(ExecutorKind::host, {900, 640});
+  for (const char* kind : {"sphere", "dumbbell"}) {
+    desktop.open_phantom(kind);
+    CaseSession& session = desktop.session();
+    desktop.begin(9.0);
+    session.step(17);
+    session.add_label("Ball");
+    desktop.settle();
+    session.accept_surface(desktop.state().labels[0].id);
+    // As many edits as bring about a copy, all before it is made.
+    for (std::uint64_t edit = 0; edit < CaseAutosave::kEdits; ++edit)
+      session.paint({desktop.seed_mm(), 9.5}, Brush::add, CaseSession::new_gesture());
+    QTest::qWait(100);
+    desktop.settle();
+  }
+  if (!Desktop::wait_for([] { return files_of_copies() >= 2; })) return 1;
+  for (CaseWindow* window : desktop.window().cases()) std::puts(qPrintable(facts(window->session())));
+  std::puts("ready");
+  std::fflush(stdout);
+  return QApplication::exec();
+}
+
+class RecoveryStoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void work_is_there_again_after_a_kill();
+  void nothing_is_offered_after_a_clean_end();
+
+ private:
+  TemporaryFolder home_;
+};
+
+void RecoveryStoryTest::work_is_there_again_after_a_kill() {
+  qputenv("HOME", QByteArray::fromStdString(home_.path().string()));
+  QVERIFY(find_recoverable(recovery_folder()).empty());
+  QProcess victim;
+  victim.setProcessChannelMode(QProcess::ForwardedErrorChannel);
+  victim.start(QCoreApplication::applicationFilePath(), {kVictim});
+  QByteArray said;
+  QVERIFY2(Desktop::wait_for(
+               [&] {
+                 said += victim.readAllStandardOutput();
+                 return said.contains("ready") || victim.state() == QProcess::NotRunning;
+               },
+               60000),
+           said.constData());
+  QVERIFY2(said.contains("ready"), said.constData());
+  // While it runs, its copies are its own.
+  QVERIFY(find_recoverable(recovery_folder()).empty());
+  victim.kill();
+  QVERIFY(victim.waitForFinished());
+  QCOMPARE(victim.exitStatus(), QProcess::CrashExit);
+  QStringList expected = QString::fromUtf8(said).split('\n', Qt::SkipEmptyParts);
+  expected.removeLast();
+  expected.sort();
+  QCOMPARE(expected.size(), 2);
+  QCOMPARE(find_recoverable(recovery_folder()).size(), std::size_t{2});
+
+  Desktop desktop(ExecutorKind::host, {900, 640});
+  QTimer user;
+  connect(&user, &QTimer::timeout, this, [] {
+    const QWidget* box = QApplication::activeModalWidget();
+    if (!box) return;
+    for (QPushButton* button : box->findChildren<QPushButton*>()) {
+      if (button->text().remove('&') == "Open them") return button->click();
+    }
+  });
+  user.start(20);
+  desktop.window().saved_cases().offer_rescued();
+  user.stop();
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 2; }));
+  desktop.settle();
+  QStringList found;
+  for (CaseWindow* window : desktop.window().cases()) {
+    QVERIFY(window->session().state().modified);
+    QVERIFY(window->session_file.isEmpty());
+    found << facts(window->session());
+  }
+  found.sort();
+  QCOMPARE(found, expected);
+  for (PictureView* view : desktop.window().active_case()->views()) QVERIFY(shows_a_picture(*view));
+  qInfo("%s", qPrintable(found.join("; ")));
+  // They have copies of their own, at once, instead of those that they came from.
+  QVERIFY(Desktop::wait_for([] { return find_recoverable(recovery_folder()).empty(); }));
+  QVERIFY(files_of_copies() >= 2);
+  qInfo("the longest event took %s", qPrintable(WatchedApplication::instance().longest()));
+
+  Desktop::answer(QMessageBox::Discard);
+  Desktop::answer(QMessageBox::Discard);
+  QVERIFY(desktop.window().close());
+  QVERIFY(Desktop::wait_for([] { return files_of_copies() == 0; }));
+}
+
+void RecoveryStoryTest::nothing_is_offered_after_a_clean_end() {
+  {
+    Desktop desktop(ExecutorKind::host, {900, 640});
+    QVERIFY(desktop.open_phantom("sphere"));
+    desktop.begin(9.0);
+    desktop.window().active_case()->autosave().save_now();
+    QVERIFY(Desktop::wait_for([] { return files_of_copies() == 1; }));
+    Desktop::answer(QMessageBox::Discard);
+    QVERIFY(desktop.window().close());
+    QVERIFY(Desktop::wait_for([] { return files_of_copies() == 0; }));
+  }
+  Desktop desktop(ExecutorKind::host, {900, 640});
+  desktop.window().saved_cases().offer_rescued();  // asks nothing
+  QVERIFY(desktop.window().cases().isEmpty());
+}
+
+}  // namespace tidemark::test
+
+int main(int argc, char** argv) {
+  tidemark::test::prepare_desktop();
+  tidemark::test::WatchedApplication application(argc, argv);
+  if (argc > 1 && std::strcmp(argv[1], tidemark::test::kVictim) == 0)
+    return tidemark::test::work_until_killed();
+  tidemark::test::RecoveryStoryTest test;
+  return QTest::qExec(&test, argc, argv);
+}
+#include "recovery_story_test.moc"

@@ -1,0 +1,124 @@
+// Screens of other scales: pictures have the screen's pixels, the mouse hits what is seen, texts fit.
+#include <QApplication>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QMenu>
+#include <QToolButton>
+#include <glm/geometric.hpp>
+
+#include "tests/ui/main/desktop.h"
+#include "ui/views/view_bar.h"
+
+namespace tidemark::test {
+
+class ScaleStoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void pictures_have_the_pixels_of_the_screen();
+  void a_click_hits_what_is_seen();
+  void texts_of_the_bars_fit();
+};
+
+void ScaleStoryTest::pictures_have_the_pixels_of_the_screen() {
+  const double scale = qEnvironmentVariable("QT_SCALE_FACTOR", "1").toDouble();
+  Desktop desktop(ExecutorKind::host, {1000, 700});
+  QCOMPARE(desktop.window().devicePixelRatioF(), scale);
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(10.0);
+  for (PictureView* view : desktop.window().active_case()->views()) {
+    const PictureSize size = view->physical_size();
+    QCOMPARE(size.width, std::llround(view->width() * scale));
+    QCOMPARE(size.height, std::llround(view->height() * scale));
+    QVERIFY2(shows_a_picture(*view), qPrintable(view->title()));
+    QCOMPARE(view->feed().shown().image.width(), static_cast<int>(size.width));
+    QCOMPARE(view->feed().shown().image.height(), static_cast<int>(size.height));
+    QCOMPARE(view->grab_picture().width(), static_cast<int>(size.width));
+  }
+  desktop.screenshot(QStringLiteral("scale-%1").arg(scale));
+}
+
+void ScaleStoryTest::a_click_hits_what_is_seen() {
+  Desktop desktop(ExecutorKind::host, {1000, 700});
+  QVERIFY(desktop.open_phantom("sphere"));
+  auto* axial = desktop.view<SliceViewWidget>("Axial");
+  QVERIFY(axial);
+  const Geometry& geometry = desktop.session().volume().geometry;
+  const double voxel_mm = geometry.spacing_mm.x;
+  const glm::dvec3 there = desktop.seed_mm() + glm::dvec3(9.0, -6.0, 0.0);
+  desktop.session().display().change([](DisplaySettings& s) { s.crosshair = false; });
+  const double reach = std::max(axial->mm_per_pixel(), voxel_mm);
+  desktop.press(Qt::Key_S);
+  Desktop::drag(*axial, {there, there + glm::dvec3(3.0, 0.0, 0.0), there + glm::dvec3(8.0, 0.0, 0.0)});
+  desktop.settle();
+  // The sphere is where the mouse was.
+  QVERIFY(desktop.state().phi);
+  const Mask inside = desktop.state().phi->mask();
+  glm::dvec3 sum(0.0);
+  std::int64_t count = 0;
+  for (std::int64_t z = 0; z < geometry.size.z; ++z) {
+    for (std::int64_t y = 0; y < geometry.size.y; ++y) {
+      for (std::int64_t x = 0; x < geometry.size.x; ++x) {
+        if (inside.voxels[static_cast<std::size_t>((z * geometry.size.y + y) * geometry.size.x + x)] == 0)
+          continue;
+        sum += geometry.to_patient({x, y, z});
+        ++count;
+      }
+    }
+  }
+  QVERIFY(count > 0);
+  const glm::dvec3 middle = sum / static_cast<double>(count);
+  QVERIFY2(glm::distance(middle, there) < 1.5 * reach,
+           qPrintable(QString::number(glm::distance(middle, there))));
+  // And its outline is seen there: the middle of the yellow pixels of the picture.
+  const QImage& image = axial->feed().shown().image;
+  const double scale = axial->devicePixelRatioF();
+  QPointF seen;
+  int pixels = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const QColor colour = image.pixelColor(x, y);
+      if (colour.red() < 200 || colour.green() < 160 || colour.blue() > 60) continue;
+      seen += QPointF(x + 0.5, y + 0.5) / scale;
+      ++pixels;
+    }
+  }
+  QVERIFY(pixels > 20);
+  const QPointF away = seen / pixels - axial->position_of(there);
+  QVERIFY2(std::hypot(away.x(), away.y()) * axial->mm_per_pixel() < 1.5 * reach,
+           qPrintable(QString("%1 %2").arg(away.x()).arg(away.y())));
+}
+
+void ScaleStoryTest::texts_of_the_bars_fit() {
+  Desktop desktop(ExecutorKind::host, {1250, 820});
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(10.0);
+  desktop.window().active_case()->set_layout(ViewLayout::two_two);
+  desktop.settle();
+  int bars = 0;
+  for (const ViewBar* bar : desktop.window().active_case()->findChildren<ViewBar*>()) {
+    if (!bar->isVisible()) continue;
+    ++bars;
+    QVERIFY(bar->height() >= bar->sizeHint().height());
+    for (const QWidget* part : bar->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
+      if (!part->isVisible() || qobject_cast<const QMenu*>(part)) continue;
+      const QSize wanted = part->sizeHint();
+      const auto* number = qobject_cast<const QDoubleSpinBox*>(part);
+      const int width = number ? number->fontMetrics().horizontalAdvance(number->text()) + 8 : wanted.width();
+      QVERIFY2(part->width() >= width && part->height() >= std::min(wanted.height(), bar->height() - 2),
+               qPrintable(QString("%1 \"%2\": %3 x %4, wants %5 x %6")
+                              .arg(part->metaObject()->className(), part->accessibleName())
+                              .arg(part->width())
+                              .arg(part->height())
+                              .arg(width)
+                              .arg(wanted.height())));
+    }
+  }
+  QCOMPARE(bars, 4);
+  qInfo("the longest event took %s", qPrintable(WatchedApplication::instance().longest()));
+}
+
+}  // namespace tidemark::test
+
+TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::ScaleStoryTest)
+#include "scale_story_test.moc"

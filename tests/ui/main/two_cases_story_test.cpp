@@ -1,0 +1,231 @@
+// Two cases side by side: panels, links and lock-step, on one engine with one context.
+#include <QApplication>
+#include <QDoubleSpinBox>
+#include <QMdiSubWindow>
+#include <glm/geometric.hpp>
+
+#include "tests/ui/main/desktop.h"
+#include "ui/panels/speed_controls.h"
+
+namespace tidemark::test {
+
+class TwoCasesStoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void panels_follow_the_active_case();
+  void linked_cases_are_looked_at_together();
+  void cases_in_lock_step_rest_at_the_same_step_data();
+  void cases_in_lock_step_rest_at_the_same_step();
+  void one_case_that_goes_back_stops_both();
+
+ private:
+  // Side by side.
+  static QList<CaseWindow*> open_two(Desktop& desktop, const QString& first, const QString& second);
+  static double target_in_panel(Desktop& desktop);
+  static void set_alpha(CaseWindow& window, double alpha);
+  static void begin_both(Desktop& desktop, const QList<CaseWindow*>& cases, double radius_mm);
+};
+
+QList<CaseWindow*> TwoCasesStoryTest::open_two(Desktop& desktop, const QString& first,
+                                               const QString& second) {
+  CaseWindow* one = desktop.open_phantom(first);
+  CaseWindow* two = desktop.open_phantom(second);
+  desktop.window().actions().tile->trigger();
+  desktop.settle();
+  return {one, two};
+}
+
+double TwoCasesStoryTest::target_in_panel(Desktop& desktop) {
+  const auto* speed = desktop.window().findChild<SpeedControls*>();
+  for (const QDoubleSpinBox* number : speed->findChildren<QDoubleSpinBox*>()) {
+    if (number->accessibleName() == "Target T") return number->value();
+  }
+  qFatal("the panel has no T");
+}
+
+void TwoCasesStoryTest::set_alpha(CaseWindow& window, double alpha) {
+  Parameters parameters = window.session().parameters();
+  parameters.alpha = alpha;
+  window.session().set_parameters(parameters);
+}
+
+void TwoCasesStoryTest::begin_both(Desktop& desktop, const QList<CaseWindow*>& cases, double radius_mm) {
+  for (CaseWindow* window : cases) {
+    const auto& seed = *window->session().study().start->seed;
+    Start start;
+    start.seeds.push_back(
+        {window->session().volume().geometry.to_patient({seed[0], seed[1], seed[2]}), radius_mm});
+    window->session().begin(start);
+  }
+  desktop.settle();
+}
+
+void TwoCasesStoryTest::panels_follow_the_active_case() {
+  Desktop desktop(ExecutorKind::host, {1200, 760});
+  const auto cases = open_two(desktop, "sphere", "tumour");
+  QVERIFY(cases[0] && cases[1] && cases[0] != cases[1]);
+  begin_both(desktop, cases, 8.0);
+  double target = 40.0;
+  for (CaseWindow* window : cases) {
+    Parameters parameters = window->session().parameters();
+    parameters.target = target;
+    window->session().set_parameters(parameters);
+    target += 13.0;
+  }
+  desktop.settle();
+  for (const int turn : {0, 1, 0}) {
+    // By a click on one of its views.
+    PictureView* view = cases[turn]->views().first();
+    QVERIFY(view->isVisible());
+    QTest::mouseClick(view, Qt::LeftButton, {}, view->rect().center());
+    desktop.settle();
+    QCOMPARE(desktop.window().active_case(), cases[turn]);
+    QCOMPARE(target_in_panel(desktop), turn == 0 ? 40.0 : 53.0);
+    QVERIFY(desktop.window().windowTitle().contains(cases[turn]->session().name()));
+    // Keys act on it alone.
+    const std::int64_t before = cases[turn]->session().state().step;
+    const std::int64_t of_other = cases[1 - turn]->session().state().step;
+    desktop.press(Qt::Key_Period);
+    desktop.settle();
+    QCOMPARE(cases[turn]->session().state().step, before + 1);
+    QCOMPARE(cases[1 - turn]->session().state().step, of_other);
+  }
+  // Six views, each with its picture.
+  int shown = 0;
+  for (CaseWindow* window : cases) {
+    for (const PictureView* view : window->views()) {
+      QVERIFY2(shows_a_picture(*view), qPrintable(view->title()));
+      ++shown;
+    }
+  }
+  QCOMPARE(shown, 6);
+  QCOMPARE(desktop.engine().contexts_made(), 1);
+  desktop.screenshot("two-cases");
+}
+
+void TwoCasesStoryTest::linked_cases_are_looked_at_together() {
+  Desktop desktop(ExecutorKind::host, {1200, 760});
+  const auto cases = open_two(desktop, "sphere", "tumour");
+  Display& one = cases[0]->session().display();
+  Display& two = cases[1]->session().display();
+  one.change([](DisplaySettings& s) { s.camera.azimuth = 77.0; });
+  QVERIFY(two.settings().camera.azimuth != 77.0);
+  desktop.press(Qt::Key_L);
+  QVERIFY(desktop.window().actions().link->isChecked());
+  QCOMPARE(two.settings().camera, one.settings().camera);
+
+  // Either leads: the cursor by the crosshair, the window by a drag, the camera by a drag in 3D.
+  PictureView* slice = cases[1]->views().first();
+  desktop.press(Qt::Key_C);
+  const glm::dvec3 there = *slice->patient_at(QPointF(slice->width() / 3.0, slice->height() / 3.0));
+  Desktop::drag(*slice, {there, there});
+  QVERIFY(glm::distance(two.settings().cursor_mm, there) < 2.0);
+  QCOMPARE(one.settings().cursor_mm, two.settings().cursor_mm);
+  desktop.press(Qt::Key_W);
+  const WindowLevel window = one.settings().window;
+  Desktop::drag(static_cast<QWidget&>(*slice), {QPoint(60, 60), QPoint(90, 90)});
+  QVERIFY(one.settings().window != window);
+  QVERIFY(one.settings().window == two.settings().window);
+  for (PictureView* view : cases[0]->views()) {
+    auto* volume = qobject_cast<VolumeViewWidget*>(view);
+    if (volume) Desktop::drag(static_cast<QWidget&>(*volume), {QPoint(60, 60), QPoint(100, 80)});
+  }
+  QVERIFY(one.settings().camera.azimuth != 77.0);
+  QVERIFY(one.settings().camera == two.settings().camera);
+
+  // And apart again; one that is opened later is linked, too.
+  desktop.press(Qt::Key_L);
+  one.change([](DisplaySettings& s) { s.camera.azimuth = -11.0; });
+  QVERIFY(two.settings().camera.azimuth != -11.0);
+  QCOMPARE(desktop.engine().contexts_made(), 1);
+}
+
+void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step_data() {
+  QTest::addColumn<int>("executor");
+  QTest::newRow("host") << static_cast<int>(ExecutorKind::host);
+  QTest::newRow("compute") << static_cast<int>(ExecutorKind::compute);
+}
+
+void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {
+  QFETCH(int, executor);
+  Desktop desktop(static_cast<ExecutorKind>(executor), {1200, 760});
+  const auto cases = open_two(desktop, "tumour", "tumour");
+  CaseSession& one = cases[0]->session();
+  CaseSession& two = cases[1]->session();
+  set_alpha(*cases[0], 0.2);
+  set_alpha(*cases[1], 0.8);
+  begin_both(desktop, cases, 8.0);
+  WatchedApplication::instance().restart();
+  int rests = 0;
+  int torn = 0;
+  const auto look = [&] {
+    if (one.state().playing || two.state().playing || one.state().step == 0) return;
+    ++rests;
+    if (one.state().step != two.state().step) ++torn;
+  };
+  desktop.press(Qt::Key_L, Qt::ControlModifier);
+  QVERIFY(one.in_lock_step() && two.in_lock_step());
+  connect(&one, &CaseSession::state_changed, this, look);
+  connect(&two, &CaseSession::state_changed, this, look);
+  std::int64_t step = 0;
+  for (int round = 0; round < 6; ++round) {
+    desktop.press(Qt::Key_P);
+    QVERIFY(Desktop::wait_for([&] { return one.state().step > step + 7 && two.state().step > step + 7; }));
+    QVERIFY(one.state().playing && two.state().playing);
+    desktop.press(Qt::Key_P);
+    QVERIFY(Desktop::wait_for([&] { return !one.state().playing && !two.state().playing; }));
+    desktop.settle();
+    step = one.state().step;
+    QCOMPARE(two.state().step, step);
+  }
+  QVERIFY(rests > 0);
+  qInfo("%d of %d states at rest were seen before the other's", torn, rests);
+  QVERIFY(std::abs(one.state().surface.volume_ml / two.state().surface.volume_ml - 1.0) > 0.02);
+
+  // To the end: who is there first waits for the other, at the same step.
+  if (static_cast<ExecutorKind>(executor) == ExecutorKind::host) {
+    desktop.press(Qt::Key_P);
+    QVERIFY(Desktop::wait_for([&] { return !one.state().playing && !two.state().playing; }, 60000));
+    desktop.settle();
+    QCOMPARE(one.state().step, two.state().step);
+    QVERIFY(one.state().converged && two.state().converged);
+    desktop.screenshot("lock-step");
+  }
+  QCOMPARE(desktop.engine().contexts_made(), 1);
+  qInfo("step %lld; the longest event took %s", static_cast<long long>(one.state().step),
+        qPrintable(WatchedApplication::instance().longest()));
+  disconnect(&one, nullptr, this, nullptr);
+  disconnect(&two, nullptr, this, nullptr);
+}
+
+void TwoCasesStoryTest::one_case_that_goes_back_stops_both() {
+  Desktop desktop(ExecutorKind::host, {1200, 760});
+  const auto cases = open_two(desktop, "tumour", "tumour");
+  begin_both(desktop, cases, 8.0);
+  CaseSession& one = cases[0]->session();
+  CaseSession& two = cases[1]->session();
+  desktop.press(Qt::Key_L, Qt::ControlModifier);
+  one.play();
+  QVERIFY(Desktop::wait_for([&] { return two.state().step > 20; }));
+  one.restart();
+  QVERIFY(Desktop::wait_for([&] { return !one.state().playing && !two.state().playing; }));
+  desktop.settle();
+  QCOMPARE(one.state().step, 0);
+  const std::int64_t step = two.state().step;
+  QVERIFY(step > 20);
+  // It catches up, and both go on; when the other is closed, it goes on alone.
+  two.play();
+  QVERIFY(Desktop::wait_for([&] { return one.state().step > step && two.state().step > step; }));
+  cases[1]->close_saved();
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 1; }));
+  const std::int64_t then = one.state().step;
+  QVERIFY(Desktop::wait_for([&] { return one.state().step > then + 60 || one.state().converged; }));
+  one.pause();
+  QVERIFY(Desktop::wait_for([&] { return !one.state().playing; }));
+}
+
+}  // namespace tidemark::test
+
+TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::TwoCasesStoryTest)
+#include "two_cases_story_test.moc"
