@@ -10,7 +10,7 @@
 namespace tidemark {
 namespace {
 
-constexpr double kChunkSeconds = 0.016;   // of steps between two pictures
+constexpr double kChunkSeconds = 0.016;  // of steps between two pictures
 constexpr std::int64_t kMostSteps = 50;  // between two pictures: it should be seen how the surface moves
 
 }  // namespace
@@ -21,7 +21,8 @@ CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study,
       study_(std::move(study)),
       executor_kind_(executor),
       receiver_(std::move(receiver)),
-      restored_(std::move(restored)) {}
+      restored_(std::move(restored)),
+      painter_(engine) {}
 
 void CaseRunner::post(Command command) {
   engine_.interrupt(Priority::step, this);  // refinement can wait
