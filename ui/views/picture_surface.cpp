@@ -2,6 +2,7 @@
 
 #include <QOpenGLContext>
 #include <QOpenGLExtraFunctions>
+#include <QOpenGLPaintDevice>
 #include <QPainter>
 #include <utility>
 
@@ -45,7 +46,10 @@ void PictureSurface::paintGL() {
   gl.glClearColor(0.07F, 0.08F, 0.1F, 1.0F);
   gl.glClear(GL_COLOR_BUFFER_BIT);
   if (feed_.shown().texture) show_texture();
-  QPainter painter(this);
+  // Not by QPainter(this), which paints elsewhere while QWidget::grab() is at work.
+  QOpenGLPaintDevice device(size() * devicePixelRatioF());
+  device.setDevicePixelRatio(devicePixelRatioF());
+  QPainter painter(&device);
   paint_over_(painter);
 }
 
