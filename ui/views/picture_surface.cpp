@@ -16,7 +16,7 @@ PictureSurface::PictureSurface(const PictureFeed& feed, Paint paint_over, QWidge
   format.setRenderableType(QSurfaceFormat::OpenGL);
   format.setProfile(QSurfaceFormat::CoreProfile);
   format.setVersion(3, 3);
-  format.setSamples(0);
+  format.setSamples(4);  // lines over the picture are smooth only so
   setFormat(format);
   setAttribute(Qt::WA_TransparentForMouseEvents);
   setFocusPolicy(Qt::NoFocus);
@@ -74,6 +74,12 @@ QImage PictureSurface::grab(const Paint& paint_over) {
   paint_over_ = usual;
   image.setDevicePixelRatio(devicePixelRatioF());
   return image;
+}
+
+void expect_surfaces(QWidget& window) {
+  auto* first = new QOpenGLWidget(&window);
+  first->setFixedSize(0, 0);
+  first->hide();
 }
 
 }  // namespace tidemark

@@ -38,4 +38,8 @@ class PictureSurface : public QOpenGLWidget {
   int times_initialised_ = 0;
 };
 
+// To be called before the window is shown in which there may be surfaces later: Qt makes a window anew, and
+// it flickers, when the first thing that is drawn by OpenGL comes into it.
+void expect_surfaces(QWidget& window);
+
 }  // namespace tidemark

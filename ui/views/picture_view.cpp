@@ -66,6 +66,7 @@ PictureSize PictureView::physical_size() const {
 
 QImage PictureView::grab_picture() {
   const auto paint = [this](QPainter& painter) {
+    painter.setRenderHint(QPainter::Antialiasing);
     paint_picture(painter);
     paint_overlay(painter);
   };
