@@ -74,6 +74,13 @@ Fence Fence::insert(Device& device) {
   return fence;
 }
 
+Fence Fence::adopt(Device& device, void* sync) {
+  Fence fence;
+  fence.device_ = &device;
+  fence.sync_ = sync;
+  return fence;
+}
+
 bool Fence::reached() const {
   if (sync_ == nullptr) return true;
   const GLenum state = glClientWaitSync(static_cast<GLsync>(sync_), 0, 0);

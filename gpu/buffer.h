@@ -55,6 +55,8 @@ class Fence {
   ~Fence();
 
   static Fence insert(Device& device);
+  // Takes over a fence (GLsync) that another context of the share group has inserted and flushed.
+  static Fence adopt(Device& device, void* sync);
 
   // Whether the GPU has come this far.
   [[nodiscard]] bool reached() const;

@@ -18,11 +18,13 @@ constexpr double kWantedPiece = 0.3 * Canvas::kLongestPiece;
 
 }  // namespace
 
-Result<Canvas> Canvas::create(gpu::Device& device, PictureSize size, gpu::TexelFormat format) {
+Result<Canvas> Canvas::create(gpu::Device& device, PictureSize size, gpu::TexelFormat format,
+                              gpu::Filter filter) {
   Canvas canvas;
   auto colour = gpu::Texture2D::create(device, format, size.width, size.height, "picture");
   if (!colour) return pass_on(colour);
   canvas.colour_ = std::move(*colour);
+  canvas.colour_.set_filter(filter);
   auto framebuffer = gpu::Framebuffer::create(device, {&canvas.colour_}, "picture");
   if (!framebuffer) return pass_on(framebuffer);
   canvas.framebuffer_ = std::move(*framebuffer);
@@ -30,20 +32,21 @@ Result<Canvas> Canvas::create(gpu::Device& device, PictureSize size, gpu::TexelF
   return canvas;
 }
 
-Status Canvas::fill(gpu::Device& device, const Progress& progress) {
+Status Canvas::fill(gpu::Device& device, const Progress& progress, gpu::Blending blending) {
   framebuffer_.bind();
   vertices_.bind();
   gpu::begin_exact_drawing();
   report_ = {};
   const Stopwatch whole;
+  // Also where nothing is blended: without, llvmpipe compiles two functions, one for blocks of pixels that
+  // are covered in full.
+  const gpu::BlendScope blend(blending);
   if (!device.capabilities().software) {
     gpu::draw(gpu::Primitive::triangles, 3);
     report_.pieces = 1;
     report_.longest_piece_seconds = report_.seconds = whole.seconds();
     return device.check("drawing a picture");
   }
-  // Without blending llvmpipe compiles two functions, one for blocks of pixels that are covered in full.
-  const gpu::BlendScope replace(gpu::Blending::replace);
   gpu::prepare_draw();
   report_.prepare_seconds = whole.seconds();
   const auto [width, height] = size();

@@ -25,14 +25,16 @@ class Canvas {
   static constexpr double kLongestPiece = 0.020;  // seconds
 
   Canvas() = default;
-  static Result<Canvas> create(gpu::Device& device, PictureSize size, gpu::TexelFormat format);
+  // `filter`: for who reads its texture between texels.
+  static Result<Canvas> create(gpu::Device& device, PictureSize size, gpu::TexelFormat format,
+                               gpu::Filter filter = gpu::Filter::nearest);
 
   [[nodiscard]] PictureSize size() const { return {colour_.width(), colour_.height()}; }
   [[nodiscard]] const gpu::Texture2D& colour() const { return colour_; }
 
-  // Draws a triangle over the picture with the program in use; what was there is lost. Fails
-  // (ErrorKind::cancelled) between two pieces when it is told to stop.
-  Status fill(gpu::Device& device, const Progress& progress);
+  // Draws a triangle over the picture with the program in use; what was there is lost unless it is blended
+  // with. Fails (ErrorKind::cancelled) between two pieces when it is told to stop.
+  Status fill(gpu::Device& device, const Progress& progress, gpu::Blending blending = gpu::Blending::replace);
   // Waits for the GPU.
   Result<Picture> read() const;
   [[nodiscard]] const DrawReport& report() const { return report_; }

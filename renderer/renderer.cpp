@@ -237,45 +237,66 @@ Result<const gpu::Program*> Renderer::use_volume_program(const char* fragment, c
   return &program;
 }
 
-Result<Picture> Renderer::draw(const VolumeView& asked, PictureSize size, const Progress& progress) {
+template <class View>
+Result<Picture> Renderer::draw_and_read(const View& view, PictureSize size, const Progress& progress) {
   if (auto status = device_->make_current(); !status) return pass_on(status);
-  const VolumeView view = resolved(asked);
-  if (view.mode == Mode::slices || !source_picture_.has_volume()) {
-    return draw_from_slices(view, size, progress);
+  if (canvas_.size() != size) {
+    auto made = Canvas::create(*device_, size, gpu::TexelFormat::rgba8);
+    if (!made) return pass_on(made);
+    canvas_ = std::move(*made);
   }
-  if (const auto program = use_volume_program("render/volume.frag", view, size, {}); !program) {
-    return tl::unexpected<Error>(program.error());
-  }
-  return finish(size, progress);
+  if (auto status = draw_on(canvas_, view, progress); !status) return pass_on(status);
+  return canvas_.read();
 }
 
-Result<Picture> Renderer::draw_from_slices(const VolumeView& view, PictureSize size,
-                                           const Progress& progress) {
+Result<Picture> Renderer::draw(const VolumeView& view, PictureSize size, const Progress& progress) {
+  return draw_and_read(view, size, progress);
+}
+
+Result<Picture> Renderer::draw(const SliceView& view, PictureSize size, const Progress& progress) {
+  return draw_and_read(view, size, progress);
+}
+
+Status Renderer::draw_on(Canvas& canvas, const VolumeView& asked, const Progress& progress) {
+  if (auto status = device_->make_current(); !status) return status;
+  const VolumeView view = resolved(asked);
+  if (view.mode == Mode::slices || !source_picture_.has_volume()) {
+    return draw_from_slices(canvas, view, progress);
+  }
+  if (auto program = use_volume_program("render/volume.frag", view, canvas.size(), {}); !program) {
+    return pass_on(program);
+  }
+  return fill(canvas, progress);
+}
+
+Status Renderer::draw_from_slices(Canvas& canvas, const VolumeView& view, const Progress& progress) {
+  const PictureSize size = canvas.size();
   const SliceAxis axis = SliceCaster::axis_for(view, source_->geometry);
-  const auto slab = use_volume_program("render/slab.frag", view, size, {axis.define()});
-  if (!slab) return tl::unexpected<Error>(slab.error());
+  auto slab = use_volume_program("render/slab.frag", view, size, {axis.define()});
+  if (!slab) return pass_on(slab);
   const std::vector<PhysicalPage> table = phi_.page_entries();
   const SliceCaster::Scene scene{*source_, phi_, table, source_picture_.page_opacities()};
   if (auto status = slice_caster_.draw(*device_, **slab, scene, view, size, {kPhiUnit, kFreeUnit}, progress);
       !status) {
-    return pass_on(status);
+    return status;
   }
-  const auto over = use_program("render/over_background.frag", {});
-  if (!over) return tl::unexpected<Error>(over.error());
+  auto over = use_program("render/over_background.frag", {});
+  if (!over) return pass_on(over);
   slice_caster_.layers().bind(kFreeUnit);
   (*over)->set("layers", kFreeUnit);
   (*over)->set("background", view.background);
-  auto picture = finish(size, progress);
+  auto status = fill(canvas, progress);
   report_ = slice_caster_.report();
-  return picture;
+  return status;
 }
 
-Result<Picture> Renderer::draw(const SliceView& view, PictureSize size, const Progress& progress) {
-  if (auto status = device_->make_current(); !status) return pass_on(status);
+Status Renderer::draw_on(Canvas& canvas, const SliceView& view, const Progress& progress) {
+  if (auto status = device_->make_current(); !status) return status;
+  const PictureSize size = canvas.size();
   const bool by_plane = !source_picture_.has_volume();
-  const auto program =
+  auto program =
       use_program("render/slice.frag", by_plane ? gpu::Defines{{"SOURCE_PLANE", ""}} : gpu::Defines());
-  if (!program) return tl::unexpected<Error>(program.error());
+  if (!program) return pass_on(program);
   const gpu::Program& slice = **program;
   const glm::dmat4 voxel_from_view = slice_from_view(source_->geometry, view.orientation, view.position_mm,
                                                      view.zoom, view.pan_mm, size.aspect());
@@ -303,7 +324,7 @@ Result<Picture> Renderer::draw(const SliceView& view, PictureSize size, const Pr
   slice.set("label_colours", kLabelColourUnit);
   slice.set("label_opacity", has_labels_ ? static_cast<float>(view.label_opacity) : 0.0F);
   slice.set("background", view.background);
-  return finish(size, progress);
+  return fill(canvas, progress);
 }
 
 Result<std::optional<Hit>> Renderer::pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel) {
@@ -338,16 +359,11 @@ Result<std::optional<Hit>> Renderer::pick(const VolumeView& view, PictureSize si
       Hit{static_cast<Hit::Kind>(static_cast<int>(found.w)), voxel, geometry.to_patient(voxel)});
 }
 
-// Draws with the program in use, and reads the picture.
-Result<Picture> Renderer::finish(PictureSize size, const Progress& progress) {
-  if (canvas_.size() != size) {
-    auto made = Canvas::create(*device_, size, gpu::TexelFormat::rgba8);
-    if (!made) return pass_on(made);
-    canvas_ = std::move(*made);
-  }
-  if (auto status = canvas_.fill(*device_, progress); !status) return pass_on(status);
-  report_ = canvas_.report();
-  return canvas_.read();
+// Draws with the program in use.
+Status Renderer::fill(Canvas& canvas, const Progress& progress) {
+  auto status = canvas.fill(*device_, progress);
+  report_ = canvas.report();
+  return status;
 }
 
 }  // namespace tidemark

@@ -61,6 +61,10 @@ class Renderer {
   Result<Picture> draw(const VolumeView& view, PictureSize size, const Progress& progress = {});
   Result<Picture> draw(const SliceView& view, PictureSize size, const Progress& progress = {});
 
+  // The same onto a canvas (rgba8), at its size. Nothing is read back and nothing is waited for.
+  Status draw_on(Canvas& canvas, const VolumeView& view, const Progress& progress = {});
+  Status draw_on(Canvas& canvas, const SliceView& view, const Progress& progress = {});
+
   // What is seen at a pixel (from the picture's top left); none when nothing is. The source is not met where
   // it has no 3D texture.
   Result<std::optional<Hit>> pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel);
@@ -78,8 +82,10 @@ class Renderer {
   Result<const gpu::Program*> use_volume_program(const char* fragment, const VolumeView& view,
                                                  PictureSize size, gpu::Defines variant);
   [[nodiscard]] VolumeView resolved(const VolumeView& asked) const;
-  Result<Picture> draw_from_slices(const VolumeView& view, PictureSize size, const Progress& progress);
-  Result<Picture> finish(PictureSize size, const Progress& progress);
+  template <class View>
+  Result<Picture> draw_and_read(const View& view, PictureSize size, const Progress& progress);
+  Status draw_from_slices(Canvas& canvas, const VolumeView& view, const Progress& progress);
+  Status fill(Canvas& canvas, const Progress& progress);
 
   std::shared_ptr<gpu::Device> device_;
   std::shared_ptr<const Volume> source_;

@@ -48,6 +48,21 @@ std::vector<std::shared_ptr<ViewSlot>> CasePainter::views() {
 void CasePainter::forget() {
   shown_ = {};
   solved_ = {};
+  const bool lost = device_ && device_->lost();
+  for (const auto& slot : views()) {
+    slot->textures.reset();
+    if (lost) withdraw(*slot);
+  }
+}
+
+// A texture of a lost context shows nothing that anybody should see.
+void CasePainter::withdraw(ViewSlot& slot) {
+  {
+    const std::lock_guard lock(slot.mutex);
+    if (!slot.finished.texture) return;
+    slot.finished.texture.reset();
+  }
+  announce(slot);
 }
 
 Result<std::shared_ptr<const Field>> CasePainter::phi(Case& document) {
@@ -148,6 +163,7 @@ Result<bool> CasePainter::draw(ViewSlot& slot, Case& document, std::stop_token s
   if (is_new || slot.drawn_phi != phi_revision_ || slot.drawn_look != look_revision_) {
     slot.quality.moved();
     slot.mean.clear();
+    if (slot.textures) slot.textures->clear_mean();
   }
   slot.drawn_phi = phi_revision_;
   slot.drawn_look = look_revision_;
@@ -155,9 +171,9 @@ Result<bool> CasePainter::draw(ViewSlot& slot, Case& document, std::stop_token s
   const Progress progress{nullptr, std::move(stop)};
   if (std::holds_alternative<VolumeView>(wish->view))
     return draw_volume(slot, *wish, **renderer, step, progress);
-  const auto picture = (*renderer)->draw(std::get<SliceView>(wish->view), wish->size, progress);
-  if (!picture) return tl::unexpected<Error>(picture.error());
-  deliver(slot, *wish, *picture, step, true);
+  auto shown = paint(slot, std::get<SliceView>(wish->view), wish->size, false, **renderer, progress);
+  if (!shown) return pass_on(shown);
+  deliver(slot, *wish, std::move(*shown), step, true);
   return false;
 }
 
@@ -168,25 +184,55 @@ Result<bool> CasePainter::draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish
   VolumeView view = std::get<VolumeView>(wish.view);
   view.quality = pass->quality;
   const auto begin = std::chrono::steady_clock::now();
-  auto picture = renderer.draw(view, pass->size, progress);
-  if (!picture) return pass_on(picture);
+  auto shown = paint(slot, view, pass->size, !pass->moving, renderer, progress);
+  if (!shown) return pass_on(shown);
   slot.quality.drawn(*pass, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   const bool more = slot.quality.next(wish.size).has_value();
-  if (!pass->moving) {
-    slot.mean.add(*picture);
-    *picture = slot.mean.mean();
-  }
-  deliver(slot, wish, *picture, step, !more);
+  deliver(slot, wish, std::move(*shown), step, !more);
   return more;
 }
 
-void CasePainter::deliver(ViewSlot& slot, const ViewSlot::Wish& wish, const Picture& picture,
-                          std::int64_t step, bool finished) {
-  ShownPicture shown{to_image(picture), wish.view, wish.size, step, finished, ++slot.pictures};
+template <class View>
+Result<ShownPicture> CasePainter::paint(ViewSlot& slot, const View& view, PictureSize size, bool into_mean,
+                                        Renderer& renderer, const Progress& progress) {
+  ShownPicture shown;
+  if (engine_.pictures() == Engine::Pictures::textures) {
+    if (!slot.textures) {
+      auto made = ViewTextures::create(engine_, device_);
+      if (!made) return pass_on(made);
+      slot.textures = std::move(*made);
+    }
+    auto texture = slot.textures->draw(renderer, view, size, into_mean, progress);
+    if (!texture) return pass_on(texture);
+    shown.texture = std::move(*texture);
+    return shown;
+  }
+  auto picture = renderer.draw(view, size, progress);
+  if (!picture) return pass_on(picture);
+  ++pictures_read_back_;
+  if (into_mean) {
+    slot.mean.add(*picture);
+    *picture = slot.mean.mean();
+  }
+  shown.image = to_image(*picture);
+  return shown;
+}
+
+void CasePainter::deliver(ViewSlot& slot, const ViewSlot::Wish& wish, ShownPicture shown, std::int64_t step,
+                          bool finished) {
+  shown.view = wish.view;
+  shown.size = wish.size;
+  shown.step = step;
+  shown.finished = finished;
+  shown.number = ++slot.pictures;
   {
     const std::lock_guard lock(slot.mutex);
     slot.finished = std::move(shown);
   }
+  announce(slot);
+}
+
+void CasePainter::announce(ViewSlot& slot) {
   if (!slot.announced.exchange(true)) slot.outlet->send(slot.take);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/renderer.h"
+#include "session/engine.h"
 #include "session/view_slot.h"
 #include "study/case.h"
 
@@ -14,6 +15,8 @@ namespace tidemark {
 
 class CasePainter {
  public:
+  explicit CasePainter(Engine& engine) : engine_(engine) {}
+
   // Any thread.
   void add(const std::shared_ptr<ViewSlot>& slot);
   // Of the views that still exist.
@@ -44,6 +47,8 @@ class CasePainter {
   // Of phi, since the start: what a GL executor's pictures must not need.
   [[nodiscard]] std::int64_t pages_uploaded() const { return pages_uploaded_; }
   [[nodiscard]] std::int64_t phi_readbacks() const { return phi_readbacks_; }
+  // What pictures that are handed on as textures must not need.
+  [[nodiscard]] std::int64_t pictures_read_back() const { return pictures_read_back_; }
 
  private:
   // What pictures of one source are drawn by, and what it has seen of the case.
@@ -64,9 +69,16 @@ class CasePainter {
   Status show_phi(Canvas& canvas, Case& document, bool with_pages);
   Result<bool> draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, Renderer& renderer, std::int64_t step,
                            const Progress& progress);
-  void deliver(ViewSlot& slot, const ViewSlot::Wish& wish, const Picture& picture, std::int64_t step,
+  // Draws a picture as the views want it; says nothing of what it is.
+  template <class View>
+  Result<ShownPicture> paint(ViewSlot& slot, const View& view, PictureSize size, bool into_mean,
+                             Renderer& renderer, const Progress& progress);
+  static void withdraw(ViewSlot& slot);
+  void deliver(ViewSlot& slot, const ViewSlot::Wish& wish, ShownPicture shown, std::int64_t step,
                bool finished);
+  static void announce(ViewSlot& slot);
 
+  Engine& engine_;
   std::shared_ptr<gpu::Device> device_;
   Canvas shown_;   // the volume as it was loaded
   Canvas solved_;  // what the level set sees, where that is another one
@@ -75,6 +87,7 @@ class CasePainter {
   std::uint64_t look_revision_ = 1;
   std::int64_t pages_uploaded_ = 0;
   std::int64_t phi_readbacks_ = 0;
+  std::int64_t pictures_read_back_ = 0;
 
   std::mutex views_mutex_;
   std::vector<std::weak_ptr<ViewSlot>> views_;

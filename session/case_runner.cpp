@@ -21,7 +21,8 @@ CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study,
       study_(std::move(study)),
       executor_kind_(executor),
       receiver_(std::move(receiver)),
-      restored_(std::move(restored)) {}
+      restored_(std::move(restored)),
+      painter_(engine) {}
 
 void CaseRunner::post(Command command) {
   engine_.interrupt(Priority::step, this);  // refinement can wait

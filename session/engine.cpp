@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace tidemark {
@@ -22,6 +23,13 @@ QSurfaceFormat format_of(std::pair<int, int> version) {
 
 bool at_least(const QSurfaceFormat& format, std::pair<int, int> version) {
   return format.version() >= qMakePair(version.first, version.second);
+}
+
+Engine::Pictures choose_pictures(Engine::Graphics graphics) {
+  const QByteArray wanted = qgetenv("TIDEMARK_PICTURES");
+  if (graphics == Engine::Graphics::none || wanted == "images") return Engine::Pictures::images;
+  if (wanted == "textures") return Engine::Pictures::textures;
+  return graphics == Engine::Graphics::hardware ? Engine::Pictures::textures : Engine::Pictures::images;
 }
 
 }  // namespace
@@ -101,9 +109,13 @@ void Engine::post(Priority priority, const void* owner, Job job) {
 }
 
 void Engine::cancel(const void* owner) {
+  std::deque<Waiting> forgotten;  // dies after the lock is given back: what jobs hold may post as it goes
   const std::lock_guard lock(mutex_);
   for (auto& queue : waiting_) {
-    std::erase_if(queue, [owner](const Waiting& waiting) { return waiting.owner == owner; });
+    const auto others = std::stable_partition(
+        queue.begin(), queue.end(), [owner](const Waiting& waiting) { return waiting.owner == owner; });
+    std::move(queue.begin(), others, std::back_inserter(forgotten));
+    queue.erase(queue.begin(), others);
   }
   if (running_ && running_->owner == owner) running_->stop.request_stop();
 }
@@ -138,6 +150,19 @@ std::optional<Engine::Waiting> Engine::next(std::unique_lock<std::mutex>& lock) 
   }
 }
 
+// What jobs hold may post as it goes.
+void Engine::forget_jobs(std::unique_lock<std::mutex>& lock) {
+  const auto none_waits = [this] {
+    return std::ranges::all_of(waiting_, [](const auto& queue) { return queue.empty(); });
+  };
+  while (!none_waits()) {
+    Queues forgotten = std::exchange(waiting_, {});
+    lock.unlock();
+    forgotten = {};
+    lock.lock();
+  }
+}
+
 void Engine::run() {
   const Status made = make_context();
   std::unique_lock lock(mutex_);
@@ -145,6 +170,7 @@ void Engine::run() {
     capabilities_ = device_->capabilities();
     graphics_ = capabilities_.software ? Graphics::software : Graphics::hardware;
   }
+  pictures_ = choose_pictures(graphics_);
   started_ = true;
   changed_.notify_all();
   while (auto waiting = next(lock)) {
@@ -155,7 +181,7 @@ void Engine::run() {
     lock.lock();
     running_.reset();
   }
-  for (auto& queue : waiting_) queue.clear();
+  forget_jobs(lock);
   lock.unlock();
   let_graphics_go();
   // Contexts are deleted where their surface is.

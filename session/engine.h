@@ -46,6 +46,10 @@ class Engine : public QObject {
   [[nodiscard]] Graphics graphics() const { return graphics_; }
   [[nodiscard]] const std::string& graphics_problem() const { return graphics_problem_; }
   [[nodiscard]] const gpu::Capabilities& capabilities() const { return capabilities_; }
+  // How finished pictures reach the views: as textures that their contexts share, or read back. With a GPU
+  // the former; the environment's TIDEMARK_PICTURES=textures|images has the last word.
+  enum class Pictures { textures, images };
+  [[nodiscard]] Pictures pictures() const { return pictures_; }
   // For contexts that are to see the engine's textures; null without OpenGL.
   [[nodiscard]] QOpenGLContext* context() const { return context_.get(); }
 
@@ -60,6 +64,14 @@ class Engine : public QObject {
   void interrupt(Priority priority, const void* owner = nullptr);
   // Whether nothing waits and nothing runs.
   [[nodiscard]] bool idle() const;
+  // Shared with other threads, and yet let go on the engine's thread, whoever is the last to let go: for what
+  // holds objects of OpenGL.
+  template <class T>
+  std::shared_ptr<T> share(std::unique_ptr<T> object) {
+    return std::shared_ptr<T>(object.release(), [this](T* last) {
+      post(Priority::edit, last, [dying = std::shared_ptr<T>(last)](const std::stop_token&) {});
+    });
+  }
 
   // On the engine's thread: the device, null without OpenGL.
   [[nodiscard]] const std::shared_ptr<gpu::Device>& device() const { return device_; }
@@ -84,6 +96,7 @@ class Engine : public QObject {
   Status make_context();
   void run();
   std::optional<Waiting> next(std::unique_lock<std::mutex>& lock);
+  void forget_jobs(std::unique_lock<std::mutex>& lock);
   void let_graphics_go();
 
   std::unique_ptr<QOffscreenSurface> surface_;
@@ -91,12 +104,14 @@ class Engine : public QObject {
   std::shared_ptr<gpu::Device> device_;
   gpu::Capabilities capabilities_;
   Graphics graphics_ = Graphics::none;
+  Pictures pictures_ = Pictures::images;
   std::string graphics_problem_;
   std::atomic<int> contexts_made_{0};
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::array<std::deque<Waiting>, kPriorities> waiting_;
+  using Queues = std::array<std::deque<Waiting>, kPriorities>;
+  Queues waiting_;
   std::optional<Running> running_;
   bool started_ = false;
   bool closing_ = false;

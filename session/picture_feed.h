@@ -14,13 +14,17 @@ namespace tidemark {
 
 class CaseRunner;
 class CaseSession;
+class PictureTexture;
 struct ViewSlot;
 
 using AnyView = std::variant<SliceView, VolumeView>;
 
 // What is on the screen: the picture, and of what it is.
 struct ShownPicture {
-  QImage image;  // may be smaller than the view while something moves: to be shown enlarged
+  // One of the two, by Engine::pictures(); neither where there is no picture. May be smaller than the view
+  // while something moves: to be shown enlarged.
+  QImage image;
+  std::shared_ptr<const PictureTexture> texture;
   AnyView view;
   PictureSize size;          // of the view, in physical pixels
   std::int64_t step = 0;     // of the level set

@@ -10,6 +10,7 @@
 #include "renderer/quality_control.h"
 #include "session/outlet.h"
 #include "session/picture_feed.h"
+#include "session/view_textures.h"
 
 namespace tidemark {
 
@@ -33,9 +34,10 @@ struct ViewSlot {
 
   // On the engine's thread alone.
   QualityControl quality;
-  PictureMean mean;
-  std::int64_t drawn_phi = -1;   // revision of phi that was last drawn
-  std::uint64_t drawn_look = 0;  // revision of labels and parameters
+  PictureMean mean;                        // of pictures that are read back
+  std::shared_ptr<ViewTextures> textures;  // of those that are not, when first needed
+  std::int64_t drawn_phi = -1;             // revision of phi that was last drawn
+  std::uint64_t drawn_look = 0;            // revision of labels and parameters
   std::uint64_t pictures = 0;
 };
 

@@ -1,8 +1,10 @@
-// How good the next picture is to be. Needs no OpenGL, apart from the last test.
+// How good the next picture is to be. Needs no OpenGL, apart from the last two tests.
 #include <QTest>
 
+#include "renderer/canvas_mean.h"
 #include "renderer/quality_control.h"
 #include "tests/renderer/scenes.h"
+#include "tests/support/support.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -89,6 +91,32 @@ class QualityControlTest : public QObject {
     view.quality.round = 0;
     QCOMPARE(count(draw(view, 96, 96), between), 0);
     QVERIFY(count(mean.mean(), between) > 60);
+  }
+
+  void the_mean_on_the_gpu_is_the_mean_of_the_pictures() {
+    Painter draw(ball_scene(grid({48, 48, 48}), 12.0));
+    auto canvas = Canvas::create(draw.device(), {96, 80}, gpu::TexelFormat::rgba8);
+    auto on_gpu = CanvasMean::create(draw.device());
+    QVERIFY(canvas && on_gpu);
+    VolumeView view;
+    PictureMean mean;
+    // The second time it starts anew.
+    for (int turn = 0; turn < 2; ++turn) {
+      view.camera.azimuth += 40.0;
+      mean.clear();
+      on_gpu->clear();
+      for (int round = 0; round < QualityControl::kRounds; ++round) {
+        view.quality.round = round;
+        QCOMPARE(failure(draw.renderer().draw_on(*canvas, view)), QString());
+        mean.add(*canvas->read());
+        QCOMPARE(failure(on_gpu->replace_by_mean(draw.device(), *canvas)), QString());
+        const Picture expected = mean.mean();
+        const Picture got = *canvas->read();
+        for (std::size_t i = 0; i < got.pixels.size(); ++i) {
+          QVERIFY(std::abs(int{got.pixels[i]} - int{expected.pixels[i]}) <= 1);
+        }
+      }
+    }
   }
 };
 

@@ -35,6 +35,7 @@
 #include "ui/opening/series_browser.h"
 #include "ui/opening/start_page.h"
 #include "ui/opening/study_opener.h"
+#include "ui/views/picture_surface.h"
 #include "ui/views/picture_view.h"
 
 namespace tidemark {
@@ -48,6 +49,7 @@ MainWindow::MainWindow(Engine& engine, QWidget* parent) : QMainWindow(parent), e
   setObjectName("main");
   setWindowIcon(application_icon());
   setAcceptDrops(true);
+  if (engine.pictures() == Engine::Pictures::textures) expect_surfaces(*this);
   resize(1280, 800);
   actions_ = new Actions(this);
   recent_ = new RecentStudies(this);

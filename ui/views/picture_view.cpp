@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "ui/views/overlay.h"
+#include "ui/views/picture_surface.h"
 
 namespace tidemark {
 namespace {
@@ -46,9 +47,13 @@ PictureView::PictureView(CaseSession& session, QWidget* parent)
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
-  connect(&feed_, &PictureFeed::arrived, this, qOverload<>(&QWidget::update));
+  if (session.engine().pictures() == Engine::Pictures::textures) {
+    surface_ = new PictureSurface(
+        feed_, [this](QPainter& painter) { paint_all(painter); }, this);
+  }
+  connect(&feed_, &PictureFeed::arrived, this, &PictureView::paint_again);
   connect(&display(), &Display::changed, this, &PictureView::follow_display);
-  connect(&display(), &Display::pointer_moved, this, qOverload<>(&QWidget::update));
+  connect(&display(), &Display::pointer_moved, this, &PictureView::paint_again);
   follow_display();
 }
 
@@ -60,12 +65,17 @@ PictureSize PictureView::physical_size() const {
 }
 
 QImage PictureView::grab_picture() {
+  const auto paint = [this](QPainter& painter) {
+    painter.setRenderHint(QPainter::Antialiasing);
+    paint_picture(painter);
+    paint_overlay(painter);
+  };
+  if (surface_) return surface_->grab(paint);
   const PictureSize size = physical_size();
   QImage image(static_cast<int>(size.width), static_cast<int>(size.height), QImage::Format_RGB32);
   image.setDevicePixelRatio(devicePixelRatioF());
   QPainter painter(&image);
-  paint_picture(painter);
-  paint_overlay(painter);
+  paint(painter);
   return image;
 }
 
@@ -80,13 +90,26 @@ void PictureView::ask() {
 void PictureView::follow_display() {
   setCursor(cursor_for(settings().tool));
   ask();
-  update();
+  paint_again();
 }
 
 // Painting.
 
+void PictureView::paint_again() {
+  if (surface_) {
+    surface_->update();
+  } else {
+    update();
+  }
+}
+
 void PictureView::paintEvent(QPaintEvent* /*event*/) {
+  if (surface_) return;
   QPainter painter(this);
+  paint_all(painter);
+}
+
+void PictureView::paint_all(QPainter& painter) {
   painter.setRenderHint(QPainter::Antialiasing);
   paint_picture(painter);
   paint_overlay(painter);
@@ -98,6 +121,7 @@ void PictureView::paintEvent(QPaintEvent* /*event*/) {
 }
 
 void PictureView::paint_picture(QPainter& painter) {
+  if (feed_.shown().texture) return;  // the surface has shown it
   const QImage& image = feed_.shown().image;
   if (!image.isNull()) {
     // Coarse pictures are enlarged while something moves.
@@ -126,6 +150,7 @@ void PictureView::paint_brush(QPainter& painter) {
 
 void PictureView::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
+  if (surface_) surface_->setGeometry(rect());
   ask();
 }
 
@@ -149,7 +174,7 @@ Pointer PictureView::pointer_at(const QMouseEvent& event) const {
 
 void PictureView::set_drag(std::unique_ptr<Drag> drag) {
   drag_ = std::move(drag);
-  update();
+  paint_again();
 }
 
 std::unique_ptr<Drag> PictureView::begin_drag(const Pointer& pressed) {
@@ -178,7 +203,7 @@ void PictureView::mouseMoveEvent(QMouseEvent* event) {
   display().set_pointer(pointer.patient_mm);
   if (drag_) {
     drag_->move(pointer);
-    update();
+    paint_again();
   } else if (button_ == Qt::NoButton && event->modifiers().testFlag(Qt::ShiftModifier) &&
              pointer.patient_mm) {
     display().change([&](DisplaySettings& settings) { settings.cursor_mm = *pointer.patient_mm; });

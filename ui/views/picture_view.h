@@ -10,6 +10,8 @@
 
 namespace tidemark {
 
+class PictureSurface;
+
 class PictureView : public QWidget {
   Q_OBJECT
  public:
@@ -22,6 +24,8 @@ class PictureView : public QWidget {
   [[nodiscard]] PictureSize physical_size() const;
   // What is seen, with all that is drawn over it, in physical pixels.
   [[nodiscard]] QImage grab_picture();
+  // What shows pictures that are textures; null where they are images (Engine::pictures()).
+  [[nodiscard]] const PictureSurface* surface() const { return surface_; }
 
   // Of a point of the patient (LPS, mm), in logical pixels.
   [[nodiscard]] virtual QPointF position_of(glm::dvec3 patient_mm) const = 0;
@@ -42,6 +46,8 @@ class PictureView : public QWidget {
   [[nodiscard]] DragView drag_view();
 
   [[nodiscard]] virtual AnyView wanted() const = 0;
+  // To be called instead of update().
+  void paint_again();
   virtual void paint_overlay(QPainter& painter) = 0;
   // Drags that are about the view itself; `first_choice`: the left button of a tool that has nothing to do
   // here.
@@ -70,12 +76,14 @@ class PictureView : public QWidget {
  private:
   void ask();
   void follow_display();
+  void paint_all(QPainter& painter);
   void paint_picture(QPainter& painter);
   void paint_brush(QPainter& painter);
   [[nodiscard]] Pointer pointer_at(const QMouseEvent& event) const;
 
   CaseSession& session_;
   PictureFeed feed_;
+  PictureSurface* surface_ = nullptr;  // covers the whole view
   std::unique_ptr<Drag> drag_;
   Qt::MouseButton button_ = Qt::NoButton;  // that is held down
   QPointF mouse_;

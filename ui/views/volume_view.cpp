@@ -151,7 +151,7 @@ void VolumeViewWidget::pick_and_begin(const Pointer& pressed) {
 
 void VolumeViewWidget::mouseMoveEvent(QMouseEvent* event) {
   PictureView::mouseMoveEvent(event);
-  if (settings().clip_on) update();  // the grip under the mouse
+  if (settings().clip_on) paint_again();  // the grip under the mouse
 }
 
 void VolumeViewWidget::mouseReleaseEvent(QMouseEvent* event) {

@@ -1,0 +1,74 @@
+// Pictures of a view that stay on the GPU, from the engine's context to the view's own.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "core/progress.h"
+#include "renderer/canvas.h"
+#include "renderer/canvas_mean.h"
+#include "renderer/renderer.h"
+
+namespace tidemark {
+
+class Engine;
+
+// One texture. Who holds it may read it in a context that shares with the engine's: it is not drawn into.
+class PictureTexture {
+ public:
+  PictureTexture(std::shared_ptr<gpu::Device> device, Canvas canvas)
+      : device_(std::move(device)), canvas_(std::move(canvas)) {}
+  PictureTexture(const PictureTexture&) = delete;
+  PictureTexture& operator=(const PictureTexture&) = delete;
+  ~PictureTexture() { (void)take_reader(); }
+
+  [[nodiscard]] unsigned id() const { return canvas_.colour().id(); }
+  [[nodiscard]] PictureSize size() const { return canvas_.size(); }
+  // The fence (GLsync) behind the reader's last command that reads it, inserted and flushed. What it comes
+  // instead of belongs to the reader again.
+  [[nodiscard]] void* read_until(void* fence) const { return reader_.exchange(fence); }
+
+ private:
+  friend class ViewTextures;
+  gpu::Fence take_reader() { return gpu::Fence::adopt(*device_, reader_.exchange(nullptr)); }
+
+  std::shared_ptr<gpu::Device> device_;  // outlives the canvas, also when the engine has lost it
+  Canvas canvas_;
+  mutable std::atomic<void*> reader_{nullptr};
+};
+
+// The textures of one view: one that is seen, one that is about to be, and one to draw the next picture into.
+// On the engine's thread.
+class ViewTextures {
+ public:
+  static Result<std::shared_ptr<ViewTextures>> create(Engine& engine, std::shared_ptr<gpu::Device> device);
+
+  void clear_mean() { mean_.clear(); }
+  // Draws a picture, or `into_mean` the mean of it and those since clear_mean(), and waits until it is there.
+  template <class View>
+  Result<std::shared_ptr<const PictureTexture>> draw(Renderer& renderer, const View& view, PictureSize size,
+                                                     bool into_mean, const Progress& progress) {
+    auto texture = free_texture(size);
+    if (!texture) return pass_on(texture);
+    Canvas& canvas = (*texture)->canvas_;
+    if (auto status = renderer.draw_on(canvas, view, progress); !status) return pass_on(status);
+    if (into_mean) {
+      if (auto status = mean_.replace_by_mean(*device_, canvas); !status) return pass_on(status);
+    }
+    if (auto status = gpu::Fence::insert(*device_).wait(); !status) return pass_on(status);
+    return std::shared_ptr<const PictureTexture>(std::move(*texture));
+  }
+
+ private:
+  ViewTextures(Engine& engine, std::shared_ptr<gpu::Device> device, CanvasMean mean)
+      : engine_(engine), device_(std::move(device)), mean_(std::move(mean)) {}
+  Result<std::shared_ptr<PictureTexture>> free_texture(PictureSize size);
+
+  Engine& engine_;
+  std::shared_ptr<gpu::Device> device_;
+  CanvasMean mean_;
+  std::vector<std::shared_ptr<PictureTexture>> textures_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,45 @@
+// Where a view's picture is a texture that the engine has drawn: the only place of the user interface that
+// knows OpenGL.
+#pragma once
+
+#include <QOpenGLTextureBlitter>
+#include <QOpenGLWidget>
+#include <functional>
+
+#include "session/picture_feed.h"
+
+namespace tidemark {
+
+// Lies over its whole parent, shows the feed's newest picture, and has the parent paint over it. The mouse
+// and the keyboard stay the parent's. Waits for nothing: a picture is finished when it arrives.
+class PictureSurface : public QOpenGLWidget {
+  Q_OBJECT
+ public:
+  using Paint = std::function<void(QPainter&)>;
+  PictureSurface(const PictureFeed& feed, Paint paint_over, QWidget* parent);
+  ~PictureSurface() override;
+
+  // The picture with something else over it; waits for the GPU.
+  [[nodiscard]] QImage grab(const Paint& paint_over);
+  // How often a context was prepared: more than once when it was lost on the way.
+  [[nodiscard]] int times_initialised() const { return times_initialised_; }
+
+ protected:
+  void initializeGL() override;
+  void paintGL() override;
+
+ private:
+  void let_go();
+  void show_texture();
+
+  const PictureFeed& feed_;
+  Paint paint_over_;
+  QOpenGLTextureBlitter blitter_;
+  int times_initialised_ = 0;
+};
+
+// To be called before the window is shown in which there may be surfaces later: Qt makes a window anew, and
+// it flickers, when the first thing that is drawn by OpenGL comes into it.
+void expect_surfaces(QWidget& window);
+
+}  // namespace tidemark
