@@ -71,6 +71,7 @@ class PictureSurfaceTest : public QObject {
   void the_mouse_and_the_keyboard_reach_the_view();
   void a_texture_that_somebody_holds_is_not_drawn_into();
   void a_lost_context_of_the_engine_costs_one_picture();
+  void a_case_is_closed_while_its_pictures_are_drawn();
 };
 
 void PictureSurfaceTest::textures_show_what_images_show_and_nothing_is_read_back() {
@@ -208,6 +209,27 @@ void PictureSurfaceTest::a_lost_context_of_the_engine_costs_one_picture() {
   QVERIFY(axial->feed().shown().texture);
   QVERIFY(difference(axial->grab_picture(), before) < 0.01);
   QCOMPARE(axial->surface()->times_initialised(), 1);
+}
+
+void PictureSurfaceTest::a_case_is_closed_while_its_pictures_are_drawn() {
+  DesktopWith desktop("textures");
+  open_sphere(desktop);
+  CaseWindow* first = desktop.window().active_case();
+  const PictureView* view = desktop.view<VolumeViewWidget>();
+  QVERIFY(view);
+  // Held by nobody else any more, it dies on the engine's thread.
+  std::shared_ptr<const PictureTexture> held = view->feed().shown().texture;
+  open_sphere(desktop);
+  first->session().play();
+  QTest::qWait(50);
+  first->close_saved();
+  QTRY_COMPARE(desktop.window().cases().size(), qsizetype{1});
+  held.reset();
+  auto* other = desktop.view<VolumeViewWidget>();
+  QVERIFY(other);
+  desktop.settle();
+  QVERIFY(difference(on_screen(*other), other->grab_picture()) < 0.006);
+  QCOMPARE(desktop.engine().contexts_made(), 1);
 }
 
 }  // namespace tidemark::test
