@@ -106,14 +106,14 @@ void PictureSurfaceTest::textures_show_what_images_show_and_nothing_is_read_back
       QVERIFY(difference(grabbed, screens[i]) < 0.006);
     }
     // Everything moves at once.
-    Watchdog watchdog;
+    WatchedApplication::instance().restart();
     desktop.session().play();
     for (int i = 0; i < 20; ++i) {
       desktop.session().display().change([](DisplaySettings& settings) { settings.camera.azimuth += 3.0; });
       QTest::qWait(20);
     }
     QTest::qWait(300);
-    qInfo("%s: the user interface was late by %.0f ms at most", way, watchdog.longest_ms());
+    qInfo("%s: the user interface was late by %.0f ms at most", way, WatchedApplication::instance().longest_ms());
     desktop.session().pause();
     desktop.settle();
     QCOMPARE(desktop.pictures_read_back() == 0, textures);
