@@ -89,7 +89,7 @@ QString SavedCases::ask_for_file(const CaseWindow& window, const QString& title,
 
 void SavedCases::export_mask(CaseWindow& window) {
   const bool has_labels = !window.session().state().labels.empty();
-  QString what = tr("surface");
+  QString what = tr("mask");
   if (has_labels) {
     QMessageBox box(QMessageBox::Question, tr("Export"), tr("What is to be written?"), QMessageBox::Cancel,
                     &window_);
@@ -248,9 +248,10 @@ void SavedCases::restore(const std::shared_ptr<const LoadedStudy>& study, Volume
         tr("The study of the session %1 is another one now: its size or place differ").arg(waiting.file));
   }
   if (found == VolumeMatch::other_voxels &&
-      QMessageBox::question(&window_, tr("Open a session"),
-                            tr("The voxels of this study are not those that the session was saved with. Go on "
-                               "all the same? Nothing is overwritten.")) != QMessageBox::Yes) {
+      QMessageBox::question(
+          &window_, tr("Open a session"),
+          tr("The voxels of this study are not those that the session was saved with. Go on "
+             "all the same? Nothing is overwritten.")) != QMessageBox::Yes) {
     return;
   }
   CaseWindow* window = window_.add_case(study, {waiting.contents, waiting.rescued});
@@ -262,8 +263,10 @@ void SavedCases::offer_rescued() {
   const auto copies = find_recoverable(recovery_folder());
   if (copies.empty()) return;
   QMessageBox box(QMessageBox::Question, tr("Rescued work"),
-                  tr("Tidemark did not end as it should the last time. It kept copies of %n case(s).",
-                     nullptr, static_cast<int>(copies.size())),
+                  copies.size() == 1
+                      ? tr("Tidemark did not end as it should the last time. It kept a copy of one case.")
+                      : tr("Tidemark did not end as it should the last time. It kept copies of %1 cases.")
+                            .arg(copies.size()),
                   QMessageBox::NoButton, &window_);
   QPushButton* open = box.addButton(tr("Open them"), QMessageBox::AcceptRole);
   QPushButton* remove = box.addButton(tr("Throw them away"), QMessageBox::DestructiveRole);
