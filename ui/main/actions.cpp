@@ -36,7 +36,7 @@ QAction* Actions::make(const char* name, const char* picture, const QString& tex
   if (picture) action->setIcon(icon(QString::fromLatin1(picture)));
   action->setObjectName(QString::fromLatin1(name));
   action->setProperty(kOwnKey, key.toString());
-  action->setProperty("tip", tip.isEmpty() ? QString(text).remove('&').remove(QStringLiteral("...")) : tip);
+  action->setProperty("tip", tip.isEmpty() ? QString(text).remove('&').remove(QStringLiteral("…")) : tip);
   const QVariant chosen = QSettings().value(settings_key(action));
   action->setShortcut(chosen.isValid() ? QKeySequence(chosen.toString()) : key);
   show_key(action);
@@ -57,28 +57,28 @@ void Actions::set_key(QAction* action, const QKeySequence& key) {
 }
 
 void Actions::make_files() {
-  open_folder = make("open-folder", "open-folder", tr("Open &folder..."), QKeySequence("Ctrl+O"), false,
+  open_folder = make("open-folder", "open-folder", tr("Open &folder…"), QKeySequence("Ctrl+O"), false,
                      tr("Open a folder with a DICOM study"));
-  open_file = make("open-file", "open-file", tr("Open f&ile..."), QKeySequence("Ctrl+Shift+O"), false,
+  open_file = make("open-file", "open-file", tr("Open f&ile…"), QKeySequence("Ctrl+Shift+O"), false,
                    tr("Open a DICOM file, NIfTI, NRRD, MetaImage or GIPL"));
-  open_session = make("open-session", "open-file", tr("Open &session..."), {}, false,
+  open_session = make("open-session", "open-file", tr("Open &session…"), {}, false,
                       tr("Go on with a session that was saved"));
   save = make("save", "save", tr("&Save session"), QKeySequence("Ctrl+S"), true);
-  save_as = make("save-as", "save-as", tr("Save session &as..."), QKeySequence("Ctrl+Shift+S"), true);
-  export_mask = make("export-mask", "export", tr("&Mask or labels..."), QKeySequence("Ctrl+E"), true,
+  save_as = make("save-as", "save-as", tr("Save session &as…"), QKeySequence("Ctrl+Shift+S"), true);
+  export_mask = make("export-mask", "export", tr("&Mask or labels…"), QKeySequence("Ctrl+E"), true,
                      tr("Write what is inside the surface, or the labels"));
-  export_mesh = make("export-mesh", nullptr, tr("&Surface as polygons..."), {}, true,
+  export_mesh = make("export-mesh", nullptr, tr("&Surface as polygons…"), {}, true,
                      tr("Write the surface as STL, PLY or OBJ, in mm of the patient"));
-  export_picture = make("export-picture", "camera", tr("&Picture of the view..."), QKeySequence("Ctrl+P"),
-                        true, tr("Write the active view as PNG, without the patient's text"));
-  export_statistics = make("export-statistics", "statistics", tr("S&tatistics..."), {}, true);
-  export_recipe = make("export-recipe", nullptr, tr("&Recipe..."), {}, true,
+  export_picture = make("export-picture", "camera", tr("&Picture of the view…"), QKeySequence("Ctrl+P"), true,
+                        tr("Write the active view as PNG, without the patient's text"));
+  export_statistics = make("export-statistics", "statistics", tr("S&tatistics…"), {}, true);
+  export_recipe = make("export-recipe", nullptr, tr("&Recipe…"), {}, true,
                        tr("Write all steps and edits, to be repeated by tidemark-cli replay"));
   close = make("close", "close", tr("&Close study"), QKeySequence("Ctrl+W"), true);
   quit = make("quit", nullptr, tr("&Quit"), QKeySequence("Ctrl+Q"), false);
   undo = make("undo", "undo", tr("&Undo"), QKeySequence("Ctrl+Z"), true);
   redo = make("redo", "redo", tr("&Redo"), QKeySequence("Ctrl+Shift+Z"), true);
-  keys = make("keys", "keyboard", tr("&Keys..."), {}, false, tr("See and change the keys"));
+  keys = make("keys", "keyboard", tr("&Keys…"), {}, false, tr("See and change the keys"));
 }
 
 void Actions::make_evolution() {

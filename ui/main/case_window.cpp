@@ -220,6 +220,7 @@ void CaseWindow::set_layout(ViewLayout layout) {
   } else if (shown.size() > 2) {
     resizeDocks({shown[0], shown[1]}, {whole / 2, whole / 2}, Qt::Horizontal);
     resizeDocks({shown[0], shown[2]}, {high / 2, high / 2}, Qt::Vertical);
+    if (layout == ViewLayout::two_two) resizeDocks({shown[1], shown[3]}, {high / 2, high / 2}, Qt::Vertical);
   }
   active_ = view_of(shown.front());
 }

@@ -47,6 +47,7 @@ constexpr int kStateVersion = 1;
 
 MainWindow::MainWindow(Engine& engine, QWidget* parent) : QMainWindow(parent), engine_(engine) {
   setObjectName("main");
+  setWindowTitle(tr("Tidemark"));  // Qt adds the name of a case that fills the window
   setWindowIcon(application_icon());
   setAcceptDrops(true);
   if (engine.pictures() == Engine::Pictures::textures) expect_surfaces(*this);
@@ -258,7 +259,10 @@ void MainWindow::activate(QMdiSubWindow* child) {
   if (!child && !area_->subWindowList().isEmpty()) return;
   for (const auto& connection : std::exchange(active_connections_, {})) disconnect(connection);
   active_ = child ? qobject_cast<CaseWindow*>(child->widget()) : nullptr;
-  if (!active_) centre_->setCurrentIndex(0);
+  if (!active_) {
+    centre_->setCurrentIndex(0);
+    messages_->dismiss();  // it spoke of what is closed now
+  }
   CaseSession* session = active_ ? &active_->session() : nullptr;
   panels_->set_session(session);
   values_->set_session(session);
@@ -286,7 +290,6 @@ void MainWindow::follow_case() {
   const DisplaySettings& settings = active_->session().display().settings();
   actions_->tool(settings.tool)->setChecked(true);
   actions_->clip->setChecked(settings.clip_on);
-  setWindowTitle(tr("%1 - Tidemark").arg(active_->session().name()));
 }
 
 template <class Do>

@@ -50,7 +50,8 @@ QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* pa
   scroll->setWidget(panel);
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  // The transfer function's plots and buttons need more room than the column has.
+  scroll->setHorizontalScrollBarPolicy(panel == transfer_ ? Qt::ScrollBarAsNeeded : Qt::ScrollBarAlwaysOff);
   auto* dock = new QDockWidget(title, &window_);
   dock->setObjectName(QString::fromLatin1(name));
   dock->setWidget(scroll);

@@ -88,7 +88,7 @@ QString SavedCases::ask_for_file(const CaseWindow& window, const QString& title,
 
 void SavedCases::export_mask(CaseWindow& window) {
   const bool has_labels = !window.session().state().labels.empty();
-  QString what = tr("surface");
+  QString what = tr("mask");
   if (has_labels) {
     QMessageBox box(QMessageBox::Question, tr("Export"), tr("What is to be written?"), QMessageBox::Cancel,
                     &window_);
@@ -282,8 +282,10 @@ void SavedCases::offer_rescued() {
   const auto copies = find_recoverable(recovery_folder());
   if (copies.empty()) return;
   QMessageBox box(QMessageBox::Question, tr("Rescued work"),
-                  tr("Tidemark did not end as it should the last time. It kept copies of %n case(s).",
-                     nullptr, static_cast<int>(copies.size())),
+                  copies.size() == 1
+                      ? tr("Tidemark did not end as it should the last time. It kept a copy of one case.")
+                      : tr("Tidemark did not end as it should the last time. It kept copies of %1 cases.")
+                            .arg(copies.size()),
                   QMessageBox::NoButton, &window_);
   QPushButton* open = box.addButton(tr("Open them"), QMessageBox::AcceptRole);
   QPushButton* remove = box.addButton(tr("Throw them away"), QMessageBox::DestructiveRole);

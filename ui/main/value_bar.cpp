@@ -10,6 +10,7 @@ namespace tidemark {
 ValueBar::ValueBar(QWidget* parent) : QLabel(parent) {
   setAccessibleName(tr("Values under the mouse"));
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  setIndent(6);
 }
 
 void ValueBar::set_session(CaseSession* session) {

@@ -67,7 +67,7 @@ SeriesBrowser::SeriesBrowser(QWidget* parent)
       details_(new QTextBrowser(this)),
       skipped_(new QLabel(this)),
       open_(new QPushButton(tr("&Open"), this)) {
-  setWindowTitle(tr("Choose a Series"));
+  setWindowTitle(tr("Choose a series"));
   shown_->setSourceModel(model_);
   shown_->setSortRole(SeriesModel::kSortRole);
   shown_->setFilterKeyColumn(-1);  // all columns

@@ -98,8 +98,8 @@ QWidget* StartPage::build_opening() {
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(8);
   column->addWidget(label(tr("Open a study"), 1.3, true, part));
-  auto* folder = new CardButton(tr("Open Folder…"), tr("DICOM images, in subfolders, too."), part);
-  auto* file = new CardButton(tr("Open File…"), tr("NIfTI, NRRD, MetaImage, GIPL, or a DICOM image."), part);
+  auto* folder = new CardButton(tr("Open folder…"), tr("DICOM images, in subfolders, too."), part);
+  auto* file = new CardButton(tr("Open file…"), tr("NIfTI, NRRD, MetaImage, GIPL, or a DICOM image."), part);
   folder->setObjectName("open_folder");
   file->setObjectName("open_file");
   connect(folder, &CardButton::clicked, this, &StartPage::open_folder);

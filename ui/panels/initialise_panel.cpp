@@ -53,6 +53,7 @@ void InitialisePanel::add_start() {
   sentence_ = make_note({});
   replaces_ = make_note(tr("It replaces the present surface; Undo brings that back."));
   replaces_->setForegroundRole(QPalette::PlaceholderText);
+  replaces_->hide();  // until there is a surface
   problem_ = make_note({});
   problem_->hide();
   start_ = new QPushButton(tr("Start"));

@@ -120,7 +120,7 @@ QWidget* StatisticsPanel::make_buttons() {
   row->setSpacing(kSpace);
   auto* copy_button = new QPushButton(icon(u"duplicate"), tr("Copy"));
   copy_button->setToolTip(tr("All figures as text, for a spreadsheet or a report."));
-  auto* export_button = new QPushButton(icon(u"export"), tr("Export CSV …"));
+  auto* export_button = new QPushButton(icon(u"export"), tr("Export CSV…"));
   export_button->setToolTip(tr("All figures as a file of comma-separated values."));
   row->addWidget(copy_button);
   row->addWidget(export_button);
@@ -172,7 +172,7 @@ void StatisticsPanel::export_csv(const std::filesystem::path& file) {
   writing_ = BackgroundJob::start(this, [this, file, csv, name](BackgroundJob& job) {
     const Status written = write_file(file, csv);
     const QString outcome =
-        written ? tr("Written: %1").arg(name) : QString::fromStdString(written.error().message);
+        written ? tr("Wrote %1").arg(name) : QString::fromStdString(written.error().message);
     job.deliver([this, outcome] { say(outcome); });
   });
 }

@@ -132,8 +132,8 @@ void PictureView::paint_picture(QPainter& painter) {
   painter.fillRect(rect(), QColor(18, 20, 24));
   if (session_.engine().graphics() != Engine::Graphics::none) return;
   paint_text(painter, QRectF(rect()).adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
-             tr("Pictures need OpenGL 3.3, which this computer does not offer:\n%1.\n\nSegmentation works "
-                "all the same: figures and exports are right.")
+             tr("Pictures need OpenGL 3.3:\n%1.\n\nSegmentation works all the same: figures and exports are "
+                "right.")
                  .arg(QString::fromStdString(session_.engine().graphics_problem())));
 }
 

@@ -222,6 +222,11 @@ void VolumeViewWidget::paint_overlay(QPainter& painter) {
   const Camera& camera = settings().camera;
   paint_orientation(painter, size(), camera.right(), camera.up());
   paint_scale_bar(painter, size(), mm_per_pixel());
+  const bool draws = session().engine().graphics() != Engine::Graphics::none;
+  if (draws && !session().state().begun && !settings().show_source && !settings().clip_on) {
+    paint_text(painter, QRectF(rect()).adjusted(40, 40, -40, -40), Qt::AlignCenter | Qt::TextWordWrap,
+               tr("No surface yet: draw a sphere in a slice, or choose another start."));
+  }
   if (!settings().clip_on) return;
   const ClipHandles on_screen = handles();
   on_screen.paint(painter, on_screen.grip_at(mapFromGlobal(QCursor::pos())));

@@ -78,7 +78,7 @@ Desktop::~Desktop() {
 CaseWindow* Desktop::open_phantom(const QString& kind) {
   const qsizetype before = window_->cases().size();
   window_->open_phantom(kind);
-  wait_for([&] { return window_->cases().size() > before && window_->active_case(); });
+  wait_for([&] { return window_->cases().size() > before && window_->active_case() == window_->cases().back(); });
   settle();
   return window_->active_case();
 }
@@ -86,7 +86,7 @@ CaseWindow* Desktop::open_phantom(const QString& kind) {
 CaseWindow* Desktop::open(const QString& path) {
   const qsizetype before = window_->cases().size();
   window_->open(path);
-  wait_for([&] { return window_->cases().size() > before && window_->active_case(); });
+  wait_for([&] { return window_->cases().size() > before && window_->active_case() == window_->cases().back(); });
   settle();
   return window_->active_case();
 }

@@ -127,7 +127,7 @@ void RoughStoryTest::another_study_is_opened_while_one_plays() {
   const std::int64_t step = desktop.state().step;
   desktop.window().open_phantom("tumour");
   QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 2; }));
-  QVERIFY(desktop.window().active_case() != first);
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().active_case() != first; }));
   QVERIFY(first->session().state().step > step);
   for (PictureView* view : desktop.window().active_case()->views())
     QVERIFY(Desktop::wait_for([&] { return view->feed().shown().size == view->physical_size(); }));
