@@ -27,6 +27,13 @@ struct CaseAutosave::Copies {
     return files->write(contents);
   }
 
+  // What was copied is in a file now.
+  void drop() {
+    const std::lock_guard lock(mutex);
+    if (files) files->finish();
+    files.reset();
+  }
+
   void close() {
     const std::lock_guard lock(mutex);
     closed = true;
@@ -51,6 +58,10 @@ CaseAutosave::~CaseAutosave() {
 }
 
 void CaseAutosave::follow() {
+  if (was_modified_ && !session_.state().modified) {
+    BackgroundJob::start(this, [copies = copies_](BackgroundJob&) { copies->drop(); })->abandon();
+  }
+  was_modified_ = session_.state().modified;
   if (soon_ || session_.state().edits >= saved_edits_ + kEdits) save_now();
 }
 

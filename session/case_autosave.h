@@ -50,6 +50,7 @@ class CaseAutosave : public QObject {
   std::int64_t saved_step_ = 0;
   bool soon_ = false;
   bool writing_ = false;
+  bool was_modified_ = false;
   bool failed_ = false;
 };
 

@@ -5,9 +5,12 @@
 #include <QSettings>
 #include <QTextStream>
 #include <clocale>
+#include <cstdio>
 
 #include "app/desktop/diagnostics.h"
+#include "core/result.h"
 #include "session/engine.h"
+#include "solver/host/page_kernel.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/main/main_window.h"
@@ -41,13 +44,34 @@ void print_diagnostics(const Engine& engine) {
   const bool compute =
       engine.graphics() == Engine::Graphics::hardware && engine.capabilities().at_least(4, 5);
   diagnostics.automatic_executor = compute ? "compute" : "host";
+  if (const auto kernels = select_page_kernels("")) diagnostics.instruction_set = kernels->name;
   describe_machine(diagnostics);
   QTextStream(stdout) << QString::fromStdString(text(diagnostics));
+}
+
+// Without a display Qt would end the program with a message about its installation. What needs no window
+// works all the same.
+bool can_start(int argc, char** argv) {
+  if (qEnvironmentVariableIsSet("DISPLAY") || qEnvironmentVariableIsSet("WAYLAND_DISPLAY") ||
+      qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) {
+    return true;
+  }
+  for (int i = 1; i < argc; ++i) {
+    const QByteArray argument(argv[i]);
+    for (const char* one : {"-h", "--help", "-v", "--version", "--diagnostics"}) {
+      if (argument == one) return qputenv("QT_QPA_PLATFORM", "offscreen");
+    }
+  }
+  return false;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (!can_start(argc, argv)) {
+    std::fputs("tidemark: there is no display; tidemark-cli works without one\n", stderr);
+    return exit_code(ErrorKind::capability);
+  }
   // Without it every undocking of a view would destroy its context.
   QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
   QCoreApplication::setOrganizationName("tidemark");

@@ -262,6 +262,8 @@ void MainWindow::activate(QMdiSubWindow* child) {
   if (!active_) {
     centre_->setCurrentIndex(0);
     messages_->dismiss();  // it spoke of what is closed now
+    if (std::exchange(quitting_, false))
+      QMetaObject::invokeMethod(this, &QWidget::close, Qt::QueuedConnection);
   }
   CaseSession* session = active_ ? &active_->session() : nullptr;
   panels_->set_session(session);
@@ -365,7 +367,11 @@ void MainWindow::connect_windows() {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   area_->closeAllSubWindows();
-  if (!area_->subWindowList().isEmpty()) return event->ignore();  // the user wants to keep one
+  if (!area_->subWindowList().isEmpty()) {
+    // The user wants to keep one, or has one saved, after which this is tried again.
+    quitting_ = saved_->closes_later();
+    return event->ignore();
+  }
   if (!actions_->hide_interface->isChecked()) QSettings().setValue("main/state", saveState(kStateVersion));
   QSettings().setValue("main/geometry", saveGeometry());
   event->accept();

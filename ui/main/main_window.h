@@ -80,6 +80,7 @@ class MainWindow : public QMainWindow {
   ValueBar* values_ = nullptr;
   SavedCases* saved_ = nullptr;
   QPointer<CaseWindow> active_;
+  bool quitting_ = false;
   QList<QMetaObject::Connection> active_connections_;
 };
 

@@ -5,6 +5,7 @@
 #include <QFileInfo>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QSettings>
 #include <QStatusBar>
 #include <filesystem>
@@ -40,6 +41,19 @@ Status write_label_file(const SessionContents& contents, const std::filesystem::
 
 const char* const kSessionSuffix = "tidemark";
 
+// A name that has none of the endings of a filter ("NIfTI (*.nii.gz *.nii)") gets the first: the suffix says
+// which format is written, and a name may have dots of its own.
+QString with_suffix(const QString& file, const QString& filter) {
+  static const QRegularExpression kEnding(QStringLiteral("\\*(\\.[\\w.]+)"));
+  QString first;
+  for (auto endings = kEnding.globalMatch(filter); endings.hasNext();) {
+    const QString ending = endings.next().captured(1);
+    if (file.endsWith(ending, Qt::CaseInsensitive)) return file;
+    if (first.isEmpty()) first = ending;
+  }
+  return file + first;
+}
+
 }  // namespace
 
 SavedCases::SavedCases(MainWindow& window) : QObject(&window), window_(window) {
@@ -72,14 +86,18 @@ void SavedCases::write(CaseWindow& window, const QString& file, Write work) {
                                  });
 }
 
-QString SavedCases::ask_for_file(const CaseWindow& window, const QString& title, const QString& suffixes,
-                                 const QString& suffix) {
+QString SavedCases::ask_for_file(const CaseWindow& window, const QString& title, const QString& suffixes) {
   QFileDialog dialog(&window_, title, QSettings().value("save/folder").toString(), suffixes);
   dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix(suffix);
   dialog.selectFile(window.windowTitle().remove(QStringLiteral("[*]")).simplified().replace('/', '-'));
   if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return {};
-  const QString file = dialog.selectedFiles().first();
+  const QString named = dialog.selectedFiles().first();
+  const QString file = with_suffix(named, dialog.selectedNameFilter());
+  // The dialog has asked about the name as it was typed.
+  if (file != named && QFileInfo::exists(file) &&
+      QMessageBox::question(&window_, title, tr("%1 exists. Replace it?").arg(file)) != QMessageBox::Yes) {
+    return {};
+  }
   QSettings().setValue("save/folder", QFileInfo(file).absolutePath());
   return file;
 }
@@ -99,7 +117,7 @@ void SavedCases::export_mask(CaseWindow& window) {
     if (box.clickedButton() != surface) what = tr("labels");
   }
   const QString file = ask_for_file(window, tr("Export %1").arg(what),
-                                    tr("NIfTI (*.nii.gz *.nii);;NRRD (*.nrrd);;MetaImage (*.mha)"), "nii.gz");
+                                    tr("NIfTI (*.nii.gz *.nii);;NRRD (*.nrrd);;MetaImage (*.mha)"));
   if (file.isEmpty()) return;
   what == tr("labels") ? write_labels(window, file) : write_mask(window, file);
 }
@@ -116,8 +134,8 @@ void SavedCases::write_labels(CaseWindow& window, const QString& file) {
 }
 
 void SavedCases::export_mesh(CaseWindow& window) {
-  const QString file = ask_for_file(window, tr("Export the surface"),
-                                    tr("STL (*.stl);;PLY (*.ply);;Wavefront OBJ (*.obj)"), "stl");
+  const QString file =
+      ask_for_file(window, tr("Export the surface"), tr("STL (*.stl);;PLY (*.ply);;Wavefront OBJ (*.obj)"));
   if (!file.isEmpty()) write_surface(window, file);
 }
 
@@ -130,7 +148,7 @@ void SavedCases::write_surface(CaseWindow& window, const QString& file) {
 }
 
 void SavedCases::export_picture(CaseWindow& window) {
-  const QString file = ask_for_file(window, tr("Export the picture"), tr("PNG (*.png)"), "png");
+  const QString file = ask_for_file(window, tr("Export the picture"), tr("PNG (*.png)"));
   if (!file.isEmpty()) write_picture(window, file);
 }
 
@@ -150,12 +168,12 @@ void SavedCases::write_picture(CaseWindow& window, const QString& file) {
 }
 
 void SavedCases::export_statistics(CaseWindow& window) {
-  const QString file = ask_for_file(window, tr("Export statistics"), tr("Table (*.csv)"), "csv");
+  const QString file = ask_for_file(window, tr("Export statistics"), tr("Table (*.csv)"));
   if (!file.isEmpty()) window_.panels().statistics().export_csv(path_of(file));
 }
 
 void SavedCases::export_recipe(CaseWindow& window) {
-  const QString file = ask_for_file(window, tr("Export the recipe"), tr("Recipe (*.json)"), "json");
+  const QString file = ask_for_file(window, tr("Export the recipe"), tr("Recipe (*.json)"));
   if (file.isEmpty()) return;
   write(window, file, [path = path_of(file)](const SessionContents& contents) -> Status {
     const auto text = contents.recipe.to_text();
@@ -171,8 +189,8 @@ void SavedCases::save(CaseWindow& window) {
 }
 
 void SavedCases::save_as(CaseWindow& window) {
-  const QString file = ask_for_file(window, tr("Save the session"),
-                                    tr("Tidemark session (*.%1)").arg(kSessionSuffix), kSessionSuffix);
+  const QString file =
+      ask_for_file(window, tr("Save the session"), tr("Tidemark session (*.%1)").arg(kSessionSuffix));
   if (!file.isEmpty()) save_to(window, file);
 }
 
@@ -309,11 +327,12 @@ void SavedCases::close(CaseWindow& window, QCloseEvent* event) {
   // It closes itself once the file is written.
   QString file = window.session_file;
   if (file.isEmpty()) {
-    file = ask_for_file(window, tr("Save the session"), tr("Tidemark session (*.%1)").arg(kSessionSuffix),
-                        kSessionSuffix);
+    file = ask_for_file(window, tr("Save the session"), tr("Tidemark session (*.%1)").arg(kSessionSuffix));
   }
   if (file.isEmpty()) return;
-  save_to(window, file, [closing = QPointer(&window)] {
+  ++closing_;
+  save_to(window, file, [this, closing = QPointer(&window)] {
+    --closing_;
     if (closing) closing->close_saved();
   });
 }

@@ -47,6 +47,7 @@ class SavedCases : public QObject {
 
   // Asks before something is lost.
   void close(CaseWindow& window, QCloseEvent* event);
+  [[nodiscard]] bool closes_later() const { return closing_ > 0; }
 
   // Copies of cases that a program left behind that died: tells of them, and opens them if the user wants.
   void offer_rescued();
@@ -57,8 +58,7 @@ class SavedCases : public QObject {
 
  private:
   using Write = std::function<Status(const SessionContents&)>;
-  [[nodiscard]] QString ask_for_file(const CaseWindow& window, const QString& title, const QString& suffixes,
-                                     const QString& suffix);
+  [[nodiscard]] QString ask_for_file(const CaseWindow& window, const QString& title, const QString& suffixes);
   void write(CaseWindow& window, const QString& file, Write work);
   void run(const QString& file, std::function<Status()> work, std::function<void()> done = {});
   void save_to(CaseWindow& window, const QString& file, std::function<void()> done = {});
@@ -79,6 +79,7 @@ class SavedCases : public QObject {
 
   MainWindow& window_;
   StudyLoader loader_;
+  int closing_ = 0;              // cases that close once they are saved
   std::deque<Waiting> waiting_;  // the first is being read
   std::vector<std::shared_ptr<BackgroundJob>> jobs_;
 };
