@@ -70,7 +70,6 @@ Result<std::shared_ptr<const Field>> CasePainter::phi(Case& document) {
     auto phi = document.level_set().checkpoint();
     if (!phi) return phi;
     phi_ = std::move(*phi);
-    ++phi_readbacks_;
   }
   return phi_;
 }
@@ -93,6 +92,7 @@ Status CasePainter::show_phi(Canvas& canvas, Case& document, bool with_pages) {
   if (executor.packed_view(view)) return canvas.renderer->look_at(view, quiet);
   const auto field = phi(document);
   if (!field) return tl::unexpected<Error>(field.error());
+  ++phi_copies_;
   auto status = canvas.renderer->set_phi(**field, quiet.value_or(std::vector<std::int64_t>()));
   pages_uploaded_ += canvas.renderer->pages_uploaded();
   return status;

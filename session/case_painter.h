@@ -46,7 +46,7 @@ class CasePainter {
 
   // Of phi, since the start: what a GL executor's pictures must not need.
   [[nodiscard]] std::int64_t pages_uploaded() const { return pages_uploaded_; }
-  [[nodiscard]] std::int64_t phi_readbacks() const { return phi_readbacks_; }
+  [[nodiscard]] std::int64_t phi_copies() const { return phi_copies_; }
   // What pictures that are handed on as textures must not need.
   [[nodiscard]] std::int64_t pictures_read_back() const { return pictures_read_back_; }
 
@@ -86,7 +86,7 @@ class CasePainter {
   std::int64_t phi_revision_ = 0;
   std::uint64_t look_revision_ = 1;
   std::int64_t pages_uploaded_ = 0;
-  std::int64_t phi_readbacks_ = 0;
+  std::int64_t phi_copies_ = 0;
   std::int64_t pictures_read_back_ = 0;
 
   std::mutex views_mutex_;
