@@ -47,9 +47,13 @@ void ThreadPool::run_pieces(int member) {
   for (std::size_t i = 0; i < members; ++i) {
     Share& share = shares_[(static_cast<std::size_t>(member) + i) % members];
     for (;;) {
-      const std::int64_t begin = share.next.fetch_add(grain_, std::memory_order_relaxed);
-      if (begin >= share.end) break;
-      (*body_)(begin, std::min(begin + grain_, share.end), member);
+      const std::int64_t taken = share.taken.fetch_add(grain_, std::memory_order_relaxed);
+      const std::int64_t left = share.end - share.begin - taken;
+      if (left <= 0) break;
+      const std::int64_t size = std::min(grain_, left);
+      const std::int64_t begin =
+          direction_ == Direction::forward ? share.begin + taken : share.begin + left - size;
+      (*body_)(begin, begin + size, member);
     }
   }
 }
@@ -79,14 +83,16 @@ void ThreadPool::work(int member) {
   }
 }
 
-void ThreadPool::for_each(std::int64_t count, std::int64_t grain, const Body& body) {
+void ThreadPool::for_each(std::int64_t count, std::int64_t grain, const Body& body, Direction direction) {
   if (count <= 0) return;
   grain_ = std::max<std::int64_t>(1, grain);
+  direction_ = direction;
   body_ = &body;
   const auto members = static_cast<std::int64_t>(shares_.size());
   for (std::int64_t member = 0; member < members; ++member) {
     Share& share = shares_[static_cast<std::size_t>(member)];
-    share.next.store(count * member / members, std::memory_order_relaxed);
+    share.taken.store(0, std::memory_order_relaxed);
+    share.begin = count * member / members;
     share.end = count * (member + 1) / members;
   }
   // A loop of one piece is not worth waking anybody.

@@ -25,11 +25,14 @@ class ThreadPool {
 
   // Calls body(begin, end, member) for pieces of [0, count) of at most `grain` until all are done, and
   // returns then. member is in [0, threads()). Each member begins with its own contiguous share, the same one
-  // every time, so that what it touched in the last loop is still in its cache; then it helps the others. Not
-  // re-entrant: body must not call for_each of this pool, and only one thread at a time may call it. body
-  // must not throw.
+  // every time, so that what it touched in the last loop is still in its cache; then it helps the others.
+  // Backward, a share's pieces come from its end: loops that change direction each time meet first what the
+  // last one touched last. Not re-entrant: body must not call for_each of this pool, and only one thread at
+  // a time may call it. body must not throw.
+  enum class Direction { forward, backward };
   using Body = std::function<void(std::int64_t begin, std::int64_t end, int member)>;
-  void for_each(std::int64_t count, std::int64_t grain, const Body& body);
+  void for_each(std::int64_t count, std::int64_t grain, const Body& body,
+                Direction direction = Direction::forward);
 
  private:
   void work(int member);
@@ -43,11 +46,13 @@ class ThreadPool {
   std::atomic<bool> quit_{false};
 
   struct alignas(64) Share {  // a cache line each
-    std::atomic<std::int64_t> next{0};
+    std::atomic<std::int64_t> taken{0};
+    std::int64_t begin = 0;
     std::int64_t end = 0;
   };
   std::vector<Share> shares_;  // one a member
   std::int64_t grain_ = 1;
+  Direction direction_ = Direction::forward;
   const Body* body_ = nullptr;
 };
 

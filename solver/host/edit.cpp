@@ -8,6 +8,29 @@
 #include "solver/host/host_executor.h"
 
 namespace tidemark {
+namespace {
+
+// The order in which pages are made resident. A step visits them in the order in which they lie in memory:
+// blocks of pages that are near each other along every axis find each other's values still in the cache.
+class BlockOrder {
+ public:
+  explicit BlockOrder(const PageLayout& layout) : layout_(layout) {}
+
+  bool operator()(std::int64_t a, std::int64_t b) const { return key(a) < key(b); }
+
+ private:
+  static constexpr std::int64_t kBlockSide = 4;  // pages
+
+  [[nodiscard]] std::tuple<std::int64_t, std::int64_t, std::int64_t, std::int64_t> key(
+      std::int64_t page) const {
+    const Index3 block = layout_.page_coordinates(page) / kBlockSide;
+    return {block.z, block.y, block.x, page};
+  }
+
+  const PageLayout& layout_;
+};
+
+}  // namespace
 
 Status HostExecutor::restore(const Field& phi) {
   if (auto status = phi.check_fits(source_->geometry, band()); !status) return status;
@@ -24,15 +47,7 @@ Status HostExecutor::restore(const Field& phi) {
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
     if (phi.table[static_cast<std::size_t>(page)] >= 0) resident.push_back(page);
   }
-  // Pages are visited in the order in which they lie in memory. Blocks of pages that are near each other
-  // along every axis find each other's values still in the cache.
-  constexpr std::int64_t kBlockSide = 4;  // pages
-  const auto block = [&](std::int64_t page) {
-    const Index3 b = phi.layout.page_coordinates(page) / kBlockSide;
-    return std::tuple(b.z, b.y, b.x, page);
-  };
-  std::sort(resident.begin(), resident.end(),
-            [&](std::int64_t a, std::int64_t b) { return block(a) < block(b); });
+  std::sort(resident.begin(), resident.end(), BlockOrder(phi.layout));
   for (const std::int64_t page : resident) {
     if (auto made = make_resident(page); !made) return pass_on(made);
   }
@@ -75,9 +90,9 @@ Status HostExecutor::paint(const Sphere& sphere, Brush brush) {
       Index3(glm::clamp(glm::ceil(centre + reach), glm::dvec3(0), last_voxel)) / layout.page_shape();
 
   using Values = std::array<float, kPageVoxels>;
-  std::vector<std::pair<std::int64_t, Values>> to_allocate;
+  std::vector<std::int64_t> to_allocate;
   std::vector<Index3> to_flip;  // pages that are not resident and change from all outside to inside or back
-  const auto painted = [&](Index3 coordinates, const float* old_phi, float constant, Values& values) {
+  const auto painted = [&](Index3 coordinates, const float* phi, Values& values) {
     const Index3 first = coordinates * layout.page_shape();
     for (int i = 0; i < kPageVoxels; ++i) {
       const glm::dvec3 voxel(first + Index3(i % kPageSide, i / kPageSide % kPageSide, i / kPageRows));
@@ -86,58 +101,53 @@ Status HostExecutor::paint(const Sphere& sphere, Brush brush) {
           sphere.radius_mm - std::sqrt(offset.x * offset.x + offset.y * offset.y + offset.z * offset.z);
       const float d = std::clamp(static_cast<float>(distance / model_.smallest_spacing_mm()),
                                  -constants_.band, constants_.band);
-      const float phi = old_phi != nullptr ? old_phi[i] : constant;
-      values[static_cast<std::size_t>(i)] = brush == Brush::add ? std::max(phi, d) : std::min(phi, -d);
+      values[static_cast<std::size_t>(i)] = brush == Brush::add ? std::max(phi[i], d) : std::min(phi[i], -d);
+    }
+  };
+  const auto for_each_page = [&](const auto& visit) {
+    for (std::int64_t z = first_page.z; z <= last_page.z; ++z) {
+      for (std::int64_t y = first_page.y; y <= last_page.y; ++y) {
+        for (std::int64_t x = first_page.x; x <= last_page.x; ++x) {
+          const Index3 coordinates(x, y, z);
+          const PhysicalPage page = table_.physical(coordinates);
+          visit(coordinates, page, pool_.phi(current_, page));
+        }
+      }
     }
   };
 
   Values values;
-  for (std::int64_t z = first_page.z; z <= last_page.z; ++z) {
-    for (std::int64_t y = first_page.y; y <= last_page.y; ++y) {
-      for (std::int64_t x = first_page.x; x <= last_page.x; ++x) {
-        const PhysicalPage page = table_.physical(Index3(x, y, z));
-        if (!is_static_page(page)) continue;
-        const float constant = page == kInsidePage ? constants_.band : -constants_.band;
-        painted({x, y, z}, nullptr, constant, values);
-        if (std::all_of(values.begin(), values.end(), [&](float v) { return v == constant; })) continue;
-        if (std::all_of(values.begin(), values.end(), [&](float v) { return v == -constant; })) {
-          to_flip.emplace_back(x, y, z);
-        } else {
-          to_allocate.emplace_back(layout.page_number({x, y, z}), values);
-        }
-      }
+  for_each_page([&](Index3 coordinates, PhysicalPage page, const float* phi) {
+    if (!is_static_page(page)) return;
+    painted(coordinates, phi, values);
+    const float constant = phi[0];
+    if (std::all_of(values.begin(), values.end(), [&](float v) { return v == constant; })) return;
+    if (std::all_of(values.begin(), values.end(), [&](float v) { return v == -constant; })) {
+      to_flip.push_back(coordinates);
+    } else {
+      to_allocate.push_back(layout.page_number(coordinates));
     }
-  }
+  });
   if (auto status = check_budget(static_cast<std::int64_t>(to_allocate.size())); !status) return status;
+  std::sort(to_allocate.begin(), to_allocate.end(), BlockOrder(layout));
 
-  for (std::int64_t z = first_page.z; z <= last_page.z; ++z) {
-    for (std::int64_t y = first_page.y; y <= last_page.y; ++y) {
-      for (std::int64_t x = first_page.x; x <= last_page.x; ++x) {
-        const PhysicalPage page = table_.physical(Index3(x, y, z));
-        if (is_static_page(page)) continue;
-        painted({x, y, z}, pool_.phi(current_, page), 0.0F, values);
-        if (std::equal(values.begin(), values.end(), pool_.phi(current_, page))) continue;
-        std::copy(values.begin(), values.end(), pool_.phi(current_, page));
-        refresh_masks(page);
-        wake_around(page);
-      }
-    }
-  }
   for (const Index3 coordinates : to_flip) {
     const bool inside = brush == Brush::add;
     table_.set_static(layout.page_number(coordinates), inside);
     tell_neighbours(coordinates, inside ? kInsidePage : kOutsidePage);
   }
-  for (const auto& [virtual_page, contents] : to_allocate) {
+  for (const std::int64_t virtual_page : to_allocate) {
     if (auto made = make_resident(virtual_page); !made) return pass_on(made);
   }
   fill_new_pages();
-  for (const auto& [virtual_page, contents] : to_allocate) {
-    const PhysicalPage page = table_.physical(virtual_page);
-    std::copy(contents.begin(), contents.end(), pool_.phi(current_, page));
+  for_each_page([&](Index3 coordinates, PhysicalPage page, float* phi) {
+    if (is_static_page(page)) return;
+    painted(coordinates, phi, values);
+    if (std::equal(values.begin(), values.end(), phi)) return;
+    std::copy(values.begin(), values.end(), phi);
     refresh_masks(page);
     wake_around(page);
-  }
+  });
   return activate_all();
 }
 

@@ -109,18 +109,23 @@ void HostExecutor::step() {
                             [model_.spacing() == glm::dvec3(1.0) ? 0 : 1][motion ? 1 : 0];
   std::fill(updates_.begin(), updates_.end(), 0);
   constexpr std::int64_t kGrain = 4;
-  constexpr std::size_t kPrefetchAhead = 2;  // pages: 1 comes too late, 4 are driven out again (measured)
-  threads_->for_each(static_cast<std::int64_t>(active_.size()), kGrain,
-                     [&](std::int64_t begin, std::int64_t end, int member) {
-                       const auto m = static_cast<std::size_t>(member);
-                       for (std::int64_t i = begin; i < end; ++i) {
-                         const auto index = static_cast<std::size_t>(i);
-                         if (index + kPrefetchAhead < active_.size()) {
-                           pool_.prefetch(active_[index + kPrefetchAhead]);
-                         }
-                         updates_[m] += update_page(index, *tiles_[m]);
-                       }
-                     });
+  constexpr std::int64_t kPrefetchAhead = 2;  // pages: 1 comes too late, 4 are driven out again (measured)
+  // There and back: of a surface that is larger than the cache, a step finds there what the last one left.
+  const auto count = static_cast<std::int64_t>(active_.size());
+  const bool back = current_ == 1;
+  const std::int64_t stride = back ? -1 : 1;
+  threads_->for_each(
+      count, kGrain,
+      [&](std::int64_t begin, std::int64_t end, int member) {
+        const auto m = static_cast<std::size_t>(member);
+        std::int64_t i = back ? end - 1 : begin;
+        for (std::int64_t left = end - begin; left > 0; --left, i += stride) {
+          const std::int64_t ahead = i + stride * kPrefetchAhead;
+          if (ahead >= 0 && ahead < count) pool_.prefetch(active_[static_cast<std::size_t>(ahead)]);
+          updates_[m] += update_page(static_cast<std::size_t>(i), *tiles_[m]);
+        }
+      },
+      back ? ThreadPool::Direction::backward : ThreadPool::Direction::forward);
   current_ = 1 - current_;
 }
 

@@ -118,13 +118,24 @@ class CoreTest : public QObject {
       QCOMPARE(pool.threads(), threads);
       for (int round = 0; round < 200; ++round) {
         std::vector<std::atomic<int>> visits(997);
-        pool.for_each(997, 10, [&](std::int64_t begin, std::int64_t end, int member) {
-          if (member < 0 || member >= threads) std::abort();
+        const auto visit = [&](std::int64_t begin, std::int64_t end, int member) {
+          if (member < 0 || member >= threads || end - begin > 10) std::abort();
           for (std::int64_t i = begin; i < end; ++i) visits[static_cast<std::size_t>(i)]++;
-        });
+        };
+        pool.for_each(997, 10, visit,
+                      round % 2 == 0 ? ThreadPool::Direction::forward : ThreadPool::Direction::backward);
         for (const auto& count : visits) QCOMPARE(count.load(), 1);
       }
     }
+  }
+
+  void a_pool_of_one_goes_there_and_back_in_order() {
+    ThreadPool pool(1);
+    std::vector<std::int64_t> begins;
+    const auto note = [&](std::int64_t begin, std::int64_t, int) { begins.push_back(begin); };
+    pool.for_each(10, 4, note);
+    pool.for_each(10, 4, note, ThreadPool::Direction::backward);
+    QCOMPARE(begins, (std::vector<std::int64_t>{0, 4, 8, 6, 2, 0}));
   }
 
   void voxels_that_are_not_finite_are_refused_by_name() {
