@@ -23,6 +23,15 @@ std::shared_ptr<gpu::Device> hardware_device(const ExecutorOptions& options) {
 
 }  // namespace
 
+std::optional<ExecutorKind> executor_named(std::string_view name) {
+  if (name == "auto") return ExecutorKind::automatic;
+  if (name == "host") return ExecutorKind::host;
+  if (name == "compute") return ExecutorKind::compute;
+  if (name == "stream") return ExecutorKind::stream;
+  if (name == "reference") return ExecutorKind::reference;
+  return std::nullopt;
+}
+
 Result<std::unique_ptr<Executor>> make_executor(ExecutorKind kind, std::shared_ptr<const Volume> source,
                                                 const Parameters& parameters,
                                                 const ExecutorOptions& options) {

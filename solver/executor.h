@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -111,6 +112,8 @@ struct ExecutorOptions {
 
 // automatic: compute on a GPU; host where OpenGL is the processor's work or absent.
 enum class ExecutorKind { automatic, host, compute, stream, reference };
+// "auto", or what Executor::name() says; unset for anything else.
+std::optional<ExecutorKind> executor_named(std::string_view name);
 
 // A level set on `source`, everywhere outside at first. `source` is kept. Fails (ErrorKind::usage) on
 // parameters that check() refuses, (ErrorKind::capability) when the machine cannot run the executor.

@@ -8,16 +8,6 @@
 #include "study/rig.h"
 
 namespace tidemark {
-namespace {
-
-ExecutorKind kind_named(const std::string& name) {
-  if (name == "compute") return ExecutorKind::compute;
-  if (name == "stream") return ExecutorKind::stream;
-  return name == "reference" ? ExecutorKind::reference : ExecutorKind::host;
-}
-
-}  // namespace
-
 std::vector<std::string> differences(const Recipe& recipe, const Volume& volume) {
   std::vector<std::string> found;
   const glm::dvec3 then = recipe.source.spacing_mm;
@@ -44,7 +34,7 @@ std::vector<std::string> differences(const Recipe& recipe, const Volume& volume)
 
 Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume,
                       const ReplayOptions& options, const Progress& progress) {
-  const ExecutorKind recorded = kind_named(recipe.executor.name);
+  const ExecutorKind recorded = executor_named(recipe.executor.name).value_or(ExecutorKind::host);
   const ExecutorKind kind = options.executor.value_or(recorded);
   ExecutorOptions executor_options = options.options;
   executor_options.skip_quiet_pages = executor_options.skip_quiet_pages && recipe.executor.skip_quiet_pages;

@@ -11,12 +11,9 @@ constexpr std::int64_t kMebibyte = std::int64_t{1} << 20;
 constexpr std::int64_t kMostThreads = 1024;
 constexpr std::int64_t kLargestBudget = std::int64_t{1} << 30;  // MB, so that bytes fit 64 bits
 
+// The slow reference of the tests is not in the help.
 ExecutorKind executor_kind(const std::string& name) {
-  if (name == "auto") return ExecutorKind::automatic;
-  if (name == "host") return ExecutorKind::host;
-  if (name == "reference") return ExecutorKind::reference;  // the slow truth of the tests: not in the help
-  if (name == "compute") return ExecutorKind::compute;
-  if (name == "stream") return ExecutorKind::stream;
+  if (const auto kind = executor_named(name)) return *kind;
   throw CLI::ValidationError("--executor", "'" + name + "' is unknown; use auto, host, compute or stream");
 }
 

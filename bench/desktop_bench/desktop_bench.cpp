@@ -54,12 +54,6 @@ bool wait_for(Condition condition, int milliseconds) {
   return condition();
 }
 
-ExecutorKind kind_of(const QString& name) {
-  if (name == "compute") return ExecutorKind::compute;
-  if (name == "stream") return ExecutorKind::stream;
-  return ExecutorKind::host;
-}
-
 void begin(CaseSession& session) {
   Start start;
   if (const auto& from = session.study().start; from && from->seed) {
@@ -137,7 +131,9 @@ int main(int argc, char** argv) {
   apply_theme(application, Theme::light);
   Engine engine;
   MainWindow window(engine);
-  window.set_executor(kind_of(parser.value("executor")));
+  const auto executor = executor_named(parser.value("executor").toStdString());
+  if (!executor) qFatal("--executor is host, compute, stream or auto");
+  window.set_executor(*executor);
   window.resize(1280, 800);
   window.show();
   window.open_phantom(parser.value("phantom"));

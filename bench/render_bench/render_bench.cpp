@@ -49,9 +49,7 @@ struct Study {
     source = std::make_shared<const Volume>(std::move(phantom.volume));
     ExecutorOptions executor_options;
     executor_options.device = device;
-    ExecutorKind kind = ExecutorKind::host;
-    if (compute) kind = ExecutorKind::compute;
-    if (options.executor == "stream") kind = ExecutorKind::stream;
+    const ExecutorKind kind = executor_named(options.executor).value_or(ExecutorKind::host);
     executor = expect(make_executor(kind, source, parameters, executor_options));
     if (phantom.seed) {
       const auto& s = *phantom.seed;

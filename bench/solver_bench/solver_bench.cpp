@@ -78,9 +78,7 @@ void print_run(const std::string& stage, const AdvanceReport& run, const Executo
 }
 
 Result<ExecutorKind> kind_of(const std::string& name) {
-  if (name == "host") return ExecutorKind::host;
-  if (name == "compute") return ExecutorKind::compute;
-  if (name == "stream") return ExecutorKind::stream;
+  if (const auto kind = executor_named(name)) return *kind;
   return fail(ErrorKind::usage, "the executor '{}' is unknown; use host, compute, stream or dense", name);
 }
 
