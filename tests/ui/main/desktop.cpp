@@ -57,6 +57,13 @@ WatchedApplication& WatchedApplication::instance() {
   return static_cast<WatchedApplication&>(*qApp);
 }
 
+ExecutorKind story_executor() {
+  const QByteArray name = qgetenv("TIDEMARK_STORIES");
+  if (name.isEmpty()) return ExecutorKind::host;
+  if (const auto kind = executor_named(name.toStdString())) return *kind;
+  qFatal("TIDEMARK_STORIES is \"%s\": it can be host, compute or stream", name.constData());
+}
+
 Desktop::Desktop(ExecutorKind executor, QSize size) {
   QSettings::setDefaultFormat(QSettings::IniFormat);
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope,
@@ -68,27 +75,45 @@ Desktop::Desktop(ExecutorKind executor, QSize size) {
   window_->resize(size);
   window_->show();
   if (!QTest::qWaitForWindowExposed(window_.get())) qFatal("the window did not appear");
+  WatchedApplication::instance().restart();
 }
 
 Desktop::~Desktop() {
   window_.reset();
   engine_.reset();
+  qInfo("the longest event took %s", qPrintable(WatchedApplication::instance().longest()));
 }
 
 CaseWindow* Desktop::open_phantom(const QString& kind) {
   const qsizetype before = window_->cases().size();
-  window_->open_phantom(kind);
-  wait_for([&] { return window_->cases().size() > before && window_->active_case() == window_->cases().back(); });
-  settle();
-  return window_->active_case();
+  in_an_event([&] { window_->open_phantom(kind); });
+  return opened(before);
 }
 
 CaseWindow* Desktop::open(const QString& path) {
   const qsizetype before = window_->cases().size();
-  window_->open(path);
-  wait_for([&] { return window_->cases().size() > before && window_->active_case() == window_->cases().back(); });
+  in_an_event([&] { window_->open(path); });
+  return opened(before);
+}
+
+CaseWindow* Desktop::opened(qsizetype before) {
+  wait_for(
+      [&] { return window_->cases().size() > before && window_->active_case() == window_->cases().back(); },
+      60000);
   settle();
   return window_->active_case();
+}
+
+void Desktop::in_an_event(const std::function<void()>& something) {
+  bool done = false;
+  QMetaObject::invokeMethod(
+      qApp,
+      [&] {
+        something();
+        done = true;
+      },
+      Qt::QueuedConnection);
+  wait_for([&] { return done; });
 }
 
 void Desktop::drag(QWidget& widget, const std::vector<QPoint>& way, Qt::MouseButton button,

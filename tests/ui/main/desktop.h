@@ -34,10 +34,15 @@ class WatchedApplication : public QApplication {
   QString in_;
 };
 
+// With which executor stories run that are not told with every one: host, or what TIDEMARK_STORIES names
+// ("compute" or "stream").
+ExecutorKind story_executor();
+
 // Settings, recovery and everything else of this program goes into a folder of its own that is gone after it.
+// At the end it tells which event kept the user interface longest since the window was there.
 class Desktop {
  public:
-  explicit Desktop(ExecutorKind executor = ExecutorKind::automatic, QSize size = {1280, 800});
+  explicit Desktop(ExecutorKind executor, QSize size = {1280, 800});
   ~Desktop();
 
   [[nodiscard]] MainWindow& window() { return *window_; }
@@ -71,6 +76,8 @@ class Desktop {
   void begin(double radius_mm);
   [[nodiscard]] glm::dvec3 seed_mm();
 
+  // Does something as the user interface would: within an event, which WatchedApplication sees.
+  static void in_an_event(const std::function<void()>& something);
   // Until the engine has done everything, and the user interface has seen it.
   void settle();
   static bool wait_for(const std::function<bool()>& condition, int milliseconds = 20000);
@@ -78,6 +85,8 @@ class Desktop {
   void screenshot(const QString& name);
 
  private:
+  CaseWindow* opened(qsizetype before);  // when there are more cases than that
+
   TemporaryFolder home_;
   std::unique_ptr<Engine> engine_;
   std::unique_ptr<MainWindow> window_;

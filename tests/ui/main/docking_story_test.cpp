@@ -37,10 +37,9 @@ QList<QImage> DockingStoryTest::pictures(CaseWindow& window) {
 }
 
 void DockingStoryTest::fifty_moves_change_no_picture_and_cost_no_context() {
-  Desktop desktop(ExecutorKind::host, {1000, 700});
+  Desktop desktop(story_executor(), {1000, 700});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
-  WatchedApplication::instance().restart();
   CaseWindow& window = *desktop.window().active_case();
   window.set_layout(ViewLayout::paper);
   desktop.settle();
@@ -91,11 +90,10 @@ void DockingStoryTest::fifty_moves_change_no_picture_and_cost_no_context() {
              qPrintable(QString::number(difference(after[index], before[index]))));
   }
   QCOMPARE(desktop.engine().contexts_made(), 1);
-  qInfo("the longest event took %s", qPrintable(WatchedApplication::instance().longest()));
 }
 
 void DockingStoryTest::every_layout_shows_its_views() {
-  Desktop desktop(ExecutorKind::host, {1000, 700});
+  Desktop desktop(story_executor(), {1000, 700});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
   CaseWindow& window = *desktop.window().active_case();
@@ -115,7 +113,7 @@ void DockingStoryTest::every_layout_shows_its_views() {
 }
 
 void DockingStoryTest::a_view_is_maximised_by_a_double_click_and_back() {
-  Desktop desktop(ExecutorKind::host, {1000, 700});
+  Desktop desktop(story_executor(), {1000, 700});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
   CaseWindow& window = *desktop.window().active_case();
@@ -138,7 +136,7 @@ void DockingStoryTest::a_view_is_maximised_by_a_double_click_and_back() {
 }
 
 void DockingStoryTest::a_closed_view_comes_back() {
-  Desktop desktop(ExecutorKind::host, {1000, 700});
+  Desktop desktop(story_executor(), {1000, 700});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
   CaseWindow& window = *desktop.window().active_case();

@@ -45,7 +45,7 @@ qint64 yellow_pixels(const VolumeViewWidget& view) {
 }
 
 void OneModelStoryTest::a_parameter_reads_the_same_everywhere() {
-  Desktop desktop(ExecutorKind::host, {1300, 600});
+  Desktop desktop(story_executor(), {1300, 600});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
   CaseWindow& window = *desktop.window().active_case();
@@ -87,7 +87,7 @@ void OneModelStoryTest::a_parameter_reads_the_same_everywhere() {
 }
 
 void OneModelStoryTest::a_tool_is_the_same_in_all_bars() {
-  Desktop desktop(ExecutorKind::host, {1300, 600});
+  Desktop desktop(story_executor(), {1300, 600});
   QVERIFY(desktop.open_phantom("sphere"));
   CaseWindow& window = *desktop.window().active_case();
   QList<QToolButton*> buttons;
@@ -106,7 +106,7 @@ void OneModelStoryTest::a_tool_is_the_same_in_all_bars() {
 }
 
 void OneModelStoryTest::the_clip_plane_is_moved_tilted_and_worked_on() {
-  Desktop desktop(ExecutorKind::host, {1100, 760});
+  Desktop desktop(story_executor(), {1100, 760});
   QVERIFY(desktop.open_phantom("tumour"));
   desktop.window().active_case()->set_layout(ViewLayout::paper);
   desktop.begin(10.0);
@@ -193,9 +193,8 @@ void OneModelStoryTest::the_clip_plane_is_moved_tilted_and_worked_on() {
   QVERIFY(desktop.state().surface.voxels_inside < inside_with);
   QVERIFY(yellow_pixels(*view) != with_sphere);
   desktop.screenshot("clip-3-erased");
-  qInfo("cut: %lld pixels, %lld with the sphere, %lld without; the longest event took %s",
-        static_cast<long long>(before_sphere), static_cast<long long>(with_sphere),
-        static_cast<long long>(yellow_pixels(*view)), qPrintable(WatchedApplication::instance().longest()));
+  qInfo("cut: %lld pixels, %lld with the sphere, %lld without", static_cast<long long>(before_sphere),
+        static_cast<long long>(with_sphere), static_cast<long long>(yellow_pixels(*view)));
 }
 
 }  // namespace tidemark::test

@@ -35,7 +35,7 @@ std::size_t files_of_copies() {
 
 // The program that will be killed: two cases with changes, of which copies are written by themselves.
 int work_until_killed() {
-  Desktop desktop(ExecutorKind::host, {900, 640});
+  Desktop desktop(story_executor(), {900, 640});
   for (const char* kind : {"sphere", "dumbbell"}) {
     desktop.open_phantom(kind);
     CaseSession& session = desktop.session();
@@ -94,7 +94,7 @@ void RecoveryStoryTest::work_is_there_again_after_a_kill() {
   QCOMPARE(expected.size(), 2);
   QCOMPARE(find_recoverable(recovery_folder()).size(), std::size_t{2});
 
-  Desktop desktop(ExecutorKind::host, {900, 640});
+  Desktop desktop(story_executor(), {900, 640});
   QTimer user;
   connect(&user, &QTimer::timeout, this, [] {
     const QWidget* box = QApplication::activeModalWidget();
@@ -121,7 +121,6 @@ void RecoveryStoryTest::work_is_there_again_after_a_kill() {
   // They have copies of their own, at once, instead of those that they came from.
   QVERIFY(Desktop::wait_for([] { return find_recoverable(recovery_folder()).empty(); }));
   QVERIFY(files_of_copies() >= 2);
-  qInfo("the longest event took %s", qPrintable(WatchedApplication::instance().longest()));
 
   Desktop::answer(QMessageBox::Discard);
   Desktop::answer(QMessageBox::Discard);
@@ -131,7 +130,7 @@ void RecoveryStoryTest::work_is_there_again_after_a_kill() {
 
 void RecoveryStoryTest::nothing_is_offered_after_a_clean_end() {
   {
-    Desktop desktop(ExecutorKind::host, {900, 640});
+    Desktop desktop(story_executor(), {900, 640});
     QVERIFY(desktop.open_phantom("sphere"));
     desktop.begin(9.0);
     desktop.window().active_case()->autosave().save_now();
@@ -140,7 +139,7 @@ void RecoveryStoryTest::nothing_is_offered_after_a_clean_end() {
     QVERIFY(desktop.window().close());
     QVERIFY(Desktop::wait_for([] { return files_of_copies() == 0; }));
   }
-  Desktop desktop(ExecutorKind::host, {900, 640});
+  Desktop desktop(story_executor(), {900, 640});
   desktop.window().saved_cases().offer_rescued();  // asks nothing
   QVERIFY(desktop.window().cases().isEmpty());
 }

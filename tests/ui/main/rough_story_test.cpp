@@ -42,7 +42,7 @@ bool RoughStoryTest::advances(Desktop& desktop, std::int64_t by) {
 }
 
 void RoughStoryTest::a_case_is_closed_while_it_plays() {
-  Desktop desktop(ExecutorKind::host, {900, 640});
+  Desktop desktop(story_executor(), {900, 640});
   for (int round = 0; round < 3; ++round) {
     QVERIFY(desktop.open_phantom("sphere"));
     play(desktop);
@@ -70,7 +70,7 @@ void RoughStoryTest::the_window_is_closed_while_a_case_plays() {
 
 void RoughStoryTest::the_window_is_closed_while_a_phantom_is_computed() {
   for (const int wait : {0, 1, 20, 200}) {
-    Desktop desktop(ExecutorKind::host, {900, 640});
+    Desktop desktop(story_executor(), {900, 640});
     desktop.window().open_phantom("tumour");
     QTest::qWait(wait);
     QVERIFY(desktop.window().close());
@@ -78,15 +78,13 @@ void RoughStoryTest::the_window_is_closed_while_a_phantom_is_computed() {
 }
 
 void RoughStoryTest::a_hundred_sizes_end_with_the_right_picture() {
-  Desktop desktop(ExecutorKind::host, {900, 640});
+  Desktop desktop(story_executor(), {900, 640});
   QVERIFY(desktop.open_phantom("sphere"));
   play(desktop);
-  WatchedApplication::instance().restart();
   for (int index = 0; index < 100; ++index) {
     desktop.window().resize(700 + 7 * (index * 37 % 100), 520 + 3 * (index * 53 % 100));
     QTest::qWait(index % 10 == 0 ? 30 : 2);
   }
-  qInfo("the longest event took %s", qPrintable(WatchedApplication::instance().longest()));
   QVERIFY(advances(desktop, 3));
   desktop.session().pause();
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }));
@@ -101,7 +99,7 @@ void RoughStoryTest::a_hundred_sizes_end_with_the_right_picture() {
 }
 
 void RoughStoryTest::views_go_before_their_pictures_arrive() {
-  Desktop desktop(ExecutorKind::host, {900, 640});
+  Desktop desktop(story_executor(), {900, 640});
   QVERIFY(desktop.open_phantom("sphere"));
   play(desktop);
   CaseWindow& window = *desktop.window().active_case();
@@ -120,7 +118,7 @@ void RoughStoryTest::views_go_before_their_pictures_arrive() {
 }
 
 void RoughStoryTest::another_study_is_opened_while_one_plays() {
-  Desktop desktop(ExecutorKind::host, {900, 640});
+  Desktop desktop(story_executor(), {900, 640});
   CaseWindow* first = desktop.open_phantom("sphere");
   QVERIFY(first);
   play(desktop);
@@ -136,7 +134,7 @@ void RoughStoryTest::another_study_is_opened_while_one_plays() {
 }
 
 void RoughStoryTest::executors_are_changed_while_it_plays() {
-  Desktop desktop(ExecutorKind::host, {900, 640});
+  Desktop desktop(story_executor(), {900, 640});
   QVERIFY(desktop.open_phantom("sphere"));
   play(desktop);
   const std::vector<std::pair<ExecutorKind, QString>> kinds{
@@ -156,7 +154,7 @@ void RoughStoryTest::executors_are_changed_while_it_plays() {
 }
 
 void RoughStoryTest::keys_of_undo_and_redo_are_hammered_while_it_plays() {
-  Desktop desktop(ExecutorKind::host, {900, 640});
+  Desktop desktop(story_executor(), {900, 640});
   QVERIFY(desktop.open_phantom("sphere"));
   play(desktop);
   desktop.session().pause();

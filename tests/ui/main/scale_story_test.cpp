@@ -22,7 +22,7 @@ class ScaleStoryTest : public QObject {
 
 void ScaleStoryTest::pictures_have_the_pixels_of_the_screen() {
   const double scale = qEnvironmentVariable("QT_SCALE_FACTOR", "1").toDouble();
-  Desktop desktop(ExecutorKind::host, {1000, 700});
+  Desktop desktop(story_executor(), {1000, 700});
   QCOMPARE(desktop.window().devicePixelRatioF(), scale);
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
@@ -39,7 +39,7 @@ void ScaleStoryTest::pictures_have_the_pixels_of_the_screen() {
 }
 
 void ScaleStoryTest::a_click_hits_what_is_seen() {
-  Desktop desktop(ExecutorKind::host, {1000, 700});
+  Desktop desktop(story_executor(), {1000, 700});
   QVERIFY(desktop.open_phantom("sphere"));
   auto* axial = desktop.view<SliceViewWidget>("Axial");
   QVERIFY(axial);
@@ -90,7 +90,7 @@ void ScaleStoryTest::a_click_hits_what_is_seen() {
 }
 
 void ScaleStoryTest::texts_of_the_bars_fit() {
-  Desktop desktop(ExecutorKind::host, {1250, 820});
+  Desktop desktop(story_executor(), {1250, 820});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
   desktop.window().active_case()->set_layout(ViewLayout::two_two);
@@ -115,7 +115,6 @@ void ScaleStoryTest::texts_of_the_bars_fit() {
     }
   }
   QCOMPARE(bars, 4);
-  qInfo("the longest event took %s", qPrintable(WatchedApplication::instance().longest()));
 }
 
 }  // namespace tidemark::test

@@ -33,7 +33,6 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   QVERIFY(phantom);
   QCOMPARE(failure(write_phantom(*phantom, folder.path())), QString());
   Desktop desktop(static_cast<ExecutorKind>(executor));
-  WatchedApplication::instance().restart();
 
   // A DICOM folder.
   QVERIFY(desktop.open(QString::fromStdString((folder / "series").string())));
@@ -167,7 +166,6 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   QCOMPARE(volume_again->grab_picture().size(), before.size());
   QVERIFY(difference(volume_again->grab_picture(), before) < 0.02);
   QCOMPARE(desktop.engine().contexts_made(), 1);
-  qInfo("longest event: %s", qPrintable(WatchedApplication::instance().longest()));
 }
 
 }  // namespace tidemark::test

@@ -62,7 +62,7 @@ void TwoCasesStoryTest::begin_both(Desktop& desktop, const QList<CaseWindow*>& c
 }
 
 void TwoCasesStoryTest::panels_follow_the_active_case() {
-  Desktop desktop(ExecutorKind::host, {1200, 760});
+  Desktop desktop(story_executor(), {1200, 760});
   const auto cases = open_two(desktop, "sphere", "tumour");
   QVERIFY(cases[0] && cases[1] && cases[0] != cases[1]);
   begin_both(desktop, cases, 8.0);
@@ -104,7 +104,7 @@ void TwoCasesStoryTest::panels_follow_the_active_case() {
 }
 
 void TwoCasesStoryTest::linked_cases_are_looked_at_together() {
-  Desktop desktop(ExecutorKind::host, {1200, 760});
+  Desktop desktop(story_executor(), {1200, 760});
   const auto cases = open_two(desktop, "sphere", "tumour");
   Display& one = cases[0]->session().display();
   Display& two = cases[1]->session().display();
@@ -155,7 +155,6 @@ void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {
   set_alpha(*cases[0], 0.2);
   set_alpha(*cases[1], 0.8);
   begin_both(desktop, cases, 8.0);
-  WatchedApplication::instance().restart();
   int rests = 0;
   int torn = 0;
   const auto look = [&] {
@@ -192,14 +191,13 @@ void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {
     desktop.screenshot("lock-step");
   }
   QCOMPARE(desktop.engine().contexts_made(), 1);
-  qInfo("step %lld; the longest event took %s", static_cast<long long>(one.state().step),
-        qPrintable(WatchedApplication::instance().longest()));
+  qInfo("step %lld", static_cast<long long>(one.state().step));
   disconnect(&one, nullptr, this, nullptr);
   disconnect(&two, nullptr, this, nullptr);
 }
 
 void TwoCasesStoryTest::one_case_that_goes_back_stops_both() {
-  Desktop desktop(ExecutorKind::host, {1200, 760});
+  Desktop desktop(story_executor(), {1200, 760});
   const auto cases = open_two(desktop, "tumour", "tumour");
   begin_both(desktop, cases, 8.0);
   CaseSession& one = cases[0]->session();

@@ -1,0 +1,152 @@
+// A study of 512 x 512 x 300 voxels is opened, steered, saved and closed like a small one.
+#include <QObject>
+#include <bit>
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+
+#include "core/thread_pool.h"
+#include "tests/ui/main/desktop.h"
+#include "ui/main/saved_cases.h"
+
+namespace tidemark::test {
+
+class LargeStudyStoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase();
+  void a_large_study_is_steered_like_a_small_one_data();
+  void a_large_study_is_steered_like_a_small_one();
+
+ private:
+  static constexpr std::int64_t kWidth = 512;
+  static constexpr std::int64_t kDepth = 300;
+  static constexpr double kAcross = 0.7;  // mm, within a slice
+  static constexpr double kBetween = 1.0;
+  static constexpr double kRadius = 25.0;  // mm, of the lesion
+  static constexpr int kLesion = 120;
+  static constexpr int kBody = 40;
+
+  static glm::dvec3 centre() { return {kAcross * 300.0, kAcross * 230.0, kBetween * 140.0}; }
+
+  TemporaryFolder folder_;
+  QString file_;
+};
+
+// A lesion in a body in air, with noise, as a MetaImage file.
+void LargeStudyStoryTest::initTestCase() {
+  static_assert(std::endian::native == std::endian::little, "the file says that its bytes are little endian");
+  std::vector<std::int16_t> voxels(static_cast<std::size_t>(kWidth * kWidth * kDepth));
+  ThreadPool(0).for_each(kDepth, 1, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t k = begin; k < end; ++k) {
+      auto random = static_cast<std::uint32_t>(k + 1);
+      auto* voxel = voxels.data() + k * kWidth * kWidth;
+      for (std::int64_t j = 0; j < kWidth; ++j) {
+        for (std::int64_t i = 0; i < kWidth; ++i) {
+          const glm::dvec3 p(kAcross * static_cast<double>(i), kAcross * static_cast<double>(j),
+                             kBetween * static_cast<double>(k));
+          const glm::dvec3 q = (p - glm::dvec3(179.0, 179.0, 150.0)) / glm::dvec3(160.0, 120.0, 400.0);
+          int value = -1000;
+          if (glm::dot(q, q) < 1.0) value = glm::distance(p, centre()) < kRadius ? kLesion : kBody;
+          random = random * 1664525U + 1013904223U;
+          *voxel++ = static_cast<std::int16_t>(value + static_cast<int>(random >> 27U) - 16);
+        }
+      }
+    }
+  });
+  const std::filesystem::path path = folder_ / "large.mha";
+  std::ofstream file(path, std::ios::binary);
+  file << "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+       << "DimSize = " << kWidth << ' ' << kWidth << ' ' << kDepth << "\nElementSpacing = " << kAcross << ' '
+       << kAcross << ' ' << kBetween << "\nElementType = MET_SHORT\nElementDataFile = LOCAL\n";
+  file.write(reinterpret_cast<const char*>(voxels.data()),
+             static_cast<std::streamsize>(voxels.size() * sizeof(std::int16_t)));
+  QVERIFY(file.good());
+  file_ = QString::fromStdString(path.string());
+}
+
+void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one_data() {
+  QTest::addColumn<int>("executor");
+  QTest::newRow("host") << static_cast<int>(ExecutorKind::host);
+  QTest::newRow("compute") << static_cast<int>(ExecutorKind::compute);
+  QTest::newRow("stream") << static_cast<int>(ExecutorKind::stream);
+}
+
+void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
+  QFETCH(int, executor);
+  Desktop desktop(static_cast<ExecutorKind>(executor));
+  QVERIFY(desktop.open(file_));
+  QCOMPARE(desktop.session().volume().geometry.size, Index3(kWidth, kWidth, kDepth));
+  auto* axial = desktop.view<SliceViewWidget>("Axial");
+  auto* volume = desktop.view<VolumeViewWidget>();
+  QVERIFY(axial && volume);
+  Desktop::in_an_event(
+      [&] { desktop.session().display().change([](DisplaySettings& s) { s.cursor_mm = centre(); }); });
+  desktop.settle();
+
+  // T and epsilon from the lesion, a seed in it, and on to convergence, erasing on the way.
+  desktop.press(Qt::Key_T);
+  Desktop::drag(*axial, {centre() - glm::dvec3(12, 0, 0), centre(), centre() + glm::dvec3(12, 6, 0)});
+  desktop.settle();
+  QVERIFY(std::abs(desktop.state().parameters.target - kLesion) < 5.0);
+  Parameters parameters = desktop.state().parameters;
+  parameters.range = 40.0;
+  Desktop::in_an_event([&] { desktop.session().set_parameters(parameters); });
+  desktop.press(Qt::Key_S);
+  Desktop::drag(*axial, {centre(), centre() + glm::dvec3(5, 0, 0), centre() + glm::dvec3(15, 0, 0)});
+  desktop.settle();
+  QVERIFY(desktop.state().begun);
+  desktop.press(Qt::Key_P);
+  QVERIFY(Desktop::wait_for([&] { return desktop.state().playing && desktop.state().step > 10; }, 60000));
+  parameters.target += 2.0;
+  Desktop::in_an_event([&] { desktop.session().set_parameters(parameters); });
+  desktop.press(Qt::Key_E);
+  Desktop::drag(*axial, {centre(), centre() + glm::dvec3(8, 0, 0)});
+  desktop.press(Qt::Key_W);
+  Desktop::drag(static_cast<QWidget&>(*volume), {QPoint(60, 60), QPoint(100, 80), QPoint(160, 90)});
+  QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }, 240000));
+  desktop.settle();
+  QVERIFY(desktop.state().converged);
+  const double lesion_ml = 4.0 / 3.0 * M_PI * kRadius * kRadius * kRadius / 1000.0;
+  QVERIFY2(std::abs(desktop.state().surface.volume_ml / lesion_ml - 1.0) < 0.05,
+           qPrintable(QString::number(desktop.state().surface.volume_ml)));
+  desktop.screenshot(QStringLiteral("large-%1").arg(executor));
+  qInfo("step %lld, %.0f steps/s with pictures", static_cast<long long>(desktop.state().step),
+        desktop.state().solver_steps_per_second);
+
+  // Through the layouts, back and forth, into a label, out as a mask, and closed while it runs.
+  for (QAction* layout : desktop.window().actions().layouts->actions()) {
+    Desktop::in_an_event([&] { layout->trigger(); });
+    desktop.settle();
+  }
+  desktop.press(Qt::Key_Z, Qt::ControlModifier);
+  desktop.press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  desktop.settle();
+  QVERIFY(desktop.state().converged);
+  Desktop::in_an_event([&] { desktop.session().add_label("Lesion"); });
+  desktop.settle();
+  Desktop::in_an_event([&] { desktop.session().accept_surface(desktop.state().labels[0].id); });
+  desktop.settle();
+  QCOMPARE(desktop.state().label_statistics[0].voxels, desktop.state().surface.voxels_inside);
+  bool written = false;
+  SavedCases& saved = desktop.window().saved_cases();
+  QObject::connect(&saved, &SavedCases::written, &saved, [&] { written = true; });
+  const std::filesystem::path mask = folder_ / "mask.nii.gz";
+  Desktop::in_an_event(
+      [&] { saved.write_mask(*desktop.window().active_case(), QString::fromStdString(mask.string())); });
+  QVERIFY(Desktop::wait_for([&] { return written; }, 60000));
+  QVERIFY(std::filesystem::file_size(mask) > 0);
+  Desktop::in_an_event([&] { desktop.session().restart(); });
+  desktop.press(Qt::Key_P);
+  QVERIFY(Desktop::wait_for([&] { return desktop.state().playing; }));
+  Desktop::answer(QMessageBox::Discard);
+  desktop.press(Qt::Key_W, Qt::ControlModifier);
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().isEmpty(); }));
+  QCOMPARE(desktop.engine().contexts_made(), 1);
+}
+
+}  // namespace tidemark::test
+
+TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::LargeStudyStoryTest)
+#include "large_study_story_test.moc"
