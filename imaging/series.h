@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geometry.h"
+#include "imaging/patient.h"
 
 namespace tidemark {
 
@@ -15,6 +16,7 @@ struct Series {
   std::string modality;                        // DICOM (0008,0060); empty for volume files
   std::string description;                     // DICOM (0008,103E), else the file name
   std::string date;                            // of the study: "2004-07-31"; empty when unknown
+  Patient patient;                             // of the first image; empty for volume files
   std::vector<std::filesystem::path> files;    // in slice order when loadable
   Geometry geometry;                           // meaningful when loadable
   std::string scalar;                          // of the volume when loaded: "int16", "uint16" or "float"

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/volume.h"
+#include "imaging/patient.h"
 #include "imaging/series.h"
 #include "session/source_summary.h"
 #include "solver/parameters.h"
@@ -30,7 +31,9 @@ struct LoadedStudy {
   std::shared_ptr<const Volume> volume;
   StudyOrigin origin;
   SourceSummary summary;
-  QString name;           // for titles; never the patient's
+  QString name;  // for titles; never the patient's
+  Patient patient;
+  std::string date;       // of the study: "2004-07-31"; empty when unknown
   Parameters parameters;  // that suit some even, bright tissue in the middle, or the phantom
   std::optional<PhantomStart> start;
 };

@@ -2,7 +2,6 @@
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dccodec.h>
-#include <dcmtk/dcmdata/dcspchrs.h>
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <algorithm>
@@ -13,8 +12,11 @@
 #include <vector>
 
 #include "core/checked.h"
+#include "imaging/dicom/character_sets.h"
+#include "imaging/dicom/date.h"
 #include "imaging/dicom/decimal.h"
 #include "imaging/dicom/dicom.h"
+#include "imaging/dicom/read_patient.h"
 
 namespace tidemark {
 namespace {
@@ -78,29 +80,6 @@ class AttributeReader {
   DcmItem& item_;
   std::string& problem_;
 };
-
-// Text in UTF-8, from the dataset's character set; bytes that make no sense become question marks.
-std::string in_utf8(std::string text, const std::string& character_set) {
-  const auto foreign = [](char c) { return static_cast<unsigned char>(c) >= 0x80 || c == '\x1b'; };
-  if (std::none_of(text.begin(), text.end(), foreign)) return text;
-  DcmSpecificCharacterSet converter;
-  OFString converted;
-  if (converter.selectCharacterSet(character_set.c_str()).good() &&
-      converter.convertString(text.c_str(), converted).good()) {
-    return converted.c_str();
-  }
-  std::replace_if(text.begin(), text.end(), foreign, '?');
-  return text;
-}
-
-// "20040731", or "2004.07.31" of files older than DICOM 3 (PS3.5 6.2), as "2004-07-31"; a date's digits are
-// checked, not the calendar.
-std::string iso_date(std::string text) {
-  if (text.size() == 10 && text[4] == '.' && text[7] == '.') std::erase(text, '.');
-  const bool digits = std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-  if (text.size() != 8 || !digits) return {};
-  return text.substr(0, 4) + '-' + text.substr(4, 2) + '-' + text.substr(6, 2);
-}
 
 bool is_enhanced(const std::string& sop_class) {
   constexpr std::array kClasses{UID_EnhancedCTImageStorage,
@@ -256,6 +235,7 @@ Result<SliceHeader> slice_header_of(DcmFileFormat& loaded, const fs::path& file)
   header.modality = in.text(DCM_Modality);
   header.description = in_utf8(in.text(DCM_SeriesDescription), in.text(DCM_SpecificCharacterSet));
   header.date = iso_date(in.text(DCM_StudyDate));
+  header.patient = read_patient(dataset, header.date);
   const DcmXfer syntax(dataset.getOriginalXfer());
   header.transfer_syntax = syntax.getXferID();
   header.is_lossy = is_lossy_syntax(syntax.getXfer()) || in.text(DCM_LossyImageCompression) == "01";

@@ -304,6 +304,7 @@ void describe(const Slices& slices, Series& series) {
   }
   series.modality = first.modality;
   series.date = first.date;
+  series.patient = first.patient;
   series.description = first.description.empty() ? name(first) : first.description;
   for (const SliceHeader& slice : slices) {
     auto& known = series.transfer_syntaxes;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/volume.h"
+#include "imaging/patient.h"
 
 namespace tidemark {
 
@@ -23,7 +24,8 @@ struct SliceHeader {
   std::string modality;          // (0008,0060)
   std::string description;       // (0008,103E), UTF-8
   std::string date;              // (0008,0020) as "2004-07-31"; empty when absent or not a date
-  std::string transfer_syntax;   // UID
+  Patient patient;
+  std::string transfer_syntax;  // UID
 
   std::int64_t rows = 0;     // (0028,0010)
   std::int64_t columns = 0;  // (0028,0011)

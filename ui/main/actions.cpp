@@ -138,6 +138,9 @@ void Actions::make_views() {
                     tr("Zoom, position and camera as they were at first"));
   clip = make("clip", "clip-plane", tr("&Clip plane"), QKeySequence("X"), true, tr("Cut the 3D view open"));
   clip->setCheckable(true);
+  patient_text = make("patient-text", nullptr, tr("Patient's te&xt"), QKeySequence("I"), true,
+                      tr("Name, number, age and dates in the corners; off for teaching and screenshots"));
+  patient_text->setCheckable(true);
   hide_interface = make("hide-interface", nullptr, tr("&Hide panels"), QKeySequence("F3"), false);
   hide_interface->setCheckable(true);
   full_screen = make("full-screen", "full-screen", tr("&Full screen"), QKeySequence("F11"), false);

@@ -46,6 +46,7 @@ class Actions : public QObject {
   QActionGroup* layouts;
   QAction* reset_view;
   QAction* clip;
+  QAction* patient_text;
   QAction* hide_interface;
   QAction* full_screen;
   QActionGroup* themes;

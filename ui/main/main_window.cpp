@@ -292,6 +292,7 @@ void MainWindow::follow_case() {
   const DisplaySettings& settings = active_->session().display().settings();
   actions_->tool(settings.tool)->setChecked(true);
   actions_->clip->setChecked(settings.clip_on);
+  actions_->patient_text->setChecked(settings.patient_text);
 }
 
 template <class Do>
@@ -325,6 +326,10 @@ void MainWindow::connect_views() {
   with_case(actions_->clip, [](CaseWindow& window) {
     window.session().display().change(
         [](DisplaySettings& settings) { settings.clip_on = !settings.clip_on; });
+  });
+  with_case(actions_->patient_text, [](CaseWindow& window) {
+    window.session().display().change(
+        [](DisplaySettings& settings) { settings.patient_text = !settings.patient_text; });
   });
   connect(actions_->hide_interface, &QAction::toggled, panels_, &PanelDocks::set_hidden);
   connect(actions_->full_screen, &QAction::toggled, this,

@@ -5,6 +5,7 @@
 #include <QHeaderView>
 #include <QShortcut>
 #include <QStyledItemDelegate>
+#include <algorithm>
 
 #include "ui/opening/series_model.h"
 
@@ -12,6 +13,7 @@ namespace tidemark {
 namespace {
 
 constexpr int kColumnGap = 14;
+constexpr int kWidestColumn = 240;  // names of persons can be long
 constexpr int kNoteIconSize = 18;
 constexpr int kMostSkippedNamed = 20;  // in the tool tip
 
@@ -149,10 +151,14 @@ void SeriesBrowser::show_catalogue(std::shared_ptr<const Catalogue> catalogue, c
   heading_->setText(count == 1 ? tr("1 series in %1").arg(path) : tr("%1 series in %2").arg(count).arg(path));
   skipped_->setText(skipped_text(catalogue_->skipped.size()));
   skipped_->setToolTip(skipped_list(catalogue_->skipped));
-  for (int column = SeriesModel::kModality; column < SeriesModel::kColumns; ++column) {
+  for (int column = SeriesModel::kPatient; column < SeriesModel::kColumns; ++column) {
     table_->resizeColumnToContents(column);
-    table_->setColumnWidth(column, table_->columnWidth(column) + kColumnGap);
+    table_->setColumnWidth(column, std::min(table_->columnWidth(column), kWidestColumn) + kColumnGap);
   }
+  const auto& all = catalogue_->series;
+  table_->setColumnHidden(
+      SeriesModel::kPatient,
+      std::all_of(all.begin(), all.end(), [](const Series& series) { return series.patient.name.empty(); }));
   if (shown_->rowCount() > 0) table_->selectRow(0);
   table_->setFocus();
   follow_selection();

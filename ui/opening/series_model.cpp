@@ -88,6 +88,8 @@ QString SeriesModel::text(const Series& series, int column) const {
   switch (column) {
     case kSeries:
       return StudyLoader::name_of(series);
+    case kPatient:
+      return QString::fromStdString(series.patient.name);
     case kModality:
       return QString::fromStdString(series.modality);
     case kDate:
@@ -147,8 +149,8 @@ QVariant SeriesModel::headerData(int section, Qt::Orientation orientation, int r
   if (orientation != Qt::Horizontal) return {};
   if (role == Qt::TextAlignmentRole) return kAlignment;
   if (role != Qt::DisplayRole) return {};
-  const QString titles[kColumns] = {tr("Series"),       tr("Modality"), tr("Date"), tr("Voxels"),
-                                    tr("Spacing (mm)"), tr("Files"),    tr("Notes")};
+  const QString titles[kColumns] = {tr("Series"), tr("Patient"),      tr("Modality"), tr("Date"),
+                                    tr("Voxels"), tr("Spacing (mm)"), tr("Files"),    tr("Notes")};
   return titles[section];
 }
 

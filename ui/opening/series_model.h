@@ -17,7 +17,7 @@ namespace tidemark {
 class SeriesModel : public QAbstractTableModel {
   Q_OBJECT
  public:
-  enum Column { kSeries, kModality, kDate, kSize, kSpacing, kFiles, kNotes, kColumns };
+  enum Column { kSeries, kPatient, kModality, kDate, kSize, kSpacing, kFiles, kNotes, kColumns };
   static constexpr int kSortRole = Qt::UserRole;
   static constexpr int kPreviewSize = 64;  // in points, wide and high
 

@@ -1,7 +1,7 @@
 #include "ui/views/overlay.h"
 
 #include <QCoreApplication>
-#include <QPainterPath>
+#include <QFontMetricsF>
 #include <algorithm>
 #include <cmath>
 
@@ -107,6 +107,32 @@ void paint_measurements(QPainter& painter, const std::vector<Measurement>& measu
     paint_text(painter, QRectF(at + QPointF(8, -18), QSizeF(120, 16)), Qt::AlignLeft | Qt::AlignVCenter,
                text_of(measurement));
   }
+}
+
+void paint_corner(QPainter& painter, QSizeF size, Qt::Alignment corner, const QStringList& lines) {
+  constexpr double kMiddle = 24.0;  // room for the letter of the patient's side
+  const QSizeF room((size.width() - kMiddle) / 2.0 - kMargin, size.height() - 2.0 * kMargin);
+  const QFontMetricsF metrics(painter.font());
+  QStringList fitting;
+  for (const QString& line : lines) fitting << metrics.elidedText(line, Qt::ElideRight, room.width());
+  const double x = corner.testFlag(Qt::AlignRight) ? size.width() - kMargin - room.width() : kMargin;
+  paint_text(painter, QRectF(QPointF(x, kMargin), room), static_cast<int>(corner | Qt::AlignAbsolute),
+             fitting.join('\n'));
+}
+
+QStringList patient_lines(const Patient& patient) {
+  QStringList lines;
+  const std::string sex_and_age = patient.sex + (patient.sex.empty() ? "" : " ") + patient.age;
+  for (const std::string& line : {patient.name, patient.id, sex_and_age}) {
+    if (!line.empty()) lines << QString::fromStdString(line);
+  }
+  return lines;
+}
+
+QStringList series_lines(const LoadedStudy& study) {
+  QStringList lines;
+  if (!study.date.empty()) lines << QString::fromStdString(study.date);
+  return lines << study.name;
 }
 
 }  // namespace tidemark

@@ -4,10 +4,12 @@
 #include <QPainter>
 #include <QPolygonF>
 #include <QString>
+#include <QStringList>
 
 #include "core/geometry.h"
 #include "renderer/camera.h"
 #include "session/measurement.h"
+#include "session/study_loader.h"
 #include "ui/views/view_geometry.h"
 
 namespace tidemark {
@@ -30,5 +32,11 @@ void paint_crosshair(QPainter& painter, QSizeF size, QPointF at);
 void paint_measurements(QPainter& painter, const std::vector<Measurement>& measurements,
                         const SliceScreen& screen, double reach_mm);
 QString text_of(const Measurement& measurement);
+
+// Lines in a corner, cut short where they would meet those of the next one.
+void paint_corner(QPainter& painter, QSizeF size, Qt::Alignment corner, const QStringList& lines);
+// For the corners at the top: whose images they are, and which.
+QStringList patient_lines(const Patient& patient);
+QStringList series_lines(const LoadedStudy& study);
 
 }  // namespace tidemark

@@ -137,6 +137,17 @@ void PictureView::paint_picture(QPainter& painter) {
                  .arg(QString::fromStdString(session_.engine().graphics_problem())));
 }
 
+void PictureView::paint_study(QPainter& painter, const QString& note) const {
+  QStringList upper_right;
+  if (settings().patient_text) {
+    const LoadedStudy& study = session_.study();
+    paint_corner(painter, size(), Qt::AlignLeft | Qt::AlignTop, patient_lines(study.patient));
+    upper_right = series_lines(study);
+  }
+  if (!note.isEmpty()) upper_right << note;
+  paint_corner(painter, size(), Qt::AlignRight | Qt::AlignTop, upper_right);
+}
+
 // The brush, and its cross-section in the other views.
 void PictureView::paint_brush(QPainter& painter) {
   const auto& pointer = display().pointer_mm();

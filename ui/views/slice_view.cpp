@@ -195,23 +195,18 @@ void SliceViewWidget::paint_overlay(QPainter& painter) {
 
 void SliceViewWidget::paint_corners(QPainter& painter) const {
   const DisplaySettings& s = settings();
-  const QRectF all = QRectF(rect()).adjusted(8, 6, -8, -6);
+  // The convention is about left and right: sagittal slices have neither.
+  const QString convention = s.radiological ? tr("radiological") : tr("neurological");
+  paint_study(painter, plane_ == SlicePlane::sagittal ? QString() : convention);
   const Place now = place();
-  QStringList upper_left;
-  if (content_ == SliceContent::speed) upper_left << term_name(s.speed_term);
-  if (s.patient_text) upper_left << QString::fromStdString(session().volume().description).left(40);
-  paint_text(painter, all, Qt::AlignLeft | Qt::AlignTop, upper_left.join('\n'));
-  paint_text(painter, all, Qt::AlignRight | Qt::AlignTop,
-             plane_ == SlicePlane::sagittal ? QString()
-             : s.radiological               ? tr("radiological")
-                                            : tr("neurological"));
-  QStringList lower_left;
-  lower_left << tr("%1 / %2   %3 mm").arg(now.slice).arg(now.slices).arg(now.thickness_mm, 0, 'g', 3);
+  QStringList lines;
+  lines << tr("%1 / %2   %3 mm").arg(now.slice).arg(now.slices).arg(now.thickness_mm, 0, 'g', 3);
   if (content_ == SliceContent::source) {
-    lower_left << tr("W %1  L %2").arg(s.window.width, 0, 'f', 0).arg(s.window.centre, 0, 'f', 0);
+    lines << tr("W %1  L %2").arg(s.window.width, 0, 'f', 0).arg(s.window.centre, 0, 'f', 0);
   }
-  lower_left << tr("Zoom %1 %").arg(100.0 * s.slice_zoom, 0, 'f', 0);
-  paint_text(painter, all, Qt::AlignLeft | Qt::AlignBottom, lower_left.join('\n'));
+  if (content_ == SliceContent::speed) lines << term_name(s.speed_term);
+  lines << tr("Zoom %1 %").arg(100.0 * s.slice_zoom, 0, 'f', 0);
+  paint_corner(painter, size(), Qt::AlignLeft | Qt::AlignBottom, lines);
 }
 
 }  // namespace tidemark

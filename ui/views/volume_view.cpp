@@ -222,6 +222,7 @@ void VolumeViewWidget::paint_overlay(QPainter& painter) {
   const Camera& camera = settings().camera;
   paint_orientation(painter, size(), camera.right(), camera.up());
   paint_scale_bar(painter, size(), mm_per_pixel());
+  paint_study(painter);
   const bool draws = session().engine().graphics() != Engine::Graphics::none;
   if (draws && !session().state().begun && !settings().show_source && !settings().clip_on) {
     paint_text(painter, QRectF(rect()).adjusted(40, 40, -40, -40), Qt::AlignCenter | Qt::TextWordWrap,

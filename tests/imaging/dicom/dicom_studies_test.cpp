@@ -281,6 +281,36 @@ class DicomStudiesTest : public QObject {
     QCOMPARE(explained.size(), files);
   }
 
+  void names_are_read_in_their_own_script() {
+    const std::map<std::string, const char*> names{{"chrArab.dcm", "قباني, لنزار"},
+                                                   {"chrFren.dcm", "Buc, Jérôme"},
+                                                   {"chrFrenMulti.dcm", "Buc, Jérôme"},
+                                                   {"chrGerm.dcm", "Äneas, Rüdiger"},
+                                                   {"chrGreek.dcm", "Διονυσιος"},
+                                                   {"chrH31.dcm", "山田 太郎 (Yamada, Tarou)"},
+                                                   {"chrH32.dcm", "山田 太郎 (ﾔﾏﾀﾞ, ﾀﾛｳ)"},
+                                                   {"chrHbrw.dcm", "שרון, דבורה"},
+                                                   {"chrI2.dcm", "洪 吉洞 (Hong, Gildong)"},
+                                                   {"chrJapMulti.dcm", "やまだ, たろう"},
+                                                   {"chrJapMultiExplicitIR6.dcm", "やまだ, たろう"},
+                                                   {"chrKoreanMulti.dcm", "김희중"},
+                                                   {"chrRuss.dcm", "Люкceмбypг"},
+                                                   {"chrX1.dcm", "王 小東 (Wang, XiaoDong)"},
+                                                   {"chrX2.dcm", "王 小东 (Wang, XiaoDong)"}};
+    const auto found = scan_dicom(test::studies_folder() / "d18_charsets");
+    QCOMPARE(test::failure(found), QString());
+    std::size_t seen = 0;
+    for (const Series& series : found->series) {
+      for (const fs::path& file : series.files) {
+        const auto name = names.find(file.filename().string());
+        if (name == names.end()) continue;
+        ++seen;
+        QCOMPARE(QString::fromStdString(series.patient.name), QString::fromUtf8(name->second));
+      }
+    }
+    QCOMPARE(seen, names.size());
+  }
+
   // Copies of one series in nine folders stay nine series.
   void copies_in_several_folders_are_not_mixed() {
     const auto found = scan_dicom(test::studies_folder() / "x01_mrhead3_syntaxes");

@@ -89,6 +89,16 @@ class SeriesBrowserTest : public QObject {
     QCOMPARE(cell(0, SeriesModel::kFiles), QString("2"));
   }
 
+  void patients_are_named_where_they_are_known() {
+    QVERIFY(table_->isColumnHidden(SeriesModel::kPatient));
+    auto catalogue = std::make_shared<Catalogue>(*sample());
+    catalogue->series[2].patient.name = "山田 太郎 (Yamada, Tarou)";
+    browser_->show_catalogue(catalogue, "/data");
+    QVERIFY(!table_->isColumnHidden(SeriesModel::kPatient));
+    QCOMPARE(cell(0, SeriesModel::kPatient), QString::fromUtf8("山田 太郎 (Yamada, Tarou)"));
+    QCOMPARE(cell(1, SeriesModel::kPatient), QString());
+  }
+
   void notes_say_in_words_what_the_icon_means() {
     QCOMPARE(cell(0, SeriesModel::kNotes), QString("2 warnings"));
     QCOMPARE(cell(1, SeriesModel::kNotes), QString("1 change"));

@@ -1,0 +1,108 @@
+#include "imaging/dicom/character_sets.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcspchrs.h>
+#include <dcmtk/ofstd/ofchrenc.h>
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+namespace tidemark {
+namespace {
+
+constexpr char kEscape = '\x1b';
+
+bool is_foreign(char c) {
+  return static_cast<unsigned char>(c) >= 0x80 || c == kEscape;
+}
+
+bool is_japanese(const std::string& character_set) {
+  const auto names = [&](std::string_view one) {
+    const std::size_t at = character_set.find(one);
+    if (at == std::string::npos) return false;
+    const char next = character_set[at + one.size()];
+    return next < '0' || next > '9';  // "IR 138" is Hebrew
+  };
+  return names("IR 13") || names("IR 87") || names("IR 159");
+}
+
+// Which table the bytes below 0x80 are of, as escape sequences say it (PS3.3 C.12.1.1.2).
+enum class JapaneseTable { latin, jis_x0208, jis_x0212 };
+
+struct Escape {
+  std::string_view bytes;
+  JapaneseTable table;
+};
+constexpr Escape kEscapes[] = {{"\x1b(B", JapaneseTable::latin},
+                               {"\x1b(J", JapaneseTable::latin},
+                               {"\x1b$@", JapaneseTable::jis_x0208},
+                               {"\x1b$B", JapaneseTable::jis_x0208},
+                               {"\x1b$(D", JapaneseTable::jis_x0212}};
+constexpr std::string_view kKatakana = "\x1b)I";  // always in the bytes from 0xA1 on
+
+// DCMTK leaves the Japanese tables to the C library, which does not have them by themselves. EUC-JP, which it
+// has, holds the same tables at other places: each character is preceded by the shift to its table, and is a
+// pair of bytes from 0xA1 on.
+std::optional<std::string> as_euc_jp(std::string_view text) {
+  constexpr char kShiftToKatakana = '\x8e';
+  constexpr char kShiftToJisX0212 = '\x8f';
+  std::string euc;
+  JapaneseTable table = JapaneseTable::latin;
+  while (!text.empty()) {
+    const auto* escape = std::find_if(std::begin(kEscapes), std::end(kEscapes),
+                                      [&](const Escape& one) { return text.starts_with(one.bytes); });
+    if (escape != std::end(kEscapes)) {
+      table = escape->table;
+      text.remove_prefix(escape->bytes.size());
+    } else if (text.starts_with(kKatakana)) {
+      text.remove_prefix(kKatakana.size());
+    } else if (static_cast<unsigned char>(text.front()) >= 0x80) {
+      euc += {kShiftToKatakana, text.front()};
+      text.remove_prefix(1);
+    } else if (table == JapaneseTable::latin || text.front() <= ' ') {
+      if (text.front() == kEscape) return std::nullopt;
+      euc += text.front();
+      text.remove_prefix(1);
+    } else {
+      if (text.size() < 2) return std::nullopt;
+      if (table == JapaneseTable::jis_x0212) euc += kShiftToJisX0212;
+      for (const char byte : text.substr(0, 2))
+        euc += static_cast<char>(static_cast<unsigned char>(byte) | 0x80U);
+      text.remove_prefix(2);
+    }
+  }
+  return euc;
+}
+
+std::optional<std::string> from_japanese(const std::string& text) {
+  const auto euc = as_euc_jp(text);
+  if (!euc) return std::nullopt;
+  OFCharacterEncoding converter;
+  OFString converted;
+  if (converter.selectEncoding("EUC-JP", "UTF-8").bad()) return std::nullopt;
+  if (converter.convertString(OFString(euc->data(), euc->size()), converted).bad()) return std::nullopt;
+  return std::string(converted.data(), converted.size());
+}
+
+std::optional<std::string> from_any(const std::string& text, const std::string& character_set,
+                                    const std::string& delimiters) {
+  DcmSpecificCharacterSet converter;
+  OFString converted;
+  if (converter.selectCharacterSet(character_set.c_str()).bad()) return std::nullopt;
+  if (converter.convertString(text.c_str(), converted, delimiters.c_str()).bad()) return std::nullopt;
+  return std::string(converted.data(), converted.size());
+}
+
+}  // namespace
+
+std::string in_utf8(std::string text, const std::string& character_set, const std::string& delimiters) {
+  if (std::none_of(text.begin(), text.end(), is_foreign)) return text;
+  const auto converted =
+      is_japanese(character_set) ? from_japanese(text) : from_any(text, character_set, delimiters);
+  if (converted) return *converted;
+  std::replace_if(text.begin(), text.end(), is_foreign, '?');
+  return text;
+}
+
+}  // namespace tidemark

@@ -1,0 +1,14 @@
+// Text of DICOM attributes, whatever character set it is in.
+#pragma once
+
+#include <string>
+
+namespace tidemark {
+
+// UTF-8 of `text`, which is in `character_set` (0008,0005). `delimiters`: characters after which the default
+// character set holds again (PS3.5 6.1.2.5.3), "^=" in names of persons. Bytes that make no sense become
+// question marks.
+[[nodiscard]] std::string in_utf8(std::string text, const std::string& character_set,
+                                  const std::string& delimiters = {});
+
+}  // namespace tidemark

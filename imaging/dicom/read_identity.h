@@ -1,0 +1,16 @@
+// The patient of a DICOM dataset.
+#pragma once
+
+#include <string>
+
+#include "imaging/patient.h"
+
+class DcmItem;
+
+namespace tidemark {
+
+// `study_date`: iso_date() of it; the age follows from it and the date of birth where the file does not say
+// it.
+[[nodiscard]] Patient read_patient(DcmItem& dataset, const std::string& study_date);
+
+}  // namespace tidemark

@@ -1,0 +1,19 @@
+// Whose images they are, for people to read.
+#pragma once
+
+#include <string>
+
+namespace tidemark {
+
+// In UTF-8; what a file does not say stays empty. Views show it in their corners, and the list of series to
+// choose from shows the name; it goes nowhere else: no log, title, statistics, recipe or session holds it.
+struct Patient {
+  std::string name;  // in the original script, the Latin one behind it: "山田 太郎 (Yamada, Tarou)"
+  std::string id;
+  std::string sex;  // "F", "M" or "O"
+  std::string age;  // at the study, in days, weeks, months or years: "45Y"
+
+  bool operator==(const Patient&) const = default;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,184 @@
+// The patient is named on the screen, and nowhere else.
+#include <QAction>
+#include <QFile>
+#include <QSettings>
+#include <array>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <iterator>
+
+#include "imaging/dicom/dicom.h"
+#include "session/case_autosave.h"
+#include "study/zip_archive.h"
+#include "tests/ui/main/desktop.h"
+#include "ui/main/panel_docks.h"
+#include "ui/main/saved_cases.h"
+#include "ui/panels/statistics_panel.h"
+
+namespace tidemark::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kName = "ZZYX^QVODIAN";
+constexpr const char* kNumber = "PID4711XQ";
+
+// A bright ball in the dark, of a patient with a name.
+void write_study(const fs::path& folder) {
+  Volume volume;
+  volume.geometry.size = {40, 40, 20};
+  volume.geometry.spacing_mm = {1.0, 1.0, 2.0};
+  std::vector<std::int16_t> voxels;
+  for (std::int64_t offset = 0; offset < volume.geometry.voxel_count(); ++offset) {
+    const glm::dvec3 away(offset % 40 - 20.0, offset / 40 % 40 - 20.0, 2.0 * (offset / 1600 - 10.0));
+    voxels.push_back(static_cast<std::int16_t>(glm::dot(away, away) < 144.0 ? 100 : 0));
+  }
+  volume.voxels = std::move(voxels);
+  DicomSeriesHeader header;
+  header.modality = "CT";
+  header.patient_name = kName;
+  header.patient_id = kNumber;
+  header.series_description = "Ball";
+  const Status written = write_dicom_series(volume, header, folder);
+  if (!written) qFatal("%s", written.error().message.c_str());
+}
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+bool tells_the_patient(const std::string& text) {
+  return text.find("ZZYX") != std::string::npos || text.find("QVODIAN") != std::string::npos ||
+         text.find(kNumber) != std::string::npos;
+}
+
+// The first file below the folder whose name or contents tell it; empty: none does.
+QString telling_file(const fs::path& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    if (tells_the_patient(entry.path().string()) || tells_the_patient(bytes_of(entry.path())))
+      return QString::fromStdString(entry.path().string());
+  }
+  return {};
+}
+
+// Sessions are compressed.
+std::string json_of_session(const fs::path& file) {
+  constexpr std::array<std::string_view, 4> kNames{"session.json", "phi.table", "phi.pages", "labels"};
+  auto session = ZipReader::open(file, kNames);
+  if (!session) qFatal("%s", session.error().message.c_str());
+  const auto json = session->read(kNames[0], session->size(kNames[0]));
+  if (!json) qFatal("%s", json.error().message.c_str());
+  return {reinterpret_cast<const char*>(json->data()), json->size()};
+}
+
+}  // namespace
+
+class PrivacyStoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init();
+  void cleanup() { desktop_.reset(); }
+  void a_key_hides_who_the_patient_is();
+  void the_patient_is_in_no_file_that_is_written();
+
+ private:
+  [[nodiscard]] fs::path written() const { return folder_ / "written"; }
+  void write_everything();
+
+  TemporaryFolder home_;
+  TemporaryFolder folder_;
+  std::unique_ptr<Desktop> desktop_;
+  CaseWindow* window_ = nullptr;
+  SliceViewWidget* slice_ = nullptr;
+};
+
+// The study is open, and its surface has begun.
+void PrivacyStoryTest::init() {
+  qputenv("HOME", QByteArray::fromStdString(home_.path().string()));
+  if (!fs::exists(folder_ / "study")) write_study(folder_ / "study");
+  fs::create_directories(written());
+  desktop_ = std::make_unique<Desktop>(ExecutorKind::host, QSize(1000, 700));
+  window_ = desktop_->open(QString::fromStdString((folder_ / "study").string()));
+  QVERIFY(window_);
+  QCOMPARE(desktop_->session().study().patient.name, std::string("ZZYX, QVODIAN"));
+  QCOMPARE(desktop_->session().study().patient.id, std::string(kNumber));
+  Start start;
+  start.seeds.push_back({desktop_->session().display().settings().cursor_mm, 8.0});
+  desktop_->session().begin(start);
+  desktop_->session().add_label("Ball");
+  desktop_->session().step(3);
+  desktop_->settle();
+  slice_ = desktop_->view<SliceViewWidget>("Axial");
+  QVERIFY(slice_);
+}
+
+void PrivacyStoryTest::a_key_hides_who_the_patient_is() {
+  desktop_->screenshot("patient-text");
+  const auto is_shown = [this] { return desktop_->session().display().settings().patient_text; };
+  QAction& action = *desktop_->window().actions().patient_text;
+  QVERIFY(is_shown() && action.isChecked());
+  const QImage named = slice_->grab_picture();
+  desktop_->press(Qt::Key_I);
+  QVERIFY(!is_shown() && !action.isChecked());
+  const QImage nameless = slice_->grab_picture();
+  QVERIFY(named != nameless);
+  desktop_->press(Qt::Key_I);
+  QVERIFY(is_shown() && action.isChecked());
+
+  // Pictures for others have no name either way.
+  const QString file = QString::fromStdString((written() / "slice.png").string());
+  slice_->setFocus();
+  desktop_->window().saved_cases().write_picture(*window_, file);
+  QVERIFY(Desktop::wait_for([&] { return QFile::exists(file); }));
+  QVERIFY(is_shown());
+  const auto format = QImage::Format_RGB32;
+  QVERIFY(QImage(file).convertToFormat(format) == nameless.convertToFormat(format));
+}
+
+// All that can be written, and a copy for the case of a crash.
+void PrivacyStoryTest::write_everything() {
+  SavedCases& files = desktop_->window().saved_cases();
+  QStringList done;
+  QObject scope;
+  connect(&files, &SavedCases::written, &scope, [&](const QString& file) { done << file; });
+  const auto name = [&](const char* file) { return QString::fromStdString((written() / file).string()); };
+  files.write_picture(*window_, name("picture.png"));
+  files.write_mask(*window_, name("mask.nrrd"));
+  files.write_labels(*window_, name("labels.nii"));
+  files.write_surface(*window_, name("surface.ply"));
+  window_->session_file = name("case.tidemark");
+  files.save(*window_);
+  const fs::path figures = written() / "figures.csv";
+  desktop_->window().panels().statistics().export_csv(figures);
+  QVERIFY(Desktop::wait_for([&] { return done.size() == 5 && fs::exists(figures); }));
+  bool copied = false;
+  connect(&window_->autosave(), &CaseAutosave::saved, &scope, [&] { copied = true; });
+  desktop_->session().step();
+  desktop_->settle();
+  window_->autosave().save_now();
+  QVERIFY(Desktop::wait_for([&] { return copied; }));
+}
+
+void PrivacyStoryTest::the_patient_is_in_no_file_that_is_written() {
+  write_everything();
+  QCOMPARE(telling_file(written()), QString());
+  QCOMPARE(telling_file(home_.path()), QString());
+  const std::string json = json_of_session(written() / "case.tidemark");
+  QVERIFY(json.find("patient_text") != std::string::npos);  // whether it is shown
+  QVERIFY(!tells_the_patient(json));                        // with the recipe
+  QVERIFY(!tells_the_patient(window_->windowTitle().toStdString()));
+  QSettings settings;  // with the list of recent studies
+  settings.sync();
+  QVERIFY(QFile::exists(settings.fileName()));
+  QVERIFY(!tells_the_patient(bytes_of(settings.fileName().toStdString())));
+  // The test would have noticed.
+  QVERIFY(!telling_file(folder_ / "study").isEmpty());
+}
+
+}  // namespace tidemark::test
+
+TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::PrivacyStoryTest)
+#include "privacy_story_test.moc"

@@ -1,0 +1,95 @@
+// Whose images they are stands in the corners of every view, until it is hidden.
+#include "tests/ui/panels/panel_case.h"
+#include "ui/views/overlay.h"
+#include "ui/views/slice_view.h"
+#include "ui/views/volume_view.h"
+
+using namespace tidemark;
+
+namespace {
+
+std::shared_ptr<const LoadedStudy> ball_of(const std::string& patient, const std::string& date) {
+  auto study = std::make_shared<LoadedStudy>(*test::ball_study());
+  study->patient = {patient, "PID-4711", "F", "45Y"};
+  study->date = date;
+  return study;
+}
+
+// What the engine without OpenGL cannot draw: the overlay alone.
+std::unique_ptr<PictureView> view_of(CaseSession& session, bool in_3d) {
+  std::unique_ptr<PictureView> view;
+  if (in_3d) {
+    view = std::make_unique<VolumeViewWidget>(session);
+  } else {
+    view = std::make_unique<SliceViewWidget>(session, SlicePlane::axial, SliceContent::source);
+  }
+  view->resize(500, 400);
+  view->show();
+  return view;
+}
+
+int differing_pixels(const QImage& a, const QImage& b, const QRect& in) {
+  int count = 0;
+  for (int y = in.top(); y <= in.bottom(); ++y) {
+    for (int x = in.left(); x <= in.right(); ++x) count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+class CornersTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void patient_and_series_are_said_in_lines() {
+    const auto study = ball_of("山田 太郎 (Yamada, Tarou)", "2004-07-31");
+    QCOMPARE(patient_lines(study->patient),
+             QStringList({QString::fromUtf8("山田 太郎 (Yamada, Tarou)"), "PID-4711", "F 45Y"}));
+    QCOMPARE(series_lines(*study), QStringList({"2004-07-31", "Ball"}));
+    QCOMPARE(patient_lines({}), QStringList());
+    QCOMPARE(patient_lines({"Doe", "", "", "3D"}), QStringList({"Doe", "3D"}));
+    QCOMPARE(series_lines(*test::ball_study()), QStringList("Ball"));
+  }
+
+  void a_long_name_ends_before_the_next_corner() {
+    QImage picture(300, 200, QImage::Format_RGB32);
+    picture.fill(Qt::black);
+    const QImage empty = picture;
+    QPainter painter(&picture);
+    paint_corner(painter, picture.size(), Qt::AlignLeft | Qt::AlignTop, {QString(500, 'W')});
+    painter.end();
+    QVERIFY(differing_pixels(picture, empty, QRect(0, 0, 140, 200)) > 500);
+    QCOMPARE(differing_pixels(picture, empty, QRect(142, 0, 158, 200)), 0);
+  }
+
+  void every_view_names_the_patient_until_that_is_hidden_data() {
+    QTest::addColumn<bool>("in_3d");
+    QTest::newRow("slice") << false;
+    QTest::newRow("3D") << true;
+  }
+
+  void every_view_names_the_patient_until_that_is_hidden() {
+    QFETCH(bool, in_3d);
+    Engine engine{false};
+    CaseSession one(engine, ball_of("Doe, John", "2004-07-31"), ExecutorKind::host);
+    CaseSession other(engine, ball_of("Mustermann, Erika", "2011-01-02"), ExecutorKind::host);
+    QVERIFY(QTest::qWaitFor([&] { return engine.idle(); }, 60000));
+    const auto view = view_of(one, in_3d);
+    const auto other_view = view_of(other, in_3d);
+    const QImage shown = view->grab_picture();
+    const QImage shown_other = other_view->grab_picture();
+    const QRect upper_left(0, 0, 240, 100);
+    const QRect upper_right(260, 0, 240, 100);
+    QVERIFY(differing_pixels(shown, shown_other, upper_left) > 50);
+    QVERIFY(differing_pixels(shown, shown_other, upper_right) > 20);
+    for (CaseSession* session : {&one, &other})
+      session->display().change([](DisplaySettings& settings) { settings.patient_text = false; });
+    const QImage hidden = view->grab_picture();
+    QVERIFY(differing_pixels(shown, hidden, upper_left) > 50);
+    QCOMPARE(differing_pixels(hidden, other_view->grab_picture(), hidden.rect()), 0);
+  }
+};
+
+QTEST_MAIN(CornersTest)
+#include "corners_test.moc"
