@@ -3,8 +3,11 @@
 
 #include <QObject>
 #include <QPointer>
+#include <QStringList>
 #include <QWidget>
+#include <deque>
 #include <filesystem>
+#include <functional>
 
 #include "session/study_loader.h"
 
@@ -12,7 +15,8 @@ namespace tidemark {
 
 class SeriesBrowser;
 
-// One study at a time; opening another gives up the one that is being opened.
+// One study after the other, in the order in which they were asked for. While the user chooses a series those
+// that were asked for before wait; whoever opens something else chooses none.
 class StudyOpener : public QObject {
   Q_OBJECT
  public:
@@ -25,19 +29,26 @@ class StudyOpener : public QObject {
   void open(const QString& path, Ask ask = Ask::if_several);
   void open_series(const QString& path, const QString& uid);  // without asking
   void open_phantom(const QString& kind);
-  void cancel();
+  void cancel();  // the one that is being opened, and those that wait
 
   // Null while there is nothing to choose from.
   [[nodiscard]] SeriesBrowser* browser() const { return browser_; }
 
  signals:
-  void began(const QString& what);                        // for LoadingView::begin()
+  void began(const QString& what);                        // for LoadingView::begin(): "head_t1 (2 of 3)"
   void progressed(double fraction, const QString& step);  // for LoadingView::set_progress()
   void opened(std::shared_ptr<const tidemark::LoadedStudy> study);
-  void failed(const QString& message);  // for LoadingView::fail()
+  void failed(const QString& message);  // for LoadingView::fail(); once for all that wait for each other
   void ended();  // nothing is being looked for or loaded (opened, given up, or to be chosen by the user)
 
  private:
+  struct Request {
+    QString what;
+    std::function<void()> start;
+  };
+  void add(const QString& what, std::function<void()> start);
+  void next();
+  void begin(const QString& what);
   void look_at(const std::shared_ptr<const Catalogue>& catalogue);
   void load(const Series& series);
   void close_browser();
@@ -45,7 +56,11 @@ class StudyOpener : public QObject {
   QWidget* window_;
   StudyLoader loader_;
   QPointer<SeriesBrowser> browser_;
-  QString path_;
+  std::deque<Request> waiting_;
+  int number_ = 0;        // of the request that is worked on, from 1; 0: none is
+  int asked_ = 0;         // requests since there was none
+  QStringList problems_;  // of these
+  QString path_;          // of the request
   Ask ask_ = Ask::if_several;
 };
 

@@ -122,6 +122,65 @@ class StudyOpenerTest : public QObject {
     QCOMPARE(opened_->size() + failed_->size(), 0);
   }
 
+  void several_studies_are_opened_one_after_the_other() {
+    opener_->open(text(folder_ / "two/a"));
+    opener_->open(text(folder_ / "nowhere"));
+    opener_->open_phantom("sphere");
+    opener_->open(text(folder_ / "two/b"));
+    QTRY_COMPARE_WITH_TIMEOUT(ended_->size(), 1, kPatience);
+    QStringList names;
+    for (const auto& one : *opened_) names << one[0].value<std::shared_ptr<const LoadedStudy>>()->name;
+    QCOMPARE(names.size(), 3);
+    QCOMPARE(names.first(), QString("20 wide"));
+    QCOMPARE(names.last(), QString("30 wide"));
+    // The first one began before the others were asked for.
+    QStringList said;
+    for (const auto& one : *began_) said << one[0].toString();
+    QCOMPARE(said, QStringList({"a", "20 wide (1 of 4)", "nowhere (2 of 4)", "Sphere (3 of 4)", "b (4 of 4)",
+                                "30 wide (4 of 4)"}));
+    QCOMPARE(failed_->size(), 1);
+    QVERIFY(failed_->first()[0].toString().contains("nowhere"));
+    opener_->open(text(folder_ / "two/a"));
+    QCOMPARE(began_->last()[0].toString(), QString("a"));  // it counts anew
+    opener_->cancel();
+  }
+
+  void those_that_wait_go_on_once_a_series_is_chosen_or_none() {
+    for (const bool chooses : {true, false}) {
+      opened_->clear();
+      opener_->open(text(folder_ / "two"));
+      opener_->open(text(folder_ / "two/b"));
+      QTRY_VERIFY_WITH_TIMEOUT(opener_->browser() != nullptr, kPatience);
+      QVERIFY(QTest::qWaitForWindowExposed(opener_->browser()));
+      QTest::qWait(100);
+      QCOMPARE(opened_->size(), 0);
+      QTest::keyClick(opener_->browser(), chooses ? Qt::Key_Return : Qt::Key_Escape);
+      QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), chooses ? 2 : 1, kPatience);
+      QTRY_VERIFY(opener_->browser() == nullptr);
+    }
+  }
+
+  void whoever_opens_something_else_chooses_no_series() {
+    opener_->open(text(folder_ / "two"));
+    QTRY_VERIFY_WITH_TIMEOUT(opener_->browser() != nullptr, kPatience);
+    opener_->open(text(folder_ / "two/a"));
+    QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
+    QCOMPARE(study()->name, QString("20 wide"));
+    QTRY_VERIFY(opener_->browser() == nullptr);
+  }
+
+  void giving_up_one_gives_up_those_that_wait() {
+    opener_->open_phantom("sphere");
+    opener_->open(text(folder_ / "two/a"));
+    opener_->open(text(folder_ / "two/b"));
+    opener_->cancel();
+    QCOMPARE(ended_->size(), 1);
+    QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
+    QTest::qWait(50);
+    QCOMPARE(opened_->size() + failed_->size(), 0);
+    QCOMPARE(began_->size(), 1);
+  }
+
   void the_card_shows_how_far_it_is_and_what_went_wrong() {
     LoadingView view(LoadingView::Shape::card);
     connect(opener_, &StudyOpener::began, &view, &LoadingView::begin);
@@ -148,14 +207,14 @@ class StudyOpenerTest : public QObject {
     QVERIFY(!bar->isVisible());
     QTest::mouseClick(button, Qt::LeftButton);
     QCOMPARE(closed.size(), 1);
-    QCOMPARE(ended_->size(), 0);
+    QCOMPARE(ended_->size(), 1);
 
     opener_->open_phantom("sphere");
     QVERIFY(says("Sphere"));
     QVERIFY(bar->isVisible());
     button->setFocus();
     QTest::keyClick(button, Qt::Key_Escape);
-    QCOMPARE(ended_->size(), 1);
+    QCOMPARE(ended_->size(), 2);
   }
 
   void the_report_lists_what_was_changed() {
