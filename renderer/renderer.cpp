@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/ext/matrix_transform.hpp>
 
+#include "core/label_colour.h"
 #include "renderer/source_plane.h"
 #include "renderer/uniforms.h"
 #include "solver/gl/step_uniforms.h"
@@ -17,23 +18,11 @@ constexpr int kLabelUnit = 5;
 constexpr int kFreeUnit = 6;         // and those behind it
 constexpr int kLabelColourUnit = 7;  // of slice views, which have no need of more free ones
 
-// After Okabe and Ito, and more; also for people who see few colours.
 std::vector<Renderer::LabelColour> first_label_colours() {
-  constexpr std::array<Renderer::LabelColour, 12> kColours{{{230, 158, 0, 255},
-                                                            {87, 181, 232, 255},
-                                                            {0, 158, 115, 255},
-                                                            {214, 94, 0, 255},
-                                                            {204, 120, 166, 255},
-                                                            {0, 115, 179, 255},
-                                                            {240, 227, 66, 255},
-                                                            {153, 204, 51, 255},
-                                                            {140, 89, 217, 255},
-                                                            {115, 77, 38, 255},
-                                                            {242, 153, 191, 255},
-                                                            {51, 204, 204, 255}}};
   std::vector<Renderer::LabelColour> colours(Renderer::kLabels);
   for (std::size_t label = 1; label < colours.size(); ++label) {
-    colours[label] = kColours[(label - 1) % kColours.size()];
+    const auto [red, green, blue] = label_colour(static_cast<std::uint8_t>(label));
+    colours[label] = {red, green, blue, 255};
   }
   return colours;
 }

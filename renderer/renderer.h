@@ -51,8 +51,8 @@ class Renderer {
   void set_parameters(const Parameters& parameters);
   // A label for each voxel, 0 for none. Fails (ErrorKind::usage) when there are not as many as voxels.
   Status set_labels(std::span<const std::uint8_t> labels);
-  // Red, green, blue and opacity (0: hidden) of the labels from 0 on; at first all are seen, in colours that
-  // differ. Fails (ErrorKind::usage) on more than kLabels.
+  // Red, green, blue and opacity (0: hidden) of the labels from 0 on; at first all are seen, as
+  // label_colour() says. Fails (ErrorKind::usage) on more than kLabels.
   static constexpr std::size_t kLabels = 256;
   using LabelColour = std::array<std::uint8_t, 4>;
   Status set_label_colours(std::span<const LabelColour> colours);
