@@ -7,18 +7,13 @@
 #include <mutex>
 
 #include "imaging/study.h"
+#include "renderer/sheet.h"
 #include "session/background_job.h"
 
 namespace tidemark {
 namespace {
 
 constexpr std::int64_t kMostFileVoxels = 64'000'000;  // of volume files, which are read whole
-
-WindowLevel window_of(const Volume& volume) {
-  if (volume.window) return *volume.window;
-  const auto [low, high] = volume.common_range();
-  return {0.5 * (static_cast<double>(low) + high), std::max(1e-6, static_cast<double>(high) - low)};
-}
 
 QImage grey_picture(const Volume& slice) {
   const WindowLevel window = window_of(slice);

@@ -2,9 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
+#include <type_traits>
+
+#include "renderer/sheet.h"
 
 namespace tidemark {
 namespace {
+
+constexpr std::int64_t kPiece = 1'000'000;    // voxels between two looks whether to stop
+constexpr std::int64_t kSamples = 2'000'000;  // of gradients: enough for the picture of a distribution
 
 int bin_of(float value, float low, float high) {
   if (!(high > low)) return 0;
@@ -12,53 +20,106 @@ int bin_of(float value, float low, float high) {
   return std::clamp(static_cast<int>(share * SourceSummary::kBins), 0, SourceSummary::kBins - 1);
 }
 
-constexpr std::int64_t kSamples = 2'000'000;  // of gradients: enough for the picture of a distribution
+// A volume's voxels by their type: Volume::value() would ask for it at each.
+template <class Stored>
+struct Voxels {
+  const Volume& volume;
+  const std::vector<Stored>& stored;
 
-// A value and its gradient for every stride-th voxel.
-std::vector<std::pair<float, float>> sample(const Volume& volume, const Progress& progress) {
-  const std::int64_t count = volume.geometry.voxel_count();
+  [[nodiscard]] float value(Stored voxel) const {
+    return static_cast<float>(volume.slope * static_cast<double>(voxel) + volume.intercept);
+  }
+  [[nodiscard]] double at(Index3 voxel) const {
+    return static_cast<double>(stored[static_cast<std::size_t>(volume.geometry.offset(voxel))]);
+  }
+
+  [[nodiscard]] float gradient_magnitude(Index3 voxel) const {
+    const Geometry& geometry = volume.geometry;
+    double square = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      Index3 low = voxel;
+      Index3 high = voxel;
+      low[axis] = std::max<std::int64_t>(low[axis] - 1, 0);
+      high[axis] = std::min(high[axis] + 1, geometry.size[axis] - 1);
+      if (low[axis] == high[axis]) continue;
+      const double distance_mm = static_cast<double>(high[axis] - low[axis]) * geometry.spacing_mm[axis];
+      const double rise = (at(high) - at(low)) / distance_mm;
+      square += rise * rise;
+    }
+    return static_cast<float>(std::abs(volume.slope) * std::sqrt(square));
+  }
+
+  // Calls visit(voxel) for every voxel, or until it is told to stop.
+  template <class Visit>
+  void for_each(const Progress& progress, Visit visit) const {
+    const auto count = static_cast<std::int64_t>(stored.size());
+    for (std::int64_t begin = 0; begin < count && !progress.cancelled(); begin += kPiece) {
+      const auto end = stored.begin() + std::min(begin + kPiece, count);
+      for (auto voxel = stored.begin() + begin; voxel != end; ++voxel) visit(*voxel);
+    }
+  }
+};
+
+template <class Work>
+auto with_voxels(const Volume& volume, const Work& work) {
+  return std::visit([&](const auto& stored) { return work(Voxels{volume, stored}); }, volume.voxels);
+}
+
+// Integers have a counter for each value that can be stored, and are looked at once.
+template <class Stored>
+void count_integers(const Voxels<Stored>& voxels, SourceSummary& summary, const Progress& progress) {
+  using Limits = std::numeric_limits<Stored>;
+  std::vector<std::int64_t> counts(std::size_t{1} << 16U);
+  voxels.for_each(progress, [&](Stored voxel) { ++counts[static_cast<std::size_t>(voxel - Limits::min())]; });
+  const auto value_at = [&](std::size_t place) {
+    return voxels.value(static_cast<Stored>(static_cast<int>(place) + Limits::min()));
+  };
+  std::vector<std::size_t> places;  // that occur
+  for (std::size_t place = 0; place < counts.size(); ++place) {
+    if (counts[place] > 0) places.push_back(place);
+  }
+  if (places.empty()) return;
+  // The slope may be negative.
+  std::tie(summary.lowest, summary.highest) =
+      std::minmax({value_at(places.front()), value_at(places.back())});
+  for (const std::size_t place : places) {
+    const int bin = bin_of(value_at(place), summary.lowest, summary.highest);
+    summary.values[static_cast<std::size_t>(bin)] += counts[place];
+  }
+}
+
+void count_numbers(const Voxels<float>& voxels, SourceSummary& summary, const Progress& progress) {
+  std::tie(summary.lowest, summary.highest) = voxels.volume.range();
+  voxels.for_each(progress, [&](float voxel) {
+    const int bin = bin_of(voxels.value(voxel), summary.lowest, summary.highest);
+    ++summary.values[static_cast<std::size_t>(bin)];
+  });
+}
+
+// A value and its gradient.
+using Sample = std::pair<float, float>;
+
+// Of every stride-th voxel.
+template <class Stored>
+std::vector<Sample> sample(const Voxels<Stored>& voxels, const Progress& progress) {
+  const auto count = static_cast<std::int64_t>(voxels.stored.size());
   const std::int64_t stride = std::max<std::int64_t>(1, count / kSamples) | 1;  // odd: no column is favoured
-  std::vector<std::pair<float, float>> samples;
+  const Index3 size = voxels.volume.geometry.size;
+  std::vector<Sample> samples;
   samples.reserve(static_cast<std::size_t>(count / stride + 1));
-  const Index3 size = volume.geometry.size;
   for (std::int64_t offset = 0; offset < count && !progress.cancelled(); offset += stride) {
     const Index3 voxel{offset % size.x, offset / size.x % size.y, offset / (size.x * size.y)};
-    samples.emplace_back(volume.value(offset), gradient_magnitude(volume, voxel));
+    samples.emplace_back(voxels.value(voxels.stored[static_cast<std::size_t>(offset)]),
+                         voxels.gradient_magnitude(voxel));
   }
   return samples;
 }
 
-}  // namespace
-
-float gradient_magnitude(const Volume& volume, Index3 voxel) {
-  const Geometry& geometry = volume.geometry;
-  double square = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    Index3 low = voxel;
-    Index3 high = voxel;
-    low[axis] = std::max<std::int64_t>(low[axis] - 1, 0);
-    high[axis] = std::min(high[axis] + 1, geometry.size[axis] - 1);
-    if (low[axis] == high[axis]) continue;
-    const double distance_mm = static_cast<double>(high[axis] - low[axis]) * geometry.spacing_mm[axis];
-    const double slope = (static_cast<double>(volume.value(high)) - volume.value(low)) / distance_mm;
-    square += slope * slope;
-  }
-  return static_cast<float>(std::sqrt(square));
-}
-
-SourceSummary summarise(const Volume& volume, const Progress& progress) {
-  SourceSummary summary;
-  std::tie(summary.low, summary.high) = volume.common_range();
-  std::tie(summary.lowest, summary.highest) = volume.range();
-  summary.values.assign(SourceSummary::kBins, 0);
-  summary.value_gradient.assign(std::size_t{SourceSummary::kBins} * SourceSummary::kBins, 0);
-  for (std::int64_t offset = 0; offset < volume.geometry.voxel_count(); ++offset) {
-    ++summary.values[static_cast<std::size_t>(bin_of(volume.value(offset), summary.lowest, summary.highest))];
-  }
-  auto samples = sample(volume, progress);
-  if (samples.empty()) return summary;
+void count_gradients(const std::vector<Sample>& samples, SourceSummary& summary) {
+  if (samples.empty()) return;
   std::vector<float> slopes(samples.size());
-  std::transform(samples.begin(), samples.end(), slopes.begin(), [](const auto& one) { return one.second; });
+  std::transform(samples.begin(), samples.end(), slopes.begin(),
+                 [](const Sample& one) { return one.second; });
   const auto rank = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() - 1 - slopes.size() / 200);
   std::nth_element(slopes.begin(), rank, slopes.end());
   summary.steepest = *rank > 0.0F ? *rank : 1.0F;
@@ -67,6 +128,28 @@ SourceSummary summarise(const Volume& volume, const Progress& progress) {
     const int row = bin_of(slope, 0.0F, summary.steepest);
     ++summary.value_gradient[static_cast<std::size_t>(row * SourceSummary::kBins + column)];
   }
+}
+
+}  // namespace
+
+float gradient_magnitude(const Volume& volume, Index3 voxel) {
+  return with_voxels(volume, [&](const auto& voxels) { return voxels.gradient_magnitude(voxel); });
+}
+
+SourceSummary summarise(const Volume& volume, const Progress& progress) {
+  SourceSummary summary;
+  std::tie(summary.low, summary.high) = volume.common_range();
+  summary.window = window_of(volume);
+  summary.values.assign(SourceSummary::kBins, 0);
+  summary.value_gradient.assign(std::size_t{SourceSummary::kBins} * SourceSummary::kBins, 0);
+  with_voxels(volume, [&](const auto& voxels) {
+    if constexpr (std::is_integral_v<std::decay_t<decltype(voxels.stored.front())>>) {
+      count_integers(voxels, summary, progress);
+    } else {
+      count_numbers(voxels, summary, progress);
+    }
+    count_gradients(sample(voxels, progress), summary);
+  });
   return summary;
 }
 

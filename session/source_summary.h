@@ -15,6 +15,7 @@ struct SourceSummary {
   float high = 1.0F;
   float lowest = 0.0F;  // Volume::range()
   float highest = 1.0F;
+  WindowLevel window;                // with which it is shown at first: window_of()
   static constexpr int kBins = 256;  // of [lowest, highest]
   std::vector<std::int64_t> values;  // kBins counts
   float steepest = 1.0F;             // the gradient magnitude (units a mm) that 1 in 200 exceeds
@@ -23,6 +24,7 @@ struct SourceSummary {
 };
 // At a voxel, by central differences (to one side at the border), in units a mm.
 float gradient_magnitude(const Volume& volume, Index3 voxel);
+// The volume must not be empty. What is told to stop has counted only a part.
 SourceSummary summarise(const Volume& volume, const Progress& progress = {});
 
 }  // namespace tidemark

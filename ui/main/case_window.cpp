@@ -39,10 +39,7 @@ DisplaySettings first_settings(const CaseSession& session) {
     const auto& seed = *start->seed;
     settings.cursor_mm = volume.geometry.to_patient({seed[0], seed[1], seed[2]});
   }
-  // The file's own, else one over the values that are common.
-  const SourceSummary& summary = session.summary();
-  settings.window = volume.window.value_or(
-      WindowLevel{0.5 * (summary.low + summary.high), std::max<double>(summary.high - summary.low, 1e-6)});
+  settings.window = session.summary().window;
   settings.clip.normal = {0.0, -1.0, 0.0};
   settings.clip.offset_mm = -middle_of(volume.geometry).y;
   settings.camera.azimuth = 30.0;
