@@ -11,6 +11,10 @@
 namespace tidemark {
 namespace {
 
+// A temporary file's name: this, six characters, a hyphen, and the target's name.
+constexpr std::string_view kPrefix = ".tidemark-";
+constexpr std::string_view kUnique = "XXXXXX";
+
 std::string reason(int error) {
   return std::generic_category().message(error);
 }
@@ -38,7 +42,7 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& target) {
   }
   // mkstemps makes the name unique; the target's own name stays at the end.
   const std::string suffix = "-" + target.filename().string();
-  std::string pattern = (folder / (".tidemark-XXXXXX" + suffix)).string();
+  std::string pattern = (folder / (std::string(kPrefix) + std::string(kUnique) + suffix)).string();
   const int descriptor = ::mkstemps(pattern.data(), static_cast<int>(suffix.size()));
   if (descriptor < 0) {
     return fail(ErrorKind::write, "{}: cannot write: {}", target.string(), reason(errno));
@@ -53,6 +57,13 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& target) {
   file.target_ = target;
   file.temporary_ = pattern;
   return file;
+}
+
+std::string AtomicFile::target_of(const std::filesystem::path& file) {
+  const std::string name = file.filename().string();
+  constexpr std::size_t kHyphen = kPrefix.size() + kUnique.size();
+  return name.starts_with(kPrefix) && name.size() > kHyphen && name[kHyphen] == '-' ? name.substr(kHyphen + 1)
+                                                                                    : std::string();
 }
 
 AtomicFile::~AtomicFile() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "core/result.h"
@@ -23,6 +24,10 @@ class AtomicFile {
   [[nodiscard]] const std::filesystem::path& temporary_path() const { return temporary_; }
 
   [[nodiscard]] Status commit();
+
+  // The name of the target of which `file` is the temporary file; empty when it is none. A program that is
+  // killed leaves it behind.
+  [[nodiscard]] static std::string target_of(const std::filesystem::path& file);
 
  private:
   AtomicFile() = default;

@@ -169,6 +169,18 @@ std::vector<Recoverable> find_recoverable(const std::filesystem::path& folder) {
   return found;
 }
 
+void sweep_unfinished(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::vector<std::filesystem::path> unfinished;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string target = AtomicFile::target_of(entry.path());
+    const std::string case_id = target.substr(0, target.find('.'));
+    if (!is_case_id(case_id) || !entry.is_regular_file(error) || entry.is_symlink(error)) continue;
+    if (!is_locked(lock_file(folder, case_id))) unfinished.push_back(entry.path());
+  }
+  for (const auto& file : unfinished) std::filesystem::remove(file, error);
+}
+
 void discard(const std::filesystem::path& folder, const std::string& case_id) {
   if (!is_case_id(case_id)) return;
   std::error_code ignored;

@@ -49,6 +49,10 @@ struct Recoverable {
 };
 // The newest valid copy of each case that was not closed cleanly and that no running program has open.
 std::vector<Recoverable> find_recoverable(const std::filesystem::path& folder);
+// Removes what was being written when a program was killed: temporary files of cases that no running program
+// has locked. A case is locked before its first file is made, and no two have the same id, so that none of
+// them can still be wanted. Files of other names stay.
+void sweep_unfinished(const std::filesystem::path& folder);
 // Removes all copies of a case, once they are recovered or not wanted.
 void discard(const std::filesystem::path& folder, const std::string& case_id);
 

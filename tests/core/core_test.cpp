@@ -81,6 +81,8 @@ class CoreTest : public QObject {
       auto file = AtomicFile::create(target);
       QVERIFY(file);
       std::ofstream(file->temporary_path()) << "half";
+      QCOMPARE(AtomicFile::target_of(file->temporary_path()), std::string("result.txt"));
+      QCOMPARE(AtomicFile::target_of(target), std::string());
     }
     QCOMPARE(contents(target), std::string("kept"));
     QCOMPARE(files_in(folder.path()), 1);

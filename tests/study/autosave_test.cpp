@@ -135,6 +135,38 @@ class AutosaveTest : public QObject {
     for (const Recoverable& copy : copies) QVERIFY(copy.case_id != "b");
   }
 
+  void what_a_killed_program_was_writing_is_swept() {
+    const TemporaryFolder folder;
+    const auto document = phantom_case();
+    {
+      auto dead = Autosave::create(folder.path(), "dead").value();
+      go_on(*document, dead);
+    }
+    auto alive = Autosave::create(folder.path(), "alive").value();
+    go_on(*document, alive);
+    const auto touch = [&](const std::string& name) {
+      QFile file(QString::fromStdString((folder / name).string()));
+      QVERIFY(file.open(QIODevice::WriteOnly));
+    };
+    // As AtomicFile names them; the last of the first three is what is packed into it.
+    const std::vector<std::string> unwanted{".tidemark-a1B2c3-dead.1.tidemark",
+                                            ".tidemark-XyZ123-dead.0.tidemark.sha256",
+                                            ".tidemark-q2W3e4-gone.0.tidemark.Ab1Cd2"};
+    const std::vector<std::string> wanted{".tidemark-a1B2c3-alive.1.tidemark", "notes.txt",
+                                          ".tidemark-notes.txt", ".tidemark-a1B2c3-.tidemark",
+                                          "dead.2.tidemark"};
+    for (const std::string& name : unwanted) touch(name);
+    for (const std::string& name : wanted) touch(name);
+    std::filesystem::create_directory(folder / ".tidemark-f0F0f0-dead.folder");
+    sweep_unfinished(folder.path());
+    for (const std::string& name : unwanted) QVERIFY2(!std::filesystem::exists(folder / name), name.c_str());
+    for (const std::string& name : wanted) QVERIFY2(std::filesystem::exists(folder / name), name.c_str());
+    QVERIFY(std::filesystem::exists(folder / ".tidemark-f0F0f0-dead.folder"));
+    QCOMPARE(find_recoverable(folder.path()).size(), std::size_t{1});  // what is whole is still offered
+    go_on(*document, alive);
+    sweep_unfinished(folder / "none");
+  }
+
   void copies_are_written_on_another_thread_while_the_case_goes_on() {
     const TemporaryFolder folder;
     const auto document = phantom_case();

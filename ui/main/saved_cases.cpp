@@ -297,6 +297,7 @@ void SavedCases::keep_rescued(CaseWindow& window, const std::string& copy) {
 }
 
 void SavedCases::offer_rescued() {
+  sweep_unfinished(recovery_folder());
   const auto copies = find_recoverable(recovery_folder());
   if (copies.empty()) return;
   QMessageBox box(QMessageBox::Question, tr("Rescued work"),
