@@ -10,12 +10,26 @@ constexpr auto kLapWindow = std::chrono::seconds(1);
 constexpr double kSmoothing = 0.3;  // weight of the newest run in the mean time of a step
 
 // Every other point, the newest included.
-void thin(std::vector<CurvePoint>& curve) {
+void thin(Curve& curve) {
   std::size_t kept = 0;
   for (std::size_t index = curve.size() % 2 == 0 ? 1 : 0; index < curve.size(); index += 2) {
     curve[kept++] = curve[index];
   }
   curve.resize(kept);
+}
+
+std::shared_ptr<const Curve> with_point(const Curve& curve, const CurvePoint& point) {
+  auto longer = std::make_shared<Curve>(curve);
+  longer->push_back(point);
+  if (longer->size() > kCurvePoints) thin(*longer);
+  return longer;
+}
+
+// The points before `step`.
+std::shared_ptr<const Curve> before(const Curve& curve, std::int64_t step) {
+  const auto end =
+      std::find_if(curve.begin(), curve.end(), [=](const CurvePoint& point) { return point.step >= step; });
+  return std::make_shared<const Curve>(curve.begin(), end);
 }
 
 }  // namespace
@@ -36,7 +50,7 @@ void CaseMeter::edited(std::int64_t step) {
   laps_.clear();
   converged_ = false;
   thorough_ = false;
-  std::erase_if(curve_, [step](const CurvePoint& point) { return point.step >= step; });
+  if (!curve_->empty() && curve_->back().step >= step) curve_ = before(*curve_, step);
 }
 
 bool CaseMeter::due(bool on_gpu) const {
@@ -48,9 +62,8 @@ void CaseMeter::measure(const std::shared_ptr<const Field>& phi, std::int64_t st
                         bool thoroughly) {
   phi_ = phi;
   surface_ = tidemark::measure(*phi);
-  if (curve_.empty() || curve_.back().step < step) {
-    curve_.push_back({step, surface_.volume_ml, surface_.surface_mm2, surface_speed_});
-    if (curve_.size() > kCurvePoints) thin(curve_);
+  if (curve_->empty() || curve_->back().step < step) {
+    curve_ = with_point(*curve_, {step, surface_.volume_ml, surface_.surface_mm2, surface_speed_});
   }
   if (thoroughly) {
     inside_ = statistics_in(*document.volume(), phi->mask());

@@ -53,7 +53,8 @@ class CaseMeter {
   SurfaceStatistics surface_;
   RegionStatistics inside_;
   std::vector<RegionStatistics> labels_;
-  std::vector<CurvePoint> curve_;
+  // States share it: it is made anew when a point is added, which is seldom, and not for each of them.
+  std::shared_ptr<const Curve> curve_ = std::make_shared<const Curve>();
 };
 
 }  // namespace tidemark
