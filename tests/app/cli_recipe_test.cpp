@@ -1,5 +1,4 @@
 // Recipes on the command line: what segment writes, replay does again.
-#include <QJsonArray>
 #include <QJsonDocument>
 
 #include "core/atomic_file.h"
@@ -12,12 +11,6 @@ using namespace tidemark;
 using namespace tidemark::test;
 
 namespace {
-
-Outcome must_run(const QStringList& arguments) {
-  Outcome outcome = run_cli(arguments);
-  if (outcome.code != 0) qWarning("%s", outcome.told().constData());
-  return outcome;
-}
 
 void write_json(const std::filesystem::path& file, const QJsonObject& object) {
   if (!write_file(file, QJsonDocument(object).toJson().toStdString())) qFatal("cannot write");
@@ -32,7 +25,6 @@ class CliRecipeTest : public QObject {
   void initTestCase() {
     QCOMPARE(failure(write_volume_file(ball(Index3(30), 9.0), folder_ / "ball.nrrd")), QString());
     QCOMPARE(failure(write_mask_file(ball_mask(ball(Index3(30), 5.0)), folder_ / "small.nii.gz")), QString());
-    QCOMPARE(must_run({"phantom", "sphere", "--out", text(folder_ / "sphere")}).code, 0);
   }
 
   void a_replay_writes_the_same_files_data() {
@@ -77,15 +69,11 @@ class CliRecipeTest : public QObject {
   }
 
   void a_dicom_series_can_be_replayed_and_the_recipe_written_again() {
-    const QJsonObject phantom = json_of(bytes_of(folder_ / "sphere/phantom.json"));
-    QStringList seed;
-    for (const auto number : phantom["seed"].toArray()) seed.append(QString::number(number.toDouble()));
-    const QString series = text(folder_ / "sphere/series");
-    QCOMPARE(must_run({"segment", series, "--target", QString::number(phantom["target"].toDouble()),
-                       "--range", QString::number(phantom["range"].toDouble()), "--alpha", "0.8", "--seed",
-                       seed.join(','), "--steps", "12", "--out", text(folder_ / "first.json")})
-                 .code,
-             0);
+    const QString series = text(sphere_ / "series");
+    QCOMPARE(
+        must_run(sphere_.arguments() + QStringList{"--steps", "12", "--out", text(folder_ / "first.json")})
+            .code,
+        0);
     const Outcome replay = must_run(
         {"replay", text(folder_ / "first.json"), series, "--out", text(folder_ / "second.json"), "--json"});
     QCOMPARE(replay.code, 0);
@@ -145,8 +133,7 @@ class CliRecipeTest : public QObject {
     QTest::newRow("version") << spoilt("version", 9) << QStringList{volume} << 3
                              << "version: this version cannot";
     QTest::newRow("steps") << spoilt("steps", -9) << QStringList{volume} << 3 << "spoilt-steps.json: steps: ";
-    QTest::newRow("another grid") << good << QStringList{text(folder_ / "sphere/series")} << 3
-                                  << "mask has a grid";
+    QTest::newRow("another grid") << good << QStringList{text(sphere_ / "series")} << 3 << "mask has a grid";
     QTest::newRow("onto itself") << good << QStringList{volume, "--out", good} << 2
                                  << "read and written at once";
     QTest::newRow("unknown executor") << good << QStringList{volume, "--executor", "abacus"} << 2 << "abacus";
@@ -179,6 +166,7 @@ class CliRecipeTest : public QObject {
   }
 
   TemporaryFolder folder_;
+  const SphereStudy sphere_;
 };
 
 QTEST_GUILESS_MAIN(CliRecipeTest)

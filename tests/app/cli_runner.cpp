@@ -5,6 +5,7 @@
 #include <QDir>
 #include <QElapsedTimer>
 #include <QFile>
+#include <QJsonArray>
 #include <QJsonDocument>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -41,6 +42,12 @@ Outcome run_cli(const QStringList& arguments, const RunOptions& options) {
   if (ended) outcome.code = process.exitCode();
   outcome.out = process.readAllStandardOutput();
   outcome.err = process.readAllStandardError();
+  return outcome;
+}
+
+Outcome must_run(const QStringList& arguments, const RunOptions& options) {
+  Outcome outcome = run_cli(arguments, options);
+  if (outcome.code != 0) qWarning("%s", outcome.told().constData());
   return outcome;
 }
 
@@ -101,6 +108,23 @@ Mask ball_mask(const Volume& ball) {
 QStringList ball_arguments(Index3 size) {
   const QString seed = QString("%1,%2,%3,4").arg(size.x / 2).arg(size.y / 2).arg(size.z / 2);
   return {"--target", "1000", "--range", "500", "--alpha", "0.8", "--seed", seed, "--threads", "1"};
+}
+
+SphereStudy::SphereStudy() {
+  must_run({"phantom", "sphere", "--out", text(folder())});
+  phantom_ = json_of(bytes_of(folder() / "phantom.json"));
+  if (!phantom_.contains("target")) qFatal("there is no phantom");
+}
+
+QStringList SphereStudy::arguments() const {
+  QStringList seed;
+  for (const auto number : phantom_["seed"].toArray()) seed.append(QString::number(number.toDouble()));
+  return {"segment",   text(folder() / "series"),
+          "--target",  QString::number(phantom_["target"].toDouble()),
+          "--range",   QString::number(phantom_["range"].toDouble()),
+          "--alpha",   QString::number(phantom_["alpha"].toDouble()),
+          "--seed",    seed.join(','),
+          "--threads", "1"};
 }
 
 }  // namespace tidemark::test

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/volume.h"
+#include "tests/support/support.h"
 
 namespace tidemark::test {
 
@@ -30,6 +31,9 @@ struct RunOptions {
 // Runs to the end.
 Outcome run_cli(const QStringList& arguments, const RunOptions& options = {});
 
+// The same, of what should succeed: what it says otherwise is shown.
+Outcome must_run(const QStringList& arguments, const RunOptions& options = {});
+
 // Starts it and returns once `line` has appeared on standard output.
 bool start_cli(QProcess& process, const QStringList& arguments, const QByteArray& line);
 
@@ -46,5 +50,20 @@ Mask ball_mask(const Volume& ball);
 
 // What segments such a ball, starting at its centre.
 QStringList ball_arguments(Index3 size);
+
+// The phantom "sphere" as the program writes it: series/, truth.nii.gz and phantom.json.
+class SphereStudy {
+ public:
+  SphereStudy();
+
+  [[nodiscard]] std::filesystem::path folder() const { return folder_ / "sphere"; }
+  std::filesystem::path operator/(const std::string& name) const { return folder() / name; }
+  // What segments it, from where the phantom says.
+  [[nodiscard]] QStringList arguments() const;
+
+ private:
+  TemporaryFolder folder_;
+  QJsonObject phantom_;
+};
 
 }  // namespace tidemark::test

@@ -1,0 +1,148 @@
+// What is read and written: listings, volumes, surfaces, pictures.
+#include <QJsonArray>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "imaging/dicom/dicom.h"
+#include "imaging/files/volume_file.h"
+#include "tests/app/cli_runner.h"
+#include "tests/support/support.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+class CliFilesTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void info_lists_what_the_contract_names();
+  void distance_is_signed_and_in_millimetres();
+  void formats_keep_values_and_geometry();
+  void a_mask_becomes_a_surface();
+  void pictures_are_drawn_from_masks_and_fields();
+
+ private:
+  TemporaryFolder folder_;
+  const SphereStudy sphere_;
+};
+
+void CliFilesTest::info_lists_what_the_contract_names() {
+  const Outcome outcome = must_run({"info", text(sphere_.folder()), "--json"});
+  const QJsonObject all = json_of(outcome.out);
+  QVERIFY(all["series"].isArray() && all["skipped"].isArray());
+  QJsonObject series;
+  for (const auto one : all["series"].toArray()) {
+    if (one.toObject()["modality"].toString() == "MR") series = one.toObject();
+  }
+  for (const char* key :
+       {"uid", "modality", "description", "date", "files", "size", "spacing_mm", "direction", "origin_mm",
+        "scalar", "transfer_syntaxes", "loadable", "reason", "changes", "warnings"}) {
+    QVERIFY2(series.contains(key), key);
+  }
+  QCOMPARE(series["files"].toInt(), 81);
+  QCOMPARE(series["loadable"].toBool(), true);
+  QCOMPARE(series["direction"].toArray(), (QJsonArray{1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}));
+  QCOMPARE(series["scalar"].toString(), QString("int16"));
+}
+
+void CliFilesTest::distance_is_signed_and_in_millimetres() {
+  Volume volume = ball(Index3(32), 9.5);
+  volume.geometry.spacing_mm = glm::dvec3(2.0);
+  QCOMPARE(failure(write_mask_file(ball_mask(volume), folder_ / "ball.nii.gz")), QString());
+  const Outcome outcome = must_run({"distance", text(folder_ / "ball.nii.gz"), "--band", "4", "--out",
+                                    text(folder_ / "distance.nrrd"), "--json"});
+  QCOMPARE(json_of(outcome.out)["band_mm"].toDouble(), 8.0);
+  const auto distance = read_volume_file(folder_ / "distance.nrrd");
+  QCOMPARE(failure(distance), QString());
+  const glm::dvec3 middle(15.5);
+  double worst = 0.0;
+  for (std::int64_t i = 0; i < 32; ++i) {
+    const double exact = 2.0 * (9.5 - glm::length(glm::dvec3(i, 15, 15) - middle));
+    const double found = distance->value(Index3(i, 15, 15));
+    worst = std::max(worst, std::abs(found - std::clamp(exact, -8.0, 8.0)));
+  }
+  QVERIFY2(worst < 1.0, qPrintable(QString("half a voxel is 1 mm; worst %1 mm").arg(worst)));
+}
+
+void CliFilesTest::formats_keep_values_and_geometry() {
+  Volume volume = ball(Index3(9, 10, 11), 3.0);
+  volume.geometry.spacing_mm = {0.5, 0.75, 2.0};
+  volume.geometry.origin_mm = {-12.5, 30.25, 7.0};
+  QCOMPARE(failure(write_dicom_series(volume, {}, folder_ / "oblong")), QString());
+  QString from = text(folder_ / "oblong");
+  for (const char* name : {"a.nii.gz", "b.nrrd", "c.mha", "d.nii"}) {
+    QCOMPARE(must_run({"convert", from, "--out", text(folder_ / name)}).code, 0);
+    const auto read = read_volume_file(folder_ / name);
+    QCOMPARE(failure(read), QString());
+    QVERIFY(same_grid(read->geometry, volume.geometry, 1e-3));
+    QCOMPARE(read->values(), volume.values());
+    from = text(folder_ / name);
+  }
+}
+
+void CliFilesTest::a_mask_becomes_a_surface() {
+  const Outcome outcome = must_run({"convert", text(sphere_ / "truth.nii.gz"), "--out",
+                                    text(folder_ / "truth.stl"), "--out", text(folder_ / "truth.obj")});
+  QVERIFY2(outcome.out.contains("Surface "), outcome.told());
+  QVERIFY(bytes_of(folder_ / "truth.stl").size() > 84 + 50 * 1000);
+  const Outcome labels =
+      must_run({"convert", text(sphere_ / "series"), "--mask", "--out", text(folder_ / "nonzero.nii.gz")});
+  QCOMPARE(labels.code, 0);
+}
+
+void CliFilesTest::pictures_are_drawn_from_masks_and_fields() {
+  const TemporaryFolder folder;
+  const Volume volume = ball(Index3(32), 10.0);
+  const auto file = folder / "ball.nrrd";
+  QCOMPARE(failure(write_volume_file(volume, file)), QString());
+  must_run(QStringList{"segment", text(file)} + ball_arguments(Index3(32)) +
+           QStringList{"--out", text(folder / "mask.nrrd"), "--out-phi", text(folder / "phi.nrrd"),
+                       "--picture", text(folder / "sheet-of-segment.png")});
+  QVERIFY(bytes_of(folder / "sheet-of-segment.png").startsWith("\x89PNG"));
+  const auto tf = folder / "tf.json";
+  QFile file_of_tf(text(tf));
+  QVERIFY(file_of_tf.open(QIODevice::WriteOnly));
+  file_of_tf.write(
+      R"({"relative": true, "source": [{"value": {"ramp": [0, 1]}, "opacity": 1, "colour": [1, 1, 1]}]})");
+  file_of_tf.close();
+  const QList<QStringList> views = {
+      {"--mask", text(folder / "mask.nrrd"), "--camera", "30,20,1.2"},
+      {"--phi", text(folder / "phi.nrrd"), "--clip", "0,-1,0,-16", "--opacity", "0.5"},
+      {"--preset", "ct-bone", "--phi", text(folder / "phi.nrrd"), "--roi", "inside"},
+      {"--mask", text(folder / "mask.nrrd"), "--view", "sagittal", "--at", "16,16,16"},
+      {"--mask", text(folder / "mask.nrrd"), "--fit", "--colour", "curvature", "--occlusion", "0.5",
+       "--annotate"},
+      {"--mask", text(folder / "mask.nrrd"), "--clip", "0,-1,0,-16", "--clipped", "source", "--tf", text(tf)},
+      {"--mask", text(folder / "mask.nrrd"), "--view", "oblique", "--normal", "1,1,0.5", "--nearest",
+       "--annotate"},
+      {"--view", "axial", "--labels", text(folder / "mask.nrrd")},
+      {"--view", "speed", "--target", "1000", "--range", "500"},
+      {"--phi", text(folder / "phi.nrrd"), "--view", "speed", "--target", "1000", "--range", "500", "--term",
+       "total"},
+      {"--phi", text(folder / "phi.nrrd"), "--view", "pages", "--window", "500,1000"}};
+  for (const QStringList& view : views) {
+    const auto picture = folder / "picture.png";
+    const QJsonObject told = json_of(
+        must_run(QStringList{"render", text(file), "--size", "96x64", "--json", "--out", text(picture)} +
+                 view)
+            .out);
+    QCOMPARE(told["width"].toInt(), 96);
+    const QByteArray bytes = bytes_of(picture);
+    QVERIFY(bytes.startsWith("\x89PNG"));
+    // The header's first chunk holds the size, most significant byte first.
+    QCOMPARE(bytes.mid(16, 8), QByteArray("\0\0\0\x60\0\0\0\x40", 8));
+    QVERIFY2(bytes.size() > 300, "an even picture");
+  }
+  // Three columns and two rows share the sheet, with two pixels between them.
+  const auto sheet = folder / "sheet.png";
+  const QJsonObject told =
+      json_of(must_run({"render", text(file), "--mask", text(folder / "mask.nrrd"), "--view", "sheet",
+                        "--size", "300x200", "--json", "--out", text(sheet)})
+                  .out);
+  QCOMPARE(told["width"].toInt(), 298);
+  QCOMPARE(told["height"].toInt(), 200);
+}
+
+QTEST_GUILESS_MAIN(CliFilesTest)
+#include "cli_files_test.moc"
