@@ -83,6 +83,36 @@ inline void run(LevelSet& level_set, std::int64_t steps) {
   QCOMPARE(report->steps, steps);
 }
 
+// What a level set is, for comparisons.
+struct Seen {
+  std::vector<float> phi;
+  Parameters parameters;
+  std::int64_t step = 0;
+  std::size_t events = 0;
+  bool begun = false;
+  double smoothed_mm = 0.0;
+
+  explicit Seen(const LevelSet& level_set)
+      : phi(values_of(level_set)),
+        parameters(level_set.parameters()),
+        step(level_set.step()),
+        events(level_set.recipe().events.size()),
+        begun(level_set.begun()),
+        smoothed_mm(level_set.smoothed_mm()) {}
+  bool operator==(const Seen&) const = default;
+};
+
+// What undo would take back; empty: nothing.
+inline std::string undo_text(Case& document) {
+  const auto description = document.history().undo_description();
+  return description ? describe(*description) : std::string();
+}
+
+inline Parameters with_target(Parameters parameters, double target) {
+  parameters.target = target;
+  return parameters;
+}
+
 // The executors, one a row. On OpenGL each test makes its own context.
 inline void add_executors() {
   QTest::addColumn<int>("kind");

@@ -2,43 +2,13 @@
 #include <random>
 
 #include "cases.h"
-#include "gpu/device.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
 
 namespace {
 
-// What a level set is, for comparisons.
-struct Seen {
-  std::vector<float> phi;
-  Parameters parameters;
-  std::int64_t step = 0;
-  std::size_t events = 0;
-  bool begun = false;
-  double smoothed_mm = 0.0;
-
-  explicit Seen(const LevelSet& level_set)
-      : phi(values_of(level_set)),
-        parameters(level_set.parameters()),
-        step(level_set.step()),
-        events(level_set.recipe().events.size()),
-        begun(level_set.begun()),
-        smoothed_mm(level_set.smoothed_mm()) {}
-  bool operator==(const Seen&) const = default;
-};
-
-std::string undo_text(Case& document) {
-  const auto description = document.history().undo_description();
-  return description ? describe(*description) : std::string();
-}
-
 using Edit = std::function<Status(Case&)>;
-
-Parameters with_target(Parameters parameters, double target) {
-  parameters.target = target;
-  return parameters;
-}
 
 }  // namespace
 
@@ -111,64 +81,6 @@ class HistoryTest : public QObject {
     QCOMPARE(failure(level_set.executor().validate()), QString());
   }
 
-  void a_gesture_with_its_steps_is_one_entry() {
-    const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
-    run(level_set, 10);
-    QCOMPARE(failure(level_set.end_run()), QString());
-    const Seen before(level_set);
-    for (int i = 0; i < 4; ++i) {
-      const Sphere dab = ball_at(*document->volume(), {5.0 + i, 0, 0}, 3.0);
-      QCOMPARE(failure(level_set.paint(dab, Brush::add, 17)), QString());
-      run(level_set, 2);
-    }
-    QCOMPARE(undo_text(*document), std::string("paint"));
-    const Seen after(level_set);
-    QCOMPARE(failure(document->undo()), QString());
-    QVERIFY(Seen(level_set) == before);
-    QCOMPARE(undo_text(*document), std::string("evolution, 10 steps"));
-    QCOMPARE(failure(document->redo()), QString());
-    QVERIFY(Seen(level_set) == after);
-  }
-
-  void steps_after_a_gesture_become_a_run_of_their_own_with_the_next_checkpoint() {
-    const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
-    Parameters parameters = level_set.parameters();
-    for (int i = 1; i <= 3; ++i) {
-      QCOMPARE(failure(level_set.set_parameters(with_target(parameters, 850.0 + i), 5)), QString());
-      run(level_set, 4);
-      QVERIFY(level_set.checkpoint());  // in the middle of the gesture: no end to it
-    }
-    const Seen divided(level_set);
-    run(level_set, 30);
-    const Seen after(level_set);
-    QCOMPARE(failure(document->undo()), QString());
-    QVERIFY(Seen(level_set) == divided);
-    QCOMPARE(undo_text(*document), std::string("T"));
-    QCOMPARE(failure(document->undo()), QString());
-    QCOMPARE(undo_text(*document), std::string("start"));
-    QCOMPARE(level_set.step(), std::int64_t{0});
-    QCOMPARE(failure(document->redo()), QString());
-    QCOMPARE(failure(document->redo()), QString());
-    QVERIFY(Seen(level_set) == after);
-  }
-
-  void another_gesture_is_another_entry() {
-    const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
-    const Parameters parameters = level_set.parameters();
-    for (const std::uint64_t gesture : {1, 1, 2, 0, 0}) {
-      const double target = level_set.parameters().target + 1.0;
-      QCOMPARE(failure(level_set.set_parameters(with_target(parameters, target), gesture)), QString());
-    }
-    for (const double target : {854.0, 853.0, 852.0, 850.0}) {
-      QCOMPARE(failure(document->undo()), QString());
-      QCOMPARE(level_set.parameters().target, target);
-    }
-    QCOMPARE(undo_text(*document), std::string("start"));
-  }
-
   void what_changes_nothing_is_no_entry() {
     const auto document = begun_case();
     LevelSet& level_set = document->level_set();
@@ -206,87 +118,6 @@ class HistoryTest : public QObject {
     QCOMPARE(undo_text(*document), std::string("evolution, 7 steps"));
   }
 
-  void steps_back_lead_to_what_was_seen_data() { add_executors(); }
-  void steps_back_lead_to_what_was_seen() {
-    const auto document = begun_case(this_executor());
-    LevelSet& level_set = document->level_set();
-    std::vector<Seen> seen;
-    const auto note = [&] { seen.emplace_back(level_set); };
-    note();
-    for (int step = 1; step <= 45; ++step) {
-      run(level_set, 1);
-      if (step == 20) {
-        QCOMPARE(failure(level_set.set_parameters(with_target(level_set.parameters(), 800.0))), QString());
-      }
-      if (step == 30) {
-        QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), Brush::erase)),
-                 QString());
-      }
-      note();
-    }
-    for (const int target : {44, 40, 29, 21, 20, 3, 0}) {
-      QCOMPARE(failure(level_set.step_back(level_set.step() - target)), QString());
-      QCOMPARE(level_set.step(), std::int64_t{target});
-      QVERIFY(Seen(level_set) == seen[static_cast<std::size_t>(target)]);
-    }
-    // And going on from there leads where it led.
-    for (int i = 0; i < 4; ++i) QCOMPARE(failure(document->undo()), QString());
-    QCOMPARE(level_set.step(), std::int64_t{29});
-    QCOMPARE(failure(level_set.step_back(10)), QString());
-    run(level_set, 1);
-    QCOMPARE(failure(level_set.set_parameters(with_target(level_set.parameters(), 800.0))), QString());
-    QVERIFY(Seen(level_set).phi == seen[20].phi);
-    QCOMPARE(level_set.step(), std::int64_t{20});
-  }
-
-  void steps_back_cross_what_was_restored() {
-    const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
-    run(level_set, 20);
-    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), Brush::add)), QString());
-    QCOMPARE(failure(document->undo()), QString());  // phi is put back at step 20
-    run(level_set, 5);
-    const Seen at_25(level_set);
-    run(level_set, 6);
-    QCOMPARE(failure(document->smooth_source(0.8)), QString());
-    run(level_set, 6);
-    QCOMPARE(failure(level_set.step_back(12)), QString());
-    QVERIFY(Seen(level_set) == at_25);
-    QCOMPARE(failure(level_set.step_back(10)), QString());
-    const Seen at_15(level_set);
-    QCOMPARE(failure(level_set.restart()), QString());
-    QCOMPARE(level_set.smoothed_mm(), 0.0);
-    run(level_set, 15);
-    QVERIFY(Seen(level_set).phi == at_15.phi);
-  }
-
-  void a_cancelled_step_back_changes_nothing() {
-    const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
-    run(level_set, 30);
-    QCOMPARE(failure(level_set.end_run()), QString());
-    const Seen before(level_set);
-    std::stop_source stop;
-    stop.request_stop();
-    QCOMPARE(level_set.step_back(3, {nullptr, stop.get_token()}).error().kind, ErrorKind::cancelled);
-    QVERIFY(Seen(level_set) == before);
-    QCOMPARE(undo_text(*document), std::string("evolution, 30 steps"));
-  }
-
-  void a_lost_gpu_gives_way_to_the_processor() {
-    ExecutorOptions options;
-    options.device = gpu::Device::create_headless({gpu::GlVersion::gl45, false}).value();
-    const auto document = begun_case(ExecutorKind::compute, options);
-    LevelSet& level_set = document->level_set();
-    const Seen start(level_set);
-    run(level_set, 6);
-    options.device->lose_at_check(1);
-    QVERIFY(!level_set.advance({.steps = 5}));
-    QCOMPARE(failure(level_set.rebuild({}, ExecutorKind::host)), QString());
-    QCOMPARE(level_set.executor().name(), std::string_view("host"));
-    QVERIFY(Seen(level_set) == start);
-  }
-
   void what_finds_no_room_leaves_everything_as_it_was() {
     const auto document = begun_case();
     LevelSet& level_set = document->level_set();
@@ -312,23 +143,6 @@ class HistoryTest : public QObject {
     QCOMPARE(level_set.resume_from(recipe, everywhere).error().kind, ErrorKind::capability);
     QVERIFY(Seen(level_set) == before);
     QCOMPARE(undo_text(*document), text);
-  }
-
-  void restart_keeps_the_parameters_and_what_was_painted_before_the_first_step() {
-    const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
-    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), Brush::add, 3)),
-             QString());
-    const std::vector<float> start = values_of(level_set);
-    run(level_set, 12);
-    QCOMPARE(failure(level_set.set_parameters(with_target(level_set.parameters(), 800.0))), QString());
-    run(level_set, 12);
-    QCOMPARE(failure(level_set.restart()), QString());
-    QVERIFY(values_of(level_set) == start);
-    QCOMPARE(level_set.step(), std::int64_t{0});
-    QCOMPARE(level_set.parameters().target, 800.0);
-    QCOMPARE(level_set.recipe().parameters.target, 800.0);
-    QCOMPARE(level_set.recipe().events.size(), std::size_t{1});
   }
 
   void random_edits_undo_and_redo_follow_a_model_data() {
@@ -421,56 +235,6 @@ class HistoryTest : public QObject {
     QVERIFY(document->changed_since_save());
     QCOMPARE(failure(document->redo()), QString());
     QVERIFY(!document->changed_since_save());
-  }
-
-  void entries_outlive_a_change_of_executor() {
-    const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
-    const Seen start(level_set);
-    run(level_set, 10);
-    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), Brush::add)), QString());
-    const Seen painted(level_set);
-    QCOMPARE(failure(level_set.change_executor(ExecutorKind::stream, {})), QString());
-    QCOMPARE(level_set.executor().name(), std::string_view("stream"));
-    QVERIFY(Seen(level_set) == painted);
-    QCOMPARE(failure(document->undo()), QString());
-    QCOMPARE(failure(document->undo()), QString());
-    QVERIFY(Seen(level_set) == start);
-    QCOMPARE(failure(document->redo()), QString());
-    QCOMPARE(failure(document->redo()), QString());
-    QVERIFY(Seen(level_set) == painted);
-  }
-
-  void a_lost_context_costs_what_came_after_the_last_checkpoint_data() {
-    QTest::addColumn<int>("kind");
-    QTest::newRow("compute") << int(ExecutorKind::compute);
-    QTest::newRow("stream") << int(ExecutorKind::stream);
-  }
-  void a_lost_context_costs_what_came_after_the_last_checkpoint() {
-    ExecutorOptions options;
-    options.device = gpu::Device::create_headless({gpu::GlVersion::gl45, false}).value();
-    const auto document = begun_case(this_executor(), options);
-    LevelSet& level_set = document->level_set();
-    run(level_set, 6);
-    QVERIFY(level_set.checkpoint());
-    run(level_set, 4);
-    QCOMPARE(failure(level_set.set_parameters(with_target(level_set.parameters(), 800.0), 9)), QString());
-    const Seen last_known(level_set);
-    run(level_set, 3);
-    options.device->lose_at_check(1);
-    QVERIFY(!level_set.advance({.steps = 5}));
-    QVERIFY(options.device->lost());
-    QCOMPARE(level_set.end_run().error().kind, ErrorKind::capability);
-    options.device = gpu::Device::create_headless({gpu::GlVersion::gl45, false}).value();
-    QCOMPARE(failure(level_set.rebuild(options)), QString());
-    QVERIFY(Seen(level_set).phi == last_known.phi);
-    QCOMPARE(level_set.parameters().target, 800.0);
-    QCOMPARE(level_set.step(), std::int64_t{10});
-    run(level_set, 5);
-    QCOMPARE(failure(level_set.executor().validate()), QString());
-    while (document->undo()) {
-    }
-    QVERIFY(!level_set.begun());
   }
 };
 

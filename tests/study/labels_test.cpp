@@ -96,17 +96,17 @@ class LabelsTest : public QObject {
     History history;
     Labels labels(small_grid(), &history);
     std::mt19937 random(3);
-    struct Seen {
+    struct SeenLabels {
       std::vector<Label> list;
       std::vector<std::uint8_t> masks;  // of label 1 and 2
     };
     const auto seen = [&] {
-      Seen now{labels.list(), labels.mask(1).voxels};
+      SeenLabels now{labels.list(), labels.mask(1).voxels};
       const Mask second = labels.mask(2);
       now.masks.insert(now.masks.end(), second.voxels.begin(), second.voxels.end());
       return now;
     };
-    std::vector<Seen> states{seen()};
+    std::vector<SeenLabels> states{seen()};
     for (int round = 0; round < 50; ++round) {
       const auto id = static_cast<std::uint8_t>(1 + random() % 2);
       const Index3 first(random() % 8, random() % 8, random() % 8);

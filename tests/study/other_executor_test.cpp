@@ -1,0 +1,78 @@
+// A level set goes on elsewhere: on another executor, or after its GPU was lost.
+#include "cases.h"
+#include "gpu/device.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+class OtherExecutorTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void entries_outlive_a_change_of_executor() {
+    const auto document = begun_case();
+    LevelSet& level_set = document->level_set();
+    const Seen start(level_set);
+    run(level_set, 10);
+    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), Brush::add)), QString());
+    const Seen painted(level_set);
+    QCOMPARE(failure(level_set.change_executor(ExecutorKind::stream, {})), QString());
+    QCOMPARE(level_set.executor().name(), std::string_view("stream"));
+    QVERIFY(Seen(level_set) == painted);
+    QCOMPARE(failure(document->undo()), QString());
+    QCOMPARE(failure(document->undo()), QString());
+    QVERIFY(Seen(level_set) == start);
+    QCOMPARE(failure(document->redo()), QString());
+    QCOMPARE(failure(document->redo()), QString());
+    QVERIFY(Seen(level_set) == painted);
+  }
+
+  void a_lost_gpu_gives_way_to_the_processor() {
+    ExecutorOptions options;
+    options.device = gpu::Device::create_headless({gpu::GlVersion::gl45, false}).value();
+    const auto document = begun_case(ExecutorKind::compute, options);
+    LevelSet& level_set = document->level_set();
+    const Seen start(level_set);
+    run(level_set, 6);
+    options.device->lose_at_check(1);
+    QVERIFY(!level_set.advance({.steps = 5}));
+    QCOMPARE(failure(level_set.rebuild({}, ExecutorKind::host)), QString());
+    QCOMPARE(level_set.executor().name(), std::string_view("host"));
+    QVERIFY(Seen(level_set) == start);
+  }
+
+  void a_lost_context_costs_what_came_after_the_last_checkpoint_data() {
+    QTest::addColumn<int>("kind");
+    QTest::newRow("compute") << int(ExecutorKind::compute);
+    QTest::newRow("stream") << int(ExecutorKind::stream);
+  }
+  void a_lost_context_costs_what_came_after_the_last_checkpoint() {
+    ExecutorOptions options;
+    options.device = gpu::Device::create_headless({gpu::GlVersion::gl45, false}).value();
+    const auto document = begun_case(this_executor(), options);
+    LevelSet& level_set = document->level_set();
+    run(level_set, 6);
+    QVERIFY(level_set.checkpoint());
+    run(level_set, 4);
+    QCOMPARE(failure(level_set.set_parameters(with_target(level_set.parameters(), 800.0), 9)), QString());
+    const Seen last_known(level_set);
+    run(level_set, 3);
+    options.device->lose_at_check(1);
+    QVERIFY(!level_set.advance({.steps = 5}));
+    QVERIFY(options.device->lost());
+    QCOMPARE(level_set.end_run().error().kind, ErrorKind::capability);
+    options.device = gpu::Device::create_headless({gpu::GlVersion::gl45, false}).value();
+    QCOMPARE(failure(level_set.rebuild(options)), QString());
+    QVERIFY(Seen(level_set).phi == last_known.phi);
+    QCOMPARE(level_set.parameters().target, 800.0);
+    QCOMPARE(level_set.step(), std::int64_t{10});
+    run(level_set, 5);
+    QCOMPARE(failure(level_set.executor().validate()), QString());
+    while (document->undo()) {
+    }
+    QVERIFY(!level_set.begun());
+  }
+};
+
+QTEST_APPLESS_MAIN(OtherExecutorTest)
+#include "other_executor_test.moc"
