@@ -4,10 +4,6 @@
 
 namespace tidemark {
 
-double ExecutorBase::seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 ExecutorBase::ExecutorBase(std::shared_ptr<const Volume> source, const Parameters& parameters)
     : source_(std::move(source)), model_(*source_, parameters) {}
 

@@ -1,7 +1,6 @@
 // What executors have in common: the source, the equation's constants, and the frame of a run of steps.
 #pragma once
 
-#include <chrono>
 #include <functional>
 
 #include "solver/executor.h"
@@ -17,9 +16,6 @@ class ExecutorBase : public Executor {
   [[nodiscard]] std::int64_t steps_of_last_run() const final { return steps_of_last_run_; }
 
  protected:
-  using Clock = std::chrono::steady_clock;
-  static double seconds_since(Clock::time_point start);
-
   ExecutorBase(std::shared_ptr<const Volume> source, const Parameters& parameters);
 
   // The model that other parameters make. Fails (ErrorKind::usage) on those that check() refuses or that

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "core/stopwatch.h"
 #include "solver/convergence.h"
 #include "solver/gl/packed_view.h"
 #include "solver/paging/validate.h"
@@ -177,10 +178,10 @@ void ComputeExecutor::order_step(int now, int step_in_window, bool in_pieces) {
   dispatch_update(in_pieces);
   if (!options_.time_paging) return order_paging(1 - now, step_in_window);
   gpu::wait_for_gpu();
-  const Clock::time_point start = Clock::now();
+  const Stopwatch paging;
   order_paging(1 - now, step_in_window);
   gpu::wait_for_gpu();
-  paging_seconds_ += seconds_since(start);
+  paging_seconds_ += paging.seconds();
 }
 
 void ComputeExecutor::order_paging(int next, int step_in_window) {
@@ -287,7 +288,7 @@ Status ComputeExecutor::settle() {
 
 Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
   constexpr std::int64_t kMostStepsPerRun = 64;
-  const Clock::time_point start = Clock::now();
+  const Stopwatch whole;
   AdvanceReport report;
   steps_of_last_run_ = 0;
   if (auto status = device_->make_current(); !status) return pass_on(status);
@@ -297,7 +298,7 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
   control_.converged = 0;
   while (report.steps < run.steps && !run.progress.cancelled()) {
     const std::int64_t count = std::min(run.steps - report.steps, steps_per_run_);
-    const Clock::time_point run_start = Clock::now();
+    const Stopwatch one_run;
     auto control = run_steps(count, run.until_converged);
     if (!control) return pass_on(control);
     report.steps += control->steps_done;
@@ -312,7 +313,7 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
       }
       control_.converged = 0;
     } else {
-      const double seconds = std::max(seconds_since(run_start), 1e-6);
+      const double seconds = std::max(one_run.seconds(), 1e-6);
       seconds_per_step_ = seconds / static_cast<double>(count);
       steps_per_run_ =
           std::clamp(static_cast<std::int64_t>(static_cast<double>(count) * kSecondsPerRun / seconds),
@@ -321,7 +322,7 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
     run.progress(static_cast<double>(report.steps) / static_cast<double>(run.steps), "steps");
     if (report.converged && run.until_converged) break;
   }
-  report.seconds = seconds_since(start);
+  report.seconds = whole.seconds();
   report.paging_seconds = std::exchange(paging_seconds_, 0.0);
   return report;
 }

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "core/stopwatch.h"
+
 namespace tidemark {
 namespace {
 
@@ -155,10 +157,10 @@ Result<AdvanceReport> HostExecutor::advance(const Advance& run) {
     step();
     for (const std::int64_t updates : updates_) report.voxel_updates += updates;
 
-    const Clock::time_point paging_start = Clock::now();
+    const Stopwatch paging;
     const Status domain = update_domain();
     const bool window_ended = finish_window();
-    report.paging_seconds += seconds_since(paging_start);
+    report.paging_seconds += paging.seconds();
     if (!domain) {
       return fail(domain.error().kind, "after {} steps: {}", report.steps, domain.error().message);
     }

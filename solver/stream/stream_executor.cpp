@@ -1,5 +1,6 @@
 #include "solver/stream/stream_executor.h"
 
+#include "core/stopwatch.h"
 #include "solver/gl/packed_view.h"
 
 namespace tidemark {
@@ -66,7 +67,7 @@ Status StreamExecutor::step() {
 
 // Handles the pages' messages, and the end of a window of steps. Returns whether one ended.
 Result<bool> StreamExecutor::finish_step(AdvanceReport& report) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch paging;
   Status domain;  // whether all pages could be allocated; the rest fails only with the graphics driver
   if (!active_.empty()) {
     auto messages =
@@ -79,7 +80,7 @@ Result<bool> StreamExecutor::finish_step(AdvanceReport& report) {
   if (active_list_is_stale_) {
     if (auto status = rebuild_active_list(); !status) return pass_on(status);
   }
-  report.paging_seconds += seconds_since(start);
+  report.paging_seconds += paging.seconds();
   if (!domain) {
     return fail(domain.error().kind, "after {} steps: {}", report.steps, domain.error().message);
   }
