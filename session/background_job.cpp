@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 #include <condition_variable>
+#include <mutex>
 #include <thread>
 
 namespace tidemark {
@@ -44,24 +45,6 @@ std::shared_ptr<BackgroundJob> BackgroundJob::start(QObject* receiver, Work work
     running().ended.notify_all();
   }).detach();
   return job;
-}
-
-void BackgroundJob::abandon() {
-  stop_.request_stop();
-  const std::lock_guard lock(mutex_);
-  receiver_ = nullptr;
-}
-
-void BackgroundJob::deliver(std::function<void()> call) {
-  const std::lock_guard lock(mutex_);
-  if (receiver_ == nullptr) return;
-  // Only the receiver's thread abandons, so that a look without the lock is enough there.
-  QMetaObject::invokeMethod(
-      receiver_,
-      [job = shared_from_this(), call = std::move(call)] {
-        if (job->receiver_ != nullptr) call();
-      },
-      Qt::QueuedConnection);
 }
 
 bool BackgroundJob::finish_all(std::chrono::milliseconds limit) {

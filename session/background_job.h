@@ -1,19 +1,19 @@
 // Work on a thread of its own, for an object on the thread of the user interface.
 #pragma once
 
-#include <QObject>
 #include <chrono>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <stop_token>
+
+#include "session/outlet.h"
 
 namespace tidemark {
 
 // The thread of the user interface never waits for such work: whoever does not want its result any more
 // abandons it. The thread then ends when it next looks at its stop token, and what it says until then is not
 // heard. At the end of the program, QCoreApplication's destructor gives those that still run a few seconds.
-class BackgroundJob : public std::enable_shared_from_this<BackgroundJob> {
+class BackgroundJob {
  public:
   using Work = std::function<void(BackgroundJob&)>;
 
@@ -22,21 +22,23 @@ class BackgroundJob : public std::enable_shared_from_this<BackgroundJob> {
 
   // On the receiver's thread, at the latest in its destructor: asks the work to stop; no call is delivered
   // any more.
-  void abandon();
+  void abandon() {
+    stop_.request_stop();
+    outlet_->close();
+  }
 
   // From the work: calls `call` on the receiver's thread, unless the job is abandoned by then.
-  void deliver(std::function<void()> call);
+  void deliver(std::function<void()> call) { outlet_->send(std::move(call)); }
   [[nodiscard]] std::stop_token stop() const { return stop_.get_token(); }
 
   // Waits until no job runs; false when some still do after `limit`.
   static bool finish_all(std::chrono::milliseconds limit);
 
  private:
-  explicit BackgroundJob(QObject* receiver) : receiver_(receiver) {}
+  explicit BackgroundJob(QObject* receiver) : outlet_(Outlet::of(receiver)) {}
 
   std::stop_source stop_;
-  std::mutex mutex_;  // guards receiver_: it must not go while an event is posted to it
-  QObject* receiver_;
+  std::shared_ptr<Outlet> outlet_;
 };
 
 }  // namespace tidemark

@@ -12,7 +12,7 @@ CaseSession::CaseSession(Engine& engine, std::shared_ptr<const LoadedStudy> stud
                          RestoredCase restored)
     : engine_(engine),
       study_(std::move(study)),
-      outlet_(std::make_shared<Outlet>(this)),
+      outlet_(Outlet::of(this)),
       wanted_parameters_(restored.contents ? restored.contents->recipe.final_parameters()
                                            : study_->parameters) {
   state_.parameters = wanted_parameters_;

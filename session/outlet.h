@@ -1,4 +1,4 @@
-// How the engine's thread reaches an object of the user interface that may be gone by then.
+// How other threads reach an object of the user interface that may be gone by then.
 #pragma once
 
 #include <QMetaObject>
@@ -10,24 +10,36 @@
 
 namespace tidemark {
 
-// Made with the object on its thread; the object closes it when it dies. Other threads keep it alive.
-class Outlet {
+// Made with the object on its thread; other threads keep it alive.
+class Outlet : public std::enable_shared_from_this<Outlet> {
  public:
-  explicit Outlet(QObject* receiver) : receiver_(receiver) {}
+  static std::shared_ptr<Outlet> of(QObject* receiver) {
+    return std::shared_ptr<Outlet>(new Outlet(receiver));
+  }
 
+  // On the receiver's thread, at the latest in its destructor: no call is made any more.
   void close() {
     const std::lock_guard lock(mutex_);
     receiver_ = nullptr;
   }
 
-  // Has `call` made on the receiver's thread, unless the receiver is gone.
+  // Any thread: has `call` made on the receiver's, unless it is closed by then.
   void send(std::function<void()> call) {
     const std::lock_guard lock(mutex_);
-    if (receiver_) QMetaObject::invokeMethod(receiver_, std::move(call), Qt::QueuedConnection);
+    if (receiver_ == nullptr) return;
+    // Only the receiver's thread closes, so that a look without the lock is enough there.
+    QMetaObject::invokeMethod(
+        receiver_,
+        [outlet = shared_from_this(), call = std::move(call)] {
+          if (outlet->receiver_ != nullptr) call();
+        },
+        Qt::QueuedConnection);
   }
 
  private:
-  std::mutex mutex_;
+  explicit Outlet(QObject* receiver) : receiver_(receiver) {}
+
+  std::mutex mutex_;  // guards receiver_: it must not go while an event is posted to it
   QObject* receiver_;
 };
 

@@ -8,7 +8,7 @@ namespace tidemark {
 
 PictureFeed::PictureFeed(CaseSession& session, QObject* parent)
     : QObject(parent), runner_(session.runner()), slot_(std::make_shared<ViewSlot>()) {
-  slot_->outlet = std::make_shared<Outlet>(this);
+  slot_->outlet = Outlet::of(this);
   slot_->take = [this] { take(); };
   runner_->add_view(slot_);
 }
