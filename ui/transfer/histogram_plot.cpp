@@ -28,18 +28,18 @@ std::vector<Handle> HistogramPlot::handles_of(const AxisPrimitive& primitive) co
   return curve_handles(primitive, shown_x());
 }
 
-TransferAxis HistogramPlot::fitted_y() const {
+PlotAxis HistogramPlot::fitted_y() const {
   double most = 0.0;
   for (const AxisPrimitive& primitive : primitives()) most = std::max(most, primitive.opacity);
   double top = 2.0;
   // Room above, so that there is always somewhere to drag to.
   for (int i = 0; top < 1.25 * most; ++i) top *= i % 3 == 0 ? 2.5 : 2.0;
-  return {0.0, top, 1.0 / 3.0};
+  return {.high = top, .power = 1.0 / 3.0};
 }
 
 std::optional<double> HistogramPlot::distance(const AxisPrimitive& primitive, QPointF pointer) const {
   const auto height_at = [&](double pixel) {
-    return y_axis().to_pixel(primitive.opacity * primitive.factors[0].at(x_axis().to_value(pixel)));
+    return y_axis().pixel(primitive.opacity * primitive.factors[0].at(x_axis().value(pixel)));
   };
   constexpr double kNear = 7.0;
   // A curve may be steep, so it is looked for to both sides.
@@ -57,14 +57,14 @@ void HistogramPlot::paint_background(QPainter& painter) {
   if (counts_.empty() || !(range_.high > range_.low)) return;
   const QRectF room = area();
   const double bin = (range_.high - range_.low) / static_cast<double>(counts_.size());
-  QPainterPath path(QPointF(x_axis().to_pixel(range_.low), room.bottom()));
+  QPainterPath path(QPointF(x_axis().pixel(range_.low), room.bottom()));
   for (std::size_t i = 0; i < counts_.size(); ++i) {
     const double share = std::log1p(static_cast<double>(counts_[i])) / std::log1p(most_);
     const double y = room.bottom() - share * room.height();
-    path.lineTo(x_axis().to_pixel(range_.low + bin * static_cast<double>(i)), y);
-    path.lineTo(x_axis().to_pixel(range_.low + bin * static_cast<double>(i + 1)), y);
+    path.lineTo(x_axis().pixel(range_.low + bin * static_cast<double>(i)), y);
+    path.lineTo(x_axis().pixel(range_.low + bin * static_cast<double>(i + 1)), y);
   }
-  path.lineTo(x_axis().to_pixel(range_.high), room.bottom());
+  path.lineTo(x_axis().pixel(range_.high), room.bottom());
   painter.fillPath(path, mixed(palette().color(QPalette::Base), palette().color(QPalette::Text), 0.18));
 }
 
@@ -73,8 +73,8 @@ void HistogramPlot::paint_primitive(QPainter& painter, const AxisPrimitive& prim
   const QRectF room = area();
   QPolygonF curve;
   for (double x = room.left(); x <= room.right(); x += 1.0) {
-    const double opacity = primitive.opacity * primitive.factors[0].at(x_axis().to_value(x));
-    curve << QPointF(x, y_axis().to_pixel(opacity));
+    const double opacity = primitive.opacity * primitive.factors[0].at(x_axis().value(x));
+    curve << QPointF(x, y_axis().pixel(opacity));
   }
   QPolygonF filled = curve;
   filled << room.bottomRight() << room.bottomLeft();

@@ -22,7 +22,7 @@ class HistogramPlot : public TransferPlot {
   [[nodiscard]] std::optional<double> distance(const AxisPrimitive& primitive,
                                                QPointF pointer) const override;
   [[nodiscard]] bool shows_counts() const override { return true; }
-  [[nodiscard]] TransferAxis fitted_y() const override;
+  [[nodiscard]] PlotAxis fitted_y() const override;
   void paint_background(QPainter& painter) override;
   void paint_primitive(QPainter& painter, const AxisPrimitive& primitive, int number, bool chosen) override;
   void paint_axes(QPainter& painter) override;

@@ -49,17 +49,17 @@ std::vector<Handle> PlanePlot::handles_of(const AxisPrimitive& primitive) const 
   return plane_handles(primitive, shown_x(), shown_y());
 }
 
-TransferAxis PlanePlot::fitted_y() const {
+PlotAxis PlanePlot::fitted_y() const {
   Extent extent{y_.low, y_.high};
   for (const AxisPrimitive& primitive : primitives()) include(extent, primitive.factors[1]);
-  return {extent.low, std::max(extent.high, extent.low + 1e-6)};
+  return {.low = extent.low, .high = std::max(extent.high, extent.low + 1e-6)};
 }
 
 QRectF PlanePlot::reach_in_pixels(const AxisPrimitive& primitive) const {
   const Extent x = reach_of(primitive.factors[0], shown_x());
   const Extent y = reach_of(primitive.factors[1], shown_y());
-  return QRectF(QPointF(x_axis().to_pixel(x.low), y_axis().to_pixel(y.high)),
-                QPointF(x_axis().to_pixel(x.high), y_axis().to_pixel(y.low)));
+  return QRectF(QPointF(x_axis().pixel(x.low), y_axis().pixel(y.high)),
+                QPointF(x_axis().pixel(x.high), y_axis().pixel(y.low)));
 }
 
 std::optional<double> PlanePlot::distance(const AxisPrimitive& primitive, QPointF pointer) const {
@@ -81,8 +81,8 @@ void PlanePlot::paint_background(QPainter& painter) {
   QImage picture(counts_.size(), QImage::Format_ARGB32_Premultiplied);
   picture.fill(mixed(palette().color(QPalette::Base), palette().color(QPalette::Text), 0.75));
   picture.setAlphaChannel(counts_);
-  const QPointF top_left(x_axis().to_pixel(counts_x_.low), y_axis().to_pixel(counts_y_.high));
-  const QPointF bottom_right(x_axis().to_pixel(counts_x_.high), y_axis().to_pixel(counts_y_.low));
+  const QPointF top_left(x_axis().pixel(counts_x_.low), y_axis().pixel(counts_y_.high));
+  const QPointF bottom_right(x_axis().pixel(counts_x_.high), y_axis().pixel(counts_y_.low));
   painter.setRenderHint(QPainter::SmoothPixmapTransform);
   painter.drawImage(QRectF(top_left, bottom_right), picture);
 }
@@ -93,14 +93,14 @@ void PlanePlot::paint_primitive(QPainter& painter, const AxisPrimitive& primitiv
   constexpr int kCells = 96;
   std::array<double, kCells> along{};
   for (int column = 0; column < kCells; ++column) {
-    const double x = x_axis().to_value(room.left() + (column + 0.5) / kCells * room.width());
+    const double x = x_axis().value(room.left() + (column + 0.5) / kCells * room.width());
     along[static_cast<std::size_t>(column)] = primitive.factors[0].at(x);
   }
   const QRgb colour = to_qcolor(primitive.colour).rgb();
   const double strength = chosen ? 0.65 : 0.40;
   QImage shade(kCells, kCells, QImage::Format_ARGB32);
   for (int row = 0; row < kCells; ++row) {
-    const double y = y_axis().to_value(room.top() + (row + 0.5) / kCells * room.height());
+    const double y = y_axis().value(room.top() + (row + 0.5) / kCells * room.height());
     const double up = 255.0 * strength * primitive.factors[1].at(y);
     auto* line = reinterpret_cast<QRgb*>(shade.scanLine(row));
     for (const double share : along)

@@ -20,7 +20,7 @@ class PlanePlot : public TransferPlot {
   [[nodiscard]] std::vector<Handle> handles_of(const AxisPrimitive& primitive) const override;
   [[nodiscard]] std::optional<double> distance(const AxisPrimitive& primitive,
                                                QPointF pointer) const override;
-  [[nodiscard]] TransferAxis fitted_y() const override;
+  [[nodiscard]] PlotAxis fitted_y() const override;
   void paint_background(QPainter& painter) override;
   void paint_primitive(QPainter& painter, const AxisPrimitive& primitive, int number, bool chosen) override;
   void paint_axes(QPainter& painter) override;

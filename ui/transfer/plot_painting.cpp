@@ -57,12 +57,12 @@ PlotMargins plot_margins(const QFontMetrics& metrics, bool with_counts) {
           metrics.height() / 2 + 2, static_cast<int>(kTick + kGap) + 2 * metrics.height() + 2};
 }
 
-void draw_bottom_axis(QPainter& painter, const QRectF& area, const TransferAxis& axis, const QString& title,
+void draw_bottom_axis(QPainter& painter, const QRectF& area, const PlotAxis& axis, const QString& title,
                       const QColor& colour) {
   painter.setPen(QPen(colour, 1.0));
   const QFontMetricsF metrics(painter.font());
   for (const double value : ticks(axis, 4.5 * metrics.averageCharWidth() + 24.0)) {
-    const double x = crisp(axis.to_pixel(value));
+    const double x = crisp(axis.pixel(value));
     painter.drawLine(QPointF(x, area.bottom()), QPointF(x, area.bottom() + kTick));
     const QString text = tick_text(value);
     const double width = metrics.horizontalAdvance(text) + 2.0;
@@ -73,13 +73,13 @@ void draw_bottom_axis(QPainter& painter, const QRectF& area, const TransferAxis&
   painter.drawText(line, Qt::AlignCenter, title);
 }
 
-void draw_left_axis(QPainter& painter, const QRectF& area, const TransferAxis& axis, const QString& title,
+void draw_left_axis(QPainter& painter, const QRectF& area, const PlotAxis& axis, const QString& title,
                     const QColor& colour) {
   painter.setPen(QPen(colour, 1.0));
   const QFontMetricsF metrics(painter.font());
   for (const double value :
        ticks(axis, axis.power == 1.0 ? 2.5 * metrics.height() : metrics.height() + 4.0)) {
-    const double y = crisp(axis.to_pixel(value));
+    const double y = crisp(axis.pixel(value));
     painter.drawLine(QPointF(area.left() - kTick, y), QPointF(area.left(), y));
     const QRectF room(0.0, y - metrics.height() / 2.0, area.left() - kTick - kGap, metrics.height());
     painter.drawText(room, Qt::AlignRight | Qt::AlignVCenter, tick_text(value));

@@ -6,7 +6,7 @@
 #include <QString>
 
 #include "ui/look/colour.h"
-#include "ui/transfer/plot_axis.h"
+#include "ui/widgets/plot_axis.h"
 
 namespace tidemark {
 
@@ -24,9 +24,9 @@ QFont axis_font(const QFont& font);
 
 // Ticks, their numbers and the title, below the area or at its left. A greyed axis is drawn as what is
 // disabled.
-void draw_bottom_axis(QPainter& painter, const QRectF& area, const TransferAxis& axis, const QString& title,
+void draw_bottom_axis(QPainter& painter, const QRectF& area, const PlotAxis& axis, const QString& title,
                       const QColor& colour);
-void draw_left_axis(QPainter& painter, const QRectF& area, const TransferAxis& axis, const QString& title,
+void draw_left_axis(QPainter& painter, const QRectF& area, const PlotAxis& axis, const QString& title,
                     const QColor& colour);
 // Powers of ten up to `most` at the right of the area, whose height is log(1 + count).
 void draw_count_axis(QPainter& painter, const QRectF& area, double most, const QString& title,

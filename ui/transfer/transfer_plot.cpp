@@ -45,7 +45,7 @@ std::vector<Handle> TransferPlot::handles() const {
 }
 
 QPointF TransferPlot::pixel_of(const Handle& handle) const {
-  return {x_axis_.to_pixel(handle.at.x), y_axis_.to_pixel(handle.at.y)};
+  return {x_axis_.pixel(handle.at.x), y_axis_.pixel(handle.at.y)};
 }
 
 QRectF TransferPlot::area() const {
@@ -66,10 +66,10 @@ Extent TransferPlot::whole_x() const {
 void TransferPlot::fit() {
   const QRectF room = area();
   const Extent shown = zoomed_.value_or(whole_x());
-  x_axis_ = {shown.low, std::max(shown.high, shown.low + 1e-6), 1.0, room.left(), room.right()};
+  x_axis_ = {shown.low, std::max(shown.high, shown.low + 1e-6), room.left(), room.right()};
   if (!drag_) y_axis_ = fitted_y();
-  y_axis_.pixel_low = room.bottom();
-  y_axis_.pixel_high = room.top();
+  y_axis_.from = room.bottom();
+  y_axis_.to = room.top();
 }
 
 void TransferPlot::zoom(double factor, double about) {

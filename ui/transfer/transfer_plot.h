@@ -4,8 +4,8 @@
 #include <QWidget>
 #include <optional>
 
-#include "ui/transfer/plot_axis.h"
 #include "ui/transfer/primitive_handles.h"
+#include "ui/widgets/plot_axis.h"
 
 namespace tidemark {
 
@@ -20,8 +20,8 @@ class TransferPlot : public QWidget {
   void set_primitives(const std::vector<AxisPrimitive>& primitives, int chosen);
   void reset_zoom();
 
-  [[nodiscard]] const TransferAxis& x_axis() const { return x_axis_; }
-  [[nodiscard]] const TransferAxis& y_axis() const { return y_axis_; }
+  [[nodiscard]] const PlotAxis& x_axis() const { return x_axis_; }
+  [[nodiscard]] const PlotAxis& y_axis() const { return y_axis_; }
   // Of the chosen primitive.
   [[nodiscard]] std::vector<Handle> handles() const;
   [[nodiscard]] std::optional<HandleKind> selected_handle() const { return selected_; }
@@ -46,7 +46,7 @@ class TransferPlot : public QWidget {
   // Whether there is an axis at the right.
   [[nodiscard]] virtual bool shows_counts() const { return false; }
   // What the second axis shows, given all primitives.
-  [[nodiscard]] virtual TransferAxis fitted_y() const = 0;
+  [[nodiscard]] virtual PlotAxis fitted_y() const = 0;
   virtual void paint_background(QPainter& painter) = 0;
   virtual void paint_primitive(QPainter& painter, const AxisPrimitive& primitive, int number,
                                bool chosen) = 0;
@@ -98,8 +98,8 @@ class TransferPlot : public QWidget {
   void zoom(double factor, double about);
   void show_cursor(QPointF pointer);
 
-  TransferAxis x_axis_;
-  TransferAxis y_axis_;
+  PlotAxis x_axis_;
+  PlotAxis y_axis_;
   std::vector<AxisPrimitive> primitives_;
   int chosen_ = 0;
   std::optional<HandleKind> selected_;  // of the chosen primitive: what keys move

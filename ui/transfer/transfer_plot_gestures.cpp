@@ -87,7 +87,7 @@ void TransferPlot::mouseMoveEvent(QMouseEvent* event) {
   if (pan_) {
     const Extent whole = whole_x();
     const double extent = pan_->shown.high - pan_->shown.low;
-    const double by = (pan_->from - at.x()) * extent / (x_axis_.pixel_high - x_axis_.pixel_low);
+    const double by = (pan_->from - at.x()) * extent / (x_axis_.to - x_axis_.from);
     const double low = std::clamp(pan_->shown.low + by, whole.low, std::max(whole.low, whole.high - extent));
     if (zoomed_) zoomed_ = Extent{low, low + extent};
     fit();
@@ -112,8 +112,8 @@ void TransferPlot::drag_to(QPointF pointer) {
   if (!drag_->begun && distance_between(pointer, drag_->pressed) < kMeant) return;
   drag_->begun = true;
   const QPointF pixel = pointer - drag_->offset;
-  const glm::dvec2 to{std::clamp(x_axis_.to_value(pixel.x()), x_axis_.low, x_axis_.high),
-                      std::clamp(y_axis_.to_value(pixel.y()), y_axis_.low, y_axis_.high)};
+  const glm::dvec2 to{std::clamp(x_axis_.value(pixel.x()), x_axis_.low, x_axis_.high),
+                      std::clamp(y_axis_.value(pixel.y()), y_axis_.low, y_axis_.high)};
   const glm::dvec2 smallest{x_axis_.extent() / kSmallest, y_axis_.extent() / kSmallest};
   emit edited(drag_->index,
               moved(primitives_[static_cast<std::size_t>(drag_->index)], drag_->handle, to, smallest));
@@ -160,7 +160,7 @@ void TransferPlot::wheelEvent(QWheelEvent* event) {
     event->ignore();
     return;
   }
-  zoom(std::pow(0.8, event->angleDelta().y() / 120.0), x_axis_.to_value(event->position().x()));
+  zoom(std::pow(0.8, event->angleDelta().y() / 120.0), x_axis_.value(event->position().x()));
   event->accept();
 }
 
@@ -218,10 +218,10 @@ void TransferPlot::move_by_keys(QPointF direction, bool coarse) {
   const double step = coarse ? 10.0 : 1.0;
   const QPointF pixel = pixel_of(handle);
   // As far along the axis on any screen; a step of the opacity's axis is finer where there is little of it.
-  const double x = pixel.x() + direction.x() * step * (x_axis_.pixel_high - x_axis_.pixel_low) / kFineSteps;
-  const double y = pixel.y() + direction.y() * step * (y_axis_.pixel_high - y_axis_.pixel_low) / kFineSteps;
+  const double x = pixel.x() + direction.x() * step * (x_axis_.to - x_axis_.from) / kFineSteps;
+  const double y = pixel.y() + direction.y() * step * (y_axis_.to - y_axis_.from) / kFineSteps;
   const glm::dvec2 smallest{x_axis_.extent() / kSmallest, y_axis_.extent() / kSmallest};
-  const glm::dvec2 to{x_axis_.to_value(x), std::clamp(y_axis_.to_value(y), y_axis_.low, y_axis_.high)};
+  const glm::dvec2 to{x_axis_.value(x), std::clamp(y_axis_.value(y), y_axis_.low, y_axis_.high)};
   // What does not go the handle's way leaves its other coordinates as they are, to the last digit.
   const HandleKind kind{direction.x() != 0.0 ? handle.kind.x : Grip::none,
                         direction.y() != 0.0 ? handle.kind.y : Grip::none,

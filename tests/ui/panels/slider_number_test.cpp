@@ -10,7 +10,6 @@
 
 #include "tests/ui/panels/panel_case.h"
 #include "ui/widgets/number_text.h"
-#include "ui/widgets/plot_axis.h"
 
 namespace tidemark {
 
@@ -118,13 +117,6 @@ class SliderNumberTest : public QObject {
     QCOMPARE(short_text(0.0123), QStringLiteral("0.0123"));
     QCOMPARE(short_text(12.345), QStringLiteral("12.3"));
     QCOMPARE(short_text(0.0), QStringLiteral("0"));
-  }
-
-  void an_axis_goes_both_ways() {
-    const PlotAxis axis{-10.0, 30.0, 100.0, 20.0};  // upwards
-    QCOMPARE(axis.pixel(-10.0), 100.0);
-    QCOMPARE(axis.pixel(30.0), 20.0);
-    QCOMPARE(axis.value(axis.pixel(7.0)), 7.0);
   }
 
  private:

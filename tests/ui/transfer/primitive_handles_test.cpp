@@ -2,8 +2,8 @@
 #include <QTest>
 #include <cmath>
 
-#include "ui/transfer/plot_axis.h"
 #include "ui/transfer/primitive_handles.h"
+#include "ui/widgets/plot_axis.h"
 
 using namespace tidemark;
 
@@ -103,28 +103,28 @@ class PrimitiveHandlesTest : public QObject {
 
   void an_axis_leads_to_pixels_and_back() {
     for (const double power : {1.0, 1.0 / 3.0}) {
-      const TransferAxis axis{0.0, 8.0, power, 200.0, 20.0};
-      QCOMPARE(axis.to_pixel(0.0), 200.0);
-      QCOMPARE(axis.to_pixel(8.0), 20.0);
+      const PlotAxis axis{0.0, 8.0, 200.0, 20.0, power};
+      QCOMPARE(axis.pixel(0.0), 200.0);
+      QCOMPARE(axis.pixel(8.0), 20.0);
       for (const double value : {-1.0, 0.001, 1.0, 7.5, 9.0}) {
-        QVERIFY(std::abs(axis.to_value(axis.to_pixel(value)) - value) < 1e-9);
+        QVERIFY(std::abs(axis.value(axis.pixel(value)) - value) < 1e-9);
       }
     }
-    QCOMPARE((TransferAxis{0.0, 8.0, 1.0 / 3.0, 0.0, 100.0}.to_pixel(1.0)), 50.0);
+    QCOMPARE((PlotAxis{0.0, 8.0, 0.0, 100.0, 1.0 / 3.0}.pixel(1.0)), 50.0);
   }
 
   void ticks_are_round_and_apart() {
-    const TransferAxis axis{-1024.0, 1476.0, 1.0, 0.0, 300.0};
+    const PlotAxis axis{-1024.0, 1476.0, 0.0, 300.0};
     QCOMPARE(ticks(axis, 50.0), (std::vector<double>{-1000.0, -500.0, 0.0, 500.0, 1000.0}));
-    const TransferAxis opacity{0.0, 2.0, 1.0 / 3.0, 160.0, 0.0};
+    const PlotAxis opacity{0.0, 2.0, 160.0, 0.0, 1.0 / 3.0};
     const auto values = ticks(opacity, 20.0);
     QVERIFY(values.size() >= 4);
     QCOMPARE(values.front(), 0.0);
     QCOMPARE(values.back(), 2.0);
     for (std::size_t i = 1; i < values.size(); ++i) {
-      QVERIFY(opacity.to_pixel(values[i - 1]) - opacity.to_pixel(values[i]) >= 20.0);
+      QVERIFY(opacity.pixel(values[i - 1]) - opacity.pixel(values[i]) >= 20.0);
     }
-    QVERIFY((ticks(TransferAxis{1.0, 1.0, 1.0, 0.0, 300.0}, 50.0).empty()));
+    QVERIFY((ticks(PlotAxis{1.0, 1.0, 0.0, 300.0}, 50.0).empty()));
   }
 
   void a_description_names_what_matters() {

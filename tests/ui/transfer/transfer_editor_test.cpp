@@ -218,10 +218,10 @@ class TransferEditorTest : public QObject {
     });
     TransferPlot& plot = *f.editor.surface_page()->shown_plot();
     const HandleKind start{Grip::none, Grip::start, false};
-    const TransferAxis y = plot.y_axis();
+    const PlotAxis y = plot.y_axis();
     const QPoint from = f.at(start);
     f.drag(plot, from, from + QPoint(0, -20));
-    QVERIFY(std::abs(f.function().surface[0].distance.start - y.to_value(y.to_pixel(25.0) - 20.0)) < 1e-6);
+    QVERIFY(std::abs(f.function().surface[0].distance.start - y.value(y.pixel(25.0) - 20.0)) < 1e-6);
     QCOMPARE(f.function().surface[0].distance.end, 5.0);
     click(f.editor.surface_page(), "add_gaussian");
     QCOMPARE(f.function().surface.size(), std::size_t{3});

@@ -12,10 +12,10 @@ class TransferPlotTest : public QObject {
     EditorFixture f;
     QVERIFY(f.is_shown());
     const QPoint from = f.at(kCentre);
-    const TransferAxis axis = f.plot().x_axis();
+    const PlotAxis axis = f.plot().x_axis();
     f.drag(f.plot(), from, from + QPoint(40, 0));
-    QVERIFY(std::abs(f.function().source[0].value.start -
-                     40.0 * axis.extent() / (axis.pixel_high - axis.pixel_low)) < 1e-6);
+    QVERIFY(std::abs(f.function().source[0].value.start - 40.0 * axis.extent() / (axis.to - axis.from)) <
+            1e-6);
     QCOMPARE(f.function().source[0].value.end, 200.0);
     QCOMPARE(f.function().source[0].opacity, 0.25);
     QCOMPARE(f.function().source[1].value.start, 300.0);
@@ -36,15 +36,15 @@ class TransferPlotTest : public QObject {
   void the_side_sets_the_width_and_the_peak_the_opacity() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    const TransferAxis x = f.plot().x_axis();
+    const PlotAxis x = f.plot().x_axis();
     QPoint from = f.at(kAbove);
     f.drag(f.plot(), from, from + QPoint(-20, 7));
-    QVERIFY(std::abs(f.function().source[0].value.end -
-                     (200.0 - 20.0 * x.extent() / (x.pixel_high - x.pixel_low))) < 1e-6);
-    const TransferAxis y = f.plot().y_axis();
+    QVERIFY(std::abs(f.function().source[0].value.end - (200.0 - 20.0 * x.extent() / (x.to - x.from))) <
+            1e-6);
+    const PlotAxis y = f.plot().y_axis();
     from = f.at(kOpacity);
     f.drag(f.plot(), from, from + QPoint(11, -30));
-    QVERIFY(std::abs(f.function().source[0].opacity - y.to_value(y.to_pixel(0.25) - 30.0)) < 1e-6);
+    QVERIFY(std::abs(f.function().source[0].opacity - y.value(y.pixel(0.25) - 30.0)) < 1e-6);
     QCOMPARE(f.function().source[0].value.start, 0.0);
   }
 
@@ -80,9 +80,9 @@ class TransferPlotTest : public QObject {
   void a_click_on_a_curve_chooses_it_and_a_drag_moves_it() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    const TransferAxis x = f.plot().x_axis();
-    const TransferAxis y = f.plot().y_axis();
-    const QPoint on_ramp(static_cast<int>(x.to_pixel(650.0)), static_cast<int>(y.to_pixel(0.4)));
+    const PlotAxis x = f.plot().x_axis();
+    const PlotAxis y = f.plot().y_axis();
+    const QPoint on_ramp(static_cast<int>(x.pixel(650.0)), static_cast<int>(y.pixel(0.4)));
     const TransferFunction before = f.function();
     QTest::mouseClick(&f.plot(), Qt::LeftButton, {}, on_ramp);
     QCOMPARE(f.display.settings().chosen_primitive, 1);
@@ -184,9 +184,9 @@ class TransferPlotTest : public QObject {
     };
     QCOMPARE(over(f.at(kCentre)), Qt::SizeHorCursor);
     QCOMPARE(over(f.at(kOpacity)), Qt::SizeVerCursor);
-    QCOMPARE(over({static_cast<int>(f.plot().x_axis().to_pixel(790.0)), f.at(kCentre).y()}),
+    QCOMPARE(over({static_cast<int>(f.plot().x_axis().pixel(790.0)), f.at(kCentre).y()}),
              Qt::PointingHandCursor);
-    QCOMPARE(over({static_cast<int>(f.plot().x_axis().to_pixel(-900.0)), 20}), Qt::ArrowCursor);
+    QCOMPARE(over({static_cast<int>(f.plot().x_axis().pixel(-900.0)), 20}), Qt::ArrowCursor);
   }
 
   void an_ellipse_is_dragged_along_both_axes() {
@@ -200,13 +200,13 @@ class TransferPlotTest : public QObject {
       if (button->text().contains("gradient")) QTest::mouseClick(button, Qt::LeftButton);
     }
     const HandleKind middle{Grip::whole, Grip::whole, false};
-    const TransferAxis x = f.plot().x_axis();
-    const TransferAxis y = f.plot().y_axis();
+    const PlotAxis x = f.plot().x_axis();
+    const PlotAxis y = f.plot().y_axis();
     const QPoint from = f.at(middle);
     QVERIFY(from.x() > 0);
     f.drag(f.plot(), from, from + QPoint(-24, 16));
-    QVERIFY(std::abs(f.function().source[0].value.start - x.to_value(x.to_pixel(0.0) - 24.0)) < 1e-6);
-    QVERIFY(std::abs(f.function().source[0].gradient.start - y.to_value(y.to_pixel(200.0) + 16.0)) < 1e-6);
+    QVERIFY(std::abs(f.function().source[0].value.start - x.value(x.pixel(0.0) - 24.0)) < 1e-6);
+    QVERIFY(std::abs(f.function().source[0].gradient.start - y.value(y.pixel(200.0) + 16.0)) < 1e-6);
     const QPoint top = f.at({Grip::none, Grip::above, false});
     f.drag(f.plot(), top, top + QPoint(0, -10));
     QVERIFY(f.function().source[0].gradient.end > 50.0);
@@ -232,8 +232,8 @@ class TransferPlotTest : public QObject {
   void ctrl_and_wheel_zoom_about_the_pointer() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    const TransferAxis before = f.plot().x_axis();
-    const QPointF at(before.to_pixel(100.0), 60.0);
+    const PlotAxis before = f.plot().x_axis();
+    const QPointF at(before.pixel(100.0), 60.0);
     const auto wheel = [&](Qt::KeyboardModifiers keys) {
       QWheelEvent event(at, f.plot().mapToGlobal(at), {}, {0, 240}, Qt::NoButton, keys, Qt::NoScrollPhase,
                         false);
@@ -243,7 +243,7 @@ class TransferPlotTest : public QObject {
     QCOMPARE(f.plot().x_axis().extent(), before.extent());
     wheel(Qt::ControlModifier);
     QVERIFY(std::abs(f.plot().x_axis().extent() - 0.64 * before.extent()) < 1e-6);
-    QVERIFY(std::abs(f.plot().x_axis().to_value(at.x()) - 100.0) < 1e-6);
+    QVERIFY(std::abs(f.plot().x_axis().value(at.x()) - 100.0) < 1e-6);
     QTest::keyClick(&f.plot(), Qt::Key_0);
     QCOMPARE(f.plot().x_axis().extent(), before.extent());
   }

@@ -1,4 +1,4 @@
-#include "ui/transfer/plot_axis.h"
+#include "ui/widgets/plot_axis.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,20 +17,20 @@ double round_step(double least) {
 
 }  // namespace
 
-double TransferAxis::to_pixel(double value) const {
+double PlotAxis::pixel(double value) const {
   const double share = (value - low) / (high - low);
   const double placed = power == 1.0 ? share : std::copysign(std::pow(std::abs(share), power), share);
-  return pixel_low + placed * (pixel_high - pixel_low);
+  return from + placed * (to - from);
 }
 
-double TransferAxis::to_value(double pixel) const {
-  const double placed = (pixel - pixel_low) / (pixel_high - pixel_low);
+double PlotAxis::value(double pixel) const {
+  const double placed = (pixel - from) / (to - from);
   const double share = power == 1.0 ? placed : std::copysign(std::pow(std::abs(placed), 1.0 / power), placed);
   return low + share * (high - low);
 }
 
-std::vector<double> ticks(const TransferAxis& axis, double pixels) {
-  const double room = std::abs(axis.pixel_high - axis.pixel_low);
+std::vector<double> ticks(const PlotAxis& axis, double pixels) {
+  const double room = std::abs(axis.to - axis.from);
   std::vector<double> values;
   if (!(axis.extent() > 0.0) || room < pixels) return values;
   if (axis.power == 1.0) {
@@ -44,10 +44,9 @@ std::vector<double> ticks(const TransferAxis& axis, double pixels) {
   values.push_back(axis.high);
   for (double value = std::pow(10.0, std::floor(std::log10(axis.high))); value > axis.high * 1e-5;
        value /= 10.0) {
-    if (std::abs(axis.to_pixel(value) - axis.to_pixel(values.back())) >= pixels) values.push_back(value);
+    if (std::abs(axis.pixel(value) - axis.pixel(values.back())) >= pixels) values.push_back(value);
   }
-  while (values.size() > 1 && std::abs(axis.to_pixel(values.back()) - axis.pixel_low) < pixels)
-    values.pop_back();
+  while (values.size() > 1 && std::abs(axis.pixel(values.back()) - axis.from) < pixels) values.pop_back();
   values.push_back(axis.low);
   std::reverse(values.begin(), values.end());
   return values;
