@@ -20,10 +20,7 @@ class DisplayPanelTest : public QObject {
  private slots:
   void init() {
     the_case_ = std::make_unique<PanelCase>();
-    panel_ = std::make_unique<DisplayPanel>();
-    panel_->set_session(the_case_->session.get());
-    panel_->resize(300, 1100);
-    show(*panel_);
+    panel_ = shown<DisplayPanel>(*the_case_, 1100);
   }
   void cleanup() {
     panel_.reset();

@@ -19,10 +19,7 @@ class InitialisePanelTest : public QObject {
  private slots:
   void init() {
     the_case_ = std::make_unique<PanelCase>();
-    panel_ = std::make_unique<InitialisePanel>();
-    panel_->set_session(the_case_->session.get());
-    panel_->resize(300, 700);
-    show(*panel_);
+    panel_ = shown<InitialisePanel>(*the_case_, 700);
   }
   void cleanup() {
     panel_.reset();

@@ -19,10 +19,7 @@ class LabelsPanelTest : public QObject {
  private slots:
   void init() {
     the_case_ = std::make_unique<PanelCase>();
-    panel_ = std::make_unique<LabelsPanel>();
-    panel_->set_session(the_case_->session.get());
-    panel_->resize(300, 500);
-    show(*panel_);
+    panel_ = shown<LabelsPanel>(*the_case_, 500);
   }
   void cleanup() {
     panel_.reset();

@@ -47,10 +47,7 @@ class LevelSetPanelTest : public QObject {
  private slots:
   void init() {
     the_case_ = std::make_unique<PanelCase>();
-    panel_ = std::make_unique<LevelSetPanel>();
-    panel_->set_session(the_case_->session.get());
-    panel_->resize(300, 900);
-    show(*panel_);
+    panel_ = shown<LevelSetPanel>(*the_case_, 900);
   }
   void cleanup() {
     panel_.reset();

@@ -17,10 +17,7 @@ class PaintPanelTest : public QObject {
  private slots:
   void init() {
     the_case_ = std::make_unique<PanelCase>();
-    panel_ = std::make_unique<PaintPanel>();
-    panel_->set_session(the_case_->session.get());
-    panel_->resize(300, 500);
-    show(*panel_);
+    panel_ = shown<PaintPanel>(*the_case_, 500);
   }
   void cleanup() {
     panel_.reset();

@@ -48,4 +48,14 @@ class PanelCase {
   [[nodiscard]] glm::dvec3 middle() const;
 };
 
+// A panel that shows the case, as wide as its column.
+template <class AnyPanel>
+std::unique_ptr<AnyPanel> shown(PanelCase& of, int height) {
+  auto panel = std::make_unique<AnyPanel>();
+  panel->set_session(of.session.get());
+  panel->resize(300, height);
+  show(*panel);
+  return panel;
+}
+
 }  // namespace tidemark::test

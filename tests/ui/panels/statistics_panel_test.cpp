@@ -19,10 +19,7 @@ class StatisticsPanelTest : public QObject {
   void init() {
     QLocale::setDefault(QLocale(QLocale::German, QLocale::Germany));
     the_case_ = std::make_unique<PanelCase>();
-    panel_ = std::make_unique<StatisticsPanel>();
-    panel_->set_session(the_case_->session.get());
-    panel_->resize(300, 500);
-    show(*panel_);
+    panel_ = shown<StatisticsPanel>(*the_case_, 500);
   }
   void cleanup() {
     panel_.reset();
