@@ -25,9 +25,8 @@ QString steps(const Actions& actions) {
           .arg(key(actions.tool(Tool::probe_speed))),
       tr("Choose <b>Sphere</b> (%1), press inside the tissue and drag: that is where the surface starts.")
           .arg(key(actions.tool(Tool::seed))),
-      tr("Press <b>Play</b> (%1) and watch. Change T, ε and α while it runs; α near 1 follows brightness, "
-         "near 0 "
-         "smooths.")
+      tr("Press <b>Play</b> (%1) and watch. Change T, ε and α, the weight of the data, while it runs: near "
+         "1 the surface follows brightness, near 0 it becomes smooth.")
           .arg(key(actions.play)),
       tr("Paint (%1) or erase (%2) while it runs; undo (%3) takes anything back.")
           .arg(key(actions.tool(Tool::paint)), key(actions.tool(Tool::erase)), key(actions.undo)),
