@@ -181,6 +181,14 @@ void CaseSession::accept_surface(std::uint8_t label) {
   });
 }
 
+void CaseSession::accept_surface_as(const QString& name) {
+  tell([name = name.toStdString()](CaseRunner& runner, const Progress&) -> Status {
+    const auto id = runner.document().labels().add(name);
+    if (!id) return tl::unexpected<Error>(id.error());
+    return runner.adjust(runner.document().accept_surface(*id));
+  });
+}
+
 void CaseSession::begin_from_label(std::uint8_t label) {
   tell([label](CaseRunner& runner, const Progress&) {
     runner.set_playing(false);
