@@ -2,6 +2,7 @@
 
 #include <QSettings>
 
+#include "session/case_session.h"
 #include "ui/look/icons.h"
 
 namespace tidemark {
@@ -171,6 +172,31 @@ void Actions::make_windows() {
 
 QAction* Actions::tool(Tool tool) const {
   return tools->actions().at(static_cast<int>(tool));
+}
+
+void Actions::follow(CaseSession* session) {
+  static const CaseState kNothing{};
+  for (QAction* action : of_cases_) action->setEnabled(session != nullptr);
+  follow_evolution(session ? session->state() : kNothing);
+  clip->setChecked(session && session->display().settings().clip_on);
+  if (session) return tool(session->display().settings().tool)->setChecked(true);
+  if (!tools->checkedAction()) return;
+  // An exclusive group lets go of none.
+  tools->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);
+  tools->checkedAction()->setChecked(false);
+  tools->setExclusionPolicy(QActionGroup::ExclusionPolicy::Exclusive);
+}
+
+void Actions::follow_evolution(const CaseState& state) {
+  play->setChecked(state.playing);
+  play->setIcon(icon(state.playing ? u"pause" : u"play"));
+  play->setText(state.playing ? tr("&Pause") : tr("&Play"));
+  for (QAction* action : {play, step, restart, export_mesh, export_recipe}) action->setEnabled(state.begun);
+  step_back->setEnabled(state.begun && state.step > 0);
+  undo->setEnabled(!state.undo_text.isEmpty());
+  undo->setText(state.undo_text.isEmpty() ? tr("&Undo") : tr("&Undo: %1").arg(state.undo_text));
+  redo->setEnabled(!state.redo_text.isEmpty());
+  redo->setText(state.redo_text.isEmpty() ? tr("&Redo") : tr("&Redo: %1").arg(state.redo_text));
 }
 
 }  // namespace tidemark

@@ -276,22 +276,7 @@ void MainWindow::activate(QMdiSubWindow* child) {
 }
 
 void MainWindow::follow_case() {
-  for (QAction* action : actions_->of_cases()) action->setEnabled(active_ != nullptr);
-  if (!active_) return;
-  const CaseState& state = active_->session().state();
-  actions_->play->setChecked(state.playing);
-  actions_->play->setIcon(icon(state.playing ? u"pause" : u"play"));
-  actions_->play->setText(state.playing ? tr("&Pause") : tr("&Play"));
-  for (QAction* action : {actions_->play, actions_->step, actions_->restart}) action->setEnabled(state.begun);
-  actions_->step_back->setEnabled(state.begun && state.step > 0);
-  actions_->undo->setEnabled(!state.undo_text.isEmpty());
-  actions_->undo->setText(state.undo_text.isEmpty() ? tr("&Undo") : tr("&Undo: %1").arg(state.undo_text));
-  actions_->redo->setEnabled(!state.redo_text.isEmpty());
-  actions_->redo->setText(state.redo_text.isEmpty() ? tr("&Redo") : tr("&Redo: %1").arg(state.redo_text));
-  for (QAction* action : {actions_->export_mesh, actions_->export_recipe}) action->setEnabled(state.begun);
-  const DisplaySettings& settings = active_->session().display().settings();
-  actions_->tool(settings.tool)->setChecked(true);
-  actions_->clip->setChecked(settings.clip_on);
+  actions_->follow(active_ ? &active_->session() : nullptr);
 }
 
 template <class Do>
