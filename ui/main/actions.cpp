@@ -139,7 +139,7 @@ void Actions::make_views() {
                     tr("Zoom, position and camera as they were at first"));
   clip = make("clip", "clip-plane", tr("&Clip plane"), QKeySequence("X"), true, tr("Cut the 3D view open"));
   clip->setCheckable(true);
-  hide_interface = make("hide-interface", nullptr, tr("&Hide panels"), QKeySequence("F3"), false);
+  hide_interface = make("hide-interface", nullptr, tr("&Hide panels"), QKeySequence("F3"), true);
   hide_interface->setCheckable(true);
   full_screen = make("full-screen", "full-screen", tr("&Full screen"), QKeySequence("F11"), false);
   full_screen->setCheckable(true);

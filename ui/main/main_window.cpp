@@ -39,11 +39,6 @@
 #include "ui/views/picture_view.h"
 
 namespace tidemark {
-namespace {
-
-constexpr int kStateVersion = 1;
-
-}  // namespace
 
 MainWindow::MainWindow(Engine& engine, QWidget* parent) : QMainWindow(parent), engine_(engine) {
   setObjectName("main");
@@ -67,7 +62,7 @@ MainWindow::MainWindow(Engine& engine, QWidget* parent) : QMainWindow(parent), e
   connect_views();
   connect_windows();
   restoreGeometry(QSettings().value("main/geometry").toByteArray());
-  restoreState(QSettings().value("main/state").toByteArray(), kStateVersion);
+  panels_->restore(QSettings().value("main/state").toByteArray());
   follow_case();
 }
 
@@ -357,7 +352,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     quitting_ = saved_->closes_later();
     return event->ignore();
   }
-  if (!actions_->hide_interface->isChecked()) QSettings().setValue("main/state", saveState(kStateVersion));
+  QSettings().setValue("main/state", panels_->arrangement());
   QSettings().setValue("main/geometry", saveGeometry());
   event->accept();
 }

@@ -15,6 +15,7 @@ namespace tidemark {
 namespace {
 
 constexpr int kWidth = 320;  // logical pixels: what the panels are made for
+constexpr int kStateVersion = 1;
 
 }  // namespace
 
@@ -42,7 +43,6 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
   window_.setTabPosition(Qt::RightDockWidgetArea, QTabWidget::East);
   window_.resizeDocks({docks[0]}, {kWidth}, Qt::Horizontal);
   docks[0]->raise();
-  set_session(nullptr);
 }
 
 QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* panel) {
@@ -69,6 +69,7 @@ void PanelDocks::set_session(CaseSession* session) {
   if (session_) connect(session_, &CaseSession::state_changed, this, &PanelDocks::follow_start);
   transfer_->set_display(session ? &session->display() : nullptr, session ? &session->summary() : nullptr,
                          session && session->volume().modality == "CT" ? tr("HU") : QString());
+  show_or_hide();
 }
 
 // Once there is a surface, what steers it comes to the front where the start was.
@@ -79,14 +80,33 @@ void PanelDocks::follow_start() {
 }
 
 void PanelDocks::set_hidden(bool hidden) {
-  if (hidden) {
-    for (QDockWidget* dock : docks_) {
-      if (!dock->isHidden()) open_ << dock;
-      dock->hide();
-    }
+  unwanted_ = hidden;
+  show_or_hide();
+}
+
+void PanelDocks::show_or_hide() {
+  const bool show_them = session_ && !unwanted_;
+  for (QDockWidget* dock : docks_) dock->toggleViewAction()->setEnabled(show_them);
+  if (show_them == shown_) return;
+  if (show_them) {
+    shown_ = true;
+    window_.restoreState(arrangement_, kStateVersion);
+    if (!front_.isEmpty()) show(std::exchange(front_, {}));
   } else {
-    for (QDockWidget* dock : std::exchange(open_, {})) dock->show();
+    arrangement_ = arrangement();
+    shown_ = false;
+    for (QDockWidget* dock : docks_) dock->hide();
   }
+}
+
+QByteArray PanelDocks::arrangement() const {
+  return shown_ ? window_.saveState(kStateVersion) : arrangement_;
+}
+
+void PanelDocks::restore(const QByteArray& arrangement) {
+  window_.restoreState(arrangement, kStateVersion);
+  shown_ = true;
+  show_or_hide();
 }
 
 QList<QAction*> PanelDocks::toggles() const {
@@ -96,6 +116,10 @@ QList<QAction*> PanelDocks::toggles() const {
 }
 
 void PanelDocks::show(const QString& name) {
+  if (!shown_) {
+    front_ = name;
+    return;
+  }
   for (QDockWidget* dock : docks_) {
     if (dock->objectName() != name) continue;
     dock->show();
