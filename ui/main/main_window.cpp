@@ -222,6 +222,7 @@ void MainWindow::show_case(QMdiSubWindow& child, const LoadedStudy& study, const
   }
   auto& window = static_cast<CaseWindow&>(*child.widget());
   if (restored.contents) {
+    panels_->show("level-set");  // it has begun: to be steered
     const Status shown = window.restore_view_state(restored.contents->view_state);
     if (!shown) tell(tr("How it was shown is lost: %1").arg(QString::fromStdString(shown.error().message)));
   }
