@@ -72,11 +72,7 @@ void CaseSession::set_playing(bool playing) {
 }
 
 void CaseSession::step(std::int64_t steps) {
-  tell([steps](CaseRunner& runner, const Progress& progress) -> Status {
-    if (!runner.document().level_set().begun()) return {};
-    runner.set_playing(false);
-    return runner.advance(steps, progress);
-  });
+  tell([steps](CaseRunner& runner, const Progress& progress) { return runner.step(steps, progress); });
 }
 
 void CaseSession::step_back(std::int64_t steps) {

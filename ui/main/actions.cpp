@@ -164,7 +164,7 @@ void Actions::make_windows() {
               tr("Cursor, slices, window and cameras of all cases move together"));
   link->setCheckable(true);
   lock_step = make("lock-step", "lockstep", tr("Play in &lock-step"), QKeySequence("Ctrl+L"), false,
-                   tr("All cases play together, always at the same step"));
+                   tr("All cases play and step together, always at the same step"));
   lock_step->setCheckable(true);
   first_steps = make("first-steps", "info", tr("&First steps and mouse"), QKeySequence("F1"), false);
   about = make("about", "about", tr("&About Tidemark"), {}, false);
