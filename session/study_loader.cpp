@@ -10,6 +10,7 @@
 #include "imaging/phantom/phantom.h"
 #include "imaging/study.h"
 #include "session/background_job.h"
+#include "session/phantom_text.h"
 
 namespace tidemark {
 namespace {
@@ -78,7 +79,7 @@ Result<LoadedStudy> make_phantom_study(const std::string& kind, const Progress& 
   if (!phantom) return pass_on(phantom);
   LoadedStudy study;
   study.origin.phantom = phantom->kind;
-  study.name = QString::fromStdString(phantom->volume.description);
+  study.name = phantom_text(phantom->kind).title;  // as it was chosen
   study.volume = std::make_shared<const Volume>(std::move(phantom->volume));
   study.parameters.target = phantom->target;
   study.parameters.range = phantom->range;

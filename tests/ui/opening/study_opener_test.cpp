@@ -111,6 +111,7 @@ class StudyOpenerTest : public QObject {
     QCOMPARE(began_->first()[0].toString(), QString("Sphere"));
     QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
     QCOMPARE(study()->origin.phantom, std::string("sphere"));
+    QCOMPARE(study()->name, began_->first()[0].toString());
   }
 
   void opening_can_be_given_up() {
