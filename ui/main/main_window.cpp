@@ -39,7 +39,6 @@
 #include "ui/views/picture_view.h"
 
 namespace tidemark {
-
 MainWindow::MainWindow(Engine& engine, QWidget* parent) : QMainWindow(parent), engine_(engine) {
   setObjectName("main");
   setWindowTitle(tr("Tidemark"));  // Qt adds the name of a case that fills the window
@@ -137,7 +136,10 @@ void MainWindow::connect_files() {
   });
   connect(opener_, &StudyOpener::progressed, loading_, &LoadingView::set_progress);
   connect(opener_, &StudyOpener::ended, loading_, &QWidget::hide);
-  connect(opener_, &StudyOpener::failed, this, &MainWindow::tell);
+  connect(opener_, &StudyOpener::failed, this, [this](const QString& message) {
+    loading_->hide();
+    tell(message, kAboutOpening);
+  });
   connect(opener_, &StudyOpener::opened, this, [this](const auto& study) { add_case(study); });
   connect(loading_, &LoadingView::cancelled, opener_, &StudyOpener::cancel);
   connect(recent_, &RecentStudies::chosen, opener_, &StudyOpener::open_series);
@@ -194,7 +196,8 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
   window->session().display().change([this](DisplaySettings& settings) {
     settings.tool = active_ ? active_->session().display().settings().tool : settings.tool;
   });
-  connect(&window->session(), &CaseSession::failed, this, &MainWindow::tell);
+  settle(kAboutOpening);
+  connect_messages(*window);
   connect(window, &CaseWindow::close_wanted, saved_, &SavedCases::close);
   QMdiSubWindow* child = area_->addSubWindow(window);
   child->setAttribute(Qt::WA_DeleteOnClose);
@@ -232,8 +235,32 @@ void MainWindow::show_case(QMdiSubWindow& child, const LoadedStudy& study, const
   connect(report, &LoadReport::dismissed, messages_, &MessageBar::dismiss);
 }
 
-void MainWindow::tell(const QString& message) {
-  messages_->show_text(message);
+void MainWindow::tell(const QString& message, const QString& about) {
+  messages_->show_text(message, about);
+}
+
+void MainWindow::settle(const QString& about) {
+  messages_->settle(about);
+}
+
+// What cannot be done to a case is forgotten once something else was.
+void MainWindow::connect_messages(CaseWindow& window) {
+  CaseSession& session = window.session();
+  const QString about = QStringLiteral("case %1").arg(reinterpret_cast<quintptr>(&session));
+  // An entry of the history that is still open counts only by its text.
+  const auto done = [&session] {
+    return QStringLiteral("%1 %2").arg(session.state().edits).arg(session.state().undo_text);
+  };
+  connect(&session, &CaseSession::failed, this, [this, done, about](const QString& message) {
+    done_at_failure_ = done();
+    tell(message, about);
+  });
+  connect(&session, &CaseSession::state_changed, this, [this, done, about] {
+    if (done() != done_at_failure_) settle(about);
+  });
+  connect(&window.autosave(), &CaseAutosave::failed, this, [this](const QString& message) {
+    tell(tr("No copy is kept for the case of a crash: %1").arg(message));
+  });
 }
 
 // The active case.

@@ -18,6 +18,7 @@
 #include "session/case_autosave.h"
 #include "study/session_file.h"
 #include "ui/main/main_window.h"
+#include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
 #include "ui/panels/statistics_panel.h"
 #include "ui/views/picture_view.h"
@@ -54,6 +55,11 @@ QString with_suffix(const QString& file, const QString& filter) {
   return file + first;
 }
 
+// For messages: the same case to a file of the same kind.
+QString about_writing(const CaseWindow& window, const QString& file) {
+  return QStringLiteral("%1 of %2").arg(QFileInfo(file).suffix()).arg(reinterpret_cast<quintptr>(&window));
+}
+
 }  // namespace
 
 SavedCases::SavedCases(MainWindow& window) : QObject(&window), window_(window) {
@@ -67,11 +73,13 @@ SavedCases::~SavedCases() {
   for (const auto& job : jobs_) job->abandon();
 }
 
-void SavedCases::run(const QString& file, std::function<Status()> work, std::function<void()> done) {
-  jobs_.push_back(BackgroundJob::start(this, [this, file, work = std::move(work), done](BackgroundJob& job) {
+void SavedCases::run(const QString& about, const QString& file, std::function<Status()> work,
+                     std::function<void()> done) {
+  jobs_.push_back(BackgroundJob::start(this, [this, about, file, work = std::move(work), done](auto& job) {
     const Status status = work();
-    job.deliver([this, file, status, done] {
-      if (!status) return window_.tell(QString::fromStdString(status.error().message));
+    job.deliver([this, about, file, status, done] {
+      if (!status) return window_.tell(QString::fromStdString(status.error().message), about);
+      window_.settle(about);
       window_.statusBar()->showMessage(tr("Wrote %1").arg(file), 8000);
       if (done) done();
       emit written(file);
@@ -80,10 +88,10 @@ void SavedCases::run(const QString& file, std::function<Status()> work, std::fun
 }
 
 void SavedCases::write(CaseWindow& window, const QString& file, Write work) {
-  window.session().take_snapshot(window.view_state(),
-                                 [this, file, work = std::move(work)](const auto& snapshot) {
-                                   run(file, [snapshot, work] { return work(snapshot->contents); });
-                                 });
+  window.session().take_snapshot(window.view_state(), [this, about = about_writing(window, file), file,
+                                                       work = std::move(work)](const auto& snapshot) {
+    run(about, file, [snapshot, work] { return work(snapshot->contents); });
+  });
 }
 
 QString SavedCases::ask_for_file(const CaseWindow& window, const QString& title, const QString& suffixes) {
@@ -161,7 +169,7 @@ void SavedCases::write_picture(CaseWindow& window, const QString& file) {
   display.change([](DisplaySettings& settings) { settings.patient_text = false; });
   const QImage image = view->grab_picture().convertToFormat(QImage::Format_RGBA8888);
   display.change([text](DisplaySettings& settings) { settings.patient_text = text; });
-  run(file, [image, path = path_of(file)] {
+  run(about_writing(window, file), file, [image, path = path_of(file)] {
     return write_png_file(image.width(), image.height(),
                           std::span(image.constBits(), static_cast<std::size_t>(image.sizeInBytes())), path);
   });
@@ -195,17 +203,17 @@ void SavedCases::save_as(CaseWindow& window) {
 }
 
 void SavedCases::save_to(CaseWindow& window, const QString& file, std::function<void()> done) {
-  window.session().take_snapshot(
-      window.view_state(), [this, file, done, saved = QPointer(&window)](const auto& snapshot) {
-        run(
-            file, [snapshot, path = path_of(file)] { return write_session(snapshot->contents, path); },
-            [file, saved, snapshot, done] {
-              if (!saved) return;
-              saved->session_file = file;
-              saved->session().mark_saved(*snapshot);
-              if (done) done();
-            });
-      });
+  window.session().take_snapshot(window.view_state(), [this, about = about_writing(window, file), file, done,
+                                                       saved = QPointer(&window)](const auto& snapshot) {
+    run(
+        about, file, [snapshot, path = path_of(file)] { return write_session(snapshot->contents, path); },
+        [file, saved, snapshot, done] {
+          if (!saved) return;
+          saved->session_file = file;
+          saved->session().mark_saved(*snapshot);
+          if (done) done();
+        });
+  });
 }
 
 void SavedCases::ask_and_open() {
@@ -245,7 +253,7 @@ void SavedCases::read_next() {
 }
 
 void SavedCases::end_reading(const QString& problem) {
-  if (!problem.isEmpty()) window_.tell(problem);
+  if (!problem.isEmpty()) window_.tell(problem, kAboutOpening);
   waiting_.pop_front();
   if (!waiting_.empty()) read_next();
 }

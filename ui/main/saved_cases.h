@@ -60,7 +60,8 @@ class SavedCases : public QObject {
   using Write = std::function<Status(const SessionContents&)>;
   [[nodiscard]] QString ask_for_file(const CaseWindow& window, const QString& title, const QString& suffixes);
   void write(CaseWindow& window, const QString& file, Write work);
-  void run(const QString& file, std::function<Status()> work, std::function<void()> done = {});
+  void run(const QString& about, const QString& file, std::function<Status()> work,
+           std::function<void()> done = {});
   void save_to(CaseWindow& window, const QString& file, std::function<void()> done = {});
   void read(const QString& file, const std::string& rescued);
   void read_next();
