@@ -57,6 +57,8 @@ Result<LoadedStudy> load_study(const ChosenSeries& chosen, const Progress& progr
   study.origin.path = StudyLoader::place_of(series);
   study.origin.series_uid = series.uid;
   study.name = StudyLoader::name_of(series);
+  study.origin.name = study.name.toStdString();
+  study.origin.date = series.date;
   progress(0.0, "measuring values");
   study.summary = summarise(*study.volume, progress);
   study.parameters = suggest_parameters(*study.volume, progress);
@@ -80,6 +82,7 @@ Result<LoadedStudy> make_phantom_study(const std::string& kind, const Progress& 
   LoadedStudy study;
   study.origin.phantom = phantom->kind;
   study.name = phantom_text(phantom->kind).title;  // as it was chosen
+  study.origin.name = study.name.toStdString();
   study.volume = std::make_shared<const Volume>(std::move(phantom->volume));
   study.parameters.target = phantom->target;
   study.parameters.range = phantom->range;

@@ -20,6 +20,7 @@
 #include "ui/main/main_window.h"
 #include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
+#include "ui/main/rescue_dialog.h"
 #include "ui/panels/statistics_panel.h"
 #include "ui/views/picture_view.h"
 
@@ -305,22 +306,16 @@ void SavedCases::keep_rescued(CaseWindow& window, const std::string& copy) {
 }
 
 void SavedCases::offer_rescued() {
-  const auto copies = find_recoverable(recovery_folder());
+  offer(find_recoverable(recovery_folder()),
+        tr("Tidemark did not end as it should the last time, and kept copies of what was not saved:"));
+}
+
+void SavedCases::offer(const std::vector<Recoverable>& copies, const QString& why) {
   if (copies.empty()) return;
-  QMessageBox box(QMessageBox::Question, tr("Rescued work"),
-                  copies.size() == 1
-                      ? tr("Tidemark did not end as it should the last time. It kept a copy of one case.")
-                      : tr("Tidemark did not end as it should the last time. It kept copies of %1 cases.")
-                            .arg(copies.size()),
-                  QMessageBox::NoButton, &window_);
-  QPushButton* open = box.addButton(tr("Open them"), QMessageBox::AcceptRole);
-  QPushButton* remove = box.addButton(tr("Throw them away"), QMessageBox::DestructiveRole);
-  box.addButton(tr("Ask again later"), QMessageBox::RejectRole);
-  box.setDefaultButton(open);
-  box.exec();
+  const RescueAnswer answer = ask_about_copies(&window_, why, copies);
   for (const Recoverable& copy : copies) {
-    if (box.clickedButton() == open) open_rescued(copy);
-    if (box.clickedButton() == remove) discard(recovery_folder(), copy.case_id);
+    if (answer == RescueAnswer::open) open_rescued(copy);
+    if (answer == RescueAnswer::discard) discard(recovery_folder(), copy.case_id);
   }
 }
 

@@ -67,6 +67,7 @@ class SavedCases : public QObject {
   void read_next();
   void end_reading(const QString& problem = {});
   void find_volume(std::shared_ptr<const SessionContents> contents);
+  void offer(const std::vector<Recoverable>& copies, const QString& why);
   void keep_rescued(CaseWindow& window, const std::string& copy);
   void compare(const std::shared_ptr<const LoadedStudy>& study);
   void restore(const std::shared_ptr<const LoadedStudy>& study, VolumeMatch found);

@@ -96,9 +96,11 @@ void RecoveryStoryTest::work_is_there_again_after_a_kill() {
 
   Desktop desktop(ExecutorKind::host, {900, 640});
   QTimer user;
-  connect(&user, &QTimer::timeout, this, [] {
-    const QWidget* box = QApplication::activeModalWidget();
+  QString offered;
+  connect(&user, &QTimer::timeout, this, [&offered] {
+    const auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
     if (!box) return;
+    offered = box->informativeText();
     for (QPushButton* button : box->findChildren<QPushButton*>()) {
       if (button->text().remove('&') == "Open them") return button->click();
     }
@@ -106,6 +108,7 @@ void RecoveryStoryTest::work_is_there_again_after_a_kill() {
   user.start(20);
   desktop.window().saved_cases().offer_rescued();
   user.stop();
+  QVERIFY2(offered.contains("Sphere") && offered.contains("Dumbbell"), qPrintable(offered));
   QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 2; }));
   desktop.settle();
   QStringList found;
