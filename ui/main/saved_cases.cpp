@@ -240,17 +240,31 @@ void SavedCases::read(const QString& file, const std::string& rescued) {
 
 void SavedCases::read_next() {
   const auto path = path_of(waiting_.front().file);
-  jobs_.push_back(BackgroundJob::start(this, [this, path](BackgroundJob& job) {
+  const bool is_copy = !waiting_.front().rescued.empty();
+  jobs_.push_back(BackgroundJob::start(this, [this, path, is_copy](BackgroundJob& job) {
     auto contents = load_session(path);
     if (!contents) {
-      job.deliver(
-          [this, message = QString::fromStdString(contents.error().message)] { end_reading(message); });
+      auto copies = is_copy ? std::vector<Recoverable>() : find_recoverable(recovery_folder());
+      job.deliver([this, message = QString::fromStdString(contents.error().message),
+                   copies = std::move(copies)] { refuse(message, copies); });
       return;
     }
     job.deliver([this, contents = std::make_shared<const SessionContents>(std::move(*contents))] {
       find_volume(contents);
     });
   }));
+}
+
+// What else there is to go on with: another copy of the file, or one that was kept for a crash.
+void SavedCases::refuse(const QString& problem, const std::vector<Recoverable>& copies) {
+  const QString file = waiting_.front().file;
+  const bool damaged = QFileInfo::exists(file);
+  end_reading(damaged ? tr("%1. If you have another copy of this file, open that one.").arg(problem)
+                      : problem);
+  if (!damaged) return;
+  offer(copies, tr("%1 cannot be read, but there are copies of work that was not saved, perhaps of the same "
+                   "case:")
+                    .arg(file));
 }
 
 void SavedCases::end_reading(const QString& problem) {

@@ -65,6 +65,7 @@ class SavedCases : public QObject {
   void save_to(CaseWindow& window, const QString& file, std::function<void()> done = {});
   void read(const QString& file, const std::string& rescued);
   void read_next();
+  void refuse(const QString& problem, const std::vector<Recoverable>& copies);
   void end_reading(const QString& problem = {});
   void find_volume(std::shared_ptr<const SessionContents> contents);
   void offer(const std::vector<Recoverable>& copies, const QString& why);
