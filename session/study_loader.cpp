@@ -66,6 +66,14 @@ Result<LoadedStudy> load_study(const ChosenSeries& chosen, const Progress& progr
   return study;
 }
 
+// What there is to choose from. A single series that cannot be loaded is no choice: its reason is the answer.
+Result<Catalogue> find_choice(const fs::path& path, const Progress& progress) {
+  auto catalogue = find_series(path, progress);
+  if (!catalogue || catalogue->series.size() != 1 || catalogue->series.front().loadable) return catalogue;
+  const auto refused = choose_series(*catalogue, {}, path);
+  return tl::unexpected<Error>(refused.error());
+}
+
 // The series to load of what lies under the path.
 Result<LoadedStudy> find_and_load(const fs::path& path, const std::string& uid, const Progress& progress) {
   const auto catalogue = find_series(path, progress);
@@ -151,7 +159,7 @@ void StudyLoader::run(Make make, Deliver deliver) {
 }
 
 void StudyLoader::scan(const fs::path& path) {
-  run([path](const Progress& progress) { return find_series(path, progress); },
+  run([path](const Progress& progress) { return find_choice(path, progress); },
       [this](Catalogue&& catalogue) { emit found(std::make_shared<const Catalogue>(std::move(catalogue))); });
 }
 
