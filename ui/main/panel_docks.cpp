@@ -17,6 +17,15 @@ namespace {
 constexpr int kWidth = 320;  // logical pixels: what the panels are made for
 constexpr int kStateVersion = 1;
 
+QScrollArea* scrolled(QWidget* panel) {
+  auto* scroll = new QScrollArea;
+  scroll->setWidget(panel);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  return scroll;
+}
+
 }  // namespace
 
 PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window), window_(window) {
@@ -30,14 +39,14 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
   statistics_ = new StatisticsPanel;
   transfer_ = new TransferFunctionEditor;
   panels_ = {level_set, initialise, paint, display, labels, statistics_};
-  // One column with its tabs at the side: the views keep the room.
-  const QList<QDockWidget*> docks{add("initialise", tr("Start"), initialise),
-                                  add("level-set", tr("Level set"), level_set),
-                                  add("paint", tr("Paint"), paint),
-                                  add("display", tr("Display"), display),
+  // One column with its tabs at the side: the views keep the room. The editor scrolls its parts itself.
+  const QList<QDockWidget*> docks{add("initialise", tr("Start"), scrolled(initialise)),
+                                  add("level-set", tr("Level set"), scrolled(level_set)),
+                                  add("paint", tr("Paint"), scrolled(paint)),
+                                  add("display", tr("Display"), scrolled(display)),
                                   add("transfer", tr("Transfer"), transfer_),
-                                  add("labels", tr("Labels"), labels),
-                                  add("statistics", tr("Statistics"), statistics_)};
+                                  add("labels", tr("Labels"), scrolled(labels)),
+                                  add("statistics", tr("Statistics"), scrolled(statistics_))};
   for (qsizetype next = 1; next < docks.size(); ++next)
     window_.tabifyDockWidget(docks[next - 1], docks[next]);
   window_.setTabPosition(Qt::RightDockWidgetArea, QTabWidget::East);
@@ -46,15 +55,9 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
 }
 
 QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* panel) {
-  auto* scroll = new QScrollArea;
-  scroll->setWidget(panel);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  // The transfer function's plots and buttons need more room than the column has.
-  scroll->setHorizontalScrollBarPolicy(panel == transfer_ ? Qt::ScrollBarAsNeeded : Qt::ScrollBarAlwaysOff);
   auto* dock = new QDockWidget(title, &window_);
   dock->setObjectName(QString::fromLatin1(name));
-  dock->setWidget(scroll);
+  dock->setWidget(panel);
   dock->setMinimumWidth(kWidth);
   window_.addDockWidget(Qt::RightDockWidgetArea, dock);
   docks_ << dock;

@@ -1,12 +1,15 @@
 // Screens of other scales: pictures have the screen's pixels, the mouse hits what is seen, texts fit.
 #include <QApplication>
+#include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QMenu>
+#include <QScrollArea>
 #include <QToolButton>
 #include <glm/geometric.hpp>
 
 #include "tests/ui/main/desktop.h"
+#include "ui/main/panel_docks.h"
 #include "ui/views/view_bar.h"
 
 namespace tidemark::test {
@@ -18,6 +21,7 @@ class ScaleStoryTest : public QObject {
   void pictures_have_the_pixels_of_the_screen();
   void a_click_hits_what_is_seen();
   void texts_of_the_bars_fit();
+  void panels_fit_into_their_column();
 };
 
 void ScaleStoryTest::pictures_have_the_pixels_of_the_screen() {
@@ -116,6 +120,31 @@ void ScaleStoryTest::texts_of_the_bars_fit() {
   }
   QCOMPARE(bars, 4);
   qInfo("the longest event took %s", qPrintable(WatchedApplication::instance().longest()));
+}
+
+void ScaleStoryTest::panels_fit_into_their_column() {
+  Desktop desktop(ExecutorKind::host, {1100, 760});
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(10.0);
+  int panels = 0;
+  for (const char* name :
+       {"initialise", "level-set", "paint", "display", "transfer", "labels", "statistics"}) {
+    desktop.window().panels().show(name);
+    QTest::qWait(50);
+    auto* dock = desktop.window().findChild<QDockWidget*>(name);
+    QVERIFY2(dock && dock->isVisible(), name);
+    QCOMPARE(dock->width(), 320);
+    for (const QScrollArea* area : dock->findChildren<QScrollArea*>()) {
+      if (!area->isVisible()) continue;
+      QVERIFY2(
+          area->widget()->width() <= area->viewport()->width(),
+          qPrintable(
+              QString("%1: %2 in %3").arg(name).arg(area->widget()->width()).arg(area->viewport()->width())));
+      ++panels;
+    }
+    desktop.screenshot(QStringLiteral("panel-%1-%2").arg(name).arg(desktop.window().devicePixelRatioF()));
+  }
+  QCOMPARE(panels, 7);
 }
 
 }  // namespace tidemark::test
