@@ -4,6 +4,7 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QMenu>
+#include <QMenuBar>
 #include <QScrollArea>
 #include <QToolButton>
 #include <glm/geometric.hpp>
@@ -22,6 +23,7 @@ class ScaleStoryTest : public QObject {
   void a_click_hits_what_is_seen();
   void texts_of_the_bars_fit();
   void panels_fit_into_their_column();
+  void the_icon_of_a_case_is_whole();
 };
 
 void ScaleStoryTest::pictures_have_the_pixels_of_the_screen() {
@@ -145,6 +147,27 @@ void ScaleStoryTest::panels_fit_into_their_column() {
     desktop.screenshot(QStringLiteral("panel-%1-%2").arg(name).arg(desktop.window().devicePixelRatioF()));
   }
   QCOMPARE(panels, 7);
+}
+
+void ScaleStoryTest::the_icon_of_a_case_is_whole() {
+  Desktop desktop(ExecutorKind::host, {1000, 700});
+  QVERIFY(desktop.open_phantom("sphere"));
+  QMenuBar* bar = desktop.window().menuBar();
+  const QWidget* label = bar->cornerWidget(Qt::TopLeftCorner);
+  QVERIFY(label && label->isVisible());
+  const QImage image =
+      bar->grab(label->geometry() & bar->rect()).toImage().convertToFormat(QImage::Format_RGB32);
+  QRect drawn;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      if (image.pixelColor(x, y) != desktop.window().palette().color(QPalette::Window))
+        drawn |= QRect(x, y, 1, 1);
+    }
+  }
+  const double scale = desktop.window().devicePixelRatioF();
+  QVERIFY2(std::abs(drawn.width() - drawn.height()) <= 2 * scale &&
+               std::abs(drawn.height() - 16 * scale) <= 2 * scale,
+           qPrintable(QString("%1 x %2").arg(drawn.width()).arg(drawn.height())));
 }
 
 }  // namespace tidemark::test
