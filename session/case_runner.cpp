@@ -134,6 +134,13 @@ void CaseRunner::play_alone(bool playing) {
   if (!playing_) end_run();
 }
 
+Status CaseRunner::step(std::int64_t steps, const Progress& progress) {
+  if (!case_->level_set().begun()) return {};
+  if (const auto group = group_.lock()) return group->step(steps, progress);
+  play_alone(false);
+  return advance(steps, progress);
+}
+
 void CaseRunner::end_run() {
   if (auto status = case_->level_set().end_run(); !status) tell(status.error());
 }

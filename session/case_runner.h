@@ -48,8 +48,9 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   Status adjust(Status outcome);
 
   [[nodiscard]] bool playing() const { return playing_; }
-  // With all that it is in lock-step with.
+  // With all that it is in lock-step with: playing, and steps after which it rests.
   void set_playing(bool playing);
+  Status step(std::int64_t steps, const Progress& progress);
   void play_alone(bool playing);
   void set_steps_per_picture(std::int64_t steps) { steps_per_picture_ = steps; }
   void set_pause_at_convergence(bool pause) { pause_at_convergence_ = pause; }

@@ -72,11 +72,7 @@ void CaseSession::set_playing(bool playing) {
 }
 
 void CaseSession::step(std::int64_t steps) {
-  tell([steps](CaseRunner& runner, const Progress& progress) -> Status {
-    if (!runner.document().level_set().begun()) return {};
-    runner.set_playing(false);
-    return runner.advance(steps, progress);
-  });
+  tell([steps](CaseRunner& runner, const Progress& progress) { return runner.step(steps, progress); });
 }
 
 void CaseSession::step_back(std::int64_t steps) {
@@ -178,6 +174,14 @@ void CaseSession::remove_label(std::uint8_t id) {
 void CaseSession::accept_surface(std::uint8_t label) {
   tell([label](CaseRunner& runner, const Progress&) {
     return runner.adjust(runner.document().accept_surface(label));
+  });
+}
+
+void CaseSession::accept_surface_as(const QString& name) {
+  tell([name = name.toStdString()](CaseRunner& runner, const Progress&) -> Status {
+    const auto id = runner.document().labels().add(name);
+    if (!id) return tl::unexpected<Error>(id.error());
+    return runner.adjust(runner.document().accept_surface(*id));
   });
 }
 

@@ -22,4 +22,10 @@ void Display::set_pointer(std::optional<glm::dvec3> patient_mm) {
   emit pointer_moved();
 }
 
+void Display::set_drawn_sphere(std::optional<DrawnSphere> drawn) {
+  if (drawn == drawn_sphere_) return;
+  drawn_sphere_ = drawn;
+  emit pointer_moved();
+}
+
 }  // namespace tidemark

@@ -9,6 +9,7 @@
 #include "core/result.h"
 #include "renderer/views.h"
 #include "session/measurement.h"
+#include "solver/sphere.h"
 
 namespace tidemark {
 
@@ -64,6 +65,14 @@ struct DisplaySettings {
   bool operator==(const DisplaySettings&) const = default;
 };
 
+// A sphere that adds to the level set or takes from it, before it does.
+struct DrawnSphere {
+  Sphere sphere;
+  bool erases = false;
+
+  bool operator==(const DrawnSphere&) const = default;
+};
+
 class Display : public QObject {
   Q_OBJECT
  public:
@@ -81,14 +90,18 @@ class Display : public QObject {
   // Where the mouse is in the patient (LPS, mm), in whatever view: brushes and values follow it in all.
   [[nodiscard]] const std::optional<glm::dvec3>& pointer_mm() const { return pointer_mm_; }
   void set_pointer(std::optional<glm::dvec3> patient_mm);
+  // What is being drawn in one view is seen in all.
+  [[nodiscard]] const std::optional<DrawnSphere>& drawn_sphere() const { return drawn_sphere_; }
+  void set_drawn_sphere(std::optional<DrawnSphere> drawn);
 
  signals:
   void changed();
-  void pointer_moved();
+  void pointer_moved();  // or what is being drawn has changed
 
  private:
   DisplaySettings settings_;
   std::optional<glm::dvec3> pointer_mm_;
+  std::optional<DrawnSphere> drawn_sphere_;
 };
 
 }  // namespace tidemark

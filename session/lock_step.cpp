@@ -67,6 +67,16 @@ void LockStep::set_playing(bool playing) {
   }
 }
 
+Status LockStep::step(std::int64_t steps, const Progress& progress) {
+  set_playing(false);
+  for (const auto& member : members()) {
+    if (!member->document().level_set().begun()) continue;
+    if (auto status = member->advance(steps, progress); !status) return status;
+    member->show();
+  }
+  return {};
+}
+
 // One that has joined far behind the others stays there until they play again.
 void LockStep::complete_leap(const Members& all) const {
   const std::int64_t first = ends_of(all).second;

@@ -22,6 +22,8 @@ class LockStep : public std::enable_shared_from_this<LockStep> {
   Status advance(CaseRunner& runner, const Progress& progress);
   // What one does, all do. Those that played rest at the same step.
   void set_playing(bool playing);
+  // Rests all that have begun, and takes each so many steps further.
+  Status step(std::int64_t steps, const Progress& progress);
 
  private:
   using Members = std::vector<std::shared_ptr<CaseRunner>>;

@@ -10,6 +10,7 @@
 #include "imaging/phantom/phantom.h"
 #include "imaging/study.h"
 #include "session/background_job.h"
+#include "session/phantom_text.h"
 
 namespace tidemark {
 namespace {
@@ -58,11 +59,21 @@ Result<LoadedStudy> load_study(const ChosenSeries& chosen, const Progress& progr
   study.name = StudyLoader::name_of(series);
   study.patient = series.patient;
   study.date = series.date;
+  study.origin.name = study.name.toStdString();
+  study.origin.date = series.date;
   progress(0.0, "measuring values");
   study.summary = summarise(*study.volume, progress);
   study.parameters = suggest_parameters(*study.volume, progress);
   if (progress.cancelled()) return cancelled_error();
   return study;
+}
+
+// What there is to choose from. A single series that cannot be loaded is no choice: its reason is the answer.
+Result<Catalogue> find_choice(const fs::path& path, const Progress& progress) {
+  auto catalogue = find_series(path, progress);
+  if (!catalogue || catalogue->series.size() != 1 || catalogue->series.front().loadable) return catalogue;
+  const auto refused = choose_series(*catalogue, {}, path);
+  return tl::unexpected<Error>(refused.error());
 }
 
 // The series to load of what lies under the path.
@@ -80,8 +91,9 @@ Result<LoadedStudy> make_phantom_study(const std::string& kind, const Progress& 
   if (!phantom) return pass_on(phantom);
   LoadedStudy study;
   study.origin.phantom = phantom->kind;
-  study.name = QString::fromStdString(phantom->volume.description);
+  study.name = phantom_text(phantom->kind).title;  // as it was chosen
   study.patient.name = "Phantom";
+  study.origin.name = study.name.toStdString();
   study.volume = std::make_shared<const Volume>(std::move(phantom->volume));
   study.parameters.target = phantom->target;
   study.parameters.range = phantom->range;
@@ -150,7 +162,7 @@ void StudyLoader::run(Make make, Deliver deliver) {
 }
 
 void StudyLoader::scan(const fs::path& path) {
-  run([path](const Progress& progress) { return find_series(path, progress); },
+  run([path](const Progress& progress) { return find_choice(path, progress); },
       [this](Catalogue&& catalogue) { emit found(std::make_shared<const Catalogue>(std::move(catalogue))); });
 }
 

@@ -46,7 +46,7 @@ class StudyLoader : public QObject {
   using QObject::QObject;
   ~StudyLoader() override;  // gives up what runs, and waits for nothing
 
-  // Ends with found() or failed().
+  // Ends with found(), or with failed() where nothing can be loaded or the only series cannot.
   void scan(const std::filesystem::path& path);
   // End with loaded() or failed(). An empty uid: the only loadable series, or the one with the most voxels.
   void load(const std::filesystem::path& path, const std::string& uid);

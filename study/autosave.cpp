@@ -158,13 +158,15 @@ std::vector<Recoverable> find_recoverable(const std::filesystem::path& folder) {
     const auto same = [&](const Recoverable& one) { return one.case_id == case_id; };
     if (!is_case_id(case_id) || !name.ends_with(kSeal)) continue;
     if (std::any_of(found.begin(), found.end(), same) || is_locked(lock_file(folder, case_id))) continue;
-    Recoverable newest{case_id, 0, {}};
+    Recoverable newest{case_id, 0, {}, {}};
     for (int slot = 0; slot < kGenerations; ++slot) {
       const auto file = session_file(folder, case_id, slot);
       const auto generation = valid_generation(file);
-      if (generation && *generation > newest.generation) newest = {case_id, *generation, file};
+      if (generation && *generation > newest.generation) newest = {case_id, *generation, file, {}};
     }
-    if (newest.generation > 0) found.push_back(std::move(newest));
+    if (newest.generation == 0) continue;
+    if (auto study = load_origin(newest.file)) newest.study = std::move(*study);
+    found.push_back(std::move(newest));
   }
   return found;
 }

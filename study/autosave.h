@@ -46,6 +46,7 @@ struct Recoverable {
   std::string case_id;
   std::uint64_t generation = 0;
   std::filesystem::path file;  // for load_session()
+  StudyOrigin study;           // what it is a copy of
 };
 // The newest valid copy of each case that was not closed cleanly and that no running program has open.
 std::vector<Recoverable> find_recoverable(const std::filesystem::path& folder);

@@ -12,6 +12,9 @@ struct StudyOrigin {
   std::string series_uid;
   std::string phantom;   // its kind, where the volume is a phantom
   std::string checksum;  // SHA-256 of the volume's voxels and geometry, hexadecimal (see checksum.h)
+  // For people who have to choose; never the patient's name.
+  std::string name;  // as in titles
+  std::string date;  // of the study: "2004-07-31"; empty when unknown
 
   bool operator==(const StudyOrigin&) const = default;
 };

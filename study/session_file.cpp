@@ -19,6 +19,7 @@ constexpr std::string_view kLabels = "labels";
 constexpr const char* kFormat = "tidemark session";
 constexpr std::size_t kLongestViewState = std::size_t{16} << 20;
 constexpr std::size_t kLongestName = 256;
+constexpr std::size_t kLongestDescription = std::size_t{1} << 20;
 // Starts from a saved phi are part of the recipe, and larger than its own file may be.
 constexpr JsonLimits kJsonLimits{.bytes = std::size_t{512} << 20, .depth = 32};
 
@@ -54,7 +55,11 @@ std::vector<Label> read_labels(const JsonField& field) {
 
 Json study_json(const StudyOrigin& origin, const std::filesystem::path& session) {
   std::error_code ignored;
-  Json json{{"series_uid", origin.series_uid}, {"phantom", origin.phantom}, {"sha256", origin.checksum}};
+  Json json{{"series_uid", origin.series_uid},
+            {"phantom", origin.phantom},
+            {"sha256", origin.checksum},
+            {"name", origin.name},
+            {"date", origin.date}};
   json["path"] = "";
   json["relative_path"] = "";
   if (origin.path.empty()) return json;
@@ -72,6 +77,8 @@ StudyOrigin read_study(const JsonField& field, const std::filesystem::path& sess
   origin.phantom = field.at("phantom").text(kLongestName);
   origin.checksum = field.at("sha256").text(64);
   origin.path = field.at("path").text();
+  if (field.has("name")) origin.name = field.at("name").text(kLongestDescription);
+  if (field.has("date")) origin.date = field.at("date").text(kLongestDescription);
   const std::filesystem::path relative = field.at("relative_path").text();
   if (field.good() && origin.path.empty() && origin.phantom.empty()) field.wrong("names no study");
   for (const auto& path : {origin.path, relative}) {
@@ -141,6 +148,32 @@ Status read_label_voxels(ZipReader& archive, SessionContents& contents, const st
   return {};
 }
 
+// A file of ours, of a version that can be read.
+struct OpenedSession {
+  ZipReader archive;
+  Json json;
+};
+
+Result<OpenedSession> open_session(const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 4> kNames{kJson, kTable, kPages, kLabels};
+  auto archive = ZipReader::open(file, kNames);
+  if (!archive) return pass_on(archive);
+  const std::string name = file.string();
+  if (archive->size(kJson) > kJsonLimits.bytes) {
+    return fail(ErrorKind::input, "{}: {} is too large", name, kJson);
+  }
+  const auto text = archive->read(kJson, archive->size(kJson));
+  if (!text) return tl::unexpected<Error>(text.error());
+  auto json = parse_json({reinterpret_cast<const char*>(text->data()), text->size()}, name, kJsonLimits);
+  if (!json) return pass_on(json);
+  const JsonField root = root_of(*json, name);
+  root.at("format").must_be(kFormat);
+  const JsonField version = root.at("version");
+  if (version.integer(0, 1 << 30) != kSessionVersion) version.wrong("this version cannot be read");
+  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  return OpenedSession{std::move(*archive), std::move(*json)};
+}
+
 }  // namespace
 
 Status write_session(const SessionContents& contents, const std::filesystem::path& file) {
@@ -159,24 +192,10 @@ Status write_session(const SessionContents& contents, const std::filesystem::pat
 }
 
 Result<SessionContents> load_session(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 4> kNames{kJson, kTable, kPages, kLabels};
-  auto archive = ZipReader::open(file, kNames);
-  if (!archive) return pass_on(archive);
+  auto opened = open_session(file);
+  if (!opened) return pass_on(opened);
   const std::string name = file.string();
-  if (archive->size(kJson) > kJsonLimits.bytes) {
-    return fail(ErrorKind::input, "{}: {} is too large", name, kJson);
-  }
-  const auto text = archive->read(kJson, archive->size(kJson));
-  if (!text) return tl::unexpected<Error>(text.error());
-  const auto json =
-      parse_json({reinterpret_cast<const char*>(text->data()), text->size()}, name, kJsonLimits);
-  if (!json) return tl::unexpected<Error>(json.error());
-
-  const JsonField root = root_of(*json, name);
-  root.at("format").must_be(kFormat);
-  const JsonField version = root.at("version");
-  if (version.integer(0, 1 << 30) != kSessionVersion) version.wrong("this version cannot be read");
-  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  const JsonField root = root_of(opened->json, name);
   SessionContents contents;
   contents.origin = read_study(root.at("study"), file);
   contents.geometry = read_geometry(root.at("grid"));
@@ -187,11 +206,20 @@ Result<SessionContents> load_session(const std::filesystem::path& file) {
     root.at("recipe").wrong("is of another grid");
   }
   if (!root.good()) return tl::unexpected<Error>(root.status().error());
-  auto phi = read_phi(*archive, root.at("phi"), contents.geometry, name);
+  auto phi = read_phi(opened->archive, root.at("phi"), contents.geometry, name);
   if (!phi) return pass_on(phi);
   contents.phi = std::move(*phi);
-  if (Status labels = read_label_voxels(*archive, contents, name); !labels) return pass_on(labels);
+  if (Status labels = read_label_voxels(opened->archive, contents, name); !labels) return pass_on(labels);
   return contents;
+}
+
+Result<StudyOrigin> load_origin(const std::filesystem::path& file) {
+  const auto opened = open_session(file);
+  if (!opened) return tl::unexpected<Error>(opened.error());
+  const JsonField root = root_of(opened->json, file.string());
+  StudyOrigin origin = read_study(root.at("study"), file);
+  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  return origin;
 }
 
 Status save_session(Case& document, const std::filesystem::path& file) {

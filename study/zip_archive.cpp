@@ -31,7 +31,9 @@ Result<ZipReader> ZipReader::open(const std::filesystem::path& file,
   int code = 0;
   reader.archive_.reset(zip_open(file.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, &code));
   if (reader.archive_ == nullptr) {
-    return fail(ErrorKind::input, "{}: cannot be read: {}", reader.file_, reason(code));
+    const bool readable = code == ZIP_ER_NOZIP || code == ZIP_ER_INCONS;
+    return fail(ErrorKind::input, "{}: {}", reader.file_,
+                readable ? "is damaged, or was not written by Tidemark" : "cannot be read: " + reason(code));
   }
   const zip_int64_t count = zip_get_num_entries(reader.archive_.get(), 0);
   for (zip_int64_t i = 0; i < count; ++i) {

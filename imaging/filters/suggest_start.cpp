@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
 #include <vector>
 
 namespace tidemark {
@@ -14,6 +16,13 @@ constexpr std::int64_t kHalfWidth = 2;               // neighbourhoods of 5 voxe
 constexpr std::int64_t kMostCandidates = 1'000'000;  // in larger volumes only every n-th voxel is tried
 constexpr double kSpanShare = 0.05;
 constexpr double kSeedSpacings = 3.0;  // the seed's radius in smallest spacings
+
+// Of computed tomography, in Hounsfield units: between fluid and bone.
+constexpr double kSoftTissueLow = 20.0;
+constexpr double kSoftTissueHigh = 200.0;
+constexpr double kSoftTissueRange = 30.0;  // the smallest: organs differ by little, but noise does not
+constexpr double kEvenEnough = 4.0;        // in variance: twice the noise
+constexpr double kAir = -900.0;            // no other modality has such values in most of its studies
 
 struct Spread {
   double mean = 0.0;
@@ -105,13 +114,25 @@ Span middle_half(std::int64_t size) {
   return {begin, std::max(begin + 1, size - size / 4)};
 }
 
-struct Candidate {
-  Index3 voxel{0};
-  double variance = -1.0;
-  double distance = 0.0;  // squared, from the centre, in voxels
+// What a start is looked for in.
+struct Wanted {
+  double low = 0.0;
+  double high = 0.0;
+  double even_enough = 1.0;  // variances up to so many times the smallest; of these the nearest to the centre
 };
 
-std::optional<Index3> most_even_voxel(const Volume& volume, double threshold, const Progress& progress) {
+bool looks_like_ct(const Volume& volume, const Histogram& values) {
+  if (!volume.modality.empty()) return volume.modality == "CT";
+  return values.percentile(0.01) <= kAir && values.percentile(0.99) >= kSoftTissueLow;
+}
+
+struct Candidate {
+  Index3 voxel{0};
+  double variance = 0.0;
+};
+
+// In the central half along each axis.
+std::vector<Candidate> candidates(const Volume& volume, const Wanted& wanted, const Progress& progress) {
   const Index3 size = volume.geometry.size;
   const Span x = middle_half(size.x);
   const Span y = middle_half(size.y);
@@ -119,25 +140,35 @@ std::optional<Index3> most_even_voxel(const Volume& volume, double threshold, co
   const double tried = static_cast<double>((x.end - x.begin) * (y.end - y.begin)) *
                        static_cast<double>(z.end - z.begin) / static_cast<double>(kMostCandidates);
   const auto stride = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(std::cbrt(tried))));
-  const glm::dvec3 centre = 0.5 * glm::dvec3(size - Index3(1));
-  Candidate best;
+  std::vector<Candidate> found;
   for (std::int64_t k = z.begin; k < z.end && !progress.cancelled(); k += stride) {
     progress(static_cast<double>(k - z.begin) / static_cast<double>(z.end - z.begin), "looking for a start");
     for (std::int64_t j = y.begin; j < y.end; j += stride) {
       for (std::int64_t i = x.begin; i < x.end; i += stride) {
         const Index3 voxel(i, j, k);
-        if (volume.value(voxel) < threshold) continue;
-        const double variance = neighbourhood(volume, voxel).variance;
-        const glm::dvec3 offset = glm::dvec3(voxel) - centre;
-        const double distance = offset.x * offset.x + offset.y * offset.y + offset.z * offset.z;
-        const bool better = best.variance < 0.0 || variance < best.variance ||
-                            (variance == best.variance && distance < best.distance);
-        if (better) best = {voxel, variance, distance};
+        const double value = volume.value(voxel);
+        if (value >= wanted.low && value <= wanted.high)
+          found.push_back({voxel, neighbourhood(volume, voxel).variance});
       }
     }
   }
-  if (best.variance < 0.0) return std::nullopt;
-  return best.voxel;
+  return found;
+}
+
+std::optional<Index3> most_even_voxel(const Volume& volume, const Wanted& wanted, const Progress& progress) {
+  const std::vector<Candidate> all = candidates(volume, wanted, progress);
+  if (all.empty()) return std::nullopt;
+  const auto varies_less = [](const Candidate& a, const Candidate& b) { return a.variance < b.variance; };
+  const double most = wanted.even_enough * std::min_element(all.begin(), all.end(), varies_less)->variance;
+  const glm::dvec3 centre = 0.5 * glm::dvec3(volume.geometry.size - Index3(1));
+  // Even ones before others, then by distance.
+  const auto rank = [&](const Candidate& one) {
+    const glm::dvec3 offset = glm::dvec3(one.voxel) - centre;
+    return std::pair(one.variance > most, glm::dot(offset, offset));
+  };
+  return std::min_element(all.begin(), all.end(),
+                          [&](const Candidate& a, const Candidate& b) { return rank(a) < rank(b); })
+      ->voxel;
 }
 
 }  // namespace
@@ -149,9 +180,12 @@ Result<SuggestedStart> suggest_start(const Volume& volume, std::optional<Index3>
     return fail(ErrorKind::input, "all voxels have the value {}: there is nothing to find", lowest);
   }
   const Histogram values = histogram(volume, lowest, highest);
-  if (!seed) seed = most_even_voxel(volume, otsu_threshold(values), progress);
+  const bool ct = looks_like_ct(volume, values);
+  // The most even tissue of a body is often fat, and its most frequent value, too.
+  if (!seed && ct) seed = most_even_voxel(volume, {kSoftTissueLow, kSoftTissueHigh, kEvenEnough}, progress);
+  if (!seed) seed = most_even_voxel(volume, {otsu_threshold(values), highest}, progress);
   if (progress.cancelled()) return cancelled_error();
-  // Nothing bright in the middle: the middle itself.
+  // Nothing of the kind in the middle: the middle itself.
   const Index3 voxel = seed.value_or(volume.geometry.size / std::int64_t{2});
   const Spread spread = neighbourhood(volume, voxel);
   const double span = values.percentile(0.99) - values.percentile(0.01);
@@ -161,7 +195,7 @@ Result<SuggestedStart> suggest_start(const Volume& volume, std::optional<Index3>
   suggestion.voxel = voxel;
   suggestion.radius_mm = kSeedSpacings * std::min({spacing.x, spacing.y, spacing.z});
   suggestion.target = spread.mean;
-  suggestion.range = std::max(2.0 * std::sqrt(spread.variance), kSpanShare * span);
+  suggestion.range = std::max(2.0 * std::sqrt(spread.variance), ct ? kSoftTissueRange : kSpanShare * span);
   if (suggestion.range <= 0.0) suggestion.range = kSpanShare * (static_cast<double>(highest) - lowest);
   return suggestion;
 }

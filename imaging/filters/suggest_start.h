@@ -18,11 +18,13 @@ struct SuggestedStart {
 };
 
 // T is the mean of the 5 x 5 x 5 voxels around the seed, epsilon the larger of two standard deviations there
-// and 5 % of the span of values (1st to 99th percentile). Without `seed` the voxel is chosen: of the voxels
-// brighter than Otsu's threshold (IEEE Trans. SMC 9:62, 1979) in the central half of the volume along each
-// axis, the one whose 5 x 5 x 5 neighbourhood varies least, the nearest to the centre among equals. That is
-// some even, bright tissue, not necessarily the wanted one. Fails (ErrorKind::input) when all values are
-// equal.
+// and 5 % of the span of values (1st to 99th percentile); in CT 30 HU. Without `seed` the voxel is chosen, in
+// the central half of the volume along each axis: of the voxels brighter than Otsu's threshold (IEEE Trans.
+// SMC 9:62, 1979) the one whose 5 x 5 x 5 neighbourhood varies least, the nearest to the centre among equals.
+// In CT, of those with values of soft tissue (20 to 200 HU) the nearest to the centre whose neighbourhood
+// varies by at most twice as much as the most even one's. That is some even tissue, not necessarily the
+// wanted one. A volume without a modality counts as CT when a part of it has the values of air in Hounsfield
+// units. Fails (ErrorKind::input) when all values are equal.
 Result<SuggestedStart> suggest_start(const Volume& volume, std::optional<Index3> seed = {},
                                      const Progress& progress = {});
 

@@ -159,6 +159,19 @@ class StudyLoaderTest : public QObject {
     }
   }
 
+  void a_single_file_that_cannot_be_loaded_is_no_choice() {
+    const test::TemporaryFolder damaged;
+    fs::copy(folder_ / "series", damaged / "series");
+    const fs::path slice = *fs::directory_iterator(damaged / "series");
+    fs::resize_file(slice, fs::file_size(slice) / 2);
+    StudyLoader loader;
+    loader.scan(slice);
+    const Outcome outcome = wait_for(loader);
+    QVERIFY(!outcome.catalogue);
+    QVERIFY2(outcome.message.contains(QString::fromStdString(slice.filename().string())),
+             qPrintable(outcome.message));
+  }
+
   void nothing_is_heard_of_a_load_that_was_cancelled() {
     StudyLoader loader;
     QSignalSpy cancelled(&loader, &StudyLoader::cancelled);

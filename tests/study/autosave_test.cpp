@@ -16,6 +16,8 @@ namespace {
 std::unique_ptr<Case> phantom_case() {
   StudyOrigin origin;
   origin.phantom = "lumpy";
+  origin.name = "Lümp <one>";
+  origin.date = "2004-07-31";
   auto made = Case::create(lumpy_volume(), origin, lumpy_parameters(), ExecutorKind::host, {});
   if (!made || !(*made)->level_set().begin(seed_in(*(*made)->volume()))) qFatal("no case");
   return std::move(*made);
@@ -66,6 +68,8 @@ class AutosaveTest : public QObject {
     QCOMPARE(copies.size(), std::size_t{1});
     QCOMPARE(copies[0].case_id, id);
     QCOMPARE(copies[0].generation, std::uint64_t{3});
+    QCOMPARE(copies[0].study.name, std::string("Lümp <one>"));
+    QCOMPARE(copies[0].study.date, std::string("2004-07-31"));
     const auto contents = load_session(copies[0].file);
     QCOMPARE(failure(contents), QString());
     const auto restored = restore_case(*contents, lumpy_volume(), ExecutorKind::host, {});

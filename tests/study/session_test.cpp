@@ -207,6 +207,13 @@ class SessionTest : public QObject {
     }
   }
 
+  void what_is_no_session_is_called_so_in_plain_words() {
+    const TemporaryFolder folder;
+    write_bytes(folder / "letter.tidemark", "Dear colleague,");
+    expect_refusal(folder / "letter.tidemark", "is damaged, or was not written by Tidemark");
+    expect_refusal(folder / "nowhere.tidemark", "cannot be read");
+  }
+
   void a_session_with_changed_bytes_is_refused_or_read() {
     const TemporaryFolder folder;
     must(save_session(*labelled_case(), folder / "good.tidemark"));

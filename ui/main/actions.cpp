@@ -2,6 +2,7 @@
 
 #include <QSettings>
 
+#include "session/case_session.h"
 #include "ui/look/icons.h"
 
 namespace tidemark {
@@ -141,7 +142,7 @@ void Actions::make_views() {
   patient_text = make("patient-text", nullptr, tr("Patient's te&xt"), QKeySequence("I"), true,
                       tr("Name, number, age and dates in the corners; off for teaching and screenshots"));
   patient_text->setCheckable(true);
-  hide_interface = make("hide-interface", nullptr, tr("&Hide panels"), QKeySequence("F3"), false);
+  hide_interface = make("hide-interface", nullptr, tr("&Hide panels"), QKeySequence("F3"), true);
   hide_interface->setCheckable(true);
   full_screen = make("full-screen", "full-screen", tr("&Full screen"), QKeySequence("F11"), false);
   full_screen->setCheckable(true);
@@ -166,7 +167,7 @@ void Actions::make_windows() {
               tr("Cursor, slices, window and cameras of all cases move together"));
   link->setCheckable(true);
   lock_step = make("lock-step", "lockstep", tr("Play in &lock-step"), QKeySequence("Ctrl+L"), false,
-                   tr("All cases play together, always at the same step"));
+                   tr("All cases play and step together, always at the same step"));
   lock_step->setCheckable(true);
   first_steps = make("first-steps", "info", tr("&First steps and mouse"), QKeySequence("F1"), false);
   about = make("about", "about", tr("&About Tidemark"), {}, false);
@@ -174,6 +175,32 @@ void Actions::make_windows() {
 
 QAction* Actions::tool(Tool tool) const {
   return tools->actions().at(static_cast<int>(tool));
+}
+
+void Actions::follow(CaseSession* session) {
+  static const CaseState kNothing{};
+  for (QAction* action : of_cases_) action->setEnabled(session != nullptr);
+  follow_evolution(session ? session->state() : kNothing);
+  clip->setChecked(session && session->display().settings().clip_on);
+  patient_text->setChecked(session && session->display().settings().patient_text);
+  if (session) return tool(session->display().settings().tool)->setChecked(true);
+  if (!tools->checkedAction()) return;
+  // An exclusive group lets go of none.
+  tools->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);
+  tools->checkedAction()->setChecked(false);
+  tools->setExclusionPolicy(QActionGroup::ExclusionPolicy::Exclusive);
+}
+
+void Actions::follow_evolution(const CaseState& state) {
+  play->setChecked(state.playing);
+  play->setIcon(icon(state.playing ? u"pause" : u"play"));
+  play->setText(state.playing ? tr("&Pause") : tr("&Play"));
+  for (QAction* action : {play, step, restart, export_mesh, export_recipe}) action->setEnabled(state.begun);
+  step_back->setEnabled(state.begun && state.step > 0);
+  undo->setEnabled(!state.undo_text.isEmpty());
+  undo->setText(state.undo_text.isEmpty() ? tr("&Undo") : tr("&Undo: %1").arg(state.undo_text));
+  redo->setEnabled(!state.redo_text.isEmpty());
+  redo->setText(state.redo_text.isEmpty() ? tr("&Redo") : tr("&Redo: %1").arg(state.redo_text));
 }
 
 }  // namespace tidemark

@@ -10,6 +10,9 @@
 
 namespace tidemark {
 
+class CaseSession;
+struct CaseState;
+
 // Names, pictures and keys; what they do is connected by those who can do it. Keys are kept in the settings
 // and can be changed (KeysDialog).
 class Actions : public QObject {
@@ -61,9 +64,10 @@ class Actions : public QObject {
   QAction* about;
 
   [[nodiscard]] QAction* tool(Tool tool) const;
-  // Those that need a case, and those whose keys can be changed.
-  [[nodiscard]] const std::vector<QAction*>& of_cases() const { return of_cases_; }
+  // Those whose keys can be changed.
   [[nodiscard]] const std::vector<QAction*>& all() const { return all_; }
+  // Shows what the active case can do now and what is chosen in it; null: there is none.
+  void follow(CaseSession* session);
   void set_key(QAction* action, const QKeySequence& key);  // an empty one: its own again
 
  private:
@@ -74,8 +78,9 @@ class Actions : public QObject {
   void make_tools();
   void make_views();
   void make_windows();
+  void follow_evolution(const CaseState& state);
 
-  std::vector<QAction*> of_cases_;
+  std::vector<QAction*> of_cases_;  // need a case
   std::vector<QAction*> all_;
 };
 

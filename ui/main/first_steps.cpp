@@ -1,10 +1,14 @@
 #include "ui/main/first_steps.h"
 
 #include <QCoreApplication>
+#include <QDialog>
 #include <QTextBrowser>
+#include <QVBoxLayout>
 
 namespace tidemark {
 namespace {
+
+constexpr const char* kName = "first-steps-page";  // of the one window
 
 QString tr(const char* text) {
   return QCoreApplication::translate("FirstSteps", text);
@@ -25,9 +29,8 @@ QString steps(const Actions& actions) {
           .arg(key(actions.tool(Tool::probe_speed))),
       tr("Choose <b>Sphere</b> (%1), press inside the tissue and drag: that is where the surface starts.")
           .arg(key(actions.tool(Tool::seed))),
-      tr("Press <b>Play</b> (%1) and watch. Change T, ε and α while it runs; α near 1 follows brightness, "
-         "near 0 "
-         "smooths.")
+      tr("Press <b>Play</b> (%1) and watch. Change T, ε and α, the weight of the data, while it runs: near "
+         "1 the surface follows brightness, near 0 it becomes smooth.")
           .arg(key(actions.play)),
       tr("Paint (%1) or erase (%2) while it runs; undo (%3) takes anything back.")
           .arg(key(actions.tool(Tool::paint)), key(actions.tool(Tool::erase)), key(actions.undo)),
@@ -60,15 +63,25 @@ QString keys(const Actions& actions) {
 }  // namespace
 
 void show_first_steps(QWidget* parent, const Actions& actions) {
-  auto* page = new QTextBrowser(parent);
-  page->setWindowFlags(Qt::Tool);
-  page->setAttribute(Qt::WA_DeleteOnClose);
-  page->setWindowTitle(tr("First steps, mouse and keys"));
-  page->setHtml(
+  auto* dialog = parent->findChild<QDialog*>(kName, Qt::FindDirectChildrenOnly);
+  if (!dialog) {
+    dialog = new QDialog(parent);
+    dialog->setObjectName(kName);
+    dialog->setWindowTitle(tr("First steps, mouse and keys"));
+    auto* page = new QTextBrowser;
+    page->setFrameShape(QFrame::NoFrame);
+    auto* layout = new QVBoxLayout(dialog);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(page);
+    dialog->resize(560, 620);
+  }
+  // Keys may have been changed since.
+  dialog->findChild<QTextBrowser*>()->setHtml(
       QStringLiteral("<h3>%1</h3>%2<h3>%3</h3>%4<h3>%5</h3>%6")
           .arg(tr("A first segmentation"), steps(actions), tr("Mouse"), mouse(), tr("Keys"), keys(actions)));
-  page->resize(560, 620);
-  page->show();
+  dialog->show();
+  dialog->raise();
+  dialog->activateWindow();
 }
 
 }  // namespace tidemark

@@ -39,12 +39,6 @@
 #include "ui/views/picture_view.h"
 
 namespace tidemark {
-namespace {
-
-constexpr int kStateVersion = 1;
-
-}  // namespace
-
 MainWindow::MainWindow(Engine& engine, QWidget* parent) : QMainWindow(parent), engine_(engine) {
   setObjectName("main");
   setWindowTitle(tr("Tidemark"));  // Qt adds the name of a case that fills the window
@@ -67,7 +61,7 @@ MainWindow::MainWindow(Engine& engine, QWidget* parent) : QMainWindow(parent), e
   connect_views();
   connect_windows();
   restoreGeometry(QSettings().value("main/geometry").toByteArray());
-  restoreState(QSettings().value("main/state").toByteArray(), kStateVersion);
+  panels_->restore(QSettings().value("main/state").toByteArray());
   follow_case();
 }
 
@@ -142,7 +136,10 @@ void MainWindow::connect_files() {
   });
   connect(opener_, &StudyOpener::progressed, loading_, &LoadingView::set_progress);
   connect(opener_, &StudyOpener::ended, loading_, &QWidget::hide);
-  connect(opener_, &StudyOpener::failed, this, &MainWindow::tell);
+  connect(opener_, &StudyOpener::failed, this, [this](const QString& message) {
+    loading_->hide();
+    tell(message, kAboutOpening);
+  });
   connect(opener_, &StudyOpener::opened, this, [this](const auto& study) { add_case(study); });
   connect(loading_, &LoadingView::cancelled, opener_, &StudyOpener::cancel);
   connect(recent_, &RecentStudies::chosen, opener_, &StudyOpener::open_series);
@@ -199,7 +196,8 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
   window->session().display().change([this](DisplaySettings& settings) {
     settings.tool = active_ ? active_->session().display().settings().tool : settings.tool;
   });
-  connect(&window->session(), &CaseSession::failed, this, &MainWindow::tell);
+  settle(kAboutOpening);
+  connect_messages(*window);
   connect(window, &CaseWindow::close_wanted, saved_, &SavedCases::close);
   QMdiSubWindow* child = area_->addSubWindow(window);
   child->setAttribute(Qt::WA_DeleteOnClose);
@@ -227,6 +225,7 @@ void MainWindow::show_case(QMdiSubWindow& child, const LoadedStudy& study, const
   }
   auto& window = static_cast<CaseWindow&>(*child.widget());
   if (restored.contents) {
+    panels_->show("level-set");  // it has begun: to be steered
     const Status shown = window.restore_view_state(restored.contents->view_state);
     if (!shown) tell(tr("How it was shown is lost: %1").arg(QString::fromStdString(shown.error().message)));
   }
@@ -236,8 +235,32 @@ void MainWindow::show_case(QMdiSubWindow& child, const LoadedStudy& study, const
   connect(report, &LoadReport::dismissed, messages_, &MessageBar::dismiss);
 }
 
-void MainWindow::tell(const QString& message) {
-  messages_->show_text(message);
+void MainWindow::tell(const QString& message, const QString& about) {
+  messages_->show_text(message, about);
+}
+
+void MainWindow::settle(const QString& about) {
+  messages_->settle(about);
+}
+
+// What cannot be done to a case is forgotten once something else was.
+void MainWindow::connect_messages(CaseWindow& window) {
+  CaseSession& session = window.session();
+  const QString about = QStringLiteral("case %1").arg(reinterpret_cast<quintptr>(&session));
+  // An entry of the history that is still open counts only by its text.
+  const auto done = [&session] {
+    return QStringLiteral("%1 %2").arg(session.state().edits).arg(session.state().undo_text);
+  };
+  connect(&session, &CaseSession::failed, this, [this, done, about](const QString& message) {
+    done_at_failure_ = done();
+    tell(message, about);
+  });
+  connect(&session, &CaseSession::state_changed, this, [this, done, about] {
+    if (done() != done_at_failure_) settle(about);
+  });
+  connect(&window.autosave(), &CaseAutosave::failed, this, [this](const QString& message) {
+    tell(tr("No copy is kept for the case of a crash: %1").arg(message));
+  });
 }
 
 // The active case.
@@ -276,23 +299,7 @@ void MainWindow::activate(QMdiSubWindow* child) {
 }
 
 void MainWindow::follow_case() {
-  for (QAction* action : actions_->of_cases()) action->setEnabled(active_ != nullptr);
-  if (!active_) return;
-  const CaseState& state = active_->session().state();
-  actions_->play->setChecked(state.playing);
-  actions_->play->setIcon(icon(state.playing ? u"pause" : u"play"));
-  actions_->play->setText(state.playing ? tr("&Pause") : tr("&Play"));
-  for (QAction* action : {actions_->play, actions_->step, actions_->restart}) action->setEnabled(state.begun);
-  actions_->step_back->setEnabled(state.begun && state.step > 0);
-  actions_->undo->setEnabled(!state.undo_text.isEmpty());
-  actions_->undo->setText(state.undo_text.isEmpty() ? tr("&Undo") : tr("&Undo: %1").arg(state.undo_text));
-  actions_->redo->setEnabled(!state.redo_text.isEmpty());
-  actions_->redo->setText(state.redo_text.isEmpty() ? tr("&Redo") : tr("&Redo: %1").arg(state.redo_text));
-  for (QAction* action : {actions_->export_mesh, actions_->export_recipe}) action->setEnabled(state.begun);
-  const DisplaySettings& settings = active_->session().display().settings();
-  actions_->tool(settings.tool)->setChecked(true);
-  actions_->clip->setChecked(settings.clip_on);
-  actions_->patient_text->setChecked(settings.patient_text);
+  actions_->follow(active_ ? &active_->session() : nullptr);
 }
 
 template <class Do>
@@ -377,7 +384,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     quitting_ = saved_->closes_later();
     return event->ignore();
   }
-  if (!actions_->hide_interface->isChecked()) QSettings().setValue("main/state", saveState(kStateVersion));
+  QSettings().setValue("main/state", panels_->arrangement());
   QSettings().setValue("main/geometry", saveGeometry());
   event->accept();
 }

@@ -42,7 +42,9 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] SavedCases& saved_cases() { return *saved_; }
   // With which executor cases begin.
   void set_executor(ExecutorKind kind) { executor_ = kind; }
-  void tell(const QString& message);  // a sentence that stays until it is dismissed or the next one comes
+  // A sentence that stays until it is dismissed, the next one comes, or what it is about has succeeded.
+  void tell(const QString& message, const QString& about = {});
+  void settle(const QString& about);
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -57,6 +59,7 @@ class MainWindow : public QMainWindow {
   void connect_evolution();
   void connect_views();
   void connect_windows();
+  void connect_messages(CaseWindow& window);
   void ask_for_folder();
   void ask_for_file();
   void show_case(QMdiSubWindow& child, const LoadedStudy& study, const RestoredCase& restored);
@@ -80,6 +83,7 @@ class MainWindow : public QMainWindow {
   ValueBar* values_ = nullptr;
   SavedCases* saved_ = nullptr;
   QPointer<CaseWindow> active_;
+  QString done_at_failure_;  // what the case had done when something failed in it
   bool quitting_ = false;
   QList<QMetaObject::Connection> active_connections_;
 };

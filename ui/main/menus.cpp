@@ -4,6 +4,7 @@
 
 #include "ui/look/icons.h"
 #include "ui/main/main_window.h"
+#include "ui/main/menu_bar_icon.h"
 #include "ui/main/panel_docks.h"
 #include "ui/opening/phantom_menu.h"
 #include "ui/opening/recent_studies.h"
@@ -52,6 +53,7 @@ void make_view_menu(MainWindow& window, Actions& actions, PanelDocks& panels) {
 }  // namespace
 
 void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts) {
+  draw_menu_bar_icon_whole(*window.menuBar());
   make_file_menu(window, actions, *parts.recent);
   QMenu* edit = window.menuBar()->addMenu(MainWindow::tr("&Edit"));
   edit->addActions({actions.undo, actions.redo});

@@ -34,11 +34,16 @@ QString MessageBar::text() const {
   return isHidden() || shown_ ? QString() : text_->text();
 }
 
-void MessageBar::show_text(const QString& text) {
+void MessageBar::show_text(const QString& text, const QString& about) {
   dismiss();
+  about_ = about;
   text_->setText(text);
   line_->show();
   show();
+}
+
+void MessageBar::settle(const QString& about) {
+  if (!about.isEmpty() && about == about_) dismiss();
 }
 
 void MessageBar::show_widget(QWidget* widget) {
@@ -52,6 +57,7 @@ void MessageBar::show_widget(QWidget* widget) {
 void MessageBar::dismiss() {
   if (shown_) shown_->deleteLater();
   shown_ = nullptr;
+  about_.clear();
   hide();
 }
 

@@ -1,4 +1,4 @@
-// Sentences above the cases that stay until they are dismissed.
+// Sentences above the cases that stay until they are dismissed, or what they tell of is over.
 #pragma once
 
 #include <QFrame>
@@ -8,12 +8,17 @@ class QStackedLayout;
 
 namespace tidemark {
 
+inline constexpr const char* kAboutOpening = "opening";  // of studies and sessions
+
 class MessageBar : public QFrame {
   Q_OBJECT
  public:
   explicit MessageBar(QWidget* parent = nullptr);
 
-  void show_text(const QString& text);
+  // `about`: what has failed, for settle(); empty: it stays until it is dismissed.
+  void show_text(const QString& text, const QString& about = {});
+  // It has succeeded now: a message that it failed goes.
+  void settle(const QString& about);
   // Takes the widget; it goes when it is dismissed or another message comes.
   void show_widget(QWidget* widget);
   void dismiss();
@@ -23,6 +28,7 @@ class MessageBar : public QFrame {
   QWidget* line_;
   QLabel* text_;
   QWidget* shown_ = nullptr;
+  QString about_;
 };
 
 }  // namespace tidemark

@@ -15,6 +15,16 @@ namespace tidemark {
 namespace {
 
 constexpr int kWidth = 320;  // logical pixels: what the panels are made for
+constexpr int kStateVersion = 1;
+
+QScrollArea* scrolled(QWidget* panel) {
+  auto* scroll = new QScrollArea;
+  scroll->setWidget(panel);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  return scroll;
+}
 
 }  // namespace
 
@@ -29,32 +39,25 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
   statistics_ = new StatisticsPanel;
   transfer_ = new TransferFunctionEditor;
   panels_ = {level_set, initialise, paint, display, labels, statistics_};
-  // One column with its tabs at the side: the views keep the room.
-  const QList<QDockWidget*> docks{add("initialise", tr("Start"), initialise),
-                                  add("level-set", tr("Level set"), level_set),
-                                  add("paint", tr("Paint"), paint),
-                                  add("display", tr("Display"), display),
+  // One column with its tabs at the side: the views keep the room. The editor scrolls its parts itself.
+  const QList<QDockWidget*> docks{add("initialise", tr("Start"), scrolled(initialise)),
+                                  add("level-set", tr("Level set"), scrolled(level_set)),
+                                  add("paint", tr("Paint"), scrolled(paint)),
+                                  add("display", tr("Display"), scrolled(display)),
                                   add("transfer", tr("Transfer"), transfer_),
-                                  add("labels", tr("Labels"), labels),
-                                  add("statistics", tr("Statistics"), statistics_)};
+                                  add("labels", tr("Labels"), scrolled(labels)),
+                                  add("statistics", tr("Statistics"), scrolled(statistics_))};
   for (qsizetype next = 1; next < docks.size(); ++next)
     window_.tabifyDockWidget(docks[next - 1], docks[next]);
   window_.setTabPosition(Qt::RightDockWidgetArea, QTabWidget::East);
   window_.resizeDocks({docks[0]}, {kWidth}, Qt::Horizontal);
   docks[0]->raise();
-  set_session(nullptr);
 }
 
 QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* panel) {
-  auto* scroll = new QScrollArea;
-  scroll->setWidget(panel);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  // The transfer function's plots and buttons need more room than the column has.
-  scroll->setHorizontalScrollBarPolicy(panel == transfer_ ? Qt::ScrollBarAsNeeded : Qt::ScrollBarAlwaysOff);
   auto* dock = new QDockWidget(title, &window_);
   dock->setObjectName(QString::fromLatin1(name));
-  dock->setWidget(scroll);
+  dock->setWidget(panel);
   dock->setMinimumWidth(kWidth);
   window_.addDockWidget(Qt::RightDockWidgetArea, dock);
   docks_ << dock;
@@ -69,6 +72,7 @@ void PanelDocks::set_session(CaseSession* session) {
   if (session_) connect(session_, &CaseSession::state_changed, this, &PanelDocks::follow_start);
   transfer_->set_display(session ? &session->display() : nullptr, session ? &session->summary() : nullptr,
                          session && session->volume().modality == "CT" ? tr("HU") : QString());
+  show_or_hide();
 }
 
 // Once there is a surface, what steers it comes to the front where the start was.
@@ -79,14 +83,33 @@ void PanelDocks::follow_start() {
 }
 
 void PanelDocks::set_hidden(bool hidden) {
-  if (hidden) {
-    for (QDockWidget* dock : docks_) {
-      if (!dock->isHidden()) open_ << dock;
-      dock->hide();
-    }
+  unwanted_ = hidden;
+  show_or_hide();
+}
+
+void PanelDocks::show_or_hide() {
+  const bool show_them = session_ && !unwanted_;
+  for (QDockWidget* dock : docks_) dock->toggleViewAction()->setEnabled(show_them);
+  if (show_them == shown_) return;
+  if (show_them) {
+    shown_ = true;
+    window_.restoreState(arrangement_, kStateVersion);
+    if (!front_.isEmpty()) show(std::exchange(front_, {}));
   } else {
-    for (QDockWidget* dock : std::exchange(open_, {})) dock->show();
+    arrangement_ = arrangement();
+    shown_ = false;
+    for (QDockWidget* dock : docks_) dock->hide();
   }
+}
+
+QByteArray PanelDocks::arrangement() const {
+  return shown_ ? window_.saveState(kStateVersion) : arrangement_;
+}
+
+void PanelDocks::restore(const QByteArray& arrangement) {
+  window_.restoreState(arrangement, kStateVersion);
+  shown_ = true;
+  show_or_hide();
 }
 
 QList<QAction*> PanelDocks::toggles() const {
@@ -96,6 +119,10 @@ QList<QAction*> PanelDocks::toggles() const {
 }
 
 void PanelDocks::show(const QString& name) {
+  if (!shown_) {
+    front_ = name;
+    return;
+  }
   for (QDockWidget* dock : docks_) {
     if (dock->objectName() != name) continue;
     dock->show();

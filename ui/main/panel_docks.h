@@ -22,25 +22,31 @@ class PanelDocks : public QObject {
  public:
   PanelDocks(QMainWindow& window, Actions& actions);
 
-  void set_session(CaseSession* session);  // null: none
-  // Hides all that are open, and shows the same ones again.
-  void set_hidden(bool hidden);
+  // Null: no case is open, and no panels beside the start page.
+  void set_session(CaseSession* session);
+  void set_hidden(bool hidden);  // as the user wants it
+  // How the window's docks and tool bars stand while panels show, for the settings.
+  [[nodiscard]] QByteArray arrangement() const;
+  void restore(const QByteArray& arrangement);
   [[nodiscard]] QList<QAction*> toggles() const;  // one a panel: shows or hides it
   [[nodiscard]] StatisticsPanel& statistics() { return *statistics_; }
-  // Brings a panel to the front: "initialise", "level-set", ...
+  // Brings a panel to the front, at once or when panels show again: "initialise", "level-set", ...
   void show(const QString& name);
 
  private:
   QDockWidget* add(const char* name, const QString& title, QWidget* panel);
-
   void follow_start();
+  void show_or_hide();
 
   QMainWindow& window_;
   QPointer<CaseSession> session_;
   bool begun_ = false;
   QList<QDockWidget*> docks_;
   QList<SessionWidget*> panels_;
-  QList<QDockWidget*> open_;  // before they were hidden
+  bool unwanted_ = false;  // by the user
+  bool shown_ = true;
+  QByteArray arrangement_;  // while they do not show: as it was
+  QString front_;           // while they do not show: which is to come to the front
   StatisticsPanel* statistics_ = nullptr;
   TransferFunctionEditor* transfer_ = nullptr;
 };

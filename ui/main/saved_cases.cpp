@@ -18,7 +18,9 @@
 #include "session/case_autosave.h"
 #include "study/session_file.h"
 #include "ui/main/main_window.h"
+#include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
+#include "ui/main/rescue_dialog.h"
 #include "ui/panels/statistics_panel.h"
 #include "ui/views/picture_view.h"
 
@@ -54,6 +56,11 @@ QString with_suffix(const QString& file, const QString& filter) {
   return file + first;
 }
 
+// For messages: the same case to a file of the same kind.
+QString about_writing(const CaseWindow& window, const QString& file) {
+  return QStringLiteral("%1 of %2").arg(QFileInfo(file).suffix()).arg(reinterpret_cast<quintptr>(&window));
+}
+
 }  // namespace
 
 SavedCases::SavedCases(MainWindow& window) : QObject(&window), window_(window) {
@@ -67,11 +74,13 @@ SavedCases::~SavedCases() {
   for (const auto& job : jobs_) job->abandon();
 }
 
-void SavedCases::run(const QString& file, std::function<Status()> work, std::function<void()> done) {
-  jobs_.push_back(BackgroundJob::start(this, [this, file, work = std::move(work), done](BackgroundJob& job) {
+void SavedCases::run(const QString& about, const QString& file, std::function<Status()> work,
+                     std::function<void()> done) {
+  jobs_.push_back(BackgroundJob::start(this, [this, about, file, work = std::move(work), done](auto& job) {
     const Status status = work();
-    job.deliver([this, file, status, done] {
-      if (!status) return window_.tell(QString::fromStdString(status.error().message));
+    job.deliver([this, about, file, status, done] {
+      if (!status) return window_.tell(QString::fromStdString(status.error().message), about);
+      window_.settle(about);
       window_.statusBar()->showMessage(tr("Wrote %1").arg(file), 8000);
       if (done) done();
       emit written(file);
@@ -80,10 +89,10 @@ void SavedCases::run(const QString& file, std::function<Status()> work, std::fun
 }
 
 void SavedCases::write(CaseWindow& window, const QString& file, Write work) {
-  window.session().take_snapshot(window.view_state(),
-                                 [this, file, work = std::move(work)](const auto& snapshot) {
-                                   run(file, [snapshot, work] { return work(snapshot->contents); });
-                                 });
+  window.session().take_snapshot(window.view_state(), [this, about = about_writing(window, file), file,
+                                                       work = std::move(work)](const auto& snapshot) {
+    run(about, file, [snapshot, work] { return work(snapshot->contents); });
+  });
 }
 
 QString SavedCases::ask_for_file(const CaseWindow& window, const QString& title, const QString& suffixes) {
@@ -161,7 +170,7 @@ void SavedCases::write_picture(CaseWindow& window, const QString& file) {
   display.change([](DisplaySettings& settings) { settings.patient_text = false; });
   const QImage image = view->grab_picture().convertToFormat(QImage::Format_RGBA8888);
   display.change([text](DisplaySettings& settings) { settings.patient_text = text; });
-  run(file, [image, path = path_of(file)] {
+  run(about_writing(window, file), file, [image, path = path_of(file)] {
     return write_png_file(image.width(), image.height(),
                           std::span(image.constBits(), static_cast<std::size_t>(image.sizeInBytes())), path);
   });
@@ -195,17 +204,17 @@ void SavedCases::save_as(CaseWindow& window) {
 }
 
 void SavedCases::save_to(CaseWindow& window, const QString& file, std::function<void()> done) {
-  window.session().take_snapshot(
-      window.view_state(), [this, file, done, saved = QPointer(&window)](const auto& snapshot) {
-        run(
-            file, [snapshot, path = path_of(file)] { return write_session(snapshot->contents, path); },
-            [file, saved, snapshot, done] {
-              if (!saved) return;
-              saved->session_file = file;
-              saved->session().mark_saved(*snapshot);
-              if (done) done();
-            });
-      });
+  window.session().take_snapshot(window.view_state(), [this, about = about_writing(window, file), file, done,
+                                                       saved = QPointer(&window)](const auto& snapshot) {
+    run(
+        about, file, [snapshot, path = path_of(file)] { return write_session(snapshot->contents, path); },
+        [file, saved, snapshot, done] {
+          if (!saved) return;
+          saved->session_file = file;
+          saved->session().mark_saved(*snapshot);
+          if (done) done();
+        });
+  });
 }
 
 void SavedCases::ask_and_open() {
@@ -231,11 +240,13 @@ void SavedCases::read(const QString& file, const std::string& rescued) {
 
 void SavedCases::read_next() {
   const auto path = path_of(waiting_.front().file);
-  jobs_.push_back(BackgroundJob::start(this, [this, path](BackgroundJob& job) {
+  const bool is_copy = !waiting_.front().rescued.empty();
+  jobs_.push_back(BackgroundJob::start(this, [this, path, is_copy](BackgroundJob& job) {
     auto contents = load_session(path);
     if (!contents) {
-      job.deliver(
-          [this, message = QString::fromStdString(contents.error().message)] { end_reading(message); });
+      auto copies = is_copy ? std::vector<Recoverable>() : find_recoverable(recovery_folder());
+      job.deliver([this, message = QString::fromStdString(contents.error().message),
+                   copies = std::move(copies)] { refuse(message, copies); });
       return;
     }
     job.deliver([this, contents = std::make_shared<const SessionContents>(std::move(*contents))] {
@@ -244,8 +255,20 @@ void SavedCases::read_next() {
   }));
 }
 
+// What else there is to go on with: another copy of the file, or one that was kept for a crash.
+void SavedCases::refuse(const QString& problem, const std::vector<Recoverable>& copies) {
+  const QString file = waiting_.front().file;
+  const bool damaged = QFileInfo::exists(file);
+  end_reading(damaged ? tr("%1. If you have another copy of this file, open that one.").arg(problem)
+                      : problem);
+  if (!damaged) return;
+  offer(copies, tr("%1 cannot be read, but there are copies of work that was not saved, perhaps of the same "
+                   "case:")
+                    .arg(file));
+}
+
 void SavedCases::end_reading(const QString& problem) {
-  if (!problem.isEmpty()) window_.tell(problem);
+  if (!problem.isEmpty()) window_.tell(problem, kAboutOpening);
   waiting_.pop_front();
   if (!waiting_.empty()) read_next();
 }
@@ -298,22 +321,16 @@ void SavedCases::keep_rescued(CaseWindow& window, const std::string& copy) {
 
 void SavedCases::offer_rescued() {
   sweep_unfinished(recovery_folder());
-  const auto copies = find_recoverable(recovery_folder());
+  offer(find_recoverable(recovery_folder()),
+        tr("Tidemark did not end as it should the last time, and kept copies of what was not saved:"));
+}
+
+void SavedCases::offer(const std::vector<Recoverable>& copies, const QString& why) {
   if (copies.empty()) return;
-  QMessageBox box(QMessageBox::Question, tr("Rescued work"),
-                  copies.size() == 1
-                      ? tr("Tidemark did not end as it should the last time. It kept a copy of one case.")
-                      : tr("Tidemark did not end as it should the last time. It kept copies of %1 cases.")
-                            .arg(copies.size()),
-                  QMessageBox::NoButton, &window_);
-  QPushButton* open = box.addButton(tr("Open them"), QMessageBox::AcceptRole);
-  QPushButton* remove = box.addButton(tr("Throw them away"), QMessageBox::DestructiveRole);
-  box.addButton(tr("Ask again later"), QMessageBox::RejectRole);
-  box.setDefaultButton(open);
-  box.exec();
+  const RescueAnswer answer = ask_about_copies(&window_, why, copies);
   for (const Recoverable& copy : copies) {
-    if (box.clickedButton() == open) open_rescued(copy);
-    if (box.clickedButton() == remove) discard(recovery_folder(), copy.case_id);
+    if (answer == RescueAnswer::open) open_rescued(copy);
+    if (answer == RescueAnswer::discard) discard(recovery_folder(), copy.case_id);
   }
 }
 

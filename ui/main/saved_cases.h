@@ -60,12 +60,15 @@ class SavedCases : public QObject {
   using Write = std::function<Status(const SessionContents&)>;
   [[nodiscard]] QString ask_for_file(const CaseWindow& window, const QString& title, const QString& suffixes);
   void write(CaseWindow& window, const QString& file, Write work);
-  void run(const QString& file, std::function<Status()> work, std::function<void()> done = {});
+  void run(const QString& about, const QString& file, std::function<Status()> work,
+           std::function<void()> done = {});
   void save_to(CaseWindow& window, const QString& file, std::function<void()> done = {});
   void read(const QString& file, const std::string& rescued);
   void read_next();
+  void refuse(const QString& problem, const std::vector<Recoverable>& copies);
   void end_reading(const QString& problem = {});
   void find_volume(std::shared_ptr<const SessionContents> contents);
+  void offer(const std::vector<Recoverable>& copies, const QString& why);
   void keep_rescued(CaseWindow& window, const std::string& copy);
   void compare(const std::shared_ptr<const LoadedStudy>& study);
   void restore(const std::shared_ptr<const LoadedStudy>& study, VolumeMatch found);

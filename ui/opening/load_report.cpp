@@ -1,32 +1,87 @@
 #include "ui/opening/load_report.h"
 
-#include <QGridLayout>
+#include <QBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollArea>
+#include <algorithm>
 
+#include "ui/look/theme.h"
 #include "ui/opening/grid_text.h"
 
 namespace tidemark {
+namespace {
 
-LoadReport::LoadReport(const LoadedStudy& study, QWidget* parent) : QFrame(parent) {
-  setFrameShape(QFrame::StyledPanel);
+constexpr int kMostLines = 8;  // of the details; more scroll
+
+// A line that ends with an ellipsis where there is no room for all of it.
+class ElidedLabel : public QLabel {
+ public:
+  explicit ElidedLabel(const QString& text) : whole_(text) {
+    setTextFormat(Qt::PlainText);
+    setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    setToolTip(QStringLiteral("<p>%1</p>").arg(text.toHtmlEscaped()));
+    setText(text);
+  }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QLabel::resizeEvent(event);
+    setText(fontMetrics().elidedText(whole_, Qt::ElideRight, width()));
+  }
+
+ private:
+  QString whole_;
+};
+
+QString summary(const Volume& volume) {
+  const auto& changes = volume.changes;
+  const QString grid = grid_text(volume.geometry);
+  if (changes.empty()) return grid;
+  const QString first = QString::fromStdString(changes.front());
+  if (changes.size() == 1) return LoadReport::tr("%1; %2").arg(grid, first);
+  return LoadReport::tr("%1; %2 changes: %3, …").arg(grid).arg(changes.size()).arg(first);
+}
+
+}  // namespace
+
+LoadReport::LoadReport(const LoadedStudy& study, QWidget* parent)
+    : QFrame(parent), details_button_(new QPushButton(tr("Details"))) {
   setAccessibleName(tr("Report of loading"));
-  const auto& changes = study.volume->changes;
-  auto* grid = new QGridLayout(this);
-  grid->setContentsMargins(14, 10, 10, 10);
-  grid->setColumnStretch(0, 1);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(kSpace, kSpaceTight, kSpace, kSpaceTight);
+  column->setSpacing(kSpaceTight);
+  column->addWidget(make_line(study));
+  QWidget* details = make_details(study.volume->changes);
+  column->addWidget(details);
+  details->hide();
+  connect(details_button_, &QPushButton::toggled, details, &QWidget::setVisible);
+}
 
-  auto* title = new QLabel(study.name, this);
+QWidget* LoadReport::make_line(const LoadedStudy& study) {
+  auto* line = new QWidget;
+  auto* row = new QHBoxLayout(line);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(kSpace);
+  auto* title = new QLabel(study.name);
   title->setTextFormat(Qt::PlainText);
-  title->setWordWrap(true);
   QFont bold = title->font();
   bold.setWeight(QFont::DemiBold);
   title->setFont(bold);
-  grid->addWidget(title, 0, 0);
+  row->addWidget(title);
+  row->addWidget(new ElidedLabel(summary(*study.volume)), 1);
+  details_button_->setCheckable(true);
+  details_button_->setToolTip(tr("Shows or hides all that was found and changed when the study was read"));
+  row->addWidget(details_button_);
+  auto* close = new QPushButton(tr("Dismiss"));
+  close->setAccessibleName(tr("Dismiss the report of loading"));
+  connect(close, &QPushButton::clicked, this, &LoadReport::dismiss);
+  row->addWidget(close);
+  return line;
+}
 
-  grid->addWidget(new QLabel(grid_text(study.volume->geometry), this), 1, 0);
-
+QWidget* LoadReport::make_details(const std::vector<std::string>& changes) {
   QString text;
   for (const std::string& change : changes) {
     text += QStringLiteral("<li>%1</li>").arg(QString::fromStdString(change).toHtmlEscaped());
@@ -34,17 +89,19 @@ LoadReport::LoadReport(const LoadedStudy& study, QWidget* parent) : QFrame(paren
   text = changes.empty() ? tr("Nothing was changed or missing.")
                          : tr("Found and changed when it was read:") +
                                QStringLiteral("<ul style='margin:2px 0 0 -22px'>%1</ul>").arg(text);
-  auto* what = new QLabel(text, this);
+  auto* what = new QLabel(text);
   what->setObjectName("what");
   what->setTextFormat(Qt::RichText);
   what->setWordWrap(true);
+  what->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   what->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  grid->addWidget(what, 2, 0);
-
-  auto* close = new QPushButton(tr("Dismiss"), this);
-  close->setAccessibleName(tr("Dismiss the report of loading"));
-  connect(close, &QPushButton::clicked, this, &LoadReport::dismiss);
-  grid->addWidget(close, 0, 1, 3, 1, Qt::AlignTop);
+  auto* scroll = new QScrollArea;
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setWidgetResizable(true);
+  scroll->setWidget(what);
+  const int lines = std::min(static_cast<int>(changes.size()) + 1, kMostLines);
+  scroll->setFixedHeight((lines + 1) * fontMetrics().lineSpacing());
+  return scroll;
 }
 
 void LoadReport::dismiss() {

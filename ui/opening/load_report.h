@@ -1,9 +1,12 @@
-// What was found and changed when a study was loaded. Not modal; goes when it is dismissed.
+// What was found and changed when a study was loaded: a line, and all of it below when it is asked for. Not
+// modal; goes when it is dismissed.
 #pragma once
 
 #include <QFrame>
 
 #include "session/study_loader.h"
+
+class QPushButton;
 
 namespace tidemark {
 
@@ -19,7 +22,11 @@ class LoadReport : public QFrame {
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
+  QWidget* make_line(const LoadedStudy& study);
+  QWidget* make_details(const std::vector<std::string>& changes);
   void dismiss();
+
+  QPushButton* details_button_;
 };
 
 }  // namespace tidemark

@@ -2,17 +2,10 @@
 #pragma once
 
 #include <QMenu>
-#include <QString>
-#include <string_view>
+
+#include "session/phantom_text.h"
 
 namespace tidemark {
-
-// How a kind of phantom_kinds() is called and what it shows, in one sentence.
-struct PhantomText {
-  QString title;
-  QString sentence;
-};
-PhantomText phantom_text(std::string_view kind);
 
 // One action a kind.
 class PhantomMenu : public QMenu {

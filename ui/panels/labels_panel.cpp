@@ -99,9 +99,7 @@ QWidget* LabelsPanel::make_actions() {
   Form form(part);
   accept_ = new QPushButton(tr("Accept surface into label"));
   form.wide(accept_);
-  connect(accept_, &QPushButton::clicked, this, [this] {
-    if (session() && chosen()) session()->accept_surface(chosen()->id);
-  });
+  connect(accept_, &QPushButton::clicked, this, &LabelsPanel::accept_surface);
   begin_ = new QPushButton(tr("Start again from label"));
   begin_->setToolTip(tr("The level set begins anew as the chosen label, to go on with it."));
   form.wide(begin_);
@@ -126,7 +124,22 @@ const Label* LabelsPanel::chosen() const {
 void LabelsPanel::add_label() {
   if (!session()) return;
   choose_new_ = true;
-  session()->add_label(tr("Label %1").arg(model_->rowCount() + 1));
+  session()->add_label(new_name());
+}
+
+QString LabelsPanel::new_name() const {
+  return tr("Label %1").arg(model_->rowCount() + 1);
+}
+
+// Into the chosen label; the first one is made on the way.
+void LabelsPanel::accept_surface() {
+  if (!session()) return;
+  if (const Label* label = chosen()) {
+    session()->accept_surface(label->id);
+  } else {
+    choose_new_ = true;
+    session()->accept_surface_as(new_name());
+  }
 }
 
 void LabelsPanel::choose_colour(const QModelIndex& index) {
@@ -171,12 +184,13 @@ void LabelsPanel::show_buttons() {
   const Label* label = chosen();
   remove_->setEnabled(label != nullptr);
   const bool begun = session() && session()->state().begun;
-  accept_->setEnabled(label && !label->locked && begun);
-  accept_->setToolTip(!label          ? tr("Add a label first.")
-                      : label->locked ? tr("The chosen label is locked.")
-                      : !begun        ? tr("There is no surface yet.")
-                                      : tr("The surface's inside becomes the chosen label. Voxels of locked "
-                                                  "labels stay."));
+  const bool locked = label && label->locked;
+  accept_->setEnabled(begun && !locked);
+  accept_->setToolTip(!begun   ? tr("There is no surface yet.")
+                      : locked ? tr("The chosen label is locked.")
+                      : !label ? tr("The surface's inside becomes a new label.")
+                               : tr("The surface's inside becomes the chosen label. Voxels of locked "
+                                    "labels stay."));
   begin_->setEnabled(label != nullptr);
 }
 

@@ -27,6 +27,8 @@ class LabelsPanel : public Panel {
   QWidget* make_table_buttons();
   QWidget* make_actions();
   void add_label();
+  void accept_surface();
+  [[nodiscard]] QString new_name() const;
   void choose_colour(const QModelIndex& index);
   void show_buttons();
   [[nodiscard]] const Label* chosen() const;

@@ -38,14 +38,13 @@ void SpeedControls::add_numbers(Form& form) {
                                            "grows fastest."));
   range_ = form.slider(tr("Range ε"), tr("How far a value may be from T for the surface to grow there."));
   alpha_ =
-      form.slider(tr("Smoothness α"),
-                  tr("How the data and the smoothing share the speed. 1 is the data alone; at 0 the surface "
-                     "only becomes smoother, and shrinks."));
-  alpha_->set_range(1.0, 0.0);
+      form.slider(tr("Data weight α"),
+                  tr("How the data and the smoothing share the speed. 1 follows the data alone; at 0 the "
+                     "surface only becomes smoother, and shrinks."));
+  alpha_->set_range(0.0, 1.0);
   alpha_->set_decimals(3);
   alpha_->set_step(0.01);
-
-  form.note(tr("1: the data alone, 0: smoothing alone"))->setForegroundRole(QPalette::PlaceholderText);
+  form.ends_of(*alpha_, tr("smooth"), tr("follow data"));
   paper_alpha_ = form.figure(tr("α as in the paper"),
                              tr("The paper does not divide the data term by ε. With this α its own equation "
                                 "balances the terms as here."));

@@ -1,6 +1,6 @@
 #include "ui/transfer/factor_editor.h"
 
-#include <QHBoxLayout>
+#include <QGridLayout>
 #include <QSignalBlocker>
 #include <algorithm>
 #include <cmath>
@@ -20,9 +20,7 @@ QDoubleSpinBox* number_box(QWidget* parent) {
   box->setKeyboardTracking(false);
   // Its width is the layout's: nine digits would make every panel wide.
   box->setMinimumWidth(64);
-  QSizePolicy policy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  policy.setRetainSizeWhenHidden(true);  // the rows of a form stay in line
-  box->setSizePolicy(policy);
+  box->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   guard_from_wheel(box);
   return box;
 }
@@ -35,12 +33,13 @@ FactorEditor::FactorEditor(QWidget* parent)
   kind_->addItem(tr("Gaussian"), static_cast<int>(Kind::gaussian));
   kind_->addItem(tr("Ramp"), static_cast<int>(Kind::ramp));
   guard_from_wheel(kind_);
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(4);
-  row->addWidget(kind_);
-  row->addWidget(start_, 1);
-  row->addWidget(end_, 1);
+  // The numbers below the kind, and only where they matter: a panel has no room for both in a row.
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setSpacing(4);
+  grid->addWidget(kind_, 0, 0, 1, 2);
+  grid->addWidget(start_, 1, 0);
+  grid->addWidget(end_, 1, 1);
   setFocusProxy(kind_);
   connect(kind_, &QComboBox::activated, this, &FactorEditor::take_kind);
   connect(start_, &QDoubleSpinBox::valueChanged, this, &FactorEditor::take_numbers);

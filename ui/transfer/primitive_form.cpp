@@ -10,7 +10,7 @@
 namespace tidemark {
 
 PrimitiveForm::PrimitiveForm(PrimitiveKind kind, int axes, QWidget* parent)
-    : QWidget(parent), opacity_(new QDoubleSpinBox(this)), colour_(new QPushButton(tr("Colour…"), this)) {
+    : QWidget(parent), opacity_(new QDoubleSpinBox(this)), colour_(new QPushButton(this)) {
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setColumnStretch(1, 1);
@@ -18,7 +18,8 @@ PrimitiveForm::PrimitiveForm(PrimitiveKind kind, int axes, QWidget* parent)
     auto* name = new QLabel(this);
     auto* editor = new FactorEditor(this);
     name->setBuddy(editor->kind_box());
-    grid->addWidget(name, axis, 0);
+    name->setMinimumHeight(editor->kind_box()->sizeHint().height());
+    grid->addWidget(name, axis, 0, Qt::AlignTop);  // beside the kind
     grid->addWidget(editor, axis, 1);
     names_.push_back(name);
     factors_.push_back(editor);
@@ -38,11 +39,13 @@ PrimitiveForm::PrimitiveForm(PrimitiveKind kind, int axes, QWidget* parent)
   opacity_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   opacity_->setKeyboardTracking(false);
   guard_from_wheel(opacity_);
+  opacity_->setMinimumWidth(64);
+  opacity_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   colour_->setToolTip(tr("The colour that the primitive gives"));
   auto* row = new QHBoxLayout;
   row->setSpacing(4);
   row->addWidget(opacity_, 1);
-  row->addWidget(colour_, 1);
+  row->addWidget(colour_);
   grid->addWidget(name, axes, 0);
   grid->addLayout(row, axes, 1);
   connect(opacity_, &QDoubleSpinBox::valueChanged, this, [this](double opacity) {

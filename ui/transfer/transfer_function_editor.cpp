@@ -74,6 +74,8 @@ QWidget* TransferFunctionEditor::make_volume_tab() {
   region_->addItem(tr("Only inside"), static_cast<int>(Region::inside));
   region_->addItem(tr("Only outside"), static_cast<int>(Region::outside));
   region_->addItem(tr("Everywhere, the inside tinted"), static_cast<int>(Region::tinted));
+  region_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);  // its texts are long
+  region_->setMinimumContentsLength(8);
   guard_from_wheel(region_);
   region_->setAccessibleName(tr("Level set as region of interest"));
   region_->setToolTip(tr("Where the volume shows: the level set is a region of interest"));

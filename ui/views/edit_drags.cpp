@@ -5,30 +5,34 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "ui/views/overlay.h"
-
 namespace tidemark {
 
 SphereDrag::SphereDrag(DragView view, const Pointer& pressed, Brush brush)
     : Drag(std::move(view)),
       brush_(brush),
       centre_mm_(*pressed.patient_mm),
-      radius_mm_(display().settings().brush_mm) {}
+      radius_mm_(display().settings().brush_mm) {
+  show();
+}
+
+SphereDrag::~SphereDrag() {
+  display().set_drawn_sphere(std::nullopt);
+}
+
+void SphereDrag::show() {
+  display().set_drawn_sphere(DrawnSphere{{centre_mm_, radius_mm_}, brush_ == Brush::erase});
+}
 
 void SphereDrag::move(const Pointer& pointer) {
   if (!pointer.patient_mm) return;
   // A click alone makes a sphere of the brush's size.
   const double way_mm = glm::distance(*pointer.patient_mm, centre_mm_);
   if (way_mm > 2.0 * view().mm_per_pixel) radius_mm_ = way_mm;
+  show();
 }
 
 void SphereDrag::release() {
   session().paint({centre_mm_, radius_mm_}, brush_, CaseSession::new_gesture());
-}
-
-void SphereDrag::paint(QPainter& painter) const {
-  paint_circle(painter, view().position_of(centre_mm_), radius_mm_ / view().mm_per_pixel,
-               brush_ == Brush::erase);
 }
 
 QString SphereDrag::text() const {

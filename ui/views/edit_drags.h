@@ -5,16 +5,18 @@
 
 namespace tidemark {
 
-// From the centre outwards; painted when the button is let go.
+// From the centre outwards, seen in all views; painted when the button is let go.
 class SphereDrag : public Drag {
  public:
   SphereDrag(DragView view, const Pointer& pressed, Brush brush);
+  ~SphereDrag() override;
   void move(const Pointer& pointer) override;
   void release() override;
-  void paint(QPainter& painter) const override;
   [[nodiscard]] QString text() const override;
 
  private:
+  void show();
+
   Brush brush_;
   glm::dvec3 centre_mm_;
   double radius_mm_;

@@ -57,7 +57,9 @@ PictureView::PictureView(CaseSession& session, QWidget* parent)
   follow_display();
 }
 
-PictureView::~PictureView() = default;
+PictureView::~PictureView() {
+  drag_.reset();  // it speaks to all views, this one included
+}
 
 PictureSize PictureView::physical_size() const {
   const double ratio = devicePixelRatioF();
@@ -113,7 +115,7 @@ void PictureView::paint_all(QPainter& painter) {
   painter.setRenderHint(QPainter::Antialiasing);
   paint_picture(painter);
   paint_overlay(painter);
-  paint_brush(painter);
+  if (const auto brush = ring()) paint_circle(painter, brush->centre, brush->radius, brush->erases);
   if (!drag_) return;
   drag_->paint(painter);
   paint_text(painter, QRectF(mouse_ + QPointF(16, 10), QSizeF(240, 18)), Qt::AlignLeft | Qt::AlignVCenter,
@@ -148,15 +150,18 @@ void PictureView::paint_study(QPainter& painter, const QString& note) const {
   paint_corner(painter, size(), Qt::AlignRight | Qt::AlignTop, upper_right);
 }
 
-// The brush, and its cross-section in the other views.
-void PictureView::paint_brush(QPainter& painter) {
+std::optional<PictureView::Ring> PictureView::ring() const {
+  std::optional<DrawnSphere> shown = display().drawn_sphere();
   const auto& pointer = display().pointer_mm();
-  if (!pointer || drag_ || !edits(settings().tool)) return;
-  const double off_mm = glm::distance(*pointer, patient_at(position_of(*pointer)).value_or(*pointer));
-  const double square = settings().brush_mm * settings().brush_mm - off_mm * off_mm;
-  if (square <= 0.0) return;
-  paint_circle(painter, position_of(*pointer), std::sqrt(square) / mm_per_pixel(),
-               settings().tool == Tool::erase);
+  if (!shown && pointer && !drag_ && edits(settings().tool)) {
+    shown = DrawnSphere{{*pointer, settings().brush_mm}, settings().tool == Tool::erase};
+  }
+  if (!shown) return std::nullopt;
+  const auto& [centre_mm, radius_mm] = shown->sphere;
+  const double off_mm = glm::distance(centre_mm, patient_at(position_of(centre_mm)).value_or(centre_mm));
+  const double square = radius_mm * radius_mm - off_mm * off_mm;
+  if (square <= 0.0) return std::nullopt;
+  return Ring{position_of(centre_mm), std::sqrt(square) / mm_per_pixel(), shown->erases};
 }
 
 void PictureView::resizeEvent(QResizeEvent* event) {

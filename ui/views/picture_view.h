@@ -33,6 +33,14 @@ class PictureView : public QWidget {
   [[nodiscard]] virtual std::optional<glm::dvec3> patient_at(QPointF position) const = 0;
   [[nodiscard]] virtual double mm_per_pixel() const = 0;
 
+  // The cross-section of the brush, or of the sphere that is being drawn in whatever view, in logical pixels.
+  struct Ring {
+    QPointF centre;
+    double radius = 0.0;
+    bool erases = false;
+  };
+  [[nodiscard]] std::optional<Ring> ring() const;
+
   [[nodiscard]] QSize sizeHint() const override { return {420, 380}; }
   [[nodiscard]] QSize minimumSizeHint() const override { return {120, 100}; }
 
@@ -80,7 +88,6 @@ class PictureView : public QWidget {
   void follow_display();
   void paint_all(QPainter& painter);
   void paint_picture(QPainter& painter);
-  void paint_brush(QPainter& painter);
   [[nodiscard]] Pointer pointer_at(const QMouseEvent& event) const;
 
   CaseSession& session_;

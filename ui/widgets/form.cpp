@@ -2,6 +2,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
 
@@ -92,6 +93,26 @@ SliderNumber* Form::slider(const QString& label, const QString& tip) {
   row(label, slider, tip);
   slider->set_name(label, tip);
   return slider;
+}
+
+void Form::ends_of(const SliderNumber& slider, const QString& low, const QString& high) {
+  auto* words = new QWidget;
+  auto* row = new QHBoxLayout(words);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(0);
+  const auto word = [row](const QString& text) {
+    auto* label = new QLabel(text);
+    label->setForegroundRole(QPalette::PlaceholderText);
+    row->addWidget(label);
+    return label->sizeHint().width();
+  };
+  word(low);
+  row->addStretch(1);
+  const int width = word(high);
+  // The second one has its middle below the slider's end, as far as there is room for both.
+  row->addSpacerItem(
+      new QSpacerItem(slider.number()->minimumWidth() + kSpace - width / 2, 0, QSizePolicy::Maximum));
+  layout_->setWidget(layout_->rowCount(), QFormLayout::FieldRole, words);
 }
 
 QCheckBox* Form::check(const QString& text, const QString& tip) {

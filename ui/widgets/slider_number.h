@@ -3,7 +3,6 @@
 
 #include <QElapsedTimer>
 #include <QWidget>
-#include <algorithm>
 #include <cstdint>
 
 class QDoubleSpinBox;
@@ -18,11 +17,11 @@ class SliderNumber : public QWidget {
   enum class Scale { linear, logarithmic };
   explicit SliderNumber(QWidget* parent = nullptr);
 
-  // What the slider spans from its left to its right end (low may be the greater one); a number outside can
-  // be typed as long as it is within [least, most]. A logarithmic scale needs numbers > 0.
+  // What the slider spans from its left to its right end; a number outside can be typed as long as it is
+  // within [least, most]. A logarithmic scale needs numbers > 0.
   void set_range(double low, double high, double least, double most, Scale scale = Scale::linear);
   void set_range(double low, double high, Scale scale = Scale::linear) {
-    set_range(low, high, std::min(low, high), std::max(low, high), scale);
+    set_range(low, high, low, high, scale);
   }
   void set_decimals(int decimals);  // and a step of one in the last place
   void set_step(double step);       // of the arrows

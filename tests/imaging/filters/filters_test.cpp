@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <random>
 
 #include "imaging/filters/filters.h"
+#include "imaging/filters/suggest_start.h"
 #include "tests/support/support.h"
 
 using namespace tidemark;
@@ -49,6 +51,30 @@ Moments moments(const Volume& volume, int axis) {
   }
   const double mean = sums[1] / sums[0];
   return {sums[0], mean, std::sqrt(std::max(0.0, sums[2] / sums[0] - mean * mean))};
+}
+
+constexpr double kFat = -100.0;
+constexpr double kOrgan = 60.0;
+
+// Air, in it a cylinder of even fat, and in the middle of that two noisy balls: one of soft tissue beside the
+// centre, a very noisy one in it.
+Volume body_like_ct() {
+  Volume volume = float_volume({64, 64, 64});
+  std::mt19937 random(3);
+  const auto noise = [&random](double deviation) {
+    return std::normal_distribution<double>(0.0, deviation)(random);
+  };
+  const Index3 size = volume.geometry.size;
+  for (std::int64_t offset = 0; offset < volume.geometry.voxel_count(); ++offset) {
+    const Index3 voxel(offset % size.x, offset / size.x % size.y, offset / (size.x * size.y));
+    const glm::dvec3 place(voxel);
+    double value = -1000.0 + noise(10.0);
+    if (glm::distance(glm::dvec2(place), glm::dvec2(32.0)) < 26.0) value = kFat + noise(1.0);
+    if (glm::distance(place, glm::dvec3(32.0, 40.0, 32.0)) < 10.0) value = kOrgan + noise(8.0);
+    if (glm::distance(place, glm::dvec3(32.0)) < 4.0) value = kOrgan + noise(60.0);
+    at(volume, voxel) = static_cast<float>(value);
+  }
+  return volume;
 }
 
 Volume random_volume(Index3 size) {
@@ -220,6 +246,24 @@ class FiltersTest : public QObject {
     QCOMPARE(components.largest.count(), std::int64_t{5});
     QVERIFY(components.largest.voxels[static_cast<std::size_t>(mask.geometry.offset({5, 3, 3}))] == 1);
     QVERIFY(components.largest.geometry == mask.geometry);
+  }
+
+  void in_ct_the_first_suggestion_is_soft_tissue_and_not_the_fat_that_is_more_even() {
+    for (const std::string modality : {"CT", ""}) {
+      Volume body = body_like_ct();
+      body.modality = modality;
+      const auto suggestion = suggest_start(body);
+      QCOMPARE(failure(suggestion), QString());
+      QVERIFY2(std::abs(suggestion->target - kOrgan) < 10.0, qPrintable(QString::number(suggestion->target)));
+      QVERIFY(suggestion->range >= 30.0 && suggestion->range < kOrgan - kFat);
+      // The nearest even place to the middle of the volume, which lies in the muscle's noise.
+      const glm::dvec3 middle = 0.5 * glm::dvec3(body.geometry.size);
+      QVERIFY(glm::distance(glm::dvec3(suggestion->voxel), middle) < 14.0);
+    }
+    // Other modalities: some even, bright place, whatever its values are.
+    Volume bright = body_like_ct();
+    bright.modality = "MR";
+    QVERIFY(std::abs(suggest_start(bright)->target - kFat) < 5.0);
   }
 
   void an_empty_mask_has_no_component_and_a_full_one_has_one() {

@@ -17,6 +17,7 @@ class OneModelStoryTest : public QObject {
  private slots:
   void a_parameter_reads_the_same_everywhere();
   void a_tool_is_the_same_in_all_bars();
+  void a_sphere_that_is_being_drawn_is_seen_in_all_views();
   void the_clip_plane_is_moved_tilted_and_worked_on();
 
  private:
@@ -103,6 +104,48 @@ void OneModelStoryTest::a_tool_is_the_same_in_all_bars() {
     QVERIFY(tools[tool]->isChecked());
     for (const QToolButton* button : buttons) QVERIFY(button->toolTip().contains(tools[tool]->toolTip()));
   }
+}
+
+void OneModelStoryTest::a_sphere_that_is_being_drawn_is_seen_in_all_views() {
+  Desktop desktop(ExecutorKind::host, {1300, 800});
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.window().active_case()->set_layout(ViewLayout::two_two);
+  desktop.settle();
+  auto* axial = desktop.view<SliceViewWidget>("Axial");
+  auto* coronal = desktop.view<SliceViewWidget>("Coronal");
+  auto* sagittal = desktop.view<SliceViewWidget>("Sagittal");
+  QVERIFY(axial && coronal && sagittal);
+  const glm::dvec3 centre = desktop.seed_mm();
+  constexpr double kRadius = 13.0;
+  constexpr double kBeside = 5.0;  // the coronal slice does not go through the middle
+  desktop.session().display().change([&](DisplaySettings& s) {
+    s.cursor_mm = centre + glm::dvec3(0.0, kBeside, 0.0);
+    s.brush_mm = 2.0;
+  });
+  desktop.press(Qt::Key_S);
+  const auto hold = [axial](QEvent::Type type, glm::dvec3 at) {
+    const QPointF there = axial->position_of(at);
+    const bool moves = type == QEvent::MouseMove;
+    QMouseEvent event(type, there, axial->mapToGlobal(there), moves ? Qt::NoButton : Qt::LeftButton,
+                      type == QEvent::MouseButtonRelease ? Qt::NoButton : Qt::LeftButton, {});
+    QApplication::sendEvent(axial, &event);
+  };
+  hold(QEvent::MouseButtonPress, centre);
+  hold(QEvent::MouseMove, centre + glm::dvec3(kRadius, 0.0, 0.0));
+  const auto radius_in = [](const PictureView& view) {
+    const auto ring = view.ring();
+    return ring ? ring->radius * view.mm_per_pixel() : -1.0;
+  };
+  QCOMPARE(radius_in(*axial), kRadius);
+  QVERIFY(std::abs(radius_in(*sagittal) - kRadius) < 1e-6);
+  QVERIFY(std::abs(radius_in(*coronal) - std::sqrt(kRadius * kRadius - kBeside * kBeside)) < 1e-6);
+  QVERIFY(radius_in(*desktop.view<VolumeViewWidget>()) > 0.0);
+  desktop.screenshot("sphere-being-drawn");
+  // Then it is the brush again.
+  hold(QEvent::MouseButtonRelease, centre + glm::dvec3(kRadius, 0.0, 0.0));
+  QVERIFY(std::abs(radius_in(*axial) - 2.0) < 1e-6);
+  desktop.settle();
+  QVERIFY(desktop.state().begun);
 }
 
 void OneModelStoryTest::the_clip_plane_is_moved_tilted_and_worked_on() {

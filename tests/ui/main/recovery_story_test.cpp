@@ -4,10 +4,12 @@
 #include <QPushButton>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 
 #include "imaging/phantom/phantom.h"
 #include "study/autosave.h"
 #include "tests/ui/main/desktop.h"
+#include "ui/main/message_bar.h"
 #include "ui/main/saved_cases.h"
 
 namespace tidemark::test {
@@ -62,6 +64,7 @@ class RecoveryStoryTest : public QObject {
 
  private slots:
   void work_is_there_again_after_a_kill();
+  void a_damaged_session_brings_the_copies_that_there_are();
   void nothing_is_offered_after_a_clean_end();
 
  private:
@@ -96,9 +99,11 @@ void RecoveryStoryTest::work_is_there_again_after_a_kill() {
 
   Desktop desktop(story_executor(), {900, 640});
   QTimer user;
-  connect(&user, &QTimer::timeout, this, [] {
-    const QWidget* box = QApplication::activeModalWidget();
+  QString offered;
+  connect(&user, &QTimer::timeout, this, [&offered] {
+    const auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
     if (!box) return;
+    offered = box->informativeText();
     for (QPushButton* button : box->findChildren<QPushButton*>()) {
       if (button->text().remove('&') == "Open them") return button->click();
     }
@@ -106,6 +111,7 @@ void RecoveryStoryTest::work_is_there_again_after_a_kill() {
   user.start(20);
   desktop.window().saved_cases().offer_rescued();
   user.stop();
+  QVERIFY2(offered.contains("Sphere") && offered.contains("Dumbbell"), qPrintable(offered));
   QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 2; }));
   desktop.settle();
   QStringList found;
@@ -124,6 +130,52 @@ void RecoveryStoryTest::work_is_there_again_after_a_kill() {
 
   Desktop::answer(QMessageBox::Discard);
   Desktop::answer(QMessageBox::Discard);
+  QVERIFY(desktop.window().close());
+  QVERIFY(Desktop::wait_for([] { return files_of_copies() == 0; }));
+}
+
+void RecoveryStoryTest::a_damaged_session_brings_the_copies_that_there_are() {
+  Desktop desktop(ExecutorKind::host, {900, 640});
+  QVERIFY(desktop.open_phantom("dumbbell"));
+  desktop.begin(9.0);
+  const std::string damaged = (home_ / "damaged.tidemark").string();
+  { std::ofstream(damaged) << "PK, but nothing of ours"; }
+  const auto* messages = desktop.window().findChild<MessageBar*>();
+  // Without copies it is said, and nothing is asked.
+  desktop.window().open(QString::fromStdString(damaged));
+  QVERIFY(Desktop::wait_for([&] { return !messages->text().isEmpty(); }));
+  QVERIFY2(
+      messages->text().contains(QString::fromStdString(damaged)) && messages->text().contains("another copy"),
+      qPrintable(messages->text()));
+  QVERIFY(!messages->text().contains("zip", Qt::CaseInsensitive));
+
+  // A copy that a program left behind.
+  bool kept = false;
+  desktop.session().take_snapshot("{}", [&kept](const auto& snapshot) {
+    auto copies = Autosave::create(recovery_folder(), Autosave::new_case_id());
+    kept = copies && copies->write(snapshot->contents);
+  });
+  QVERIFY(Desktop::wait_for([&] { return kept; }));
+  QString offered;
+  QTimer user;
+  connect(&user, &QTimer::timeout, this, [&offered] {
+    const auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (!box || !box->isVisible()) return;
+    offered = box->text() + box->informativeText();
+    for (QPushButton* button : box->findChildren<QPushButton*>()) {
+      if (button->text().remove('&') == "Open it") return button->click();
+    }
+  });
+  user.start(20);
+  desktop.window().open(QString::fromStdString(damaged));
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 2; }));
+  user.stop();
+  QVERIFY2(offered.contains("damaged.tidemark") && offered.contains("Dumbbell"), qPrintable(offered));
+  desktop.settle();
+  QVERIFY(desktop.state().begun);
+  // What could not be opened is over.
+  QCOMPARE(messages->text(), QString());
+  for (int window = 0; window < 2; ++window) Desktop::answer(QMessageBox::Discard);
   QVERIFY(desktop.window().close());
   QVERIFY(Desktop::wait_for([] { return files_of_copies() == 0; }));
 }

@@ -1,12 +1,16 @@
 // Screens of other scales: pictures have the screen's pixels, the mouse hits what is seen, texts fit.
 #include <QApplication>
+#include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QMenu>
+#include <QMenuBar>
+#include <QScrollArea>
 #include <QToolButton>
 #include <glm/geometric.hpp>
 
 #include "tests/ui/main/desktop.h"
+#include "ui/main/panel_docks.h"
 #include "ui/views/view_bar.h"
 
 namespace tidemark::test {
@@ -18,6 +22,8 @@ class ScaleStoryTest : public QObject {
   void pictures_have_the_pixels_of_the_screen();
   void a_click_hits_what_is_seen();
   void texts_of_the_bars_fit();
+  void panels_fit_into_their_column();
+  void the_icon_of_a_case_is_whole();
 };
 
 void ScaleStoryTest::pictures_have_the_pixels_of_the_screen() {
@@ -115,6 +121,52 @@ void ScaleStoryTest::texts_of_the_bars_fit() {
     }
   }
   QCOMPARE(bars, 4);
+}
+
+void ScaleStoryTest::panels_fit_into_their_column() {
+  Desktop desktop(ExecutorKind::host, {1100, 760});
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(10.0);
+  int panels = 0;
+  for (const char* name :
+       {"initialise", "level-set", "paint", "display", "transfer", "labels", "statistics"}) {
+    desktop.window().panels().show(name);
+    QTest::qWait(50);
+    auto* dock = desktop.window().findChild<QDockWidget*>(name);
+    QVERIFY2(dock && dock->isVisible(), name);
+    QCOMPARE(dock->width(), 320);
+    for (const QScrollArea* area : dock->findChildren<QScrollArea*>()) {
+      if (!area->isVisible()) continue;
+      QVERIFY2(
+          area->widget()->width() <= area->viewport()->width(),
+          qPrintable(
+              QString("%1: %2 in %3").arg(name).arg(area->widget()->width()).arg(area->viewport()->width())));
+      ++panels;
+    }
+    desktop.screenshot(QStringLiteral("panel-%1-%2").arg(name).arg(desktop.window().devicePixelRatioF()));
+  }
+  QCOMPARE(panels, 7);
+}
+
+void ScaleStoryTest::the_icon_of_a_case_is_whole() {
+  Desktop desktop(ExecutorKind::host, {1000, 700});
+  QVERIFY(desktop.open_phantom("sphere"));
+  QMenuBar* bar = desktop.window().menuBar();
+  const QWidget* label = bar->cornerWidget(Qt::TopLeftCorner);
+  QVERIFY(label && label->isVisible());
+  const QImage image =
+      bar->grab(label->geometry() & bar->rect()).toImage().convertToFormat(QImage::Format_RGB32);
+  QRect drawn;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      if (image.pixelColor(x, y) != desktop.window().palette().color(QPalette::Window))
+        drawn |= QRect(x, y, 1, 1);
+    }
+  }
+  const double scale = desktop.window().devicePixelRatioF();
+  QVERIFY2(std::abs(drawn.width() - drawn.height()) <= 2 * scale &&
+               std::abs(drawn.height() - 16 * scale) <= 2 * scale,
+           qPrintable(QString("%1 x %2").arg(drawn.width()).arg(drawn.height())));
 }
 
 }  // namespace tidemark::test

@@ -17,6 +17,7 @@ class TwoCasesStoryTest : public QObject {
   void linked_cases_are_looked_at_together();
   void cases_in_lock_step_rest_at_the_same_step_data();
   void cases_in_lock_step_rest_at_the_same_step();
+  void one_step_in_lock_step_is_one_of_each();
   void one_case_that_goes_back_stops_both();
 
  private:
@@ -194,6 +195,35 @@ void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {
   qInfo("step %lld", static_cast<long long>(one.state().step));
   disconnect(&one, nullptr, this, nullptr);
   disconnect(&two, nullptr, this, nullptr);
+}
+
+void TwoCasesStoryTest::one_step_in_lock_step_is_one_of_each() {
+  Desktop desktop(ExecutorKind::host, {1200, 760});
+  const auto cases = open_two(desktop, "tumour", "tumour");
+  begin_both(desktop, cases, 8.0);
+  CaseSession& one = cases[0]->session();
+  CaseSession& two = cases[1]->session();
+  desktop.press(Qt::Key_L, Qt::ControlModifier);
+  for (std::int64_t step = 1; step <= 3; ++step) {
+    desktop.press(Qt::Key_Period);
+    desktop.settle();
+    QCOMPARE(one.state().step, step);
+    QCOMPARE(two.state().step, step);
+  }
+  // Also while they play: they rest, both at the same step.
+  desktop.press(Qt::Key_P);
+  QVERIFY(Desktop::wait_for([&] { return one.state().step > 10 && two.state().step > 10; }));
+  desktop.press(Qt::Key_Period);
+  QVERIFY(Desktop::wait_for([&] { return !one.state().playing && !two.state().playing; }));
+  desktop.settle();
+  QCOMPARE(one.state().step, two.state().step);
+  // Apart again each steps alone.
+  desktop.press(Qt::Key_L, Qt::ControlModifier);
+  const std::int64_t rest = two.state().step;
+  one.step();
+  desktop.settle();
+  QCOMPARE(one.state().step, rest + 1);
+  QCOMPARE(two.state().step, rest);
 }
 
 void TwoCasesStoryTest::one_case_that_goes_back_stops_both() {

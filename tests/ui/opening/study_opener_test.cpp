@@ -111,6 +111,7 @@ class StudyOpenerTest : public QObject {
     QCOMPARE(began_->first()[0].toString(), QString("Sphere"));
     QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
     QCOMPARE(study()->origin.phantom, std::string("sphere"));
+    QCOMPARE(study()->name, began_->first()[0].toString());
   }
 
   void opening_can_be_given_up() {
@@ -230,8 +231,24 @@ class StudyOpenerTest : public QObject {
     const auto* what = report.findChild<QLabel*>("what");
     QVERIFY(what->text().contains("slices sorted by position"));
     QVERIFY(what->text().contains("&lt;b&gt;odd"));
+    const auto press = [&report](const QString& name) {
+      for (QPushButton* button : report.findChildren<QPushButton*>()) {
+        if (button->text() == name) return QTest::mouseClick(button, Qt::LeftButton);
+      }
+      QFAIL("no such button");
+    };
+    // One line, until more is asked for.
+    report.resize(700, report.sizeHint().height());
     report.show();
-    QTest::mouseClick(report.findChild<QPushButton*>(), Qt::LeftButton);
+    QVERIFY(!what->isVisible());
+    const int line = report.sizeHint().height();
+    QVERIFY2(line < 3 * report.fontMetrics().height(), qPrintable(QString::number(line)));
+    press("Details");
+    QVERIFY(what->isVisible());
+    QVERIFY(report.sizeHint().height() > line);
+    press("Details");
+    QVERIFY(!what->isVisible());
+    press("Dismiss");
     QCOMPARE(dismissed.size(), 1);
     QVERIFY(!report.isVisible());
 

@@ -47,6 +47,18 @@ class LabelsPanelTest : public QObject {
     QVERIFY(shown != QLocale().toString(0.0, 'f', 1));
   }
 
+  void without_a_label_the_surface_becomes_a_new_one() {
+    QVERIFY(!button<QPushButton>(*panel_, tr("Accept surface into label"))->isEnabled());  // no surface
+    the_case_->begin(8.0);
+    click(tr("Accept surface into label"));
+    QCOMPARE(the_case_->state().labels.size(), std::size_t{1});
+    QCOMPARE(the_case_->state().label_statistics.front().voxels, the_case_->state().surface.voxels_inside);
+    QCOMPARE(chosen_row(), 0);
+    // Again it goes into that one.
+    click(tr("Accept surface into label"));
+    QCOMPARE(the_case_->state().labels.size(), std::size_t{1});
+  }
+
   void the_level_set_starts_again_from_a_label() {
     add();
     the_case_->begin(8.0);

@@ -88,14 +88,29 @@ class LevelSetPanelTest : public QObject {
     QCOMPARE(panel_->findChild<TentPlot*>()->range(), 33.0);
   }
 
-  void to_the_right_the_surface_becomes_smoother() {
-    auto* slider = named<QSlider>(*panel_, tr("Smoothness α"));
+  void to_the_right_the_data_weigh_more() {
+    auto* slider = named<QSlider>(*panel_, tr("Data weight α"));
     slider->setFocus();
     const double before = the_case_->session->parameters().alpha;
     QTest::keyClick(slider, Qt::Key_Right);
-    QVERIFY(the_case_->session->parameters().alpha < before);
+    QVERIFY(the_case_->session->parameters().alpha > before);
     QTest::keyClick(slider, Qt::Key_End);
+    QCOMPARE(the_case_->session->parameters().alpha, 1.0);
+    QTest::keyClick(slider, Qt::Key_Home);
     QCOMPARE(the_case_->session->parameters().alpha, 0.0);
+  }
+
+  void the_ends_of_alpha_say_what_they_stand_for() {
+    const auto* slider = named<QSlider>(*panel_, tr("Data weight α"));
+    const auto middle = [this](const QString& text) {
+      for (const QLabel* label : panel_->findChildren<QLabel*>()) {
+        if (label->text() == text) return label->mapTo(panel_.get(), label->rect().center()).x();
+      }
+      return -1;
+    };
+    const int left = slider->mapTo(panel_.get(), QPoint()).x();
+    QVERIFY(std::abs(middle(tr("smooth")) - left) < slider->width() / 2);
+    QVERIFY(std::abs(middle(tr("follow data")) - (left + slider->width())) < slider->width() / 3);
   }
 
   void the_peak_of_the_tent_moves_t_alone() {
@@ -159,7 +174,7 @@ class LevelSetPanelTest : public QObject {
     parameters.rescaling_term = false;
     the_case_->session->set_parameters(parameters);
     QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Target T"))->value(), 42.0);
-    QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Smoothness α"))->value(), 0.25);
+    QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Data weight α"))->value(), 0.25);
     QCOMPARE(panel_->findChild<TentPlot*>()->target(), 42.0);
     QVERIFY(!button<QCheckBox>(*panel_, tr("Rescaling"))->isChecked());
     // alpha / (alpha + (1 - alpha) epsilon) = 0.25 / (0.25 + 0.75 * 50)

@@ -92,6 +92,28 @@ class TransferEditorTest : public QObject {
     QVERIFY(f.function().source[0].phi.end != 3.0);
   }
 
+  void it_fits_into_the_column_of_panels() {
+    constexpr int kColumn = 320;
+    EditorFixture f;
+    QVERIFY(f.is_shown());
+    // As many numbers as there can be.
+    for (int axis = 0; axis < 3; ++axis) pick(f.editor.volume_page()->form()->factor(axis)->kind_box(), 1);
+    for (int tab = 0; tab < f.editor.tabs()->count(); ++tab) {
+      f.editor.tabs()->setCurrentIndex(tab);
+      f.editor.resize(kColumn, 700);
+      QCoreApplication::processEvents();
+      QCOMPARE(f.editor.width(), kColumn);
+      for (const QWidget* control : f.editor.tabs()->currentWidget()->findChildren<QWidget*>()) {
+        if (!control->isVisible() || control->focusPolicy() == Qt::NoFocus) continue;
+        const int right = control->mapTo(&f.editor, QPoint(control->width(), 0)).x();
+        QVERIFY2(right <= kColumn,
+                 qPrintable(QString("%1 %2: %3")
+                                .arg(control->metaObject()->className(), control->accessibleName())
+                                .arg(right)));
+      }
+    }
+  }
+
   void a_gaussian_becomes_a_ramp_where_it_is() {
     EditorFixture f;
     QVERIFY(f.is_shown());

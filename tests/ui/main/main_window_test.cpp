@@ -1,0 +1,218 @@
+// What the main window shows around the cases: panels, tools, help and messages.
+#include <QApplication>
+#include <QDialog>
+#include <QDockWidget>
+#include <QTextBrowser>
+
+#include "tests/ui/main/desktop.h"
+#include "ui/main/message_bar.h"
+#include "ui/main/panel_docks.h"
+#include "ui/main/saved_cases.h"
+
+namespace tidemark::test {
+
+class MainWindowTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void panels_come_and_go_with_the_cases();
+  void hidden_panels_stay_hidden_for_the_next_case();
+  void how_panels_stand_is_remembered_though_none_shows_at_the_end();
+  void without_a_case_nothing_is_chosen_or_playing();
+  void help_is_one_window_and_escape_closes_it();
+  void a_session_that_is_opened_shows_the_level_set();
+  void a_failure_is_forgotten_once_it_has_succeeded();
+  void a_phantom_has_one_name();
+
+ private:
+  static bool is_in_front(Desktop& desktop, const char* panel);
+  static bool any_panel_shows(Desktop& desktop);
+  static void close_case(Desktop& desktop);
+};
+
+bool MainWindowTest::is_in_front(Desktop& desktop, const char* panel) {
+  const auto* dock = desktop.window().findChild<QDockWidget*>(panel);
+  return dock && !dock->visibleRegion().isEmpty();
+}
+
+bool MainWindowTest::any_panel_shows(Desktop& desktop) {
+  const QList<QDockWidget*> docks =
+      desktop.window().findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly);
+  return std::any_of(docks.begin(), docks.end(), [](const QDockWidget* dock) { return dock->isVisible(); });
+}
+
+void MainWindowTest::close_case(Desktop& desktop) {
+  desktop.window().active_case()->close_saved();
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().isEmpty(); }));
+  QTest::qWait(50);
+}
+
+void MainWindowTest::panels_come_and_go_with_the_cases() {
+  Desktop desktop(ExecutorKind::host, {1100, 700});
+  QVERIFY(!any_panel_shows(desktop));
+  for (QAction* toggle : desktop.window().panels().toggles()) QVERIFY(!toggle->isEnabled());
+  QVERIFY(desktop.open_phantom("sphere"));
+  QVERIFY(is_in_front(desktop, "initialise"));
+  for (QAction* toggle : desktop.window().panels().toggles()) QVERIFY(toggle->isEnabled());
+  QCOMPARE(desktop.window().findChild<QDockWidget*>("initialise")->width(), 320);
+  desktop.window().panels().show("labels");
+  desktop.settle();
+  close_case(desktop);
+  QVERIFY(!any_panel_shows(desktop));
+  // As they stood.
+  QVERIFY(desktop.open_phantom("sphere"));
+  QVERIFY(is_in_front(desktop, "labels"));
+  QCOMPARE(desktop.window().findChild<QDockWidget*>("labels")->width(), 320);
+}
+
+void MainWindowTest::hidden_panels_stay_hidden_for_the_next_case() {
+  Desktop desktop(ExecutorKind::host, {1100, 700});
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.press(Qt::Key_F3);
+  QVERIFY(!any_panel_shows(desktop));
+  close_case(desktop);
+  QVERIFY(desktop.open_phantom("sphere"));
+  QVERIFY(!any_panel_shows(desktop));
+  desktop.press(Qt::Key_F3);
+  desktop.settle();
+  QVERIFY(is_in_front(desktop, "initialise"));
+}
+
+void MainWindowTest::how_panels_stand_is_remembered_though_none_shows_at_the_end() {
+  Desktop desktop(ExecutorKind::host, {1100, 700});
+  for (const bool first : {true, false}) {
+    MainWindow window(desktop.engine());
+    window.resize(1100, 700);
+    window.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&window));
+    window.open_phantom("sphere");
+    QVERIFY(Desktop::wait_for([&] { return window.active_case() != nullptr; }));
+    desktop.settle();
+    if (first) {
+      window.panels().show("display");
+      QTest::qWait(50);
+    }
+    const auto* display = window.findChild<QDockWidget*>("display");
+    QVERIFY(display->isVisible() && !display->visibleRegion().isEmpty());
+    window.active_case()->close_saved();
+    QVERIFY(window.close());
+  }
+}
+
+void MainWindowTest::without_a_case_nothing_is_chosen_or_playing() {
+  Desktop desktop(ExecutorKind::host, {1100, 700});
+  Actions& actions = desktop.window().actions();
+  QVERIFY(!actions.tools->checkedAction());
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.press(Qt::Key_B);
+  QCOMPARE(actions.tools->checkedAction(), actions.tool(Tool::paint));
+  desktop.press(Qt::Key_X);
+  desktop.begin(10.0);
+  desktop.session().set_pause_at_convergence(false);
+  desktop.press(Qt::Key_P);
+  QVERIFY(Desktop::wait_for([&] { return desktop.state().playing; }));
+  QVERIFY(actions.play->isChecked());
+  close_case(desktop);
+  QVERIFY(!actions.tools->checkedAction());
+  QVERIFY(!actions.play->isChecked() && !actions.clip->isChecked());
+  QCOMPARE(actions.play->text(), QString("&Play"));
+  QCOMPARE(actions.undo->text(), QString("&Undo"));
+  // The group still lets only one be chosen.
+  QVERIFY(desktop.open_phantom("sphere"));
+  QVERIFY(actions.tools->checkedAction());
+  actions.tool(Tool::erase)->trigger();
+  QCOMPARE(actions.tools->checkedAction(), actions.tool(Tool::erase));
+}
+
+void MainWindowTest::help_is_one_window_and_escape_closes_it() {
+  Desktop desktop(ExecutorKind::host, {1100, 700});
+  const auto pages = [&] {
+    QList<QDialog*> visible;
+    for (QDialog* dialog : desktop.window().findChildren<QDialog*>()) {
+      if (dialog->isVisible()) visible << dialog;
+    }
+    return visible;
+  };
+  for (int press = 0; press < 2; ++press) {
+    desktop.press(Qt::Key_F1);
+    QCOMPARE(pages().size(), 1);
+  }
+  QDialog* page = pages().first();
+  QVERIFY(QTest::qWaitForWindowActive(page));
+  QTest::keyClick(page->findChild<QTextBrowser*>(), Qt::Key_Escape);
+  QVERIFY(pages().isEmpty());
+  // With the keys as they are by then.
+  Actions& actions = desktop.window().actions();
+  actions.set_key(actions.play, QKeySequence("F7"));
+  desktop.press(Qt::Key_F1);
+  QCOMPARE(pages().size(), 1);
+  QVERIFY(pages().first()->findChild<QTextBrowser*>()->toPlainText().contains("F7"));
+}
+
+void MainWindowTest::a_session_that_is_opened_shows_the_level_set() {
+  const TemporaryFolder folder;
+  const QString file = QString::fromStdString((folder / "one.tidemark").string());
+  Desktop desktop(ExecutorKind::host, {1100, 700});
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(10.0);
+  desktop.window().active_case()->session_file = file;
+  desktop.press(Qt::Key_S, Qt::ControlModifier);
+  QVERIFY(Desktop::wait_for([&] { return !desktop.state().modified; }));
+  for (const char* before : {"initialise", "labels", "transfer"}) {
+    desktop.window().panels().show(before);
+    desktop.settle();
+    QVERIFY(is_in_front(desktop, before));
+    close_case(desktop);
+    QVERIFY(desktop.open(file));
+    QVERIFY2(is_in_front(desktop, "level-set"), before);
+  }
+}
+
+void MainWindowTest::a_failure_is_forgotten_once_it_has_succeeded() {
+  const TemporaryFolder folder;
+  const auto inside = [&](const char* name) { return QString::fromStdString((folder / name).string()); };
+  Desktop desktop(ExecutorKind::host, {1100, 700});
+  const auto* messages = desktop.window().findChild<MessageBar*>();
+  const auto told = [&] { return Desktop::wait_for([&] { return !messages->text().isEmpty(); }); };
+  const auto forgotten = [&] { return Desktop::wait_for([&] { return messages->text().isEmpty(); }); };
+
+  // Opening.
+  desktop.window().open(inside("nowhere"));
+  QVERIFY(told());
+  QVERIFY(desktop.open_phantom("sphere"));
+  QVERIFY(forgotten());
+  desktop.begin(10.0);
+
+  // Writing: what goes elsewhere or is another kind of file changes nothing.
+  CaseWindow& window = *desktop.window().active_case();
+  SavedCases& saved = desktop.window().saved_cases();
+  saved.write_mask(window, inside("missing/mask.nrrd"));
+  QVERIFY(told());
+  const QString message = messages->text();
+  saved.write_surface(window, inside("surface.stl"));
+  QVERIFY(Desktop::wait_for([&] { return std::filesystem::exists(folder / "surface.stl"); }));
+  desktop.settle();
+  QCOMPARE(messages->text(), message);
+  saved.write_mask(window, inside("mask.nrrd"));
+  QVERIFY(forgotten());
+
+  // The case itself.
+  desktop.session().begin_from_label(77);
+  QVERIFY(told());
+  desktop.settle();
+  QVERIFY(!messages->text().isEmpty());
+  desktop.session().paint({desktop.seed_mm(), 12.0}, Brush::add, CaseSession::new_gesture());
+  QVERIFY(forgotten());
+}
+
+void MainWindowTest::a_phantom_has_one_name() {
+  Desktop desktop(ExecutorKind::host, {1100, 700});
+  QVERIFY(desktop.open_phantom("organ"));
+  QCOMPARE(desktop.session().name(), QString("Liver"));
+  QVERIFY(desktop.window().active_case()->windowTitle().startsWith("Liver[*]"));
+}
+
+}  // namespace tidemark::test
+
+TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::MainWindowTest)
+#include "main_window_test.moc"

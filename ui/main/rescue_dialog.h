@@ -1,0 +1,18 @@
+// Asks what is to be done with copies of cases that were not saved.
+#pragma once
+
+#include <QString>
+#include <vector>
+
+#include "study/autosave.h"
+
+class QWidget;
+
+namespace tidemark {
+
+enum class RescueAnswer { open, discard, later };
+
+// `why`: how they came to be there. The copies are listed by name, study and age.
+RescueAnswer ask_about_copies(QWidget* parent, const QString& why, const std::vector<Recoverable>& copies);
+
+}  // namespace tidemark
