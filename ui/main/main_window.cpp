@@ -20,6 +20,7 @@
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/main/case_links.h"
+#include "ui/main/case_messages.h"
 #include "ui/main/first_steps.h"
 #include "ui/main/keys_dialog.h"
 #include "ui/main/menus.h"
@@ -197,7 +198,7 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
     settings.tool = active_ ? active_->session().display().settings().tool : settings.tool;
   });
   settle(kAboutOpening);
-  connect_messages(*window);
+  new CaseMessages(*window, *messages_);  // its child
   connect(window, &CaseWindow::close_wanted, saved_, &SavedCases::close);
   QMdiSubWindow* child = area_->addSubWindow(window);
   child->setAttribute(Qt::WA_DeleteOnClose);
@@ -241,26 +242,6 @@ void MainWindow::tell(const QString& message, const QString& about) {
 
 void MainWindow::settle(const QString& about) {
   messages_->settle(about);
-}
-
-// What cannot be done to a case is forgotten once something else was.
-void MainWindow::connect_messages(CaseWindow& window) {
-  CaseSession& session = window.session();
-  const QString about = QStringLiteral("case %1").arg(reinterpret_cast<quintptr>(&session));
-  // An entry of the history that is still open counts only by its text.
-  const auto done = [&session] {
-    return QStringLiteral("%1 %2").arg(session.state().edits).arg(session.state().undo_text);
-  };
-  connect(&session, &CaseSession::failed, this, [this, done, about](const QString& message) {
-    done_at_failure_ = done();
-    tell(message, about);
-  });
-  connect(&session, &CaseSession::state_changed, this, [this, done, about] {
-    if (done() != done_at_failure_) settle(about);
-  });
-  connect(&window.autosave(), &CaseAutosave::failed, this, [this](const QString& message) {
-    tell(tr("No copy is kept for the case of a crash: %1").arg(message));
-  });
 }
 
 // The active case.

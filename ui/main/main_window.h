@@ -59,7 +59,6 @@ class MainWindow : public QMainWindow {
   void connect_evolution();
   void connect_views();
   void connect_windows();
-  void connect_messages(CaseWindow& window);
   void ask_for_folder();
   void ask_for_file();
   void show_case(QMdiSubWindow& child, const LoadedStudy& study, const RestoredCase& restored);
@@ -83,7 +82,6 @@ class MainWindow : public QMainWindow {
   ValueBar* values_ = nullptr;
   SavedCases* saved_ = nullptr;
   QPointer<CaseWindow> active_;
-  QString done_at_failure_;  // what the case had done when something failed in it
   bool quitting_ = false;
   QList<QMetaObject::Connection> active_connections_;
 };

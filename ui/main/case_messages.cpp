@@ -1,0 +1,41 @@
+#include "ui/main/case_messages.h"
+
+#include "session/case_autosave.h"
+#include "session/case_session.h"
+#include "ui/main/case_window.h"
+#include "ui/main/message_bar.h"
+
+namespace tidemark {
+namespace {
+
+// One case's failure is not settled by another's success.
+QString name_of(const CaseWindow& window) {
+  return QStringLiteral("case %1").arg(reinterpret_cast<quintptr>(&window));
+}
+
+}  // namespace
+
+CaseMessages::CaseMessages(CaseWindow& window, MessageBar& bar)
+    : QObject(&window), window_(window), bar_(bar) {
+  connect(&window.session(), &CaseSession::failed, this, &CaseMessages::tell_failure);
+  connect(&window.session(), &CaseSession::state_changed, this, &CaseMessages::follow);
+  connect(&window.autosave(), &CaseAutosave::failed, this, [this](const QString& message) {
+    bar_.show_text(tr("No copy is kept for the case of a crash: %1").arg(message));
+  });
+}
+
+QString CaseMessages::done() const {
+  const CaseState& state = window_.session().state();
+  return QStringLiteral("%1 %2").arg(state.edits).arg(state.undo_text);
+}
+
+void CaseMessages::tell_failure(const QString& message) {
+  done_at_failure_ = done();
+  bar_.show_text(message, name_of(window_));
+}
+
+void CaseMessages::follow() {
+  if (done() != done_at_failure_) bar_.settle(name_of(window_));
+}
+
+}  // namespace tidemark

@@ -1,0 +1,29 @@
+// What fails in a case, told until something else has succeeded in it.
+#pragma once
+
+#include <QObject>
+#include <QString>
+
+namespace tidemark {
+
+class CaseWindow;
+class MessageBar;
+
+// Goes with the window.
+class CaseMessages : public QObject {
+  Q_OBJECT
+ public:
+  CaseMessages(CaseWindow& window, MessageBar& bar);
+
+ private:
+  // What the case has done, as text: an entry of the history that is still open counts only by its own.
+  [[nodiscard]] QString done() const;
+  void tell_failure(const QString& message);
+  void follow();
+
+  CaseWindow& window_;
+  MessageBar& bar_;
+  QString done_at_failure_;
+};
+
+}  // namespace tidemark
