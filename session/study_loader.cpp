@@ -72,8 +72,11 @@ Result<LoadedStudy> load_study(const ChosenSeries& chosen, const Progress& progr
 Result<Catalogue> find_choice(const fs::path& path, const Progress& progress) {
   auto catalogue = find_series(path, progress);
   if (!catalogue || catalogue->series.size() != 1 || catalogue->series.front().loadable) return catalogue;
-  const auto refused = choose_series(*catalogue, {}, path);
-  return tl::unexpected<Error>(refused.error());
+  // A reason that names the file need not do it twice.
+  std::string reason = catalogue->series.front().reason;
+  if (const std::string name = path.filename().string() + ": "; reason.starts_with(name))
+    reason.erase(0, name.size());
+  return fail(ErrorKind::input, "{}: {}", path.string(), reason);
 }
 
 // The series to load of what lies under the path.

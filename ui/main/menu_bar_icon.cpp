@@ -3,12 +3,18 @@
 #include <QChildEvent>
 #include <QMenuBar>
 #include <QPainter>
+#include <algorithm>
 
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 
 namespace tidemark {
 namespace {
+
+// Qt's own class has no header, and inherits() does not know it.
+bool is_icon_label(const QObject& object) {
+  return qstrcmp(object.metaObject()->className(), "QMdi::ControlLabel") == 0;
+}
 
 // Watches the menu bar for Qt's label, and paints in its place.
 class IconPainter : public QObject {
@@ -18,14 +24,15 @@ class IconPainter : public QObject {
   bool eventFilter(QObject* watched, QEvent* event) override {
     if (event->type() == QEvent::ChildAdded) {
       QObject* child = static_cast<QChildEvent*>(event)->child();
-      if (child->inherits("QMdi::ControlLabel")) child->installEventFilter(this);
+      if (is_icon_label(*child)) child->installEventFilter(this);
       return false;
     }
-    if (event->type() != QEvent::Paint || !watched->inherits("QMdi::ControlLabel")) return false;
+    if (event->type() != QEvent::Paint || !is_icon_label(*watched)) return false;
     auto* label = static_cast<QWidget*>(watched);
     QPainter painter(label);
     QRect place(0, 0, kIconSmall, kIconSmall);
     place.moveCenter(label->rect().center());
+    place.moveLeft(std::min(place.left(), kSpaceTight));  // not at the first menu
     application_icon().paint(&painter, place);
     return true;
   }

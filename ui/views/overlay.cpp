@@ -111,7 +111,10 @@ void paint_measurements(QPainter& painter, const std::vector<Measurement>& measu
 
 void paint_corner(QPainter& painter, QSizeF size, Qt::Alignment corner, const QStringList& lines) {
   constexpr double kMiddle = 24.0;  // room for the letter of the patient's side
-  const QSizeF room((size.width() - kMiddle) / 2.0 - kMargin, size.height() - 2.0 * kMargin);
+  // At the bottom there is only the scale bar to the right.
+  const bool shares = corner.testFlag(Qt::AlignTop);
+  const QSizeF room(shares ? (size.width() - kMiddle) / 2.0 - kMargin : size.width() - 2.0 * kMargin,
+                    size.height() - 2.0 * kMargin);
   const QFontMetricsF metrics(painter.font());
   QStringList fitting;
   for (const QString& line : lines) fitting << metrics.elidedText(line, Qt::ElideRight, room.width());

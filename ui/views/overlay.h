@@ -33,7 +33,7 @@ void paint_measurements(QPainter& painter, const std::vector<Measurement>& measu
                         const SliceScreen& screen, double reach_mm);
 QString text_of(const Measurement& measurement);
 
-// Lines in a corner, cut short where they would meet those of the next one.
+// Lines in a corner, those at the top cut short where they would meet the ones of the other corner.
 void paint_corner(QPainter& painter, QSizeF size, Qt::Alignment corner, const QStringList& lines);
 // For the corners at the top: whose images they are, and which.
 QStringList patient_lines(const Patient& patient);

@@ -140,11 +140,14 @@ void PictureView::paint_picture(QPainter& painter) {
 }
 
 void PictureView::paint_study(QPainter& painter, const QString& note) const {
+  constexpr int kLines = 8;  // three above, three below, and the letters between them
+  const bool is_low = height() < kLines * fontMetrics().height();
   QStringList upper_right;
   if (settings().patient_text) {
     const LoadedStudy& study = session_.study();
-    paint_corner(painter, size(), Qt::AlignLeft | Qt::AlignTop, patient_lines(study.patient));
-    upper_right = series_lines(study);
+    const QStringList patient = patient_lines(study.patient);
+    paint_corner(painter, size(), Qt::AlignLeft | Qt::AlignTop, is_low ? patient.mid(0, 1) : patient);
+    if (!is_low) upper_right = series_lines(study);
   }
   if (!note.isEmpty()) upper_right << note;
   paint_corner(painter, size(), Qt::AlignRight | Qt::AlignTop, upper_right);

@@ -57,7 +57,8 @@ class PictureView : public QWidget {
   // To be called instead of update().
   void paint_again();
   virtual void paint_overlay(QPainter& painter) = 0;
-  // The corners at the top: whose images they are, which, and what else is to be known of the view.
+  // The corners at the top: whose images they are, which, and what else is to be known of the view. A view
+  // that is low has room for the name and the note.
   void paint_study(QPainter& painter, const QString& note = {}) const;
   // Drags that are about the view itself; `first_choice`: the left button of a tool that has nothing to do
   // here.

@@ -63,6 +63,25 @@ class CornersTest : public QObject {
     QCOMPARE(differing_pixels(picture, empty, QRect(142, 0, 158, 200)), 0);
   }
 
+  void a_low_view_has_room_for_the_name_alone() {
+    Engine engine{false};
+    CaseSession session(engine, ball_of("Doe, John", "2004-07-31"), ExecutorKind::host);
+    CaseSession nameless(engine, ball_of("", ""), ExecutorKind::host);
+    QVERIFY(QTest::qWaitFor([&] { return engine.idle(); }, 60000));
+    const auto view = view_of(session, false);
+    const auto other = view_of(nameless, false);
+    const int line = view->fontMetrics().height();
+    view->resize(400, 7 * line);
+    other->resize(400, 7 * line);
+    const QImage low = view->grab_picture();
+    other->session().display().change([](DisplaySettings& settings) { settings.patient_text = false; });
+    const QImage without = other->grab_picture();
+    const int below_name = 8 + line + 2;
+    QVERIFY(differing_pixels(low, without, QRect(0, 0, 190, below_name)) > 50);
+    QCOMPARE(differing_pixels(low, without, QRect(0, below_name, 400, 7 * line - below_name)), 0);
+    QCOMPARE(differing_pixels(low, without, QRect(200, 0, 200, 7 * line)), 0);
+  }
+
   void every_view_names_the_patient_until_that_is_hidden_data() {
     QTest::addColumn<bool>("in_3d");
     QTest::newRow("slice") << false;
