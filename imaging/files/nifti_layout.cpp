@@ -2,6 +2,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <glm/gtc/quaternion.hpp>
 
 #include "core/checked.h"
 #include "imaging/files/pixel_layout.h"
@@ -82,7 +83,8 @@ Result<std::int64_t> count_voxels(const Fields& header, const std::string& name)
 Status check_geometry(const Fields& header, const std::string& name) {
   for (std::size_t axis = 1; axis <= 3; ++axis) {
     const float spacing = header.read<float>(76 + 4 * axis);
-    if (!std::isfinite(spacing)) return fail(ErrorKind::input, "{}: pixdim[{}] is {}", name, axis, spacing);
+    if (!std::isfinite(spacing) || spacing == 0.0F)
+      return fail(ErrorKind::input, "{}: pixdim[{}] is {}", name, axis, spacing);
   }
   const bool qform = header.read<std::int16_t>(252) > 0;
   const bool sform = header.read<std::int16_t>(254) > 0;
@@ -97,20 +99,44 @@ Status check_geometry(const Fields& header, const std::string& name) {
   return {};
 }
 
+// A qform's rotation, from its quaternion (nifti1.h, method 2), times spacing and qfac.
+glm::dmat3 qform_axes(const Fields& header) {
+  const double b = header.read<float>(256);
+  const double c = header.read<float>(260);
+  const double d = header.read<float>(264);
+  const double a = std::sqrt(std::max(0.0, 1.0 - (b * b + c * c + d * d)));
+  glm::dmat3 axes = glm::mat3_cast(glm::normalize(glm::dquat(a, b, c, d)));
+  for (int axis = 0; axis < 3; ++axis) {
+    axes[axis] *= std::abs(header.read<float>(80 + 4 * static_cast<std::size_t>(axis)));
+  }
+  if (header.read<float>(76) < 0.0F) axes[2] = -axes[2];
+  return axes;
+}
+
 // qform and sform are two statements of one thing; a user should know when they contradict each other.
 void compare_orientations(const Fields& header, PixelLayout& layout) {
   const bool qform = header.read<std::int16_t>(252) > 0;
   const bool sform = header.read<std::int16_t>(254) > 0;
   layout.oriented = qform || sform;
   if (!qform || !sform) return;
+  const glm::dmat3 q_axes = qform_axes(header);
   double worst = 0.0;
-  for (std::size_t row = 0; row < 3; ++row) {
-    const double q = header.read<float>(268 + 4 * row);
-    const double s = header.read<float>(280 + 16 * row + 12);
-    worst = std::max(worst, std::abs(q - s));
+  for (int corner = 0; corner < 8; ++corner) {
+    glm::dvec3 voxel;
+    for (int axis = 0; axis < 3; ++axis) {
+      voxel[axis] = (corner >> axis & 1) != 0 ? static_cast<double>(header.dim(axis + 1) - 1) : 0.0;
+    }
+    const glm::dvec3 q = q_axes * voxel;
+    for (std::size_t row = 0; row < 3; ++row) {
+      const auto sform_at = [&](std::size_t column) -> double {
+        return header.read<float>(280 + 16 * row + 4 * column);
+      };
+      const double s = sform_at(0) * voxel.x + sform_at(1) * voxel.y + sform_at(2) * voxel.z + sform_at(3);
+      worst = std::max(worst, std::abs(q[static_cast<int>(row)] + header.read<float>(268 + 4 * row) - s));
+    }
   }
   if (worst > 0.1) {
-    layout.warnings.push_back(fmt::format("qform and sform place the first voxel {:.1f} mm apart", worst));
+    layout.warnings.push_back(fmt::format("qform and sform place voxels up to {:.1f} mm apart", worst));
   }
 }
 
@@ -128,7 +154,10 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
   if (header.size_field() == kNifti2HeaderSize) {
     return fail(ErrorKind::input, "{}: sizeof_hdr is 540: NIfTI-2 is not supported", name);
   }
-  if (header.size_field() != static_cast<std::int32_t>(kHeaderSize) || header.magic() != "n+1") {
+  if (header.size_field() != static_cast<std::int32_t>(kHeaderSize) && header.magic() == "n+1") {
+    return fail(ErrorKind::input, "{}: sizeof_hdr is {}, not 348", name, header.size_field());
+  }
+  if (header.magic() != "n+1") {
     return fail(ErrorKind::input, "{}: not a NIfTI file: its header has no 'n+1' magic", name);
   }
   const auto voxels = count_voxels(header, name);
