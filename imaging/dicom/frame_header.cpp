@@ -16,28 +16,30 @@ std::int64_t long_word(const std::uint8_t* bytes) {
   return word(bytes) << 16 | word(bytes + 2);
 }
 
-// SOF0 to SOF15 and SOF55 (JPEG-LS); of these, C4, C8 and CC are other things.
-bool starts_frame(int marker) {
-  return marker == 0xf7 ||
-         (marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc);
+// SOF0 to SOF15, of which C4, C8 and CC are other things; SOF55 is JPEG-LS's.
+bool starts_frame(int marker, FrameCoding coding) {
+  if (coding == FrameCoding::jpeg_ls) return marker == 0xf7;
+  return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
 }
 
-std::optional<FrameSize> read_jpeg(ByteReader& reader, std::int64_t begin, std::int64_t end) {
-  const std::uint8_t* bytes = reader.at(begin, 2);
+// What may stand in front of a frame: DHT, DAC, DQT, DRI, LSE, APPn and comments. DCMTK looks for the frame
+// too, and stays for ever at others (TEM, for one).
+bool is_table(int marker) {
+  return marker == 0xc4 || marker == 0xcc || marker == 0xdb || marker == 0xdd || marker == 0xf8 ||
+         (marker >= 0xe0 && marker <= 0xef) || marker == 0xfe;
+}
+
+std::optional<FrameSize> read_jpeg(FrameCoding coding, ByteReader& reader, std::int64_t begin,
+                                   std::int64_t end) {
+  const std::uint8_t* bytes = begin + 2 <= end ? reader.at(begin, 2) : nullptr;
   if (bytes == nullptr || word(bytes) != 0xffd8) return std::nullopt;
   std::int64_t at = begin + 2;
   for (int passed = 0; passed < kMostPassed && at + 10 <= end; ++passed) {
     bytes = reader.at(at, 10);
     if (bytes == nullptr || bytes[0] != 0xff) return std::nullopt;
-    const int marker = bytes[1];
-    if (marker == 0xff) {  // fill
-      ++at;
-      continue;
-    }
-    if (starts_frame(marker)) return FrameSize{word(bytes + 7), word(bytes + 5), bytes[9], 1};
-    if (marker == 0xda || marker == 0xd9) return std::nullopt;  // a scan before its frame, or the end
-    const bool is_alone = marker == 0x01 || (marker >= 0xd0 && marker <= 0xd8);
-    at += is_alone ? 2 : 2 + std::max<std::int64_t>(2, word(bytes + 2));
+    if (starts_frame(bytes[1], coding)) return FrameSize{word(bytes + 7), word(bytes + 5), bytes[9], 1};
+    if (!is_table(bytes[1]) || word(bytes + 2) < 2) return std::nullopt;
+    at += 2 + word(bytes + 2);
   }
   return std::nullopt;
 }
@@ -83,7 +85,7 @@ std::optional<FrameSize> read_frame_size(FrameCoding coding, ByteReader& reader,
   switch (coding) {
     case FrameCoding::jpeg:
     case FrameCoding::jpeg_ls:
-      return read_jpeg(reader, begin, end);
+      return read_jpeg(coding, reader, begin, end);
     case FrameCoding::jpeg_2000:
       return read_j2k(reader, begin, end);
     default:

@@ -2,7 +2,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
 
 #include "core/checked.h"
 #include "imaging/files/pixel_layout.h"
@@ -79,24 +81,60 @@ Result<std::int64_t> count_voxels(const Fields& header, const std::string& name)
   return voxels;
 }
 
+// Beyond these a length is damage, not anatomy; ITK's decomposition of the sform does not end on some of
+// them.
+constexpr double kLongest = 1e6;    // mm
+constexpr double kShortest = 1e-6;  // mm
+
+bool is_length(double mm) {
+  return std::abs(mm) >= kShortest && std::abs(mm) <= kLongest;  // NaN is none
+}
+
+// The sform's axes, in mm a voxel.
+glm::dmat3 sform_axes(const Fields& header) {
+  glm::dmat3 axes;
+  for (int row = 0; row < 3; ++row) {
+    for (int axis = 0; axis < 3; ++axis) {
+      axes[axis][row] = header.read<float>(280 + static_cast<std::size_t>(16 * row + 4 * axis));
+    }
+  }
+  return axes;
+}
+
+Status check_sform(const Fields& header, const std::string& name) {
+  const glm::dmat3 axes = sform_axes(header);
+  double volume = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double length = glm::length(axes[axis]);
+    if (!is_length(length)) {
+      return fail(ErrorKind::input, "{}: sform: the direction of axis {} has a length of {} mm", name, axis,
+                  length);
+    }
+    volume *= length;
+  }
+  constexpr double kFlat = 1e-3;
+  if (std::abs(glm::determinant(axes)) >= kFlat * volume) return {};
+  return fail(ErrorKind::input, "{}: sform: the directions of its axes lie in one plane", name);
+}
+
 // pixdim, the quaternion and offsets of the qform and the rows of the sform, where they are in use.
 Status check_geometry(const Fields& header, const std::string& name) {
   for (std::size_t axis = 1; axis <= 3; ++axis) {
     const float spacing = header.read<float>(76 + 4 * axis);
-    if (!std::isfinite(spacing) || spacing == 0.0F)
-      return fail(ErrorKind::input, "{}: pixdim[{}] is {}", name, axis, spacing);
+    if (!is_length(spacing)) return fail(ErrorKind::input, "{}: pixdim[{}] is {}", name, axis, spacing);
   }
   const bool qform = header.read<std::int16_t>(252) > 0;
   const bool sform = header.read<std::int16_t>(254) > 0;
   for (std::size_t i = 0; i < 18; ++i) {
     const bool in_use = i < 6 ? qform : sform;
-    const float number = header.read<float>(256 + 4 * i);
-    if (in_use && !std::isfinite(number)) {
+    const double number = header.read<float>(256 + 4 * i);
+    const double largest = i < 3 ? 1.0 + 1e-3 : kLongest;  // a unit quaternion's parts
+    if (in_use && !(std::abs(number) <= largest)) {
       return fail(ErrorKind::input, "{}: {}: the origin or direction is {}", name, i < 6 ? "qform" : "sform",
                   number);
     }
   }
-  return {};
+  return sform ? check_sform(header, name) : Status();
 }
 
 // A qform's rotation, from its quaternion (nifti1.h, method 2), times spacing and qfac.
@@ -120,6 +158,7 @@ void compare_orientations(const Fields& header, PixelLayout& layout) {
   layout.oriented = qform || sform;
   if (!qform || !sform) return;
   const glm::dmat3 q_axes = qform_axes(header);
+  const glm::dmat3 s_axes = sform_axes(header);
   double worst = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
     glm::dvec3 voxel;
@@ -127,12 +166,12 @@ void compare_orientations(const Fields& header, PixelLayout& layout) {
       voxel[axis] = (corner >> axis & 1) != 0 ? static_cast<double>(header.dim(axis + 1) - 1) : 0.0;
     }
     const glm::dvec3 q = q_axes * voxel;
+    const glm::dvec3 s = s_axes * voxel;
     for (std::size_t row = 0; row < 3; ++row) {
-      const auto sform_at = [&](std::size_t column) -> double {
-        return header.read<float>(280 + 16 * row + 4 * column);
-      };
-      const double s = sform_at(0) * voxel.x + sform_at(1) * voxel.y + sform_at(2) * voxel.z + sform_at(3);
-      worst = std::max(worst, std::abs(q[static_cast<int>(row)] + header.read<float>(268 + 4 * row) - s));
+      const int r = static_cast<int>(row);
+      const double q_offset = header.read<float>(268 + 4 * row);
+      const double s_offset = header.read<float>(280 + 16 * row + 12);
+      worst = std::max(worst, std::abs(q[r] + q_offset - s[r] - s_offset));
     }
   }
   if (worst > 0.1) {

@@ -27,8 +27,11 @@ std::string lower(std::string text) {
 // The start of the file as it is, without inflating.
 Result<std::string> read_text(const std::filesystem::path& file) {
   if (auto exists = read_start(file, 1); !exists) return pass_on(exists);
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) return fail(ErrorKind::input, "{}: {}", file.string(), error.message());
   std::ifstream stream(file, std::ios::binary);
-  std::string text(kLongestHeader, '\0');
+  std::string text(static_cast<std::size_t>(std::min<std::uintmax_t>(size, kLongestHeader)), '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
   return text;

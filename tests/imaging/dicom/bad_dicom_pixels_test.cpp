@@ -210,6 +210,14 @@ std::vector<BadDicom> frame_rows() {
        one(kJpeg, std::string("\xff\xd8\xff\xfe\xff\xff"
                               "abcd")),
        kPixelData + "holds no JPEG stream"},
+      // DCMTK never gets beyond it.
+      {"JPEG: a TEM marker", one(kJpeg, std::string("\xff\xd8\xff\x01", 4) + jpeg(4, 3).substr(2)),
+       kPixelData + "holds no JPEG stream"},
+      {"JPEG: a frame of JPEG-LS", one(kJpeg, jpeg(4, 3, 1, "\xff\xf7")),
+       kPixelData + "holds no JPEG stream"},
+      {"JPEG: a marker without length",
+       one(kJpeg, std::string("\xff\xd8\xff\xe0\0\0", 6) + jpeg(4, 3).substr(2)),
+       kPixelData + "holds no JPEG stream"},
       {"JPEG: of another size", one(kJpeg, jpeg(3, 4)),
        kPixelData + "holds a JPEG stream of 3 x 4, not 4 x 3"},
       {"JPEG: 65500 x 65500", one(kJpeg, jpeg(65500, 65500)), "holds a JPEG stream of 65500 x 65500"},
