@@ -1,30 +1,23 @@
 #include "imaging/dicom/header_reader.h"
 
 #include <dcmtk/config/osconfig.h>
-#include <dcmtk/dcmdata/dccodec.h>
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
-#include "core/checked.h"
 #include "imaging/dicom/character_sets.h"
 #include "imaging/dicom/date.h"
 #include "imaging/dicom/decimal.h"
 #include "imaging/dicom/dicom.h"
+#include "imaging/dicom/preflight.h"
 #include "imaging/dicom/read_patient.h"
 
 namespace tidemark {
 namespace {
 
 namespace fs = std::filesystem;
-
-// An empty frame compresses well, but not better than this; beyond it the file claims more than it can hold.
-constexpr std::int64_t kLargestCompression = 4096;
 
 // "PixelSpacing (0028,0030)", as messages name an attribute.
 std::string name_of(const DcmTagKey& key) {
@@ -161,40 +154,6 @@ void read_values(AttributeReader& in, SliceHeader& header) {
   header.has_burned_in_text = in.text(DCM_BurnedInAnnotation) == "YES";
 }
 
-// Whether the pixel data can hold the frame that the header promises, before memory is taken for it.
-void check_pixel_bytes(DcmPixelData& pixels, AttributeReader& in, const SliceHeader& header) {
-  const auto needed = checked_product(header.rows, header.columns, header.bits_allocated / 8);
-  if (!needed || *needed == 0) return;  // reported already
-  E_TransferSyntax syntax = EXS_Unknown;
-  const DcmRepresentationParameter* parameter = nullptr;
-  pixels.getOriginalRepresentationKey(syntax, parameter);
-  if (!DcmXfer(syntax).isEncapsulated()) {
-    const std::int64_t held = pixels.getLength(syntax);
-    if (held != *needed && held != *needed + *needed % 2) {
-      in.report(fmt::format("{} holds {} bytes where {} x {} pixels of {} bits need {}",
-                            name_of(DCM_PixelData), held, header.columns, header.rows, header.bits_allocated,
-                            *needed));
-    }
-    return;
-  }
-  if (!DcmCodecList::canChangeCoding(syntax, EXS_LittleEndianExplicit)) {
-    in.report(fmt::format("its transfer syntax {} cannot be decoded", DcmXfer(syntax).getXferName()));
-    return;
-  }
-  DcmPixelSequence* fragments = nullptr;
-  if (pixels.getEncapsulatedRepresentation(syntax, parameter, fragments).bad() || fragments == nullptr ||
-      fragments->card() < 2) {  // the first is the offset table
-    in.report(fmt::format("{} holds no compressed frame", name_of(DCM_PixelData)));
-    return;
-  }
-  std::error_code error;
-  const auto bytes = static_cast<std::int64_t>(fs::file_size(header.file, error));
-  if (!error && *needed / kLargestCompression > bytes) {
-    in.report(fmt::format("{} cannot hold {} x {} pixels in a file of {} bytes", name_of(DCM_PixelData),
-                          header.columns, header.rows, bytes));
-  }
-}
-
 // Of a file without pixel data: whether it is an image that has lost them (and belongs to a series, which is
 // then incomplete), or why it is something else.
 Status require_image(DcmFileFormat& loaded, const SliceHeader& header) {
@@ -219,13 +178,30 @@ Status require_image(DcmFileFormat& loaded, const SliceHeader& header) {
 }
 
 bool is_lossy_syntax(E_TransferSyntax syntax) {
-  constexpr std::array kLossy{EXS_JPEGProcess1, EXS_JPEGProcess2_4, EXS_JPEGLSLossy, EXS_JPEG2000};
+  constexpr std::array kLossy{EXS_JPEGProcess1,     EXS_JPEGProcess2_4, EXS_JPEGProcess6_8,
+                              EXS_JPEGProcess10_12, EXS_JPEGLSLossy,    EXS_JPEG2000};
   return std::find(kLossy.begin(), kLossy.end(), syntax) != kLossy.end();
 }
 
-}  // namespace
+// One line without the file's name.
+std::string describe(const Preflight& checked) {
+  const auto& [tag, offset, what] = checked.reason;
+  const std::string element = tag == DicomTag{} ? "the dataset" : name_of(DcmTagKey(tag.group, tag.element));
+  const bool is_damaged = checked.verdict == Preflight::Verdict::damaged;
+  return fmt::format("{}{} {} (at byte {})", is_damaged ? "is damaged: " : "", element, what, offset);
+}
 
-Result<SliceHeader> slice_header_of(DcmFileFormat& loaded, const fs::path& file) {
+// All that is known of a file that cannot be parsed.
+SliceHeader header_without_image(const fs::path& file, const Preflight& checked) {
+  SliceHeader header;
+  header.file = file;
+  header.series_uid = checked.series_uid;
+  if (checked.syntax != nullptr) header.transfer_syntax = checked.syntax->uid;
+  header.problem = describe(checked);
+  return header;
+}
+
+Result<SliceHeader> header_of(DcmFileFormat& loaded, const fs::path& file, const Preflight& checked) {
   DcmDataset& dataset = *loaded.getDataset();
   SliceHeader header;
   header.file = file;
@@ -249,33 +225,49 @@ Result<SliceHeader> slice_header_of(DcmFileFormat& loaded, const fs::path& file)
   read_pixel_format(in, header);
   read_plane(in, header);
   read_values(in, header);
-  if (auto* pixels = dynamic_cast<DcmPixelData*>(element)) {
-    check_pixel_bytes(*pixels, in, header);
-  } else {
+  if (dynamic_cast<DcmPixelData*>(element) == nullptr) {
     in.report(fmt::format("{} is not pixel data", name_of(DCM_PixelData)));
   }
+  if (checked.verdict != Preflight::Verdict::good) in.report(describe(checked));
   return header;
 }
 
-Result<SliceHeader> read_slice_header(const fs::path& file) {
-  if (std::ifstream stream(file); !stream) {
-    return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(),
-                std::generic_category().message(errno));
-  }
+// The transfer syntax is that of the preflight, so that both read the same tags.
+OFCondition parse(const fs::path& file, const TransferSyntax& syntax, DcmFileFormat& loaded) {
+  return loaded.loadFile(file.c_str(), DcmXfer(std::string(syntax.uid).c_str()).getXfer());
+}
+
+}  // namespace
+
+Result<OpenedSlice> open_slice(const fs::path& file) {
+  auto bytes = FileBytes::open(file);
+  if (!bytes) return pass_on(bytes);
   if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
-  DcmFileFormat loaded;
-  const OFCondition parsed = loaded.loadFile(file.c_str());
-  // A damaged file that still names its series makes that series incomplete: it must not go unnoticed. The
-  // element at which the file ends may be cut short.
-  DcmDataset& dataset = *loaded.getDataset();
-  const bool names_its_series = dataset.tagExists(DCM_SeriesInstanceUID) &&
-                                dataset.getElement(dataset.card() - 1)->getTag() != DCM_SeriesInstanceUID;
-  if (parsed.bad() && !names_its_series) {
+  const Preflight checked = preflight_dicom(*bytes);
+  if (!checked.may_be_parsed()) {
+    // A damaged file that still names its series makes that series incomplete: it must not go unnoticed.
+    OpenedSlice damaged{header_without_image(file, checked), nullptr};
+    if (!checked.series_uid.empty()) return damaged;
+    return fail(ErrorKind::input, "{}: {}", file.string(), damaged.header.problem);
+  }
+  auto loaded = std::make_unique<DcmFileFormat>();
+  if (const OFCondition parsed = parse(file, *checked.syntax, *loaded); parsed.bad()) {
     return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
   }
-  auto header = slice_header_of(loaded, file);
-  if (header && parsed.bad()) header->problem = fmt::format("is damaged: {}", parsed.text());
-  return header;
+  auto header = header_of(*loaded, file, checked);
+  if (!header) return pass_on(header);
+  return OpenedSlice{std::move(*header), std::move(loaded)};
+}
+
+OpenedSlice::OpenedSlice(SliceHeader known, std::unique_ptr<DcmFileFormat> parsed)
+    : header(std::move(known)), loaded(std::move(parsed)) {}
+OpenedSlice::~OpenedSlice() = default;
+OpenedSlice::OpenedSlice(OpenedSlice&&) noexcept = default;
+
+Result<SliceHeader> read_slice_header(const fs::path& file) {
+  auto opened = open_slice(file);
+  if (!opened) return pass_on(opened);
+  return std::move(opened->header);
 }
 
 }  // namespace tidemark

@@ -1,7 +1,8 @@
-// From a DICOM file to a SliceHeader.
+// From a DICOM file to a SliceHeader. The only place where DCMTK reads a file.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "core/result.h"
 #include "imaging/dicom/slice_header.h"
@@ -10,11 +11,20 @@ class DcmFileFormat;
 
 namespace tidemark {
 
-// Parses the file; pixel data stays on the disk. Fails (ErrorKind::input) when the file is not a DICOM image;
-// an image that cannot be a slice of a volume is returned with its problem.
-[[nodiscard]] Result<SliceHeader> read_slice_header(const std::filesystem::path& file);
+struct OpenedSlice {
+  OpenedSlice(SliceHeader known, std::unique_ptr<DcmFileFormat> parsed);
+  ~OpenedSlice();
+  OpenedSlice(OpenedSlice&&) noexcept;
 
-// The same of a file that `loaded` already holds.
-[[nodiscard]] Result<SliceHeader> slice_header_of(DcmFileFormat& loaded, const std::filesystem::path& file);
+  SliceHeader header;
+  // As DCMTK parsed it, pixel data still on the disk; null when the preflight refused that, which is then the
+  // header's problem.
+  std::unique_ptr<DcmFileFormat> loaded;
+};
+
+// Checks the file (preflight.h) and parses it. Fails (ErrorKind::input) when the file is not a DICOM image;
+// an image that cannot be a slice of a volume is returned with its problem.
+[[nodiscard]] Result<OpenedSlice> open_slice(const std::filesystem::path& file);
+[[nodiscard]] Result<SliceHeader> read_slice_header(const std::filesystem::path& file);
 
 }  // namespace tidemark

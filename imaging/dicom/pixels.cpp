@@ -74,14 +74,12 @@ OFCondition read_words(DcmElement& element, bool high_word_first, SlicePixels& s
 }
 
 Result<SlicePixels> decode(const fs::path& file) {
-  DcmFileFormat loaded;
-  const OFCondition parsed = loaded.loadFile(file.c_str());
-  if (parsed.bad()) return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(), parsed.text());
-  auto header = slice_header_of(loaded, file);
-  if (!header) return pass_on(header);
-  if (!header->problem.empty()) return fail(ErrorKind::input, "{}: {}", file.string(), header->problem);
+  auto opened = open_slice(file);
+  if (!opened) return pass_on(opened);
+  SliceHeader& header = opened->header;
+  if (!header.problem.empty()) return fail(ErrorKind::input, "{}: {}", file.string(), header.problem);
 
-  DcmDataset& dataset = *loaded.getDataset();
+  DcmDataset& dataset = *opened->loaded->getDataset();
   const DcmXfer original(dataset.getOriginalXfer());
   if (original.isEncapsulated()) {
     const OFCondition decoded = dataset.chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
@@ -94,15 +92,15 @@ Result<SlicePixels> decode(const fs::path& file) {
   if (dataset.findAndGetElement(DCM_PixelData, element).bad() || element == nullptr) {
     return fail(ErrorKind::input, "{}: PixelData (7FE0,0010) is missing", file.string());
   }
-  const auto pixels = checked_product(header->rows, header->columns);
-  const auto bytes = checked_product(header->rows, header->columns, header->bits_allocated / 8);
+  const auto pixels = checked_product(header.rows, header.columns);
+  const auto bytes = checked_product(header.rows, header.columns, header.bits_allocated / 8);
   const std::int64_t held = element->getLength();
   if (!pixels || !bytes || (held != *bytes && held != *bytes + *bytes % 2)) {
     return fail(ErrorKind::input,
                 "{}: PixelData (7FE0,0010) decodes to {} bytes where {} x {} pixels need {}", file.string(),
-                held, header->columns, header->rows, bytes.value_or(0));
+                held, header.columns, header.rows, bytes.value_or(0));
   }
-  SlicePixels slice{std::move(*header), std::vector<std::int32_t>(static_cast<std::size_t>(*pixels)), false};
+  SlicePixels slice{std::move(header), std::vector<std::int32_t>(static_cast<std::size_t>(*pixels)), false};
   const bool high_word_first = original.getXfer() == EXS_BigEndianExplicit;
   if (const OFCondition read = read_words(*element, high_word_first, slice); read.bad()) {
     return fail(ErrorKind::input, "{}: PixelData (7FE0,0010) cannot be read: {}", file.string(), read.text());

@@ -294,7 +294,10 @@ std::string scalar_of(const Slices& slices, std::vector<std::string>& changes) {
 }
 
 void describe(const Slices& slices, Series& series) {
-  const SliceHeader& first = slices.front();
+  // A damaged image may say no more than which series it belongs to.
+  const auto telling =
+      std::find_if(slices.begin(), slices.end(), [](const SliceHeader& s) { return !s.modality.empty(); });
+  const SliceHeader& first = telling != slices.end() ? *telling : slices.front();
   series.uid = first.series_uid;
   if (series.uid.empty()) {
     series.uid = std::filesystem::absolute(first.file).lexically_normal().parent_path().filename().string();

@@ -70,6 +70,21 @@ Status find_offset(const TextHeader& header, const std::string& name, PixelLayou
   return {};
 }
 
+// The library takes as much memory as this field says.
+Status check_compressed_size(const TextHeader& header, const std::string& name, const PixelLayout& layout) {
+  const auto stated = header.find("compresseddatasize");
+  if (!stated || layout.coding != Coding::deflate) return {};
+  std::error_code error;
+  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(layout.file, error));
+  const auto numbers = whole_numbers(*stated);
+  if (!error && numbers && numbers->size() == 1 && numbers->front() >= 0 &&
+      numbers->front() <= std::max<std::int64_t>(0, size - layout.offset)) {
+    return {};
+  }
+  return fail(ErrorKind::input, "{}: CompressedDataSize is '{}', the file has {} bytes", name, *stated,
+              error ? 0 : size);
+}
+
 }  // namespace
 
 Result<PixelLayout> locate_meta(const std::filesystem::path& file) {
@@ -97,6 +112,7 @@ Result<PixelLayout> locate_meta(const std::filesystem::path& file) {
     layout.offset = 0;
   }
   if (auto status = find_offset(*header, name, layout); !status) return pass_on(status);
+  if (auto status = check_compressed_size(*header, name, layout); !status) return pass_on(status);
   layout.oriented =
       header->find("transformmatrix") || header->find("orientation") || header->find("rotation");
   return layout;

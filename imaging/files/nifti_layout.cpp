@@ -2,6 +2,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
 
 #include "core/checked.h"
 #include "imaging/files/pixel_layout.h"
@@ -78,23 +81,74 @@ Result<std::int64_t> count_voxels(const Fields& header, const std::string& name)
   return voxels;
 }
 
+// Beyond these a length is damage, not anatomy; ITK's decomposition of the sform does not end on some of
+// them.
+constexpr double kLongest = 1e6;    // mm
+constexpr double kShortest = 1e-6;  // mm
+
+bool is_length(double mm) {
+  return std::abs(mm) >= kShortest && std::abs(mm) <= kLongest;  // NaN is none
+}
+
+// The sform's axes, in mm a voxel.
+glm::dmat3 sform_axes(const Fields& header) {
+  glm::dmat3 axes;
+  for (int row = 0; row < 3; ++row) {
+    for (int axis = 0; axis < 3; ++axis) {
+      axes[axis][row] = header.read<float>(280 + static_cast<std::size_t>(16 * row + 4 * axis));
+    }
+  }
+  return axes;
+}
+
+Status check_sform(const Fields& header, const std::string& name) {
+  const glm::dmat3 axes = sform_axes(header);
+  double volume = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double length = glm::length(axes[axis]);
+    if (!is_length(length)) {
+      return fail(ErrorKind::input, "{}: sform: the direction of axis {} has a length of {} mm", name, axis,
+                  length);
+    }
+    volume *= length;
+  }
+  constexpr double kFlat = 1e-3;
+  if (std::abs(glm::determinant(axes)) >= kFlat * volume) return {};
+  return fail(ErrorKind::input, "{}: sform: the directions of its axes lie in one plane", name);
+}
+
 // pixdim, the quaternion and offsets of the qform and the rows of the sform, where they are in use.
 Status check_geometry(const Fields& header, const std::string& name) {
   for (std::size_t axis = 1; axis <= 3; ++axis) {
     const float spacing = header.read<float>(76 + 4 * axis);
-    if (!std::isfinite(spacing)) return fail(ErrorKind::input, "{}: pixdim[{}] is {}", name, axis, spacing);
+    if (!is_length(spacing)) return fail(ErrorKind::input, "{}: pixdim[{}] is {}", name, axis, spacing);
   }
   const bool qform = header.read<std::int16_t>(252) > 0;
   const bool sform = header.read<std::int16_t>(254) > 0;
   for (std::size_t i = 0; i < 18; ++i) {
     const bool in_use = i < 6 ? qform : sform;
-    const float number = header.read<float>(256 + 4 * i);
-    if (in_use && !std::isfinite(number)) {
+    const double number = header.read<float>(256 + 4 * i);
+    const double largest = i < 3 ? 1.0 + 1e-3 : kLongest;  // a unit quaternion's parts
+    if (in_use && !(std::abs(number) <= largest)) {
       return fail(ErrorKind::input, "{}: {}: the origin or direction is {}", name, i < 6 ? "qform" : "sform",
                   number);
     }
   }
-  return {};
+  return sform ? check_sform(header, name) : Status();
+}
+
+// A qform's rotation, from its quaternion (nifti1.h, method 2), times spacing and qfac.
+glm::dmat3 qform_axes(const Fields& header) {
+  const double b = header.read<float>(256);
+  const double c = header.read<float>(260);
+  const double d = header.read<float>(264);
+  const double a = std::sqrt(std::max(0.0, 1.0 - (b * b + c * c + d * d)));
+  glm::dmat3 axes = glm::mat3_cast(glm::normalize(glm::dquat(a, b, c, d)));
+  for (int axis = 0; axis < 3; ++axis) {
+    axes[axis] *= std::abs(header.read<float>(80 + 4 * static_cast<std::size_t>(axis)));
+  }
+  if (header.read<float>(76) < 0.0F) axes[2] = -axes[2];
+  return axes;
 }
 
 // qform and sform are two statements of one thing; a user should know when they contradict each other.
@@ -103,14 +157,25 @@ void compare_orientations(const Fields& header, PixelLayout& layout) {
   const bool sform = header.read<std::int16_t>(254) > 0;
   layout.oriented = qform || sform;
   if (!qform || !sform) return;
+  const glm::dmat3 q_axes = qform_axes(header);
+  const glm::dmat3 s_axes = sform_axes(header);
   double worst = 0.0;
-  for (std::size_t row = 0; row < 3; ++row) {
-    const double q = header.read<float>(268 + 4 * row);
-    const double s = header.read<float>(280 + 16 * row + 12);
-    worst = std::max(worst, std::abs(q - s));
+  for (int corner = 0; corner < 8; ++corner) {
+    glm::dvec3 voxel;
+    for (int axis = 0; axis < 3; ++axis) {
+      voxel[axis] = (corner >> axis & 1) != 0 ? static_cast<double>(header.dim(axis + 1) - 1) : 0.0;
+    }
+    const glm::dvec3 q = q_axes * voxel;
+    const glm::dvec3 s = s_axes * voxel;
+    for (std::size_t row = 0; row < 3; ++row) {
+      const int r = static_cast<int>(row);
+      const double q_offset = header.read<float>(268 + 4 * row);
+      const double s_offset = header.read<float>(280 + 16 * row + 12);
+      worst = std::max(worst, std::abs(q[r] + q_offset - s[r] - s_offset));
+    }
   }
   if (worst > 0.1) {
-    layout.warnings.push_back(fmt::format("qform and sform place the first voxel {:.1f} mm apart", worst));
+    layout.warnings.push_back(fmt::format("qform and sform place voxels up to {:.1f} mm apart", worst));
   }
 }
 
@@ -128,7 +193,10 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
   if (header.size_field() == kNifti2HeaderSize) {
     return fail(ErrorKind::input, "{}: sizeof_hdr is 540: NIfTI-2 is not supported", name);
   }
-  if (header.size_field() != static_cast<std::int32_t>(kHeaderSize) || header.magic() != "n+1") {
+  if (header.size_field() != static_cast<std::int32_t>(kHeaderSize) && header.magic() == "n+1") {
+    return fail(ErrorKind::input, "{}: sizeof_hdr is {}, not 348", name, header.size_field());
+  }
+  if (header.magic() != "n+1") {
     return fail(ErrorKind::input, "{}: not a NIfTI file: its header has no 'n+1' magic", name);
   }
   const auto voxels = count_voxels(header, name);

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <memory>
 
+#include "imaging/files/text_voxels.h"
+
 namespace tidemark::files {
 namespace {
 
@@ -113,9 +115,14 @@ Status check_extent(const PixelLayout& layout) {
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(layout.file, error));
   if (error) return fail(ErrorKind::input, "{}: {}", layout.file.string(), error.message());
   const std::int64_t there = std::max<std::int64_t>(0, size - layout.offset);
-  const bool enough = layout.coding == Coding::raw    ? there >= layout.bytes
+  if (layout.coding == Coding::raw && there > layout.bytes) {
+    return fail(ErrorKind::input, "{}: the header says {} bytes of voxels, the file has {} more",
+                layout.file.string(), layout.bytes, there - layout.bytes);
+  }
+  const bool enough = layout.coding == Coding::raw    ? there == layout.bytes
                       : layout.coding == Coding::text ? there / 2 + 1 >= layout.voxels
-                                                      : layout.bytes / kBestDeflateRatio <= there;
+                                                      : layout.bytes / kBestDeflateRatio <= there &&
+                                                            layout.prefix / kBestDeflateRatio <= there;
   if (enough) return {};
   return fail(ErrorKind::input, "{}: truncated: the header says {} bytes of voxels, the file has {}{}",
               layout.file.string(), layout.bytes, there,
@@ -123,7 +130,8 @@ Status check_extent(const PixelLayout& layout) {
 }
 
 Status check_stream(const PixelLayout& layout) {
-  if (layout.coding != Coding::deflate) return {};
+  if (layout.coding == Coding::text) return check_text(layout);
+  if (layout.coding == Coding::raw) return {};
   return inflate_exactly(layout, [](const unsigned char*, std::int64_t, std::int64_t) {});
 }
 
@@ -192,7 +200,9 @@ Result<std::filesystem::path> detached_file(const std::filesystem::path& header,
   const std::filesystem::path path(name);
   const bool several = name.find('%') != std::string::npos || name.rfind("LIST", 0) == 0;
   const bool outside = path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end();
-  if (name.empty() || several || outside) {
+  std::error_code ignored;
+  const bool is_folder = std::filesystem::is_directory(header.parent_path() / path, ignored);
+  if (name.empty() || several || outside || is_folder) {
     return fail(ErrorKind::input, "{}: data file '{}': only one file in the header's folder is accepted",
                 header.string(), name);
   }

@@ -47,12 +47,13 @@ bool has_suffix(const std::filesystem::path& file, const char* suffix);
 // Reads and checks the header. Fails (ErrorKind::input) naming the file and the field.
 Result<PixelLayout> locate_pixels(const std::filesystem::path& file);
 
-// Whether the bytes on disk can hold the voxels: their number when raw, at least two bytes a voxel as text,
-// and when compressed at most 1032 times what is there (deflate cannot do better). Takes no memory or time.
+// Whether the bytes on disk can hold the voxels: their exact number when raw, at least two bytes a voxel as
+// text, and when compressed at most 1032 times what is there (deflate cannot do better). Takes no memory or
+// time.
 Status check_extent(const PixelLayout& layout);
 
-// Inflates a compressed stream, keeping nothing: it must be whole, with the right checksum, and hold exactly
-// the bytes that the header says.
+// Goes through a compressed stream or a text, keeping nothing: a stream must be whole, with the right
+// checksum, and hold exactly the bytes that the header says; a text must hold exactly so many finite numbers.
 Status check_stream(const PixelLayout& layout);
 
 // Reads all voxels' bytes, as they are stored, into `destination` (layout.bytes long). Not for text. A
@@ -72,7 +73,8 @@ bool is_gzip(const std::filesystem::path& file);
 // A header of lines "name<separator>value"; names in lower case, blanks around both removed.
 struct TextHeader {
   std::map<std::string, std::string> fields;
-  std::int64_t end = 0;  // offset of the byte after the header's last line
+  std::int64_t end = 0;       // offset of the byte after the header's last line
+  std::string repeated = {};  // a name that occurs twice
 
   // The field's value, or nothing.
   [[nodiscard]] std::optional<std::string> find(const std::string& name) const;

@@ -27,8 +27,11 @@ std::string lower(std::string text) {
 // The start of the file as it is, without inflating.
 Result<std::string> read_text(const std::filesystem::path& file) {
   if (auto exists = read_start(file, 1); !exists) return pass_on(exists);
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) return fail(ErrorKind::input, "{}: {}", file.string(), error.message());
   std::ifstream stream(file, std::ios::binary);
-  std::string text(kLongestHeader, '\0');
+  std::string text(static_cast<std::size_t>(std::min<std::uintmax_t>(size, kLongestHeader)), '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
   return text;
@@ -43,10 +46,19 @@ std::optional<std::string_view> next_line(std::string_view& rest) {
   return line;
 }
 
+// Libraries differ on which of two lines of one name counts.
 void add_field(TextHeader& header, std::string_view line, std::string_view separator) {
   const auto at = line.find(separator);
   if (at == std::string_view::npos) return;
-  header.fields[lower(trimmed(line.substr(0, at)))] = trimmed(line.substr(at + separator.size()));
+  const auto [field, is_new] = header.fields.try_emplace(lower(trimmed(line.substr(0, at))),
+                                                         trimmed(line.substr(at + separator.size())));
+  if (!is_new && header.repeated.empty()) header.repeated = field->first;
+}
+
+Result<TextHeader> without_repetition(TextHeader header, const std::filesystem::path& file) {
+  if (header.repeated.empty()) return header;
+  return fail(ErrorKind::input, "{}: the header has '{}' twice", file.string(),
+              header.repeated.substr(0, 80));
 }
 
 }  // namespace
@@ -64,14 +76,14 @@ Result<TextHeader> read_nrrd_header(const std::filesystem::path& file) {
   while (const auto line = next_line(rest)) {
     if (trimmed(*line).empty()) {
       header.end = static_cast<std::int64_t>(text->size() - rest.size());
-      return header;
+      return without_repetition(std::move(header), file);
     }
     if (line->front() != '#' && line->find(":=") == std::string_view::npos) add_field(header, *line, ":");
   }
   // A header of its own may end with the file.
   if (detached && text->size() < kLongestHeader) {
     add_field(header, rest, ":");
-    return header;
+    return without_repetition(std::move(header), file);
   }
   return fail(ErrorKind::input, "{}: the header has no end (an empty line)", file.string());
 }
@@ -86,7 +98,7 @@ Result<TextHeader> read_meta_header(const std::filesystem::path& file) {
     add_field(header, *line, "=");
     if (header.fields.contains("elementdatafile")) {
       header.end = static_cast<std::int64_t>(text->size() - rest.size());
-      return header;
+      return without_repetition(std::move(header), file);
     }
     if (!trimmed(*line).empty() && line->find('=') == std::string_view::npos) break;
   }

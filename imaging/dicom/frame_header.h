@@ -1,0 +1,25 @@
+// What a compressed frame says of its own size, before a decoder takes memory for it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "imaging/dicom/byte_source.h"
+#include "imaging/dicom/transfer_syntaxes.h"
+
+namespace tidemark {
+
+struct FrameSize {
+  std::int64_t columns = 0;
+  std::int64_t rows = 0;
+  std::int64_t components = 0;
+  std::int64_t tiles = 1;  // JPEG 2000
+};
+
+// Of the frame that begins at `begin` and lasts at most to `end`: the start-of-frame marker of JPEG and
+// JPEG-LS (ISO 10918-1 B.2.2, ISO 14495-1 C.2.2), the SIZ marker of JPEG 2000 (ISO 15444-1 A.5.1). Nothing
+// when there is none, and for RLE, which has no size of its own.
+[[nodiscard]] std::optional<FrameSize> read_frame_size(FrameCoding coding, ByteReader& reader,
+                                                       std::int64_t begin, std::int64_t end);
+
+}  // namespace tidemark

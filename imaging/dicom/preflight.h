@@ -1,0 +1,40 @@
+// What is checked of a DICOM file before DCMTK sees it. DCMTK recurses into sequences until the stack ends,
+// believes lengths, and inflates what it is given; nothing here does, and no type of DCMTK is used.
+//
+// Memory: a window of some kilobytes, whatever the file says. Limits: sequences 64 deep; a deflated dataset
+// of 64 MiB; elements for which DCMTK takes 64 MiB and as many bytes as the file has; compressed frames of
+// 4096 times their file.
+//
+// With sequences 64 deep DCMTK needs no thread of its own with a large stack: 2,000 of them fit one of 1 MiB.
+#pragma once
+
+#include <string>
+
+#include "imaging/dicom/tag_walk.h"
+#include "imaging/dicom/transfer_syntaxes.h"
+
+namespace tidemark {
+
+struct Preflight {
+  enum class Verdict {
+    good,
+    bad_pixels,      // may be parsed, but PixelData cannot be what the header promises
+    unknown_syntax,  // must not be parsed: the transfer syntax is none that is read
+    damaged,         // must not be parsed
+  };
+  Verdict verdict = Verdict::good;
+  TagDamage reason;  // unless good; the tag (0000,0000) stands for the dataset itself
+  // The syntax that the file names, or that its first element shows when it names none. Not null when the
+  // file may be parsed.
+  const TransferSyntax* syntax = nullptr;
+  // SeriesInstanceUID (0020,000E), also of a damaged file if the damage comes after it; else empty.
+  std::string series_uid;
+
+  [[nodiscard]] bool may_be_parsed() const {
+    return verdict == Verdict::good || verdict == Verdict::bad_pixels;
+  }
+};
+
+[[nodiscard]] Preflight preflight_dicom(ByteSource& bytes);
+
+}  // namespace tidemark
