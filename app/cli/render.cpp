@@ -4,12 +4,12 @@
 #include <map>
 #include <memory>
 
-#include "app/cli/align.h"
 #include "app/cli/outputs.h"
 #include "app/cli/program.h"
 #include "app/cli/render_options.h"
 #include "gpu/device.h"
 #include "imaging/files/png_file.h"
+#include "imaging/onto_grid.h"
 #include "imaging/study.h"
 #include "renderer/sheet.h"
 #include "solver/distance_transform.h"

@@ -2,11 +2,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/cli/align.h"
 #include "app/cli/program.h"
 #include "app/cli/segment_options.h"
 #include "imaging/filters/filters.h"
 #include "imaging/filters/suggest_start.h"
+#include "imaging/onto_grid.h"
 #include "imaging/study.h"
 #include "study/checksum.h"
 

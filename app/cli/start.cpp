@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/cli/align.h"
+#include "imaging/onto_grid.h"
 #include "imaging/study.h"
 
 namespace tidemark::cli {

@@ -107,6 +107,32 @@ class InitialisePanelTest : public QObject {
     QVERIFY(start_button()->isEnabled());
   }
 
+  // As other programs write it: rows and columns from the other side.
+  void a_mask_on_flipped_axes_is_taken() {
+    const Geometry grid = the_case_->session->volume().geometry;
+    Mask mask{grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))};
+    mask.geometry.direction[0] = -grid.direction[0];
+    mask.geometry.direction[1] = -grid.direction[1];
+    mask.geometry.origin_mm =
+        grid.to_patient({static_cast<double>(grid.size.x - 1), static_cast<double>(grid.size.y - 1), 0.0});
+    for (std::int64_t i = 5; i < 15; ++i) {
+      for (std::int64_t j = 10; j < 20; ++j) {
+        for (std::int64_t k = 8; k < 14; ++k)
+          mask.voxels[static_cast<std::size_t>(mask.geometry.offset({i, j, k}))] = 1;
+      }
+    }
+    QCOMPARE(failure(write_mask_file(mask, folder_ / "flipped.nrrd")), QString());
+    choose(tr("Mask file"));
+    type_path("flipped.nrrd");
+    QTest::mouseClick(start_button(), Qt::LeftButton);
+    QTRY_VERIFY(the_case_->state().begun);
+    the_case_->settle();
+    const auto inside = the_case_->state().phi->mask();
+    QCOMPARE(inside.count(), mask.count());
+    const Index3 mirrored(grid.size.x - 1 - 5, grid.size.y - 1 - 10, 8);
+    QCOMPARE(inside.voxels[static_cast<std::size_t>(grid.offset(mirrored))], std::uint8_t{1});
+  }
+
   void a_mask_of_another_grid_is_refused_with_the_reason() {
     Geometry other = the_case_->session->volume().geometry;
     other.size.x -= 1;

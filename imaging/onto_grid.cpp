@@ -1,11 +1,11 @@
-#include "app/cli/align.h"
+#include "imaging/onto_grid.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace tidemark::cli {
+namespace tidemark {
 namespace {
 
 constexpr double kTolerance = 0.1;  // of the smallest spacing: files round their numbers
@@ -56,18 +56,17 @@ Geometry renamed(const Geometry& from, const AxisMap& map) {
   return result;
 }
 
-}  // namespace
-
+// For each voxel of `to`, the offset of the voxel of `from` at the same place in the patient.
 Result<std::vector<std::int64_t>> matching_voxels(const Geometry& from, const Geometry& to,
                                                   const std::string& what) {
   const AxisMap map = match_axes(from, to);
   const Geometry candidate = renamed(from, map);
   if (candidate.size != to.size) {
-    return fail(ErrorKind::input, "{}: its grid of {} is not that of the input, {}", what, describe(from),
+    return fail(ErrorKind::input, "{}: its grid of {} is not that of the study, {}", what, describe(from),
                 describe(to));
   }
   if (!same_grid(candidate, to, tolerance_mm(to))) {
-    return fail(ErrorKind::input, "{}: its grid of {} lies elsewhere in the patient than the input's, {}",
+    return fail(ErrorKind::input, "{}: its grid of {} lies elsewhere in the patient than the study's, {}",
                 what, describe(from), describe(to));
   }
   const std::array<std::int64_t, 3> from_stride{1, from.size.x, from.size.x * from.size.y};
@@ -89,6 +88,8 @@ Result<std::vector<std::int64_t>> matching_voxels(const Geometry& from, const Ge
   }
   return offsets;
 }
+
+}  // namespace
 
 Result<Mask> onto_grid(Mask mask, const Geometry& grid, const std::string& what) {
   if (same_grid(mask.geometry, grid, tolerance_mm(grid))) {
@@ -113,4 +114,4 @@ Result<std::vector<float>> onto_grid(const Volume& volume, const Geometry& grid,
   return result;
 }
 
-}  // namespace tidemark::cli
+}  // namespace tidemark
