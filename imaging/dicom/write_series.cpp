@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <random>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -15,81 +13,20 @@
 #include "core/checked.h"
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/dicom_setup.h"
+#include "imaging/dicom/dicom_values.h"
 
 namespace tidemark {
 namespace {
 
 namespace fs = std::filesystem;
 
-// A UID from a random 128-bit number (DICOM PS3.5 B.2: "2.25." and a UUID as a decimal number).
-std::string make_uid() {
-  __extension__ using Number = unsigned __int128;
-  std::random_device random;
-  Number number = 0;
-  for (int word = 0; word < 4; ++word) number = number << 32 | random();
-  // Version 4 (random), variant 1.
-  number = (number & ~(Number{0xf} << 76)) | Number{4} << 76;
-  number = (number & ~(Number{3} << 62)) | Number{2} << 62;
-  std::string digits;
-  for (; number != 0; number /= 10) digits += static_cast<char>('0' + static_cast<int>(number % 10));
-  std::reverse(digits.begin(), digits.end());
-  return "2.25." + digits;
-}
-
-// A decimal string: at most 16 characters, as exact as they allow, the same in every locale.
-std::string decimal(double value) {
-  if (value == 0.0) return "0";
-  std::string text;
-  for (int precision = 17; precision > 0; --precision) {
-    text = fmt::format("{:.{}g}", value, precision);
-    if (text.size() <= 16) break;
-  }
-  return text;
-}
-
-template <class... Values>
-std::string decimals(Values... values) {
-  std::string text;
-  ((text += (text.empty() ? "" : "\\") + decimal(values)), ...);
-  return text;
-}
-
-// Text of value representation LO or PN: no backslash (it separates values), no control characters, at most
-// 64 bytes without cutting a UTF-8 sequence.
-std::string short_text(std::string text) {
-  for (char& c : text) {
-    if (c == '\\' || static_cast<unsigned char>(c) < 0x20) c = ' ';
-  }
-  if (text.size() > 64) {
-    std::size_t end = 64;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-    text.resize(end);
-  }
-  return text;
-}
-
-bool is_ascii(const std::string& text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
-}
-
 // What all slices of a series have in common.
 struct SeriesIdentity {
   std::string study_uid = make_uid();
   std::string series_uid = make_uid();
   std::string frame_of_reference_uid = make_uid();
-  std::string date;  // DA and TM, UTC
-  std::string time;
+  Timestamp now = Timestamp::now();
 };
-
-SeriesIdentity new_identity() {
-  SeriesIdentity identity;
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  identity.date = fmt::format("{:04}{:02}{:02}", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday);
-  identity.time = fmt::format("{:02}{:02}{:02}", utc.tm_hour, utc.tm_min, utc.tm_sec);
-  return identity;
-}
 
 // Writes attributes until the first failure and remembers it.
 class AttributeWriter {
@@ -128,8 +65,8 @@ void write_common_modules(AttributeWriter& out, const DicomSeriesHeader& header,
   out.text(DCM_PatientSex, "");
 
   out.text(DCM_StudyInstanceUID, identity.study_uid);
-  out.text(DCM_StudyDate, identity.date);
-  out.text(DCM_StudyTime, identity.time);
+  out.text(DCM_StudyDate, identity.now.date);
+  out.text(DCM_StudyTime, identity.now.time);
   out.text(DCM_ReferringPhysicianName, "");
   out.text(DCM_StudyID, "1");
   out.text(DCM_AccessionNumber, "");
@@ -183,8 +120,8 @@ void write_slice(AttributeWriter& out, const Volume& volume, const SeriesIdentit
   const Geometry& geometry = volume.geometry;
   out.text(DCM_SOPInstanceUID, sop_instance_uid);
   out.text(DCM_InstanceNumber, fmt::format("{}", k + 1));
-  out.text(DCM_ContentDate, identity.date);
-  out.text(DCM_ContentTime, identity.time);
+  out.text(DCM_ContentDate, identity.now.date);
+  out.text(DCM_ContentTime, identity.now.time);
   out.text(DCM_BurnedInAnnotation, "NO");
 
   const glm::dvec3 position = geometry.to_patient({0.0, 0.0, static_cast<double>(k)});
@@ -294,7 +231,7 @@ Status write_all(const Volume& volume, const DicomSeriesHeader& header, const fs
   if (auto usable = check_folder(folder, slices); !usable) return usable;
 
   // Names are taken only when every slice is on the disk.
-  const SeriesIdentity identity = new_identity();
+  const SeriesIdentity identity;
   std::vector<AtomicFile> files;
   for (std::int64_t k = 0; k < slices; ++k) {
     if (progress.cancelled()) return cancelled_error();

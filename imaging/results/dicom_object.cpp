@@ -1,0 +1,107 @@
+#include "imaging/results/dicom_object.h"
+
+#include <dcmtk/dcmdata/dcostrmb.h>
+#include <dcmtk/dcmdata/dcwcache.h>
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "core/atomic_file.h"
+#include "imaging/dicom/decimal.h"
+#include "imaging/dicom/dicom.h"
+#include "imaging/dicom/dicom_setup.h"
+#include "imaging/results/results.h"
+
+namespace tidemark {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The encoded file. In memory, because DCMTK does not report a file that could not be written to its end.
+Result<std::string> encode(DcmFileFormat& file, E_TransferSyntax syntax) {
+  std::vector<char> buffer(std::size_t{1} << 20);
+  DcmOutputBufferStream stream(buffer.data(), static_cast<offile_off_t>(buffer.size()));
+  DcmWriteCache cache;
+  std::string bytes;
+  file.transferInit();
+  OFCondition condition = EC_StreamNotifyClient;
+  while (condition == EC_StreamNotifyClient) {
+    condition = file.write(stream, syntax, EET_ExplicitLength, &cache, EGL_recalcGL);
+    void* filled = nullptr;
+    offile_off_t length = 0;
+    stream.flushBuffer(filled, length);
+    bytes.append(static_cast<const char*>(filled), static_cast<std::size_t>(length));
+  }
+  file.transferEnd();
+  if (condition.bad()) return fail(ErrorKind::write, "{}", condition.text());
+  return bytes;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<DcmFileFormat>> load_object(const fs::path& file, const DcmTagKey& stop_at) {
+  if (auto ready = set_up_dicom(); !ready) return pass_on(ready);
+  if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
+  auto loaded = std::make_unique<DcmFileFormat>();
+  const OFCondition parsed = loaded->loadFileUntilTag(file.c_str(), EXS_Unknown, EGL_noChange,
+                                                      DCM_MaxReadLength, ERM_autoDetect, stop_at);
+  if (parsed.bad()) return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
+  // Where the character set is missing or wrong the text is taken as Latin-1, which has a letter for each
+  // byte.
+  DcmDataset& dataset = *loaded->getDataset();
+  if (dataset.convertToUTF8().bad()) {
+    dataset.putAndInsertString(DCM_SpecificCharacterSet, "ISO_IR 100");
+    dataset.convertToUTF8();
+  }
+  return loaded;
+}
+
+Status save_object(std::unique_ptr<DcmDataset> dataset, E_TransferSyntax syntax, const fs::path& file) {
+  DcmFileFormat whole(dataset.release(), OFFalse);  // which owns it now
+  const auto bytes = encode(whole, syntax);
+  if (!bytes) return fail(bytes.error().kind, "{}: cannot write: {}", file.string(), bytes.error().message);
+  return write_file(file, *bytes);
+}
+
+std::string text_of(DcmItem& item, const DcmTagKey& key) {
+  OFString value;
+  if (item.findAndGetOFStringArray(key, value).bad()) return {};
+  std::string text(value.c_str());
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text;
+}
+
+std::optional<glm::dvec3> vector_of(DcmItem& item, const DcmTagKey& key) {
+  const auto numbers = parse_decimals(text_of(item, key));
+  if (!numbers || numbers->size() != 3) return std::nullopt;
+  return glm::dvec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+}
+
+Status require_planes(const Geometry& geometry, const fs::path& file) {
+  const auto refuse = [&](const char* why) {
+    return fail(ErrorKind::capability, "{}: DICOM cannot say this grid: {}", file.string(), why);
+  };
+  const Index3 size = geometry.size;
+  if (size.x < 1 || size.y < 1 || size.z < 1 || size.x > 65535 || size.y > 65535) {
+    return refuse("its size is not within 1..65535 columns and rows");
+  }
+  const auto& d = geometry.direction;
+  if (!(std::abs(std::abs(glm::dot(glm::cross(d[0], d[1]), d[2])) - 1.0) < 1e-4)) {
+    return refuse("its directions are not orthonormal");
+  }
+  return {};
+}
+
+std::optional<ResultForm> result_form_of(const fs::path& file) {
+  // The SOP class is among the first attributes; the patient's come after it.
+  const auto object = load_object(file, DCM_PatientName);
+  if (!object) return std::nullopt;
+  const std::string sop_class = text_of(*(*object)->getDataset(), DCM_SOPClassUID);
+  if (sop_class == UID_SegmentationStorage) return ResultForm::segmentation;
+  if (sop_class == UID_RTStructureSetStorage) return ResultForm::structure_set;
+  return std::nullopt;
+}
+
+}  // namespace tidemark

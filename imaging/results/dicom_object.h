@@ -1,0 +1,58 @@
+// DICOM files that hold no plain images, in and out. Private to this folder.
+#pragma once
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/geometry.h"
+#include "core/result.h"
+
+namespace tidemark {
+
+// The whole file, its text in UTF-8. `stop_at` ends the reading there (the pixel data, say). Fails with
+// ErrorKind::input.
+Result<std::unique_ptr<DcmFileFormat>> load_object(const std::filesystem::path& file,
+                                                   const DcmTagKey& stop_at = DCM_UndefinedTagKey);
+
+// Encodes the dataset and writes it as the whole of the file. Fails with ErrorKind::write.
+Status save_object(std::unique_ptr<DcmDataset> dataset, E_TransferSyntax syntax,
+                   const std::filesystem::path& file);
+
+// An attribute's text without padding; empty when it is absent.
+std::string text_of(DcmItem& item, const DcmTagKey& key);
+
+// Three decimals, as of a position. Nothing when they are not there.
+std::optional<glm::dvec3> vector_of(DcmItem& item, const DcmTagKey& key);
+
+// Remembers the first of many calls that failed.
+class FirstFailure {
+ public:
+  FirstFailure& operator<<(const OFCondition& condition) {
+    if (first_.good()) first_ = condition;
+    return *this;
+  }
+  [[nodiscard]] Status status(const std::filesystem::path& file) const {
+    if (first_.good()) return {};
+    return fail(ErrorKind::write, "{}: cannot write: {}", file.string(), first_.text());
+  }
+
+ private:
+  OFCondition first_ = EC_Normal;
+};
+
+// What a segment without a colour is written with; systems that read it expect one.
+constexpr std::array<std::uint8_t, 3> kDefaultColour{255, 255, 0};
+
+// Whether slices of the grid can be said as DICOM image planes: columns and rows within 65535, orthonormal
+// directions. Fails with ErrorKind::capability.
+Status require_planes(const Geometry& geometry, const std::filesystem::path& file);
+
+}  // namespace tidemark

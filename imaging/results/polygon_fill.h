@@ -1,0 +1,18 @@
+// Which voxels of a slice a polygon surrounds. Private to this folder.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "imaging/results/contours.h"
+
+namespace tidemark {
+
+// Turns round (0 to 1, 1 to 0) every voxel of the slice whose centre the polygon surrounds an odd number of
+// times. `slice` holds columns * rows voxels, i fastest. What lies beyond the slice is left out; returns
+// whether something did.
+bool flip_inside(std::span<const glm::dvec2> polygon, std::int64_t columns, std::int64_t rows,
+                 std::vector<std::uint8_t>& slice);
+
+}  // namespace tidemark

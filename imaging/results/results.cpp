@@ -1,0 +1,32 @@
+#include "imaging/results/results.h"
+
+#include "imaging/onto_grid.h"
+#include "imaging/study.h"
+
+namespace tidemark {
+
+Result<Segments> read_result(const std::filesystem::path& file, const Geometry* grid) {
+  const auto form = result_form_of(file);
+  if (form == ResultForm::segmentation) return read_segmentation(file, grid);
+  if (form == ResultForm::structure_set && grid != nullptr) return read_structure_set(file, *grid);
+  if (form == ResultForm::structure_set) {
+    return fail(ErrorKind::input,
+                "{}: an RT structure set has no voxels of its own: it needs the study it was made of",
+                file.string());
+  }
+  return fail(ErrorKind::input, "{}: is neither a DICOM segmentation nor an RT structure set", file.string());
+}
+
+Result<Mask> load_any_mask(const std::filesystem::path& file, const Geometry* grid,
+                           const Progress& progress) {
+  if (result_form_of(file)) {
+    const auto segments = read_result(file, grid);
+    if (!segments) return tl::unexpected<Error>(segments.error());
+    return union_of(*segments);
+  }
+  auto mask = load_mask(file, progress);
+  if (!mask || grid == nullptr) return mask;
+  return onto_grid(std::move(*mask), *grid, file.string());
+}
+
+}  // namespace tidemark

@@ -1,0 +1,59 @@
+// What was segmented, as files that other systems accept, and back: DICOM Segmentation (SEG), RT Structure
+// Set, OpenVDB. Files are written through a temporary file: on failure the target is as it was before.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+
+#include "core/progress.h"
+#include "imaging/results/segments.h"
+
+namespace tidemark {
+
+enum class ResultForm { segmentation, structure_set };
+
+// Which of the two a DICOM file is, by its SOP class; nothing when it is neither or cannot be read.
+[[nodiscard]] std::optional<ResultForm> result_form_of(const std::filesystem::path& file);
+
+// The DICOM files of the series that was segmented, in slice order (Series::files): the result belongs to
+// their patient, study and frame of reference, and refers to them slice by slice. Empty when the volume was
+// not DICOM: the result then makes a new study of an anonymous patient.
+using SourceFiles = std::span<const std::filesystem::path>;
+
+// Segmentation Storage, BINARY: a frame for each segment and slice that is not empty (DICOM PS3.3 A.51).
+// Fails with ErrorKind::write, with ErrorKind::input when a source file cannot be read, and with
+// ErrorKind::capability on a grid that DICOM cannot say.
+Status write_segmentation(const Segments& segments, SourceFiles source, const std::filesystem::path& file,
+                          const Progress& progress = {});
+
+// RT Structure Set Storage: a region of interest for each segment, closed planar contours slice by slice,
+// where its phi is 0 or, without phi, half way between voxels inside and outside (PS3.3 A.19). Fails
+// likewise.
+Status write_structure_set(const Segments& segments, SourceFiles source, const std::filesystem::path& file,
+                           const Progress& progress = {});
+
+// The segments of a Segmentation. With a grid: on its voxels, whichever way the frames run. Without: on the
+// smallest grid that holds all frames. Fails (ErrorKind::input) when frames do not lie on the voxels.
+Result<Segments> read_segmentation(const std::filesystem::path& file, const Geometry* grid = nullptr);
+
+// The regions of a structure set: inside are the grid's voxels whose centres the contours surround. Contours
+// of one region in one slice are combined by exclusive or, so that both kinds of holes are holes. Fails
+// (ErrorKind::input) when contours do not lie in the grid's slices.
+Result<Segments> read_structure_set(const std::filesystem::path& file, const Geometry& grid);
+
+// Either of them; a structure set needs the grid.
+Result<Segments> read_result(const std::filesystem::path& file, const Geometry* grid);
+
+// A mask from any file that can be one, on that grid: a volume (every voxel that is not 0), a Segmentation or
+// a structure set (what is inside any of its segments). Without a grid: on its own, which a structure set has
+// not. Fails (ErrorKind::input) naming the file and why it does not fit.
+Result<Mask> load_any_mask(const std::filesystem::path& file, const Geometry* grid,
+                           const Progress& progress = {});
+
+// phi (float, > 0 inside, in units of the smallest voxel spacing, beyond the band +-band) as an OpenVDB level
+// set in mm and patient coordinates (LPS): negative inside, as OpenVDB's are. Voxels within the band are
+// active. Where the volume's border is inside, voxels one beyond it close the surface.
+Status write_level_set(const Volume& phi, double band, const std::filesystem::path& file);
+
+}  // namespace tidemark

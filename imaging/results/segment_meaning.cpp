@@ -1,0 +1,77 @@
+#include "imaging/results/segment_meaning.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace tidemark {
+namespace {
+
+std::vector<NamedMeaning> make_meanings() {
+  const auto sct = [](const char* value, const char* meaning) { return Code{value, "SCT", meaning}; };
+  const Code structure = SegmentMeaning().category;
+  const Code tissue = sct("85756007", "Tissue");
+  const Code abnormal = sct("49755003", "Morphologically Abnormal Structure");
+  const Code substance = sct("91720002", "Body Substance");
+  return {
+      {"tissue", SegmentMeaning()},
+      {"aneurysm", {abnormal, sct("85659009", "Aneurysm")}},
+      {"aorta", {structure, sct("15825003", "Aorta")}},
+      {"artery", {tissue, sct("51114001", "Artery")}},
+      {"bladder", {structure, sct("89837001", "Bladder")}},
+      {"bone", {structure, sct("272673000", "Bone")}},
+      {"brain", {structure, sct("12738006", "Brain")}},
+      {"brain-ventricle", {structure, sct("35764002", "Brain Ventricle")}},
+      {"breast", {structure, sct("76752008", "Breast")}},
+      {"cerebrospinal-fluid", {substance, sct("65216001", "Cerebrospinal Fluid")}},
+      {"colon", {structure, sct("71854001", "Colon")}},
+      {"cyst", {abnormal, sct("367643001", "Cyst")}},
+      {"femur", {structure, sct("71341001", "Femur")}},
+      {"gallbladder", {structure, sct("28231008", "Gallbladder")}},
+      {"grey-matter", {tissue, sct("389081007", "Gray Matter")}},
+      {"haematoma", {abnormal, sct("35566002", "Hematoma")}},
+      {"heart", {structure, sct("80891009", "Heart")}},
+      {"hippocampus", {structure, sct("5366008", "Hippocampus")}},
+      {"kidney", {structure, sct("64033007", "Kidney")}},
+      {"lesion", {abnormal, sct("52988006", "Lesion")}},
+      {"liver", {structure, sct("10200004", "Liver")}},
+      {"lung", {structure, sct("39607008", "Lung")}},
+      {"lymph-node", {structure, sct("59441001", "Lymph node")}},
+      {"metastasis", {abnormal, sct("14799000", "Neoplasm, Secondary")}},
+      {"muscle", {structure, sct("71616004", "Muscle")}},
+      {"necrosis", {abnormal, sct("6574001", "Necrosis")}},
+      {"nodule", {abnormal, sct("27925004", "Nodule")}},
+      {"oedema", {abnormal, sct("79654002", "Edema")}},
+      {"pancreas", {structure, sct("15776009", "Pancreas")}},
+      {"prostate", {structure, sct("41216001", "Prostate")}},
+      {"skull", {structure, sct("89546000", "Skull")}},
+      {"spinal-cord", {structure, sct("2748008", "Spinal cord")}},
+      {"spleen", {structure, sct("78961009", "Spleen")}},
+      {"stomach", {structure, sct("69695003", "Stomach")}},
+      {"thrombus", {abnormal, sct("396339007", "Thrombus")}},
+      {"tumour", {abnormal, sct("108369006", "Neoplasm")}},
+      {"uterus", {structure, sct("35039007", "Uterus")}},
+      {"vein", {tissue, sct("29092000", "Vein")}},
+      {"vertebra", {structure, sct("51282000", "Vertebra")}},
+      {"vessel", {tissue, sct("59820001", "Blood vessel")}},
+      {"white-matter", {tissue, sct("389080008", "White Matter")}},
+  };
+}
+
+}  // namespace
+
+std::span<const NamedMeaning> segment_meanings() {
+  static const std::vector<NamedMeaning> meanings = make_meanings();
+  return meanings;
+}
+
+Result<SegmentMeaning> find_segment_meaning(std::string_view word) {
+  const auto meanings = segment_meanings();
+  const auto found = std::find_if(meanings.begin(), meanings.end(),
+                                  [&](const NamedMeaning& named) { return named.word == word; });
+  if (found != meanings.end()) return found->meaning;
+  std::string words;
+  for (const NamedMeaning& named : meanings) words += (words.empty() ? "" : " ") + std::string(named.word);
+  return fail(ErrorKind::usage, "'{}' is none of the meanings {}", word, words);
+}
+
+}  // namespace tidemark

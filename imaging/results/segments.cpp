@@ -1,0 +1,83 @@
+#include "imaging/results/segments.h"
+
+#include <algorithm>
+
+namespace tidemark {
+namespace {
+
+// Calls visit(offset in voxel order) for every voxel inside.
+template <class Visit>
+void for_each_voxel(const Segment& segment, const Geometry& geometry, const Visit& visit) {
+  for (const auto& [k, slice] : segment.slices) {
+    const std::int64_t first = geometry.offset({0, 0, k});
+    for (std::size_t i = 0; i < slice.size(); ++i) {
+      if (slice[i] != 0) visit(static_cast<std::size_t>(first) + i);
+    }
+  }
+}
+
+}  // namespace
+
+std::int64_t Segment::count() const {
+  std::int64_t count = 0;
+  for (const auto& [k, slice] : slices) count += std::count(slice.begin(), slice.end(), std::uint8_t{1});
+  return count;
+}
+
+std::map<std::int64_t, std::vector<std::uint8_t>> slices_of(const Geometry& geometry,
+                                                            std::span<const std::uint8_t> voxels,
+                                                            std::uint8_t id) {
+  std::map<std::int64_t, std::vector<std::uint8_t>> slices;
+  const auto area = static_cast<std::size_t>(geometry.size.x * geometry.size.y);
+  for (std::int64_t k = 0; (static_cast<std::size_t>(k) + 1) * area <= voxels.size(); ++k) {
+    const auto slice = voxels.subspan(static_cast<std::size_t>(k) * area, area);
+    if (std::find(slice.begin(), slice.end(), id) == slice.end()) continue;
+    std::vector<std::uint8_t>& inside = slices[k];
+    inside.resize(area);
+    std::transform(slice.begin(), slice.end(), inside.begin(),
+                   [&](std::uint8_t voxel) { return std::uint8_t(voxel == id); });
+  }
+  return slices;
+}
+
+Segments segments_of(const Mask& mask, const std::string& name) {
+  Segments segments{mask.geometry, {}, {}};
+  Segment segment;
+  segment.name = name;
+  segment.slices = slices_of(mask.geometry, mask.voxels);
+  segments.list.push_back(std::move(segment));
+  return segments;
+}
+
+Mask union_of(const Segments& segments) {
+  Mask mask{segments.geometry,
+            std::vector<std::uint8_t>(static_cast<std::size_t>(segments.geometry.voxel_count()))};
+  for (const Segment& segment : segments.list) {
+    for_each_voxel(segment, segments.geometry, [&](std::size_t offset) { mask.voxels[offset] = 1; });
+  }
+  return mask;
+}
+
+Result<LabelMap> label_map_of(const Segments& segments) {
+  if (segments.list.size() > 255) {
+    return fail(ErrorKind::capability, "{} segments are more than the 255 labels that there can be",
+                segments.list.size());
+  }
+  LabelMap map;
+  map.voxels.resize(static_cast<std::size_t>(segments.geometry.voxel_count()));
+  std::vector<bool> counted;
+  for (std::size_t n = 0; n < segments.list.size(); ++n) {
+    for_each_voxel(segments.list[n], segments.geometry, [&](std::size_t offset) {
+      std::uint8_t& voxel = map.voxels[offset];
+      if (voxel != 0) {
+        counted.resize(map.voxels.size());
+        if (!counted[offset]) ++map.overlaps;
+        counted[offset] = true;
+      }
+      voxel = static_cast<std::uint8_t>(n + 1);
+    });
+  }
+  return map;
+}
+
+}  // namespace tidemark

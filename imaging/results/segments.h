@@ -1,0 +1,56 @@
+// Regions with names over one grid, which may overlap: what result files hold.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/volume.h"
+#include "imaging/results/segment_meaning.h"
+
+namespace tidemark {
+
+using SegmentColour = std::array<std::uint8_t, 3>;  // sRGB
+
+struct Segment {
+  std::string name;                     // UTF-8
+  std::optional<SegmentColour> colour;  // nothing: up to whoever shows it
+  SegmentMeaning meaning;
+  // The slices k in which it has voxels: 1 inside, 0 outside, size.x * size.y of them, i fastest.
+  std::map<std::int64_t, std::vector<std::uint8_t>> slices;
+  // Where there is one, its level set on the same grid (> 0 inside): contours follow it between voxels.
+  std::shared_ptr<const Volume> phi;
+
+  [[nodiscard]] std::int64_t count() const;  // voxels inside
+};
+
+struct Segments {
+  Geometry geometry;
+  std::vector<Segment> list;
+  std::vector<std::string> changes;  // what reading found and left out, one sentence each
+};
+
+// The slices of the voxels that hold `id` (a mask's hold 1). `voxels` are in voxel order.
+[[nodiscard]] std::map<std::int64_t, std::vector<std::uint8_t>> slices_of(
+    const Geometry& geometry, std::span<const std::uint8_t> voxels, std::uint8_t id = 1);
+
+// One segment of that mask.
+[[nodiscard]] Segments segments_of(const Mask& mask, const std::string& name);
+
+// Everything that is inside any segment.
+[[nodiscard]] Mask union_of(const Segments& segments);
+
+// One number a voxel in voxel order: 0 outside, n for the n-th segment, the later one where several overlap.
+struct LabelMap {
+  std::vector<std::uint8_t> voxels;
+  std::int64_t overlaps = 0;  // voxels inside more than one
+};
+// Fails (ErrorKind::capability) when there are more than 255 segments.
+[[nodiscard]] Result<LabelMap> label_map_of(const Segments& segments);
+
+}  // namespace tidemark

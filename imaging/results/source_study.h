@@ -1,0 +1,37 @@
+// Whose patient and study a result belongs to, and which images it was made from. Private to this folder.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "imaging/results/dicom_object.h"
+#include "imaging/results/results.h"
+
+namespace tidemark {
+
+struct SourceImage {
+  std::string sop_class_uid;
+  std::string sop_instance_uid;
+};
+
+struct SourceStudy {
+  // The attributes of the source's first file but for pixels: patient, study, frame of reference. Text is
+  // UTF-8.
+  std::unique_ptr<DcmFileFormat> first;
+  std::string study_uid;
+  std::string series_uid;  // empty: the source was not DICOM
+  std::string frame_of_reference_uid;
+  std::vector<SourceImage> images;  // each once, in slice order
+  std::vector<std::optional<std::size_t>>
+      image;  // for each slice k of the grid its image, where there is one
+
+  [[nodiscard]] DcmDataset& attributes() const { return *first->getDataset(); }
+};
+
+// Reads what the files say; of no files it makes a new study of an anonymous patient. Fails
+// (ErrorKind::input) when a file cannot be read or lacks a UID.
+Result<SourceStudy> source_study(SourceFiles files, const Geometry& geometry);
+
+}  // namespace tidemark

@@ -1,0 +1,229 @@
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmrt/drtstrct.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <new>
+
+#include "imaging/dicom/dicom_values.h"
+#include "imaging/results/contours.h"
+#include "imaging/results/results.h"
+#include "imaging/results/source_study.h"
+
+namespace tidemark {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDetachedStudy =
+    "1.2.840.10008.3.1.2.3.1";  // the class by which studies are referred to
+
+OFString of(const std::string& text) {
+  return {text.c_str()};
+}
+
+// Decimals that keep a coordinate within a thousandth of the smallest spacing.
+int digits_for(const Geometry& geometry) {
+  const glm::dvec3 h = geometry.spacing_mm;
+  return std::clamp(static_cast<int>(std::ceil(3.0 - std::log10(std::min({h.x, h.y, h.z})))), 2, 9);
+}
+
+// At most 16 characters, without zeros at the end.
+std::string coordinate(double mm, int digits) {
+  std::string text = fmt::format("{:.{}f}", mm, digits);
+  if (text.size() > 16) return decimal(mm);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+// phi in slice k where there is one, else 1 inside and -1 outside.
+std::vector<Contour> contours_of(const Segment& segment, const Geometry& geometry, std::int64_t k) {
+  const auto& slice = segment.slices.at(k);
+  return trace_contours(geometry.size.x, geometry.size.y, [&](std::int64_t i, std::int64_t j) {
+    const bool inside = slice[static_cast<std::size_t>(i + geometry.size.x * j)] != 0;
+    if (!segment.phi) return inside ? 1.0 : -1.0;
+    const double phi = segment.phi->value(geometry.offset({i, j, k}));
+    // The voxels decide; phi says where between them.
+    return inside ? std::max(phi, 1e-6) : std::min(phi, -1e-6);
+  });
+}
+
+// One writing of one file.
+class StructureSetWriter {
+ public:
+  StructureSetWriter(const Segments& segments, const SourceStudy& study, const fs::path& file)
+      : segments_(segments),
+        geometry_(segments.geometry),
+        study_(study),
+        file_(file),
+        digits_(digits_for(segments.geometry)) {}
+
+  Status write(const Progress& progress);
+
+ private:
+  void identify();
+  void refer_to_source();
+  Status describe(const Segment& segment, const std::string& number);
+  Status add_contours(const Segment& segment, const std::string& number, const Progress& progress);
+  Status add_contour(DRTContourSequence& sequence, const Contour& contour, std::int64_t k);
+  template <class Sequence>
+  Status add(Sequence& sequence, typename Sequence::Item*& item) {
+    const OFCondition added = sequence.addItem(item);
+    failure_ << added;
+    return failure_.status(file_);
+  }
+
+  const Segments& segments_;
+  const Geometry& geometry_;
+  const SourceStudy& study_;
+  const fs::path& file_;
+  int digits_;
+  DRTStructureSetIOD set_;
+  FirstFailure failure_;
+};
+
+// The patient and the study are the source's, the series is a new one.
+void StructureSetWriter::identify() {
+  DcmDataset& source = study_.attributes();
+  const Timestamp now = Timestamp::now();
+  failure_ << set_.setSpecificCharacterSet("ISO_IR 192");
+  failure_ << set_.setPatientName(of(text_of(source, DCM_PatientName)), OFFalse);
+  failure_ << set_.setPatientID(of(text_of(source, DCM_PatientID)), OFFalse);
+  failure_ << set_.setPatientBirthDate(of(text_of(source, DCM_PatientBirthDate)), OFFalse);
+  failure_ << set_.setPatientSex(of(text_of(source, DCM_PatientSex)), OFFalse);
+  failure_ << set_.setStudyInstanceUID(of(study_.study_uid), OFFalse);
+  failure_ << set_.setStudyDate(of(text_of(source, DCM_StudyDate)), OFFalse);
+  failure_ << set_.setStudyTime(of(text_of(source, DCM_StudyTime)), OFFalse);
+  failure_ << set_.setStudyID(of(text_of(source, DCM_StudyID)), OFFalse);
+  failure_ << set_.setStudyDescription(of(text_of(source, DCM_StudyDescription)), OFFalse);
+  failure_ << set_.setAccessionNumber(of(text_of(source, DCM_AccessionNumber)), OFFalse);
+  failure_ << set_.setReferringPhysicianName(of(text_of(source, DCM_ReferringPhysicianName)), OFFalse);
+
+  failure_ << set_.setSOPInstanceUID(of(make_uid())) << set_.setSeriesInstanceUID(of(make_uid()));
+  failure_ << set_.setModality("RTSTRUCT") << set_.setSeriesNumber("1001");
+  failure_ << set_.setSeriesDescription("Tidemark structure set");
+  failure_ << set_.setSeriesDate(of(now.date)) << set_.setSeriesTime(of(now.time));
+  failure_ << set_.setManufacturer("Tidemark") << set_.setManufacturerModelName("Tidemark");
+  failure_ << set_.setSoftwareVersions(TIDEMARK_VERSION);
+  failure_ << set_.setStructureSetLabel("SEGMENTATION");
+  failure_ << set_.setStructureSetDate(of(now.date)) << set_.setStructureSetTime(of(now.time));
+  failure_ << set_.setFrameOfReferenceUID(of(study_.frame_of_reference_uid));
+  failure_ << set_.setApprovalStatus("UNAPPROVED");
+}
+
+// The frame of reference, and in it the study, the series and its images.
+void StructureSetWriter::refer_to_source() {
+  DRTReferencedFrameOfReferenceSequence::Item* frame = nullptr;
+  if (!add(set_.getReferencedFrameOfReferenceSequence(), frame)) return;
+  failure_ << frame->setFrameOfReferenceUID(of(study_.frame_of_reference_uid));
+  if (study_.series_uid.empty()) return;
+  DRTRTReferencedStudySequence::Item* study = nullptr;
+  if (!add(frame->getRTReferencedStudySequence(), study)) return;
+  failure_ << study->setReferencedSOPClassUID(kDetachedStudy);
+  failure_ << study->setReferencedSOPInstanceUID(of(study_.study_uid));
+  DRTRTReferencedSeriesSequence::Item* series = nullptr;
+  if (!add(study->getRTReferencedSeriesSequence(), series)) return;
+  failure_ << series->setSeriesInstanceUID(of(study_.series_uid));
+  for (const SourceImage& image : study_.images) {
+    DRTContourImageSequence::Item* item = nullptr;
+    if (!add(series->getContourImageSequence(), item)) return;
+    failure_ << item->setReferencedSOPClassUID(of(image.sop_class_uid));
+    failure_ << item->setReferencedSOPInstanceUID(of(image.sop_instance_uid));
+  }
+}
+
+Status StructureSetWriter::describe(const Segment& segment, const std::string& number) {
+  DRTStructureSetROISequence::Item* region = nullptr;
+  if (auto added = add(set_.getStructureSetROISequence(), region); !added) return added;
+  failure_ << region->setROINumber(of(number));
+  failure_ << region->setReferencedFrameOfReferenceUID(of(study_.frame_of_reference_uid));
+  failure_ << region->setROIName(of(short_text(segment.name.empty() ? "Region " + number : segment.name)),
+                                 OFFalse);
+  failure_ << region->setROIGenerationAlgorithm("SEMIAUTOMATIC");
+  DRTRTROIObservationsSequence::Item* observation = nullptr;
+  if (auto added = add(set_.getRTROIObservationsSequence(), observation); !added) return added;
+  failure_ << observation->setObservationNumber(of(number))
+           << observation->setReferencedROINumber(of(number));
+  failure_ << observation->setRTROIInterpretedType("") << observation->setROIInterpreter("");
+  return failure_.status(file_);
+}
+
+Status StructureSetWriter::add_contour(DRTContourSequence& sequence, const Contour& contour, std::int64_t k) {
+  DRTContourSequence::Item* item = nullptr;
+  if (auto added = add(sequence, item); !added) return added;
+  if (const auto index = study_.image[static_cast<std::size_t>(k)]) {
+    DRTContourImageSequence::Item* image = nullptr;
+    if (auto added = add(item->getContourImageSequence(), image); !added) return added;
+    failure_ << image->setReferencedSOPClassUID(of(study_.images[*index].sop_class_uid));
+    failure_ << image->setReferencedSOPInstanceUID(of(study_.images[*index].sop_instance_uid));
+  }
+  failure_ << item->setContourGeometricType("CLOSED_PLANAR");
+  failure_ << item->setNumberOfContourPoints(of(fmt::format("{}", contour.size())));
+  std::string points;
+  for (const glm::dvec2 point : contour) {
+    const glm::dvec3 mm = geometry_.to_patient({point.x, point.y, static_cast<double>(k)});
+    for (const double value : {mm.x, mm.y, mm.z}) {
+      points += (points.empty() ? "" : "\\") + coordinate(value, digits_);
+    }
+  }
+  failure_ << item->setContourData(of(points), OFFalse);  // not checked number by number
+  return failure_.status(file_);
+}
+
+Status StructureSetWriter::add_contours(const Segment& segment, const std::string& number,
+                                        const Progress& progress) {
+  DRTROIContourSequence::Item* region = nullptr;
+  if (auto added = add(set_.getROIContourSequence(), region); !added) return added;
+  failure_ << region->setReferencedROINumber(of(number));
+  const auto [red, green, blue] = segment.colour.value_or(kDefaultColour);
+  failure_ << region->setROIDisplayColor(of(fmt::format("{}\\{}\\{}", red, green, blue)));
+  for (const auto& [k, slice] : segment.slices) {
+    if (progress.cancelled()) return cancelled_error();
+    for (const Contour& contour : contours_of(segment, geometry_, k)) {
+      if (auto added = add_contour(region->getContourSequence(), contour, k); !added) return added;
+    }
+  }
+  return failure_.status(file_);
+}
+
+Status StructureSetWriter::write(const Progress& progress) {
+  identify();
+  refer_to_source();
+  for (std::size_t n = 0; n < segments_.list.size(); ++n) {
+    progress(static_cast<double>(n) / static_cast<double>(segments_.list.size()), "writing contours");
+    const std::string number = fmt::format("{}", n + 1);
+    if (auto described = describe(segments_.list[n], number); !described) return described;
+    if (auto added = add_contours(segments_.list[n], number, progress); !added) return added;
+  }
+  auto dataset = std::make_unique<DcmDataset>();
+  failure_ << set_.write(*dataset);
+  if (auto good = failure_.status(file_); !good) return good;
+  // Implicit, because a contour of many points is longer than the 65534 bytes that the explicit form of
+  // decimal strings can hold (the note on Contour Data in PS3.3 C.8.8.6).
+  return save_object(std::move(dataset), EXS_LittleEndianImplicit, file_);
+}
+
+}  // namespace
+
+Status write_structure_set(const Segments& segments, SourceFiles source, const fs::path& file,
+                           const Progress& progress) {
+  try {
+    if (auto planes = require_planes(segments.geometry, file); !planes) return planes;
+    for (const Segment& segment : segments.list) {
+      if (segment.phi && segment.phi->geometry.size != segments.geometry.size) {
+        return fail(ErrorKind::internal, "{}: phi and its segment have different grids", file.string());
+      }
+    }
+    const auto study = source_study(source, segments.geometry);
+    if (!study) return tl::unexpected<Error>(study.error());
+    return StructureSetWriter(segments, *study, file).write(progress);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::capability, "{}: cannot write: there is not enough memory", file.string());
+  } catch (const std::exception& error) {
+    return fail(ErrorKind::write, "{}: cannot write: {}", file.string(), error.what());
+  }
+}
+
+}  // namespace tidemark

@@ -1,0 +1,328 @@
+// DICOM Segmentation: out, in again, and as others see it.
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <QJsonArray>
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "tests/imaging/dicom/series_files.h"
+#include "tests/imaging/results/sample_results.h"
+#include "tests/support/support.h"
+
+using namespace tidemark;
+
+class DicomSegmentationTest : public QObject {
+  Q_OBJECT
+
+  static void verify_same(const Segments& read, const Segments& written) {
+    QCOMPARE(read.list.size(), written.list.size());
+    for (std::size_t n = 0; n < read.list.size(); ++n) {
+      QVERIFY2(read.list[n].slices == written.list[n].slices, written.list[n].name.c_str());
+      QVERIFY(read.list[n].colour == written.list[n].colour);
+      QVERIFY(read.list[n].meaning == written.list[n].meaning);
+    }
+  }
+
+ private slots:
+  void what_is_written_is_read_back_in_every_orientation_data() {
+    QTest::addColumn<int>("index");
+    int index = 0;
+    for (const test::Orientation& orientation : test::orientations())
+      QTest::newRow(orientation.name) << index++;
+  }
+
+  void what_is_written_is_read_back_in_every_orientation() {
+    QFETCH(int, index);
+    const test::TemporaryFolder folder;
+    const auto& direction = test::orientations()[static_cast<std::size_t>(index)].direction;
+    // 77 pixels a frame: frames do not end at whole bytes.
+    const auto series =
+        test::write_sample_series(test::sample_grid({11, 7, 6}, direction), folder / "series");
+    const Segments written = test::speckled_segments(series.geometry);
+    const auto file = folder / "seg.dcm";
+    QCOMPARE(test::failure(write_segmentation(written, series.files, file)), QString());
+    QVERIFY(result_form_of(file) == ResultForm::segmentation);
+    const auto read = read_segmentation(file, &series.geometry);
+    QCOMPARE(test::failure(read), QString());
+    verify_same(*read, written);
+    QCOMPARE(read->list[0].name, std::string("Leber \xc3\xbc"));
+    QCOMPARE(read->list[2].name, std::string("a third, with backslash"));
+
+    // Alone it is on the same voxels, as far as it reaches.
+    const auto alone = read_segmentation(file);
+    QCOMPARE(test::failure(alone), QString());
+    QVERIFY(same_grid(alone->geometry, series.geometry, 1e-4));
+    verify_same(*alone, written);
+  }
+
+  void pydicom_finds_the_same_voxels_in_every_orientation_data() {
+    what_is_written_is_read_back_in_every_orientation_data();
+  }
+
+  void pydicom_finds_the_same_voxels_in_every_orientation() {
+    QFETCH(int, index);
+    const test::TemporaryFolder folder;
+    const auto& direction = test::orientations()[static_cast<std::size_t>(index)].direction;
+    const auto series =
+        test::write_sample_series(test::sample_grid({11, 7, 6}, direction), folder / "series");
+    const Segments written = test::speckled_segments(series.geometry);
+    QCOMPARE(test::failure(write_segmentation(written, series.files, folder / "seg.dcm")), QString());
+    const QJsonObject found = test::read_with_pydicom(folder / "seg.dcm", series.folder);
+    for (const char* what :
+         {"same_patient", "same_study", "same_frame_of_reference", "own_series", "at_their_images"}) {
+      QVERIFY2(found[what].toBool(), what);
+    }
+    const QJsonArray segments = found["segments"].toArray();
+    QCOMPARE(segments.size(), 3);
+    std::size_t frames = 0;
+    for (std::size_t n = 0; n < 3; ++n) {
+      const Segment& segment = written.list[n];
+      const QJsonObject seen = segments[static_cast<qsizetype>(n)].toObject();
+      frames += segment.slices.size();
+      QVERIFY(seen["known"].toBool());
+      QCOMPARE(seen["type"].toString().toStdString(), segment.meaning.type.meaning);
+      for (int channel = 0; channel < 3; ++channel) {
+        const int wanted = (*segment.colour)[static_cast<std::size_t>(channel)];
+        QVERIFY(std::abs(seen["colour"].toArray()[channel].toInt() - wanted) <= 1);
+      }
+      const QJsonArray voxels = seen["voxels"].toArray();
+      QCOMPARE(voxels.size(), segment.count());
+      for (const auto& voxel : voxels) {
+        const QJsonArray mm = voxel.toArray();
+        const glm::dvec3 at =
+            series.geometry.to_voxel({mm[0].toDouble(), mm[1].toDouble(), mm[2].toDouble()});
+        const Index3 nearest(glm::round(at));
+        QVERIFY(glm::distance(at, glm::dvec3(nearest)) < 1e-4);
+        const auto slice = segment.slices.find(nearest.z);
+        QVERIFY(slice != segment.slices.end());
+        QCOMPARE(slice->second[static_cast<std::size_t>(nearest.x + 11 * nearest.y)], std::uint8_t{1});
+      }
+    }
+    QCOMPARE(static_cast<std::size_t>(found["frames"].toInt()), frames);  // none is empty
+  }
+
+  void every_meaning_is_in_the_tables_of_the_standard() {
+    const test::TemporaryFolder folder;
+    const Geometry grid = test::sample_grid({3, 3, 2}, glm::dmat3(1.0));
+    Segments segments{grid, {}, {}};
+    for (const NamedMeaning& named : segment_meanings()) {
+      Segment segment = test::ball_segment(grid, 2.0);
+      segment.name = named.word;
+      segment.meaning = named.meaning;
+      segments.list.push_back(std::move(segment));
+    }
+    QCOMPARE(test::failure(write_segmentation(segments, {}, folder / "seg.dcm")), QString());
+    const QJsonObject found = test::read_with_pydicom(folder / "seg.dcm", folder / "nowhere");
+    for (const auto& segment : found["segments"].toArray()) {
+      QVERIFY2(segment.toObject()["known"].toBool(), qPrintable(segment.toObject()["name"].toString()));
+    }
+    QCOMPARE(find_segment_meaning("no such thing").error().kind, ErrorKind::usage);
+  }
+
+  void the_validator_finds_no_error() {
+    const test::TemporaryFolder folder;
+    const auto series =
+        test::write_sample_series(test::sample_grid({11, 7, 6}, glm::dmat3(1.0)), folder / "series");
+    const Segments segments = test::speckled_segments(series.geometry);
+    for (const bool with_source : {true, false}) {
+      const auto file = folder / "seg.dcm";
+      const SourceFiles source = with_source ? SourceFiles(series.files) : SourceFiles();
+      QCOMPARE(test::failure(write_segmentation(segments, source, file)), QString());
+      const QString said = test::validate(file);
+      QVERIFY2(said.contains("Segmentation"), qPrintable(said));
+      QVERIFY2(!said.contains("Error"), qPrintable(said));
+    }
+  }
+
+  void a_volume_that_was_not_dicom_gets_an_anonymous_study() {
+    const test::TemporaryFolder folder;
+    Geometry left_handed = test::sample_grid({11, 7, 6}, test::orientations().back().direction);
+    left_handed.direction[2] = -left_handed.direction[2];
+    const Segments written = test::speckled_segments(left_handed);
+    QCOMPARE(test::failure(write_segmentation(written, {}, folder / "seg.dcm")), QString());
+    const QJsonObject found = test::read_with_pydicom(folder / "seg.dcm", folder / "nowhere");
+    QCOMPARE(found["patient"].toString(), QString("Anonymous"));
+    const auto read = read_segmentation(folder / "seg.dcm", &left_handed);
+    QCOMPARE(test::failure(read), QString());
+    verify_same(*read, written);
+  }
+
+  void a_segmentation_lies_right_on_a_grid_with_other_axes() {
+    const test::TemporaryFolder folder;
+    const Geometry written_on = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
+    const Segments written = test::speckled_segments(written_on);
+    QCOMPARE(test::failure(write_segmentation(written, {}, folder / "seg.dcm")), QString());
+    Geometry turned;  // the same voxels: k, then i backwards, then j
+    turned.size = {6, 11, 7};
+    turned.spacing_mm = {2.5, 0.7, 0.9};
+    turned.direction = {glm::dvec3(0, 0, 1), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0)};
+    turned.origin_mm = written_on.to_patient({10, 0, 0});
+    const auto read = read_segmentation(folder / "seg.dcm", &turned);
+    QCOMPARE(test::failure(read), QString());
+    const Mask before = union_of(written);
+    const Mask after = union_of(*read);
+    QCOMPARE(after.count(), before.count());
+    for (std::int64_t k = 0; k < 6; ++k) {
+      for (std::int64_t j = 0; j < 7; ++j) {
+        for (std::int64_t i = 0; i < 11; ++i) {
+          QCOMPARE(after.voxels[static_cast<std::size_t>(turned.offset({k, 10 - i, j}))],
+                   before.voxels[static_cast<std::size_t>(written_on.offset({i, j, k}))]);
+        }
+      }
+    }
+  }
+
+  void another_grid_is_refused_with_the_reason() {
+    const test::TemporaryFolder folder;
+    const Geometry grid = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
+    QCOMPARE(test::failure(write_segmentation(test::speckled_segments(grid), {}, folder / "seg.dcm")),
+             QString());
+    Geometry coarser = grid;
+    coarser.spacing_mm *= 1.2;
+    Geometry shifted = grid;
+    shifted.origin_mm.x += 0.3;
+    for (const Geometry& other : {coarser, shifted}) {
+      const auto refused = read_segmentation(folder / "seg.dcm", &other);
+      QVERIFY(!refused);
+      QCOMPARE(refused.error().kind, ErrorKind::input);
+      QVERIFY2(refused.error().message.find("do not lie on the voxels") != std::string::npos,
+               refused.error().message.c_str());
+    }
+    Geometry shorter = grid;
+    shorter.size.z = 2;
+    const auto refused = read_segmentation(folder / "seg.dcm", &shorter);
+    QVERIFY(!refused);
+    QVERIFY2(refused.error().message.find("beyond the volume") != std::string::npos,
+             refused.error().message.c_str());
+  }
+
+  void a_part_of_the_grid_is_enough() {
+    const test::TemporaryFolder folder;
+    const Geometry grid = test::sample_grid({11, 7, 6}, test::orientations().back().direction);
+    Geometry part = grid;  // columns 2 to 8, rows 1 to 5, slices 3 and 4
+    part.size = {7, 5, 2};
+    part.origin_mm = grid.to_patient({2, 1, 3});
+    const Segments written = test::speckled_segments(part);
+    QCOMPARE(test::failure(write_segmentation(written, {}, folder / "seg.dcm")), QString());
+    const auto read = read_segmentation(folder / "seg.dcm", &grid);
+    QCOMPARE(test::failure(read), QString());
+    for (std::size_t n = 0; n < 3; ++n) {
+      QCOMPARE(read->list[n].count(), written.list[n].count());
+      for (const auto& [k, slice] : written.list[n].slices) {
+        for (std::size_t v = 0; v < slice.size(); ++v) {
+          const std::size_t there = 2 + v % 7 + 11 * (1 + v / 7);
+          QCOMPARE(read->list[n].slices.at(k + 3)[there], slice[v]);
+        }
+      }
+    }
+  }
+
+  void slices_far_apart_stay_where_they_are() {
+    const test::TemporaryFolder folder;
+    const Geometry grid = test::sample_grid({5, 4, 20}, glm::dmat3(1.0));
+    Segments written{grid, {Segment()}, {}};
+    for (const std::int64_t k : {3, 9, 18}) written.list[0].slices[k] = std::vector<std::uint8_t>(20, 1);
+    QCOMPARE(test::failure(write_segmentation(written, {}, folder / "seg.dcm")), QString());
+    const auto alone = read_segmentation(folder / "seg.dcm");
+    QCOMPARE(test::failure(alone), QString());
+    QCOMPARE(alone->geometry.size.z, std::int64_t{16});
+    QCOMPARE(alone->geometry.spacing_mm.z, 2.5);
+    QCOMPARE(alone->list[0].slices.size(), std::size_t{3});
+    QVERIFY(alone->list[0].slices.contains(6));
+    QCOMPARE(alone->list[0].name, std::string("Segment"));
+  }
+
+  void nothing_at_all_is_one_empty_frame() {
+    const test::TemporaryFolder folder;
+    const Geometry grid = test::sample_grid({5, 4, 3}, glm::dmat3(1.0));
+    const Segments nothing{grid, {Segment()}, {}};
+    QCOMPARE(test::failure(write_segmentation(nothing, {}, folder / "seg.dcm")), QString());
+    const auto read = read_segmentation(folder / "seg.dcm", &grid);
+    QCOMPARE(test::failure(read), QString());
+    QCOMPARE(read->list.size(), std::size_t{1});
+    QVERIFY(read->list[0].slices.empty());
+  }
+
+  void new_uids_are_of_the_root_2_25() {
+    const test::TemporaryFolder folder;
+    const auto series =
+        test::write_sample_series(test::sample_grid({5, 4, 3}, glm::dmat3(1.0)), folder / "series");
+    const auto file = folder / "seg.dcm";
+    std::set<std::string> sops;
+    for (int time = 0; time < 2; ++time) {
+      QCOMPARE(
+          test::failure(write_segmentation(test::speckled_segments(series.geometry), series.files, file)),
+          QString());
+      test::edit(file, [&](DcmDataset& dataset) {
+        for (const DcmTagKey& key :
+             {DCM_SOPInstanceUID, DCM_SeriesInstanceUID, DCM_DimensionOrganizationUID}) {
+          OFString uid;
+          dataset.findAndGetOFString(key, uid, 0, key == DCM_DimensionOrganizationUID);
+          QVERIFY2(uid.compare(0, 5, "2.25.") == 0, uid.c_str());
+          sops.insert(uid.c_str());
+        }
+      });
+    }
+    QCOMPARE(sops.size(), std::size_t{6});
+  }
+
+  void damage_is_refused_by_name_data() {
+    QTest::addColumn<QString>("field");
+    QTest::addColumn<unsigned>("group");
+    QTest::addColumn<unsigned>("element");
+    QTest::addColumn<QString>("value");
+    QTest::newRow("no type") << "SegmentationType" << 0x0062U << 0x0001U << "";
+    QTest::newRow("a type of later years") << "SegmentationType" << 0x0062U << 0x0001U << "LABELMAP";
+    QTest::newRow("no frames") << "NumberOfFrames" << 0x0028U << 0x0008U << "";
+    QTest::newRow("too many frames") << "PixelData" << 0x0028U << 0x0008U << "2000000000";
+    QTest::newRow("another class") << "no DICOM segmentation" << 0x0008U << 0x0016U << "1.2.3";
+  }
+
+  void damage_is_refused_by_name() {
+    QFETCH(QString, field);
+    QFETCH(unsigned, group);
+    QFETCH(unsigned, element);
+    QFETCH(QString, value);
+    const test::TemporaryFolder folder;
+    const auto file = folder / "seg.dcm";
+    const Geometry grid = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
+    QCOMPARE(test::failure(write_segmentation(test::speckled_segments(grid), {}, file)), QString());
+    test::set_text(file, group, element, value.toUtf8());
+    const auto refused = read_segmentation(file, &grid);
+    QVERIFY(!refused);
+    QCOMPARE(refused.error().kind, ErrorKind::input);
+    QVERIFY2(refused.error().message.find(field.toStdString()) != std::string::npos,
+             refused.error().message.c_str());
+    QVERIFY2(refused.error().message.find("seg.dcm") != std::string::npos, refused.error().message.c_str());
+  }
+
+  void a_truncated_file_is_refused() {
+    const test::TemporaryFolder folder;
+    const auto file = folder / "seg.dcm";
+    const Geometry grid = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
+    QCOMPARE(test::failure(write_segmentation(test::speckled_segments(grid), {}, file)), QString());
+    const auto whole = std::filesystem::file_size(file);
+    for (const double part : {0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99}) {
+      const auto cut = folder / "cut.dcm";
+      std::filesystem::copy_file(file, cut, std::filesystem::copy_options::overwrite_existing);
+      test::truncate(cut, static_cast<std::uintmax_t>(part * static_cast<double>(whole)));
+      const auto refused = read_segmentation(cut, &grid);
+      QVERIFY(!refused);
+      QVERIFY2(refused.error().message.find("cut.dcm") != std::string::npos, refused.error().message.c_str());
+    }
+  }
+
+  void a_sheared_grid_is_refused() {
+    const test::TemporaryFolder folder;
+    Geometry sheared = test::sample_grid({5, 4, 3}, glm::dmat3(1.0));
+    sheared.direction[2] = glm::normalize(glm::dvec3(0.3, 0.0, 1.0));
+    const auto refused = write_segmentation(test::speckled_segments(sheared), {}, folder / "seg.dcm");
+    QVERIFY(!refused);
+    QCOMPARE(refused.error().kind, ErrorKind::capability);
+    QVERIFY(!std::filesystem::exists(folder / "seg.dcm"));
+  }
+};
+
+QTEST_GUILESS_MAIN(DicomSegmentationTest)
+#include "dicom_segmentation_test.moc"

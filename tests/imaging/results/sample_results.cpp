@@ -1,0 +1,126 @@
+#include "tests/imaging/results/sample_results.h"
+
+#include <QJsonDocument>
+#include <QProcess>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "imaging/dicom/dicom.h"
+#include "tests/imaging/dicom/series_files.h"
+
+namespace tidemark::test {
+namespace {
+
+glm::dmat3 planes(glm::dvec3 row, glm::dvec3 column) {
+  return {row, column, glm::cross(row, column)};
+}
+
+glm::dmat3 oblique() {
+  const glm::dvec3 row = glm::normalize(glm::dvec3(1.0, 0.3, -0.2));
+  return planes(row, glm::normalize(glm::cross(glm::dvec3(0.1, 0.2, 1.0), row)));
+}
+
+}  // namespace
+
+const std::vector<Orientation>& orientations() {
+  const glm::dvec3 x(1.0, 0.0, 0.0);
+  const glm::dvec3 y(0.0, 1.0, 0.0);
+  const glm::dvec3 z(0.0, 0.0, 1.0);
+  static const std::vector<Orientation> all{{"axial", planes(x, y)},
+                                            {"axial, prone", planes(-x, -y)},
+                                            {"axial, feet first", planes(-x, y)},
+                                            {"sagittal", planes(y, -z)},
+                                            {"sagittal, mirrored", planes(-y, -z)},
+                                            {"coronal", planes(x, -z)},
+                                            {"coronal, mirrored", planes(-x, -z)},
+                                            {"oblique", oblique()}};
+  return all;
+}
+
+Geometry sample_grid(Index3 size, const glm::dmat3& direction) {
+  Geometry geometry;
+  geometry.size = size;
+  geometry.spacing_mm = {0.7, 0.9, 2.5};
+  geometry.direction = direction;
+  geometry.origin_mm = {-101.25, 37.5, 512.125};
+  return geometry;
+}
+
+SampleSeries write_sample_series(const Geometry& geometry, const std::filesystem::path& folder) {
+  Volume volume;
+  volume.geometry = geometry;
+  volume.voxels = std::vector<std::int16_t>(static_cast<std::size_t>(geometry.voxel_count()), 40);
+  write_series(volume, folder);
+  const Series series = only_series(folder);
+  return {folder, series.files, series.geometry};
+}
+
+Segments speckled_segments(const Geometry& geometry) {
+  Segments segments{geometry, {}, {}};
+  const std::array<SegmentColour, 3> colours{{{230, 159, 0}, {0, 114, 178}, {1, 2, 3}}};
+  const std::array<const char*, 3> names{"Leber \xc3\xbc", "tumour", "a third, with\\backslash"};
+  const std::array<const char*, 3> meanings{"liver", "tumour", "tissue"};
+  for (std::size_t n = 0; n < 3; ++n) {
+    std::vector<std::uint8_t> voxels(static_cast<std::size_t>(geometry.voxel_count()));
+    for (std::size_t v = 0; v < voxels.size(); ++v) {
+      const auto k = static_cast<std::int64_t>(v) / (geometry.size.x * geometry.size.y);
+      const bool left_out = k % 3 == static_cast<std::int64_t>(n);
+      voxels[v] = !left_out && ((v + 1) * 2654435761U >> (9 + n)) % 5 < 2 ? 1 : 0;
+    }
+    Segment segment;
+    segment.name = names[n];
+    segment.colour = colours[n];
+    segment.meaning = *find_segment_meaning(meanings[n]);
+    segment.slices = slices_of(geometry, voxels);
+    segments.list.push_back(std::move(segment));
+  }
+  return segments;
+}
+
+Segment ball_segment(const Geometry& geometry, double radius_mm, double hollow_mm) {
+  const glm::dvec3 centre = geometry.to_patient(0.5 * glm::dvec3(geometry.size - Index3(1)));
+  const glm::dvec3 h = geometry.spacing_mm;
+  std::vector<float> phi;
+  std::vector<std::uint8_t> inside;
+  for (std::int64_t k = 0; k < geometry.size.z; ++k) {
+    for (std::int64_t j = 0; j < geometry.size.y; ++j) {
+      for (std::int64_t i = 0; i < geometry.size.x; ++i) {
+        const double r = glm::distance(centre, geometry.to_patient({i, j, k}));
+        const double mm = hollow_mm > 0.0 ? std::min(radius_mm - r, r - hollow_mm) : radius_mm - r;
+        phi.push_back(static_cast<float>(std::clamp(mm / std::min({h.x, h.y, h.z}), -3.0, 3.0)));
+        inside.push_back(phi.back() > 0.0F ? 1 : 0);
+      }
+    }
+  }
+  Segment segment;
+  segment.name = "ball";
+  segment.slices = slices_of(geometry, inside);
+  auto volume = std::make_shared<Volume>();
+  volume->geometry = geometry;
+  volume->voxels = std::move(phi);
+  segment.phi = std::move(volume);
+  return segment;
+}
+
+QString validate(const std::filesystem::path& file) {
+  QProcess validator;
+  validator.setProcessChannelMode(QProcess::MergedChannels);
+  validator.start("dciodvfy", {QString::fromStdString(file.string())});
+  if (!validator.waitForFinished()) return "Error - dciodvfy (package dicom3tools) does not run";
+  return validator.readAll();
+}
+
+QJsonObject read_with_pydicom(const std::filesystem::path& file, const std::filesystem::path& source_folder) {
+  QProcess python;
+  // The system's own, which has the system's packages.
+  python.start("/usr/bin/python3", {TIDEMARK_READ_RESULTS, QString::fromStdString(file.string()),
+                                    QString::fromStdString(source_folder.string())});
+  const bool ended = python.waitForFinished() && python.exitCode() == 0;
+  if (!ended) {
+    qFatal("pydicom (packages python3-pydicom, python3-numpy) cannot read it: %s",
+           python.readAllStandardError().constData());
+  }
+  return QJsonDocument::fromJson(python.readAllStandardOutput()).object();
+}
+
+}  // namespace tidemark::test

@@ -1,0 +1,44 @@
+// Series, segments and readers for the tests of this folder.
+#pragma once
+
+#include <QJsonObject>
+#include <QString>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "imaging/results/results.h"
+
+namespace tidemark::test {
+
+// Eight ways to lie in the patient, each with a name: axial, sagittal, coronal, mirrored, oblique.
+struct Orientation {
+  const char* name;
+  glm::dmat3 direction;
+};
+const std::vector<Orientation>& orientations();
+
+Geometry sample_grid(Index3 size, const glm::dmat3& direction);
+
+// A series written there as CT, and the grid that it is read back with.
+struct SampleSeries {
+  std::filesystem::path folder;
+  std::vector<std::filesystem::path> files;  // in slice order
+  Geometry geometry;
+};
+SampleSeries write_sample_series(const Geometry& geometry, const std::filesystem::path& folder);
+
+// Three segments of speckles that differ in every direction: the first two overlap, and both leave out
+// slices.
+Segments speckled_segments(const Geometry& geometry);
+
+// A ball around the middle of the grid as mask and as phi, radius in mm; with `hollow_mm`, without its core.
+Segment ball_segment(const Geometry& geometry, double radius_mm, double hollow_mm = 0.0);
+
+// What dciodvfy says about a file.
+QString validate(const std::filesystem::path& file);
+
+// What pydicom finds in a file (read_results.py). Ends the test program when it cannot read it.
+QJsonObject read_with_pydicom(const std::filesystem::path& file, const std::filesystem::path& source_folder);
+
+}  // namespace tidemark::test
