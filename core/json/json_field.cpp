@@ -1,4 +1,4 @@
-#include "study/json_field.h"
+#include "core/json/json_field.h"
 
 #include <cmath>
 
