@@ -10,6 +10,7 @@ tidemark_packages=(
   libinsighttoolkit5-dev libgdcm-dev zlib1g-dev libpng-dev
   libopenvdb-dev libtbb-dev libboost-dev
   dicom3tools locales dpkg-dev file
+  orthanc dcmtk openssl
 )
 
 # Qt's OpenGL classes are a package of their own on Debian 12, and part of qt6-base-dev later.

@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "study/json_field.h"
+#include "core/json/json_field.h"
 
 namespace tidemark {
 namespace {

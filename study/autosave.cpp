@@ -16,7 +16,7 @@
 
 #include "core/atomic_file.h"
 #include "study/checksum.h"
-#include "study/json_field.h"
+#include "core/json/json_field.h"
 #include "study/session_file.h"
 
 namespace tidemark {

@@ -1,7 +1,7 @@
 // Recipes and their parts as JSON, for recipe files and session files.
 #pragma once
 
-#include "study/json_field.h"
+#include "core/json/json_field.h"
 #include "study/recipe.h"
 
 namespace tidemark {

@@ -64,6 +64,7 @@ void add_all(CLI::App& app, Program& program) {
   add_render(app, program);
   add_phantom(app, program);
   add_bench(app, program);
+  add_pacs(app, program);
 }
 
 // A first word that is no command gets a better answer than the parser's.
@@ -98,8 +99,12 @@ int answer_parser(const CLI::App& app, Program& program, const CLI::ParseError& 
     return program.console.finish({});
   }
   std::string message = describe(app, error);
-  const auto chosen = app.get_subcommands();
-  if (!chosen.empty()) message += " (see tidemark-cli " + chosen.front()->get_name() + " --help)";
+  std::string words;
+  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+    at = at->get_subcommands().front();
+    words += at->get_name() + " ";
+  }
+  if (!words.empty()) message += " (see tidemark-cli " + words + "--help)";
   return program.console.finish(fail(ErrorKind::usage, "{}", message));
 }
 

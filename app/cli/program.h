@@ -40,5 +40,6 @@ void add_convert(CLI::App& app, Program& program);
 void add_render(CLI::App& app, Program& program);
 void add_phantom(CLI::App& app, Program& program);
 void add_bench(CLI::App& app, Program& program);
+void add_pacs(CLI::App& app, Program& program);
 
 }  // namespace tidemark::cli

@@ -7,10 +7,19 @@ page=$2
 
 options_in() { grep -oE -- '--[a-z][a-z-]+' | sort -u; }
 
+# The commands, and those of groups ("pacs echo").
+words_in() { sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p'; }
 help=$("$cli" --help)
-commands=$(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p' <<<"$help")
+commands=$(words_in <<<"$help")
 [[ $commands == *segment* ]] || { echo "no commands found in the help"; exit 1; }
-for command in $commands; do help+=$("$cli" "$command" --help); done
+for command in $commands; do
+  own=$("$cli" "$command" --help)
+  help+=$own
+  for part in $(words_in <<<"$own"); do
+    help+=$("$cli" "$command" "$part" --help)
+    commands+=$'\n'"$command $part"
+  done
+done
 in_help=$(options_in <<<"$help")
 [[ $in_help == *--target* ]] || { echo "no options found in the help of the commands"; exit 1; }
 
@@ -21,6 +30,6 @@ difference=$(diff <(echo "$in_help") <(options_in <<<"$manual")) || {
   echo "$difference"
   exit 1
 }
-for command in $commands; do
+while read -r command; do
   grep -qE -- "^\.BI? $command( |\$)" <<<"$manual" || { echo "the command $command is not in $(basename "$page")"; exit 1; }
-done
+done <<<"$commands"

@@ -64,6 +64,8 @@ void Actions::make_files() {
                    tr("Open a DICOM file, NIfTI, NRRD, MetaImage or GIPL"));
   open_session = make("open-session", "open-file", tr("Open &session…"), {}, false,
                       tr("Go on with a session that was saved"));
+  query_server = make("query-server", "server", tr("&Query a server…"), QKeySequence("Ctrl+Alt+O"), false,
+                      tr("Find a series in a PACS and open it"));
   save = make("save", "save", tr("&Save session"), QKeySequence("Ctrl+S"), true);
   save_as = make("save-as", "save-as", tr("Save session &as…"), QKeySequence("Ctrl+Shift+S"), true);
   export_mask = make("export-mask", "export", tr("&Mask or labels…"), QKeySequence("Ctrl+E"), true,

@@ -24,6 +24,7 @@ class Actions : public QObject {
   QAction* open_folder;
   QAction* open_file;
   QAction* open_session;
+  QAction* query_server;
   QAction* save;
   QAction* save_as;
   QAction* export_mask;

@@ -6,6 +6,7 @@
 #include "ui/main/main_window.h"
 #include "ui/main/menu_bar_icon.h"
 #include "ui/main/panel_docks.h"
+#include "ui/main/server_query.h"
 #include "ui/opening/phantom_menu.h"
 #include "ui/opening/recent_studies.h"
 
@@ -14,7 +15,8 @@ namespace {
 
 void make_file_menu(MainWindow& window, Actions& actions, RecentStudies& recent) {
   QMenu* file = window.menuBar()->addMenu(MainWindow::tr("&File"));
-  file->addActions({actions.open_folder, actions.open_file, actions.open_session});
+  file->addActions({actions.open_folder, actions.open_file, actions.open_session, actions.query_server});
+  QObject::connect(actions.query_server, &QAction::triggered, &window, [&window] { query_server(window); });
   file->addMenu(recent.make_menu(file));
   auto* phantoms = new PhantomMenu(file);
   phantoms->setTitle(MainWindow::tr("&Phantoms"));

@@ -1,5 +1,6 @@
-#include "study/json_field.h"
+#include "core/json/json_field.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tidemark {
@@ -85,6 +86,15 @@ JsonField JsonField::at(std::size_t index) const {
     field.value_ = &value_->at(index);
   }
   return field;
+}
+
+void JsonField::only(const std::vector<std::string_view>& names) const {
+  if (value_ == nullptr) return;
+  if (!value_->is_object()) return wrong("not an object");
+  for (const auto& [name, value] : value_->items()) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    return wrong(fmt::format("'{}' is no field that is known here", name.substr(0, 60)));
+  }
 }
 
 std::size_t JsonField::size(std::size_t most) const {

@@ -33,6 +33,8 @@ class JsonField {
   [[nodiscard]] JsonField at(const char* key) const;
   [[nodiscard]] JsonField at(std::size_t index) const;
   [[nodiscard]] bool is_text() const { return value_ != nullptr && value_->is_string(); }
+  // Notes a problem where an object holds any other name: a misspelt field must not go unnoticed.
+  void only(const std::vector<std::string_view>& names) const;
   // Of an array of at most so many.
   [[nodiscard]] std::size_t size(std::size_t most) const;
 

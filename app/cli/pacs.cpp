@@ -1,0 +1,75 @@
+// tidemark-cli pacs: the group of its commands, and echo.
+#include "app/cli/pacs.h"
+
+#include "imaging/pacs/pacs.h"
+
+namespace tidemark::cli {
+namespace {
+
+constexpr const char* kGroupSummary = "Asks a PACS, brings series from it and sends files to it";
+constexpr const char* kGroupFooter =
+    "\nServers are named in $XDG_CONFIG_HOME/tidemark/pacs.json (else ~/.config/tidemark/pacs.json), like "
+    "this:\n"
+    "  {\"servers\": [{\"name\": \"main\", \"host\": \"pacs.example\", \"port\": 104, \"ae_title\": "
+    "\"ARCHIVE\"}]}\n"
+    "\nExamples:\n"
+    "  tidemark-cli pacs echo main\n"
+    "  tidemark-cli pacs COMMAND --help\n";
+
+constexpr const char* kSummary = "Asks whether a server answers";
+constexpr const char* kDescription = "Calls the server and says how long its answer took.";
+constexpr const char* kExamples =
+    "  tidemark-cli pacs echo main\n"
+    "  tidemark-cli pacs echo main --servers ward.json --json\n";
+
+Status run_echo(Program& program, const ServerChoice& choice) {
+  const auto chosen = choice.choose();
+  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  const PacsServer& server = chosen->server;
+  const auto seconds = pacs_echo(server, program.console.progress());
+  if (!seconds) return tl::unexpected<Error>(seconds.error());
+  program.console.say("{} ({}:{}, {}) answers in {:.0f} ms", server.name, server.host, server.port,
+                      server.ae_title, *seconds * 1000.0);
+  Json object;
+  object["server"] = server.name;
+  object["host"] = server.host;
+  object["port"] = server.port;
+  object["ae_title"] = server.ae_title;
+  object["seconds"] = *seconds;
+  program.console.result(object);
+  return {};
+}
+
+}  // namespace
+
+Result<ServerChoice::Chosen> ServerChoice::choose() const {
+  const auto configuration =
+      read_pacs_configuration(file.empty() ? pacs_configuration_file() : std::filesystem::path(file));
+  if (!configuration) return tl::unexpected<Error>(configuration.error());
+  auto chosen = configuration->server(server);
+  if (!chosen) return pass_on(chosen);
+  return Chosen{std::move(*chosen), configuration->limits};
+}
+
+void add_server_choice(CLI::App& command, ServerChoice& choice) {
+  command.add_option("SERVER", choice.server, "The name of a server in the file of servers")
+      ->required()
+      ->type_name("");
+  command.add_option("--servers", choice.file, "The file of servers, instead of the usual one")
+      ->type_name("FILE.json");
+}
+
+void add_pacs(CLI::App& app, Program& program) {
+  CLI::App& pacs = *app.add_subcommand("pacs", kGroupSummary);
+  pacs.footer(kGroupFooter);
+  pacs.require_subcommand(1);
+  auto choice = std::make_shared<ServerChoice>();
+  CLI::App& echo = add_command(pacs, program, {"echo", kSummary, kDescription, kExamples},
+                               [&program, choice] { return run_echo(program, *choice); });
+  add_server_choice(echo, *choice);
+  add_pacs_find(pacs, program);
+  add_pacs_get(pacs, program);
+  add_pacs_send(pacs, program);
+}
+
+}  // namespace tidemark::cli

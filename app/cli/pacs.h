@@ -1,0 +1,29 @@
+// The commands under tidemark-cli pacs.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/cli/program.h"
+#include "imaging/pacs/configuration.h"
+
+namespace tidemark::cli {
+
+// Which server is meant, in every one of them.
+struct ServerChoice {
+  std::string server;
+  std::string file;  // empty: pacs_configuration_file()
+
+  struct Chosen {
+    PacsServer server;
+    PacsLimits limits;
+  };
+  [[nodiscard]] Result<Chosen> choose() const;
+};
+void add_server_choice(CLI::App& command, ServerChoice& choice);
+
+void add_pacs_find(CLI::App& pacs, Program& program);
+void add_pacs_get(CLI::App& pacs, Program& program);
+void add_pacs_send(CLI::App& pacs, Program& program);
+
+}  // namespace tidemark::cli

@@ -1,0 +1,134 @@
+// tidemark-cli pacs find: the studies that a server has, or the series of one.
+#include "app/cli/pacs.h"
+#include "imaging/pacs/pacs.h"
+
+namespace tidemark::cli {
+namespace {
+
+constexpr const char* kSummary = "Lists a server's studies, or the series of a study";
+constexpr const char* kDescription =
+    "Lists the studies that match all that is given, or with --study that study's series. Texts may hold "
+    "the\n"
+    "wildcards * and ?; what counts as a match is the server's to decide, such as capital letters. Standard\n"
+    "output holds what the server says about patients.";
+constexpr const char* kExamples =
+    "  tidemark-cli pacs find main --patient-name 'Doe*' --from 2026-01-01 --modality CT\n"
+    "  tidemark-cli pacs find main --study 1.2.840.99.7\n";
+
+struct FindOptions {
+  ServerChoice choice;
+  StudyQuery studies;
+  std::string study;
+};
+
+template <class Number>
+Json json_or_null(const std::optional<Number>& number) {
+  return number ? Json(*number) : Json();
+}
+
+Json to_json(const PacsStudy& study) {
+  Json object;
+  object["uid"] = study.uid;
+  object["patient_name"] = study.patient_name;
+  object["patient_id"] = study.patient_id;
+  object["birth_date"] = study.birth_date;
+  object["date"] = study.date;
+  object["description"] = study.description;
+  object["modalities"] = study.modalities;
+  object["series"] = json_or_null(study.series);
+  object["objects"] = json_or_null(study.objects);
+  return object;
+}
+
+Json to_json(const PacsSeries& series) {
+  Json object;
+  object["uid"] = series.uid;
+  object["study_uid"] = series.study_uid;
+  object["number"] = series.number;
+  object["modality"] = series.modality;
+  object["description"] = series.description;
+  object["date"] = series.date;
+  object["body_part"] = series.body_part;
+  object["objects"] = json_or_null(series.objects);
+  return object;
+}
+
+std::string count_text(const std::optional<std::int64_t>& count) {
+  return count ? fmt::format("{}", *count) : "an unknown number";
+}
+
+void say(Console& console, const PacsStudy& study) {
+  std::string modalities;
+  for (const std::string& one : study.modalities) modalities += (modalities.empty() ? "" : ", ") + one;
+  console.say("{}  {}", study.date.empty() ? "no date   " : study.date, study.description);
+  console.say("  patient     {} ({})", readable_name(study.patient_name), study.patient_id);
+  console.say("  modalities  {}", modalities);
+  console.say("  holds       {} objects in {} series", count_text(study.objects), count_text(study.series));
+  console.say("  uid         {}", study.uid);
+}
+
+void say(Console& console, const PacsSeries& series) {
+  console.say("{}  {}", series.modality, series.description);
+  console.say("  number      {}", series.number);
+  if (!series.body_part.empty()) console.say("  body part   {}", series.body_part);
+  console.say("  holds       {} objects", count_text(series.objects));
+  console.say("  uid         {}", series.uid);
+}
+
+template <class Entry>
+Status report(Console& console, const char* key, const Result<Found<Entry>>& found) {
+  if (!found) return tl::unexpected<Error>(found.error());
+  Json object;
+  object[key] = Json::array();
+  for (const Entry& entry : found->entries) {
+    object[key].push_back(to_json(entry));
+    if (!console.json()) say(console, entry);
+  }
+  object["more"] = found->more;
+  if (found->more) {
+    console.warn(
+        fmt::format("the server has more than these {} {}: ask for less", found->entries.size(), key));
+  }
+  console.say("{} {}", found->entries.size(), key);
+  console.result(object);
+  return {};
+}
+
+Status run(Program& program, const FindOptions& options) {
+  const auto chosen = options.choice.choose();
+  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  Console& console = program.console;
+  const StudyQuery& query = options.studies;
+  if (options.study.empty()) {
+    return report(console, "studies",
+                  find_studies(chosen->server, query, chosen->limits, console.progress()));
+  }
+  const SeriesQuery in_study{options.study, query.modality, query.description};
+  return report(console, "series",
+                find_pacs_series(chosen->server, in_study, chosen->limits, console.progress()));
+}
+
+}  // namespace
+
+void add_pacs_find(CLI::App& pacs, Program& program) {
+  auto options = std::make_shared<FindOptions>();
+  CLI::App& command = add_command(pacs, program, {"find", kSummary, kDescription, kExamples},
+                                  [&program, options] { return run(program, *options); });
+  add_server_choice(command, options->choice);
+  StudyQuery& query = options->studies;
+  CLI::Option* name =
+      command.add_option("--patient-name", query.patient_name, "As DICOM writes it: Family^Given");
+  CLI::Option* id = command.add_option("--patient-id", query.patient_id, "The patient's number");
+  CLI::Option* from =
+      command.add_option("--from", query.date_from, "Studies of that day and later: 2026-07-31");
+  CLI::Option* to = command.add_option("--to", query.date_to, "Studies of that day and earlier");
+  command.add_option("--modality", query.modality, "CT, MR, ...")->type_name("WORD");
+  command.add_option("--description", query.description, "Of the study; with --study, of the series")
+      ->type_name("TEXT");
+  CLI::Option* study = command.add_option("--study", options->study, "List the series of this study");
+  study->type_name("UID");
+  for (CLI::Option* option : {name, id}) option->type_name("TEXT")->excludes(study);
+  for (CLI::Option* option : {from, to}) option->type_name("DATE")->excludes(study);
+}
+
+}  // namespace tidemark::cli

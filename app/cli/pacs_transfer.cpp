@@ -1,0 +1,144 @@
+// tidemark-cli pacs get and send.
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "app/cli/pacs.h"
+#include "imaging/dicom/dicom.h"
+#include "imaging/pacs/pacs.h"
+
+namespace tidemark::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kGetSummary = "Brings a series or a study from a server";
+constexpr const char* kGetDescription =
+    "Brings the objects of a series, or of all series of a study, into DIR, as the server's entry says: on "
+    "one\n"
+    "connection (\"retrieve\": \"get\"), or by the server's own calls to this machine (\"move\"). Where some "
+    "objects\n"
+    "could not come, those that came stay and the command ends with code 3; otherwise a failure leaves "
+    "nothing.";
+constexpr const char* kGetExamples =
+    "  tidemark-cli pacs get main --study 1.2.840.99.7 --series 1.2.840.99.7.2 --out series\n"
+    "  tidemark-cli info series\n";
+
+constexpr const char* kSendSummary = "Sends DICOM files to a server";
+constexpr const char* kSendDescription =
+    "Sends DICOM files, and those in folders, as they are: a server that does not take a file's compression "
+    "does\n"
+    "not get that file. Where some files could not be sent, the command names them and ends with code 3.";
+constexpr const char* kSendExamples =
+    "  tidemark-cli pacs send main series/\n"
+    "  tidemark-cli pacs send main mask.dcm --json\n";
+
+struct GetOptions {
+  ServerChoice choice;
+  RetrieveRequest request;
+};
+
+struct SendOptions {
+  ServerChoice choice;
+  std::vector<std::string> paths;
+};
+
+Status run_get(Program& program, const GetOptions& options) {
+  const auto chosen = options.choice.choose();
+  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  Console& console = program.console;
+  const auto retrieved = retrieve(chosen->server, options.request, chosen->limits, console.progress());
+  if (!retrieved) return tl::unexpected<Error>(retrieved.error());
+  const std::string folder = options.request.folder.string();
+  console.say("Wrote      {}: {} objects, {:.1f} MB", folder, retrieved->files.size(),
+              static_cast<double>(retrieved->bytes) / 1e6);
+  for (const std::string& reason : retrieved->refused) console.warn(reason);
+  Json object;
+  object["folder"] = folder;
+  object["objects"] = retrieved->files.size();
+  object["bytes"] = retrieved->bytes;
+  object["missing"] = retrieved->missing;
+  object["refused"] = retrieved->refused;
+  console.result(object);
+  if (retrieved->missing == 0 && retrieved->refused.empty()) return {};
+  return fail(ErrorKind::input,
+              "{}: is not complete: {} objects could not be sent by the server, {} were not taken", folder,
+              retrieved->missing, retrieved->refused.size());
+}
+
+// The files themselves, and the DICOM files in folders.
+Result<std::vector<fs::path>> files_of(const std::vector<std::string>& paths) {
+  std::vector<fs::path> files;
+  for (const fs::path path : paths) {
+    std::error_code error;
+    if (!fs::is_directory(path, error)) {
+      if (!fs::exists(path, error))
+        return fail(ErrorKind::input, "{}: no such file or folder", path.string());
+      files.push_back(path);
+      continue;
+    }
+    std::vector<fs::path> inside;
+    fs::recursive_directory_iterator entries(path, error);
+    for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
+      std::error_code ignored;
+      if (entries->is_regular_file(ignored) && looks_like_dicom(entries->path()))
+        inside.push_back(entries->path());
+    }
+    if (error) return fail(ErrorKind::input, "{}: cannot be listed: {}", path.string(), error.message());
+    if (inside.empty()) return fail(ErrorKind::input, "{}: holds no DICOM file", path.string());
+    std::sort(inside.begin(), inside.end());
+    files.insert(files.end(), inside.begin(), inside.end());
+  }
+  return files;
+}
+
+Status run_send(Program& program, const SendOptions& options) {
+  const auto chosen = options.choice.choose();
+  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  const auto files = files_of(options.paths);
+  if (!files) return tl::unexpected<Error>(files.error());
+  Console& console = program.console;
+  const auto sent = send_files(chosen->server, *files, console.progress());
+  if (!sent) return tl::unexpected<Error>(sent.error());
+  console.say("Sent       {} objects, {:.1f} MB", sent->objects, static_cast<double>(sent->bytes) / 1e6);
+  Json object;
+  object["objects"] = sent->objects;
+  object["bytes"] = sent->bytes;
+  object["unsent"] = Json::array();
+  for (const Unsent& one : sent->unsent) {
+    console.warn(fmt::format("{}: was not sent: {}", one.file.string(), one.reason));
+    object["unsent"].push_back({{"file", one.file.string()}, {"reason", one.reason}});
+  }
+  console.result(object);
+  if (sent->unsent.empty()) return {};
+  return fail(ErrorKind::input, "{} of {} files were not sent", sent->unsent.size(), files->size());
+}
+
+}  // namespace
+
+void add_pacs_get(CLI::App& pacs, Program& program) {
+  auto options = std::make_shared<GetOptions>();
+  CLI::App& command = add_command(pacs, program, {"get", kGetSummary, kGetDescription, kGetExamples},
+                                  [&program, options] { return run_get(program, *options); });
+  add_server_choice(command, options->choice);
+  command.add_option("--study", options->request.study_uid, "The study (see find)")
+      ->required()
+      ->type_name("UID");
+  command.add_option("--series", options->request.series_uid, "The series in it (default: all)")
+      ->type_name("UID");
+  const auto set_folder = [options](const std::string& folder) { options->request.folder = folder; };
+  command
+      .add_option_function<std::string>("--out", set_folder, "The folder to write to: a new or an empty one")
+      ->required()
+      ->type_name("DIR");
+}
+
+void add_pacs_send(CLI::App& pacs, Program& program) {
+  auto options = std::make_shared<SendOptions>();
+  CLI::App& command = add_command(pacs, program, {"send", kSendSummary, kSendDescription, kSendExamples},
+                                  [&program, options] { return run_send(program, *options); });
+  add_server_choice(command, options->choice);
+  command.add_option("PATH", options->paths, "DICOM files, or folders of them")->required()->type_name("...");
+}
+
+}  // namespace tidemark::cli

@@ -1,0 +1,115 @@
+#include "imaging/pacs/answer_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <vector>
+
+#include "imaging/pacs/pacs.h"
+
+namespace tidemark {
+namespace {
+
+constexpr std::size_t kLongestText = 512;
+
+// The bytes of the UTF-8 character at `at`; 0 when there is none.
+std::size_t character_length(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(at);
+  const std::size_t length = first < 0x80                    ? 1
+                             : first >= 0xc2 && first < 0xe0 ? 2
+                             : first >= 0xe0 && first < 0xf0 ? 3
+                             : first >= 0xf0 && first < 0xf5 ? 4
+                                                             : 0;
+  if (length == 0 || at + length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(at + i) & 0xc0) != 0x80) return 0;
+  }
+  return length;
+}
+
+bool is_control(std::string_view character) {
+  const auto first = static_cast<unsigned char>(character[0]);
+  if (character.size() == 1) return first < 0x20 || first == 0x7f;
+  return character.size() == 2 && first == 0xc2 && static_cast<unsigned char>(character[1]) < 0xa0;
+}
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == at) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::string clean_text(std::string text) {
+  std::string clean;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = character_length(text, at);
+    const std::string_view character = std::string_view(text).substr(at, std::max<std::size_t>(length, 1));
+    if (clean.size() + character.size() > kLongestText) break;
+    if (length == 0) {
+      clean += '?';
+    } else if (is_control(character)) {
+      clean += ' ';
+    } else {
+      clean += character;
+    }
+    at += character.size();
+  }
+  clean.erase(clean.find_last_not_of(' ') + 1);
+  clean.erase(0, clean.find_first_not_of(' '));
+  return clean;
+}
+
+std::optional<std::string> dicom_date(std::string_view text) {
+  std::string digits;
+  for (const char c : text) {
+    if (c >= '0' && c <= '9') {
+      digits += c;
+    } else if (text.size() != 10 || (c != '-' && c != '.') || (digits.size() != 4 && digits.size() != 6)) {
+      return std::nullopt;
+    }
+  }
+  if (digits.size() != 8 || (text.size() != 8 && text.size() != 10)) return std::nullopt;
+  const auto number = [&](std::size_t at) { return (digits[at] - '0') * 10 + digits[at + 1] - '0'; };
+  if (number(4) < 1 || number(4) > 12 || number(6) < 1 || number(6) > 31) return std::nullopt;
+  return digits;
+}
+
+std::string date_text(std::string text) {
+  text.erase(text.find_last_not_of(' ') + 1);
+  const auto digits = dicom_date(text);
+  if (!digits) return {};
+  return digits->substr(0, 4) + '-' + digits->substr(4, 2) + '-' + digits->substr(6);
+}
+
+std::optional<std::int64_t> count_of(std::string_view text) {
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  std::int64_t number = 0;
+  const auto [stopped, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || stopped != text.data() + text.size() || number < 0) return std::nullopt;
+  return number;
+}
+
+std::string readable_name(const std::string& dicom_name) {
+  std::string readable;
+  for (const std::string& group : split(dicom_name, '=')) {
+    const std::vector<std::string> parts = split(group, '^');
+    std::string name = parts[0];
+    for (std::size_t i = 1; i < parts.size() && i < 3; ++i) {  // then prefix and suffix
+      if (!parts[i].empty()) name += (i == 1 ? ", " : " ") + parts[i];
+    }
+    if (name.empty()) continue;
+    readable += (readable.empty() ? "" : " / ") + name;
+  }
+  return readable;
+}
+
+}  // namespace tidemark

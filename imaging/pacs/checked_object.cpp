@@ -1,0 +1,53 @@
+#include "imaging/pacs/checked_object.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include "imaging/dicom/dicom.h"
+#include "imaging/dicom/dicom_setup.h"
+#include "imaging/pacs/storage_classes.h"
+
+namespace tidemark {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<ObjectIdentity> identity_of(const fs::path& file) {
+  DcmFileFormat loaded;
+  const OFCondition parsed = loaded.loadFile(file.c_str());
+  if (parsed.bad()) return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
+  DcmDataset& dataset = *loaded.getDataset();
+  const auto text = [&](const DcmTagKey& key) {
+    OFString value;
+    return dataset.findAndGetOFString(key, value).good() ? std::string(value.c_str()) : std::string();
+  };
+  ObjectIdentity identity;
+  identity.sop_class = text(DCM_SOPClassUID);
+  identity.sop_instance = text(DCM_SOPInstanceUID);
+  identity.study = text(DCM_StudyInstanceUID);
+  identity.series = text(DCM_SeriesInstanceUID);
+  identity.transfer_syntax = DcmXfer(dataset.getOriginalXfer()).getXferID();
+  for (const auto& [name, value] : {std::pair{"SOPClassUID (0008,0016)", &identity.sop_class},
+                                    {"SOPInstanceUID (0008,0018)", &identity.sop_instance},
+                                    {"StudyInstanceUID (0020,000D)", &identity.study},
+                                    {"SeriesInstanceUID (0020,000E)", &identity.series}}) {
+    if (!is_uid(*value)) return fail(ErrorKind::input, "{}: {} is missing or no UID", file.string(), name);
+  }
+  return identity;
+}
+
+}  // namespace
+
+Result<ObjectIdentity> check_object(const fs::path& file) {
+  try {
+    if (Status ready = set_up_dicom(); !ready) return pass_on(ready);
+    if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
+    return identity_of(file);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::capability, "{}: there is not enough memory", file.string());
+  } catch (const std::exception& error) {
+    return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(), error.what());
+  }
+}
+
+}  // namespace tidemark

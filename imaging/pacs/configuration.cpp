@@ -1,0 +1,206 @@
+#include "imaging/pacs/configuration.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "core/atomic_file.h"
+#include "core/json/json_field.h"
+
+namespace tidemark {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr JsonLimits kLimits{std::size_t{1} << 20, 8};
+constexpr std::size_t kMostServers = 100;
+constexpr std::int64_t kMebibyte = std::int64_t{1} << 20;
+
+// A title of an application entity (DICOM PS3.5 6.2, AE).
+bool is_ae_title(const std::string& title) {
+  const auto allowed = [](char c) { return c >= 0x20 && c < 0x7f && c != '\\'; };
+  return !title.empty() && title.size() <= 16 && title.front() != ' ' && title.back() != ' ' &&
+         std::all_of(title.begin(), title.end(), allowed);
+}
+
+bool is_host(const std::string& host) {
+  const auto allowed = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '.' || c == '-' || c == '_';
+  };
+  return !host.empty() && host.size() <= 253 && std::all_of(host.begin(), host.end(), allowed);
+}
+
+// What is wrong with a server: the field and why; an empty field when all is well.
+struct Fault {
+  const char* field = "";
+  const char* reason = "";
+};
+Fault fault_of(const PacsServer& server) {
+  if (server.name.empty()) return {"name", "is empty"};
+  if (!is_host(server.host)) return {"host", "is neither a host name nor an IPv4 address"};
+  if (server.port < 1 || server.port > 65535) return {"port", "is not within 1 to 65535"};
+  if (!is_ae_title(server.ae_title)) return {"ae_title", "is not 1 to 16 ASCII characters"};
+  if (!is_ae_title(server.own_ae_title)) return {"own_ae_title", "is not 1 to 16 ASCII characters"};
+  if (server.move_port < 1 || server.move_port > 65535) return {"move_port", "is not within 1 to 65535"};
+  if (server.timeout_seconds < 1 || server.timeout_seconds > 3600)
+    return {"timeout_seconds", "is not within 1 to 3600"};
+  if (!server.tls) return {};
+  if (server.tls->certificate.empty() != server.tls->key.empty())
+    return {"tls", "certificate and key go together"};
+  if (server.retrieve == PacsServer::Retrieve::move && server.tls->certificate.empty())
+    return {"tls", "retrieving by move needs a certificate and its key"};
+  return {};
+}
+
+fs::path read_path(const JsonField& parent, const char* key, const fs::path& folder) {
+  if (!parent.has(key)) return {};
+  const fs::path path = parent.at(key).text();
+  return path.empty() ? path : (folder / path).lexically_normal();
+}
+
+PacsTls read_tls(const JsonField& field, const fs::path& folder) {
+  field.only({"ca", "certificate", "key", "verify"});
+  PacsTls tls;
+  tls.ca = read_path(field, "ca", folder);
+  tls.certificate = read_path(field, "certificate", folder);
+  tls.key = read_path(field, "key", folder);
+  if (field.has("verify")) tls.verify = field.at("verify").boolean();
+  return tls;
+}
+
+PacsServer read_server(const JsonField& field, const fs::path& folder) {
+  field.only({"name", "host", "port", "ae_title", "own_ae_title", "retrieve", "move_port", "timeout_seconds",
+              "tls"});
+  PacsServer server;
+  server.name = field.at("name").text(100);
+  server.host = field.at("host").text(253);
+  server.ae_title = field.at("ae_title").text(16);
+  const auto whole = [&](const char* key, int high, int& value) {
+    if (field.has(key)) value = static_cast<int>(field.at(key).integer(1, high));
+  };
+  whole("port", 65535, server.port);
+  whole("move_port", 65535, server.move_port);
+  whole("timeout_seconds", 3600, server.timeout_seconds);
+  if (field.has("own_ae_title")) server.own_ae_title = field.at("own_ae_title").text(16);
+  if (field.has("retrieve") && field.at("retrieve").word({"get", "move"}) == 1)
+    server.retrieve = PacsServer::Retrieve::move;
+  if (field.has("tls")) server.tls = read_tls(field.at("tls"), folder);
+  if (!field.good()) return server;
+  if (const Fault fault = fault_of(server); *fault.field != '\0') {
+    field.wrong(fmt::format("{}: {}", fault.field, fault.reason));
+  }
+  return server;
+}
+
+PacsLimits read_limits(const JsonField& field) {
+  field.only({"object_mib", "retrieval_mib", "objects", "free_mib", "answers"});
+  PacsLimits limits;
+  const auto mebibytes = [&](const char* key, std::int64_t& bytes) {
+    if (field.has(key)) bytes = field.at(key).integer(1, std::int64_t{1} << 24) * kMebibyte;
+  };
+  mebibytes("object_mib", limits.object_bytes);
+  mebibytes("retrieval_mib", limits.retrieval_bytes);
+  mebibytes("free_mib", limits.free_bytes);
+  if (field.has("objects")) limits.objects = field.at("objects").integer(1, 1'000'000);
+  if (field.has("answers")) limits.answers = field.at("answers").integer(1, 100'000);
+  return limits;
+}
+
+Result<std::string> text_of(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(file, error)) {
+    return fail(ErrorKind::input, "{}: no such file: it says which PACS servers there are", file.string());
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(kLimits.bytes + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad() || !stream.is_open()) return fail(ErrorKind::input, "{}: cannot be read", file.string());
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
+Json to_json(const PacsServer& server) {
+  Json json{{"name", server.name},
+            {"host", server.host},
+            {"port", server.port},
+            {"ae_title", server.ae_title},
+            {"own_ae_title", server.own_ae_title},
+            {"retrieve", server.retrieve == PacsServer::Retrieve::get ? "get" : "move"},
+            {"move_port", server.move_port},
+            {"timeout_seconds", server.timeout_seconds}};
+  if (server.tls) {
+    json["tls"] = {{"ca", server.tls->ca.string()},
+                   {"certificate", server.tls->certificate.string()},
+                   {"key", server.tls->key.string()},
+                   {"verify", server.tls->verify}};
+  }
+  return json;
+}
+
+Json to_json(const PacsLimits& limits) {
+  return {{"object_mib", limits.object_bytes / kMebibyte},
+          {"retrieval_mib", limits.retrieval_bytes / kMebibyte},
+          {"objects", limits.objects},
+          {"free_mib", limits.free_bytes / kMebibyte},
+          {"answers", limits.answers}};
+}
+
+}  // namespace
+
+Result<PacsServer> PacsConfiguration::server(const std::string& name) const {
+  std::string known;
+  for (const PacsServer& server : servers) {
+    if (server.name == name) return server;
+    known += (known.empty() ? "" : ", ") + server.name;
+  }
+  return fail(ErrorKind::usage, "there is no PACS server '{}': {}", name,
+              known.empty() ? "none is configured" : "those that are configured are " + known);
+}
+
+Status check_pacs_server(const PacsServer& server) {
+  const Fault fault = fault_of(server);
+  if (*fault.field == '\0') return {};
+  return fail(ErrorKind::input, "PACS server {}: {}: {}", server.name, fault.field, fault.reason);
+}
+
+fs::path pacs_configuration_file() {
+  const char* chosen = std::getenv("XDG_CONFIG_HOME");
+  if (chosen != nullptr && *chosen == '/') return fs::path(chosen) / "tidemark/pacs.json";
+  const char* home = std::getenv("HOME");
+  return fs::path(home != nullptr ? home : "/") / ".config/tidemark/pacs.json";
+}
+
+Result<PacsConfiguration> read_pacs_configuration(const fs::path& file) {
+  const auto text = text_of(file);
+  if (!text) return tl::unexpected<Error>(text.error());
+  const auto json = parse_json(*text, file.string(), kLimits);
+  if (!json) return tl::unexpected<Error>(json.error());
+  const JsonField root = root_of(*json, file.string());
+  root.only({"servers", "limits"});
+  PacsConfiguration configuration;
+  const JsonField servers = root.at("servers");
+  const fs::path folder = fs::absolute(file).parent_path();
+  for (std::size_t i = 0; i < servers.size(kMostServers); ++i) {
+    PacsServer server = read_server(servers.at(i), folder);
+    if (configuration.server(server.name)) servers.at(i).at("name").wrong("another server has the same");
+    configuration.servers.push_back(std::move(server));
+  }
+  if (root.has("limits")) configuration.limits = read_limits(root.at("limits"));
+  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  return configuration;
+}
+
+Status write_pacs_configuration(const PacsConfiguration& configuration, const fs::path& file) {
+  Json servers = Json::array();
+  for (const PacsServer& server : configuration.servers) servers.push_back(to_json(server));
+  const Json json{{"servers", servers}, {"limits", to_json(configuration.limits)}};
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  if (error)
+    return fail(ErrorKind::write, "{}: cannot be made: {}", file.parent_path().string(), error.message());
+  return write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace tidemark

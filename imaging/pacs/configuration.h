@@ -1,0 +1,76 @@
+// Which PACS servers there are, and how they are reached.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+
+namespace tidemark {
+
+// Encryption, with files in PEM.
+struct PacsTls {
+  std::filesystem::path ca;  // who may have signed the peer's certificate; empty: the system's authorities
+  std::filesystem::path
+      certificate;            // ours, for servers that ask for one and for retrieval by move; may be empty
+  std::filesystem::path key;  // of our certificate
+  bool verify = true;         // the peer's certificate and, where we call, its host's name
+
+  bool operator==(const PacsTls&) const = default;
+};
+
+struct PacsServer {
+  enum class Retrieve {
+    get,   // objects come on our own connection (C-GET)
+    move,  // the server connects to move_port of this machine (C-MOVE), which it must know by our AE title
+  };
+
+  std::string name;  // by which users choose it
+  std::string host;
+  int port = 104;
+  std::string ae_title;                   // of the server, 1 to 16 characters
+  std::string own_ae_title = "TIDEMARK";  // by which the server knows us
+  Retrieve retrieve = Retrieve::get;
+  int move_port = 11112;
+  int timeout_seconds = 30;  // how long the server may take to answer, and to send its next 64 KiB
+  std::optional<PacsTls> tls;
+
+  bool operator==(const PacsServer&) const = default;
+};
+
+// What a server may do to us.
+struct PacsLimits {
+  std::int64_t object_bytes = std::int64_t{4} << 30;      // of one object
+  std::int64_t retrieval_bytes = std::int64_t{64} << 30;  // of all objects of a retrieval
+  std::int64_t objects = 20'000;                          // of a retrieval
+  std::int64_t free_bytes = std::int64_t{2} << 30;        // stay free on the disk
+  std::int64_t answers = 2'000;                           // of a query
+
+  bool operator==(const PacsLimits&) const = default;
+};
+
+struct PacsConfiguration {
+  std::vector<PacsServer> servers;
+  PacsLimits limits;
+
+  // Fails (ErrorKind::usage) naming the servers that there are.
+  [[nodiscard]] Result<PacsServer> server(const std::string& name) const;
+};
+
+// $XDG_CONFIG_HOME/tidemark/pacs.json, else ~/.config/tidemark/pacs.json.
+[[nodiscard]] std::filesystem::path pacs_configuration_file();
+
+// Files of certificates are relative to the configuration's folder. Fails (ErrorKind::input) naming the file
+// and the field at fault.
+Result<PacsConfiguration> read_pacs_configuration(const std::filesystem::path& file);
+
+// Makes the folder where it is missing. Fails (ErrorKind::write).
+Status write_pacs_configuration(const PacsConfiguration& configuration, const std::filesystem::path& file);
+
+// Whether a conversation can be tried at all. Fails (ErrorKind::input) naming the field.
+Status check_pacs_server(const PacsServer& server);
+
+}  // namespace tidemark

@@ -1,0 +1,231 @@
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmnet/dimse.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "imaging/pacs/answer_text.h"
+#include "imaging/pacs/association.h"
+#include "imaging/pacs/pacs.h"
+#include "imaging/pacs/storage_classes.h"
+#include "imaging/pacs/whole_call.h"
+
+namespace tidemark {
+namespace {
+
+constexpr std::size_t kLongestKey = 64;  // characters (DICOM PS3.5 6.2, LO)
+
+// What is asked: attributes to match, and empty ones that are to be told.
+class Question {
+ public:
+  explicit Question(const char* level) { put(DCM_QueryRetrieveLevel, level); }
+  void put(const DcmTagKey& key, const std::string& value = {}) {
+    dataset_.putAndInsertString(DcmTag(key), value.c_str());
+    is_ascii_ = is_ascii_ && std::all_of(value.begin(), value.end(), [](char c) { return (c & 0x80) == 0; });
+  }
+  DcmDataset& dataset() {
+    if (!is_ascii_) dataset_.putAndInsertString(DCM_SpecificCharacterSet, "ISO_IR 192");
+    return dataset_;
+  }
+
+ private:
+  DcmDataset dataset_;
+  bool is_ascii_ = true;
+};
+
+// An answer, in UTF-8 as far as its character sets are known.
+class Answer {
+ public:
+  explicit Answer(DcmDataset& dataset) : dataset_(dataset) {
+    // Where that fails the texts stay as they are, and clean_text() keeps what is ASCII in them.
+    static_cast<void>(dataset_.convertToUTF8());
+  }
+  [[nodiscard]] std::string text(const DcmTagKey& key) const {
+    OFString value;
+    if (dataset_.findAndGetOFStringArray(key, value).bad()) return {};
+    return clean_text(value.c_str());
+  }
+  [[nodiscard]] std::string uid(const DcmTagKey& key) const {
+    std::string value = text(key);
+    return is_uid(value) ? value : std::string();
+  }
+
+ private:
+  DcmDataset& dataset_;
+};
+
+Status check_key(const char* name, const std::string& value) {
+  const auto control = [](unsigned char c) { return c < 0x20 || c == '\\' || c == 0x7f; };
+  if (value.size() <= 4 * kLongestKey && std::none_of(value.begin(), value.end(), control)) return {};
+  return fail(ErrorKind::usage, "{}: is too long, or holds a backslash or control characters", name);
+}
+
+// "20040101-20041231", with an open end where a date is empty.
+Result<std::string> date_range(const std::string& from, const std::string& to) {
+  if (from.empty() && to.empty()) return std::string();
+  for (const std::string& date : {from, to}) {
+    if (!date.empty() && !dicom_date(date))
+      return fail(ErrorKind::usage, "'{}' is no date: 2004-07-31 is one", date.substr(0, 40));
+  }
+  return dicom_date(from).value_or("") + "-" + dicom_date(to).value_or("");
+}
+
+using TakeAnswer = std::function<bool(const Answer&)>;  // false: that was enough
+
+// Asks and takes answer by answer. True when the server had more to say than was taken.
+Result<bool> ask(const PacsServer& server, Question& question, const TakeAnswer& take,
+                 const Progress& progress) {
+  progress(-1.0, "asking the server");
+  const Proposal proposal{UID_FINDStudyRootQueryRetrieveInformationModel,
+                          {UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax}};
+  auto opened = Association::open(server, {proposal}, progress.stop);
+  if (!opened) return pass_on(opened);
+  Association& association = **opened;
+
+  T_DIMSE_Message request{};
+  request.CommandField = DIMSE_C_FIND_RQ;
+  T_DIMSE_C_FindRQ& find = request.msg.CFindRQ;
+  find.MessageID = association.next_message_id();
+  find.Priority = DIMSE_PRIORITY_MEDIUM;
+  find.DataSetType = DIMSE_DATASET_PRESENT;
+  OFStandard::strlcpy(find.AffectedSOPClassUID, proposal.abstract_syntax.c_str(), sizeof(DIC_UI));
+  const int context = association.context(proposal.abstract_syntax);
+  if (Status sent = association.send(context, request, &question.dataset()); !sent) return pass_on(sent);
+
+  for (;;) {
+    T_DIMSE_Message message{};
+    auto received = association.receive(message);
+    if (!received) return pass_on(received);
+    if (message.CommandField != DIMSE_C_FIND_RSP ||
+        message.msg.CFindRSP.MessageIDBeingRespondedTo != find.MessageID)
+      return fail(ErrorKind::input, "{}: answers something that was not asked", association.line().peer());
+    const T_DIMSE_C_FindRSP& response = message.msg.CFindRSP;
+    const bool has_data = response.DataSetType != DIMSE_DATASET_NULL;
+    if (!DICOM_PENDING_STATUS(response.DimseStatus)) {
+      if (response.DimseStatus != STATUS_Success) {
+        return fail(ErrorKind::input, "{}: cannot answer the query (status {:04X})",
+                    association.line().peer(), response.DimseStatus);
+      }
+      if (!has_data) association.release();
+      return false;
+    }
+    if (!has_data)
+      return fail(ErrorKind::input, "{}: answers without saying anything", association.line().peer());
+    auto data = association.receive_data();
+    if (!data) return pass_on(data);
+    association.line().completed_message();
+    if (!take(Answer(**data))) return true;  // the association is aborted
+  }
+}
+
+std::vector<std::string> words(const std::string& text) {
+  std::vector<std::string> found(1);
+  for (const char c : text) {
+    if (c == '\\') {
+      found.emplace_back();
+    } else {
+      found.back() += c;
+    }
+  }
+  std::erase(found, "");
+  return found;
+}
+
+PacsStudy study_of(const Answer& answer) {
+  PacsStudy study;
+  study.uid = answer.uid(DCM_StudyInstanceUID);
+  study.patient_name = answer.text(DCM_PatientName);
+  study.patient_id = answer.text(DCM_PatientID);
+  study.birth_date = date_text(answer.text(DCM_PatientBirthDate));
+  study.date = date_text(answer.text(DCM_StudyDate));
+  study.description = answer.text(DCM_StudyDescription);
+  study.modalities = words(answer.text(DCM_ModalitiesInStudy));
+  study.series = count_of(answer.text(DCM_NumberOfStudyRelatedSeries));
+  study.objects = count_of(answer.text(DCM_NumberOfStudyRelatedInstances));
+  return study;
+}
+
+PacsSeries series_of(const Answer& answer, const std::string& study_uid) {
+  PacsSeries series;
+  series.uid = answer.uid(DCM_SeriesInstanceUID);
+  series.study_uid = study_uid;
+  series.number = answer.text(DCM_SeriesNumber);
+  series.modality = answer.text(DCM_Modality);
+  series.description = answer.text(DCM_SeriesDescription);
+  series.date = date_text(answer.text(DCM_SeriesDate));
+  series.body_part = answer.text(DCM_BodyPartExamined);
+  series.objects = count_of(answer.text(DCM_NumberOfSeriesRelatedInstances));
+  return series;
+}
+
+template <class Entry, class Read>
+Result<Found<Entry>> collect(const PacsServer& server, Question& question, const PacsLimits& limits,
+                             const Progress& progress, const Read& read) {
+  Found<Entry> found;
+  std::int64_t answers = 0;
+  const auto more = ask(
+      server, question,
+      [&](const Answer& answer) {
+        if (++answers > limits.answers) return false;
+        Entry entry = read(answer);
+        if (!entry.uid.empty()) found.entries.push_back(std::move(entry));
+        return true;
+      },
+      progress);
+  if (!more) return tl::unexpected<Error>(more.error());
+  found.more = *more;
+  return found;
+}
+
+}  // namespace
+
+Result<Found<PacsStudy>> find_studies(const PacsServer& server, const StudyQuery& query,
+                                      const PacsLimits& limits, const Progress& progress) {
+  return whole_call([&]() -> Result<Found<PacsStudy>> {
+    for (const auto& [name, value] : {std::pair{"patient name", &query.patient_name},
+                                      {"patient ID", &query.patient_id},
+                                      {"modality", &query.modality},
+                                      {"description", &query.description}}) {
+      if (Status good = check_key(name, *value); !good) return pass_on(good);
+    }
+    auto dates = date_range(query.date_from, query.date_to);
+    if (!dates) return pass_on(dates);
+    Question question("STUDY");
+    question.put(DCM_StudyInstanceUID);
+    question.put(DCM_PatientName, query.patient_name);
+    question.put(DCM_PatientID, query.patient_id);
+    question.put(DCM_StudyDate, *dates);
+    question.put(DCM_ModalitiesInStudy, query.modality);
+    question.put(DCM_StudyDescription, query.description);
+    question.put(DCM_PatientBirthDate);
+    question.put(DCM_NumberOfStudyRelatedSeries);
+    question.put(DCM_NumberOfStudyRelatedInstances);
+    return collect<PacsStudy>(server, question, limits, progress, study_of);
+  });
+}
+
+Result<Found<PacsSeries>> find_pacs_series(const PacsServer& server, const SeriesQuery& query,
+                                           const PacsLimits& limits, const Progress& progress) {
+  return whole_call([&]() -> Result<Found<PacsSeries>> {
+    if (!is_uid(query.study_uid))
+      return fail(ErrorKind::usage, "'{}' is no UID", query.study_uid.substr(0, 80));
+    for (const auto& [name, value] :
+         {std::pair{"modality", &query.modality}, {"description", &query.description}}) {
+      if (Status good = check_key(name, *value); !good) return pass_on(good);
+    }
+    Question question("SERIES");
+    question.put(DCM_StudyInstanceUID, query.study_uid);
+    question.put(DCM_SeriesInstanceUID);
+    question.put(DCM_Modality, query.modality);
+    question.put(DCM_SeriesDescription, query.description);
+    question.put(DCM_SeriesNumber);
+    question.put(DCM_SeriesDate);
+    question.put(DCM_BodyPartExamined);
+    question.put(DCM_NumberOfSeriesRelatedInstances);
+    return collect<PacsSeries>(server, question, limits, progress,
+                               [&](const Answer& answer) { return series_of(answer, query.study_uid); });
+  });
+}
+
+}  // namespace tidemark

@@ -1,0 +1,17 @@
+// From a host's name to its address.
+#pragma once
+
+#include <chrono>
+#include <stop_token>
+#include <string>
+
+#include "core/result.h"
+
+namespace tidemark {
+
+// The first IPv4 address of a host, as text. The system's resolver cannot be interrupted, so it is asked on a
+// thread of its own, which is left to itself when `stop` or `patience` comes first.
+Result<std::string> resolve_host(const std::string& host, std::chrono::milliseconds patience,
+                                 const std::stop_token& stop);
+
+}  // namespace tidemark

@@ -1,0 +1,57 @@
+// Where a server's own calls are answered while a retrieval by move runs.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+#include "core/result.h"
+#include "imaging/pacs/association.h"
+#include "imaging/pacs/inbox.h"
+
+namespace tidemark {
+
+// Listens on a server's move_port, for calls to our AE title alone, and takes what comes into the inbox. Up
+// to four calls at once; each conversation has a thread and a line of its own.
+class Receiver {
+ public:
+  static Result<std::unique_ptr<Receiver>> start(const PacsServer& server, Inbox& inbox,
+                                                 const PacsLimits& limits);
+  ~Receiver();  // ends all conversations
+  Receiver(const Receiver&) = delete;
+  Receiver& operator=(const Receiver&) = delete;
+
+  // The first thing that made a conversation end early and the retrieval with it: too many bytes, a full
+  // disk.
+  [[nodiscard]] Status trouble();
+
+ private:
+  Receiver(const PacsServer& server, Inbox& inbox, const PacsLimits& limits);
+  void listen(const std::stop_token& quit);
+  void accept(const std::stop_token& quit);
+  Status greet(T_ASC_Association& association) const;
+  void converse(std::unique_ptr<Association> association);
+  void note(const Error& error);
+
+  const PacsServer server_;
+  Inbox& inbox_;
+  const PacsLimits limits_;
+  std::unique_ptr<DcmTransportLayer> transport_;
+  T_ASC_Network* network_ = nullptr;
+  std::shared_ptr<Line> next_line_;  // of the call that is being accepted
+  std::stop_source stop_;            // of all lines
+  std::mutex mutex_;                 // guards trouble_
+  std::optional<Error> trouble_;
+  struct Conversation {
+    std::shared_ptr<std::atomic<bool>> ended;
+    std::jthread thread;
+  };
+  std::vector<Conversation> conversations_;  // of the listening thread
+  std::jthread listener_;                    // last: it uses the others
+};
+
+}  // namespace tidemark

@@ -1,0 +1,48 @@
+// What both ways of retrieving have in common.
+#pragma once
+
+#include <memory>
+
+#include "imaging/pacs/association.h"
+#include "imaging/pacs/inbox.h"
+
+namespace tidemark {
+
+// How a server counts the objects that it sends.
+struct SubOperations {
+  std::int64_t remaining = 0;
+  std::int64_t completed = 0;
+  std::int64_t failed = 0;
+  std::int64_t warned = 0;
+
+  bool operator==(const SubOperations&) const = default;
+  [[nodiscard]] std::int64_t total() const { return remaining + completed + failed + warned; }
+};
+
+// Which objects are wanted, as requests say it.
+[[nodiscard]] std::unique_ptr<DcmDataset> identifier_of(const RetrieveRequest& request);
+
+// What a response says about the way of things. Only a change counts as progress, so that a server cannot
+// keep us waiting by saying the same again and again.
+class ResponseReader {
+ public:
+  ResponseReader(Association& association, Inbox& inbox) : association_(association), inbox_(inbox) {}
+
+  // True when it was the last. Fails (ErrorKind::input) when the server says that it has failed altogether.
+  Result<bool> read(std::uint16_t status, bool has_data, const SubOperations& counted);
+  [[nodiscard]] const SubOperations& counted() const { return counted_; }
+
+ private:
+  Association& association_;
+  Inbox& inbox_;
+  SubOperations counted_;
+  std::int64_t read_ = 0;
+};
+
+// Each brings what is wanted into the inbox and gives the number of objects that the server could not send.
+Result<std::int64_t> retrieve_by_get(const PacsServer& server, const RetrieveRequest& request,
+                                     const PacsLimits& limits, Inbox& inbox, const std::stop_token& stop);
+Result<std::int64_t> retrieve_by_move(const PacsServer& server, const RetrieveRequest& request,
+                                      const PacsLimits& limits, Inbox& inbox, const std::stop_token& stop);
+
+}  // namespace tidemark

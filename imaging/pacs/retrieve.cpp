@@ -1,0 +1,83 @@
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmnet/dimse.h>
+
+#include "imaging/pacs/pacs.h"
+#include "imaging/pacs/retrieval.h"
+#include "imaging/pacs/storage_classes.h"
+#include "imaging/pacs/whole_call.h"
+
+namespace tidemark {
+namespace {
+
+// The UIDs of all objects that failed may come along.
+constexpr std::int64_t kLongestResponseData = std::int64_t{2} << 20;
+// A server says how things go at most once an object, of which it can count 65,535.
+constexpr std::int64_t kMostResponses = 100'000;
+
+Result<Retrieved> retrieve_into_folder(const PacsServer& server, const RetrieveRequest& request,
+                                       const PacsLimits& limits, const Progress& progress) {
+  if (!is_uid(request.study_uid))
+    return fail(ErrorKind::usage, "'{}' is no UID of a study", request.study_uid.substr(0, 80));
+  if (!request.series_uid.empty() && !is_uid(request.series_uid))
+    return fail(ErrorKind::usage, "'{}' is no UID of a series", request.series_uid.substr(0, 80));
+  if (Status good = check_pacs_server(server); !good) return pass_on(good);
+  auto inbox = Inbox::create(request, limits, progress);
+  if (!inbox) return pass_on(inbox);
+  progress(-1.0, "calling the server");
+  const auto missing = server.retrieve == PacsServer::Retrieve::get
+                           ? retrieve_by_get(server, request, limits, **inbox, progress.stop)
+                           : retrieve_by_move(server, request, limits, **inbox, progress.stop);
+  if (progress.cancelled()) return cancelled_error();
+  if (!missing) return tl::unexpected<Error>(missing.error());
+  return (*inbox)->keep(*missing);
+}
+
+}  // namespace
+
+std::unique_ptr<DcmDataset> identifier_of(const RetrieveRequest& request) {
+  auto identifier = std::make_unique<DcmDataset>();
+  identifier->putAndInsertString(DCM_QueryRetrieveLevel, request.series_uid.empty() ? "STUDY" : "SERIES");
+  identifier->putAndInsertString(DCM_StudyInstanceUID, request.study_uid.c_str());
+  if (!request.series_uid.empty())
+    identifier->putAndInsertString(DCM_SeriesInstanceUID, request.series_uid.c_str());
+  return identifier;
+}
+
+Result<bool> ResponseReader::read(std::uint16_t status, bool has_data, const SubOperations& counted) {
+  if (++read_ > kMostResponses) {
+    return fail(ErrorKind::input, "{}: answers without end", association_.line().peer());
+  }
+  if (has_data) {
+    auto data = association_.receive_data(kLongestResponseData);
+    if (!data) return pass_on(data);
+  }
+  // The last response need not say what remains.
+  const bool is_last = !DICOM_PENDING_STATUS(status);
+  if (counted != counted_) association_.line().completed_message();
+  if (counted.total() > 0) {
+    counted_ = counted;
+    inbox_.set_expected(counted.total());
+  }
+  if (!is_last) return false;
+  if (status == STATUS_Success || DICOM_WARNING_STATUS(status)) return true;
+  // Some servers call it a failure when one object of many has failed.
+  if (counted_.completed + counted_.warned > 0 &&
+      status != STATUS_GET_Cancel_SubOperationsTerminatedDueToCancelIndication)
+    return true;
+  if (status == STATUS_MOVE_Failed_MoveDestinationUnknown) {
+    return fail(ErrorKind::input,
+                "{}: does not know where to send to: our AE title with host and port must be "
+                "entered there",
+                association_.line().peer());
+  }
+  return fail(ErrorKind::input, "{}: cannot send what is asked for (status {:04X})",
+              association_.line().peer(), status);
+}
+
+Result<Retrieved> retrieve(const PacsServer& server, const RetrieveRequest& request, const PacsLimits& limits,
+                           const Progress& progress) {
+  return whole_call([&] { return retrieve_into_folder(server, request, limits, progress); });
+}
+
+}  // namespace tidemark

@@ -1,0 +1,62 @@
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmnet/dimse.h>
+
+#include "imaging/pacs/receiver.h"
+#include "imaging/pacs/retrieval.h"
+
+namespace tidemark {
+namespace {
+
+SubOperations counted(const T_DIMSE_C_MoveRSP& response) {
+  return {response.NumberOfRemainingSubOperations, response.NumberOfCompletedSubOperations,
+          response.NumberOfFailedSubOperations, response.NumberOfWarningSubOperations};
+}
+
+Result<std::int64_t> move(Association& association, const Proposal& proposal, const PacsServer& server,
+                          const RetrieveRequest& request, Inbox& inbox, Receiver& receiver) {
+  T_DIMSE_Message message{};
+  message.CommandField = DIMSE_C_MOVE_RQ;
+  T_DIMSE_C_MoveRQ& asked = message.msg.CMoveRQ;
+  asked.MessageID = association.next_message_id();
+  asked.Priority = DIMSE_PRIORITY_MEDIUM;
+  asked.DataSetType = DIMSE_DATASET_PRESENT;
+  OFStandard::strlcpy(asked.AffectedSOPClassUID, proposal.abstract_syntax.c_str(), sizeof(DIC_UI));
+  OFStandard::strlcpy(asked.MoveDestination, server.own_ae_title.c_str(), sizeof(DIC_AE));
+  const auto identifier = identifier_of(request);
+  const int context = association.context(proposal.abstract_syntax);
+  if (Status sent = association.send(context, message, identifier.get()); !sent) return pass_on(sent);
+
+  for (ResponseReader responses(association, inbox);;) {
+    message = {};
+    const auto received = association.receive(message);
+    if (Status fine = receiver.trouble(); !fine) return pass_on(fine);
+    if (!received) return tl::unexpected<Error>(received.error());
+    if (message.CommandField != DIMSE_C_MOVE_RSP) {
+      return fail(ErrorKind::input, "{}: answers something that was not asked", association.line().peer());
+    }
+    const T_DIMSE_C_MoveRSP& response = message.msg.CMoveRSP;
+    const auto last =
+        responses.read(response.DimseStatus, response.DataSetType != DIMSE_DATASET_NULL, counted(response));
+    if (!last) return tl::unexpected<Error>(last.error());
+    if (!*last) continue;
+    association.release();
+    return responses.counted().failed;
+  }
+}
+
+}  // namespace
+
+Result<std::int64_t> retrieve_by_move(const PacsServer& server, const RetrieveRequest& request,
+                                      const PacsLimits& limits, Inbox& inbox, const std::stop_token& stop) {
+  auto receiver = Receiver::start(server, inbox, limits);
+  if (!receiver) return pass_on(receiver);
+  const Proposal proposal{UID_MOVEStudyRootQueryRetrieveInformationModel,
+                          {UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax}};
+  auto opened = Association::open(server, {proposal}, stop);
+  if (!opened) return pass_on(opened);
+  inbox.excuse((*opened)->shared_line());
+  return move(**opened, proposal, server, request, inbox, **receiver);
+}
+
+}  // namespace tidemark

@@ -1,0 +1,155 @@
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmnet/dimse.h>
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "imaging/pacs/association.h"
+#include "imaging/pacs/checked_object.h"
+#include "imaging/pacs/pacs.h"
+#include "imaging/pacs/whole_call.h"
+
+namespace tidemark {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outgoing {
+  fs::path file;
+  ObjectIdentity identity;
+};
+
+bool is_compressed(const std::string& transfer_syntax) {
+  const DcmXfer syntax(transfer_syntax.c_str());
+  return syntax.isEncapsulated() || syntax.getStreamCompression() != ESC_none;
+}
+
+// The encodings that an object may be sent in.
+std::vector<std::string> encodings(const std::string& transfer_syntax) {
+  if (is_compressed(transfer_syntax)) return {transfer_syntax};
+  std::vector<std::string> all{UID_LittleEndianExplicitTransferSyntax,
+                               UID_LittleEndianImplicitTransferSyntax};
+  if (transfer_syntax == UID_BigEndianExplicitTransferSyntax) all.push_back(transfer_syntax);
+  return all;
+}
+
+std::string without_name(const fs::path& file, std::string message) {
+  if (const std::string prefix = file.string() + ": "; message.starts_with(prefix))
+    message.erase(0, prefix.size());
+  return message;
+}
+
+// What can be sent at all; the rest goes to `sent.unsent`.
+Result<std::vector<Outgoing>> look_into(const std::vector<fs::path>& files, Sent& sent,
+                                        const Progress& progress) {
+  std::vector<Outgoing> outgoing;
+  for (const fs::path& file : files) {
+    if (progress.cancelled()) return cancelled_error();
+    auto identity = check_object(file);
+    if (identity) {
+      outgoing.push_back({file, std::move(*identity)});
+    } else {
+      sent.unsent.push_back({file, without_name(file, identity.error().message)});
+    }
+    progress(0.2 * static_cast<double>(&file - files.data() + 1) / static_cast<double>(files.size()),
+             "looking at the files");
+  }
+  return outgoing;
+}
+
+Result<std::vector<Proposal>> proposals_for(const std::vector<Outgoing>& outgoing) {
+  std::set<std::pair<std::string, std::vector<std::string>>> kinds;
+  for (const Outgoing& one : outgoing)
+    kinds.emplace(one.identity.sop_class, encodings(one.identity.transfer_syntax));
+  if (kinds.size() > kMostProposals) {
+    return fail(ErrorKind::usage, "{} kinds of objects at once, more than {} cannot be agreed on",
+                kinds.size(), kMostProposals);
+  }
+  std::vector<Proposal> proposals;
+  for (const auto& [sop_class, syntaxes] : kinds) proposals.push_back({sop_class, syntaxes});
+  return proposals;
+}
+
+int context_for(const Association& association, const ObjectIdentity& identity) {
+  for (const std::string& syntax : encodings(identity.transfer_syntax)) {
+    if (const int context = association.context(identity.sop_class, syntax); context != 0) return context;
+  }
+  return 0;
+}
+
+// The server's status; 0 is success. Fails where the conversation cannot go on.
+Result<std::uint16_t> send_object(Association& association, int context, const Outgoing& outgoing) {
+  DcmFileFormat loaded;
+  if (loaded.loadFile(outgoing.file.c_str()).bad()) {
+    return fail(ErrorKind::input, "{}: has changed while it was looked at", outgoing.file.string());
+  }
+  T_DIMSE_Message message{};
+  message.CommandField = DIMSE_C_STORE_RQ;
+  T_DIMSE_C_StoreRQ& request = message.msg.CStoreRQ;
+  request.MessageID = association.next_message_id();
+  request.Priority = DIMSE_PRIORITY_MEDIUM;
+  request.DataSetType = DIMSE_DATASET_PRESENT;
+  OFStandard::strlcpy(request.AffectedSOPClassUID, outgoing.identity.sop_class.c_str(), sizeof(DIC_UI));
+  OFStandard::strlcpy(request.AffectedSOPInstanceUID, outgoing.identity.sop_instance.c_str(), sizeof(DIC_UI));
+  const auto id = request.MessageID;
+  if (Status sent = association.send(context, message, loaded.getDataset()); !sent) return pass_on(sent);
+  message = {};
+  const auto answered = association.receive(message);
+  if (!answered) return tl::unexpected<Error>(answered.error());
+  if (message.CommandField != DIMSE_C_STORE_RSP || message.msg.CStoreRSP.MessageIDBeingRespondedTo != id) {
+    return fail(ErrorKind::input, "{}: answers something that was not asked", association.line().peer());
+  }
+  association.line().completed_message();
+  return message.msg.CStoreRSP.DimseStatus;
+}
+
+Result<Sent> send_all(const PacsServer& server, const std::vector<fs::path>& files,
+                      const Progress& progress) {
+  if (Status ready = set_up_network(); !ready) return pass_on(ready);
+  Sent sent;
+  const auto outgoing = look_into(files, sent, progress);
+  if (!outgoing) return tl::unexpected<Error>(outgoing.error());
+  if (outgoing->empty()) return sent;
+  const auto proposals = proposals_for(*outgoing);
+  if (!proposals) return tl::unexpected<Error>(proposals.error());
+  auto opened = Association::open(server, *proposals, progress.stop);
+  if (!opened) return pass_on(opened);
+  Association& association = **opened;
+  std::size_t done = 0;
+  for (const Outgoing& one : *outgoing) {
+    if (progress.cancelled()) return cancelled_error();
+    const int context = context_for(association, one.identity);
+    if (context == 0) {
+      const char* name = dcmFindNameOfUID(one.identity.transfer_syntax.c_str());
+      sent.unsent.push_back(
+          {one.file, fmt::format("the server does not take it as it is encoded ({})",
+                                 name != nullptr ? name : one.identity.transfer_syntax.c_str())});
+      continue;
+    }
+    const auto status = send_object(association, context, one);
+    if (!status) return tl::unexpected<Error>(status.error());
+    if (*status == STATUS_Success || DICOM_WARNING_STATUS(*status)) {
+      std::error_code ignored;
+      ++sent.objects;
+      sent.bytes += static_cast<std::int64_t>(fs::file_size(one.file, ignored));
+    } else {
+      sent.unsent.push_back({one.file, fmt::format("the server refuses it (status {:04X})", *status)});
+    }
+    progress(0.2 + 0.8 * static_cast<double>(++done) / static_cast<double>(outgoing->size()),
+             "sending objects");
+  }
+  association.release();
+  return sent;
+}
+
+}  // namespace
+
+Result<Sent> send_files(const PacsServer& server, const std::vector<fs::path>& files,
+                        const Progress& progress) {
+  return whole_call([&] { return send_all(server, files, progress); });
+}
+
+}  // namespace tidemark

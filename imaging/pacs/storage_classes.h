@@ -1,0 +1,24 @@
+// What may be stored: the classes of objects that we take, and in which encodings.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "imaging/pacs/association.h"
+
+namespace tidemark {
+
+// Classes of objects that are of use here: slices and volumes, and what was segmented in them.
+[[nodiscard]] const std::vector<std::string>& storage_classes();
+// In which objects of these classes may come, the first being liked best: all that can be decoded.
+[[nodiscard]] const std::vector<std::string>& storage_syntaxes();
+[[nodiscard]] bool is_storage_class(const std::string& uid);
+
+// A context for each class without compression, and for images one for each compression, so that a server may
+// send what it has as it has it.
+[[nodiscard]] std::vector<Proposal> storage_proposals();
+
+// Digits and dots, at most 64 (DICOM PS3.5 9.1).
+[[nodiscard]] bool is_uid(const std::string& text);
+
+}  // namespace tidemark

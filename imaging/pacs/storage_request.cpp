@@ -1,0 +1,86 @@
+#include "imaging/pacs/storage_request.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcostrmf.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmnet/dimse.h>
+
+#include <memory>
+
+#include "imaging/pacs/storage_classes.h"
+
+namespace tidemark {
+namespace {
+
+// Looks at what has come of an object, piece by piece. DCMTK gives no way to say stop: the line is shut.
+struct Growth {
+  Line& line;
+  Inbox& inbox;
+  unsigned long counted = 0;
+
+  static void note(void* growth, unsigned long bytes) {
+    auto& self = *static_cast<Growth*>(growth);
+    const Status allowed = self.inbox.grown(static_cast<std::int64_t>(bytes - self.counted));
+    self.counted = bytes;
+    if (!allowed) self.line.shut({allowed.error().kind, self.line.peer() + ": " + allowed.error().message});
+  }
+};
+
+Status receive_into(const std::filesystem::path& part, Association& association, int context,
+                    const T_DIMSE_C_StoreRQ& request, Inbox& inbox, const PacsLimits& limits) {
+  Line& line = association.line();
+  DcmOutputFileStream* opened = nullptr;
+  const OFCondition created =
+      DIMSE_createFilestream(part.c_str(), &request, association.get(),
+                             static_cast<T_ASC_PresentationContextID>(context), 1, &opened);
+  const std::unique_ptr<DcmOutputFileStream> stream(opened);
+  if (created.bad()) return fail(ErrorKind::write, "{}: cannot be written", part.string());
+  line.allow(limits.object_bytes, "an object");
+  Growth growth{line, inbox};
+  T_ASC_PresentationContextID data_context = 0;
+  const OFCondition received = DIMSE_receiveDataSetInFile(association.get(), DIMSE_BLOCKING, 0, &data_context,
+                                                          stream.get(), Growth::note, &growth);
+  if (received.good() && data_context == context && stream->good()) {
+    line.completed_message();
+    return {};
+  }
+  if (const Status trouble = line.trouble(); !trouble) return trouble;
+  if (!stream->good()) return fail(ErrorKind::write, "{}: cannot be written", part.string());
+  return tl::unexpected<Error>(association.error(received, "breaks off in the midst of an object"));
+}
+
+Status respond(Association& association, int context, const T_DIMSE_C_StoreRQ& request,
+               std::uint16_t status) {
+  T_DIMSE_Message message{};
+  message.CommandField = DIMSE_C_STORE_RSP;
+  T_DIMSE_C_StoreRSP& response = message.msg.CStoreRSP;
+  response.MessageIDBeingRespondedTo = request.MessageID;
+  response.DimseStatus = status;
+  response.DataSetType = DIMSE_DATASET_NULL;
+  OFStandard::strlcpy(response.AffectedSOPClassUID, request.AffectedSOPClassUID, sizeof(DIC_UI));
+  OFStandard::strlcpy(response.AffectedSOPInstanceUID, request.AffectedSOPInstanceUID, sizeof(DIC_UI));
+  response.opts = O_STORE_AFFECTEDSOPCLASSUID | O_STORE_AFFECTEDSOPINSTANCEUID;
+  return association.send(context, message);
+}
+
+}  // namespace
+
+Status answer_storage_request(Association& association, int context, const T_DIMSE_Message& request,
+                              Inbox& inbox, const PacsLimits& limits) {
+  const T_DIMSE_C_StoreRQ& store = request.msg.CStoreRQ;
+  auto part = inbox.next_part();
+  if (!part) return fail(part.error().kind, "{}: {}", association.line().peer(), part.error().message);
+  const std::string sop_class = store.AffectedSOPClassUID;
+  const bool is_agreed = sop_class == association.abstract_syntax(context) && is_storage_class(sop_class);
+  Status received = receive_into(*part, association, context, store, inbox, limits);
+  if (!received) return received;
+  if (!is_agreed) {
+    inbox.refuse(*part, "is of a class that was not asked for");
+    return respond(association, context, store, STATUS_STORE_Refused_SOPClassNotSupported);
+  }
+  const bool taken = inbox.take(*part, sop_class, store.AffectedSOPInstanceUID);
+  return respond(association, context, store,
+                 taken ? STATUS_Success : STATUS_STORE_Error_DataSetDoesNotMatchSOPClass);
+}
+
+}  // namespace tidemark

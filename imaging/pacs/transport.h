@@ -1,0 +1,25 @@
+// DCMTK's transport with a Line under it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "core/result.h"
+#include "imaging/pacs/configuration.h"
+#include "imaging/pacs/line.h"
+
+class DcmTransportLayer;
+
+namespace tidemark {
+
+enum class TransportRole { caller, called };
+
+// Makes connections, by TLS when `tls` says so; each is watched by the line that `line_of_next` gives when it
+// is made. As a caller the peer's certificate must be one for `host`. Fails (ErrorKind::input) naming the
+// file of a key or certificate that is not usable.
+Result<std::unique_ptr<DcmTransportLayer>> make_transport(
+    const std::optional<PacsTls>& tls, TransportRole role, const std::string& host,
+    std::function<std::shared_ptr<Line>()> line_of_next);
+
+}  // namespace tidemark

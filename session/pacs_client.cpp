@@ -1,0 +1,88 @@
+#include "session/pacs_client.h"
+
+#include <QCoreApplication>
+#include <chrono>
+
+#include "session/background_job.h"
+
+namespace tidemark {
+namespace {
+
+// Steps as imaging/pacs names them, for translators.
+[[maybe_unused]] constexpr const char* kSteps[] = {
+    QT_TRANSLATE_NOOP("tidemark::PacsStep", "calling the server"),
+    QT_TRANSLATE_NOOP("tidemark::PacsStep", "asking the server"),
+    QT_TRANSLATE_NOOP("tidemark::PacsStep", "receiving objects"),
+};
+constexpr std::chrono::milliseconds kBetweenReports{50};
+
+QString step_text(std::string_view what) {
+  QString text = QCoreApplication::translate("tidemark::PacsStep", std::string(what).c_str());
+  if (!text.isEmpty()) text[0] = text[0].toUpper();
+  return text;
+}
+
+}  // namespace
+
+PacsClient::~PacsClient() {
+  if (job_) job_->abandon();
+}
+
+// Calls work(progress) on a thread and deliver(result) here.
+template <class Work, class Deliver>
+void PacsClient::run(Work work, Deliver deliver) {
+  if (job_) job_->abandon();
+  job_ = BackgroundJob::start(this, [this, work, deliver](BackgroundJob& job) {
+    Progress progress;
+    progress.stop = job.stop();
+    progress.report = [this, &job, last = std::chrono::steady_clock::time_point()](
+                          double fraction, std::string_view what) mutable {
+      const auto now = std::chrono::steady_clock::now();
+      if (now - last < kBetweenReports) return;
+      last = now;
+      job.deliver([this, fraction, step = step_text(what)] { emit progressed(fraction, step); });
+    };
+    const auto result = std::make_shared<decltype(work(progress))>(work(progress));
+    job.deliver([this, deliver, result] {
+      job_.reset();
+      if (*result) return deliver(std::move(**result));
+      emit failed(QString::fromStdString(result->error().message));
+    });
+  });
+}
+
+void PacsClient::echo(const PacsServer& server) {
+  run([server](const Progress& progress) { return pacs_echo(server, progress); },
+      [this](double seconds) { emit answered(seconds); });
+}
+
+void PacsClient::find_studies(const PacsServer& server, const StudyQuery& query, const PacsLimits& limits) {
+  run([=](const Progress& progress) { return tidemark::find_studies(server, query, limits, progress); },
+      [this](Found<PacsStudy>&& found) {
+        emit studies_found(std::make_shared<const Found<PacsStudy>>(std::move(found)));
+      });
+}
+
+void PacsClient::find_series(const PacsServer& server, const SeriesQuery& query, const PacsLimits& limits) {
+  run([=](const Progress& progress) { return find_pacs_series(server, query, limits, progress); },
+      [this, study = QString::fromStdString(query.study_uid)](Found<PacsSeries>&& found) {
+        emit series_found(study, std::make_shared<const Found<PacsSeries>>(std::move(found)));
+      });
+}
+
+void PacsClient::retrieve(const PacsServer& server, const RetrieveRequest& request,
+                          const PacsLimits& limits) {
+  run([=](const Progress& progress) { return tidemark::retrieve(server, request, limits, progress); },
+      [this, folder = QString::fromStdString(request.folder.string())](Retrieved&& what) {
+        emit retrieved(folder, std::make_shared<const Retrieved>(std::move(what)));
+      });
+}
+
+void PacsClient::cancel() {
+  if (!job_) return;
+  job_->abandon();
+  job_.reset();
+  emit cancelled();
+}
+
+}  // namespace tidemark

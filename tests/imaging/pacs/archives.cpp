@@ -1,0 +1,151 @@
+#include "tests/imaging/pacs/archives.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <QElapsedTimer>
+#include <QFile>
+#include <QStandardPaths>
+#include <QThread>
+
+namespace tidemark::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kLongestStart = 60'000;  // ms, also on a busy machine
+constexpr const char* kOwnTitle = "TIDEMARK";
+
+bool answers(int port) {
+  const int probe = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const bool connected = ::connect(probe, reinterpret_cast<sockaddr*>(&address), sizeof(address)) == 0;
+  ::close(probe);
+  return connected;
+}
+
+QString path_of(const QString& program) {
+  const QString found = QStandardPaths::findExecutable(program);
+  if (!found.isEmpty()) return found;
+  return QStandardPaths::findExecutable(program, {"/usr/sbin", "/usr/local/sbin"});
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  QFile opened(QString::fromStdString(file.string()));
+  if (!opened.open(QIODevice::WriteOnly) || opened.write(text.data(), static_cast<qint64>(text.size())) < 0)
+    qFatal("cannot write %s", file.c_str());
+}
+
+class Orthanc : public Archive {
+ public:
+  Orthanc() {
+    server_.name = "orthanc";
+    server_.ae_title = "ORTHANC";
+    const fs::path configuration = folder_ / "orthanc.json";
+    write_text(configuration,
+               fmt::format(R"({{
+  "Name": "Test", "StorageDirectory": "{0}/storage", "IndexDirectory": "{0}/index",
+  "HttpServerEnabled": false, "RemoteAccessAllowed": false, "Plugins": [],
+  "DicomAet": "ORTHANC", "DicomCheckCalledAet": true, "DicomPort": {1},
+  "DicomModalities": {{ "tidemark": ["{2}", "127.0.0.1", {3}] }}
+}})",
+                           folder_.path().string(), server_.port, kOwnTitle, server_.move_port));
+    start("Orthanc", {QString::fromStdString(configuration.string())});
+  }
+};
+
+class Dcmqrscp : public Archive {
+ public:
+  Dcmqrscp() {
+    server_.name = "dcmqrscp";
+    server_.ae_title = "ARCHIVE";
+    const fs::path storage = folder_ / "storage";
+    fs::create_directories(storage);
+    const fs::path configuration = folder_ / "dcmqrscp.cfg";
+    write_text(configuration,
+               fmt::format("NetworkTCPPort = {}\nMaxPDUSize = 16384\nMaxAssociations = 16\n"
+                           "HostTable BEGIN\n{} = ({}, 127.0.0.1, {})\nHostTable END\n"
+                           "VendorTable BEGIN\nVendorTable END\n"
+                           "AETable BEGIN\nARCHIVE {} RW (100, 1024mb) ANY\nAETable END\n",
+                           server_.port, "tidemark", kOwnTitle, server_.move_port, storage.string()));
+    start("dcmqrscp", {"-c", QString::fromStdString(configuration.string())});
+  }
+};
+
+}  // namespace
+
+int free_port() {
+  const int probe = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof(address);
+  const bool found = ::bind(probe, reinterpret_cast<sockaddr*>(&address), size) == 0 &&
+                     ::getsockname(probe, reinterpret_cast<sockaddr*>(&address), &size) == 0;
+  ::close(probe);
+  if (!found) qFatal("no free port on the loopback interface");
+  return ntohs(address.sin_port);
+}
+
+Archive::Archive() {
+  server_.host = "localhost";
+  server_.port = free_port();
+  server_.own_ae_title = kOwnTitle;
+  server_.move_port = free_port();
+}
+
+Archive::~Archive() {
+  process_.terminate();
+  if (!process_.waitForFinished(5000)) process_.kill();
+  process_.waitForFinished(5000);
+}
+
+void Archive::start(const QString& program, const QStringList& arguments) {
+  const QString path = path_of(program);
+  if (path.isEmpty()) qFatal("%s is not installed: packaging/dependencies.sh has it", qPrintable(program));
+  process_.setProcessChannelMode(QProcess::MergedChannels);
+  process_.setStandardOutputFile(QString::fromStdString((folder_ / "log.txt").string()));
+  process_.start(path, arguments);
+  QElapsedTimer timer;
+  for (timer.start(); timer.elapsed() < kLongestStart; QThread::msleep(50)) {
+    if (!process_.waitForStarted(5000) || process_.state() != QProcess::Running) break;
+    if (answers(server_.port)) return;
+    process_.waitForFinished(1);  // notices when it has ended
+  }
+  QFile log(QString::fromStdString((folder_ / "log.txt").string()));
+  static_cast<void>(log.open(QIODevice::ReadOnly));
+  qFatal("%s does not serve: %s", qPrintable(program), log.readAll().constData());
+}
+
+PacsServer Archive::server_by_move() const {
+  PacsServer server = server_;
+  server.retrieve = PacsServer::Retrieve::move;
+  return server;
+}
+
+StoringPeer::StoringPeer(const QStringList& arguments) {
+  server_.name = "storescp";
+  server_.ae_title = "STORESCP";
+  fs::create_directories(received());
+  start("storescp", arguments + QStringList{"-od", QString::fromStdString(received().string()),
+                                            QString::number(server_.port)});
+}
+
+std::unique_ptr<Archive> start_orthanc() {
+  return std::make_unique<Orthanc>();
+}
+
+std::unique_ptr<Archive> start_dcmqrscp() {
+  return std::make_unique<Dcmqrscp>();
+}
+
+std::unique_ptr<Archive> start_archive(const QString& name) {
+  return name == "orthanc" ? start_orthanc() : start_dcmqrscp();
+}
+
+}  // namespace tidemark::test

@@ -1,0 +1,140 @@
+// A user asks an archive for a study, unfolds it, and opens a series; or gives up.
+#include "ui/pacs/query_dialog.h"
+
+#include <QSignalSpy>
+#include <QTreeWidget>
+
+#include "imaging/study.h"
+#include "tests/imaging/dicom/series_files.h"
+#include "tests/imaging/pacs/archives.h"
+#include "tests/imaging/pacs/scripted_peer.h"
+#include "ui/look/theme.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+namespace {
+
+constexpr int kPatience = 30'000;
+
+template <class Part>
+Part* named(QWidget& whole, const QString& accessible_name) {
+  for (Part* part : whole.findChildren<Part*>()) {
+    if (part->accessibleName() == accessible_name) return part;
+  }
+  return nullptr;
+}
+
+QPushButton* button(QWidget& whole, const QString& text) {
+  for (QPushButton* one : whole.findChildren<QPushButton*>()) {
+    if (QString(one->text()).remove('&') == text) return one;
+  }
+  return nullptr;
+}
+
+// A dialog that knows one server and keeps what comes in a folder.
+struct Asked {
+  explicit Asked(const PacsServer& server) {
+    PacsConfiguration configuration;
+    configuration.servers.push_back(server);
+    configuration.limits.free_bytes = 1 << 20;
+    const auto file = folder / "pacs.json";
+    if (!write_pacs_configuration(configuration, file)) qFatal("cannot write the file of servers");
+    dialog = std::make_unique<QueryDialog>(file);
+    dialog->set_folder(QString::fromStdString((folder / "kept").string()));
+    dialog->show();
+  }
+  QTreeWidget& tree() const { return *named<QTreeWidget>(*dialog, "Studies found"); }
+
+  TemporaryFolder folder;
+  std::unique_ptr<QueryDialog> dialog;
+};
+
+void picture(QWidget& widget, const char* name) {
+  if (const QString folder = qEnvironmentVariable("TIDEMARK_SCREENSHOTS"); !folder.isEmpty())
+    QVERIFY(widget.grab().save(folder + "/" + name + ".png"));
+}
+
+}  // namespace
+
+class QueryDialogTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_series_is_found_and_opened() {
+    const auto archive = start_dcmqrscp();
+    const Volume volume = sample_volume({16, 16, 4});
+    const TemporaryFolder sent;
+    QCOMPARE(failure(send_files(archive->server(), write_series(volume, sent / "a"))), QString());
+    QCOMPARE(failure(send_files(archive->server(), write_series(volume, sent / "b", "MR"))), QString());
+
+    const Asked asked(archive->server());
+    QSignalSpy retrieved(asked.dialog.get(), &QueryDialog::retrieved);
+    named<QLineEdit>(*asked.dialog, "Patient's name")->setText("Phan*");
+    QVERIFY(!button(*asked.dialog, "Open")->isEnabled());
+    QTest::mouseClick(button(*asked.dialog, "Search"), Qt::LeftButton);
+    QTRY_COMPARE_WITH_TIMEOUT(asked.tree().topLevelItemCount(), 2, kPatience);
+    asked.tree().topLevelItem(0)->setExpanded(true);
+    QTRY_COMPARE_WITH_TIMEOUT(asked.tree().topLevelItem(0)->childCount(), 1, kPatience);
+    QTreeWidgetItem* series = asked.tree().topLevelItem(0)->child(0);
+    QVERIFY(series->text(3) == "CT" || series->text(3) == "MR");
+    asked.tree().setCurrentItem(series);
+    picture(*asked.dialog, "query-found");
+    QTRY_VERIFY_WITH_TIMEOUT(button(*asked.dialog, "Open")->isEnabled(), kPatience);
+    QTest::mouseClick(button(*asked.dialog, "Open"), Qt::LeftButton);
+    QVERIFY(retrieved.wait(kPatience));
+    const auto loaded = load_volume(retrieved.front().front().toString().toStdString());
+    QCOMPARE(failure(loaded), QString());
+    QVERIFY(loaded->values() == volume.values());
+  }
+
+  void a_server_that_is_not_there_is_told_of_and_one_may_ask_again() {
+    const Asked asked(ScriptedPeer([](PeerEnd&) {}).server());
+    QTest::mouseClick(button(*asked.dialog, "Search"), Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(button(*asked.dialog, "Search")->isEnabled(), kPatience);
+    bool told = false;
+    for (const QLabel* label : asked.dialog->findChildren<QLabel*>())
+      told = told || label->text().contains("Connection refused");
+    QVERIFY(told);
+    picture(*asked.dialog, "query-refused");
+  }
+
+  void a_silent_server_is_given_up_by_a_click() {
+    const ScriptedPeer peer([](PeerEnd& end) { end.say_nothing(); });
+    PacsServer server = peer.server();
+    server.timeout_seconds = 600;
+    const Asked asked(server);
+    QTest::mouseClick(button(*asked.dialog, "Search"), Qt::LeftButton);
+    QVERIFY(button(*asked.dialog, "Cancel")->isVisible());
+    QVERIFY(!button(*asked.dialog, "Search")->isEnabled());
+    QTest::qWait(200);
+    QTest::mouseClick(button(*asked.dialog, "Cancel"), Qt::LeftButton);
+    QVERIFY(button(*asked.dialog, "Search")->isEnabled());
+    QVERIFY(!button(*asked.dialog, "Cancel")->isVisible());
+  }
+
+  void it_is_closed_while_it_asks() {
+    const ScriptedPeer peer([](PeerEnd& end) { end.say_nothing(); });
+    PacsServer server = peer.server();
+    server.timeout_seconds = 600;
+    Asked asked(server);
+    QTest::mouseClick(button(*asked.dialog, "Search"), Qt::LeftButton);
+    asked.dialog.reset();
+    QTest::qWait(100);
+  }
+
+  void without_a_server_it_says_how_to_name_one() {
+    const TemporaryFolder folder;
+    QueryDialog dialog(folder / "none.json");
+    dialog.show();
+    QVERIFY(!button(dialog, "Search")->isEnabled());
+    bool told = false;
+    for (const QLabel* label : dialog.findChildren<QLabel*>())
+      told = told || label->text().startsWith("There is no server yet");
+    QVERIFY(told);
+    picture(dialog, "query-no-server");
+  }
+};
+
+QTEST_MAIN(QueryDialogTest)
+#include "query_dialog_test.moc"

@@ -1,0 +1,106 @@
+// The servers, entered, tested, kept and removed by hand.
+#include "ui/pacs/servers_dialog.h"
+
+#include <QDialogButtonBox>
+#include <QTest>
+#include <QToolButton>
+
+#include "tests/imaging/pacs/archives.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+namespace {
+
+constexpr int kPatience = 30'000;
+
+QLineEdit* line(ServersDialog& dialog, const QString& name) {
+  for (QLineEdit* one : dialog.findChildren<QLineEdit*>()) {
+    if (one->accessibleName() == name) return one;
+  }
+  qFatal("no line %s", qPrintable(name));
+}
+
+void click_save(ServersDialog& dialog) {
+  QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Save), Qt::LeftButton);
+}
+
+bool says(ServersDialog& dialog, const QString& text) {
+  const auto labels = dialog.findChildren<QLabel*>();
+  return std::any_of(labels.begin(), labels.end(),
+                     [&](const QLabel* label) { return label->text().contains(text); });
+}
+
+}  // namespace
+
+class ServersDialogTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_server_is_entered_tested_and_kept() {
+    const StoringPeer peer({"+xa"});
+    const TemporaryFolder folder;
+    const auto file = folder / "tidemark/pacs.json";
+    ServersDialog dialog(file);
+    dialog.show();
+    line(dialog, "Name")->setText("here");
+    line(dialog, "Host")->setText("localhost");
+    line(dialog, "AE title")->setText("STORESCP");
+    for (QSpinBox* box : dialog.findChildren<QSpinBox*>()) {
+      if (box->accessibleName() == "Port") box->setValue(peer.server().port);
+    }
+    for (QPushButton* button : dialog.findChildren<QPushButton*>()) {
+      if (button->text() == "&Test") QTest::mouseClick(button, Qt::LeftButton);
+    }
+    QTRY_VERIFY_WITH_TIMEOUT(says(dialog, "The server answers in"), kPatience);
+    if (const QString pictures = qEnvironmentVariable("TIDEMARK_SCREENSHOTS"); !pictures.isEmpty())
+      QVERIFY(dialog.grab().save(pictures + "/servers.png"));
+    click_save(dialog);
+    QCOMPARE(dialog.result(), static_cast<int>(QDialog::Accepted));
+    const auto read = read_pacs_configuration(file);
+    QCOMPARE(failure(read), QString());
+    QCOMPARE(read->servers.size(), std::size_t{1});
+    QCOMPARE(read->servers[0].name, std::string("here"));
+    QCOMPARE(read->servers[0].port, peer.server().port);
+    QVERIFY(!read->servers[0].tls);
+  }
+
+  void what_makes_no_sense_is_said_and_not_kept() {
+    const TemporaryFolder folder;
+    ServersDialog dialog(folder / "pacs.json");
+    dialog.show();
+    line(dialog, "Name")->setText("here");
+    click_save(dialog);
+    QVERIFY(dialog.isVisible());
+    QVERIFY(says(dialog, "host: is neither a host name nor an IPv4 address"));
+    QVERIFY(!std::filesystem::exists(folder / "pacs.json"));
+  }
+
+  void servers_are_removed_and_the_others_stay_as_they_were() {
+    const TemporaryFolder folder;
+    PacsConfiguration configuration;
+    for (const char* name : {"a", "b", "c"})
+      configuration.servers.push_back(
+          {.name = name, .host = name, .ae_title = name, .tls = PacsTls{"/ca.pem", {}, {}, true}});
+    QCOMPARE(failure(write_pacs_configuration(configuration, folder / "pacs.json")), QString());
+    ServersDialog dialog(folder / "pacs.json");
+    dialog.show();
+    auto* list = dialog.findChild<QListWidget*>();
+    auto* remove = dialog.findChild<QToolButton*>("remove-server");
+    list->setCurrentRow(1);
+    QCOMPARE(line(dialog, "Host")->text(), QString("b"));
+    QTest::mouseClick(remove, Qt::LeftButton);
+    QCOMPARE(list->count(), 2);
+    list->setCurrentRow(0);
+    QTest::mouseClick(remove, Qt::LeftButton);
+    QCOMPARE(line(dialog, "Host")->text(), QString("c"));
+    click_save(dialog);
+    const auto read = read_pacs_configuration(folder / "pacs.json");
+    QCOMPARE(failure(read), QString());
+    QCOMPARE(read->servers.size(), std::size_t{1});
+    QVERIFY(read->servers[0] == configuration.servers[2]);
+  }
+};
+
+QTEST_MAIN(ServersDialogTest)
+#include "servers_dialog_test.moc"

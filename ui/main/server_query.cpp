@@ -1,0 +1,20 @@
+#include "ui/main/server_query.h"
+
+#include "ui/main/main_window.h"
+#include "ui/pacs/query_dialog.h"
+
+namespace tidemark {
+
+void query_server(MainWindow& window) {
+  auto* dialog = window.findChild<QueryDialog*>();
+  if (dialog == nullptr) {
+    dialog = new QueryDialog(pacs_configuration_file(), &window);
+    QObject::connect(dialog, &QueryDialog::retrieved, &window, &MainWindow::open);
+    QObject::connect(dialog, &QueryDialog::told, &window, &MainWindow::tell);
+  }
+  dialog->show();
+  dialog->raise();
+  dialog->activateWindow();
+}
+
+}  // namespace tidemark

@@ -1,0 +1,65 @@
+// Asks a PACS for studies, and brings a series from it.
+#pragma once
+
+#include <QComboBox>
+#include <QDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <filesystem>
+
+#include "imaging/pacs/configuration.h"
+#include "session/pacs_client.h"
+
+namespace tidemark {
+
+class QueryForm;
+class StudyTree;
+
+// Not modal: what was brought can be looked at beside it.
+class QueryDialog : public QDialog {
+  Q_OBJECT
+ public:
+  // `servers` is the file of servers.
+  explicit QueryDialog(std::filesystem::path servers, QWidget* parent = nullptr);
+
+  // Below which folder what comes is kept, each time in a new one.
+  void set_folder(const QString& folder);
+
+ signals:
+  void retrieved(const QString& folder);
+  void told(const QString& message);  // what did not come along
+
+ protected:
+  void reject() override;  // gives up what runs
+
+ private:
+  QWidget* make_top();
+  QWidget* make_bottom();
+  void read_servers();
+  void edit_servers();
+  void search();
+  void open();
+  void choose_folder();
+  void work(const QString& what);  // until rest()
+  void rest(const QString& said);
+  void follow();
+  [[nodiscard]] const PacsServer* server() const;
+
+  std::filesystem::path file_;
+  PacsConfiguration configuration_;
+  PacsClient client_;
+  QString asked_study_;  // whose series are awaited
+  QComboBox* server_;
+  QueryForm* form_;
+  QPushButton* search_;
+  StudyTree* tree_;
+  QLabel* said_;
+  QProgressBar* bar_;
+  QPushButton* cancel_;
+  QLineEdit* folder_;
+  QPushButton* open_;
+};
+
+}  // namespace tidemark

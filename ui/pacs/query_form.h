@@ -1,0 +1,32 @@
+// What is asked for in a query.
+#pragma once
+
+#include <QComboBox>
+#include <QLineEdit>
+#include <QWidget>
+
+#include "imaging/pacs/pacs.h"
+
+namespace tidemark {
+
+class QueryForm : public QWidget {
+  Q_OBJECT
+ public:
+  explicit QueryForm(QWidget* parent = nullptr);
+  [[nodiscard]] StudyQuery query() const;
+
+ signals:
+  void submitted();  // by Return
+
+ private:
+  QLineEdit* line(const QString& label, const QString& placeholder, const QString& tip, int row, int column);
+
+  QLineEdit* name_;
+  QLineEdit* id_;
+  QLineEdit* from_;
+  QLineEdit* to_;
+  QComboBox* modality_;
+  QLineEdit* description_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,260 @@
+#include "ui/pacs/servers_dialog.h"
+
+#include <QBoxLayout>
+#include <QDialogButtonBox>
+#include <QFileDialog>
+#include <QToolButton>
+#include <set>
+
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+#include "ui/widgets/form.h"
+
+namespace tidemark {
+namespace {
+
+QSpinBox* number(int low, int high) {
+  auto* box = new QSpinBox;
+  box->setRange(low, high);
+  box->setGroupSeparatorShown(false);
+  return box;
+}
+
+std::string entered(const QLineEdit& line) {
+  return line.text().trimmed().toStdString();
+}
+
+}  // namespace
+
+ServersDialog::ServersDialog(std::filesystem::path file, QWidget* parent)
+    : QDialog(parent), file_(std::move(file)), list_(new QListWidget(this)), said_(new QLabel(this)) {
+  setWindowTitle(tr("Servers"));
+  auto* columns = new QHBoxLayout;
+  columns->addWidget(make_list());
+  columns->addWidget(make_entry(), 1);
+  said_->setWordWrap(true);
+  said_->setTextFormat(Qt::PlainText);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Save | QDialogButtonBox::Cancel, this);
+  connect(buttons, &QDialogButtonBox::accepted, this, &ServersDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* whole = new QVBoxLayout(this);
+  whole->addLayout(columns, 1);
+  whole->addWidget(said_);
+  whole->addWidget(buttons);
+
+  connect(&client_, &PacsClient::answered, this, [this](double seconds) {
+    say(tr("The server answers in %1 ms.").arg(seconds * 1000.0, 0, 'f', 0));
+  });
+  connect(&client_, &PacsClient::failed, this, &ServersDialog::say);
+  auto read = read_pacs_configuration(file_);
+  std::error_code error;
+  if (read) {
+    configuration_ = std::move(*read);
+  } else if (std::filesystem::exists(file_, error)) {
+    say(QString::fromStdString(read.error().message));
+  }
+  for (const PacsServer& server : configuration_.servers) list_->addItem(QString::fromStdString(server.name));
+  connect(list_, &QListWidget::currentRowChanged, this, &ServersDialog::show_entry);
+  connect(name_, &QLineEdit::textEdited, this, [this](const QString& text) {
+    if (list_->currentItem() != nullptr) list_->currentItem()->setText(text);
+  });
+  list_->setCurrentRow(list_->count() > 0 ? 0 : -1);
+  if (list_->count() == 0) add();
+  resize(680, 520);
+}
+
+QWidget* ServersDialog::make_list() {
+  auto* left = new QWidget(this);
+  auto* column = new QVBoxLayout(left);
+  column->setContentsMargins(0, 0, 0, 0);
+  list_->setAccessibleName(tr("Servers"));
+  list_->setFixedWidth(170);
+  auto* buttons = new QHBoxLayout;
+  const auto button = [&](const char* name, const char* picture, const QString& text, auto method) {
+    auto* one = new QToolButton(left);
+    one->setObjectName(QString::fromLatin1(name));
+    one->setIcon(icon(QString::fromLatin1(picture)));
+    one->setToolTip(text);
+    one->setAccessibleName(text);
+    connect(one, &QToolButton::clicked, this, method);
+    buttons->addWidget(one);
+  };
+  button("add-server", "add", tr("Add a server"), &ServersDialog::add);
+  button("remove-server", "remove", tr("Remove the server"), &ServersDialog::remove);
+  buttons->addStretch(1);
+  column->addWidget(list_, 1);
+  column->addLayout(buttons);
+  return left;
+}
+
+QWidget* ServersDialog::make_entry() {
+  entry_ = new QWidget(this);
+  Form form(entry_);
+  const auto line = [&](const QString& label, const QString& tip) {
+    auto* one = new QLineEdit;
+    form.row(label, one, tip);
+    return one;
+  };
+  const auto count = [&](const QString& label, int low, int high, const QString& tip) {
+    auto* one = number(low, high);
+    form.row(label, one, tip);
+    return one;
+  };
+  name_ = line(tr("Name"), tr("By which you choose it"));
+  host_ = line(tr("Host"), tr("Its name in the network, or its IPv4 address"));
+  port_ = count(tr("Port"), 1, 65535, tr("104 and 11112 are usual, 2762 with TLS"));
+  ae_title_ = line(tr("AE title"), tr("The server's title, at most 16 characters"));
+  own_ae_title_ = line(tr("Our AE title"), tr("Under which the server knows this workstation"));
+  for (QLineEdit* title : {ae_title_, own_ae_title_}) title->setMaxLength(16);
+  retrieve_ = form.choice(tr("Series come"), tr("How the server sends what is asked for"));
+  retrieve_->addItem(tr("on our connection (C-GET)"));
+  retrieve_->addItem(tr("by calls from the server (C-MOVE)"));
+  move_port_ =
+      count(tr("Port for calls"), 1, 65535,
+            tr("Where the server calls this machine; it must know our AE title, host and this port"));
+  timeout_ = count(tr("Patience"), 1, 3600, tr("Seconds that it may take to answer"));
+  timeout_->setSuffix(tr(" s"));
+  connect(retrieve_, &QComboBox::currentIndexChanged, move_port_,
+          [this](int way) { move_port_->setEnabled(way == 1); });
+  form.wide(make_tls());
+  test_ = new QPushButton(tr("&Test"));
+  test_->setToolTip(tr("Asks the server whether it answers (C-ECHO)"));
+  test_->setAutoDefault(false);
+  connect(test_, &QPushButton::clicked, this, &ServersDialog::test);
+  auto* row = new QHBoxLayout;
+  row->addStretch(1);
+  row->addWidget(test_);
+  form.wide(row);
+  return entry_;
+}
+
+QWidget* ServersDialog::make_tls() {
+  tls_ = new QGroupBox(tr("Encrypted (TLS)"));
+  tls_->setCheckable(true);
+  Form form(tls_);
+  form.layout()->setContentsMargins(kSpace, kSpace, kSpace, kSpace);
+  ca_ = file_line(tr("Authority"), tr("PEM file of who signs the server's certificate; empty: the system's"),
+                  form);
+  certificate_ = file_line(tr("Certificate"), tr("Ours, for servers that want one; may be empty"), form);
+  key_ = file_line(tr("Key"), tr("Of our certificate"), form);
+  verify_ = form.check(tr("Verify the server's certificate"),
+                       tr("Without it the line is encrypted, but to whom is anybody's guess"));
+  return tls_;
+}
+
+QLineEdit* ServersDialog::file_line(const QString& label, const QString& tip, Form& form) {
+  auto* whole = new QWidget;
+  auto* row = new QHBoxLayout(whole);
+  row->setContentsMargins(0, 0, 0, 0);
+  auto* line = new QLineEdit;
+  line->setAccessibleName(label);
+  auto* choose = new QToolButton;
+  choose->setIcon(icon(u"open-file"));
+  choose->setToolTip(tr("Choose a file"));
+  choose->setAccessibleName(tr("Choose a file: %1").arg(label));
+  connect(choose, &QToolButton::clicked, this, [this, line] {
+    const QString file = QFileDialog::getOpenFileName(this, tr("A file in PEM"), line->text(),
+                                                      tr("PEM (*.pem *.crt *.cer *.key);;All files (*)"));
+    if (!file.isEmpty()) line->setText(file);
+  });
+  row->addWidget(line, 1);
+  row->addWidget(choose);
+  form.row(label, whole, tip);
+  return line;
+}
+
+void ServersDialog::show_entry(int row) {
+  keep_entry();
+  shown_ = row;
+  entry_->setEnabled(row >= 0);
+  if (row < 0) return;
+  const PacsServer& server = configuration_.servers[static_cast<std::size_t>(row)];
+  const auto text = [](const auto& value) { return QString::fromStdString(std::string(value)); };
+  name_->setText(text(server.name));
+  host_->setText(text(server.host));
+  port_->setValue(server.port);
+  ae_title_->setText(text(server.ae_title));
+  own_ae_title_->setText(text(server.own_ae_title));
+  const bool by_move = server.retrieve == PacsServer::Retrieve::move;
+  retrieve_->setCurrentIndex(by_move ? 1 : 0);
+  move_port_->setValue(server.move_port);
+  move_port_->setEnabled(by_move);
+  timeout_->setValue(server.timeout_seconds);
+  const PacsTls tls = server.tls.value_or(PacsTls{});
+  tls_->setChecked(server.tls.has_value());
+  ca_->setText(text(tls.ca.string()));
+  certificate_->setText(text(tls.certificate.string()));
+  key_->setText(text(tls.key.string()));
+  verify_->setChecked(tls.verify);
+}
+
+void ServersDialog::keep_entry() {
+  if (shown_ < 0 || shown_ >= static_cast<int>(configuration_.servers.size())) return;
+  PacsServer& server = configuration_.servers[static_cast<std::size_t>(shown_)];
+  server.name = entered(*name_);
+  server.host = entered(*host_);
+  server.port = port_->value();
+  server.ae_title = entered(*ae_title_);
+  server.own_ae_title = entered(*own_ae_title_);
+  server.retrieve = retrieve_->currentIndex() == 1 ? PacsServer::Retrieve::move : PacsServer::Retrieve::get;
+  server.move_port = move_port_->value();
+  server.timeout_seconds = timeout_->value();
+  server.tls.reset();
+  if (tls_->isChecked()) {
+    server.tls = PacsTls{entered(*ca_), entered(*certificate_), entered(*key_), verify_->isChecked()};
+  }
+}
+
+void ServersDialog::add() {
+  keep_entry();
+  PacsServer server;
+  server.name = tr("New server").toStdString();
+  configuration_.servers.push_back(server);
+  list_->addItem(QString::fromStdString(server.name));
+  list_->setCurrentRow(list_->count() - 1);
+  name_->setFocus();
+  name_->selectAll();
+}
+
+void ServersDialog::remove() {
+  const int row = list_->currentRow();
+  if (row < 0) return;
+  shown_ = -1;  // what is entered goes with it
+  configuration_.servers.erase(configuration_.servers.begin() + row);
+  {
+    // On its way the list names rows that are no longer what they were.
+    const QSignalBlocker quiet(list_);
+    delete list_->takeItem(row);
+  }
+  show_entry(list_->currentRow());
+}
+
+void ServersDialog::test() {
+  keep_entry();
+  if (shown_ < 0) return;
+  say(tr("Calling the server"));
+  client_.echo(configuration_.servers[static_cast<std::size_t>(shown_)]);
+}
+
+void ServersDialog::say(const QString& message) {
+  said_->setText(message);
+}
+
+void ServersDialog::accept() {
+  keep_entry();
+  std::set<std::string> names;
+  for (std::size_t row = 0; row < configuration_.servers.size(); ++row) {
+    const PacsServer& server = configuration_.servers[row];
+    const Status good = check_pacs_server(server);
+    if (good && names.insert(server.name).second) continue;
+    list_->setCurrentRow(static_cast<int>(row));
+    return say(good ? tr("Two servers are called %1.").arg(QString::fromStdString(server.name))
+                    : QString::fromStdString(good.error().message));
+  }
+  if (const Status written = write_pacs_configuration(configuration_, file_); !written) {
+    return say(QString::fromStdString(written.error().message));
+  }
+  QDialog::accept();
+}
+
+}  // namespace tidemark

@@ -1,0 +1,63 @@
+// The servers that there are, to be looked at and changed.
+#pragma once
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialog>
+#include <QGroupBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPushButton>
+#include <QSpinBox>
+#include <filesystem>
+
+#include "imaging/pacs/configuration.h"
+#include "session/pacs_client.h"
+
+namespace tidemark {
+
+class ServersDialog : public QDialog {
+  Q_OBJECT
+ public:
+  // Reads the file of servers, and writes it when it is accepted.
+  explicit ServersDialog(std::filesystem::path file, QWidget* parent = nullptr);
+
+  void accept() override;  // only when every server makes sense, and the file can be written
+
+ private:
+  QWidget* make_list();
+  QWidget* make_entry();
+  QWidget* make_tls();
+  QLineEdit* file_line(const QString& label, const QString& tip, class Form& form);
+  void show_entry(int row);
+  void keep_entry();  // what is entered becomes the server that is shown
+  void add();
+  void remove();
+  void test();
+  void say(const QString& message);
+
+  std::filesystem::path file_;
+  PacsConfiguration configuration_;
+  PacsClient client_;
+  int shown_ = -1;
+  QListWidget* list_;
+  QWidget* entry_ = nullptr;
+  QLineEdit* name_;
+  QLineEdit* host_;
+  QSpinBox* port_;
+  QLineEdit* ae_title_;
+  QLineEdit* own_ae_title_;
+  QComboBox* retrieve_;
+  QSpinBox* move_port_;
+  QSpinBox* timeout_;
+  QGroupBox* tls_;
+  QLineEdit* ca_;
+  QLineEdit* certificate_;
+  QLineEdit* key_;
+  QCheckBox* verify_;
+  QPushButton* test_;
+  QLabel* said_;
+};
+
+}  // namespace tidemark
