@@ -10,7 +10,8 @@ void query_server(MainWindow& window) {
   if (dialog == nullptr) {
     dialog = new QueryDialog(pacs_configuration_file(), &window);
     QObject::connect(dialog, &QueryDialog::retrieved, &window, &MainWindow::open);
-    QObject::connect(dialog, &QueryDialog::told, &window, &MainWindow::tell);
+    QObject::connect(dialog, &QueryDialog::told, &window,
+                     [&window](const QString& text) { window.tell(text); });
   }
   dialog->show();
   dialog->raise();

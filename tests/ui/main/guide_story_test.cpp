@@ -1,0 +1,111 @@
+// The guide's first minute (docs/user-first-minute.md) as it is written, and the layouts in both themes
+// (docs/user-interface.md). With TIDEMARK_SCREENSHOTS it leaves the pictures of both pages.
+#include <QApplication>
+#include <QPushButton>
+#include <QToolButton>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/ui/main/desktop.h"
+#include "ui/look/theme.h"
+#include "ui/main/panel_docks.h"
+
+namespace tidemark::test {
+
+class GuideStoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void the_first_minute_leads_to_a_tumour();
+  void every_layout_is_whole_in_both_themes();
+
+ private:
+  // Presses the button with that name or text.
+  static bool click(Desktop& desktop, const QString& name);
+};
+
+bool GuideStoryTest::click(Desktop& desktop, const QString& name) {
+  for (QAbstractButton* button : desktop.window().findChildren<QAbstractButton*>()) {
+    const bool named = button->objectName() == name || button->text().remove('&').startsWith(name);
+    if (!named || !button->isVisible() || !button->isEnabled()) continue;
+    QTest::mouseClick(button, Qt::LeftButton);
+    return true;
+  }
+  return false;
+}
+
+void GuideStoryTest::the_first_minute_leads_to_a_tumour() {
+  Desktop desktop(story_executor(), {1382, 858});
+  desktop.screenshot("minute-1-start");
+  QVERIFY(click(desktop, "phantom_tumour"));
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().active_case() != nullptr; }, 60000));
+  desktop.settle();
+  desktop.screenshot("minute-2-opened");
+  QVERIFY(!desktop.state().begun);
+
+  // A sphere in the middle of the tumour, by press and drag.
+  auto* axial = desktop.view<SliceViewWidget>("Axial");
+  QVERIFY(axial);
+  const glm::dvec3 centre = desktop.session().display().settings().cursor_mm;
+  QVERIFY2(glm::distance(centre, desktop.seed_mm()) < 15.0, "the study opens at the tumour");
+  desktop.press(Qt::Key_S);
+  QVERIFY(desktop.session().display().settings().tool == Tool::seed);
+  Desktop::drag(*axial, {centre, centre + glm::dvec3(4, 0, 0), centre + glm::dvec3(9, 0, 0)});
+  desktop.settle();
+  QVERIFY(desktop.state().begun);
+  desktop.screenshot("minute-3-sphere");
+
+  desktop.press(Qt::Key_P);
+  QVERIFY(Desktop::wait_for([&] { return desktop.state().step > 60; }, 60000));
+  QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }, 120000));
+  desktop.settle();
+  QVERIFY(desktop.state().converged);
+  QVERIFY2(std::abs(desktop.state().surface.volume_ml / 117.6 - 1.0) < 0.04,
+           qPrintable(QString::number(desktop.state().surface.volume_ml)));
+  desktop.screenshot("minute-5-converged");
+
+  desktop.press(Qt::Key_E);
+  const glm::dvec3 beside = centre + glm::dvec3(14, 0, 0);
+  Desktop::drag(*axial, {beside, beside + glm::dvec3(4, 0, 0), beside + glm::dvec3(9, 0, 0)});
+  desktop.settle();
+  desktop.screenshot("minute-6-erased");
+  desktop.press(Qt::Key_Z, Qt::ControlModifier);
+  desktop.settle();
+  QVERIFY(desktop.state().converged);
+
+  desktop.window().panels().show("labels");
+  QVERIFY(click(desktop, "Accept surface into label"));
+  desktop.settle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  QCOMPARE(desktop.state().label_statistics[0].voxels, desktop.state().surface.voxels_inside);
+  desktop.screenshot("minute-7-label");
+}
+
+void GuideStoryTest::every_layout_is_whole_in_both_themes() {
+  Desktop desktop(story_executor(), {1400, 900});
+  QVERIFY(desktop.open_phantom("tumour"));
+  desktop.begin(14.0);
+  desktop.session().play();
+  QVERIFY(Desktop::wait_for([&] { return desktop.state().step > 30 && !desktop.state().playing; }, 120000));
+  const QString scale = QString::number(std::lround(100.0 * desktop.window().devicePixelRatioF()));
+  for (const Theme theme : {Theme::light, Theme::dark}) {
+    apply_theme(*qApp, theme);
+    const QList<QAction*> layouts = desktop.window().actions().layouts->actions();
+    for (int layout = 0; layout < layouts.size(); ++layout) {
+      layouts[layout]->trigger();
+      desktop.settle();
+      for (const PictureView* view : desktop.window().active_case()->views()) {
+        QVERIFY2(!view->isVisible() || shows_a_picture(*view), qPrintable(view->title()));
+      }
+      desktop.screenshot(QStringLiteral("layout-%1-%2-%3")
+                             .arg(layout + 1)
+                             .arg(theme == Theme::light ? "light" : "dark", scale));
+    }
+  }
+  apply_theme(*qApp, Theme::light);
+}
+
+}  // namespace tidemark::test
+
+TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::GuideStoryTest)
+#include "guide_story_test.moc"
