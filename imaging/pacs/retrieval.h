@@ -28,14 +28,17 @@ class ResponseReader {
  public:
   ResponseReader(Association& association, Inbox& inbox) : association_(association), inbox_(inbox) {}
 
-  // True when it was the last. Fails (ErrorKind::input) when the server says that it has failed altogether.
-  Result<bool> read(std::uint16_t status, bool has_data, const SubOperations& counted);
-  [[nodiscard]] const SubOperations& counted() const { return counted_; }
+  // A response to either way. True when it was the last. Fails (ErrorKind::input) when the server says that
+  // it has failed altogether.
+  Result<bool> read(const T_DIMSE_Message& message);
+  // After the last: objects that the server could not send.
+  [[nodiscard]] std::int64_t missing() const { return missing_; }
 
  private:
   Association& association_;
   Inbox& inbox_;
   SubOperations counted_;
+  std::int64_t missing_ = 0;
   std::int64_t read_ = 0;
 };
 

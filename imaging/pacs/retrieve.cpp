@@ -2,6 +2,8 @@
 #include <dcmtk/dcmdata/dctk.h>
 #include <dcmtk/dcmnet/dimse.h>
 
+#include <optional>
+
 #include "imaging/pacs/pacs.h"
 #include "imaging/pacs/retrieval.h"
 #include "imaging/pacs/storage_classes.h"
@@ -14,6 +16,26 @@ namespace {
 constexpr std::int64_t kLongestResponseData = std::int64_t{2} << 20;
 // A server says how things go at most once an object, of which it can count 65,535.
 constexpr std::int64_t kMostResponses = 100'000;
+
+struct Response {
+  std::uint16_t status = 0;
+  bool has_data = false;
+  SubOperations counted;
+};
+
+template <class Said>
+Response response_of(const Said& said) {
+  return {said.DimseStatus,
+          said.DataSetType != DIMSE_DATASET_NULL,
+          {said.NumberOfRemainingSubOperations, said.NumberOfCompletedSubOperations,
+           said.NumberOfFailedSubOperations, said.NumberOfWarningSubOperations}};
+}
+
+std::optional<Response> response_in(const T_DIMSE_Message& message) {
+  if (message.CommandField == DIMSE_C_GET_RSP) return response_of(message.msg.CGetRSP);
+  if (message.CommandField == DIMSE_C_MOVE_RSP) return response_of(message.msg.CMoveRSP);
+  return std::nullopt;
+}
 
 Result<Retrieved> retrieve_into_folder(const PacsServer& server, const RetrieveRequest& request,
                                        const PacsLimits& limits, const Progress& progress) {
@@ -44,24 +66,29 @@ std::unique_ptr<DcmDataset> identifier_of(const RetrieveRequest& request) {
   return identifier;
 }
 
-Result<bool> ResponseReader::read(std::uint16_t status, bool has_data, const SubOperations& counted) {
+Result<bool> ResponseReader::read(const T_DIMSE_Message& message) {
+  const auto response = response_in(message);
+  if (!response) {
+    return fail(ErrorKind::input, "{}: answers something that was not asked", association_.line().peer());
+  }
   if (++read_ > kMostResponses) {
     return fail(ErrorKind::input, "{}: answers without end", association_.line().peer());
   }
-  if (has_data) {
+  if (response->has_data) {
     auto data = association_.receive_data(kLongestResponseData);
     if (!data) return pass_on(data);
   }
-  // The last response need not say what remains.
-  const bool is_last = !DICOM_PENDING_STATUS(status);
-  if (counted != counted_) association_.line().completed_message();
-  if (counted.total() > 0) {
-    counted_ = counted;
-    inbox_.set_expected(counted.total());
+  const std::uint16_t status = response->status;
+  if (response->counted != counted_) association_.line().completed_message();
+  if (response->counted.total() > 0) {  // the last response need not say it
+    counted_ = response->counted;
+    inbox_.set_expected(counted_.total());
   }
-  if (!is_last) return false;
+  if (DICOM_PENDING_STATUS(status)) return false;
+  missing_ = counted_.failed;
   if (status == STATUS_Success || DICOM_WARNING_STATUS(status)) return true;
-  // Some servers call it a failure when one object of many has failed.
+  // Some servers call it a failure when one object of many has failed, and give up the rest.
+  missing_ += counted_.remaining;
   if (counted_.completed + counted_.warned > 0 &&
       status != STATUS_GET_Cancel_SubOperationsTerminatedDueToCancelIndication)
     return true;

@@ -7,15 +7,6 @@
 #include "imaging/pacs/storage_request.h"
 
 namespace tidemark {
-namespace {
-
-SubOperations counted(const T_DIMSE_C_GetRSP& response) {
-  return {response.NumberOfRemainingSubOperations, response.NumberOfCompletedSubOperations,
-          response.NumberOfFailedSubOperations, response.NumberOfWarningSubOperations};
-}
-
-}  // namespace
-
 Result<std::int64_t> retrieve_by_get(const PacsServer& server, const RetrieveRequest& request,
                                      const PacsLimits& limits, Inbox& inbox, const std::stop_token& stop) {
   std::vector<Proposal> proposals = storage_proposals();
@@ -49,16 +40,11 @@ Result<std::int64_t> retrieve_by_get(const PacsServer& server, const RetrieveReq
       if (!taken) return pass_on(taken);
       continue;
     }
-    if (message.CommandField != DIMSE_C_GET_RSP) {
-      return fail(ErrorKind::input, "{}: answers something that was not asked", association.line().peer());
-    }
-    const T_DIMSE_C_GetRSP& response = message.msg.CGetRSP;
-    const auto last =
-        responses.read(response.DimseStatus, response.DataSetType != DIMSE_DATASET_NULL, counted(response));
+    const auto last = responses.read(message);
     if (!last) return tl::unexpected<Error>(last.error());
     if (!*last) continue;
     association.release();
-    return responses.counted().failed;
+    return responses.missing();
   }
 }
 

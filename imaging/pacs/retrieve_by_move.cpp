@@ -8,11 +8,6 @@
 namespace tidemark {
 namespace {
 
-SubOperations counted(const T_DIMSE_C_MoveRSP& response) {
-  return {response.NumberOfRemainingSubOperations, response.NumberOfCompletedSubOperations,
-          response.NumberOfFailedSubOperations, response.NumberOfWarningSubOperations};
-}
-
 Result<std::int64_t> move(Association& association, const Proposal& proposal, const PacsServer& server,
                           const RetrieveRequest& request, Inbox& inbox, Receiver& receiver) {
   T_DIMSE_Message message{};
@@ -32,16 +27,11 @@ Result<std::int64_t> move(Association& association, const Proposal& proposal, co
     const auto received = association.receive(message);
     if (Status fine = receiver.trouble(); !fine) return pass_on(fine);
     if (!received) return tl::unexpected<Error>(received.error());
-    if (message.CommandField != DIMSE_C_MOVE_RSP) {
-      return fail(ErrorKind::input, "{}: answers something that was not asked", association.line().peer());
-    }
-    const T_DIMSE_C_MoveRSP& response = message.msg.CMoveRSP;
-    const auto last =
-        responses.read(response.DimseStatus, response.DataSetType != DIMSE_DATASET_NULL, counted(response));
+    const auto last = responses.read(message);
     if (!last) return tl::unexpected<Error>(last.error());
     if (!*last) continue;
     association.release();
-    return responses.counted().failed;
+    return responses.missing();
   }
 }
 

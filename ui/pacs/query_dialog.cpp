@@ -52,12 +52,21 @@ QueryDialog::QueryDialog(std::filesystem::path servers, QWidget* parent)
   connect(tree_, &StudyTree::opened, this, &QueryDialog::open);
   connect(tree_, &StudyTree::choice_changed, this, &QueryDialog::follow);
   connect(tree_, &StudyTree::series_wanted, this, [this](const QString& study_uid) {
+    // Unfolding must not end a retrieval.
+    if (client_.busy() && asked_study_.isEmpty()) return tree_->forget_question(study_uid);
     if (server() == nullptr) return;
     if (!asked_study_.isEmpty()) tree_->forget_question(asked_study_);
     asked_study_ = study_uid;
     work(tr("Asking for the series"));
     client_.find_series(*server(), {study_uid.toStdString(), {}, {}}, configuration_.limits);
   });
+  connect_client();
+  read_servers();
+  rest({});
+  resize(980, 620);
+}
+
+void QueryDialog::connect_client() {
   connect(cancel_, &QPushButton::clicked, &client_, &PacsClient::cancel);
   connect(&client_, &PacsClient::progressed, this, [this](double fraction, const QString& step) {
     said_->setText(step);
@@ -86,9 +95,6 @@ QueryDialog::QueryDialog(std::filesystem::path servers, QWidget* parent)
       emit told(tr("The series is not complete: %1 objects did not come or were not usable.").arg(lost));
     emit retrieved(folder);
   });
-  read_servers();
-  rest({});
-  resize(980, 620);
 }
 
 QWidget* QueryDialog::make_top() {
@@ -99,7 +105,7 @@ QWidget* QueryDialog::make_top() {
   label->setBuddy(server_);
   server_->setAccessibleName(tr("Server"));
   server_->setMinimumContentsLength(20);
-  auto* edit = new QPushButton(icon(u"settings"), tr("Ser&vers…"), top);
+  auto* edit = new QPushButton(icon(u"settings"), tr("Se&rvers…"), top);
   edit->setToolTip(tr("Add, change and remove servers"));
   connect(edit, &QPushButton::clicked, this, &QueryDialog::edit_servers);
   row->addWidget(label);

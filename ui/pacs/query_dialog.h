@@ -35,6 +35,7 @@ class QueryDialog : public QDialog {
   void reject() override;  // gives up what runs
 
  private:
+  void connect_client();
   QWidget* make_top();
   QWidget* make_bottom();
   void read_servers();

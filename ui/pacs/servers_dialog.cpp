@@ -43,7 +43,7 @@ ServersDialog::ServersDialog(std::filesystem::path file, QWidget* parent)
   whole->addWidget(buttons);
 
   connect(&client_, &PacsClient::answered, this, [this](double seconds) {
-    say(tr("The server answers in %1 ms.").arg(seconds * 1000.0, 0, 'f', 0));
+    say(tr("The server answers in %1 ms.").arg(seconds * 1000.0, 0, 'f', 1));
   });
   connect(&client_, &PacsClient::failed, this, &ServersDialog::say);
   auto read = read_pacs_configuration(file_);
@@ -55,7 +55,7 @@ ServersDialog::ServersDialog(std::filesystem::path file, QWidget* parent)
   }
   for (const PacsServer& server : configuration_.servers) list_->addItem(QString::fromStdString(server.name));
   connect(list_, &QListWidget::currentRowChanged, this, &ServersDialog::show_entry);
-  connect(name_, &QLineEdit::textEdited, this, [this](const QString& text) {
+  connect(name_, &QLineEdit::textChanged, this, [this](const QString& text) {
     if (list_->currentItem() != nullptr) list_->currentItem()->setText(text);
   });
   list_->setCurrentRow(list_->count() > 0 ? 0 : -1);

@@ -17,6 +17,8 @@
 
 namespace tidemark {
 
+class Form;
+
 class ServersDialog : public QDialog {
   Q_OBJECT
  public:
@@ -29,7 +31,7 @@ class ServersDialog : public QDialog {
   QWidget* make_list();
   QWidget* make_entry();
   QWidget* make_tls();
-  QLineEdit* file_line(const QString& label, const QString& tip, class Form& form);
+  QLineEdit* file_line(const QString& label, const QString& tip, Form& form);
   void show_entry(int row);
   void keep_entry();  // what is entered becomes the server that is shown
   void add();

@@ -1,11 +1,14 @@
 #include "ui/pacs/study_tree.h"
 
 #include <QHeaderView>
+#include <algorithm>
 
 namespace tidemark {
 namespace {
 
 enum Column { kName, kId, kDate, kModality, kDescription, kObjects, kColumns };
+constexpr int kColumnGap = 14;
+constexpr int kLeastNameWidth = 180;  // also for the series below
 constexpr int kStudyRole = Qt::UserRole;
 constexpr int kSeriesRole = Qt::UserRole + 1;  // of a series' row
 constexpr int kAskedRole = Qt::UserRole + 2;   // of a study's row: whether its series were asked for
@@ -52,7 +55,11 @@ void StudyTree::show_studies(const Found<PacsStudy>& studies) {
     set_count(*item, one.objects);
     item->setChildIndicatorPolicy(QTreeWidgetItem::ShowIndicator);
   }
-  for (const int column : {kName, kId, kDate, kModality, kObjects}) resizeColumnToContents(column);
+  for (const int column : {kName, kId, kDate, kModality, kObjects}) {
+    resizeColumnToContents(column);
+    const int least = column == kName ? kLeastNameWidth : 0;
+    setColumnWidth(column, std::max(columnWidth(column) + kColumnGap, least));
+  }
   if (topLevelItemCount() > 0) setCurrentItem(topLevelItem(0));
 }
 

@@ -43,18 +43,25 @@ void write_text(const fs::path& file, const std::string& text) {
 
 class Orthanc : public Archive {
  public:
-  Orthanc() {
+  explicit Orthanc(const TlsFiles* tls) {
     server_.name = "orthanc";
     server_.ae_title = "ORTHANC";
     const fs::path configuration = folder_ / "orthanc.json";
-    write_text(configuration,
-               fmt::format(R"({{
+    std::string secret;
+    if (tls != nullptr) {
+      secret =
+          fmt::format(R"("DicomTlsEnabled": true, "DicomTlsCertificate": "{}", "DicomTlsPrivateKey": "{}",
+  "DicomTlsTrustedCertificates": "{}",)",
+                      tls->certificate.string(), tls->key.string(), tls->authority.string());
+    }
+    write_text(configuration, fmt::format(R"({{
   "Name": "Test", "StorageDirectory": "{0}/storage", "IndexDirectory": "{0}/index",
-  "HttpServerEnabled": false, "RemoteAccessAllowed": false, "Plugins": [],
+  "HttpServerEnabled": false, "RemoteAccessAllowed": false, "Plugins": [], {5}
   "DicomAet": "ORTHANC", "DicomCheckCalledAet": true, "DicomPort": {1},
-  "DicomModalities": {{ "tidemark": ["{2}", "127.0.0.1", {3}] }}
+  "DicomModalities": {{ "tidemark": {{ "AET": "{2}", "Host": "127.0.0.1", "Port": {3}, "UseDicomTls": {4} }} }}
 }})",
-                           folder_.path().string(), server_.port, kOwnTitle, server_.move_port));
+                                          folder_.path().string(), server_.port, kOwnTitle, server_.move_port,
+                                          tls != nullptr, secret));
     start("Orthanc", {QString::fromStdString(configuration.string())});
   }
 };
@@ -136,8 +143,8 @@ StoringPeer::StoringPeer(const QStringList& arguments) {
                                             QString::number(server_.port)});
 }
 
-std::unique_ptr<Archive> start_orthanc() {
-  return std::make_unique<Orthanc>();
+std::unique_ptr<Archive> start_orthanc(const TlsFiles* tls) {
+  return std::make_unique<Orthanc>(tls);
 }
 
 std::unique_ptr<Archive> start_dcmqrscp() {

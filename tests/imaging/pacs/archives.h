@@ -37,7 +37,13 @@ class Archive {
   QProcess process_;
 };
 
-std::unique_ptr<Archive> start_orthanc();
+// In PEM.
+struct TlsFiles {
+  std::filesystem::path authority;  // of who may call
+  std::filesystem::path certificate;
+  std::filesystem::path key;
+};
+std::unique_ptr<Archive> start_orthanc(const TlsFiles* tls = nullptr);
 std::unique_ptr<Archive> start_dcmqrscp();
 // By "orthanc" or "dcmqrscp".
 std::unique_ptr<Archive> start_archive(const QString& name);

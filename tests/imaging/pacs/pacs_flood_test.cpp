@@ -5,6 +5,8 @@
 #include <QTest>
 
 #include "imaging/pacs/pacs.h"
+#include "tests/imaging/dicom/series_files.h"
+#include "tests/imaging/pacs/archives.h"
 #include "tests/imaging/pacs/scripted_peer.h"
 #include "tests/imaging/pacs/wire.h"
 #include "tests/support/support.h"
@@ -187,6 +189,38 @@ class PacsFloodTest : public QObject {
     QVERIFY(QString::fromStdString(study.description).endsWith("end"));
   }
 
+  void a_flood_on_the_port_for_moves_ends_the_retrieval() {
+    const ScriptedPeer archive([](PeerEnd& end) {
+      end.accept_call();
+      end.read_command();
+      QTest::qSleep(1500);
+      end.send_command(1, response(0x8021, 1, 0, false));
+      end.read_command();
+    });
+    PacsServer server = archive.server();
+    server.retrieve = PacsServer::Retrieve::move;
+    server.timeout_seconds = 5;
+    server.move_port = free_port();
+    const TemporaryFolder folder;
+    const auto files = write_series(sample_volume({64, 64, 2}), folder / "series");
+    PacsLimits limits;
+    limits.free_bytes = 1 << 20;
+    limits.object_bytes = 2000;
+    std::thread caller([&] {
+      QTest::qSleep(200);
+      PacsServer us = server;
+      us.port = server.move_port;
+      us.ae_title = server.own_ae_title;
+      static_cast<void>(send_files(us, files));
+    });
+    const auto retrieved = retrieve(server, {kStudy, kSeries, folder / "in"}, limits);
+    caller.join();
+    QVERIFY(!retrieved);
+    QVERIFY2(message(retrieved.error()).contains("sends more than is taken as an object"),
+             qPrintable(message(retrieved.error())));
+    QVERIFY(!std::filesystem::exists(folder / "in"));
+  }
+
   void a_caller_on_the_port_for_moves_gets_nothing_stored_under_another_title() {
     // Stands in for the archive: it never calls back, but somebody else does.
     const ScriptedPeer archive([](PeerEnd& end) {
@@ -200,7 +234,7 @@ class PacsFloodTest : public QObject {
     server.retrieve = PacsServer::Retrieve::move;
     server.own_ae_title = "US";
     server.timeout_seconds = 5;
-    server.move_port = server.port == 65535 ? 65000 : server.port + 1;
+    server.move_port = free_port();
     const TemporaryFolder folder;
     PacsLimits limits;
     limits.free_bytes = 1 << 20;

@@ -2,6 +2,7 @@
 #include <QTest>
 
 #include "imaging/pacs/pacs.h"
+#include "imaging/study.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/pacs/archives.h"
 #include "tests/imaging/pacs/certificates.h"
@@ -49,6 +50,32 @@ class PacsTlsTest : public QObject {
     for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(peer->received()))
       ++received;
     QCOMPARE(received, files.size());
+  }
+
+  void series_come_over_encrypted_lines_both_ways() {
+    const Certificates authority;
+    const auto of_archive = authority.signed_for("localhost");
+    const auto own = authority.signed_for("workstation.example");
+    const TlsFiles files{authority.authority(), of_archive.certificate, of_archive.key};
+    const auto archive = start_orthanc(&files);
+    const PacsTls tls{authority.authority(), own.certificate, own.key, true};
+    const PacsServer by_get = reached(*archive, tls);
+    const TemporaryFolder folder;
+    const Volume volume = sample_volume({64, 64, 3});
+    QCOMPARE(failure(send_files(by_get, write_series(volume, folder / "sent"))), QString());
+    const auto studies = find_studies(by_get, {});
+    QCOMPARE(failure(studies), QString());
+    PacsServer by_move = by_get;
+    by_move.retrieve = PacsServer::Retrieve::move;
+    PacsLimits limits;
+    limits.free_bytes = 1 << 20;
+    for (const auto& [server, name] : {std::pair{by_get, "get"}, {by_move, "move"}}) {
+      const auto retrieved = retrieve(server, {studies->entries.at(0).uid, {}, folder / name}, limits);
+      QCOMPARE(failure(retrieved), QString());
+      const auto loaded = load_volume(folder / name);
+      QCOMPARE(failure(loaded), QString());
+      QVERIFY2(loaded->values() == volume.values(), name);
+    }
   }
 
   void who_cannot_be_believed_is_not_talked_to() {
