@@ -11,6 +11,7 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 
 option(TIDEMARK_WERROR "Warnings are errors" OFF)
+option(TIDEMARK_FUZZ "Fuzz targets, for clang (tests/fuzz/run)" OFF)
 set(TIDEMARK_SANITIZE "" CACHE STRING "Sanitizers, as in -fsanitize=: 'address,undefined' or 'thread'")
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual)

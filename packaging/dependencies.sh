@@ -16,6 +16,9 @@ tidemark_packages=(
 # Qt's OpenGL classes are a package of their own on Debian 12, and part of qt6-base-dev later.
 if grep -qs '^VERSION_CODENAME=bookworm' /etc/os-release; then tidemark_packages+=(libqt6opengl6-dev); fi
 
+# Only the fuzz targets need a second compiler: tidemark_install_dependencies --with-clang.
+tidemark_fuzz_packages=(clang)
+
 # The packages of the list that are not installed, one a line.
 tidemark_missing_packages() {
   local package
@@ -29,6 +32,7 @@ tidemark_missing_packages() {
 # Installs what is missing. Where that cannot be done it says what is needed and goes on: the build finds out
 # whether it is there all the same.
 tidemark_install_dependencies() {
+  if [[ ${1:-} == --with-clang ]]; then tidemark_packages+=("${tidemark_fuzz_packages[@]}"); fi
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     echo "This system has no apt. Tidemark needs what these Debian packages hold:"
     echo "  ${tidemark_packages[*]}"

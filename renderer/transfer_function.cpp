@@ -85,7 +85,8 @@ constexpr Axis<SurfacePrimitive> kSurfaceAxes[] = {{&SurfacePrimitive::intensity
 template <class Primitive>
 Result<Primitive> read_primitive(const Json& object, const std::string& where, Axes<Primitive> axes) {
   if (!object.is_object()) return fail(ErrorKind::input, "{}: an object is needed", where);
-  for (const auto& [key, value] : object.items()) {
+  for (const auto& item : object.items()) {
+    const std::string& key = item.key();
     const bool known =
         key == "opacity" || key == "colour" ||
         std::any_of(axes.begin(), axes.end(), [&](const auto& axis) { return key == axis.second; });

@@ -1,0 +1,198 @@
+// Writes the seed corpus: a few small good files of every kind, and some that are damaged where it matters.
+//   fuzz_seeds FOLDER
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <zlib.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "imaging/dicom/preflight.h"
+#include "imaging/files/volume_file.h"
+#include "renderer/transfer_function.h"
+#include "study/session_file.h"
+#include "tests/imaging/dicom/dicom_bytes.h"
+#include "tests/imaging/dicom/recode.h"
+#include "tests/imaging/dicom/series_files.h"
+#include "tests/imaging/files/volumes.h"
+#include "tests/study/cases.h"
+
+using namespace tidemark;
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path corpus;
+
+void write(const std::string& target, const std::string& name, const std::string& bytes) {
+  fs::create_directories(corpus / target);
+  test::put(corpus / target / name, bytes);
+}
+
+void write_dicom(const std::string& name, const std::string& bytes) {
+  write("dicom_preflight", name, bytes);
+  write("dicom_load", name, bytes);
+}
+
+std::string gzip(const std::string& bytes) {
+  const test::TemporaryFolder folder;
+  const gzFile file = gzopen((folder / "x").c_str(), "wb9");
+  gzwrite(file, bytes.data(), static_cast<unsigned>(bytes.size()));
+  gzclose(file);
+  return test::contents(folder / "x");
+}
+
+void write_plain_dicom() {
+  using namespace tidemark::test;
+  write_dicom("explicit", file(Dataset::slice(kExplicit)));
+  write_dicom("implicit", file(Dataset::slice(kImplicit)));
+  write_dicom("big-endian", file(Dataset::slice(kBigEndian)));
+  write_dicom("no-meta", Dataset::slice().bytes());
+  write_dicom("deflated", file("1.2.840.10008.1.2.1.99", deflated(Dataset::slice().bytes())));
+  write_dicom("short-pixels", file(Dataset::slice().put(kPixels, element(kPixels, "OW", "abcd"))));
+  constexpr std::uint32_t kSequence = 0x00081140;
+  for (const bool has_lengths : {false, true}) {
+    const std::string name = has_lengths ? "-lengths" : "";
+    write_dicom("nested" + name,
+                file(Dataset::slice().put(kSequence, nested(5, "SQ", kExplicit, has_lengths))));
+    write_dicom("nested-un" + name,
+                file(Dataset::slice().put(kSequence, nested(5, "UN", kExplicit, has_lengths))));
+    write_dicom("nested-implicit" + name,
+                file(Dataset::slice(kImplicit).put(kSequence, nested(70, "SQ", kImplicit, has_lengths))));
+  }
+}
+
+// The first fragment of a file's pixels.
+std::string frame_of(const std::string& bytes) {
+  MemoryBytes source({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  TagWalk walk(source, std::int64_t{1} << 20);
+  std::string frame;
+  const auto ignore = [](const ElementHeader&, ByteReader&, const Fragments*) {};
+  const auto dataset = walk.walk_meta(132, ignore);
+  if (!dataset) qFatal("%s", dataset.error().what.c_str());
+  const auto walked = walk.walk_dataset(
+      *dataset, {}, true, [&](const ElementHeader&, ByteReader&, const Fragments* fragments) {
+        if (fragments == nullptr) return;
+        frame = bytes.substr(static_cast<std::size_t>(fragments->first), fragments->first_bytes);
+      });
+  if (!walked) qFatal("%s", walked.error().what.c_str());
+  return frame;
+}
+
+void write_compressed_dicom() {
+  // In the order of dicom_frame's table.
+  constexpr E_TransferSyntax kSyntaxes[] = {EXS_RLELossless,   EXS_JPEGProcess1,        EXS_JPEGProcess2_4,
+                                            EXS_JPEGProcess14, EXS_JPEGProcess14SV1,    EXS_JPEGLSLossless,
+                                            EXS_JPEGLSLossy,   EXS_JPEG2000LosslessOnly};
+  test::register_encoders();
+  const Index3 size{17, 13, 1};
+  for (std::size_t k = 0; k < std::size(kSyntaxes); ++k) {
+    const E_TransferSyntax syntax = kSyntaxes[k];
+    const int bits = syntax == EXS_JPEGProcess1 ? 8 : 12;
+    Volume volume = test::sample_volume_uint16(size);
+    for (auto& value : std::get<std::vector<std::uint16_t>>(volume.voxels)) {
+      value = static_cast<std::uint16_t>(value % (1 << bits));
+    }
+    const test::TemporaryFolder folder;
+    const fs::path file = test::write_series(volume, folder / "series").front();
+    test::edit(file, [&](DcmDataset& dataset) {
+      dataset.putAndInsertUint16(DCM_BitsStored, static_cast<Uint16>(bits));
+      dataset.putAndInsertUint16(DCM_HighBit, static_cast<Uint16>(bits - 1));
+    });
+    if (!test::recode(file, syntax, false)) qFatal("cannot encode %s", DcmXfer(syntax).getXferName());
+    const std::string bytes = test::contents(file);
+    const std::string name = DcmXfer(syntax).getXferID();
+    write_dicom(name, bytes);
+    const std::string start{static_cast<char>(k), static_cast<char>(size.x), static_cast<char>(size.y)};
+    write("dicom_frame", name, start + frame_of(bytes));
+  }
+  // DCMTK's search for the frame stayed at the marker TEM for ever.
+  const std::string rest("\xff\x01\xff\xc0\0\x0b\x08\0\x0d\0\x11\x01\x01\x11\0\0\0", 17);
+  write("dicom_frame", "found-jpeg-tem", "\x01\x11\x0d\xff\xd8" + rest);
+}
+
+void write_volumes() {
+  const std::string voxels = "abcdefgh";
+  const std::string plain = test::NiftiHeader({2, 2, 2}, 2, 8).bytes();
+  write("nifti", "uint8", plain + voxels);
+  write("nifti", "gzip", gzip(plain + voxels));
+  write("nifti", "int16", test::NiftiHeader({2, 2, 1}, 4, 16).bytes() + voxels);
+  write("nifti", "float", test::NiftiHeader({2, 1, 1}, 16, 32).bytes() + std::string(8, '\0'));
+  write("nifti", "swapped", test::NiftiHeader({2, 2, 1}, 4, 16).swapped() + voxels);
+  test::NiftiHeader both({2, 2, 2}, 2, 8);
+  both.set<std::int16_t>(252, 1).set<float>(256, 0.5F).set<float>(112, 2.0F);
+  write("nifti", "both-forms-scaled", both.bytes() + voxels);
+  // ITK's decomposition of the sform did not end.
+  test::NiftiHeader endless({2, 2, 2}, 2, 8);
+  endless.set<float>(280, 1.7613126e19F).set<float>(284, 6.742214e22F);
+  write("nifti", "found-sform-overflow", endless.bytes() + voxels);
+  test::NiftiHeader extended({2, 2, 2}, 2, 8);
+  extended.set<float>(108, 384.0F).set<char>(348, 1);
+  const std::string extension("\x20\0\0\0\6\0\0\0comment", 15);
+  write("nifti", "extension", extended.bytes() + extension + std::string(17, '\0') + voxels);
+
+  const Volume volume = test::counting_volume<std::int16_t>(test::awkward_grid({3, 2, 2}), -3);
+  for (const std::string suffix : {"nrrd", "mha"}) {
+    const test::TemporaryFolder folder;
+    if (const auto written = write_volume_file(volume, folder / ("v." + suffix)); !written) {
+      qFatal("%s", written.error().message.c_str());
+    }
+    write("volume_files", suffix, test::contents(folder / ("v." + suffix)));
+  }
+  const std::string grid =
+      "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nspace: left-posterior-superior\n"
+      "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nendian: little\n";
+  write("volume_files", "nrrd-raw", grid + "encoding: raw\n\n" + voxels);
+  write("volume_files", "nrrd-text", grid + "encoding: text\n\n1 2 3 4 5 6 7 8\n");
+  write("volume_files", "nrrd-detached", grid + "encoding: raw\ndata file: ../v.raw\n\n");
+  const std::string meta =
+      "ObjectType = Image\nNDims = 3\nElementSpacing = 1 1 1\nDimSize = 2 2 2\n"
+      "TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 0 0 0\nElementType = MET_UCHAR\n";
+  write("volume_files", "mha-raw", meta + "ElementDataFile = LOCAL\n" + voxels);
+  write("volume_files", "mha-text", meta + "BinaryData = False\nElementDataFile = LOCAL\n1 2 3 4 5 6 7 8\n");
+  std::string gipl(256, '\0');
+  for (const std::size_t axis : {0, 1, 2}) gipl[2 * axis + 1] = 2;
+  gipl[9] = 8;                                                                          // unsigned bytes
+  for (const std::size_t axis : {0, 1, 2}) gipl.replace(10 + 4 * axis, 2, "\x3f\x80");  // 1 mm
+  gipl.replace(252, 4, "\xef\xff\xe9\xb0");
+  write("volume_files", "gipl", gipl + voxels);
+  write("volume_files", "gipl-gzip", gzip(gipl + voxels));
+}
+
+void write_studies() {
+  const auto document = test::make_case(test::lumpy_volume({9, 8, 9}));
+  Start start;
+  start.seeds = {test::ball_at(*document->volume(), {0.3, -0.2, 0.4}, 2.0)};
+  if (const auto begun = document->level_set().begin(start); !begun)
+    qFatal("%s", begun.error().message.c_str());
+  test::run(document->level_set(), 3);
+  const auto painted =
+      document->level_set().paint(test::ball_at(*document->volume(), {1, 0, 1}, 1.0), Brush::add);
+  if (!painted) qFatal("%s", painted.error().message.c_str());
+  write("study_files", "recipe.json", document->level_set().recipe().to_text().value());
+
+  auto contents = snapshot_of(*document).value();
+  contents.origin.phantom = "tumour";
+  const test::TemporaryFolder folder;
+  if (const auto saved = write_session(contents, folder / "case"); !saved) {
+    qFatal("%s", saved.error().message.c_str());
+  }
+  write("study_files", "session.tidemark", test::contents(folder / "case"));
+  for (const std::string& name : preset_names())
+    write("transfer_preset", name, preset(name).value().to_json());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fputs("usage: fuzz_seeds FOLDER\n", stderr);
+    return 2;
+  }
+  corpus = argv[1];
+  write_plain_dicom();
+  write_compressed_dicom();
+  write_volumes();
+  write_studies();
+  return 0;
+}

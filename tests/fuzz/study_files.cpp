@@ -1,0 +1,29 @@
+// A recipe, or a session file: as it is when it is a zip archive, else its session.json in an archive of
+// ours.
+#include <cstdlib>
+#include <string_view>
+
+#include "study/recipe.h"
+#include "study/session_file.h"
+#include "study/zip_archive.h"
+#include "tests/fuzz/scratch_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
+  using namespace tidemark;
+  static fuzz::ScratchFile scratch;
+  const std::string_view text(reinterpret_cast<const char*>(bytes), count);
+  if (text.starts_with("PK")) {
+    static_cast<void>(load_session(scratch.write("case.tidemark", bytes, count)));
+    return 0;
+  }
+  // What is read can be written, and is read again.
+  if (const auto recipe = Recipe::parse(text, "recipe.json")) {
+    const auto again = recipe->to_text();
+    if (!again || !Recipe::parse(*again, "recipe.json")) std::abort();
+  }
+  const ZipEntry entry{"session.json", std::as_bytes(std::span(bytes, count))};
+  const auto file = scratch.write("case.tidemark", bytes, 0);
+  if (!write_zip(file, {&entry, 1})) std::abort();
+  static_cast<void>(load_session(file));
+  return 0;
+}

@@ -1,0 +1,20 @@
+// A NRRD, MetaImage or GIPL file; the first bytes say which.
+#include <cstdlib>
+#include <string_view>
+
+#include "imaging/files/volume_file.h"
+#include "tests/fuzz/scratch_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
+  static tidemark::fuzz::ScratchFile scratch;
+  const std::string_view text(reinterpret_cast<const char*>(bytes), count);
+  const char* const name = text.starts_with("NRRD")           ? "v.nrrd"
+                           : text.starts_with("\x1f\x8b")     ? "v.gipl.gz"
+                           : text.find('=') < std::size_t{64} ? "v.mha"
+                                                              : "v.gipl";
+  const auto file = scratch.write(name, bytes, count);
+  const auto series = tidemark::scan_volume_file(file);
+  const auto volume = tidemark::read_volume_file(file);
+  if (volume && !(series && series->loadable)) std::abort();
+  return 0;
+}
