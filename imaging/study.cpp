@@ -127,15 +127,15 @@ Status require_loadable(const Series& series) {
   return fail(ErrorKind::input, "{}: cannot be loaded: {}", series.description, series.reason);
 }
 
-Result<Volume> load(const fs::path& path, const std::string& uid, const Progress& progress) {
+Result<LoadedStudy> load(const fs::path& path, const std::string& uid, const Progress& progress) {
   const auto catalogue = find_series(path, progress);
   if (!catalogue) return tl::unexpected(catalogue.error());
-  const auto chosen = choose_series(*catalogue, uid, path);
-  if (!chosen) return tl::unexpected(chosen.error());
+  auto chosen = choose_series(*catalogue, uid, path);
+  if (!chosen) return pass_on(chosen);
   auto volume = load_chosen(chosen->series, progress);
-  if (!volume) return volume;
+  if (!volume) return pass_on(volume);
   volume->changes.insert(volume->changes.begin(), chosen->remarks.begin(), chosen->remarks.end());
-  return volume;
+  return LoadedStudy{std::move(chosen->series), std::move(*volume)};
 }
 
 Mask mask_of(const Volume& volume) {
@@ -215,7 +215,17 @@ Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string
 }
 
 Result<Volume> load_volume(const fs::path& path, const std::string& uid, const Progress& progress) {
+  auto study = load_study(path, uid, progress);
+  if (!study) return pass_on(study);
+  return std::move(study->volume);
+}
+
+Result<LoadedStudy> load_study(const fs::path& path, const std::string& uid, const Progress& progress) {
   return guarded(path, [&] { return load(path, uid, progress); });
+}
+
+std::vector<fs::path> dicom_files_of(const Series& series) {
+  return is_volume_file(series) ? std::vector<fs::path>() : series.files;
 }
 
 Result<Volume> load_series(const Series& series, const Progress& progress) {
@@ -230,9 +240,9 @@ Result<Volume> load_slice(const Series& series, std::int64_t k, const Progress& 
 
 Result<Mask> load_mask(const fs::path& path, const Progress& progress) {
   return guarded(path, [&]() -> Result<Mask> {
-    const auto volume = load(path, {}, progress);
-    if (!volume) return tl::unexpected(volume.error());
-    return mask_of(*volume);
+    const auto study = load(path, {}, progress);
+    if (!study) return tl::unexpected(study.error());
+    return mask_of(study->volume);
   });
 }
 

@@ -31,6 +31,17 @@ Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string
 Result<Volume> load_volume(const std::filesystem::path& path, const std::string& uid = {},
                            const Progress& progress = {});
 
+// The same with the series that it was made of.
+struct LoadedStudy {
+  Series series;
+  Volume volume;
+};
+Result<LoadedStudy> load_study(const std::filesystem::path& path, const std::string& uid = {},
+                               const Progress& progress = {});
+
+// The series' files in slice order when it is a DICOM series; none of a volume file.
+[[nodiscard]] std::vector<std::filesystem::path> dicom_files_of(const Series& series);
+
 // The same of a loadable series that find_series() gave.
 Result<Volume> load_series(const Series& series, const Progress& progress = {});
 

@@ -7,7 +7,7 @@
 #include "app/cli/report.h"
 #include "app/cli/solver_options.h"
 #include "imaging/files/volume_file.h"
-#include "imaging/study.h"
+#include "imaging/results/results.h"
 #include "solver/distance_transform.h"
 
 namespace tidemark::cli {
@@ -88,15 +88,16 @@ Status run(Program& program, const DistanceOptions& options) {
   Console& console = program.console;
   Outputs outputs;
   if (Status good = check(options, outputs); !good) return good;
-  const auto mask = load_mask(options.mask, console.progress());
-  if (!mask) return tl::unexpected<Error>(mask.error());
+  const auto loaded = load_any_mask(options.mask, nullptr, console.progress());
+  if (!loaded) return tl::unexpected<Error>(loaded.error());
+  const Mask& mask = loaded->mask;
   if (console.interrupted()) return cancelled_error();
   auto executor =
-      make_executor(options.solver.kind.value_or(ExecutorKind::automatic), empty_source(mask->geometry),
+      make_executor(options.solver.kind.value_or(ExecutorKind::automatic), empty_source(mask.geometry),
                     rescaling_alone(options.band), options.solver.executor_options());
   if (!executor) return pass_on(executor);
   Executor& solver = **executor;
-  if (Status set = solver.restore(distance_transform(*mask, solver.band())); !set) return set;
+  if (Status set = solver.restore(distance_transform(mask, solver.band())); !set) return set;
   const auto report = solver.advance(Advance{kMostSteps, true, console.progress()});
   if (!report) return tl::unexpected<Error>(report.error());
   if (console.interrupted()) return cancelled_error();
@@ -112,9 +113,9 @@ Status run(Program& program, const DistanceOptions& options) {
   if (Status done = outputs.commit(); !done) return done;
   console.say("Steps      {}{}", report->steps, report->converged ? ", converged" : ", not converged");
   console.say("Distance   -{0:.4g} to {0:.4g} mm, > 0 inside",
-              solver.band() * smallest_spacing(mask->geometry));
+              solver.band() * smallest_spacing(mask.geometry));
   for (const std::string& file : options.out) console.say("Wrote      {}", file);
-  console.result(to_json(solver, *report, mask->geometry));
+  console.result(to_json(solver, *report, mask.geometry));
   return {};
 }
 

@@ -21,15 +21,27 @@ std::string lower_suffix(const std::filesystem::path& file) {
 }
 
 bool has_form(const std::filesystem::path& file, FileForm form) {
-  if (form == FileForm::recipe) return lower_suffix(file) == ".json";
-  return form == FileForm::mesh ? is_writable_mesh_file(file) : is_writable_volume_file(file);
+  switch (form) {
+    case FileForm::volume:
+      return is_writable_volume_file(file);
+    case FileForm::mesh:
+      return is_writable_mesh_file(file);
+    case FileForm::recipe:
+      return lower_suffix(file) == ".json";
+    case FileForm::segmentation:
+      return lower_suffix(file) == ".dcm";
+    case FileForm::level_set:
+      return lower_suffix(file) == ".vdb";
+  }
+  return false;
 }
 
 std::string suffixes(const std::vector<FileForm>& forms) {
   std::string text;
   for (const FileForm form : forms) {
     text += text.empty() ? "" : " ";
-    constexpr const char* kSuffixes[] = {".nii .nii.gz .nrrd .mha", ".stl .ply .obj", ".json"};
+    constexpr const char* kSuffixes[] = {".nii .nii.gz .nrrd .mha", ".stl .ply .obj", ".json", ".dcm",
+                                         ".vdb"};
     text += kSuffixes[static_cast<int>(form)];
   }
   return text;
@@ -72,8 +84,11 @@ void rename_in_message(std::string& message, const std::string& from, const std:
 }  // namespace
 
 FileForm form_of(const std::filesystem::path& file) {
-  if (has_form(file, FileForm::recipe)) return FileForm::recipe;
-  return has_form(file, FileForm::mesh) ? FileForm::mesh : FileForm::volume;
+  for (const FileForm form :
+       {FileForm::mesh, FileForm::recipe, FileForm::segmentation, FileForm::level_set}) {
+    if (has_form(file, form)) return form;
+  }
+  return FileForm::volume;
 }
 
 Status Outputs::announce_file(const std::string& option, const std::filesystem::path& file) {
@@ -90,9 +105,6 @@ Status Outputs::announce_file(const std::string& option, const std::filesystem::
 
 Status Outputs::announce(const std::string& option, const std::filesystem::path& file,
                          const std::vector<FileForm>& forms) {
-  if (lower_suffix(file) == ".dcm") {
-    return fail(ErrorKind::usage, "{} {}: .dcm files are not built in this version", option, file.string());
-  }
   if (std::none_of(forms.begin(), forms.end(), [&](FileForm form) { return has_form(file, form); })) {
     return fail(ErrorKind::usage, "{} {}: the name must end in one of {}", option, file.string(),
                 suffixes(forms));
@@ -114,6 +126,10 @@ Status Outputs::announce_json(const std::string& option, const std::filesystem::
 
 Status Outputs::announce_png(const std::string& option, const std::filesystem::path& file) {
   return announce_suffix(option, file, ".png");
+}
+
+Status Outputs::announce_dicom(const std::string& option, const std::filesystem::path& file) {
+  return announce_suffix(option, file, ".dcm");
 }
 
 Status Outputs::spare(const std::filesystem::path& input) const {

@@ -12,17 +12,18 @@
 namespace tidemark::cli {
 
 // What a file holds, by its suffix.
-enum class FileForm { volume, mesh, recipe };
+enum class FileForm { volume, mesh, recipe, segmentation, level_set };
 
 class Outputs {
  public:
   // Announces a file. `option` is for messages; `forms` says which suffixes may be asked for. Fails with
-  // ErrorKind::usage on an unknown suffix, one that this version does not write, or a file named twice, and
-  // with ErrorKind::write when the folder is missing or cannot be written to.
+  // ErrorKind::usage on an unknown suffix or a file named twice, and with ErrorKind::write when the folder is
+  // missing or cannot be written to.
   Status announce(const std::string& option, const std::filesystem::path& file,
                   const std::vector<FileForm>& forms);
   Status announce_json(const std::string& option, const std::filesystem::path& file);
   Status announce_png(const std::string& option, const std::filesystem::path& file);
+  Status announce_dicom(const std::string& option, const std::filesystem::path& file);
 
   // Fails (ErrorKind::usage) when an announced file is this input: inputs are never written to.
   [[nodiscard]] Status spare(const std::filesystem::path& input) const;

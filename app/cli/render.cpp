@@ -10,6 +10,7 @@
 #include "gpu/device.h"
 #include "imaging/files/png_file.h"
 #include "imaging/onto_grid.h"
+#include "imaging/results/results.h"
 #include "imaging/study.h"
 #include "renderer/sheet.h"
 #include "solver/distance_transform.h"
@@ -40,11 +41,10 @@ constexpr const char* kExamples =
 Result<Field> surface_of(const RenderOptions& options, const Volume& source, Console& console) {
   const double band = default_band(source.geometry);
   if (!options.mask.empty()) {
-    auto mask = load_mask(options.mask, console.progress());
-    if (!mask) return pass_on(mask);
-    auto aligned = onto_grid(std::move(*mask), source.geometry, options.mask);
-    if (!aligned) return pass_on(aligned);
-    return distance_transform(*aligned, band);
+    const auto loaded = load_any_mask(options.mask, &source.geometry, console.progress());
+    if (!loaded) return tl::unexpected<Error>(loaded.error());
+    for (const std::string& change : loaded->changes) console.warn(options.mask + ": " + change);
+    return distance_transform(loaded->mask, band);
   }
   if (!options.phi.empty()) {
     const auto phi = load_volume(options.phi, {}, console.progress());

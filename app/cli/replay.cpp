@@ -71,9 +71,9 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
   if (Status good = check(arguments, writer); !good) return good;
   const auto recipe = Recipe::load(arguments.recipe);
   if (!recipe) return tl::unexpected<Error>(recipe.error());
-  auto loaded = load_volume(arguments.input, arguments.series, console.progress());
-  if (!loaded) return pass_on(loaded);
-  const auto volume = std::make_shared<const Volume>(std::move(*loaded));
+  auto study = load_study(arguments.input, arguments.series, console.progress());
+  if (!study) return pass_on(study);
+  const auto volume = std::make_shared<const Volume>(std::move(study->volume));
   for (const std::string& difference : differences(*recipe, *volume)) console.warn(difference);
   console.say("Recipe     {}; {} edits, {} steps", recipe->start.describe(), recipe->events.size(),
               recipe->steps);
@@ -90,6 +90,7 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
     return tl::unexpected<Error>(std::move(error));
   }
   RunResults results = results_of(*recipe, *volume, std::move(*replayed), arguments);
+  results.dicom_files = dicom_files_of(study->series);
   if (writer.wants_recipe()) results.recipe.source.checksum = checksum_of(*volume);
   if (Status written = writer.write(results); !written) return written;
   console.result(to_json(results.figures));

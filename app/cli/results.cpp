@@ -6,6 +6,7 @@
 #include "gpu/device.h"
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
+#include "imaging/results/results.h"
 #include "imaging/surface/surface.h"
 #include "renderer/sheet.h"
 
@@ -13,18 +14,25 @@ namespace tidemark::cli {
 
 void add_result_options(CLI::App& app, ResultOptions& options) {
   const char* const kGroup = "Results";
-  app.add_option("--out", options.out,
-                 ".nii .nii.gz .nrrd .mha: the mask (1 inside);\n.stl .ply .obj: the surface in patient mm "
-                 "(LPS);\n.json: the recipe; may be repeated")
+  app.add_option(
+         "--out", options.out,
+         ".nii .nii.gz .nrrd .mha: the mask (1 inside);\n.dcm: the mask as DICOM segmentation (SEG) of the "
+         "study;\n.stl .ply .obj: the surface in patient mm (LPS);\n.json: the recipe; may be repeated")
       ->allow_extra_args(false)
       ->type_name("FILE")
       ->group(kGroup);
-  app.add_option("--out-phi", options.out_phi,
-                 "The level set itself, to go on from with --init-phi (.nii .nii.gz .nrrd .mha, float):\n> 0 "
-                 "inside, in units "
-                 "of the smallest voxel spacing")
+  app.add_option(
+         "--out-phi", options.out_phi,
+         "The level set itself, to go on from with --init-phi (.nii .nii.gz .nrrd .mha, float):\n> 0 "
+         "inside, in units of the smallest voxel spacing;\nor for others as OpenVDB (.vdb): < 0 inside, in "
+         "patient mm (LPS)")
       ->type_name("FILE")
       ->group(kGroup);
+  app.add_option("--rtstruct", options.rtstruct,
+                 "The surface's contours in each slice as RT structure set of the study")
+      ->type_name("FILE.dcm")
+      ->group(kGroup);
+  add_label(app, options.label)->group(kGroup);
   app.add_option("--picture", options.picture, "Three slices and the surface in 3D, .png (needs OpenGL 3.3)")
       ->type_name("FILE.png")
       ->group(kGroup);
@@ -39,12 +47,16 @@ void add_result_options(CLI::App& app, ResultOptions& options) {
 
 Status ResultWriter::prepare() {
   for (const std::string& file : options_.out) {
-    Status good = outputs_.announce("--out", file, {FileForm::volume, FileForm::mesh, FileForm::recipe});
+    Status good = outputs_.announce(
+        "--out", file, {FileForm::volume, FileForm::segmentation, FileForm::mesh, FileForm::recipe});
     if (!good) return good;
   }
   if (!options_.out_phi.empty()) {
-    Status good = outputs_.announce("--out-phi", options_.out_phi, {FileForm::volume});
+    Status good = outputs_.announce("--out-phi", options_.out_phi, {FileForm::volume, FileForm::level_set});
     if (!good) return good;
+  }
+  if (!options_.rtstruct.empty()) {
+    if (Status good = outputs_.announce_dicom("--rtstruct", options_.rtstruct); !good) return good;
   }
   for (const auto& [option, file] : {std::pair{"--stats", options_.stats}, {"--recipe", options_.recipe}}) {
     if (file.empty()) continue;
@@ -68,6 +80,25 @@ Status ResultWriter::stage_text(const std::string& file, const std::string& text
   return outputs_.stage(file, [&](const std::filesystem::path& name) { return write_file(name, text); });
 }
 
+Status ResultWriter::stage_dicom(const std::string& file, ResultForm form, const RunResults& results) {
+  Segments segments = segments_of(results.mask, "Segment");
+  segments.list.front().phi = std::make_shared<const Volume>(results.phi.to_volume());
+  options_.label.apply(segments.list.front());
+  return outputs_.stage(file, [&](const std::filesystem::path& name) {
+    return form == ResultForm::segmentation
+               ? write_segmentation(segments, results.dicom_files, name, console_.progress())
+               : write_structure_set(segments, results.dicom_files, name, console_.progress());
+  });
+}
+
+Status ResultWriter::stage_phi(const RunResults& results) {
+  const Volume phi = results.phi.to_volume();
+  return outputs_.stage(options_.out_phi, [&](const std::filesystem::path& name) {
+    return form_of(options_.out_phi) == FileForm::level_set ? write_level_set(phi, results.phi.band, name)
+                                                            : write_volume_file(phi, name);
+  });
+}
+
 Status ResultWriter::stage_out(const RunResults& results) {
   std::optional<Mesh> mesh;
   for (const std::string& file : options_.out) {
@@ -77,6 +108,10 @@ Status ResultWriter::stage_out(const RunResults& results) {
       const auto text = results.recipe.to_text();
       if (!text) return tl::unexpected<Error>(text.error());
       if (Status staged = stage_text(file, *text); !staged) return staged;
+      continue;
+    }
+    if (form == FileForm::segmentation) {
+      if (Status staged = stage_dicom(file, ResultForm::segmentation, results); !staged) return staged;
       continue;
     }
     if (form == FileForm::mesh && !mesh) {
@@ -95,10 +130,11 @@ Status ResultWriter::stage_out(const RunResults& results) {
 Status ResultWriter::stage(const RunResults& results) {
   if (Status staged = stage_out(results); !staged) return staged;
   if (!options_.out_phi.empty()) {
-    const auto write_phi = [&](const std::filesystem::path& name) {
-      return write_volume_file(results.phi.to_volume(), name);
-    };
-    if (Status staged = outputs_.stage(options_.out_phi, write_phi); !staged) return staged;
+    if (Status staged = stage_phi(results); !staged) return staged;
+  }
+  if (!options_.rtstruct.empty()) {
+    if (Status staged = stage_dicom(options_.rtstruct, ResultForm::structure_set, results); !staged)
+      return staged;
   }
   if (!options_.picture.empty()) {
     const auto picture = draw(results);
@@ -142,9 +178,15 @@ Status ResultWriter::write(const RunResults& results) {
   if (Status done = outputs_.commit(); !done) return done;
   say(console_, results.figures);
   for (const std::string& file : options_.out) console_.say("Wrote      {}", file);
-  for (const std::string& file : {options_.out_phi, options_.picture, options_.stats, options_.recipe}) {
+  for (const std::string& file :
+       {options_.out_phi, options_.rtstruct, options_.picture, options_.stats, options_.recipe}) {
     if (!file.empty()) console_.say("Wrote      {}", file);
   }
+  const bool any_dicom = !options_.rtstruct.empty() ||
+                         std::any_of(options_.out.begin(), options_.out.end(), [](const std::string& file) {
+                           return form_of(file) == FileForm::segmentation;
+                         });
+  if (any_dicom && results.dicom_files.empty()) console_.say("           {}", kAnonymousStudy);
   return {};
 }
 

@@ -1,4 +1,4 @@
-// What commands that run the level set write: masks, surfaces, phi, figures, pictures, recipes.
+// What commands that run the level set write: masks, segments, surfaces, phi, figures, pictures, recipes.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/label_argument.h"
 #include "app/cli/outputs.h"
 #include "app/cli/report.h"
+#include "imaging/results/results.h"
 #include "renderer/picture.h"
 #include "study/recipe.h"
 
@@ -19,13 +21,15 @@ namespace tidemark::cli {
 
 struct ResultOptions {
   std::vector<std::string> out;
-  std::string out_phi, stats, picture, recipe;
+  std::string out_phi, rtstruct, stats, picture, recipe;
+  LabelArgument label;  // what DICOM results say about the segment
 };
 void add_result_options(CLI::App& app, ResultOptions& options);
 
 // A finished run.
 struct RunResults {
-  std::shared_ptr<const Volume> source;  // as the solver saw it
+  std::shared_ptr<const Volume> source;            // as the solver saw it
+  std::vector<std::filesystem::path> dicom_files;  // that it was read from, in slice order; empty: not DICOM
   Field phi;
   Mask mask;
   RunFigures figures;
@@ -47,6 +51,8 @@ class ResultWriter {
  private:
   Status stage(const RunResults& results);
   Status stage_out(const RunResults& results);
+  Status stage_dicom(const std::string& file, ResultForm form, const RunResults& results);
+  Status stage_phi(const RunResults& results);
   Status stage_text(const std::string& file, const std::string& text);
   Result<Picture> draw(const RunResults& results);
 

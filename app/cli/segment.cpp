@@ -30,6 +30,9 @@ constexpr const char* kExamples =
     "phi.nrrd\n"
     "  tidemark-cli segment ct.nrrd --target 100 --range 40 --alpha 0.5 --init-phi phi.nrrd --out "
     "new.nii.gz\n"
+    "  tidemark-cli segment ct/ --target 100 --range 40 --alpha 0.5 --seed-mm=-60,20,110,8 --out seg.dcm "
+    "\\\n"
+    "      --rtstruct contours.dcm --label Liver,liver\n"
     "  tidemark-cli segment unknown/ --auto-start --out first-look.stl\n";
 
 std::string count_of(const Geometry& geometry) {
@@ -48,6 +51,7 @@ class Segmentation {
  private:
   Status load();
   Status load_truth();
+  Status load_true_segments();
   Status suggest();
   Status evolve();
   void say_warnings();
@@ -77,8 +81,10 @@ Status Segmentation::run() {
 }
 
 Status Segmentation::load() {
-  auto volume = load_volume(options_.input, options_.series, console_.progress());
-  if (!volume) return pass_on(volume);
+  auto study = load_study(options_.input, options_.series, console_.progress());
+  if (!study) return pass_on(study);
+  results_.dicom_files = dicom_files_of(study->series);
+  Result<Volume> volume = std::move(study->volume);
   if (Status inside = check_inside(options_.start, volume->geometry); !inside) return inside;
   RunFigures& figures = results_.figures;
   figures.geometry = volume->geometry;
@@ -105,6 +111,7 @@ Status Segmentation::load() {
 
 Status Segmentation::load_truth() {
   if (!options_.truth) return {};
+  if (result_form_of(*options_.truth)) return load_true_segments();
   auto labels = load_volume(*options_.truth, {}, console_.progress());
   if (!labels) return pass_on(labels);
   Mask mask{labels->geometry,
@@ -118,6 +125,22 @@ Status Segmentation::load_truth() {
   auto aligned = onto_grid(std::move(mask), results_.source->geometry, *options_.truth);
   if (!aligned) return pass_on(aligned);
   truth_ = std::move(*aligned);
+  return {};
+}
+
+// Of a DICOM segmentation or structure set: all segments, or the one of that number.
+Status Segmentation::load_true_segments() {
+  auto segments = read_result(*options_.truth, &results_.source->geometry);
+  if (!segments) return pass_on(segments);
+  if (options_.truth_label) {
+    const auto count = static_cast<std::int64_t>(segments->list.size());
+    if (*options_.truth_label < 1 || *options_.truth_label > count) {
+      return fail(ErrorKind::usage, "--truth-label {}: {} has the segments 1 to {}", *options_.truth_label,
+                  *options_.truth, count);
+    }
+    segments->list = {segments->list[static_cast<std::size_t>(*options_.truth_label - 1)]};
+  }
+  truth_ = union_of(*segments);
   return {};
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "imaging/onto_grid.h"
+#include "imaging/results/results.h"
 #include "imaging/study.h"
 
 namespace tidemark::cli {
@@ -14,11 +15,10 @@ Index3 flood_seed(const std::vector<double>& flood) {
 }
 
 Result<MaskStart> read_mask(const std::string& file, const Geometry& grid, Console& console) {
-  auto mask = load_mask(file, console.progress());
-  if (!mask) return pass_on(mask);
-  auto aligned = onto_grid(std::move(*mask), grid, file);
-  if (!aligned) return pass_on(aligned);
-  return MaskStart{std::make_shared<const Mask>(std::move(*aligned)),
+  auto loaded = load_any_mask(file, &grid, console.progress());
+  if (!loaded) return pass_on(loaded);
+  for (const std::string& change : loaded->changes) console.warn(file + ": " + change);
+  return MaskStart{std::make_shared<const Mask>(std::move(loaded->mask)),
                    std::filesystem::path(file).filename().string()};
 }
 
@@ -56,7 +56,10 @@ void add_start_options(CLI::App& app, StartOptions& options) {
   add_spheres(app, "--seed-mm", SphereUnits::millimetres, options.seeds,
               "A ball around a point in patient coordinates (LPS), all in mm; may be repeated")
       ->group(kGroup);
-  app.add_option("--init", options.mask, "A mask on the same grid: every voxel that is not 0")
+  app.add_option("--init", options.mask,
+                 "A mask on the same grid: every voxel that is not 0;\na DICOM segmentation or RT structure "
+                 "set (.dcm): all "
+                 "its segments")
       ->type_name("MASK")
       ->group(kGroup);
   add_numbers(app, "--init-threshold", "LO,HI", options.threshold,

@@ -17,16 +17,17 @@ Result<Segments> read_result(const std::filesystem::path& file, const Geometry* 
   return fail(ErrorKind::input, "{}: is neither a DICOM segmentation nor an RT structure set", file.string());
 }
 
-Result<Mask> load_any_mask(const std::filesystem::path& file, const Geometry* grid,
-                           const Progress& progress) {
+Result<LoadedMask> load_any_mask(const std::filesystem::path& file, const Geometry* grid,
+                                 const Progress& progress) {
   if (result_form_of(file)) {
-    const auto segments = read_result(file, grid);
-    if (!segments) return tl::unexpected<Error>(segments.error());
-    return union_of(*segments);
+    auto segments = read_result(file, grid);
+    if (!segments) return pass_on(segments);
+    return LoadedMask{union_of(*segments), std::move(segments->changes)};
   }
   auto mask = load_mask(file, progress);
-  if (!mask || grid == nullptr) return mask;
-  return onto_grid(std::move(*mask), *grid, file.string());
+  if (mask && grid != nullptr) mask = onto_grid(std::move(*mask), *grid, file.string());
+  if (!mask) return pass_on(mask);
+  return LoadedMask{std::move(*mask), {}};
 }
 
 }  // namespace tidemark

@@ -48,8 +48,12 @@ Result<Segments> read_result(const std::filesystem::path& file, const Geometry* 
 // A mask from any file that can be one, on that grid: a volume (every voxel that is not 0), a Segmentation or
 // a structure set (what is inside any of its segments). Without a grid: on its own, which a structure set has
 // not. Fails (ErrorKind::input) naming the file and why it does not fit.
-Result<Mask> load_any_mask(const std::filesystem::path& file, const Geometry* grid,
-                           const Progress& progress = {});
+struct LoadedMask {
+  Mask mask;
+  std::vector<std::string> changes;  // what reading left out, one sentence each
+};
+Result<LoadedMask> load_any_mask(const std::filesystem::path& file, const Geometry* grid,
+                                 const Progress& progress = {});
 
 // phi (float, > 0 inside, in units of the smallest voxel spacing, beyond the band +-band) as an OpenVDB level
 // set in mm and patient coordinates (LPS): negative inside, as OpenVDB's are. Voxels within the band are

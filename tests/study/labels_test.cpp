@@ -3,6 +3,7 @@
 #include <set>
 
 #include "cases.h"
+#include "study/label_segments.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -31,6 +32,36 @@ class LabelsTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void labels_become_segments_and_come_back() {
+    Labels labels(small_grid());
+    const std::uint8_t liver = labels.add("Liver").value();
+    const std::uint8_t tumour = labels.add("Tumour").value();
+    QCOMPARE(failure(labels.accept(box(labels.geometry(), {0, 0, 0}, {5, 5, 5}), liver)), QString());
+    QCOMPARE(failure(labels.accept(box(labels.geometry(), {4, 0, 0}, {9, 5, 5}), tumour)), QString());
+    const Segments segments = segments_of(labels);
+    QCOMPARE(segments.list.size(), std::size_t{2});
+    QCOMPARE(segments.list[1].count(), labels.mask(tumour).count());
+
+    Labels read(small_grid());
+    const std::uint8_t bone = read.add("Bone").value();
+    QCOMPARE(failure(read.accept(box(read.geometry(), {0, 0, 0}, {0, 0, 0}), bone)), QString());
+    Label locked = *read.find(bone);
+    locked.locked = true;
+    QCOMPARE(failure(read.set(locked)), QString());
+    QCOMPARE(failure(add_segments(read, segments)), QString());
+    QCOMPARE(read.list().size(), std::size_t{3});
+    QCOMPARE(read.list()[1].name, std::string("Liver"));
+    QVERIFY(read.list()[2].colour == labels.find(tumour)->colour);
+    QCOMPARE(read.mask(read.list()[1].id).count(), labels.mask(liver).count() - 1);  // one voxel is locked
+    QVERIFY(read.mask(read.list()[2].id).voxels == labels.mask(tumour).voxels);
+
+    Geometry larger = small_grid();
+    larger.size.x += 1;
+    Labels elsewhere(larger);
+    QCOMPARE(add_segments(elsewhere, segments).error().kind, ErrorKind::usage);
+    QVERIFY(elsewhere.list().empty());
+  }
+
   void voxels_of_locked_labels_stay() {
     Labels labels(small_grid());
     const std::uint8_t liver = labels.add("Liver").value();

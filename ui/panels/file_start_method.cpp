@@ -58,9 +58,12 @@ bool FileStartMethod::can_start() const {
 }
 
 void FileStartMethod::choose() {
-  auto* dialog = new QFileDialog(this, tr("Start from a file"), QFileInfo(path_->text()).path(),
-                                 tr("Volumes (*.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;"
-                                    "All files (*)"));
+  const QString filter =
+      kind_ == StartFile::mask
+          ? tr("Masks and segmentations (*.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz *.dcm);;"
+               "All files (*)")
+          : tr("Volumes (*.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;All files (*)");
+  auto* dialog = new QFileDialog(this, tr("Start from a file"), QFileInfo(path_->text()).path(), filter);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setFileMode(QFileDialog::ExistingFile);
   connect(dialog, &QFileDialog::fileSelected, path_, &QLineEdit::setText);

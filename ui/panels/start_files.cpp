@@ -1,6 +1,7 @@
 #include "ui/panels/start_files.h"
 
 #include "imaging/onto_grid.h"
+#include "imaging/results/results.h"
 #include "imaging/study.h"
 
 namespace tidemark {
@@ -10,11 +11,9 @@ Result<Start> load_start(StartFile kind, const std::filesystem::path& path, cons
   const std::string name = path.filename().string();
   Start start;
   if (kind == StartFile::mask) {
-    auto mask = load_mask(path, progress);
-    if (!mask) return pass_on(mask);
-    auto aligned = onto_grid(std::move(*mask), grid, name);
-    if (!aligned) return pass_on(aligned);
-    start.from = MaskStart{std::make_shared<const Mask>(std::move(*aligned)), name};
+    auto loaded = load_any_mask(path, &grid, progress);
+    if (!loaded) return pass_on(loaded);
+    start.from = MaskStart{std::make_shared<const Mask>(std::move(loaded->mask)), name};
     return start;
   }
   const auto volume = load_volume(path, {}, progress);

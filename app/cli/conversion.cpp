@@ -1,0 +1,201 @@
+#include "app/cli/conversion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "imaging/files/volume_file.h"
+#include "imaging/onto_grid.h"
+#include "imaging/study.h"
+#include "solver/distance_transform.h"
+
+namespace tidemark::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Wide enough for the surface to see its neighbours along the axis with the thickest voxels.
+double surface_band(const Geometry& geometry) {
+  const glm::dvec3 h = geometry.spacing_mm;
+  return std::max(2.5, 2.0 * std::max({h.x, h.y, h.z}) / std::min({h.x, h.y, h.z}));
+}
+
+bool holds_only_zero_and_one(const Volume& volume) {
+  const std::int64_t count = volume.geometry.voxel_count();
+  for (std::int64_t offset = 0; offset < count; ++offset) {
+    const float value = volume.value(offset);
+    if (value != 0.0F && value != 1.0F) return false;
+  }
+  return true;
+}
+
+// As int16 where that holds all of them: labels stay whole numbers in every format.
+Volume::Voxels as_stored(std::vector<float> values) {
+  const bool fits = std::all_of(values.begin(), values.end(), [](float value) {
+    return value == std::floor(value) && value >= -32768.0F && value <= 32767.0F;
+  });
+  if (!fits) return values;
+  return std::vector<std::int16_t>(values.begin(), values.end());
+}
+
+}  // namespace
+
+Result<Conversion> Conversion::load(ConversionOptions options, const Progress& progress) {
+  Conversion conversion(std::move(options));
+  if (auto loaded = conversion.load_source(progress); !loaded) return pass_on(loaded);
+  const bool is_result = result_form_of(conversion.options_.input).has_value();
+  if (auto loaded = is_result ? conversion.load_result(progress) : conversion.load_volume(progress);
+      !loaded) {
+    return pass_on(loaded);
+  }
+  const std::size_t given = conversion.options_.labels.size();
+  if (given > conversion.segments_.list.size()) {
+    return fail(ErrorKind::usage, "--label was given {} times for {} segments", given,
+                conversion.segments_.list.size());
+  }
+  for (std::size_t n = 0; n < given; ++n) conversion.options_.labels[n].apply(conversion.segments_.list[n]);
+  return conversion;
+}
+
+Status Conversion::load_source(const Progress& progress) {
+  if (options_.source.empty()) return {};
+  const auto found = find_series(options_.source, progress);
+  if (!found) return tl::unexpected<Error>(found.error());
+  const auto chosen = choose_series(*found, options_.series, options_.source);
+  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  grid_ = chosen->series.geometry;
+  source_files_ = dicom_files_of(chosen->series);
+  return {};
+}
+
+Status Conversion::load_result(const Progress& progress) {
+  if (options_.kind == InputKind::level_set) {
+    return fail(ErrorKind::usage, "{}: holds segments, not a level set", options_.input);
+  }
+  if (progress.cancelled()) return cancelled_error();
+  auto segments = read_result(options_.input, grid_ ? &*grid_ : nullptr);
+  if (!segments) return pass_on(segments);
+  segments_ = std::move(*segments);
+  return {};
+}
+
+Status Conversion::load_volume(const Progress& progress) {
+  auto volume = tidemark::load_volume(options_.input, grid_ ? std::string() : options_.series, progress);
+  if (!volume) return pass_on(volume);
+  if (grid_) {
+    auto values = onto_grid(*volume, *grid_, options_.input);
+    if (!values) return pass_on(values);
+    volume->geometry = *grid_;
+    volume->voxels = as_stored(std::move(*values));
+    volume->slope = 1.0;
+    volume->intercept = 0.0;
+  }
+  volume_ = std::move(*volume);
+  segments_.geometry = volume_->geometry;
+  segments_.changes = volume_->changes;
+  return split();
+}
+
+// The segments that the volume is, if it is any.
+Status Conversion::split() {
+  const bool is_mask = options_.kind == InputKind::mask ||
+                       (options_.kind == InputKind::volume && holds_only_zero_and_one(*volume_));
+  if (options_.kind == InputKind::volume && !is_mask) return {};
+  std::vector<float> values = volume_->values();
+  if (options_.kind == InputKind::labels) return split_labels(values);
+  std::vector<std::uint8_t> inside(values.size());
+  const bool is_phi = options_.kind == InputKind::level_set;
+  std::transform(values.begin(), values.end(), inside.begin(),
+                 [&](float value) { return std::uint8_t(is_phi ? value > 0.0F : value != 0.0F); });
+  Segment segment;
+  segment.name = "Segment";
+  segment.slices = slices_of(segments_.geometry, inside);
+  if (is_phi) {
+    auto phi = std::make_shared<Volume>();
+    phi->geometry = segments_.geometry;
+    phi->voxels = std::move(values);
+    segment.phi = std::move(phi);
+  }
+  segments_.list.push_back(std::move(segment));
+  return {};
+}
+
+Status Conversion::split_labels(const std::vector<float>& values) {
+  std::vector<std::uint8_t> ids(values.size());
+  std::array<bool, 256> known{};
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    const float value = values[v];
+    if (!(value >= 0.0F && value <= 255.0F) || value != std::floor(value)) {
+      return fail(ErrorKind::input, "{}: {} is not a label, a whole number from 0 to 255", options_.input,
+                  value);
+    }
+    ids[v] = static_cast<std::uint8_t>(value);
+    known[ids[v]] = true;
+  }
+  for (std::size_t id = 1; id < known.size(); ++id) {
+    if (!known[id]) continue;
+    Segment segment;
+    segment.name = fmt::format("Segment {}", id);
+    segment.slices = slices_of(segments_.geometry, ids, static_cast<std::uint8_t>(id));
+    segments_.list.push_back(std::move(segment));
+  }
+  if (segments_.list.empty()) return fail(ErrorKind::input, "{}: holds no label", options_.input);
+  return {};
+}
+
+const char* Conversion::scalar_name() const {
+  return volume_ ? volume_->scalar_name() : "uint8";
+}
+
+Status Conversion::require_segments() const {
+  if (!is_plain()) return {};
+  return fail(ErrorKind::usage,
+              "{}: is no mask (it holds values other than 0 and 1), so it has no surface and no segments; "
+              "--mask takes "
+              "every voxel that is not 0 as inside, --labels each number as a segment",
+              options_.input);
+}
+
+// The volume as it is, or what is inside: 1, or the number of the segment.
+Status Conversion::write_values(const fs::path& file) {
+  if (volume_ && options_.kind != InputKind::mask) return write_volume_file(*volume_, file);
+  if (options_.kind == InputKind::mask) return write_mask_file(union_of(segments_), file);
+  auto map = label_map_of(segments_);
+  if (!map) return pass_on(map);
+  if (map->overlaps > 0) {
+    segments_.changes.push_back(
+        fmt::format("{} voxels are in several segments and have the number of the last one", map->overlaps));
+  }
+  return write_mask_file({geometry(), std::move(map->voxels)}, file);
+}
+
+Status Conversion::write_surface(const fs::path& file) {
+  if (!mesh_) {
+    const auto& phi = segments_.list.front().phi;
+    auto surface = extract_surface(
+        phi ? *phi : distance_transform(union_of(segments_), surface_band(geometry())).to_volume());
+    if (!surface) return pass_on(surface);
+    mesh_ = std::move(*surface);
+  }
+  return write_mesh(*mesh_, file);
+}
+
+Status Conversion::write(const fs::path& file, FileForm form, const Progress& progress) {
+  if (form == FileForm::volume) return write_values(file);
+  if (auto good = require_segments(); !good) return good;
+  if (form == FileForm::mesh) return write_surface(file);
+  if (form == FileForm::segmentation) return write_segmentation(segments_, source_files_, file, progress);
+  if (const auto& phi = segments_.list.front().phi) {
+    const auto [low, high] = phi->range();
+    return write_level_set(*phi, std::max(std::abs(low), std::abs(high)), file);
+  }
+  const double band = surface_band(geometry());
+  return write_level_set(distance_transform(union_of(segments_), band).to_volume(), band, file);
+}
+
+Status Conversion::write_contours(const fs::path& file, const Progress& progress) {
+  if (auto good = require_segments(); !good) return good;
+  return write_structure_set(segments_, source_files_, file, progress);
+}
+
+}  // namespace tidemark::cli

@@ -1,0 +1,66 @@
+// One input of `tidemark-cli convert` in all the forms that can be asked for.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/label_argument.h"
+#include "app/cli/outputs.h"
+#include "core/progress.h"
+#include "imaging/results/results.h"
+#include "imaging/surface/surface.h"
+
+namespace tidemark::cli {
+
+// What INPUT is taken for, where that does not show in the file.
+enum class InputKind { volume, mask, labels, level_set };
+
+struct ConversionOptions {
+  std::string input;
+  std::string series;  // UID, when there are several
+  InputKind kind = InputKind::volume;
+  std::string source;  // the study that INPUT was made of, whose grid, patient and frame of reference it gets
+  std::vector<LabelArgument> labels;
+};
+
+class Conversion {
+ public:
+  // Reads the input, and brings it onto the source's grid where there is one.
+  static Result<Conversion> load(ConversionOptions options, const Progress& progress);
+
+  // Whether the input is no more than a volume of values: it has no segments and no surface.
+  [[nodiscard]] bool is_plain() const { return segments_.list.empty(); }
+
+  Status write(const std::filesystem::path& file, FileForm form, const Progress& progress);
+  Status write_contours(const std::filesystem::path& file, const Progress& progress);
+
+  [[nodiscard]] const Geometry& geometry() const { return segments_.geometry; }
+  [[nodiscard]] const Segments& segments() const { return segments_; }
+  [[nodiscard]] const std::vector<std::string>& changes() const { return segments_.changes; }
+  [[nodiscard]] const char* scalar_name() const;
+  [[nodiscard]] const std::optional<Mesh>& mesh() const { return mesh_; }  // if one was written
+  [[nodiscard]] bool has_source() const { return !source_files_.empty(); }
+
+ private:
+  explicit Conversion(ConversionOptions options) : options_(std::move(options)) {}
+
+  Status load_source(const Progress& progress);
+  Status load_result(const Progress& progress);
+  Status load_volume(const Progress& progress);
+  Status split();
+  Status split_labels(const std::vector<float>& values);
+  Status require_segments() const;
+  Status write_values(const std::filesystem::path& file);
+  Status write_surface(const std::filesystem::path& file);
+
+  ConversionOptions options_;
+  std::optional<Geometry> grid_;  // the source's
+  std::vector<std::filesystem::path> source_files_;
+  std::optional<Volume> volume_;  // where the input is one
+  Segments segments_;             // none in a plain volume
+  std::optional<Mesh> mesh_;
+};
+
+}  // namespace tidemark::cli

@@ -1,0 +1,246 @@
+// DICOM segmentations, RT structure sets and OpenVDB level sets on the command line.
+#include <signal.h>
+
+#include <QJsonArray>
+#include <memory>
+
+#include "imaging/dicom/dicom.h"
+#include "imaging/files/volume_file.h"
+#include "imaging/results/results.h"
+#include "imaging/study.h"
+#include "tests/app/cli_runner.h"
+#include "tests/support/support.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+class CliResultsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init();
+  void segment_writes_results_that_segment_starts_from();
+  void a_volume_file_makes_an_anonymous_study_and_says_so();
+  void labels_go_out_and_in_again();
+  void a_saved_level_set_becomes_what_others_read();
+  void a_structure_set_needs_its_study();
+  void wrong_usage_is_told_data();
+  void wrong_usage_is_told();
+  void a_full_disk_keeps_the_older_results_data();
+  void a_full_disk_keeps_the_older_results();
+  void a_kill_leaves_the_old_file_or_the_new_one();
+
+ private:
+  [[nodiscard]] QStringList arguments(const QString& command, const std::filesystem::path& input) const {
+    return {command, text(input)};
+  }
+  [[nodiscard]] QString path(const char* name) const { return text(*folder_ / name); }
+  // A ball of 24^3 voxels as a DICOM series in folder_/series.
+  Volume write_series() const;
+
+  std::unique_ptr<TemporaryFolder> folder_;
+};
+
+void CliResultsTest::init() {
+  folder_ = std::make_unique<TemporaryFolder>();
+}
+
+Volume CliResultsTest::write_series() const {
+  Volume volume = ball(Index3(24), 8.0);
+  const Status written = write_dicom_series(volume, {}, *folder_ / "series");
+  if (!written) qFatal("%s", written.error().message.c_str());
+  return volume;
+}
+
+void CliResultsTest::segment_writes_results_that_segment_starts_from() {
+  write_series();
+  const Outcome first =
+      run_cli(QStringList{"segment", path("series"), "--steps", "20", "--out", path("seg.dcm"), "--out",
+                          path("mask.nrrd"), "--rtstruct", path("set.dcm"), "--out-phi", path("phi.vdb"),
+                          "--label", "Ball,tumour,ff8000"} +
+              ball_arguments(Index3(24)));
+  QVERIFY2(first.code == 0, first.told());
+  QVERIFY2(!first.out.contains("anonymous"), first.told());
+  for (const char* name : {"seg.dcm", "mask.nrrd", "set.dcm", "phi.vdb"}) {
+    QVERIFY2(first.out.contains("Wrote      " + path(name).toUtf8()), first.told());
+  }
+  const auto mask = load_mask(*folder_ / "mask.nrrd");
+  QCOMPARE(failure(mask), QString());
+  QVERIFY(mask->count() > 1000);
+  for (const char* name : {"seg.dcm", "set.dcm"}) {
+    const auto read = read_result(*folder_ / name, &mask->geometry);
+    QCOMPARE(failure(read), QString());
+    QCOMPARE(read->list.size(), std::size_t{1});
+    QCOMPARE(read->list[0].name, std::string("Ball"));
+    QVERIFY(read->list[0].colour == SegmentColour({255, 128, 0}));
+    QVERIFY(union_of(*read).voxels == mask->voxels);
+
+    const Outcome again = run_cli(QStringList{
+        "segment", path("series"), "--target", "1000", "--range", "500", "--alpha", "0.8", "--init",
+        path(name), "--steps", "0", "--truth", path("mask.nrrd"), "--json", "--out", path("again.nrrd")});
+    QVERIFY2(again.code == 0, again.told());
+    const auto same = load_mask(*folder_ / "again.nrrd");
+    QCOMPARE(failure(same), QString());
+    QVERIFY(same->voxels == mask->voxels);
+  }
+  const auto seg = read_segmentation(*folder_ / "seg.dcm");
+  QCOMPARE(seg->list[0].meaning.type.meaning, std::string("Neoplasm"));
+}
+
+void CliResultsTest::a_volume_file_makes_an_anonymous_study_and_says_so() {
+  QCOMPARE(failure(write_volume_file(ball(Index3(24), 8.0), *folder_ / "ball.nrrd")), QString());
+  const Outcome outcome =
+      run_cli(QStringList{"segment", path("ball.nrrd"), "--steps", "5", "--out", path("seg.dcm")} +
+              ball_arguments(Index3(24)));
+  QVERIFY2(outcome.code == 0, outcome.told());
+  QVERIFY2(outcome.out.contains("anonymous patient"), outcome.told());
+  QVERIFY(result_form_of(*folder_ / "seg.dcm") == ResultForm::segmentation);
+}
+
+void CliResultsTest::labels_go_out_and_in_again() {
+  Volume labels = write_series();
+  auto& values = std::get<std::vector<std::int16_t>>(labels.voxels);
+  for (std::size_t v = 0; v < values.size(); ++v) values[v] = values[v] == 0 ? 0 : v % 24 < 12 ? 3 : 7;
+  QCOMPARE(failure(write_volume_file(labels, *folder_ / "labels.nii.gz")), QString());
+  const Outcome out = run_cli({"convert", path("labels.nii.gz"), "--labels", "--source", path("series"),
+                               "--label", "Left,liver", "--label", "Right,,0000ff", "--out", path("seg.dcm"),
+                               "--rtstruct", path("set.dcm"), "--out", path("both.stl"), "--json"});
+  QVERIFY2(out.code == 0, out.told());
+  const QJsonArray segments = json_of(out.out)["segments"].toArray();
+  QCOMPARE(segments.size(), 2);
+  QCOMPARE(segments[1].toObject()["name"].toString(), QString("Right"));
+  for (const char* name : {"seg.dcm", "set.dcm"}) {
+    const Outcome in =
+        run_cli({"convert", path(name), "--source", path("series"), "--out", path("back.nrrd"), "--json"});
+    QVERIFY2(in.code == 0, in.told());
+    const auto back = load_volume(*folder_ / "back.nrrd");
+    QCOMPARE(failure(back), QString());
+    for (std::int64_t v = 0; v < back->geometry.voxel_count(); ++v) {
+      const float was = labels.value(v);
+      QCOMPARE(back->value(v), was == 3.0F ? 1.0F : was == 7.0F ? 2.0F : 0.0F);
+    }
+  }
+  const Outcome mask = run_cli({"convert", path("seg.dcm"), "--mask", "--out", path("mask.nrrd")});
+  QVERIFY2(mask.code == 0, mask.told());
+  QCOMPARE(failure(load_mask(*folder_ / "mask.nrrd")), QString());
+}
+
+void CliResultsTest::a_saved_level_set_becomes_what_others_read() {
+  write_series();
+  const Outcome made =
+      run_cli(QStringList{"segment", path("series"), "--steps", "20", "--out", path("mask.nrrd"), "--out-phi",
+                          path("phi.nrrd"), "--rtstruct", path("one.dcm")} +
+              ball_arguments(Index3(24)));
+  QVERIFY2(made.code == 0, made.told());
+  const Outcome outcome =
+      run_cli({"convert", path("phi.nrrd"), "--phi", "--source", path("series"), "--out", path("phi.vdb"),
+               "--out", path("seg.dcm"), "--rtstruct", path("two.dcm"), "--out", path("ball.stl")});
+  QVERIFY2(outcome.code == 0, outcome.told());
+  const auto mask = load_mask(*folder_ / "mask.nrrd");
+  for (const char* name : {"seg.dcm", "one.dcm", "two.dcm"}) {
+    const auto read = read_result(*folder_ / name, &mask->geometry);
+    QCOMPARE(failure(read), QString());
+    QVERIFY(union_of(*read).voxels == mask->voxels);
+  }
+  QVERIFY(bytes_of(*folder_ / "phi.vdb").size() > 1000);
+}
+
+void CliResultsTest::a_structure_set_needs_its_study() {
+  write_series();
+  const Outcome made =
+      run_cli(QStringList{"segment", path("series"), "--steps", "5", "--rtstruct", path("set.dcm")} +
+              ball_arguments(Index3(24)));
+  QVERIFY2(made.code == 0, made.told());
+  const Outcome refused = run_cli({"convert", path("set.dcm"), "--out", path("mask.nrrd")});
+  QVERIFY2(refused.failed_in_one_line(3), refused.told());
+  QVERIFY2(refused.err.contains("set.dcm") && refused.err.contains("study"), refused.told());
+}
+
+void CliResultsTest::wrong_usage_is_told_data() {
+  QTest::addColumn<QStringList>("options");
+  QTest::addColumn<QByteArray>("names");
+  QTest::newRow("a meaning that is none")
+      << QStringList{"--out", "x.dcm", "--label", "A,gizmo"} << QByteArray("gizmo");
+  QTest::newRow("a colour that is none")
+      << QStringList{"--out", "x.dcm", "--label", "A,liver,red"} << QByteArray("red");
+  QTest::newRow("another suffix") << QStringList{"--rtstruct", "x.nii"} << QByteArray(".dcm");
+  QTest::newRow("too many labels") << QStringList{"--out", "x.dcm", "--label", "A", "--label", "B"}
+                                   << QByteArray("2 times for 1");
+  QTest::newRow("two kinds") << QStringList{"--out", "x.dcm", "--mask", "--phi"} << QByteArray("--phi");
+  QTest::newRow("nothing to write") << QStringList{"--mask"} << QByteArray("--out");
+}
+
+void CliResultsTest::wrong_usage_is_told() {
+  QFETCH(QStringList, options);
+  QFETCH(QByteArray, names);
+  QCOMPARE(failure(write_mask_file(ball_mask(ball(Index3(8), 3.0)), *folder_ / "mask.nrrd")), QString());
+  RunOptions here;
+  here.folder = text(folder_->path());
+  const Outcome outcome = run_cli(QStringList{"convert", "mask.nrrd"} + options, here);
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(outcome.err.contains(names), outcome.told());
+  QCOMPARE(names_in(folder_->path()), QStringList{"mask.nrrd"});
+}
+
+void CliResultsTest::a_full_disk_keeps_the_older_results_data() {
+  QTest::addColumn<qint64>("room");
+  for (const qint64 room : {0, 100, 1000, 4000}) QTest::newRow(qPrintable(QString::number(room))) << room;
+}
+
+void CliResultsTest::a_full_disk_keeps_the_older_results() {
+  QFETCH(qint64, room);
+  QCOMPARE(failure(write_mask_file(ball_mask(ball(Index3(64), 20.0)), *folder_ / "mask.nii.gz")), QString());
+  const auto out = *folder_ / "out";
+  std::filesystem::create_directory(out);
+  for (const QStringList& what : {QStringList{"--out", text(out / "r.dcm")},
+                                  {"--rtstruct", text(out / "r.dcm")},
+                                  {"--out", text(out / "r.vdb")}}) {
+    const QStringList command = QStringList{"convert", path("mask.nii.gz")} + what;
+    const Outcome first = run_cli(command);
+    QVERIFY2(first.code == 0, first.told());
+    const QStringList names = names_in(out);
+    const QByteArray before = bytes_of(out / names.back().toStdString());
+    RunOptions full;
+    full.largest_file = room;
+    const Outcome second = run_cli(command, full);
+    QVERIFY2(second.failed_in_one_line(5), second.told());
+    QVERIFY2(second.err.contains(what.back().toUtf8()) && !second.err.contains(".tidemark-"), second.told());
+    QCOMPARE(names_in(out), names);
+    QCOMPARE(bytes_of(out / names.back().toStdString()), before);
+    std::filesystem::remove(out / names.back().toStdString());
+  }
+}
+
+void CliResultsTest::a_kill_leaves_the_old_file_or_the_new_one() {
+  Mask mask = ball_mask(ball(Index3(128), 50.0));
+  QCOMPARE(failure(write_mask_file(mask, *folder_ / "mask.nii.gz")), QString());
+  const QStringList command{"convert",       path("mask.nii.gz"), "--out",
+                            path("seg.dcm"), "--rtstruct",        path("set.dcm")};
+  const Outcome first = run_cli(command);
+  QVERIFY2(first.code == 0, first.told());
+  QByteArray seg = bytes_of(*folder_ / "seg.dcm");
+  QByteArray set = bytes_of(*folder_ / "set.dcm");
+  int killed = 0;
+  for (int delay = 0; delay < 2000; delay += 40) {
+    QProcess process;
+    process.start(TIDEMARK_CLI, command);
+    QVERIFY(process.waitForStarted());
+    if (process.waitForFinished(delay)) break;  // it is too fast for more
+    ::kill(static_cast<pid_t>(process.processId()), SIGKILL);
+    QVERIFY(process.waitForFinished());
+    ++killed;
+    // As it was, or whole: another file with other UIDs.
+    for (auto& [name, before] : {std::pair<const char*, QByteArray&>{"seg.dcm", seg}, {"set.dcm", set}}) {
+      const QByteArray now = bytes_of(*folder_ / name);
+      if (now == before) continue;
+      const auto read = read_result(*folder_ / name, &mask.geometry);
+      QCOMPARE(failure(read), QString());
+      QVERIFY(union_of(*read).voxels == mask.voxels);
+      before = now;
+    }
+  }
+  QVERIFY(killed > 0);
+}
+
+QTEST_GUILESS_MAIN(CliResultsTest)
+#include "cli_results_test.moc"
