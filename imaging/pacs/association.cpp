@@ -229,6 +229,8 @@ Result<std::unique_ptr<DcmDataset>> Association::receive_data(std::int64_t longe
 Error Association::error(const OFCondition& condition, std::string_view doing) const {
   if (const Status trouble = line_->trouble(); !trouble) return trouble.error();
   std::string why = one_line(condition.text());
+  if (const std::string prefix = "TCP Initialization Error: "; why.starts_with(prefix))
+    why.erase(0, prefix.size());
   if (condition == DUL_PEERREQUESTEDRELEASE) why = "it hangs up before it has answered";
   if (condition == DUL_PEERABORTEDASSOCIATION) why = "it aborts the conversation";
   return {ErrorKind::input, fmt::format("{}: {}: {}", line_->peer(), doing, why)};
