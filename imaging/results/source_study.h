@@ -21,7 +21,7 @@ struct SourceStudy {
   // UTF-8.
   std::unique_ptr<DcmFileFormat> first;
   std::string study_uid;
-  std::string series_uid;  // empty: the source was not DICOM
+  std::string series_uid;  // empty: there is nothing to refer to
   std::string frame_of_reference_uid;
   std::vector<SourceImage> images;  // each once, in slice order
   std::vector<std::optional<std::size_t>>

@@ -148,6 +148,29 @@ class DicomSegmentationTest : public QObject {
     verify_same(*read, written);
   }
 
+  // As files are that were stripped of more than names.
+  void a_source_without_uids_gets_new_ones() {
+    const test::TemporaryFolder folder;
+    const auto series =
+        test::write_sample_series(test::sample_grid({11, 7, 6}, glm::dmat3(1.0)), folder / "series");
+    for (const auto& file : series.files) {
+      test::edit(file, [](DcmDataset& dataset) {
+        for (const DcmTagKey& key :
+             {DCM_StudyInstanceUID, DCM_SOPInstanceUID, DCM_FrameOfReferenceUID, DCM_PatientID}) {
+          delete dataset.remove(key);
+        }
+      });
+    }
+    const Segments written = test::speckled_segments(series.geometry);
+    for (const auto& [write, name] :
+         {std::pair{&write_segmentation, "seg.dcm"}, {&write_structure_set, "set.dcm"}}) {
+      QCOMPARE(test::failure(write(written, series.files, folder / name, {})), QString());
+      const auto read = read_result(folder / name, &series.geometry);
+      QCOMPARE(test::failure(read), QString());
+      for (std::size_t n = 0; n < 3; ++n) QVERIFY(read->list[n].slices == written.list[n].slices);
+    }
+  }
+
   void a_segmentation_lies_right_on_a_grid_with_other_axes() {
     const test::TemporaryFolder folder;
     const Geometry written_on = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
