@@ -16,7 +16,6 @@ class LargeStudyStoryTest : public QObject {
 
  private slots:
   void initTestCase();
-  void a_large_study_is_steered_like_a_small_one_data();
   void a_large_study_is_steered_like_a_small_one();
 
  private:
@@ -66,16 +65,8 @@ void LargeStudyStoryTest::initTestCase() {
   file_ = QString::fromStdString(path.string());
 }
 
-void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one_data() {
-  QTest::addColumn<int>("executor");
-  QTest::newRow("host") << static_cast<int>(ExecutorKind::host);
-  QTest::newRow("compute") << static_cast<int>(ExecutorKind::compute);
-  QTest::newRow("stream") << static_cast<int>(ExecutorKind::stream);
-}
-
 void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
-  QFETCH(int, executor);
-  Desktop desktop(static_cast<ExecutorKind>(executor));
+  Desktop desktop(story_executor());
   QVERIFY(desktop.open(file_));
   QCOMPARE(desktop.session().volume().geometry.size, Index3(kWidth, kWidth, kDepth));
   auto* axial = desktop.view<SliceViewWidget>("Axial");
@@ -111,7 +102,7 @@ void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
   const double lesion_ml = 4.0 / 3.0 * M_PI * kRadius * kRadius * kRadius / 1000.0;
   QVERIFY2(std::abs(desktop.state().surface.volume_ml / lesion_ml - 1.0) < 0.05,
            qPrintable(QString::number(desktop.state().surface.volume_ml)));
-  desktop.screenshot(QStringLiteral("large-%1").arg(executor));
+  desktop.screenshot("large");
   qInfo("step %lld, %.0f steps/s with pictures", static_cast<long long>(desktop.state().step),
         desktop.state().solver_steps_per_second);
 
