@@ -183,14 +183,6 @@ bool is_lossy_syntax(E_TransferSyntax syntax) {
   return std::find(kLossy.begin(), kLossy.end(), syntax) != kLossy.end();
 }
 
-// One line without the file's name.
-std::string describe(const Preflight& checked) {
-  const auto& [tag, offset, what] = checked.reason;
-  const std::string element = tag == DicomTag{} ? "the dataset" : name_of(DcmTagKey(tag.group, tag.element));
-  const bool is_damaged = checked.verdict == Preflight::Verdict::damaged;
-  return fmt::format("{}{} {} (at byte {})", is_damaged ? "is damaged: " : "", element, what, offset);
-}
-
 // All that is known of a file that cannot be parsed.
 SliceHeader header_without_image(const fs::path& file, const Preflight& checked) {
   SliceHeader header;
@@ -238,6 +230,13 @@ OFCondition parse(const fs::path& file, const TransferSyntax& syntax, DcmFileFor
 }
 
 }  // namespace
+
+std::string describe(const Preflight& checked) {
+  const auto& [tag, offset, what] = checked.reason;
+  const std::string element = tag == DicomTag{} ? "the dataset" : name_of(DcmTagKey(tag.group, tag.element));
+  const bool is_damaged = checked.verdict == Preflight::Verdict::damaged;
+  return fmt::format("{}{} {} (at byte {})", is_damaged ? "is damaged: " : "", element, what, offset);
+}
 
 Result<OpenedSlice> open_slice(const fs::path& file) {
   auto bytes = FileBytes::open(file);

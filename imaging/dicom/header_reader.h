@@ -11,6 +11,8 @@ class DcmFileFormat;
 
 namespace tidemark {
 
+struct Preflight;
+
 struct OpenedSlice {
   OpenedSlice(SliceHeader known, std::unique_ptr<DcmFileFormat> parsed);
   ~OpenedSlice();
@@ -26,5 +28,8 @@ struct OpenedSlice {
 // an image that cannot be a slice of a volume is returned with its problem.
 [[nodiscard]] Result<OpenedSlice> open_slice(const std::filesystem::path& file);
 [[nodiscard]] Result<SliceHeader> read_slice_header(const std::filesystem::path& file);
+
+// Why the preflight found a file wanting: one line without the file's name.
+std::string describe(const Preflight& checked);
 
 }  // namespace tidemark

@@ -5,6 +5,8 @@
 
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/dicom_setup.h"
+#include "imaging/dicom/header_reader.h"
+#include "imaging/dicom/preflight.h"
 #include "imaging/pacs/storage_classes.h"
 
 namespace tidemark {
@@ -12,9 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<ObjectIdentity> identity_of(const fs::path& file) {
+Result<ObjectIdentity> identity_of(const fs::path& file, const TransferSyntax& syntax) {
   DcmFileFormat loaded;
-  const OFCondition parsed = loaded.loadFile(file.c_str());
+  const OFCondition parsed =
+      loaded.loadFile(file.c_str(), DcmXfer(std::string(syntax.uid).c_str()).getXfer());
   if (parsed.bad()) return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
   DcmDataset& dataset = *loaded.getDataset();
   const auto text = [&](const DcmTagKey& key) {
@@ -42,7 +45,11 @@ Result<ObjectIdentity> check_object(const fs::path& file) {
   try {
     if (Status ready = set_up_dicom(); !ready) return pass_on(ready);
     if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
-    return identity_of(file);
+    auto bytes = FileBytes::open(file);
+    if (!bytes) return pass_on(bytes);
+    const Preflight checked = preflight_dicom(*bytes);
+    if (!checked.may_be_parsed()) return fail(ErrorKind::input, "{}: {}", file.string(), describe(checked));
+    return identity_of(file, *checked.syntax);
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::capability, "{}: there is not enough memory", file.string());
   } catch (const std::exception& error) {

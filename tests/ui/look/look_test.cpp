@@ -17,7 +17,8 @@ namespace {
 // Names that the desktop asks for.
 const QStringList kNames =
     QStringLiteral(
-        "open-folder open-file save save-as export phantom recent close undo redo play pause step step-back "
+        "open-folder open-file server save save-as export phantom recent close undo redo play pause step "
+        "step-back "
         "restart "
         "tool-window tool-crosshair tool-probe tool-probe-transfer tool-seed tool-paint tool-erase "
         "tool-distance "
