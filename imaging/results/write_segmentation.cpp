@@ -107,7 +107,7 @@ void SegmentationWriter::describe_planes() {
 }
 
 void SegmentationWriter::refer_to_source() {
-  if (study_.series_uid.empty()) return;
+  if (study_.images.empty()) return;
   IODReferences references;
   for (const SourceImage& image : study_.images) {
     references.add(new IODImageReference("", of(study_.study_uid), of(study_.series_uid),

@@ -118,7 +118,7 @@ void StructureSetWriter::refer_to_source() {
   DRTReferencedFrameOfReferenceSequence::Item* frame = nullptr;
   if (!add(set_.getReferencedFrameOfReferenceSequence(), frame)) return;
   failure_ << frame->setFrameOfReferenceUID(of(study_.frame_of_reference_uid));
-  if (study_.series_uid.empty()) return;
+  if (study_.images.empty()) return;
   DRTRTReferencedStudySequence::Item* study = nullptr;
   if (!add(frame->getRTReferencedStudySequence(), study)) return;
   failure_ << study->setReferencedSOPClassUID(kDetachedStudy);
