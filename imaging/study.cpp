@@ -127,7 +127,7 @@ Status require_loadable(const Series& series) {
   return fail(ErrorKind::input, "{}: cannot be loaded: {}", series.description, series.reason);
 }
 
-Result<LoadedStudy> load(const fs::path& path, const std::string& uid, const Progress& progress) {
+Result<LoadedSeries> load(const fs::path& path, const std::string& uid, const Progress& progress) {
   const auto catalogue = find_series(path, progress);
   if (!catalogue) return tl::unexpected(catalogue.error());
   auto chosen = choose_series(*catalogue, uid, path);
@@ -135,7 +135,7 @@ Result<LoadedStudy> load(const fs::path& path, const std::string& uid, const Pro
   auto volume = load_chosen(chosen->series, progress);
   if (!volume) return pass_on(volume);
   volume->changes.insert(volume->changes.begin(), chosen->remarks.begin(), chosen->remarks.end());
-  return LoadedStudy{std::move(chosen->series), std::move(*volume)};
+  return LoadedSeries{std::move(chosen->series), std::move(*volume)};
 }
 
 Mask mask_of(const Volume& volume) {
@@ -215,12 +215,13 @@ Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string
 }
 
 Result<Volume> load_volume(const fs::path& path, const std::string& uid, const Progress& progress) {
-  auto study = load_study(path, uid, progress);
+  auto study = load_with_series(path, uid, progress);
   if (!study) return pass_on(study);
   return std::move(study->volume);
 }
 
-Result<LoadedStudy> load_study(const fs::path& path, const std::string& uid, const Progress& progress) {
+Result<LoadedSeries> load_with_series(const fs::path& path, const std::string& uid,
+                                      const Progress& progress) {
   return guarded(path, [&] { return load(path, uid, progress); });
 }
 

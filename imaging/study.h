@@ -32,12 +32,12 @@ Result<Volume> load_volume(const std::filesystem::path& path, const std::string&
                            const Progress& progress = {});
 
 // The same with the series that it was made of.
-struct LoadedStudy {
+struct LoadedSeries {
   Series series;
   Volume volume;
 };
-Result<LoadedStudy> load_study(const std::filesystem::path& path, const std::string& uid = {},
-                               const Progress& progress = {});
+Result<LoadedSeries> load_with_series(const std::filesystem::path& path, const std::string& uid = {},
+                                      const Progress& progress = {});
 
 // The series' files in slice order when it is a DICOM series; none of a volume file.
 [[nodiscard]] std::vector<std::filesystem::path> dicom_files_of(const Series& series);

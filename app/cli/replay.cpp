@@ -71,7 +71,7 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
   if (Status good = check(arguments, writer); !good) return good;
   const auto recipe = Recipe::load(arguments.recipe);
   if (!recipe) return tl::unexpected<Error>(recipe.error());
-  auto study = load_study(arguments.input, arguments.series, console.progress());
+  auto study = load_with_series(arguments.input, arguments.series, console.progress());
   if (!study) return pass_on(study);
   const auto volume = std::make_shared<const Volume>(std::move(study->volume));
   for (const std::string& difference : differences(*recipe, *volume)) console.warn(difference);

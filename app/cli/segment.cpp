@@ -81,7 +81,7 @@ Status Segmentation::run() {
 }
 
 Status Segmentation::load() {
-  auto study = load_study(options_.input, options_.series, console_.progress());
+  auto study = load_with_series(options_.input, options_.series, console_.progress());
   if (!study) return pass_on(study);
   results_.dicom_files = dicom_files_of(study->series);
   Result<Volume> volume = std::move(study->volume);
