@@ -183,6 +183,14 @@ bool is_lossy_syntax(E_TransferSyntax syntax) {
   return std::find(kLossy.begin(), kLossy.end(), syntax) != kLossy.end();
 }
 
+// One line without the file's name.
+std::string describe(const Preflight& checked) {
+  const auto& [tag, offset, what] = checked.reason;
+  const std::string element = tag == DicomTag{} ? "the dataset" : name_of(DcmTagKey(tag.group, tag.element));
+  const bool is_damaged = checked.verdict == Preflight::Verdict::damaged;
+  return fmt::format("{}{} {} (at byte {})", is_damaged ? "is damaged: " : "", element, what, offset);
+}
+
 // All that is known of a file that cannot be parsed.
 SliceHeader header_without_image(const fs::path& file, const Preflight& checked) {
   SliceHeader header;
@@ -231,11 +239,13 @@ OFCondition parse(const fs::path& file, const TransferSyntax& syntax, DcmFileFor
 
 }  // namespace
 
-std::string describe(const Preflight& checked) {
-  const auto& [tag, offset, what] = checked.reason;
-  const std::string element = tag == DicomTag{} ? "the dataset" : name_of(DcmTagKey(tag.group, tag.element));
-  const bool is_damaged = checked.verdict == Preflight::Verdict::damaged;
-  return fmt::format("{}{} {} (at byte {})", is_damaged ? "is damaged: " : "", element, what, offset);
+Result<const TransferSyntax*> syntax_to_parse(const fs::path& file) {
+  auto bytes = FileBytes::open(file);
+  if (!bytes) return pass_on(bytes);
+  if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
+  const Preflight checked = preflight_dicom(*bytes);
+  if (!checked.may_be_parsed()) return fail(ErrorKind::input, "{}: {}", file.string(), describe(checked));
+  return checked.syntax;
 }
 
 Result<OpenedSlice> open_slice(const fs::path& file) {

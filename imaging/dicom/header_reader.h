@@ -11,7 +11,7 @@ class DcmFileFormat;
 
 namespace tidemark {
 
-struct Preflight;
+struct TransferSyntax;
 
 struct OpenedSlice {
   OpenedSlice(SliceHeader known, std::unique_ptr<DcmFileFormat> parsed);
@@ -29,7 +29,8 @@ struct OpenedSlice {
 [[nodiscard]] Result<OpenedSlice> open_slice(const std::filesystem::path& file);
 [[nodiscard]] Result<SliceHeader> read_slice_header(const std::filesystem::path& file);
 
-// Why the preflight found a file wanting: one line without the file's name.
-std::string describe(const Preflight& checked);
+// For files of other kinds: the transfer syntax as which DCMTK may parse the file. Fails (ErrorKind::input)
+// when it is no DICOM file, or the preflight refuses it.
+[[nodiscard]] Result<const TransferSyntax*> syntax_to_parse(const std::filesystem::path& file);
 
 }  // namespace tidemark

@@ -3,10 +3,9 @@
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 
-#include "imaging/dicom/dicom.h"
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/header_reader.h"
-#include "imaging/dicom/preflight.h"
+#include "imaging/dicom/transfer_syntaxes.h"
 #include "imaging/pacs/storage_classes.h"
 
 namespace tidemark {
@@ -44,12 +43,9 @@ Result<ObjectIdentity> identity_of(const fs::path& file, const TransferSyntax& s
 Result<ObjectIdentity> check_object(const fs::path& file) {
   try {
     if (Status ready = set_up_dicom(); !ready) return pass_on(ready);
-    if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
-    auto bytes = FileBytes::open(file);
-    if (!bytes) return pass_on(bytes);
-    const Preflight checked = preflight_dicom(*bytes);
-    if (!checked.may_be_parsed()) return fail(ErrorKind::input, "{}: {}", file.string(), describe(checked));
-    return identity_of(file, *checked.syntax);
+    const auto syntax = syntax_to_parse(file);
+    if (!syntax) return tl::unexpected<Error>(syntax.error());
+    return identity_of(file, **syntax);
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::capability, "{}: there is not enough memory", file.string());
   } catch (const std::exception& error) {

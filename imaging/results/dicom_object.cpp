@@ -10,8 +10,9 @@
 
 #include "core/atomic_file.h"
 #include "imaging/dicom/decimal.h"
-#include "imaging/dicom/dicom.h"
 #include "imaging/dicom/dicom_setup.h"
+#include "imaging/dicom/header_reader.h"
+#include "imaging/dicom/transfer_syntaxes.h"
 #include "imaging/results/results.h"
 
 namespace tidemark {
@@ -43,10 +44,12 @@ Result<std::string> encode(DcmFileFormat& file, E_TransferSyntax syntax) {
 
 Result<std::unique_ptr<DcmFileFormat>> load_object(const fs::path& file, const DcmTagKey& stop_at) {
   if (auto ready = set_up_dicom(); !ready) return pass_on(ready);
-  if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
+  const auto syntax = syntax_to_parse(file);
+  if (!syntax) return tl::unexpected<Error>(syntax.error());
   auto loaded = std::make_unique<DcmFileFormat>();
-  const OFCondition parsed = loaded->loadFileUntilTag(file.c_str(), EXS_Unknown, EGL_noChange,
-                                                      DCM_MaxReadLength, ERM_autoDetect, stop_at);
+  const OFCondition parsed =
+      loaded->loadFileUntilTag(file.c_str(), DcmXfer(std::string((*syntax)->uid).c_str()).getXfer(),
+                               EGL_noChange, DCM_MaxReadLength, ERM_autoDetect, stop_at);
   if (parsed.bad()) return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
   // Where the character set is missing or wrong the text is taken as Latin-1, which has a letter for each
   // byte.
