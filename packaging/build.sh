@@ -10,13 +10,14 @@ tidemark_jobs() {
   echo $((processors < by_memory ? processors : by_memory))
 }
 
-# tidemark_configure PRESET: build/PRESET, once; later changes of the build's files configure it anew by
-# themselves.
+# tidemark_configure PRESET: build/PRESET, at first and after changes of the build's files.
 tidemark_configure() {
   local preset=$1
   if [[ ! -f $tidemark_root/build/$preset/build.ninja ]]; then
     echo "== Configuring $preset"
     (cd "$tidemark_root" && cmake --preset "$preset")
+  else
+    ninja -C "$tidemark_root/build/$preset" build.ninja >/dev/null
   fi
 }
 

@@ -136,6 +136,14 @@ void Desktop::drag(PictureView& view, const std::vector<glm::dvec3>& patient_mm,
   drag(static_cast<QWidget&>(view), way, button, modifiers);
 }
 
+void Desktop::mouse(PictureView& view, QEvent::Type type, glm::dvec3 patient_mm) {
+  const QPointF there = view.position_of(patient_mm);
+  QMouseEvent event(type, there, view.mapToGlobal(there),
+                    type == QEvent::MouseMove ? Qt::NoButton : Qt::LeftButton,
+                    type == QEvent::MouseButtonRelease ? Qt::NoButton : Qt::LeftButton, {});
+  QApplication::sendEvent(&view, &event);
+}
+
 void Desktop::answer(QMessageBox::StandardButton button) {
   auto* timer = new QTimer(qApp);
   QObject::connect(timer, &QTimer::timeout, timer, [timer, button] {

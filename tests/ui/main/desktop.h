@@ -67,6 +67,8 @@ class Desktop {
                    Qt::MouseButton button = Qt::LeftButton, Qt::KeyboardModifiers modifiers = {});
   static void drag(QWidget& widget, const std::vector<QPoint>& way, Qt::MouseButton button = Qt::LeftButton,
                    Qt::KeyboardModifiers modifiers = {});
+  // One part of a drag with the left button: press, move or release.
+  static void mouse(PictureView& view, QEvent::Type type, glm::dvec3 patient_mm);
   void press(Qt::Key key, Qt::KeyboardModifiers modifiers = {});
 
   // Presses that button of the next question.

@@ -50,10 +50,13 @@ void GuideStoryTest::the_first_minute_leads_to_a_tumour() {
   QVERIFY2(glm::distance(centre, desktop.seed_mm()) < 15.0, "the study opens at the tumour");
   desktop.press(Qt::Key_S);
   QVERIFY(desktop.session().display().settings().tool == Tool::seed);
-  Desktop::drag(*axial, {centre, centre + glm::dvec3(4, 0, 0), centre + glm::dvec3(9, 0, 0)});
+  Desktop::mouse(*axial, QEvent::MouseButtonPress, centre);
+  Desktop::mouse(*axial, QEvent::MouseMove, centre + glm::dvec3(6, 0, 0));
+  Desktop::mouse(*axial, QEvent::MouseMove, centre + glm::dvec3(14, 0, 0));
+  desktop.screenshot("minute-3-sphere");
+  Desktop::mouse(*axial, QEvent::MouseButtonRelease, centre + glm::dvec3(14, 0, 0));
   desktop.settle();
   QVERIFY(desktop.state().begun);
-  desktop.screenshot("minute-3-sphere");
 
   desktop.press(Qt::Key_P);
   QVERIFY(Desktop::wait_for([&] { return desktop.state().step > 60; }, 60000));

@@ -123,15 +123,8 @@ void OneModelStoryTest::a_sphere_that_is_being_drawn_is_seen_in_all_views() {
     s.brush_mm = 2.0;
   });
   desktop.press(Qt::Key_S);
-  const auto hold = [axial](QEvent::Type type, glm::dvec3 at) {
-    const QPointF there = axial->position_of(at);
-    const bool moves = type == QEvent::MouseMove;
-    QMouseEvent event(type, there, axial->mapToGlobal(there), moves ? Qt::NoButton : Qt::LeftButton,
-                      type == QEvent::MouseButtonRelease ? Qt::NoButton : Qt::LeftButton, {});
-    QApplication::sendEvent(axial, &event);
-  };
-  hold(QEvent::MouseButtonPress, centre);
-  hold(QEvent::MouseMove, centre + glm::dvec3(kRadius, 0.0, 0.0));
+  Desktop::mouse(*axial, QEvent::MouseButtonPress, centre);
+  Desktop::mouse(*axial, QEvent::MouseMove, centre + glm::dvec3(kRadius, 0.0, 0.0));
   const auto radius_in = [](const PictureView& view) {
     const auto ring = view.ring();
     return ring ? ring->radius * view.mm_per_pixel() : -1.0;
@@ -142,7 +135,7 @@ void OneModelStoryTest::a_sphere_that_is_being_drawn_is_seen_in_all_views() {
   QVERIFY(radius_in(*desktop.view<VolumeViewWidget>()) > 0.0);
   desktop.screenshot("sphere-being-drawn");
   // Then it is the brush again.
-  hold(QEvent::MouseButtonRelease, centre + glm::dvec3(kRadius, 0.0, 0.0));
+  Desktop::mouse(*axial, QEvent::MouseButtonRelease, centre + glm::dvec3(kRadius, 0.0, 0.0));
   QVERIFY(std::abs(radius_in(*axial) - 2.0) < 1e-6);
   desktop.settle();
   QVERIFY(desktop.state().begun);
