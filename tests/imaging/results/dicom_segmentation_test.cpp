@@ -25,20 +25,13 @@ class DicomSegmentationTest : public QObject {
   }
 
  private slots:
-  void what_is_written_is_read_back_in_every_orientation_data() {
-    QTest::addColumn<int>("index");
-    int index = 0;
-    for (const test::Orientation& orientation : test::orientations())
-      QTest::newRow(orientation.name) << index++;
-  }
+  void what_is_written_is_read_back_in_every_orientation_data() { test::add_orientation_rows(); }
 
   void what_is_written_is_read_back_in_every_orientation() {
     QFETCH(int, index);
     const test::TemporaryFolder folder;
-    const auto& direction = test::orientations()[static_cast<std::size_t>(index)].direction;
     // 77 pixels a frame: frames do not end at whole bytes.
-    const auto series =
-        test::write_sample_series(test::sample_grid({11, 7, 6}, direction), folder / "series");
+    const auto series = test::write_oriented_series(index, {11, 7, 6}, folder / "series");
     const Segments written = test::speckled_segments(series.geometry);
     const auto file = folder / "seg.dcm";
     QCOMPARE(test::failure(write_segmentation(written, series.files, file)), QString());
@@ -63,9 +56,7 @@ class DicomSegmentationTest : public QObject {
   void pydicom_finds_the_same_voxels_in_every_orientation() {
     QFETCH(int, index);
     const test::TemporaryFolder folder;
-    const auto& direction = test::orientations()[static_cast<std::size_t>(index)].direction;
-    const auto series =
-        test::write_sample_series(test::sample_grid({11, 7, 6}, direction), folder / "series");
+    const auto series = test::write_oriented_series(index, {11, 7, 6}, folder / "series");
     const Segments written = test::speckled_segments(series.geometry);
     QCOMPARE(test::failure(write_segmentation(written, series.files, folder / "seg.dcm")), QString());
     const QJsonObject found = test::read_with_pydicom(folder / "seg.dcm", series.folder);

@@ -2,6 +2,7 @@
 
 #include <QJsonDocument>
 #include <QProcess>
+#include <QTest>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -53,6 +54,17 @@ SampleSeries write_sample_series(const Geometry& geometry, const std::filesystem
   write_series(volume, folder);
   const Series series = only_series(folder);
   return {folder, series.files, series.geometry};
+}
+
+SampleSeries write_oriented_series(int index, Index3 size, const std::filesystem::path& folder) {
+  return write_sample_series(sample_grid(size, orientations()[static_cast<std::size_t>(index)].direction),
+                             folder);
+}
+
+void add_orientation_rows() {
+  QTest::addColumn<int>("index");
+  int index = 0;
+  for (const Orientation& orientation : orientations()) QTest::newRow(orientation.name) << index++;
 }
 
 Segments speckled_segments(const Geometry& geometry) {

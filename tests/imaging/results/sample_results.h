@@ -27,6 +27,9 @@ struct SampleSeries {
   Geometry geometry;
 };
 SampleSeries write_sample_series(const Geometry& geometry, const std::filesystem::path& folder);
+// Of that size, in one of orientations(). The rows of a test of all of them: column "index".
+SampleSeries write_oriented_series(int index, Index3 size, const std::filesystem::path& folder);
+void add_orientation_rows();
 
 // Three segments of speckles that differ in every direction: the first two overlap, and both leave out
 // slices.

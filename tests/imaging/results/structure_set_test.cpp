@@ -35,19 +35,12 @@ class StructureSetTest : public QObject {
   }
 
  private slots:
-  void what_is_written_is_read_back_in_every_orientation_data() {
-    QTest::addColumn<int>("index");
-    int index = 0;
-    for (const test::Orientation& orientation : test::orientations())
-      QTest::newRow(orientation.name) << index++;
-  }
+  void what_is_written_is_read_back_in_every_orientation_data() { test::add_orientation_rows(); }
 
   void what_is_written_is_read_back_in_every_orientation() {
     QFETCH(int, index);
     const test::TemporaryFolder folder;
-    const auto& direction = test::orientations()[static_cast<std::size_t>(index)].direction;
-    const auto series =
-        test::write_sample_series(test::sample_grid({21, 17, 6}, direction), folder / "series");
+    const auto series = test::write_oriented_series(index, {21, 17, 6}, folder / "series");
     Segments written = test::speckled_segments(series.geometry);
     written.list.push_back(test::ball_segment(series.geometry, 6.0, 3.0));
     const auto file = folder / "set.dcm";
