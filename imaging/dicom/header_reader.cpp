@@ -237,33 +237,36 @@ OFCondition parse(const fs::path& file, const TransferSyntax& syntax, DcmFileFor
   return loaded.loadFile(file.c_str(), DcmXfer(std::string(syntax.uid).c_str()).getXfer());
 }
 
+Result<Preflight> preflight_of(const fs::path& file) {
+  auto bytes = FileBytes::open(file);
+  if (!bytes) return pass_on(bytes);
+  if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
+  return preflight_dicom(*bytes);
+}
+
 }  // namespace
 
 Result<const TransferSyntax*> syntax_to_parse(const fs::path& file) {
-  auto bytes = FileBytes::open(file);
-  if (!bytes) return pass_on(bytes);
-  if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
-  const Preflight checked = preflight_dicom(*bytes);
-  if (!checked.may_be_parsed()) return fail(ErrorKind::input, "{}: {}", file.string(), describe(checked));
-  return checked.syntax;
+  const auto checked = preflight_of(file);
+  if (!checked) return tl::unexpected<Error>(checked.error());
+  if (!checked->may_be_parsed()) return fail(ErrorKind::input, "{}: {}", file.string(), describe(*checked));
+  return checked->syntax;
 }
 
 Result<OpenedSlice> open_slice(const fs::path& file) {
-  auto bytes = FileBytes::open(file);
-  if (!bytes) return pass_on(bytes);
-  if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
-  const Preflight checked = preflight_dicom(*bytes);
-  if (!checked.may_be_parsed()) {
+  const auto checked = preflight_of(file);
+  if (!checked) return tl::unexpected<Error>(checked.error());
+  if (!checked->may_be_parsed()) {
     // A damaged file that still names its series makes that series incomplete: it must not go unnoticed.
-    OpenedSlice damaged{header_without_image(file, checked), nullptr};
-    if (!checked.series_uid.empty()) return damaged;
+    OpenedSlice damaged{header_without_image(file, *checked), nullptr};
+    if (!checked->series_uid.empty()) return damaged;
     return fail(ErrorKind::input, "{}: {}", file.string(), damaged.header.problem);
   }
   auto loaded = std::make_unique<DcmFileFormat>();
-  if (const OFCondition parsed = parse(file, *checked.syntax, *loaded); parsed.bad()) {
+  if (const OFCondition parsed = parse(file, *checked->syntax, *loaded); parsed.bad()) {
     return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
   }
-  auto header = header_of(*loaded, file, checked);
+  auto header = header_of(*loaded, file, *checked);
   if (!header) return pass_on(header);
   return OpenedSlice{std::move(*header), std::move(loaded)};
 }

@@ -1,4 +1,4 @@
-// From a DICOM file to a SliceHeader. The only place where DCMTK reads a file.
+// From a DICOM file to a SliceHeader, and what stands before DCMTK for files of other kinds.
 #pragma once
 
 #include <filesystem>
