@@ -111,7 +111,7 @@ void HostExecutor::step() {
                             [model_.spacing() == glm::dvec3(1.0) ? 0 : 1][motion ? 1 : 0];
   std::fill(updates_.begin(), updates_.end(), 0);
   constexpr std::int64_t kGrain = 4;
-  constexpr std::int64_t kPrefetchAhead = 2;  // pages: 1 comes too late, 4 are driven out again (measured)
+  constexpr std::int64_t kPrefetchAhead = 5;  // pages: fewer come too late, 8 are driven out again (measured)
   // There and back: of a surface that is larger than the cache, a step finds there what the last one left.
   const auto count = static_cast<std::int64_t>(active_.size());
   const bool back = current_ == 1;
