@@ -16,8 +16,8 @@ tidemark_packages=(
 # Qt's OpenGL classes are a package of their own on Debian 12, and part of qt6-base-dev later.
 if grep -qs '^VERSION_CODENAME=bookworm' /etc/os-release; then tidemark_packages+=(libqt6opengl6-dev); fi
 
-# Only the fuzz targets need a second compiler: tidemark_install_dependencies --with-clang.
-tidemark_fuzz_packages=(clang)
+# Only the sanitizers' build needs a second compiler and its run-time libraries: tidemark_install_dependencies --with-clang.
+tidemark_fuzz_packages=(clang libclang-rt-dev)
 
 # The packages of the list that are not installed, one a line.
 tidemark_missing_packages() {
