@@ -11,7 +11,8 @@ constexpr const char* kSummary = "Lists the series found under a path";
 constexpr const char* kDescription =
     "Lists the series under PATH: size in voxels (i,j,k), spacing in mm, orientation and origin in patient\n"
     "coordinates (LPS, mm), transfer syntax, and whether and why not they can be loaded.\n"
-    "A DICOM series that holds several volumes (echoes, times, b-values, stacks) is listed volume by volume,\n"
+    "A DICOM series that holds several volumes (echoes, times, b-values, stacks) is listed volume by "
+    "volume,\n"
     "each with its number behind the UID: 1.2.3#2. Without a number --series takes the largest.";
 
 constexpr const char* kExamples =
