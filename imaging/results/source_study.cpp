@@ -1,5 +1,6 @@
 #include "imaging/results/source_study.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -46,6 +47,15 @@ SourceStudy anonymous_study(const Geometry& geometry) {
   return study;
 }
 
+// Whether a slice of the grid's size lies elsewhere in the plane of the grid's slice k: it is of another
+// stack.
+bool is_beside(const SliceHeader& slice, std::int64_t k, const Geometry& geometry) {
+  if (slice.columns != geometry.size.x || slice.rows != geometry.size.y) return false;
+  const glm::dvec3 off =
+      glm::abs(geometry.to_voxel(*slice.position_mm) - glm::dvec3(0.0, 0.0, static_cast<double>(k)));
+  return std::max(off.x, off.y) > kTolerance;
+}
+
 // Images that were stripped of their UIDs cannot be referred to.
 Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& study) {
   for (const fs::path& file : files) {
@@ -57,7 +67,7 @@ Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& stu
     study.images.push_back({first.sop_class_uid, first.sop_instance_uid});
     for (const SliceHeader& slice : *slices) {
       const auto k = slice.position_mm ? slice_at(*slice.position_mm, geometry) : std::nullopt;
-      if (!k) continue;
+      if (!k || (slice.frames > 1 && is_beside(slice, *k, geometry))) continue;
       auto& place = study.places[static_cast<std::size_t>(*k)];
       if (!place || place->image != image) place = SourcePlace{image, {}};
       if (slice.frames > 1) place->frames.push_back(static_cast<std::uint16_t>(slice.frame + 1));

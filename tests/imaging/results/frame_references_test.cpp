@@ -78,6 +78,25 @@ class FrameReferencesTest : public QObject {
     verify_references(folder.path(), found->series[0], {"1\\4", "2\\5", "3\\6"});
   }
 
+  void frames_of_another_stack_are_not_named() {
+    const Volume left = test::sample_volume({7, 5, 3});
+    Volume right = left;
+    right.geometry.origin_mm += 100.0 * right.geometry.direction[0];
+    auto frames = test::frames_of(left);
+    for (const test::EnhancedFrame& frame : test::frames_of(right)) frames.push_back(frame);
+    test::Enhanced enhanced;
+    enhanced.frame = [](DcmItem& groups, std::size_t frame) {
+      test::group(groups, DCM_FrameContentSequence)
+          .putAndInsertString(DCM_StackID, frame < 3 ? "left" : "right");
+    };
+    const test::TemporaryFolder folder;
+    test::write_enhanced(frames, folder.path() / "image" / "image.dcm", enhanced);
+    const auto found = scan_dicom(folder / "image");
+    QCOMPARE(test::failure(found), QString());
+    QCOMPARE(found->series.size(), std::size_t{2});
+    verify_references(folder.path(), found->series[1], {"4", "5", "6"});
+  }
+
   void a_classic_series_refers_to_no_frames() {
     const test::TemporaryFolder folder;
     test::write_series(test::sample_volume({7, 5, 3}), folder / "series");
