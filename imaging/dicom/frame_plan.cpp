@@ -35,7 +35,7 @@ Result<std::shared_ptr<const FrameReader>> FramePlan::open(const FrameWork& work
 void FramePlan::is_done(const FrameWork& work) {
   File& file = files_[work.file];
   const std::lock_guard lock(file.mutex);
-  if (--file.frames_left == 0) file.reader.reset();
+  if (--file.frames_left <= 0) file.reader.reset();
 }
 
 }  // namespace tidemark
