@@ -116,7 +116,8 @@ Result<Volume> load_slice_of(const Series& series, std::int64_t k, const Progres
     return cut_slice(*whole, k);
   }
   Series one = series;
-  one.files = {series.files.at(static_cast<std::size_t>(k))};
+  one.sources = {series.sources.at(static_cast<std::size_t>(k))};
+  one.files = {one.sources.front().file};
   one.geometry = geometry_of_slice(series.geometry, k);
   return load_chosen(one, progress);
 }
@@ -186,7 +187,7 @@ Result<Catalogue> find_series(const fs::path& path, const Progress& progress) {
 Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string& uid, const fs::path& path) {
   std::vector<const Series*> matching;
   for (const Series& series : catalogue.series) {
-    if (uid.empty() || series.uid == uid) matching.push_back(&series);
+    if (uid.empty() || series.uid == uid || series.uid.starts_with(uid + '#')) matching.push_back(&series);
   }
   if (matching.empty()) {
     return fail(ErrorKind::input, "{}: has no series {}; it has {}", path.string(), uid,
@@ -205,11 +206,14 @@ Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string
       [](const Series* a, const Series* b) { return a->geometry.voxel_count() < b->geometry.voxel_count(); });
   ChosenSeries chosen{*best, {}};
   if (loadable.size() > 1) {
+    // Asked for by its UID and found by it: copies of one series in several folders.
+    const bool are_copies = best->uid == uid;
     chosen.remarks.push_back(
-        uid.empty() ? fmt::format("{} series can be loaded; {} ({}) has the most voxels and was read",
-                                  loadable.size(), best->uid, best->description)
-                    : fmt::format("{} series have this UID; the one in {} was read", loadable.size(),
-                                  best->files.front().parent_path().filename().string()));
+        are_copies
+            ? fmt::format("{} series have this UID; the one in {} was read", loadable.size(),
+                          best->files.front().parent_path().filename().string())
+            : fmt::format("{} {} can be loaded; {} ({}) has the most voxels and was read", loadable.size(),
+                          uid.empty() ? "series" : "volumes of this series", best->uid, best->description));
   }
   return chosen;
 }

@@ -1,9 +1,11 @@
 #include "imaging/results/source_study.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "imaging/dicom/dicom_values.h"
+#include "imaging/dicom/header_reader.h"
 
 namespace tidemark {
 namespace {
@@ -27,7 +29,7 @@ SourceStudy anonymous_study(const Geometry& geometry) {
   study.first = std::make_unique<DcmFileFormat>();
   study.study_uid = make_uid();
   study.frame_of_reference_uid = make_uid();
-  study.image.resize(static_cast<std::size_t>(geometry.size.z));
+  study.places.resize(static_cast<std::size_t>(geometry.size.z));
   const Timestamp now = Timestamp::now();
   const auto put = [&](const DcmTagKey& key, const std::string& value) {
     study.attributes().putAndInsertString(DcmTag(key), value.c_str());
@@ -45,21 +47,32 @@ SourceStudy anonymous_study(const Geometry& geometry) {
   return study;
 }
 
+// Whether a slice of the grid's size lies elsewhere in the plane of the grid's slice k: it is of another
+// stack.
+bool is_beside(const SliceHeader& slice, std::int64_t k, const Geometry& geometry) {
+  if (slice.columns != geometry.size.x || slice.rows != geometry.size.y) return false;
+  const glm::dvec3 off =
+      glm::abs(geometry.to_voxel(*slice.position_mm) - glm::dvec3(0.0, 0.0, static_cast<double>(k)));
+  return std::max(off.x, off.y) > kTolerance;
+}
+
 // Images that were stripped of their UIDs cannot be referred to.
 Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& study) {
   for (const fs::path& file : files) {
-    const auto object = load_object(file, DCM_ImageOrientationPatient);  // the next after what is needed
-    if (!object) return tl::unexpected<Error>(object.error());
-    DcmItem& item = *(*object)->getDataset();
-    SourceImage image{text_of(item, DCM_SOPClassUID), text_of(item, DCM_SOPInstanceUID)};
-    if (image.sop_class_uid.empty() || image.sop_instance_uid.empty()) continue;
-    study.images.push_back(std::move(image));
-    const auto position = vector_of(item, DCM_ImagePositionPatient);
-    const auto k = position ? slice_at(*position, geometry) : std::nullopt;
-    if (k) study.image[static_cast<std::size_t>(*k)] = study.images.size() - 1;
+    const auto slices = read_slice_headers(file);
+    if (!slices) return tl::unexpected<Error>(slices.error());
+    const SliceHeader& first = slices->front();
+    if (first.sop_class_uid.empty() || first.sop_instance_uid.empty()) continue;
+    const std::size_t image = study.images.size();
+    study.images.push_back({first.sop_class_uid, first.sop_instance_uid});
+    for (const SliceHeader& slice : *slices) {
+      const auto k = slice.position_mm ? slice_at(*slice.position_mm, geometry) : std::nullopt;
+      if (!k || (slice.frames > 1 && is_beside(slice, *k, geometry))) continue;
+      auto& place = study.places[static_cast<std::size_t>(*k)];
+      if (!place || place->image != image) place = SourcePlace{image, {}};
+      if (slice.frames > 1) place->frames.push_back(static_cast<std::uint16_t>(slice.frame + 1));
+    }
   }
-  // One file for many slices: each of them is in it.
-  if (files.size() == 1 && !study.images.empty()) study.image.assign(study.image.size(), 0);
   return {};
 }
 
