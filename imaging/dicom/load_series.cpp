@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <new>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -11,10 +13,13 @@
 #include "core/thread_pool.h"
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/pixels.h"
+#include "imaging/dicom/resample_slices.h"
 #include "imaging/dicom/shared_progress.h"
 
 namespace tidemark {
 namespace {
+
+constexpr double kAir = -1024.0;  // HU, the smallest value of most scanners
 
 std::string first_file(const Series& series) {
   return series.files.empty() ? series.uid : series.files.front().string();
@@ -34,15 +39,19 @@ class Outcome {
     }
     failed_.store(true, std::memory_order_relaxed);
   }
-  void count_ignored_bits() { ignored_bits_.fetch_add(1, std::memory_order_relaxed); }
+  // A slice may be decoded more than once.
+  void note_ignored_bits(std::int64_t slice) {
+    const std::lock_guard lock(mutex_);
+    ignored_bits_.insert(slice);
+  }
 
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
-  [[nodiscard]] int ignored_bits() const { return ignored_bits_.load(); }
+  [[nodiscard]] std::size_t ignored_bits() const { return ignored_bits_.size(); }
 
  private:
   std::atomic<bool> failed_{false};
-  std::atomic<int> ignored_bits_{0};
   std::mutex mutex_;
+  std::set<std::int64_t> ignored_bits_;  // slices that have them
   std::optional<Error> error_;
   std::int64_t error_slice_ = 0;
 };
@@ -55,6 +64,16 @@ class SeriesDecoder {
 
   // Into `voxels`, which has the size of the whole volume.
   void decode(std::vector<Voxel>& voxels, const Progress& progress, Outcome& outcome) {
+    if (series_.grid.slices.empty()) {
+      decode_slices(voxels, progress, outcome);
+    } else {
+      resample(voxels, progress, outcome);
+    }
+  }
+
+ private:
+  // Each slice of the volume is one image.
+  void decode_slices(std::vector<Voxel>& voxels, const Progress& progress, Outcome& outcome) {
     const auto count = static_cast<std::int64_t>(series_.files.size());
     const std::int64_t slice_voxels = series_.geometry.size.x * series_.geometry.size.y;
     SharedProgress shared(progress, count, "decoding slices");
@@ -67,12 +86,36 @@ class SeriesDecoder {
     });
   }
 
- private:
+  // Slices of the volume are made of images as the series' grid says.
+  void resample(std::vector<Voxel>& voxels, const Progress& progress, Outcome& outcome) {
+    SharedProgress shared(progress, series_.geometry.size.z, "decoding slices");
+    const auto decode = [&](std::int64_t k, Voxel* target) {
+      if (progress.cancelled() || outcome.has_failed()) return false;
+      decode_one(k, target, outcome);
+      return !outcome.has_failed();
+    };
+    resample_slices<Voxel>(
+        {series_.grid, series_.stack.size, decode, [&] { shared.advance(); }, background()}, voxels);
+  }
+
+  // Of voxels that no image covers: what the images have where nothing was measured, else air.
+  std::optional<Voxel> background() const {
+    std::optional<double> stored = first_.padding;
+    if (!stored && first_.modality == "CT") stored = (kAir - first_.intercept) / first_.slope;
+    if (!stored) return std::nullopt;
+    if constexpr (std::is_same_v<Voxel, float>) {
+      return static_cast<float>(first_.slope * *stored + first_.intercept);
+    } else {
+      using Limits = std::numeric_limits<Voxel>;
+      return static_cast<Voxel>(std::lround(std::clamp<double>(*stored, Limits::min(), Limits::max())));
+    }
+  }
+
   void decode_one(std::int64_t k, Voxel* target, Outcome& outcome) {
     const auto& file = series_.files[static_cast<std::size_t>(k)];
     auto slice = decode_slice(file);
     if (!slice) return outcome.fail_with(std::move(slice.error()), k);
-    if (slice->ignored_bits) outcome.count_ignored_bits();
+    if (slice->ignored_bits) outcome.note_ignored_bits(k);
     if (!fits(*slice)) {
       return outcome.fail_with(
           {ErrorKind::input, file.string() + ": is not what it was when its series was listed"}, k);
@@ -91,7 +134,7 @@ class SeriesDecoder {
   // Whether the slice still is of the series' size and its values fit the voxel type.
   bool fits(const SlicePixels& slice) const {
     const SliceHeader& header = slice.header;
-    if (header.columns != series_.geometry.size.x || header.rows != series_.geometry.size.y) return false;
+    if (header.columns != series_.stack.size.x || header.rows != series_.stack.size.y) return false;
     if constexpr (std::is_same_v<Voxel, float>) {
       return true;
     } else {
@@ -126,7 +169,9 @@ Result<Volume> load(const Series& series, const Progress& progress) {
   }
   const Index3 size = series.geometry.size;
   const auto count = checked_product(size.x, size.y, size.z);
-  if (!count || *count == 0 || size.z != static_cast<std::int64_t>(series.files.size())) {
+  const auto& planned = series.grid.slices;
+  if (!count || *count == 0 ||
+      size.z != static_cast<std::int64_t>(planned.empty() ? series.files.size() : planned.size())) {
     return fail(ErrorKind::input, "{}: the series has {} files for {} slices", first_file(series),
                 series.files.size(), size.z);
   }

@@ -1,5 +1,6 @@
 #include "imaging/results/source_study.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -45,10 +46,29 @@ SourceStudy anonymous_study(const Geometry& geometry) {
   return study;
 }
 
+// Of images that are the grid's slices, pixel by pixel: an image elsewhere in its plane belongs to slices
+// that were taken as they lie although they move sideways (a tilted gantry). Results would be told in
+// coordinates that are not the patient's.
+Status require_in_place(DcmItem& item, glm::dvec3 position_mm, std::int64_t k, const Geometry& geometry,
+                        const fs::path& file) {
+  long int columns = 0;
+  long int rows = 0;
+  item.findAndGetLongInt(DCM_Columns, columns);
+  item.findAndGetLongInt(DCM_Rows, rows);
+  if (columns != geometry.size.x || rows != geometry.size.y) return {};
+  const glm::dvec3 beside = geometry.to_voxel(position_mm) - glm::dvec3(0.0, 0.0, static_cast<double>(k));
+  if (std::max(std::abs(beside.x), std::abs(beside.y)) <= kTolerance) return {};
+  return fail(
+      ErrorKind::input,
+      "{}: lies {:.1f} x {:.1f} pixels beside its slice of the volume (a gantry tilt that was kept?): "
+      "a result would have no place in the patient",
+      file.string(), std::abs(beside.x), std::abs(beside.y));
+}
+
 // Images that were stripped of their UIDs cannot be referred to.
 Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& study) {
   for (const fs::path& file : files) {
-    const auto object = load_object(file, DCM_ImageOrientationPatient);  // the next after what is needed
+    const auto object = load_object(file, DCM_BitsAllocated);  // the next after what is needed
     if (!object) return tl::unexpected<Error>(object.error());
     DcmItem& item = *(*object)->getDataset();
     SourceImage image{text_of(item, DCM_SOPClassUID), text_of(item, DCM_SOPInstanceUID)};
@@ -56,7 +76,9 @@ Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& stu
     study.images.push_back(std::move(image));
     const auto position = vector_of(item, DCM_ImagePositionPatient);
     const auto k = position ? slice_at(*position, geometry) : std::nullopt;
-    if (k) study.image[static_cast<std::size_t>(*k)] = study.images.size() - 1;
+    if (!k) continue;
+    if (auto in_place = require_in_place(item, *position, *k, geometry, file); !in_place) return in_place;
+    study.image[static_cast<std::size_t>(*k)] = study.images.size() - 1;
   }
   // One file for many slices: each of them is in it.
   if (files.size() == 1 && !study.images.empty()) study.image.assign(study.image.size(), 0);
