@@ -1,6 +1,8 @@
 // What was found under a path, before any voxel is read.
 #pragma once
 
+#include <compare>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,14 +13,26 @@
 
 namespace tidemark {
 
-// A series of DICOM files, or one volume file, that may make a volume.
+// Where the pixels of a slice are.
+struct SliceSource {
+  std::filesystem::path file;
+  std::int64_t frame = 0;  // of the file's frames, from 0
+  std::int64_t tile = 0;   // of a frame that shows several slices side by side, from 0, row by row
+
+  auto operator<=>(const SliceSource&) const = default;
+};
+
+// A series of DICOM files, or a part of one, or one volume file, that may make a volume.
 struct Series {
-  std::string uid;                             // DICOM Series Instance UID; for a volume file, its file name
+  // DICOM Series Instance UID; of a series that holds several volumes with the volume's number, "1.2.3#2";
+  // for a volume file, its file name.
+  std::string uid;
   std::string modality;                        // DICOM (0008,0060); empty for volume files
   std::string description;                     // DICOM (0008,103E), else the file name
   std::string date;                            // of the study: "2004-07-31"; empty when unknown
   Patient patient;                             // of the first image; empty for volume files
-  std::vector<std::filesystem::path> files;    // in slice order when loadable
+  std::vector<std::filesystem::path> files;    // each once, in slice order when loadable
+  std::vector<SliceSource> sources;            // of each slice, in slice order when loadable; DICOM only
   Geometry geometry;                           // meaningful when loadable
   std::string scalar;                          // of the volume when loaded: "int16", "uint16" or "float"
   std::vector<std::string> transfer_syntaxes;  // UIDs, each once; empty for volume files

@@ -118,12 +118,18 @@ Result<Volume> load_slice_of(const Series& series, std::int64_t k, const Progres
   }
   Series one = series;
   if (series.grid.slices.empty()) {
-    one.files = {series.files.at(static_cast<std::size_t>(k))};
+    one.sources = {series.sources.at(static_cast<std::size_t>(k))};
+    one.files = {one.sources.front().file};
   } else {
     one.grid.slices = {series.grid.slices.at(static_cast<std::size_t>(k))};
   }
   one.geometry = geometry_of_slice(series.geometry, k);
   return load_chosen(one, progress);
+}
+
+// By its own UID, by that of the series whose part it is, or by none.
+bool is_asked_for(const Series& series, const std::string& uid) {
+  return uid.empty() || series.uid == uid || series.uid.starts_with(uid + '#');
 }
 
 // A series as the functions of this file take it from outside.
@@ -181,7 +187,7 @@ Series by_policy(Series series, const GridPolicy& policy) {
 const Series* find_fillable(const Catalogue& catalogue, const std::string& uid) {
   const Series* fillable = nullptr;
   for (const Series& series : catalogue.series) {
-    if (!uid.empty() && series.uid != uid) continue;
+    if (!is_asked_for(series, uid)) continue;
     if (series.loadable) return nullptr;
     if (fillable == nullptr && series.fillable()) fillable = &series;
   }
@@ -210,7 +216,7 @@ Result<Catalogue> find_series(const fs::path& path, const Progress& progress, co
 Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string& uid, const fs::path& path) {
   std::vector<const Series*> matching;
   for (const Series& series : catalogue.series) {
-    if (uid.empty() || series.uid == uid) matching.push_back(&series);
+    if (is_asked_for(series, uid)) matching.push_back(&series);
   }
   if (matching.empty()) {
     return fail(ErrorKind::input, "{}: has no series {}; it has {}", path.string(), uid,
@@ -229,11 +235,14 @@ Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string
       [](const Series* a, const Series* b) { return a->geometry.voxel_count() < b->geometry.voxel_count(); });
   ChosenSeries chosen{*best, {}};
   if (loadable.size() > 1) {
+    // Asked for by its UID and found by it: copies of one series in several folders.
+    const bool are_copies = best->uid == uid;
     chosen.remarks.push_back(
-        uid.empty() ? fmt::format("{} series can be loaded; {} ({}) has the most voxels and was read",
-                                  loadable.size(), best->uid, best->description)
-                    : fmt::format("{} series have this UID; the one in {} was read", loadable.size(),
-                                  best->files.front().parent_path().filename().string()));
+        are_copies
+            ? fmt::format("{} series have this UID; the one in {} was read", loadable.size(),
+                          best->files.front().parent_path().filename().string())
+            : fmt::format("{} {} can be loaded; {} ({}) has the most voxels and was read", loadable.size(),
+                          uid.empty() ? "series" : "volumes of this series", best->uid, best->description));
   }
   return chosen;
 }

@@ -24,7 +24,8 @@ Result<Catalogue> find_series(const std::filesystem::path& path, const Progress&
 [[nodiscard]] const Series* find_fillable(const Catalogue& catalogue, const std::string& uid);
 
 // The series `uid` of what find_series(path) gave; an empty uid takes the only loadable series, or the one
-// with the most voxels. Fails (ErrorKind::input) with the reason why none can be loaded, or with the UIDs to
+// with the most voxels. The UID of a series that holds several volumes, without the number of one of them,
+// takes the largest. Fails (ErrorKind::input) with the reason why none can be loaded, or with the UIDs to
 // choose from.
 struct ChosenSeries {
   Series series;

@@ -1,4 +1,4 @@
-// DICOM series in, through DCMTK; classic single-frame images.
+// DICOM series in, through DCMTK: classic images, enhanced images of many frames, Siemens mosaics.
 #pragma once
 
 #include <filesystem>
@@ -14,9 +14,10 @@ namespace tidemark {
 // preamble). Reads at most 256 bytes.
 bool looks_like_dicom(const std::filesystem::path& file);
 
-// Reads the headers of all files below `path` (in parallel) and groups them into series, each sorted by
-// ImagePositionPatient along the slice normal (DICOM PS3.3 C.7.6.2.1.1), with geometry from the positions,
-// never from SliceThickness. Files that are not DICOM images go to Catalogue::skipped.
+// Reads the headers of all files below `path` (in parallel) and groups their slices into series, and parts of
+// series that hold several volumes, each sorted by ImagePositionPatient along the slice normal (DICOM PS3.3
+// C.7.6.2.1.1), with geometry from the positions, never from SliceThickness. Of one file: the series, or the
+// parts, that it belongs to. Files that are not DICOM images go to Catalogue::skipped.
 Result<Catalogue> scan_dicom(const std::filesystem::path& path, const Progress& progress = {});
 
 // Decodes the frames of a loadable series (in parallel) into one volume.

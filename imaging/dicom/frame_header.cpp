@@ -1,5 +1,7 @@
 #include "imaging/dicom/frame_header.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace tidemark {
@@ -7,6 +9,9 @@ namespace {
 
 // Markers or boxes in front of the one that is looked for.
 constexpr int kMostPassed = 10000;
+// A decoder keeps some kilobytes a tile: there may be one for every so many pixels, and a few more.
+constexpr std::int64_t kSmallestTile = 1024;
+constexpr std::int64_t kFewTiles = 64;
 
 std::int64_t word(const std::uint8_t* bytes) {
   return bytes[0] << 8 | bytes[1];
@@ -91,6 +96,24 @@ std::optional<FrameSize> read_frame_size(FrameCoding coding, ByteReader& reader,
     default:
       return std::nullopt;
   }
+}
+
+std::string frame_problem(FrameCoding coding, const std::optional<FrameSize>& size,
+                          const FrameSize& expected) {
+  if (coding == FrameCoding::rle || coding == FrameCoding::native) return {};
+  const std::string_view what = coding == FrameCoding::jpeg_2000 ? "JPEG 2000 stream" : "JPEG stream";
+  if (!size) return fmt::format("holds no {}", what);
+  if (size->columns != expected.columns || size->rows != expected.rows) {
+    return fmt::format("holds a {} of {} x {}, not {} x {} pixels", what, size->columns, size->rows,
+                       expected.columns, expected.rows);
+  }
+  if (size->components != expected.components) {
+    return fmt::format("holds a {} of {} components, not {}", what, size->components, expected.components);
+  }
+  if (size->tiles < 1 || size->tiles > kFewTiles + expected.rows * expected.columns / kSmallestTile) {
+    return fmt::format("holds a {} of {} tiles", what, size->tiles);
+  }
+  return {};
 }
 
 }  // namespace tidemark

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "imaging/dicom/byte_source.h"
 #include "imaging/dicom/transfer_syntaxes.h"
@@ -21,5 +22,10 @@ struct FrameSize {
 // when there is none, and for RLE, which has no size of its own.
 [[nodiscard]] std::optional<FrameSize> read_frame_size(FrameCoding coding, ByteReader& reader,
                                                        std::int64_t begin, std::int64_t end);
+
+// Why a frame of that size is none of an image of `expected` size (its tiles do not count), in one line about
+// PixelData; empty when it is.
+[[nodiscard]] std::string frame_problem(FrameCoding coding, const std::optional<FrameSize>& size,
+                                        const FrameSize& expected);
 
 }  // namespace tidemark

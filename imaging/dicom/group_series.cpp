@@ -1,9 +1,12 @@
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "imaging/dicom/separate_volumes.h"
 #include "imaging/dicom/series_geometry.h"
+#include "imaging/dicom/split_series.h"
 
 namespace tidemark {
 namespace {
@@ -19,6 +22,50 @@ bool has_copies_elsewhere(const Group& group) {
     const auto [known, is_new] = seen.emplace(slice.sop_instance_uid, folder);
     return !is_new && known->second != folder;
   });
+}
+
+// The reason of images that are in no volume of their series.
+std::string reason_of_rest(const Group& rest) {
+  const std::string name = rest.front().file.filename().string();
+  if (const std::string& problem = rest.front().problem; !problem.empty()) {
+    return fmt::format("{}: {}{}", name, problem,
+                       rest.size() == 1 ? "" : fmt::format(" (and {} more)", rest.size() - 1));
+  }
+  if (rest.size() == 1) return name + " is a single image of its kind: a volume needs at least two slices";
+  return fmt::format("{} and {} more are single images of their kinds: a volume needs at least two slices",
+                     name, rest.size() - 1);
+}
+
+// One series, or each of the volumes in it and what is left.
+std::vector<Series> arrange_parts(Group group) {
+  auto parts = split_series(std::move(group));
+  const auto volumes =
+      std::count_if(parts.begin(), parts.end(), [](const auto& part) { return !part.is_rest; });
+  std::vector<Series> result;
+  for (SeriesPart& part : parts) {
+    const std::string rest = part.is_rest ? reason_of_rest(part.slices) : "";
+    for (SliceHeader& slice : part.slices) slice.description = join_labels(slice.description, part.label);
+    Series& series = result.emplace_back(arrange_series(std::move(part.slices)));
+    if (parts.size() > 1) {
+      series.uid += fmt::format("#{}", result.size());
+      series.changes.push_back(fmt::format("one part of its series, which holds {} volume{}{}{}", volumes,
+                                           volumes == 1 ? "" : "s",
+                                           parts.back().is_rest ? " and images that fit into none" : "",
+                                           part.label.empty() ? "" : ": " + part.label));
+    }
+    series.changes.insert(series.changes.end(), part.changes.begin(), part.changes.end());
+    if (part.is_rest) {
+      series.loadable = false;
+      series.reason = rest;
+      series.stack = {};  // no policy makes a grid of it
+      series.grid = {};
+    }
+  }
+  return result;
+}
+
+void append(std::vector<Series> parts, std::vector<Series>& result) {
+  std::move(parts.begin(), parts.end(), std::back_inserter(result));
 }
 
 }  // namespace
@@ -44,15 +91,18 @@ std::vector<Series> group_series(std::vector<SliceHeader> slices) {
   for (const std::string& key : order) {
     Group& group = groups[key];
     if (!has_copies_elsewhere(group)) {
-      result.push_back(arrange_series(std::move(group)));
+      append(arrange_parts(std::move(group)), result);
       continue;
     }
     std::map<std::filesystem::path, Group> folders;
     for (SliceHeader& slice : group) folders[slice.file.parent_path()].push_back(std::move(slice));
     for (auto& [folder, part] : folders) {
-      result.push_back(arrange_series(std::move(part)));
-      result.back().warnings.push_back(fmt::format("copies of this series lie in {} folders; this one is {}",
-                                                   folders.size(), folder.filename().string()));
+      auto parts = arrange_parts(std::move(part));
+      for (Series& series : parts) {
+        series.warnings.push_back(fmt::format("copies of this series lie in {} folders; this one is {}",
+                                              folders.size(), folder.filename().string()));
+      }
+      append(std::move(parts), result);
     }
   }
   return result;

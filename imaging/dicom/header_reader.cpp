@@ -7,107 +7,47 @@
 #include <string_view>
 #include <vector>
 
+#include "imaging/dicom/attribute_reader.h"
 #include "imaging/dicom/character_sets.h"
 #include "imaging/dicom/date.h"
 #include "imaging/dicom/decimal.h"
 #include "imaging/dicom/dicom.h"
-#include "imaging/dicom/preflight.h"
+#include "imaging/dicom/functional_groups.h"
+#include "imaging/dicom/mosaic.h"
 #include "imaging/dicom/read_patient.h"
+#include "imaging/dicom/read_traits.h"
 
 namespace tidemark {
 namespace {
 
 namespace fs = std::filesystem;
 
-// "PixelSpacing (0028,0030)", as messages name an attribute.
-std::string name_of(const DcmTagKey& key) {
-  DcmTag tag(key);
-  return fmt::format("{} ({:04X},{:04X})", tag.getTagName(), key.getGroup(), key.getElement());
+// An enhanced image says on every frame where it lies; beyond this many a file is not believed.
+constexpr std::int64_t kMostFrames = 65535;
+
+std::int64_t read_number_of_frames(AttributeReader& in) {
+  const std::string frames = in.text(DCM_NumberOfFrames);
+  if (frames.empty()) return 1;
+  const auto count = parse_integers(frames);
+  if (!count || count->size() != 1 || count->front() < 1) {
+    in.report(fmt::format("{} is '{}'", name_of(DCM_NumberOfFrames), frames.substr(0, 80)));
+    return 1;
+  }
+  if (count->front() > kMostFrames) {
+    in.report(fmt::format("says that it has {} frames, more than the {} that are read", count->front(),
+                          kMostFrames));
+    return 1;
+  }
+  return count->front();
 }
 
-// Reads attributes and remembers the first that makes no sense.
-class AttributeReader {
- public:
-  AttributeReader(DcmItem& item, std::string& problem) : item_(item), problem_(problem) {}
-
-  [[nodiscard]] std::string text(const DcmTagKey& key) const {
-    OFString value;
-    if (item_.findAndGetOFStringArray(key, value).bad()) return {};
-    std::string result(value.c_str());
-    result.erase(result.find_last_not_of(' ') + 1);
-    return result;
-  }
-
-  // Nothing when absent or empty; a problem when it is not `count` numbers (at least one when count is 0).
-  std::optional<std::vector<double>> decimals(const DcmTagKey& key, std::size_t count) {
-    const std::string value = text(key);
-    if (value.empty()) return std::nullopt;
-    auto numbers = parse_decimals(value);
-    if (!numbers || (count != 0 && numbers->size() != count)) {
-      report(fmt::format("{} is '{}'", name_of(key), value.substr(0, 80)));
-      return std::nullopt;
-    }
-    return numbers;
-  }
-
-  // A size or a count of bits, whatever integer representation it comes in; a problem when it is absent or
-  // not within [low, high].
-  std::int64_t whole(const DcmTagKey& key, std::int64_t low, std::int64_t high) {
-    long int value = 0;
-    if (item_.findAndGetLongInt(key, value).bad()) {
-      report(fmt::format("{} is missing or not a whole number", name_of(key)));
-      return 0;
-    }
-    if (value < low || value > high) {
-      report(fmt::format("{} is {}, not {} to {}", name_of(key), value, low, high));
-      return 0;
-    }
-    return value;
-  }
-
-  // A whole number that decides nothing of importance.
-  [[nodiscard]] std::optional<double> whole_if_any(const DcmTagKey& key) const {
-    long int value = 0;
-    if (item_.findAndGetLongInt(key, value).bad()) return std::nullopt;
-    return static_cast<double>(value);
-  }
-
-  void report(std::string problem) {
-    if (problem_.empty()) problem_ = std::move(problem);
-  }
-
- private:
-  DcmItem& item_;
-  std::string& problem_;
-};
-
-bool is_enhanced(const std::string& sop_class) {
-  constexpr std::array kClasses{UID_EnhancedCTImageStorage,
-                                UID_EnhancedMRImageStorage,
-                                UID_EnhancedMRColorImageStorage,
-                                UID_EnhancedPETImageStorage,
-                                UID_LegacyConvertedEnhancedCTImageStorage,
-                                UID_LegacyConvertedEnhancedMRImageStorage,
-                                UID_LegacyConvertedEnhancedPETImageStorage};
-  return std::find(kClasses.begin(), kClasses.end(), sop_class) != kClasses.end();
-}
-
-// Objects that hold several slices, in which ways we cannot read yet.
-void check_is_one_slice(AttributeReader& in) {
+// Objects whose frames are no slices.
+void check_kind(AttributeReader& in) {
   const std::string sop_class = in.text(DCM_SOPClassUID);
-  const char* known = dcmFindNameOfUID(sop_class.c_str());
-  const std::string sop_name = known != nullptr ? known : "unknown SOP class " + sop_class;
-  if (is_enhanced(sop_class)) {
-    in.report(fmt::format("comes as enhanced multi-frame ({}), which is not read yet", sop_name));
-  }
-  if (const std::string frames = in.text(DCM_NumberOfFrames); !frames.empty()) {
-    const auto count = parse_integers(frames);
-    if (!count || count->size() != 1 || count->front() < 1) {
-      in.report(fmt::format("{} is '{}'", name_of(DCM_NumberOfFrames), frames.substr(0, 80)));
-    } else if (count->front() > 1) {
-      in.report(fmt::format("comes as multi-frame ({}, {} frames), which is not read yet", sop_name,
-                            count->front()));
-    }
+  if (sop_class == UID_SegmentationStorage) {
+    in.report("holds segments (SegmentationStorage), which are read as a result");
+  } else if (sop_class == UID_ParametricMapStorage) {
+    in.report("holds a parametric map (ParametricMapStorage), not an image");
   }
 }
 
@@ -123,8 +63,8 @@ void read_pixel_format(AttributeReader& in, SliceHeader& header) {
     in.report(fmt::format("{} is '{}', not MONOCHROME1 or MONOCHROME2",
                           name_of(DCM_PhotometricInterpretation), colours.substr(0, 80)));
   }
-  header.rows = in.whole(DCM_Rows, 1, 65535);
-  header.columns = in.whole(DCM_Columns, 1, 65535);
+  header.frame_rows = header.rows = in.whole(DCM_Rows, 1, 65535);
+  header.frame_columns = header.columns = in.whole(DCM_Columns, 1, 65535);
   header.bits_allocated = static_cast<int>(in.whole(DCM_BitsAllocated, 1, 64));
   if (const int bits = header.bits_allocated; bits != 0 && bits != 8 && bits != 16 && bits != 32) {
     in.report(fmt::format("{} is {}, not 8, 16 or 32", name_of(DCM_BitsAllocated), bits));
@@ -153,12 +93,11 @@ void read_values(AttributeReader& in, SliceHeader& header) {
   if (const auto slope = in.decimals(DCM_RescaleSlope, 1)) header.slope = slope->front();
   if (const auto intercept = in.decimals(DCM_RescaleIntercept, 1)) header.intercept = intercept->front();
   if (header.slope == 0.0) in.report(fmt::format("{} is 0", name_of(DCM_RescaleSlope)));
-  header.padding = in.whole_if_any(DCM_PixelPaddingValue);
+  header.padding = in.number(DCM_PixelPaddingValue);
   // A window that makes no sense is as good as none: it decides nothing.
   const auto centre = parse_decimals(in.text(DCM_WindowCenter));
   const auto width = parse_decimals(in.text(DCM_WindowWidth));
   if (centre && width && width->front() > 0.0) header.window = WindowLevel{centre->front(), width->front()};
-  header.is_mosaic = in.text(DCM_ImageType).find("MOSAIC") != std::string::npos;
   header.has_burned_in_text = in.text(DCM_BurnedInAnnotation) == "YES";
 }
 
@@ -209,12 +148,14 @@ SliceHeader header_without_image(const fs::path& file, const Preflight& checked)
   return header;
 }
 
-Result<SliceHeader> header_of(DcmFileFormat& loaded, const fs::path& file, const Preflight& checked) {
+// What the dataset itself says, about all its frames.
+Result<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file) {
   DcmDataset& dataset = *loaded.getDataset();
   SliceHeader header;
   header.file = file;
   AttributeReader in(dataset, header.problem);
   header.series_uid = in.text(DCM_SeriesInstanceUID);
+  header.sop_class_uid = in.text(DCM_SOPClassUID);
   header.sop_instance_uid = in.text(DCM_SOPInstanceUID);
   header.modality = in.text(DCM_Modality);
   header.description = in_utf8(in.text(DCM_SeriesDescription), in.text(DCM_SpecificCharacterSet));
@@ -229,15 +170,38 @@ Result<SliceHeader> header_of(DcmFileFormat& loaded, const fs::path& file, const
     if (auto image = require_image(loaded, header); !image) return pass_on(image);
     in.report(fmt::format("{} is missing", name_of(DCM_PixelData)));
   }
-  check_is_one_slice(in);
+  check_kind(in);
+  header.frames = read_number_of_frames(in);
   read_pixel_format(in, header);
   read_plane(in, header);
   read_values(in, header);
+  read_traits(in, header.traits);
   if (dynamic_cast<DcmPixelData*>(element) == nullptr) {
     in.report(fmt::format("{} is not pixel data", name_of(DCM_PixelData)));
   }
-  if (checked.verdict != Preflight::Verdict::good) in.report(describe(checked));
   return header;
+}
+
+// A header for each slice; one with the problem of the file where there is any.
+Result<std::vector<SliceHeader>> read_slices(DcmFileFormat& loaded, const fs::path& file,
+                                             const Preflight& checked) {
+  auto whole = read_whole(loaded, file);
+  if (!whole) return pass_on(whole);
+  std::vector<SliceHeader> slices;
+  DcmDataset& dataset = *loaded.getDataset();
+  if (!whole->problem.empty()) {
+    slices.push_back(std::move(*whole));
+  } else if (whole->frames == 1 && is_mosaic(dataset)) {
+    slices = read_tiles(dataset, *whole);
+  } else {
+    slices = read_frames(dataset, *whole);
+  }
+  std::string& problem = slices.front().problem;
+  if (checked.verdict != Preflight::Verdict::good && problem.empty()) {
+    problem = describe(checked);
+    slices.resize(1);
+  }
+  return slices;
 }
 
 // The transfer syntax is that of the preflight, so that both read the same tags.
@@ -261,33 +225,31 @@ Result<const TransferSyntax*> syntax_to_parse(const fs::path& file) {
   return checked->syntax;
 }
 
-Result<OpenedSlice> open_slice(const fs::path& file) {
-  const auto checked = preflight_of(file);
-  if (!checked) return tl::unexpected<Error>(checked.error());
-  if (!checked->may_be_parsed()) {
+Result<ImageFile> open_image(const fs::path& file) {
+  auto bytes = FileBytes::open(file);
+  if (!bytes) return pass_on(bytes);
+  if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
+  ImageFile image{{}, preflight_dicom(*bytes), std::move(*bytes)};
+  if (!image.checked.may_be_parsed()) {
     // A damaged file that still names its series makes that series incomplete: it must not go unnoticed.
-    OpenedSlice damaged{header_without_image(file, *checked), nullptr};
-    if (!checked->series_uid.empty()) return damaged;
-    return fail(ErrorKind::input, "{}: {}", file.string(), damaged.header.problem);
+    image.slices.push_back(header_without_image(file, image.checked));
+    if (!image.checked.series_uid.empty()) return image;
+    return fail(ErrorKind::input, "{}: {}", file.string(), image.slices.front().problem);
   }
-  auto loaded = std::make_unique<DcmFileFormat>();
-  if (const OFCondition parsed = parse(file, *checked->syntax, *loaded); parsed.bad()) {
+  DcmFileFormat loaded;
+  if (const OFCondition parsed = parse(file, *image.checked.syntax, loaded); parsed.bad()) {
     return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
   }
-  auto header = header_of(*loaded, file, *checked);
-  if (!header) return pass_on(header);
-  return OpenedSlice{std::move(*header), std::move(loaded)};
+  auto slices = read_slices(loaded, file, image.checked);
+  if (!slices) return pass_on(slices);
+  image.slices = std::move(*slices);
+  return image;
 }
 
-OpenedSlice::OpenedSlice(SliceHeader known, std::unique_ptr<DcmFileFormat> parsed)
-    : header(std::move(known)), loaded(std::move(parsed)) {}
-OpenedSlice::~OpenedSlice() = default;
-OpenedSlice::OpenedSlice(OpenedSlice&&) noexcept = default;
-
-Result<SliceHeader> read_slice_header(const fs::path& file) {
-  auto opened = open_slice(file);
-  if (!opened) return pass_on(opened);
-  return std::move(opened->header);
+Result<std::vector<SliceHeader>> read_slice_headers(const fs::path& file) {
+  auto image = open_image(file);
+  if (!image) return pass_on(image);
+  return std::move(image->slices);
 }
 
 }  // namespace tidemark

@@ -2,32 +2,27 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
+#include <vector>
 
 #include "core/result.h"
+#include "imaging/dicom/byte_source.h"
+#include "imaging/dicom/preflight.h"
 #include "imaging/dicom/slice_header.h"
-
-class DcmFileFormat;
 
 namespace tidemark {
 
-struct TransferSyntax;
-
-struct OpenedSlice {
-  OpenedSlice(SliceHeader known, std::unique_ptr<DcmFileFormat> parsed);
-  ~OpenedSlice();
-  OpenedSlice(OpenedSlice&&) noexcept;
-
-  SliceHeader header;
-  // As DCMTK parsed it, pixel data still on the disk; null when the preflight refused that, which is then the
-  // header's problem.
-  std::unique_ptr<DcmFileFormat> loaded;
+// An image file whose header is read; its pixels are still on the disk.
+struct ImageFile {
+  // Of each slice in it, by frame and tile; never empty. One alone with a problem when it cannot be used.
+  std::vector<SliceHeader> slices;
+  Preflight checked;
+  FileBytes bytes;
 };
 
-// Checks the file (preflight.h) and parses it. Fails (ErrorKind::input) when the file is not a DICOM image;
-// an image that cannot be a slice of a volume is returned with its problem.
-[[nodiscard]] Result<OpenedSlice> open_slice(const std::filesystem::path& file);
-[[nodiscard]] Result<SliceHeader> read_slice_header(const std::filesystem::path& file);
+// Checks the file (preflight.h) and reads its header. Fails (ErrorKind::input) when the file is not a DICOM
+// image; an image that cannot be slices of a volume is returned with its problem.
+[[nodiscard]] Result<ImageFile> open_image(const std::filesystem::path& file);
+[[nodiscard]] Result<std::vector<SliceHeader>> read_slice_headers(const std::filesystem::path& file);
 
 // For files of other kinds: the transfer syntax as which DCMTK may parse the file. Fails (ErrorKind::input)
 // when it is no DICOM file, or the preflight refuses it.

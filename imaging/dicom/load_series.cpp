@@ -12,7 +12,7 @@
 #include "core/checked.h"
 #include "core/thread_pool.h"
 #include "imaging/dicom/dicom.h"
-#include "imaging/dicom/pixels.h"
+#include "imaging/dicom/frame_plan.h"
 #include "imaging/dicom/resample_slices.h"
 #include "imaging/dicom/shared_progress.h"
 
@@ -60,7 +60,8 @@ class Outcome {
 template <class Voxel>
 class SeriesDecoder {
  public:
-  SeriesDecoder(const Series& series, const SliceHeader& first) : series_(series), first_(first) {}
+  SeriesDecoder(const Series& series, const SliceHeader& first, FramePlan& plan)
+      : series_(series), first_(first), plan_(plan) {}
 
   // Into `voxels`, which has the size of the whole volume.
   void decode(std::vector<Voxel>& voxels, const Progress& progress, Outcome& outcome) {
@@ -74,13 +75,14 @@ class SeriesDecoder {
  private:
   // Each slice of the volume is one image.
   void decode_slices(std::vector<Voxel>& voxels, const Progress& progress, Outcome& outcome) {
-    const auto count = static_cast<std::int64_t>(series_.files.size());
-    const std::int64_t slice_voxels = series_.geometry.size.x * series_.geometry.size.y;
+    const auto count = static_cast<std::int64_t>(plan_.work().size());
     SharedProgress shared(progress, count, "decoding slices");
+    const std::int64_t slice_voxels = series_.stack.size.x * series_.stack.size.y;
+    const auto place = [&](std::int64_t k) { return voxels.data() + k * slice_voxels; };
     ThreadPool pool;
     pool.for_each(count, 1, [&](std::int64_t begin, std::int64_t end, int) {
-      for (std::int64_t k = begin; k < end && !progress.cancelled() && !outcome.has_failed(); ++k) {
-        decode_one(k, voxels.data() + k * slice_voxels, outcome);
+      for (std::int64_t w = begin; w < end && !progress.cancelled() && !outcome.has_failed(); ++w) {
+        decode_frame(plan_.work()[static_cast<std::size_t>(w)], place, outcome);
         shared.advance();
       }
     });
@@ -89,9 +91,14 @@ class SeriesDecoder {
   // Slices of the volume are made of images as the series' grid says.
   void resample(std::vector<Voxel>& voxels, const Progress& progress, Outcome& outcome) {
     SharedProgress shared(progress, series_.geometry.size.z, "decoding slices");
+    std::vector<const FrameWork*> work_of(series_.sources.size());
+    for (const FrameWork& work : plan_.work()) {
+      for (const std::int64_t k : work.slices) work_of[static_cast<std::size_t>(k)] = &work;
+    }
     const auto decode = [&](std::int64_t k, Voxel* target) {
       if (progress.cancelled() || outcome.has_failed()) return false;
-      decode_one(k, target, outcome);
+      const auto place = [&](std::int64_t slice) { return slice == k ? target : nullptr; };
+      decode_frame(*work_of[static_cast<std::size_t>(k)], place, outcome);
       return !outcome.has_failed();
     };
     resample_slices<Voxel>(
@@ -111,48 +118,73 @@ class SeriesDecoder {
     }
   }
 
-  void decode_one(std::int64_t k, Voxel* target, Outcome& outcome) {
-    const auto& file = series_.files[static_cast<std::size_t>(k)];
-    auto slice = decode_slice(file);
-    if (!slice) return outcome.fail_with(std::move(slice.error()), k);
-    if (slice->ignored_bits) outcome.note_ignored_bits(k);
-    if (!fits(*slice)) {
-      return outcome.fail_with(
-          {ErrorKind::input, file.string() + ": is not what it was when its series was listed"}, k);
+  // Into place(k), for those of its slices k that have one.
+  template <class Place>
+  void decode_frame(const FrameWork& work, const Place& place, Outcome& outcome) {
+    const auto reader = plan_.open(work);
+    if (!reader) return outcome.fail_with(reader.error(), work.slices.front());
+    const auto pixels = (*reader)->decode(work.frame);
+    if (!pixels) return outcome.fail_with(pixels.error(), work.slices.front());
+    for (const std::int64_t k : work.slices) {
+      Voxel* target = place(k);
+      if (target == nullptr) continue;
+      if (pixels->ignored_bits) outcome.note_ignored_bits(k);
+      put_slice(**reader, *pixels, k, target, outcome);
     }
-    const double slope = slice->header.slope;
-    const double intercept = slice->header.intercept;
-    std::transform(slice->stored.begin(), slice->stored.end(), target, [&](std::int32_t stored) {
-      if constexpr (std::is_same_v<Voxel, float>) {
-        return static_cast<float>(slope * static_cast<double>(stored) + intercept);
-      } else {
-        return static_cast<Voxel>(stored);
-      }
-    });
+    plan_.is_done(work);
   }
 
-  // Whether the slice still is of the series' size and its values fit the voxel type.
-  bool fits(const SlicePixels& slice) const {
-    const SliceHeader& header = slice.header;
-    if (header.columns != series_.stack.size.x || header.rows != series_.stack.size.y) return false;
-    if constexpr (std::is_same_v<Voxel, float>) {
-      return true;
-    } else {
-      if (header.slope != first_.slope || header.intercept != first_.intercept) return false;
-      const auto [low, high] = std::minmax_element(slice.stored.begin(), slice.stored.end());
-      return *low >= std::numeric_limits<Voxel>::min() && *high <= std::numeric_limits<Voxel>::max();
+  void put_slice(const FrameReader& reader, const FramePixels& pixels, std::int64_t k, Voxel* target,
+                 Outcome& outcome) {
+    const SliceSource& source = series_.sources[static_cast<std::size_t>(k)];
+    const SliceHeader* header = reader.slice(source.frame, source.tile);
+    if (header == nullptr || !has_kind(*header)) {
+      return outcome.fail_with(
+          {ErrorKind::input, source.file.string() + ": is not what it was when its series was listed"}, k);
     }
+    const Index3 size = series_.stack.size;
+    const std::int64_t across = header->frame_columns / size.x;
+    const std::int64_t corner =
+        source.tile / across * size.y * header->frame_columns + source.tile % across * size.x;
+    bool fits = true;
+    for (std::int64_t j = 0; j < size.y; ++j) {
+      const auto row = pixels.stored.begin() + corner + j * header->frame_columns;
+      std::transform(row, row + size.x, target + j * size.x,
+                     [&](std::int32_t stored) { return voxel(stored, *header, fits); });
+    }
+    if (!fits) {
+      outcome.fail_with(
+          {ErrorKind::input, source.file.string() + ": holds values beyond what its header says"}, k);
+    }
+  }
+
+  static Voxel voxel(std::int32_t stored, const SliceHeader& header, bool& fits) {
+    if constexpr (std::is_same_v<Voxel, float>) {
+      return static_cast<float>(header.slope * static_cast<double>(stored) + header.intercept);
+    } else {
+      fits &= stored >= std::numeric_limits<Voxel>::min() && stored <= std::numeric_limits<Voxel>::max();
+      return static_cast<Voxel>(stored);
+    }
+  }
+
+  // Whether the slice still is as the series needs it.
+  [[nodiscard]] bool has_kind(const SliceHeader& header) const {
+    if (header.columns != series_.stack.size.x || header.rows != series_.stack.size.y) return false;
+    return std::is_same_v<Voxel, float> ||
+           (header.slope == first_.slope && header.intercept == first_.intercept);
   }
 
   const Series& series_;
   const SliceHeader& first_;
+  FramePlan& plan_;
 };
 
 template <class Voxel>
-Status decode_into(const Series& series, const SliceHeader& first, Volume& volume, const Progress& progress) {
+Status decode_into(const Series& series, const SliceHeader& first, FramePlan& plan, Volume& volume,
+                   const Progress& progress) {
   std::vector<Voxel> voxels(static_cast<std::size_t>(series.geometry.voxel_count()));
   Outcome outcome;
-  SeriesDecoder<Voxel>(series, first).decode(voxels, progress, outcome);
+  SeriesDecoder<Voxel>(series, first, plan).decode(voxels, progress, outcome);
   if (outcome.error()) return tl::unexpected(*outcome.error());
   if (progress.cancelled()) return cancelled_error();
   if (outcome.ignored_bits() > 0) {
@@ -163,6 +195,16 @@ Status decode_into(const Series& series, const SliceHeader& first, Volume& volum
   return {};
 }
 
+// The header of the first slice tells what all have in common.
+Result<SliceHeader> first_header(const Series& series, FramePlan& plan) {
+  const SliceSource& source = series.sources.front();
+  const auto reader = plan.open(plan.work().front());
+  if (!reader) return tl::unexpected<Error>(reader.error());
+  const SliceHeader* header = (*reader)->slice(source.frame, source.tile);
+  if (header != nullptr) return *header;
+  return fail(ErrorKind::input, "{}: is not what it was when its series was listed", source.file.string());
+}
+
 Result<Volume> load(const Series& series, const Progress& progress) {
   if (!series.loadable) {
     return fail(ErrorKind::input, "{}: the series cannot be loaded: {}", first_file(series), series.reason);
@@ -171,29 +213,29 @@ Result<Volume> load(const Series& series, const Progress& progress) {
   const auto count = checked_product(size.x, size.y, size.z);
   const auto& planned = series.grid.slices;
   if (!count || *count == 0 ||
-      size.z != static_cast<std::int64_t>(planned.empty() ? series.files.size() : planned.size())) {
-    return fail(ErrorKind::input, "{}: the series has {} files for {} slices", first_file(series),
-                series.files.size(), size.z);
+      size.z != static_cast<std::int64_t>(planned.empty() ? series.sources.size() : planned.size())) {
+    return fail(ErrorKind::input, "{}: the series has {} images for {} slices", first_file(series),
+                series.sources.size(), size.z);
   }
-  // The first slice tells what all have in common.
-  auto first = decode_slice(series.files.front());
-  if (!first) return pass_on(first);
+  FramePlan plan(series);
+  const auto first = first_header(series, plan);
+  if (!first) return tl::unexpected<Error>(first.error());
 
   Volume volume;
   volume.geometry = series.geometry;
   volume.modality = series.modality;
   volume.description = series.description;
-  volume.window = first->header.window;
+  volume.window = first->window;
   volume.changes = series.changes;
   volume.changes.insert(volume.changes.end(), series.warnings.begin(), series.warnings.end());
   if (series.scalar != "float") {
-    volume.slope = first->header.slope;
-    volume.intercept = first->header.intercept;
+    volume.slope = first->slope;
+    volume.intercept = first->intercept;
   }
   const Status decoded =
-      series.scalar == "int16"    ? decode_into<std::int16_t>(series, first->header, volume, progress)
-      : series.scalar == "uint16" ? decode_into<std::uint16_t>(series, first->header, volume, progress)
-                                  : decode_into<float>(series, first->header, volume, progress);
+      series.scalar == "int16"    ? decode_into<std::int16_t>(series, *first, plan, volume, progress)
+      : series.scalar == "uint16" ? decode_into<std::uint16_t>(series, *first, plan, volume, progress)
+                                  : decode_into<float>(series, *first, plan, volume, progress);
   if (!decoded) return tl::unexpected(decoded.error());
   return volume;
 }

@@ -17,9 +17,6 @@ constexpr DicomTag kBitsAllocated{0x0028, 0x0100};
 
 // An empty frame compresses well, but not better than this; beyond it the file claims more than it can hold.
 constexpr std::int64_t kLargestCompression = 4096;
-// A decoder keeps some kilobytes a tile: there may be one for every so many pixels, and a few more.
-constexpr std::int64_t kSmallestTile = 1024;
-constexpr std::int64_t kFewTiles = 64;
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kPadding(" \0", 2);
@@ -134,25 +131,9 @@ std::string PixelExtent::compressed_problem(std::int64_t file_size) const {
   if (const auto bytes = needed(); bytes && *bytes / kLargestCompression > file_size) {
     return fmt::format("cannot hold {} x {} pixels in a file of {} bytes", *columns_, *rows_, file_size);
   }
-  return frame_problem();
-}
-
-std::string PixelExtent::frame_problem() const {
-  const bool has_size = syntax_.frames != FrameCoding::rle;
-  if (!has_size || !rows_ || !columns_) return {};
-  const std::string_view what = syntax_.frames == FrameCoding::jpeg_2000 ? "JPEG 2000 stream" : "JPEG stream";
-  if (!frame_size_) return fmt::format("holds no {}", what);
-  if (frame_size_->columns != *columns_ || frame_size_->rows != *rows_) {
-    return fmt::format("holds a {} of {} x {}, not {} x {} pixels", what, frame_size_->columns,
-                       frame_size_->rows, *columns_, *rows_);
-  }
-  if (samples_ && frame_size_->components != *samples_) {
-    return fmt::format("holds a {} of {} components, not {}", what, frame_size_->components, *samples_);
-  }
-  if (frame_size_->tiles < 1 || frame_size_->tiles > kFewTiles + *rows_ * *columns_ / kSmallestTile) {
-    return fmt::format("holds a {} of {} tiles", what, frame_size_->tiles);
-  }
-  return {};
+  if (!rows_ || !columns_) return {};
+  const std::int64_t components = samples_.value_or(frame_size_ ? frame_size_->components : 1);
+  return frame_problem(syntax_.frames, frame_size_, {*columns_, *rows_, components});
 }
 
 std::string PixelExtent::problem(std::int64_t file_size) const {

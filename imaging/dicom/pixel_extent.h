@@ -32,7 +32,6 @@ class PixelExtent {
   static TableProblem check_table(ByteReader& reader, const Fragments& fragments);
   [[nodiscard]] std::string native_problem() const;
   [[nodiscard]] std::string compressed_problem(std::int64_t file_size) const;
-  [[nodiscard]] std::string frame_problem() const;
   // Bytes of all frames, decoded; nothing without all the fields, or when the product is too large.
   [[nodiscard]] std::optional<std::int64_t> needed() const;
 

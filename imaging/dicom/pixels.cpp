@@ -1,14 +1,12 @@
 #include "imaging/dicom/pixels.h"
 
-#include <dcmtk/config/osconfig.h>
-#include <dcmtk/dcmdata/dctk.h>
-
 #include <algorithm>
 #include <limits>
 
 #include "core/checked.h"
 #include "imaging/dicom/dicom_setup.h"
-#include "imaging/dicom/header_reader.h"
+#include "imaging/dicom/frame_codec.h"
+#include "imaging/dicom/frame_header.h"
 
 namespace tidemark {
 namespace {
@@ -45,85 +43,173 @@ class BitReader {
   bool ignored_ = false;
 };
 
-// 32-bit pixels as DCMTK keeps them: 16-bit words, each in the machine's order, in the file's order.
-std::uint32_t join(const Uint16* words, std::size_t pixel, bool high_word_first) {
-  const std::uint32_t a = words[2 * pixel];
-  const std::uint32_t b = words[2 * pixel + 1];
-  return high_word_first ? a << 16 | b : b << 16 | a;
+// `word(p)` gives the word of pixel p.
+template <class Word>
+FramePixels take_stored(const SliceHeader& header, const Word& word) {
+  FramePixels pixels;
+  pixels.stored.resize(static_cast<std::size_t>(header.frame_rows * header.frame_columns));
+  BitReader read(header);
+  for (std::size_t p = 0; p < pixels.stored.size(); ++p) pixels.stored[p] = read(word(p));
+  pixels.ignored_bits = read.ignored();
+  return pixels;
 }
 
-OFCondition read_words(DcmElement& element, bool high_word_first, SlicePixels& slice) {
-  BitReader read(slice.header);
-  auto& stored = slice.stored;
-  if (slice.header.bits_allocated == 8) {
-    Uint8* bytes = nullptr;
-    if (const OFCondition got = element.getUint8Array(bytes); got.bad()) return got;
-    if (bytes == nullptr) return EC_CorruptedData;
-    for (std::size_t p = 0; p < stored.size(); ++p) stored[p] = read(bytes[p]);
-  } else {
-    Uint16* words = nullptr;
-    if (const OFCondition got = element.getUint16Array(words); got.bad()) return got;
-    if (words == nullptr) return EC_CorruptedData;
-    const bool wide = slice.header.bits_allocated == 32;
-    for (std::size_t p = 0; p < stored.size(); ++p) {
-      stored[p] = read(wide ? join(words, p, high_word_first) : words[p]);
-    }
+class HeldBytes : public ByteSource {
+ public:
+  explicit HeldBytes(std::vector<std::uint8_t> bytes) : held_(std::move(bytes)), view_(held_) {}
+  [[nodiscard]] std::int64_t size() const override { return view_.size(); }
+  std::size_t read(std::int64_t offset, std::span<std::uint8_t> room) override {
+    return view_.read(offset, room);
   }
-  slice.ignored_bits = read.ignored();
-  return EC_Normal;
+
+ private:
+  std::vector<std::uint8_t> held_;
+  MemoryBytes view_;
+};
+
+std::int64_t bytes_of_frame(const SliceHeader& header) {
+  return header.frame_rows * header.frame_columns * (header.bits_allocated / 8);
 }
 
-Result<SlicePixels> decode(const fs::path& file) {
-  auto opened = open_slice(file);
-  if (!opened) return pass_on(opened);
-  SliceHeader& header = opened->header;
-  if (!header.problem.empty()) return fail(ErrorKind::input, "{}: {}", file.string(), header.problem);
-
-  DcmDataset& dataset = *opened->loaded->getDataset();
-  const DcmXfer original(dataset.getOriginalXfer());
-  if (original.isEncapsulated()) {
-    const OFCondition decoded = dataset.chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
-    if (decoded.bad()) {
-      return fail(ErrorKind::input, "{}: PixelData (7FE0,0010) cannot be decoded ({}): {}", file.string(),
-                  original.getXferName(), decoded.text());
-    }
-  }
-  DcmElement* element = nullptr;
-  if (dataset.findAndGetElement(DCM_PixelData, element).bad() || element == nullptr) {
-    return fail(ErrorKind::input, "{}: PixelData (7FE0,0010) is missing", file.string());
-  }
-  const auto pixels = checked_product(header.rows, header.columns);
-  const auto bytes = checked_product(header.rows, header.columns, header.bits_allocated / 8);
-  const std::int64_t held = element->getLength();
-  if (!pixels || !bytes || (held != *bytes && held != *bytes + *bytes % 2)) {
-    return fail(ErrorKind::input,
-                "{}: PixelData (7FE0,0010) decodes to {} bytes where {} x {} pixels need {}", file.string(),
-                held, header.columns, header.rows, bytes.value_or(0));
-  }
-  SlicePixels slice{std::move(header), std::vector<std::int32_t>(static_cast<std::size_t>(*pixels)), false};
-  const bool high_word_first = original.getXfer() == EXS_BigEndianExplicit;
-  if (const OFCondition read = read_words(*element, high_word_first, slice); read.bad()) {
-    return fail(ErrorKind::input, "{}: PixelData (7FE0,0010) cannot be read: {}", file.string(), read.text());
-  }
-  const bool may_wrap = slice.header.bits_stored == 32 && !slice.header.is_signed;
-  if (may_wrap && *std::min_element(slice.stored.begin(), slice.stored.end()) < 0) {
-    return fail(ErrorKind::input, "{}: PixelData (7FE0,0010) holds values above {}", file.string(),
-                std::numeric_limits<std::int32_t>::max());
-  }
-  return slice;
-}
-
-}  // namespace
-
-Result<SlicePixels> decode_slice(const fs::path& file) {
+template <class Work>
+auto guarded(const fs::path& file, const Work& work) -> decltype(work()) {
   try {
-    if (auto ready = set_up_dicom(); !ready) return pass_on(ready);
-    return decode(file);
+    return work();
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::capability, "{}: there is not enough memory", file.string());
   } catch (const std::exception& error) {
     return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(), error.what());
   }
+}
+
+}  // namespace
+
+const SliceHeader* FrameReader::slice(std::int64_t frame, std::int64_t tile) const {
+  const auto index = static_cast<std::size_t>(frame * slices_.front().tiles + tile);
+  if (frame < 0 || tile < 0 || tile >= slices_.front().tiles || index >= slices_.size()) return nullptr;
+  return &slices_[index];
+}
+
+// What messages begin with.
+std::string FrameReader::where(std::int64_t frame) const {
+  const std::string file = slices_.front().file.string();
+  if (frames() == 1) return file + ": PixelData (7FE0,0010)";
+  return fmt::format("{}: PixelData (7FE0,0010), frame {},", file, frame + 1);
+}
+
+// A deflated dataset can be read forward only; what it inflates to is kept.
+Status FrameReader::inflate(const Preflight& checked) {
+  const auto size = InflatedBytes::measure(*bytes_, checked.dataset, kLargestInflation);
+  if (!size) return fail(ErrorKind::input, "{}: {}", slices_.front().file.string(), size.error().message);
+  std::vector<std::uint8_t> held(static_cast<std::size_t>(*size));
+  InflatedBytes inflated(*bytes_, checked.dataset, *size);
+  held.resize(inflated.read(0, held));
+  bytes_ = std::make_unique<HeldBytes>(std::move(held));
+  return {};
+}
+
+Status FrameReader::find_frames(ImageFile image) {
+  slices_ = std::move(image.slices);
+  syntax_ = image.checked.syntax;
+  bytes_ = std::make_unique<FileBytes>(std::move(image.bytes));
+  if (const SliceHeader& first = slices_.front(); !first.problem.empty()) {
+    return fail(ErrorKind::input, "{}: {}", first.file.string(), first.problem);
+  }
+  if (!image.checked.pixels) {
+    return fail(ErrorKind::input, "{}: PixelData (7FE0,0010) is missing", slices_.front().file.string());
+  }
+  pixels_ = *image.checked.pixels;
+  if (syntax_->is_deflated) return inflate(image.checked);
+  if (!image.checked.fragments) return {};
+  auto table = FrameTable::read(*image.checked.fragments, syntax_->frames, *bytes_, frames());
+  if (!table) {
+    return fail(ErrorKind::input, "{}: PixelData (7FE0,0010) {}", slices_.front().file.string(),
+                table.error());
+  }
+  table_ = std::move(*table);
+  return {};
+}
+
+Result<FrameReader> FrameReader::open(const fs::path& file) {
+  return guarded(file, [&]() -> Result<FrameReader> {
+    if (auto ready = set_up_dicom(); !ready) return pass_on(ready);
+    auto image = open_image(file);
+    if (!image) return pass_on(image);
+    FrameReader reader;
+    if (auto found = reader.find_frames(std::move(*image)); !found) return pass_on(found);
+    return reader;
+  });
+}
+
+// Straight from the file. Words are in the byte order of the transfer syntax, unless the pixels are said to
+// be bytes (OB); 8-bit pixels in words of 16 bits lie two to a word, the first in its low byte.
+Result<FramePixels> FrameReader::decode_native(std::int64_t frame) const {
+  const SliceHeader& header = slices_.front();
+  const std::int64_t size = bytes_of_frame(header);
+  const bool is_big_endian = syntax_->is_big_endian && !pixels_.is("OB");
+  const bool are_swapped = is_big_endian && header.bits_allocated == 8;
+  const std::int64_t begin = frame * size;
+  const std::int64_t first = are_swapped ? begin / 2 * 2 : begin;
+  const std::int64_t end = are_swapped ? (begin + size + 1) / 2 * 2 : begin + size;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(end - first));
+  if (end > pixels_.length || bytes_->read(pixels_.value + first, bytes) != bytes.size()) {
+    return fail(ErrorKind::input, "{} ends early", where(frame));
+  }
+  const ElementCoding coding{true, is_big_endian};
+  if (header.bits_allocated == 16) {
+    return take_stored(header, [&](std::size_t p) { return coding.word(&bytes[2 * p]); });
+  }
+  if (header.bits_allocated == 32) {
+    return take_stored(header, [&](std::size_t p) { return coding.long_word(&bytes[4 * p]); });
+  }
+  const auto skipped = static_cast<std::size_t>(begin - first);
+  const std::size_t swap = are_swapped ? 1 : 0;
+  return take_stored(header, [&](std::size_t p) { return bytes[(p + skipped) ^ swap]; });
+}
+
+Result<FramePixels> FrameReader::decode_compressed(std::int64_t frame) const {
+  const SliceHeader& header = slices_.front();
+  std::vector<std::vector<std::uint8_t>> fragments;
+  for (const FramePiece& piece : table_.frame(frame)) {
+    auto& fragment = fragments.emplace_back(static_cast<std::size_t>(piece.length));
+    if (bytes_->read(piece.offset, fragment) != fragment.size()) {
+      return fail(ErrorKind::input, "{} ends early", where(frame));
+    }
+  }
+  MemoryBytes first(fragments.front());
+  ByteReader reader(first);
+  const auto size = read_frame_size(syntax_->frames, reader, 0, first.size());
+  const std::string problem =
+      frame_problem(syntax_->frames, size, {header.frame_columns, header.frame_rows, 1});
+  if (!problem.empty()) return fail(ErrorKind::input, "{} {}", where(frame), problem);
+  const auto words = decode_fragments(fragments, *syntax_, header);
+  if (!words) return fail(ErrorKind::input, "{} {}", where(frame), words.error());
+  return take_stored(header, [&](std::size_t p) { return (*words)[p]; });
+}
+
+Result<FramePixels> FrameReader::decode(std::int64_t frame) const {
+  return guarded(slices_.front().file, [&]() -> Result<FramePixels> {
+    if (frame < 0 || frame >= frames()) {
+      return fail(ErrorKind::input, "{}: has no frame {}", slices_.front().file.string(), frame + 1);
+    }
+    auto pixels = syntax_->is_encapsulated() ? decode_compressed(frame) : decode_native(frame);
+    if (!pixels) return pixels;
+    const SliceHeader& header = slices_.front();
+    const bool may_wrap = header.bits_stored == 32 && !header.is_signed;
+    if (may_wrap && *std::min_element(pixels->stored.begin(), pixels->stored.end()) < 0) {
+      return fail(ErrorKind::input, "{} holds values above {}", where(frame),
+                  std::numeric_limits<std::int32_t>::max());
+    }
+    return pixels;
+  });
+}
+
+Result<DecodedFrame> decode_frame(const fs::path& file, std::int64_t frame) {
+  auto reader = FrameReader::open(file);
+  if (!reader) return pass_on(reader);
+  auto pixels = reader->decode(frame);
+  if (!pixels) return pass_on(pixels);
+  return DecodedFrame{*reader->slice(frame, 0), std::move(*pixels)};
 }
 
 }  // namespace tidemark

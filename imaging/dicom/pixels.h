@@ -1,24 +1,61 @@
-// The values of one DICOM image.
+// The values of the frames of one DICOM file.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "core/result.h"
-#include "imaging/dicom/slice_header.h"
+#include "imaging/dicom/frame_table.h"
+#include "imaging/dicom/header_reader.h"
 
 namespace tidemark {
 
-struct SlicePixels {
-  SliceHeader header;
+struct FramePixels {
   std::vector<std::int32_t> stored;  // before rescale, i (along a row) fastest
   bool ignored_bits = false;         // bits outside BitsStored were set and have been cleared
 };
 
-// Loads and decodes the file. Values are taken from the bits that HighBit and BitsStored name and
-// sign-extended by PixelRepresentation (DICOM PS3.5 8.1.1). Fails (ErrorKind::input), naming the file, when
-// the header has a problem, or when the pixel data is damaged or not as long as the header says.
-[[nodiscard]] Result<SlicePixels> decode_slice(const std::filesystem::path& file);
+// A file whose header has been read, for as many of its frames as are wanted, each by itself: of a file of
+// many frames never more than one a thread is in memory. Only what a deflated file inflates to is kept.
+class FrameReader {
+ public:
+  // Fails (ErrorKind::input), naming the file, when the header has a problem, or when the file does not say
+  // where its frames are.
+  static Result<FrameReader> open(const std::filesystem::path& file);
+
+  // Of each frame, or of each of its tiles.
+  [[nodiscard]] const std::vector<SliceHeader>& slices() const { return slices_; }
+  // Null when the file has no such slice.
+  [[nodiscard]] const SliceHeader* slice(std::int64_t frame, std::int64_t tile) const;
+  [[nodiscard]] std::int64_t frames() const { return slices_.front().frames; }
+
+  // Values are taken from the bits that HighBit and BitsStored name and sign-extended by PixelRepresentation
+  // (DICOM PS3.5 8.1.1). Fails (ErrorKind::input), naming the file, when the pixel data is damaged or not as
+  // long as the header says. Several threads may decode at the same time.
+  [[nodiscard]] Result<FramePixels> decode(std::int64_t frame) const;
+
+ private:
+  FrameReader() = default;
+  Status find_frames(ImageFile image);
+  Status inflate(const Preflight& checked);
+  Result<FramePixels> decode_native(std::int64_t frame) const;
+  Result<FramePixels> decode_compressed(std::int64_t frame) const;
+  [[nodiscard]] std::string where(std::int64_t frame) const;
+
+  std::vector<SliceHeader> slices_;
+  std::unique_ptr<ByteSource> bytes_;
+  const TransferSyntax* syntax_ = nullptr;
+  ElementHeader pixels_;
+  FrameTable table_;
+};
+
+// One frame of a file, and the header of (the first tile of) it. Fails as the functions above do.
+struct DecodedFrame {
+  SliceHeader header;
+  FramePixels pixels;
+};
+[[nodiscard]] Result<DecodedFrame> decode_frame(const std::filesystem::path& file, std::int64_t frame = 0);
 
 }  // namespace tidemark

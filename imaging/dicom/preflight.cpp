@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::int64_t kMiB = std::int64_t{1} << 20;
 constexpr std::int64_t kPreamble = 132;
-constexpr std::int64_t kLargestInflation = 64 * kMiB;
 
 constexpr DicomTag kTransferSyntax{0x0002, 0x0010};
 constexpr DicomTag kSeriesInstanceUid{0x0020, 0x000e};
@@ -114,6 +113,7 @@ class Check {
   }
 
   void read_dataset(std::int64_t begin) {
+    result_.dataset = begin;
     if (!result_.syntax->is_deflated) return walk_dataset(bytes_, begin);
     const auto size = InflatedBytes::measure(bytes_, begin, kLargestInflation);
     if (!size) return conclude(Preflight::Verdict::damaged, {{}, begin, size.error().message});
@@ -132,6 +132,10 @@ class Check {
                               result_.series_uid = uid_of(header, reader);
                             }
                             extent.note(header, reader, fragments);
+                            if (header.tag == PixelExtent::kPixelData && !result_.pixels) {
+                              result_.pixels = header;
+                              if (fragments != nullptr) result_.fragments = *fragments;
+                            }
                           });
     if (!walked) {
       conclude(Preflight::Verdict::damaged, walked.error());

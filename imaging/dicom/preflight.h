@@ -9,6 +9,8 @@
 // 128 KiB, where 2,000 end one of 1 MiB.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "imaging/dicom/tag_walk.h"
@@ -30,11 +32,19 @@ struct Preflight {
   const TransferSyntax* syntax = nullptr;
   // SeriesInstanceUID (0020,000E), also of a damaged file if the damage comes after it; else empty.
   std::string series_uid;
+  // Where PixelData is, in the dataset's bytes: the file's, or those that a deflated one inflates to from
+  // `dataset` on. Nothing without PixelData.
+  std::optional<ElementHeader> pixels;
+  std::optional<Fragments> fragments;  // of compressed pixels
+  std::int64_t dataset = 0;
 
   [[nodiscard]] bool may_be_parsed() const {
     return verdict == Verdict::good || verdict == Verdict::bad_pixels;
   }
 };
+
+// Beyond what a deflated dataset may not inflate.
+inline constexpr std::int64_t kLargestInflation = std::int64_t{64} << 20;
 
 [[nodiscard]] Preflight preflight_dicom(ByteSource& bytes);
 

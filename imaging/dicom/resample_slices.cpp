@@ -11,6 +11,9 @@
 namespace tidemark {
 namespace {
 
+// Each thread keeps two slices: all of them together a quarter of the volume at most.
+constexpr std::int64_t kSlicesPerThread = 8;
+
 // Where a slice's pixels lie along one axis of the grid. Its outermost pixels are half a voxel wider than
 // their centres.
 struct Extent {
@@ -188,7 +191,8 @@ Voxel SliceMixer<Voxel>::smallest() const {
 template <class Voxel>
 bool resample_slices(const SliceResampling<Voxel>& work, std::vector<Voxel>& voxels) {
   const auto count = static_cast<std::int64_t>(work.plan.slices.size());
-  ThreadPool pool;
+  ThreadPool pool(
+      static_cast<int>(std::clamp<std::int64_t>(count / kSlicesPerThread, 1, available_processors())));
   SliceMixer<Voxel> mixer(work, voxels, pool.threads());
   std::atomic<bool> good{true};
   pool.for_each(count, 1, [&](std::int64_t begin, std::int64_t end, int thread) {

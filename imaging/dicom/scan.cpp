@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <new>
 #include <optional>
 #include <system_error>
@@ -41,16 +43,16 @@ struct Headers {
       damaged;  // skipped too; look like DICOM, but nothing says to which series they belong
 };
 
-Result<SliceHeader> read_safely(const fs::path& file) {
+Result<std::vector<SliceHeader>> read_safely(const fs::path& file) {
   try {
-    return read_slice_header(file);
+    return read_slice_headers(file);
   } catch (const std::exception& error) {
     return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(), error.what());
   }
 }
 
 Result<Headers> read_headers(const std::vector<fs::path>& files, const Progress& progress) {
-  std::vector<std::optional<Result<SliceHeader>>> read(files.size());
+  std::vector<std::optional<Result<std::vector<SliceHeader>>>> read(files.size());
   SharedProgress shared(progress, static_cast<std::int64_t>(files.size()), "reading headers");
   ThreadPool pool;
   pool.for_each(static_cast<std::int64_t>(files.size()), 4, [&](std::int64_t begin, std::int64_t end, int) {
@@ -64,9 +66,9 @@ Result<Headers> read_headers(const std::vector<fs::path>& files, const Progress&
 
   Headers headers;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    Result<SliceHeader>& result = *read[i];
+    Result<std::vector<SliceHeader>>& result = *read[i];
     if (result) {
-      headers.slices.push_back(std::move(*result));
+      std::move(result->begin(), result->end(), std::back_inserter(headers.slices));
       continue;
     }
     // The reason without the file's name, which stands beside it.
@@ -113,7 +115,7 @@ Result<Catalogue> scan_file(const fs::path& file, const Progress& progress) {
   const auto chosen = read_safely(file);
   if (!chosen) return tl::unexpected(chosen.error());
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  SliceHeader placed = *chosen;
+  SliceHeader placed = chosen->front();
   placed.file = folder / file.filename();  // as the listing names it
   const std::string key = series_key(placed);
   const auto files = list_files(folder, false, progress);
@@ -124,13 +126,20 @@ Result<Catalogue> scan_file(const fs::path& file, const Progress& progress) {
   if (headers->slices.empty()) return fail(ErrorKind::input, "{}: cannot be read", file.string());
 
   Catalogue catalogue;
-  Series series = arrange_series(std::move(headers->slices));
-  if (series.files.size() > 1) {
+  catalogue.series = group_series(std::move(headers->slices));
+  // Of several volumes in one series those that the file is part of.
+  const auto has_file = [&](const Series& series) {
+    return std::find(series.files.begin(), series.files.end(), placed.file) != series.files.end();
+  };
+  if (std::any_of(catalogue.series.begin(), catalogue.series.end(), has_file)) {
+    std::erase_if(catalogue.series, std::not_fn(has_file));
+  }
+  for (Series& series : catalogue.series) {
+    if (series.files.size() < 2) continue;
     series.changes.push_back(
         fmt::format("{} is one of {} images of its series in this folder; all of them are read",
                     file.filename().string(), series.files.size()));
   }
-  catalogue.series.push_back(std::move(series));
   warn_of_damage(catalogue.series, headers->damaged);
   return catalogue;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <set>
 
 namespace tidemark {
 namespace {
@@ -20,9 +21,14 @@ constexpr double kOrthonormality = 1e-3;
 constexpr double kLargestSpacing = 1000.0;
 constexpr double kSmallestSpacing = 1e-5;
 constexpr double kLargestPosition = 1e6;
+// Images of more kinds than these are not counted kind by kind.
+constexpr std::size_t kMostKinds = 256;
 
 std::string name(const SliceHeader& slice) {
-  return slice.file.filename().string();
+  const std::string file = slice.file.filename().string();
+  if (!slice.problem.empty()) return file;
+  if (slice.tiles > 1) return fmt::format("{} (tile {})", file, slice.tile + 1);
+  return slice.frames > 1 ? fmt::format("{} (frame {})", file, slice.frame + 1) : file;
 }
 
 // "a.dcm", "a.dcm and b.dcm" or "a.dcm, b.dcm and 7 more".
@@ -47,13 +53,6 @@ Reason check_problems(const Slices& slices) {
   const std::string first = fmt::format("{}: {}", name(*bad[0]), bad[0]->problem);
   if (bad.size() == 1) return first;
   return fmt::format("{} ({} of {} files cannot be used)", first, bad.size(), slices.size());
-}
-
-Reason check_mosaic(const Slices& slices) {
-  const auto mosaics = all_that(slices, [](const SliceHeader& s) { return s.is_mosaic; });
-  if (mosaics.empty()) return std::nullopt;
-  return fmt::format("{}: Siemens mosaic (many slices tiled into one image), which is not read yet",
-                     names(mosaics));
 }
 
 Reason check_has_geometry(const Slices& slices) {
@@ -117,6 +116,7 @@ Reason check_alike(const Slices& slices, const char* what, const Same& same) {
   for (const SliceHeader& slice : slices) {
     const auto known =
         std::find_if(kinds.begin(), kinds.end(), [&](auto* kind) { return same(*kind, slice); });
+    if (kinds.size() > kMostKinds) return fmt::format("{} differs from image to image", what);
     counts.resize(kinds.size() + 1);
     ++counts[static_cast<std::size_t>(known - kinds.begin())];
     if (known == kinds.end()) kinds.push_back(&slice);
@@ -174,14 +174,14 @@ Reason check_distinct(const Slices& slices, const std::vector<double>& positions
       fmt::format("{} and {}", name(slices[first_repeat - 1]), name(slices[first_repeat]));
   // A file and its copy; otherwise images that were taken at one place.
   const std::string& uid = slices[first_repeat].sop_instance_uid;
-  if (!uid.empty() && uid == slices[first_repeat - 1].sop_instance_uid) {
+  const bool is_other_file = slices[first_repeat].file != slices[first_repeat - 1].file;
+  if (is_other_file && !uid.empty() && uid == slices[first_repeat - 1].sop_instance_uid) {
     return fmt::format("{} are the same image (SOPInstanceUID {})", pair, uid);
   }
   const bool regular = std::all_of(counts.begin(), counts.end(), [&](auto c) { return c == counts[0]; });
   if (regular && counts.size() > 1) {
     return fmt::format(
-        "holds {} images at each of {} positions (for example {}): several volumes in one series are not "
-        "read yet",
+        "holds {} images at each of {} positions (for example {}), and no attribute tells its volumes apart",
         counts[0], counts.size(), pair);
   }
   return fmt::format("{} lie at the same position", pair);
@@ -203,7 +203,6 @@ ImageStack stack_of(const Slices& slices, const glm::dmat3& axes) {
 // Checks that need no order.
 Reason check_unsorted(const Slices& slices) {
   if (auto r = check_problems(slices)) return r;
-  if (auto r = check_mosaic(slices)) return r;
   if (slices.size() < 2) {
     return fmt::format("{} is a single image: a volume needs at least two slices", name(slices[0]));
   }
@@ -254,14 +253,14 @@ void describe(const Slices& slices, Series& series) {
   series.uid = first.series_uid;
   if (series.uid.empty()) {
     series.uid = std::filesystem::absolute(first.file).lexically_normal().parent_path().filename().string();
-    if (series.uid.empty()) series.uid = name(first);
+    if (series.uid.empty()) series.uid = first.file.filename().string();
     series.changes.emplace_back(
         "the images name no series (SeriesInstanceUID is empty); those of one folder are taken together");
   }
   series.modality = first.modality;
   series.date = first.date;
   series.patient = first.patient;
-  series.description = first.description.empty() ? name(first) : first.description;
+  series.description = first.description.empty() ? first.file.filename().string() : first.description;
   for (const SliceHeader& slice : slices) {
     auto& known = series.transfer_syntaxes;
     if (std::find(known.begin(), known.end(), slice.transfer_syntax) == known.end()) {
@@ -285,7 +284,11 @@ Series arrange_series(std::vector<SliceHeader> slices) {
   Series series;
   describe(slices, series);
   const auto finish = [&] {
-    for (const SliceHeader& slice : slices) series.files.push_back(slice.file);
+    std::set<std::filesystem::path> known;
+    for (const SliceHeader& slice : slices) {
+      series.sources.push_back({slice.file, slice.frame, slice.tile});
+      if (known.insert(slice.file).second) series.files.push_back(slice.file);
+    }
   };
   if (auto reason = check_unsorted(slices)) {
     series.reason = *reason;

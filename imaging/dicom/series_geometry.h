@@ -23,8 +23,9 @@ void set_grid(Series& series, const GridPolicy& policy);
 // when they lie in one folder and have the same modality and description.
 [[nodiscard]] std::string series_key(const SliceHeader& slice);
 
-// Splits images into series by their key. Copies of one series in several folders (the same
-// SOP Instance UIDs again) become one series a folder.
+// Splits images into series by their key, and series into the volumes that they hold (split_series.h), whose
+// UIDs get a number: "1.2.3#2". Copies of one series in several folders (the same SOP Instance UIDs again)
+// become one series a folder.
 [[nodiscard]] std::vector<Series> group_series(std::vector<SliceHeader> slices);
 
 }  // namespace tidemark

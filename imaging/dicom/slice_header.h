@@ -1,4 +1,5 @@
-// What one classic DICOM image says about itself, without any DCMTK type.
+// What a DICOM image says about one slice in it, without any DCMTK type: about a classic image, a frame of an
+// image of several frames, or a tile of a mosaic.
 #pragma once
 
 #include <array>
@@ -14,12 +15,34 @@
 
 namespace tidemark {
 
+// What may tell the volumes of one series apart. Nothing where the file does not say it.
+struct SliceTraits {
+  std::optional<double> series_number;      // (0020,0011), which should be the same in a series
+  std::string stack;                        // (0020,9056)
+  std::string image_type;                   // (0008,0008) or (0008,9007), and (0008,9208)
+  std::optional<double> echo_number;        // (0018,0086)
+  std::optional<double> echo_time_ms;       // (0018,0081) or (0018,9082)
+  std::optional<double> b_value;            // (0018,9087), or the vendor's own
+  std::optional<glm::dvec3> gradient;       // (0018,9089), or the vendor's own
+  std::optional<double> temporal_position;  // (0020,0100) or (0020,9128)
+  std::optional<double> trigger_time_ms;    // (0018,1060) or (0020,9153)
+  std::optional<double> acquisition;        // (0020,0012) or (0020,9156)
+  std::optional<double> acquired_at;        // date and time as a number, YYYYMMDDHHMMSS.F
+  std::optional<double> made_at;            // of the content, likewise
+  std::optional<double> instance;           // (0020,0013)
+};
+
 struct SliceHeader {
   std::filesystem::path file;
+  std::int64_t frame = 0;   // from 0
+  std::int64_t frames = 1;  // of the file
+  std::int64_t tile = 0;    // from 0
+  std::int64_t tiles = 1;   // of the frame
   // Why the image cannot be a slice of a volume, one line without the file's name; empty when it can.
   std::string problem;
 
   std::string series_uid;        // (0020,000E)
+  std::string sop_class_uid;     // (0008,0016)
   std::string sop_instance_uid;  // (0008,0018)
   std::string modality;          // (0008,0060)
   std::string description;       // (0008,103E), UTF-8
@@ -27,9 +50,11 @@ struct SliceHeader {
   Patient patient;
   std::string transfer_syntax;  // UID
 
-  std::int64_t rows = 0;     // (0028,0010)
-  std::int64_t columns = 0;  // (0028,0011)
-  int bits_allocated = 0;    // 8, 16 or 32
+  std::int64_t rows = 0;           // of the slice
+  std::int64_t columns = 0;        // of the slice
+  std::int64_t frame_rows = 0;     // (0028,0010)
+  std::int64_t frame_columns = 0;  // (0028,0011)
+  int bits_allocated = 0;          // 8, 16 or 32
   int bits_stored = 0;
   int high_bit = 0;
   bool is_signed = false;
@@ -43,10 +68,11 @@ struct SliceHeader {
   std::optional<double> padding;      // (0028,0120): the stored value where nothing was measured
   std::optional<WindowLevel> window;  // (0028,1050) and (0028,1051), first values
 
-  bool is_mosaic = false;       // Siemens: many slices tiled into one image
   bool is_monochrome1 = false;  // small values are white
   bool is_lossy = false;        // was compressed with loss at some time
   bool has_burned_in_text = false;
+
+  SliceTraits traits;
 };
 
 }  // namespace tidemark

@@ -1,4 +1,5 @@
-// A DICOM file, as the loader takes it: preflight, DCMTK, header, pixels.
+// A DICOM file, as the loader takes it: preflight, DCMTK, headers of its slices, pixels of its first frames.
+#include <algorithm>
 #include <cstdlib>
 
 #include "imaging/dicom/pixels.h"
@@ -6,16 +7,21 @@
 
 // DCMTK reads its data dictionary once, which takes longer than an input may.
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  static_cast<void>(tidemark::decode_slice({}));
+  static_cast<void>(tidemark::decode_frame({}));
   return 0;
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
   static tidemark::fuzz::ScratchFile scratch;
-  const auto slice = tidemark::decode_slice(scratch.write("slice.dcm", bytes, count));
-  if (slice &&
-      static_cast<std::int64_t>(slice->stored.size()) != slice->header.rows * slice->header.columns) {
-    std::abort();
+  const auto image = tidemark::FrameReader::open(scratch.write("slice.dcm", bytes, count));
+  if (!image) return 0;
+  constexpr std::int64_t kFrames = 4;
+  for (std::int64_t f = 0; f < std::min(kFrames, image->frames()); ++f) {
+    const auto pixels = image->decode(f);
+    const auto* header = image->slice(f, 0);
+    if (header == nullptr) std::abort();
+    const std::int64_t area = header->frame_rows * header->frame_columns;
+    if (pixels && static_cast<std::int64_t>(pixels->stored.size()) != area) std::abort();
   }
   return 0;
 }

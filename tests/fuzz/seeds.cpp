@@ -11,7 +11,7 @@
 #include "imaging/files/volume_file.h"
 #include "renderer/transfer_function.h"
 #include "study/session_file.h"
-#include "tests/imaging/dicom/dicom_bytes.h"
+#include "tests/imaging/dicom/frame_bytes.h"
 #include "tests/imaging/dicom/recode.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/files/volumes.h"
@@ -60,6 +60,16 @@ void write_plain_dicom() {
     write_dicom("nested-implicit" + name,
                 file(Dataset::slice(kImplicit).put(kSequence, nested(70, "SQ", kImplicit, has_lengths))));
   }
+}
+
+void write_dicom_of_several_slices() {
+  using namespace tidemark::test;
+  write_dicom("enhanced", file(enhanced(3)));
+  write_dicom("mosaic", file(mosaic(csa_of_mosaic())));
+  const std::string frame = std::string(64, '\0');
+  const std::string pixels = element(kPixels, "OB", item("") + item(frame) + item(frame) + sequence_end(),
+                                     kExplicit, kUndefinedLength);
+  write_dicom("enhanced-fragments", file("1.2.840.10008.1.2.5", enhanced(2).put(kPixels, pixels).bytes()));
 }
 
 // The first fragment of a file's pixels.
@@ -191,6 +201,7 @@ int main(int argc, char** argv) {
   }
   corpus = argv[1];
   write_plain_dicom();
+  write_dicom_of_several_slices();
   write_compressed_dicom();
   write_volumes();
   write_studies();

@@ -39,7 +39,7 @@ void verify_refused() {
 
   QElapsedTimer timer;
   timer.start();
-  const auto slice = decode_slice(file);
+  const auto slice = decode_frame(file);
   QVERIFY2(timer.elapsed() < kLongest, qPrintable(QString("%1 ms").arg(timer.elapsed())));
   QVERIFY(!slice);
   QCOMPARE(slice.error().kind, ErrorKind::input);

@@ -206,7 +206,7 @@ class DicomDamageTest : public QObject {
       const test::TemporaryFolder folder;
       const std::string deep = test::nested(64, "SQ", test::kExplicit, has_lengths);
       write_bytes(folder / "deep.dcm", test::file(test::Dataset::slice().put(0x00081140, deep)));
-      QCOMPARE(test::failure(decode_slice(folder / "deep.dcm")), QString());
+      QCOMPARE(test::failure(decode_frame(folder / "deep.dcm")), QString());
     }
   }
 
@@ -223,19 +223,19 @@ class DicomDamageTest : public QObject {
     slice.put(0x00091011, element(0x00091011, "??", "abcd"));
     slice.put(0x00091012, element(0x00091012, "UN", "\xfe\xff"));
     write_bytes(folder / "odd.dcm", test::file(slice));
-    const auto read = decode_slice(folder / "odd.dcm");
+    const auto read = decode_frame(folder / "odd.dcm");
     QCOMPARE(test::failure(read), QString());
     QCOMPARE(read->header.description, std::string("R?ckgrat"));
-    QCOMPARE(read->stored.back(), 1100);
+    QCOMPARE(read->pixels.stored.back(), 1100);
   }
 
   void a_deflated_slice_is_read() {
     const test::TemporaryFolder folder;
     const std::string stream = test::deflated(test::Dataset::slice().bytes());
     write_bytes(folder / "deflated.dcm", test::file("1.2.840.10008.1.2.1.99", stream));
-    const auto read = decode_slice(folder / "deflated.dcm");
+    const auto read = decode_frame(folder / "deflated.dcm");
     QCOMPARE(test::failure(read), QString());
-    QCOMPARE(read->stored.back(), 1100);
+    QCOMPARE(read->pixels.stored.back(), 1100);
   }
 
   void a_folder_of_very_many_files_is_listed() {

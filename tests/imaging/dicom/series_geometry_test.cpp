@@ -158,7 +158,7 @@ class SeriesGeometryTest : public QObject {
       slice.file += "b";
       twice.push_back(slice);
     }
-    verify_refused(twice, {"2 images at each of 4 positions", "000 and 000b", "not read yet"});
+    verify_refused(twice, {"2 images at each of 4 positions", "000 and 000b", "no attribute"});
   }
 
   // Some anonymisers write one UID into every image.

@@ -1,0 +1,20 @@
+// Compressed frames, through DCMTK's codecs and ours.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "imaging/dicom/slice_header.h"
+#include "imaging/dicom/transfer_syntaxes.h"
+
+namespace tidemark {
+
+// One frame's fragments, decoded to words of BitsAllocated bits, the lower 16 first of those of 32. The error
+// is one line about PixelData.
+[[nodiscard]] tl::expected<std::vector<std::uint32_t>, std::string> decode_fragments(
+    const std::vector<std::vector<std::uint8_t>>& fragments, const TransferSyntax& syntax,
+    const SliceHeader& header);
+
+}  // namespace tidemark

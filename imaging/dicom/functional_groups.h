@@ -1,0 +1,18 @@
+// Frames whose attributes stand in functional groups (DICOM PS3.3 C.7.6.16), shared and of each frame, and
+// frames of reconstructed NM images, whose places follow from those of the first.
+#pragma once
+
+#include <vector>
+
+#include "imaging/dicom/slice_header.h"
+
+class DcmItem;
+
+namespace tidemark {
+
+// The headers of all frames of the image with that dataset, made from what the dataset itself says (`whole`).
+// A single header with a problem where what the frames have in common, or one of them, makes no sense, or
+// nothing says where each of them lies.
+[[nodiscard]] std::vector<SliceHeader> read_frames(DcmItem& dataset, SliceHeader whole);
+
+}  // namespace tidemark

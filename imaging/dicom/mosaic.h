@@ -1,0 +1,18 @@
+// Siemens mosaics: one image that shows the slices of a volume side by side, row by row.
+#pragma once
+
+#include <vector>
+
+#include "imaging/dicom/slice_header.h"
+
+class DcmItem;
+
+namespace tidemark {
+
+[[nodiscard]] bool is_mosaic(DcmItem& dataset);
+
+// The headers of the mosaic's slices, made from that of the whole image. A single header with a problem when
+// how many they are, which way they follow each other or how far apart they are is not known.
+[[nodiscard]] std::vector<SliceHeader> read_tiles(DcmItem& dataset, SliceHeader whole);
+
+}  // namespace tidemark

@@ -1,0 +1,27 @@
+// One Series Instance UID may stand for several volumes: echoes, times, directions of diffusion, magnitude
+// and phase, stacks, or a localiser in three orientations.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "imaging/dicom/slice_header.h"
+
+namespace tidemark {
+
+struct SeriesPart {
+  std::vector<SliceHeader> slices;
+  std::string label;                 // "echo 2, TE 30 ms"; empty when the series is one part
+  bool is_rest = false;              // images that fit into none of the other parts
+  std::vector<std::string> changes;  // what was left out
+};
+
+// Splits the slices of one series (at least one). Apart are: other sizes of images, orientations, pixel
+// spacings and stacks; then, where several images lie at one position, what the first attribute tells apart
+// of: series number, type of image, echo, diffusion, temporal position, trigger time, acquisition, time of
+// acquisition, time of the content, number of the instance. Of exact copies one is kept. Images alone of
+// their kind come last, together, and with them those of another storage class that cannot be used. What no
+// attribute tells apart stays in one part, as do series with another image that cannot be used.
+[[nodiscard]] std::vector<SeriesPart> split_series(std::vector<SliceHeader> slices);
+
+}  // namespace tidemark
