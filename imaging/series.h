@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/geometry.h"
+#include "imaging/dicom/regular_grid.h"
 #include "imaging/patient.h"
 
 namespace tidemark {
@@ -37,8 +38,14 @@ struct Series {
   std::vector<std::string> transfer_syntaxes;  // UIDs, each once; empty for volume files
   bool loadable = false;
   std::string reason;                 // why it is not loadable: one line that names the files at fault
+  ImageStack stack;                   // how the images lie; none for volume files and what is no stack
+  GridPlan grid;                      // made of the stack; says how the user may make the series loadable
+  GridPolicy policy;                  // by which it was made
   std::vector<std::string> changes;   // what loading will change, e.g. "slices sorted by position"
   std::vector<std::string> warnings;  // what a user should know, e.g. "3 slices are missing their window"
+
+  // Not loadable as it is, but with its gaps filled: grid.question asks for that.
+  [[nodiscard]] bool fillable() const { return !loadable && !grid.question.empty(); }
 };
 
 struct SkippedFile {

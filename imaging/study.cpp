@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "imaging/dicom/dicom.h"
+#include "imaging/dicom/series_geometry.h"
 #include "imaging/files/volume_file.h"
 
 namespace tidemark {
@@ -116,10 +117,19 @@ Result<Volume> load_slice_of(const Series& series, std::int64_t k, const Progres
     return cut_slice(*whole, k);
   }
   Series one = series;
-  one.sources = {series.sources.at(static_cast<std::size_t>(k))};
-  one.files = {one.sources.front().file};
+  if (series.grid.slices.empty()) {
+    one.sources = {series.sources.at(static_cast<std::size_t>(k))};
+    one.files = {one.sources.front().file};
+  } else {
+    one.grid.slices = {series.grid.slices.at(static_cast<std::size_t>(k))};
+  }
   one.geometry = geometry_of_slice(series.geometry, k);
   return load_chosen(one, progress);
+}
+
+// By its own UID, by that of the series whose part it is, or by none.
+bool is_asked_for(const Series& series, const std::string& uid) {
+  return uid.empty() || series.uid == uid || series.uid.starts_with(uid + '#');
 }
 
 // A series as the functions of this file take it from outside.
@@ -128,8 +138,9 @@ Status require_loadable(const Series& series) {
   return fail(ErrorKind::input, "{}: cannot be loaded: {}", series.description, series.reason);
 }
 
-Result<LoadedSeries> load(const fs::path& path, const std::string& uid, const Progress& progress) {
-  const auto catalogue = find_series(path, progress);
+Result<LoadedSeries> load(const fs::path& path, const std::string& uid, const Progress& progress,
+                          const GridPolicy& policy) {
+  const auto catalogue = find_series(path, progress, policy);
   if (!catalogue) return tl::unexpected(catalogue.error());
   auto chosen = choose_series(*catalogue, uid, path);
   if (!chosen) return pass_on(chosen);
@@ -168,7 +179,22 @@ auto guarded(const fs::path& path, const Work& work) -> decltype(work()) {
 
 }  // namespace
 
-Result<Catalogue> find_series(const fs::path& path, const Progress& progress) {
+Series by_policy(Series series, const GridPolicy& policy) {
+  set_grid(series, policy);
+  return series;
+}
+
+const Series* find_fillable(const Catalogue& catalogue, const std::string& uid) {
+  const Series* fillable = nullptr;
+  for (const Series& series : catalogue.series) {
+    if (!is_asked_for(series, uid)) continue;
+    if (series.loadable) return nullptr;
+    if (fillable == nullptr && series.fillable()) fillable = &series;
+  }
+  return fillable;
+}
+
+Result<Catalogue> find_series(const fs::path& path, const Progress& progress, const GridPolicy& policy) {
   return guarded(path, [&]() -> Result<Catalogue> {
     std::error_code error;
     if (!fs::exists(path, error)) return fail(ErrorKind::input, "{}: no such file or folder", path.string());
@@ -180,6 +206,9 @@ Result<Catalogue> find_series(const fs::path& path, const Progress& progress) {
     if (catalogue && catalogue->series.empty()) {
       return fail(ErrorKind::input, "{}: holds no DICOM series or volume file", path.string());
     }
+    if (catalogue && policy != GridPolicy()) {
+      for (Series& series : catalogue->series) set_grid(series, policy);
+    }
     return catalogue;
   });
 }
@@ -187,7 +216,7 @@ Result<Catalogue> find_series(const fs::path& path, const Progress& progress) {
 Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string& uid, const fs::path& path) {
   std::vector<const Series*> matching;
   for (const Series& series : catalogue.series) {
-    if (uid.empty() || series.uid == uid || series.uid.starts_with(uid + '#')) matching.push_back(&series);
+    if (is_asked_for(series, uid)) matching.push_back(&series);
   }
   if (matching.empty()) {
     return fail(ErrorKind::input, "{}: has no series {}; it has {}", path.string(), uid,
@@ -218,15 +247,16 @@ Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string
   return chosen;
 }
 
-Result<Volume> load_volume(const fs::path& path, const std::string& uid, const Progress& progress) {
-  auto study = load_with_series(path, uid, progress);
+Result<Volume> load_volume(const fs::path& path, const std::string& uid, const Progress& progress,
+                           const GridPolicy& policy) {
+  auto study = load_with_series(path, uid, progress, policy);
   if (!study) return pass_on(study);
   return std::move(study->volume);
 }
 
-Result<LoadedSeries> load_with_series(const fs::path& path, const std::string& uid,
-                                      const Progress& progress) {
-  return guarded(path, [&] { return load(path, uid, progress); });
+Result<LoadedSeries> load_with_series(const fs::path& path, const std::string& uid, const Progress& progress,
+                                      const GridPolicy& policy) {
+  return guarded(path, [&] { return load(path, uid, progress, policy); });
 }
 
 std::vector<fs::path> dicom_files_of(const Series& series) {
@@ -245,7 +275,7 @@ Result<Volume> load_slice(const Series& series, std::int64_t k, const Progress& 
 
 Result<Mask> load_mask(const fs::path& path, const Progress& progress) {
   return guarded(path, [&]() -> Result<Mask> {
-    const auto study = load(path, {}, progress);
+    const auto study = load(path, {}, progress, {});
     if (!study) return tl::unexpected(study.error());
     return mask_of(study->volume);
   });

@@ -13,8 +13,15 @@ namespace tidemark {
 
 // Lists the series under `path` (a folder is searched recursively). Fails (ErrorKind::input) when the path
 // does not exist or holds nothing that looks like an image; a series that cannot be loaded is listed with
-// its reason.
-Result<Catalogue> find_series(const std::filesystem::path& path, const Progress& progress = {});
+// its reason. The policy says what is done with slices that make no regular grid.
+Result<Catalogue> find_series(const std::filesystem::path& path, const Progress& progress = {},
+                              const GridPolicy& policy = {});
+
+// The same series on the grid that another policy makes.
+[[nodiscard]] Series by_policy(Series series, const GridPolicy& policy);
+// The series of that UID (any, where it is empty) that could be loaded if gaps were filled; null where there
+// is none, or one can be loaded as it is.
+[[nodiscard]] const Series* find_fillable(const Catalogue& catalogue, const std::string& uid);
 
 // The series `uid` of what find_series(path) gave; an empty uid takes the only loadable series, or the one
 // with the most voxels. The UID of a series that holds several volumes, without the number of one of them,
@@ -30,7 +37,7 @@ Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string
 // Loads the series that choose_series() takes, and says so in Volume::changes where there were others. The
 // volume is finite everywhere. Fails (ErrorKind::input) naming the file and the field at fault.
 Result<Volume> load_volume(const std::filesystem::path& path, const std::string& uid = {},
-                           const Progress& progress = {});
+                           const Progress& progress = {}, const GridPolicy& policy = {});
 
 // The same with the series that it was made of.
 struct LoadedSeries {
@@ -38,7 +45,7 @@ struct LoadedSeries {
   Volume volume;
 };
 Result<LoadedSeries> load_with_series(const std::filesystem::path& path, const std::string& uid = {},
-                                      const Progress& progress = {});
+                                      const Progress& progress = {}, const GridPolicy& policy = {});
 
 // The series' files in slice order when it is a DICOM series; none of a volume file.
 [[nodiscard]] std::vector<std::filesystem::path> dicom_files_of(const Series& series);
@@ -46,8 +53,8 @@ Result<LoadedSeries> load_with_series(const std::filesystem::path& path, const s
 // The same of a loadable series that find_series() gave.
 Result<Volume> load_series(const Series& series, const Progress& progress = {});
 
-// The slice `k` of a loadable series, on its place in the patient: of a DICOM series only that slice's file
-// is read. A volume file is read whole.
+// The slice `k` of a loadable series, on its place in the patient: of a DICOM series only the files that make
+// it are read. A volume file is read whole.
 Result<Volume> load_slice(const Series& series, std::int64_t k, const Progress& progress = {});
 
 // Loads a mask: every voxel that is not 0 is inside.

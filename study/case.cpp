@@ -18,8 +18,8 @@ Result<std::unique_ptr<Case>> Case::create(std::shared_ptr<const Volume> volume,
   if (!level_set) return pass_on(level_set);
   made->level_set_ = std::move(*level_set);
   const Geometry& geometry = made->volume_->geometry;
-  made->level_set_->set_source_identity(
-      {geometry.size, geometry.spacing_mm, made->origin_.series_uid, made->origin_.checksum});
+  made->level_set_->set_source_identity({geometry.size, geometry.spacing_mm, made->origin_.series_uid,
+                                         made->origin_.checksum, made->origin_.policy});
   return made;
 }
 

@@ -4,12 +4,15 @@
 #include <filesystem>
 #include <string>
 
+#include "imaging/grid_policy.h"
+
 namespace tidemark {
 
 // So that it can be found again.
 struct StudyOrigin {
   std::filesystem::path path;  // empty: made here (phantom)
   std::string series_uid;
+  GridPolicy policy;     // by which its slices were made a grid
   std::string phantom;   // its kind, where the volume is a phantom
   std::string checksum;  // SHA-256 of the volume's voxels and geometry, hexadecimal (see checksum.h)
   // For people who have to choose; never the patient's name.

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "imaging/grid_policy.h"
 #include "solver/parameters.h"
 #include "study/start.h"
 
@@ -46,6 +47,7 @@ struct RecipeSource {
   glm::dvec3 spacing_mm{1.0};
   std::string series_uid;
   std::string checksum;  // see checksum.h; empty: unknown
+  GridPolicy policy;     // by which the slices of the series were made a grid
   bool operator==(const RecipeSource&) const = default;
 };
 

@@ -293,12 +293,25 @@ Parameters read_parameters(const JsonField& field) {
   return parameters;
 }
 
+Json to_json(const GridPolicy& policy) {
+  return {{"tilt", policy.tilt == GridPolicy::Tilt::keep ? "keep" : "correct"},
+          {"gaps", policy.gaps == GridPolicy::Gaps::fill ? "fill" : "refuse"}};
+}
+
+GridPolicy read_policy(const JsonField& field) {
+  GridPolicy policy;
+  if (field.at("tilt").word({"correct", "keep"}) == 1) policy.tilt = GridPolicy::Tilt::keep;
+  if (field.at("gaps").word({"refuse", "fill"}) == 1) policy.gaps = GridPolicy::Gaps::fill;
+  return policy;
+}
+
 Json to_json(const Recipe& recipe) {
   Json json{{"format", kFormat}, {"version", Recipe::kVersion}};
   json["source"] = {{"size", index_json(recipe.source.size)},
                     {"spacing_mm", vector_json(recipe.source.spacing_mm)},
                     {"series_uid", recipe.source.series_uid},
-                    {"sha256", recipe.source.checksum}};
+                    {"sha256", recipe.source.checksum},
+                    {"slices", to_json(recipe.source.policy)}};
   json["executor"] = {{"name", recipe.executor.name},
                       {"page_shape", index_json(recipe.executor.page_shape)},
                       {"skip_quiet_pages", recipe.executor.skip_quiet_pages}};
@@ -325,6 +338,7 @@ Recipe read_recipe(const JsonField& field) {
   recipe.source.spacing_mm = source.at("spacing_mm").vector(1e-6, 1e6);
   recipe.source.series_uid = source.at("series_uid").text(256);
   recipe.source.checksum = source.at("sha256").text(64);
+  if (source.has("slices")) recipe.source.policy = read_policy(source.at("slices"));
   const JsonField executor = field.at("executor");
   const std::vector<std::string_view> names{"host", "compute", "stream", "reference"};
   recipe.executor.name = names[executor.at("name").word(names)];

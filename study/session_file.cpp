@@ -55,11 +55,8 @@ std::vector<Label> read_labels(const JsonField& field) {
 
 Json study_json(const StudyOrigin& origin, const std::filesystem::path& session) {
   std::error_code ignored;
-  Json json{{"series_uid", origin.series_uid},
-            {"phantom", origin.phantom},
-            {"sha256", origin.checksum},
-            {"name", origin.name},
-            {"date", origin.date}};
+  Json json{{"series_uid", origin.series_uid},  {"phantom", origin.phantom}, {"sha256", origin.checksum},
+            {"slices", to_json(origin.policy)}, {"name", origin.name},       {"date", origin.date}};
   json["path"] = "";
   json["relative_path"] = "";
   if (origin.path.empty()) return json;
@@ -77,6 +74,7 @@ StudyOrigin read_study(const JsonField& field, const std::filesystem::path& sess
   origin.phantom = field.at("phantom").text(kLongestName);
   origin.checksum = field.at("sha256").text(64);
   origin.path = field.at("path").text();
+  if (field.has("slices")) origin.policy = read_policy(field.at("slices"));
   if (field.has("name")) origin.name = field.at("name").text(kLongestDescription);
   if (field.has("date")) origin.date = field.at("date").text(kLongestDescription);
   const std::filesystem::path relative = field.at("relative_path").text();

@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,20 @@ CLI::Option* add_count(CLI::App& app, const std::string& name, std::optional<std
                        const std::string& description);
 CLI::Option* add_numbers(CLI::App& app, const std::string& name, const std::string& shape,
                          std::optional<std::vector<double>>& values, const std::string& description);
+
+// An option of a few words.
+template <class Value>
+CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value,
+                        const std::map<std::string, Value>& words, const std::string& description) {
+  std::string type;
+  for (const auto& [word, meaning] : words) type += (type.empty() ? "" : "|") + word;
+  const auto store = [name, type, words, &value](const std::string& word) {
+    const auto found = words.find(word);
+    if (found == words.end()) throw CLI::ValidationError(name, "'" + word + "' is not one of " + type);
+    value = found->second;
+  };
+  return app.add_option_function<std::string>(name, store, description)->type_name(type);
+}
 
 // A seed or eraser as it was asked for.
 struct SphereArgument {

@@ -43,7 +43,7 @@ Volume::Voxels as_stored(std::vector<float> values) {
 Result<Conversion> Conversion::load(ConversionOptions options, const Progress& progress) {
   Conversion conversion(std::move(options));
   if (auto loaded = conversion.load_source(progress); !loaded) return pass_on(loaded);
-  const bool is_result = result_form_of(conversion.options_.input).has_value();
+  const bool is_result = result_form_of(conversion.options_.study.path).has_value();
   if (auto loaded = is_result ? conversion.load_result(progress) : conversion.load_volume(progress);
       !loaded) {
     return pass_on(loaded);
@@ -59,9 +59,9 @@ Result<Conversion> Conversion::load(ConversionOptions options, const Progress& p
 
 Status Conversion::load_source(const Progress& progress) {
   if (options_.source.empty()) return {};
-  const auto found = find_series(options_.source, progress);
-  if (!found) return tl::unexpected<Error>(found.error());
-  const auto chosen = choose_series(*found, options_.series, options_.source);
+  StudyInput source = options_.study;
+  source.path = options_.source;
+  const auto chosen = find_study(source, progress);
   if (!chosen) return tl::unexpected<Error>(chosen.error());
   grid_ = chosen->series.geometry;
   source_files_ = dicom_files_of(chosen->series);
@@ -70,27 +70,30 @@ Status Conversion::load_source(const Progress& progress) {
 
 Status Conversion::load_result(const Progress& progress) {
   if (options_.kind == InputKind::level_set) {
-    return fail(ErrorKind::usage, "{}: holds segments, not a level set", options_.input);
+    return fail(ErrorKind::usage, "{}: holds segments, not a level set", options_.study.path);
   }
   if (progress.cancelled()) return cancelled_error();
-  auto segments = read_result(options_.input, grid_ ? &*grid_ : nullptr);
+  auto segments = read_result(options_.study.path, grid_ ? &*grid_ : nullptr);
   if (!segments) return pass_on(segments);
   segments_ = std::move(*segments);
   return {};
 }
 
 Status Conversion::load_volume(const Progress& progress) {
-  auto volume = tidemark::load_volume(options_.input, grid_ ? std::string() : options_.series, progress);
-  if (!volume) return pass_on(volume);
+  StudyInput input = options_.study;
+  if (grid_) input.series.clear();
+  auto loaded = load_study(input, progress);
+  if (!loaded) return pass_on(loaded);
+  Volume& volume = loaded->volume;
   if (grid_) {
-    auto values = onto_grid(*volume, *grid_, options_.input);
+    auto values = onto_grid(volume, *grid_, input.path);
     if (!values) return pass_on(values);
-    volume->geometry = *grid_;
-    volume->voxels = as_stored(std::move(*values));
-    volume->slope = 1.0;
-    volume->intercept = 0.0;
+    volume.geometry = *grid_;
+    volume.voxels = as_stored(std::move(*values));
+    volume.slope = 1.0;
+    volume.intercept = 0.0;
   }
-  volume_ = std::move(*volume);
+  volume_ = std::move(volume);
   segments_.geometry = volume_->geometry;
   segments_.changes = volume_->changes;
   return split();
@@ -126,8 +129,8 @@ Status Conversion::split_labels(const std::vector<float>& values) {
   for (std::size_t v = 0; v < values.size(); ++v) {
     const float value = values[v];
     if (!(value >= 0.0F && value <= 255.0F) || value != std::floor(value)) {
-      return fail(ErrorKind::input, "{}: {} is not a label, a whole number from 0 to 255", options_.input,
-                  value);
+      return fail(ErrorKind::input, "{}: {} is not a label, a whole number from 0 to 255",
+                  options_.study.path, value);
     }
     ids[v] = static_cast<std::uint8_t>(value);
     known[ids[v]] = true;
@@ -139,7 +142,7 @@ Status Conversion::split_labels(const std::vector<float>& values) {
     segment.slices = slices_of(segments_.geometry, ids, static_cast<std::uint8_t>(id));
     segments_.list.push_back(std::move(segment));
   }
-  if (segments_.list.empty()) return fail(ErrorKind::input, "{}: holds no label", options_.input);
+  if (segments_.list.empty()) return fail(ErrorKind::input, "{}: holds no label", options_.study.path);
   return {};
 }
 
@@ -153,7 +156,7 @@ Status Conversion::require_segments() const {
               "{}: is no mask (it holds values other than 0 and 1), so it has no surface and no segments; "
               "--mask takes "
               "every voxel that is not 0 as inside, --labels each number as a segment",
-              options_.input);
+              options_.study.path);
 }
 
 // The volume as it is, or what is inside: 1, or the number of the segment.

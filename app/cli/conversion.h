@@ -8,6 +8,7 @@
 
 #include "app/cli/label_argument.h"
 #include "app/cli/outputs.h"
+#include "app/cli/study_input.h"
 #include "core/progress.h"
 #include "imaging/results/results.h"
 #include "imaging/surface/surface.h"
@@ -18,8 +19,7 @@ namespace tidemark::cli {
 enum class InputKind { volume, mask, labels, level_set };
 
 struct ConversionOptions {
-  std::string input;
-  std::string series;  // UID, when there are several
+  StudyInput study;  // INPUT; its series and policy are the source's where there is one
   InputKind kind = InputKind::volume;
   std::string source;  // the study that INPUT was made of, whose grid, patient and frame of reference it gets
   std::vector<LabelArgument> labels;

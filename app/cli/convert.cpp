@@ -50,7 +50,7 @@ Status check(const ConvertOptions& options, Outputs& outputs) {
   if (!options.rtstruct.empty()) {
     if (Status good = outputs.announce_dicom("--rtstruct", options.rtstruct); !good) return good;
   }
-  for (const std::string& input : {options.conversion.input, options.conversion.source}) {
+  for (const std::string& input : {options.conversion.study.path, options.conversion.source}) {
     if (input.empty()) continue;
     if (Status good = outputs.spare(input); !good) return good;
   }
@@ -125,7 +125,7 @@ Status run(Program& program, const ConvertOptions& options) {
 void add_options(CLI::App& command, ConvertOptions& options) {
   ConversionOptions& conversion = options.conversion;
   command
-      .add_option("INPUT", conversion.input,
+      .add_option("INPUT", conversion.study.path,
                   "A DICOM folder or file, a volume file, a DICOM segmentation or an RT structure set")
       ->required()
       ->type_name("");
@@ -146,9 +146,10 @@ void add_options(CLI::App& command, ConvertOptions& options) {
           "an RT structure set cannot be read without")
       ->type_name("STUDY");
   command
-      .add_option("--series", conversion.series,
+      .add_option("--series", conversion.study.series,
                   "The series to load when INPUT, or the study of --source, holds several (see info)")
       ->type_name("UID");
+  add_grid_options(command, conversion.study);
   command.add_flag("--mask", options.as_mask, "INPUT is a mask: every voxel that is not 0 is inside");
   command.add_flag("--labels", options.as_labels,
                    "INPUT holds labels: each number from 1 to 255 is a segment");

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "app/cli/program.h"
+#include "app/cli/study_input.h"
 #include "imaging/study.h"
 
 namespace tidemark::cli {
@@ -18,7 +19,8 @@ constexpr const char* kDescription =
 constexpr const char* kExamples =
     "  tidemark-cli info study/                 every DICOM series below a folder\n"
     "  tidemark-cli info brain.nii.gz           one volume file\n"
-    "  tidemark-cli info study/ --json          the same for programs\n";
+    "  tidemark-cli info study/ --json          the same for programs\n"
+    "  tidemark-cli info study/ --gaps fill     with missing slices interpolated\n";
 
 Json triple(const glm::dvec3& v) {
   return Json::array({v.x, v.y, v.z});
@@ -46,6 +48,7 @@ Json to_json(const Series& series) {
   object["transfer_syntaxes"] = series.transfer_syntaxes;
   object["loadable"] = series.loadable;
   object["reason"] = series.reason;
+  object["fillable"] = series.fillable();  // with --gaps fill
   object["changes"] = series.changes;
   object["warnings"] = series.warnings;
   return object;
@@ -96,6 +99,7 @@ void say_series(Console& console, const Series& series) {
   if (!series.scalar.empty()) console.say("  values      {}", series.scalar);
   for (const std::string& syntax : series.transfer_syntaxes) console.say("  syntax      {}", syntax);
   console.say("  loadable    {}", series.loadable ? "yes" : "no: " + series.reason);
+  if (series.fillable()) console.say("              --gaps fill interpolates");
   for (const std::string& change : series.changes) console.say("  changed     {}", change);
   for (const std::string& warning : series.warnings) console.say("  warning     {}", warning);
 }
@@ -111,9 +115,9 @@ void say_catalogue(Console& console, const Catalogue& catalogue) {
   console.say("{} series, {} files skipped", catalogue.series.size(), catalogue.skipped.size());
 }
 
-Status run(Program& program, const std::string& path) {
+Status run(Program& program, const StudyInput& study) {
   Console& console = program.console;
-  auto catalogue = find_series(path, console.progress());
+  auto catalogue = find_series(study.path, console.progress(), study.policy());
   if (!catalogue) return pass_on(catalogue);
   if (console.interrupted()) return cancelled_error();
   if (console.json()) {
@@ -127,10 +131,13 @@ Status run(Program& program, const std::string& path) {
 }  // namespace
 
 void add_info(CLI::App& app, Program& program) {
-  auto path = std::make_shared<std::string>();
+  auto study = std::make_shared<StudyInput>();
   CLI::App& command = add_command(app, program, {"info", kSummary, kDescription, kExamples},
-                                  [&program, path] { return run(program, *path); });
-  command.add_option("PATH", *path, "A DICOM folder or file, or a volume file")->required()->type_name("");
+                                  [&program, study] { return run(program, *study); });
+  command.add_option("PATH", study->path, "A DICOM folder or file, or a volume file")
+      ->required()
+      ->type_name("");
+  add_grid_options(command, *study);
 }
 
 }  // namespace tidemark::cli

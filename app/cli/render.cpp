@@ -128,9 +128,9 @@ Status run(Program& program, const RenderOptions& options) {
   if (!views) return pass_on(views);
   Outputs outputs;
   if (Status announced = outputs.announce_png("--out", options.out); !announced) return announced;
-  auto loaded = load_volume(options.input, options.series, console.progress());
+  auto loaded = load_study(options.study, console.progress());
   if (!loaded) return pass_on(loaded);
-  const auto source = std::make_shared<const Volume>(std::move(*loaded));
+  const auto source = std::make_shared<const Volume>(std::move(loaded->volume));
   const auto phi = surface_of(options, *source, console);
   if (!phi) return tl::unexpected<Error>(phi.error());
   if (console.interrupted()) return cancelled_error();

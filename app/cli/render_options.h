@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/study_input.h"
 #include "renderer/picture.h"
 #include "renderer/views.h"
 #include "solver/parameters.h"
@@ -13,8 +14,7 @@
 namespace tidemark::cli {
 
 struct RenderOptions {
-  std::string input;
-  std::string series;
+  StudyInput study;
   std::string mask;
   std::string phi;
   std::string labels;

@@ -4,6 +4,7 @@
 #include "app/cli/program.h"
 #include "app/cli/results.h"
 #include "app/cli/solver_options.h"
+#include "app/cli/study_input.h"
 #include "imaging/study.h"
 #include "study/checksum.h"
 #include "study/replay.h"
@@ -15,13 +16,16 @@ constexpr const char* kSummary = "Does again what a recipe says and writes mask,
 constexpr const char* kDescription =
     "Replays RECIPE, which segment --recipe and the desktop write, on INPUT: the same start, parameters and\n"
     "edits at the same steps. On the same volume with the same executor it gives the same voxels. Radii and\n"
-    "patient coordinates of the recipe are in mm; another spacing is warned about.";
+    "patient coordinates of the recipe are in mm; another spacing is warned about. --tilt and --gaps are "
+    "the\n"
+    "recipe's where they are not given.";
 constexpr const char* kExamples =
     "  tidemark-cli replay liver.json ct.nrrd --out liver.nii.gz --stats liver-stats.json\n"
     "  tidemark-cli replay liver.json other/ --executor host --out other.stl\n";
 
 struct ReplayArguments {
-  std::string recipe, input, series;
+  std::string recipe;
+  StudyInput study;
   SolverOptions solver;
   ResultOptions results;
 };
@@ -29,7 +33,7 @@ struct ReplayArguments {
 Status check(const ReplayArguments& arguments, ResultWriter& writer) {
   if (Status good = check(arguments.solver); !good) return good;
   if (Status good = writer.prepare(); !good) return good;
-  for (const std::string& input : {arguments.recipe, arguments.input}) {
+  for (const std::string& input : {arguments.recipe, arguments.study.path}) {
     if (Status good = writer.spare(input); !good) return good;
   }
   return {};
@@ -45,7 +49,7 @@ RunResults results_of(const Recipe& recipe, const Volume& volume, Replay replaye
   figures.geometry = volume.geometry;
   figures.modality = volume.modality;
   figures.description = volume.description;
-  figures.series_uid = arguments.series;
+  figures.series_uid = arguments.study.series;
   figures.changes = volume.changes;
   figures.start = recipe.start.describe();
   figures.parameters = recipe.final_parameters();
@@ -61,7 +65,11 @@ RunResults results_of(const Recipe& recipe, const Volume& volume, Replay replaye
   // The same recipe for the volume and the executor at hand.
   results.recipe = recipe;
   results.recipe.executor = replayed.executor;
-  results.recipe.source = {volume.geometry.size, volume.geometry.spacing_mm, arguments.series, {}};
+  results.recipe.source = {volume.geometry.size,
+                           volume.geometry.spacing_mm,
+                           arguments.study.series,
+                           {},
+                           arguments.study.policy(recipe.source.policy)};
   return results;
 }
 
@@ -71,7 +79,7 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
   if (Status good = check(arguments, writer); !good) return good;
   const auto recipe = Recipe::load(arguments.recipe);
   if (!recipe) return tl::unexpected<Error>(recipe.error());
-  auto study = load_with_series(arguments.input, arguments.series, console.progress());
+  auto study = load_study(arguments.study, console.progress(), recipe->source.policy);
   if (!study) return pass_on(study);
   const auto volume = std::make_shared<const Volume>(std::move(study->volume));
   for (const std::string& difference : differences(*recipe, *volume)) console.warn(difference);
@@ -104,11 +112,14 @@ void add_replay(CLI::App& app, Program& program) {
   CLI::App& command = add_command(app, program, {"replay", kSummary, kDescription, kExamples},
                                   [&program, arguments] { return run_replay(program, *arguments); });
   command.add_option("RECIPE", arguments->recipe, "A recipe (.json)")->required()->type_name("");
-  command.add_option("INPUT", arguments->input, "A DICOM folder or file, or a volume file")
+  command.add_option("INPUT", arguments->study.path, "A DICOM folder or file, or a volume file")
       ->required()
       ->type_name("");
-  command.add_option("--series", arguments->series, "The series to load when INPUT holds several (see info)")
+  command
+      .add_option("--series", arguments->study.series,
+                  "The series to load when INPUT holds several (see info)")
       ->type_name("UID");
+  add_grid_options(command, arguments->study);
   add_solver_options(command, arguments->solver, "the recipe's");
   add_result_options(command, arguments->results);
 }

@@ -81,7 +81,7 @@ Status Segmentation::run() {
 }
 
 Status Segmentation::load() {
-  auto study = load_with_series(options_.input, options_.series, console_.progress());
+  auto study = load_study(options_.study, console_.progress());
   if (!study) return pass_on(study);
   results_.dicom_files = dicom_files_of(study->series);
   Result<Volume> volume = std::move(study->volume);
@@ -90,14 +90,15 @@ Status Segmentation::load() {
   figures.geometry = volume->geometry;
   figures.modality = volume->modality;
   figures.description = volume->description;
-  figures.series_uid = options_.series;
+  figures.series_uid = options_.study.series;
   figures.changes = volume->changes;
   figures.smooth_mm = options_.smooth_mm;
   console_.say("Loaded     {}{}{}, {}", volume->modality, volume->modality.empty() ? "" : ": ",
                count_of(volume->geometry), volume->scalar_name());
   for (const std::string& change : volume->changes) console_.say("           {}", change);
   Recipe& recipe = results_.recipe;
-  recipe.source = {volume->geometry.size, volume->geometry.spacing_mm, options_.series, {}};
+  recipe.source = {
+      volume->geometry.size, volume->geometry.spacing_mm, options_.study.series, {}, study->series.policy};
   if (writer_.wants_recipe()) recipe.source.checksum = checksum_of(*volume);
   recipe.smoothed_mm = options_.smooth_mm.value_or(0.0);
   if (options_.smooth_mm) {

@@ -1,26 +1,10 @@
 #include "app/cli/segment_options.h"
 
-#include <map>
-
 namespace tidemark::cli {
 namespace {
 
 constexpr std::int64_t kDefaultMostSteps = 5000;
 constexpr std::int64_t kMostSteps = 1'000'000'000;
-
-// An option of two words.
-template <class Value>
-void add_choice(CLI::App& app, const std::string& name, Value& value,
-                const std::map<std::string, Value>& words, const std::string& description) {
-  std::string type;
-  for (const auto& [word, meaning] : words) type += (type.empty() ? "" : "|") + word;
-  const auto store = [name, type, words, &value](const std::string& word) {
-    const auto found = words.find(word);
-    if (found == words.end()) throw CLI::ValidationError(name, "'" + word + "' is not one of " + type);
-    value = found->second;
-  };
-  app.add_option_function<std::string>(name, store, description)->type_name(type);
-}
 
 void add_equation_options(CLI::App& app, SegmentOptions& options) {
   const char* const kGroup = "Equation";
@@ -124,11 +108,12 @@ Parameters SegmentOptions::parameters() const {
 }
 
 void add_segment_options(CLI::App& app, SegmentOptions& options) {
-  app.add_option("INPUT", options.input, "A DICOM folder or file, or a volume file")
+  app.add_option("INPUT", options.study.path, "A DICOM folder or file, or a volume file")
       ->required()
       ->type_name("");
-  app.add_option("--series", options.series, "The series to load when INPUT holds several (see info)")
+  app.add_option("--series", options.study.series, "The series to load when INPUT holds several (see info)")
       ->type_name("UID");
+  add_grid_options(app, options.study);
   app.add_flag("--auto-start", options.auto_start,
                "Choose what is not given of seed, target, range and alpha from the volume itself:\nan even, "
                "bright region "
@@ -148,7 +133,7 @@ Status check(const SegmentOptions& options) {
 }
 
 std::vector<std::string> inputs_of(const SegmentOptions& options) {
-  std::vector<std::string> inputs{options.input};
+  std::vector<std::string> inputs{options.study.path};
   for (const auto& input : {options.start.mask, options.start.phi, options.truth}) {
     if (input) inputs.push_back(*input);
   }

@@ -10,13 +10,13 @@
 #include "app/cli/results.h"
 #include "app/cli/solver_options.h"
 #include "app/cli/start.h"
+#include "app/cli/study_input.h"
 #include "solver/parameters.h"
 
 namespace tidemark::cli {
 
 struct SegmentOptions {
-  std::string input;
-  std::string series;
+  StudyInput study;
   std::optional<double> target, range, alpha;  // all needed, unless auto_start
   std::optional<double> smooth_mm;
   std::optional<double> rescale, band;

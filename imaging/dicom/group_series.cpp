@@ -57,6 +57,8 @@ std::vector<Series> arrange_parts(Group group) {
     if (part.is_rest) {
       series.loadable = false;
       series.reason = rest;
+      series.stack = {};  // no policy makes a grid of it
+      series.grid = {};
     }
   }
   return result;

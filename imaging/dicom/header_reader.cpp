@@ -93,6 +93,7 @@ void read_values(AttributeReader& in, SliceHeader& header) {
   if (const auto slope = in.decimals(DCM_RescaleSlope, 1)) header.slope = slope->front();
   if (const auto intercept = in.decimals(DCM_RescaleIntercept, 1)) header.intercept = intercept->front();
   if (header.slope == 0.0) in.report(fmt::format("{} is 0", name_of(DCM_RescaleSlope)));
+  header.padding = in.number(DCM_PixelPaddingValue);
   // A window that makes no sense is as good as none: it decides nothing.
   const auto centre = parse_decimals(in.text(DCM_WindowCenter));
   const auto width = parse_decimals(in.text(DCM_WindowWidth));

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <new>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -11,10 +13,13 @@
 #include "core/thread_pool.h"
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/frame_plan.h"
+#include "imaging/dicom/resample_slices.h"
 #include "imaging/dicom/shared_progress.h"
 
 namespace tidemark {
 namespace {
+
+constexpr double kAir = -1024.0;  // HU, the smallest value of most scanners
 
 std::string first_file(const Series& series) {
   return series.files.empty() ? series.uid : series.files.front().string();
@@ -34,15 +39,19 @@ class Outcome {
     }
     failed_.store(true, std::memory_order_relaxed);
   }
-  void count_ignored_bits(int slices) { ignored_bits_.fetch_add(slices, std::memory_order_relaxed); }
+  // A slice may be decoded more than once.
+  void note_ignored_bits(std::int64_t slice) {
+    const std::lock_guard lock(mutex_);
+    ignored_bits_.insert(slice);
+  }
 
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
-  [[nodiscard]] int ignored_bits() const { return ignored_bits_.load(); }
+  [[nodiscard]] std::size_t ignored_bits() const { return ignored_bits_.size(); }
 
  private:
   std::atomic<bool> failed_{false};
-  std::atomic<int> ignored_bits_{0};
   std::mutex mutex_;
+  std::set<std::int64_t> ignored_bits_;  // slices that have them
   std::optional<Error> error_;
   std::int64_t error_slice_ = 0;
 };
@@ -56,27 +65,71 @@ class SeriesDecoder {
 
   // Into `voxels`, which has the size of the whole volume.
   void decode(std::vector<Voxel>& voxels, const Progress& progress, Outcome& outcome) {
+    if (series_.grid.slices.empty()) {
+      decode_slices(voxels, progress, outcome);
+    } else {
+      resample(voxels, progress, outcome);
+    }
+  }
+
+ private:
+  // Each slice of the volume is one image.
+  void decode_slices(std::vector<Voxel>& voxels, const Progress& progress, Outcome& outcome) {
     const auto count = static_cast<std::int64_t>(plan_.work().size());
     SharedProgress shared(progress, count, "decoding slices");
+    const std::int64_t slice_voxels = series_.stack.size.x * series_.stack.size.y;
+    const auto place = [&](std::int64_t k) { return voxels.data() + k * slice_voxels; };
     ThreadPool pool;
     pool.for_each(count, 1, [&](std::int64_t begin, std::int64_t end, int) {
       for (std::int64_t w = begin; w < end && !progress.cancelled() && !outcome.has_failed(); ++w) {
-        decode_frame(plan_.work()[static_cast<std::size_t>(w)], voxels, outcome);
+        decode_frame(plan_.work()[static_cast<std::size_t>(w)], place, outcome);
         shared.advance();
       }
     });
   }
 
- private:
-  void decode_frame(const FrameWork& work, std::vector<Voxel>& voxels, Outcome& outcome) {
+  // Slices of the volume are made of images as the series' grid says.
+  void resample(std::vector<Voxel>& voxels, const Progress& progress, Outcome& outcome) {
+    SharedProgress shared(progress, series_.geometry.size.z, "decoding slices");
+    std::vector<const FrameWork*> work_of(series_.sources.size());
+    for (const FrameWork& work : plan_.work()) {
+      for (const std::int64_t k : work.slices) work_of[static_cast<std::size_t>(k)] = &work;
+    }
+    const auto decode = [&](std::int64_t k, Voxel* target) {
+      if (progress.cancelled() || outcome.has_failed()) return false;
+      const auto place = [&](std::int64_t slice) { return slice == k ? target : nullptr; };
+      decode_frame(*work_of[static_cast<std::size_t>(k)], place, outcome);
+      return !outcome.has_failed();
+    };
+    resample_slices<Voxel>(
+        {series_.grid, series_.stack.size, decode, [&] { shared.advance(); }, background()}, voxels);
+  }
+
+  // Of voxels that no image covers: what the images have where nothing was measured, else air.
+  std::optional<Voxel> background() const {
+    std::optional<double> stored = first_.padding;
+    if (!stored && first_.modality == "CT") stored = (kAir - first_.intercept) / first_.slope;
+    if (!stored) return std::nullopt;
+    if constexpr (std::is_same_v<Voxel, float>) {
+      return static_cast<float>(first_.slope * *stored + first_.intercept);
+    } else {
+      using Limits = std::numeric_limits<Voxel>;
+      return static_cast<Voxel>(std::lround(std::clamp<double>(*stored, Limits::min(), Limits::max())));
+    }
+  }
+
+  // Into place(k), for those of its slices k that have one.
+  template <class Place>
+  void decode_frame(const FrameWork& work, const Place& place, Outcome& outcome) {
     const auto reader = plan_.open(work);
     if (!reader) return outcome.fail_with(reader.error(), work.slices.front());
     const auto pixels = (*reader)->decode(work.frame);
     if (!pixels) return outcome.fail_with(pixels.error(), work.slices.front());
-    if (pixels->ignored_bits) outcome.count_ignored_bits(static_cast<int>(work.slices.size()));
-    const std::int64_t slice_voxels = series_.geometry.size.x * series_.geometry.size.y;
     for (const std::int64_t k : work.slices) {
-      put_slice(**reader, *pixels, k, voxels.data() + k * slice_voxels, outcome);
+      Voxel* target = place(k);
+      if (target == nullptr) continue;
+      if (pixels->ignored_bits) outcome.note_ignored_bits(k);
+      put_slice(**reader, *pixels, k, target, outcome);
     }
     plan_.is_done(work);
   }
@@ -89,7 +142,7 @@ class SeriesDecoder {
       return outcome.fail_with(
           {ErrorKind::input, source.file.string() + ": is not what it was when its series was listed"}, k);
     }
-    const Index3 size = series_.geometry.size;
+    const Index3 size = series_.stack.size;
     const std::int64_t across = header->frame_columns / size.x;
     const std::int64_t corner =
         source.tile / across * size.y * header->frame_columns + source.tile % across * size.x;
@@ -116,7 +169,7 @@ class SeriesDecoder {
 
   // Whether the slice still is as the series needs it.
   [[nodiscard]] bool has_kind(const SliceHeader& header) const {
-    if (header.columns != series_.geometry.size.x || header.rows != series_.geometry.size.y) return false;
+    if (header.columns != series_.stack.size.x || header.rows != series_.stack.size.y) return false;
     return std::is_same_v<Voxel, float> ||
            (header.slope == first_.slope && header.intercept == first_.intercept);
   }
@@ -158,7 +211,9 @@ Result<Volume> load(const Series& series, const Progress& progress) {
   }
   const Index3 size = series.geometry.size;
   const auto count = checked_product(size.x, size.y, size.z);
-  if (!count || *count == 0 || size.z != static_cast<std::int64_t>(series.sources.size())) {
+  const auto& planned = series.grid.slices;
+  if (!count || *count == 0 ||
+      size.z != static_cast<std::int64_t>(planned.empty() ? series.sources.size() : planned.size())) {
     return fail(ErrorKind::input, "{}: the series has {} images for {} slices", first_file(series),
                 series.sources.size(), size.z);
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <optional>
 #include <set>
 
@@ -148,9 +147,8 @@ glm::dmat3 axes_of(const SliceHeader& slice) {
   return {i, j, glm::cross(i, j)};
 }
 
-double tolerance(double distance) {
-  return std::max(1e-3 * distance, 0.01) + 1e-9;
-}
+// Nearer to each other (mm) than this along the normal, images are at one position.
+constexpr double kSamePosition = 0.01 + 1e-9;
 
 // Positions along the normal, of sorted slices.
 std::vector<double> along(const Slices& slices, glm::dvec3 normal) {
@@ -164,7 +162,7 @@ Reason check_distinct(const Slices& slices, const std::vector<double>& positions
   std::vector<std::size_t> counts{1};
   std::size_t first_repeat = 0;
   for (std::size_t k = 1; k < slices.size(); ++k) {
-    if (positions[k] - positions[k - 1] > tolerance(0.0)) {
+    if (positions[k] - positions[k - 1] > kSamePosition) {
       counts.push_back(1);
     } else {
       if (first_repeat == 0) first_repeat = k;
@@ -189,62 +187,17 @@ Reason check_distinct(const Slices& slices, const std::vector<double>& positions
   return fmt::format("{} lie at the same position", pair);
 }
 
-// Positions must advance along the normal alone; a constant sideways step is a tilted gantry.
-Reason check_straight(const Slices& slices, const std::vector<double>& positions, glm::dvec3 normal) {
-  const auto sideways = [&](std::size_t from, std::size_t to) {
-    const glm::dvec3 step = *slices[to].position_mm - *slices[from].position_mm;
-    return glm::length(step - glm::dot(step, normal) * normal);
-  };
-  const auto refuse = [&](std::size_t from, std::size_t to) {
-    const double shift = sideways(from, to);
-    const double degrees = std::atan2(shift, positions[to] - positions[from]) * 180.0 / std::numbers::pi;
-    return fmt::format(
-        "from {} to {} the images move {:.3f} mm sideways, {:.1f} degrees off their normal (gantry tilt or "
-        "shear), which is not read yet",
-        name(slices[from]), name(slices[to]), shift, degrees);
-  };
-  for (std::size_t k = 1; k < slices.size(); ++k) {
-    if (sideways(k - 1, k) > tolerance(positions[k] - positions[k - 1])) return refuse(k - 1, k);
+ImageStack stack_of(const Slices& slices, const glm::dmat3& axes) {
+  const SliceHeader& first = slices.front();
+  ImageStack stack;
+  stack.size = {first.columns, first.rows, static_cast<std::int64_t>(slices.size())};
+  stack.spacing_mm = *first.pixel_spacing_mm;
+  stack.axes = axes;
+  for (const SliceHeader& slice : slices) {
+    stack.positions_mm.push_back(*slice.position_mm);
+    stack.names.push_back(name(slice));
   }
-  // Small steps to the same side add up.
-  const std::size_t last = slices.size() - 1;
-  if (sideways(0, last) > tolerance(positions[last] - positions[0])) return refuse(0, last);
-  return std::nullopt;
-}
-
-Reason check_even(const Slices& slices, const std::vector<double>& positions) {
-  const std::size_t steps = slices.size() - 1;
-  std::vector<double> distances;
-  for (std::size_t k = 0; k < steps; ++k) distances.push_back(positions[k + 1] - positions[k]);
-  std::vector<double> sorted = distances;
-  std::sort(sorted.begin(), sorted.end());
-  const double usual = sorted[(steps - 1) / 2];  // of two, the smaller: a gap is the exception
-  const auto uneven = [&](std::size_t k) { return std::abs(distances[k] - usual) > tolerance(usual); };
-  for (std::size_t k = 0; k < steps; ++k) {
-    if (!uneven(k)) continue;
-    const double multiple = std::round(distances[k] / usual);
-    const bool missing =
-        multiple >= 2.0 && std::abs(distances[k] - multiple * usual) <= multiple * tolerance(usual);
-    if (missing) {
-      return fmt::format(
-          "{:.0f} slice{} missing between {} and {}: they are {:.3f} mm apart, others {:.3f} mm",
-          multiple - 1.0, multiple > 2.0 ? "s are" : " is", name(slices[k]), name(slices[k + 1]),
-          distances[k], usual);
-    }
-    return fmt::format("uneven slice distances: {} and {} are {:.3f} mm apart, others {:.3f} mm",
-                       name(slices[k]), name(slices[k + 1]), distances[k], usual);
-  }
-  // Small deviations to the same side add up.
-  const double mean = (positions.back() - positions.front()) / static_cast<double>(steps);
-  for (std::size_t k = 0; k <= steps; ++k) {
-    const double expected = positions.front() + mean * static_cast<double>(k);
-    if (std::abs(positions[k] - expected) > std::max(0.1 * mean, tolerance(mean))) {
-      return fmt::format(
-          "uneven slice distances: {} lies {:.3f} mm from its place in an even series of {:.3f} mm",
-          name(slices[k]), positions[k] - expected, mean);
-    }
-  }
-  return std::nullopt;
+  return stack;
 }
 
 // Checks that need no order.
@@ -345,24 +298,31 @@ Series arrange_series(std::vector<SliceHeader> slices) {
   const glm::dmat3 axes = axes_of(slices.front());
   sort_slices(slices, axes[2], series.changes);
   finish();
-  const std::vector<double> positions = along(slices, axes[2]);
-  auto reason = check_distinct(slices, positions);
-  if (!reason) reason = check_straight(slices, positions, axes[2]);
-  if (!reason) reason = check_even(slices, positions);
-  if (reason) {
+  if (auto reason = check_distinct(slices, along(slices, axes[2]))) {
     series.reason = *reason;
     return series;
   }
-  const SliceHeader& first = slices.front();
-  const auto count = static_cast<std::int64_t>(slices.size());
-  series.geometry.size = {first.columns, first.rows, count};
-  series.geometry.spacing_mm = glm::dvec3(
-      *first.pixel_spacing_mm, (positions.back() - positions.front()) / static_cast<double>(count - 1));
-  series.geometry.direction = axes;
-  series.geometry.origin_mm = *first.position_mm;
+  series.stack = stack_of(slices, axes);
   series.scalar = scalar_of(slices, series.changes);
-  series.loadable = true;
+  set_grid(series, {});
   return series;
+}
+
+void set_grid(Series& series, const GridPolicy& policy) {
+  if (series.stack.positions_mm.empty()) return;
+  const auto take_back = [](std::vector<std::string>& all, const std::vector<std::string>& some) {
+    std::erase_if(all,
+                  [&](const auto& one) { return std::find(some.begin(), some.end(), one) != some.end(); });
+  };
+  take_back(series.changes, series.grid.changes);
+  take_back(series.warnings, series.grid.warnings);
+  series.policy = policy;
+  series.grid = plan_regular_grid(series.stack, policy);
+  series.geometry = series.grid.geometry;
+  series.reason = series.grid.refusal;
+  series.loadable = series.reason.empty();
+  series.changes.insert(series.changes.end(), series.grid.changes.begin(), series.grid.changes.end());
+  series.warnings.insert(series.warnings.end(), series.grid.warnings.begin(), series.grid.warnings.end());
 }
 
 }  // namespace tidemark

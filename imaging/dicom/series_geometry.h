@@ -9,12 +9,15 @@
 
 namespace tidemark {
 
-// Sorts the images of one series along their normal and checks that they make a regular grid: same size,
-// pixel spacing and orientation, one image a position, even distances (within max(1e-3 x distance, 0.01 mm)),
-// positions on a line along the normal (DICOM PS3.3 C.7.6.2.1.1). The direction of the k axis is
-// cross(i, j), so that the grid is right-handed. `slices` must not be empty. A series that fails a check
-// comes back with loadable = false and a reason that names the files.
+// Sorts the images of one series along their normal and checks that they make a stack: same size, pixel
+// spacing and orientation, one image a position (DICOM PS3.3 C.7.6.2.1.1); of which a regular grid is made by
+// the default policy (plan_regular_grid()). The direction of the k axis is cross(i, j), so that the grid is
+// right-handed. `slices` must not be empty. A series that fails a check comes back with loadable = false and
+// a reason that names the files.
 [[nodiscard]] Series arrange_series(std::vector<SliceHeader> slices);
+
+// Makes the grid of a series anew; nothing changes where there is no stack.
+void set_grid(Series& series, const GridPolicy& policy);
 
 // What the images of one series have in common: the Series Instance UID; images without one belong together
 // when they lie in one folder and have the same modality and description.

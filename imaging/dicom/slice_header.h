@@ -65,6 +65,7 @@ struct SliceHeader {
 
   double slope = 1.0;                 // (0028,1053)
   double intercept = 0.0;             // (0028,1052)
+  std::optional<double> padding;      // (0028,0120): the stored value where nothing was measured
   std::optional<WindowLevel> window;  // (0028,1050) and (0028,1051), first values
 
   bool is_monochrome1 = false;  // small values are white

@@ -47,13 +47,12 @@ SourceStudy anonymous_study(const Geometry& geometry) {
   return study;
 }
 
-// Whether a slice of the grid's size lies elsewhere in the plane of the grid's slice k: it is of another
-// stack.
-bool is_beside(const SliceHeader& slice, std::int64_t k, const Geometry& geometry) {
-  if (slice.columns != geometry.size.x || slice.rows != geometry.size.y) return false;
-  const glm::dvec3 off =
-      glm::abs(geometry.to_voxel(*slice.position_mm) - glm::dvec3(0.0, 0.0, static_cast<double>(k)));
-  return std::max(off.x, off.y) > kTolerance;
+// How far from the grid, in pixels of its planes, a slice of its size lies: another stack, or slices that were
+// taken as they lie although they move sideways (a tilted gantry).
+glm::dvec2 pixels_beside(const SliceHeader& slice, const Geometry& geometry) {
+  if (slice.columns != geometry.size.x || slice.rows != geometry.size.y) return glm::dvec2(0.0);
+  const glm::dvec3 voxel = geometry.to_voxel(*slice.position_mm);
+  return glm::abs(glm::dvec2(voxel.x, voxel.y));
 }
 
 // Images that were stripped of their UIDs cannot be referred to.
@@ -67,7 +66,15 @@ Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& stu
     study.images.push_back({first.sop_class_uid, first.sop_instance_uid});
     for (const SliceHeader& slice : *slices) {
       const auto k = slice.position_mm ? slice_at(*slice.position_mm, geometry) : std::nullopt;
-      if (!k || (slice.frames > 1 && is_beside(slice, *k, geometry))) continue;
+      if (!k) continue;
+      const glm::dvec2 beside = pixels_beside(slice, geometry);
+      if (std::max(beside.x, beside.y) > kTolerance) {
+        if (slice.frames > 1) continue;  // of another stack
+        return fail(ErrorKind::input,
+                    "{}: lies {:.1f} x {:.1f} pixels beside its slice of the volume (a gantry tilt that was "
+                    "kept?): a result would have no place in the patient",
+                    file.string(), beside.x, beside.y);
+      }
       auto& place = study.places[static_cast<std::size_t>(*k)];
       if (!place || place->image != image) place = SourcePlace{image, {}};
       if (slice.frames > 1) place->frames.push_back(static_cast<std::uint16_t>(slice.frame + 1));

@@ -63,6 +63,7 @@ std::unique_ptr<Case> labelled_case(ExecutorKind kind = ExecutorKind::host) {
   StudyOrigin origin;
   origin.phantom = "lumpy";
   origin.series_uid = "1.2.3";
+  origin.policy = {GridPolicy::Tilt::keep, GridPolicy::Gaps::fill};
   auto document = std::move(Case::create(lumpy_volume(), origin, lumpy_parameters(), kind, options).value());
   LevelSet& level_set = document->level_set();
   must(level_set.begin(seed_in(*document->volume())));
@@ -97,6 +98,7 @@ class SessionTest : public QObject {
     const auto contents = load_session(folder / "one.tidemark");
     QCOMPARE(failure(contents), QString());
     QCOMPARE(contents->origin, document->origin());
+    QVERIFY(contents->recipe.source.policy == document->origin().policy);
     QVERIFY(match(*contents, *document->volume()) == VolumeMatch::same);
     ExecutorOptions options;
     options.threads = 1;

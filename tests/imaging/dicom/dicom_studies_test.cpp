@@ -11,6 +11,7 @@
 
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/pixels.h"
+#include "imaging/study.h"
 #include "tests/support/support.h"
 
 using namespace tidemark;
@@ -226,7 +227,7 @@ class DicomStudiesTest : public QObject {
     const auto row = [](const char* study, const QStringList& parts) {
       QTest::addRow("%s", study) << QString(study) << parts;
     };
-    row("d04_ct_tilt_ge", {"10.dcm", "11.dcm", "18.5 degrees", "not read yet"});
+    row("d04_ct_tilt_ge", {"uneven slice distances", "14.dcm", "15.dcm", "1.081 mm", "4.002 mm"});
     row("d09_gap_ct_ge", {"1 slice is missing", "IM-0001-0009-0001.dcm", "IM-0001-0010-0001.dcm"});
     row("d17_rgb_not_a_volume", {"SamplesPerPixel", "RGB", "IM-0001-0001-0001.dcm"});
     row("d20_monochrome1", {"gdcm-CR-MONO1-10-chest.dcm", "single image"});
@@ -244,6 +245,67 @@ class DicomStudiesTest : public QObject {
       QVERIFY2(QString::fromStdString(series.reason).contains(part), series.reason.c_str());
     }
     QVERIFY(!load_dicom(series));
+  }
+
+  // One slice is missing between the third and the fourth image.
+  void a_missing_slice_is_filled() {
+    constexpr GridPolicy kFill{GridPolicy::Tilt::correct, GridPolicy::Gaps::fill};
+    const auto loaded = load_with_series(test::studies_folder() / "d09_gap_ct_ge", {}, {}, kFill);
+    QCOMPARE(test::failure(loaded), QString());
+    const Volume& volume = loaded->volume;
+    QCOMPARE(volume.geometry.size, Index3(512, 512, 5));
+    QVERIFY(distance(volume.geometry.spacing_mm, {0.429688, 0.429688, 5.0}) < 1e-5);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto slice = decode_frame(loaded->series.files[k]);
+      QCOMPARE(test::failure(slice), QString());
+      const auto first = volume.geometry.offset({0, 0, k < 3 ? static_cast<std::int64_t>(k) : 4});
+      for (std::int64_t v = 0; v < 512 * 512; ++v) {
+        const auto wanted = static_cast<double>(slice->pixels.stored[static_cast<std::size_t>(v)]) - 1024.0;
+        QCOMPARE(static_cast<double>(volume.value(first + v)), wanted);
+      }
+    }
+    for (std::int64_t v = 0; v < 512 * 512; ++v) {
+      const float low = volume.value(v + volume.geometry.offset({0, 0, 2}));
+      const float high = volume.value(v + volume.geometry.offset({0, 0, 4}));
+      QVERIFY(std::abs(volume.value(v + volume.geometry.offset({0, 0, 3})) - 0.5F * (low + high)) <= 0.5F);
+    }
+  }
+
+  // 18.5 degrees; 4 mm along the normal, then 1.08 mm once, then 7 mm.
+  void a_tilted_gantry_with_two_pitches_becomes_regular() {
+    const fs::path study = test::studies_folder() / "d04_ct_tilt_ge";
+    const auto corrected =
+        load_with_series(study, {}, {}, {GridPolicy::Tilt::correct, GridPolicy::Gaps::fill});
+    QCOMPARE(test::failure(corrected), QString());
+    const Geometry& grid = corrected->volume.geometry;
+    QCOMPARE(grid.size, Index3(512, 543, 12));  // 47.54 mm of table, sin 18.5 degrees of it in the rows
+    QVERIFY(distance(grid.spacing_mm, {0.488281, 0.488281, 4.0019}) < 1e-3);
+    const auto& slices = corrected->series.grid.slices;
+    const nlohmann::json& truth = truth_.at("d04_ct_tilt_ge").at("series").begin().value();
+    for (std::size_t k = 0; k < 5; ++k) {  // 4.22 mm of table each
+      const glm::dvec3 first(slices[k][0].shift, static_cast<double>(k));
+      const glm::dvec3 wanted =
+          vector_of(truth.at("first_IPP")) + glm::dvec3(0.0, 0.0, 4.22 * static_cast<double>(k));
+      QVERIFY(distance(grid.to_patient(first), wanted) < 0.01);
+    }
+    QCOMPARE(corrected->volume.range().first, -1500.0F);  // PixelPaddingValue
+    const auto says = [&](const Volume& volume, const char* part) {
+      return std::any_of(volume.changes.begin(), volume.changes.end(),
+                         [&](const std::string& one) { return one.find(part) != std::string::npos; });
+    };
+    QVERIFY(says(corrected->volume, "tilt of 18.5 degrees corrected"));
+    QVERIFY(says(corrected->volume, "12 slices 4.002 mm apart are made of 10"));
+
+    const auto kept = load_with_series(study, {}, {}, {GridPolicy::Tilt::keep, GridPolicy::Gaps::fill});
+    QCOMPARE(test::failure(kept), QString());
+    QCOMPARE(kept->volume.geometry.size, Index3(512, 512, 12));
+    QVERIFY(says(kept->volume, "tilted by 18.5 degrees"));
+    const auto fourth = decode_frame(kept->series.files[4]);
+    QCOMPARE(test::failure(fourth), QString());
+    for (std::int64_t v = 0; v < 512 * 512; ++v) {
+      QCOMPARE(static_cast<double>(kept->volume.value(v + 4 * 512 * 512)),
+               static_cast<double>(fourth->pixels.stored[static_cast<std::size_t>(v)]));
+    }
   }
 
   void of_every_odd_file_it_is_said_why_it_is_not_read_data() {

@@ -1,0 +1,47 @@
+#include "app/cli/study_input.h"
+
+#include "app/cli/arguments.h"
+
+namespace tidemark::cli {
+
+GridPolicy StudyInput::policy(const GridPolicy& otherwise) const {
+  return {tilt.value_or(otherwise.tilt), gaps.value_or(otherwise.gaps)};
+}
+
+void add_grid_options(CLI::App& app, StudyInput& study) {
+  using Tilt = GridPolicy::Tilt;
+  using Gaps = GridPolicy::Gaps;
+  const char* const kGroup = "Slices";
+  add_choice<std::optional<Tilt>>(
+      app, "--tilt", study.tilt, {{"correct", Tilt::correct}, {"keep", Tilt::keep}},
+      "Slices of a tilted gantry: moved back (correct, default), or taken as they lie (keep: distances\n"
+      "across slices are then sheared)")
+      ->group(kGroup);
+  add_choice<std::optional<Gaps>>(
+      app, "--gaps", study.gaps, {{"refuse", Gaps::refuse}, {"fill", Gaps::fill}},
+      "Missing slices and uneven distances: not loaded (refuse, default), or interpolated (fill)")
+      ->group(kGroup);
+}
+
+Result<ChosenSeries> find_study(const StudyInput& study, const Progress& progress,
+                                const GridPolicy& otherwise) {
+  const auto catalogue = find_series(study.path, progress, study.policy(otherwise));
+  if (!catalogue) return tl::unexpected<Error>(catalogue.error());
+  auto chosen = choose_series(*catalogue, study.series, study.path);
+  if (!chosen && find_fillable(*catalogue, study.series) != nullptr) {
+    chosen.error().message += "; --gaps fill interpolates";
+  }
+  return chosen;
+}
+
+Result<LoadedSeries> load_study(const StudyInput& study, const Progress& progress,
+                                const GridPolicy& otherwise) {
+  auto chosen = find_study(study, progress, otherwise);
+  if (!chosen) return pass_on(chosen);
+  auto volume = load_series(chosen->series, progress);
+  if (!volume) return pass_on(volume);
+  volume->changes.insert(volume->changes.begin(), chosen->remarks.begin(), chosen->remarks.end());
+  return LoadedSeries{std::move(chosen->series), std::move(*volume)};
+}
+
+}  // namespace tidemark::cli

@@ -1,0 +1,33 @@
+// The study that a command works on, and what is done with slices that make no regular grid.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+
+#include "core/progress.h"
+#include "imaging/study.h"
+
+namespace tidemark::cli {
+
+struct StudyInput {
+  std::string path;
+  std::string series;  // UID, when there are several
+  std::optional<GridPolicy::Tilt> tilt;
+  std::optional<GridPolicy::Gaps> gaps;
+
+  // What was asked for over what holds otherwise.
+  [[nodiscard]] GridPolicy policy(const GridPolicy& otherwise = {}) const;
+};
+
+// --tilt and --gaps.
+void add_grid_options(CLI::App& app, StudyInput& study);
+
+// The series that load_study() takes, before any voxel is read. Where filling gaps would make one loadable,
+// the failure says how.
+Result<ChosenSeries> find_study(const StudyInput& study, const Progress& progress,
+                                const GridPolicy& otherwise = {});
+Result<LoadedSeries> load_study(const StudyInput& study, const Progress& progress,
+                                const GridPolicy& otherwise = {});
+
+}  // namespace tidemark::cli
