@@ -66,17 +66,27 @@ void Actions::make_files() {
                       tr("Go on with a session that was saved"));
   query_server = make("query-server", "server", tr("&Query a server…"), QKeySequence("Ctrl+Alt+O"), false,
                       tr("Find a series in a PACS and open it"));
+  import_labels = make("import-labels", "label", tr("I&mport labels…"), QKeySequence("Ctrl+I"), true,
+                       tr("Add labels from a DICOM segmentation, an RT structure set or a label map"));
   save = make("save", "save", tr("&Save session"), QKeySequence("Ctrl+S"), true);
   save_as = make("save-as", "save-as", tr("Save session &as…"), QKeySequence("Ctrl+Shift+S"), true);
   export_mask = make("export-mask", "export", tr("&Mask or labels…"), QKeySequence("Ctrl+E"), true,
                      tr("Write what is inside the surface, or the labels"));
+  export_segmentation = make("export-segmentation", nullptr, tr("&DICOM segmentation…"), {}, true,
+                             tr("Write labels or surface as DICOM segmentation (SEG) of the study"));
+  export_structure_set = make("export-structure-set", nullptr, tr("RT s&tructure set…"), {}, true,
+                              tr("Write the contours of labels or surface as RT structure set of the study"));
+  export_level_set = make("export-level-set", nullptr, tr("&Level set for OpenVDB…"), {}, true,
+                          tr("Write the level set itself, in mm of the patient"));
   export_mesh = make("export-mesh", nullptr, tr("&Surface as polygons…"), {}, true,
                      tr("Write the surface as STL, PLY or OBJ, in mm of the patient"));
   export_picture = make("export-picture", "camera", tr("&Picture of the view…"), QKeySequence("Ctrl+P"), true,
                         tr("Write the active view as PNG, without the patient's text"));
-  export_statistics = make("export-statistics", "statistics", tr("S&tatistics…"), {}, true);
+  export_statistics = make("export-statistics", "statistics", tr("Statist&ics…"), {}, true);
   export_recipe = make("export-recipe", nullptr, tr("&Recipe…"), {}, true,
                        tr("Write all steps and edits, to be repeated by tidemark-cli replay"));
+  send_result = make("send-result", "server", tr("Sen&d segmentation to a server…"), {}, true,
+                     tr("Send labels or surface to a PACS, as new series of the study"));
   close = make("close", "close", tr("&Close study"), QKeySequence("Ctrl+W"), true);
   quit = make("quit", nullptr, tr("&Quit"), QKeySequence("Ctrl+Q"), false);
   undo = make("undo", "undo", tr("&Undo"), QKeySequence("Ctrl+Z"), true);
@@ -197,7 +207,10 @@ void Actions::follow_evolution(const CaseState& state) {
   play->setChecked(state.playing);
   play->setIcon(icon(state.playing ? u"pause" : u"play"));
   play->setText(state.playing ? tr("&Pause") : tr("&Play"));
-  for (QAction* action : {play, step, restart, export_mesh, export_recipe}) action->setEnabled(state.begun);
+  for (QAction* action : {play, step, restart, export_mesh, export_recipe, export_level_set})
+    action->setEnabled(state.begun);
+  for (QAction* action : {export_segmentation, export_structure_set, send_result})
+    action->setEnabled(state.begun || !state.labels.empty());
   step_back->setEnabled(state.begun && state.step > 0);
   undo->setEnabled(!state.undo_text.isEmpty());
   undo->setText(state.undo_text.isEmpty() ? tr("&Undo") : tr("&Undo: %1").arg(state.undo_text));

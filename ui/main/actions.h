@@ -25,13 +25,18 @@ class Actions : public QObject {
   QAction* open_file;
   QAction* open_session;
   QAction* query_server;
+  QAction* import_labels;
   QAction* save;
   QAction* save_as;
   QAction* export_mask;
+  QAction* export_segmentation;
+  QAction* export_structure_set;
+  QAction* export_level_set;
   QAction* export_mesh;
   QAction* export_picture;
   QAction* export_statistics;
   QAction* export_recipe;
+  QAction* send_result;
   QAction* close;
   QAction* quit;
   // Edit.

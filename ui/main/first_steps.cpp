@@ -34,7 +34,8 @@ QString steps(const Actions& actions) {
           .arg(key(actions.play)),
       tr("Paint (%1) or erase (%2) while it runs; undo (%3) takes anything back.")
           .arg(key(actions.tool(Tool::paint)), key(actions.tool(Tool::erase)), key(actions.undo)),
-      tr("Accept the surface into a label, and export mask (%1) or polygons.").arg(key(actions.export_mask))};
+      tr("Accept the surface into a label, and export mask (%1), polygons or a DICOM segmentation.")
+          .arg(key(actions.export_mask))};
   QString text;
   for (const QString& step : steps) text += QStringLiteral("<li>%1</li>").arg(step);
   return QStringLiteral("<ol>%1</ol>").arg(text);
