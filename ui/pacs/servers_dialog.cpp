@@ -68,6 +68,7 @@ QWidget* ServersDialog::make_list() {
   auto* column = new QVBoxLayout(left);
   column->setContentsMargins(0, 0, 0, 0);
   list_->setAccessibleName(tr("Servers"));
+  list_->setToolTip(tr("The servers there are: the chosen one is shown beside"));
   list_->setFixedWidth(170);
   auto* buttons = new QHBoxLayout;
   const auto button = [&](const char* name, const char* picture, const QString& text, auto method) {
@@ -148,6 +149,8 @@ QLineEdit* ServersDialog::file_line(const QString& label, const QString& tip, Fo
   row->setContentsMargins(0, 0, 0, 0);
   auto* line = new QLineEdit;
   line->setAccessibleName(label);
+  line->setToolTip(tip);
+  whole->setFocusProxy(line);
   auto* choose = new QToolButton;
   choose->setIcon(icon(u"open-file"));
   choose->setToolTip(tr("Choose a file"));
