@@ -4,6 +4,7 @@
 
 #include "session/case_session.h"
 #include "ui/look/icons.h"
+#include "ui/views/mouse_scheme.h"
 
 namespace tidemark {
 namespace {
@@ -27,6 +28,7 @@ Actions::Actions(QObject* parent) : QObject(parent) {
   make_files();
   make_evolution();
   make_tools();
+  make_mouse();
   make_views();
   make_windows();
 }
@@ -92,6 +94,23 @@ void Actions::make_files() {
   undo = make("undo", "undo", tr("&Undo"), QKeySequence("Ctrl+Z"), true);
   redo = make("redo", "redo", tr("&Redo"), QKeySequence("Ctrl+Shift+Z"), true);
   keys = make("keys", "keyboard", tr("&Keys…"), {}, false, tr("See and change the keys"));
+}
+
+void Actions::make_mouse() {
+  mouse_schemes = new QActionGroup(this);
+  const auto scheme = [this](MouseScheme which, const char* name, const QString& text, const QString& tip) {
+    QAction* action = make(name, nullptr, text, {}, false, tip);
+    action->setCheckable(true);
+    action->setChecked(which == mouse_scheme());
+    action->setData(static_cast<int>(which));
+    mouse_schemes->addAction(action);
+  };
+  scheme(MouseScheme::tidemark, "mouse-tidemark", tr("&Tidemark"),
+         tr("Without another tool, the left button drags window and level"));
+  scheme(MouseScheme::itk_snap, "mouse-itk-snap", tr("&ITK-SNAP"),
+         tr("Without another tool, the left button moves the crosshair; with Alt window and level"));
+  connect(mouse_schemes, &QActionGroup::triggered, this,
+          [](QAction* chosen) { set_mouse_scheme(static_cast<MouseScheme>(chosen->data().toInt())); });
 }
 
 void Actions::make_evolution() {

@@ -43,6 +43,7 @@ class Actions : public QObject {
   QAction* undo;
   QAction* redo;
   QAction* keys;
+  QActionGroup* mouse_schemes;  // in the order of MouseScheme
   // Evolution.
   QAction* play;
   QAction* step;
@@ -82,6 +83,7 @@ class Actions : public QObject {
   void make_files();
   void make_evolution();
   void make_tools();
+  void make_mouse();
   void make_views();
   void make_windows();
   void follow_evolution(const CaseState& state);

@@ -5,6 +5,8 @@
 #include <QTextBrowser>
 #include <QVBoxLayout>
 
+#include "ui/views/mouse_scheme.h"
+
 namespace tidemark {
 namespace {
 
@@ -43,7 +45,9 @@ QString steps(const Actions& actions) {
 
 QString mouse() {
   return QStringLiteral("<table>%1</table>")
-      .arg(row(tr("left"), tr("the tool; window and level on slices, turning in 3D")) +
+      .arg(row(tr("left"), mouse_scheme() == MouseScheme::itk_snap
+                               ? tr("the tool; else the crosshair on slices, turning in 3D")
+                               : tr("the tool; window and level on slices, turning in 3D")) +
            row(tr("middle"), tr("move the picture")) +
            row(tr("right"), tr("zoom; the opposite of the brush while painting")) +
            row(tr("wheel"), tr("slices; the clip plane or zoom in 3D")) +

@@ -64,6 +64,7 @@ void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts) {
   edit->addActions({actions.undo, actions.redo});
   edit->addSeparator();
   edit->addAction(actions.keys);
+  edit->addMenu(MainWindow::tr("&Mouse"))->addActions(actions.mouse_schemes->actions());
   make_view_menu(window, actions, *parts.panels);
   QMenu* evolution = window.menuBar()->addMenu(MainWindow::tr("E&volution"));
   evolution->addActions({actions.play, actions.step, actions.step_back, actions.restart});
