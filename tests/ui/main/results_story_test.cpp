@@ -109,6 +109,7 @@ class ResultsStoryTest : public QObject {
   void labels_go_out_as_dicom_and_come_back();
   void a_dropped_segmentation_becomes_labels_and_a_dropped_volume_a_study();
   void the_surface_alone_is_a_result_too();
+  void a_study_that_is_no_dicom_says_what_that_means();
   void a_file_of_the_study_is_never_written_to();
   void labels_are_sent_to_a_server();
   void a_server_that_keeps_silent_is_given_up_by_a_click();
@@ -299,6 +300,18 @@ void ResultsStoryTest::the_surface_alone_is_a_result_too() {
   QCOMPARE(failure(segments), QString());
   QCOMPARE(segments->list.size(), std::size_t{1});
   QCOMPARE(segments->list.front().count(), desktop_->state().surface.voxels_inside);
+}
+
+void ResultsStoryTest::a_study_that_is_no_dicom_says_what_that_means() {
+  window_ = desktop_->open_phantom("sphere");
+  QVERIFY(window_);
+  desktop_->begin(8.0);
+  desktop_->window().actions().export_segmentation->trigger();
+  auto* dialog = window_->findChild<WriteResultDialog*>();
+  QVERIFY(dialog);
+  QVERIFY(says(*dialog, "anonymous patient"));
+  QVERIFY(dialog->findChild<QLineEdit*>()->text().endsWith("Sphere segmentation.dcm"));
+  picture(*dialog, "write-of-no-dicom");
 }
 
 void ResultsStoryTest::a_file_of_the_study_is_never_written_to() {
