@@ -52,6 +52,10 @@ ServersDialog::ServersDialog(std::filesystem::path file, QWidget* parent)
     configuration_ = std::move(*read);
   } else if (std::filesystem::exists(file_, error)) {
     say(QString::fromStdString(read.error().message));
+    // What it holds would be lost.
+    QPushButton* save = buttons->button(QDialogButtonBox::Save);
+    save->setEnabled(false);
+    save->setToolTip(tr("The file of servers cannot be read: mend it, or move it away"));
   }
   for (const PacsServer& server : configuration_.servers) list_->addItem(QString::fromStdString(server.name));
   connect(list_, &QListWidget::currentRowChanged, this, &ServersDialog::show_entry);
