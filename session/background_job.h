@@ -20,6 +20,8 @@ class BackgroundJob {
   // Starts `work`, which must hold nothing that the receiver owns, and must not throw.
   static std::shared_ptr<BackgroundJob> start(QObject* receiver, Work work);
 
+  // Asks the work to stop, and still hears how it ended.
+  void request_stop() { stop_.request_stop(); }
   // On the receiver's thread, at the latest in its destructor: asks the work to stop; no call is delivered
   // any more.
   void abandon() {

@@ -5,6 +5,7 @@
 
 #include "session/case_runner.h"
 #include "session/lock_step.h"
+#include "study/label_segments.h"
 
 namespace tidemark {
 
@@ -168,6 +169,12 @@ void CaseSession::set_label(const Label& label) {
 void CaseSession::remove_label(std::uint8_t id) {
   tell([id](CaseRunner& runner, const Progress&) {
     return runner.adjust(runner.document().labels().remove(id));
+  });
+}
+
+void CaseSession::import_labels(std::shared_ptr<const Segments> segments) {
+  tell([segments = std::move(segments)](CaseRunner& runner, const Progress&) {
+    return runner.adjust(add_segments(runner.document().labels(), *segments));
   });
 }
 

@@ -26,6 +26,7 @@ namespace tidemark {
 class CaseRunner;
 class LockStep;
 class Outlet;
+struct Segments;
 
 // A case as a session file had it. One that was rescued is in no file that the user knows.
 struct RestoredCase {
@@ -80,8 +81,9 @@ class CaseSession : public QObject {
   void add_label(const QString& name);
   void set_label(const Label& label);
   void remove_label(std::uint8_t id);
-  void accept_surface(std::uint8_t label);      // the surface's inside becomes the label
-  void accept_surface_as(const QString& name);  // and a new one
+  void import_labels(std::shared_ptr<const Segments> segments);  // as new labels
+  void accept_surface(std::uint8_t label);                       // the surface's inside becomes the label
+  void accept_surface_as(const QString& name);                   // and a new one
   void begin_from_label(std::uint8_t label);
 
   // What is seen at a pixel of a 3D view (from its top left, physical pixels); the answer comes later, or

@@ -36,6 +36,8 @@ QString change_text(const ChangeDescription& change) {
       return tr("settings of label %1").arg(name);
     case ChangeKind::remove_label:
       return tr("removal of label %1").arg(name);
+    case ChangeKind::import_labels:
+      return tr("import of %1").arg(name);
     case ChangeKind::accept:
       return tr("accept into %1").arg(name);
   }

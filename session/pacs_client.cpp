@@ -1,6 +1,7 @@
 #include "session/pacs_client.h"
 
 #include <QCoreApplication>
+#include <QTemporaryDir>
 #include <chrono>
 
 #include "session/background_job.h"
@@ -13,6 +14,10 @@ namespace {
     QT_TRANSLATE_NOOP("tidemark::PacsStep", "calling the server"),
     QT_TRANSLATE_NOOP("tidemark::PacsStep", "asking the server"),
     QT_TRANSLATE_NOOP("tidemark::PacsStep", "receiving objects"),
+    QT_TRANSLATE_NOOP("tidemark::PacsStep", "writing segments"),
+    QT_TRANSLATE_NOOP("tidemark::PacsStep", "writing contours"),
+    QT_TRANSLATE_NOOP("tidemark::PacsStep", "looking at the files"),
+    QT_TRANSLATE_NOOP("tidemark::PacsStep", "sending objects"),
 };
 constexpr std::chrono::milliseconds kBetweenReports{50};
 
@@ -20,6 +25,18 @@ QString step_text(std::string_view what) {
   QString text = QCoreApplication::translate("tidemark::PacsStep", std::string(what).c_str());
   if (!text.isEmpty()) text[0] = text[0].toUpper();
   return text;
+}
+
+Result<Sent> write_and_send(const PacsServer& server, const PacsClient::WriteFiles& write,
+                            const Progress& progress) {
+  const QTemporaryDir folder;  // of this user alone
+  if (!folder.isValid()) {
+    return fail(ErrorKind::write, "{}: no folder can be made for what is to be sent",
+                folder.path().toStdString());
+  }
+  const auto files = write(folder.path().toStdString(), progress.part(0, 2));
+  if (!files) return tl::unexpected<Error>(files.error());
+  return send_files(server, *files, progress.part(1, 2));
 }
 
 }  // namespace
@@ -76,6 +93,11 @@ void PacsClient::retrieve(const PacsServer& server, const RetrieveRequest& reque
       [this, folder = QString::fromStdString(request.folder.string())](Retrieved&& what) {
         emit retrieved(folder, std::make_shared<const Retrieved>(std::move(what)));
       });
+}
+
+void PacsClient::send(const PacsServer& server, WriteFiles write) {
+  run([server, write](const Progress& progress) { return write_and_send(server, write, progress); },
+      [this](Sent&& what) { emit sent(std::make_shared<const Sent>(std::move(what))); });
 }
 
 void PacsClient::cancel() {

@@ -3,6 +3,7 @@
 
 #include <QObject>
 #include <QString>
+#include <functional>
 #include <memory>
 
 #include "imaging/pacs/pacs.h"
@@ -24,6 +25,10 @@ class PacsClient : public QObject {
   void find_studies(const PacsServer& server, const StudyQuery& query, const PacsLimits& limits);
   void find_series(const PacsServer& server, const SeriesQuery& query, const PacsLimits& limits);
   void retrieve(const PacsServer& server, const RetrieveRequest& request, const PacsLimits& limits);
+  // Has files written into a new folder that is nobody else's, sends them, and removes it.
+  using WriteFiles = std::function<Result<std::vector<std::filesystem::path>>(
+      const std::filesystem::path& folder, const Progress& progress)>;
+  void send(const PacsServer& server, WriteFiles write);
 
   [[nodiscard]] bool busy() const { return job_ != nullptr; }
   void cancel();  // emits cancelled() when something was given up
@@ -35,6 +40,7 @@ class PacsClient : public QObject {
   void series_found(const QString& study_uid,
                     std::shared_ptr<const tidemark::Found<tidemark::PacsSeries>> series);
   void retrieved(const QString& folder, std::shared_ptr<const tidemark::Retrieved> what);
+  void sent(std::shared_ptr<const tidemark::Sent> what);
   void failed(const QString& message);
   void cancelled();
 

@@ -56,6 +56,7 @@ Result<LoadedStudy> load_study(const ChosenSeries& chosen, const Progress& progr
   study.volume = std::make_shared<const Volume>(std::move(*volume));
   study.origin.path = StudyLoader::place_of(series);
   study.origin.series_uid = series.uid;
+  study.dicom_files = dicom_files_of(series);
   study.name = StudyLoader::name_of(series);
   study.patient = series.patient;
   study.date = series.date;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/volume.h"
 #include "imaging/patient.h"
@@ -30,6 +31,7 @@ struct PhantomStart {
 struct LoadedStudy {
   std::shared_ptr<const Volume> volume;
   StudyOrigin origin;
+  std::vector<std::filesystem::path> dicom_files;  // in slice order: results refer to them; empty: not DICOM
   SourceSummary summary;
   QString name;  // for titles; never the patient's
   Patient patient;

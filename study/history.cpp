@@ -35,6 +35,8 @@ std::string describe(const ChangeDescription& change) {
       return fmt::format("settings of {}", change.name);
     case ChangeKind::remove_label:
       return fmt::format("remove {}", change.name);
+    case ChangeKind::import_labels:
+      return fmt::format("import of {}", change.name);
     case ChangeKind::accept:
       return fmt::format("accept into {}", change.name);
   }

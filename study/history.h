@@ -26,6 +26,7 @@ enum class ChangeKind {
   new_label,
   label_settings,
   remove_label,
+  import_labels,
   accept,
 };
 
@@ -33,7 +34,7 @@ enum class ChangeKind {
 struct ChangeDescription {
   ChangeKind kind = ChangeKind::start;
   std::int64_t steps = 0;  // of evolution and step_back
-  std::string name;        // of a label
+  std::string name;        // of a label, or of several
 
   bool operator==(const ChangeDescription&) const = default;
 };

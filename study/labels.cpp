@@ -166,7 +166,7 @@ Mask Labels::mask(std::uint8_t id) const {
   return mask;
 }
 
-Status Labels::assign(std::vector<Label> list, std::vector<std::uint8_t> voxels) {
+Status Labels::check(const std::vector<Label>& list, const std::vector<std::uint8_t>& voxels) const {
   std::array<bool, 256> known{true};
   for (const Label& label : list) {
     if (label.id == 0 || known[label.id]) {
@@ -181,6 +181,20 @@ Status Labels::assign(std::vector<Label> list, std::vector<std::uint8_t> voxels)
   const auto stray = std::find_if(voxels.begin(), voxels.end(), [&](std::uint8_t id) { return !known[id]; });
   if (stray != voxels.end())
     return fail(ErrorKind::usage, "a voxel has label {}, which is not in the list", *stray);
+  return {};
+}
+
+Status Labels::replace(ChangeKind kind, const std::string& name, std::vector<Label> list,
+                       std::vector<std::uint8_t> voxels) {
+  if (Status good = check(list, voxels); !good) return good;
+  return change(kind, name, Touches::voxels, [&] {
+    list_ = std::move(list);
+    voxels_ = std::move(voxels);
+  });
+}
+
+Status Labels::assign(std::vector<Label> list, std::vector<std::uint8_t> voxels) {
+  if (Status good = check(list, voxels); !good) return good;
   list_ = std::move(list);
   voxels_ = std::move(voxels);
   ++revision_;

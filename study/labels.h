@@ -4,11 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/volume.h"
+#include "imaging/results/segment_meaning.h"
 #include "study/history.h"
 
 namespace tidemark {
@@ -18,8 +20,10 @@ struct Label {
   std::string name;
   std::array<std::uint8_t, 3> colour{255, 255, 0};
   bool visible = true;
-  bool locked = false;  // its voxels are not changed by others
+  bool locked = false;                    // its voxels are not changed by others
+  std::optional<SegmentMeaning> meaning;  // nothing: what its name says
 
+  [[nodiscard]] SegmentMeaning coded() const { return meaning ? *meaning : guess_segment_meaning(name); }
   bool operator==(const Label&) const = default;
 };
 
@@ -38,7 +42,7 @@ class Labels {
 
   // A new label with a colour that differs from the others'. Fails (ErrorKind::usage) when there are 255.
   Result<std::uint8_t> add(std::string name);
-  Status set(const Label& label);  // name, colour, visible, locked of the label with that id
+  Status set(const Label& label);  // everything but the voxels of the label with that id
   Status remove(std::uint8_t id);  // and clears its voxels
 
   // Gives the voxels of `mask` to the label; voxels of locked labels stay. With `replace`, the label's other
@@ -46,12 +50,17 @@ class Labels {
   Status accept(const Mask& mask, std::uint8_t id, bool replace = true);
   [[nodiscard]] Mask mask(std::uint8_t id) const;
 
+  // Other labels and other voxels, all at once. Fails as assign() does.
+  Status replace(ChangeKind kind, const std::string& name, std::vector<Label> list,
+                 std::vector<std::uint8_t> voxels);
+
   // What was saved; not an entry of the history. Fails (ErrorKind::usage) when a voxel's label is not in the
   // list, an id is there twice, or the number of voxels is neither 0 nor the grid's.
   Status assign(std::vector<Label> list, std::vector<std::uint8_t> voxels);
 
  private:
   friend class LabelsChange;
+  [[nodiscard]] Status check(const std::vector<Label>& list, const std::vector<std::uint8_t>& voxels) const;
 
   // Lets `edit` change the list, or the list and the voxels, and makes an entry of what has changed.
   enum class Touches { list, voxels };

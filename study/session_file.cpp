@@ -23,14 +23,28 @@ constexpr std::size_t kLongestDescription = std::size_t{1} << 20;
 // Starts from a saved phi are part of the recipe, and larger than its own file may be.
 constexpr JsonLimits kJsonLimits{.bytes = std::size_t{512} << 20, .depth = 32};
 
+Json code_json(const Code& code) {
+  return {{"value", code.value}, {"scheme", code.scheme}, {"meaning", code.meaning}};
+}
+
+Code read_code(const JsonField& field) {
+  return {field.at("value").text(kLongestName), field.at("scheme").text(kLongestName),
+          field.at("meaning").text(kLongestName)};
+}
+
 Json labels_json(const std::vector<Label>& labels) {
   Json list = Json::array();
   for (const Label& label : labels) {
-    list.push_back({{"id", label.id},
-                    {"name", label.name},
-                    {"colour", label.colour},
-                    {"visible", label.visible},
-                    {"locked", label.locked}});
+    Json one{{"id", label.id},
+             {"name", label.name},
+             {"colour", label.colour},
+             {"visible", label.visible},
+             {"locked", label.locked}};
+    if (label.meaning) {
+      one["meaning"] = {{"category", code_json(label.meaning->category)},
+                        {"type", code_json(label.meaning->type)}};
+    }
+    list.push_back(std::move(one));
   }
   return list;
 }
@@ -48,6 +62,10 @@ std::vector<Label> read_labels(const JsonField& field) {
       label.colour[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(colour[c]);
     label.visible = one.at("visible").boolean();
     label.locked = one.at("locked").boolean();
+    if (one.has("meaning")) {
+      const JsonField meaning = one.at("meaning");
+      label.meaning = SegmentMeaning{read_code(meaning.at("category")), read_code(meaning.at("type"))};
+    }
     labels.push_back(std::move(label));
   }
   return labels;

@@ -1,7 +1,6 @@
 #include "app/cli/conversion.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "imaging/files/volume_file.h"
@@ -105,7 +104,12 @@ Status Conversion::split() {
                        (options_.kind == InputKind::volume && holds_only_zero_and_one(*volume_));
   if (options_.kind == InputKind::volume && !is_mask) return {};
   std::vector<float> values = volume_->values();
-  if (options_.kind == InputKind::labels) return split_labels(values);
+  if (options_.kind == InputKind::labels) {
+    auto labels = segments_of_numbers(segments_.geometry, values, options_.input);
+    if (!labels) return pass_on(labels);
+    segments_.list = std::move(labels->list);
+    return {};
+  }
   std::vector<std::uint8_t> inside(values.size());
   const bool is_phi = options_.kind == InputKind::level_set;
   std::transform(values.begin(), values.end(), inside.begin(),
@@ -120,29 +124,6 @@ Status Conversion::split() {
     segment.phi = std::move(phi);
   }
   segments_.list.push_back(std::move(segment));
-  return {};
-}
-
-Status Conversion::split_labels(const std::vector<float>& values) {
-  std::vector<std::uint8_t> ids(values.size());
-  std::array<bool, 256> known{};
-  for (std::size_t v = 0; v < values.size(); ++v) {
-    const float value = values[v];
-    if (!(value >= 0.0F && value <= 255.0F) || value != std::floor(value)) {
-      return fail(ErrorKind::input, "{}: {} is not a label, a whole number from 0 to 255",
-                  options_.study.path, value);
-    }
-    ids[v] = static_cast<std::uint8_t>(value);
-    known[ids[v]] = true;
-  }
-  for (std::size_t id = 1; id < known.size(); ++id) {
-    if (!known[id]) continue;
-    Segment segment;
-    segment.name = fmt::format("Segment {}", id);
-    segment.slices = slices_of(segments_.geometry, ids, static_cast<std::uint8_t>(id));
-    segments_.list.push_back(std::move(segment));
-  }
-  if (segments_.list.empty()) return fail(ErrorKind::input, "{}: holds no label", options_.study.path);
   return {};
 }
 

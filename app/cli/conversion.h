@@ -50,7 +50,6 @@ class Conversion {
   Status load_result(const Progress& progress);
   Status load_volume(const Progress& progress);
   Status split();
-  Status split_labels(const std::vector<float>& values);
   Status require_segments() const;
   Status write_values(const std::filesystem::path& file);
   Status write_surface(const std::filesystem::path& file);

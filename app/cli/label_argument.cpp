@@ -30,7 +30,9 @@ std::string help(const char* which) {
     words += named.word;
     line += named.word.size() + 1;
   }
-  return std::string(which) + ": its name, its meaning in SNOMED CT and its colour.\nMEANING is one of\n" +
+  return std::string(which) +
+         ": its name, its meaning in SNOMED CT (else what the name says) and its colour.\nMEANING is one "
+         "of\n" +
          words;
 }
 
@@ -47,7 +49,11 @@ constexpr const char* kType = "NAME[,MEANING[,RRGGBB]]";
 
 void LabelArgument::apply(Segment& segment) const {
   if (!name.empty()) segment.name = name;
-  if (meaning) segment.meaning = *meaning;
+  if (meaning) {
+    segment.meaning = *meaning;
+  } else if (segment.meaning == SegmentMeaning()) {
+    segment.meaning = guess_segment_meaning(name);
+  }
   if (colour) segment.colour = colour;
 }
 

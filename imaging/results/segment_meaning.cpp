@@ -1,6 +1,8 @@
 #include "imaging/results/segment_meaning.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 #include <vector>
 
 namespace tidemark {
@@ -57,7 +59,64 @@ std::vector<NamedMeaning> make_meanings() {
   };
 }
 
+using Words = std::vector<std::string>;
+
+// Letters in lower case; everything else separates.
+Words words_of(std::string_view text) {
+  Words words(1);
+  for (const char c : text) {
+    if (c >= 'A' && c <= 'Z') {
+      words.back() += static_cast<char>(c - 'A' + 'a');
+    } else if (c >= 'a' && c <= 'z') {
+      words.back() += c;
+    } else if (!words.back().empty()) {
+      words.emplace_back();
+    }
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+// One or several of it: kidney and kidneys, vertebra and vertebrae.
+bool is_word(const std::string& said, const std::string& word) {
+  return said == word || said == word + "s" || said == word + "e" || said == word + "es";
+}
+
+bool says(const Words& name, const Words& phrase) {
+  return !phrase.empty() &&
+         std::search(name.begin(), name.end(), phrase.begin(), phrase.end(), is_word) != name.end();
+}
+
+// How much a meaning is worth where a name has several: longer phrases say more, and a tumour in the liver is
+// a tumour.
+std::size_t worth(const SegmentMeaning& meaning, const Words& phrase) {
+  constexpr const char* kAbnormal = "49755003";
+  return 2 * phrase.size() + (meaning.category.value == kAbnormal ? 1 : 0);
+}
+
 }  // namespace
+
+SegmentMeaning guess_segment_meaning(std::string_view name) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kOtherWords{
+      {{"tumor", "tumour"}, {"csf", "cerebrospinal-fluid"}}};
+  const Words said = words_of(name);
+  SegmentMeaning best;
+  std::size_t most = 0;
+  const auto weigh = [&](std::string_view text, const SegmentMeaning& meaning) {
+    const Words phrase = words_of(text);
+    if (!says(said, phrase) || worth(meaning, phrase) <= most) return;
+    most = worth(meaning, phrase);
+    best = meaning;
+  };
+  for (const NamedMeaning& named : segment_meanings()) {
+    weigh(named.word, named.meaning);
+    weigh(named.meaning.type.meaning, named.meaning);
+    for (const auto& [other, word] : kOtherWords) {
+      if (word == named.word) weigh(other, named.meaning);
+    }
+  }
+  return best;
+}
 
 std::span<const NamedMeaning> segment_meanings() {
   static const std::vector<NamedMeaning> meanings = make_meanings();

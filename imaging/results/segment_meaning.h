@@ -37,4 +37,8 @@ struct NamedMeaning {
 // By its word. Fails (ErrorKind::usage) naming the words there are.
 [[nodiscard]] Result<SegmentMeaning> find_segment_meaning(std::string_view word);
 
+// What a name of a region says in English ("Left kidney", "liver tumours": what is abnormal comes before
+// where it is); tissue where it says nothing.
+[[nodiscard]] SegmentMeaning guess_segment_meaning(std::string_view name);
+
 }  // namespace tidemark

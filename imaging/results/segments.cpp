@@ -1,6 +1,7 @@
 #include "imaging/results/segments.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tidemark {
 namespace {
@@ -46,6 +47,30 @@ Segments segments_of(const Mask& mask, const std::string& name) {
   segment.name = name;
   segment.slices = slices_of(mask.geometry, mask.voxels);
   segments.list.push_back(std::move(segment));
+  return segments;
+}
+
+Result<Segments> segments_of_numbers(const Geometry& geometry, std::span<const float> values,
+                                     const std::string& what) {
+  std::vector<std::uint8_t> ids(values.size());
+  std::array<bool, 256> known{};
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    const float value = values[v];
+    if (!(value >= 0.0F && value <= 255.0F) || value != std::floor(value)) {
+      return fail(ErrorKind::input, "{}: {} is not a label, a whole number from 0 to 255", what, value);
+    }
+    ids[v] = static_cast<std::uint8_t>(value);
+    known[ids[v]] = true;
+  }
+  Segments segments{geometry, {}, {}};
+  for (std::size_t id = 1; id < known.size(); ++id) {
+    if (!known[id]) continue;
+    Segment segment;
+    segment.name = fmt::format("Segment {}", id);
+    segment.slices = slices_of(geometry, ids, static_cast<std::uint8_t>(id));
+    segments.list.push_back(std::move(segment));
+  }
+  if (segments.list.empty()) return fail(ErrorKind::input, "{}: holds no label", what);
   return segments;
 }
 

@@ -42,6 +42,11 @@ struct Segments {
 // One segment of that mask.
 [[nodiscard]] Segments segments_of(const Mask& mask, const std::string& name);
 
+// A segment for each number from 1 to 255 that a label map holds, called "Segment 3". `values` are in voxel
+// order. Fails (ErrorKind::input) naming `what` (the file) where a value is no label, or none is above 0.
+[[nodiscard]] Result<Segments> segments_of_numbers(const Geometry& geometry, std::span<const float> values,
+                                                   const std::string& what);
+
 // Everything that is inside any segment.
 [[nodiscard]] Mask union_of(const Segments& segments);
 

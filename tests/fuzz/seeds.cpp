@@ -179,6 +179,9 @@ void write_studies() {
   const auto painted =
       document->level_set().paint(test::ball_at(*document->volume(), {1, 0, 1}, 1.0), Brush::add);
   if (!painted) qFatal("%s", painted.error().message.c_str());
+  Label label = *document->labels().find(document->labels().add("Left").value());
+  label.meaning = find_segment_meaning("kidney").value();
+  if (const auto set = document->labels().set(label); !set) qFatal("%s", set.error().message.c_str());
   write("study_files", "recipe.json", document->level_set().recipe().to_text().value());
 
   auto contents = snapshot_of(*document).value();

@@ -38,8 +38,13 @@ class LabelsTest : public QObject {
     const std::uint8_t tumour = labels.add("Tumour").value();
     QCOMPARE(failure(labels.accept(box(labels.geometry(), {0, 0, 0}, {5, 5, 5}), liver)), QString());
     QCOMPARE(failure(labels.accept(box(labels.geometry(), {4, 0, 0}, {9, 5, 5}), tumour)), QString());
+    Label chosen = *labels.find(tumour);
+    chosen.meaning = find_segment_meaning("cyst").value();
+    QCOMPARE(failure(labels.set(chosen)), QString());
     const Segments segments = segments_of(labels);
     QCOMPARE(segments.list.size(), std::size_t{2});
+    QVERIFY(segments.list[0].meaning == find_segment_meaning("liver").value());  // as its name says
+    QVERIFY(segments.list[1].meaning == chosen.meaning);
     QCOMPARE(segments.list[1].count(), labels.mask(tumour).count());
 
     Labels read(small_grid());
@@ -54,12 +59,44 @@ class LabelsTest : public QObject {
     QVERIFY(read.list()[2].colour == labels.find(tumour)->colour);
     QCOMPARE(read.mask(read.list()[1].id).count(), labels.mask(liver).count() - 1);  // one voxel is locked
     QVERIFY(read.mask(read.list()[2].id).voxels == labels.mask(tumour).voxels);
+    QVERIFY(read.list()[2].meaning == chosen.meaning);
 
     Geometry larger = small_grid();
     larger.size.x += 1;
     Labels elsewhere(larger);
     QCOMPARE(add_segments(elsewhere, segments).error().kind, ErrorKind::usage);
     QVERIFY(elsewhere.list().empty());
+  }
+
+  void an_import_is_one_entry_of_the_history() {
+    History history;
+    Labels labels(small_grid(), &history);
+    const std::uint8_t bone = labels.add("Bone").value();
+    QCOMPARE(failure(labels.accept(box(labels.geometry(), {0, 0, 0}, {3, 3, 3}), bone)), QString());
+    const std::vector<std::uint8_t> before(labels.voxels().begin(), labels.voxels().end());
+    Segments two = segments_of(box(labels.geometry(), {2, 2, 2}, {5, 5, 5}), "Left kidney");
+    two.list.push_back(segments_of(box(labels.geometry(), {5, 5, 5}, {7, 7, 7}), "Cyst").list.front());
+    QCOMPARE(failure(add_segments(labels, two)), QString());
+    QCOMPARE(labels.list().size(), std::size_t{3});
+    QCOMPARE(labels.mask(2).count(), std::int64_t{63});  // the later one has what both hold
+    const std::vector<std::uint8_t> after(labels.voxels().begin(), labels.voxels().end());
+    QCOMPARE(describe(*history.undo_description()), std::string("import of Left kidney, Cyst"));
+    QCOMPARE(failure(history.undo()), QString());
+    QCOMPARE(labels.list().size(), std::size_t{1});
+    QVERIFY(std::ranges::equal(labels.voxels(), before));
+    QCOMPARE(failure(history.redo()), QString());
+    QCOMPARE(labels.list().size(), std::size_t{3});
+    QVERIFY(std::ranges::equal(labels.voxels(), after));
+  }
+
+  // They come out of files of others, and go into session files and files for others.
+  void names_and_codes_that_nobody_could_write_again_are_cut_or_left_out() {
+    Labels labels(small_grid());
+    Segments segments = segments_of(box(labels.geometry(), {2, 2, 2}, {5, 5, 5}), std::string(63, 'x') + "ä");
+    segments.list.front().meaning.type = {std::string(300, '1'), "SCT", "Liver"};
+    QCOMPARE(failure(add_segments(labels, segments)), QString());
+    QCOMPARE(labels.list().front().name, std::string(63, 'x'));
+    QVERIFY(!labels.list().front().meaning);
   }
 
   void voxels_of_locked_labels_stay() {

@@ -72,6 +72,7 @@ std::unique_ptr<Case> labelled_case(ExecutorKind kind = ExecutorKind::host) {
   Label label = document->labels().list()[0];
   label.locked = true;
   label.colour = {1, 2, 3};
+  label.meaning = find_segment_meaning("tumour").value();
   must(document->labels().set(label));
   document->labels().add("empty").value();
   must(level_set.paint(ball_at(*document->volume(), {5, 0, 0}, 4.0), Brush::add));
@@ -320,6 +321,11 @@ class SessionTest : public QObject {
         {"label 0", json([](Json& j) { j["labels"][0]["id"] = 0; }), "labels[0].id: 0"},
         {"label colour", json([](Json& j) { j["labels"][0]["colour"][1] = 256; }),
          "labels[0].colour[1]: 256"},
+        {"label meaning", json([](Json& j) { j["labels"][0]["meaning"]["type"] = 7; }),
+         "labels[0].meaning.type"},
+        {"label code",
+         json([](Json& j) { j["labels"][0]["meaning"]["type"]["value"] = std::string(300, '1'); }),
+         "labels[0].meaning.type.value: 300"},
         {"label name", json([](Json& j) { j["labels"][0]["name"] = std::string(300, 'n'); }),
          "labels[0].name: 300"},
         {"view state", json([](Json& j) { j["view_state"] = 5; }), "view_state: not a text"},

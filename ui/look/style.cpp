@@ -7,6 +7,27 @@
 #include "ui/look/theme.h"
 
 namespace tidemark {
+namespace {
+
+// Fusion's outline of what can be ticked is darker than what it stands on, and lost in the dark.
+void outline(const QStyleOption& option, bool is_round, QPainter& painter) {
+  constexpr float kStrength = 0.45F;
+  QColor colour = option.palette.color(QPalette::WindowText);
+  colour.setAlphaF(kStrength);
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(colour);
+  painter.setBrush(Qt::NoBrush);
+  if (is_round) {
+    const double radius = (option.rect.width() | 1) / 2.0 - 1.0;
+    painter.drawEllipse(QPointF(option.rect.center() + QPoint(1, 1)), radius, radius);
+  } else {
+    painter.drawRect(QRectF(option.rect).adjusted(0.5, 0.5, -0.5, -0.5));
+  }
+  painter.restore();
+}
+
+}  // namespace
 
 Style::Style() : QProxyStyle(QStringLiteral("Fusion")) {}
 
@@ -27,6 +48,9 @@ void Style::drawPrimitive(PrimitiveElement element, const QStyleOption* option, 
                           const QWidget* widget) const {
   if (element != PE_IndicatorTabClose) {
     QProxyStyle::drawPrimitive(element, option, painter, widget);
+    const bool is_round = element == PE_IndicatorRadioButton;
+    if ((is_round || element == PE_IndicatorCheckBox) && is_dark(option->palette))
+      outline(*option, is_round, *painter);
     return;
   }
   if (option->state & State_MouseOver) painter->fillRect(option->rect, option->palette.midlight());

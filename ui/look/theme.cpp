@@ -130,6 +130,8 @@ QMainWindow::separator { background: transparent; width: 5px; height: 5px; }
 QMainWindow::separator:hover { background: %4; }
 QGroupBox { border: none; border-top: 1px solid %1; margin-top: 1.3em; padding-top: 4px; }
 QGroupBox::title { subcontrol-origin: margin; subcontrol-position: top left; padding: 0 6px 2px 0; }
+QGroupBox[checkable="true"] { margin-top: 1.8em; }
+QGroupBox[checkable="true"]::title { padding: 3px 6px 3px 0; }
 QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QStatusBar::item { border: none; }
 QToolTip { background: %5; color: %6; border: 1px solid %1; padding: 3px 5px; }

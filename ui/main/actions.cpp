@@ -4,6 +4,7 @@
 
 #include "session/case_session.h"
 #include "ui/look/icons.h"
+#include "ui/views/mouse_scheme.h"
 
 namespace tidemark {
 namespace {
@@ -27,6 +28,7 @@ Actions::Actions(QObject* parent) : QObject(parent) {
   make_files();
   make_evolution();
   make_tools();
+  make_mouse();
   make_views();
   make_windows();
 }
@@ -66,22 +68,49 @@ void Actions::make_files() {
                       tr("Go on with a session that was saved"));
   query_server = make("query-server", "server", tr("&Query a server…"), QKeySequence("Ctrl+Alt+O"), false,
                       tr("Find a series in a PACS and open it"));
+  import_labels = make("import-labels", "label", tr("I&mport labels…"), QKeySequence("Ctrl+I"), true,
+                       tr("Add labels from a DICOM segmentation, an RT structure set or a label map"));
   save = make("save", "save", tr("&Save session"), QKeySequence("Ctrl+S"), true);
   save_as = make("save-as", "save-as", tr("Save session &as…"), QKeySequence("Ctrl+Shift+S"), true);
   export_mask = make("export-mask", "export", tr("&Mask or labels…"), QKeySequence("Ctrl+E"), true,
                      tr("Write what is inside the surface, or the labels"));
+  export_segmentation = make("export-segmentation", nullptr, tr("&DICOM segmentation…"), {}, true,
+                             tr("Write labels or surface as DICOM segmentation (SEG) of the study"));
+  export_structure_set = make("export-structure-set", nullptr, tr("RT s&tructure set…"), {}, true,
+                              tr("Write the contours of labels or surface as RT structure set of the study"));
+  export_level_set = make("export-level-set", nullptr, tr("&Level set for OpenVDB…"), {}, true,
+                          tr("Write the level set itself, in mm of the patient"));
   export_mesh = make("export-mesh", nullptr, tr("&Surface as polygons…"), {}, true,
                      tr("Write the surface as STL, PLY or OBJ, in mm of the patient"));
   export_picture = make("export-picture", "camera", tr("&Picture of the view…"), QKeySequence("Ctrl+P"), true,
                         tr("Write the active view as PNG, without the patient's text"));
-  export_statistics = make("export-statistics", "statistics", tr("S&tatistics…"), {}, true);
+  export_statistics = make("export-statistics", "statistics", tr("Statist&ics…"), {}, true);
   export_recipe = make("export-recipe", nullptr, tr("&Recipe…"), {}, true,
                        tr("Write all steps and edits, to be repeated by tidemark-cli replay"));
+  send_result = make("send-result", "server", tr("Sen&d segmentation to a server…"), {}, true,
+                     tr("Send labels or surface to a PACS, as new series of the study"));
   close = make("close", "close", tr("&Close study"), QKeySequence("Ctrl+W"), true);
   quit = make("quit", nullptr, tr("&Quit"), QKeySequence("Ctrl+Q"), false);
   undo = make("undo", "undo", tr("&Undo"), QKeySequence("Ctrl+Z"), true);
   redo = make("redo", "redo", tr("&Redo"), QKeySequence("Ctrl+Shift+Z"), true);
   keys = make("keys", "keyboard", tr("&Keys…"), {}, false, tr("See and change the keys"));
+}
+
+void Actions::make_mouse() {
+  mouse_schemes = new QActionGroup(this);
+  const auto scheme = [this](MouseScheme which, const char* name, const QString& text, const QString& tip) {
+    QAction* action = make(name, nullptr, text, {}, false, tip);
+    action->setCheckable(true);
+    action->setChecked(which == mouse_scheme());
+    action->setData(static_cast<int>(which));
+    mouse_schemes->addAction(action);
+  };
+  scheme(MouseScheme::tidemark, "mouse-tidemark", tr("&Tidemark"),
+         tr("Without another tool, the left button drags window and level"));
+  scheme(MouseScheme::itk_snap, "mouse-itk-snap", tr("&ITK-SNAP"),
+         tr("Without another tool, the left button moves the crosshair; with Alt window and level"));
+  connect(mouse_schemes, &QActionGroup::triggered, this,
+          [](QAction* chosen) { set_mouse_scheme(static_cast<MouseScheme>(chosen->data().toInt())); });
 }
 
 void Actions::make_evolution() {
@@ -197,7 +226,10 @@ void Actions::follow_evolution(const CaseState& state) {
   play->setChecked(state.playing);
   play->setIcon(icon(state.playing ? u"pause" : u"play"));
   play->setText(state.playing ? tr("&Pause") : tr("&Play"));
-  for (QAction* action : {play, step, restart, export_mesh, export_recipe}) action->setEnabled(state.begun);
+  for (QAction* action : {play, step, restart, export_mesh, export_recipe, export_level_set})
+    action->setEnabled(state.begun);
+  for (QAction* action : {export_segmentation, export_structure_set, send_result})
+    action->setEnabled(state.begun || !state.labels.empty());
   step_back->setEnabled(state.begun && state.step > 0);
   undo->setEnabled(!state.undo_text.isEmpty());
   undo->setText(state.undo_text.isEmpty() ? tr("&Undo") : tr("&Undo: %1").arg(state.undo_text));

@@ -25,19 +25,25 @@ class Actions : public QObject {
   QAction* open_file;
   QAction* open_session;
   QAction* query_server;
+  QAction* import_labels;
   QAction* save;
   QAction* save_as;
   QAction* export_mask;
+  QAction* export_segmentation;
+  QAction* export_structure_set;
+  QAction* export_level_set;
   QAction* export_mesh;
   QAction* export_picture;
   QAction* export_statistics;
   QAction* export_recipe;
+  QAction* send_result;
   QAction* close;
   QAction* quit;
   // Edit.
   QAction* undo;
   QAction* redo;
   QAction* keys;
+  QActionGroup* mouse_schemes;  // in the order of MouseScheme
   // Evolution.
   QAction* play;
   QAction* step;
@@ -77,6 +83,7 @@ class Actions : public QObject {
   void make_files();
   void make_evolution();
   void make_tools();
+  void make_mouse();
   void make_views();
   void make_windows();
   void follow_evolution(const CaseState& state);

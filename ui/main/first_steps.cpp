@@ -5,6 +5,8 @@
 #include <QTextBrowser>
 #include <QVBoxLayout>
 
+#include "ui/views/mouse_scheme.h"
+
 namespace tidemark {
 namespace {
 
@@ -34,7 +36,8 @@ QString steps(const Actions& actions) {
           .arg(key(actions.play)),
       tr("Paint (%1) or erase (%2) while it runs; undo (%3) takes anything back.")
           .arg(key(actions.tool(Tool::paint)), key(actions.tool(Tool::erase)), key(actions.undo)),
-      tr("Accept the surface into a label, and export mask (%1) or polygons.").arg(key(actions.export_mask))};
+      tr("Accept the surface into a label, and export mask (%1), polygons or a DICOM segmentation.")
+          .arg(key(actions.export_mask))};
   QString text;
   for (const QString& step : steps) text += QStringLiteral("<li>%1</li>").arg(step);
   return QStringLiteral("<ol>%1</ol>").arg(text);
@@ -42,7 +45,9 @@ QString steps(const Actions& actions) {
 
 QString mouse() {
   return QStringLiteral("<table>%1</table>")
-      .arg(row(tr("left"), tr("the tool; window and level on slices, turning in 3D")) +
+      .arg(row(tr("left"), mouse_scheme() == MouseScheme::itk_snap
+                               ? tr("the tool; else the crosshair on slices, turning in 3D")
+                               : tr("the tool; window and level on slices, turning in 3D")) +
            row(tr("middle"), tr("move the picture")) +
            row(tr("right"), tr("zoom; the opposite of the brush while painting")) +
            row(tr("wheel"), tr("slices; the clip plane or zoom in 3D")) +

@@ -21,6 +21,7 @@
 #include "ui/look/theme.h"
 #include "ui/main/case_links.h"
 #include "ui/main/case_messages.h"
+#include "ui/main/case_results.h"
 #include "ui/main/first_steps.h"
 #include "ui/main/keys_dialog.h"
 #include "ui/main/menus.h"
@@ -57,6 +58,7 @@ MainWindow::MainWindow(Engine& engine, QWidget* parent) : QMainWindow(parent), e
   make_menus(*this, *actions_, {recent_, panels_});
   make_tool_bar();
   make_status_bar();
+  results_ = new CaseResults(*this);
   connect_files();
   connect_evolution();
   connect_views();
@@ -375,7 +377,7 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-  for (const QString& path : dropped_paths(*event->mimeData())) open(path);
+  results_->take_dropped(dropped_paths(*event->mimeData()));
   event->acceptProposedAction();
 }
 

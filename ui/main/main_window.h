@@ -15,6 +15,7 @@ class QStackedWidget;
 namespace tidemark {
 
 class CaseLinks;
+class CaseResults;
 class LoadingView;
 class MessageBar;
 class PanelDocks;
@@ -40,6 +41,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] Actions& actions() { return *actions_; }
   [[nodiscard]] PanelDocks& panels() { return *panels_; }
   [[nodiscard]] SavedCases& saved_cases() { return *saved_; }
+  [[nodiscard]] CaseResults& results() { return *results_; }
   // With which executor cases begin.
   void set_executor(ExecutorKind kind) { executor_ = kind; }
   // A sentence that stays until it is dismissed, the next one comes, or what it is about has succeeded.
@@ -81,6 +83,7 @@ class MainWindow : public QMainWindow {
   MessageBar* messages_ = nullptr;
   ValueBar* values_ = nullptr;
   SavedCases* saved_ = nullptr;
+  CaseResults* results_ = nullptr;
   QPointer<CaseWindow> active_;
   bool quitting_ = false;
   QList<QMetaObject::Connection> active_connections_;

@@ -24,10 +24,13 @@ void make_file_menu(MainWindow& window, Actions& actions, RecentStudies& recent)
   QObject::connect(phantoms, &PhantomMenu::chosen, &window, &MainWindow::open_phantom);
   file->addMenu(phantoms);
   file->addSeparator();
-  file->addActions({actions.save, actions.save_as});
+  file->addActions({actions.import_labels, actions.save, actions.save_as});
   QMenu* exports = file->addMenu(icon(u"export"), MainWindow::tr("&Export"));
-  exports->addActions({actions.export_mask, actions.export_mesh, actions.export_picture,
-                       actions.export_statistics, actions.export_recipe});
+  exports->addActions({actions.export_mask, actions.export_segmentation, actions.export_structure_set,
+                       actions.export_mesh, actions.export_level_set});
+  exports->addSeparator();
+  exports->addActions({actions.export_picture, actions.export_statistics, actions.export_recipe});
+  file->addAction(actions.send_result);
   file->addSeparator();
   file->addActions({actions.close, actions.quit});
 }
@@ -61,6 +64,7 @@ void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts) {
   edit->addActions({actions.undo, actions.redo});
   edit->addSeparator();
   edit->addAction(actions.keys);
+  edit->addMenu(MainWindow::tr("&Mouse"))->addActions(actions.mouse_schemes->actions());
   make_view_menu(window, actions, *parts.panels);
   QMenu* evolution = window.menuBar()->addMenu(MainWindow::tr("E&volution"));
   evolution->addActions({actions.play, actions.step, actions.step_back, actions.restart});

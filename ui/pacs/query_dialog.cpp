@@ -104,6 +104,7 @@ QWidget* QueryDialog::make_top() {
   auto* label = new QLabel(tr("Ser&ver"), top);
   label->setBuddy(server_);
   server_->setAccessibleName(tr("Server"));
+  server_->setToolTip(tr("The server that is asked"));
   server_->setMinimumContentsLength(20);
   auto* edit = new QPushButton(icon(u"settings"), tr("Se&rvers…"), top);
   edit->setToolTip(tr("Add, change and remove servers"));
@@ -113,6 +114,7 @@ QWidget* QueryDialog::make_top() {
   row->addWidget(edit);
   row->addStretch(1);
   search_->setDefault(true);
+  search_->setToolTip(tr("Asks the server for studies that fit all that is entered"));
   row->addWidget(search_);
   return top;
 }
@@ -129,6 +131,7 @@ QWidget* QueryDialog::make_bottom() {
   bar_->setAccessibleName(tr("Progress"));
   bar_->setFixedWidth(160);
   cancel_->setAutoDefault(false);
+  cancel_->setToolTip(tr("Gives it up"));
   state->addWidget(said_, 1);
   state->addWidget(bar_);
   state->addWidget(cancel_);
@@ -140,10 +143,12 @@ QWidget* QueryDialog::make_bottom() {
   folder_->setText(usual_folder());
   auto* choose = new QPushButton(icon(u"open-folder"), tr("&Choose…"), bottom);
   choose->setAutoDefault(false);
+  choose->setToolTip(tr("Choose the folder"));
   connect(choose, &QPushButton::clicked, this, &QueryDialog::choose_folder);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, bottom);
   buttons->addButton(open_, QDialogButtonBox::ActionRole);
   open_->setAutoDefault(false);
+  open_->setToolTip(tr("Brings the chosen series, or all series of the chosen study, and opens it"));
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   where->addWidget(label);
   where->addWidget(folder_, 1);

@@ -52,6 +52,10 @@ ServersDialog::ServersDialog(std::filesystem::path file, QWidget* parent)
     configuration_ = std::move(*read);
   } else if (std::filesystem::exists(file_, error)) {
     say(QString::fromStdString(read.error().message));
+    // What it holds would be lost.
+    QPushButton* save = buttons->button(QDialogButtonBox::Save);
+    save->setEnabled(false);
+    save->setToolTip(tr("The file of servers cannot be read: mend it, or move it away"));
   }
   for (const PacsServer& server : configuration_.servers) list_->addItem(QString::fromStdString(server.name));
   connect(list_, &QListWidget::currentRowChanged, this, &ServersDialog::show_entry);
@@ -68,6 +72,7 @@ QWidget* ServersDialog::make_list() {
   auto* column = new QVBoxLayout(left);
   column->setContentsMargins(0, 0, 0, 0);
   list_->setAccessibleName(tr("Servers"));
+  list_->setToolTip(tr("The servers there are: the chosen one is shown beside"));
   list_->setFixedWidth(170);
   auto* buttons = new QHBoxLayout;
   const auto button = [&](const char* name, const char* picture, const QString& text, auto method) {
@@ -148,6 +153,8 @@ QLineEdit* ServersDialog::file_line(const QString& label, const QString& tip, Fo
   row->setContentsMargins(0, 0, 0, 0);
   auto* line = new QLineEdit;
   line->setAccessibleName(label);
+  line->setToolTip(tip);
+  whole->setFocusProxy(line);
   auto* choose = new QToolButton;
   choose->setIcon(icon(u"open-file"));
   choose->setToolTip(tr("Choose a file"));

@@ -9,6 +9,8 @@
 namespace tidemark {
 namespace {
 
+constexpr int kLongestName = 64;  // characters, as other systems have it
+
 QColor to_colour(const Label& label) {
   return {label.colour[0], label.colour[1], label.colour[2]};
 }
@@ -91,7 +93,7 @@ bool LabelsModel::setData(const QModelIndex& index, const QVariant& value, int r
   } else if (role == Qt::CheckStateRole && index.column() == locked) {
     edited.locked = checked;
   } else if (role == Qt::EditRole && index.column() == name && !value.toString().trimmed().isEmpty()) {
-    edited.name = value.toString().trimmed().toStdString();
+    edited.name = value.toString().trimmed().left(kLongestName).toStdString();
   } else {
     return false;
   }
@@ -104,6 +106,12 @@ void LabelsModel::set_colour(int row, const QColor& chosen) {
   labels_[static_cast<std::size_t>(row)].colour = {static_cast<std::uint8_t>(chosen.red()),
                                                    static_cast<std::uint8_t>(chosen.green()),
                                                    static_cast<std::uint8_t>(chosen.blue())};
+  announce(row);
+}
+
+void LabelsModel::set_meaning(int row, const std::optional<SegmentMeaning>& chosen) {
+  if (!label(row)) return;
+  labels_[static_cast<std::size_t>(row)].meaning = chosen;
   announce(row);
 }
 

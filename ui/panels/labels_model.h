@@ -18,6 +18,7 @@ class LabelsModel : public QAbstractTableModel {
   void show(const std::vector<Label>& labels, const std::vector<RegionStatistics>& statistics);
   [[nodiscard]] const Label* label(int row) const;  // null: there is no such row
   void set_colour(int row, const QColor& chosen);
+  void set_meaning(int row, const std::optional<SegmentMeaning>& chosen);
 
   [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
   [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;

@@ -10,6 +10,7 @@
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/panels/labels_model.h"
+#include "ui/panels/meaning_picker.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/slider_number.h"
 
@@ -97,6 +98,13 @@ QWidget* LabelsPanel::make_table_buttons() {
 QWidget* LabelsPanel::make_actions() {
   auto* part = new QWidget;
   Form form(part);
+  meaning_ = new MeaningPicker;
+  form.row(tr("Meaning"), meaning_,
+           tr("What the chosen label is, in codes of SNOMED CT for other systems. Type to search."));
+  connect(meaning_, &MeaningPicker::picked, this, [this](const std::optional<SegmentMeaning>& meaning) {
+    const QModelIndexList rows = table_->selectionModel()->selectedRows();
+    if (!rows.isEmpty()) model_->set_meaning(rows.first().row(), meaning);
+  });
   accept_ = new QPushButton(tr("Accept surface into label"));
   form.wide(accept_);
   connect(accept_, &QPushButton::clicked, this, &LabelsPanel::accept_surface);
@@ -183,6 +191,7 @@ void LabelsPanel::refresh() {
 void LabelsPanel::show_buttons() {
   const Label* label = chosen();
   remove_->setEnabled(label != nullptr);
+  meaning_->show_label(label);
   const bool begun = session() && session()->state().begun;
   const bool locked = label && label->locked;
   accept_->setEnabled(begun && !locked);

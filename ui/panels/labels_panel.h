@@ -11,6 +11,7 @@ class QToolButton;
 namespace tidemark {
 
 class LabelsModel;
+class MeaningPicker;
 class SliderNumber;
 
 class LabelsPanel : public Panel {
@@ -36,6 +37,7 @@ class LabelsPanel : public Panel {
   LabelsModel* model_;
   QTableView* table_;
   QToolButton* remove_;
+  MeaningPicker* meaning_;
   QPushButton* accept_;
   QPushButton* begin_;
   SliderNumber* opacity_;

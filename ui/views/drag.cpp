@@ -4,6 +4,7 @@
 
 #include "ui/views/edit_drags.h"
 #include "ui/views/measure_drags.h"
+#include "ui/views/mouse_scheme.h"
 #include "ui/views/probe_drags.h"
 
 namespace tidemark {
@@ -50,7 +51,11 @@ std::unique_ptr<Drag> window_drag(DragView view, const Pointer& pressed) {
 }
 
 std::unique_ptr<Drag> tool_drag(Tool tool, DragView view, const Pointer& pressed) {
-  if (tool == Tool::window) return window_drag(std::move(view), pressed);
+  if (tool == Tool::window) {
+    const bool moves = mouse_scheme() == MouseScheme::itk_snap && pressed.patient_mm;
+    return moves ? std::make_unique<CrosshairDrag>(std::move(view), pressed)
+                 : window_drag(std::move(view), pressed);
+  }
   if (!pressed.patient_mm) return nullptr;
   const bool other_button = pressed.button == Qt::RightButton;
   switch (tool) {

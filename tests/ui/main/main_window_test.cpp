@@ -3,6 +3,7 @@
 #include <QDialog>
 #include <QDockWidget>
 #include <QTextBrowser>
+#include <glm/geometric.hpp>
 
 #include "tests/ui/main/desktop.h"
 #include "ui/main/message_bar.h"
@@ -23,6 +24,7 @@ class MainWindowTest : public QObject {
   void a_session_that_is_opened_shows_the_level_set();
   void a_failure_is_forgotten_once_it_has_succeeded();
   void a_phantom_has_one_name();
+  void the_left_button_moves_the_crosshair_as_in_itk_snap_if_one_wants();
 
  private:
   static bool is_in_front(Desktop& desktop, const char* panel);
@@ -210,6 +212,35 @@ void MainWindowTest::a_phantom_has_one_name() {
   QVERIFY(desktop.open_phantom("organ"));
   QCOMPARE(desktop.session().name(), QString("Liver"));
   QVERIFY(desktop.window().active_case()->windowTitle().startsWith("Liver[*]"));
+}
+
+void MainWindowTest::the_left_button_moves_the_crosshair_as_in_itk_snap_if_one_wants() {
+  Desktop desktop(ExecutorKind::host, {1100, 700});
+  QVERIFY(desktop.open_phantom("sphere"));
+  auto* axial = desktop.view<SliceViewWidget>("Axial");
+  QVERIFY(axial);
+  const auto settings = [&] { return desktop.session().display().settings(); };
+  Actions& actions = desktop.window().actions();
+  actions.tool(Tool::window)->trigger();
+  const DisplaySettings before = settings();
+  const glm::dvec3 there = before.cursor_mm + glm::dvec3(12.0, 6.0, 0.0);
+  const std::vector<glm::dvec3> way{before.cursor_mm + glm::dvec3(5.0, 0.0, 0.0), there};
+
+  const QList<QAction*> schemes = actions.mouse_schemes->actions();
+  QVERIFY(schemes.first()->isChecked());
+  schemes.last()->trigger();
+  Desktop::drag(*axial, way);
+  QVERIFY(settings().window == before.window);
+  QVERIFY(glm::distance(settings().cursor_mm, there) < 2.0);
+  Desktop::drag(*axial, way, Qt::LeftButton, Qt::AltModifier);
+  QVERIFY(settings().window != before.window);
+  QVERIFY(Actions(&desktop.window()).mouse_schemes->actions().last()->isChecked());  // the next time, too
+
+  const DisplaySettings moved = settings();
+  schemes.first()->trigger();
+  Desktop::drag(*axial, way);
+  QVERIFY(settings().window != moved.window);
+  QVERIFY(settings().cursor_mm == moved.cursor_mm);
 }
 
 }  // namespace tidemark::test

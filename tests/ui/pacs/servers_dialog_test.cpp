@@ -5,6 +5,7 @@
 #include <QTest>
 #include <QToolButton>
 
+#include "core/atomic_file.h"
 #include "tests/imaging/pacs/archives.h"
 
 using namespace tidemark;
@@ -99,6 +100,22 @@ class ServersDialogTest : public QObject {
     QCOMPARE(failure(read), QString());
     QCOMPARE(read->servers.size(), std::size_t{1});
     QVERIFY(read->servers[0] == configuration.servers[2]);
+  }
+
+  void a_file_that_cannot_be_read_is_not_replaced() {
+    const TemporaryFolder folder;
+    const auto file = folder / "pacs.json";
+    QCOMPARE(failure(write_file(file, R"({"servers": [{"name": "a", "hots": "b"}]})")), QString());
+    ServersDialog dialog(file);
+    dialog.show();
+    QVERIFY(says(dialog, "hots"));
+    line(dialog, "Host")->setText("c");
+    line(dialog, "AE title")->setText("C");
+    QVERIFY(!dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Save)->isEnabled());
+    QTest::keyClick(&dialog, Qt::Key_Return);
+    click_save(dialog);
+    QVERIFY(dialog.isVisible());
+    QVERIFY(!read_pacs_configuration(file));
   }
 };
 

@@ -9,6 +9,7 @@
 
 #include "tests/ui/panels/panel_case.h"
 #include "ui/panels/labels_model.h"
+#include "ui/panels/meaning_picker.h"
 
 namespace tidemark {
 
@@ -125,6 +126,62 @@ class LabelsPanelTest : public QObject {
     dialog->accept();
     the_case_->settle();
     QCOMPARE(the_case_->state().labels.front().colour, (std::array<std::uint8_t, 3>{10, 200, 30}));
+  }
+
+  void a_label_means_what_its_name_says_until_it_is_told() {
+    add();
+    auto& model = *panel_->findChild<LabelsModel*>();
+    model.setData(model.index(0, LabelsModel::name), QStringLiteral("Left kidney"), Qt::EditRole);
+    the_case_->settle();
+    auto& picker = *panel_->findChild<MeaningPicker*>();
+    QCOMPARE(picker.currentText(), QStringLiteral("By its name: Kidney"));
+    QVERIFY(!the_case_->state().labels.front().meaning);
+    picker.setFocus();
+    picker.lineEdit()->selectAll();
+    QTest::keyClicks(&picker, "cys");
+    QTest::keyClick(&picker, Qt::Key_Return);
+    the_case_->settle();
+    QVERIFY(the_case_->state().labels.front().meaning == find_segment_meaning("cyst").value());
+    QCOMPARE(picker.currentText(), QStringLiteral("Cyst"));
+    the_case_->session->undo();
+    the_case_->settle();
+    QVERIFY(!the_case_->state().labels.front().meaning);
+    QCOMPARE(picker.currentText(), QStringLiteral("By its name: Kidney"));
+  }
+
+  void a_meaning_of_another_system_is_kept_and_can_be_changed() {
+    add();
+    Label label = the_case_->state().labels.front();
+    label.meaning = SegmentMeaning{{"1", "99X", "Thing"}, {"2", "99X", "Left gizmo"}};
+    the_case_->session->set_label(label);
+    the_case_->settle();
+    auto& picker = *panel_->findChild<MeaningPicker*>();
+    QCOMPARE(picker.currentText(), QStringLiteral("Left gizmo"));
+    const int rows = picker.count();
+    picker.setFocus();
+    QTest::keyClick(&picker, Qt::Key_Up);
+    the_case_->settle();
+    QCOMPARE(picker.currentText(), QStringLiteral("White matter"));
+    QVERIFY(the_case_->state().labels.front().meaning == find_segment_meaning("white-matter").value());
+    the_case_->session->undo();
+    the_case_->settle();
+    QVERIFY(the_case_->state().labels.front().meaning == label.meaning);
+    QCOMPARE(picker.currentText(), QStringLiteral("Left gizmo"));
+    QCOMPARE(picker.count(), rows);
+  }
+
+  void what_was_typed_and_means_nothing_goes() {
+    add();
+    auto& picker = *panel_->findChild<MeaningPicker*>();
+    const QString before = picker.currentText();
+    picker.setFocus();
+    picker.lineEdit()->selectAll();
+    QTest::keyClicks(&picker, "zzz");
+    QTest::keyClick(&picker, Qt::Key_Return);
+    panel_->findChild<QTableView*>()->setFocus();
+    the_case_->settle();
+    QCOMPARE(picker.currentText(), before);
+    QVERIFY(!the_case_->state().labels.front().meaning);
   }
 
   void a_removed_label_leaves_the_others_and_one_of_them_chosen() {

@@ -1,0 +1,140 @@
+#include "ui/main/case_results.h"
+
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QSettings>
+#include <QStatusBar>
+
+#include "imaging/pacs/configuration.h"
+#include "imaging/results/segments.h"
+#include "ui/main/main_window.h"
+#include "ui/main/panel_docks.h"
+#include "ui/opening/loading_view.h"
+#include "ui/results/send_result_dialog.h"
+#include "ui/results/write_result_dialog.h"
+
+namespace tidemark {
+namespace {
+
+const char* const kAboutImport = "import of labels";
+constexpr int kShownMs = 8000;  // in the status bar
+
+}  // namespace
+
+CaseResults::CaseResults(MainWindow& window)
+    : QObject(&window), window_(window), progress_(new LoadingView(LoadingView::Shape::line)) {
+  progress_->hide();
+  window.statusBar()->addPermanentWidget(progress_);
+  connect_jobs();
+  Actions& actions = window.actions();
+  const auto with_case = [this](QAction* action, auto act) {
+    connect(action, &QAction::triggered, this, [this, act] {
+      if (CaseWindow* active = window_.active_case()) act(*active);
+    });
+  };
+  const auto writes = [&](QAction* action, ResultFile kind) {
+    with_case(action, [this, kind, name = action->objectName()](CaseWindow& of) {
+      auto* dialog = new_dialog<WriteResultDialog>(of, name, kind);
+      if (!dialog) return;
+      connect(dialog, &WriteResultDialog::written, this, [this](const QString& file) {
+        window_.statusBar()->showMessage(tr("Wrote %1").arg(file), kShownMs);
+      });
+    });
+  };
+  writes(actions.export_segmentation, ResultFile::segmentation);
+  writes(actions.export_structure_set, ResultFile::structure_set);
+  writes(actions.export_level_set, ResultFile::level_set);
+  with_case(actions.import_labels, [this](CaseWindow& into) { ask_and_import(into); });
+  with_case(actions.send_result, [this, name = actions.send_result->objectName()](CaseWindow& of) {
+    new_dialog<SendResultDialog>(of, name, pacs_configuration_file());
+  });
+}
+
+template <class Dialog, class... Arguments>
+Dialog* CaseResults::new_dialog(CaseWindow& window, const QString& name, Arguments... arguments) {
+  if (auto* before = window.findChild<Dialog*>(name)) {
+    before->raise();
+    before->activateWindow();
+    return nullptr;
+  }
+  auto* dialog = new Dialog(window, arguments...);
+  dialog->setObjectName(name);
+  dialog->show();
+  return dialog;
+}
+
+void CaseResults::connect_jobs() {
+  connect(&jobs_, &ResultJobs::progressed, progress_, &LoadingView::set_progress);
+  connect(progress_, &LoadingView::cancelled, &jobs_, &ResultJobs::cancel);
+  connect(&jobs_, &ResultJobs::labels_read, this, &CaseResults::add);
+  connect(&jobs_, &ResultJobs::cancelled, this, [this] { end_reading(); });
+  connect(&jobs_, &ResultJobs::failed, this, &CaseResults::end_reading);
+  connect(&jobs_, &ResultJobs::no_result, this, [this] {
+    window_.open(waiting_.front().file);
+    end_reading();
+  });
+}
+
+void CaseResults::ask_and_import(CaseWindow& window) {
+  auto* dialog = new QFileDialog(
+      &window_, tr("Import labels"), QSettings().value("save/folder").toString(),
+      tr("Segmentations and label maps (*.dcm *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;"
+         "All files (*)"));
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setFileMode(QFileDialog::ExistingFile);
+  connect(dialog, &QFileDialog::fileSelected, this, [this, into = QPointer(&window)](const QString& file) {
+    if (into) import_labels(*into, file);
+  });
+  dialog->open();
+}
+
+void CaseResults::import_labels(CaseWindow& window, const QString& file) {
+  read(window, file, false);
+}
+
+void CaseResults::take_dropped(const QStringList& paths) {
+  CaseWindow* active = window_.active_case();
+  for (const QString& path : paths) {
+    active&& QFileInfo(path).isFile() ? read(*active, path, true) : window_.open(path);
+  }
+}
+
+// Files that come together are read one after the other.
+void CaseResults::read(CaseWindow& window, const QString& file, bool only_results) {
+  waiting_.push_back({&window, file, only_results});
+  if (waiting_.size() == 1) read_next();
+}
+
+void CaseResults::read_next() {
+  const Reading& next = waiting_.front();
+  if (!next.window) return end_reading();
+  progress_->begin(QFileInfo(next.file).fileName());
+  progress_->show();
+  jobs_.read_labels(next.file.toStdU16String(), next.window->session().volume().geometry, next.only_results);
+}
+
+void CaseResults::end_reading(const QString& problem) {
+  if (!problem.isEmpty()) window_.tell(problem, kAboutImport);
+  progress_->hide();
+  waiting_.pop_front();
+  if (!waiting_.empty()) read_next();
+}
+
+void CaseResults::add(const std::shared_ptr<const Segments>& segments) {
+  if (CaseWindow* into = waiting_.front().window) {
+    into->session().import_labels(segments);
+    window_.settle(kAboutImport);
+    window_.panels().show("labels");
+    const auto count = segments->list.size();
+    const QString name = QFileInfo(waiting_.front().file).fileName();
+    window_.statusBar()->showMessage(
+        count == 1 ? tr("Read a label from %1").arg(name) : tr("Read %1 labels from %2").arg(count).arg(name),
+        kShownMs);
+    QStringList changes;
+    for (const std::string& change : segments->changes) changes << QString::fromStdString(change);
+    if (!changes.isEmpty()) window_.tell(tr("%1: %2").arg(name, changes.join(QStringLiteral("; "))));
+  }
+  end_reading();
+}
+
+}  // namespace tidemark

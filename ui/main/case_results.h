@@ -1,0 +1,53 @@
+// Results of cases to other systems, and labels from them.
+#pragma once
+
+#include <QObject>
+#include <QPointer>
+#include <QStringList>
+#include <deque>
+#include <memory>
+
+#include "session/result_jobs.h"
+#include "ui/main/case_window.h"
+
+namespace tidemark {
+
+class LoadingView;
+class MainWindow;
+
+// Does what the window's actions for it ask for, on the active case.
+class CaseResults : public QObject {
+  Q_OBJECT
+ public:
+  explicit CaseResults(MainWindow& window);
+
+  void ask_and_import(CaseWindow& window);
+  void import_labels(CaseWindow& window, const QString& file);
+  // DICOM segmentations and structure sets become labels of the active case; the window opens everything
+  // else, and without a case all.
+  void take_dropped(const QStringList& paths);
+
+ private:
+  void connect_jobs();
+  void read(CaseWindow& window, const QString& file, bool only_results);
+  void read_next();
+  void end_reading(const QString& problem = {});
+  void add(const std::shared_ptr<const Segments>& segments);
+  // Null: a dialog of that name is there already, and was brought to the front.
+  template <class Dialog, class... Arguments>
+  Dialog* new_dialog(CaseWindow& window, const QString& name, Arguments... arguments);
+
+  // A file that is read, or waits for it.
+  struct Reading {
+    QPointer<CaseWindow> window;
+    QString file;
+    bool only_results = false;  // else it is opened
+  };
+
+  MainWindow& window_;
+  ResultJobs jobs_;
+  LoadingView* progress_;
+  std::deque<Reading> waiting_;  // the first is being read
+};
+
+}  // namespace tidemark

@@ -1,0 +1,32 @@
+// Which of what was segmented goes into a result.
+#pragma once
+
+#include <QGroupBox>
+#include <QRadioButton>
+
+#include "session/case_state.h"
+#include "study/result_files.h"
+
+namespace tidemark {
+
+class ResultChoice : public QGroupBox {
+  Q_OBJECT
+ public:
+  explicit ResultChoice(QWidget* parent = nullptr);
+
+  // What there is to choose from now; what was chosen stays if it is still there.
+  void show_state(const CaseState& state);
+  [[nodiscard]] bool has_choice() const;
+  [[nodiscard]] ResultContent content() const;
+
+ private:
+  QRadioButton* add(const QString& tip);
+  // Whether there is such a thing, also while the whole cannot be changed.
+  [[nodiscard]] bool is_there(const QRadioButton* button) const { return button->isEnabledTo(this); }
+
+  QRadioButton* all_;
+  QRadioButton* visible_;
+  QRadioButton* surface_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,56 @@
+// What the dialogs have in common that make results for other systems.
+#pragma once
+
+#include <QDialog>
+#include <QPushButton>
+#include <memory>
+
+#include "ui/main/case_window.h"
+#include "ui/results/result_choice.h"
+#include "ui/results/work_line.h"
+
+namespace tidemark {
+
+// Not modal: the case can be worked on while its result is made, of what it was like at the click. Goes with
+// the case.
+class ResultDialog : public QDialog {
+  Q_OBJECT
+ public:
+  ResultDialog(CaseWindow& window, const QString& title);
+
+ protected:
+  using Snapshot = std::shared_ptr<const CaseSession::Snapshot>;
+
+  // From the constructor: whether there is something to choose, where it goes, what that means, the button.
+  void build(bool with_choice, QWidget* target, const QString& note, const QString& verb, const QString& tip);
+  // Whether all is there to begin.
+  [[nodiscard]] virtual bool ready() const { return true; }
+  // Asked at the click: may go on?
+  virtual bool confirm() { return true; }
+  virtual void begin(const Snapshot& snapshot) = 0;
+  virtual void give_up() = 0;
+
+  void follow();
+  void rest(const QString& said);
+  void reject() override;
+  [[nodiscard]] CaseSession& session() const { return window_.session(); }
+  [[nodiscard]] ResultContent content() const { return choice_->content(); }
+  [[nodiscard]] WorkLine& work() const { return *work_; }
+
+ private:
+  void start();
+
+  CaseWindow& window_;
+  ResultChoice* choice_;
+  QWidget* target_ = nullptr;
+  WorkLine* work_;
+  QPushButton* go_;
+  bool with_choice_ = true;
+  bool busy_ = false;
+  bool waiting_ = false;  // for the snapshot
+};
+
+// What a DICOM result of this study belongs to, for users.
+[[nodiscard]] QString source_note(const LoadedStudy& study);
+
+}  // namespace tidemark

@@ -1,0 +1,137 @@
+#include "ui/results/send_result_dialog.h"
+
+#include <QGridLayout>
+#include <QSettings>
+#include <algorithm>
+
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+#include "ui/pacs/servers_dialog.h"
+
+namespace tidemark {
+namespace {
+
+// Each form as a file of its own in that folder.
+Result<std::vector<std::filesystem::path>> write_forms(const SessionContents& contents, ResultContent content,
+                                                       const std::vector<ResultForm>& forms,
+                                                       const std::vector<std::filesystem::path>& source,
+                                                       const std::filesystem::path& folder,
+                                                       const Progress& progress) {
+  const auto segments = result_segments(contents, content);
+  if (!segments) return tl::unexpected<Error>(segments.error());
+  std::vector<std::filesystem::path> files;
+  const auto count = static_cast<int>(forms.size());
+  for (int form = 0; form < count; ++form) {
+    files.push_back(folder / fmt::format("{}.dcm", form + 1));
+    const Status written = write_result(*segments, forms[static_cast<std::size_t>(form)], source,
+                                        files.back(), progress.part(form, count));
+    if (!written) return tl::unexpected<Error>(written.error());
+  }
+  return files;
+}
+
+}  // namespace
+
+SendResultDialog::SendResultDialog(CaseWindow& window, std::filesystem::path servers)
+    : ResultDialog(window, tr("Send a segmentation to a server")),
+      file_(std::move(servers)),
+      server_(new QComboBox(this)),
+      segmentation_(new QCheckBox(tr("&Segmentation (SEG)"), this)),
+      contours_(new QCheckBox(tr("Contours (&RT structure set)"), this)) {
+  build(true, make_target(), source_note(session().study()), tr("Se&nd"),
+        tr("Sends what the case is like now"));
+  connect(&client_, &PacsClient::progressed, &work(), &WorkLine::set_progress);
+  connect(&client_, &PacsClient::failed, this, &SendResultDialog::rest);
+  connect(&client_, &PacsClient::cancelled, this,
+          [this] { rest(tr("Cancelled. What the server has taken by then stays there.")); });
+  connect(&client_, &PacsClient::sent, this, [this](const auto& sent) { tell(*sent); });
+  for (QCheckBox* form : {segmentation_, contours_})
+    connect(form, &QCheckBox::toggled, this, &SendResultDialog::follow);
+  connect(server_, &QComboBox::currentIndexChanged, this, &SendResultDialog::follow);
+  read_servers();
+}
+
+QWidget* SendResultDialog::make_target() {
+  auto* target = new QWidget(this);
+  auto* grid = new QGridLayout(target);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(kSpace);
+  grid->setVerticalSpacing(kSpaceTight);
+  segmentation_->setChecked(true);
+  segmentation_->setToolTip(tr("The voxels of each segment, as other viewers show them"));
+  contours_->setToolTip(tr("Closed contours slice by slice, as systems for planning want them"));
+  auto* form = new QLabel(tr("As"), target);
+  auto* label = new QLabel(tr("&To"), target);
+  label->setBuddy(server_);
+  server_->setAccessibleName(tr("Server"));
+  server_->setToolTip(tr("The server that gets the result"));
+  auto* edit = new QPushButton(icon(u"settings"), tr("S&ervers…"), target);
+  edit->setAutoDefault(false);
+  edit->setToolTip(tr("Add, change and remove servers"));
+  connect(edit, &QPushButton::clicked, this, &SendResultDialog::edit_servers);
+  grid->addWidget(form, 0, 0);
+  grid->addWidget(segmentation_, 0, 1, 1, 2);
+  grid->addWidget(contours_, 1, 1, 1, 2);
+  grid->addWidget(label, 2, 0);
+  grid->addWidget(server_, 2, 1);
+  grid->addWidget(edit, 2, 2);
+  grid->setColumnStretch(1, 1);
+  return target;
+}
+
+void SendResultDialog::read_servers() {
+  const QString before = server_->currentText();
+  auto read = read_pacs_configuration(file_);
+  std::error_code error;
+  QString said;
+  if (read) {
+    configuration_ = std::move(*read);
+  } else {
+    configuration_ = {};
+    said = std::filesystem::exists(file_, error) ? QString::fromStdString(read.error().message)
+                                                 : tr("There is no server yet: name one with “Servers…”.");
+  }
+  server_->clear();
+  for (const PacsServer& one : configuration_.servers) server_->addItem(QString::fromStdString(one.name));
+  const QString wanted = before.isEmpty() ? QSettings().value("pacs/server").toString() : before;
+  server_->setCurrentIndex(std::max(server_->findText(wanted), server_->count() > 0 ? 0 : -1));
+  work().end(said);
+  follow();
+}
+
+void SendResultDialog::edit_servers() {
+  ServersDialog dialog(file_, this);
+  if (dialog.exec() == QDialog::Accepted) read_servers();
+}
+
+bool SendResultDialog::ready() const {
+  return server_->currentIndex() >= 0 && (segmentation_->isChecked() || contours_->isChecked());
+}
+
+void SendResultDialog::begin(const Snapshot& snapshot) {
+  receiver_ = server_->currentText();
+  QSettings().setValue("pacs/server", receiver_);
+  std::vector<ResultForm> forms;
+  if (segmentation_->isChecked()) forms.push_back(ResultForm::segmentation);
+  if (contours_->isChecked()) forms.push_back(ResultForm::structure_set);
+  client_.send(configuration_.servers[static_cast<std::size_t>(server_->currentIndex())],
+               [snapshot, forms, what = content(), source = session().study().dicom_files](
+                   const std::filesystem::path& folder, const Progress& progress) {
+                 return write_forms(snapshot->contents, what, forms, source, folder, progress);
+               });
+}
+
+void SendResultDialog::tell(const Sent& sent) {
+  if (!sent.unsent.empty()) {
+    return rest(tr("%1 did not take all of it: %2.")
+                    .arg(receiver_, QString::fromStdString(sent.unsent.front().reason)));
+  }
+  const bool of_study = !session().study().dicom_files.empty();
+  rest(sent.objects > 1 ? of_study
+                              ? tr("%1 has it, as two new series of this study.").arg(receiver_)
+                              : tr("%1 has it, as two new studies of an anonymous patient.").arg(receiver_)
+       : of_study ? tr("%1 has it, as a new series of this study.").arg(receiver_)
+                        : tr("%1 has it, as a new study of an anonymous patient.").arg(receiver_));
+}
+
+}  // namespace tidemark

@@ -1,0 +1,149 @@
+#include "ui/results/write_result_dialog.h"
+
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QMessageBox>
+#include <QRegularExpression>
+#include <QSettings>
+#include <algorithm>
+
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+
+namespace tidemark {
+namespace {
+
+constexpr const char* kFolder = "save/folder";  // in the settings
+
+std::filesystem::path path_of(const QString& file) {
+  return file.toStdU16String();
+}
+
+QString title_of(ResultFile kind) {
+  switch (kind) {
+    case ResultFile::segmentation:
+      return WriteResultDialog::tr("Export a DICOM segmentation");
+    case ResultFile::structure_set:
+      return WriteResultDialog::tr("Export an RT structure set");
+    case ResultFile::level_set:
+      break;
+  }
+  return WriteResultDialog::tr("Export the level set");
+}
+
+// Files of the study are never written to.
+bool is_of_study(const LoadedStudy& study, const std::filesystem::path& file) {
+  const auto is_it = [&](const std::filesystem::path& other) {
+    std::error_code error;
+    return std::filesystem::equivalent(file, other, error);
+  };
+  return is_it(study.origin.path) || std::any_of(study.dicom_files.begin(), study.dicom_files.end(), is_it);
+}
+
+Status write_kind(const SessionContents& contents, ResultFile kind, ResultContent content,
+                  const std::vector<std::filesystem::path>& source, const std::filesystem::path& file,
+                  const Progress& progress) {
+  if (kind == ResultFile::level_set) {
+    progress(0.0, "writing the level set");
+    return write_level_set(contents.phi->to_volume(), contents.phi->band, file);
+  }
+  const auto segments = result_segments(contents, content);
+  if (!segments) return tl::unexpected<Error>(segments.error());
+  const auto form = kind == ResultFile::segmentation ? ResultForm::segmentation : ResultForm::structure_set;
+  return write_result(*segments, form, source, file, progress);
+}
+
+}  // namespace
+
+WriteResultDialog::WriteResultDialog(CaseWindow& window, ResultFile kind)
+    : ResultDialog(window, title_of(kind)), kind_(kind), file_(new QLineEdit(this)) {
+  const QString note = kind == ResultFile::level_set ? tr("For programs that use OpenVDB: the distance to "
+                                                          "the surface near it, negative inside, in mm of "
+                                                          "the patient (LPS).")
+                                                     : source_note(session().study());
+  build(kind != ResultFile::level_set, make_target(), note, tr("&Write"),
+        tr("Writes what the case is like now"));
+  connect(file_, &QLineEdit::textChanged, this, &WriteResultDialog::follow);
+  connect(&jobs_, &ResultJobs::progressed, &work(), &WorkLine::set_progress);
+  connect(&jobs_, &ResultJobs::failed, this, &WriteResultDialog::rest);
+  connect(&jobs_, &ResultJobs::cancelled, this, [this] { rest(tr("Cancelled: nothing was written.")); });
+  connect(&jobs_, &ResultJobs::written, this, [this] {
+    rest(tr("Wrote %1").arg(file_->text()));
+    emit written(file_->text());
+    accept();
+  });
+  file_->setText(usual_file());
+}
+
+QWidget* WriteResultDialog::make_target() {
+  auto* target = new QWidget(this);
+  auto* row = new QHBoxLayout(target);
+  row->setContentsMargins(0, 0, 0, 0);
+  auto* label = new QLabel(tr("&File"), target);
+  label->setBuddy(file_);
+  file_->setAccessibleName(tr("File"));
+  file_->setToolTip(tr("Where to. The file appears whole or not at all."));
+  auto* choose = new QPushButton(icon(u"open-folder"), tr("&Choose…"), target);
+  choose->setAutoDefault(false);
+  choose->setToolTip(tr("Choose folder and name"));
+  connect(choose, &QPushButton::clicked, this, &WriteResultDialog::choose);
+  row->addWidget(label);
+  row->addWidget(file_, 1);
+  row->addWidget(choose);
+  return target;
+}
+
+QString WriteResultDialog::suffix() const {
+  return kind_ == ResultFile::level_set ? QStringLiteral(".vdb") : QStringLiteral(".dcm");
+}
+
+// Named by the series, which does not tell the patient.
+QString WriteResultDialog::usual_file() const {
+  static const QRegularExpression kNotInNames(QStringLiteral("[^\\w .()+-]"),
+                                              QRegularExpression::UseUnicodePropertiesOption);
+  constexpr int kLongest = 60;
+  const QString what = kind_ == ResultFile::segmentation    ? tr("segmentation")
+                       : kind_ == ResultFile::structure_set ? tr("contours")
+                                                            : tr("level set");
+  const QString name = session().name().left(kLongest).replace(kNotInNames, QStringLiteral("-")).simplified();
+  const QString folder = QSettings().value(kFolder).toString();
+  return QDir(QFileInfo::exists(folder) ? folder : QDir::homePath())
+      .filePath(QStringLiteral("%1 %2%3").arg(name, what, suffix()).trimmed());
+}
+
+void WriteResultDialog::choose() {
+  auto* dialog =
+      new QFileDialog(this, windowTitle(), QFileInfo(file_->text()).path(),
+                      kind_ == ResultFile::level_set ? tr("OpenVDB (*.vdb)") : tr("DICOM (*.dcm)"));
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setAcceptMode(QFileDialog::AcceptSave);
+  dialog->setOption(QFileDialog::DontConfirmOverwrite);  // asked at the end
+  dialog->selectFile(QFileInfo(file_->text()).fileName());
+  connect(dialog, &QFileDialog::fileSelected, file_, &QLineEdit::setText);
+  dialog->open();
+}
+
+bool WriteResultDialog::confirm() {
+  QString file = file_->text().trimmed();
+  if (!file.endsWith(suffix(), Qt::CaseInsensitive)) file += suffix();
+  file_->setText(file);
+  if (is_of_study(session().study(), path_of(file))) {
+    rest(tr("%1 is a file of the study, which is never written to: choose another name.").arg(file));
+    return false;
+  }
+  return !QFileInfo::exists(file) ||
+         QMessageBox::question(this, windowTitle(), tr("%1 exists. Replace it?").arg(file)) ==
+             QMessageBox::Yes;
+}
+
+void WriteResultDialog::begin(const Snapshot& snapshot) {
+  QSettings().setValue(kFolder, QFileInfo(file_->text()).absolutePath());
+  jobs_.write([snapshot, kind = kind_, what = content(), source = session().study().dicom_files,
+               file = path_of(file_->text())](const Progress& progress) {
+    return write_kind(snapshot->contents, kind, what, source, file, progress);
+  });
+}
+
+}  // namespace tidemark

@@ -1,0 +1,38 @@
+// A result for other systems, written as a file.
+#pragma once
+
+#include <QLineEdit>
+
+#include "session/result_jobs.h"
+#include "ui/results/result_dialog.h"
+
+namespace tidemark {
+
+enum class ResultFile { segmentation, structure_set, level_set };
+
+class WriteResultDialog : public ResultDialog {
+  Q_OBJECT
+ public:
+  WriteResultDialog(CaseWindow& window, ResultFile kind);
+
+ signals:
+  void written(const QString& file);  // it closes then
+
+ protected:
+  [[nodiscard]] bool ready() const override { return !file_->text().trimmed().isEmpty(); }
+  bool confirm() override;
+  void begin(const Snapshot& snapshot) override;
+  void give_up() override { jobs_.cancel(); }
+
+ private:
+  QWidget* make_target();
+  void choose();
+  [[nodiscard]] QString suffix() const;
+  [[nodiscard]] QString usual_file() const;
+
+  ResultFile kind_;
+  ResultJobs jobs_;
+  QLineEdit* file_;
+};
+
+}  // namespace tidemark
