@@ -105,7 +105,7 @@ Status Conversion::split() {
   if (options_.kind == InputKind::volume && !is_mask) return {};
   std::vector<float> values = volume_->values();
   if (options_.kind == InputKind::labels) {
-    auto labels = segments_of_numbers(segments_.geometry, values, options_.input);
+    auto labels = segments_of_numbers(segments_.geometry, values, options_.study.path);
     if (!labels) return pass_on(labels);
     segments_.list = std::move(labels->list);
     return {};
