@@ -1,6 +1,7 @@
 #include "imaging/dicom/header_reader.h"
 
 #include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcistrmf.h>
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <algorithm>
@@ -212,9 +213,8 @@ Result<SliceHeader> header_of(DcmFileFormat& loaded, const fs::path& file, const
   header.description = in_utf8(in.text(DCM_SeriesDescription), in.text(DCM_SpecificCharacterSet));
   header.date = iso_date(in.text(DCM_StudyDate));
   header.patient = read_patient(dataset, header.date);
-  const DcmXfer syntax(dataset.getOriginalXfer());
-  header.transfer_syntax = syntax.getXferID();
-  header.is_lossy = is_lossy_syntax(syntax.getXfer()) || in.text(DCM_LossyImageCompression) == "01";
+  header.transfer_syntax = checked.syntax->uid;
+  header.is_lossy = is_lossy_syntax(dataset.getOriginalXfer()) || in.text(DCM_LossyImageCompression) == "01";
 
   DcmElement* element = nullptr;
   if (dataset.findAndGetElement(DCM_PixelData, element).bad() || element == nullptr) {
@@ -233,8 +233,19 @@ Result<SliceHeader> header_of(DcmFileFormat& loaded, const fs::path& file, const
 }
 
 // The transfer syntax is that of the preflight, so that both read the same tags.
-OFCondition parse(const fs::path& file, const TransferSyntax& syntax, DcmFileFormat& loaded) {
-  return loaded.loadFile(file.c_str(), DcmXfer(std::string(syntax.uid).c_str()).getXfer());
+OFCondition parse(const fs::path& file, const Preflight& checked, DcmFileFormat& loaded) {
+  const TransferSyntax& syntax = *checked.syntax;
+  const E_TransferSyntax parsed_as = DcmXfer(std::string(syntax.uid_to_parse()).c_str()).getXfer();
+  if (syntax.alike.empty()) return loaded.loadFile(file.c_str(), parsed_as);
+  // DCMTK would go by what the file's meta information says.
+  DcmInputFileStream stream(file.c_str());
+  if (stream.good()) stream.skip(checked.dataset);
+  if (!stream.good()) return stream.status();
+  DcmDataset& dataset = *loaded.getDataset();
+  dataset.transferInit();
+  const OFCondition read = dataset.read(stream, parsed_as, EGL_noChange, DCM_MaxReadLength);
+  dataset.transferEnd();
+  return read;
 }
 
 Result<Preflight> preflight_of(const fs::path& file) {
@@ -263,7 +274,7 @@ Result<OpenedSlice> open_slice(const fs::path& file) {
     return fail(ErrorKind::input, "{}: {}", file.string(), damaged.header.problem);
   }
   auto loaded = std::make_unique<DcmFileFormat>();
-  if (const OFCondition parsed = parse(file, *checked->syntax, *loaded); parsed.bad()) {
+  if (const OFCondition parsed = parse(file, *checked, *loaded); parsed.bad()) {
     return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
   }
   auto header = header_of(*loaded, file, *checked);

@@ -52,7 +52,10 @@ class Check {
   explicit Check(ByteSource& bytes) : bytes_(bytes), most_bytes_(64 * kMiB + bytes.size()) {}
 
   Preflight run() {
-    if (auto dataset = read_meta()) read_dataset(*dataset);
+    if (const auto dataset = read_meta()) {
+      result_.dataset = *dataset;
+      read_dataset(*dataset);
+    }
     return std::move(result_);
   }
 

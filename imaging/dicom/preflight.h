@@ -9,6 +9,7 @@
 // 128 KiB, where 2,000 end one of 1 MiB.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "imaging/dicom/tag_walk.h"
@@ -28,6 +29,7 @@ struct Preflight {
   // The syntax that the file names, or that its first element shows when it names none. Not null when the
   // file may be parsed.
   const TransferSyntax* syntax = nullptr;
+  std::int64_t dataset = 0;  // its offset; meaningful when the file may be parsed
   // SeriesInstanceUID (0020,000E), also of a damaged file if the damage comes after it; else empty.
   std::string series_uid;
 
