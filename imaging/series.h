@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "imaging/patient.h"
 
 namespace tidemark {
+
+class StudyArchive;
 
 // A series of DICOM files, or one volume file, that may make a volume.
 struct Series {
@@ -25,6 +28,8 @@ struct Series {
   std::string reason;                 // why it is not loadable: one line that names the files at fault
   std::vector<std::string> changes;   // what loading will change, e.g. "slices sorted by position"
   std::vector<std::string> warnings;  // what a user should know, e.g. "3 slices are missing their window"
+  // In which the files lie; null for files that were there already. They stay as long as somebody holds it.
+  std::shared_ptr<const StudyArchive> archive;
 };
 
 struct SkippedFile {
