@@ -23,6 +23,8 @@ struct Series {
   std::vector<std::filesystem::path> files;    // in slice order when loadable
   Geometry geometry;                           // meaningful when loadable
   std::string scalar;                          // of the volume when loaded: "int16", "uint16" or "float"
+  std::string unit;                            // of the values: "HU", "SUVbw g/ml"; empty when they have none
+  double value_scale = 1.0;                    // by which rescaled values are multiplied to have that unit
   std::vector<std::string> transfer_syntaxes;  // UIDs, each once; empty for volume files
   bool loadable = false;
   std::string reason;                 // why it is not loadable: one line that names the files at fault

@@ -121,6 +121,7 @@ Volume cut_slice(const Volume& whole, std::int64_t k) {
   slice.slope = whole.slope;
   slice.intercept = whole.intercept;
   slice.modality = whole.modality;
+  slice.unit = whole.unit;
   slice.description = whole.description;
   slice.window = whole.window;
   std::visit(

@@ -39,6 +39,7 @@ Json to_json(const Series& series) {
   object["direction"] = known ? direction : Json();
   object["origin_mm"] = known ? triple(grid.origin_mm) : Json();
   object["scalar"] = series.scalar;
+  object["unit"] = series.unit;
   object["transfer_syntaxes"] = series.transfer_syntaxes;
   object["loadable"] = series.loadable;
   object["reason"] = series.reason;
@@ -87,7 +88,9 @@ void say_series(Console& console, const Series& series) {
   if (!series.date.empty()) console.say("  date        {}", series.date);
   console.say("  files       {}", series.files.size());
   if (series.geometry.voxel_count() > 0) say_geometry(console, series.geometry);
-  if (!series.scalar.empty()) console.say("  values      {}", series.scalar);
+  if (!series.scalar.empty()) {
+    console.say("  values      {}{}{}", series.scalar, series.unit.empty() ? "" : ", ", series.unit);
+  }
   for (const std::string& syntax : series.transfer_syntaxes) console.say("  syntax      {}", syntax);
   console.say("  loadable    {}", series.loadable ? "yes" : "no: " + series.reason);
   for (const std::string& change : series.changes) console.say("  changed     {}", change);

@@ -225,6 +225,7 @@ Result<SliceHeader> header_of(DcmFileFormat& loaded, const fs::path& file, const
   read_pixel_format(in, header);
   read_plane(in, header);
   read_values(in, header);
+  read_quantity(dataset, header);
   if (dynamic_cast<DcmPixelData*>(element) == nullptr) {
     in.report(fmt::format("{} is not pixel data", name_of(DCM_PixelData)));
   }

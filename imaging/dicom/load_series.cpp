@@ -77,8 +77,8 @@ class SeriesDecoder {
       return outcome.fail_with(
           {ErrorKind::input, file.string() + ": is not what it was when its series was listed"}, k);
     }
-    const double slope = slice->header.slope;
-    const double intercept = slice->header.intercept;
+    const double slope = series_.value_scale * slice->header.slope;
+    const double intercept = series_.value_scale * slice->header.intercept;
     std::transform(slice->stored.begin(), slice->stored.end(), target, [&](std::int32_t stored) {
       if constexpr (std::is_same_v<Voxel, float>) {
         return static_cast<float>(slope * static_cast<double>(stored) + intercept);
@@ -138,12 +138,15 @@ Result<Volume> load(const Series& series, const Progress& progress) {
   volume.geometry = series.geometry;
   volume.modality = series.modality;
   volume.description = series.description;
-  volume.window = first->header.window;
+  volume.unit = series.unit;
+  if (const auto window = first->header.window) {
+    volume.window = {series.value_scale * window->centre, series.value_scale * window->width};
+  }
   volume.changes = series.changes;
   volume.changes.insert(volume.changes.end(), series.warnings.begin(), series.warnings.end());
   if (series.scalar != "float") {
-    volume.slope = first->header.slope;
-    volume.intercept = first->header.intercept;
+    volume.slope = series.value_scale * first->header.slope;
+    volume.intercept = series.value_scale * first->header.intercept;
   }
   const Status decoded =
       series.scalar == "int16"    ? decode_into<std::int16_t>(series, first->header, volume, progress)

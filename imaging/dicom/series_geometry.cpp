@@ -346,6 +346,7 @@ Series arrange_series(std::vector<SliceHeader> slices) {
   auto reason = check_distinct(slices, positions);
   if (!reason) reason = check_straight(slices, positions, axes[2]);
   if (!reason) reason = check_even(slices, positions);
+  if (!reason) reason = state_quantity(slices, series);
   if (reason) {
     series.reason = *reason;
     return series;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/volume.h"
+#include "imaging/dicom/quantity.h"
 #include "imaging/patient.h"
 
 namespace tidemark {
@@ -41,6 +42,8 @@ struct SliceHeader {
   double slope = 1.0;                 // (0028,1053)
   double intercept = 0.0;             // (0028,1052)
   std::optional<WindowLevel> window;  // (0028,1050) and (0028,1051), first values
+
+  QuantityHeader quantity;
 
   bool is_mosaic = false;       // Siemens: many slices tiled into one image
   bool is_monochrome1 = false;  // small values are white
