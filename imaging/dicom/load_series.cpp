@@ -96,8 +96,13 @@ class SeriesDecoder {
       return true;
     } else {
       if (header.slope != first_.slope || header.intercept != first_.intercept) return false;
-      const auto [low, high] = std::minmax_element(slice.stored.begin(), slice.stored.end());
-      return *low >= std::numeric_limits<Voxel>::min() && *high <= std::numeric_limits<Voxel>::max();
+      std::int32_t low = 0;  // which every type holds
+      std::int32_t high = 0;
+      for (const std::int32_t value : slice.stored) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+      return low >= std::numeric_limits<Voxel>::min() && high <= std::numeric_limits<Voxel>::max();
     }
   }
 
