@@ -127,7 +127,7 @@ void add_info(CLI::App& app, Program& program) {
   auto path = std::make_shared<std::string>();
   CLI::App& command = add_command(app, program, {"info", kSummary, kDescription, kExamples},
                                   [&program, path] { return run(program, *path); });
-  command.add_option("PATH", *path, "A DICOM folder or file, or a volume file")->required()->type_name("");
+  command.add_option("PATH", *path, "A DICOM folder, file or DICOMDIR, a volume file, or a zip archive")->required()->type_name("");
 }
 
 }  // namespace tidemark::cli
