@@ -30,7 +30,13 @@ struct Entry {
 // A name in a message.
 std::string shown(const std::string& name) {
   constexpr std::size_t kLongest = 80;
-  std::string text = name.size() > kLongest ? "..." + name.substr(name.size() - kLongest) : name;
+  std::string text = name;
+  if (name.size() > kLongest) {
+    // Not in the middle of a UTF-8 sequence.
+    std::size_t begin = name.size() - kLongest;
+    while (begin < name.size() && (static_cast<unsigned char>(name[begin]) & 0xc0U) == 0x80U) ++begin;
+    text = "..." + name.substr(begin);
+  }
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
   return text;

@@ -1,9 +1,9 @@
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
 #include "imaging/dicom/date.h"
@@ -14,12 +14,15 @@
 namespace tidemark {
 namespace {
 
+// Codes and numbers are ASCII; what is not would spoil a message.
 std::string text(DcmItem& item, const DcmTagKey& key) {
-  constexpr std::size_t kLongest = 64;
+  constexpr std::size_t kLongest = 256;
   OFString value;
   if (item.findAndGetOFStringArray(key, value).bad()) return {};
   std::string result(value.c_str(), std::min<std::size_t>(value.size(), kLongest));
-  result.erase(result.find_last_not_of(' ') + 1);
+  result.erase(result.find_last_not_of(std::string_view(" \0", 2)) + 1);
+  std::replace_if(
+      result.begin(), result.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
   return result;
 }
 

@@ -208,6 +208,10 @@ class DicomQuantityTest : public QObject {
     const Made counts("CT", {make_pet, units("CNTS")});
     QCOMPARE(counts.series().unit, std::string());
     QVERIFY(told(counts.series().warnings, "Units (0054,1001) is 'CNTS'"));
+    const Made odd("CT", {make_pet, units("CN\n\xff")});
+    QVERIFY(told(odd.series().warnings,
+                 "Units (0054,1001) is 'CN?"
+                 "?'"));
   }
 
   void a_mapping_to_a_unit_is_used_in_mr() {
