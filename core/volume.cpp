@@ -34,9 +34,15 @@ std::vector<float> Volume::values() const {
 std::pair<float, float> Volume::range() const {
   return std::visit(
       [&](const auto& stored) {
-        const auto [low, high] = std::minmax_element(stored.begin(), stored.end());
-        const auto a = static_cast<float>(slope * static_cast<double>(*low) + intercept);
-        const auto b = static_cast<float>(slope * static_cast<double>(*high) + intercept);
+        // Two plain reductions, which compilers make vectors of; of std::minmax_element they do not.
+        auto low = stored.front();
+        auto high = low;
+        for (const auto value : stored) {
+          low = std::min(low, value);
+          high = std::max(high, value);
+        }
+        const auto a = static_cast<float>(slope * static_cast<double>(low) + intercept);
+        const auto b = static_cast<float>(slope * static_cast<double>(high) + intercept);
         return std::pair(std::min(a, b), std::max(a, b));  // the slope may be negative
       },
       voxels);

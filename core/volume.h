@@ -29,6 +29,7 @@ struct Volume {
   double intercept = 0.0;
 
   std::string modality;               // DICOM (0008,0060): "CT", "MR", ...; empty when unknown
+  std::string unit;                   // of its values: "HU", "SUVbw g/ml"; empty when they have none
   std::string description;            // of the series, for display
   std::optional<WindowLevel> window;  // the file's own first window
   std::vector<std::string> changes;   // what reading found and changed, one sentence each

@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "imaging/patient.h"
 
 namespace tidemark {
+
+class StudyArchive;
 
 // Where the pixels of a slice are.
 struct SliceSource {
@@ -35,6 +38,8 @@ struct Series {
   std::vector<SliceSource> sources;            // of each slice, in slice order when loadable; DICOM only
   Geometry geometry;                           // meaningful when loadable
   std::string scalar;                          // of the volume when loaded: "int16", "uint16" or "float"
+  std::string unit;                            // of the values: "HU", "SUVbw g/ml"; empty when they have none
+  double value_scale = 1.0;                    // by which rescaled values are multiplied to have that unit
   std::vector<std::string> transfer_syntaxes;  // UIDs, each once; empty for volume files
   bool loadable = false;
   std::string reason;                 // why it is not loadable: one line that names the files at fault
@@ -43,6 +48,8 @@ struct Series {
   GridPolicy policy;                  // by which it was made
   std::vector<std::string> changes;   // what loading will change, e.g. "slices sorted by position"
   std::vector<std::string> warnings;  // what a user should know, e.g. "3 slices are missing their window"
+  // In which the files lie; null for files that were there already. They stay as long as somebody holds it.
+  std::shared_ptr<const StudyArchive> archive;
 
   // Not loadable as it is, but with its gaps filled: grid.question asks for that.
   [[nodiscard]] bool fillable() const { return !loadable && !grid.question.empty(); }

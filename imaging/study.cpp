@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "imaging/archive/study_archive.h"
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/series_geometry.h"
 #include "imaging/files/volume_file.h"
@@ -22,20 +23,6 @@ bool is_volume_file(const Series& series) {
   return series.transfer_syntaxes.empty();
 }
 
-Result<Catalogue> find_in_file(const fs::path& file, const Progress& progress) {
-  if (is_readable_volume_file(file)) {
-    auto series = scan_volume_file(file);
-    if (!series) return pass_on(series);
-    Catalogue catalogue;
-    catalogue.series.push_back(std::move(*series));
-    return catalogue;
-  }
-  if (std::ifstream(file) && !looks_like_dicom(file)) {
-    return fail(ErrorKind::input, "{}: is neither a DICOM image nor a volume file", file.string());
-  }
-  return scan_dicom(file, progress);
-}
-
 // What the DICOM reader leaves aside may be a volume file.
 Result<Catalogue> find_in_folder(const fs::path& folder, const Progress& progress) {
   auto catalogue = scan_dicom(folder, progress);
@@ -43,6 +30,7 @@ Result<Catalogue> find_in_folder(const fs::path& folder, const Progress& progres
   std::vector<SkippedFile> skipped;
   for (SkippedFile& candidate : catalogue->skipped) {
     if (!is_readable_volume_file(candidate.file)) {
+      if (is_zip_archive(candidate.file)) candidate.reason = "is a zip archive, which is opened by itself";
       skipped.push_back(std::move(candidate));
       continue;
     }
@@ -55,6 +43,41 @@ Result<Catalogue> find_in_folder(const fs::path& folder, const Progress& progres
   }
   catalogue->skipped = std::move(skipped);
   return catalogue;
+}
+
+// As a folder, whose files go when nobody holds a series of it any more.
+Result<Catalogue> find_in_archive(const fs::path& file, const Progress& progress) {
+  const auto archive = StudyArchive::unpack(file, progress.part(0, 2));
+  if (!archive) return tl::unexpected<Error>(archive.error());
+  const StudyArchive& unpacked = **archive;
+  auto catalogue = find_in_folder(unpacked.folder(), progress.part(1, 2));
+  if (!catalogue) {
+    catalogue.error().message = unpacked.told_outside(std::move(catalogue.error().message));
+    return catalogue;
+  }
+  for (Series& series : catalogue->series) series.archive = *archive;
+  for (SkippedFile& skipped : catalogue->skipped) {
+    skipped = {unpacked.told_outside(skipped.file.string()), unpacked.told_outside(skipped.reason)};
+  }
+  const auto& left_out = unpacked.left_out();
+  catalogue->skipped.insert(catalogue->skipped.end(), left_out.begin(), left_out.end());
+  return catalogue;
+}
+
+Result<Catalogue> find_in_file(const fs::path& file, const Progress& progress) {
+  if (is_readable_volume_file(file)) {
+    auto series = scan_volume_file(file);
+    if (!series) return pass_on(series);
+    Catalogue catalogue;
+    catalogue.series.push_back(std::move(*series));
+    return catalogue;
+  }
+  if (is_zip_archive(file)) return find_in_archive(file, progress);
+  if (std::ifstream(file) && !looks_like_dicom(file)) {
+    return fail(ErrorKind::input, "{}: is neither a DICOM image, a volume file nor a zip archive",
+                file.string());
+  }
+  return scan_dicom(file, progress);
 }
 
 std::string list_uids(const std::vector<Series>& series) {
@@ -75,7 +98,10 @@ Status require_finite_range(const Volume& volume, const std::string& source) {
 Result<Volume> load_chosen(const Series& series, const Progress& progress) {
   auto volume = is_volume_file(series) ? read_volume_file(series.files.front(), progress)
                                        : load_dicom(series, progress);
-  if (!volume) return volume;
+  if (!volume) {
+    if (series.archive) volume.error().message = series.archive->told_outside(volume.error().message);
+    return volume;
+  }
   const fs::path& first = series.files.front();
   const std::string source = is_volume_file(series) ? first.string() : first.parent_path().string();
   if (auto finite = require_finite(*volume, source); !finite) return pass_on(finite);
@@ -96,6 +122,7 @@ Volume cut_slice(const Volume& whole, std::int64_t k) {
   slice.slope = whole.slope;
   slice.intercept = whole.intercept;
   slice.modality = whole.modality;
+  slice.unit = whole.unit;
   slice.description = whole.description;
   slice.window = whole.window;
   std::visit(

@@ -1,4 +1,5 @@
-// The one way in: a DICOM folder, a DICOM file or a volume file, by its path.
+// The one way in: a DICOM folder, a DICOM file, a DICOMDIR, a volume file or a zip archive of these, by its
+// path.
 #pragma once
 
 #include <filesystem>

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <new>
 
+#include "imaging/archive/study_archive.h"
 #include "imaging/filters/suggest_start.h"
 #include "imaging/phantom/phantom.h"
 #include "imaging/study.h"
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 
 // Steps as the folders below name them, for translators.
 [[maybe_unused]] constexpr const char* kSteps[] = {
+    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "unpacking the archive"),
     QT_TRANSLATE_NOOP("tidemark::LoadingStep", "reading headers"),
     QT_TRANSLATE_NOOP("tidemark::LoadingStep", "decoding slices"),
     QT_TRANSLATE_NOOP("tidemark::LoadingStep", "reading the volume"),
@@ -60,6 +62,7 @@ Result<LoadedStudy> load_study(const ChosenSeries& chosen, const Progress& progr
   study.name = StudyLoader::name_of(series);
   study.patient = series.patient;
   study.date = series.date;
+  study.archive = series.archive;
   study.origin.name = study.name.toStdString();
   study.origin.date = series.date;
   progress(0.0, "measuring values");
@@ -197,6 +200,7 @@ void StudyLoader::cancel() {
 
 fs::path StudyLoader::place_of(const Series& series) {
   if (series.files.empty()) return {};
+  if (series.archive) return series.archive->file();
   if (series.transfer_syntaxes.empty()) return series.files.front();  // a volume file
   fs::path folder = series.files.front().parent_path();
   for (const fs::path& file : series.files) {

@@ -38,6 +38,7 @@ struct LoadedStudy {
   std::string date;       // of the study: "2004-07-31"; empty when unknown
   Parameters parameters;  // that suit some even, bright tissue in the middle, or the phantom
   std::optional<PhantomStart> start;
+  std::shared_ptr<const StudyArchive> archive;  // keeps the files of a series that lies in an archive
 };
 
 // Lives on the thread of the user interface; the work is done on others. One piece of work at a time: whoever
@@ -58,7 +59,8 @@ class StudyLoader : public QObject {
   [[nodiscard]] bool busy() const { return job_ != nullptr; }
   void cancel();  // emits cancelled() when something was given up
 
-  // The folder or file under which a series is found again: the one folder that holds all its files.
+  // The folder or file under which a series is found again: the one folder that holds all its files, or its
+  // archive.
   [[nodiscard]] static std::filesystem::path place_of(const Series& series);
   // What a series is called in titles: its description, else modality and date.
   [[nodiscard]] static QString name_of(const Series& series);

@@ -45,6 +45,7 @@ Json to_json(const Series& series) {
   object["direction"] = known ? direction : Json();
   object["origin_mm"] = known ? triple(grid.origin_mm) : Json();
   object["scalar"] = series.scalar;
+  object["unit"] = series.unit;
   object["transfer_syntaxes"] = series.transfer_syntaxes;
   object["loadable"] = series.loadable;
   object["reason"] = series.reason;
@@ -96,7 +97,9 @@ void say_series(Console& console, const Series& series) {
   console.say("  files       {}{}", series.files.size(),
               has_many ? fmt::format(" with {} slices in them", series.sources.size()) : "");
   if (series.geometry.voxel_count() > 0) say_geometry(console, series.geometry);
-  if (!series.scalar.empty()) console.say("  values      {}", series.scalar);
+  if (!series.scalar.empty()) {
+    console.say("  values      {}{}{}", series.scalar, series.unit.empty() ? "" : ", ", series.unit);
+  }
   for (const std::string& syntax : series.transfer_syntaxes) console.say("  syntax      {}", syntax);
   console.say("  loadable    {}", series.loadable ? "yes" : "no: " + series.reason);
   if (series.fillable()) console.say("              --gaps fill interpolates");
@@ -134,7 +137,8 @@ void add_info(CLI::App& app, Program& program) {
   auto study = std::make_shared<StudyInput>();
   CLI::App& command = add_command(app, program, {"info", kSummary, kDescription, kExamples},
                                   [&program, study] { return run(program, *study); });
-  command.add_option("PATH", study->path, "A DICOM folder or file, or a volume file")
+  command
+      .add_option("PATH", study->path, "A DICOM folder, file or DICOMDIR, a volume file, or a zip archive")
       ->required()
       ->type_name("");
   add_grid_options(command, *study);

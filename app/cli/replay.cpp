@@ -48,6 +48,7 @@ RunResults results_of(const Recipe& recipe, const Volume& volume, Replay replaye
   figures.threads = threads_of(arguments.solver, figures.executor);
   figures.geometry = volume.geometry;
   figures.modality = volume.modality;
+  figures.unit = volume.unit;
   figures.description = volume.description;
   figures.series_uid = arguments.study.series;
   figures.changes = volume.changes;

@@ -82,6 +82,7 @@ Json to_json(const RunFigures& figures) {
   object["bytes_per_resident_voxel"] = bytes_per_resident_voxel(memory);
   object.update(grid_json(figures.geometry));
   object["modality"] = figures.modality;
+  object["unit"] = figures.unit;
   object["description"] = figures.description;
   object["series_uid"] = figures.series_uid.empty() ? Json() : Json(figures.series_uid);
   object["changes"] = figures.changes;

@@ -18,6 +18,7 @@ struct RunFigures {
   int threads = 1;
   Geometry geometry;
   std::string modality;
+  std::string unit;  // of the values
   std::string description;
   std::string series_uid;            // empty when it was not asked for by UID
   std::vector<std::string> changes;  // what loading found and changed

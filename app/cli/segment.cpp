@@ -89,6 +89,7 @@ Status Segmentation::load() {
   RunFigures& figures = results_.figures;
   figures.geometry = volume->geometry;
   figures.modality = volume->modality;
+  figures.unit = volume->unit;
   figures.description = volume->description;
   figures.series_uid = options_.study.series;
   figures.changes = volume->changes;

@@ -65,7 +65,7 @@ OFCondition take_words(DcmElement& element, int bits, std::vector<std::uint32_t>
 tl::expected<std::vector<std::uint32_t>, std::string> decode_fragments(const Fragments& fragments,
                                                                        const TransferSyntax& syntax,
                                                                        const SliceHeader& header) {
-  const DcmXfer coded(std::string(syntax.uid).c_str());
+  const DcmXfer coded(std::string(syntax.uid_to_parse()).c_str());
   DcmDataset dataset;
   put_format(header, dataset);
   OFCondition decoded = put_fragments(fragments, coded.getXfer(), dataset);
@@ -73,7 +73,7 @@ tl::expected<std::vector<std::uint32_t>, std::string> decode_fragments(const Fra
   DcmElement* element = nullptr;
   if (decoded.good()) decoded = dataset.findAndGetElement(DCM_PixelData, element);
   if (decoded.bad()) {
-    return tl::unexpected(fmt::format("cannot be decoded ({}): {}", coded.getXferName(), decoded.text()));
+    return tl::unexpected(fmt::format("cannot be decoded ({}): {}", syntax.name, decoded.text()));
   }
   const std::int64_t pixels = header.frame_rows * header.frame_columns;
   const std::int64_t bytes = pixels * header.bits_allocated / 8;

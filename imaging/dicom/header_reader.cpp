@@ -1,6 +1,7 @@
 #include "imaging/dicom/header_reader.h"
 
 #include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcistrmf.h>
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <algorithm>
@@ -149,7 +150,7 @@ SliceHeader header_without_image(const fs::path& file, const Preflight& checked)
 }
 
 // What the dataset itself says, about all its frames.
-Result<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file) {
+Result<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file, const TransferSyntax& syntax) {
   DcmDataset& dataset = *loaded.getDataset();
   SliceHeader header;
   header.file = file;
@@ -161,9 +162,8 @@ Result<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file) {
   header.description = in_utf8(in.text(DCM_SeriesDescription), in.text(DCM_SpecificCharacterSet));
   header.date = iso_date(in.text(DCM_StudyDate));
   header.patient = read_patient(dataset, header.date);
-  const DcmXfer syntax(dataset.getOriginalXfer());
-  header.transfer_syntax = syntax.getXferID();
-  header.is_lossy = is_lossy_syntax(syntax.getXfer()) || in.text(DCM_LossyImageCompression) == "01";
+  header.transfer_syntax = syntax.uid;
+  header.is_lossy = is_lossy_syntax(dataset.getOriginalXfer()) || in.text(DCM_LossyImageCompression) == "01";
 
   DcmElement* element = nullptr;
   if (dataset.findAndGetElement(DCM_PixelData, element).bad() || element == nullptr) {
@@ -176,6 +176,7 @@ Result<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file) {
   read_plane(in, header);
   read_values(in, header);
   read_traits(in, header.traits);
+  read_quantity(dataset, header);
   if (dynamic_cast<DcmPixelData*>(element) == nullptr) {
     in.report(fmt::format("{} is not pixel data", name_of(DCM_PixelData)));
   }
@@ -185,7 +186,7 @@ Result<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file) {
 // A header for each slice; one with the problem of the file where there is any.
 Result<std::vector<SliceHeader>> read_slices(DcmFileFormat& loaded, const fs::path& file,
                                              const Preflight& checked) {
-  auto whole = read_whole(loaded, file);
+  auto whole = read_whole(loaded, file, *checked.syntax);
   if (!whole) return pass_on(whole);
   std::vector<SliceHeader> slices;
   DcmDataset& dataset = *loaded.getDataset();
@@ -205,8 +206,19 @@ Result<std::vector<SliceHeader>> read_slices(DcmFileFormat& loaded, const fs::pa
 }
 
 // The transfer syntax is that of the preflight, so that both read the same tags.
-OFCondition parse(const fs::path& file, const TransferSyntax& syntax, DcmFileFormat& loaded) {
-  return loaded.loadFile(file.c_str(), DcmXfer(std::string(syntax.uid).c_str()).getXfer());
+OFCondition parse(const fs::path& file, const Preflight& checked, DcmFileFormat& loaded) {
+  const TransferSyntax& syntax = *checked.syntax;
+  const E_TransferSyntax parsed_as = DcmXfer(std::string(syntax.uid_to_parse()).c_str()).getXfer();
+  if (syntax.alike.empty()) return loaded.loadFile(file.c_str(), parsed_as);
+  // DCMTK would go by what the file's meta information says.
+  DcmInputFileStream stream(file.c_str());
+  if (stream.good()) stream.skip(checked.dataset);
+  if (!stream.good()) return stream.status();
+  DcmDataset& dataset = *loaded.getDataset();
+  dataset.transferInit();
+  const OFCondition read = dataset.read(stream, parsed_as, EGL_noChange, DCM_MaxReadLength);
+  dataset.transferEnd();
+  return read;
 }
 
 Result<Preflight> preflight_of(const fs::path& file) {
@@ -237,7 +249,7 @@ Result<ImageFile> open_image(const fs::path& file) {
     return fail(ErrorKind::input, "{}: {}", file.string(), image.slices.front().problem);
   }
   DcmFileFormat loaded;
-  if (const OFCondition parsed = parse(file, *image.checked.syntax, loaded); parsed.bad()) {
+  if (const OFCondition parsed = parse(file, image.checked, loaded); parsed.bad()) {
     return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
   }
   auto slices = read_slices(loaded, file, image.checked);

@@ -111,7 +111,7 @@ class SeriesDecoder {
     if (!stored && first_.modality == "CT") stored = (kAir - first_.intercept) / first_.slope;
     if (!stored) return std::nullopt;
     if constexpr (std::is_same_v<Voxel, float>) {
-      return static_cast<float>(first_.slope * *stored + first_.intercept);
+      return static_cast<float>(series_.value_scale * (first_.slope * *stored + first_.intercept));
     } else {
       using Limits = std::numeric_limits<Voxel>;
       return static_cast<Voxel>(std::lround(std::clamp<double>(*stored, Limits::min(), Limits::max())));
@@ -146,11 +146,13 @@ class SeriesDecoder {
     const std::int64_t across = header->frame_columns / size.x;
     const std::int64_t corner =
         source.tile / across * size.y * header->frame_columns + source.tile % across * size.x;
+    const double slope = series_.value_scale * header->slope;
+    const double intercept = series_.value_scale * header->intercept;
     bool fits = true;
     for (std::int64_t j = 0; j < size.y; ++j) {
       const auto row = pixels.stored.begin() + corner + j * header->frame_columns;
       std::transform(row, row + size.x, target + j * size.x,
-                     [&](std::int32_t stored) { return voxel(stored, *header, fits); });
+                     [&](std::int32_t stored) { return voxel(stored, slope, intercept, fits); });
     }
     if (!fits) {
       outcome.fail_with(
@@ -158,9 +160,9 @@ class SeriesDecoder {
     }
   }
 
-  static Voxel voxel(std::int32_t stored, const SliceHeader& header, bool& fits) {
+  static Voxel voxel(std::int32_t stored, double slope, double intercept, bool& fits) {
     if constexpr (std::is_same_v<Voxel, float>) {
-      return static_cast<float>(header.slope * static_cast<double>(stored) + header.intercept);
+      return static_cast<float>(slope * static_cast<double>(stored) + intercept);
     } else {
       fits &= stored >= std::numeric_limits<Voxel>::min() && stored <= std::numeric_limits<Voxel>::max();
       return static_cast<Voxel>(stored);
@@ -225,12 +227,15 @@ Result<Volume> load(const Series& series, const Progress& progress) {
   volume.geometry = series.geometry;
   volume.modality = series.modality;
   volume.description = series.description;
-  volume.window = first->window;
+  volume.unit = series.unit;
+  if (const auto window = first->window) {
+    volume.window = {series.value_scale * window->centre, series.value_scale * window->width};
+  }
   volume.changes = series.changes;
   volume.changes.insert(volume.changes.end(), series.warnings.begin(), series.warnings.end());
   if (series.scalar != "float") {
-    volume.slope = first->slope;
-    volume.intercept = first->intercept;
+    volume.slope = series.value_scale * first->slope;
+    volume.intercept = series.value_scale * first->intercept;
   }
   const Status decoded =
       series.scalar == "int16"    ? decode_into<std::int16_t>(series, *first, plan, volume, progress)

@@ -22,25 +22,25 @@ class BitReader {
         sign_(header.is_signed ? std::uint32_t{1} << (header.bits_stored - 1) : 0),
         word_mask_(static_cast<std::uint32_t>((std::uint64_t{1} << header.bits_allocated) - 1)) {}
 
-  // Unsigned values of 32 bits stay in their low 32 bits; the caller looks at them.
+  // Unsigned values of 32 bits stay in their low 32 bits; the caller looks at them. Without branches, so that
+  // several pixels are done at once.
   std::int32_t operator()(std::uint32_t word) {
     const std::uint32_t bits = word >> shift_ & mask_;
-    const bool negative = (bits & sign_) != 0;
-    const std::uint32_t value = negative ? bits | ~mask_ : bits;
+    const std::uint32_t value = (bits ^ sign_) - sign_;  // extends the sign
     // A sign extended over the word is as good as clean.
     const std::uint32_t clean = bits << shift_;
     const std::uint32_t extended = value << shift_ & word_mask_;
-    ignored_ |= word != clean && word != extended;
+    ignored_ |= static_cast<std::uint32_t>(word != clean) & static_cast<std::uint32_t>(word != extended);
     return static_cast<std::int32_t>(value);
   }
-  [[nodiscard]] bool ignored() const { return ignored_; }
+  [[nodiscard]] bool ignored() const { return ignored_ != 0; }
 
  private:
   int shift_;
   std::uint32_t mask_;
   std::uint32_t sign_;
   std::uint32_t word_mask_;
-  bool ignored_ = false;
+  std::uint32_t ignored_ = 0;
 };
 
 // `word(p)` gives the word of pixel p.

@@ -51,7 +51,10 @@ class Check {
   explicit Check(ByteSource& bytes) : bytes_(bytes), most_bytes_(64 * kMiB + bytes.size()) {}
 
   Preflight run() {
-    if (auto dataset = read_meta()) read_dataset(*dataset);
+    if (const auto dataset = read_meta()) {
+      result_.dataset = *dataset;
+      read_dataset(*dataset);
+    }
     return std::move(result_);
   }
 
@@ -113,7 +116,6 @@ class Check {
   }
 
   void read_dataset(std::int64_t begin) {
-    result_.dataset = begin;
     if (!result_.syntax->is_deflated) return walk_dataset(bytes_, begin);
     const auto size = InflatedBytes::measure(bytes_, begin, kLargestInflation);
     if (!size) return conclude(Preflight::Verdict::damaged, {{}, begin, size.error().message});

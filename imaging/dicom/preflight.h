@@ -36,7 +36,7 @@ struct Preflight {
   // `dataset` on. Nothing without PixelData.
   std::optional<ElementHeader> pixels;
   std::optional<Fragments> fragments;  // of compressed pixels
-  std::int64_t dataset = 0;
+  std::int64_t dataset = 0;            // its offset; meaningful when the file may be parsed
 
   [[nodiscard]] bool may_be_parsed() const {
     return verdict == Verdict::good || verdict == Verdict::bad_pixels;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <new>
 #include <optional>
 #include <system_error>
@@ -11,6 +12,7 @@
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/header_reader.h"
+#include "imaging/dicom/media_directory.h"
 #include "imaging/dicom/series_geometry.h"
 #include "imaging/dicom/shared_progress.h"
 
@@ -51,6 +53,14 @@ Result<std::vector<SliceHeader>> read_safely(const fs::path& file) {
   }
 }
 
+// A reason without the file's name, which stands beside it.
+std::string without_name(std::string reason, const fs::path& file) {
+  if (const std::string prefix = file.string() + ": "; reason.starts_with(prefix)) {
+    reason.erase(0, prefix.size());
+  }
+  return reason;
+}
+
 Result<Headers> read_headers(const std::vector<fs::path>& files, const Progress& progress) {
   std::vector<std::optional<Result<std::vector<SliceHeader>>>> read(files.size());
   SharedProgress shared(progress, static_cast<std::int64_t>(files.size()), "reading headers");
@@ -71,11 +81,7 @@ Result<Headers> read_headers(const std::vector<fs::path>& files, const Progress&
       std::move(result->begin(), result->end(), std::back_inserter(headers.slices));
       continue;
     }
-    // The reason without the file's name, which stands beside it.
-    std::string reason = result.error().message;
-    if (const std::string prefix = files[i].string() + ": "; reason.starts_with(prefix)) {
-      reason.erase(0, prefix.size());
-    }
+    std::string reason = without_name(result.error().message, files[i]);
     const bool is_damaged = reason.starts_with("is damaged") || reason.starts_with("cannot be read") ||
                             (files[i].extension() == ".dcm" && !looks_like_dicom(files[i]));
     if (is_damaged) headers.damaged.push_back({files[i], reason});
@@ -98,15 +104,68 @@ void warn_of_damage(std::vector<Series>& series, const std::vector<SkippedFile>&
   }
 }
 
-Result<Catalogue> scan_folder(const fs::path& folder, const Progress& progress) {
-  const auto files = list_files(folder, true, progress);
-  if (!files) return tl::unexpected(files.error());
-  auto headers = read_headers(*files, progress);
+Result<Catalogue> catalogue_of(const std::vector<fs::path>& files, const Progress& progress) {
+  auto headers = read_headers(files, progress);
   if (!headers) return pass_on(headers);
   Catalogue catalogue;
   catalogue.series = group_series(std::move(headers->slices));
   catalogue.skipped = std::move(headers->skipped);
   warn_of_damage(catalogue.series, headers->damaged);
+  return catalogue;
+}
+
+// What a medium's directory names and does not hold may be a series' first or last slice.
+void warn_of_missing(Catalogue& catalogue, const fs::path& file, const MediaDirectory& directory) {
+  using Missing = std::vector<MediaDirectory::Missing>;
+  if (directory.missing.empty()) return;
+  catalogue.skipped.push_back({file, fmt::format("refers to {} files that are not there: {}",
+                                                 directory.missing.size(), list_missing(directory.missing))});
+  std::map<std::string, Missing> of_series;
+  for (const auto& one : directory.missing) of_series[one.series_uid].push_back(one);
+  for (Series& series : catalogue.series) {
+    const auto found = of_series.find(series.uid);
+    if (found == of_series.end()) continue;
+    series.warnings.push_back(fmt::format("{} names {} files of this series that are not there: {}",
+                                          file.filename().string(), found->second.size(),
+                                          list_missing(found->second)));
+  }
+}
+
+// All files are looked at, also those that no directory of a medium names; of those that one names and that
+// are missing it is told.
+Result<Catalogue> scan_folder(const fs::path& folder, const Progress& progress) {
+  auto files = list_files(folder, true, progress);
+  if (!files) return pass_on(files);
+  const auto directories = std::stable_partition(
+      files->begin(), files->end(), [](const fs::path& file) { return !is_media_directory(file); });
+  const std::vector<fs::path> media(directories, files->end());
+  files->erase(directories, files->end());
+  auto catalogue = catalogue_of(*files, progress);
+  if (!catalogue) return catalogue;
+  for (const fs::path& file : media) {
+    const auto directory = read_media_directory(file);
+    if (directory) {
+      warn_of_missing(*catalogue, file, *directory);
+    } else {
+      catalogue->skipped.push_back({file, without_name(directory.error().message, file)});
+    }
+  }
+  return catalogue;
+}
+
+// The files that a medium's directory names, and no others.
+Result<Catalogue> scan_medium(const fs::path& file, const Progress& progress) {
+  const auto directory = read_media_directory(file);
+  if (!directory) return tl::unexpected<Error>(directory.error());
+  if (directory->files.empty() && directory->missing.empty()) {
+    return fail(ErrorKind::input, "{}: refers to no files", file.string());
+  }
+  if (directory->files.empty()) {
+    return fail(ErrorKind::input, "{}: refers to {} files, none of which is there: {}", file.string(),
+                directory->missing.size(), list_missing(directory->missing));
+  }
+  auto catalogue = catalogue_of(directory->files, progress);
+  if (catalogue) warn_of_missing(*catalogue, file, *directory);
   return catalogue;
 }
 
@@ -151,7 +210,9 @@ Result<Catalogue> scan_dicom(const fs::path& path, const Progress& progress) {
     if (auto ready = set_up_dicom(); !ready) return pass_on(ready);
     std::error_code error;
     if (fs::is_directory(path, error)) return scan_folder(path, progress);
-    if (fs::is_regular_file(path, error)) return scan_file(path, progress);
+    if (fs::is_regular_file(path, error)) {
+      return is_media_directory(path) ? scan_medium(path, progress) : scan_file(path, progress);
+    }
     if (fs::exists(path, error)) {
       return fail(ErrorKind::input, "{}: is neither a file nor a folder", path.string());
     }

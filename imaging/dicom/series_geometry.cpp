@@ -302,6 +302,10 @@ Series arrange_series(std::vector<SliceHeader> slices) {
     series.reason = *reason;
     return series;
   }
+  if (auto reason = state_quantity(slices, series)) {
+    series.reason = *reason;
+    return series;
+  }
   series.stack = stack_of(slices, axes);
   series.scalar = scalar_of(slices, series.changes);
   set_grid(series, {});

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "core/volume.h"
+#include "imaging/dicom/quantity.h"
 #include "imaging/patient.h"
 
 namespace tidemark {
@@ -67,6 +68,8 @@ struct SliceHeader {
   double intercept = 0.0;             // (0028,1052)
   std::optional<double> padding;      // (0028,0120): the stored value where nothing was measured
   std::optional<WindowLevel> window;  // (0028,1050) and (0028,1051), first values
+
+  QuantityHeader quantity;
 
   bool is_monochrome1 = false;  // small values are white
   bool is_lossy = false;        // was compressed with loss at some time

@@ -53,6 +53,7 @@ Result<Volume> smooth(const Volume& volume, double sigma_mm) {
   Volume result;
   result.geometry = volume.geometry;
   result.modality = volume.modality;
+  result.unit = volume.unit;
   result.description = volume.description;
   result.window = volume.window;
   result.changes = volume.changes;

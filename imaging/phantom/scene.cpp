@@ -79,6 +79,7 @@ Result<Phantom> scan(const Scene& scene, const PhantomOptions& options, ThreadPo
   phantom.volume.geometry = geometry;
   phantom.volume.voxels = std::move(voxels);
   phantom.volume.modality = scene.modality;
+  if (scene.modality == "CT") phantom.volume.unit = "HU";
   phantom.volume.description = scene.description;
   phantom.volume.window = scene.window;
   phantom.truth = {geometry, std::move(truth)};

@@ -47,8 +47,8 @@ SourceStudy anonymous_study(const Geometry& geometry) {
   return study;
 }
 
-// How far from the grid, in pixels of its planes, a slice of its size lies: another stack, or slices that were
-// taken as they lie although they move sideways (a tilted gantry).
+// How far from the grid, in pixels of its planes, a slice of its size lies: another stack, or slices that
+// were taken as they lie although they move sideways (a tilted gantry).
 glm::dvec2 pixels_beside(const SliceHeader& slice, const Geometry& geometry) {
   if (slice.columns != geometry.size.x || slice.rows != geometry.size.y) return glm::dvec2(0.0);
   const glm::dvec3 voxel = geometry.to_voxel(*slice.position_mm);

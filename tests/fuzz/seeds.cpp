@@ -11,7 +11,9 @@
 #include "imaging/files/volume_file.h"
 #include "renderer/transfer_function.h"
 #include "study/session_file.h"
+#include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/imaging/dicom/frame_bytes.h"
+#include "tests/imaging/dicom/ht_streams.h"
 #include "tests/imaging/dicom/recode.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/files/volumes.h"
@@ -115,6 +117,11 @@ void write_compressed_dicom() {
     write_dicom(name, bytes);
     const std::string start{static_cast<char>(k), static_cast<char>(size.x), static_cast<char>(size.y)};
     write("dicom_frame", name, start + frame_of(bytes));
+  }
+  for (const std::string_view digits : {test::kHt12Bits, test::kHt16Bits, test::kHtLossy12Bits}) {
+    const auto stream = QByteArray::fromHex({digits.data(), static_cast<qsizetype>(digits.size())});
+    const std::string start{static_cast<char>(std::size(kSyntaxes)), test::kHtColumns, test::kHtRows};
+    write("dicom_frame", fmt::format("high-throughput-{}", stream.size()), start + stream.toStdString());
   }
   // DCMTK's search for the frame stayed at the marker TEM for ever.
   const std::string rest("\xff\x01\xff\xc0\0\x0b\x08\0\x0d\0\x11\x01\x01\x11\0\0\0", 17);

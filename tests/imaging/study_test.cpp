@@ -61,7 +61,7 @@ class StudyTest : public QObject {
     const auto alone = load_volume(folder / "notes.txt");
     QVERIFY(!alone);
     QCOMPARE(alone.error().message,
-             (folder / "notes.txt").string() + ": is neither a DICOM image nor a volume file");
+             (folder / "notes.txt").string() + ": is neither a DICOM image, a volume file nor a zip archive");
   }
 
   void a_folder_may_hold_dicom_and_volume_files() {

@@ -172,7 +172,8 @@ void MainWindow::ask_for_folder() {
 void MainWindow::ask_for_file() {
   const QString file = QFileDialog::getOpenFileName(
       this, tr("Open an image file"), QSettings().value("open/folder").toString(),
-      tr("Images (*.dcm *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;All files (*)"));
+      tr("Images (*.dcm DICOMDIR *.zip *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;All files "
+         "(*)"));
   if (!file.isEmpty()) open(file);
 }
 

@@ -9,6 +9,7 @@
 #include "ui/panels/level_set_panel.h"
 #include "ui/panels/paint_panel.h"
 #include "ui/panels/statistics_panel.h"
+#include "ui/panels/value_unit.h"
 #include "ui/transfer/transfer_function_editor.h"
 
 namespace tidemark {
@@ -71,7 +72,7 @@ void PanelDocks::set_session(CaseSession* session) {
   begun_ = session && session->state().begun;
   if (session_) connect(session_, &CaseSession::state_changed, this, &PanelDocks::follow_start);
   transfer_->set_display(session ? &session->display() : nullptr, session ? &session->summary() : nullptr,
-                         session && session->volume().modality == "CT" ? tr("HU") : QString());
+                         session ? value_unit(session->volume()) : QString());
   show_or_hide();
 }
 

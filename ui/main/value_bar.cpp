@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 
 #include "solver/point_values.h"
+#include "ui/panels/value_unit.h"
 
 namespace tidemark {
 
@@ -40,7 +41,7 @@ void ValueBar::follow() {
                             .arg(point->x, 0, 'f', 1)
                             .arg(point->y, 0, 'f', 1)
                             .arg(point->z, 0, 'f', 1);
-  const QString unit = volume.modality == "CT" ? tr(" HU") : QString();
+  const QString unit = volume.unit.empty() ? QString() : QLatin1Char(' ') + value_unit(volume);
   const double intensity = volume.value(voxel);
   QString values = tr("I %1%2   D %3")
                        .arg(intensity, 0, 'g', 5)

@@ -7,9 +7,9 @@
 
 namespace tidemark {
 
-// "HU" for CT; other modalities' values have no unit (empty).
+// Empty for values that have none.
 inline QString value_unit(const Volume& volume) {
-  return volume.modality == "CT" ? QStringLiteral("HU") : QString();
+  return QString::fromStdString(volume.unit);
 }
 
 }  // namespace tidemark

@@ -60,7 +60,7 @@ std::vector<BadDicom> beginnings() {
       {"unknown syntax", file("1.2.3.4", slice), syntax + "1.2.3.4"},
       {"no syntax", file("", slice), syntax},
       {"syntax in words", file("little \x1b[2J\n", slice), syntax + "little ?[2J?"},
-      {"high-throughput JPEG 2000", file("1.2.840.10008.1.2.4.201", slice), "High-Throughput JPEG 2000"},
+      {"JPEG XL", file("1.2.840.10008.1.2.4.110", slice), "JPEG XL Lossless"},
       {"JPEG XL", file("1.2.840.10008.1.2.4.110", slice), "JPEG XL"},
       {"video", file("1.2.840.10008.1.2.4.102", slice), "MPEG-4"},
       {"JPIP", file("1.2.840.10008.1.2.4.94", slice), "JPIP"},

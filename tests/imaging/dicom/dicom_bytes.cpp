@@ -2,6 +2,8 @@
 
 #include <zlib.h>
 
+#include <fstream>
+
 #include <algorithm>
 #include <cstring>
 #include <string_view>
@@ -143,6 +145,10 @@ std::string file(const Dataset& dataset) {
                              : coding.is_explicit ? "1.2.840.10008.1.2.1"
                                                   : "1.2.840.10008.1.2";
   return file(syntax, dataset.bytes());
+}
+
+void write_bytes(const std::filesystem::path& target, const std::string& bytes) {
+  std::ofstream(target, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
 std::string deflated(const std::string& bytes) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -66,6 +67,8 @@ std::string meta(const std::string& transfer_syntax, std::optional<std::uint32_t
 // Preamble, meta and dataset.
 std::string file(const std::string& transfer_syntax, const std::string& dataset);
 std::string file(const Dataset& dataset);  // in the native syntax of its coding
+
+void write_bytes(const std::filesystem::path& target, const std::string& bytes);
 
 // A raw deflate stream.
 std::string deflated(const std::string& bytes);

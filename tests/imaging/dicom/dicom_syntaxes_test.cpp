@@ -5,6 +5,9 @@
 
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/j2k_stream.h"
+#include "imaging/dicom/pixels.h"
+#include "tests/imaging/dicom/dicom_bytes.h"
+#include "tests/imaging/dicom/ht_streams.h"
 #include "tests/imaging/dicom/recode.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
@@ -99,6 +102,49 @@ class DicomSyntaxesTest : public QObject {
       worst = std::max(worst, std::abs(read->value(v) - written.value(v)));
     }
     QVERIFY2(worst > 0.0F && worst <= static_cast<float>(tolerance), qPrintable(QString::number(worst)));
+  }
+
+  void high_throughput_streams_are_decoded_data() {
+    QTest::addColumn<QByteArray>("syntax");
+    QTest::addColumn<QByteArray>("stream");
+    QTest::addColumn<int>("bits");
+    QTest::addColumn<int>("tolerance");
+    const auto row = [](const char* syntax, std::string_view digits, int bits, int tolerance) {
+      QTest::addRow("%s, %d bits", syntax, bits)
+          << QByteArray(syntax) << QByteArray::fromHex({digits.data(), static_cast<qsizetype>(digits.size())})
+          << bits << tolerance;
+    };
+    row("1.2.840.10008.1.2.4.201", test::kHt12Bits, 12, 0);
+    row("1.2.840.10008.1.2.4.202", test::kHt12Bits, 12, 0);
+    row("1.2.840.10008.1.2.4.201", test::kHt16Bits, 16, 0);
+    row("1.2.840.10008.1.2.4.203", test::kHtLossy12Bits, 12, 8);
+  }
+
+  void high_throughput_streams_are_decoded() {
+    QFETCH(QByteArray, syntax);
+    QFETCH(QByteArray, stream);
+    QFETCH(int, bits);
+    QFETCH(int, tolerance);
+    const auto stored = static_cast<std::uint32_t>(bits);
+    test::Dataset dataset = test::Dataset::slice();
+    dataset.put_number(0x00280010, test::kHtRows).put_number(0x00280011, test::kHtColumns);
+    dataset.put_number(0x00280101, stored).put_number(0x00280102, stored - 1);
+    dataset.put(test::kPixels,
+                test::encapsulated(stream.toStdString() + std::string(stream.size() % 2, '\0')));
+    const test::TemporaryFolder folder;
+    test::write_bytes(folder / "slice.dcm", test::file(syntax.toStdString(), dataset.bytes()));
+
+    const auto slice = decode_frame(folder / "slice.dcm");
+    QCOMPARE(test::failure(slice), QString());
+    QCOMPARE(slice->header.transfer_syntax, syntax.toStdString());
+    QCOMPARE(slice->header.is_lossy, tolerance > 0);
+    for (int row = 0; row < test::kHtRows; ++row) {
+      for (int column = 0; column < test::kHtColumns; ++column) {
+        const std::int32_t value =
+            slice->pixels.stored[static_cast<std::size_t>(row * test::kHtColumns + column)];
+        QVERIFY(std::abs(value - test::ht_value(column, row, bits)) <= tolerance);
+      }
+    }
   }
 
   void slices_of_one_series_may_come_in_different_syntaxes() {

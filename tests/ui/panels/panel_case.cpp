@@ -12,6 +12,7 @@ std::shared_ptr<const LoadedStudy> ball_study() {
   volume->geometry.size = {48, 44, 24};
   volume->geometry.spacing_mm = {1.0, 1.0, 2.0};
   volume->modality = "CT";
+  volume->unit = "HU";
   volume->window = WindowLevel{50.0, 300.0};
   const glm::dvec3 middle = middle_of(volume->geometry);
   std::mt19937 noise(1);

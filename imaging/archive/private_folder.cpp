@@ -1,0 +1,92 @@
+#include "imaging/archive/private_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace tidemark {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPrefix = "tidemark-study-";
+constexpr const char* kLock = "lock";
+// How long a folder may be without its lock file: it is being made.
+constexpr std::chrono::minutes kYouth(10);
+
+// A descriptor that holds the folder's lock; -1 where another one holds it, or there is none.
+int take_lock(const fs::path& folder, int flags) {
+  const int descriptor = ::open((folder / kLock).c_str(), flags | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
+  if (descriptor < 0) return -1;
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+  ::close(descriptor);
+  return -1;
+}
+
+bool is_ours(const fs::path& folder) {
+  struct stat found {};
+  return ::lstat(folder.c_str(), &found) == 0 && S_ISDIR(found.st_mode) && found.st_uid == ::geteuid();
+}
+
+bool is_being_made(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(folder / kLock, error))) return false;
+  const auto changed = fs::last_write_time(folder, error);
+  return !error && fs::file_time_type::clock::now() - changed < kYouth;
+}
+
+}  // namespace
+
+PrivateFolder::PrivateFolder(fs::path folder, int lock) : folder_(std::move(folder)), lock_(lock) {}
+
+PrivateFolder::PrivateFolder(PrivateFolder&& other) noexcept
+    : folder_(std::exchange(other.folder_, {})), lock_(std::exchange(other.lock_, -1)) {}
+
+PrivateFolder::~PrivateFolder() {
+  std::error_code ignored;
+  if (!folder_.empty()) fs::remove_all(folder_, ignored);
+  if (lock_ >= 0) ::close(lock_);
+}
+
+Result<PrivateFolder> PrivateFolder::create() {
+  std::error_code error;
+  const fs::path parent = fs::temp_directory_path(error);
+  if (error) return fail(ErrorKind::write, "there is no folder for temporary files: {}", error.message());
+  sweep_private_folders(parent);
+  std::string pattern = (parent / (std::string(kPrefix) + "XXXXXX")).string();
+  if (::mkdtemp(pattern.data()) == nullptr) {
+    return fail(ErrorKind::write, "{}: cannot make a folder: {}", parent.string(),
+                std::generic_category().message(errno));
+  }
+  PrivateFolder folder(pattern, take_lock(pattern, O_CREAT));
+  if (folder.lock_ < 0 || !fs::create_directory(folder.path(), error)) {
+    return fail(ErrorKind::write, "{}: cannot be written to", pattern);
+  }
+  return folder;
+}
+
+void sweep_private_folders(const fs::path& parent) {
+  std::error_code error;
+  std::vector<fs::path> left;
+  for (fs::directory_iterator entry(parent, error), end; !error && entry != end; entry.increment(error)) {
+    const bool is_named_so = entry->path().filename().string().starts_with(kPrefix);
+    if (is_named_so && is_ours(entry->path())) left.push_back(entry->path());
+  }
+  for (const fs::path& folder : left) {
+    if (is_being_made(folder)) continue;
+    const int lock = take_lock(folder, O_CREAT);
+    if (lock < 0) continue;
+    fs::remove_all(folder, error);
+    ::close(lock);
+  }
+}
+
+}  // namespace tidemark

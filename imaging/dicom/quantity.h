@@ -1,0 +1,46 @@
+// What the values of images stand for, and in which unit.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "imaging/series.h"
+
+class DcmItem;
+
+namespace tidemark {
+
+struct SliceHeader;
+
+// What one image says of it. Moments are seconds since 1970 by the scanner's clock.
+struct QuantityHeader {
+  std::string rescale_type;  // (0028,1054)
+  std::string mapped_unit;   // UCUM, of the RealWorldValueMappingSequence whose slope and intercept are used
+  std::string unused_mapping;      // why there is such a sequence and it is not used; else empty
+  bool has_philips_scale = false;  // (2005,100E), which is not used
+
+  // PET (PS3.3 C.8.9.1, C.8.9.2)
+  std::string units;             // (0054,1001)
+  std::string suv_type;          // (0054,1006)
+  std::string corrections;       // (0028,0051)
+  std::string decay_correction;  // (0054,1102)
+  std::optional<double> weight_kg;
+  std::optional<double> dose_bq;
+  std::optional<double> half_life_s;
+  std::optional<double> injected;      // by date and time
+  std::optional<double> injected_day;  // seconds since midnight, where no date says of which day
+  std::optional<double> acquired;
+  std::optional<double> series_began;
+};
+
+// Reads it, and puts slope and intercept of a real-world mapping that is to be used in place of the image's
+// own: one linear mapping of all stored values of an MR image to a unit of UCUM.
+void read_quantity(DcmItem& dataset, SliceHeader& header);
+
+// Sets the series' unit and what its values are to be multiplied by: activity becomes SUVbw where the images
+// hold all that it takes, without contradiction. Returns why the images cannot make a volume, or nothing.
+[[nodiscard]] std::optional<std::string> state_quantity(const std::vector<SliceHeader>& slices,
+                                                        Series& series);
+
+}  // namespace tidemark

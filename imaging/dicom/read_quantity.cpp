@@ -1,0 +1,167 @@
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string_view>
+
+#include "imaging/dicom/date.h"
+#include "imaging/dicom/decimal.h"
+#include "imaging/dicom/quantity.h"
+#include "imaging/dicom/slice_header.h"
+
+namespace tidemark {
+namespace {
+
+// Codes and numbers are ASCII; what is not would spoil a message.
+std::string text(DcmItem& item, const DcmTagKey& key) {
+  constexpr std::size_t kLongest = 256;
+  OFString value;
+  if (item.findAndGetOFStringArray(key, value).bad()) return {};
+  std::string result(value.c_str(), std::min<std::size_t>(value.size(), kLongest));
+  result.erase(result.find_last_not_of(std::string_view(" \0", 2)) + 1);
+  std::replace_if(
+      result.begin(), result.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
+  return result;
+}
+
+std::optional<double> number(DcmItem& item, const DcmTagKey& key) {
+  const auto values = parse_decimals(text(item, key));
+  if (!values || values->size() != 1) return std::nullopt;
+  return values->front();
+}
+
+// "101500.25", as seconds since midnight (PS3.5 6.2, TM).
+std::optional<double> seconds_of_day(std::string_view time) {
+  if (time.size() < 4) return std::nullopt;
+  const auto two = [&](std::size_t at) -> int {
+    if (at + 2 > time.size()) return 0;
+    const auto digit = [&](std::size_t i) { return time[i] >= '0' && time[i] <= '9' ? time[i] - '0' : 100; };
+    return 10 * digit(at) + digit(at + 1);
+  };
+  if (two(0) > 23 || two(2) > 59 || two(4) > 60) return std::nullopt;
+  double fraction = 0.0;
+  if (time.size() > 7 && time[6] == '.') {
+    const auto parsed = parse_decimals("0" + std::string(time.substr(6)));
+    if (!parsed) return std::nullopt;
+    fraction = parsed->front();
+  }
+  return two(0) * 3600.0 + two(2) * 60.0 + two(4) + fraction;
+}
+
+// "20040731" (PS3.5 6.2, DA), as the seconds of its midnight.
+std::optional<double> seconds_of_date(const std::string& date) {
+  const std::string iso = iso_date(date);
+  if (iso.empty()) return std::nullopt;
+  const std::chrono::year_month_day day{
+      std::chrono::year(std::stoi(iso.substr(0, 4))),
+      std::chrono::month(static_cast<unsigned>(std::stoi(iso.substr(5, 2)))),
+      std::chrono::day(static_cast<unsigned>(std::stoi(iso.substr(8, 2))))};
+  if (!day.ok()) return std::nullopt;
+  return static_cast<double>(std::chrono::sys_days(day).time_since_epoch().count()) * 86400.0;
+}
+
+std::optional<double> moment(const std::string& date, const std::string& time) {
+  const auto day = seconds_of_date(date);
+  const auto of_day = seconds_of_day(time);
+  if (!day || !of_day) return std::nullopt;
+  return *day + *of_day;
+}
+
+// A DT: date and time in one. One of another time zone than the dataset's is none that can be compared.
+std::optional<double> moment_of(const std::string& date_time, const std::string& time_zone) {
+  const std::size_t zone = date_time.find_first_of("+-");
+  if (zone != std::string::npos && !time_zone.empty() && date_time.substr(zone) != time_zone) {
+    return std::nullopt;
+  }
+  const std::string local = date_time.substr(0, zone);
+  if (local.size() < 12) return std::nullopt;
+  return moment(local.substr(0, 8), local.substr(8));
+}
+
+void read_pet(DcmItem& dataset, QuantityHeader& quantity) {
+  quantity.units = text(dataset, DCM_Units);
+  quantity.suv_type = text(dataset, DCM_SUVType);
+  quantity.corrections = text(dataset, DCM_CorrectedImage);
+  quantity.decay_correction = text(dataset, DCM_DecayCorrection);
+  quantity.weight_kg = number(dataset, DCM_PatientWeight);
+  const std::string series_date = text(dataset, DCM_SeriesDate);
+  quantity.series_began = moment(series_date, text(dataset, DCM_SeriesTime));
+  const std::string date = text(dataset, DCM_AcquisitionDate);
+  quantity.acquired = moment(date.empty() ? series_date : date, text(dataset, DCM_AcquisitionTime));
+  DcmItem* tracer = nullptr;
+  if (dataset.findAndGetSequenceItem(DCM_RadiopharmaceuticalInformationSequence, tracer).bad()) return;
+  quantity.dose_bq = number(*tracer, DCM_RadionuclideTotalDose);
+  quantity.half_life_s = number(*tracer, DCM_RadionuclideHalfLife);
+  quantity.injected = moment_of(text(*tracer, DCM_RadiopharmaceuticalStartDateTime),
+                                text(dataset, DCM_TimezoneOffsetFromUTC));
+  quantity.injected_day = seconds_of_day(text(*tracer, DCM_RadiopharmaceuticalStartTime));
+}
+
+// The stored values for which a mapping is defined, whatever they are written as.
+std::optional<double> mapped_value(DcmItem& item, const DcmTagKey& whole, const DcmTagKey& real,
+                                   bool is_signed) {
+  Float64 value = 0.0;
+  if (item.findAndGetFloat64(real, value).good()) return value;
+  Uint16 word = 0;
+  Sint16 with_sign = 0;
+  if (item.findAndGetSint16(whole, with_sign).good()) return with_sign;
+  if (item.findAndGetUint16(whole, word).bad()) return std::nullopt;
+  return is_signed ? static_cast<double>(static_cast<Sint16>(word)) : static_cast<double>(word);
+}
+
+// Why the mapping is not used; empty when it is.
+std::string use_mapping(DcmItem& item, SliceHeader& header) {
+  if (header.modality != "MR") return "it is used in MR only";
+  Float64 slope = 0.0;
+  Float64 intercept = 0.0;
+  if (item.findAndGetFloat64(DCM_RealWorldValueSlope, slope).bad() ||
+      item.findAndGetFloat64(DCM_RealWorldValueIntercept, intercept).bad()) {
+    return "it is not linear";
+  }
+  if (!std::isfinite(slope) || !std::isfinite(intercept) || slope == 0.0) return "its slope makes no sense";
+  DcmItem* code = nullptr;
+  std::string unit;
+  if (item.findAndGetSequenceItem(DCM_MeasurementUnitsCodeSequence, code).good() &&
+      text(*code, DCM_CodingSchemeDesignator) == "UCUM") {
+    unit = text(*code, DCM_CodeValue);
+  }
+  if (unit.empty() || unit == "1" || unit.starts_with('{')) return "it states no unit";
+  const double lowest = header.is_signed ? -std::ldexp(1.0, header.bits_stored - 1) : 0.0;
+  const double highest = std::ldexp(1.0, header.bits_stored - (header.is_signed ? 1 : 0)) - 1.0;
+  const auto first = mapped_value(item, DCM_RealWorldValueFirstValueMapped,
+                                  DCM_DoubleFloatRealWorldValueFirstValueMapped, header.is_signed);
+  const auto last = mapped_value(item, DCM_RealWorldValueLastValueMapped,
+                                 DCM_DoubleFloatRealWorldValueLastValueMapped, header.is_signed);
+  if (!first || !last || *first > lowest || *last < highest) return "it leaves stored values without meaning";
+  header.slope = slope;
+  header.intercept = intercept;
+  header.quantity.mapped_unit = unit;
+  return {};
+}
+
+void read_mapping(DcmItem& dataset, SliceHeader& header) {
+  DcmSequenceOfItems* mappings = nullptr;
+  if (dataset.findAndGetSequence(DCM_RealWorldValueMappingSequence, mappings).bad() || mappings == nullptr ||
+      mappings->card() == 0) {
+    return;
+  }
+  header.quantity.unused_mapping =
+      mappings->card() > 1 ? "there are several" : use_mapping(*mappings->getItem(0), header);
+}
+
+}  // namespace
+
+void read_quantity(DcmItem& dataset, SliceHeader& header) {
+  QuantityHeader& quantity = header.quantity;
+  quantity.rescale_type = text(dataset, DCM_RescaleType);
+  if (header.modality == "PT") read_pet(dataset, quantity);
+  read_mapping(dataset, header);
+  constexpr Uint16 kPhilips = 0x2005;
+  quantity.has_philips_scale =
+      text(dataset, DcmTagKey(kPhilips, 0x0010)).starts_with("Philips MR Imaging DD") &&
+      dataset.tagExists(DcmTagKey(kPhilips, 0x100e));
+}
+
+}  // namespace tidemark

@@ -1,0 +1,293 @@
+// Studies in zip archives: what is unpacked, how long it stays, and archives that mean harm.
+#include <zip.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+
+#include "imaging/archive/private_folder.h"
+#include "imaging/archive/study_archive.h"
+#include "imaging/files/volume_file.h"
+#include "imaging/study.h"
+#include "tests/imaging/dicom/dicom_bytes.h"
+#include "tests/imaging/dicom/series_files.h"
+#include "tests/support/support.h"
+
+using namespace tidemark;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Entry {
+  std::string name;
+  std::string bytes;
+};
+
+std::string contents(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void write_archive(const fs::path& file, const std::vector<Entry>& entries, const char* password = nullptr) {
+  zip_t* archive = zip_open(file.c_str(), ZIP_CREATE | ZIP_TRUNCATE, nullptr);
+  for (const Entry& entry : entries) {
+    zip_source_t* source = zip_source_buffer(archive, entry.bytes.data(), entry.bytes.size(), 0);
+    const zip_int64_t index = zip_file_add(archive, entry.name.c_str(), source, ZIP_FL_ENC_UTF_8);
+    if (index < 0) qFatal("%s", zip_strerror(archive));
+    if (password != nullptr) {
+      zip_file_set_encryption(archive, static_cast<zip_uint64_t>(index), ZIP_EM_AES_256, password);
+    }
+  }
+  if (zip_close(archive) != 0) qFatal("%s", zip_strerror(archive));
+}
+
+// The files of a series, in a folder of the archive.
+std::vector<Entry> entries_of(const Volume& volume, const std::string& within = "study/series/") {
+  const test::TemporaryFolder folder;
+  std::vector<Entry> entries;
+  for (const fs::path& file : test::write_series(volume, folder / "series")) {
+    entries.push_back({within + file.filename().string(), contents(file)});
+  }
+  return entries;
+}
+
+std::size_t private_folders(const fs::path& parent) {
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(parent)) {
+    if (entry.path().filename().string().starts_with("tidemark-study-")) ++count;
+  }
+  return count;
+}
+
+bool holds(const std::string& message, const char* part) {
+  return message.find(part) != std::string::npos;
+}
+
+// An archive of one entry whose central directory states another size.
+std::string with_size(const std::string& archive, const std::string& size) {
+  std::string bytes = archive;
+  return bytes.replace(bytes.find("PK\x01\x02") + 24, 4, size);
+}
+
+// The end of a 64-bit directory that states a trillion entries.
+std::string trillion_entries() {
+  std::string end = std::string("PK\x06\x06\x2c\0\0\0\0\0\0\0\x2d\0\x2d\0\0\0\0\0\0\0\0\0", 24);
+  for (int i = 0; i < 2; ++i) end += std::string("\0\0\0\0\0\1\0\0", 8);  // entries
+  end += std::string("\0\x10\0\0\0\0\0\0\4\0\0\0\0\0\0\0", 16);           // bytes and begin of the directory
+  end += std::string("PK\x06\x07\0\0\0\0\4\0\0\0\0\0\0\0\1\0\0\0", 20);
+  end += std::string("PK\x05\x06\0\0\0\0\xff\xff\xff\xff\xff\xff\xff\xff\xff\xff\xff\xff\0\0", 22);
+  return std::string("PK\x03\x04", 4) + end;
+}
+
+}  // namespace
+
+class StudyArchiveTest : public QObject {
+  Q_OBJECT
+
+  // Where archives are unpacked to, so that what is left can be counted.
+  std::unique_ptr<test::TemporaryFolder> temporary_;
+  const Volume sample_ = test::sample_volume({7, 6, 4});
+
+ private slots:
+  void init() {
+    temporary_ = std::make_unique<test::TemporaryFolder>();
+    qputenv("TMPDIR", QByteArray::fromStdString(temporary_->path().string()));
+  }
+  void cleanup() {
+    QCOMPARE(private_folders(temporary_->path()), std::size_t{0});
+    qunsetenv("TMPDIR");
+  }
+
+  void an_archive_opens_like_a_folder() {
+    const test::TemporaryFolder folder;
+    std::vector<Entry> entries = entries_of(sample_);
+    entries.push_back({"study/readme.txt", "hello"});
+    QVERIFY(write_volume_file(sample_, folder / "a.nii.gz"));
+    entries.push_back({"a.nii.gz", contents(folder / "a.nii.gz")});
+    entries.push_back({"more.ZIP", "PK"});
+    write_archive(folder / "study.zip", entries);
+
+    const auto found = find_series(folder / "study.zip");
+    QCOMPARE(test::failure(found), QString());
+    QCOMPARE(found->series.size(), std::size_t{2});
+    for (const Series& series : found->series) {
+      QVERIFY2(series.loadable, series.reason.c_str());
+      const auto volume = load_series(series);
+      QCOMPARE(test::failure(volume), QString());
+      QVERIFY(volume->voxels == sample_.voxels);
+    }
+    QCOMPARE(found->skipped.size(), std::size_t{2});
+    QVERIFY(holds(found->skipped[0].file.string(), "study.zip/"));
+    QVERIFY(holds(found->skipped[0].file.string(), "readme.txt"));
+    QVERIFY(holds(found->skipped[1].reason, "an archive within the archive"));
+  }
+
+  void its_files_stay_as_long_as_a_series_is_held() {
+    const test::TemporaryFolder folder;
+    write_archive(folder / "study.zip", entries_of(sample_));
+    std::optional<Series> series;
+    {
+      const auto found = find_series(folder / "study.zip");
+      QCOMPARE(test::failure(found), QString());
+      series = found->series.front();
+    }
+    fs::remove(folder / "study.zip");
+    QCOMPARE(private_folders(temporary_->path()), std::size_t{1});
+    for (const fs::path& file : dicom_files_of(*series)) QVERIFY(fs::exists(file));
+    const auto volume = load_series(*series);
+    QCOMPARE(test::failure(volume), QString());
+    const fs::path gone = series->files.front();
+    series.reset();
+    QVERIFY(!fs::exists(gone));
+    QVERIFY(volume->voxels == sample_.voxels);  // needs no file any more
+  }
+
+  void a_loaded_series_is_found_again_under_the_same_uid() {
+    const test::TemporaryFolder folder;
+    QVERIFY(write_volume_file(sample_, folder / "a.nrrd"));
+    write_archive(folder / "study.zip", {{"x/b.nrrd", contents(folder / "a.nrrd")}});
+    const auto first = load_with_series(folder / "study.zip");
+    QCOMPARE(test::failure(first), QString());
+    const auto again = load_with_series(folder / "study.zip", first->series.uid);
+    QCOMPARE(test::failure(again), QString());
+  }
+
+  void names_in_an_archive_lead_nowhere() {
+    const test::TemporaryFolder folder;
+    std::vector<Entry> entries = entries_of(sample_, "../../../outside/");
+    entries[0].name = "/absolute/slice";
+    entries[1].name = "..";
+    entries[2].name = "a\\..\\..\\b:c\n*?\"<>|";
+    write_archive(folder / "study.zip", entries);
+    const auto found = find_series(folder / "study.zip");
+    QCOMPARE(test::failure(found), QString());
+    std::size_t files = 0;
+    for (const Series& series : found->series) files += series.files.size();
+    QCOMPARE(files, entries.size());
+    const auto is_harmless = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("-._", c) != nullptr;
+    };
+    for (const auto& entry : fs::recursive_directory_iterator(found->series.front().archive->folder())) {
+      const std::string name = entry.path().filename().string();
+      QVERIFY2(std::all_of(name.begin(), name.end(), is_harmless), name.c_str());
+    }
+    // The folder of this test and that of the archive.
+    QCOMPARE(std::distance(fs::directory_iterator(temporary_->path()), fs::directory_iterator()), 2);
+  }
+
+  void an_archive_that_cannot_be_used_is_refused_in_one_line_data() {
+    QTest::addColumn<QByteArray>("bytes");
+    QTest::addColumn<QString>("why");
+    const test::TemporaryFolder folder;
+    const fs::path file = folder / "a.zip";
+    const auto row = [&](const char* name, const std::string& bytes, const char* why) {
+      QTest::newRow(name) << QByteArray::fromStdString(bytes) << QString(why);
+    };
+    write_archive(file, entries_of(sample_));
+    const std::string whole = contents(file);
+    row("cut off", whole.substr(0, whole.size() / 2), "cannot be unpacked");
+    std::string flipped = whole;
+    flipped[200] = static_cast<char>(flipped[200] ^ 0x10);
+    row("a wrong bit in an entry", flipped, "is damaged");
+    write_archive(file, entries_of(sample_), "secret");
+    row("encrypted", contents(file), "is encrypted");
+    row("its first bytes alone", std::string("PK\x03\x04", 4), "cannot be unpacked");
+    row("no entries", std::string("PK\x05\x06", 4) + std::string(18, '\0'), "holds no DICOM series");
+    write_archive(file, {{"a.txt", "hello"}});
+    const std::string text = contents(file);
+    row("no study", text, "holds no DICOM series or volume file");
+    row("two gigabytes in a few bytes", with_size(text, "\xff\xff\xff\x7f"), "times its size");
+    row("an entry that is longer than it says", with_size(text, std::string("\4\0\0\0", 4)), "is damaged");
+    row("an entry that is shorter than it says", with_size(text, std::string("\x50\0\0\0", 4)), "is damaged");
+    row("a trillion entries", trillion_entries(), "cannot be unpacked");
+  }
+
+  void an_archive_that_cannot_be_used_is_refused_in_one_line() {
+    QFETCH(QByteArray, bytes);
+    QFETCH(QString, why);
+    const test::TemporaryFolder folder;
+    test::write_bytes(folder / "study.zip", bytes.toStdString());
+    const auto found = find_series(folder / "study.zip");
+    QVERIFY(!found);
+    const QString message = QString::fromStdString(found.error().message);
+    QVERIFY2(message.startsWith(QString::fromStdString((folder / "study.zip").string())),
+             qPrintable(message));
+    QVERIFY2(message.contains(why), qPrintable(message));
+    QVERIFY2(!message.contains('\n') && !message.contains("tidemark-study-"), qPrintable(message));
+  }
+
+  void an_error_of_a_file_names_the_archive() {
+    const test::TemporaryFolder folder;
+    std::vector<Entry> entries = entries_of(sample_);
+    entries[1].bytes.resize(entries[1].bytes.size() - 20);
+    write_archive(folder / "study.zip", entries);
+    const auto volume = load_volume(folder / "study.zip");
+    QVERIFY(!volume);
+    QVERIFY2(holds(volume.error().message, "study.zip: "), volume.error().message.c_str());
+    QVERIFY2(!holds(volume.error().message, "tidemark-study-"), volume.error().message.c_str());
+  }
+
+  void an_archive_in_a_folder_is_not_opened() {
+    const test::TemporaryFolder folder;
+    test::write_series(sample_, folder / "series");
+    write_archive(folder / "other.zip", entries_of(sample_));
+    const auto found = find_series(folder.path());
+    QCOMPARE(test::failure(found), QString());
+    QCOMPARE(found->series.size(), std::size_t{1});
+    QCOMPARE(found->skipped.size(), std::size_t{1});
+    QVERIFY(holds(found->skipped[0].reason, "is a zip archive"));
+  }
+
+  void unpacking_can_be_given_up() {
+    const test::TemporaryFolder folder;
+    write_archive(folder / "study.zip", entries_of(sample_));
+    std::stop_source stop;
+    Progress progress;
+    progress.stop = stop.get_token();
+    int reports = 0;
+    progress.report = [&](double fraction, std::string_view what) {
+      QVERIFY(fraction >= 0.0 && fraction <= 1.0);
+      QCOMPARE(std::string(what), std::string("unpacking the archive"));
+      if (++reports == 2) stop.request_stop();
+    };
+    const auto found = find_series(folder / "study.zip", progress);
+    QVERIFY(!found);
+    QCOMPARE(found.error().kind, ErrorKind::cancelled);
+    QCOMPARE(reports, 2);
+  }
+
+  void what_a_killed_program_unpacked_is_swept() {
+    const fs::path left = temporary_->path() / "tidemark-study-abcdef";
+    fs::create_directories(left / "files/0001");
+    test::write_bytes(left / "files/0001/slice", "x");
+    test::write_bytes(left / "lock", "");
+    const fs::path young = temporary_->path() / "tidemark-study-young";
+    fs::create_directory(young);
+    const fs::path old = temporary_->path() / "tidemark-study-old";
+    fs::create_directory(old);
+    fs::last_write_time(old, fs::file_time_type::clock::now() - std::chrono::hours(1));
+    const test::TemporaryFolder elsewhere;
+    test::write_bytes(elsewhere / "keep", "x");
+    fs::create_directory_symlink(elsewhere.path(), temporary_->path() / "tidemark-study-link");
+    {
+      const auto held = PrivateFolder::create();
+      QCOMPARE(test::failure(held), QString());
+      sweep_private_folders(temporary_->path());
+      QVERIFY(fs::exists(held->path()));  // is in use
+    }
+    QVERIFY(!fs::exists(left));
+    QVERIFY(!fs::exists(old));
+    QVERIFY(fs::exists(young));               // is being made
+    QVERIFY(fs::exists(elsewhere / "keep"));  // a link is none of ours
+    fs::remove(young);
+    fs::remove(temporary_->path() / "tidemark-study-link");
+  }
+};
+
+QTEST_GUILESS_MAIN(StudyArchiveTest)
+#include "study_archive_test.moc"

@@ -1,0 +1,269 @@
+// What values stand for: Hounsfield units, standardized uptake values, real-world mappings.
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "imaging/dicom/dicom.h"
+#include "imaging/study.h"
+#include "tests/imaging/dicom/series_files.h"
+#include "tests/support/support.h"
+
+using namespace tidemark;
+namespace fs = std::filesystem;
+
+namespace {
+
+using Change = std::function<void(DcmDataset&)>;
+
+DcmItem& tracer_of(DcmDataset& dataset) {
+  DcmItem* item = nullptr;
+  dataset.findOrCreateSequenceItem(DCM_RadiopharmaceuticalInformationSequence, item);
+  return *item;
+}
+
+// 70 kg, 200 MBq of fluorine 18 an hour before the scan.
+void make_pet(DcmDataset& dataset) {
+  const auto put = [&](const DcmTagKey& key, const char* value) { dataset.putAndInsertString(key, value); };
+  put(DCM_Modality, "PT");
+  put(DCM_SOPClassUID, UID_PositronEmissionTomographyImageStorage);
+  put(DCM_RescaleSlope, "0.5");
+  put(DCM_RescaleIntercept, "0");
+  dataset.findAndDeleteElement(DCM_RescaleType);
+  put(DCM_WindowCenter, "1000");
+  put(DCM_WindowWidth, "4000");
+  put(DCM_Units, "BQML");
+  put(DCM_CorrectedImage, "NORM\\DTIM\\ATTN\\SCAT\\DECY\\RAN");
+  put(DCM_DecayCorrection, "START");
+  put(DCM_PatientWeight, "70");
+  put(DCM_SeriesDate, "20240315");
+  put(DCM_SeriesTime, "103000.00");
+  put(DCM_AcquisitionDate, "20240315");
+  put(DCM_AcquisitionTime, "103210");
+  DcmItem& tracer = tracer_of(dataset);
+  tracer.putAndInsertString(DCM_RadiopharmaceuticalStartTime, "093000");
+  tracer.putAndInsertString(DCM_RadionuclideTotalDose, "200000000");
+  tracer.putAndInsertString(DCM_RadionuclideHalfLife, "6588");
+}
+
+// g/ml of one Bq/ml after so many seconds of decay.
+double factor(double seconds) {
+  return 70.0 * 1000.0 / (200e6 * std::exp2(-seconds / 6588.0));
+}
+
+void put_mapping(DcmDataset& dataset, const char* unit, Uint16 last = 65535) {
+  DcmItem* mapping = nullptr;
+  dataset.findOrCreateSequenceItem(DCM_RealWorldValueMappingSequence, mapping, -2);
+  mapping->putAndInsertFloat64(DCM_RealWorldValueSlope, 1e-6);
+  mapping->putAndInsertFloat64(DCM_RealWorldValueIntercept, 0.25);
+  mapping->putAndInsertUint16(DcmTag(DCM_RealWorldValueFirstValueMapped, EVR_US), 0);
+  mapping->putAndInsertUint16(DcmTag(DCM_RealWorldValueLastValueMapped, EVR_US), last);
+  DcmItem* code = nullptr;
+  mapping->findOrCreateSequenceItem(DCM_MeasurementUnitsCodeSequence, code);
+  code->putAndInsertString(DCM_CodeValue, unit);
+  code->putAndInsertString(DCM_CodingSchemeDesignator, "UCUM");
+}
+
+// A series of three slices, changed.
+class Made {
+ public:
+  Made(const char* modality, const std::vector<Change>& changes, const std::optional<Change>& last = {}) {
+    const auto files = test::write_series(sample_, folder_ / "series", modality);
+    for (const fs::path& file : files) {
+      for (const Change& change : changes) test::edit(file, change);
+    }
+    if (last) test::edit(files.back(), *last);
+  }
+  [[nodiscard]] Series series() const { return test::only_series(folder_ / "series"); }
+  [[nodiscard]] double stored(std::int64_t voxel) const { return static_cast<double>(sample_.value(voxel)); }
+
+ private:
+  test::TemporaryFolder folder_;
+  Volume sample_ = test::sample_volume_uint16({5, 4, 3});
+};
+
+bool told(const std::vector<std::string>& lines, const QString& part) {
+  return std::any_of(lines.begin(), lines.end(),
+                     [&](const std::string& line) { return QString::fromStdString(line).contains(part); });
+}
+
+}  // namespace
+
+Q_DECLARE_METATYPE(Change)
+
+class DicomQuantityTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void ct_is_in_hounsfield_units_unless_it_says_otherwise() {
+    QCOMPARE(Made("CT", {}).series().unit, std::string("HU"));
+    QCOMPARE(Made("MR", {}).series().unit, std::string());
+    const Made other("CT", {[](DcmDataset& d) { d.putAndInsertString(DCM_RescaleType, "US"); }});
+    QCOMPARE(other.series().unit, std::string());
+  }
+
+  void activity_becomes_suv_data() {
+    QTest::addColumn<Change>("change");
+    QTest::addColumn<double>("expected");
+    const auto row = [](const char* name, double expected, const Change& change) {
+      QTest::newRow(name) << change << expected;
+    };
+    row("an hour of decay", factor(3600.0), [](DcmDataset&) {});
+    row("corrected to the injection", factor(0.0),
+        [](DcmDataset& d) { d.putAndInsertString(DCM_DecayCorrection, "ADMIN"); });
+    row("injected at a date and time", factor(5400.5), [](DcmDataset& d) {
+      tracer_of(d).putAndInsertString(DCM_RadiopharmaceuticalStartDateTime, "20240315085959.5");
+    });
+    row("injected before midnight", factor(3600.0), [](DcmDataset& d) {
+      d.putAndInsertString(DCM_SeriesTime, "003000");
+      tracer_of(d).putAndInsertString(DCM_RadiopharmaceuticalStartTime, "233000");
+    });
+    row("no date of the acquisition", factor(3600.0),
+        [](DcmDataset& d) { d.findAndDeleteElement(DCM_AcquisitionDate); });
+  }
+
+  void activity_becomes_suv() {
+    QFETCH(Change, change);
+    QFETCH(double, expected);
+    const Made made("CT", {make_pet, change});
+    const Series series = made.series();
+    QVERIFY2(series.loadable, series.reason.c_str());
+    QCOMPARE(series.unit, std::string("SUVbw g/ml"));
+    QVERIFY(told(series.changes, "SUVbw"));
+    QVERIFY(series.warnings.empty());
+    const auto volume = load_series(series);
+    QCOMPARE(test::failure(volume), QString());
+    QCOMPARE(volume->unit, series.unit);
+    const std::int64_t last = volume->geometry.voxel_count() - 1;
+    const double suv = 0.5 * made.stored(last) * expected;
+    QVERIFY2(std::abs(static_cast<double>(volume->value(last)) - suv) < 1e-5 * suv,
+             qPrintable(QString::number(static_cast<double>(volume->value(last)))));
+    QVERIFY(std::abs(volume->window->centre - 1000.0 * expected) < 1e-9);
+  }
+
+  void what_is_missing_or_contradicts_leaves_activity_data() {
+    QTest::addColumn<Change>("change");
+    QTest::addColumn<QString>("named");
+    const auto row = [](const char* named, const Change& change) {
+      QTest::newRow(named) << change << QString(named);
+    };
+    const auto set = [](const DcmTagKey& key, const char* value) {
+      return [key, value](DcmDataset& d) { d.putAndInsertString(key, value); };
+    };
+    const auto set_tracer = [](const DcmTagKey& key, const char* value) {
+      return [key, value](DcmDataset& d) { tracer_of(d).putAndInsertString(key, value); };
+    };
+    row("PatientWeight (0010,1030) is missing", set(DCM_PatientWeight, ""));
+    row("PatientWeight (0010,1030) is 0 kg", set(DCM_PatientWeight, "0"));
+    row("RadionuclideTotalDose (0018,1074) is missing", set_tracer(DCM_RadionuclideTotalDose, ""));
+    row("RadionuclideTotalDose (0018,1074) is 200 Bq", set_tracer(DCM_RadionuclideTotalDose, "200"));
+    row("RadionuclideHalfLife (0018,1075) is 0 s", set_tracer(DCM_RadionuclideHalfLife, "0"));
+    row("RadiopharmaceuticalStartTime (0018,1072) is missing",
+        set_tracer(DCM_RadiopharmaceuticalStartTime, "93"));
+    row("RadiopharmaceuticalStartDateTime (0018,1078) is later",
+        set_tracer(DCM_RadiopharmaceuticalStartDateTime, "20240316093000"));
+    row("RadiopharmaceuticalStartDateTime (0018,1078) is 8785.0 hours",
+        set_tracer(DCM_RadiopharmaceuticalStartDateTime, "20230315093000"));
+    row("RadiopharmaceuticalStartTime (0018,1072) is 23.5 hours",
+        set_tracer(DCM_RadiopharmaceuticalStartTime, "110000"));
+    row("DecayCorrection (0054,1102) is 'NONE'", set(DCM_DecayCorrection, "NONE"));
+    row("CorrectedImage (0028,0051) does not name ATTN", set(DCM_CorrectedImage, "DECY"));
+    row("SeriesTime (0008,0031) is later than AcquisitionTime", set(DCM_SeriesTime, "120000"));
+    row("AcquisitionTime (0008,0032) is missing", set(DCM_AcquisitionTime, "noon"));
+    row("SeriesTime (0008,0031) is missing", set(DCM_SeriesTime, "2500"));
+    row("RadionuclideTotalDose (0018,1074) is missing or",
+        [](DcmDataset& d) { d.findAndDeleteElement(DCM_RadiopharmaceuticalInformationSequence); });
+  }
+
+  void what_is_missing_or_contradicts_leaves_activity() {
+    QFETCH(Change, change);
+    QFETCH(QString, named);
+    const Made made("CT", {make_pet, change});
+    const Series series = made.series();
+    QVERIFY2(series.loadable, series.reason.c_str());
+    QCOMPARE(series.unit, std::string("Bq/ml"));
+    QVERIFY2(told(series.warnings, named), series.warnings.empty() ? "" : series.warnings[0].c_str());
+    const auto volume = load_series(series);
+    QCOMPARE(test::failure(volume), QString());
+    const std::int64_t last = volume->geometry.voxel_count() - 1;
+    QCOMPARE(static_cast<double>(volume->value(last)), 0.5 * made.stored(last));
+  }
+
+  void all_images_must_say_the_same() {
+    const Made made("CT", {make_pet}, [](DcmDataset& d) { d.putAndInsertString(DCM_PatientWeight, "71"); });
+    QCOMPARE(made.series().unit, std::string("Bq/ml"));
+    QVERIFY(told(made.series().warnings, "PatientWeight (0010,1030) is not the same in all images"));
+    const Made mixed("CT", {make_pet}, [](DcmDataset& d) { d.putAndInsertString(DCM_Units, "GML"); });
+    QVERIFY(!mixed.series().loadable);
+    QVERIFY(told({mixed.series().reason}, "the unit of the values is not the same"));
+  }
+
+  void what_is_no_activity_is_named_as_it_is() {
+    const auto units = [](const char* value) {
+      return [value](DcmDataset& d) { d.putAndInsertString(DCM_Units, value); };
+    };
+    QCOMPARE(Made("CT", {make_pet, units("GML")}).series().unit, std::string("SUVbw g/ml"));
+    const Made counts("CT", {make_pet, units("CNTS")});
+    QCOMPARE(counts.series().unit, std::string());
+    QVERIFY(told(counts.series().warnings, "Units (0054,1001) is 'CNTS'"));
+    const Made odd("CT", {make_pet, units("CN\n\xff")});
+    QVERIFY(told(odd.series().warnings,
+                 "Units (0054,1001) is 'CN?"
+                 "?'"));
+  }
+
+  void a_mapping_to_a_unit_is_used_in_mr() {
+    const Made made("MR", {[](DcmDataset& d) { put_mapping(d, "mm2/s"); }});
+    const Series series = made.series();
+    QVERIFY2(series.loadable, series.reason.c_str());
+    QCOMPARE(series.unit, std::string("mm2/s"));
+    QVERIFY(told(series.changes, "RealWorldValueMappingSequence (0040,9096)"));
+    const auto volume = load_series(series);
+    QCOMPARE(test::failure(volume), QString());
+    const std::int64_t last = volume->geometry.voxel_count() - 1;
+    QVERIFY(std::abs(static_cast<double>(volume->value(last)) - (1e-6 * made.stored(last) + 0.25)) < 1e-6);
+  }
+
+  void a_mapping_that_is_not_sure_is_told_and_not_used_data() {
+    QTest::addColumn<QByteArray>("modality");
+    QTest::addColumn<Change>("change");
+    QTest::addColumn<QString>("why");
+    const auto row = [](const char* why, const Change& change, const char* modality = "MR") {
+      QTest::newRow(why) << QByteArray(modality) << change << QString(why);
+    };
+    row("it states no unit", [](DcmDataset& d) { put_mapping(d, "1"); });
+    row("it leaves stored values without meaning", [](DcmDataset& d) { put_mapping(d, "ms", 4095); });
+    row(
+        "it is used in MR only", [](DcmDataset& d) { put_mapping(d, "[hnsf'U]"); }, "CT");
+    row("there are several", [](DcmDataset& d) {
+      put_mapping(d, "ms");
+      put_mapping(d, "s");
+    });
+    row("it is not linear", [](DcmDataset& d) {
+      put_mapping(d, "ms");
+      DcmItem* mapping = nullptr;
+      d.findAndGetSequenceItem(DCM_RealWorldValueMappingSequence, mapping);
+      mapping->findAndDeleteElement(DCM_RealWorldValueSlope);
+    });
+  }
+
+  void a_mapping_that_is_not_sure_is_told_and_not_used() {
+    QFETCH(QByteArray, modality);
+    QFETCH(Change, change);
+    QFETCH(QString, why);
+    const Made made(modality.constData(), {change});
+    const Series series = made.series();
+    QVERIFY2(series.loadable, series.reason.c_str());
+    QCOMPARE(series.unit, modality == "CT" ? std::string("HU") : std::string());
+    QVERIFY2(told(series.changes, "is not used: " + why),
+             series.changes.empty() ? "" : series.changes[0].c_str());
+    const auto volume = load_series(series);
+    QCOMPARE(test::failure(volume), QString());
+    QCOMPARE(static_cast<double>(volume->value(std::int64_t{7})), made.stored(7));
+  }
+};
+
+QTEST_GUILESS_MAIN(DicomQuantityTest)
+#include "dicom_quantity_test.moc"

@@ -1,0 +1,180 @@
+// Media with a DICOMDIR.
+#include <cctype>
+
+#include "imaging/study.h"
+#include "tests/imaging/dicom/bad_dicom.h"
+#include "tests/imaging/dicom/dicom_bytes.h"
+#include "tests/imaging/dicom/series_files.h"
+
+using namespace tidemark;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string record(const char* type, const std::string& rest) {
+  return test::item(test::number(0x00041410, 0xffff) + test::text(0x00041430, "CS", type) + rest);
+}
+
+// Of one series, each image's file by its name with backslashes.
+std::string directory_of(const std::string& series_uid, const std::vector<std::string>& names) {
+  std::string records = record("PATIENT", "") + record("STUDY", "");
+  records += record("SERIES", test::text(0x0020000e, "UI", series_uid));
+  for (const std::string& name : names) records += record("IMAGE", test::text(0x00041500, "CS", name));
+  test::Dataset dataset;
+  dataset.put(0x00041220, test::element(0x00041220, "SQ", records));
+  return test::file(dataset);
+}
+
+// A disc: the series' files in IMAGES, named as a burner may write them, and a file that is no image.
+struct Disc {
+  test::TemporaryFolder folder;
+  Series series;
+
+  explicit Disc(const char* suffix = "") {
+    test::write_series(test::sample_volume({5, 4, 3}), folder / "images");
+    series = test::only_series(folder / "images");
+    int number = 0;
+    for (const fs::path& file : series.files) {
+      fs::rename(file, folder.path() / "images" / ("im" + std::to_string(++number) + suffix));
+    }
+    test::write_bytes(folder / "autorun.inf", "open=viewer.exe");
+  }
+  [[nodiscard]] fs::path directory() const { return folder / "DICOMDIR"; }
+  void write(const std::vector<std::string>& names) const {
+    test::write_bytes(directory(), directory_of(series.uid, names));
+  }
+};
+
+const std::vector<std::string> kAll{"IMAGES\\IM1", "IMAGES\\IM2", "IMAGES\\IM3"};
+
+}  // namespace
+
+class MediaDirectoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_directory_opens_the_files_that_it_names_data() {
+    QTest::addColumn<QByteArray>("suffix");
+    QTest::addColumn<QByteArray>("name");
+    QTest::newRow("as it is") << QByteArray("") << QByteArray("DICOMDIR");
+    QTest::newRow("with versions") << QByteArray(";1") << QByteArray("DICOMDIR;1");
+    QTest::newRow("with points") << QByteArray(".") << QByteArray("dicomdir.");
+  }
+  void a_directory_opens_the_files_that_it_names() {
+    QFETCH(QByteArray, suffix);
+    QFETCH(QByteArray, name);
+    const Disc disc(suffix.constData());
+    disc.write(kAll);
+    fs::rename(disc.directory(), disc.folder / name.toStdString());
+    const auto found = find_series(disc.folder / name.toStdString());
+    QCOMPARE(test::failure(found), QString());
+    QCOMPARE(found->series.size(), std::size_t{1});
+    QVERIFY2(found->series[0].loadable, found->series[0].reason.c_str());
+    QCOMPARE(found->series[0].files.size(), std::size_t{3});
+    QVERIFY(found->series[0].warnings.empty());
+    QVERIFY(found->skipped.empty());
+    QCOMPARE(test::failure(load_series(found->series[0])), QString());
+  }
+
+  void missing_files_are_named_by_the_directory_and_by_its_folder() {
+    const Disc disc;
+    disc.write({kAll[0], kAll[1], kAll[2], "IMAGES\\IM4", "OTHER\\IM5"});
+    for (const fs::path& path : {disc.directory(), disc.folder.path()}) {
+      const auto found = find_series(path);
+      QCOMPARE(test::failure(found), QString());
+      QCOMPARE(found->series.size(), std::size_t{1});
+      QVERIFY(found->series[0].loadable);
+      QCOMPARE(found->series[0].warnings.size(), std::size_t{1});
+      QCOMPARE(
+          found->series[0].warnings[0],
+          std::string("DICOMDIR names 2 files of this series that are not there: IMAGES/IM4, OTHER/IM5"));
+      const auto told = std::find_if(found->skipped.begin(), found->skipped.end(),
+                                     [&](const SkippedFile& one) { return one.file == disc.directory(); });
+      QVERIFY(told != found->skipped.end());
+      QCOMPARE(told->reason, std::string("refers to 2 files that are not there: IMAGES/IM4, OTHER/IM5"));
+    }
+  }
+
+  void a_folder_with_a_whole_directory_says_nothing_of_it() {
+    const Disc disc;
+    disc.write(kAll);
+    const auto found = find_series(disc.folder.path());
+    QCOMPARE(test::failure(found), QString());
+    QCOMPARE(found->skipped.size(), std::size_t{1});
+    QCOMPARE(found->skipped[0].file.filename().string(), std::string("autorun.inf"));
+  }
+
+  void no_name_leads_out_of_the_folder_data() {
+    QTest::addColumn<QByteArray>("name");
+    QTest::newRow("the folder above") << QByteArray("..\\OUTSIDE\\IM1");
+    QTest::newRow("there and back") << QByteArray("IMAGES\\..\\..\\OUTSIDE\\IM1");
+    QTest::newRow("an absolute path") << QByteArray("/etc/hostname");
+    QTest::newRow("slashes") << QByteArray("../OUTSIDE/IM1");
+    QTest::newRow("a link to a file") << QByteArray("LINK");
+    QTest::newRow("a link to a folder") << QByteArray("FOLDER\\IM1");
+    QTest::newRow("itself by a point") << QByteArray(".\\IMAGES\\IM1");
+    QTest::newRow("a folder") << QByteArray("IMAGES");
+    QTest::newRow("blanks") << QByteArray("  \\  ");
+    QTest::newRow("many components") << QByteArray("A\\").repeated(500);
+  }
+  void no_name_leads_out_of_the_folder() {
+    QFETCH(QByteArray, name);
+    const Disc outside;
+    fs::rename(outside.folder / "images", outside.folder / "outside");
+    const fs::path inside = outside.folder / "disc";
+    fs::create_directory(inside);
+    fs::create_directory(inside / "images");
+    fs::copy_file(outside.folder / "outside/im1", inside / "images/im1");
+    fs::create_symlink(outside.folder / "outside/im1", inside / "link");
+    fs::create_directory_symlink(outside.folder / "outside", inside / "folder");
+    test::write_bytes(inside / "DICOMDIR", directory_of(outside.series.uid, {name.toStdString()}));
+    const auto found = find_series(inside / "DICOMDIR");
+    QVERIFY(!found);
+    QVERIFY2(found.error().message.find("none of which is there") != std::string::npos,
+             found.error().message.c_str());
+    QVERIFY(found.error().message.find('\n') == std::string::npos);
+    QVERIFY(found.error().message.size() < 400 + inside.string().size());
+  }
+
+  void a_damaged_directory_is_refused_by_name_data() {
+    const auto records = [](const std::string& value, const char* vr = "SQ") {
+      return test::file(test::Dataset().put(0x00041220, test::element(0x00041220, vr, value)));
+    };
+    const std::string whole = directory_of("1.2.3", kAll);
+    test::add_rows({
+        {"no DICOM at all", "hello", "is neither a DICOM image"},
+        {"cut off", whole.substr(0, whole.size() - 30), "DirectoryRecordSequence (0004,1220)"},
+        {"no records", test::file(test::Dataset().put_text(0x00041130, "CS", "DISC")), "is missing"},
+        {"records that are no items", records("abcdefgh"), "DirectoryRecordSequence (0004,1220)"},
+        {"no record at all", records(""), "refers to no files"},
+        {"a record without a name", records(record("IMAGE", "")), "refers to no files"},
+        {"an endless name", records(record("IMAGE", test::text(0x00041500, "CS", std::string(60000, 'A')))),
+         "refers to 1 files, none of which is there"},
+    });
+  }
+  void a_damaged_directory_is_refused_by_name() {
+    QFETCH(QByteArray, bytes);
+    QFETCH(QString, field);
+    const test::TemporaryFolder folder;
+    test::write_bytes(folder / "DICOMDIR", bytes.toStdString());
+    const auto found = find_series(folder / "DICOMDIR");
+    QVERIFY(!found);
+    const std::string& message = found.error().message;
+    QVERIFY2(QString::fromStdString(message).contains(field), message.c_str());
+    QVERIFY2(message.find("DICOMDIR") != std::string::npos, message.c_str());
+    QVERIFY(message.find('\n') == std::string::npos);
+  }
+
+  void a_damaged_directory_does_not_hide_the_series_beside_it() {
+    const Disc disc;
+    test::write_bytes(disc.directory(), "hello");
+    const auto found = find_series(disc.folder.path());
+    QCOMPARE(test::failure(found), QString());
+    QCOMPARE(found->series.size(), std::size_t{1});
+    QVERIFY(found->series[0].loadable);
+    QCOMPARE(found->skipped.size(), std::size_t{2});
+  }
+};
+
+QTEST_GUILESS_MAIN(MediaDirectoryTest)
+#include "media_directory_test.moc"

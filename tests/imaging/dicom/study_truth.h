@@ -1,0 +1,29 @@
+// What other readers found in the real studies (truth.json beside them), against what was loaded.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "core/volume.h"
+#include "imaging/series.h"
+
+namespace tidemark::test {
+
+// A series with its volume where it can be loaded.
+struct Loaded {
+  const Series* series = nullptr;
+  Volume volume;
+};
+
+// What differs between a study of truth.json and what was loaded of it, one short line each. `folder` is the
+// study's.
+[[nodiscard]] std::vector<std::string> differences(const nlohmann::json& study,
+                                                   const std::filesystem::path& folder,
+                                                   const std::vector<Loaded>& loaded);
+
+// "L" or "R" and so on: to which side of the patient each axis runs.
+[[nodiscard]] std::string axis_letters(const Geometry& grid);
+
+}  // namespace tidemark::test
