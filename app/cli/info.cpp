@@ -11,7 +11,9 @@ namespace {
 constexpr const char* kSummary = "Lists the series found under a path";
 constexpr const char* kDescription =
     "Lists the series under PATH: size in voxels (i,j,k), spacing in mm, orientation and origin in patient\n"
-    "coordinates (LPS, mm), transfer syntax, and whether and why not they can be loaded.";
+    "coordinates (LPS, mm), transfer syntax, and whether and why not they can be loaded.\n"
+    "A DICOM series that holds several volumes (echoes, times, b-values, stacks) is listed volume by volume,\n"
+    "each with its number behind the UID: 1.2.3#2. Without a number --series takes the largest.";
 
 constexpr const char* kExamples =
     "  tidemark-cli info study/                 every DICOM series below a folder\n"
@@ -36,6 +38,7 @@ Json to_json(const Series& series) {
   object["description"] = series.description;
   object["date"] = series.date;
   object["files"] = series.files.size();
+  object["images"] = series.sources.size();  // slices: frames of files, or tiles of frames
   object["size"] = known ? Json::array({grid.size.x, grid.size.y, grid.size.z}) : Json();
   object["spacing_mm"] = known ? triple(grid.spacing_mm) : Json();
   object["direction"] = known ? direction : Json();
@@ -88,7 +91,9 @@ void say_series(Console& console, const Series& series) {
   console.say("{}{}{}", series.modality, series.modality.empty() ? "" : "  ", series.description);
   console.say("  uid         {}", series.uid);
   if (!series.date.empty()) console.say("  date        {}", series.date);
-  console.say("  files       {}", series.files.size());
+  const bool has_many = series.sources.size() > series.files.size();
+  console.say("  files       {}{}", series.files.size(),
+              has_many ? fmt::format(" with {} slices in them", series.sources.size()) : "");
   if (series.geometry.voxel_count() > 0) say_geometry(console, series.geometry);
   if (!series.scalar.empty()) console.say("  values      {}", series.scalar);
   for (const std::string& syntax : series.transfer_syntaxes) console.say("  syntax      {}", syntax);

@@ -210,14 +210,14 @@ std::vector<SliceHeader> read_frames(DcmItem& dataset, SliceHeader whole) {
   if (sop_class == UID_NuclearMedicineImageStorage && is_reconstruction(in)) {
     return read_detector_frames(in, std::move(whole));
   }
-  if (whole.frames == 1) {
+  if (whole.frames == 1 && name.find("Enhanced") == std::string::npos) {
     std::vector<SliceHeader> one;
     one.push_back(std::move(whole));
     return one;
   }
-  problem =
-      fmt::format("comes as multi-frame ({}, {} frames) without {}, so where the frames lie is not known",
-                  name, whole.frames, name_of(DCM_PerFrameFunctionalGroupsSequence));
+  problem = fmt::format(
+      "comes as multi-frame ({}, {} frame{}) without {}, so where the frames lie is not known", name,
+      whole.frames, whole.frames == 1 ? "" : "s", name_of(DCM_PerFrameFunctionalGroupsSequence));
   return refuse(std::move(whole), problem);
 }
 

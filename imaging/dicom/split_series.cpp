@@ -156,22 +156,53 @@ std::vector<SeriesPart> split_kind(SliceRefs kind, const std::string& label) {
   return parts;
 }
 
-// Takes out what is no slice that is missing: images that cannot be used of another storage class than those
-// that can, a capture of the screen for one.
+// Takes out what is no damaged slice: images that cannot be used of another storage class and another size
+// than those that can, a capture of the screen for one.
 std::vector<SliceHeader> take_other_objects(std::vector<SliceHeader>& slices) {
   std::set<std::string> classes;
+  std::set<std::pair<std::int64_t, std::int64_t>> sizes;
   for (const SliceHeader& slice : slices) {
-    if (slice.problem.empty()) classes.insert(slice.sop_class_uid);
+    if (!slice.problem.empty()) continue;
+    classes.insert(slice.sop_class_uid);
+    sizes.emplace(slice.frame_columns, slice.frame_rows);
   }
-  std::vector<SliceHeader> others;
-  if (classes.empty()) return others;
-  std::erase_if(slices, [&](SliceHeader& slice) {
-    const bool is_known = slice.sop_class_uid.empty() || classes.contains(slice.sop_class_uid);
-    if (slice.problem.empty() || is_known) return false;
-    others.push_back(std::move(slice));
-    return true;
+  const auto belongs = std::stable_partition(slices.begin(), slices.end(), [&](const SliceHeader& slice) {
+    return slice.problem.empty() || classes.empty() || slice.sop_class_uid.empty() ||
+           classes.contains(slice.sop_class_uid) || sizes.contains({slice.frame_columns, slice.frame_rows});
   });
+  std::vector<SliceHeader> others(std::make_move_iterator(belongs), std::make_move_iterator(slices.end()));
+  slices.erase(belongs, slices.end());
   return others;
+}
+
+bool is_volume(const SeriesPart& part) {
+  return part.slices.size() > 1 && has_place(part.slices.front());
+}
+
+// Whether an image that is in no volume may be a damaged slice of that one: it claims to be of the same type,
+// and does not clearly lie in another plane.
+bool may_belong(const SliceHeader& image, const SliceHeader& slice) {
+  if (image.sop_class_uid != slice.sop_class_uid || image.traits.image_type != slice.traits.image_type) {
+    return false;
+  }
+  if (!has_place(image)) return true;
+  constexpr double kOrthonormality = 1e-3;
+  constexpr double kSamePlane = 0.996;  // the cosine of 5 degrees
+  const auto& [row, column] = *image.orientation;
+  const bool is_sound = std::abs(glm::length(row) - 1.0) <= kOrthonormality &&
+                        std::abs(glm::length(column) - 1.0) <= kOrthonormality &&
+                        std::abs(glm::dot(row, column)) <= kOrthonormality;
+  const glm::dvec3 normal = glm::cross((*slice.orientation)[0], (*slice.orientation)[1]);
+  return !is_sound || std::abs(glm::dot(glm::cross(row, column), normal)) > kSamePlane;
+}
+
+// Whether a slice may have got lost among what is in no volume.
+bool is_doubtful(const std::vector<SeriesPart>& parts) {
+  return std::any_of(parts.begin(), parts.end(), [&](const SeriesPart& odd) {
+    return !is_volume(odd) && std::any_of(parts.begin(), parts.end(), [&](const SeriesPart& part) {
+      return is_volume(part) && may_belong(odd.slices.front(), part.slices.front());
+    });
+  });
 }
 
 // Images alone of their kind, after `others`, as one part.
@@ -201,9 +232,7 @@ std::vector<SeriesPart> split_series(std::vector<SliceHeader> slices) {
     auto own = split_kind(kind, label_of_kind(kind, kinds));
     std::move(own.begin(), own.end(), std::back_inserter(parts));
   }
-  const bool has_volume =
-      std::any_of(parts.begin(), parts.end(), [](const SeriesPart& part) { return part.slices.size() > 1; });
-  if (!has_volume) {
+  if (std::none_of(parts.begin(), parts.end(), is_volume) || is_doubtful(parts)) {
     std::move(others.begin(), others.end(), std::back_inserter(slices));
     return {{std::move(slices), "", false, {}}};
   }

@@ -20,8 +20,10 @@ struct SeriesPart {
 // spacings and stacks; then, where several images lie at one position, what the first attribute tells apart
 // of: series number, type of image, echo, diffusion, temporal position, trigger time, acquisition, time of
 // acquisition, time of the content, number of the instance. Of exact copies one is kept. Images alone of
-// their kind come last, together, and with them those of another storage class that cannot be used. What no
-// attribute tells apart stays in one part, as do series with another image that cannot be used.
+// their kind come last, together: scouts, captures of the screen.
+//
+// The series stays one part, for arrange_series() to refuse it, when no attribute tells volumes apart, and
+// when one of its images cannot be used or is alone and may be a slice that was damaged.
 [[nodiscard]] std::vector<SeriesPart> split_series(std::vector<SliceHeader> slices);
 
 }  // namespace tidemark

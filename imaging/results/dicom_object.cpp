@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/atomic_file.h"
-#include "imaging/dicom/decimal.h"
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/header_reader.h"
 #include "imaging/dicom/transfer_syntaxes.h"
@@ -74,12 +73,6 @@ std::string text_of(DcmItem& item, const DcmTagKey& key) {
   std::string text(value.c_str());
   text.erase(text.find_last_not_of(' ') + 1);
   return text;
-}
-
-std::optional<glm::dvec3> vector_of(DcmItem& item, const DcmTagKey& key) {
-  const auto numbers = parse_decimals(text_of(item, key));
-  if (!numbers || numbers->size() != 3) return std::nullopt;
-  return glm::dvec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
 }
 
 Status require_planes(const Geometry& geometry, const fs::path& file) {

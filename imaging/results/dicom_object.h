@@ -7,9 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <glm/vec3.hpp>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "core/geometry.h"
@@ -28,9 +26,6 @@ Status save_object(std::unique_ptr<DcmDataset> dataset, E_TransferSyntax syntax,
 
 // An attribute's text without padding; empty when it is absent.
 std::string text_of(DcmItem& item, const DcmTagKey& key);
-
-// Three decimals, as of a position. Nothing when they are not there.
-std::optional<glm::dvec3> vector_of(DcmItem& item, const DcmTagKey& key);
 
 // Remembers the first of many calls that failed.
 class FirstFailure {

@@ -17,8 +17,9 @@ enum class ResultForm { segmentation, structure_set };
 [[nodiscard]] std::optional<ResultForm> result_form_of(const std::filesystem::path& file);
 
 // The DICOM files of the series that was segmented, in slice order (Series::files): the result belongs to
-// their patient, study and frame of reference, and refers to them slice by slice. Empty when the volume was
-// not DICOM: the result then makes a new study of an anonymous patient.
+// their patient, study and frame of reference, and refers to them slice by slice, in images of many frames to
+// the frames at each slice's place. Empty when the volume was not DICOM: the result then makes a new study of
+// an anonymous patient.
 using SourceFiles = std::span<const std::filesystem::path>;
 
 // Segmentation Storage, BINARY: a frame for each segment and slice that is not empty (DICOM PS3.3 A.51).

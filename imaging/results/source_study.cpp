@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "imaging/dicom/dicom_values.h"
+#include "imaging/dicom/header_reader.h"
 
 namespace tidemark {
 namespace {
@@ -28,7 +29,7 @@ SourceStudy anonymous_study(const Geometry& geometry) {
   study.first = std::make_unique<DcmFileFormat>();
   study.study_uid = make_uid();
   study.frame_of_reference_uid = make_uid();
-  study.image.resize(static_cast<std::size_t>(geometry.size.z));
+  study.places.resize(static_cast<std::size_t>(geometry.size.z));
   const Timestamp now = Timestamp::now();
   const auto put = [&](const DcmTagKey& key, const std::string& value) {
     study.attributes().putAndInsertString(DcmTag(key), value.c_str());
@@ -46,42 +47,45 @@ SourceStudy anonymous_study(const Geometry& geometry) {
   return study;
 }
 
-// Of images that are the grid's slices, pixel by pixel: an image elsewhere in its plane belongs to slices
-// that were taken as they lie although they move sideways (a tilted gantry). Results would be told in
-// coordinates that are not the patient's.
-Status require_in_place(DcmItem& item, glm::dvec3 position_mm, std::int64_t k, const Geometry& geometry,
-                        const fs::path& file) {
-  long int columns = 0;
-  long int rows = 0;
-  item.findAndGetLongInt(DCM_Columns, columns);
-  item.findAndGetLongInt(DCM_Rows, rows);
-  if (columns != geometry.size.x || rows != geometry.size.y) return {};
-  const glm::dvec3 beside = geometry.to_voxel(position_mm) - glm::dvec3(0.0, 0.0, static_cast<double>(k));
-  if (std::max(std::abs(beside.x), std::abs(beside.y)) <= kTolerance) return {};
-  return fail(
-      ErrorKind::input,
-      "{}: lies {:.1f} x {:.1f} pixels beside its slice of the volume (a gantry tilt that was kept?): "
-      "a result would have no place in the patient",
-      file.string(), std::abs(beside.x), std::abs(beside.y));
+// Whether an image of the grid's own size lies at a slice's place along the normal, but elsewhere in its
+// plane: it is of another stack, or of slices that were taken as they lie although a tilted gantry moved
+// them.
+bool is_beside(const SliceHeader& image, std::int64_t k, const Geometry& geometry) {
+  if (image.columns != geometry.size.x || image.rows != geometry.size.y) return false;
+  const glm::dvec3 at = geometry.to_voxel(*image.position_mm) - glm::dvec3(0.0, 0.0, static_cast<double>(k));
+  return std::max(std::abs(at.x), std::abs(at.y)) > kTolerance;
 }
 
 // Images that were stripped of their UIDs cannot be referred to.
 Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& study) {
+  std::vector<fs::path> beside(study.places.size());  // of each slice an image beside it
   for (const fs::path& file : files) {
-    const auto object = load_object(file, DCM_BitsAllocated);  // the next after what is needed
-    if (!object) return tl::unexpected<Error>(object.error());
-    DcmItem& item = *(*object)->getDataset();
-    SourceImage image{text_of(item, DCM_SOPClassUID), text_of(item, DCM_SOPInstanceUID)};
-    if (image.sop_class_uid.empty() || image.sop_instance_uid.empty()) continue;
-    study.images.push_back(std::move(image));
-    const auto position = vector_of(item, DCM_ImagePositionPatient);
-    const auto k = position ? slice_at(*position, geometry) : std::nullopt;
-    if (!k) continue;
-    if (auto in_place = require_in_place(item, *position, *k, geometry, file); !in_place) return in_place;
-    study.image[static_cast<std::size_t>(*k)] = study.images.size() - 1;
+    const auto slices = read_slice_headers(file);
+    if (!slices) return tl::unexpected<Error>(slices.error());
+    const SliceHeader& first = slices->front();
+    if (first.sop_class_uid.empty() || first.sop_instance_uid.empty()) continue;
+    const std::size_t image = study.images.size();
+    study.images.push_back({first.sop_class_uid, first.sop_instance_uid});
+    for (const SliceHeader& slice : *slices) {
+      const auto k = slice.position_mm ? slice_at(*slice.position_mm, geometry) : std::nullopt;
+      if (!k) continue;
+      if (is_beside(slice, *k, geometry)) {
+        beside[static_cast<std::size_t>(*k)] = file;
+        continue;
+      }
+      auto& place = study.places[static_cast<std::size_t>(*k)];
+      if (!place || place->image != image) place = SourcePlace{image, {}};
+      if (slice.frames > 1) place->frames.push_back(static_cast<std::uint16_t>(slice.frame + 1));
+    }
   }
-  // One file for many slices: each of them is in it.
-  if (files.size() == 1 && !study.images.empty()) study.image.assign(study.image.size(), 0);
+  // Results would be told in coordinates that are not the patient's.
+  for (std::size_t k = 0; k < beside.size(); ++k) {
+    if (study.places[k] || beside[k].empty()) continue;
+    return fail(ErrorKind::input,
+                "{}: lies beside its slice of the volume (a gantry tilt that was kept?): a result would have "
+                "no place in the patient",
+                beside[k].string());
+  }
   return {};
 }
 

@@ -16,6 +16,13 @@ struct SourceImage {
   std::string sop_instance_uid;
 };
 
+// The image that shows a slice, and of an image of several frames those at its place, from 1: one, or as many
+// as there are times, echoes and so on.
+struct SourcePlace {
+  std::size_t image = 0;
+  std::vector<std::uint16_t> frames;
+};
+
 struct SourceStudy {
   // The attributes of the source's first file but for pixels: patient, study, frame of reference. Text is
   // UTF-8.
@@ -23,9 +30,8 @@ struct SourceStudy {
   std::string study_uid;
   std::string series_uid;  // empty: there is nothing to refer to
   std::string frame_of_reference_uid;
-  std::vector<SourceImage> images;  // each once, in slice order
-  std::vector<std::optional<std::size_t>>
-      image;  // for each slice k of the grid its image, where there is one
+  std::vector<SourceImage> images;                 // each once, in slice order
+  std::vector<std::optional<SourcePlace>> places;  // for each slice k of the grid, where there is one
 
   [[nodiscard]] DcmDataset& attributes() const { return *first->getDataset(); }
 };

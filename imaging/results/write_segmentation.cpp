@@ -150,11 +150,14 @@ Status SegmentationWriter::add_frame(std::uint16_t number, std::int64_t k, std::
   groups.push_back(&position);
   groups.push_back(&content);
   std::unique_ptr<FGDerivationImage> derivation;
-  if (const auto index = study_.image[static_cast<std::size_t>(k)]) {
-    const SourceImage& image = study_.images[*index];
+  if (const auto& place = study_.places[static_cast<std::size_t>(k)]) {
+    const SourceImage& image = study_.images[place->image];
     ImageSOPInstanceReferenceMacro reference;
     failure_ << reference.setReferencedSOPClassUID(of(image.sop_class_uid));
     failure_ << reference.setReferencedSOPInstanceUID(of(image.sop_instance_uid));
+    for (const std::uint16_t frame : place->frames) {
+      failure_ << reference.addReferencedFrameNumber(frame);
+    }
     OFVector<ImageSOPInstanceReferenceMacro> images;
     images.push_back(reference);
     derivation.reset(DcmSegmentation::createDerivationImageFG(images, ""));

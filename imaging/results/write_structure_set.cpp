@@ -153,11 +153,14 @@ Status StructureSetWriter::describe(const Segment& segment, const std::string& n
 Status StructureSetWriter::add_contour(DRTContourSequence& sequence, const Contour& contour, std::int64_t k) {
   DRTContourSequence::Item* item = nullptr;
   if (auto added = add(sequence, item); !added) return added;
-  if (const auto index = study_.image[static_cast<std::size_t>(k)]) {
+  if (const auto& place = study_.places[static_cast<std::size_t>(k)]) {
     DRTContourImageSequence::Item* image = nullptr;
     if (auto added = add(item->getContourImageSequence(), image); !added) return added;
-    failure_ << image->setReferencedSOPClassUID(of(study_.images[*index].sop_class_uid));
-    failure_ << image->setReferencedSOPInstanceUID(of(study_.images[*index].sop_instance_uid));
+    failure_ << image->setReferencedSOPClassUID(of(study_.images[place->image].sop_class_uid));
+    failure_ << image->setReferencedSOPInstanceUID(of(study_.images[place->image].sop_instance_uid));
+    if (!place->frames.empty()) {
+      failure_ << image->setReferencedFrameNumber(of(fmt::format("{}", fmt::join(place->frames, "\\"))));
+    }
   }
   failure_ << item->setContourGeometricType("CLOSED_PLANAR");
   failure_ << item->setNumberOfContourPoints(of(fmt::format("{}", contour.size())));

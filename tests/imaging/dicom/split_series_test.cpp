@@ -191,13 +191,34 @@ class SplitSeriesTest : public QObject {
     scout.sop_instance_uid = "1.2.4";
     scout.rows = 300;
     slices.push_back(scout);
-    const auto found = group_series(slices);
+    // As far as it goes it may be a slice that was damaged.
+    auto found = group_series(slices);
+    QCOMPARE(found.size(), std::size_t{1});
+    QVERIFY2(found[0].reason.find("the size (Rows, Columns)") == 0, found[0].reason.c_str());
+
+    slices.back().traits.image_type = "ORIGINAL\\PRIMARY\\LOCALIZER";
+    found = group_series(slices);
     QCOMPARE(found.size(), std::size_t{2});
     QVERIFY2(found[0].loadable, found[0].reason.c_str());
     QCOMPARE(found[0].files.size(), std::size_t{4});
     QVERIFY(!found[1].loadable);
     QCOMPARE(found[1].files, std::vector<std::filesystem::path>{"folder/scout"});
     QVERIFY2(found[1].reason.find("scout is a single image") == 0, found[1].reason.c_str());
+  }
+
+  void an_image_in_another_plane_is_listed_and_hinders_nobody() {
+    auto slices = series_of(1, 5, [](SliceHeader& s, int, int k) {
+      if (k == 4) turn(s, {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
+    });
+    auto found = group_series(slices);
+    QCOMPARE(found.size(), std::size_t{2});
+    QVERIFY2(found[0].loadable, found[0].reason.c_str());
+    QCOMPARE(found[1].files, std::vector<std::filesystem::path>{"folder/004"});
+    // No directions of any plane.
+    slices.back().orientation = {glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(1.0, 0.0, 0.0)};
+    found = group_series(slices);
+    QCOMPARE(found.size(), std::size_t{1});
+    QVERIFY(!found[0].loadable);
   }
 
   void a_capture_of_the_screen_hinders_nobody() {
