@@ -58,6 +58,7 @@ Result<LoadedStudy> load_study(const ChosenSeries& chosen, const Progress& progr
   study.volume = std::make_shared<const Volume>(std::move(*volume));
   study.origin.path = StudyLoader::place_of(series);
   study.origin.series_uid = series.uid;
+  study.origin.policy = series.policy;
   study.dicom_files = dicom_files_of(series);
   study.name = StudyLoader::name_of(series);
   study.patient = series.patient;
@@ -75,17 +76,20 @@ Result<LoadedStudy> load_study(const ChosenSeries& chosen, const Progress& progr
 // What there is to choose from. A single series that cannot be loaded is no choice: its reason is the answer.
 Result<Catalogue> find_choice(const fs::path& path, const Progress& progress) {
   auto catalogue = find_series(path, progress);
-  if (!catalogue || catalogue->series.size() != 1 || catalogue->series.front().loadable) return catalogue;
+  if (!catalogue || catalogue->series.size() != 1) return catalogue;
+  const Series& only = catalogue->series.front();
+  if (only.loadable || only.fillable()) return catalogue;
   // A reason that names the file need not do it twice.
-  std::string reason = catalogue->series.front().reason;
+  std::string reason = only.reason;
   if (const std::string name = path.filename().string() + ": "; reason.starts_with(name))
     reason.erase(0, name.size());
   return fail(ErrorKind::input, "{}: {}", path.string(), reason);
 }
 
 // The series to load of what lies under the path.
-Result<LoadedStudy> find_and_load(const fs::path& path, const std::string& uid, const Progress& progress) {
-  const auto catalogue = find_series(path, progress);
+Result<LoadedStudy> find_and_load(const fs::path& path, const std::string& uid, const GridPolicy& policy,
+                                  const Progress& progress) {
+  const auto catalogue = find_series(path, progress, policy);
   if (!catalogue) return tl::unexpected<Error>(catalogue.error());
   const auto chosen = choose_series(*catalogue, uid, path);
   if (!chosen) return tl::unexpected<Error>(chosen.error());
@@ -173,15 +177,15 @@ void StudyLoader::scan(const fs::path& path) {
       [this](Catalogue&& catalogue) { emit found(std::make_shared<const Catalogue>(std::move(catalogue))); });
 }
 
-void StudyLoader::load(const fs::path& path, const std::string& uid) {
-  run([path, uid](const Progress& progress) { return find_and_load(path, uid, progress); },
+void StudyLoader::load(const fs::path& path, const std::string& uid, const GridPolicy& policy) {
+  run([path, uid, policy](const Progress& progress) { return find_and_load(path, uid, policy, progress); },
       [this](LoadedStudy&& study) { emit loaded(std::make_shared<const LoadedStudy>(std::move(study))); });
 }
 
-void StudyLoader::load(const Series& series) {
+void StudyLoader::load(const Series& series, const std::vector<std::string>& remarks) {
   run(
-      [series](const Progress& progress) {
-        return load_study({series, {}}, progress);
+      [series, remarks](const Progress& progress) {
+        return load_study({series, remarks}, progress);
       },
       [this](LoadedStudy&& study) { emit loaded(std::make_shared<const LoadedStudy>(std::move(study))); });
 }

@@ -49,11 +49,13 @@ class StudyLoader : public QObject {
   using QObject::QObject;
   ~StudyLoader() override;  // gives up what runs, and waits for nothing
 
-  // Ends with found(), or with failed() where nothing can be loaded or the only series cannot.
+  // Ends with found(), or with failed() where nothing can be loaded or the only series cannot, not even with
+  // its gaps filled.
   void scan(const std::filesystem::path& path);
   // End with loaded() or failed(). An empty uid: the only loadable series, or the one with the most voxels.
-  void load(const std::filesystem::path& path, const std::string& uid);
-  void load(const Series& series);
+  void load(const std::filesystem::path& path, const std::string& uid, const GridPolicy& policy = {});
+  // The remarks are told with what loading changed.
+  void load(const Series& series, const std::vector<std::string>& remarks = {});
   void make_phantom(const std::string& kind);  // of phantom_kinds()
 
   [[nodiscard]] bool busy() const { return job_ != nullptr; }

@@ -47,16 +47,18 @@ SourceStudy anonymous_study(const Geometry& geometry) {
   return study;
 }
 
-// How far from the grid, in pixels of its planes, a slice of its size lies: another stack, or slices that
-// were taken as they lie although they move sideways (a tilted gantry).
-glm::dvec2 pixels_beside(const SliceHeader& slice, const Geometry& geometry) {
-  if (slice.columns != geometry.size.x || slice.rows != geometry.size.y) return glm::dvec2(0.0);
-  const glm::dvec3 voxel = geometry.to_voxel(*slice.position_mm);
-  return glm::abs(glm::dvec2(voxel.x, voxel.y));
+// Whether an image of the grid's own size lies at a slice's place along the normal, but elsewhere in its
+// plane: it is of another stack, or of slices that were taken as they lie although a tilted gantry moved
+// them.
+bool is_beside(const SliceHeader& image, std::int64_t k, const Geometry& geometry) {
+  if (image.columns != geometry.size.x || image.rows != geometry.size.y) return false;
+  const glm::dvec3 at = geometry.to_voxel(*image.position_mm) - glm::dvec3(0.0, 0.0, static_cast<double>(k));
+  return std::max(std::abs(at.x), std::abs(at.y)) > kTolerance;
 }
 
 // Images that were stripped of their UIDs cannot be referred to.
 Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& study) {
+  std::vector<fs::path> beside(study.places.size());  // of each slice an image beside it
   for (const fs::path& file : files) {
     const auto slices = read_slice_headers(file);
     if (!slices) return tl::unexpected<Error>(slices.error());
@@ -67,18 +69,22 @@ Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& stu
     for (const SliceHeader& slice : *slices) {
       const auto k = slice.position_mm ? slice_at(*slice.position_mm, geometry) : std::nullopt;
       if (!k) continue;
-      const glm::dvec2 beside = pixels_beside(slice, geometry);
-      if (std::max(beside.x, beside.y) > kTolerance) {
-        if (slice.frames > 1) continue;  // of another stack
-        return fail(ErrorKind::input,
-                    "{}: lies {:.1f} x {:.1f} pixels beside its slice of the volume (a gantry tilt that was "
-                    "kept?): a result would have no place in the patient",
-                    file.string(), beside.x, beside.y);
+      if (is_beside(slice, *k, geometry)) {
+        beside[static_cast<std::size_t>(*k)] = file;
+        continue;
       }
       auto& place = study.places[static_cast<std::size_t>(*k)];
       if (!place || place->image != image) place = SourcePlace{image, {}};
       if (slice.frames > 1) place->frames.push_back(static_cast<std::uint16_t>(slice.frame + 1));
     }
+  }
+  // Results would be told in coordinates that are not the patient's.
+  for (std::size_t k = 0; k < beside.size(); ++k) {
+    if (study.places[k] || beside[k].empty()) continue;
+    return fail(ErrorKind::input,
+                "{}: lies beside its slice of the volume (a gantry tilt that was kept?): a result would have "
+                "no place in the patient",
+                beside[k].string());
   }
   return {};
 }

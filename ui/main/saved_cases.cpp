@@ -277,7 +277,7 @@ void SavedCases::find_volume(std::shared_ptr<const SessionContents> contents) {
   const StudyOrigin& origin = contents->origin;
   waiting_.front().contents = contents;
   if (!origin.phantom.empty()) return loader_.make_phantom(origin.phantom);
-  loader_.load(origin.path, origin.series_uid);
+  loader_.load(origin.path, origin.series_uid, origin.policy);
 }
 
 // The volume is here: is it the one that the session is about? Comparing reads all of it.

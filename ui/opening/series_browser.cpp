@@ -171,10 +171,14 @@ const Series* SeriesBrowser::selected() const {
 
 void SeriesBrowser::follow_selection() {
   const Series* series = selected();
-  open_->setEnabled(series != nullptr && series->loadable);
+  open_->setEnabled(series != nullptr && (series->loadable || series->fillable()));
   if (series == nullptr) return details_->clear();
   QString html;
-  if (!series->loadable) html += item_list(tr("Cannot be loaded"), {series->reason});
+  if (series->fillable()) {
+    html += item_list(tr("Can be loaded with its gaps filled"), {series->reason});
+  } else if (!series->loadable) {
+    html += item_list(tr("Cannot be loaded"), {series->reason});
+  }
   html += item_list(tr("Warnings"), series->warnings);
   html += item_list(tr("What loading changes"), series->changes);
   if (html.isEmpty()) html = tr("Nothing has to be changed to load this series.").toHtmlEscaped();
@@ -183,7 +187,7 @@ void SeriesBrowser::follow_selection() {
 
 void SeriesBrowser::choose() {
   const Series* series = selected();
-  if (series == nullptr || !series->loadable) return;
+  if (series == nullptr || !(series->loadable || series->fillable())) return;
   const Series copy = *series;  // the catalogue may go while it is opened
   accept();
   emit chosen(copy);

@@ -26,7 +26,7 @@ class SeriesBrowser : public QDialog {
   [[nodiscard]] const Series* selected() const;
 
  signals:
-  void chosen(const tidemark::Series& series);  // one that is loadable; the dialog is then closed
+  void chosen(const tidemark::Series& series);  // loadable or fillable; the dialog is then closed
 
  private:
   void build_table();

@@ -8,6 +8,7 @@
 #include <QStyle>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "session/study_loader.h"
 #include "ui/opening/dropped_paths.h"
@@ -24,6 +25,7 @@ bool has_grid(const Series& series) {
 }
 
 QString notes_text(const Series& series) {
+  if (series.fillable()) return SeriesModel::tr("Slices are missing");
   if (!series.loadable) return SeriesModel::tr("Cannot be loaded");
   const auto warnings = static_cast<int>(series.warnings.size());
   const auto changes = static_cast<int>(series.changes.size());
@@ -36,6 +38,7 @@ QString notes_text(const Series& series) {
 
 // Worse is larger.
 int severity(const Series& series) {
+  if (series.fillable()) return 2;
   if (!series.loadable) return 3;
   if (!series.warnings.empty()) return 2;
   return series.changes.empty() ? 0 : 1;
@@ -70,8 +73,10 @@ void SeriesModel::show(std::shared_ptr<const Catalogue> catalogue, double device
   catalogue_ = std::move(catalogue);
   for (const Series& series : catalogue_->series) rows_.push_back(&series);
   std::stable_sort(rows_.begin(), rows_.end(), [](const Series* a, const Series* b) {
-    return std::pair(a->loadable, a->geometry.voxel_count()) >
-           std::pair(b->loadable, b->geometry.voxel_count());
+    const auto rank = [](const Series& series) {
+      return std::tuple(series.loadable, series.fillable(), series.geometry.voxel_count());
+    };
+    return rank(*a) > rank(*b);
   });
   endResetModel();
 }
@@ -134,7 +139,7 @@ QVariant SeriesModel::data(const QModelIndex& index, int role) const {
       if (index.column() == kSeries) return untinted(preview(index.row()));
       return index.column() == kNotes ? QVariant(notes_icon(one)) : QVariant();
     case Qt::ForegroundRole:
-      if (one.loadable || index.column() == kNotes) return {};
+      if (one.loadable || one.fillable() || index.column() == kNotes) return {};
       return QApplication::palette().brush(QPalette::Disabled, QPalette::Text);
     case Qt::ToolTipRole:
       return one.loadable ? QVariant() : QVariant(QString::fromStdString(one.reason));

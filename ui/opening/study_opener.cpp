@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "imaging/study.h"
 #include "ui/opening/phantom_menu.h"
 #include "ui/opening/series_browser.h"
 
@@ -26,13 +27,18 @@ StudyOpener::StudyOpener(QWidget* window) : QObject(window), window_(window) {
 void StudyOpener::open(const QString& path, Ask ask) {
   add(QFileInfo(path).fileName(), [this, path, ask] {
     path_ = path;
+    uid_.reset();
     ask_ = ask;
     loader_.scan(path.toStdString());
   });
 }
 
 void StudyOpener::open_series(const QString& path, const QString& uid) {
-  add(QFileInfo(path).fileName(), [this, path, uid] { loader_.load(path.toStdString(), uid.toStdString()); });
+  add(QFileInfo(path).fileName(), [this, path, uid] {
+    path_ = path;
+    uid_ = uid;
+    loader_.scan(path.toStdString());
+  });
 }
 
 void StudyOpener::open_phantom(const QString& kind) {
@@ -41,12 +47,12 @@ void StudyOpener::open_phantom(const QString& kind) {
 
 void StudyOpener::cancel() {
   waiting_.clear();
-  close_browser();
+  close_questions();
   loader_.cancel();
 }
 
 void StudyOpener::add(const QString& what, std::function<void()> start) {
-  close_browser();
+  close_questions();
   waiting_.push_back({what, std::move(start)});
   ++asked_;
   if (number_ == 0) next();
@@ -75,27 +81,57 @@ void StudyOpener::begin(const QString& what) {
 }
 
 void StudyOpener::look_at(const std::shared_ptr<const Catalogue>& catalogue) {
+  if (uid_) return load_by_uid(*catalogue);
   const auto& all = catalogue->series;
-  const auto is_loadable = [](const Series& series) { return series.loadable; };
-  if (ask_ == Ask::if_several && std::count_if(all.begin(), all.end(), is_loadable) == 1) {
-    return load(*std::find_if(all.begin(), all.end(), is_loadable));
+  const auto can_be_chosen = [](const Series& series) { return series.loadable || series.fillable(); };
+  if (ask_ == Ask::if_several && std::count_if(all.begin(), all.end(), can_be_chosen) == 1) {
+    return load(*std::find_if(all.begin(), all.end(), can_be_chosen));
   }
   browser_ = new SeriesBrowser(window_);
   browser_->setAttribute(Qt::WA_DeleteOnClose);
   browser_->show_catalogue(catalogue, path_);
-  connect(browser_, &SeriesBrowser::chosen, this, &StudyOpener::load);
+  connect(browser_, &SeriesBrowser::chosen, this, [this](const Series& series) { load(series); });
   connect(browser_, &SeriesBrowser::rejected, this, &StudyOpener::next);
   browser_->show();  // not modal: series can be dragged from it to a view
   emit ended();
 }
 
-void StudyOpener::load(const Series& series) {
+void StudyOpener::load(const Series& series, const std::vector<std::string>& remarks) {
+  if (series.fillable()) return ask_to_fill(series);
   begin(StudyLoader::name_of(series));
-  loader_.load(series);
+  loader_.load(series, remarks);
 }
 
-void StudyOpener::close_browser() {
+void StudyOpener::load_by_uid(const Catalogue& catalogue) {
+  const std::string uid = uid_->toStdString();
+  if (const Series* gappy = find_fillable(catalogue, uid)) return ask_to_fill(*gappy);
+  const auto chosen = choose_series(catalogue, uid, path_.toStdString());
+  if (chosen) return load(chosen->series, chosen->remarks);
+  problems_ << QString::fromStdString(chosen.error().message);
+  next();
+}
+
+void StudyOpener::ask_to_fill(const Series& series) {
+  question_ = new QMessageBox(QMessageBox::Question, tr("Slices are missing"),
+                              QString::fromStdString(series.grid.question), QMessageBox::Cancel, window_);
+  question_->setAttribute(Qt::WA_DeleteOnClose);
+  question_->setTextFormat(Qt::PlainText);
+  question_->setInformativeText(
+      tr("Interpolated slices show what lies between their neighbours on average, "
+         "not what is there."));
+  const QAbstractButton* fill = question_->addButton(tr("&Fill"), QMessageBox::AcceptRole);
+  question_->setDefaultButton(QMessageBox::Cancel);
+  connect(question_, &QMessageBox::finished, this, [this, series, fill, box = question_.data()] {
+    if (box->clickedButton() != fill) return next();
+    load(by_policy(series, {series.policy.tilt, GridPolicy::Gaps::fill}));
+  });
+  question_->open();
+  emit ended();
+}
+
+void StudyOpener::close_questions() {
   if (browser_) browser_->close();  // which rejects it
+  if (question_) question_->close();
 }
 
 }  // namespace tidemark

@@ -1,6 +1,7 @@
 // From a path to a study: looks what is there, asks which series where there are several, and loads it.
 #pragma once
 
+#include <QMessageBox>
 #include <QObject>
 #include <QPointer>
 #include <QStringList>
@@ -8,6 +9,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include "session/study_loader.h"
 
@@ -15,8 +17,9 @@ namespace tidemark {
 
 class SeriesBrowser;
 
-// One study after the other, in the order in which they were asked for. While the user chooses a series those
-// that were asked for before wait; whoever opens something else chooses none.
+// One study after the other, in the order in which they were asked for. While the user chooses a series, or
+// whether gaps of one are filled, those that were asked for before wait; whoever opens something else chooses
+// none.
 class StudyOpener : public QObject {
   Q_OBJECT
  public:
@@ -27,12 +30,13 @@ class StudyOpener : public QObject {
     always,
   };
   void open(const QString& path, Ask ask = Ask::if_several);
-  void open_series(const QString& path, const QString& uid);  // without asking
+  void open_series(const QString& path, const QString& uid);  // without asking which
   void open_phantom(const QString& kind);
   void cancel();  // the one that is being opened, and those that wait
 
-  // Null while there is nothing to choose from.
+  // Null while there is nothing to choose from, and nothing to ask.
   [[nodiscard]] SeriesBrowser* browser() const { return browser_; }
+  [[nodiscard]] QMessageBox* question() const { return question_; }
 
  signals:
   void began(const QString& what);                        // for LoadingView::begin(): "head_t1 (2 of 3)"
@@ -50,17 +54,21 @@ class StudyOpener : public QObject {
   void next();
   void begin(const QString& what);
   void look_at(const std::shared_ptr<const Catalogue>& catalogue);
-  void load(const Series& series);
-  void close_browser();
+  void load(const Series& series, const std::vector<std::string>& remarks = {});
+  void load_by_uid(const Catalogue& catalogue);
+  void ask_to_fill(const Series& series);
+  void close_questions();
 
   QWidget* window_;
   StudyLoader loader_;
   QPointer<SeriesBrowser> browser_;
+  QPointer<QMessageBox> question_;
   std::deque<Request> waiting_;
   int number_ = 0;        // of the request that is worked on, from 1; 0: none is
   int asked_ = 0;         // requests since there was none
   QStringList problems_;  // of these
   QString path_;          // of the request
+  std::optional<QString> uid_;
   Ask ask_ = Ask::if_several;
 };
 

@@ -1,8 +1,10 @@
 // From a path to a study, with what is shown on the way.
 #include "ui/opening/study_opener.h"
 
+#include <QAbstractButton>
 #include <QSignalSpy>
 #include <QTableView>
+#include <algorithm>
 
 #include "imaging/dicom/dicom.h"
 #include "session/background_job.h"
@@ -17,10 +19,10 @@ namespace {
 
 constexpr int kPatience = 60'000;
 
-// A series of three slices of that width.
-Status write_series(const std::filesystem::path& folder, std::int64_t width) {
+// A series of slices of that width.
+Status write_series(const std::filesystem::path& folder, std::int64_t width, std::int64_t slices = 3) {
   Volume volume;
-  volume.geometry.size = {width, 24, 3};
+  volume.geometry.size = {width, 24, slices};
   std::vector<std::int16_t> voxels(static_cast<std::size_t>(volume.geometry.voxel_count()));
   for (std::size_t v = 0; v < voxels.size(); ++v) voxels[v] = static_cast<std::int16_t>(v % 500);
   volume.voxels = std::move(voxels);
@@ -104,6 +106,52 @@ class StudyOpenerTest : public QObject {
     opener_->open_series(text(folder_ / "two"), QString::fromStdString(uid));
     QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
     QCOMPARE(study()->name, QString("30 wide"));
+  }
+
+  void gaps_are_filled_when_the_user_says_so() {
+    QCOMPARE(test::failure(write_series(folder_ / "gap", 20, 5)), QString());
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "gap")) files.push_back(entry);
+    std::sort(files.begin(), files.end());
+    QVERIFY(std::filesystem::remove(files[1]));
+    QString uid;
+    for (const bool by_uid : {false, true}) {
+      for (const bool fills : {false, true}) {
+        opened_->clear();
+        ended_->clear();
+        if (by_uid) {
+          opener_->open_series(text(folder_ / "gap"), uid);
+        } else {
+          opener_->open(text(folder_ / "gap"));
+        }
+        QTRY_VERIFY_WITH_TIMEOUT(opener_->question() != nullptr, kPatience);
+        QVERIFY(opener_->question()->text().startsWith("1 slice is missing between"));
+        QVERIFY(QTest::qWaitForWindowExposed(opener_->question()));
+        QCOMPARE(ended_->size(), 1);  // it is the user's turn
+        const auto buttons = opener_->question()->buttons();
+        const auto wanted = std::find_if(buttons.begin(), buttons.end(), [&](QAbstractButton* button) {
+          return (button->text() == "&Fill") == fills;
+        });
+        QVERIFY(wanted != buttons.end());
+        (*wanted)->click();
+        QTRY_COMPARE_WITH_TIMEOUT(ended_->size(), 2, kPatience);
+        QTRY_VERIFY(opener_->question() == nullptr);
+        QCOMPARE(opened_->size(), fills ? 1 : 0);
+        QCOMPARE(failed_->size(), 0);
+        if (!fills) continue;
+        QCOMPARE(study()->volume->geometry.size, Index3(20, 24, 5));
+        QVERIFY(study()->origin.policy.gaps == GridPolicy::Gaps::fill);
+        uid = QString::fromStdString(study()->origin.series_uid);
+      }
+    }
+    // Whoever opens something else fills nothing.
+    opened_->clear();
+    opener_->open(text(folder_ / "gap"));
+    QTRY_VERIFY_WITH_TIMEOUT(opener_->question() != nullptr, kPatience);
+    opener_->open(text(folder_ / "two/a"));
+    QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
+    QCOMPARE(study()->name, QString("20 wide"));
+    QTRY_VERIFY(opener_->question() == nullptr);
   }
 
   void a_phantom_is_opened() {
