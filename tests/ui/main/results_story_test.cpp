@@ -136,9 +136,10 @@ class ResultsStoryTest : public QObject {
 void ResultsStoryTest::init() {
   qputenv("XDG_CONFIG_HOME", QByteArray::fromStdString((folder_ / "config").string()));
   if (!fs::exists(folder_ / "study")) write_study(folder_ / "study");
-  desktop_ = std::make_unique<Desktop>(ExecutorKind::host, QSize(1100, 760));
+  desktop_ = std::make_unique<Desktop>(ExecutorKind::host, QSize(900, 620));
   window_ = desktop_->open(path("study"));
   QVERIFY(window_);
+  window_->set_layout(ViewLayout::single);  // no story about pictures
   desktop_->window().panels().show("labels");
   desktop_->settle();
 }
