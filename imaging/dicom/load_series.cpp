@@ -228,7 +228,7 @@ Result<Volume> load(const Series& series, const Progress& progress) {
   volume.modality = series.modality;
   volume.description = series.description;
   volume.unit = series.unit;
-  if (const auto window = first->window) {
+  if (const auto& window = first->window) {
     volume.window = {series.value_scale * window->centre, series.value_scale * window->width};
   }
   volume.changes = series.changes;

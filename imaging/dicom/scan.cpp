@@ -123,7 +123,7 @@ void warn_of_missing(Catalogue& catalogue, const fs::path& file, const MediaDire
   std::map<std::string, Missing> of_series;
   for (const auto& one : directory.missing) of_series[one.series_uid].push_back(one);
   for (Series& series : catalogue.series) {
-    const auto found = of_series.find(series.uid);
+    const auto found = of_series.find(series.uid.substr(0, series.uid.find('#')));  // of all its parts
     if (found == of_series.end()) continue;
     series.warnings.push_back(fmt::format("{} names {} files of this series that are not there: {}",
                                           file.filename().string(), found->second.size(),

@@ -298,11 +298,9 @@ Series arrange_series(std::vector<SliceHeader> slices) {
   const glm::dmat3 axes = axes_of(slices.front());
   sort_slices(slices, axes[2], series.changes);
   finish();
-  if (auto reason = check_distinct(slices, along(slices, axes[2]))) {
-    series.reason = *reason;
-    return series;
-  }
-  if (auto reason = state_quantity(slices, series)) {
+  auto reason = check_distinct(slices, along(slices, axes[2]));
+  if (!reason) reason = state_quantity(slices, series);
+  if (reason) {
     series.reason = *reason;
     return series;
   }
