@@ -117,7 +117,8 @@ void GridPlanner::refuse_gaps() {
     const std::string first = name_gap(gaps_.front());
     plan_.refusal = fmt::format("{}: they are {:.3f} mm apart, others {:.3f} mm{}", first,
                                 places_.step(gaps_.front()), scale_.step_mm, more);
-    plan_.question = fmt::format("{}{}. Fill them by interpolation?", first, more);
+    const bool is_one = gaps_.size() == 1 && scale_.missing_after(gaps_.front()) == 1;
+    plan_.question = fmt::format("{}{}. Fill {} by interpolation?", first, more, is_one ? "it" : "them");
   } else {
     plan_.refusal = name_unevenness();
     plan_.question = fmt::format("{}. Make {} slices at {:.3f} mm of them by interpolation?", plan_.refusal,
@@ -207,15 +208,17 @@ void GridPlanner::tell_gaps() {
   }
   for (std::size_t n = 0; n < std::min(gaps_.size(), kMostGapsNamed); ++n) {
     const std::size_t k = gaps_[n];
-    const auto first = std::llround(scale_.places[k]) + 1;
+    const auto first = std::llround(scale_.places[k]) + 1;  // from 0; people count from 1
     const auto last = first + scale_.missing_after(k) - 1;
     const auto at = [&](std::int64_t slice) { return scale_.step_mm * static_cast<double>(slice); };
     plan_.changes.push_back(
-        first == last ? fmt::format("slice {} ({:.3f} mm from the first) is interpolated between {} and {}",
-                                    first, at(first), stack_.names[k], stack_.names[k + 1])
-                      : fmt::format("slices {} to {} ({:.3f} to {:.3f} mm from the first) are interpolated "
-                                    "between {} and {}",
-                                    first, last, at(first), at(last), stack_.names[k], stack_.names[k + 1]));
+        first == last
+            ? fmt::format("slice {} of {} ({:.3f} mm from the first) is interpolated between {} and {}",
+                          first + 1, scale_.slices(), at(first), stack_.names[k], stack_.names[k + 1])
+            : fmt::format("slices {} to {} of {} ({:.3f} to {:.3f} mm from the first) are interpolated "
+                          "between {} and {}",
+                          first + 1, last + 1, scale_.slices(), at(first), at(last), stack_.names[k],
+                          stack_.names[k + 1]));
   }
   if (gaps_.size() > kMostGapsNamed) {
     plan_.changes.push_back(

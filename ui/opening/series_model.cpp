@@ -25,7 +25,7 @@ bool has_grid(const Series& series) {
 }
 
 QString notes_text(const Series& series) {
-  if (series.fillable()) return SeriesModel::tr("Slices are missing");
+  if (series.fillable()) return SeriesModel::tr("Irregular slices");
   if (!series.loadable) return SeriesModel::tr("Cannot be loaded");
   const auto warnings = static_cast<int>(series.warnings.size());
   const auto changes = static_cast<int>(series.changes.size());

@@ -112,7 +112,7 @@ void StudyOpener::load_by_uid(const Catalogue& catalogue) {
 }
 
 void StudyOpener::ask_to_fill(const Series& series) {
-  question_ = new QMessageBox(QMessageBox::Question, tr("Slices are missing"),
+  question_ = new QMessageBox(QMessageBox::Question, tr("Irregular slices"),
                               QString::fromStdString(series.grid.question), QMessageBox::Cancel, window_);
   question_->setAttribute(Qt::WA_DeleteOnClose);
   question_->setTextFormat(Qt::PlainText);

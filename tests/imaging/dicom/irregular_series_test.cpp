@@ -75,7 +75,7 @@ class IrregularSeriesTest : public QObject {
     const Volume& volume = loaded->volume;
     QVERIFY(same_grid(volume.geometry, whole_.geometry, 1e-3));
     QCOMPARE(std::string(volume.scalar_name()), std::string("int16"));
-    QVERIFY(says(volume.changes, "slice 3 (7.500 mm from the first) is interpolated between"));
+    QVERIFY(says(volume.changes, "slice 4 of 8 (7.500 mm from the first) is interpolated between"));
     for (std::int64_t offset = 0; offset < volume.geometry.voxel_count(); ++offset) {
       const std::int64_t slice = kSize.x * kSize.y;
       const bool is_new = offset / slice == 3;

@@ -155,10 +155,11 @@ class RegularGridTest : public QObject {
     const GridPlan filled = plan_regular_grid(stack_at({0, 2, 4, 10, 12, 16}), kFill);
     QCOMPARE(filled.question, std::string());
     QCOMPARE(filled.changes.size(), std::size_t{2});
-    QVERIFY2(has(filled.changes[0], "slices 3 to 4 (6.000 to 8.000 mm from the first)"),
+    QVERIFY2(has(filled.changes[0], "slices 4 to 5 of 9 (6.000 to 8.000 mm from the first)"),
              filled.changes[0].c_str());
-    QVERIFY2(has(filled.changes[1], "slice 7 (14.000 mm from the first) is interpolated between s4 and s5"),
-             filled.changes[1].c_str());
+    QVERIFY2(
+        has(filled.changes[1], "slice 8 of 9 (14.000 mm from the first) is interpolated between s4 and s5"),
+        filled.changes[1].c_str());
     const GridPlan uneven = plan_regular_grid(stack_at({0, 2, 4, 7, 9}), {});
     QVERIFY2(has(uneven.refusal, "s2 and s3 are 3.000 mm apart, others 2.000 mm"), uneven.refusal.c_str());
     QVERIFY2(has(uneven.question, "Make 6 slices at 2.000 mm"), uneven.question.c_str());

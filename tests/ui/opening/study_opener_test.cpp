@@ -126,6 +126,7 @@ class StudyOpenerTest : public QObject {
         }
         QTRY_VERIFY_WITH_TIMEOUT(opener_->question() != nullptr, kPatience);
         QVERIFY(opener_->question()->text().startsWith("1 slice is missing between"));
+        QVERIFY(opener_->question()->text().endsWith("Fill it by interpolation?"));
         QVERIFY(QTest::qWaitForWindowExposed(opener_->question()));
         QCOMPARE(ended_->size(), 1);  // it is the user's turn
         const auto buttons = opener_->question()->buttons();
