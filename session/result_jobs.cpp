@@ -3,7 +3,6 @@
 #include <QCoreApplication>
 #include <chrono>
 #include <new>
-#include <optional>
 
 #include "session/background_job.h"
 #include "study/result_files.h"
@@ -21,6 +20,13 @@ namespace {
 };
 constexpr std::chrono::milliseconds kBetweenReports{50};
 
+// In the user's language, with a capital letter.
+QString step_text(std::string_view step) {
+  QString text = QCoreApplication::translate("tidemark::ResultStep", std::string(step).c_str());
+  if (!text.isEmpty()) text[0] = text[0].toUpper();
+  return text;
+}
+
 template <class Work>
 auto without_exceptions(const Work& work, const Progress& progress) -> decltype(work(progress)) {
   try {
@@ -33,12 +39,6 @@ auto without_exceptions(const Work& work, const Progress& progress) -> decltype(
 }
 
 }  // namespace
-
-QString result_step_text(std::string_view step) {
-  QString text = QCoreApplication::translate("tidemark::ResultStep", std::string(step).c_str());
-  if (!text.isEmpty()) text[0] = text[0].toUpper();
-  return text;
-}
 
 ResultJobs::~ResultJobs() {
   if (job_) job_->abandon();
@@ -56,7 +56,7 @@ void ResultJobs::run(Work work, Deliver deliver) {
       const auto now = std::chrono::steady_clock::now();
       if (now - last < kBetweenReports) return;
       last = now;
-      job.deliver([this, fraction, text = result_step_text(step)] { emit progressed(fraction, text); });
+      job.deliver([this, fraction, text = step_text(step)] { emit progressed(fraction, text); });
     };
     const auto result = std::make_shared<decltype(work(progress))>(without_exceptions(work, progress));
     job.deliver([this, deliver, result] {

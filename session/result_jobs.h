@@ -47,7 +47,4 @@ class ResultJobs : public QObject {
   std::shared_ptr<BackgroundJob> job_;
 };
 
-// In the user's language, with a capital letter, how a piece of work on results calls its steps.
-[[nodiscard]] QString result_step_text(std::string_view step);
-
 }  // namespace tidemark
