@@ -64,6 +64,7 @@ Status Conversion::load_source(const Progress& progress) {
   if (!chosen) return tl::unexpected<Error>(chosen.error());
   grid_ = chosen->series.geometry;
   source_files_ = dicom_files_of(chosen->series);
+  source_archive_ = chosen->series.archive;
   return {};
 }
 

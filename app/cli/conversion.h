@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "app/cli/study_input.h"
 #include "core/progress.h"
 #include "imaging/results/results.h"
+#include "imaging/series.h"
 #include "imaging/surface/surface.h"
 
 namespace tidemark::cli {
@@ -57,8 +59,9 @@ class Conversion {
   ConversionOptions options_;
   std::optional<Geometry> grid_;  // the source's
   std::vector<std::filesystem::path> source_files_;
-  std::optional<Volume> volume_;  // where the input is one
-  Segments segments_;             // none in a plain volume
+  std::shared_ptr<const StudyArchive> source_archive_;  // in which they lie, if they do
+  std::optional<Volume> volume_;                        // where the input is one
+  Segments segments_;                                   // none in a plain volume
   std::optional<Mesh> mesh_;
 };
 

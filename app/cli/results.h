@@ -10,6 +10,7 @@
 #include "app/cli/outputs.h"
 #include "app/cli/report.h"
 #include "imaging/results/results.h"
+#include "imaging/series.h"
 #include "renderer/picture.h"
 #include "study/recipe.h"
 
@@ -30,6 +31,7 @@ void add_result_options(CLI::App& app, ResultOptions& options);
 struct RunResults {
   std::shared_ptr<const Volume> source;            // as the solver saw it
   std::vector<std::filesystem::path> dicom_files;  // that it was read from, in slice order; empty: not DICOM
+  std::shared_ptr<const StudyArchive> archive;     // in which they lie, if they do
   Field phi;
   Mask mask;
   RunFigures figures;

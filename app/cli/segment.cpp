@@ -84,6 +84,7 @@ Status Segmentation::load() {
   auto study = load_study(options_.study, console_.progress());
   if (!study) return pass_on(study);
   results_.dicom_files = dicom_files_of(study->series);
+  results_.archive = study->series.archive;
   Result<Volume> volume = std::move(study->volume);
   if (Status inside = check_inside(options_.start, volume->geometry); !inside) return inside;
   RunFigures& figures = results_.figures;
