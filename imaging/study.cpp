@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <new>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/series_geometry.h"
 #include "imaging/files/volume_file.h"
+#include "imaging/guarded.h"
 
 namespace tidemark {
 namespace {
@@ -190,18 +190,6 @@ Mask mask_of(const Volume& volume) {
       },
       volume.voxels);
   return mask;
-}
-
-// Runs `work`; what it throws becomes an error that names the path.
-template <class Work>
-auto guarded(const fs::path& path, const Work& work) -> decltype(work()) {
-  try {
-    return work();
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::capability, "{}: there is not enough memory", path.string());
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::input, "{}: cannot be read: {}", path.string(), error.what());
-  }
 }
 
 }  // namespace

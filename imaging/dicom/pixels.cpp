@@ -7,6 +7,7 @@
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/frame_codec.h"
 #include "imaging/dicom/frame_header.h"
+#include "imaging/guarded.h"
 
 namespace tidemark {
 namespace {
@@ -69,17 +70,6 @@ class HeldBytes : public ByteSource {
 
 std::int64_t bytes_of_frame(const SliceHeader& header) {
   return header.frame_rows * header.frame_columns * (header.bits_allocated / 8);
-}
-
-template <class Work>
-auto guarded(const fs::path& file, const Work& work) -> decltype(work()) {
-  try {
-    return work();
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::capability, "{}: there is not enough memory", file.string());
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(), error.what());
-  }
 }
 
 }  // namespace

@@ -1,0 +1,24 @@
+// Where exceptions end that libraries, or the lack of memory, throw while a file is read.
+#pragma once
+
+#include <exception>
+#include <filesystem>
+#include <new>
+
+#include "core/result.h"
+
+namespace tidemark {
+
+// Runs `work`, which returns a Result or a Status; what it throws becomes an error that names the path.
+template <class Work>
+auto guarded(const std::filesystem::path& path, const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::capability, "{}: there is not enough memory", path.string());
+  } catch (const std::exception& error) {
+    return fail(ErrorKind::input, "{}: cannot be read: {}", path.string(), error.what());
+  }
+}
+
+}  // namespace tidemark
