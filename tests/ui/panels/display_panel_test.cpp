@@ -45,6 +45,7 @@ class DisplayPanelTest : public QObject {
     auto study = std::make_shared<LoadedStudy>(*ball_study());
     auto volume = std::make_shared<Volume>(*study->volume);
     volume->modality = "MR";
+    volume->unit.clear();
     volume->window.reset();
     study->volume = volume;
     CaseSession session(the_case_->engine, study, ExecutorKind::host);
