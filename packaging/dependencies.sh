@@ -9,7 +9,7 @@ tidemark_packages=(
   libzip-dev libssl-dev libdcmtk-dev libnsl-dev libopenjp2-7-dev
   libinsighttoolkit5-dev libgdcm-dev zlib1g-dev libpng-dev
   libopenvdb-dev libtbb-dev libboost-dev
-  dicom3tools dcm2niix python3-pydicom python3-numpy locales dpkg-dev file
+  dicom3tools dcm2niix plastimatch python3-pydicom python3-numpy locales dpkg-dev file
   orthanc dcmtk openssl
 )
 
