@@ -24,9 +24,9 @@ std::vector<Uint16> words_of(const std::vector<EnhancedFrame>& frames) {
   std::vector<Uint16> words;
   for (const auto& [volume, k] : frames) {
     std::visit(
-        [&, first = volume->geometry.offset({0, 0, k})](const auto& voxels) {
+        [&words, size = volume->geometry.size,
+         first = volume->geometry.offset({0, 0, k})](const auto& voxels) {
           const auto begin = voxels.begin() + first;
-          const Index3 size = volume->geometry.size;
           std::transform(begin, begin + size.x * size.y, std::back_inserter(words),
                          [](auto value) { return static_cast<Uint16>(value); });
         },
