@@ -65,7 +65,7 @@ OFCondition take_words(DcmElement& element, int bits, std::vector<std::uint32_t>
 tl::expected<std::vector<std::uint32_t>, std::string> decode_fragments(const Fragments& fragments,
                                                                        const TransferSyntax& syntax,
                                                                        const SliceHeader& header) {
-  const DcmXfer coded(std::string(syntax.uid_to_parse()).c_str());
+  const DcmXfer coded(std::string(syntax.uid).c_str());
   DcmDataset dataset;
   put_format(header, dataset);
   OFCondition decoded = put_fragments(fragments, coded.getXfer(), dataset);

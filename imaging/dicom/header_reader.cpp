@@ -1,7 +1,6 @@
 #include "imaging/dicom/header_reader.h"
 
 #include <dcmtk/config/osconfig.h>
-#include <dcmtk/dcmdata/dcistrmf.h>
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <algorithm>
@@ -206,19 +205,8 @@ Result<std::vector<SliceHeader>> read_slices(DcmFileFormat& loaded, const fs::pa
 }
 
 // The transfer syntax is that of the preflight, so that both read the same tags.
-OFCondition parse(const fs::path& file, const Preflight& checked, DcmFileFormat& loaded) {
-  const TransferSyntax& syntax = *checked.syntax;
-  const E_TransferSyntax parsed_as = DcmXfer(std::string(syntax.uid_to_parse()).c_str()).getXfer();
-  if (syntax.alike.empty()) return loaded.loadFile(file.c_str(), parsed_as);
-  // DCMTK would go by what the file's meta information says.
-  DcmInputFileStream stream(file.c_str());
-  if (stream.good()) stream.skip(checked.dataset);
-  if (!stream.good()) return stream.status();
-  DcmDataset& dataset = *loaded.getDataset();
-  dataset.transferInit();
-  const OFCondition read = dataset.read(stream, parsed_as, EGL_noChange, DCM_MaxReadLength);
-  dataset.transferEnd();
-  return read;
+OFCondition parse(const fs::path& file, const TransferSyntax& syntax, DcmFileFormat& loaded) {
+  return loaded.loadFile(file.c_str(), DcmXfer(std::string(syntax.uid).c_str()).getXfer());
 }
 
 Result<Preflight> preflight_of(const fs::path& file) {
@@ -249,7 +237,7 @@ Result<ImageFile> open_image(const fs::path& file) {
     return fail(ErrorKind::input, "{}: {}", file.string(), image.slices.front().problem);
   }
   DcmFileFormat loaded;
-  if (const OFCondition parsed = parse(file, image.checked, loaded); parsed.bad()) {
+  if (const OFCondition parsed = parse(file, *image.checked.syntax, loaded); parsed.bad()) {
     return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
   }
   auto slices = read_slices(loaded, file, image.checked);

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <memory>
 
+#include "imaging/dicom/j2k_markers.h"
+
 namespace tidemark {
 namespace {
 
@@ -107,6 +109,7 @@ Status check_header(const opj_image_t& image, std::int64_t columns, std::int64_t
 }  // namespace
 
 Result<J2kImage> decode_j2k(std::span<const std::uint8_t> bytes, std::int64_t columns, std::int64_t rows) {
+  if (auto part_one = require_part_one(bytes); !part_one) return pass_on(part_one);
   Input input{bytes};
   const Stream stream = open_stream(input);
   const Codec codec = make_codec(bytes);

@@ -9,17 +9,13 @@ constexpr TransferSyntax native(std::string_view uid, std::string_view name, boo
                                 bool is_deflated) {
   return {uid, name, is_explicit, is_big, is_deflated, true, FrameCoding::native};
 }
-constexpr TransferSyntax compressed(std::string_view uid, std::string_view name, FrameCoding frames,
-                                    std::string_view alike = {}) {
-  return {uid, name, true, false, false, true, frames, alike};
+constexpr TransferSyntax compressed(std::string_view uid, std::string_view name, FrameCoding frames) {
+  return {uid, name, true, false, false, true, frames};
 }
 // For its name in the refusal.
 constexpr TransferSyntax refused(std::string_view uid, std::string_view name) {
   return {uid, name, true, false, false, false, FrameCoding::jpeg};
 }
-
-constexpr std::string_view kJpeg2000Lossless = "1.2.840.10008.1.2.4.90";
-constexpr std::string_view kJpeg2000 = "1.2.840.10008.1.2.4.91";
 
 constexpr TransferSyntax kSyntaxes[] = {
     native(kImplicitLittleEndian, "Little Endian Implicit", false, false, false),
@@ -36,13 +32,11 @@ constexpr TransferSyntax kSyntaxes[] = {
                FrameCoding::jpeg),
     compressed("1.2.840.10008.1.2.4.80", "JPEG-LS Lossless", FrameCoding::jpeg_ls),
     compressed("1.2.840.10008.1.2.4.81", "JPEG-LS Lossy (Near-lossless)", FrameCoding::jpeg_ls),
-    compressed(kJpeg2000Lossless, "JPEG 2000 (Lossless only)", FrameCoding::jpeg_2000),
-    compressed(kJpeg2000, "JPEG 2000 (Lossless or Lossy)", FrameCoding::jpeg_2000),
-    compressed("1.2.840.10008.1.2.4.201", "High-Throughput JPEG 2000 (Lossless only)", FrameCoding::jpeg_2000,
-               kJpeg2000Lossless),
-    compressed("1.2.840.10008.1.2.4.202", "High-Throughput JPEG 2000 with RPCL Options (Lossless only)",
-               FrameCoding::jpeg_2000, kJpeg2000Lossless),
-    compressed("1.2.840.10008.1.2.4.203", "High-Throughput JPEG 2000", FrameCoding::jpeg_2000, kJpeg2000),
+    compressed("1.2.840.10008.1.2.4.90", "JPEG 2000 (Lossless only)", FrameCoding::jpeg_2000),
+    compressed("1.2.840.10008.1.2.4.91", "JPEG 2000 (Lossless or Lossy)", FrameCoding::jpeg_2000),
+    refused("1.2.840.10008.1.2.4.201", "High-Throughput JPEG 2000 (Lossless only)"),
+    refused("1.2.840.10008.1.2.4.202", "High-Throughput JPEG 2000 with RPCL Options (Lossless only)"),
+    refused("1.2.840.10008.1.2.4.203", "High-Throughput JPEG 2000"),
     refused("1.2.840.10008.1.2.4.92", "JPEG 2000 Part 2 Multi-component (Lossless only)"),
     refused("1.2.840.10008.1.2.4.93", "JPEG 2000 Part 2 Multi-component"),
     refused("1.2.840.10008.1.2.4.94", "JPIP Referenced"),

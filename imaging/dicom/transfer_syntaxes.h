@@ -16,10 +16,7 @@ struct TransferSyntax {
   bool is_deflated = false;
   bool is_read = true;
   FrameCoding frames = FrameCoding::native;
-  // As which DCMTK parses it, where its older releases do not know the syntax: one that is written alike.
-  std::string_view alike = {};
 
-  [[nodiscard]] std::string_view uid_to_parse() const { return alike.empty() ? uid : alike; }
   [[nodiscard]] bool is_encapsulated() const { return frames != FrameCoding::native; }
 };
 

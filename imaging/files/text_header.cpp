@@ -11,6 +11,7 @@ namespace tidemark::files {
 namespace {
 
 constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
+constexpr std::size_t kLongestName = 200;
 
 std::string trimmed(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r";
@@ -95,6 +96,11 @@ Result<TextHeader> read_meta_header(const std::filesystem::path& file) {
   std::string_view rest(*text);
   TextHeader header;
   while (const auto line = next_line(rest)) {
+    // ITK's reader copies a name of up to 500 bytes where it has room for 255; it takes ':' for '=', too.
+    const std::size_t name = std::min(line->find_first_of("=:"), line->size());
+    if (name > kLongestName) {
+      return fail(ErrorKind::input, "{}: the header has a name of {} bytes", file.string(), name);
+    }
     add_field(header, *line, "=");
     if (header.fields.contains("elementdatafile")) {
       header.end = static_cast<std::int64_t>(text->size() - rest.size());

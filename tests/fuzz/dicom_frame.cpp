@@ -15,10 +15,9 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
   using namespace tidemark::test;
-  constexpr std::array kSyntaxes{
-      "1.2.840.10008.1.2.5",    "1.2.840.10008.1.2.4.50", "1.2.840.10008.1.2.4.51",
-      "1.2.840.10008.1.2.4.57", "1.2.840.10008.1.2.4.70", "1.2.840.10008.1.2.4.80",
-      "1.2.840.10008.1.2.4.81", "1.2.840.10008.1.2.4.90", "1.2.840.10008.1.2.4.203"};
+  constexpr std::array kSyntaxes{"1.2.840.10008.1.2.5",    "1.2.840.10008.1.2.4.50", "1.2.840.10008.1.2.4.51",
+                                 "1.2.840.10008.1.2.4.57", "1.2.840.10008.1.2.4.70", "1.2.840.10008.1.2.4.80",
+                                 "1.2.840.10008.1.2.4.81", "1.2.840.10008.1.2.4.90"};
   if (count < 3) return 0;
   static tidemark::fuzz::ScratchFile scratch;
   const std::uint32_t bits = (bytes[0] & 0x80) != 0 ? 8 : 16;

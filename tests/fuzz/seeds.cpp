@@ -118,11 +118,10 @@ void write_compressed_dicom() {
     const std::string start{static_cast<char>(k), static_cast<char>(size.x), static_cast<char>(size.y)};
     write("dicom_frame", name, start + frame_of(bytes));
   }
-  for (const std::string_view digits : {test::kHt12Bits, test::kHt16Bits, test::kHtLossy12Bits}) {
-    const auto stream = QByteArray::fromHex({digits.data(), static_cast<qsizetype>(digits.size())});
-    const std::string start{static_cast<char>(std::size(kSyntaxes)), test::kHtColumns, test::kHtRows};
-    write("dicom_frame", fmt::format("high-throughput-{}", stream.size()), start + stream.toStdString());
-  }
+  // As JPEG 2000, the last of them.
+  const auto stream = QByteArray::fromHex({test::kHt12Bits.data(), qsizetype{test::kHt12Bits.size()}});
+  const std::string start{static_cast<char>(std::size(kSyntaxes) - 1), test::kHtColumns, test::kHtRows};
+  write("dicom_frame", "high-throughput", start + stream.toStdString());
   // DCMTK's search for the frame stayed at the marker TEM for ever.
   const std::string rest("\xff\x01\xff\xc0\0\x0b\x08\0\x0d\0\x11\x01\x01\x11\0\0\0", 17);
   write("dicom_frame", "found-jpeg-tem", "\x01\x11\x0d\xff\xd8" + rest);

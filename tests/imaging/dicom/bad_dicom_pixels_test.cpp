@@ -1,7 +1,6 @@
 // Files whose pixel data are not what their header promises.
 #include "tests/imaging/dicom/bad_dicom.h"
 #include "tests/imaging/dicom/dicom_bytes.h"
-#include "tests/imaging/dicom/ht_streams.h"
 
 using namespace tidemark::test;
 
@@ -11,7 +10,6 @@ constexpr const char* kRle = "1.2.840.10008.1.2.5";
 constexpr const char* kJpeg = "1.2.840.10008.1.2.4.70";
 constexpr const char* kJpegLs = "1.2.840.10008.1.2.4.80";
 constexpr const char* kJpeg2000 = "1.2.840.10008.1.2.4.90";
-constexpr const char* kHighThroughput = "1.2.840.10008.1.2.4.201";
 constexpr std::uint32_t kFrames = 0x00280008;
 constexpr std::uint32_t kRows = 0x00280010;
 constexpr std::uint32_t kColumns = 0x00280011;
@@ -51,19 +49,6 @@ std::string jpeg(std::uint32_t columns, std::uint32_t rows, char components = 1,
                       '\x10' + big(rows) + big(columns) + components;
   for (char c = 1; c <= components; ++c) frame += {c, '\x11', '\0'};
   return frame + std::string(frame.size() % 2 + 8, '\0');
-}
-
-std::string bytes_of(std::string_view digits) {
-  return QByteArray::fromHex({digits.data(), static_cast<qsizetype>(digits.size())}).toStdString();
-}
-
-// A high-throughput stream in a dataset of its size.
-std::string of_ht_size(const std::string& stream) {
-  const Dataset dataset = Dataset::slice()
-                              .put_number(kRows, kHtRows)
-                              .put_number(kColumns, kHtColumns)
-                              .put(kPixels, encapsulated(stream));
-  return file(kHighThroughput, dataset.bytes());
 }
 
 // A JPEG 2000 stream that ends after its SIZ marker.
@@ -261,12 +246,6 @@ std::vector<BadDicom> frame_rows() {
       {"JPEG 2000: 16384 components", one(kJpeg2000, jpeg_2000(4, 3, 4, 16384)),
        "JPEG 2000 stream of 16384 components"},
       {"JPEG 2000: its SIZ marker alone", one(kJpeg2000, jpeg_2000(4, 3, 4)),
-       kPixelData + "cannot be decoded"},
-      {"high-throughput JPEG 2000: of another size", one(kHighThroughput, bytes_of(kHt16Bits)),
-       "JPEG 2000 stream of 12 x 10"},
-      {"high-throughput JPEG 2000: ends early", of_ht_size(bytes_of(kHt16Bits).substr(0, 150)),
-       kPixelData + "cannot be decoded"},
-      {"high-throughput JPEG 2000: no code blocks", of_ht_size(bytes_of(kHt16Bits).substr(0, 80)),
        kPixelData + "cannot be decoded"},
   };
 }

@@ -105,6 +105,8 @@ std::vector<BadFile> bad_text_header_files() {
       {"damaged gzip", "v.nrrd", nrrd("encoding", "gzip"), "damaged"},
       {"text", "v.mha", "hello\n", "MetaImage"},
       {"empty", "v.mha", "", "MetaImage"},
+      {"a name of 300 bytes", "v.mha", std::string(300, 'x') + " = 1\n" + meta("NDims", "3"),
+       "a name of 300 bytes"},
       {"NDims 0", "v.mha", meta("NDims", "0"), "NDims"},
       {"NDims 2", "v.mha", meta("NDims", "2"), "DimSize"},
       {"NDims 17", "v.mha", meta("NDims", "17"), "NDims"},
