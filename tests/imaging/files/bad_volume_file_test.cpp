@@ -106,7 +106,7 @@ std::vector<BadFile> bad_text_header_files() {
       {"text", "v.mha", "hello\n", "MetaImage"},
       {"empty", "v.mha", "", "MetaImage"},
       {"a name of 300 bytes", "v.mha", std::string(300, 'x') + " = 1\n" + meta("NDims", "3"),
-       "a name of 300 bytes"},
+       "has a name of 301 bytes"},
       {"NDims 0", "v.mha", meta("NDims", "0"), "NDims"},
       {"NDims 2", "v.mha", meta("NDims", "2"), "DimSize"},
       {"NDims 17", "v.mha", meta("NDims", "17"), "NDims"},
