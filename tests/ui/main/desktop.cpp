@@ -1,6 +1,6 @@
 #include "tests/ui/main/desktop.h"
 
-#include <QElapsedTimer>
+#include <QAbstractEventDispatcher>
 #include <QMetaEnum>
 #include <QPushButton>
 #include <QSettings>
@@ -26,22 +26,38 @@ constexpr double kWorthTelling = 30.0;  // milliseconds
 bool WatchedApplication::notify(QObject* receiver, QEvent* event) {
   // Events within events belong to the outermost one.
   if (depth_ > 0) return QApplication::notify(receiver, event);
-  const QEvent::Type type = event->type();
-  const QString name = receiver ? receiver->metaObject()->className() : QString();
-  QElapsedTimer since;
-  since.start();
+  in_now_ = QStringLiteral("%1 of %2")
+                .arg(QMetaEnum::fromType<QEvent::Type>().valueToKey(event->type()),
+                     receiver ? receiver->metaObject()->className() : "");
+  since_.start();
   ++depth_;
   const bool handled = QApplication::notify(receiver, event);
   --depth_;
-  const double ms = static_cast<double>(since.nsecsElapsed()) / 1e6;
-  if (ms > kWorthTelling) {
-    qInfo("%.0f ms in %s of %s", ms, QMetaEnum::fromType<QEvent::Type>().valueToKey(type), qPrintable(name));
-  }
-  if (ms > longest_ms_) {
-    longest_ms_ = ms;
-    in_ = QStringLiteral("%1 of %2").arg(QMetaEnum::fromType<QEvent::Type>().valueToKey(type), name);
-  }
+  note_stretch();
   return handled;
+}
+
+void WatchedApplication::watch_loops() {
+  // A question that an event asks has a loop of its own, which does what the user does: what kept the user
+  // waiting ends where it turns.
+  auto* dispatcher = QAbstractEventDispatcher::instance();
+  const auto turn = [this] {
+    if (depth_ == 0) return;
+    note_stretch();
+    since_.restart();
+  };
+  connect(dispatcher, &QAbstractEventDispatcher::aboutToBlock, this, turn);
+  connect(dispatcher, &QAbstractEventDispatcher::awake, this, [this] {
+    if (depth_ > 0) since_.restart();  // it slept
+  });
+}
+
+void WatchedApplication::note_stretch() {
+  const double ms = static_cast<double>(since_.nsecsElapsed()) / 1e6;
+  if (ms > kWorthTelling) qInfo("%.0f ms in %s", ms, qPrintable(in_now_));
+  if (ms <= longest_ms_) return;
+  longest_ms_ = ms;
+  in_ = in_now_;
 }
 
 void WatchedApplication::restart() {

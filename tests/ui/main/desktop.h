@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QApplication>
+#include <QElapsedTimer>
 #include <QImage>
 #include <QMessageBox>
 #include <QTest>
@@ -17,10 +18,11 @@
 
 namespace tidemark::test {
 
-// Notices how long the thread of the user interface is busy with one event, and with which.
+// Notices how long the thread of the user interface is busy with one event, and with which: from where it
+// begins, or a loop in it turns, to where it ends.
 class WatchedApplication : public QApplication {
  public:
-  using QApplication::QApplication;
+  WatchedApplication(int& argc, char** argv) : QApplication(argc, argv) { watch_loops(); }
   bool notify(QObject* receiver, QEvent* event) override;
 
   void restart();
@@ -29,7 +31,12 @@ class WatchedApplication : public QApplication {
   [[nodiscard]] static WatchedApplication& instance();
 
  private:
+  void watch_loops();
+  void note_stretch();
+
   int depth_ = 0;
+  QElapsedTimer since_;  // the event began, or the loop in it turned
+  QString in_now_;
   double longest_ms_ = 0.0;
   QString in_;
 };
