@@ -2,9 +2,9 @@
 
 #include <QCoreApplication>
 #include <QTemporaryDir>
-#include <chrono>
 
 #include "session/background_job.h"
+#include "session/job_progress.h"
 
 namespace tidemark {
 namespace {
@@ -19,13 +19,6 @@ namespace {
     QT_TRANSLATE_NOOP("tidemark::PacsStep", "looking at the files"),
     QT_TRANSLATE_NOOP("tidemark::PacsStep", "sending objects"),
 };
-constexpr std::chrono::milliseconds kBetweenReports{50};
-
-QString step_text(std::string_view what) {
-  QString text = QCoreApplication::translate("tidemark::PacsStep", std::string(what).c_str());
-  if (!text.isEmpty()) text[0] = text[0].toUpper();
-  return text;
-}
 
 Result<Sent> write_and_send(const PacsServer& server, const PacsClient::WriteFiles& write,
                             const Progress& progress) {
@@ -50,15 +43,9 @@ template <class Work, class Deliver>
 void PacsClient::run(Work work, Deliver deliver) {
   if (job_) job_->abandon();
   job_ = BackgroundJob::start(this, [this, work, deliver](BackgroundJob& job) {
-    Progress progress;
-    progress.stop = job.stop();
-    progress.report = [this, &job, last = std::chrono::steady_clock::time_point()](
-                          double fraction, std::string_view what) mutable {
-      const auto now = std::chrono::steady_clock::now();
-      if (now - last < kBetweenReports) return;
-      last = now;
-      job.deliver([this, fraction, step = step_text(what)] { emit progressed(fraction, step); });
-    };
+    const Progress progress =
+        job_progress(job, "tidemark::PacsStep",
+                     [this](double fraction, const QString& step) { emit progressed(fraction, step); });
     const auto result = std::make_shared<decltype(work(progress))>(work(progress));
     job.deliver([this, deliver, result] {
       job_.reset();

@@ -1,10 +1,9 @@
 #include "session/result_jobs.h"
 
 #include <QCoreApplication>
-#include <chrono>
-#include <new>
 
 #include "session/background_job.h"
+#include "session/job_progress.h"
 #include "study/result_files.h"
 
 namespace tidemark {
@@ -18,25 +17,6 @@ namespace {
     QT_TRANSLATE_NOOP("tidemark::ResultStep", "reading labels"),
     QT_TRANSLATE_NOOP("tidemark::ResultStep", "reading the volume"),
 };
-constexpr std::chrono::milliseconds kBetweenReports{50};
-
-// In the user's language, with a capital letter.
-QString step_text(std::string_view step) {
-  QString text = QCoreApplication::translate("tidemark::ResultStep", std::string(step).c_str());
-  if (!text.isEmpty()) text[0] = text[0].toUpper();
-  return text;
-}
-
-template <class Work>
-auto without_exceptions(const Work& work, const Progress& progress) -> decltype(work(progress)) {
-  try {
-    return work(progress);
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::capability, "there is not enough memory");
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::internal, "{}", error.what());
-  }
-}
 
 }  // namespace
 
@@ -49,15 +29,9 @@ template <class Work, class Deliver>
 void ResultJobs::run(Work work, Deliver deliver) {
   if (job_) job_->abandon();
   job_ = BackgroundJob::start(this, [this, work, deliver](BackgroundJob& job) {
-    Progress progress;
-    progress.stop = job.stop();
-    progress.report = [this, &job, last = std::chrono::steady_clock::time_point()](
-                          double fraction, std::string_view step) mutable {
-      const auto now = std::chrono::steady_clock::now();
-      if (now - last < kBetweenReports) return;
-      last = now;
-      job.deliver([this, fraction, text = step_text(step)] { emit progressed(fraction, text); });
-    };
+    const Progress progress =
+        job_progress(job, "tidemark::ResultStep",
+                     [this](double fraction, const QString& step) { emit progressed(fraction, step); });
     const auto result = std::make_shared<decltype(work(progress))>(without_exceptions(work, progress));
     job.deliver([this, deliver, result] {
       job_.reset();

@@ -4,13 +4,13 @@
 #include <QStringList>
 #include <algorithm>
 #include <mutex>
-#include <new>
 
 #include "imaging/archive/study_archive.h"
 #include "imaging/filters/suggest_start.h"
 #include "imaging/phantom/phantom.h"
 #include "imaging/study.h"
 #include "session/background_job.h"
+#include "session/job_progress.h"
 #include "session/phantom_text.h"
 
 namespace tidemark {
@@ -28,13 +28,6 @@ namespace fs = std::filesystem;
     QT_TRANSLATE_NOOP("tidemark::LoadingStep", "looking for a start"),
     QT_TRANSLATE_NOOP("tidemark::LoadingStep", "making the phantom"),
 };
-
-// In the user's language, with a capital letter.
-QString step_text(const QString& what) {
-  QString text = QCoreApplication::translate("tidemark::LoadingStep", what.toUtf8().constData());
-  if (!text.isEmpty()) text[0] = text[0].toUpper();
-  return text;
-}
 
 // T and epsilon of a study that nobody has looked at yet.
 Parameters suggest_parameters(const Volume& volume, const Progress& progress) {
@@ -116,24 +109,13 @@ Result<LoadedStudy> make_phantom_study(const std::string& kind, const Progress& 
   return study;
 }
 
-template <class Make>
-auto without_exceptions(const Make& make, const Progress& progress) -> decltype(make(progress)) {
-  try {
-    return make(progress);
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::capability, "there is not enough memory");
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::internal, "{}", error.what());
-  }
-}
-
 }  // namespace
 
 // What the work says on its way: the last word counts, and at most one is waiting to be heard.
 struct StudyLoader::Report {
   std::mutex mutex;
   double fraction = 0.0;
-  QString step;
+  std::string step;
   bool waiting = false;
 };
 
@@ -152,13 +134,13 @@ void StudyLoader::run(Make make, Deliver deliver) {
     progress.report = [this, last, &job](double fraction, std::string_view what) {
       const std::lock_guard lock(last->mutex);
       last->fraction = fraction;
-      last->step = QString::fromUtf8(what.data(), static_cast<qsizetype>(what.size()));
+      last->step = what;
       if (std::exchange(last->waiting, true)) return;
       job.deliver([this, last] {
         std::unique_lock heard(last->mutex);
         last->waiting = false;
         const double at = last->fraction;
-        const QString step = step_text(last->step);
+        const QString step = step_text("tidemark::LoadingStep", last->step);
         heard.unlock();
         emit progressed(at, step);
       });
