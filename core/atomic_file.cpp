@@ -5,22 +5,27 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <random>
 #include <system_error>
+#include <utility>
 
 namespace tidemark {
 namespace {
 
-// A temporary file's name: this, six characters, a hyphen, and the target's name.
+namespace fs = std::filesystem;
+
+// A temporary name: this, six characters, a hyphen, and the target's name.
 constexpr std::string_view kPrefix = ".tidemark-";
-constexpr std::string_view kUnique = "XXXXXX";
+constexpr std::size_t kUnique = 6;
 
 std::string reason(int error) {
   return std::generic_category().message(error);
 }
 
 // Syncs a file or a folder; returns 0 or errno.
-int sync_path(const std::filesystem::path& path) {
+int sync_path(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return errno;
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
@@ -28,47 +33,76 @@ int sync_path(const std::filesystem::path& path) {
   return error;
 }
 
-std::filesystem::path folder_of(const std::filesystem::path& target) {
-  return target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
+fs::path folder_of(const fs::path& target) {
+  return target.has_parent_path() ? target.parent_path() : fs::path(".");
+}
+
+// A folder that a new one can take the place of. Whoever works in the current one, or has a disk mounted
+// there, would be left with the old one.
+Status require_replaceable(const fs::path& folder, const fs::path& target) {
+  const auto refuse = [&](const char* why) {
+    return fail(ErrorKind::write, "{}: cannot write: {}", target.string(), why);
+  };
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return refuse("it is a file");
+  if (fs::equivalent(folder, fs::current_path(ignored), ignored)) {
+    return refuse("it is the current folder; name a new one in it");
+  }
+  struct statx state {};
+  if (::statx(AT_FDCWD, folder.c_str(), 0, 0, &state) == 0 &&
+      (state.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0) {
+    return refuse("a disk is mounted there; name a new folder in it");
+  }
+  return {};
+}
+
+// Makes something beside the target whose name nothing has yet: `make` takes the name and returns 0 or errno.
+// What it makes gets the permissions of anything new, which the C library's own temporary files do not.
+template <class Make>
+Result<fs::path> make_beside(const fs::path& target, const Make& make) {
+  constexpr int kAttempts = 100;
+  std::random_device random;
+  int error = EEXIST;
+  for (int attempt = 0; attempt < kAttempts && error == EEXIST; ++attempt) {
+    const std::string name =
+        fmt::format("{}{:0{}x}-{}", kPrefix, random() & 0xffffffU, kUnique, target.filename().string());
+    const fs::path made = folder_of(target) / name;
+    error = make(made);
+    if (error == 0) return made;
+  }
+  return fail(ErrorKind::write, "{}: cannot write: {}", target.string(), reason(error));
 }
 
 }  // namespace
 
-Result<AtomicFile> AtomicFile::create(const std::filesystem::path& target) {
-  const std::filesystem::path folder = folder_of(target);
+Result<AtomicFile> AtomicFile::create(const fs::path& target) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(target, ignored)) {
+  if (fs::is_directory(target, ignored)) {
     return fail(ErrorKind::write, "{}: cannot write: it is a folder", target.string());
   }
-  // mkstemps makes the name unique; the target's own name stays at the end.
-  const std::string suffix = "-" + target.filename().string();
-  std::string pattern = (folder / (std::string(kPrefix) + std::string(kUnique) + suffix)).string();
-  const int descriptor = ::mkstemps(pattern.data(), static_cast<int>(suffix.size()));
-  if (descriptor < 0) {
-    return fail(ErrorKind::write, "{}: cannot write: {}", target.string(), reason(errno));
-  }
-  // mkstemps creates files for their owner alone; a result gets the permissions of any new file.
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  ::fchmod(descriptor, 0666 & ~mask);
-  ::close(descriptor);
-
+  auto made = make_beside(target, [](const fs::path& name) {
+    const int descriptor = ::open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor < 0) return errno;
+    ::close(descriptor);
+    return 0;
+  });
+  if (!made) return pass_on(made);
   AtomicFile file;
   file.target_ = target;
-  file.temporary_ = pattern;
+  file.temporary_ = std::move(*made);
   return file;
 }
 
-std::string AtomicFile::target_of(const std::filesystem::path& file) {
+std::string AtomicFile::target_of(const fs::path& file) {
   const std::string name = file.filename().string();
-  constexpr std::size_t kHyphen = kPrefix.size() + kUnique.size();
+  constexpr std::size_t kHyphen = kPrefix.size() + kUnique;
   return name.starts_with(kPrefix) && name.size() > kHyphen && name[kHyphen] == '-' ? name.substr(kHyphen + 1)
                                                                                     : std::string();
 }
 
 AtomicFile::~AtomicFile() {
   std::error_code ignored;
-  if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
+  if (!temporary_.empty()) fs::remove(temporary_, ignored);
 }
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
@@ -92,7 +126,73 @@ Status AtomicFile::commit() {
   return {};
 }
 
-Status write_file(const std::filesystem::path& target, std::string_view bytes) {
+Result<AtomicFolder> AtomicFolder::create(const fs::path& target) {
+  std::error_code error;
+  // A link stays one: what it leads to is exchanged. "series/" is "series".
+  const fs::path named = target.has_filename() ? target : target.parent_path();
+  const fs::path place = fs::exists(named, error) ? fs::canonical(named, error) : named;
+  const bool has_older = fs::exists(place, error);
+  if (has_older) {
+    if (Status good = require_replaceable(place, target); !good) return pass_on(good);
+  }
+  auto made =
+      make_beside(place, [](const fs::path& name) { return ::mkdir(name.c_str(), 0777) == 0 ? 0 : errno; });
+  if (!made) return pass_on(made);
+  AtomicFolder folder;
+  folder.target_ = place;
+  folder.temporary_ = std::move(*made);
+  if (has_older) {
+    const fs::perms older = fs::status(place, error).permissions();
+    fs::permissions(folder.temporary_, older | fs::perms::owner_all, error);
+  }
+  return folder;
+}
+
+AtomicFolder::~AtomicFolder() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
+}
+
+AtomicFolder::AtomicFolder(AtomicFolder&& other) noexcept
+    : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})) {}
+
+Status AtomicFolder::commit() {
+  int error = sync_path(temporary_);
+  if (error == 0 && ::rename(temporary_.c_str(), target_.c_str()) == 0) {
+    temporary_.clear();
+  } else if (error == 0) {
+    // An older one with something in it is exchanged, and then removed by the destructor.
+    error = errno == ENOTEMPTY || errno == EEXIST ? exchange() : errno;
+  }
+  if (error != 0) {
+    return fail(ErrorKind::write, "{}: cannot write: {}", target_.string(), reason(error));
+  }
+  sync_path(folder_of(target_));
+  return {};
+}
+
+int AtomicFolder::exchange() {
+  if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) return 0;
+  if (errno != EINVAL && errno != ENOSYS) return errno;
+  // Some network file systems cannot. For a moment there is then neither, but never a mixture.
+  const fs::path older = temporary_.string() + "-older";
+  if (::rename(target_.c_str(), older.c_str()) != 0) return errno;
+  if (::rename(temporary_.c_str(), target_.c_str()) == 0) {
+    temporary_ = older;
+    return 0;
+  }
+  const int error = errno;
+  ::rename(older.c_str(), target_.c_str());
+  return error;
+}
+
+Status sync_to_disk(const fs::path& path) {
+  const int error = sync_path(path);
+  if (error == 0) return {};
+  return fail(ErrorKind::write, "{}: cannot write: {}", path.string(), reason(error));
+}
+
+Status write_file(const fs::path& target, std::string_view bytes) {
   auto file = AtomicFile::create(target);
   if (!file) return pass_on(file);
   const int descriptor = ::open(file->temporary_path().c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);

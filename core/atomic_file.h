@@ -25,8 +25,8 @@ class AtomicFile {
 
   [[nodiscard]] Status commit();
 
-  // The name of the target of which `file` is the temporary file; empty when it is none. A program that is
-  // killed leaves it behind.
+  // The name of the target of which `file` is the temporary file or folder; empty when it is none. A program
+  // that is killed leaves it behind.
   [[nodiscard]] static std::string target_of(const std::filesystem::path& file);
 
  private:
@@ -34,6 +34,34 @@ class AtomicFile {
   std::filesystem::path target_;
   std::filesystem::path temporary_;  // empty when committed or moved from
 };
+
+// The same for a folder of files that belong together: it is filled under a temporary name beside its target,
+// and takes the target's place and permissions when all are there. An older folder and everything in it goes
+// away then.
+class AtomicFolder {
+ public:
+  // Fails (ErrorKind::write) when the parent does not exist or cannot be written to, or the target is a file,
+  // or a folder that nothing else can take the place of: the current one, or one where a disk is mounted.
+  static Result<AtomicFolder> create(const std::filesystem::path& target);
+  ~AtomicFolder();
+  AtomicFolder(AtomicFolder&& other) noexcept;
+  AtomicFolder& operator=(AtomicFolder&& other) = delete;
+
+  [[nodiscard]] const std::filesystem::path& temporary_path() const { return temporary_; }
+
+  // The files in it must be on the disk already, as write_file() and sync_to_disk() leave them.
+  [[nodiscard]] Status commit();
+
+ private:
+  AtomicFolder() = default;
+  int exchange();  // returns 0 or errno
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;  // empty when it has been renamed or moved from
+};
+
+// Waits until what was written to a file, or the names in a folder, are on the disk. Fails
+// (ErrorKind::write).
+[[nodiscard]] Status sync_to_disk(const std::filesystem::path& path);
 
 // Writes `bytes` as the whole of the file.
 [[nodiscard]] Status write_file(const std::filesystem::path& target, std::string_view bytes);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/typed_volume.h"
+
 namespace tidemark {
 
 const char* Volume::scalar_name() const {
@@ -11,41 +13,30 @@ const char* Volume::scalar_name() const {
 }
 
 float Volume::value(std::int64_t offset) const {
-  return std::visit(
-      [&](const auto& stored) {
-        return static_cast<float>(slope * static_cast<double>(stored[static_cast<std::size_t>(offset)]) +
-                                  intercept);
-      },
-      voxels);
+  return with_type(*this, [&](const auto& typed) { return typed.value(offset); });
 }
 
 std::vector<float> Volume::values() const {
-  return std::visit(
-      [&](const auto& stored) {
-        std::vector<float> result(stored.size());
-        std::transform(stored.begin(), stored.end(), result.begin(), [&](auto value) {
-          return static_cast<float>(slope * static_cast<double>(value) + intercept);
-        });
-        return result;
-      },
-      voxels);
+  return with_type(*this, [](const auto& typed) {
+    std::vector<float> result(typed.stored.size());
+    std::transform(typed.stored.begin(), typed.stored.end(), result.begin(),
+                   [&](auto voxel) { return typed.rescaled(voxel); });
+    return result;
+  });
 }
 
 std::pair<float, float> Volume::range() const {
-  return std::visit(
-      [&](const auto& stored) {
-        // Two plain reductions, which compilers make vectors of; of std::minmax_element they do not.
-        auto low = stored.front();
-        auto high = low;
-        for (const auto value : stored) {
-          low = std::min(low, value);
-          high = std::max(high, value);
-        }
-        const auto a = static_cast<float>(slope * static_cast<double>(low) + intercept);
-        const auto b = static_cast<float>(slope * static_cast<double>(high) + intercept);
-        return std::pair(std::min(a, b), std::max(a, b));  // the slope may be negative
-      },
-      voxels);
+  return with_type(*this, [](const auto& typed) {
+    // Two plain reductions, which compilers make vectors of; of std::minmax_element they do not.
+    auto low = typed.stored.front();
+    auto high = low;
+    for (const auto voxel : typed.stored) {
+      low = std::min(low, voxel);
+      high = std::max(high, voxel);
+    }
+    // The slope may be negative.
+    return std::pair<float, float>(std::minmax({typed.rescaled(low), typed.rescaled(high)}));
+  });
 }
 
 std::pair<float, float> Volume::common_range() const {
@@ -53,7 +44,9 @@ std::pair<float, float> Volume::common_range() const {
   // An odd stride does not follow rows or slices.
   const std::int64_t stride = std::max<std::int64_t>(1, geometry.voxel_count() / kSample) | 1;
   std::vector<float> sample;
-  for (std::int64_t i = 0; i < geometry.voxel_count(); i += stride) sample.push_back(value(i));
+  with_type(*this, [&](const auto& typed) {
+    for (std::int64_t i = 0; i < geometry.voxel_count(); i += stride) sample.push_back(typed.value(i));
+  });
   const auto one_in = static_cast<std::ptrdiff_t>(sample.size() / 200);
   std::nth_element(sample.begin(), sample.begin() + one_in, sample.end());
   const float low = sample[static_cast<std::size_t>(one_in)];

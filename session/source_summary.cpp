@@ -6,6 +6,7 @@
 #include <tuple>
 #include <type_traits>
 
+#include "core/typed_volume.h"
 #include "renderer/sheet.h"
 
 namespace tidemark {
@@ -20,59 +21,42 @@ int bin_of(float value, float low, float high) {
   return std::clamp(static_cast<int>(share * SourceSummary::kBins), 0, SourceSummary::kBins - 1);
 }
 
-// A volume's voxels by their type: Volume::value() would ask for it at each.
 template <class Stored>
-struct Voxels {
-  const Volume& volume;
-  const std::vector<Stored>& stored;
-
-  [[nodiscard]] float value(Stored voxel) const {
-    return static_cast<float>(volume.slope * static_cast<double>(voxel) + volume.intercept);
+float gradient_magnitude(const TypedVolume<Stored>& volume, Index3 voxel) {
+  const Geometry& geometry = volume.geometry;
+  double square = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    Index3 low = voxel;
+    Index3 high = voxel;
+    low[axis] = std::max<std::int64_t>(low[axis] - 1, 0);
+    high[axis] = std::min(high[axis] + 1, geometry.size[axis] - 1);
+    if (low[axis] == high[axis]) continue;
+    const double distance_mm = static_cast<double>(high[axis] - low[axis]) * geometry.spacing_mm[axis];
+    const double rise = (double{volume.value(high)} - double{volume.value(low)}) / distance_mm;
+    square += rise * rise;
   }
-  [[nodiscard]] double at(Index3 voxel) const {
-    return static_cast<double>(stored[static_cast<std::size_t>(volume.geometry.offset(voxel))]);
-  }
+  return static_cast<float>(std::sqrt(square));
+}
 
-  [[nodiscard]] float gradient_magnitude(Index3 voxel) const {
-    const Geometry& geometry = volume.geometry;
-    double square = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      Index3 low = voxel;
-      Index3 high = voxel;
-      low[axis] = std::max<std::int64_t>(low[axis] - 1, 0);
-      high[axis] = std::min(high[axis] + 1, geometry.size[axis] - 1);
-      if (low[axis] == high[axis]) continue;
-      const double distance_mm = static_cast<double>(high[axis] - low[axis]) * geometry.spacing_mm[axis];
-      const double rise = (at(high) - at(low)) / distance_mm;
-      square += rise * rise;
-    }
-    return static_cast<float>(std::abs(volume.slope) * std::sqrt(square));
+// Calls visit(stored) for every voxel, or until it is told to stop.
+template <class Stored, class Visit>
+void for_each_voxel(const std::vector<Stored>& stored, const Progress& progress, Visit visit) {
+  const auto count = static_cast<std::int64_t>(stored.size());
+  for (std::int64_t begin = 0; begin < count && !progress.cancelled(); begin += kPiece) {
+    const auto end = stored.begin() + std::min(begin + kPiece, count);
+    for (auto voxel = stored.begin() + begin; voxel != end; ++voxel) visit(*voxel);
   }
-
-  // Calls visit(voxel) for every voxel, or until it is told to stop.
-  template <class Visit>
-  void for_each(const Progress& progress, Visit visit) const {
-    const auto count = static_cast<std::int64_t>(stored.size());
-    for (std::int64_t begin = 0; begin < count && !progress.cancelled(); begin += kPiece) {
-      const auto end = stored.begin() + std::min(begin + kPiece, count);
-      for (auto voxel = stored.begin() + begin; voxel != end; ++voxel) visit(*voxel);
-    }
-  }
-};
-
-template <class Work>
-auto with_voxels(const Volume& volume, const Work& work) {
-  return std::visit([&](const auto& stored) { return work(Voxels{volume, stored}); }, volume.voxels);
 }
 
 // Integers have a counter for each value that can be stored, and are looked at once.
 template <class Stored>
-void count_integers(const Voxels<Stored>& voxels, SourceSummary& summary, const Progress& progress) {
+void count_integers(const TypedVolume<Stored>& volume, SourceSummary& summary, const Progress& progress) {
   using Limits = std::numeric_limits<Stored>;
   std::vector<std::int64_t> counts(std::size_t{1} << 16U);
-  voxels.for_each(progress, [&](Stored voxel) { ++counts[static_cast<std::size_t>(voxel - Limits::min())]; });
+  for_each_voxel(volume.stored, progress,
+                 [&](Stored voxel) { ++counts[static_cast<std::size_t>(voxel - Limits::min())]; });
   const auto value_at = [&](std::size_t place) {
-    return voxels.value(static_cast<Stored>(static_cast<int>(place) + Limits::min()));
+    return volume.rescaled(static_cast<Stored>(static_cast<int>(place) + Limits::min()));
   };
   std::vector<std::size_t> places;  // that occur
   for (std::size_t place = 0; place < counts.size(); ++place) {
@@ -88,10 +72,9 @@ void count_integers(const Voxels<Stored>& voxels, SourceSummary& summary, const 
   }
 }
 
-void count_numbers(const Voxels<float>& voxels, SourceSummary& summary, const Progress& progress) {
-  std::tie(summary.lowest, summary.highest) = voxels.volume.range();
-  voxels.for_each(progress, [&](float voxel) {
-    const int bin = bin_of(voxels.value(voxel), summary.lowest, summary.highest);
+void count_numbers(const TypedVolume<float>& volume, SourceSummary& summary, const Progress& progress) {
+  for_each_voxel(volume.stored, progress, [&](float voxel) {
+    const int bin = bin_of(volume.rescaled(voxel), summary.lowest, summary.highest);
     ++summary.values[static_cast<std::size_t>(bin)];
   });
 }
@@ -101,16 +84,15 @@ using Sample = std::pair<float, float>;
 
 // Of every stride-th voxel.
 template <class Stored>
-std::vector<Sample> sample(const Voxels<Stored>& voxels, const Progress& progress) {
-  const auto count = static_cast<std::int64_t>(voxels.stored.size());
+std::vector<Sample> sample(const TypedVolume<Stored>& volume, const Progress& progress) {
+  const auto count = static_cast<std::int64_t>(volume.stored.size());
   const std::int64_t stride = std::max<std::int64_t>(1, count / kSamples) | 1;  // odd: no column is favoured
-  const Index3 size = voxels.volume.geometry.size;
+  const Index3 size = volume.geometry.size;
   std::vector<Sample> samples;
   samples.reserve(static_cast<std::size_t>(count / stride + 1));
   for (std::int64_t offset = 0; offset < count && !progress.cancelled(); offset += stride) {
     const Index3 voxel{offset % size.x, offset / size.x % size.y, offset / (size.x * size.y)};
-    samples.emplace_back(voxels.value(voxels.stored[static_cast<std::size_t>(offset)]),
-                         voxels.gradient_magnitude(voxel));
+    samples.emplace_back(volume.value(offset), gradient_magnitude(volume, voxel));
   }
   return samples;
 }
@@ -133,7 +115,7 @@ void count_gradients(const std::vector<Sample>& samples, SourceSummary& summary)
 }  // namespace
 
 float gradient_magnitude(const Volume& volume, Index3 voxel) {
-  return with_voxels(volume, [&](const auto& voxels) { return voxels.gradient_magnitude(voxel); });
+  return with_type(volume, [&](const auto& typed) { return gradient_magnitude(typed, voxel); });
 }
 
 SourceSummary summarise(const Volume& volume, const Progress& progress) {
@@ -142,13 +124,13 @@ SourceSummary summarise(const Volume& volume, const Progress& progress) {
   summary.window = window_of(volume);
   summary.values.assign(SourceSummary::kBins, 0);
   summary.value_gradient.assign(std::size_t{SourceSummary::kBins} * SourceSummary::kBins, 0);
-  with_voxels(volume, [&](const auto& voxels) {
-    if constexpr (std::is_integral_v<std::decay_t<decltype(voxels.stored.front())>>) {
-      count_integers(voxels, summary, progress);
+  with_type(volume, [&](const auto& typed) {
+    if constexpr (std::is_integral_v<std::decay_t<decltype(typed.stored.front())>>) {
+      count_integers(typed, summary, progress);
     } else {
-      count_numbers(voxels, summary, progress);
+      count_numbers(typed, summary, progress);
     }
-    count_gradients(sample(voxels, progress), summary);
+    count_gradients(sample(typed, progress), summary);
   });
   return summary;
 }

@@ -8,11 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "core/typed_volume.h"
+
 namespace tidemark {
 namespace {
 
 constexpr int kBins = 1024;
-constexpr std::int64_t kHalfWidth = 2;               // neighbourhoods of 5 voxels along each axis
+constexpr std::int64_t kMostCounted = std::int64_t{1} << 24;  // in larger volumes only every n-th voxel
+constexpr std::int64_t kHalfWidth = 2;                        // neighbourhoods of 5 voxels along each axis
 constexpr std::int64_t kMostCandidates = 1'000'000;  // in larger volumes only every n-th voxel is tried
 constexpr double kSpanShare = 0.05;
 constexpr double kSeedSpacings = 3.0;  // the seed's radius in smallest spacings
@@ -29,7 +32,8 @@ struct Spread {
   double variance = 0.0;
 };
 
-Spread neighbourhood(const Volume& volume, Index3 centre) {
+template <class Stored>
+Spread neighbourhood(const TypedVolume<Stored>& volume, Index3 centre) {
   const Index3 last = volume.geometry.size - Index3(1);
   const Index3 low = glm::max(centre - kHalfWidth, Index3(0));
   const Index3 high = glm::min(centre + kHalfWidth, last);
@@ -68,16 +72,19 @@ struct Histogram {
   }
 };
 
-Histogram histogram(const Volume& volume, float lowest, float highest) {
+template <class Stored>
+Histogram histogram(const TypedVolume<Stored>& volume, float lowest, float highest) {
   Histogram result;
   result.low = lowest;
   result.bin_width = (static_cast<double>(highest) - lowest) / kBins;
   const std::int64_t count = volume.geometry.voxel_count();
-  for (std::int64_t offset = 0; offset < count; ++offset) {
+  // An odd stride does not follow rows or slices.
+  const std::int64_t stride = std::max<std::int64_t>(1, count / kMostCounted) | 1;
+  for (std::int64_t offset = 0; offset < count; offset += stride) {
     const double bin = (volume.value(offset) - result.low) / result.bin_width;
     result.counts[static_cast<std::size_t>(std::clamp(bin, 0.0, kBins - 1.0))] += 1.0;
   }
-  result.total = static_cast<double>(count);
+  result.total = static_cast<double>((count + stride - 1) / stride);
   return result;
 }
 
@@ -132,7 +139,9 @@ struct Candidate {
 };
 
 // In the central half along each axis.
-std::vector<Candidate> candidates(const Volume& volume, const Wanted& wanted, const Progress& progress) {
+template <class Stored>
+std::vector<Candidate> candidates(const TypedVolume<Stored>& volume, const Wanted& wanted,
+                                  const Progress& progress) {
   const Index3 size = volume.geometry.size;
   const Span x = middle_half(size.x);
   const Span y = middle_half(size.y);
@@ -155,7 +164,9 @@ std::vector<Candidate> candidates(const Volume& volume, const Wanted& wanted, co
   return found;
 }
 
-std::optional<Index3> most_even_voxel(const Volume& volume, const Wanted& wanted, const Progress& progress) {
+template <class Stored>
+std::optional<Index3> most_even_voxel(const TypedVolume<Stored>& volume, const Wanted& wanted,
+                                      const Progress& progress) {
   const std::vector<Candidate> all = candidates(volume, wanted, progress);
   if (all.empty()) return std::nullopt;
   const auto varies_less = [](const Candidate& a, const Candidate& b) { return a.variance < b.variance; };
@@ -171,16 +182,15 @@ std::optional<Index3> most_even_voxel(const Volume& volume, const Wanted& wanted
       ->voxel;
 }
 
-}  // namespace
-
-Result<SuggestedStart> suggest_start(const Volume& volume, std::optional<Index3> seed,
-                                     const Progress& progress) {
-  const auto [lowest, highest] = volume.range();
+template <class Stored>
+Result<SuggestedStart> suggest(const Volume& source, const TypedVolume<Stored>& volume,
+                               std::optional<Index3> seed, const Progress& progress) {
+  const auto [lowest, highest] = source.range();
   if (!(highest > lowest)) {
     return fail(ErrorKind::input, "all voxels have the value {}: there is nothing to find", lowest);
   }
   const Histogram values = histogram(volume, lowest, highest);
-  const bool ct = looks_like_ct(volume, values);
+  const bool ct = looks_like_ct(source, values);
   // The most even tissue of a body is often fat, and its most frequent value, too.
   if (!seed && ct) seed = most_even_voxel(volume, {kSoftTissueLow, kSoftTissueHigh, kEvenEnough}, progress);
   if (!seed) seed = most_even_voxel(volume, {otsu_threshold(values), highest}, progress);
@@ -198,6 +208,13 @@ Result<SuggestedStart> suggest_start(const Volume& volume, std::optional<Index3>
   suggestion.range = std::max(2.0 * std::sqrt(spread.variance), ct ? kSoftTissueRange : kSpanShare * span);
   if (suggestion.range <= 0.0) suggestion.range = kSpanShare * (static_cast<double>(highest) - lowest);
   return suggestion;
+}
+
+}  // namespace
+
+Result<SuggestedStart> suggest_start(const Volume& volume, std::optional<Index3> seed,
+                                     const Progress& progress) {
+  return with_type(volume, [&](const auto& typed) { return suggest(volume, typed, seed, progress); });
 }
 
 }  // namespace tidemark

@@ -1,0 +1,23 @@
+// Where exceptions end that libraries, or the lack of memory, throw in work that has no file to blame.
+#pragma once
+
+#include <exception>
+#include <new>
+
+#include "core/result.h"
+
+namespace tidemark {
+
+// work(), which returns a Result or a Status; what it throws becomes an error.
+template <class Work>
+auto without_exceptions(const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::capability, "there is not enough memory");
+  } catch (const std::exception& error) {
+    return fail(ErrorKind::internal, "{}", error.what());
+  }
+}
+
+}  // namespace tidemark
