@@ -1,4 +1,4 @@
-// Where exceptions end that libraries, or the lack of memory, throw while a file is read.
+// Where exceptions end that libraries, or the lack of memory, throw while a file is read or written.
 #pragma once
 
 #include <exception>
@@ -18,6 +18,18 @@ auto guarded(const std::filesystem::path& path, const Work& work) -> decltype(wo
     return fail(ErrorKind::capability, "{}: there is not enough memory", path.string());
   } catch (const std::exception& error) {
     return fail(ErrorKind::input, "{}: cannot be read: {}", path.string(), error.what());
+  }
+}
+
+// The same of what writes the file.
+template <class Work>
+auto guarded_writing(const std::filesystem::path& path, const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::capability, "{}: cannot write: there is not enough memory", path.string());
+  } catch (const std::exception& error) {
+    return fail(ErrorKind::write, "{}: cannot write: {}", path.string(), error.what());
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -89,6 +90,16 @@ std::string list_uids(const std::vector<Series>& series) {
 // Stored integers are finite, but slope and intercept may take them beyond what a float holds.
 Status require_finite_range(const Volume& volume, const std::string& source) {
   if (volume.geometry.voxel_count() <= 0) return fail(ErrorKind::input, "{}: has no voxels", source);
+  const auto is_finite = [&](double stored) {
+    return std::isfinite(static_cast<float>(volume.slope * stored + volume.intercept));
+  };
+  const bool are_ends_finite = std::visit(
+      [&](const auto& stored) {
+        using Limits = std::numeric_limits<typename std::decay_t<decltype(stored)>::value_type>;
+        return is_finite(Limits::lowest()) && is_finite(Limits::max());
+      },
+      volume.voxels);
+  if (are_ends_finite) return {};  // and with them all between
   const auto [low, high] = volume.range();
   if (std::isfinite(low) && std::isfinite(high)) return {};
   return fail(ErrorKind::input, "{}: slope {} and intercept {} lead to values that are not finite", source,
@@ -171,9 +182,8 @@ Result<LoadedSeries> load(const fs::path& path, const std::string& uid, const Pr
   if (!catalogue) return tl::unexpected(catalogue.error());
   auto chosen = choose_series(*catalogue, uid, path);
   if (!chosen) return pass_on(chosen);
-  auto volume = load_chosen(chosen->series, progress);
+  auto volume = load_series(*chosen, progress);
   if (!volume) return pass_on(volume);
-  volume->changes.insert(volume->changes.begin(), chosen->remarks.begin(), chosen->remarks.end());
   return LoadedSeries{std::move(chosen->series), std::move(*volume)};
 }
 
@@ -281,6 +291,13 @@ std::vector<fs::path> dicom_files_of(const Series& series) {
 Result<Volume> load_series(const Series& series, const Progress& progress) {
   if (auto loadable = require_loadable(series); !loadable) return pass_on(loadable);
   return guarded(series.files.front(), [&] { return load_chosen(series, progress); });
+}
+
+Result<Volume> load_series(const ChosenSeries& chosen, const Progress& progress) {
+  auto volume = load_series(chosen.series, progress);
+  if (!volume) return volume;
+  volume->changes.insert(volume->changes.begin(), chosen.remarks.begin(), chosen.remarks.end());
+  return volume;
 }
 
 Result<Volume> load_slice(const Series& series, std::int64_t k, const Progress& progress) {

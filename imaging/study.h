@@ -53,6 +53,8 @@ Result<LoadedSeries> load_with_series(const std::filesystem::path& path, const s
 
 // The same of a loadable series that find_series() gave.
 Result<Volume> load_series(const Series& series, const Progress& progress = {});
+// The remarks come first in Volume::changes.
+Result<Volume> load_series(const ChosenSeries& chosen, const Progress& progress = {});
 
 // The slice `k` of a loadable series, on its place in the patient: of a DICOM series only the files that make
 // it are read. A volume file is read whole.

@@ -126,7 +126,8 @@ void add_options(CLI::App& command, ConvertOptions& options) {
   ConversionOptions& conversion = options.conversion;
   command
       .add_option("INPUT", conversion.study.path,
-                  "A DICOM folder or file, a volume file, a DICOM segmentation or an RT structure set")
+                  "A DICOM folder, file or DICOMDIR, a volume file, a zip archive of these, a DICOM\n"
+                  "segmentation or an RT structure set")
       ->required()
       ->type_name("");
   command
@@ -145,11 +146,7 @@ void add_options(CLI::App& command, ConvertOptions& options) {
           "The study that INPUT was made of: results are brought onto its grid and belong to its\npatient; "
           "an RT structure set cannot be read without")
       ->type_name("STUDY");
-  command
-      .add_option("--series", conversion.study.series,
-                  "The series to load when INPUT, or the study of --source, holds several (see info)")
-      ->type_name("UID");
-  add_grid_options(command, conversion.study);
+  add_series_options(command, conversion.study, "INPUT, or the study of --source,");
   command.add_flag("--mask", options.as_mask, "INPUT is a mask: every voxel that is not 0 is inside");
   command.add_flag("--labels", options.as_labels,
                    "INPUT holds labels: each number from 1 to 255 is a segment");

@@ -138,7 +138,8 @@ void add_info(CLI::App& app, Program& program) {
   CLI::App& command = add_command(app, program, {"info", kSummary, kDescription, kExamples},
                                   [&program, study] { return run(program, *study); });
   command
-      .add_option("PATH", study->path, "A DICOM folder, file or DICOMDIR, a volume file, or a zip archive")
+      .add_option("PATH", study->path,
+                  "A DICOM folder, file or DICOMDIR, a volume file, or a zip archive of these")
       ->required()
       ->type_name("");
   add_grid_options(command, *study);

@@ -218,9 +218,7 @@ Result<Views> views_of(const RenderOptions& options) {
 }
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
-  command.add_option("INPUT", options.study.path, "DICOM folder or file, or a volume file")->required();
-  command.add_option("--series", options.study.series, "UID of the series, where INPUT holds several");
-  add_grid_options(command, options.study);
+  add_study_input(command, options.study);
   command.add_option("--mask", options.mask, "Mask whose surface is shown");
   command.add_option("--phi", options.phi,
                      "Saved level set whose surface is shown: above 0 inside, in smallest voxels");

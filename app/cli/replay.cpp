@@ -113,14 +113,7 @@ void add_replay(CLI::App& app, Program& program) {
   CLI::App& command = add_command(app, program, {"replay", kSummary, kDescription, kExamples},
                                   [&program, arguments] { return run_replay(program, *arguments); });
   command.add_option("RECIPE", arguments->recipe, "A recipe (.json)")->required()->type_name("");
-  command.add_option("INPUT", arguments->study.path, "A DICOM folder or file, or a volume file")
-      ->required()
-      ->type_name("");
-  command
-      .add_option("--series", arguments->study.series,
-                  "The series to load when INPUT holds several (see info)")
-      ->type_name("UID");
-  add_grid_options(command, arguments->study);
+  add_study_input(command, arguments->study);
   add_solver_options(command, arguments->solver, "the recipe's");
   add_result_options(command, arguments->results);
 }

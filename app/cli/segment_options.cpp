@@ -108,12 +108,7 @@ Parameters SegmentOptions::parameters() const {
 }
 
 void add_segment_options(CLI::App& app, SegmentOptions& options) {
-  app.add_option("INPUT", options.study.path, "A DICOM folder or file, or a volume file")
-      ->required()
-      ->type_name("");
-  app.add_option("--series", options.study.series, "The series to load when INPUT holds several (see info)")
-      ->type_name("UID");
-  add_grid_options(app, options.study);
+  add_study_input(app, options.study);
   app.add_flag("--auto-start", options.auto_start,
                "Choose what is not given of seed, target, range and alpha from the volume itself:\nan even, "
                "bright region "

@@ -8,6 +8,23 @@ GridPolicy StudyInput::policy(const GridPolicy& otherwise) const {
   return {tilt.value_or(otherwise.tilt), gaps.value_or(otherwise.gaps)};
 }
 
+void add_study_input(CLI::App& app, StudyInput& study) {
+  app.add_option("INPUT", study.path,
+                 "A DICOM folder, file or DICOMDIR, a volume file, or a zip archive of these")
+      ->required()
+      ->type_name("");
+  add_series_options(app, study, "INPUT");
+}
+
+void add_series_options(CLI::App& app, StudyInput& study, const std::string& holder) {
+  app.add_option("--series", study.series,
+                 "The series to load when " + holder +
+                     " holds several (see info); of one that holds\nseveral volumes UID#N is the N-th, UID "
+                     "the largest")
+      ->type_name("UID[#N]");
+  add_grid_options(app, study);
+}
+
 void add_grid_options(CLI::App& app, StudyInput& study) {
   using Tilt = GridPolicy::Tilt;
   using Gaps = GridPolicy::Gaps;
@@ -38,9 +55,8 @@ Result<LoadedSeries> load_study(const StudyInput& study, const Progress& progres
                                 const GridPolicy& otherwise) {
   auto chosen = find_study(study, progress, otherwise);
   if (!chosen) return pass_on(chosen);
-  auto volume = load_series(chosen->series, progress);
+  auto volume = load_series(*chosen, progress);
   if (!volume) return pass_on(volume);
-  volume->changes.insert(volume->changes.begin(), chosen->remarks.begin(), chosen->remarks.end());
   return LoadedSeries{std::move(chosen->series), std::move(*volume)};
 }
 

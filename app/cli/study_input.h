@@ -20,6 +20,10 @@ struct StudyInput {
   [[nodiscard]] GridPolicy policy(const GridPolicy& otherwise = {}) const;
 };
 
+// INPUT and what add_series_options() adds.
+void add_study_input(CLI::App& app, StudyInput& study);
+// --series, --tilt and --gaps; `holder` is what may hold several series.
+void add_series_options(CLI::App& app, StudyInput& study, const std::string& holder);
 // --tilt and --gaps.
 void add_grid_options(CLI::App& app, StudyInput& study);
 

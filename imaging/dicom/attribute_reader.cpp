@@ -44,6 +44,8 @@ std::string name_of(const DcmTagKey& key) {
 std::string AttributeReader::text(const DcmTagKey& key) const {
   DcmElement* element = nullptr;
   if (item_.findAndGetElement(key, element).bad() || element == nullptr) return {};
+  constexpr Uint32 kLongest = 1U << 20;
+  if (element->getLength() > kLongest) return {};
   OFString value;
   std::string result;
   if (is_bytes(*element)) {
@@ -52,6 +54,13 @@ std::string AttributeReader::text(const DcmTagKey& key) const {
     result = value.c_str();
   }
   result.erase(result.find_last_not_of(' ') + 1);
+  return result;
+}
+
+std::string AttributeReader::name(const DcmTagKey& key) const {
+  constexpr std::size_t kLongest = 256;
+  std::string result = text(key);
+  if (result.size() > kLongest) result = result.substr(0, kLongest);
   return result;
 }
 

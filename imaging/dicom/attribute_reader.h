@@ -19,8 +19,13 @@ class AttributeReader {
  public:
   AttributeReader(DcmItem& item, std::string& problem) : item_(item), problem_(problem) {}
 
-  // Values with backslashes between them, whatever their representation; empty when absent.
+  // Values with backslashes between them, whatever their representation; empty when absent, or longer than
+  // any that is read (1 MiB).
   [[nodiscard]] std::string text(const DcmTagKey& key) const;
+
+  // The text of what is kept of every slice: a UID, a code or a name, of which no more than 256 bytes are. A
+  // file of many slices could make much of a long one otherwise.
+  [[nodiscard]] std::string name(const DcmTagKey& key) const;
 
   // Nothing when absent or empty; a problem when it is not `count` numbers (at least one when count is 0).
   std::optional<std::vector<double>> decimals(const DcmTagKey& key, std::size_t count);

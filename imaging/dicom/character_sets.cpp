@@ -17,6 +17,10 @@ bool is_foreign(char c) {
   return static_cast<unsigned char>(c) >= 0x80 || c == kEscape;
 }
 
+bool is_within_sequence(char c) {
+  return (static_cast<unsigned char>(c) & 0xc0U) == 0x80U;
+}
+
 bool is_japanese(const std::string& character_set) {
   const auto names = [&](std::string_view one) {
     const std::size_t at = character_set.find(one);
@@ -103,6 +107,23 @@ std::string in_utf8(std::string text, const std::string& character_set, const st
   if (converted) return *converted;
   std::replace_if(text.begin(), text.end(), is_foreign, '?');
   return text;
+}
+
+std::string tidied(std::string_view text) {
+  constexpr std::size_t kLongest = 800;  // bytes: three representations of 64 characters, and then some
+  std::size_t end = text.size();
+  if (end > kLongest) {
+    // Not in the middle of a UTF-8 sequence.
+    end = kLongest;
+    while (end > 0 && is_within_sequence(text[end])) --end;
+  }
+  std::string result(text.substr(0, end));
+  for (char& c : result) {
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  }
+  result.erase(result.find_last_not_of(' ') + 1);
+  result.erase(0, result.find_first_not_of(' '));
+  return result;
 }
 
 }  // namespace tidemark

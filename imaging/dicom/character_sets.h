@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace tidemark {
 
@@ -10,5 +11,8 @@ namespace tidemark {
 // question marks.
 [[nodiscard]] std::string in_utf8(std::string text, const std::string& character_set,
                                   const std::string& delimiters = {});
+
+// UTF-8 without blanks and padding around it, in one line, of a length that can be shown.
+[[nodiscard]] std::string tidied(std::string_view text);
 
 }  // namespace tidemark

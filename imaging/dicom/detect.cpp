@@ -1,7 +1,8 @@
+#include "imaging/dicom/detect.h"
+
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 
 #include "imaging/dicom/dicom.h"
@@ -32,13 +33,16 @@ bool starts_with_element(const unsigned char* bytes) {
 
 }  // namespace
 
-bool looks_like_dicom(const std::filesystem::path& file) {
-  std::array<unsigned char, 256> bytes{};
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  const auto count = stream.gcount();
-  if (count >= 132 && std::memcmp(bytes.data() + 128, "DICM", 4) == 0) return true;
+bool begins_as_dicom(ByteSource& source) {
+  std::array<std::uint8_t, 132> bytes{};
+  const std::size_t count = source.read(0, bytes);
+  if (count == bytes.size() && std::memcmp(bytes.data() + 128, "DICM", 4) == 0) return true;
   return count >= 8 && starts_with_element(bytes.data());
+}
+
+bool looks_like_dicom(const std::filesystem::path& file) {
+  auto bytes = FileBytes::open(file);
+  return bytes && begins_as_dicom(*bytes);
 }
 
 }  // namespace tidemark

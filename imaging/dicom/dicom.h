@@ -33,8 +33,8 @@ struct DicomSeriesHeader {
 };
 
 // Writes the volume (int16 or uint16) into `folder`, created if need be, as one classic single-frame
-// CT or MR Image Storage file a slice, explicit little endian, with UIDs from the 2.25 root. On failure
-// (ErrorKind::write) the files already written are removed again.
+// CT or MR Image Storage file a slice, explicit little endian, with UIDs from the 2.25 root. The series
+// appears whole or not at all: what is in the folder stays as it is on failure (ErrorKind::write).
 Status write_dicom_series(const Volume& volume, const DicomSeriesHeader& header,
                           const std::filesystem::path& folder, const Progress& progress = {});
 

@@ -6,6 +6,7 @@
 #include <dcmtk/dcmdata/dcpxitem.h>
 #include <dcmtk/dcmdata/dctk.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace tidemark {
@@ -60,13 +61,11 @@ OFCondition take_words(DcmElement& element, int bits, std::vector<std::uint32_t>
   return EC_Normal;
 }
 
-}  // namespace
-
-tl::expected<std::vector<std::uint32_t>, std::string> decode_fragments(const Fragments& fragments,
-                                                                       const TransferSyntax& syntax,
-                                                                       const SliceHeader& header) {
+// The decoded frame, which the dataset keeps.
+tl::expected<DcmElement*, std::string> decode_within(DcmDataset& dataset, const Fragments& fragments,
+                                                     const TransferSyntax& syntax,
+                                                     const SliceHeader& header) {
   const DcmXfer coded(std::string(syntax.uid).c_str());
-  DcmDataset dataset;
   put_format(header, dataset);
   OFCondition decoded = put_fragments(fragments, coded.getXfer(), dataset);
   if (decoded.good()) decoded = dataset.chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
@@ -75,18 +74,44 @@ tl::expected<std::vector<std::uint32_t>, std::string> decode_fragments(const Fra
   if (decoded.bad()) {
     return tl::unexpected(fmt::format("cannot be decoded ({}): {}", syntax.name, decoded.text()));
   }
-  const std::int64_t pixels = header.frame_rows * header.frame_columns;
-  const std::int64_t bytes = pixels * header.bits_allocated / 8;
+  const std::int64_t bytes = header.frame_rows * header.frame_columns * header.bits_allocated / 8;
   const std::int64_t held = element->getLength();
   if (held != bytes && held != bytes + bytes % 2) {
     return tl::unexpected(fmt::format("decodes to {} bytes where {} x {} pixels need {}", held,
                                       header.frame_columns, header.frame_rows, bytes));
   }
-  std::vector<std::uint32_t> words(static_cast<std::size_t>(pixels));
-  if (const OFCondition taken = take_words(*element, header.bits_allocated, words); taken.bad()) {
-    return tl::unexpected(fmt::format("cannot be read: {}", taken.text()));
+  return element;
+}
+
+std::string unreadable(const OFCondition& taken) {
+  return fmt::format("cannot be read: {}", taken.text());
+}
+
+}  // namespace
+
+tl::expected<std::vector<std::uint32_t>, std::string> decode_fragments(const Fragments& fragments,
+                                                                       const TransferSyntax& syntax,
+                                                                       const SliceHeader& header) {
+  DcmDataset dataset;
+  const auto element = decode_within(dataset, fragments, syntax, header);
+  if (!element) return tl::unexpected(element.error());
+  std::vector<std::uint32_t> words(static_cast<std::size_t>(header.frame_rows * header.frame_columns));
+  if (const OFCondition taken = take_words(**element, header.bits_allocated, words); taken.bad()) {
+    return tl::unexpected(unreadable(taken));
   }
   return words;
+}
+
+std::string decode_words(const Fragments& fragments, const TransferSyntax& syntax, const SliceHeader& header,
+                         std::span<std::uint16_t> target) {
+  DcmDataset dataset;
+  const auto element = decode_within(dataset, fragments, syntax, header);
+  if (!element) return element.error();
+  Uint16* words = nullptr;
+  if (const OFCondition taken = (*element)->getUint16Array(words); taken.bad()) return unreadable(taken);
+  if (words == nullptr) return unreadable(EC_CorruptedData);
+  std::copy(words, words + target.size(), target.begin());
+  return {};
 }
 
 }  // namespace tidemark

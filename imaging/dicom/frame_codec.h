@@ -17,4 +17,10 @@ namespace tidemark {
     const std::vector<std::vector<std::uint8_t>>& fragments, const TransferSyntax& syntax,
     const SliceHeader& header);
 
+// The same of a frame of 16 bits a pixel, into `target`, which is as large as the frame. Returns the error;
+// empty when there is none.
+[[nodiscard]] std::string decode_words(const std::vector<std::vector<std::uint8_t>>& fragments,
+                                       const TransferSyntax& syntax, const SliceHeader& header,
+                                       std::span<std::uint16_t> target);
+
 }  // namespace tidemark

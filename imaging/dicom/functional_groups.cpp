@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "imaging/dicom/decimal.h"
+#include "imaging/dicom/read_plane.h"
 #include "imaging/dicom/read_traits.h"
 
 namespace tidemark {
@@ -37,32 +38,15 @@ class GroupReader {
   }
 
   void read_place() {
-    with(DCM_PlanePositionSequence, [&](AttributeReader& in) {
-      const auto p = in.decimals(DCM_ImagePositionPatient, 3);
-      if (p) header_.position_mm = glm::dvec3((*p)[0], (*p)[1], (*p)[2]);
-    });
-    with(DCM_PlaneOrientationSequence, [&](AttributeReader& in) {
-      const auto o = in.decimals(DCM_ImageOrientationPatient, 6);
-      if (o)
-        header_.orientation = {glm::dvec3((*o)[0], (*o)[1], (*o)[2]), glm::dvec3((*o)[3], (*o)[4], (*o)[5])};
-    });
-    with(DCM_PixelMeasuresSequence, [&](AttributeReader& in) {
-      const auto s = in.decimals(DCM_PixelSpacing, 2);
-      if (s) header_.pixel_spacing_mm = glm::dvec2((*s)[1], (*s)[0]);
-    });
+    with(DCM_PlanePositionSequence, [&](AttributeReader& in) { read_position(in, header_); });
+    with(DCM_PlaneOrientationSequence, [&](AttributeReader& in) { read_orientation(in, header_); });
+    with(DCM_PixelMeasuresSequence, [&](AttributeReader& in) { read_pixel_spacing(in, header_); });
   }
 
   void read_values() {
-    with(DCM_PixelValueTransformationSequence, [&](AttributeReader& in) {
-      if (const auto slope = in.decimals(DCM_RescaleSlope, 1)) header_.slope = slope->front();
-      if (const auto intercept = in.decimals(DCM_RescaleIntercept, 1)) header_.intercept = intercept->front();
-      if (header_.slope == 0.0) in.report(fmt::format("{} is 0", name_of(DCM_RescaleSlope)));
-    });
-    with(DCM_FrameVOILUTSequence, [&](AttributeReader& in) {
-      const auto centre = in.number(DCM_WindowCenter);
-      const auto width = in.number(DCM_WindowWidth);
-      if (centre && width && *width > 0.0) header_.window = WindowLevel{*centre, *width};
-    });
+    with(DCM_PixelValueTransformationSequence, [&](AttributeReader& in) { read_rescale(in, header_); });
+    with(DCM_FrameVOILUTSequence, [&](AttributeReader& in) { read_window(in, header_); });
+    read_mapping(groups_.item(), header_);
   }
 
   void read_content() {
@@ -72,7 +56,7 @@ class GroupReader {
       with(converted, [&](AttributeReader& in) { read_traits(in, traits); });
     }
     with(DCM_FrameContentSequence, [&](AttributeReader& in) {
-      if (std::string stack = in.text(DCM_StackID); !stack.empty()) traits.stack = std::move(stack);
+      if (std::string stack = in.name(DCM_StackID); !stack.empty()) traits.stack = std::move(stack);
       take(in.number(DCM_TemporalPositionIndex), traits.temporal_position);
       take(in.number(DCM_FrameAcquisitionNumber), traits.acquisition);
       take(moment(in.text(DCM_FrameAcquisitionDateTime), {}), traits.acquired_at);
@@ -87,8 +71,8 @@ class GroupReader {
     for (const DcmTagKey& kind :
          {DCM_MRImageFrameTypeSequence, DCM_CTImageFrameTypeSequence, DCM_PETFrameTypeSequence}) {
       with(kind, [&](AttributeReader& in) {
-        std::string type = in.text(DCM_FrameType);
-        const std::string component = in.text(DCM_ComplexImageComponent);
+        std::string type = in.name(DCM_FrameType);
+        const std::string component = in.name(DCM_ComplexImageComponent);
         if (!component.empty()) type += '\\' + component;
         if (!type.empty()) traits.image_type = std::move(type);
       });
@@ -157,12 +141,8 @@ std::vector<SliceHeader> read_detector_frames(AttributeReader& in, SliceHeader w
   const auto distance = in.number(DCM_SpacingBetweenSlices);
   if (DcmItem* detector = in.first_item(DCM_DetectorInformationSequence)) {
     AttributeReader of_detector(*detector, whole.problem);
-    if (const auto p = of_detector.decimals(DCM_ImagePositionPatient, 3)) {
-      whole.position_mm = glm::dvec3((*p)[0], (*p)[1], (*p)[2]);
-    }
-    if (const auto o = of_detector.decimals(DCM_ImageOrientationPatient, 6)) {
-      whole.orientation = {glm::dvec3((*o)[0], (*o)[1], (*o)[2]), glm::dvec3((*o)[3], (*o)[4], (*o)[5])};
-    }
+    read_position(of_detector, whole);
+    read_orientation(of_detector, whole);
   }
   const auto numbers = parse_decimals(in.text(DCM_SliceVector));
   if (!distance || !whole.position_mm || !whole.orientation) {

@@ -4,17 +4,20 @@
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <vector>
 
 #include "imaging/dicom/attribute_reader.h"
 #include "imaging/dicom/character_sets.h"
 #include "imaging/dicom/date.h"
+#include "imaging/dicom/dcmtk_stream.h"
 #include "imaging/dicom/decimal.h"
-#include "imaging/dicom/dicom.h"
+#include "imaging/dicom/detect.h"
 #include "imaging/dicom/functional_groups.h"
 #include "imaging/dicom/mosaic.h"
 #include "imaging/dicom/read_patient.h"
+#include "imaging/dicom/read_plane.h"
 #include "imaging/dicom/read_traits.h"
 
 namespace tidemark {
@@ -75,30 +78,13 @@ void read_pixel_format(AttributeReader& in, SliceHeader& header) {
   header.is_signed = in.whole(DCM_PixelRepresentation, 0, 1) == 1;
 }
 
-// Image Plane (PS3.3 C.7.6.2): what is absent stays empty, what is there must be numbers.
-void read_plane(AttributeReader& in, SliceHeader& header) {
-  if (const auto p = in.decimals(DCM_ImagePositionPatient, 3)) {
-    header.position_mm = glm::dvec3((*p)[0], (*p)[1], (*p)[2]);
-  }
-  if (const auto o = in.decimals(DCM_ImageOrientationPatient, 6)) {
-    header.orientation = {glm::dvec3((*o)[0], (*o)[1], (*o)[2]), glm::dvec3((*o)[3], (*o)[4], (*o)[5])};
-  }
-  if (const auto s = in.decimals(DCM_PixelSpacing, 2)) {
-    header.pixel_spacing_mm = glm::dvec2((*s)[1], (*s)[0]);
-  }
-}
-
-// Modality LUT and VOI LUT (PS3.3 C.11.1, C.11.2).
-void read_values(AttributeReader& in, SliceHeader& header) {
-  if (const auto slope = in.decimals(DCM_RescaleSlope, 1)) header.slope = slope->front();
-  if (const auto intercept = in.decimals(DCM_RescaleIntercept, 1)) header.intercept = intercept->front();
-  if (header.slope == 0.0) in.report(fmt::format("{} is 0", name_of(DCM_RescaleSlope)));
+// PixelPaddingValue is written with sign or without, whatever the pixels are.
+void read_padding(const AttributeReader& in, SliceHeader& header) {
   header.padding = in.number(DCM_PixelPaddingValue);
-  // A window that makes no sense is as good as none: it decides nothing.
-  const auto centre = parse_decimals(in.text(DCM_WindowCenter));
-  const auto width = parse_decimals(in.text(DCM_WindowWidth));
-  if (centre && width && width->front() > 0.0) header.window = WindowLevel{centre->front(), width->front()};
-  header.has_burned_in_text = in.text(DCM_BurnedInAnnotation) == "YES";
+  if (!header.padding) return;
+  const double range = std::ldexp(1.0, header.bits_allocated);
+  if (header.is_signed && *header.padding >= range / 2.0) *header.padding -= range;
+  if (!header.is_signed && *header.padding < 0.0) *header.padding += range;
 }
 
 // Of a file without pixel data: whether it is an image that has lost them (and belongs to a series, which is
@@ -154,11 +140,11 @@ Result<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file, cons
   SliceHeader header;
   header.file = file;
   AttributeReader in(dataset, header.problem);
-  header.series_uid = in.text(DCM_SeriesInstanceUID);
-  header.sop_class_uid = in.text(DCM_SOPClassUID);
-  header.sop_instance_uid = in.text(DCM_SOPInstanceUID);
-  header.modality = in.text(DCM_Modality);
-  header.description = in_utf8(in.text(DCM_SeriesDescription), in.text(DCM_SpecificCharacterSet));
+  header.series_uid = in.name(DCM_SeriesInstanceUID);
+  header.sop_class_uid = in.name(DCM_SOPClassUID);
+  header.sop_instance_uid = in.name(DCM_SOPInstanceUID);
+  header.modality = in.name(DCM_Modality);
+  header.description = tidied(in_utf8(in.text(DCM_SeriesDescription), in.text(DCM_SpecificCharacterSet)));
   header.date = iso_date(in.text(DCM_StudyDate));
   header.patient = read_patient(dataset, header.date);
   header.transfer_syntax = syntax.uid;
@@ -172,8 +158,13 @@ Result<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file, cons
   check_kind(in);
   header.frames = read_number_of_frames(in);
   read_pixel_format(in, header);
-  read_plane(in, header);
-  read_values(in, header);
+  header.has_burned_in_text = in.text(DCM_BurnedInAnnotation) == "YES";
+  read_position(in, header);
+  read_orientation(in, header);
+  read_pixel_spacing(in, header);
+  read_rescale(in, header);
+  read_window(in, header);
+  read_padding(in, header);
   read_traits(in, header.traits);
   read_quantity(dataset, header);
   if (dynamic_cast<DcmPixelData*>(element) == nullptr) {
@@ -196,6 +187,7 @@ Result<std::vector<SliceHeader>> read_slices(DcmFileFormat& loaded, const fs::pa
   } else {
     slices = read_frames(dataset, *whole);
   }
+  for (SliceHeader& slice : slices) apply_mapping(slice);
   std::string& problem = slices.front().problem;
   if (checked.verdict != Preflight::Verdict::good && problem.empty()) {
     problem = describe(checked);
@@ -204,32 +196,34 @@ Result<std::vector<SliceHeader>> read_slices(DcmFileFormat& loaded, const fs::pa
   return slices;
 }
 
-// The transfer syntax is that of the preflight, so that both read the same tags.
-OFCondition parse(const fs::path& file, const TransferSyntax& syntax, DcmFileFormat& loaded) {
-  return loaded.loadFile(file.c_str(), DcmXfer(std::string(syntax.uid).c_str()).getXfer());
-}
+// A file that is to be read, and what the preflight says of it.
+struct CheckedFile {
+  FileBytes bytes;
+  Preflight checked;
+};
 
-Result<Preflight> preflight_of(const fs::path& file) {
+Result<CheckedFile> check_file(const fs::path& file) {
   auto bytes = FileBytes::open(file);
   if (!bytes) return pass_on(bytes);
-  if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
-  return preflight_dicom(*bytes);
+  if (!begins_as_dicom(*bytes)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
+  Preflight checked = preflight_dicom(*bytes);
+  return CheckedFile{std::move(*bytes), std::move(checked)};
 }
 
 }  // namespace
 
 Result<const TransferSyntax*> syntax_to_parse(const fs::path& file) {
-  const auto checked = preflight_of(file);
-  if (!checked) return tl::unexpected<Error>(checked.error());
-  if (!checked->may_be_parsed()) return fail(ErrorKind::input, "{}: {}", file.string(), describe(*checked));
-  return checked->syntax;
+  const auto read = check_file(file);
+  if (!read) return tl::unexpected<Error>(read.error());
+  const Preflight& checked = read->checked;
+  if (!checked.may_be_parsed()) return fail(ErrorKind::input, "{}: {}", file.string(), describe(checked));
+  return checked.syntax;
 }
 
 Result<ImageFile> open_image(const fs::path& file) {
-  auto bytes = FileBytes::open(file);
-  if (!bytes) return pass_on(bytes);
-  if (!looks_like_dicom(file)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
-  ImageFile image{{}, preflight_dicom(*bytes), std::move(*bytes)};
+  auto read = check_file(file);
+  if (!read) return pass_on(read);
+  ImageFile image{{}, std::move(read->checked), std::move(read->bytes)};
   if (!image.checked.may_be_parsed()) {
     // A damaged file that still names its series makes that series incomplete: it must not go unnoticed.
     image.slices.push_back(header_without_image(file, image.checked));
@@ -237,8 +231,9 @@ Result<ImageFile> open_image(const fs::path& file) {
     return fail(ErrorKind::input, "{}: {}", file.string(), image.slices.front().problem);
   }
   DcmFileFormat loaded;
-  if (const OFCondition parsed = parse(file, *image.checked.syntax, loaded); parsed.bad()) {
-    return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
+  // In the transfer syntax of the preflight, so that both read the same tags.
+  if (const auto problem = parse_dicom(image.bytes, *image.checked.syntax, loaded); !problem.empty()) {
+    return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), problem);
   }
   auto slices = read_slices(loaded, file, image.checked);
   if (!slices) return pass_on(slices);

@@ -30,11 +30,13 @@ class Codestream {
  public:
   explicit Codestream(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
-  Status check() const {
+  // Takes a step off `steps` for each marker, and refuses the stream when none is left.
+  Status check(std::size_t& steps) const {
     std::size_t at = 2;  // behind SOC
     std::size_t tile_end = 0;
     // What ends early is for the decoder to find.
     while (at + 4 <= bytes_.size()) {
+      if (steps-- == 0) return damaged();
       const unsigned marker = word(at);
       if (marker == kEnd) return {};
       if (marker == kData) {
@@ -81,10 +83,13 @@ class Codestream {
 
 Status require_part_one(std::span<const std::uint8_t> bytes) {
   constexpr std::array<std::uint8_t, 4> kStart{0xff, 0x4f, 0xff, 0x51};  // SOC and SIZ
+  // Markers are four bytes and more: enough for several streams, one after the other, not for streams each of
+  // which runs through all that begin behind it.
+  std::size_t steps = bytes.size();
   auto start = std::search(bytes.begin(), bytes.end(), kStart.begin(), kStart.end());
   while (start != bytes.end()) {
     const auto stream = bytes.subspan(static_cast<std::size_t>(start - bytes.begin()));
-    if (auto checked = Codestream(stream).check(); !checked) return checked;
+    if (auto checked = Codestream(stream).check(steps); !checked) return checked;
     // The boxes of a JP2 file may hold others; a codestream by itself is the only one.
     if (start == bytes.begin()) return {};
     start = std::search(start + 1, bytes.end(), kStart.begin(), kStart.end());

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/checked.h"
+#include "core/large_pages.h"
 #include "core/thread_pool.h"
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/frame_plan.h"
@@ -123,6 +124,10 @@ class SeriesDecoder {
   void decode_frame(const FrameWork& work, const Place& place, Outcome& outcome) {
     const auto reader = plan_.open(work);
     if (!reader) return outcome.fail_with(reader.error(), work.slices.front());
+    if (are_voxels(**reader)) {
+      for (const std::int64_t k : work.slices) read_slice(**reader, k, place(k), outcome);
+      return plan_.is_done(work);
+    }
     const auto pixels = (*reader)->decode(work.frame);
     if (!pixels) return outcome.fail_with(pixels.error(), work.slices.front());
     for (const std::int64_t k : work.slices) {
@@ -134,14 +139,36 @@ class SeriesDecoder {
     plan_.is_done(work);
   }
 
+  // Whether a frame of the file is a slice, and its words are voxels.
+  static bool are_voxels(const FrameReader& reader) {
+    return std::is_integral_v<Voxel> && reader.slices().front().tiles == 1 &&
+           reader.has_words(std::is_signed_v<Voxel>);
+  }
+
+  void read_slice(const FrameReader& reader, std::int64_t k, Voxel* target, Outcome& outcome) {
+    if (target == nullptr || header_of(reader, k, outcome) == nullptr) return;
+    const auto voxels = static_cast<std::size_t>(series_.stack.size.x * series_.stack.size.y);
+    const std::int64_t frame = series_.sources[static_cast<std::size_t>(k)].frame;
+    const auto ignored_bits = reader.read_words(frame, {reinterpret_cast<std::uint16_t*>(target), voxels});
+    if (!ignored_bits) return outcome.fail_with(ignored_bits.error(), k);
+    if (*ignored_bits) outcome.note_ignored_bits(k);
+  }
+
+  // Null, and a failure, where the slice is not what the series needs.
+  const SliceHeader* header_of(const FrameReader& reader, std::int64_t k, Outcome& outcome) const {
+    const SliceSource& source = series_.sources[static_cast<std::size_t>(k)];
+    const SliceHeader* header = reader.slice(source.frame, source.tile);
+    if (header != nullptr && has_kind(*header)) return header;
+    outcome.fail_with(
+        {ErrorKind::input, source.file.string() + ": is not what it was when its series was listed"}, k);
+    return nullptr;
+  }
+
   void put_slice(const FrameReader& reader, const FramePixels& pixels, std::int64_t k, Voxel* target,
                  Outcome& outcome) {
     const SliceSource& source = series_.sources[static_cast<std::size_t>(k)];
-    const SliceHeader* header = reader.slice(source.frame, source.tile);
-    if (header == nullptr || !has_kind(*header)) {
-      return outcome.fail_with(
-          {ErrorKind::input, source.file.string() + ": is not what it was when its series was listed"}, k);
-    }
+    const SliceHeader* header = header_of(reader, k, outcome);
+    if (header == nullptr) return;
     const Index3 size = series_.stack.size;
     const std::int64_t across = header->frame_columns / size.x;
     const std::int64_t corner =
@@ -184,7 +211,7 @@ class SeriesDecoder {
 template <class Voxel>
 Status decode_into(const Series& series, const SliceHeader& first, FramePlan& plan, Volume& volume,
                    const Progress& progress) {
-  std::vector<Voxel> voxels(static_cast<std::size_t>(series.geometry.voxel_count()));
+  auto voxels = make_large_vector<Voxel>(static_cast<std::size_t>(series.geometry.voxel_count()));
   Outcome outcome;
   SeriesDecoder<Voxel>(series, first, plan).decode(voxels, progress, outcome);
   if (outcome.error()) return tl::unexpected(*outcome.error());

@@ -105,8 +105,9 @@ MediaDirectory collect(DcmSequenceOfItems& records, const fs::path& folder) {
   Medium medium(folder);
   std::set<fs::path> seen;
   std::string series_uid;
-  for (unsigned long i = 0; i < records.card(); ++i) {
-    DcmItem& record = *records.getItem(i);
+  // Not by number: DCMTK counts from the first one each time.
+  for (DcmObject* next = nullptr; (next = records.nextInContainer(next)) != nullptr;) {
+    DcmItem& record = *static_cast<DcmItem*>(next);
     const std::string type = text_of(record, DCM_DirectoryRecordType);
     if (type.starts_with("SERIES")) series_uid = text_of(record, DCM_SeriesInstanceUID);
     if (type.starts_with("PATIENT") || type.starts_with("STUDY")) series_uid.clear();

@@ -44,6 +44,11 @@ struct Mosaic {
   double tiles = 0.0;
   std::optional<glm::dvec3> normal;  // from each slice to the next
   double distance_mm = 0.0;
+
+  // Of the square that holds the tiles, which may leave its last ones empty.
+  [[nodiscard]] std::int64_t tiles_across() const {
+    return static_cast<std::int64_t>(std::ceil(std::sqrt(tiles)));
+  }
 };
 
 Mosaic read_mosaic(AttributeReader& in) {
@@ -88,7 +93,7 @@ void check(const Mosaic& mosaic, const SliceHeader& whole, AttributeReader& in) 
     in.report(fmt::format("is a Siemens mosaic without {}, {} or {}", name_of(DCM_ImagePositionPatient),
                           name_of(DCM_ImageOrientationPatient), name_of(DCM_PixelSpacing)));
   }
-  const auto across = static_cast<std::int64_t>(std::ceil(std::sqrt(mosaic.tiles)));
+  const std::int64_t across = mosaic.tiles_across();
   if (whole.columns % across != 0 || whole.rows % across != 0) {
     in.report(fmt::format("is a Siemens mosaic of {:g} slices, which {} x {} pixels cannot hold",
                           mosaic.tiles, whole.columns, whole.rows));
@@ -119,7 +124,7 @@ std::vector<SliceHeader> read_tiles(DcmItem& dataset, SliceHeader whole) {
   if (!whole.problem.empty()) return {std::move(whole)};
 
   const auto tiles = static_cast<std::int64_t>(mosaic.tiles);
-  const auto across = static_cast<std::int64_t>(std::ceil(std::sqrt(mosaic.tiles)));
+  const std::int64_t across = mosaic.tiles_across();
   whole.tiles = tiles;
   whole.columns /= across;
   whole.rows /= across;
@@ -128,6 +133,13 @@ std::vector<SliceHeader> read_tiles(DcmItem& dataset, SliceHeader whole) {
                           static_cast<double>(whole.frame_rows - whole.rows) / 2.0);
   const glm::dvec2 shift = margin * *whole.pixel_spacing_mm;
   *whole.position_mm += shift.x * (*whole.orientation)[0] + shift.y * (*whole.orientation)[1];
+  const glm::dvec3 last = *whole.position_mm + (mosaic.tiles - 1.0) * mosaic.distance_mm * normal;
+  if (!std::isfinite(glm::dot(last, last))) {
+    in.report(fmt::format(
+        "is a Siemens mosaic whose slices, {:g} mm apart ({}), lie at no place that can be computed",
+        mosaic.distance_mm, name_of(DCM_SpacingBetweenSlices)));
+    return {std::move(whole)};
+  }
   std::vector<SliceHeader> slices(static_cast<std::size_t>(tiles), whole);
   for (std::int64_t tile = 0; tile < tiles; ++tile) {
     SliceHeader& slice = slices[static_cast<std::size_t>(tile)];

@@ -1,9 +1,9 @@
 #include "imaging/dicom/pixels.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
-#include "core/checked.h"
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/frame_codec.h"
 #include "imaging/dicom/frame_header.h"
@@ -131,13 +131,16 @@ Result<FrameReader> FrameReader::open(const fs::path& file) {
   });
 }
 
-// Straight from the file. Words are in the byte order of the transfer syntax, unless the pixels are said to
-// be bytes (OB); 8-bit pixels in words of 16 bits lie two to a word, the first in its low byte.
+// Words are in the byte order of the transfer syntax, unless the pixels are said to be bytes (OB).
+bool FrameReader::is_big_endian() const {
+  return syntax_->is_big_endian && !pixels_.is("OB");
+}
+
+// Straight from the file. 8-bit pixels in words of 16 bits lie two to a word, the first in its low byte.
 Result<FramePixels> FrameReader::decode_native(std::int64_t frame) const {
   const SliceHeader& header = slices_.front();
   const std::int64_t size = bytes_of_frame(header);
-  const bool is_big_endian = syntax_->is_big_endian && !pixels_.is("OB");
-  const bool are_swapped = is_big_endian && header.bits_allocated == 8;
+  const bool are_swapped = is_big_endian() && header.bits_allocated == 8;
   const std::int64_t begin = frame * size;
   const std::int64_t first = are_swapped ? begin / 2 * 2 : begin;
   const std::int64_t end = are_swapped ? (begin + size + 1) / 2 * 2 : begin + size;
@@ -145,7 +148,7 @@ Result<FramePixels> FrameReader::decode_native(std::int64_t frame) const {
   if (end > pixels_.length || bytes_->read(pixels_.value + first, bytes) != bytes.size()) {
     return fail(ErrorKind::input, "{} ends early", where(frame));
   }
-  const ElementCoding coding{true, is_big_endian};
+  const ElementCoding coding{true, is_big_endian()};
   if (header.bits_allocated == 16) {
     return take_stored(header, [&](std::size_t p) { return coding.word(&bytes[2 * p]); });
   }
@@ -157,7 +160,8 @@ Result<FramePixels> FrameReader::decode_native(std::int64_t frame) const {
   return take_stored(header, [&](std::size_t p) { return bytes[(p + skipped) ^ swap]; });
 }
 
-Result<FramePixels> FrameReader::decode_compressed(std::int64_t frame) const {
+// Of a frame whose own size is the image's.
+Result<std::vector<std::vector<std::uint8_t>>> FrameReader::read_fragments(std::int64_t frame) const {
   const SliceHeader& header = slices_.front();
   std::vector<std::vector<std::uint8_t>> fragments;
   for (const FramePiece& piece : table_.frame(frame)) {
@@ -172,7 +176,14 @@ Result<FramePixels> FrameReader::decode_compressed(std::int64_t frame) const {
   const std::string problem =
       frame_problem(syntax_->frames, size, {header.frame_columns, header.frame_rows, 1});
   if (!problem.empty()) return fail(ErrorKind::input, "{} {}", where(frame), problem);
-  const auto words = decode_fragments(fragments, *syntax_, header);
+  return fragments;
+}
+
+Result<FramePixels> FrameReader::decode_compressed(std::int64_t frame) const {
+  const SliceHeader& header = slices_.front();
+  auto fragments = read_fragments(frame);
+  if (!fragments) return pass_on(fragments);
+  const auto words = decode_fragments(*fragments, *syntax_, header);
   if (!words) return fail(ErrorKind::input, "{} {}", where(frame), words.error());
   return take_stored(header, [&](std::size_t p) { return (*words)[p]; });
 }
@@ -191,6 +202,45 @@ Result<FramePixels> FrameReader::decode(std::int64_t frame) const {
                   std::numeric_limits<std::int32_t>::max());
     }
     return pixels;
+  });
+}
+
+bool FrameReader::has_words(bool is_signed) const {
+  const SliceHeader& header = slices_.front();
+  const bool fits = header.is_signed ? is_signed : !is_signed || header.bits_stored < 16;
+  const bool is_ours =
+      syntax_->is_encapsulated() || is_big_endian() == (std::endian::native == std::endian::big);
+  return header.bits_allocated == 16 && fits && is_ours;
+}
+
+Status FrameReader::take_words(std::int64_t frame, std::span<std::uint16_t> target) const {
+  const SliceHeader& header = slices_.front();
+  const std::int64_t size = bytes_of_frame(header);
+  if (frame < 0 || frame >= frames() || static_cast<std::int64_t>(target.size_bytes()) != size) {
+    return fail(ErrorKind::input, "{}: has no frame {}", header.file.string(), frame + 1);
+  }
+  if (syntax_->is_encapsulated()) {
+    auto fragments = read_fragments(frame);
+    if (!fragments) return pass_on(fragments);
+    const std::string problem = decode_words(*fragments, *syntax_, header, target);
+    if (!problem.empty()) return fail(ErrorKind::input, "{} {}", where(frame), problem);
+    return {};
+  }
+  const std::span bytes(reinterpret_cast<std::uint8_t*>(target.data()), target.size_bytes());
+  const bool is_there = (frame + 1) * size <= pixels_.length;
+  if (!is_there || bytes_->read(pixels_.value + frame * size, bytes) != bytes.size()) {
+    return fail(ErrorKind::input, "{} ends early", where(frame));
+  }
+  return {};
+}
+
+Result<bool> FrameReader::read_words(std::int64_t frame, std::span<std::uint16_t> target) const {
+  return guarded(slices_.front().file, [&]() -> Result<bool> {
+    if (auto taken = take_words(frame, target); !taken) return pass_on(taken);
+    if (slices_.front().bits_stored == 16) return false;
+    BitReader read(slices_.front());
+    for (std::uint16_t& word : target) word = static_cast<std::uint16_t>(read(word));
+    return read.ignored();
   });
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/result.h"
@@ -36,12 +37,22 @@ class FrameReader {
   // long as the header says. Several threads may decode at the same time.
   [[nodiscard]] Result<FramePixels> decode(std::int64_t frame) const;
 
+  // Whether the frames are words of 16 bits in this machine's order, all of whose values are within those of
+  // 16 bits with that sign.
+  [[nodiscard]] bool has_words(bool is_signed) const;
+  // The same values as decode() gives, of a file that has words, with no copy on the way that can be avoided:
+  // `target` is as large as a frame. Returns whether bits outside BitsStored were set.
+  [[nodiscard]] Result<bool> read_words(std::int64_t frame, std::span<std::uint16_t> target) const;
+
  private:
   FrameReader() = default;
   Status find_frames(ImageFile image);
   Status inflate(const Preflight& checked);
+  [[nodiscard]] bool is_big_endian() const;
   Result<FramePixels> decode_native(std::int64_t frame) const;
   Result<FramePixels> decode_compressed(std::int64_t frame) const;
+  Result<std::vector<std::vector<std::uint8_t>>> read_fragments(std::int64_t frame) const;
+  Status take_words(std::int64_t frame, std::span<std::uint16_t> target) const;
   [[nodiscard]] std::string where(std::int64_t frame) const;
 
   std::vector<SliceHeader> slices_;

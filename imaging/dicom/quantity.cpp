@@ -132,31 +132,41 @@ void state_activity(const Slices& slices, Series& series) {
   series.changes.push_back(fmt::format("values are SUVbw in g/ml: Bq/ml times {:.6g}", *factor));
 }
 
+// By a mapping; empty where none is used.
+std::string mapped_unit(const SliceHeader& slice) {
+  return slice.quantity.mapping ? slice.quantity.mapping->unit : std::string();
+}
+
+// By slope and intercept; empty where nothing says it. CT is in HU unless it says otherwise (PS3.3 C.8.2.1).
+std::string rescaled_unit(const SliceHeader& slice) {
+  if (slice.modality != "CT") return {};
+  return slice.quantity.rescale_type.empty() ? "HU" : slice.quantity.rescale_type;
+}
+
 }  // namespace
 
 std::optional<std::string> state_quantity(const Slices& slices, Series& series) {
-  const SliceHeader& first = slices.front();
+  const QuantityHeader& quantity = slices.front().quantity;
+  const std::string unit = mapped_unit(slices.front());
+  const std::string rescaled = rescaled_unit(slices.front());
   for (const SliceHeader& slice : slices) {
-    if (slice.quantity.mapped_unit != first.quantity.mapped_unit ||
-        slice.quantity.units != first.quantity.units) {
+    if (mapped_unit(slice) != unit || rescaled_unit(slice) != rescaled ||
+        slice.quantity.units != quantity.units) {
       return "the unit of the values is not the same in all images";
     }
   }
-  const QuantityHeader& quantity = first.quantity;
-  if (!quantity.mapped_unit.empty()) {
-    series.unit = quantity.mapped_unit;
+  if (!unit.empty()) {
+    series.unit = unit;
     series.changes.push_back(
-        fmt::format("values are in {} by RealWorldValueMappingSequence (0040,9096)", quantity.mapped_unit));
+        fmt::format("values are in {} by RealWorldValueMappingSequence (0040,9096)", unit));
   } else if (!quantity.unused_mapping.empty()) {
     series.changes.push_back(
         fmt::format("RealWorldValueMappingSequence (0040,9096) is not used: {}", quantity.unused_mapping));
   }
-  if (quantity.has_philips_scale && quantity.mapped_unit.empty()) {
+  if (quantity.has_philips_scale && unit.empty()) {
     series.changes.emplace_back("the scanner's own scale, ScaleSlope (2005,100E), is not used");
   }
-  if (series.modality == "CT" && (quantity.rescale_type.empty() || quantity.rescale_type == "HU")) {
-    series.unit = "HU";
-  }
+  if (rescaled == "HU") series.unit = rescaled;
   if (series.modality == "PT") state_activity(slices, series);
   return std::nullopt;
 }

@@ -13,12 +13,19 @@ namespace tidemark {
 
 struct SliceHeader;
 
+// A linear mapping of all stored values of an MR image to a unit.
+struct ValueMapping {
+  double slope = 1.0;
+  double intercept = 0.0;
+  std::string unit;  // UCUM
+};
+
 // What one image says of it. Moments are seconds since 1970 by the scanner's clock.
 struct QuantityHeader {
-  std::string rescale_type;  // (0028,1054)
-  std::string mapped_unit;   // UCUM, of the RealWorldValueMappingSequence whose slope and intercept are used
-  std::string unused_mapping;      // why there is such a sequence and it is not used; else empty
-  bool has_philips_scale = false;  // (2005,100E), which is not used
+  std::string rescale_type;             // (0028,1054)
+  std::optional<ValueMapping> mapping;  // of the RealWorldValueMappingSequence (0040,9096), when it is used
+  std::string unused_mapping;           // why there is such a sequence and it is not used; else empty
+  bool has_philips_scale = false;       // (2005,100E), which is not used
 
   // PET (PS3.3 C.8.9.1, C.8.9.2)
   std::string units;             // (0054,1001)
@@ -34,9 +41,14 @@ struct QuantityHeader {
   std::optional<double> series_began;
 };
 
-// Reads it, and puts slope and intercept of a real-world mapping that is to be used in place of the image's
-// own: one linear mapping of all stored values of an MR image to a unit of UCUM.
 void read_quantity(DcmItem& dataset, SliceHeader& header);
+
+// The mapping that stands in the dataset, or in the groups of a frame; without one, what was read before
+// holds. It is used when it is the only one, linear, of all stored values of an MR image, to a unit of UCUM.
+void read_mapping(DcmItem& item, SliceHeader& header);
+
+// Puts slope and intercept of the mapping in place of the image's own.
+void apply_mapping(SliceHeader& header);
 
 // Sets the series' unit and what its values are to be multiplied by: activity becomes SUVbw where the images
 // hold all that it takes, without contradiction. Returns why the images cannot make a volume, or nothing.

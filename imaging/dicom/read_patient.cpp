@@ -14,25 +14,6 @@
 namespace tidemark {
 namespace {
 
-constexpr std::size_t kLongestText = 800;  // bytes: three representations of 64 characters, and then some
-
-// Without blanks and padding around it, in one line, of a length that can be shown.
-std::string tidied(std::string_view text) {
-  std::string result(text.substr(0, kLongestText));
-  // Not in the middle of a UTF-8 sequence.
-  if (text.size() > kLongestText) {
-    std::size_t end = kLongestText;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
-    result.resize(end);
-  }
-  for (char& c : result) {
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  }
-  result.erase(result.find_last_not_of(' ') + 1);
-  result.erase(0, result.find_first_not_of(' '));
-  return result;
-}
-
 std::string text(DcmItem& dataset, const DcmTagKey& key, const std::string& delimiters = {}) {
   OFString value;
   OFString character_set;

@@ -112,22 +112,24 @@ std::optional<double> mapped_value(DcmItem& item, const DcmTagKey& whole, const 
 }
 
 // Why the mapping is not used; empty when it is.
-std::string use_mapping(DcmItem& item, SliceHeader& header) {
+std::string take_mapping(DcmItem& item, SliceHeader& header) {
   if (header.modality != "MR") return "it is used in MR only";
-  Float64 slope = 0.0;
-  Float64 intercept = 0.0;
-  if (item.findAndGetFloat64(DCM_RealWorldValueSlope, slope).bad() ||
-      item.findAndGetFloat64(DCM_RealWorldValueIntercept, intercept).bad()) {
+  ValueMapping mapping;
+  if (item.findAndGetFloat64(DCM_RealWorldValueSlope, mapping.slope).bad() ||
+      item.findAndGetFloat64(DCM_RealWorldValueIntercept, mapping.intercept).bad()) {
     return "it is not linear";
   }
-  if (!std::isfinite(slope) || !std::isfinite(intercept) || slope == 0.0) return "its slope makes no sense";
+  if (!std::isfinite(mapping.slope) || !std::isfinite(mapping.intercept) || mapping.slope == 0.0) {
+    return "its slope makes no sense";
+  }
   DcmItem* code = nullptr;
-  std::string unit;
   if (item.findAndGetSequenceItem(DCM_MeasurementUnitsCodeSequence, code).good() &&
       text(*code, DCM_CodingSchemeDesignator) == "UCUM") {
-    unit = text(*code, DCM_CodeValue);
+    mapping.unit = text(*code, DCM_CodeValue);
   }
-  if (unit.empty() || unit == "1" || unit.starts_with('{')) return "it states no unit";
+  if (mapping.unit.empty() || mapping.unit == "1" || mapping.unit.starts_with('{')) {
+    return "it states no unit";
+  }
   const double lowest = header.is_signed ? -std::ldexp(1.0, header.bits_stored - 1) : 0.0;
   const double highest = std::ldexp(1.0, header.bits_stored - (header.is_signed ? 1 : 0)) - 1.0;
   const auto first = mapped_value(item, DCM_RealWorldValueFirstValueMapped,
@@ -135,27 +137,31 @@ std::string use_mapping(DcmItem& item, SliceHeader& header) {
   const auto last = mapped_value(item, DCM_RealWorldValueLastValueMapped,
                                  DCM_DoubleFloatRealWorldValueLastValueMapped, header.is_signed);
   if (!first || !last || *first > lowest || *last < highest) return "it leaves stored values without meaning";
-  header.slope = slope;
-  header.intercept = intercept;
-  header.quantity.mapped_unit = unit;
+  header.quantity.mapping = std::move(mapping);
   return {};
-}
-
-void read_mapping(DcmItem& dataset, SliceHeader& header) {
-  DcmSequenceOfItems* mappings = nullptr;
-  if (dataset.findAndGetSequence(DCM_RealWorldValueMappingSequence, mappings).bad() || mappings == nullptr ||
-      mappings->card() == 0) {
-    return;
-  }
-  header.quantity.unused_mapping =
-      mappings->card() > 1 ? "there are several" : use_mapping(*mappings->getItem(0), header);
 }
 
 }  // namespace
 
+void read_mapping(DcmItem& item, SliceHeader& header) {
+  DcmSequenceOfItems* mappings = nullptr;
+  if (item.findAndGetSequence(DCM_RealWorldValueMappingSequence, mappings).bad() || mappings == nullptr ||
+      mappings->card() == 0) {
+    return;
+  }
+  header.quantity.mapping.reset();
+  header.quantity.unused_mapping =
+      mappings->card() > 1 ? "there are several" : take_mapping(*mappings->getItem(0), header);
+}
+
+void apply_mapping(SliceHeader& header) {
+  if (!header.quantity.mapping) return;
+  header.slope = header.quantity.mapping->slope;
+  header.intercept = header.quantity.mapping->intercept;
+}
+
 void read_quantity(DcmItem& dataset, SliceHeader& header) {
   QuantityHeader& quantity = header.quantity;
-  quantity.rescale_type = text(dataset, DCM_RescaleType);
   if (header.modality == "PT") read_pet(dataset, quantity);
   read_mapping(dataset, header);
   constexpr Uint16 kPhilips = 0x2005;

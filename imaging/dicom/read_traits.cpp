@@ -22,7 +22,7 @@ void read_private_diffusion(const AttributeReader& in, SliceTraits& traits) {
     take(in.number(DcmTagKey(0x0019, 0x100c)), traits.b_value);
     if (const auto direction = read_vector(in, DcmTagKey(0x0019, 0x100e))) traits.gradient = direction;
   } else if (maker.starts_with("GE ")) {
-    // Beyond 10,000 the digits above are flags.
+    // The digits above these five are flags.
     constexpr double kFlags = 100000.0;
     if (const auto b = in.number(DcmTagKey(0x0043, 0x1039))) traits.b_value = std::fmod(*b, kFlags);
     const auto x = in.number(DcmTagKey(0x0019, 0x10bb));
@@ -53,8 +53,8 @@ std::optional<double> moment(const std::string& date, const std::string& time) {
 
 void read_traits(const AttributeReader& in, SliceTraits& traits) {
   take(in.number(DCM_SeriesNumber), traits.series_number);
-  if (std::string stack = in.text(DCM_StackID); !stack.empty()) traits.stack = std::move(stack);
-  if (std::string type = in.text(DCM_ImageType); !type.empty()) traits.image_type = std::move(type);
+  if (std::string stack = in.name(DCM_StackID); !stack.empty()) traits.stack = std::move(stack);
+  if (std::string type = in.name(DCM_ImageType); !type.empty()) traits.image_type = std::move(type);
   take(in.number(DCM_EchoNumbers), traits.echo_number);
   take(in.number(DCM_EchoTime), traits.echo_time_ms);
   read_private_diffusion(in, traits);

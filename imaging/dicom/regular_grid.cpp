@@ -232,6 +232,12 @@ GridPlan GridPlanner::plan() {
   for (std::size_t k = 0; k < places_.last(); ++k) {
     if (scale_.missing_after(k) > 0) gaps_.push_back(k);
   }
+  if (tilt_.degrees > 0.0) {
+    plan_.tilt = fmt::format(
+        "The gantry was tilted by {:.1f} degrees: from the first slice to the last, slices move {:.2f} mm "
+        "sideways.",
+        tilt_.degrees, glm::length(places_.sideways.back()));
+  }
   set_shifts();
   set_geometry();
   if (scale_.kind != Kind::even && policy_.gaps == GridPolicy::Gaps::refuse) refuse_gaps();

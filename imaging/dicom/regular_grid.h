@@ -39,6 +39,7 @@ struct GridPlan {
   std::vector<std::string> warnings;
   std::string refusal;   // why the policy allows no grid: one line that names the slices
   std::string question;  // where only the policy stands against filling gaps: what to ask the user
+  std::string tilt;      // where slices can be moved back or not: how far they are tilted, in a sentence
 };
 
 // Slices may move sideways in proportion to their distance, by at most 45 degrees (gantry tilt). Where they

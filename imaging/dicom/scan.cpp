@@ -2,12 +2,13 @@
 #include <functional>
 #include <iterator>
 #include <map>
-#include <new>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "core/atomic_file.h"
 #include "core/thread_pool.h"
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/dicom_setup.h"
@@ -15,6 +16,7 @@
 #include "imaging/dicom/media_directory.h"
 #include "imaging/dicom/series_geometry.h"
 #include "imaging/dicom/shared_progress.h"
+#include "imaging/guarded.h"
 
 namespace tidemark {
 namespace {
@@ -22,16 +24,18 @@ namespace {
 namespace fs = std::filesystem;
 
 // All regular files below the folder, sorted, so that results do not depend on the file system. Links to
-// folders are not followed: they could lead in circles.
+// folders are not followed: they could lead in circles. What a killed program of ours left unfinished is no
+// study.
 Result<std::vector<fs::path>> list_files(const fs::path& folder, bool recursive, const Progress& progress) {
   std::vector<fs::path> files;
   std::error_code error;
   fs::recursive_directory_iterator entries(folder, fs::directory_options::skip_permission_denied, error);
   for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
     if (progress.cancelled()) return cancelled_error();
-    if (!recursive) entries.disable_recursion_pending();
+    const bool is_unfinished = !AtomicFile::target_of(entries->path()).empty();
+    if (!recursive || is_unfinished) entries.disable_recursion_pending();
     std::error_code ignored;
-    if (entries->is_regular_file(ignored)) files.push_back(entries->path());
+    if (!is_unfinished && entries->is_regular_file(ignored)) files.push_back(entries->path());
   }
   if (error) return fail(ErrorKind::input, "{}: cannot be listed: {}", folder.string(), error.message());
   std::sort(files.begin(), files.end());
@@ -41,17 +45,9 @@ Result<std::vector<fs::path>> list_files(const fs::path& folder, bool recursive,
 struct Headers {
   std::vector<SliceHeader> slices;
   std::vector<SkippedFile> skipped;
-  std::vector<SkippedFile>
-      damaged;  // skipped too; look like DICOM, but nothing says to which series they belong
+  // Skipped too: they look like DICOM, but nothing says to which series they belong.
+  std::vector<SkippedFile> damaged;
 };
-
-Result<std::vector<SliceHeader>> read_safely(const fs::path& file) {
-  try {
-    return read_slice_headers(file);
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(), error.what());
-  }
-}
 
 // A reason without the file's name, which stands beside it.
 std::string without_name(std::string reason, const fs::path& file) {
@@ -68,7 +64,7 @@ Result<Headers> read_headers(const std::vector<fs::path>& files, const Progress&
   pool.for_each(static_cast<std::int64_t>(files.size()), 4, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t i = begin; i < end && !progress.cancelled(); ++i) {
       const auto index = static_cast<std::size_t>(i);
-      read[index] = read_safely(files[index]);
+      read[index] = guarded(files[index], [&] { return read_slice_headers(files[index]); });
       shared.advance();
     }
   });
@@ -82,7 +78,8 @@ Result<Headers> read_headers(const std::vector<fs::path>& files, const Progress&
       continue;
     }
     std::string reason = without_name(result.error().message, files[i]);
-    const bool is_damaged = reason.starts_with("is damaged") || reason.starts_with("cannot be read") ||
+    const bool is_damaged = result.error().kind == ErrorKind::capability ||
+                            reason.starts_with("is damaged") || reason.starts_with("cannot be read") ||
                             (files[i].extension() == ".dcm" && !looks_like_dicom(files[i]));
     if (is_damaged) headers.damaged.push_back({files[i], reason});
     headers.skipped.push_back({files[i], std::move(reason)});
@@ -92,14 +89,20 @@ Result<Headers> read_headers(const std::vector<fs::path>& files, const Progress&
 
 // A damaged file beside a series may have been its first or last slice, which no gap would show.
 void warn_of_damage(std::vector<Series>& series, const std::vector<SkippedFile>& damaged) {
+  std::map<fs::path, std::vector<const SkippedFile*>> damaged_in;
+  for (const SkippedFile& skipped : damaged) damaged_in[skipped.file.parent_path()].push_back(&skipped);
+  if (damaged_in.empty()) return;
   for (Series& one : series) {
-    for (const SkippedFile& skipped : damaged) {
-      const bool beside = std::any_of(one.files.begin(), one.files.end(), [&](const fs::path& file) {
-        return file.parent_path() == skipped.file.parent_path();
-      });
-      if (!beside) continue;
-      one.warnings.push_back(fmt::format("{} lies in the same folder and {}: a slice may be missing",
-                                         skipped.file.filename().string(), skipped.reason));
+    std::set<fs::path> folders;
+    for (const fs::path& file : one.files) folders.insert(file.parent_path());
+    for (const fs::path& folder : folders) {
+      const auto beside = damaged_in.find(folder);
+      if (beside == damaged_in.end()) continue;
+      const SkippedFile& first = *beside->second.front();
+      const std::size_t others = beside->second.size() - 1;
+      one.warnings.push_back(fmt::format(
+          "{} lies in the same folder and {}{}: a slice may be missing", first.file.filename().string(),
+          first.reason, others == 0 ? "" : fmt::format(" (and {} more cannot be read)", others)));
     }
   }
 }
@@ -171,7 +174,7 @@ Result<Catalogue> scan_medium(const fs::path& file, const Progress& progress) {
 
 // One slice stands for its series: the images of the same series in the same folder.
 Result<Catalogue> scan_file(const fs::path& file, const Progress& progress) {
-  const auto chosen = read_safely(file);
+  const auto chosen = read_slice_headers(file);
   if (!chosen) return tl::unexpected(chosen.error());
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
   SliceHeader placed = chosen->front();
@@ -206,7 +209,7 @@ Result<Catalogue> scan_file(const fs::path& file, const Progress& progress) {
 }  // namespace
 
 Result<Catalogue> scan_dicom(const fs::path& path, const Progress& progress) {
-  try {
+  return guarded(path, [&]() -> Result<Catalogue> {
     if (auto ready = set_up_dicom(); !ready) return pass_on(ready);
     std::error_code error;
     if (fs::is_directory(path, error)) return scan_folder(path, progress);
@@ -217,11 +220,7 @@ Result<Catalogue> scan_dicom(const fs::path& path, const Progress& progress) {
       return fail(ErrorKind::input, "{}: is neither a file nor a folder", path.string());
     }
     return fail(ErrorKind::input, "{}: no such file or folder", path.string());
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::capability, "{}: there is not enough memory", path.string());
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::input, "{}: cannot be read: {}", path.string(), error.what());
-  }
+  });
 }
 
 }  // namespace tidemark

@@ -12,10 +12,10 @@
 #include <set>
 #include <utility>
 
+#include "imaging/dicom/same_slices.h"
+
 namespace tidemark {
 namespace {
-
-constexpr double kSamePosition = 0.01;  // mm
 
 // What an attribute says of a slice: numbers, or text. Keys are ordered as their volumes are listed.
 using Key = std::pair<std::vector<double>, std::string>;
@@ -31,7 +31,7 @@ std::vector<SliceRefs> by_position(const SliceRefs& slices) {
                    [&](const auto* a, const auto* b) { return along(a) < along(b); });
   std::vector<SliceRefs> places;
   for (const SliceHeader* slice : sorted) {
-    if (places.empty() || along(slice) - along(places.back().back()) > kSamePosition) places.emplace_back();
+    if (places.empty() || !is_same_place(along(slice) - along(places.back().back()))) places.emplace_back();
     places.back().push_back(slice);
   }
   return places;

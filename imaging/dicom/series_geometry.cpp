@@ -6,6 +6,8 @@
 #include <optional>
 #include <set>
 
+#include "imaging/dicom/same_slices.h"
+
 namespace tidemark {
 namespace {
 
@@ -13,16 +15,10 @@ using Slices = std::vector<SliceHeader>;
 // A reason why not, or nothing when the check is passed.
 using Reason = std::optional<std::string>;
 
-// Relative: how much orientation and pixel spacing may differ from slice to slice, rounding in the files.
-constexpr double kSameness = 1e-4;
-// How far the orientation may be from orthonormal before it is not believed.
-constexpr double kOrthonormality = 1e-3;
 // Beyond these (mm) a number is damage, not anatomy.
 constexpr double kLargestSpacing = 1000.0;
 constexpr double kSmallestSpacing = 1e-5;
 constexpr double kLargestPosition = 1e6;
-// Images of more kinds than these are not counted kind by kind.
-constexpr std::size_t kMostKinds = 256;
 
 std::string name(const SliceHeader& slice) {
   const std::string file = slice.file.filename().string();
@@ -81,10 +77,7 @@ Reason check_numbers(const Slices& slices) {
       }
     }
     const auto& [row, column] = *slice.orientation;
-    const bool orthonormal = std::abs(glm::length(row) - 1.0) <= kOrthonormality &&
-                             std::abs(glm::length(column) - 1.0) <= kOrthonormality &&
-                             std::abs(glm::dot(row, column)) <= kOrthonormality;
-    if (!orthonormal) {
+    if (!is_orthonormal(*slice.orientation)) {
       return fmt::format(
           "{}: ImageOrientationPatient (0020,0037) is not two perpendicular unit vectors: "
           "({:g}, {:g}, {:g}), ({:g}, {:g}, {:g})",
@@ -92,20 +85,6 @@ Reason check_numbers(const Slices& slices) {
     }
   }
   return std::nullopt;
-}
-
-bool same_orientation(const SliceHeader& a, const SliceHeader& b) {
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    const glm::dvec3 difference = glm::abs((*a.orientation)[axis] - (*b.orientation)[axis]);
-    if (std::max({difference.x, difference.y, difference.z}) > kSameness) return false;
-  }
-  return true;
-}
-
-bool same_spacing(const SliceHeader& a, const SliceHeader& b) {
-  const glm::dvec2 difference = glm::abs(*a.pixel_spacing_mm - *b.pixel_spacing_mm);
-  return difference.x <= kSameness * a.pixel_spacing_mm->x &&
-         difference.y <= kSameness * a.pixel_spacing_mm->y;
 }
 
 // Names the images that differ from the most common kind.
@@ -130,11 +109,7 @@ Reason check_alike(const Slices& slices, const char* what, const Same& same) {
 }
 
 Reason check_all_alike(const Slices& slices) {
-  if (auto r = check_alike(slices, "the size (Rows, Columns)", [](const auto& a, const auto& b) {
-        return a.rows == b.rows && a.columns == b.columns;
-      })) {
-    return r;
-  }
+  if (auto r = check_alike(slices, "the size (Rows, Columns)", same_size)) return r;
   if (auto r = check_alike(slices, "the orientation", same_orientation)) return r;
   return check_alike(slices, "PixelSpacing (0028,0030)", same_spacing);
 }
@@ -146,9 +121,6 @@ glm::dmat3 axes_of(const SliceHeader& slice) {
   const glm::dvec3 j = glm::normalize(j_raw - glm::dot(i, j_raw) * i);
   return {i, j, glm::cross(i, j)};
 }
-
-// Nearer to each other (mm) than this along the normal, images are at one position.
-constexpr double kSamePosition = 0.01 + 1e-9;
 
 // Positions along the normal, of sorted slices.
 std::vector<double> along(const Slices& slices, glm::dvec3 normal) {
@@ -162,7 +134,7 @@ Reason check_distinct(const Slices& slices, const std::vector<double>& positions
   std::vector<std::size_t> counts{1};
   std::size_t first_repeat = 0;
   for (std::size_t k = 1; k < slices.size(); ++k) {
-    if (positions[k] - positions[k - 1] > kSamePosition) {
+    if (!is_same_place(positions[k] - positions[k - 1])) {
       counts.push_back(1);
     } else {
       if (first_repeat == 0) first_repeat = k;

@@ -11,38 +11,14 @@
 #include <tuple>
 #include <utility>
 
+#include "imaging/dicom/same_slices.h"
 #include "imaging/dicom/separate_volumes.h"
 
 namespace tidemark {
 namespace {
 
-// How much orientation and pixel spacing may differ from slice to slice: rounding in the files.
-constexpr double kSameness = 1e-4;
-// Images that turn about an axis, each in an orientation of its own, are no volumes.
-constexpr std::size_t kMostKinds = 256;
-
 bool has_place(const SliceHeader& slice) {
   return slice.position_mm && slice.orientation && slice.pixel_spacing_mm;
-}
-
-bool is_same(glm::dvec3 a, glm::dvec3 b) {
-  const glm::dvec3 difference = glm::abs(a - b);
-  return std::max({difference.x, difference.y, difference.z}) <= kSameness;
-}
-
-bool same_orientation(const SliceHeader& a, const SliceHeader& b) {
-  return is_same((*a.orientation)[0], (*b.orientation)[0]) &&
-         is_same((*a.orientation)[1], (*b.orientation)[1]);
-}
-
-bool same_spacing(const SliceHeader& a, const SliceHeader& b) {
-  const glm::dvec2 difference = glm::abs(*a.pixel_spacing_mm - *b.pixel_spacing_mm);
-  return difference.x <= kSameness * a.pixel_spacing_mm->x &&
-         difference.y <= kSameness * a.pixel_spacing_mm->y;
-}
-
-bool same_size(const SliceHeader& a, const SliceHeader& b) {
-  return a.rows == b.rows && a.columns == b.columns;
 }
 
 bool same_kind(const SliceHeader& a, const SliceHeader& b) {
@@ -50,7 +26,8 @@ bool same_kind(const SliceHeader& a, const SliceHeader& b) {
   return !has_place(a) || (same_orientation(a, b) && same_spacing(a, b));
 }
 
-// In order of appearance; none when there are too many.
+// In order of appearance; none when there are too many: images that turn about an axis, each in an
+// orientation of its own, are no volumes.
 std::vector<SliceRefs> kinds_of(const std::vector<SliceHeader>& slices) {
   std::vector<SliceRefs> kinds;
   for (const SliceHeader& slice : slices) {
@@ -66,8 +43,12 @@ std::vector<SliceRefs> kinds_of(const std::vector<SliceHeader>& slices) {
   return kinds;
 }
 
+glm::dvec3 normal_of(const SliceHeader& slice) {
+  return glm::cross((*slice.orientation)[0], (*slice.orientation)[1]);
+}
+
 std::string plane_of(const SliceHeader& slice) {
-  const glm::dvec3 normal = glm::abs(glm::cross((*slice.orientation)[0], (*slice.orientation)[1]));
+  const glm::dvec3 normal = glm::abs(normal_of(slice));
   if (normal.z >= std::max(normal.x, normal.y)) return "axial";
   return normal.x >= normal.y ? "sagittal" : "coronal";
 }
@@ -186,14 +167,9 @@ bool may_belong(const SliceHeader& image, const SliceHeader& slice) {
     return false;
   }
   if (!has_place(image)) return true;
-  constexpr double kOrthonormality = 1e-3;
   constexpr double kSamePlane = 0.996;  // the cosine of 5 degrees
-  const auto& [row, column] = *image.orientation;
-  const bool is_sound = std::abs(glm::length(row) - 1.0) <= kOrthonormality &&
-                        std::abs(glm::length(column) - 1.0) <= kOrthonormality &&
-                        std::abs(glm::dot(row, column)) <= kOrthonormality;
-  const glm::dvec3 normal = glm::cross((*slice.orientation)[0], (*slice.orientation)[1]);
-  return !is_sound || std::abs(glm::dot(glm::cross(row, column), normal)) > kSamePlane;
+  return !is_orthonormal(*image.orientation) ||
+         std::abs(glm::dot(normal_of(image), normal_of(slice))) > kSamePlane;
 }
 
 // Whether a slice may have got lost among what is in no volume.

@@ -27,16 +27,6 @@ bool is_among(std::string_view list, std::string_view two) {
 
 }  // namespace
 
-std::uint16_t ElementCoding::word(const std::uint8_t* bytes) const {
-  return static_cast<std::uint16_t>(is_big_endian ? bytes[0] << 8 | bytes[1] : bytes[1] << 8 | bytes[0]);
-}
-
-std::uint32_t ElementCoding::long_word(const std::uint8_t* bytes) const {
-  const std::uint32_t first = word(bytes);
-  const std::uint32_t second = word(bytes + 2);
-  return is_big_endian ? first << 16 | second : second << 16 | first;
-}
-
 TagWalk::TagWalk(ByteSource& source, std::int64_t most_bytes)
     : reader_(source), most_objects_(most_bytes / kBytesOfObject) {}
 

@@ -28,8 +28,15 @@ struct ElementCoding {
   bool is_explicit = true;
   bool is_big_endian = false;
 
-  [[nodiscard]] std::uint16_t word(const std::uint8_t* bytes) const;
-  [[nodiscard]] std::uint32_t long_word(const std::uint8_t* bytes) const;
+  // In the header, because every pixel of an image is read by them.
+  [[nodiscard]] std::uint16_t word(const std::uint8_t* bytes) const {
+    return static_cast<std::uint16_t>(is_big_endian ? bytes[0] << 8 | bytes[1] : bytes[1] << 8 | bytes[0]);
+  }
+  [[nodiscard]] std::uint32_t long_word(const std::uint8_t* bytes) const {
+    const std::uint32_t first = word(bytes);
+    const std::uint32_t second = word(bytes + 2);
+    return is_big_endian ? first << 16 | second : second << 16 | first;
+  }
 };
 
 struct ElementHeader {

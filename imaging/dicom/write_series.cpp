@@ -14,6 +14,8 @@
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/dicom_values.h"
+#include "imaging/dicom/write_dicom_file.h"
+#include "imaging/guarded.h"
 
 namespace tidemark {
 namespace {
@@ -183,12 +185,13 @@ std::string slice_name(std::int64_t k) {
   return fmt::format("slice-{:05}.dcm", k + 1);
 }
 
-// A slice more or less of an older series would make a wrong volume of both.
+// An older series of no more slices may be replaced; nothing else may be in its folder.
 Status check_folder(const fs::path& folder, std::int64_t slices) {
   std::error_code error;
-  fs::create_directories(folder, error);
+  if (folder.has_parent_path()) fs::create_directories(folder.parent_path(), error);
   if (error)
     return fail(ErrorKind::write, "{}: cannot create the folder: {}", folder.string(), error.message());
+  if (!fs::exists(folder, error)) return {};
   std::vector<std::string> names;
   for (std::int64_t k = 0; k < slices; ++k) names.push_back(slice_name(k));
   std::sort(names.begin(), names.end());
@@ -205,9 +208,8 @@ Status check_folder(const fs::path& folder, std::int64_t slices) {
   return {};
 }
 
-// Slice k, in a temporary file.
-Result<AtomicFile> write_slice_file(const Volume& volume, const DicomSeriesHeader& header,
-                                    const SeriesIdentity& identity, std::int64_t k, const fs::path& target) {
+Status write_slice_file(const Volume& volume, const DicomSeriesHeader& header, const SeriesIdentity& identity,
+                        std::int64_t k, const fs::path& target) {
   DcmFileFormat file;
   AttributeWriter out(*file.getDataset());
   write_common_modules(out, header, identity);
@@ -216,11 +218,7 @@ Result<AtomicFile> write_slice_file(const Volume& volume, const DicomSeriesHeade
   if (out.condition().bad()) {
     return fail(ErrorKind::internal, "{}: cannot write: {}", target.string(), out.condition().text());
   }
-  auto atomic = AtomicFile::create(target);
-  if (!atomic) return atomic;
-  const OFCondition saved = file.saveFile(atomic->temporary_path().c_str(), EXS_LittleEndianExplicit);
-  if (saved.bad()) return fail(ErrorKind::write, "{}: cannot write: {}", target.string(), saved.text());
-  return atomic;
+  return write_dicom_file(file, EXS_LittleEndianExplicit, target);
 }
 
 Status write_all(const Volume& volume, const DicomSeriesHeader& header, const fs::path& folder,
@@ -230,35 +228,30 @@ Status write_all(const Volume& volume, const DicomSeriesHeader& header, const fs
   const std::int64_t slices = volume.geometry.size.z;
   if (auto usable = check_folder(folder, slices); !usable) return usable;
 
-  // Names are taken only when every slice is on the disk.
+  // The folder takes its name with every slice in it: some slices of a series, or of two, look like a volume.
+  auto whole = AtomicFolder::create(folder);
+  if (!whole) return pass_on(whole);
   const SeriesIdentity identity;
-  std::vector<AtomicFile> files;
   for (std::int64_t k = 0; k < slices; ++k) {
     if (progress.cancelled()) return cancelled_error();
-    auto file = write_slice_file(volume, header, identity, k, folder / slice_name(k));
-    if (!file) return pass_on(file);
-    files.push_back(std::move(*file));
+    const fs::path slice = whole->temporary_path() / slice_name(k);
+    if (Status written = write_slice_file(volume, header, identity, k, slice); !written) {
+      std::string& message = written.error().message;
+      if (const std::string inside = slice.string(); message.starts_with(inside)) {
+        message.replace(0, inside.size(), (folder / slice_name(k)).string());
+      }
+      return written;
+    }
     progress(static_cast<double>(k + 1) / static_cast<double>(slices), "writing slices");
   }
-  for (std::int64_t k = 0; k < slices; ++k) {
-    if (auto committed = files[static_cast<std::size_t>(k)].commit(); !committed) {
-      std::error_code ignored;
-      for (std::int64_t done = 0; done < k; ++done) fs::remove(folder / slice_name(done), ignored);
-      return committed;
-    }
-  }
-  return {};
+  return whole->commit();
 }
 
 }  // namespace
 
 Status write_dicom_series(const Volume& volume, const DicomSeriesHeader& header, const fs::path& folder,
                           const Progress& progress) {
-  try {
-    return write_all(volume, header, folder, progress);
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::write, "{}: cannot write: {}", folder.string(), error.what());
-  }
+  return guarded_writing(folder, [&] { return write_all(volume, header, folder, progress); });
 }
 
 }  // namespace tidemark

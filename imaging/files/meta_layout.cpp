@@ -24,11 +24,11 @@ bool is_true(const TextHeader& header, const char* name, bool otherwise) {
 }
 
 Status count_bytes(const TextHeader& header, const std::string& name, PixelLayout& layout) {
-  const auto text = header.find("dimsize");
+  const auto text = header.find("DimSize");
   const auto sizes = whole_numbers(text.value_or(""));
-  const auto dimensions = whole_numbers(header.find("ndims").value_or(""));
+  const auto dimensions = whole_numbers(header.find("NDims").value_or(""));
   if (!dimensions || dimensions->size() != 1 || dimensions->front() < 1 || dimensions->front() > 10) {
-    return fail(ErrorKind::input, "{}: NDims is '{}'", name, header.find("ndims").value_or("missing"));
+    return fail(ErrorKind::input, "{}: NDims is '{}'", name, header.find("NDims").value_or("missing"));
   }
   if (!sizes || static_cast<std::int64_t>(sizes->size()) != dimensions->front()) {
     return fail(ErrorKind::input, "{}: DimSize is '{}', NDims is {}", name, text.value_or("missing"),
@@ -40,11 +40,11 @@ Status count_bytes(const TextHeader& header, const std::string& name, PixelLayou
     if (size < 1 || !product) return fail(ErrorKind::input, "{}: DimSize '{}' makes no volume", name, *text);
     layout.voxels = *product;
   }
-  if (header.find("elementnumberofchannels").value_or("1") != "1") {
+  if (header.find("ElementNumberOfChannels").value_or("1") != "1") {
     return fail(ErrorKind::input, "{}: ElementNumberOfChannels is {}: only one channel is supported", name,
-                *header.find("elementnumberofchannels"));
+                *header.find("ElementNumberOfChannels"));
   }
-  const std::string type = header.find("elementtype").value_or("missing");
+  const std::string type = header.find("ElementType").value_or("missing");
   const auto bytes = bytes_of(type);
   if (!bytes) return fail(ErrorKind::input, "{}: ElementType {} is not a scalar type", name, type);
   const auto total = checked_product(layout.voxels, *bytes);
@@ -55,9 +55,9 @@ Status count_bytes(const TextHeader& header, const std::string& name, PixelLayou
 
 // Where the voxels begin in the data file.
 Status find_offset(const TextHeader& header, const std::string& name, PixelLayout& layout) {
-  const auto skip = whole_numbers(header.find("headersize").value_or("0"));
+  const auto skip = whole_numbers(header.find("HeaderSize").value_or("0"));
   if (!skip || skip->size() != 1 || skip->front() < -1) {
-    return fail(ErrorKind::input, "{}: HeaderSize is '{}'", name, *header.find("headersize"));
+    return fail(ErrorKind::input, "{}: HeaderSize is '{}'", name, *header.find("HeaderSize"));
   }
   if (skip->front() == -1) {  // the voxels are the end of the file
     std::error_code error;
@@ -72,7 +72,7 @@ Status find_offset(const TextHeader& header, const std::string& name, PixelLayou
 
 // The library takes as much memory as this field says.
 Status check_compressed_size(const TextHeader& header, const std::string& name, const PixelLayout& layout) {
-  const auto stated = header.find("compresseddatasize");
+  const auto stated = header.find("CompressedDataSize");
   if (!stated || layout.coding != Coding::deflate) return {};
   std::error_code error;
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(layout.file, error));
@@ -94,17 +94,17 @@ Result<PixelLayout> locate_meta(const std::filesystem::path& file) {
   PixelLayout layout{.file = file, .offset = header->end};
   if (auto status = count_bytes(*header, name, layout); !status) return pass_on(status);
   if (auto status = require_finite_fields(*header, file,
-                                          {"transformmatrix", "rotation", "orientation", "offset", "position",
-                                           "origin", "elementspacing", "elementsize"});
+                                          {"TransformMatrix", "Rotation", "Orientation", "Offset", "Position",
+                                           "Origin", "ElementSpacing", "ElementSize"});
       !status) {
     return pass_on(status);
   }
-  if (is_true(*header, "compresseddata", false)) {
+  if (is_true(*header, "CompressedData", false)) {
     layout.coding = Coding::deflate;
-  } else if (!is_true(*header, "binarydata", true)) {
+  } else if (!is_true(*header, "BinaryData", true)) {
     layout.coding = Coding::text;
   }
-  const std::string data = *header->find("elementdatafile");
+  const std::string data = *header->find("ElementDataFile");
   if (data != "LOCAL" && data != "Local" && data != "local") {
     auto path = detached_file(file, data);
     if (!path) return pass_on(path);
@@ -114,7 +114,7 @@ Result<PixelLayout> locate_meta(const std::filesystem::path& file) {
   if (auto status = find_offset(*header, name, layout); !status) return pass_on(status);
   if (auto status = check_compressed_size(*header, name, layout); !status) return pass_on(status);
   layout.oriented =
-      header->find("transformmatrix") || header->find("orientation") || header->find("rotation");
+      header->find("TransformMatrix") || header->find("Orientation") || header->find("Rotation");
   return layout;
 }
 

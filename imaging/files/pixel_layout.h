@@ -70,7 +70,7 @@ Result<PixelLayout> locate_gipl(const std::filesystem::path& file);
 Result<std::string> read_start(const std::filesystem::path& file, std::size_t count);
 bool is_gzip(const std::filesystem::path& file);
 
-// A header of lines "name<separator>value"; names in lower case, blanks around both removed.
+// A header of lines "name<separator>value"; blanks around both removed.
 struct TextHeader {
   std::map<std::string, std::string> fields;
   std::int64_t end = 0;       // offset of the byte after the header's last line

@@ -11,7 +11,8 @@ namespace tidemark::files {
 namespace {
 
 constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
-constexpr std::size_t kLongestName = 200;
+constexpr std::size_t kLongestMetaLine = 499;  // MetaIO's buffer, less the zero byte
+constexpr std::size_t kLongestMetaName = 200;
 
 std::string trimmed(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r";
@@ -48,12 +49,33 @@ std::optional<std::string_view> next_line(std::string_view& rest) {
 }
 
 // Libraries differ on which of two lines of one name counts.
-void add_field(TextHeader& header, std::string_view line, std::string_view separator) {
-  const auto at = line.find(separator);
-  if (at == std::string_view::npos) return;
-  const auto [field, is_new] = header.fields.try_emplace(lower(trimmed(line.substr(0, at))),
-                                                         trimmed(line.substr(at + separator.size())));
+void add_field(TextHeader& header, std::string name, std::string_view value) {
+  const auto [field, is_new] = header.fields.try_emplace(std::move(name), trimmed(value));
   if (!is_new && header.repeated.empty()) header.repeated = field->first;
+}
+
+// NRRD does not tell capitals from small letters in names.
+void add_nrrd_field(TextHeader& header, std::string_view line) {
+  const auto at = line.find(':');
+  if (at != std::string_view::npos)
+    add_field(header, lower(trimmed(line.substr(0, at))), line.substr(at + 1));
+}
+
+// What MetaIO would take for something else than is written there: it ends a name at ':' too and copies one
+// of up to 500 bytes where it has room for 255, ends a line at '\r', a text at a zero byte, and, where a
+// value is empty or begins with a separator, skips to the next thing that is neither.
+std::optional<std::string> ambiguity_of(std::string_view line) {
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  const auto is_control = [](char c) { return c != '\t' && static_cast<unsigned char>(c) < ' '; };
+  if (std::any_of(line.begin(), line.end(), is_control)) return "a control character";
+  const std::size_t end = std::min(line.find_first_of("=:"), line.size());
+  if (end > kLongestMetaName) return fmt::format("a name of {} bytes", end);
+  if (line.size() > kLongestMetaLine) return fmt::format("a line of {} bytes", line.size());
+  const std::string name = trimmed(line.substr(0, end));
+  if (end < line.size() && line[end] == ':') return fmt::format("':' instead of '=' after '{}'", name);
+  const std::string value = trimmed(line.substr(std::min(end + 1, line.size())));
+  if (value.empty() || value[0] == '=' || value[0] == ':') return fmt::format("no value of '{}'", name);
+  return std::nullopt;
 }
 
 Result<TextHeader> without_repetition(TextHeader header, const std::filesystem::path& file) {
@@ -79,11 +101,11 @@ Result<TextHeader> read_nrrd_header(const std::filesystem::path& file) {
       header.end = static_cast<std::int64_t>(text->size() - rest.size());
       return without_repetition(std::move(header), file);
     }
-    if (line->front() != '#' && line->find(":=") == std::string_view::npos) add_field(header, *line, ":");
+    if (line->front() != '#' && line->find(":=") == std::string_view::npos) add_nrrd_field(header, *line);
   }
   // A header of its own may end with the file.
   if (detached && text->size() < kLongestHeader) {
-    add_field(header, rest, ":");
+    add_nrrd_field(header, rest);
     return without_repetition(std::move(header), file);
   }
   return fail(ErrorKind::input, "{}: the header has no end (an empty line)", file.string());
@@ -96,17 +118,17 @@ Result<TextHeader> read_meta_header(const std::filesystem::path& file) {
   std::string_view rest(*text);
   TextHeader header;
   while (const auto line = next_line(rest)) {
-    // ITK's reader copies a name of up to 500 bytes where it has room for 255; it takes ':' for '=', too.
-    const std::size_t name = std::min(line->find_first_of("=:"), line->size());
-    if (name > kLongestName) {
-      return fail(ErrorKind::input, "{}: the header has a name of {} bytes", file.string(), name);
+    if (trimmed(*line).empty()) continue;
+    const auto at = line->find('=');
+    if (at == std::string_view::npos && line->find(':') == std::string_view::npos) break;
+    if (const auto ambiguity = ambiguity_of(*line)) {
+      return fail(ErrorKind::input, "{}: the header has {}", file.string(), *ambiguity);
     }
-    add_field(header, *line, "=");
-    if (header.fields.contains("elementdatafile")) {
+    add_field(header, trimmed(line->substr(0, at)), line->substr(at + 1));
+    if (header.fields.contains("ElementDataFile")) {
       header.end = static_cast<std::int64_t>(text->size() - rest.size());
       return without_repetition(std::move(header), file);
     }
-    if (!trimmed(*line).empty() && line->find('=') == std::string_view::npos) break;
   }
   return fail(ErrorKind::input, "{}: not a MetaImage file: its header has no ElementDataFile", file.string());
 }

@@ -8,9 +8,11 @@
 namespace tidemark::files {
 
 // Both fail (ErrorKind::input) when the file is not of that format or its header does not end within 1 MiB.
-Result<TextHeader> read_nrrd_header(const std::filesystem::path& file);  // "name: value" up to an empty line
-Result<TextHeader> read_meta_header(
-    const std::filesystem::path& file);  // "name = value" up to ElementDataFile
+// "name: value" up to an empty line; names in lower case.
+Result<TextHeader> read_nrrd_header(const std::filesystem::path& file);
+// "name = value" up to ElementDataFile; names as they are written, as ITK's reader knows them. Lines that it
+// would read otherwise than this are refused.
+Result<TextHeader> read_meta_header(const std::filesystem::path& file);
 
 // Refuses the fields of these names that hold anything but finite numbers, brackets and commas ("none" stands
 // for an axis that is not in space). ITK's matrix library ends the program when it is given a NaN.

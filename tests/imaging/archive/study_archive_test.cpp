@@ -68,11 +68,13 @@ bool holds(const std::string& message, const char* part) {
   return message.find(part) != std::string::npos;
 }
 
-// An archive of one entry whose central directory states another size.
-std::string with_size(const std::string& archive, const std::string& size) {
-  std::string bytes = archive;
-  return bytes.replace(bytes.find("PK\x01\x02") + 24, 4, size);
+// An archive of one entry with other bytes in its directory: in the entry's record, or in the directory's
+// end.
+std::string with(std::string archive, const char* mark, std::size_t at, const std::string& bytes) {
+  return archive.replace(archive.find(mark) + at, bytes.size(), bytes);
 }
+constexpr const char* kRecord = "PK\x01\x02";
+constexpr const char* kEnd = "PK\x05\x06";
 
 // The end of a 64-bit directory that states a trillion entries.
 std::string trillion_entries() {
@@ -190,21 +192,34 @@ class StudyArchiveTest : public QObject {
     };
     write_archive(file, entries_of(sample_));
     const std::string whole = contents(file);
-    row("cut off", whole.substr(0, whole.size() / 2), "cannot be unpacked");
+    row("cut off", whole.substr(0, whole.size() / 2), "is damaged: its directory is missing");
     std::string flipped = whole;
     flipped[200] = static_cast<char>(flipped[200] ^ 0x10);
     row("a wrong bit in an entry", flipped, "is damaged");
     write_archive(file, entries_of(sample_), "secret");
     row("encrypted", contents(file), "is encrypted");
-    row("its first bytes alone", std::string("PK\x03\x04", 4), "cannot be unpacked");
+    row("its first bytes alone", std::string("PK\x03\x04", 4), "is damaged: its directory is missing");
     row("no entries", std::string("PK\x05\x06", 4) + std::string(18, '\0'), "holds no DICOM series");
     write_archive(file, {{"a.txt", "hello"}});
     const std::string text = contents(file);
     row("no study", text, "holds no DICOM series or volume file");
-    row("two gigabytes in a few bytes", with_size(text, "\xff\xff\xff\x7f"), "times its size");
-    row("an entry that is longer than it says", with_size(text, std::string("\4\0\0\0", 4)), "is damaged");
-    row("an entry that is shorter than it says", with_size(text, std::string("\x50\0\0\0", 4)), "is damaged");
-    row("a trillion entries", trillion_entries(), "cannot be unpacked");
+    const auto size = [&](const std::string& bytes) { return with(text, kRecord, 24, bytes); };
+    row("two gigabytes in a few bytes", size("\xff\xff\xff\x7f"), "times its size");
+    row("an entry that is longer than it says", size(std::string("\4\0\0\0", 4)), "holds more than it says");
+    row("an entry that is shorter than it says", size(std::string("\x50\0\0\0", 4)),
+        "holds less than it says");
+    row("an entry with another checksum", with(text, kRecord, 16, "abcd"), "its checksum is another one");
+    row("an entry larger than the archive", with(text, kRecord, 20, "\xff\xff\xff\x7f"), "beyond its end");
+    row("an entry of 64 bits that are nowhere", with(text, kRecord, 20, "\xff\xff\xff\xff"),
+        "beyond its end");
+    row("an entry elsewhere", with(text, kRecord, 42, "\1"), "is not where the directory says");
+    row("an entry of bzip2", with(text, kRecord, 10, "\x0c"), "is not read (method 12)");
+    row("an entry of deflate that is none", with(text, kRecord, 10, "\x08"), "is damaged: a.txt");
+    row("a longer name than there is", with(text, kRecord, 28, "\xff\xff"), "its directory is cut off");
+    row("a directory that begins late", with(text, kEnd, 16, "\xff\xff"), "its directory is not whole");
+    row("a directory of other bytes", with(text, kEnd, 16, std::string(1, '\0')), "its directory is cut off");
+    row("more entries than there are", with(text, kEnd, 10, "\2"), "holds 1 entries instead of 2");
+    row("a trillion entries", trillion_entries(), "its directory is not whole");
   }
 
   void an_archive_that_cannot_be_used_is_refused_in_one_line() {

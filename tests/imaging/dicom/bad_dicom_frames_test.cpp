@@ -86,7 +86,7 @@ std::vector<BadDicom> place_rows() {
       {"one frame", file(enhanced(1)), "single image"},
       {"two frames at one place", with_groups({good, good}), "lie at the same position"},
       {"a distance beyond numbers", file(mosaic(csa_of_mosaic()).put_text(0x00180088, "DS", "1e300")),
-       "(0020,0032) is"},
+       "(0018,0088)"},
   };
 }
 

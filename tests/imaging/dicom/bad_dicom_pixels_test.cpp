@@ -62,6 +62,14 @@ std::string jpeg_2000(std::uint32_t columns, std::uint32_t rows, std::uint32_t t
   return stream + std::string(stream.size() % 2 + 8, '\0');
 }
 
+// A JP2 file whose stream goes on with SIZ markers, each with the start of another stream at its end.
+std::string nested_jpeg_2000() {
+  const std::string siz = jpeg_2000(4, 3, 4).substr(0, 45);
+  std::string frame = std::string("\0\0\0\x0cjP  \r\n\x87\n\0\0\0\0jp2c", 20) + siz;
+  for (int n = 0; n < 200'000; ++n) frame += std::string("\xff\x51\0\6\0\0\xff\x4f", 8);
+  return frame + '\0';
+}
+
 // An RLE frame with that many segments, which begin at those offsets.
 std::string rle(std::uint32_t segments, const std::vector<std::uint32_t>& offsets, const std::string& data) {
   std::string header = long_word(segments);
@@ -230,7 +238,9 @@ std::vector<BadDicom> frame_rows() {
       {"JPEG 2000: no stream", one(kJpeg2000, std::string(100, 'x')),
        kPixelData + "holds no JPEG 2000 stream"},
       {"JPEG 2000: a file with no stream in it",
-       one(kJpeg2000, std::string("\0\0\0\x0cjP  \r\n\x87\n\0\0\0\x14", 16) + "ftypjp2 abcdefgh"),
+       one(kJpeg2000, std::string("\0\0\0\x0cjP  \r\n\x87\n\0\0\0\x14"
+                                  "ftypjp2 abcdefgh",
+                                  32)),
        kPixelData + "holds no JPEG 2000 stream"},
       {"JPEG 2000: of another size", one(kJpeg2000, jpeg_2000(5, 3, 5)), "JPEG 2000 stream of 5 x 3"},
       {"JPEG 2000: 4 billion pixels wide", one(kJpeg2000, jpeg_2000(0xffffffff, 3, 64)),
@@ -245,6 +255,8 @@ std::vector<BadDicom> frame_rows() {
        "JPEG 2000 stream of 65536 tiles"},
       {"JPEG 2000: 16384 components", one(kJpeg2000, jpeg_2000(4, 3, 4, 16384)),
        "JPEG 2000 stream of 16384 components"},
+      {"JPEG 2000: a stream at every marker of another one", one(kJpeg2000, nested_jpeg_2000()),
+       kPixelData + "cannot be decoded"},
       {"JPEG 2000: its SIZ marker alone", one(kJpeg2000, jpeg_2000(4, 3, 4)),
        kPixelData + "cannot be decoded"},
   };

@@ -12,8 +12,6 @@ constexpr const char* kBigEndianSyntax = "1.2.840.10008.1.2.2";
 constexpr const char* kDeflated = "1.2.840.10008.1.2.1.99";
 constexpr std::uint32_t kReferencedImages = 0x00081140;
 
-const std::string kPreamble = std::string(128, '\0') + "DICM";
-
 // A slice with one more element, or another in its place.
 std::string with(std::uint32_t tag, const std::string& encoded, Coding coding = kExplicit) {
   return file(Dataset::slice(coding).put(tag, encoded));
@@ -37,25 +35,25 @@ std::vector<BadDicom> beginnings() {
       {"empty", "", "is not a DICOM file"},
       {"one byte", "D", "is not a DICOM file"},
       {"preamble without its magic word", std::string(200, '\0'), "is not a DICOM file"},
-      {"preamble alone", kPreamble, "the dataset is missing"},
-      {"noise", kPreamble + std::string(500, '\x42'), "is damaged"},
-      {"text", kPreamble + "Dear colleague, the scan is on the other disk.", "is damaged"},
-      {"no dataset", kPreamble + good, "the dataset is missing"},
-      {"group length too small", kPreamble + meta(kExplicitSyntax, 20) + slice,
+      {"preamble alone", preamble(), "the dataset is missing"},
+      {"noise", preamble() + std::string(500, '\x42'), "is damaged"},
+      {"text", preamble() + "Dear colleague, the scan is on the other disk.", "is damaged"},
+      {"no dataset", preamble() + good, "the dataset is missing"},
+      {"group length too small", preamble() + meta(kExplicitSyntax, 20) + slice,
        "FileMetaInformationGroupLength (0002,0000)"},
-      {"group length too large", kPreamble + meta(kExplicitSyntax, 200) + slice, "(0002,0000)"},
-      {"group length beyond the file", kPreamble + meta(kExplicitSyntax, 0xfffffff0) + slice, "(0002,0000)"},
-      {"sequence in group 0002", kPreamble + meta(kExplicitSyntax, 0) + sequence + slice, "(0002,0020)"},
-      {"endless element in group 0002", kPreamble + meta(kExplicitSyntax, 0) + endless + slice,
+      {"group length too large", preamble() + meta(kExplicitSyntax, 200) + slice, "(0002,0000)"},
+      {"group length beyond the file", preamble() + meta(kExplicitSyntax, 0xfffffff0) + slice, "(0002,0000)"},
+      {"sequence in group 0002", preamble() + meta(kExplicitSyntax, 0) + sequence + slice, "(0002,0020)"},
+      {"endless element in group 0002", preamble() + meta(kExplicitSyntax, 0) + endless + slice,
        "(0002,0020)"},
-      {"implicit group 0002", kPreamble + text(0x00020010, "UI", kExplicitSyntax, kImplicit) + slice,
+      {"implicit group 0002", preamble() + text(0x00020010, "UI", kExplicitSyntax, kImplicit) + slice,
        "(0002,0010)"},
-      {"big endian group 0002", kPreamble + text(0x00020010, "UI", kExplicitSyntax, kBigEndian) + slice,
+      {"big endian group 0002", preamble() + text(0x00020010, "UI", kExplicitSyntax, kBigEndian) + slice,
        "group 0002"},
       {"big endian group 0002 without preamble", text(0x00020010, "UI", kExplicitSyntax, kBigEndian) + slice,
        "group 0002"},
-      {"odd length in group 0002", kPreamble + element(0x00020010, "UI", "1.2") + slice, "(0002,0010)"},
-      {"unknown representation in group 0002", kPreamble + element(0x00020010, "ZZ", "1.2.") + slice,
+      {"odd length in group 0002", preamble() + element(0x00020010, "UI", "1.2") + slice, "(0002,0010)"},
+      {"unknown representation in group 0002", preamble() + element(0x00020010, "ZZ", "1.2.") + slice,
        "(0002,0010)"},
       {"unknown syntax", file("1.2.3.4", slice), syntax + "1.2.3.4"},
       {"no syntax", file("", slice), syntax},

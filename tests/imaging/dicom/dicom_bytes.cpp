@@ -135,8 +135,12 @@ std::string meta(const std::string& transfer_syntax, std::optional<std::uint32_t
   return element(0x00020000, "UL", long_word(length)) + rest;
 }
 
+std::string preamble() {
+  return std::string(128, '\0') + "DICM";
+}
+
 std::string file(const std::string& transfer_syntax, const std::string& dataset) {
-  return std::string(128, '\0') + "DICM" + meta(transfer_syntax) + dataset;
+  return preamble() + meta(transfer_syntax) + dataset;
 }
 
 std::string file(const Dataset& dataset) {

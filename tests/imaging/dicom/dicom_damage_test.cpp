@@ -149,6 +149,18 @@ class DicomDamageTest : public QObject {
   }
 
   // The header survives, the pixels do not: an error when the series was listed before.
+  void damaged_files_beside_a_series_are_one_warning() {
+    const test::TemporaryFolder folder;
+    test::write_series(test::sample_volume({7, 5, 4}), folder / "series");
+    for (const char* name : {"a.dcm", "b.dcm", "c.dcm"}) write_bytes(folder / "series" / name, "lost");
+    const Series series = test::only_series(folder.path());
+    QVERIFY2(series.loadable, series.reason.c_str());
+    QCOMPARE(series.warnings.size(), std::size_t{1});
+    const QString warning = QString::fromStdString(series.warnings.front());
+    QCOMPARE(warning, QString("a.dcm lies in the same folder and is not a DICOM file (and 2 more cannot be "
+                              "read): a slice may be missing"));
+  }
+
   void a_slice_that_shrinks_after_the_scan_is_an_error() {
     const test::TemporaryFolder folder;
     const auto files = test::write_series(test::sample_volume({7, 5, 3}), folder / "series");
@@ -168,8 +180,8 @@ class DicomDamageTest : public QObject {
     const fs::path notes = folder.path() / "series" / "notes.txt";
     write_bytes(notes, "Not an image.\n");
     write_bytes(folder / "empty.dcm", "");
-    write_bytes(folder / "preamble", std::string(128, '\0') + "DICM");
-    write_bytes(folder / "noise.dcm", std::string(128, '\0') + "DICM" + std::string(500, '\x42'));
+    write_bytes(folder / "preamble", test::preamble());
+    write_bytes(folder / "noise.dcm", test::preamble() + std::string(500, '\x42'));
     const auto found = scan_dicom(folder.path());
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{1});

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "imaging/dicom/dicom.h"
+#include "imaging/dicom/header_reader.h"
 #include "imaging/dicom/pixels.h"
 #include "imaging/study.h"
 #include "tests/imaging/dicom/enhanced_files.h"
@@ -37,19 +38,12 @@ void use_file_of(const Volume& volume, const fs::path& file, const test::Enhance
 class DicomFramesTest : public QObject {
   Q_OBJECT
 
-  static void verify_same(const Volume& read, const Volume& written) {
-    QVERIFY(same_grid(read.geometry, written.geometry, 1e-6));
-    QVERIFY(read.voxels == written.voxels);
-    QCOMPARE(read.slope, written.slope);
-    QCOMPARE(read.intercept, written.intercept);
-  }
-
   static void verify_reads(const fs::path& path, const Volume& written) {
     const Series series = test::only_series(path);
     QVERIFY2(series.loadable, series.reason.c_str());
     const auto read = load_dicom(series);
     QCOMPARE(test::failure(read), QString());
-    verify_same(*read, written);
+    test::verify_same(*read, written);
   }
 
   static void verify_refused(const fs::path& path, const QStringList& parts) {
@@ -155,7 +149,7 @@ class DicomFramesTest : public QObject {
       QCOMPARE(series.description, "Sample, " + label);
       const auto read = load_volume(folder.path(), series.uid);
       QCOMPARE(test::failure(read), QString());
-      verify_same(*read, written[v]);
+      test::verify_same(*read, written[v]);
     }
     // Without a number the UID stands for all of them.
     const std::string uid = found->series[0].uid.substr(0, found->series[0].uid.find('#'));
@@ -287,6 +281,27 @@ class DicomFramesTest : public QObject {
       const QString expected = pieces == 2 ? "PixelData (7FE0,0010), frame 2, holds no JPEG 2000 stream"
                                            : "PixelData (7FE0,0010) holds 3 fragments for 2 frames";
       QVERIFY2(message.contains(expected), qPrintable(message));
+    }
+  }
+
+  // Each frame's header holds what the file says once.
+  void long_texts_are_kept_short() {
+    const std::string text(60'000, 'x');
+    const test::TemporaryFolder folder;
+    test::Enhanced enhanced;
+    enhanced.whole = [&](DcmDataset& dataset) {
+      for (const DcmTagKey& key : {DCM_SeriesDescription, DCM_Modality, DCM_ImageType, DCM_PatientID}) {
+        dataset.putAndInsertString(DcmTag(key, EVR_LT), text.c_str());
+      }
+    };
+    use_file_of(test::sample_volume({7, 5, 3}), folder / "image.dcm", enhanced);
+    const auto slices = read_slice_headers(folder / "image.dcm");
+    QCOMPARE(test::failure(slices), QString());
+    QCOMPARE(slices->size(), std::size_t{3});
+    const SliceHeader& slice = slices->back();
+    for (const std::string& kept :
+         {slice.description, slice.modality, slice.traits.image_type, slice.patient.id}) {
+      QVERIFY2(!kept.empty() && kept.size() <= 800, kept.c_str());
     }
   }
 

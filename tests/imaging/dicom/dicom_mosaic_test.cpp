@@ -20,21 +20,6 @@ namespace {
 
 using CsaValues = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-// The first form has no mark, and says each length with the first value's number of items on top.
-std::string in_first_form(std::string header, std::uint32_t first_items) {
-  header.erase(0, 8);
-  for (std::size_t at = 8; at < header.size();) {
-    const auto items = static_cast<unsigned char>(header[at + 76]);
-    at += 84;
-    for (int i = 0; i < items; ++i) {
-      const auto length = static_cast<unsigned char>(header[at]);
-      header.replace(at, 4, test::long_word(length + first_items));
-      at += 16 + (length + 3U) / 4U * 4U;
-    }
-  }
-  return header;
-}
-
 std::vector<double> numbers(const std::string& header, std::string_view name) {
   return csa_numbers({reinterpret_cast<const std::uint8_t*>(header.data()), header.size()}, name);
 }
@@ -160,6 +145,7 @@ class DicomMosaicTest : public QObject {
     QTest::newRow("two numbers") << 7 << "of 9 slices by (0019,100A), and of 7";
     QTest::newRow("no header") << 8 << "of how many slices";
     QTest::newRow("no place") << 9 << "without ImagePositionPatient (0020,0032)";
+    QTest::newRow("an endless distance") << 10 << "(0018,0088)";
   }
 
   void a_mosaic_of_unknown_slices_is_refused_by_name() {
@@ -179,6 +165,7 @@ class DicomMosaicTest : public QObject {
       if (what == 7) dataset.putAndInsertUint16(DcmTag(0x0019, 0x100a, EVR_US), 9);
       if (what == 8) delete dataset.remove(DcmTagKey(0x0029, 0x1110));
       if (what == 9) delete dataset.remove(DCM_ImagePositionPatient);
+      if (what == 10) dataset.putAndInsertString(DCM_SpacingBetweenSlices, "1e308");
     });
     const Series series = test::only_series(folder.path());
     QVERIFY(!series.loadable);
@@ -188,7 +175,7 @@ class DicomMosaicTest : public QObject {
   void both_forms_of_the_header_are_read() {
     const CsaValues values{{"Echo", {"", "7"}}, {"Name", {"x"}}, {"Numbers", {"1.5 ", "-2e3", "", "4"}}};
     const std::string second = test::csa_bytes(values);
-    for (const std::string& header : {second, in_first_form(second, 2)}) {
+    for (const std::string& header : {second, test::csa_in_first_form(second, 2)}) {
       QCOMPARE(numbers(header, "Numbers"), (std::vector{1.5, -2000.0, 4.0}));
       QCOMPARE(numbers(header, "Echo"), std::vector{7.0});
       QVERIFY(numbers(header, "Name").empty());

@@ -8,6 +8,7 @@
 
 #include "imaging/dicom/dicom.h"
 #include "imaging/study.h"
+#include "tests/imaging/dicom/enhanced_files.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
 
@@ -17,6 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 using Change = std::function<void(DcmDataset&)>;
+using Groups = std::function<void(DcmItem&, std::size_t)>;
 
 DcmItem& tracer_of(DcmDataset& dataset) {
   DcmItem* item = nullptr;
@@ -53,7 +55,7 @@ double factor(double seconds) {
   return 70.0 * 1000.0 / (200e6 * std::exp2(-seconds / 6588.0));
 }
 
-void put_mapping(DcmDataset& dataset, const char* unit, Uint16 last = 65535) {
+void put_mapping(DcmItem& dataset, const char* unit, Uint16 last = 65535) {
   DcmItem* mapping = nullptr;
   dataset.findOrCreateSequenceItem(DCM_RealWorldValueMappingSequence, mapping, -2);
   mapping->putAndInsertFloat64(DCM_RealWorldValueSlope, 1e-6);
@@ -84,6 +86,27 @@ class Made {
   Volume sample_ = test::sample_volume_uint16({5, 4, 3});
 };
 
+// One file of three frames.
+class Enhanced {
+ public:
+  Enhanced(
+      const char* modality, const Groups& frame, const Change& change = [](DcmDataset&) {}) {
+    test::Enhanced enhanced;
+    enhanced.frame = frame;
+    enhanced.whole = [&](DcmDataset& dataset) {
+      dataset.putAndInsertString(DCM_Modality, modality);
+      dataset.findAndDeleteElement(DCM_RescaleType);
+      change(dataset);
+    };
+    test::write_enhanced(test::frames_of(sample_), folder_ / "image.dcm", enhanced);
+  }
+  [[nodiscard]] Series series() const { return test::only_series(folder_.path()); }
+
+ private:
+  test::TemporaryFolder folder_;
+  Volume sample_ = test::sample_volume_uint16({5, 4, 3});
+};
+
 bool told(const std::vector<std::string>& lines, const QString& part) {
   return std::any_of(lines.begin(), lines.end(),
                      [&](const std::string& line) { return QString::fromStdString(line).contains(part); });
@@ -102,6 +125,15 @@ class DicomQuantityTest : public QObject {
     QCOMPARE(Made("MR", {}).series().unit, std::string());
     const Made other("CT", {[](DcmDataset& d) { d.putAndInsertString(DCM_RescaleType, "US"); }});
     QCOMPARE(other.series().unit, std::string());
+  }
+
+  void ct_in_two_units_is_no_volume() {
+    const Change other = [](DcmDataset& d) { d.putAndInsertString(DCM_RescaleType, "US"); };
+    const Made mixed("CT", {}, other);
+    QVERIFY(!mixed.series().loadable);
+    QVERIFY(told({mixed.series().reason}, "the unit of the values is not the same"));
+    const Made silent("CT", {}, [](DcmDataset& d) { d.findAndDeleteElement(DCM_RescaleType); });
+    QCOMPARE(silent.series().unit, std::string("HU"));
   }
 
   void activity_becomes_suv_data() {
@@ -262,6 +294,36 @@ class DicomQuantityTest : public QObject {
     const auto volume = load_series(series);
     QCOMPARE(test::failure(volume), QString());
     QCOMPARE(static_cast<double>(volume->value(std::int64_t{7})), made.stored(7));
+  }
+
+  void frames_say_in_their_groups_what_their_values_are() {
+    const auto rescaled = [](const char* type) {
+      return [=](DcmItem& groups, std::size_t) {
+        DcmItem& values = test::group(groups, DCM_PixelValueTransformationSequence);
+        values.putAndInsertString(DCM_RescaleSlope, "2");
+        values.putAndInsertString(DCM_RescaleIntercept, "-7");
+        values.putAndInsertString(DCM_RescaleType, type);
+      };
+    };
+    QCOMPARE(Enhanced("CT", rescaled("HU")).series().unit, std::string("HU"));
+    QCOMPARE(Enhanced("CT", rescaled("MGML")).series().unit, std::string());
+
+    // A mapping takes the place of each frame's rescale, also where it is shared and read before that.
+    const Enhanced mapped("MR", rescaled("US"), [](DcmDataset& dataset) {
+      put_mapping(test::group(dataset, DCM_SharedFunctionalGroupsSequence), "mm2/s");
+    });
+    QCOMPARE(mapped.series().unit, std::string("mm2/s"));
+    const auto volume = load_series(mapped.series());
+    QCOMPARE(test::failure(volume), QString());
+    QCOMPARE(volume->slope, 1e-6);
+    QCOMPARE(volume->intercept, 0.25);
+
+    const Enhanced some("MR", [](DcmItem& groups, std::size_t frame) {
+      if (frame > 0) put_mapping(groups, "mm2/s");
+    });
+    QVERIFY(told({some.series().reason}, "the unit of the values is not the same"));
+    const Enhanced plain("MR", [](DcmItem& groups, std::size_t) { put_mapping(groups, "1"); });
+    QVERIFY(told(plain.series().changes, "is not used: it states no unit"));
   }
 };
 

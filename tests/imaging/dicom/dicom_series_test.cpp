@@ -18,13 +18,6 @@ namespace fs = std::filesystem;
 class DicomSeriesTest : public QObject {
   Q_OBJECT
 
-  static void verify_same(const Volume& read, const Volume& written) {
-    QVERIFY(same_grid(read.geometry, written.geometry, 1e-6));
-    QVERIFY(read.voxels == written.voxels);
-    QCOMPARE(read.slope, written.slope);
-    QCOMPARE(read.intercept, written.intercept);
-  }
-
  private slots:
   void what_is_written_is_read_back_data() {
     QTest::addColumn<QString>("modality");
@@ -56,7 +49,7 @@ class DicomSeriesTest : public QObject {
     QVERIFY(series.warnings.empty());
     const auto read = load_dicom(series);
     QCOMPARE(test::failure(read), QString());
-    verify_same(*read, written);
+    test::verify_same(*read, written);
     QVERIFY(read->window.has_value());
     QCOMPARE(read->window->centre, 40.0);
     QCOMPARE(read->window->width, 400.0);
@@ -94,7 +87,7 @@ class DicomSeriesTest : public QObject {
     const auto read = load_dicom(test::only_series(folder.path()));
     std::setlocale(LC_ALL, "C");
     QCOMPARE(test::failure(read), QString());
-    verify_same(*read, written);
+    test::verify_same(*read, written);
   }
 
   void slices_are_sorted_by_position_whatever_their_names() {
@@ -109,7 +102,7 @@ class DicomSeriesTest : public QObject {
     QCOMPARE(series.changes, std::vector<std::string>{"slices sorted by position"});
     const auto read = load_dicom(series);
     QCOMPARE(test::failure(read), QString());
-    verify_same(*read, written);
+    test::verify_same(*read, written);
   }
 
   void a_left_handed_volume_is_read_back_right_handed_at_the_same_place() {
@@ -183,7 +176,7 @@ class DicomSeriesTest : public QObject {
       QVERIFY2(series.loadable, series.reason.c_str());
       const auto read = load_dicom(series);
       QCOMPARE(test::failure(read), QString());
-      verify_same(*read, series.modality == "CT" ? small : large);
+      test::verify_same(*read, series.modality == "CT" ? small : large);
     }
   }
 
@@ -261,6 +254,43 @@ class DicomSeriesTest : public QObject {
              "the cut bits are not mentioned");
   }
 
+  void values_without_sign_may_have_fewer_bits_than_their_words() {
+    const test::TemporaryFolder folder;
+    for (const fs::path& file :
+         test::write_series(test::sample_volume_uint16({2, 2, 2}), folder / "series")) {
+      test::edit(file, [](DcmDataset& dataset) {
+        const Uint16 words[] = {0x7ff0, 0x000f, 0xfff0, 0x8010};  // the upper 12 bits
+        dataset.putAndInsertUint16(DCM_BitsStored, 12);
+        dataset.putAndInsertUint16(DCM_HighBit, 15);
+        dataset.putAndInsertUint16Array(DcmTag(DCM_PixelData, EVR_OW), words, 4);
+      });
+    }
+    const auto read = load_dicom(test::only_series(folder.path()));
+    QCOMPARE(test::failure(read), QString());
+    const std::vector<std::uint16_t> expected{0x7ff, 0, 0xfff, 0x801, 0x7ff, 0, 0xfff, 0x801};
+    QCOMPARE(std::get<std::vector<std::uint16_t>>(read->voxels), expected);
+    QVERIFY2(!read->changes.empty() && read->changes.back().find("2 slices") != std::string::npos,
+             "the cut bits are not mentioned");
+  }
+
+  // As int16, because one slice has a sign: what the other's words hold fits, too.
+  void slices_with_sign_and_without_make_one_volume() {
+    const test::TemporaryFolder folder;
+    const auto files = test::write_series(test::sample_volume({2, 2, 2}), folder / "series");
+    test::edit(files[1], [](DcmDataset& dataset) {
+      const Uint16 words[] = {0, 1, 4094, 4095};
+      dataset.putAndInsertUint16(DCM_BitsStored, 12);
+      dataset.putAndInsertUint16(DCM_HighBit, 11);
+      dataset.putAndInsertUint16(DCM_PixelRepresentation, 0);
+      dataset.putAndInsertUint16Array(DcmTag(DCM_PixelData, EVR_OW), words, 4);
+    });
+    const auto read = load_dicom(test::only_series(folder.path()));
+    QCOMPARE(test::failure(read), QString());
+    const auto& voxels = std::get<std::vector<std::int16_t>>(read->voxels);
+    QCOMPARE(voxels[0], std::int16_t{-32768});
+    QCOMPARE(std::vector(voxels.begin() + 4, voxels.end()), (std::vector<std::int16_t>{0, 1, 4094, 4095}));
+  }
+
   void progress_is_reported_in_turn_and_work_can_be_stopped() {
     const test::TemporaryFolder folder;
     test::write_series(test::sample_volume({7, 5, 20}), folder / "series");
@@ -301,8 +331,9 @@ class DicomSeriesTest : public QObject {
     const Status stopped = write_dicom_series(volume, {}, folder / "series", progress);
     QVERIFY(!stopped);
     QCOMPARE(stopped.error().kind, ErrorKind::cancelled);
-    QVERIFY(fs::is_empty(folder / "series"));
+    QVERIFY(fs::is_empty(folder.path()));
 
+    fs::create_directory(folder / "series");
     std::ofstream(folder / "series" / "notes.txt") << "kept";
     const Status refused = write_dicom_series(volume, {}, folder / "series");
     QVERIFY(!refused);
@@ -312,6 +343,33 @@ class DicomSeriesTest : public QObject {
     Volume floats = volume;
     floats.voxels = std::vector<float>(700);
     QCOMPARE(write_dicom_series(floats, {}, folder / "floats").error().kind, ErrorKind::write);
+  }
+
+  void a_series_takes_the_place_of_an_older_one() {
+    const test::TemporaryFolder folder;
+    QVERIFY(write_dicom_series(test::sample_volume({7, 5, 3}), {}, folder / "series"));
+    fs::create_directory_symlink(folder / "series", folder / "link");
+    const Volume volume = test::sample_volume({6, 4, 5});
+    QCOMPARE(test::failure(write_dicom_series(volume, {}, folder / "link/")), QString());
+    QVERIFY(fs::is_symlink(folder / "link"));
+    const auto read = load_dicom(test::only_series(folder / "series"));
+    QCOMPARE(test::failure(read), QString());
+    QVERIFY(read->voxels == volume.voxels);
+    QCOMPARE(std::distance(fs::directory_iterator(folder.path()), {}), std::ptrdiff_t{2});
+  }
+
+  void what_a_killed_program_was_writing_is_no_series() {
+    const test::TemporaryFolder folder;
+    const Volume volume = test::sample_volume({6, 4, 5});
+    QVERIFY(write_dicom_series(volume, {}, folder / ".tidemark-0123ab-series"));
+    QVERIFY(write_dicom_series(volume, {}, folder / "series"));
+    fs::copy_file(folder / ".tidemark-0123ab-series/slice-00001.dcm",
+                  folder / "series/.tidemark-0123ab-slice-00001.dcm");
+    const auto found = scan_dicom(folder.path());
+    QCOMPARE(test::failure(found), QString());
+    QCOMPARE(found->series.size(), std::size_t{1});
+    QVERIFY(found->skipped.empty());
+    QVERIFY2(found->series.front().loadable, found->series.front().reason.c_str());
   }
 };
 

@@ -54,6 +54,20 @@ std::string csa_bytes(const std::vector<std::pair<std::string, std::vector<std::
   return bytes;
 }
 
+std::string csa_in_first_form(std::string header, std::uint32_t first_items) {
+  header.erase(0, 8);
+  for (std::size_t at = 8; at < header.size();) {
+    const auto items = static_cast<unsigned char>(header[at + 76]);
+    at += 84;
+    for (int i = 0; i < items; ++i) {
+      const auto length = static_cast<unsigned char>(header[at]);
+      header.replace(at, 4, long_word(length + first_items));
+      at += 16 + (length + 3U) / 4U * 4U;
+    }
+  }
+  return header;
+}
+
 std::string csa_of_mosaic() {
   return csa_bytes({{"NumberOfImagesInMosaic", {"4"}}, {"SliceNormalVector", {"0", "0", "1"}}});
 }

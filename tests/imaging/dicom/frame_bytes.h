@@ -21,8 +21,11 @@ std::string frame_groups(const std::string& position, const std::string& before 
 // An enhanced CT image of frames of 4 x 3 pixels, whole and well.
 Dataset enhanced(int frames);
 
-// A CSA header in its second form with one value a name.
+// A CSA header of those names and values, in its second form.
 std::string csa_bytes(const std::vector<std::pair<std::string, std::vector<std::string>>>& values);
+// The same in the first form, which has no mark, and says each length with the number of the first name's
+// values on top.
+std::string csa_in_first_form(std::string header, std::uint32_t first_items);
 
 // A Siemens mosaic of four slices of 2 x 2 pixels, whole and well, with that CSA header.
 Dataset mosaic(const std::string& csa_header);

@@ -21,15 +21,6 @@ constexpr GridPolicy kFill{GridPolicy::Tilt::correct, GridPolicy::Gaps::fill};
 constexpr GridPolicy kKeep{GridPolicy::Tilt::keep, GridPolicy::Gaps::refuse};
 constexpr Index3 kSize{12, 10, 8};
 
-// Moves slice k by k * mm along the columns, as a tilted gantry does.
-void tilt(const std::vector<fs::path>& files, const Geometry& grid, double mm) {
-  for (std::size_t k = 0; k < files.size(); ++k) {
-    const auto step = static_cast<double>(k);
-    const glm::dvec3 place = grid.to_patient({0.0, 0.0, step}) + mm * step * grid.direction[1];
-    test::set_text(files[k], 0x0020, 0x0032, decimals(place.x, place.y, place.z).c_str());
-  }
-}
-
 bool says(const std::vector<std::string>& lines, const std::string& part) {
   return std::any_of(lines.begin(), lines.end(),
                      [&](const std::string& line) { return line.find(part) != std::string::npos; });
@@ -87,7 +78,7 @@ class IrregularSeriesTest : public QObject {
   }
 
   void a_tilt_is_corrected_unless_it_is_kept() {
-    tilt(files_, whole_.geometry, 0.9);  // one pixel a slice: nothing is interpolated
+    test::tilt(files_, whole_.geometry, 0.9);  // one pixel a slice: nothing is interpolated
     const auto loaded = load_with_series(folder_ / "series");
     QCOMPARE(test::failure(loaded), QString());
     const Volume& volume = loaded->volume;
@@ -105,22 +96,30 @@ class IrregularSeriesTest : public QObject {
     QVERIFY(says(kept->series.warnings, "sheared"));
   }
 
+  // Also where the padding value was written without the sign that the pixels have.
   void padding_is_what_lies_beside_the_slices() {
-    tilt(files_, whole_.geometry, 0.45);
-    for (const fs::path& file : files_) {
-      test::edit(file, [](DcmDataset& dataset) {
-        dataset.putAndInsertSint16(DcmTag(DCM_PixelPaddingValue, EVR_SS), -2000);
-      });
+    test::tilt(files_, whole_.geometry, 0.45);
+    for (const bool has_sign : {true, false}) {
+      for (const fs::path& file : files_) {
+        test::edit(file, [&](DcmDataset& dataset) {
+          delete dataset.remove(DCM_PixelPaddingValue);
+          if (has_sign) {
+            dataset.putAndInsertSint16(DcmTag(DCM_PixelPaddingValue, EVR_SS), -2000);
+          } else {
+            dataset.putAndInsertUint16(DcmTag(DCM_PixelPaddingValue, EVR_US), 65536 - 2000);
+          }
+        });
+      }
+      const auto volume = load_volume(folder_ / "series");
+      QCOMPARE(test::failure(volume), QString());
+      QCOMPARE(value_at(*volume, {0, 0, 7}), -2000.0);
     }
-    const auto volume = load_volume(folder_ / "series");
-    QCOMPARE(test::failure(volume), QString());
-    QCOMPARE(value_at(*volume, {0, 0, 7}), -2000.0);
   }
 
   void a_slice_of_an_irregular_series_is_read_alone() {
     fs::remove(files_[5]);
     std::vector<fs::path> rest = files_;
-    tilt(files_ = {files_[0], files_[1], files_[2], files_[3], files_[4]}, whole_.geometry, 0.3);
+    test::tilt(files_ = {files_[0], files_[1], files_[2], files_[3], files_[4]}, whole_.geometry, 0.3);
     for (const std::size_t k : {std::size_t{6}, std::size_t{7}}) {
       const auto step = static_cast<double>(k);
       const glm::dvec3 place =
@@ -179,7 +178,7 @@ class IrregularSeriesTest : public QObject {
 
   // What is told in coordinates that are not the patient's must not get back among the patient's images.
   void results_on_slices_whose_tilt_was_kept_are_refused() {
-    tilt(files_, whole_.geometry, 0.9);
+    test::tilt(files_, whole_.geometry, 0.9);
     for (const GridPolicy& policy : {GridPolicy(), kKeep}) {
       const auto loaded = load_with_series(folder_ / "series", {}, {}, policy);
       QCOMPARE(test::failure(loaded), QString());
@@ -201,7 +200,7 @@ class IrregularSeriesTest : public QObject {
   // Places that nobody was scanned at, and a tilt by many of the smallest pixels: a grid of all that would
   // not fit any memory.
   void no_attribute_makes_a_grid_much_larger_than_the_images() {
-    tilt(files_, whole_.geometry, 0.9);
+    test::tilt(files_, whole_.geometry, 0.9);
     for (const fs::path& file : files_) test::set_text(file, 0x0028, 0x0030, "0.00001\\0.00001");
     const Series wide = find_series(folder_ / "series")->series.front();
     QVERIFY(!wide.loadable && !wide.fillable());
@@ -219,7 +218,7 @@ class IrregularSeriesTest : public QObject {
 
   // Of numbers that no scanner writes.
   void odd_padding_and_rescaling_are_no_way_out_of_the_types() {
-    tilt(files_, whole_.geometry, 0.45);
+    test::tilt(files_, whole_.geometry, 0.45);
     for (const fs::path& file : files_) {
       test::set_text(file, 0x0028, 0x1053, "1e-30");
       test::set_text(file, 0x0028, 0x1052, "1e30");
@@ -238,7 +237,7 @@ class IrregularSeriesTest : public QObject {
   }
 
   void the_same_files_give_the_same_error_whoever_decodes_them() {
-    tilt(files_, whole_.geometry, 0.45);
+    test::tilt(files_, whole_.geometry, 0.45);
     const auto found = find_series(folder_ / "series");
     QCOMPARE(test::failure(found), QString());
     QVERIFY(found->series.front().loadable);

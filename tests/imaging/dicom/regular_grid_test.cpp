@@ -210,6 +210,14 @@ class RegularGridTest : public QObject {
     QVERIFY(kept.slices.empty());
     QCOMPARE(kept.geometry.size, stack.size);
     QVERIFY(has(kept.warnings.at(0), fmt::format("tilted by {:.1f} degrees", degrees).c_str()));
+    for (const GridPlan& one : {plan, kept}) {
+      const std::string said = fmt::format(
+          "tilted by {:.1f} degrees: from the first slice to the last, slices "
+          "move {:.2f} mm sideways.",
+          degrees, 12.0 * std::hypot(x, y));
+      QVERIFY2(has(one.tilt, said.c_str()), one.tilt.c_str());
+    }
+    QVERIFY(plan_regular_grid(stack_at({0, 3, 6}, {0.0, 0.0}), {}).tilt.empty());
   }
 
   void what_moves_sideways_otherwise_is_no_tilt() {
@@ -219,6 +227,7 @@ class RegularGridTest : public QObject {
       QVERIFY(has(plan_regular_grid(stack, policy).refusal, "unevenly: from s2 to s3"));
       const std::string steep = plan_regular_grid(stack_at({0, 3, 6}, {0.0, 1.5}), policy).refusal;
       QVERIFY2(has(steep, "56.3 degrees"), steep.c_str());
+      QVERIFY(plan_regular_grid(stack, policy).tilt.empty());  // there is nothing to choose
     }
   }
 

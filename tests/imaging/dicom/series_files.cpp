@@ -2,12 +2,14 @@
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
+#include <QTest>
 
 #include <QtGlobal>
 #include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "imaging/dicom/dicom.h"
+#include "imaging/dicom/dicom_values.h"
 
 namespace tidemark::test {
 namespace {
@@ -86,6 +88,14 @@ void set_text(const fs::path& file, unsigned group, unsigned element, const char
   });
 }
 
+void tilt(const std::vector<fs::path>& files, const Geometry& grid, double mm) {
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    const auto step = static_cast<double>(k);
+    const glm::dvec3 place = grid.to_patient({0.0, 0.0, step}) + mm * step * grid.direction[1];
+    set_text(files[k], 0x0020, 0x0032, decimals(place.x, place.y, place.z).c_str());
+  }
+}
+
 void truncate(const fs::path& file, std::uintmax_t bytes) {
   fs::resize_file(file, bytes);
 }
@@ -95,6 +105,13 @@ Series only_series(const fs::path& path) {
   require(found.has_value(), found ? "" : found.error().message);
   require(found->series.size() == 1, fmt::format("{} series in {}", found->series.size(), path.string()));
   return found->series.front();
+}
+
+void verify_same(const Volume& read, const Volume& written) {
+  QVERIFY(same_grid(read.geometry, written.geometry, 1e-6));
+  QVERIFY(read.voxels == written.voxels);
+  QCOMPARE(read.slope, written.slope);
+  QCOMPARE(read.intercept, written.intercept);
 }
 
 }  // namespace tidemark::test

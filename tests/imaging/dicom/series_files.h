@@ -28,10 +28,16 @@ void edit(const std::filesystem::path& file, const std::function<void(DcmDataset
 // Sets one attribute's text, whatever it says; an empty text removes the attribute.
 void set_text(const std::filesystem::path& file, unsigned group, unsigned element, const char* text);
 
+// Moves slice k of the grid by k * mm along the columns, as a tilted gantry does.
+void tilt(const std::vector<std::filesystem::path>& files, const Geometry& grid, double mm);
+
 // The file's first `bytes` bytes only.
 void truncate(const std::filesystem::path& file, std::uintmax_t bytes);
 
 // The only series below the path. Ends the test program when there is none or another.
 Series only_series(const std::filesystem::path& path);
+
+// Fails the test that runs unless grid, voxels and rescale are the same.
+void verify_same(const Volume& read, const Volume& written);
 
 }  // namespace tidemark::test

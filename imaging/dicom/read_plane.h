@@ -1,0 +1,21 @@
+// What stands in a classic image itself, and of an enhanced one in the groups of its frames: where the slice
+// lies, and what its stored values mean.
+#pragma once
+
+#include "imaging/dicom/attribute_reader.h"
+#include "imaging/dicom/slice_header.h"
+
+namespace tidemark {
+
+// What is absent stays as it is; what is there must be numbers (PS3.3 C.7.6.2).
+void read_position(AttributeReader& in, SliceHeader& header);
+void read_orientation(AttributeReader& in, SliceHeader& header);
+void read_pixel_spacing(AttributeReader& in, SliceHeader& header);
+
+// Modality LUT (PS3.3 C.11.1): slope, intercept and the unit that they lead to.
+void read_rescale(AttributeReader& in, SliceHeader& header);
+
+// VOI LUT (PS3.3 C.11.2). A window that makes no sense is as good as none: it decides nothing.
+void read_window(const AttributeReader& in, SliceHeader& header);
+
+}  // namespace tidemark
