@@ -3,9 +3,6 @@
 #include <QCoreApplication>
 #include <QTemporaryDir>
 
-#include "session/background_job.h"
-#include "session/job_progress.h"
-
 namespace tidemark {
 namespace {
 
@@ -34,26 +31,7 @@ Result<Sent> write_and_send(const PacsServer& server, const PacsClient::WriteFil
 
 }  // namespace
 
-PacsClient::~PacsClient() {
-  if (job_) job_->abandon();
-}
-
-// Calls work(progress) on a thread and deliver(result) here.
-template <class Work, class Deliver>
-void PacsClient::run(Work work, Deliver deliver) {
-  if (job_) job_->abandon();
-  job_ = BackgroundJob::start(this, [this, work, deliver](BackgroundJob& job) {
-    const Progress progress =
-        job_progress(job, "tidemark::PacsStep",
-                     [this](double fraction, const QString& step) { emit progressed(fraction, step); });
-    const auto result = std::make_shared<decltype(work(progress))>(work(progress));
-    job.deliver([this, deliver, result] {
-      job_.reset();
-      if (*result) return deliver(std::move(**result));
-      emit failed(QString::fromStdString(result->error().message));
-    });
-  });
-}
+PacsClient::PacsClient(QObject* parent) : JobRunner("tidemark::PacsStep", parent) {}
 
 void PacsClient::echo(const PacsServer& server) {
   run([server](const Progress& progress) { return pacs_echo(server, progress); },
@@ -85,13 +63,6 @@ void PacsClient::retrieve(const PacsServer& server, const RetrieveRequest& reque
 void PacsClient::send(const PacsServer& server, WriteFiles write) {
   run([server, write](const Progress& progress) { return write_and_send(server, write, progress); },
       [this](Sent&& what) { emit sent(std::make_shared<const Sent>(std::move(what))); });
-}
-
-void PacsClient::cancel() {
-  if (!job_) return;
-  job_->abandon();
-  job_.reset();
-  emit cancelled();
 }
 
 }  // namespace tidemark

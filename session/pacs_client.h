@@ -1,24 +1,18 @@
 // A PACS for the user interface, which never waits for it.
 #pragma once
 
-#include <QObject>
-#include <QString>
 #include <functional>
 #include <memory>
 
 #include "imaging/pacs/pacs.h"
+#include "session/job_runner.h"
 
 namespace tidemark {
 
-class BackgroundJob;
-
-// Lives on the thread of the user interface; the work is done on others. One piece of work at a time: whoever
-// asks for the next gives up the one before, of which nothing is heard any more.
-class PacsClient : public QObject {
+class PacsClient : public JobRunner {
   Q_OBJECT
  public:
-  using QObject::QObject;
-  ~PacsClient() override;  // gives up what runs, and waits for nothing
+  explicit PacsClient(QObject* parent = nullptr);
 
   // Each ends with its signal, or with failed().
   void echo(const PacsServer& server);
@@ -30,25 +24,15 @@ class PacsClient : public QObject {
       const std::filesystem::path& folder, const Progress& progress)>;
   void send(const PacsServer& server, WriteFiles write);
 
-  [[nodiscard]] bool busy() const { return job_ != nullptr; }
-  void cancel();  // emits cancelled() when something was given up
+  void cancel() { give_up(); }
 
  signals:
-  void progressed(double fraction, const QString& step);  // below 0 when unknown
   void answered(double seconds);
   void studies_found(std::shared_ptr<const tidemark::Found<tidemark::PacsStudy>> studies);
   void series_found(const QString& study_uid,
                     std::shared_ptr<const tidemark::Found<tidemark::PacsSeries>> series);
   void retrieved(const QString& folder, std::shared_ptr<const tidemark::Retrieved> what);
   void sent(std::shared_ptr<const tidemark::Sent> what);
-  void failed(const QString& message);
-  void cancelled();
-
- private:
-  template <class Work, class Deliver>
-  void run(Work work, Deliver deliver);
-
-  std::shared_ptr<BackgroundJob> job_;
 };
 
 }  // namespace tidemark

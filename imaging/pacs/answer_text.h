@@ -5,12 +5,16 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tidemark {
 
 // On one line, without blanks around it, at most 512 bytes of whole UTF-8 characters; what is not UTF-8
 // becomes question marks.
 [[nodiscard]] std::string clean_text(std::string text);
+
+// The parts between the separators, empty ones, too.
+[[nodiscard]] std::vector<std::string> split(const std::string& text, char separator);
 
 // "2004-07-31" of "20040731" or "2004.07.31"; empty when it is no date.
 [[nodiscard]] std::string date_text(std::string text);

@@ -13,10 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The attributes that are read come before it; whether those behind it are sound the preflight has seen.
+const DcmTagKey kAfterIdentity(0x0020, 0x0010);
+
 Result<ObjectIdentity> identity_of(const fs::path& file, const TransferSyntax& syntax) {
   DcmFileFormat loaded;
   const OFCondition parsed =
-      loaded.loadFile(file.c_str(), DcmXfer(std::string(syntax.uid).c_str()).getXfer());
+      loaded.loadFileUntilTag(file.c_str(), DcmXfer(std::string(syntax.uid).c_str()).getXfer(), EGL_noChange,
+                              DCM_MaxReadLength, ERM_autoDetect, kAfterIdentity);
   if (parsed.bad()) return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
   DcmDataset& dataset = *loaded.getDataset();
   const auto text = [&](const DcmTagKey& key) {

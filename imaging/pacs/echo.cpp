@@ -3,9 +3,9 @@
 #include <dcmtk/dcmnet/dimse.h>
 
 #include "core/stopwatch.h"
+#include "core/without_exceptions.h"
 #include "imaging/pacs/association.h"
 #include "imaging/pacs/pacs.h"
-#include "imaging/pacs/whole_call.h"
 
 namespace tidemark {
 namespace {
@@ -41,7 +41,7 @@ Result<double> echo(const PacsServer& server, const Progress& progress) {
 }  // namespace
 
 Result<double> pacs_echo(const PacsServer& server, const Progress& progress) {
-  return whole_call([&] { return echo(server, progress); });
+  return without_exceptions([&] { return echo(server, progress); });
 }
 
 }  // namespace tidemark

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <functional>
 
+#include "core/without_exceptions.h"
 #include "imaging/pacs/answer_text.h"
 #include "imaging/pacs/association.h"
 #include "imaging/pacs/pacs.h"
 #include "imaging/pacs/storage_classes.h"
-#include "imaging/pacs/whole_call.h"
 
 namespace tidemark {
 namespace {
@@ -119,19 +119,6 @@ Result<bool> ask(const PacsServer& server, Question& question, const TakeAnswer&
   }
 }
 
-std::vector<std::string> words(const std::string& text) {
-  std::vector<std::string> found(1);
-  for (const char c : text) {
-    if (c == '\\') {
-      found.emplace_back();
-    } else {
-      found.back() += c;
-    }
-  }
-  std::erase(found, "");
-  return found;
-}
-
 PacsStudy study_of(const Answer& answer) {
   PacsStudy study;
   study.uid = answer.uid(DCM_StudyInstanceUID);
@@ -140,7 +127,8 @@ PacsStudy study_of(const Answer& answer) {
   study.birth_date = date_text(answer.text(DCM_PatientBirthDate));
   study.date = date_text(answer.text(DCM_StudyDate));
   study.description = answer.text(DCM_StudyDescription);
-  study.modalities = words(answer.text(DCM_ModalitiesInStudy));
+  study.modalities = split(answer.text(DCM_ModalitiesInStudy), '\\');
+  std::erase(study.modalities, "");
   study.series = count_of(answer.text(DCM_NumberOfStudyRelatedSeries));
   study.objects = count_of(answer.text(DCM_NumberOfStudyRelatedInstances));
   return study;
@@ -182,7 +170,7 @@ Result<Found<Entry>> collect(const PacsServer& server, Question& question, const
 
 Result<Found<PacsStudy>> find_studies(const PacsServer& server, const StudyQuery& query,
                                       const PacsLimits& limits, const Progress& progress) {
-  return whole_call([&]() -> Result<Found<PacsStudy>> {
+  return without_exceptions([&]() -> Result<Found<PacsStudy>> {
     for (const auto& [name, value] : {std::pair{"patient name", &query.patient_name},
                                       {"patient ID", &query.patient_id},
                                       {"modality", &query.modality},
@@ -207,7 +195,7 @@ Result<Found<PacsStudy>> find_studies(const PacsServer& server, const StudyQuery
 
 Result<Found<PacsSeries>> find_pacs_series(const PacsServer& server, const SeriesQuery& query,
                                            const PacsLimits& limits, const Progress& progress) {
-  return whole_call([&]() -> Result<Found<PacsSeries>> {
+  return without_exceptions([&]() -> Result<Found<PacsSeries>> {
     if (!is_uid(query.study_uid))
       return fail(ErrorKind::usage, "'{}' is no UID", query.study_uid.substr(0, 80));
     for (const auto& [name, value] :

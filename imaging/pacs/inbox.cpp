@@ -13,53 +13,51 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kBytesBetweenLooks = std::int64_t{16} << 20;  // at the disk's free space
 constexpr std::size_t kMostReasons = 20;
-constexpr const char* kPart = ".part";
+
+// Nothing of the user's is to be replaced.
+Status require_empty(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return {};
+  if (fs::is_directory(folder, error) && fs::is_empty(folder, error)) return {};
+  return fail(ErrorKind::write, "{}: cannot be filled: it is no empty folder", folder.string());
+}
 
 }  // namespace
 
 Result<std::unique_ptr<Inbox>> Inbox::create(const RetrieveRequest& request, const PacsLimits& limits,
                                              const Progress& progress) {
-  std::unique_ptr<Inbox> inbox(new Inbox(request, limits, progress));
+  if (Status empty = require_empty(request.folder); !empty) return pass_on(empty);
   std::error_code error;
-  const std::string folder = request.folder.string();
-  if (fs::exists(request.folder, error)) {
-    if (!fs::is_directory(request.folder, error) || !fs::is_empty(request.folder, error)) {
-      return fail(ErrorKind::write, "{}: cannot be filled: it is no empty folder", folder);
-    }
-  } else {
-    fs::create_directories(request.folder, error);
-    inbox->made_folder_ = !error;
+  // "series/" is "series".
+  const fs::path named = request.folder.has_filename() ? request.folder : request.folder.parent_path();
+  if (named.has_parent_path()) fs::create_directories(named.parent_path(), error);
+  if (error) {
+    return fail(ErrorKind::write, "{}: cannot be made: {}", request.folder.string(), error.message());
   }
-  if (error) return fail(ErrorKind::write, "{}: cannot be made: {}", folder, error.message());
+  auto collected = AtomicFolder::create(named);
+  if (!collected) return pass_on(collected);
+  std::unique_ptr<Inbox> inbox(new Inbox(request, limits, progress, std::move(*collected)));
   if (Status enough = inbox->check_free_space(); !enough) return pass_on(enough);
   return inbox;
 }
 
-Inbox::~Inbox() {
-  std::error_code ignored;
-  for (const fs::path& part : parts_) fs::remove(part, ignored);
-  if (kept_) return;
-  for (const fs::path& file : retrieved_.files) fs::remove(file, ignored);
-  if (made_folder_) fs::remove(request_.folder, ignored);
-}
-
 Status Inbox::check_free_space() const {
   std::error_code error;
-  const fs::space_info space = fs::space(request_.folder, error);
+  const fs::space_info space = fs::space(collected_.temporary_path(), error);
   if (!error && space.available >= static_cast<std::uintmax_t>(limits_.free_bytes)) return {};
   return fail(ErrorKind::write, "{}: the disk is nearly full: less than {} MiB would stay free",
               request_.folder.string(), limits_.free_bytes >> 20);
 }
 
-Result<fs::path> Inbox::next_part() {
+Result<fs::path> Inbox::next_object() {
   const std::lock_guard lock(mutex_);
   if (begun_ >= limits_.objects) {
     return fail(ErrorKind::input, "the server sends more than the {} objects that are allowed",
                 limits_.objects);
   }
-  const fs::path part = request_.folder / fmt::format("{:06}.dcm{}", ++begun_, kPart);
-  parts_.insert(part);
-  return part;
+  const fs::path object = collected_.temporary_path() / fmt::format("{:06}.dcm", ++begun_);
+  unfinished_.insert(object);
+  return object;
 }
 
 Status Inbox::grown(std::int64_t bytes) {
@@ -76,13 +74,13 @@ Status Inbox::grown(std::int64_t bytes) {
   return check_free_space();
 }
 
-Status Inbox::look_into(const fs::path& part, const std::string& sop_class,
+Status Inbox::look_into(const fs::path& object, const std::string& sop_class,
                         const std::string& sop_instance) const {
-  const auto identity = check_object(part);
+  const auto identity = check_object(object);
   if (!identity) {
     // The name says nothing to anybody.
     std::string reason = identity.error().message;
-    if (const std::string prefix = part.string() + ": "; reason.starts_with(prefix))
+    if (const std::string prefix = object.string() + ": "; reason.starts_with(prefix))
       reason.erase(0, prefix.size());
     return fail(ErrorKind::input, "{}", reason);
   }
@@ -96,43 +94,35 @@ Status Inbox::look_into(const fs::path& part, const std::string& sop_class,
   return {};
 }
 
-bool Inbox::take(const fs::path& part, const std::string& sop_class, const std::string& sop_instance) {
-  const Status sound = look_into(part, sop_class, sop_instance);
+bool Inbox::take(const fs::path& object, const std::string& sop_class, const std::string& sop_instance) {
+  Status sound = look_into(object, sop_class, sop_instance);
+  if (sound && !sync_to_disk(object)) sound = fail(ErrorKind::write, "cannot be written");
   const std::lock_guard lock(mutex_);
   if (!sound) {
-    note_refusal(part, sound.error().message);
+    note_refusal(object, sound.error().message);
     return false;
   }
   if (!instances_.insert(sop_instance).second) {
-    note_refusal(part, "came a second time");
+    note_refusal(object, "came a second time");
     return true;  // the server may believe that it is here: it is
   }
-  fs::path file = part;
-  file.replace_extension();
-  std::error_code error;
-  fs::rename(part, file, error);
-  if (error) {
-    note_refusal(part, error.message());
-    return false;
-  }
-  parts_.erase(part);
-  retrieved_.files.push_back(std::move(file));
+  unfinished_.erase(object);
+  retrieved_.files.push_back(request_.folder / object.filename());
   const auto done = static_cast<double>(retrieved_.files.size());
   progress_(expected_ > 0 ? std::min(1.0, done / static_cast<double>(expected_)) : -1.0, "receiving objects");
   return true;
 }
 
-void Inbox::refuse(const fs::path& part, std::string reason) {
+void Inbox::refuse(const fs::path& object, std::string reason) {
   const std::lock_guard lock(mutex_);
-  note_refusal(part, std::move(reason));
+  note_refusal(object, std::move(reason));
 }
 
-void Inbox::note_refusal(const fs::path& part, std::string reason) {
+void Inbox::note_refusal(const fs::path& object, std::string reason) {
   std::error_code ignored;
-  fs::remove(part, ignored);
-  parts_.erase(part);
-  // Which of the objects that came: its name without .dcm.part.
-  const std::string number = part.stem().stem().string();
+  fs::remove(object, ignored);
+  unfinished_.erase(object);
+  const std::string number = object.stem().string();  // which of the objects that came
   if (retrieved_.refused.size() < kMostReasons) {
     retrieved_.refused.push_back(fmt::format("object {}: {}", number, reason));
   } else {
@@ -159,7 +149,10 @@ Result<Retrieved> Inbox::keep(std::int64_t missing) {
     if (missing > 0) return fail(ErrorKind::input, "none of {} objects could be sent by the server", missing);
     return fail(ErrorKind::input, "the server has nothing of the study or series that is asked for");
   }
-  kept_ = true;
+  std::error_code ignored;
+  for (const fs::path& object : unfinished_) fs::remove(object, ignored);
+  if (Status empty = require_empty(request_.folder); !empty) return pass_on(empty);
+  if (Status placed = collected_.commit(); !placed) return pass_on(placed);
   retrieved_.missing = missing;
   std::sort(retrieved_.files.begin(), retrieved_.files.end());
   return retrieved_;

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/progress.h"
+#include "core/without_exceptions.h"
 
 namespace tidemark {
 namespace {
@@ -45,7 +46,7 @@ Result<std::string> resolve_host(const std::string& host, std::chrono::milliseco
                                  const std::stop_token& stop) {
   const auto answer = std::make_shared<Answer>();
   std::thread([host, answer] {
-    auto address = ask_system(host);
+    auto address = without_exceptions([&] { return ask_system(host); });
     const std::lock_guard lock(answer->mutex);
     answer->address = std::move(address);
     answer->came.notify_all();

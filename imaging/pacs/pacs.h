@@ -81,8 +81,8 @@ struct Retrieved {
   std::int64_t missing = 0;          // objects that the server could not send
   std::vector<std::string> refused;  // objects that came and were not taken: why
 };
-// Brings a series or a study as the server's `retrieve` says. Objects are written under names of ours,
-// checked, and only then get a name that ends in .dcm. When it fails, nothing of it stays.
+// Brings a series or a study as the server's `retrieve` says. Objects are checked and get names of ours. The
+// folder holds them when all have come; when it fails, or is killed before, nothing is in it.
 Result<Retrieved> retrieve(const PacsServer& server, const RetrieveRequest& request,
                            const PacsLimits& limits = {}, const Progress& progress = {});
 

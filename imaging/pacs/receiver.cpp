@@ -9,6 +9,7 @@
 #include <array>
 #include <utility>
 
+#include "core/without_exceptions.h"
 #include "imaging/pacs/storage_classes.h"
 #include "imaging/pacs/storage_request.h"
 #include "imaging/pacs/transport.h"
@@ -84,7 +85,11 @@ void Receiver::listen(const std::stop_token& quit) {
       std::this_thread::sleep_for(50ms);
       continue;
     }
-    accept(quit);
+    const Status accepted = without_exceptions([&]() -> Status {
+      accept(quit);
+      return {};
+    });
+    if (!accepted) return note(accepted.error());
   }
 }
 
@@ -108,7 +113,9 @@ void Receiver::accept(const std::stop_token& quit) {
   line->completed_message();
   auto ended = std::make_shared<std::atomic<bool>>(false);
   std::jthread thread([this, ended, taken = std::move(association)]() mutable {
-    converse(std::move(taken));
+    const Status conversed = without_exceptions([&] { return converse(*taken); });
+    if (!conversed) note(conversed.error());
+    taken.reset();
     ended->store(true);
   });
   conversations_.push_back({ended, std::move(thread)});
@@ -136,23 +143,26 @@ Status Receiver::greet(T_ASC_Association& association) const {
   return {};
 }
 
-void Receiver::converse(std::unique_ptr<Association> association) {
+Status Receiver::converse(Association& association) {
   for (;;) {
     T_DIMSE_Message request{};
     bool released = false;
-    const auto context = association->receive(request, &released);
-    if (released) return association->acknowledge_release();
+    const auto context = association.receive(request, &released);
+    if (released) {
+      association.acknowledge_release();
+      return {};
+    }
     // Who breaks off between objects has done no harm: what is missing the server says itself.
-    if (!context) return;
+    if (!context) return {};
     Status answered;
     if (request.CommandField == DIMSE_C_STORE_RQ) {
-      answered = answer_storage_request(*association, *context, request, inbox_, limits_);
+      answered = answer_storage_request(association, *context, request, inbox_, limits_);
     } else if (request.CommandField == DIMSE_C_ECHO_RQ) {
-      answered = answer_echo(*association, *context, request);
+      answered = answer_echo(association, *context, request);
     } else {
-      return;
+      return {};
     }
-    if (!answered) return note(answered.error());
+    if (!answered) return answered;
   }
 }
 

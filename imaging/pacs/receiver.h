@@ -34,7 +34,7 @@ class Receiver {
   void listen(const std::stop_token& quit);
   void accept(const std::stop_token& quit);
   Status greet(T_ASC_Association& association) const;
-  void converse(std::unique_ptr<Association> association);
+  Status converse(Association& association);
   void note(const Error& error);
 
   const PacsServer server_;

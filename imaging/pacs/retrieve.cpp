@@ -4,10 +4,10 @@
 
 #include <optional>
 
+#include "core/without_exceptions.h"
 #include "imaging/pacs/pacs.h"
 #include "imaging/pacs/retrieval.h"
 #include "imaging/pacs/storage_classes.h"
-#include "imaging/pacs/whole_call.h"
 
 namespace tidemark {
 namespace {
@@ -104,7 +104,7 @@ Result<bool> ResponseReader::read(const T_DIMSE_Message& message) {
 
 Result<Retrieved> retrieve(const PacsServer& server, const RetrieveRequest& request, const PacsLimits& limits,
                            const Progress& progress) {
-  return whole_call([&] { return retrieve_into_folder(server, request, limits, progress); });
+  return without_exceptions([&] { return retrieve_into_folder(server, request, limits, progress); });
 }
 
 }  // namespace tidemark

@@ -7,10 +7,10 @@
 #include <system_error>
 #include <utility>
 
+#include "core/without_exceptions.h"
 #include "imaging/pacs/association.h"
 #include "imaging/pacs/checked_object.h"
 #include "imaging/pacs/pacs.h"
-#include "imaging/pacs/whole_call.h"
 
 namespace tidemark {
 namespace {
@@ -81,21 +81,18 @@ int context_for(const Association& association, const ObjectIdentity& identity) 
 }
 
 // The server's status; 0 is success. Fails where the conversation cannot go on.
-Result<std::uint16_t> send_object(Association& association, int context, const Outgoing& outgoing) {
-  DcmFileFormat loaded;
-  if (loaded.loadFile(outgoing.file.c_str()).bad()) {
-    return fail(ErrorKind::input, "{}: has changed while it was looked at", outgoing.file.string());
-  }
+Result<std::uint16_t> send_object(Association& association, int context, const ObjectIdentity& identity,
+                                  DcmDataset& object) {
   T_DIMSE_Message message{};
   message.CommandField = DIMSE_C_STORE_RQ;
   T_DIMSE_C_StoreRQ& request = message.msg.CStoreRQ;
   request.MessageID = association.next_message_id();
   request.Priority = DIMSE_PRIORITY_MEDIUM;
   request.DataSetType = DIMSE_DATASET_PRESENT;
-  OFStandard::strlcpy(request.AffectedSOPClassUID, outgoing.identity.sop_class.c_str(), sizeof(DIC_UI));
-  OFStandard::strlcpy(request.AffectedSOPInstanceUID, outgoing.identity.sop_instance.c_str(), sizeof(DIC_UI));
+  OFStandard::strlcpy(request.AffectedSOPClassUID, identity.sop_class.c_str(), sizeof(DIC_UI));
+  OFStandard::strlcpy(request.AffectedSOPInstanceUID, identity.sop_instance.c_str(), sizeof(DIC_UI));
   const auto id = request.MessageID;
-  if (Status sent = association.send(context, message, loaded.getDataset()); !sent) return pass_on(sent);
+  if (Status sent = association.send(context, message, &object); !sent) return pass_on(sent);
   message = {};
   const auto answered = association.receive(message);
   if (!answered) return tl::unexpected<Error>(answered.error());
@@ -104,6 +101,24 @@ Result<std::uint16_t> send_object(Association& association, int context, const O
   }
   association.line().completed_message();
   return message.msg.CStoreRSP.DimseStatus;
+}
+
+// Why the object was not sent; empty when it was. Fails where the conversation cannot go on.
+Result<std::string> send_one(Association& association, const Outgoing& one) {
+  const std::string& syntax = one.identity.transfer_syntax;
+  const int context = context_for(association, one.identity);
+  if (context == 0) {
+    const char* name = dcmFindNameOfUID(syntax.c_str());
+    return fmt::format("the server does not take it as it is encoded ({})",
+                       name != nullptr ? name : syntax.c_str());
+  }
+  DcmFileFormat loaded;
+  const OFCondition parsed = loaded.loadFile(one.file.c_str(), DcmXfer(syntax.c_str()).getXfer());
+  if (parsed.bad()) return fmt::format("it cannot be read whole: {}", parsed.text());
+  const auto status = send_object(association, context, one.identity, *loaded.getDataset());
+  if (!status) return tl::unexpected<Error>(status.error());
+  if (*status == STATUS_Success || DICOM_WARNING_STATUS(*status)) return std::string();
+  return fmt::format("the server refuses it (status {:04X})", *status);
 }
 
 Result<Sent> send_all(const PacsServer& server, const std::vector<fs::path>& files,
@@ -121,22 +136,15 @@ Result<Sent> send_all(const PacsServer& server, const std::vector<fs::path>& fil
   std::size_t done = 0;
   for (const Outgoing& one : *outgoing) {
     if (progress.cancelled()) return cancelled_error();
-    const int context = context_for(association, one.identity);
-    if (context == 0) {
-      const char* name = dcmFindNameOfUID(one.identity.transfer_syntax.c_str());
-      sent.unsent.push_back(
-          {one.file, fmt::format("the server does not take it as it is encoded ({})",
-                                 name != nullptr ? name : one.identity.transfer_syntax.c_str())});
-      continue;
-    }
-    const auto status = send_object(association, context, one);
-    if (!status) return tl::unexpected<Error>(status.error());
-    if (*status == STATUS_Success || DICOM_WARNING_STATUS(*status)) {
-      std::error_code ignored;
+    auto reason = send_one(association, one);
+    if (!reason) return pass_on(reason);
+    if (reason->empty()) {
+      std::error_code error;
+      const auto bytes = fs::file_size(one.file, error);
       ++sent.objects;
-      sent.bytes += static_cast<std::int64_t>(fs::file_size(one.file, ignored));
+      if (!error) sent.bytes += static_cast<std::int64_t>(bytes);
     } else {
-      sent.unsent.push_back({one.file, fmt::format("the server refuses it (status {:04X})", *status)});
+      sent.unsent.push_back({one.file, std::move(*reason)});
     }
     progress(0.2 + 0.8 * static_cast<double>(++done) / static_cast<double>(outgoing->size()),
              "sending objects");
@@ -149,7 +157,7 @@ Result<Sent> send_all(const PacsServer& server, const std::vector<fs::path>& fil
 
 Result<Sent> send_files(const PacsServer& server, const std::vector<fs::path>& files,
                         const Progress& progress) {
-  return whole_call([&] { return send_all(server, files, progress); });
+  return without_exceptions([&] { return send_all(server, files, progress); });
 }
 
 }  // namespace tidemark

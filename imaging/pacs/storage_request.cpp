@@ -26,15 +26,15 @@ struct Growth {
   }
 };
 
-Status receive_into(const std::filesystem::path& part, Association& association, int context,
+Status receive_into(const std::filesystem::path& object, Association& association, int context,
                     const T_DIMSE_C_StoreRQ& request, Inbox& inbox, const PacsLimits& limits) {
   Line& line = association.line();
   DcmOutputFileStream* opened = nullptr;
   const OFCondition created =
-      DIMSE_createFilestream(part.c_str(), &request, association.get(),
+      DIMSE_createFilestream(object.c_str(), &request, association.get(),
                              static_cast<T_ASC_PresentationContextID>(context), 1, &opened);
   const std::unique_ptr<DcmOutputFileStream> stream(opened);
-  if (created.bad()) return fail(ErrorKind::write, "{}: cannot be written", part.string());
+  if (created.bad()) return fail(ErrorKind::write, "{}: cannot be written", inbox.folder().string());
   line.allow(limits.object_bytes, "an object");
   Growth growth{line, inbox};
   T_ASC_PresentationContextID data_context = 0;
@@ -45,7 +45,7 @@ Status receive_into(const std::filesystem::path& part, Association& association,
     return {};
   }
   if (const Status trouble = line.trouble(); !trouble) return trouble;
-  if (!stream->good()) return fail(ErrorKind::write, "{}: cannot be written", part.string());
+  if (!stream->good()) return fail(ErrorKind::write, "{}: cannot be written", inbox.folder().string());
   return tl::unexpected<Error>(association.error(received, "breaks off in the midst of an object"));
 }
 
@@ -68,17 +68,17 @@ Status respond(Association& association, int context, const T_DIMSE_C_StoreRQ& r
 Status answer_storage_request(Association& association, int context, const T_DIMSE_Message& request,
                               Inbox& inbox, const PacsLimits& limits) {
   const T_DIMSE_C_StoreRQ& store = request.msg.CStoreRQ;
-  auto part = inbox.next_part();
-  if (!part) return fail(part.error().kind, "{}: {}", association.line().peer(), part.error().message);
+  auto object = inbox.next_object();
+  if (!object) return fail(object.error().kind, "{}: {}", association.line().peer(), object.error().message);
   const std::string sop_class = store.AffectedSOPClassUID;
   const bool is_agreed = sop_class == association.abstract_syntax(context) && is_storage_class(sop_class);
-  Status received = receive_into(*part, association, context, store, inbox, limits);
+  Status received = receive_into(*object, association, context, store, inbox, limits);
   if (!received) return received;
   if (!is_agreed) {
-    inbox.refuse(*part, "is of a class that was not asked for");
+    inbox.refuse(*object, "is of a class that was not asked for");
     return respond(association, context, store, STATUS_STORE_Refused_SOPClassNotSupported);
   }
-  const bool taken = inbox.take(*part, sop_class, store.AffectedSOPInstanceUID);
+  const bool taken = inbox.take(*object, sop_class, store.AffectedSOPInstanceUID);
   return respond(association, context, store,
                  taken ? STATUS_Success : STATUS_STORE_Error_DataSetDoesNotMatchSOPClass);
 }

@@ -165,11 +165,19 @@ class CliPacsTest : public QObject {
                                  "--servers", servers(folder, server)});
     QTRY_VERIFY_WITH_TIMEOUT(is_waiting.load(), 60'000);
     QTest::qWait(200);
-    QVERIFY(std::filesystem::exists(folder / "in/000001.dcm.part"));
+    const auto collected = [&] {  // beside the folder, under a temporary name
+      const auto entries = std::filesystem::directory_iterator(folder.path());
+      return std::count_if(begin(entries), end(entries), [](const auto& entry) {
+        return std::filesystem::exists(entry.path() / "000001.dcm");
+      });
+    };
+    QCOMPARE(collected(), 1);
+    QVERIFY(!std::filesystem::exists(folder / "in"));
     process.terminate();
     QVERIFY(process.waitForFinished(2000));
     QCOMPARE(process.exitCode(), 130);
-    QVERIFY(!std::filesystem::exists(folder / "in"));
+    QCOMPARE(collected(), 0);
+    QCOMPARE(names_in(folder.path()), QStringList{"pacs.json"});
   }
 };
 

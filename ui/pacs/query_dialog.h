@@ -1,21 +1,19 @@
 // Asks a PACS for studies, and brings a series from it.
 #pragma once
 
-#include <QComboBox>
 #include <QDialog>
-#include <QLabel>
 #include <QLineEdit>
-#include <QProgressBar>
 #include <QPushButton>
 #include <filesystem>
 
-#include "imaging/pacs/configuration.h"
 #include "session/pacs_client.h"
 
 namespace tidemark {
 
 class QueryForm;
+class ServerChoice;
 class StudyTree;
+class WorkLine;
 
 // Not modal: what was brought can be looked at beside it.
 class QueryDialog : public QDialog {
@@ -38,27 +36,20 @@ class QueryDialog : public QDialog {
   void connect_client();
   QWidget* make_top();
   QWidget* make_bottom();
-  void read_servers();
-  void edit_servers();
   void search();
   void open();
   void choose_folder();
-  void work(const QString& what);  // until rest()
+  void begin(const QString& what);  // until rest()
   void rest(const QString& said);
   void follow();
-  [[nodiscard]] const PacsServer* server() const;
 
-  std::filesystem::path file_;
-  PacsConfiguration configuration_;
   PacsClient client_;
   QString asked_study_;  // whose series are awaited
-  QComboBox* server_;
+  ServerChoice* servers_;
   QueryForm* form_;
   QPushButton* search_;
   StudyTree* tree_;
-  QLabel* said_;
-  QProgressBar* bar_;
-  QPushButton* cancel_;
+  WorkLine* work_;
   QLineEdit* folder_;
   QPushButton* open_;
 };

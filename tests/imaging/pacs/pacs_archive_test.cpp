@@ -235,6 +235,20 @@ class PacsArchiveTest : public QObject {
     QCOMPARE(QString::fromStdString(sent->unsent.front().reason), QString("is not a DICOM file"));
   }
 
+  void a_file_that_ends_in_its_middle_is_named_and_the_others_sent() {
+    const StoringPeer peer({"+xa"});
+    const TemporaryFolder folder;
+    const auto files = write_series(sample_volume({16, 16, 3}), folder / "series");
+    truncate(files[1], std::filesystem::file_size(files[1]) - 100);
+    const auto sent = send_files(peer.server(), files);
+    QCOMPARE(failure(sent), QString());
+    QCOMPARE(sent->objects, 2);
+    QCOMPARE(sent->unsent.size(), std::size_t{1});
+    QCOMPARE(sent->unsent.front().file, files[1]);
+    QVERIFY2(sent->unsent.front().reason.find("(7FE0,0010)") != std::string::npos,
+             sent->unsent.front().reason.c_str());
+  }
+
   void a_study_that_is_not_there_leaves_no_folder_data() { each_archive(); }
   void a_study_that_is_not_there_leaves_no_folder() {
     QFETCH(QString, archive_name);

@@ -1,6 +1,7 @@
 // A user asks an archive for a study, unfolds it, and opens a series; or gives up.
 #include "ui/pacs/query_dialog.h"
 
+#include <QSettings>
 #include <QSignalSpy>
 #include <QTreeWidget>
 
@@ -32,11 +33,13 @@ QPushButton* button(QWidget& whole, const QString& text) {
   return nullptr;
 }
 
-// A dialog that knows one server and keeps what comes in a folder.
+// A dialog that knows servers and keeps what comes in a folder.
 struct Asked {
-  explicit Asked(const PacsServer& server) {
+  explicit Asked(const PacsServer& server) : Asked(std::vector{server}) {}
+  explicit Asked(const std::vector<PacsServer>& servers) {
+    QSettings().clear();
     PacsConfiguration configuration;
-    configuration.servers.push_back(server);
+    configuration.servers = servers;
     configuration.limits.free_bytes = 1 << 20;
     const auto file = folder / "pacs.json";
     if (!write_pacs_configuration(configuration, file)) qFatal("cannot write the file of servers");
@@ -88,6 +91,23 @@ class QueryDialogTest : public QObject {
     QVERIFY(loaded->values() == volume.values());
   }
 
+  void what_one_server_has_found_goes_when_another_is_chosen() {
+    const auto archive = start_dcmqrscp();
+    const TemporaryFolder sent;
+    const Volume volume = sample_volume({4, 4, 2});
+    QCOMPARE(failure(send_files(archive->server(), write_series(volume, sent / "a"))), QString());
+    PacsServer other = archive->server();
+    other.name = "another";
+    const Asked asked({archive->server(), other});
+    QTest::mouseClick(button(*asked.dialog, "Search"), Qt::LeftButton);
+    QTRY_COMPARE_WITH_TIMEOUT(asked.tree().topLevelItemCount(), 1, kPatience);
+    QTRY_VERIFY_WITH_TIMEOUT(button(*asked.dialog, "Open")->isEnabled(), kPatience);
+    named<QComboBox>(*asked.dialog, "Server")->setCurrentIndex(1);
+    QCOMPARE(asked.tree().topLevelItemCount(), 0);
+    QVERIFY(!button(*asked.dialog, "Open")->isEnabled());
+    QVERIFY(button(*asked.dialog, "Search")->isEnabled());
+  }
+
   void a_server_that_is_not_there_is_told_of_and_one_may_ask_again() {
     const Asked asked(ScriptedPeer([](PeerEnd&) {}).server());
     QTest::mouseClick(button(*asked.dialog, "Search"), Qt::LeftButton);
@@ -125,14 +145,17 @@ class QueryDialogTest : public QObject {
 
   void without_a_server_it_says_how_to_name_one() {
     const TemporaryFolder folder;
-    QueryDialog dialog(folder / "none.json");
-    dialog.show();
-    QVERIFY(!button(dialog, "Search")->isEnabled());
-    bool told = false;
-    for (const QLabel* label : dialog.findChildren<QLabel*>())
-      told = told || label->text().startsWith("There is no server yet");
-    QVERIFY(told);
-    picture(dialog, "query-no-server");
+    QVERIFY(write_pacs_configuration({}, folder / "all-removed.json"));
+    for (const char* file : {"none.json", "all-removed.json"}) {
+      QueryDialog dialog(folder / file);
+      dialog.show();
+      QVERIFY(!button(dialog, "Search")->isEnabled());
+      bool told = false;
+      for (const QLabel* label : dialog.findChildren<QLabel*>())
+        told = told || label->text().startsWith("There is no server yet");
+      QVERIFY(told);
+      picture(dialog, "query-no-server");
+    }
   }
 };
 

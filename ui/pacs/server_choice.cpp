@@ -1,0 +1,69 @@
+#include "ui/pacs/server_choice.h"
+
+#include <QHBoxLayout>
+#include <QPushButton>
+#include <QSettings>
+#include <algorithm>
+
+#include "ui/look/icons.h"
+#include "ui/pacs/servers_dialog.h"
+
+namespace tidemark {
+namespace {
+
+constexpr const char* kLastServer = "pacs/server";  // in the settings
+constexpr int kLeastLetters = 20;
+
+}  // namespace
+
+ServerChoice::ServerChoice(std::filesystem::path file, const QString& tip, QWidget* parent)
+    : QWidget(parent), file_(std::move(file)), server_(new QComboBox(this)) {
+  server_->setAccessibleName(tr("Server"));
+  server_->setToolTip(tip);
+  server_->setMinimumContentsLength(kLeastLetters);
+  auto* edit = new QPushButton(icon(u"settings"), tr("S&ervers…"), this);
+  edit->setAutoDefault(false);
+  edit->setToolTip(tr("Add, change and remove servers"));
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(server_, 1);
+  row->addWidget(edit);
+  setFocusProxy(server_);
+  connect(edit, &QPushButton::clicked, this, &ServerChoice::edit);
+  connect(server_, &QComboBox::currentIndexChanged, this, &ServerChoice::chosen);
+  read();
+}
+
+void ServerChoice::read() {
+  const QString before = server_->currentText();
+  auto found = read_pacs_configuration(file_);
+  std::error_code error;
+  // Whoever has named no server yet has done nothing wrong.
+  const bool is_wrong = !found && std::filesystem::exists(file_, error);
+  problem_ = is_wrong ? QString::fromStdString(found.error().message) : QString();
+  configuration_ = found ? std::move(*found) : PacsConfiguration();
+  if (!is_wrong && configuration_.servers.empty())
+    problem_ = tr("There is no server yet: name one with “Servers…”.");
+  server_->clear();
+  for (const PacsServer& one : configuration_.servers) server_->addItem(QString::fromStdString(one.name));
+  const QString wanted = before.isEmpty() ? QSettings().value(kLastServer).toString() : before;
+  server_->setCurrentIndex(std::max(server_->findText(wanted), server_->count() > 0 ? 0 : -1));
+}
+
+void ServerChoice::edit() {
+  ServersDialog dialog(file_, this);
+  if (dialog.exec() != QDialog::Accepted) return;
+  read();
+  emit edited();
+}
+
+const PacsServer* ServerChoice::server() const {
+  const int index = server_->currentIndex();
+  return index < 0 ? nullptr : &configuration_.servers[static_cast<std::size_t>(index)];
+}
+
+void ServerChoice::remember() const {
+  QSettings().setValue(kLastServer, server_->currentText());
+}
+
+}  // namespace tidemark

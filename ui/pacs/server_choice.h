@@ -1,0 +1,38 @@
+// One of the servers that there are, and a way to name others.
+#pragma once
+
+#include <QComboBox>
+#include <QWidget>
+#include <filesystem>
+
+#include "imaging/pacs/configuration.h"
+
+namespace tidemark {
+
+class ServerChoice : public QWidget {
+  Q_OBJECT
+ public:
+  // `file` is that of the servers; `tip` says what the chosen one is for.
+  ServerChoice(std::filesystem::path file, const QString& tip, QWidget* parent = nullptr);
+
+  [[nodiscard]] const PacsServer* server() const;  // null: there is none
+  [[nodiscard]] const PacsLimits& limits() const { return configuration_.limits; }
+  [[nodiscard]] const QString& problem() const { return problem_; }  // why there is none
+  // The next dialog offers the same server.
+  void remember() const;
+
+ signals:
+  void chosen();  // another server
+  void edited();  // the file of servers was read again
+
+ private:
+  void read();
+  void edit();
+
+  std::filesystem::path file_;
+  PacsConfiguration configuration_;
+  QString problem_;
+  QComboBox* server_;
+};
+
+}  // namespace tidemark
