@@ -1,45 +1,17 @@
 #include "imaging/results/dicom_object.h"
 
-#include <dcmtk/dcmdata/dcostrmb.h>
-#include <dcmtk/dcmdata/dcwcache.h>
-
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <vector>
 
-#include "core/atomic_file.h"
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/header_reader.h"
 #include "imaging/dicom/transfer_syntaxes.h"
+#include "imaging/dicom/write_dicom_file.h"
 #include "imaging/results/results.h"
 
 namespace tidemark {
-namespace {
 
 namespace fs = std::filesystem;
-
-// The encoded file. In memory, because DCMTK does not report a file that could not be written to its end.
-Result<std::string> encode(DcmFileFormat& file, E_TransferSyntax syntax) {
-  std::vector<char> buffer(std::size_t{1} << 20);
-  DcmOutputBufferStream stream(buffer.data(), static_cast<offile_off_t>(buffer.size()));
-  DcmWriteCache cache;
-  std::string bytes;
-  file.transferInit();
-  OFCondition condition = EC_StreamNotifyClient;
-  while (condition == EC_StreamNotifyClient) {
-    condition = file.write(stream, syntax, EET_ExplicitLength, &cache, EGL_recalcGL);
-    void* filled = nullptr;
-    offile_off_t length = 0;
-    stream.flushBuffer(filled, length);
-    bytes.append(static_cast<const char*>(filled), static_cast<std::size_t>(length));
-  }
-  file.transferEnd();
-  if (condition.bad()) return fail(ErrorKind::write, "{}", condition.text());
-  return bytes;
-}
-
-}  // namespace
 
 Result<std::unique_ptr<DcmFileFormat>> load_object(const fs::path& file, const DcmTagKey& stop_at) {
   if (auto ready = set_up_dicom(); !ready) return pass_on(ready);
@@ -62,9 +34,7 @@ Result<std::unique_ptr<DcmFileFormat>> load_object(const fs::path& file, const D
 
 Status save_object(std::unique_ptr<DcmDataset> dataset, E_TransferSyntax syntax, const fs::path& file) {
   DcmFileFormat whole(dataset.release(), OFFalse);  // which owns it now
-  const auto bytes = encode(whole, syntax);
-  if (!bytes) return fail(bytes.error().kind, "{}: cannot write: {}", file.string(), bytes.error().message);
-  return write_file(file, *bytes);
+  return write_dicom_file(whole, syntax, file);
 }
 
 std::string text_of(DcmItem& item, const DcmTagKey& key) {

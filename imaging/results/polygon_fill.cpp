@@ -22,8 +22,14 @@ bool is_beyond(glm::dvec2 point, std::int64_t columns, std::int64_t rows) {
 
 bool flip_inside(std::span<const glm::dvec2> polygon, std::int64_t columns, std::int64_t rows,
                  std::vector<std::uint8_t>& slice) {
-  // Where edges cross the rows of voxel centres; an edge owns its lower end, not its upper one.
-  std::vector<std::vector<double>> crossings(static_cast<std::size_t>(rows));
+  const auto [lowest, highest] = std::minmax_element(polygon.begin(), polygon.end(),
+                                                     [](glm::dvec2 a, glm::dvec2 b) { return a.y < b.y; });
+  const std::int64_t first_row = first_from(lowest->y, rows);
+  const std::int64_t row_end = first_from(highest->y, rows);
+  // Where an edge crosses a row of voxel centres, all that follows in the row is turned round. An edge owns
+  // its lower end, not its upper one, so that a row is crossed an even number of times.
+  const std::int64_t stride = columns + 1;
+  std::vector<bool> turns(static_cast<std::size_t>((row_end - first_row) * stride));
   bool beyond = false;
   for (std::size_t n = 0; n < polygon.size(); ++n) {
     glm::dvec2 a = polygon[n];
@@ -33,17 +39,15 @@ bool flip_inside(std::span<const glm::dvec2> polygon, std::int64_t columns, std:
     const std::int64_t end = first_from(b.y, rows);
     for (std::int64_t j = first_from(a.y, rows); j < end; ++j) {
       const double along = (static_cast<double>(j) - a.y) / (b.y - a.y);
-      crossings[static_cast<std::size_t>(j)].push_back(a.x + along * (b.x - a.x));
+      const std::int64_t i = first_from(a.x + along * (b.x - a.x), columns);
+      turns[static_cast<std::size_t>((j - first_row) * stride + i)].flip();
     }
   }
-  for (std::int64_t j = 0; j < rows; ++j) {
-    std::vector<double>& row = crossings[static_cast<std::size_t>(j)];
-    std::sort(row.begin(), row.end());
-    for (std::size_t n = 0; n + 1 < row.size(); n += 2) {
-      const std::int64_t end = first_from(row[n + 1], columns);
-      for (std::int64_t i = first_from(row[n], columns); i < end; ++i) {
-        slice[static_cast<std::size_t>(j * columns + i)] ^= 1;
-      }
+  for (std::int64_t j = first_row; j < row_end; ++j) {
+    bool is_inside = false;
+    for (std::int64_t i = 0; i < columns; ++i) {
+      is_inside = is_inside != turns[static_cast<std::size_t>((j - first_row) * stride + i)];
+      slice[static_cast<std::size_t>(j * columns + i)] ^= static_cast<std::uint8_t>(is_inside);
     }
   }
   return beyond;

@@ -10,11 +10,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <new>
 #include <span>
 
 #include "core/checked.h"
 #include "imaging/dicom/decimal.h"
+#include "imaging/guarded.h"
 #include "imaging/results/dicom_object.h"
 #include "imaging/results/results.h"
 #include "imaging/results/segment_frames.h"
@@ -187,8 +187,10 @@ Result<SegmentFrame> SegmentationReader::read_frame(std::size_t index) {
   const bool orthonormal = std::abs(glm::length(row) - 1.0) < 1e-3 &&
                            std::abs(glm::length(column) - 1.0) < 1e-3 &&
                            std::abs(glm::dot(row, column)) < 1e-3;
-  if (!orthonormal || !(between_rows > 0.0) || !(between_columns > 0.0)) {
-    return missing("its orientation or pixel spacing makes no sense");
+  const auto finite = [](const glm::dvec3& v) { return std::isfinite(glm::dot(v, v)); };
+  const bool is_spaced = between_rows > 0.0 && between_columns > 0.0;
+  if (!finite(corner) || !orthonormal || !is_spaced || !finite({between_rows, between_columns, 0.0})) {
+    return missing("its place, orientation or pixel spacing makes no sense");
   }
   if (frame.segment < 1 || frame.segment > document_->getNumberOfSegments()) {
     return missing("it belongs to a segment that is not described");
@@ -196,8 +198,8 @@ Result<SegmentFrame> SegmentationReader::read_frame(std::size_t index) {
   frame.step_column_mm = between_columns * glm::normalize(row);
   frame.step_row_mm = between_rows * glm::normalize(column);
   Float64 number = 0.0;
-  if (measures->getSpacingBetweenSlices(number).good()) between_mm_ = number;
-  if (measures->getSliceThickness(number).good()) thickness_mm_ = number;
+  if (measures->getSpacingBetweenSlices(number).good() && std::isfinite(number)) between_mm_ = number;
+  if (measures->getSliceThickness(number).good() && std::isfinite(number)) thickness_mm_ = number;
   return frame;
 }
 
@@ -273,13 +275,7 @@ Result<Segments> SegmentationReader::read(const Geometry* grid) {
 }  // namespace
 
 Result<Segments> read_segmentation(const fs::path& file, const Geometry* grid) {
-  try {
-    return SegmentationReader(file).read(grid);
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::capability, "{}: there is not enough memory", file.string());
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(), error.what());
-  }
+  return guarded(file, [&] { return SegmentationReader(file).read(grid); });
 }
 
 }  // namespace tidemark

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <new>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <map>
 
 #include "imaging/dicom/decimal.h"
+#include "imaging/guarded.h"
 #include "imaging/results/dicom_object.h"
 #include "imaging/results/polygon_fill.h"
 #include "imaging/results/results.h"
@@ -18,6 +21,18 @@ namespace fs = std::filesystem;
 
 constexpr double kTolerance =
     0.2;  // of the distance of slices: planning systems round to a tenth of a millimetre
+constexpr double kFarthest = 1e9;  // voxels
+
+// Calls visit(item) for each item until one fails. Asked for an item by its number, DCMTK would count from
+// the first one each time.
+template <class Sequence, class Visit>
+Status for_each_item(Sequence& sequence, const Visit& visit) {
+  typename Sequence::Item* item = nullptr;
+  for (sequence.gotoFirstItem(); sequence.getCurrentItem(item).good(); sequence.gotoNextItem()) {
+    if (Status done = visit(*item); !done) return done;
+  }
+  return {};
+}
 
 // The points of a contour in the grid's voxels.
 Result<std::vector<glm::dvec3>> points_of(const DRTContourSequence::Item& contour, const Geometry& grid,
@@ -33,7 +48,13 @@ Result<std::vector<glm::dvec3>> points_of(const DRTContourSequence::Item& contou
   points.reserve(numbers.size() / 3);
   for (std::size_t n = 0; n + 2 < numbers.size(); n += 3) {
     const glm::dvec3 mm(numbers[n], numbers[n + 1], numbers[n + 2]);
-    points.push_back(rotation * (mm - grid.origin_mm) / grid.spacing_mm);
+    const glm::dvec3 point = rotation * (mm - grid.origin_mm) / grid.spacing_mm;
+    // What is so far off may not stay finite in what is computed from it.
+    if (!glm::all(glm::lessThanEqual(glm::abs(point), glm::dvec3(kFarthest)))) {
+      return fail(ErrorKind::input, "{}: ContourData (3006,0050) has a point {:.3g} mm off", file.string(),
+                  glm::length(mm));
+    }
+    points.push_back(point);
   }
   return points;
 }
@@ -142,17 +163,19 @@ std::optional<SegmentColour> colour_of(const DRTROIContourSequence::Item& contou
                        static_cast<std::uint8_t>((*values)[2])};
 }
 
-// The name that the structure set gives to a region's number.
-std::string name_of(DRTStructureSetIOD& set, const OFString& number) {
-  DRTStructureSetROISequence& regions = set.getStructureSetROISequence();
-  for (size_t n = 0; n < regions.getNumberOfItems(); ++n) {
-    OFString its_number;
-    OFString name;
-    regions.getItem(n).getROINumber(its_number);
-    regions.getItem(n).getROIName(name);
-    if (its_number == number && !name.empty()) return name.c_str();
-  }
-  return fmt::format("Region {}", number.c_str());
+// The names that the structure set gives to the regions' numbers.
+std::map<std::string, std::string> read_names(DRTStructureSetIOD& set) {
+  std::map<std::string, std::string> names;
+  static_cast<void>(for_each_item(set.getStructureSetROISequence(),
+                                  [&](const DRTStructureSetROISequence::Item& region) -> Status {
+                                    OFString number;
+                                    OFString name;
+                                    region.getROINumber(number);
+                                    region.getROIName(name);
+                                    if (!name.empty()) names.try_emplace(number.c_str(), name.c_str());
+                                    return {};
+                                  }));
+  return names;
 }
 
 void say_what_is_missing(const RegionFiller& filler, const std::string& name, Segments& segments) {
@@ -177,24 +200,27 @@ Result<Segments> read(const fs::path& file, const Geometry& grid) {
   if (parsed.bad()) {
     return fail(ErrorKind::input, "{}: is no valid RT structure set: {}", file.string(), parsed.text());
   }
+  const auto names = read_names(set);
   Segments segments{grid, {}, {}};
-  DRTROIContourSequence& regions = set.getROIContourSequence();
-  for (size_t r = 0; r < regions.getNumberOfItems(); ++r) {
-    DRTROIContourSequence::Item& region = regions.getItem(r);
-    RegionFiller filler(grid, file);
-    DRTContourSequence& contours = region.getContourSequence();
-    for (size_t c = 0; c < contours.getNumberOfItems(); ++c) {
-      if (auto added = filler.add(contours.getItem(c)); !added) return pass_on(added);
-    }
-    OFString number;
-    region.getReferencedROINumber(number);
-    Segment segment;
-    segment.name = name_of(set, number);
-    segment.colour = colour_of(region);
-    say_what_is_missing(filler, segment.name, segments);
-    filler.move_into(segment);
-    segments.list.push_back(std::move(segment));
-  }
+  Status filled =
+      for_each_item(set.getROIContourSequence(), [&](DRTROIContourSequence::Item& region) -> Status {
+        RegionFiller filler(grid, file);
+        const Status added =
+            for_each_item(region.getContourSequence(),
+                          [&](const DRTContourSequence::Item& contour) { return filler.add(contour); });
+        if (!added) return added;
+        OFString number;
+        region.getReferencedROINumber(number);
+        const auto named = names.find(number.c_str());
+        Segment segment;
+        segment.name = named != names.end() ? named->second : fmt::format("Region {}", number.c_str());
+        segment.colour = colour_of(region);
+        say_what_is_missing(filler, segment.name, segments);
+        filler.move_into(segment);
+        segments.list.push_back(std::move(segment));
+        return {};
+      });
+  if (!filled) return pass_on(filled);
   if (segments.list.empty()) return fail(ErrorKind::input, "{}: it holds no contours", file.string());
   return segments;
 }
@@ -202,13 +228,7 @@ Result<Segments> read(const fs::path& file, const Geometry& grid) {
 }  // namespace
 
 Result<Segments> read_structure_set(const fs::path& file, const Geometry& grid) {
-  try {
-    return read(file, grid);
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::capability, "{}: there is not enough memory", file.string());
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(), error.what());
-  }
+  return guarded(file, [&] { return read(file, grid); });
 }
 
 }  // namespace tidemark

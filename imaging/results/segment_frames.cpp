@@ -11,7 +11,10 @@ namespace tidemark {
 namespace {
 
 constexpr double kTolerance = 0.1;  // of a voxel: files round their numbers
-constexpr std::int64_t kMostSlices = 4096;
+constexpr double kMostSlices = 4096.0;
+// Of a grid with more than four times the pixels of its frames. Two small frames can say that they lie far
+// apart.
+constexpr double kMostVoxels = 0x1p28;
 
 // A whole number of voxels that a distance in voxels is, wherever it ends up.
 std::optional<Index3> whole(glm::dvec3 voxels) {
@@ -30,6 +33,17 @@ std::optional<Index3> step_between(Index3 first, Index3 last, std::int64_t count
   const Index3 step = way / count;
   if (step * count != way) return std::nullopt;
   return std::abs(step.x) + std::abs(step.y) + std::abs(step.z) == 1 ? std::optional(step) : std::nullopt;
+}
+
+glm::dvec3 normal_of(const SegmentFrame& frame) {
+  return glm::cross(glm::normalize(frame.step_column_mm), glm::normalize(frame.step_row_mm));
+}
+
+// A frame that is not would need slices of the grid by the hundred.
+bool are_parallel(const std::vector<SegmentFrame>& frames, glm::dvec3 normal) {
+  return std::all_of(frames.begin(), frames.end(), [&](const SegmentFrame& frame) {
+    return std::abs(glm::dot(normal_of(frame), normal)) > 1.0 - 1e-4;
+  });
 }
 
 std::vector<double> gaps_between(std::vector<double> places, double same) {
@@ -77,11 +91,12 @@ Result<Geometry> grid_of_frames(const std::vector<SegmentFrame>& frames, std::op
   const SegmentFrame& one = frames.front();
   const glm::dvec3 row = glm::normalize(one.step_column_mm);
   const glm::dvec3 column = glm::normalize(one.step_row_mm);
-  const glm::dvec3 normal = glm::cross(row, column);
+  const glm::dvec3 normal = normal_of(one);
   Geometry grid;
   grid.direction = {row, column, normal};
   grid.spacing_mm = {glm::length(one.step_column_mm), glm::length(one.step_row_mm), 1.0};
 
+  if (!are_parallel(frames, normal)) return fail(ErrorKind::input, "{}: its frames are not parallel", what);
   std::vector<double> places;
   for (const SegmentFrame& frame : frames) places.push_back(glm::dot(frame.position_mm, normal));
   const auto [lowest, highest] = std::minmax_element(places.begin(), places.end());
@@ -96,9 +111,14 @@ Result<Geometry> grid_of_frames(const std::vector<SegmentFrame>& frames, std::op
   }
   grid.spacing_mm.z = step;
   const double slices = std::round((*highest - *lowest) / step) + 1.0;
-  if (!(slices <= static_cast<double>(kMostSlices))) {
-    return fail(ErrorKind::input, "{}: its frames lie {:.4g} mm apart, which makes more than {} slices", what,
-                *highest - *lowest, kMostSlices);
+  const double area = static_cast<double>(one.columns) * static_cast<double>(one.rows);
+  const double most = std::max(kMostVoxels, 4.0 * area * static_cast<double>(frames.size()));
+  if (!(slices <= kMostSlices && slices * area <= most)) {
+    return fail(
+        ErrorKind::input,
+        "{}: its frames lie {:.4g} mm apart, which makes too large a volume: {:.0f} slices of {} x {} "
+        "voxels",
+        what, *highest - *lowest, slices, one.columns, one.rows);
   }
   grid.size = {one.columns, one.rows, static_cast<std::int64_t>(slices)};
   grid.origin_mm = frames[static_cast<std::size_t>(lowest - places.begin())].position_mm;

@@ -36,8 +36,8 @@ struct SourceStudy {
   [[nodiscard]] DcmDataset& attributes() const { return *first->getDataset(); }
 };
 
-// Reads what the files say; of no files it makes a new study of an anonymous patient. Fails
-// (ErrorKind::input) when a file cannot be read or lacks a UID.
+// Reads what the files say; of no files it makes a new study of an anonymous patient. UIDs that are missing
+// are new. Fails (ErrorKind::input) when a file cannot be read, or lies beside its slice of the grid.
 Result<SourceStudy> source_study(SourceFiles files, const Geometry& geometry);
 
 }  // namespace tidemark

@@ -11,10 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <set>
 
 #include "imaging/dicom/dicom_values.h"
+#include "imaging/guarded.h"
 #include "imaging/results/results.h"
 #include "imaging/results/source_study.h"
 
@@ -249,7 +249,7 @@ Status SegmentationWriter::write(const Progress& progress) {
 
 Status write_segmentation(const Segments& segments, SourceFiles source, const fs::path& file,
                           const Progress& progress) {
-  try {
+  return guarded_writing(file, [&]() -> Status {
     if (auto planes = require_planes(segments.geometry, file); !planes) return planes;
     if (segments.list.empty() || segments.list.size() > 65535) {
       return fail(ErrorKind::write, "{}: cannot write a segmentation of {} segments", file.string(),
@@ -258,11 +258,7 @@ Status write_segmentation(const Segments& segments, SourceFiles source, const fs
     const auto study = source_study(source, segments.geometry);
     if (!study) return tl::unexpected<Error>(study.error());
     return SegmentationWriter(segments, *study, file).write(progress);
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::capability, "{}: cannot write: there is not enough memory", file.string());
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::write, "{}: cannot write: {}", file.string(), error.what());
-  }
+  });
 }
 
 }  // namespace tidemark

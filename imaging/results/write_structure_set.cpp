@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <new>
 
 #include "imaging/dicom/dicom_values.h"
+#include "imaging/guarded.h"
 #include "imaging/results/contours.h"
 #include "imaging/results/results.h"
 #include "imaging/results/source_study.h"
@@ -212,7 +212,7 @@ Status StructureSetWriter::write(const Progress& progress) {
 
 Status write_structure_set(const Segments& segments, SourceFiles source, const fs::path& file,
                            const Progress& progress) {
-  try {
+  return guarded_writing(file, [&]() -> Status {
     if (auto planes = require_planes(segments.geometry, file); !planes) return planes;
     for (const Segment& segment : segments.list) {
       if (segment.phi && segment.phi->geometry.size != segments.geometry.size) {
@@ -222,11 +222,7 @@ Status write_structure_set(const Segments& segments, SourceFiles source, const f
     const auto study = source_study(source, segments.geometry);
     if (!study) return tl::unexpected<Error>(study.error());
     return StructureSetWriter(segments, *study, file).write(progress);
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::capability, "{}: cannot write: there is not enough memory", file.string());
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::write, "{}: cannot write: {}", file.string(), error.what());
-  }
+  });
 }
 
 }  // namespace tidemark

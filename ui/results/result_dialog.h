@@ -7,7 +7,7 @@
 
 #include "ui/main/case_window.h"
 #include "ui/results/result_choice.h"
-#include "ui/results/work_line.h"
+#include "ui/widgets/work_line.h"
 
 namespace tidemark {
 

@@ -1,12 +1,8 @@
 #include "ui/results/send_result_dialog.h"
 
 #include <QGridLayout>
-#include <QSettings>
-#include <algorithm>
 
-#include "ui/look/icons.h"
 #include "ui/look/theme.h"
-#include "ui/pacs/servers_dialog.h"
 
 namespace tidemark {
 namespace {
@@ -34,8 +30,7 @@ Result<std::vector<std::filesystem::path>> write_forms(const SessionContents& co
 
 SendResultDialog::SendResultDialog(CaseWindow& window, std::filesystem::path servers)
     : ResultDialog(window, tr("Send a segmentation to a server")),
-      file_(std::move(servers)),
-      server_(new QComboBox(this)),
+      servers_(new ServerChoice(std::move(servers), tr("The server that gets the result"), this)),
       segmentation_(new QCheckBox(tr("&Segmentation (SEG)"), this)),
       contours_(new QCheckBox(tr("Contours (&RT structure set)"), this)) {
   build(true, make_target(), source_note(session().study()), tr("Se&nd"),
@@ -47,8 +42,9 @@ SendResultDialog::SendResultDialog(CaseWindow& window, std::filesystem::path ser
   connect(&client_, &PacsClient::sent, this, [this](const auto& sent) { tell(*sent); });
   for (QCheckBox* form : {segmentation_, contours_})
     connect(form, &QCheckBox::toggled, this, &SendResultDialog::follow);
-  connect(server_, &QComboBox::currentIndexChanged, this, &SendResultDialog::follow);
-  read_servers();
+  connect(servers_, &ServerChoice::chosen, this, &SendResultDialog::follow);
+  connect(servers_, &ServerChoice::edited, this, [this] { rest(servers_->problem()); });
+  rest(servers_->problem());
 }
 
 QWidget* SendResultDialog::make_target() {
@@ -62,63 +58,31 @@ QWidget* SendResultDialog::make_target() {
   contours_->setToolTip(tr("Closed contours slice by slice, as systems for planning want them"));
   auto* form = new QLabel(tr("As"), target);
   auto* label = new QLabel(tr("&To"), target);
-  label->setBuddy(server_);
-  server_->setAccessibleName(tr("Server"));
-  server_->setToolTip(tr("The server that gets the result"));
-  auto* edit = new QPushButton(icon(u"settings"), tr("S&ervers…"), target);
-  edit->setAutoDefault(false);
-  edit->setToolTip(tr("Add, change and remove servers"));
-  connect(edit, &QPushButton::clicked, this, &SendResultDialog::edit_servers);
+  label->setBuddy(servers_);
   grid->addWidget(form, 0, 0);
-  grid->addWidget(segmentation_, 0, 1, 1, 2);
-  grid->addWidget(contours_, 1, 1, 1, 2);
+  grid->addWidget(segmentation_, 0, 1);
+  grid->addWidget(contours_, 1, 1);
   grid->addWidget(label, 2, 0);
-  grid->addWidget(server_, 2, 1);
-  grid->addWidget(edit, 2, 2);
+  grid->addWidget(servers_, 2, 1);
   grid->setColumnStretch(1, 1);
   return target;
 }
 
-void SendResultDialog::read_servers() {
-  const QString before = server_->currentText();
-  auto read = read_pacs_configuration(file_);
-  std::error_code error;
-  QString said;
-  if (read) {
-    configuration_ = std::move(*read);
-  } else {
-    configuration_ = {};
-    said = std::filesystem::exists(file_, error) ? QString::fromStdString(read.error().message)
-                                                 : tr("There is no server yet: name one with “Servers…”.");
-  }
-  server_->clear();
-  for (const PacsServer& one : configuration_.servers) server_->addItem(QString::fromStdString(one.name));
-  const QString wanted = before.isEmpty() ? QSettings().value("pacs/server").toString() : before;
-  server_->setCurrentIndex(std::max(server_->findText(wanted), server_->count() > 0 ? 0 : -1));
-  work().end(said);
-  follow();
-}
-
-void SendResultDialog::edit_servers() {
-  ServersDialog dialog(file_, this);
-  if (dialog.exec() == QDialog::Accepted) read_servers();
-}
-
 bool SendResultDialog::ready() const {
-  return server_->currentIndex() >= 0 && (segmentation_->isChecked() || contours_->isChecked());
+  return servers_->server() != nullptr && (segmentation_->isChecked() || contours_->isChecked());
 }
 
 void SendResultDialog::begin(const Snapshot& snapshot) {
-  receiver_ = server_->currentText();
-  QSettings().setValue("pacs/server", receiver_);
+  const PacsServer& server = *servers_->server();
+  receiver_ = QString::fromStdString(server.name);
+  servers_->remember();
   std::vector<ResultForm> forms;
   if (segmentation_->isChecked()) forms.push_back(ResultForm::segmentation);
   if (contours_->isChecked()) forms.push_back(ResultForm::structure_set);
-  client_.send(configuration_.servers[static_cast<std::size_t>(server_->currentIndex())],
-               [snapshot, forms, what = content(), source = session().study().dicom_files](
-                   const std::filesystem::path& folder, const Progress& progress) {
-                 return write_forms(snapshot->contents, what, forms, source, folder, progress);
-               });
+  client_.send(server, [snapshot, forms, what = content(), source = session().study().dicom_files](
+                           const std::filesystem::path& folder, const Progress& progress) {
+    return write_forms(snapshot->contents, what, forms, source, folder, progress);
+  });
 }
 
 void SendResultDialog::tell(const Sent& sent) {

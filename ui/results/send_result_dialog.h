@@ -2,10 +2,10 @@
 #pragma once
 
 #include <QCheckBox>
-#include <QComboBox>
 #include <filesystem>
 
 #include "session/pacs_client.h"
+#include "ui/pacs/server_choice.h"
 #include "ui/results/result_dialog.h"
 
 namespace tidemark {
@@ -23,15 +23,11 @@ class SendResultDialog : public ResultDialog {
 
  private:
   QWidget* make_target();
-  void read_servers();
-  void edit_servers();
   void tell(const Sent& sent);
 
-  std::filesystem::path file_;
-  PacsConfiguration configuration_;
   PacsClient client_;
   QString receiver_;  // the server that gets it now
-  QComboBox* server_;
+  ServerChoice* servers_;
   QCheckBox* segmentation_;
   QCheckBox* contours_;
 };

@@ -17,6 +17,11 @@ namespace {
 
 constexpr const char* kFolder = "save/folder";  // in the settings
 
+QString usual_folder() {
+  const QString folder = QSettings().value(kFolder).toString();
+  return QFileInfo::exists(folder) ? folder : QDir::homePath();
+}
+
 std::filesystem::path path_of(const QString& file) {
   return file.toStdU16String();
 }
@@ -108,9 +113,7 @@ QString WriteResultDialog::usual_file() const {
                        : kind_ == ResultFile::structure_set ? tr("contours")
                                                             : tr("level set");
   const QString name = session().name().left(kLongest).replace(kNotInNames, QStringLiteral("-")).simplified();
-  const QString folder = QSettings().value(kFolder).toString();
-  return QDir(QFileInfo::exists(folder) ? folder : QDir::homePath())
-      .filePath(QStringLiteral("%1 %2%3").arg(name, what, suffix()).trimmed());
+  return QDir(usual_folder()).filePath(QStringLiteral("%1 %2%3").arg(name, what, suffix()).trimmed());
 }
 
 void WriteResultDialog::choose() {
@@ -126,7 +129,7 @@ void WriteResultDialog::choose() {
 }
 
 bool WriteResultDialog::confirm() {
-  QString file = file_->text().trimmed();
+  QString file = QDir(usual_folder()).absoluteFilePath(file_->text().trimmed());
   if (!file.endsWith(suffix(), Qt::CaseInsensitive)) file += suffix();
   file_->setText(file);
   if (is_of_study(session().study(), path_of(file))) {
@@ -134,8 +137,8 @@ bool WriteResultDialog::confirm() {
     return false;
   }
   return !QFileInfo::exists(file) ||
-         QMessageBox::question(this, windowTitle(), tr("%1 exists. Replace it?").arg(file)) ==
-             QMessageBox::Yes;
+         QMessageBox::question(this, windowTitle(), tr("%1 exists. Replace it?").arg(file),
+                               QMessageBox::Yes | QMessageBox::No, QMessageBox::No) == QMessageBox::Yes;
 }
 
 void WriteResultDialog::begin(const Snapshot& snapshot) {

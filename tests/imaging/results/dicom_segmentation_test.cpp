@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "imaging/results/segment_frames.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/results/sample_results.h"
 #include "tests/support/support.h"
@@ -245,6 +246,51 @@ class DicomSegmentationTest : public QObject {
     QCOMPARE(alone->list[0].slices.size(), std::size_t{3});
     QVERIFY(alone->list[0].slices.contains(6));
     QCOMPARE(alone->list[0].name, std::string("Segment"));
+  }
+
+  void frames_too_far_apart_for_a_volume_of_their_own_are_refused() {
+    const test::TemporaryFolder folder;
+    const Geometry grid = test::sample_grid({300, 300, 3500}, glm::dmat3(1.0));
+    Segments written{grid, {Segment()}, {}};
+    for (const std::int64_t k : {0, 1, 3499})
+      written.list[0].slices[k] = std::vector<std::uint8_t>(90'000, 1);
+    QCOMPARE(test::failure(write_segmentation(written, {}, folder / "seg.dcm")), QString());
+    const auto alone = read_segmentation(folder / "seg.dcm");
+    QVERIFY(!alone);
+    QCOMPARE(alone.error().kind, ErrorKind::input);
+    QVERIFY2(alone.error().message.find("too large a volume: 3500 slices of 300 x 300") != std::string::npos,
+             alone.error().message.c_str());
+    const auto in_its_study = read_segmentation(folder / "seg.dcm", &grid);
+    QCOMPARE(test::failure(in_its_study), QString());
+    QVERIFY(in_its_study->list[0].slices == written.list[0].slices);
+  }
+
+  void frames_across_each_other_make_no_volume_of_their_own() {
+    SegmentFrame axial{1, 5, 4};
+    SegmentFrame sagittal = axial;
+    sagittal.step_column_mm = {0.0, 1.0, 0.0};
+    sagittal.step_row_mm = {0.0, 0.0, 1.0};
+    QVERIFY(grid_of_frames({axial, axial}, {}, 1.0, "seg.dcm"));
+    const auto refused = grid_of_frames({axial, sagittal}, {}, 1.0, "seg.dcm");
+    QVERIFY(!refused);
+    QCOMPARE(refused.error().message, std::string("seg.dcm: its frames are not parallel"));
+  }
+
+  void a_thickness_without_end_is_none() {
+    const test::TemporaryFolder folder;
+    const Segments written{test::sample_grid({5, 4, 1}, glm::dmat3(1.0)), {Segment()}, {}};
+    QCOMPARE(test::failure(write_segmentation(written, {}, folder / "seg.dcm")), QString());
+    test::edit(folder / "seg.dcm", [](DcmDataset& dataset) {
+      DcmItem* shared = nullptr;
+      DcmItem* measures = nullptr;
+      QVERIFY(dataset.findAndGetSequenceItem(DCM_SharedFunctionalGroupsSequence, shared).good());
+      QVERIFY(shared->findAndGetSequenceItem(DCM_PixelMeasuresSequence, measures).good());
+      measures->putAndInsertString(DCM_SliceThickness, "1e400");
+      measures->putAndInsertString(DCM_SpacingBetweenSlices, "1e400");
+    });
+    const auto read = read_segmentation(folder / "seg.dcm");
+    QCOMPARE(test::failure(read), QString());
+    QCOMPARE(read->geometry.spacing_mm.z, 1.0);
   }
 
   void nothing_at_all_is_one_empty_frame() {

@@ -228,6 +228,8 @@ class StructureSetTest : public QObject {
     QTest::newRow("not numbers") << "1\\2\\three";
     QTest::newRow("not triples") << "1\\2\\3\\4";
     QTest::newRow("no finite number") << "1\\2\\1e400\\1\\3\\1\\1\\4\\1";
+    QTest::newRow("no finite voxel") << "1.7e308\\2\\1\\1\\3\\1\\1\\4\\1";
+    QTest::newRow("a far point") << "1e20\\2\\1\\1\\3\\1\\1\\4\\1";
   }
 
   void damage_is_refused_by_name() {
