@@ -5,32 +5,12 @@
 namespace tidemark {
 namespace {
 
-constexpr std::size_t kCurvePoints = 2000;
 constexpr auto kLapWindow = std::chrono::seconds(1);
+// Between two measurements, in terms of the last one's time.
+constexpr int kRest = 10;
+constexpr auto kShortestRest = std::chrono::milliseconds(50);
+constexpr auto kLongestRest = std::chrono::seconds(1);
 constexpr double kSmoothing = 0.3;  // weight of the newest run in the mean time of a step
-
-// Every other point, the newest included.
-void thin(Curve& curve) {
-  std::size_t kept = 0;
-  for (std::size_t index = curve.size() % 2 == 0 ? 1 : 0; index < curve.size(); index += 2) {
-    curve[kept++] = curve[index];
-  }
-  curve.resize(kept);
-}
-
-std::shared_ptr<const Curve> with_point(const Curve& curve, const CurvePoint& point) {
-  auto longer = std::make_shared<Curve>(curve);
-  longer->push_back(point);
-  if (longer->size() > kCurvePoints) thin(*longer);
-  return longer;
-}
-
-// The points before `step`.
-std::shared_ptr<const Curve> before(const Curve& curve, std::int64_t step) {
-  const auto end =
-      std::find_if(curve.begin(), curve.end(), [=](const CurvePoint& point) { return point.step >= step; });
-  return std::make_shared<const Curve>(curve.begin(), end);
-}
 
 }  // namespace
 
@@ -46,33 +26,34 @@ void CaseMeter::computed(const AdvanceReport& report, std::int64_t step) {
   while (laps_.size() > 2 && laps_.back().at - laps_.front().at > kLapWindow) laps_.pop_front();
 }
 
-void CaseMeter::edited(std::int64_t step) {
+void CaseMeter::edited() {
   laps_.clear();
   converged_ = false;
   thorough_ = false;
-  if (!curve_->empty() && curve_->back().step >= step) curve_ = before(*curve_, step);
 }
 
-bool CaseMeter::due(bool on_gpu) const {
-  return Clock::now() - measured_at_ >=
-         (on_gpu ? std::chrono::milliseconds(1000) : std::chrono::milliseconds(200));
-}
-
-void CaseMeter::measure(const std::shared_ptr<const Field>& phi, std::int64_t step, Case& document,
-                        bool thoroughly) {
-  phi_ = phi;
-  surface_ = tidemark::measure(*phi);
-  if (curve_->empty() || curve_->back().step < step) {
-    curve_ = with_point(*curve_, {step, surface_.volume_ml, surface_.surface_mm2, surface_speed_});
-  }
+Status CaseMeter::measure(const ReadPhi& read_phi, Case& document, bool thoroughly) {
+  const auto began = Clock::now();
+  const auto phi = read_phi();
+  if (!phi) return tl::unexpected<Error>(phi.error());
+  phi_ = *phi;
+  surface_ = tidemark::measure(*phi_);
+  const auto ended = Clock::now();
+  due_at_ = ended + std::clamp<Clock::duration>(kRest * (ended - began), kShortestRest, kLongestRest);
+  // A case that was read from a file has not moved since its last point.
+  LevelSet& level_set = document.level_set();
+  const Curve::Points& before = *level_set.curve().points();
+  const double last_speed = before.empty() ? 0.0 : before.back().surface_speed;
+  level_set.note(
+      {level_set.step(), surface_.volume_ml, surface_.surface_mm2, surface_speed_.value_or(last_speed)});
   if (thoroughly) {
-    inside_ = statistics_in(*document.volume(), phi->mask());
+    inside_ = statistics_in(*document.volume(), phi_->mask());
     const auto all = statistics_by_label(*document.volume(), document.labels());
     labels_.clear();
     for (const Label& label : document.labels().list()) labels_.push_back(all[label.id]);
   }
   thorough_ = thoroughly;
-  measured_at_ = Clock::now();
+  return {};
 }
 
 void CaseMeter::report(CaseState& state) const {
@@ -82,7 +63,6 @@ void CaseMeter::report(CaseState& state) const {
   state.inside = inside_;
   state.label_statistics = labels_;
   state.label_statistics.resize(state.labels.size());
-  state.curve = curve_;
   state.solver_steps_per_second = seconds_per_step_ > 0.0 ? 1.0 / seconds_per_step_ : 0.0;
   state.steps_per_second = 0.0;
   if (state.playing && laps_.size() > 1) {

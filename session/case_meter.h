@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -15,8 +16,8 @@ class CaseMeter {
  public:
   // After a run of steps.
   void computed(const AdvanceReport& report, std::int64_t step);
-  // After a change of phi that is not a step: curves end at `step`, and nothing has converged.
-  void edited(std::int64_t step);
+  // After a change of phi that is not a step: nothing has converged.
+  void edited();
   // Something else has changed that figures depend on.
   void adjusted() {
     converged_ = false;
@@ -26,11 +27,13 @@ class CaseMeter {
   [[nodiscard]] double seconds_per_step() const { return seconds_per_step_; }
   [[nodiscard]] bool converged() const { return converged_; }
 
-  // Whether figures of the surface are due: at most five times a second, and once a second where phi has to
-  // be read from a GPU.
-  [[nodiscard]] bool due(bool on_gpu) const;
-  // Takes those of this phi. `thoroughly`: also what is under the surface and the labels.
-  void measure(const std::shared_ptr<const Field>& phi, std::int64_t step, Case& document, bool thoroughly);
+  // Whether figures of the surface are due: as often as a tenth of the time allows, but at most twenty
+  // times a second and at least once.
+  [[nodiscard]] bool due() const { return Clock::now() >= due_at_; }
+  // Takes those of the phi that `read_phi` gives, which takes time where it is on a GPU, and notes them on
+  // the level set's curve. `thoroughly`: also what is under the surface and the labels.
+  using ReadPhi = std::function<Result<std::shared_ptr<const Field>>()>;
+  Status measure(const ReadPhi& read_phi, Case& document, bool thoroughly);
   [[nodiscard]] bool thorough() const { return thorough_; }
 
   // Fills in what was measured.
@@ -45,16 +48,14 @@ class CaseMeter {
 
   std::deque<Lap> laps_;  // of the last second
   double seconds_per_step_ = 0.0;
-  double surface_speed_ = 0.0;
+  std::optional<double> surface_speed_;  // once steps have been computed
   bool converged_ = false;
-  Clock::time_point measured_at_;
+  Clock::time_point due_at_;
   bool thorough_ = false;
   std::shared_ptr<const Field> phi_;
   SurfaceStatistics surface_;
   RegionStatistics inside_;
   std::vector<RegionStatistics> labels_;
-  // States share it: it is made anew when a point is added, which is seldom, and not for each of them.
-  std::shared_ptr<const Curve> curve_ = std::make_shared<const Curve>();
 };
 
 }  // namespace tidemark

@@ -106,7 +106,7 @@ void CaseRunner::tell(const Error& error) {
 
 void CaseRunner::phi_changed() {
   painter_.phi_changed();
-  meter_.edited(case_->level_set().step());
+  meter_.edited();
 }
 
 Status CaseRunner::edit(Status outcome) {
@@ -183,15 +183,15 @@ Status CaseRunner::advance(std::int64_t steps, const Progress& progress) {
   run.progress.report = nullptr;
   const auto report = level_set.advance(run);
   if (!report) return tl::unexpected<Error>(report.error());
+  ++advances_;
   meter_.computed(*report, level_set.step());
   painter_.phi_changed();
   if (report->converged && pauses) playing_ = false;
-  if (meter_.due(level_set.executor().name() != "host")) {
-    const auto phi = painter_.phi(*case_);
-    if (!phi) return tl::unexpected<Error>(phi.error());
-    meter_.measure(*phi, level_set.step(), *case_, false);
-  }
-  return {};
+  return meter_.due() ? measure(false) : Status{};
+}
+
+Status CaseRunner::measure(bool thoroughly) {
+  return meter_.measure([this] { return painter_.phi(*case_); }, *case_, thoroughly);
 }
 
 Status CaseRunner::change_executor(ExecutorKind kind) {
@@ -217,17 +217,30 @@ void CaseRunner::show_pictures() {
 
 void CaseRunner::post_picture(const std::shared_ptr<ViewSlot>& slot, Priority priority) {
   // A view waits once; a better picture of what has changed meanwhile is not wanted.
-  auto& waiting = priority == Priority::picture ? slot->waiting : slot->refining;
+  auto& waiting = priority == Priority::refine ? slot->refining : slot->waiting;
   if (waiting.exchange(true)) return;
-  engine_.post(priority, this, [self = shared_from_this(), slot, &waiting](std::stop_token stop) {
+  engine_.post(priority, this, [self = shared_from_this(), slot, &waiting, priority](std::stop_token stop) {
     waiting = false;
-    self->draw(slot, std::move(stop));
+    self->draw_in_turn(slot, priority, std::move(stop));
   });
+}
+
+// Whoever turns the camera or paints asks for the next picture before this one is there. The surface must
+// move on all the same: while it plays, a view is drawn once between steps and then waits behind the next
+// ones.
+void CaseRunner::draw_in_turn(const std::shared_ptr<ViewSlot>& slot, Priority priority,
+                              std::stop_token stop) {
+  if (priority == Priority::picture && playing_ && slot->drawn_advance == advances_) {
+    post_picture(slot, Priority::step);
+  } else {
+    draw(slot, std::move(stop));
+  }
 }
 
 void CaseRunner::draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token stop) {
   if (!case_) return;
   if (auto status = follow_graphics(); !status) return tell(status.error());
+  slot->drawn_advance = advances_;
   const auto more = painter_.draw(*slot, *case_, std::move(stop));
   if (more) {
     if (*more) post_picture(slot, Priority::refine);
@@ -247,9 +260,7 @@ void CaseRunner::post_measurement() {
   engine_.post(Priority::background, this, [self = shared_from_this()](const std::stop_token&) {
     self->measurement_waits_ = false;
     if (!self->case_ || self->playing_) return;
-    const auto phi = self->painter_.phi(*self->case_);
-    if (!phi) return self->tell(phi.error());
-    self->meter_.measure(*phi, self->case_->level_set().step(), *self->case_, true);
+    if (auto status = self->measure(true); !status) return self->tell(status.error());
     self->publish();
   });
 }
@@ -279,6 +290,7 @@ void CaseRunner::publish() {
   state.executor = QString::fromUtf8(level_set.executor().name().data(),
                                      static_cast<qsizetype>(level_set.executor().name().size()));
   state.memory = level_set.executor().memory();
+  state.curve = level_set.curve();
   state.labels = case_->labels().list();
   state.label_voxels = label_voxels();
   if (const auto change = case_->history().undo_description()) state.undo_text = change_text(*change);

@@ -76,7 +76,9 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void post_steps();
   void run_steps(std::stop_token stop);
   void post_picture(const std::shared_ptr<ViewSlot>& slot, Priority priority);
+  void draw_in_turn(const std::shared_ptr<ViewSlot>& slot, Priority priority, std::stop_token stop);
   void draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token stop);
+  Status measure(bool thoroughly);
   void post_measurement();
   void end_run();
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels();
@@ -99,6 +101,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   bool pause_at_convergence_ = true;
   bool measurement_waits_ = false;
   std::int64_t steps_per_picture_ = 0;
+  std::int64_t advances_ = 0;  // how often steps were computed
 
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels_;  // as of label_revision_
   std::uint64_t label_revision_ = 0;

@@ -8,19 +8,10 @@
 
 #include "solver/executor.h"
 #include "solver/statistics.h"
+#include "study/curve.h"
 #include "study/labels.h"
 
 namespace tidemark {
-
-// A point of the curves that show how the level set develops.
-struct CurvePoint {
-  std::int64_t step = 0;
-  double volume_ml = 0.0;
-  double surface_mm2 = 0.0;
-  double surface_speed = 0.0;  // root mean square, smallest spacings per unit of time (kConvergedSpeed)
-};
-
-using Curve = std::vector<CurvePoint>;
 
 // What a case was like after the engine's last job for it.
 struct CaseState {
@@ -37,9 +28,9 @@ struct CaseState {
   double solver_steps_per_second = 0.0;  // in the solver's own time
   MemoryReport memory;
   std::shared_ptr<const Field> phi;  // at most a second old while it plays, else as it is
-  std::shared_ptr<const Curve> curve = std::make_shared<const Curve>();  // since the start, thinned
-  SurfaceStatistics surface;                                             // as of the last measurement
-  RegionStatistics inside;  // of the volume's values, under the surface; measured when it rests
+  Curve curve;                       // how it has developed since the start
+  SurfaceStatistics surface;         // as of the last measurement
+  RegionStatistics inside;           // of the volume's values, under the surface; measured when it rests
   std::vector<Label> labels;
   std::vector<RegionStatistics> label_statistics;                 // in the order of `labels`
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null while there are none

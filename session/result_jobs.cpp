@@ -2,8 +2,6 @@
 
 #include <QCoreApplication>
 
-#include "session/background_job.h"
-#include "session/job_progress.h"
 #include "study/result_files.h"
 
 namespace tidemark {
@@ -20,30 +18,10 @@ namespace {
 
 }  // namespace
 
-ResultJobs::~ResultJobs() {
-  if (job_) job_->abandon();
-}
-
-// Calls work(progress) on a thread and deliver(result) here.
-template <class Work, class Deliver>
-void ResultJobs::run(Work work, Deliver deliver) {
-  if (job_) job_->abandon();
-  job_ = BackgroundJob::start(this, [this, work, deliver](BackgroundJob& job) {
-    const Progress progress =
-        job_progress(job, "tidemark::ResultStep",
-                     [this](double fraction, const QString& step) { emit progressed(fraction, step); });
-    const auto result = std::make_shared<decltype(work(progress))>(without_exceptions(work, progress));
-    job.deliver([this, deliver, result] {
-      job_.reset();
-      if (*result) return deliver(*result);
-      if (result->error().kind == ErrorKind::cancelled) return emit cancelled();
-      emit failed(QString::fromStdString(result->error().message));
-    });
-  });
-}
+ResultJobs::ResultJobs(QObject* parent) : JobRunner("tidemark::ResultStep", parent) {}
 
 void ResultJobs::write(std::function<Status(const Progress&)> work) {
-  run(std::move(work), [this](const Status&) { emit written(); });
+  run(std::move(work), [this] { emit written(); });
 }
 
 void ResultJobs::read_labels(const std::filesystem::path& file, const Geometry& grid, bool only_results) {
@@ -56,14 +34,10 @@ void ResultJobs::read_labels(const std::filesystem::path& file, const Geometry& 
         if (progress.cancelled()) return cancelled_error();
         return std::make_shared<const Segments>(std::move(*segments));
       },
-      [this](const Result<Found>& found) {
-        if (!*found) return emit no_result();
-        emit labels_read(*found);
+      [this](const Found& found) {
+        if (!found) return emit no_result();
+        emit labels_read(found);
       });
-}
-
-void ResultJobs::cancel() {
-  if (job_) job_->request_stop();
 }
 
 }  // namespace tidemark

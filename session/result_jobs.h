@@ -1,27 +1,21 @@
 // Results out of a case, and labels into it, for the user interface, which never waits.
 #pragma once
 
-#include <QObject>
-#include <QString>
 #include <filesystem>
 #include <functional>
 #include <memory>
 
 #include "core/geometry.h"
-#include "core/progress.h"
+#include "session/job_runner.h"
 
 namespace tidemark {
 
-class BackgroundJob;
 struct Segments;
 
-// Lives on the thread of the user interface; the work is done on others. One piece of work at a time: whoever
-// asks for the next gives up the one before, of which nothing is heard any more.
-class ResultJobs : public QObject {
+class ResultJobs : public JobRunner {
   Q_OBJECT
  public:
-  using QObject::QObject;
-  ~ResultJobs() override;  // asks what runs to stop, and waits for nothing
+  explicit ResultJobs(QObject* parent = nullptr);
 
   // Writes files of its own; ends with written(), failed() or, where it was stopped in time, cancelled().
   void write(std::function<Status(const Progress&)> work);
@@ -29,22 +23,13 @@ class ResultJobs : public QObject {
   // Segmentation nor a structure set ends with no_result().
   void read_labels(const std::filesystem::path& file, const Geometry& grid, bool only_results = false);
 
-  [[nodiscard]] bool busy() const { return job_ != nullptr; }
-  void cancel();
+  // Ends with cancelled(), unless the work was past stopping: what is written then is told.
+  void cancel() { ask_to_stop(); }
 
  signals:
-  void progressed(double fraction, const QString& step);
   void written();
   void labels_read(std::shared_ptr<const tidemark::Segments> segments);
   void no_result();
-  void failed(const QString& message);
-  void cancelled();
-
- private:
-  template <class Work, class Deliver>
-  void run(Work work, Deliver deliver);
-
-  std::shared_ptr<BackgroundJob> job_;
 };
 
 }  // namespace tidemark

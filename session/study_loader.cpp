@@ -3,15 +3,14 @@
 #include <QCoreApplication>
 #include <QStringList>
 #include <algorithm>
-#include <mutex>
+#include <future>
 
 #include "imaging/archive/study_archive.h"
 #include "imaging/filters/suggest_start.h"
 #include "imaging/phantom/phantom.h"
 #include "imaging/study.h"
-#include "session/background_job.h"
-#include "session/job_progress.h"
 #include "session/phantom_text.h"
+#include "study/checksum.h"
 
 namespace tidemark {
 namespace {
@@ -44,9 +43,8 @@ Parameters suggest_parameters(const Volume& volume, const Progress& progress) {
 
 Result<LoadedStudy> load_study(const ChosenSeries& chosen, const Progress& progress) {
   const Series& series = chosen.series;
-  auto volume = load_series(series, progress);
+  auto volume = load_series(chosen, progress);
   if (!volume) return pass_on(volume);
-  volume->changes.insert(volume->changes.begin(), chosen.remarks.begin(), chosen.remarks.end());
   LoadedStudy study;
   study.volume = std::make_shared<const Volume>(std::move(*volume));
   study.origin.path = StudyLoader::place_of(series);
@@ -60,15 +58,17 @@ Result<LoadedStudy> load_study(const ChosenSeries& chosen, const Progress& progr
   study.origin.name = study.name.toStdString();
   study.origin.date = series.date;
   progress(0.0, "measuring values");
+  auto checksum = std::async(std::launch::async, [volume = study.volume] { return checksum_of(*volume); });
   study.summary = summarise(*study.volume, progress);
   study.parameters = suggest_parameters(*study.volume, progress);
+  study.origin.checksum = checksum.get();
   if (progress.cancelled()) return cancelled_error();
   return study;
 }
 
 // What there is to choose from. A single series that cannot be loaded is no choice: its reason is the answer.
-Result<Catalogue> find_choice(const fs::path& path, const Progress& progress) {
-  auto catalogue = find_series(path, progress);
+Result<Catalogue> find_choice(const fs::path& path, const GridPolicy& policy, const Progress& progress) {
+  auto catalogue = find_series(path, progress, policy);
   if (!catalogue || catalogue->series.size() != 1) return catalogue;
   const Series& only = catalogue->series.front();
   if (only.loadable || only.fillable()) return catalogue;
@@ -111,51 +111,10 @@ Result<LoadedStudy> make_phantom_study(const std::string& kind, const Progress& 
 
 }  // namespace
 
-// What the work says on its way: the last word counts, and at most one is waiting to be heard.
-struct StudyLoader::Report {
-  std::mutex mutex;
-  double fraction = 0.0;
-  std::string step;
-  bool waiting = false;
-};
+StudyLoader::StudyLoader(QObject* parent) : JobRunner("tidemark::LoadingStep", parent) {}
 
-StudyLoader::~StudyLoader() {
-  if (job_) job_->abandon();
-}
-
-// Calls make(progress) on a thread and deliver(result) here.
-template <class Make, class Deliver>
-void StudyLoader::run(Make make, Deliver deliver) {
-  if (job_) job_->abandon();
-  job_ = BackgroundJob::start(this, [this, make, deliver](BackgroundJob& job) {
-    const auto last = std::make_shared<Report>();
-    Progress progress;
-    progress.stop = job.stop();
-    progress.report = [this, last, &job](double fraction, std::string_view what) {
-      const std::lock_guard lock(last->mutex);
-      last->fraction = fraction;
-      last->step = what;
-      if (std::exchange(last->waiting, true)) return;
-      job.deliver([this, last] {
-        std::unique_lock heard(last->mutex);
-        last->waiting = false;
-        const double at = last->fraction;
-        const QString step = step_text("tidemark::LoadingStep", last->step);
-        heard.unlock();
-        emit progressed(at, step);
-      });
-    };
-    auto result = std::make_shared<decltype(make(progress))>(without_exceptions(make, progress));
-    job.deliver([this, deliver, result] {
-      job_.reset();
-      if (*result) return deliver(std::move(**result));
-      emit failed(QString::fromStdString(result->error().message));
-    });
-  });
-}
-
-void StudyLoader::scan(const fs::path& path) {
-  run([path](const Progress& progress) { return find_choice(path, progress); },
+void StudyLoader::scan(const fs::path& path, const GridPolicy& policy) {
+  run([path, policy](const Progress& progress) { return find_choice(path, policy, progress); },
       [this](Catalogue&& catalogue) { emit found(std::make_shared<const Catalogue>(std::move(catalogue))); });
 }
 
@@ -175,13 +134,6 @@ void StudyLoader::load(const Series& series, const std::vector<std::string>& rem
 void StudyLoader::make_phantom(const std::string& kind) {
   run([kind](const Progress& progress) { return make_phantom_study(kind, progress); },
       [this](LoadedStudy&& study) { emit loaded(std::make_shared<const LoadedStudy>(std::move(study))); });
-}
-
-void StudyLoader::cancel() {
-  if (!job_) return;
-  job_->abandon();
-  job_.reset();
-  emit cancelled();
 }
 
 fs::path StudyLoader::place_of(const Series& series) {

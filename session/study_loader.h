@@ -1,7 +1,6 @@
 // Finds and loads studies without ever keeping the user interface waiting.
 #pragma once
 
-#include <QObject>
 #include <QString>
 #include <array>
 #include <filesystem>
@@ -13,13 +12,12 @@
 #include "core/volume.h"
 #include "imaging/patient.h"
 #include "imaging/series.h"
+#include "session/job_runner.h"
 #include "session/source_summary.h"
 #include "solver/parameters.h"
 #include "study/origin.h"
 
 namespace tidemark {
-
-class BackgroundJob;
 
 // Where a phantom can be started from; where there are both, the threshold is the quick way.
 struct PhantomStart {
@@ -41,25 +39,21 @@ struct LoadedStudy {
   std::shared_ptr<const StudyArchive> archive;  // keeps the files of a series that lies in an archive
 };
 
-// Lives on the thread of the user interface; the work is done on others. One piece of work at a time: whoever
-// asks for the next gives up the one before, of which nothing is heard any more.
-class StudyLoader : public QObject {
+class StudyLoader : public JobRunner {
   Q_OBJECT
  public:
-  using QObject::QObject;
-  ~StudyLoader() override;  // gives up what runs, and waits for nothing
+  explicit StudyLoader(QObject* parent = nullptr);
 
   // Ends with found(), or with failed() where nothing can be loaded or the only series cannot, not even with
   // its gaps filled.
-  void scan(const std::filesystem::path& path);
+  void scan(const std::filesystem::path& path, const GridPolicy& policy = {});
   // End with loaded() or failed(). An empty uid: the only loadable series, or the one with the most voxels.
   void load(const std::filesystem::path& path, const std::string& uid, const GridPolicy& policy = {});
   // The remarks are told with what loading changed.
   void load(const Series& series, const std::vector<std::string>& remarks = {});
   void make_phantom(const std::string& kind);  // of phantom_kinds()
 
-  [[nodiscard]] bool busy() const { return job_ != nullptr; }
-  void cancel();  // emits cancelled() when something was given up
+  void cancel() { give_up(); }
 
   // The folder or file under which a series is found again: the one folder that holds all its files, or its
   // archive.
@@ -68,19 +62,8 @@ class StudyLoader : public QObject {
   [[nodiscard]] static QString name_of(const Series& series);
 
  signals:
-  // fraction in 0..1 of the step named by `step` ("Reading headers"); below 0 when unknown.
-  void progressed(double fraction, const QString& step);
   void found(std::shared_ptr<const tidemark::Catalogue> catalogue);
   void loaded(std::shared_ptr<const tidemark::LoadedStudy> study);
-  void failed(const QString& message);
-  void cancelled();
-
- private:
-  struct Report;
-  template <class Make, class Deliver>
-  void run(Make make, Deliver deliver);
-
-  std::shared_ptr<BackgroundJob> job_;
 };
 
 }  // namespace tidemark

@@ -38,6 +38,7 @@ struct ViewSlot {
   std::shared_ptr<ViewTextures> textures;  // of those that are not, when first needed
   std::int64_t drawn_phi = -1;             // revision of phi that was last drawn
   std::uint64_t drawn_look = 0;            // revision of labels and parameters
+  std::int64_t drawn_advance = -1;         // how often steps had been computed when it was last drawn
   std::uint64_t pictures = 0;
 };
 

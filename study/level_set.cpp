@@ -123,13 +123,14 @@ Status LevelSet::know_phi() {
   if (!dirty_) {
     known_.recipe = recipe_;
     known_.start = start_;
+    known_.curve = curve_;
     return {};
   }
   auto phi = executor().snapshot();
   if (!phi) return pass_on(phi);
   auto shared = std::make_shared<const Field>(std::move(*phi));
   if (step() == 0) start_ = shared;
-  known_ = {recipe_, std::move(shared), start_};
+  known_ = {recipe_, std::move(shared), start_, curve_};
   dirty_ = false;
   return {};
 }
@@ -169,6 +170,7 @@ Status LevelSet::paint(const Sphere& sphere, Brush brush, std::uint64_t gesture)
   if (Status painted = executor().paint(sphere, brush); !painted) return painted;
   begin_change(brush == Brush::add ? ChangeKind::paint : ChangeKind::erase, gesture, known_);
   record({step(), PaintEvent{sphere, brush}});
+  curve_.cut(step());
   dirty_ = true;
   return gesture == 0 ? history_.close() : Status();
 }
@@ -220,6 +222,7 @@ Result<AdvanceReport> LevelSet::advance(const Advance& run) {
 void LevelSet::put_in_place(Point point) {
   recipe_ = point.recipe;
   start_ = point.start;
+  curve_ = point.curve;
   known_ = std::move(point);
   in_place_ = known_;
   dirty_ = false;
@@ -252,9 +255,14 @@ Status LevelSet::go_to(Point point) {
   return gone;
 }
 
-Status LevelSet::resume_from(const Recipe& recipe, std::shared_ptr<const Field> phi) {
+Status LevelSet::resume_from(const Recipe& recipe, std::shared_ptr<const Field> phi, const Curve& curve) {
   if (Status ended = history_.close(); !ended) return ended;
-  return go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr});
+  return go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr, curve});
+}
+
+void LevelSet::note(const CurvePoint& point) {
+  curve_.add(point);
+  if (!dirty_) known_.curve = curve_;
 }
 
 // Brings the executor back to the recipe's start, with the edits that were made before the first step.
@@ -296,6 +304,7 @@ Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
   Status computed = compute_again(target, progress);
   if (computed) {
     recipe_ = recipe_.up_to(target);
+    curve_.cut(target);
     recipe_.executor = rig_.description();
     resumed_ = false;
     dirty_ = true;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "solver/executor.h"
+#include "study/curve.h"
 #include "study/history.h"
 #include "study/recipe.h"
 #include "study/rig.h"
@@ -67,16 +68,22 @@ class LevelSet final : private OpenChange {
   Result<std::shared_ptr<const Field>> checkpoint();
 
   // Goes on from what was saved: a recipe and the phi that it had led to. Not an entry of the history.
-  Status resume_from(const Recipe& recipe, std::shared_ptr<const Field> phi);
+  Status resume_from(const Recipe& recipe, std::shared_ptr<const Field> phi, const Curve& curve = {});
+
+  // How the surface has developed since the start, by whoever measures it: undo and redo bring it back.
+  [[nodiscard]] const Curve& curve() const { return curve_; }
+  void note(const CurvePoint& point);
 
  private:
   friend class LevelSetChange;
 
-  // phi, how it came about, and phi before the first step (null: to be made from the recipe).
+  // phi, how it came about, phi before the first step (null: to be made from the recipe), and what was
+  // measured.
   struct Point {
     Recipe recipe;
     std::shared_ptr<const Field> phi;
     std::shared_ptr<const Field> start;
+    Curve curve{};
 
     [[nodiscard]] bool same_as(const Point& other) const {
       return phi == other.phi && recipe.steps == other.recipe.steps && recipe.events == other.recipe.events &&
@@ -112,10 +119,11 @@ class LevelSet final : private OpenChange {
   History& history_;
   Recipe recipe_;
   std::shared_ptr<const Field> start_;  // phi before the first step
-  Point known_;                         // the last that is known of phi
-  bool dirty_ = false;                  // phi has changed since
-  Point in_place_;                      // where phi was last put in place; the executor has run on since
-  bool resumed_ = false;                // it was, and the recipe does not say so yet
+  Curve curve_;
+  Point known_;           // the last that is known of phi
+  bool dirty_ = false;    // phi has changed since
+  Point in_place_;        // where phi was last put in place; the executor has run on since
+  bool resumed_ = false;  // it was, and the recipe does not say so yet
   std::optional<Open> open_;
 };
 

@@ -22,6 +22,7 @@ class LevelSetChange : public Change {
   struct Side {
     Recipe recipe;  // its events: those that are not common
     std::shared_ptr<const Field> start;
+    Curve curve;
   };
   Status go(const Side& side, Field phi);
 

@@ -28,6 +28,7 @@ Result<SessionContents> snapshot_of(Case& document) {
   if (const auto voxels = document.labels().voxels(); !voxels.empty()) {
     contents.label_voxels = std::make_shared<const std::vector<std::uint8_t>>(voxels.begin(), voxels.end());
   }
+  contents.curve = document.level_set().curve();
   contents.view_state = document.view_state;
   return contents;
 }
@@ -54,7 +55,7 @@ Result<std::unique_ptr<Case>> restore_case(const SessionContents& contents,
       Case::create(std::move(volume), std::move(origin), contents.recipe.final_parameters(), kind, options);
   if (!made) return made;
   Case& document = **made;
-  Status restored = document.level_set().resume_from(contents.recipe, contents.phi);
+  Status restored = document.level_set().resume_from(contents.recipe, contents.phi, contents.curve);
   if (!restored) return pass_on(restored);
   const std::vector<std::uint8_t> none;
   restored = document.labels().assign(contents.labels, contents.label_voxels ? *contents.label_voxels : none);

@@ -17,6 +17,7 @@ struct SessionContents {
   std::shared_ptr<const Field> phi;
   std::vector<Label> labels;
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null: no voxel has a label
+  Curve curve;
   std::string view_state;
 };
 

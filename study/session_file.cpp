@@ -71,6 +71,40 @@ std::vector<Label> read_labels(const JsonField& field) {
   return labels;
 }
 
+// A list a quantity, so that other programs can plot them.
+constexpr std::array<std::pair<const char*, double CurvePoint::*>, 3> kCurveQuantities{
+    {{"volume_ml", &CurvePoint::volume_ml},
+     {"surface_mm2", &CurvePoint::surface_mm2},
+     {"surface_speed", &CurvePoint::surface_speed}}};
+
+Json curve_json(const Curve::Points& points) {
+  Json json{{"step", Json::array()}};
+  for (const CurvePoint& point : points) json["step"].push_back(point.step);
+  for (const auto& [name, quantity] : kCurveQuantities) {
+    Json& list = json[name] = Json::array();
+    for (const CurvePoint& point : points) list.push_back(point.*quantity);
+  }
+  return json;
+}
+
+Curve read_curve(const JsonField& field) {
+  const JsonField steps = field.at("step");
+  Curve::Points points(steps.size(Curve::kMostPoints));
+  std::int64_t next = 0;
+  for (std::size_t i = 0; i < points.size() && field.good(); ++i) {
+    points[i].step = steps.at(i).integer(next, std::int64_t{1} << 62);
+    next = points[i].step + 1;
+  }
+  for (const auto& [name, quantity] : kCurveQuantities) {
+    const JsonField list = field.at(name);
+    if (list.size(Curve::kMostPoints) != points.size())
+      list.wrong("has not as many entries as there are steps");
+    for (std::size_t i = 0; i < points.size() && field.good(); ++i)
+      points[i].*quantity = list.at(i).number(0.0);
+  }
+  return Curve(std::move(points));
+}
+
 Json study_json(const StudyOrigin& origin, const std::filesystem::path& session) {
   std::error_code ignored;
   Json json{{"series_uid", origin.series_uid},  {"phantom", origin.phantom}, {"sha256", origin.checksum},
@@ -117,6 +151,7 @@ Json session_json(const SessionContents& contents, const std::filesystem::path& 
                  {"page_shape", {shape.x, shape.y, shape.z}},
                  {"resident_pages", contents.phi->resident_pages()}};
   json["labels"] = labels_json(contents.labels);
+  json["curve"] = curve_json(*contents.curve.points());
   json["view_state"] = contents.view_state;
   return json;
 }
@@ -217,6 +252,7 @@ Result<SessionContents> load_session(const std::filesystem::path& file) {
   contents.geometry = read_geometry(root.at("grid"));
   contents.recipe = read_recipe(root.at("recipe"));
   contents.labels = read_labels(root.at("labels"));
+  if (root.has("curve")) contents.curve = read_curve(root.at("curve"));
   contents.view_state = root.at("view_state").text(kLongestViewState);
   if (root.good() && contents.recipe.source.size != contents.geometry.size) {
     root.at("recipe").wrong("is of another grid");

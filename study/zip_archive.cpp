@@ -3,6 +3,8 @@
 #include <zip.h>
 
 #include <algorithm>
+#include <cstring>
+#include <utility>
 
 namespace tidemark {
 namespace {
@@ -20,33 +22,22 @@ std::string reason(int code) {
 
 }  // namespace
 
-void ZipReader::Discard::operator()(struct zip* archive) const {
-  zip_discard(archive);
-}
-
 Result<ZipReader> ZipReader::open(const std::filesystem::path& file,
                                   std::span<const std::string_view> names) {
+  constexpr std::int64_t kMostEntries = 100;  // before their names are looked at
+  if (auto readable = FileBytes::open(file); !readable) return pass_on(readable);
   ZipReader reader;
   reader.file_ = file.string();
-  int code = 0;
-  reader.archive_.reset(zip_open(file.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, &code));
-  if (reader.archive_ == nullptr) {
-    const bool readable = code == ZIP_ER_NOZIP || code == ZIP_ER_INCONS;
-    return fail(ErrorKind::input, "{}: {}", reader.file_,
-                readable ? "is damaged, or was not written by Tidemark" : "cannot be read: " + reason(code));
+  auto directory = ZipDirectory::read(file, kMostEntries);
+  if (!directory) {
+    return fail(ErrorKind::input, "{}: is damaged, or was not written by Tidemark", reader.file_);
   }
-  const zip_int64_t count = zip_get_num_entries(reader.archive_.get(), 0);
-  for (zip_int64_t i = 0; i < count; ++i) {
-    zip_stat_t stat;
-    zip_stat_init(&stat);
-    constexpr zip_uint64_t kNeeded = ZIP_STAT_NAME | ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE;
-    const bool good = zip_stat_index(reader.archive_.get(), static_cast<zip_uint64_t>(i), 0, &stat) == 0 &&
-                      (stat.valid & kNeeded) == kNeeded;
-    if (!good || std::find(names.begin(), names.end(), stat.name) == names.end() || reader.has(stat.name)) {
+  reader.directory_ = std::make_unique<ZipDirectory>(std::move(*directory));
+  for (const ZipRecord& record : reader.directory_->records()) {
+    const bool is_known = std::find(names.begin(), names.end(), record.name) != names.end();
+    if (!is_known || !reader.entries_.try_emplace(record.name, &record).second) {
       return fail(ErrorKind::input, "{}: holds entries that do not belong into it", reader.file_);
     }
-    reader.entries_[stat.name] = {static_cast<std::size_t>(i), static_cast<std::size_t>(stat.size),
-                                  static_cast<std::size_t>(stat.comp_size)};
   }
   return reader;
 }
@@ -57,34 +48,28 @@ bool ZipReader::has(std::string_view name) const {
 
 std::size_t ZipReader::size(std::string_view name) const {
   const auto found = entries_.find(name);
-  return found == entries_.end() ? 0 : found->second.bytes;
+  return found == entries_.end() ? 0 : static_cast<std::size_t>(found->second->bytes);
 }
 
 Result<std::vector<std::byte>> ZipReader::read(std::string_view name, std::size_t bytes) {
   const auto found = entries_.find(name);
   if (found == entries_.end()) return fail(ErrorKind::input, "{}: {} is missing", file_, name);
-  const Entry& entry = found->second;
-  if (entry.bytes != bytes) {
-    return fail(ErrorKind::input, "{}: {} has {} bytes instead of {}", file_, name, entry.bytes, bytes);
+  const ZipRecord& record = *found->second;
+  if (static_cast<std::size_t>(record.bytes) != bytes) {
+    return fail(ErrorKind::input, "{}: {} has {} bytes instead of {}", file_, name, record.bytes, bytes);
   }
-  if (bytes / kMostPerByte > entry.compressed) {
+  if (static_cast<std::int64_t>(bytes / kMostPerByte) > record.packed) {
     return fail(ErrorKind::input, "{}: {} cannot hold {} bytes", file_, name, bytes);
   }
-  const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> stream(
-      zip_fopen_index(archive_.get(), entry.index, 0), zip_fclose);
-  if (stream == nullptr) return fail(ErrorKind::input, "{}: {} cannot be read", file_, name);
   std::vector<std::byte> contents(bytes);
   std::size_t done = 0;
-  zip_int64_t got = 1;
-  while (done < bytes && got > 0) {
-    got = zip_fread(stream.get(), contents.data() + done, bytes - done);
-    if (got > 0) done += static_cast<std::size_t>(got);
-  }
-  // Reading on to the end is what compares the entry's own checksum.
-  std::byte beyond{};
-  if (done < bytes || zip_fread(stream.get(), &beyond, 1) != 0) {
-    return fail(ErrorKind::input, "{}: {} is damaged", file_, name);
-  }
+  const Status unpacked = directory_->unpack(record, [&](std::span<const std::uint8_t> piece) -> Status {
+    std::memcpy(contents.data() + done, piece.data(), piece.size());
+    done += piece.size();
+    return {};
+  });
+  if (!unpacked)
+    return fail(ErrorKind::input, "{}: {} is damaged: {}", file_, name, unpacked.error().message);
   return contents;
 }
 
@@ -92,7 +77,7 @@ Status write_zip(const std::filesystem::path& file, std::span<const ZipEntry> en
   int code = 0;
   zip_t* archive = zip_open(file.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
   if (archive == nullptr) {
-    return fail(ErrorKind::write, "{}: cannot write: {}", file.string(), reason(code));
+    return fail(ErrorKind::write, "cannot write: {}", reason(code));
   }
   bool good = true;
   for (const ZipEntry& entry : entries) {
@@ -108,7 +93,7 @@ Status write_zip(const std::filesystem::path& file, std::span<const ZipEntry> en
   if (good && zip_close(archive) == 0) return {};
   const std::string why = zip_strerror(archive);
   zip_discard(archive);
-  return fail(ErrorKind::write, "{}: cannot write: {}", file.string(), why);
+  return fail(ErrorKind::write, "cannot write: {}", why);
 }
 
 }  // namespace tidemark

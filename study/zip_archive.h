@@ -11,8 +11,7 @@
 #include <vector>
 
 #include "core/result.h"
-
-struct zip;
+#include "imaging/archive/zip_directory.h"
 
 namespace tidemark {
 
@@ -30,20 +29,13 @@ class ZipReader {
   Result<std::vector<std::byte>> read(std::string_view name, std::size_t bytes);
 
  private:
-  struct Entry {
-    std::size_t index = 0;
-    std::size_t bytes = 0;
-    std::size_t compressed = 0;
-  };
-  struct Discard {
-    void operator()(struct zip* archive) const;
-  };
   std::string file_;
-  std::unique_ptr<struct zip, Discard> archive_;
-  std::map<std::string, Entry, std::less<>> entries_;
+  std::unique_ptr<ZipDirectory> directory_;
+  std::map<std::string, const ZipRecord*, std::less<>> entries_;
 };
 
-// Writes an archive. The bytes must live until it has returned.
+// Writes an archive. The bytes must live until it has returned. Fails (ErrorKind::write) without naming the
+// file.
 struct ZipEntry {
   std::string_view name;
   std::span<const std::byte> bytes;

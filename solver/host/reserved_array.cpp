@@ -4,16 +4,16 @@
 
 #include <new>
 
+#include "core/large_pages.h"
+
 namespace tidemark {
 
 void* reserve_address_space(std::size_t bytes) {
   void* address =
       ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (address == MAP_FAILED) throw std::bad_alloc();
-#ifdef MADV_HUGEPAGE
   // A surface of some thousand pages touches more small pages of memory than the processor can look up.
-  ::madvise(address, bytes, MADV_HUGEPAGE);
-#endif
+  prefer_large_pages(address, bytes);
   return address;
 }
 

@@ -1,70 +1,62 @@
 // Figures that are taken while a case runs.
 #include "session/case_meter.h"
 
-#include "tests/support/support.h"
+#include "tests/study/cases.h"
 
 using namespace tidemark;
+using namespace tidemark::test;
 
 class CaseMeterTest : public QObject {
   Q_OBJECT
 
   std::unique_ptr<Case> case_;
-  std::shared_ptr<const Field> phi_;
 
-  void measure(CaseMeter& meter, std::int64_t step) { meter.measure(phi_, step, *case_, false); }
-  static CaseState state_of(const CaseMeter& meter) {
-    CaseState state;
-    meter.report(state);
-    return state;
+  Status measure(CaseMeter& meter) {
+    return meter.measure([this] { return case_->level_set().checkpoint(); }, *case_, false);
   }
-  static std::vector<std::int64_t> steps(const CaseState& state) {
-    std::vector<std::int64_t> steps;
-    for (const CurvePoint& point : *state.curve) steps.push_back(point.step);
-    return steps;
+  void forty_steps(CaseMeter& meter) {
+    const auto report = case_->level_set().advance({.steps = 40});
+    QCOMPARE(failure(report), QString());
+    meter.computed(*report, case_->level_set().step());
   }
 
  private slots:
-  void initTestCase() {
-    const auto volume = std::make_shared<Volume>();
-    volume->geometry.size = {8, 8, 8};
-    volume->voxels = std::vector<std::int16_t>(512, 7);
-    auto made = Case::create(volume, {}, {}, ExecutorKind::host, {});
-    QCOMPARE(test::failure(made), QString());
-    case_ = std::move(*made);
-    phi_ = std::make_shared<const Field>(Field::empty(volume->geometry, 3.0));
+  void init() { case_ = begun_case(); }
+
+  void what_is_measured_is_noted_on_the_curve() {
+    CaseMeter meter;
+    QVERIFY(meter.due());
+    QCOMPARE(failure(measure(meter)), QString());
+    QVERIFY(!meter.due());
+    forty_steps(meter);
+    QCOMPARE(failure(measure(meter)), QString());
+    const Curve::Points& points = *case_->level_set().curve().points();
+    QCOMPARE(points.size(), std::size_t{2});
+    QCOMPARE(points[0].surface_speed, 0.0);
+    QVERIFY(points[1].surface_speed > 0.0);
+    QCOMPARE(points[1].step, std::int64_t{40});
+    QVERIFY(points[1].volume_ml > points[0].volume_ml);
+    QVERIFY(points[1].surface_mm2 > points[0].surface_mm2);
   }
 
-  void states_share_the_curve_until_it_has_another_point() {
+  void a_case_from_a_file_has_its_last_speed_until_it_moves() {
+    case_->level_set().note({-1, 1.0, 2.0, 0.5});
     CaseMeter meter;
-    measure(meter, 0);
-    const CaseState first = state_of(meter);
-    const CaseState second = state_of(meter);
-    QCOMPARE(first.curve.get(), second.curve.get());
-    measure(meter, 0);  // nothing has moved
-    QCOMPARE(state_of(meter).curve.get(), first.curve.get());
-    measure(meter, 5);
-    QCOMPARE(steps(state_of(meter)), (std::vector<std::int64_t>{0, 5}));
-    QCOMPARE(steps(first), std::vector<std::int64_t>{0});  // whoever has it keeps it
+    QCOMPARE(failure(measure(meter)), QString());
+    QCOMPARE(case_->level_set().curve().points()->back().step, std::int64_t{0});
+    QCOMPARE(case_->level_set().curve().points()->back().surface_speed, 0.5);
+    forty_steps(meter);
+    QCOMPARE(failure(measure(meter)), QString());
+    QVERIFY(case_->level_set().curve().points()->back().surface_speed != 0.5);
   }
 
-  void a_step_back_takes_the_points_behind_it() {
+  void phi_that_cannot_be_read_is_an_error() {
     CaseMeter meter;
-    for (const std::int64_t step : {0, 10, 20, 30}) measure(meter, step);
-    const auto all = state_of(meter).curve;
-    meter.edited(40);
-    QCOMPARE(state_of(meter).curve.get(), all.get());
-    meter.edited(20);
-    QCOMPARE(steps(state_of(meter)), (std::vector<std::int64_t>{0, 10}));
-    meter.edited(0);
-    QVERIFY(state_of(meter).curve->empty());
-  }
-
-  void a_long_curve_is_thinned_and_keeps_its_newest_point() {
-    CaseMeter meter;
-    for (std::int64_t step = 0; step <= 2001; ++step) measure(meter, step);
-    const auto curve = state_of(meter).curve;
-    QVERIFY(curve->size() > 900 && curve->size() < 1100);
-    QCOMPARE(curve->back().step, std::int64_t{2001});
+    const auto lost = []() -> Result<std::shared_ptr<const Field>> {
+      return fail(ErrorKind::capability, "lost");
+    };
+    QCOMPARE(failure(meter.measure(lost, *case_, false)), QString("lost"));
+    QVERIFY(case_->level_set().curve().points()->empty());
   }
 };
 

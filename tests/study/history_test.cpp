@@ -10,6 +10,12 @@ namespace {
 
 using Edit = std::function<Status(Case&)>;
 
+std::vector<std::int64_t> measured_steps(const LevelSet& level_set) {
+  std::vector<std::int64_t> steps;
+  for (const CurvePoint& point : *level_set.curve().points()) steps.push_back(point.step);
+  return steps;
+}
+
 }  // namespace
 
 class HistoryTest : public QObject {
@@ -79,6 +85,41 @@ class HistoryTest : public QObject {
       QVERIFY(Seen(level_set) == after);
     }
     QCOMPARE(failure(level_set.executor().validate()), QString());
+  }
+
+  void the_curve_goes_back_and_forth_with_the_surface() {
+    using Steps = std::vector<std::int64_t>;
+    const auto document = begun_case();
+    LevelSet& level_set = document->level_set();
+    const auto note = [&] { level_set.note({level_set.step(), 1.0, 2.0, 3.0}); };
+    note();
+    for (int i = 0; i < 2; ++i) {
+      run(level_set, 10);
+      note();
+    }
+    QCOMPARE(failure(document->undo()), QString());
+    QCOMPARE(measured_steps(level_set), Steps{0});
+    QCOMPARE(failure(document->redo()), QString());
+    QCOMPARE(measured_steps(level_set), (Steps{0, 10, 20}));
+    const auto taken_back = [&] {
+      QCOMPARE(failure(document->undo()), QString());
+      QCOMPARE(measured_steps(level_set), (Steps{0, 10, 20}));
+    };
+    QCOMPARE(failure(level_set.step_back(5)), QString());
+    QCOMPARE(measured_steps(level_set), (Steps{0, 10}));
+    taken_back();
+    // What is measured anew at the same step.
+    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), Brush::add)), QString());
+    QCOMPARE(measured_steps(level_set), (Steps{0, 10}));
+    taken_back();
+    // Another run from the start does not mix with the first.
+    QCOMPARE(failure(level_set.restart()), QString());
+    QCOMPARE(measured_steps(level_set), Steps{});
+    run(level_set, 7);
+    note();
+    QCOMPARE(failure(document->undo()), QString());
+    QCOMPARE(measured_steps(level_set), Steps{});
+    taken_back();
   }
 
   void what_changes_nothing_is_no_entry() {

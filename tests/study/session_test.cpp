@@ -67,6 +67,7 @@ std::unique_ptr<Case> labelled_case(ExecutorKind kind = ExecutorKind::host) {
   auto document = std::move(Case::create(lumpy_volume(), origin, lumpy_parameters(), kind, options).value());
   LevelSet& level_set = document->level_set();
   must(level_set.begin(seed_in(*document->volume())));
+  level_set.note({0, 1.5, 300.0, 0.25});
   run(level_set, 12);
   must(document->accept_surface(document->labels().add("Lümp, \"one\"").value()));
   Label label = document->labels().list()[0];
@@ -79,6 +80,7 @@ std::unique_ptr<Case> labelled_case(ExecutorKind kind = ExecutorKind::host) {
   run(level_set, 9);
   must(document->smooth_source(0.7));
   run(level_set, 9);
+  level_set.note({30, 1.0 / 3.0, 310.5, 1e-5});
   document->view_state = "{\"slice\": 12}";
   return document;
 }
@@ -114,6 +116,7 @@ class SessionTest : public QObject {
     QCOMPARE(after.smoothed_mm(), 0.7);
     QVERIFY((*restored)->labels().list() == document->labels().list());
     QVERIFY((*restored)->labels().mask(1).voxels == document->labels().mask(1).voxels);
+    QVERIFY(*after.curve().points() == *before.curve().points());
     QCOMPARE((*restored)->view_state, document->view_state);
     QVERIFY(!(*restored)->changed_since_save());
     QCOMPARE((*restored)->undo().error().kind, ErrorKind::usage);
@@ -126,6 +129,19 @@ class SessionTest : public QObject {
     QCOMPARE(failure(after.restart()), QString());
     QCOMPARE(failure(before.restart()), QString());
     QVERIFY(values_of(after) == values_of(before));
+  }
+
+  void a_session_from_before_there_were_curves_is_read() {
+    const TemporaryFolder folder;
+    must(save_session(*labelled_case(), folder / "new.tidemark"));
+    Entries entries = entries_of(folder / "new.tidemark");
+    Json json = Json::parse(entries["session.json"]);
+    json.erase("curve");
+    entries["session.json"] = json.dump();
+    write_entries(folder / "old.tidemark", entries);
+    const auto contents = load_session(folder / "old.tidemark");
+    QCOMPARE(failure(contents), QString());
+    QVERIFY(contents->curve.points()->empty());
   }
 
   void a_case_without_a_surface_comes_back() {
@@ -328,6 +344,12 @@ class SessionTest : public QObject {
          "labels[0].meaning.type.value: 300"},
         {"label name", json([](Json& j) { j["labels"][0]["name"] = std::string(300, 'n'); }),
          "labels[0].name: 300"},
+        {"curve short", json([](Json& j) { j["curve"]["volume_ml"].erase(1); }), "curve.volume_ml: has not"},
+        {"curve backwards", json([](Json& j) { j["curve"]["step"][0] = 40; }), "curve.step[1]: 30"},
+        {"curve negative", json([](Json& j) { j["curve"]["surface_mm2"][1] = -1; }),
+         "curve.surface_mm2[1]: -1"},
+        {"curve long", json([](Json& j) { j["curve"]["step"] = std::vector<int>(5000, 1); }),
+         "curve.step: 5000"},
         {"view state", json([](Json& j) { j["view_state"] = 5; }), "view_state: not a text"},
     };
     return all;

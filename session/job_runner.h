@@ -1,0 +1,68 @@
+// Work for the user interface, which never waits: one piece at a time, on a thread of its own.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <functional>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include "core/progress.h"
+#include "core/without_exceptions.h"
+
+namespace tidemark {
+
+class BackgroundJob;
+
+// Lives on the thread of the user interface. Whoever asks for the next piece of work gives up the one before,
+// of which nothing is heard any more.
+class JobRunner : public QObject {
+  Q_OBJECT
+ public:
+  ~JobRunner() override;  // gives up what runs, and waits for nothing
+
+  [[nodiscard]] bool busy() const { return job_ != nullptr; }
+
+ signals:
+  // fraction in 0..1 of the step named by `step` ("Reading headers"); below 0 when unknown.
+  void progressed(double fraction, const QString& step);
+  void failed(const QString& message);
+  void cancelled();
+
+ protected:
+  // `steps` is the context under which the names of steps are translated: a literal.
+  JobRunner(const char* steps, QObject* parent) : QObject(parent), steps_(steps) {}
+
+  // Calls work(progress), which returns a Result or a Status and must hold nothing of ours, on a thread, and
+  // deliver(value) here; or ends with failed() or, where it found itself stopped, cancelled().
+  template <class Work, class Deliver>
+  void run(Work work, Deliver deliver) {
+    start([this, work = std::move(work), deliver = std::move(deliver)](const Progress& progress) -> Ending {
+      using Outcome = std::invoke_result_t<const Work&, const Progress&>;
+      const auto outcome =
+          std::make_shared<Outcome>(without_exceptions([&]() -> Outcome { return work(progress); }));
+      return [this, deliver, outcome] {
+        if (!*outcome) return end_by(outcome->error());
+        if constexpr (std::is_void_v<typename Outcome::value_type>) {
+          deliver();
+        } else {
+          deliver(std::move(**outcome));
+        }
+      };
+    });
+  }
+
+  void give_up();      // nothing more is heard of what runs; emits cancelled() when something was given up
+  void ask_to_stop();  // and still hears how it ends
+
+ private:
+  using Ending = std::function<void()>;  // to be called here
+  void start(std::function<Ending(const Progress&)> work);
+  void end_by(const Error& error);
+
+  const char* steps_;
+  std::shared_ptr<BackgroundJob> job_;
+};
+
+}  // namespace tidemark
