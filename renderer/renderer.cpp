@@ -45,6 +45,16 @@ glm::dvec2 offset_of_round(int round) {
   return glm::dvec2(mirrored(round, 2), mirrored(round, 3)) - 0.5;
 }
 
+gpu::Defines variant_of(const SliceView& view, bool source_by_plane) {
+  gpu::Defines variant;
+  if (source_by_plane) variant.emplace_back("SOURCE_PLANE", "");
+  if (view.content == SliceContent::pages) variant.emplace_back("PAGES", "");
+  if (view.content == SliceContent::speed) {
+    variant.emplace_back(view.term == SpeedTerm::data ? "DATA_SPEED" : "SPEED", "");
+  }
+  return variant;
+}
+
 }  // namespace
 
 Renderer::Renderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source)
@@ -283,8 +293,7 @@ Status Renderer::draw_on(Canvas& canvas, const SliceView& view, const Progress& 
   if (auto status = device_->make_current(); !status) return status;
   const PictureSize size = canvas.size();
   const bool by_plane = !source_picture_.has_volume();
-  auto program =
-      use_program("render/slice.frag", by_plane ? gpu::Defines{{"SOURCE_PLANE", ""}} : gpu::Defines());
+  auto program = use_program("render/slice.frag", variant_of(view, by_plane));
   if (!program) return pass_on(program);
   const gpu::Program& slice = **program;
   const glm::dmat4 voxel_from_view = slice_from_view(source_->geometry, view.orientation, view.position_mm,
@@ -304,7 +313,6 @@ Status Renderer::draw_on(Canvas& canvas, const SliceView& view, const Progress& 
     slice.set("source_plane", kFreeUnit);
   }
   slice.set("window", glm::vec2(view.window.centre, view.window.width));
-  slice.set("content", static_cast<int>(view.content));
   slice.set("term", static_cast<int>(view.term));
   slice.set("nearest", view.nearest ? 1 : 0);
   slice.set("show_surface", view.surface ? 1 : 0);

@@ -4,6 +4,7 @@
 #include <QCloseEvent>
 #include <QDragEnterEvent>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QLabel>
 #include <QMdiArea>
 #include <QMdiSubWindow>
@@ -91,7 +92,7 @@ void MainWindow::make_centre() {
   connect(start, &StartPage::open_folder, this, &MainWindow::ask_for_folder);
   connect(start, &StartPage::open_file, this, &MainWindow::ask_for_file);
   connect(start, &StartPage::phantom_chosen, this, &MainWindow::open_phantom);
-  connect(start, &StartPage::recent_chosen, opener_, &StudyOpener::open_series);
+  connect(start, &StartPage::recent_chosen, this, &MainWindow::open_recent);
   connect(start, &StartPage::dropped, this, [this](const QStringList& paths) {
     for (const QString& path : paths) open(path);
   });
@@ -145,7 +146,7 @@ void MainWindow::connect_files() {
   });
   connect(opener_, &StudyOpener::opened, this, [this](const auto& study) { add_case(study); });
   connect(loading_, &LoadingView::cancelled, opener_, &StudyOpener::cancel);
-  connect(recent_, &RecentStudies::chosen, opener_, &StudyOpener::open_series);
+  connect(recent_, &RecentStudies::chosen, this, &MainWindow::open_recent);
   connect(actions_->open_folder, &QAction::triggered, this, &MainWindow::ask_for_folder);
   connect(actions_->open_file, &QAction::triggered, this, &MainWindow::ask_for_file);
   connect(actions_->open_session, &QAction::triggered, saved_, &SavedCases::ask_and_open);
@@ -174,7 +175,9 @@ void MainWindow::ask_for_file() {
       this, tr("Open an image file"), QSettings().value("open/folder").toString(),
       tr("Images (*.dcm DICOMDIR *.zip *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;All files "
          "(*)"));
-  if (!file.isEmpty()) open(file);
+  if (file.isEmpty()) return;
+  QSettings().setValue("open/folder", QFileInfo(file).path());
+  open(file);
 }
 
 void MainWindow::open(const QString& path) {
@@ -185,6 +188,10 @@ void MainWindow::open(const QString& path) {
   }
 }
 
+void MainWindow::open_recent(const RecentStudy& study) {
+  opener_->open_series(study.path, study.uid, study.policy);
+}
+
 void MainWindow::open_phantom(const QString& kind) {
   opener_->open_phantom(kind);
 }
@@ -192,8 +199,8 @@ void MainWindow::open_phantom(const QString& kind) {
 CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study,
                                  const RestoredCase& restored) {
   if (!study->origin.path.empty()) {
-    recent_->add(QString::fromStdString(study->origin.path.string()),
-                 QString::fromStdString(study->origin.series_uid), study->name);
+    recent_->add({QString::fromStdString(study->origin.path.string()),
+                  QString::fromStdString(study->origin.series_uid), study->name, study->origin.policy});
   }
   auto* window =
       new CaseWindow(std::make_unique<CaseSession>(engine_, study, executor_, restored), *actions_);

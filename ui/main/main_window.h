@@ -24,6 +24,7 @@ class SavedCases;
 class StudyOpener;
 class ValueBar;
 struct LoadedStudy;
+struct RecentStudy;
 
 class MainWindow : public QMainWindow {
   Q_OBJECT
@@ -63,6 +64,7 @@ class MainWindow : public QMainWindow {
   void connect_windows();
   void ask_for_folder();
   void ask_for_file();
+  void open_recent(const RecentStudy& study);
   void show_case(QMdiSubWindow& child, const LoadedStudy& study, const RestoredCase& restored);
   void activate(QMdiSubWindow* window);
   void follow_case();

@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "core/atomic_file.h"
+#include "core/without_exceptions.h"
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/surface/surface.h"
@@ -77,7 +78,7 @@ SavedCases::~SavedCases() {
 void SavedCases::run(const QString& about, const QString& file, std::function<Status()> work,
                      std::function<void()> done) {
   jobs_.push_back(BackgroundJob::start(this, [this, about, file, work = std::move(work), done](auto& job) {
-    const Status status = work();
+    const Status status = without_exceptions(work);
     job.deliver([this, about, file, status, done] {
       if (!status) return window_.tell(QString::fromStdString(status.error().message), about);
       window_.settle(about);
@@ -104,7 +105,8 @@ QString SavedCases::ask_for_file(const CaseWindow& window, const QString& title,
   const QString file = with_suffix(named, dialog.selectedNameFilter());
   // The dialog has asked about the name as it was typed.
   if (file != named && QFileInfo::exists(file) &&
-      QMessageBox::question(&window_, title, tr("%1 exists. Replace it?").arg(file)) != QMessageBox::Yes) {
+      QMessageBox::question(&window_, title, tr("%1 exists. Replace it?").arg(file),
+                            QMessageBox::Yes | QMessageBox::No, QMessageBox::No) != QMessageBox::Yes) {
     return {};
   }
   QSettings().setValue("save/folder", QFileInfo(file).absolutePath());
@@ -242,7 +244,7 @@ void SavedCases::read_next() {
   const auto path = path_of(waiting_.front().file);
   const bool is_copy = !waiting_.front().rescued.empty();
   jobs_.push_back(BackgroundJob::start(this, [this, path, is_copy](BackgroundJob& job) {
-    auto contents = load_session(path);
+    auto contents = without_exceptions([&] { return load_session(path); });
     if (!contents) {
       auto copies = is_copy ? std::vector<Recoverable>() : find_recoverable(recovery_folder());
       job.deliver([this, message = QString::fromStdString(contents.error().message),

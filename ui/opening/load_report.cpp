@@ -35,6 +35,22 @@ class ElidedLabel : public QLabel {
   QString whole_;
 };
 
+// As high as its text is, up to some lines.
+class TextArea : public QScrollArea {
+ public:
+  explicit TextArea(QLabel* text) {
+    setFrameShape(QFrame::NoFrame);
+    setWidgetResizable(true);
+    setWidget(text);
+  }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QScrollArea::resizeEvent(event);
+    setFixedHeight(std::min(widget()->heightForWidth(width()), kMostLines * fontMetrics().lineSpacing()));
+  }
+};
+
 QString summary(const Volume& volume) {
   const auto& changes = volume.changes;
   const QString grid = grid_text(volume.geometry);
@@ -95,13 +111,7 @@ QWidget* LoadReport::make_details(const std::vector<std::string>& changes) {
   what->setWordWrap(true);
   what->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   what->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  auto* scroll = new QScrollArea;
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setWidgetResizable(true);
-  scroll->setWidget(what);
-  const int lines = std::min(static_cast<int>(changes.size()) + 1, kMostLines);
-  scroll->setFixedHeight((lines + 1) * fontMetrics().lineSpacing());
-  return scroll;
+  return new TextArea(what);
 }
 
 void LoadReport::dismiss() {

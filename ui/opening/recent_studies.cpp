@@ -10,6 +10,28 @@ namespace {
 
 const QString kGroup = QStringLiteral("recent_studies");
 
+// As recipes call them.
+const QString kKeep = QStringLiteral("keep");
+const QString kFill = QStringLiteral("fill");
+
+RecentStudy read_study(const QSettings& settings) {
+  RecentStudy study{settings.value("path").toString(),
+                    settings.value("uid").toString(),
+                    settings.value("name").toString(),
+                    {}};
+  if (settings.value("tilt").toString() == kKeep) study.policy.tilt = GridPolicy::Tilt::keep;
+  if (settings.value("gaps").toString() == kFill) study.policy.gaps = GridPolicy::Gaps::fill;
+  return study;
+}
+
+void write_study(const RecentStudy& study, QSettings& settings) {
+  settings.setValue("path", study.path);
+  settings.setValue("uid", study.uid);
+  settings.setValue("name", study.name);
+  if (study.policy.tilt == GridPolicy::Tilt::keep) settings.setValue("tilt", kKeep);
+  if (study.policy.gaps == GridPolicy::Gaps::fill) settings.setValue("gaps", kFill);
+}
+
 // A text that a menu shows as it is.
 QString menu_text(QString text) {
   return text.replace(QLatin1Char('&'), QStringLiteral("&&"));
@@ -22,8 +44,7 @@ RecentStudies::RecentStudies(QObject* parent) : QObject(parent) {
   const int count = qMin(settings.beginReadArray(kGroup), kMost);
   for (int index = 0; index < count; ++index) {
     settings.setArrayIndex(index);
-    RecentStudy study{settings.value("path").toString(), settings.value("uid").toString(),
-                      settings.value("name").toString()};
+    const RecentStudy study = read_study(settings);
     if (!study.path.isEmpty()) list_.push_back(study);
   }
 }
@@ -32,9 +53,10 @@ RecentStudies::~RecentStudies() {
   if (job_) job_->abandon();
 }
 
-void RecentStudies::add(const QString& path, const QString& uid, const QString& name) {
-  list_.removeIf([&](const RecentStudy& study) { return study.path == path && study.uid == uid; });
-  list_.push_front({path, uid, name});
+void RecentStudies::add(const RecentStudy& study) {
+  list_.removeIf(
+      [&](const RecentStudy& other) { return other.path == study.path && other.uid == study.uid; });
+  list_.push_front(study);
   if (list_.size() > kMost) list_.resize(kMost);
   save();
   emit changed();
@@ -52,9 +74,7 @@ void RecentStudies::save() const {
   settings.beginWriteArray(kGroup, static_cast<int>(list_.size()));
   for (int index = 0; index < list_.size(); ++index) {
     settings.setArrayIndex(index);
-    settings.setValue("path", list_[index].path);
-    settings.setValue("uid", list_[index].uid);
-    settings.setValue("name", list_[index].name);
+    write_study(list_[index], settings);
   }
 }
 
@@ -101,8 +121,7 @@ void RecentStudies::fill(QMenu& menu) {
     QAction* action = menu.addAction(QStringLiteral("&%1  %2").arg(QString::number(number++ % 10), text));
     action->setToolTip(study.path);
     action->setEnabled(!study.missing);
-    connect(action, &QAction::triggered, this,
-            [this, path = study.path, uid = study.uid] { emit chosen(path, uid); });
+    connect(action, &QAction::triggered, this, [this, study] { emit chosen(study); });
   }
   if (list_.isEmpty()) menu.addAction(tr("No studies yet"))->setEnabled(false);
   menu.addSeparator();

@@ -7,6 +7,8 @@
 #include <QString>
 #include <memory>
 
+#include "imaging/grid_policy.h"
+
 namespace tidemark {
 
 class BackgroundJob;
@@ -15,6 +17,7 @@ struct RecentStudy {
   QString path;
   QString uid;
   QString name;          // as titles have it; never the patient's
+  GridPolicy policy;     // by which its slices were made a grid
   bool missing = false;  // as of the last check()
 };
 
@@ -28,7 +31,7 @@ class RecentStudies : public QObject {
   ~RecentStudies() override;
 
   [[nodiscard]] const QList<RecentStudy>& list() const { return list_; }
-  void add(const QString& path, const QString& uid, const QString& name);
+  void add(const RecentStudy& study);
   void clear();
   // Looks in the background which of them are still there, for a folder on a slow network takes its time.
   void check();
@@ -38,7 +41,7 @@ class RecentStudies : public QObject {
 
  signals:
   void changed();
-  void chosen(const QString& path, const QString& uid);
+  void chosen(const tidemark::RecentStudy& study);
 
  private:
   void save() const;

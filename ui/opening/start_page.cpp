@@ -13,7 +13,6 @@
 #include "ui/opening/card_button.h"
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/phantom_menu.h"
-#include "ui/opening/recent_studies.h"
 
 namespace tidemark {
 namespace {
@@ -99,7 +98,9 @@ QWidget* StartPage::build_opening() {
   column->setSpacing(8);
   column->addWidget(label(tr("Open a study"), 1.3, true, part));
   auto* folder = new CardButton(tr("Open folder…"), tr("DICOM images, in subfolders, too."), part);
-  auto* file = new CardButton(tr("Open file…"), tr("NIfTI, NRRD, MetaImage, GIPL, or a DICOM image."), part);
+  auto* file = new CardButton(
+      tr("Open file…"),
+      tr("NIfTI, NRRD, MetaImage, GIPL, a DICOM image, a DICOMDIR, or a zip archive of these."), part);
   folder->setObjectName("open_folder");
   file->setObjectName("open_file");
   connect(folder, &CardButton::clicked, this, &StartPage::open_folder);
@@ -171,8 +172,7 @@ void StartPage::fill_recent() {
     auto* card = new CardButton(name, study.path, content_);
     card->set_one_line(true);
     card->setEnabled(!study.missing);
-    connect(card, &CardButton::clicked, this,
-            [this, path = study.path, uid = study.uid] { emit recent_chosen(path, uid); });
+    connect(card, &CardButton::clicked, this, [this, study] { emit recent_chosen(study); });
     recent_list_->addWidget(card);
   }
 }

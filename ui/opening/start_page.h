@@ -4,12 +4,12 @@
 #include <QStringList>
 #include <QWidget>
 
+#include "ui/opening/recent_studies.h"
+
 class QBoxLayout;
 class QVBoxLayout;
 
 namespace tidemark {
-
-class RecentStudies;
 
 class StartPage : public QWidget {
   Q_OBJECT
@@ -20,7 +20,7 @@ class StartPage : public QWidget {
   void open_folder();  // asks which
   void open_file();
   void dropped(const QStringList& paths);
-  void recent_chosen(const QString& path, const QString& uid);
+  void recent_chosen(const tidemark::RecentStudy& study);
   void phantom_chosen(const QString& kind);
 
  protected:

@@ -1,6 +1,8 @@
 #include "ui/opening/study_opener.h"
 
+#include <QCheckBox>
 #include <QFileInfo>
+#include <QPushButton>
 #include <algorithm>
 #include <utility>
 
@@ -9,6 +11,18 @@
 #include "ui/opening/series_browser.h"
 
 namespace tidemark {
+namespace {
+
+QCheckBox* make_tilt_box(const GridPolicy& policy) {
+  auto* box = new QCheckBox(StudyOpener::tr("&Correct the tilt of the gantry"));
+  box->setToolTip(
+      StudyOpener::tr("Moves the slices back within their planes. Without it distances across slices are\n"
+                      "sheared, and results cannot be written as DICOM."));
+  box->setChecked(policy.tilt == GridPolicy::Tilt::correct);
+  return box;
+}
+
+}  // namespace
 
 StudyOpener::StudyOpener(QWidget* window) : QObject(window), window_(window) {
   connect(&loader_, &StudyLoader::progressed, this, &StudyOpener::progressed);
@@ -33,11 +47,11 @@ void StudyOpener::open(const QString& path, Ask ask) {
   });
 }
 
-void StudyOpener::open_series(const QString& path, const QString& uid) {
-  add(QFileInfo(path).fileName(), [this, path, uid] {
+void StudyOpener::open_series(const QString& path, const QString& uid, const GridPolicy& policy) {
+  add(QFileInfo(path).fileName(), [this, path, uid, policy] {
     path_ = path;
     uid_ = uid;
-    loader_.scan(path.toStdString());
+    loader_.scan(path.toStdString(), policy);
   });
 }
 
@@ -85,45 +99,65 @@ void StudyOpener::look_at(const std::shared_ptr<const Catalogue>& catalogue) {
   const auto& all = catalogue->series;
   const auto can_be_chosen = [](const Series& series) { return series.loadable || series.fillable(); };
   if (ask_ == Ask::if_several && std::count_if(all.begin(), all.end(), can_be_chosen) == 1) {
-    return load(*std::find_if(all.begin(), all.end(), can_be_chosen));
+    return load_as_wanted(*std::find_if(all.begin(), all.end(), can_be_chosen));
   }
   browser_ = new SeriesBrowser(window_);
   browser_->setAttribute(Qt::WA_DeleteOnClose);
   browser_->show_catalogue(catalogue, path_);
-  connect(browser_, &SeriesBrowser::chosen, this, [this](const Series& series) { load(series); });
+  connect(browser_, &SeriesBrowser::chosen, this, &StudyOpener::load_as_wanted);
   connect(browser_, &SeriesBrowser::rejected, this, &StudyOpener::next);
   browser_->show();  // not modal: series can be dragged from it to a view
   emit ended();
 }
 
 void StudyOpener::load(const Series& series, const std::vector<std::string>& remarks) {
-  if (series.fillable()) return ask_to_fill(series);
   begin(StudyLoader::name_of(series));
   loader_.load(series, remarks);
 }
 
 void StudyOpener::load_by_uid(const Catalogue& catalogue) {
   const std::string uid = uid_->toStdString();
-  if (const Series* gappy = find_fillable(catalogue, uid)) return ask_to_fill(*gappy);
+  if (const Series* gappy = find_fillable(catalogue, uid)) return ask_for_policy(*gappy);
   const auto chosen = choose_series(catalogue, uid, path_.toStdString());
   if (chosen) return load(chosen->series, chosen->remarks);
   problems_ << QString::fromStdString(chosen.error().message);
   next();
 }
 
-void StudyOpener::ask_to_fill(const Series& series) {
-  question_ = new QMessageBox(QMessageBox::Question, tr("Irregular slices"),
-                              QString::fromStdString(series.grid.question), QMessageBox::Cancel, window_);
+void StudyOpener::load_as_wanted(const Series& series) {
+  if (series.fillable() || !series.grid.tilt.empty()) return ask_for_policy(series);
+  load(series);
+}
+
+// What makes slices up is not the default; moving them back is.
+void StudyOpener::ask_for_policy(const Series& series) {
+  const bool fills = series.fillable();
+  question_ = new QMessageBox(QMessageBox::Question, fills ? tr("Irregular slices") : tr("Tilted slices"),
+                              QString::fromStdString(fills ? series.grid.question : series.grid.tilt),
+                              QMessageBox::Cancel, window_);
   question_->setAttribute(Qt::WA_DeleteOnClose);
   question_->setTextFormat(Qt::PlainText);
   question_->setInformativeText(
-      tr("Interpolated slices show what lies between their neighbours on average, "
-         "not what is there."));
-  const QAbstractButton* fill = question_->addButton(tr("&Fill"), QMessageBox::AcceptRole);
-  question_->setDefaultButton(QMessageBox::Cancel);
-  connect(question_, &QMessageBox::finished, this, [this, series, fill, box = question_.data()] {
-    if (box->clickedButton() != fill) return next();
-    load(by_policy(series, {series.policy.tilt, GridPolicy::Gaps::fill}));
+      fills ? tr("Interpolated slices show what lies between their neighbours on average, "
+                 "not what is there.")
+            : tr("Corrected, the slices are moved back within their planes, and lie above each other. "
+                 "As they are, distances across them are sheared."));
+  if (!series.grid.tilt.empty()) question_->setCheckBox(make_tilt_box(series.policy));
+  QPushButton* proceed =
+      question_->addButton(fills ? tr("&Interpolate") : tr("&Open"), QMessageBox::AcceptRole);
+  if (fills) {
+    question_->setDefaultButton(QMessageBox::Cancel);
+  } else {
+    question_->setDefaultButton(proceed);
+  }
+  connect(question_, &QMessageBox::finished, this, [this, series, fills, proceed, box = question_.data()] {
+    if (box->clickedButton() != proceed) return next();
+    GridPolicy policy = series.policy;
+    if (fills) policy.gaps = GridPolicy::Gaps::fill;
+    if (box->checkBox() != nullptr) {
+      policy.tilt = box->checkBox()->isChecked() ? GridPolicy::Tilt::correct : GridPolicy::Tilt::keep;
+    }
+    load(by_policy(series, policy));
   });
   question_->open();
   emit ended();

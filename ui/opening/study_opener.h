@@ -18,8 +18,8 @@ namespace tidemark {
 class SeriesBrowser;
 
 // One study after the other, in the order in which they were asked for. While the user chooses a series, or
-// whether gaps of one are filled, those that were asked for before wait; whoever opens something else chooses
-// none.
+// how its slices become a regular grid, those that were asked for before wait; whoever opens something else
+// chooses none.
 class StudyOpener : public QObject {
   Q_OBJECT
  public:
@@ -30,7 +30,8 @@ class StudyOpener : public QObject {
     always,
   };
   void open(const QString& path, Ask ask = Ask::if_several);
-  void open_series(const QString& path, const QString& uid);  // without asking which
+  // Without asking which, and of a tilt as the policy says; gaps are asked for unless it fills them.
+  void open_series(const QString& path, const QString& uid, const GridPolicy& policy = {});
   void open_phantom(const QString& kind);
   void cancel();  // the one that is being opened, and those that wait
 
@@ -56,7 +57,8 @@ class StudyOpener : public QObject {
   void look_at(const std::shared_ptr<const Catalogue>& catalogue);
   void load(const Series& series, const std::vector<std::string>& remarks = {});
   void load_by_uid(const Catalogue& catalogue);
-  void ask_to_fill(const Series& series);
+  void load_as_wanted(const Series& series);  // asks first where there is something to ask
+  void ask_for_policy(const Series& series);
   void close_questions();
 
   QWidget* window_;

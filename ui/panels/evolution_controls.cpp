@@ -47,7 +47,7 @@ QString title(ExecutorKind kind) {
     case ExecutorKind::compute:
       return EvolutionControls::tr("Compute: the GPU");
     case ExecutorKind::stream:
-      return EvolutionControls::tr("Stream: the GPU, as in the paper");
+      return EvolutionControls::tr("Stream: the paper's way");
     default:
       return EvolutionControls::tr("Automatic");
   }
@@ -70,7 +70,7 @@ EvolutionControls::EvolutionControls(QWidget* parent) : SessionWidget(parent) {
   });
   executor_ =
       form.choice(tr("Computed by"), tr("What computes the steps. It can be changed while the surface "
-                                        "moves."));
+                                        "moves. Stream uses the GPU as in the paper."));
   connect(executor_, &QComboBox::activated, this, [this](int index) {
     if (session()) session()->change_executor(kChoices[index].kind);
     refresh();

@@ -39,7 +39,7 @@ void EvolutionFigures::attach() {
 }
 
 void EvolutionFigures::show_curves() {
-  const Curve& curve = *session()->state().curve;
+  const Curve::Points& curve = *session()->state().curve.points();
   const auto show = [&curve](CurvePlot* plot, double CurvePoint::*quantity) {
     std::vector<QPointF> points;
     points.reserve(curve.size());

@@ -6,6 +6,7 @@
 #include <QPointer>
 #include <QToolButton>
 
+#include "core/without_exceptions.h"
 #include "session/background_job.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
@@ -73,12 +74,14 @@ void FileStartMethod::choose() {
 void FileStartMethod::start() {
   const QPointer<CaseSession> wanted(session());
   const std::filesystem::path path(path_->text().toStdU16String());
-  reading_ = BackgroundJob::start(this, [this, wanted, kind = kind_, path,
-                                         grid = session()->volume().geometry,
-                                         band = session()->state().band](BackgroundJob& job) {
-    auto start = std::make_shared<Result<Start>>(load_start(kind, path, grid, band, {nullptr, job.stop()}));
-    job.deliver([this, wanted, start] { take(*start, wanted); });
-  });
+  reading_ =
+      BackgroundJob::start(this, [this, wanted, kind = kind_, path, grid = session()->volume().geometry,
+                                  band = session()->state().band](BackgroundJob& job) {
+        const auto start = std::make_shared<Result<Start>>(without_exceptions([&] {
+          return load_start(kind, path, grid, band, {nullptr, job.stop()});
+        }));
+        job.deliver([this, wanted, start] { take(*start, wanted); });
+      });
   emit changed();
 }
 

@@ -57,7 +57,7 @@ float openness(vec3 p, vec3 outward) {
 vec3 taught_colour(vec3 p) {
   ivec3 voxel = clamp(ivec3(floor(p + 0.5)), ivec3(0), volume_size - 1);
   if (colouring == kActivity) return page_colour(page_state(voxel / kPageShape));
-  vec2 taught = speed_and_curvature_between(colouring - 1, p);
+  vec2 taught = speed_and_curvature_between(colouring - 1, p, true);
   return diverging(colouring == kBending ? 2.0 * taught.y : taught.x);
 }
 #endif

@@ -1,5 +1,6 @@
-// A slice through the volume: the source in its window, a term of the speed or the pages; labels and the surface's outline
-// over it.
+// A slice through the volume: the source in its window, the speed (SPEED) or its data term alone (DATA_SPEED), or the pages
+// (PAGES); labels and the surface's outline over it. These are variants, not uniforms: a driver that computes both sides of
+// every branch would work out the speed for every picture.
 
 #include "solver/phi.glsl"
 #ifdef SOURCE_PLANE
@@ -7,8 +8,12 @@
 #else
 #include "render/source.glsl"
 #endif
+#if defined(SPEED) || defined(DATA_SPEED)
 #include "render/speed_terms.glsl"
+#endif
+#ifdef PAGES
 #include "render/page_state.glsl"
+#endif
 #include "render/colours.glsl"
 
 in vec2 view_position;
@@ -17,8 +22,7 @@ out vec4 fragment;
 uniform mat4 voxel_from_view;
 uniform vec2 window;          // centre and width
 uniform vec3 spacing;         // mm
-uniform int content;          // as enum class SliceContent
-uniform int term;             // as enum class SpeedTerm
+uniform int term;             // of SPEED, as enum class SpeedTerm
 uniform bool nearest;
 uniform bool show_surface;
 uniform float line_pixels;
@@ -27,25 +31,33 @@ uniform float label_opacity;  // 0 without labels
 uniform sampler2D label_colours;  // by label, 256 in a row; opacity 0 for those that are hidden
 uniform vec3 background;
 
-const int kSpeedContent = 1;
-const int kPageContent = 2;
-
 ivec3 nearest_voxel(vec3 p) {
   return clamp(ivec3(floor(p + 0.5)), ivec3(0), volume_size - 1);
 }
 
-// Only D is defined away from the surface.
+#if defined(SPEED) || defined(DATA_SPEED)
 vec3 speed_colour(vec3 p, float phi, vec3 grey) {
-  bool near = abs(phi) < 0.98 * band;
-  float speed = term == kDataSpeed ? data_speed(source_between(p)) : speed_and_curvature_between(term, p).x;
+#ifdef DATA_SPEED
+  float speed = data_speed(source_between(p));
+#else
+  // The other terms are defined only near the surface; the line where they change their sign needs a pixel's neighbours.
+  float near = float(abs(phi) < 0.98 * band);
+  bool wanted = near + abs(dFdx(near)) + abs(dFdy(near)) > 0.0;
+  float speed = speed_and_curvature_between(term, p, wanted).x;
+#endif
   float across = length(vec2(dFdx(speed), dFdy(speed)));
-  if (term != kDataSpeed && !near) return 0.5 * grey;
   vec3 colour = diverging(speed);
   // Hatching where it shrinks, so that the sign needs no colour.
   if (speed < 0.0 && mod(gl_FragCoord.x + gl_FragCoord.y, 8.0) < 1.5) colour *= 0.75;
-  return abs(speed) < 0.7 * across ? vec3(0.1) : colour;
+  if (abs(speed) < 0.7 * across) colour = vec3(0.1);
+#ifdef SPEED
+  if (near == 0.0) colour = 0.5 * grey;
+#endif
+  return colour;
 }
+#endif
 
+#ifdef PAGES
 vec3 page_picture(vec3 p, vec3 grey) {
   int state = page_state(nearest_voxel(p) / kPageShape);
   vec3 colour = mix(grey, page_colour(state), state >= 2 ? 0.45 : 0.2);
@@ -57,6 +69,7 @@ vec3 page_picture(vec3 p, vec3 grey) {
   if (state >= 2 && any(lessThan(mix(vec3(1.0), edge, vec3(seen)), 0.6 * width))) colour = mix(colour, vec3(1.0), 0.5);
   return colour;
 }
+#endif
 
 void main() {
   vec4 at = voxel_from_view * vec4(view_position, 0.0, 1.0);
@@ -67,7 +80,13 @@ void main() {
   float phi = phi_between(p);
   float phi_slope_in_view = length(vec2(dFdx(phi), dFdy(phi)));
 
-  vec3 colour = content == kSpeedContent ? speed_colour(p, phi, grey) : content == kPageContent ? page_picture(p, grey) : grey;
+#if defined(SPEED) || defined(DATA_SPEED)
+  vec3 colour = speed_colour(p, phi, grey);
+#elif defined(PAGES)
+  vec3 colour = page_picture(p, grey);
+#else
+  vec3 colour = grey;
+#endif
   if (label_opacity > 0.0) {
     int label = int(texelFetch(labels, nearest_voxel(p), 0).r);
     vec4 label_colour = texture(label_colours, vec2((float(label) + 0.5) / 256.0, 0.5));

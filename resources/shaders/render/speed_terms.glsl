@@ -50,13 +50,16 @@ float speed_of(int term, Differences d, float value) {
          : data + bending + rescaling;
 }
 
-// Between voxels: the term, and kappa (the sum of the principal curvatures, per smallest spacing).
-vec2 speed_and_curvature_between(int term, vec3 position) {
+// Between voxels: the term, and kappa (the sum of the principal curvatures, per smallest spacing). What is not `wanted` is
+// not right, and costs an eighth: it is a loop that ends, as nothing else saves work on a driver that computes both sides
+// of every branch.
+vec2 speed_and_curvature_between(int term, vec3 position, bool wanted) {
   vec3 p = clamp(position, vec3(0.0), vec3(volume_size - 1));
   ivec3 low = min(ivec3(p), max(volume_size - 2, ivec3(0)));
   vec3 f = p - vec3(low);
   vec2 sum = vec2(0.0);
-  for (int i = 0; i < 8; ++i) {
+  int corners = wanted ? 8 : 0;
+  for (int i = 0; i < corners; ++i) {
     ivec3 corner = ivec3(i & 1, i >> 1 & 1, i >> 2);
     vec3 share = mix(1.0 - f, f, vec3(corner));
     Differences d = differences_at(low + corner);

@@ -113,6 +113,8 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   // Undo takes the evolution back, redo brings it again.
   const double volume_ml = desktop.state().surface.volume_ml;
   const std::int64_t step = desktop.state().step;
+  const auto curve = desktop.state().curve.points();
+  QVERIFY(curve->size() > 2);
   desktop.press(Qt::Key_Z, Qt::ControlModifier);
   desktop.settle();
   QVERIFY(desktop.state().step < step);
@@ -120,6 +122,7 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   desktop.settle();
   QCOMPARE(desktop.state().step, step);
   QVERIFY(std::abs(desktop.state().surface.volume_ml - volume_ml) < 1e-9);
+  QVERIFY(desktop.state().curve.points()->size() >= curve->size());
 
   // Into a label, out as mask and polygons.
   desktop.session().add_label("Tumour");
@@ -159,6 +162,7 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   QCOMPARE(desktop.state().surface.voxels_inside, mask->count());
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
   QCOMPARE(desktop.state().parameters.target, parameters.target);
+  QVERIFY(desktop.state().curve.points()->size() >= curve->size());
   QVERIFY(!desktop.state().modified);
   auto* volume_again = desktop.view<VolumeViewWidget>();
   QVERIFY(volume_again);

@@ -35,7 +35,7 @@ class StartPageTest : public QObject {
 
   void every_card_can_be_reached_and_pressed_by_keyboard() {
     RecentStudies recent;
-    recent.add(QString::fromStdString(settings_.path().string()), "1.2.3", "T1 head");
+    recent.add({QString::fromStdString(settings_.path().string()), "1.2.3", "T1 head", {}});
     StartPage page(recent);
     page.resize(1000, 800);
     page.show();
@@ -59,7 +59,7 @@ class StartPageTest : public QObject {
     QVERIFY(folder.size() >= 1);
     QVERIFY(file.size() >= 1);
     QVERIFY(again.size() >= 1);
-    QCOMPARE(again[0][1].toString(), QString("1.2.3"));
+    QCOMPARE(again[0][0].value<RecentStudy>().uid, QString("1.2.3"));
     QStringList kinds;
     for (const auto& one : phantom) kinds.push_back(one[0].toString());
     for (const std::string_view kind : phantom_kinds()) {
@@ -113,9 +113,9 @@ class StartPageTest : public QObject {
     {
       RecentStudies recent;
       for (int number = 0; number < 12; ++number) {
-        recent.add(QString("/data/%1").arg(number), "uid", QString("Study %1").arg(number));
+        recent.add({QString("/data/%1").arg(number), "uid", QString("Study %1").arg(number), {}});
       }
-      recent.add("/data/5", "uid", "Study 5 again");
+      recent.add({"/data/5", "uid", "Study 5 again", {}});
     }
     const RecentStudies again;
     QCOMPARE(again.list().size(), 10);
@@ -125,11 +125,27 @@ class StartPageTest : public QObject {
     QCOMPARE(again.list()[9].uid, QString("uid"));
   }
 
+  void how_slices_became_a_grid_is_remembered() {
+    const GridPolicy filled{GridPolicy::Tilt::keep, GridPolicy::Gaps::fill};
+    {
+      RecentStudies recent;
+      recent.add({"/data/gaps", "1", "Gaps", filled});
+      recent.add({"/data/whole", "2", "Whole", {}});
+    }
+    RecentStudies again;
+    QVERIFY(again.list()[0].policy == GridPolicy());
+    QVERIFY(again.list()[1].policy == filled);
+    const std::unique_ptr<QMenu> menu(again.make_menu(nullptr));
+    QSignalSpy chosen(&again, &RecentStudies::chosen);
+    menu->actions()[1]->trigger();
+    QVERIFY(chosen[0][0].value<RecentStudy>().policy == filled);
+  }
+
   void a_study_that_is_gone_is_greyed_and_the_list_can_be_cleared() {
     RecentStudies recent;
     const QString here = QString::fromStdString(settings_.path().string());
-    recent.add(here, "1", "Here & now");
-    recent.add("/nowhere/study", "2", "Gone");
+    recent.add({here, "1", "Here & now", {}});
+    recent.add({"/nowhere/study", "2", "Gone", {}});
     StartPage page(recent);
     page.show();
     const std::unique_ptr<QMenu> menu(recent.make_menu(nullptr));
@@ -143,8 +159,8 @@ class StartPageTest : public QObject {
     QSignalSpy chosen(&recent, &RecentStudies::chosen);
     menu->actions()[1]->trigger();
     QCOMPARE(chosen.size(), 1);
-    QCOMPARE(chosen[0][0].toString(), here);
-    QCOMPARE(chosen[0][1].toString(), QString("1"));
+    QCOMPARE(chosen[0][0].value<RecentStudy>().path, here);
+    QCOMPARE(chosen[0][0].value<RecentStudy>().uid, QString("1"));
 
     auto* clear_all = page.findChild<QToolButton*>("clear_recent");
     QVERIFY(clear_all->isVisible());

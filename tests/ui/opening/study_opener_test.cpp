@@ -2,12 +2,14 @@
 #include "ui/opening/study_opener.h"
 
 #include <QAbstractButton>
+#include <QCheckBox>
 #include <QSignalSpy>
 #include <QTableView>
 #include <algorithm>
 
 #include "imaging/dicom/dicom.h"
 #include "session/background_job.h"
+#include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
 #include "ui/opening/load_report.h"
 #include "ui/opening/loading_view.h"
@@ -127,11 +129,12 @@ class StudyOpenerTest : public QObject {
         QTRY_VERIFY_WITH_TIMEOUT(opener_->question() != nullptr, kPatience);
         QVERIFY(opener_->question()->text().startsWith("1 slice is missing between"));
         QVERIFY(opener_->question()->text().endsWith("Fill it by interpolation?"));
+        QVERIFY(opener_->question()->checkBox() == nullptr);  // no gantry was tilted
         QVERIFY(QTest::qWaitForWindowExposed(opener_->question()));
         QCOMPARE(ended_->size(), 1);  // it is the user's turn
         const auto buttons = opener_->question()->buttons();
         const auto wanted = std::find_if(buttons.begin(), buttons.end(), [&](QAbstractButton* button) {
-          return (button->text() == "&Fill") == fills;
+          return (button->text() == "&Interpolate") == fills;
         });
         QVERIFY(wanted != buttons.end());
         (*wanted)->click();
@@ -153,6 +156,81 @@ class StudyOpenerTest : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
     QCOMPARE(study()->name, QString("20 wide"));
     QTRY_VERIFY(opener_->question() == nullptr);
+  }
+
+  void gaps_that_were_filled_before_are_filled_without_a_question() {
+    const GridPolicy filled{GridPolicy::Tilt::correct, GridPolicy::Gaps::fill};
+    const auto files = test::write_series(test::sample_volume({12, 10, 6}), folder_ / "known gap");
+    const QString uid = QString::fromStdString(test::only_series(folder_ / "known gap").uid);
+    QVERIFY(std::filesystem::remove(files[2]));
+    opener_->open_series(text(folder_ / "known gap"), uid, filled);
+    QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
+    QCOMPARE(study()->volume->geometry.size, Index3(12, 10, 6));
+    QVERIFY(study()->origin.policy == filled);
+  }
+
+  void slices_of_a_tilted_gantry_can_stay_as_they_lie_data() {
+    QTest::addColumn<bool>("has_gap");
+    QTest::newRow("whole") << false;
+    QTest::newRow("with a gap") << true;
+  }
+  void slices_of_a_tilted_gantry_can_stay_as_they_lie() {
+    QFETCH(bool, has_gap);
+    const auto folder = folder_ / (has_gap ? "tilted, gap" : "tilted");
+    const Volume whole = test::sample_volume({12, 10, 6});
+    const auto files = test::write_series(whole, folder);
+    test::tilt(files, whole.geometry, 0.9);
+    if (has_gap) QVERIFY(std::filesystem::remove(files[2]));
+    for (const bool keeps : {false, true}) {
+      opened_->clear();
+      opener_->open(text(folder));
+      QTRY_VERIFY_WITH_TIMEOUT(opener_->question() != nullptr, kPatience);
+      QMessageBox& question = *opener_->question();
+      QVERIFY(QTest::qWaitForWindowExposed(&question));
+      QCOMPARE(question.text().startsWith("The gantry was tilted by "), !has_gap);
+      QCheckBox* correct = question.checkBox();
+      QVERIFY(correct != nullptr && correct->isChecked());
+      correct->setChecked(!keeps);
+      // Enter moves slices back, but makes none up.
+      QCOMPARE(question.defaultButton()->text(), has_gap ? QString("Cancel") : QString("&Open"));
+      for (QAbstractButton* button : question.buttons()) {
+        if (button->text() == (has_gap ? "&Interpolate" : "&Open")) button->click();
+      }
+      QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
+      QTRY_VERIFY(opener_->question() == nullptr);
+      // Moved back they take more room.
+      QCOMPARE(study()->volume->geometry.size, keeps ? Index3(12, 10, 6) : Index3(12, 15, 6));
+      const GridPolicy policy = study()->origin.policy;
+      QVERIFY(policy.tilt == (keeps ? GridPolicy::Tilt::keep : GridPolicy::Tilt::correct));
+      QVERIFY(policy.gaps == (has_gap ? GridPolicy::Gaps::fill : GridPolicy::Gaps::refuse));
+    }
+  }
+
+  void whoever_answers_no_question_about_a_tilt_opens_nothing() {
+    const Volume whole = test::sample_volume({12, 10, 4});
+    test::tilt(test::write_series(whole, folder_ / "unanswered"), whole.geometry, 0.9);
+    opener_->open(text(folder_ / "unanswered"));
+    QTRY_VERIFY_WITH_TIMEOUT(opener_->question() != nullptr, kPatience);
+    QVERIFY(QTest::qWaitForWindowExposed(opener_->question()));
+    QTest::keyClick(opener_->question(), Qt::Key_Escape);
+    QTRY_VERIFY(opener_->question() == nullptr);
+    QCOMPARE(ended_->size(), 2);
+    QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
+    QCoreApplication::processEvents();
+    QCOMPARE(opened_->size() + failed_->size(), 0);
+  }
+
+  void a_tilt_that_was_answered_before_is_not_asked_for() {
+    const Volume whole = test::sample_volume({12, 10, 5});
+    test::tilt(test::write_series(whole, folder_ / "known tilt"), whole.geometry, 0.9);
+    const QString uid = QString::fromStdString(test::only_series(folder_ / "known tilt").uid);
+    for (const auto tilt : {GridPolicy::Tilt::correct, GridPolicy::Tilt::keep}) {
+      opened_->clear();
+      opener_->open_series(text(folder_ / "known tilt"), uid, {tilt, GridPolicy::Gaps::refuse});
+      QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
+      QVERIFY(opener_->question() == nullptr);
+      QVERIFY(study()->origin.policy.tilt == tilt);
+    }
   }
 
   void a_phantom_is_opened() {

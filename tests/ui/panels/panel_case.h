@@ -1,17 +1,14 @@
-// A ball in a CT, and a session on it, for tests of panels.
+// A session on a ball in a CT, for tests of panels.
 #pragma once
 
 #include <QTest>
 #include <memory>
 
 #include "session/case_session.h"
+#include "tests/session/ball_study.h"
 #include "tests/support/support.h"
 
 namespace tidemark::test {
-
-// 100 HU in a ball of 12 mm radius, 0 HU around it, with some noise; voxels of 1 x 1 x 2 mm.
-inline constexpr double kBallRadius = 12.0;
-std::shared_ptr<const LoadedStudy> ball_study();
 
 // Shows a widget and waits until it can be clicked.
 void show(QWidget& widget);

@@ -1,0 +1,30 @@
+// How far a piece of work is, a way to give it up, and how it ended.
+#pragma once
+
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QWidget>
+
+namespace tidemark {
+
+class WorkLine : public QWidget {
+  Q_OBJECT
+ public:
+  explicit WorkLine(QWidget* parent = nullptr);
+
+  void begin(const QString& what);
+  void set_progress(double fraction, const QString& step);  // below 0 when unknown
+  void end(const QString& said);                            // stays to be read
+  [[nodiscard]] QString text() const { return said_->text(); }
+
+ signals:
+  void cancelled();
+
+ private:
+  QLabel* said_;
+  QProgressBar* bar_;
+  QPushButton* cancel_;
+};
+
+}  // namespace tidemark
