@@ -1,6 +1,7 @@
 // A DICOM file, as the loader takes it: preflight, DCMTK, headers of its slices, pixels of its first frames.
 #include <algorithm>
 #include <cstdlib>
+#include <vector>
 
 #include "imaging/dicom/pixels.h"
 #include "tests/fuzz/scratch_file.h"
@@ -9,6 +10,16 @@
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
   static_cast<void>(tidemark::decode_frame({}));
   return 0;
+}
+
+// What can be decoded can be read into place. Values are not compared: of a damaged stream the decoder leaves
+// some as they were.
+static void check_words(const tidemark::FrameReader& image, std::int64_t frame,
+                        const tidemark::FramePixels& pixels) {
+  std::vector<std::uint16_t> words(pixels.stored.size());
+  for (const bool is_signed : {false, true}) {
+    if (image.has_words(is_signed) && !image.read_words(frame, words)) std::abort();
+  }
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
@@ -22,6 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
     if (header == nullptr) std::abort();
     const std::int64_t area = header->frame_rows * header->frame_columns;
     if (pixels && static_cast<std::int64_t>(pixels->stored.size()) != area) std::abort();
+    if (pixels) check_words(*image, f, *pixels);
   }
   return 0;
 }

@@ -4,14 +4,19 @@
 #include <dcmtk/dcmdata/dctk.h>
 #include <zlib.h>
 
+#include <array>
 #include <cstdio>
 #include <fstream>
+#include <span>
 
 #include "imaging/dicom/preflight.h"
 #include "imaging/files/volume_file.h"
+#include "imaging/results/results.h"
 #include "renderer/transfer_function.h"
 #include "study/session_file.h"
+#include "study/zip_archive.h"
 #include "tests/imaging/dicom/dicom_bytes.h"
+#include "tests/imaging/dicom/directory_bytes.h"
 #include "tests/imaging/dicom/frame_bytes.h"
 #include "tests/imaging/dicom/ht_streams.h"
 #include "tests/imaging/dicom/recode.h"
@@ -127,6 +132,51 @@ void write_compressed_dicom() {
   write("dicom_frame", "found-jpeg-tem", "\x01\x11\x0d\xff\xd8" + rest);
 }
 
+void write_csa_headers() {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> values{
+      {"EchoLinePosition", {"32", "", "33"}},
+      {"NumberOfImagesInMosaic", {"4", ""}},
+      {"SliceNormalVector", {"0.0", "-1.5e-12", "1.00000000 "}},
+      {"SpacingBetweenSlices", {"2.5"}}};
+  write("csa_header", "second-form", test::csa_bytes(values));
+  write("csa_header", "first-form", test::csa_in_first_form(test::csa_bytes(values), 3));
+  write("csa_header", "cut-off", test::csa_bytes(values).substr(0, 330));
+}
+
+void write_media_directories() {
+  using namespace tidemark::test;
+  write("media_directory", "one-image", directory_bytes("1.2.3", {"IMAGES\\IM1"}));
+  write("media_directory", "again-and-missing",
+        directory_bytes("1.2.3", {"IMAGES\\IM1", "images\\im1.;1", " IMAGES\\IM2 ", "DICOMDIR"}));
+  write("media_directory", "leads-out", directory_bytes("1.2.3", {"..\\IMAGES\\IM1", "/etc/hostname", "."}));
+  write("media_directory", "no-records", file(Dataset().put_text(0x00041130, "CS", "DISC")));
+  const std::string lower = element(0x00041420, "SQ", item(directory_record("IMAGE", "")));
+  write("media_directory", "records-in-records",
+        file(Dataset().put(0x00041220, element(0x00041220, "SQ", directory_record("PATIENT", lower)))));
+}
+
+void write_archives() {
+  const std::string text(3000, 'x');
+  const auto bytes = std::as_bytes(std::span(text));
+  const std::array<ZipEntry, 5> entries{{{"study/1/slice.dcm", bytes.first(300)},
+                                         {"study/1/", bytes.first(0)},
+                                         {"..\\..\\a:b\n.dcm", bytes},
+                                         {"/etc/passwd", bytes.first(1)},
+                                         {"more.ZIP", bytes.first(20)}}};
+  const test::TemporaryFolder folder;
+  if (const auto written = write_zip(folder / "a.zip", entries); !written) {
+    qFatal("%s", written.error().message.c_str());
+  }
+  const std::string whole = test::contents(folder / "a.zip");
+  write("study_archive", "whole", whole);
+  write("study_archive", "cut-off", whole.substr(0, whole.size() - 10));
+  // In the first entry's record of the directory: a flag, and its size.
+  const std::size_t record = whole.find("PK\x01\x02");
+  write("study_archive", "encrypted", std::string(whole).replace(record + 8, 1, "\1"));
+  write("study_archive", "two-gigabytes", std::string(whole).replace(record + 24, 4, "\xff\xff\xff\x7f"));
+  write("study_archive", "longer-than-it-says", std::string(whole).replace(record + 24, 1, "\5"));
+}
+
 void write_volumes() {
   const std::string voxels = "abcdefgh";
   const std::string plain = test::NiftiHeader({2, 2, 2}, 2, 8).bytes();
@@ -175,6 +225,76 @@ void write_volumes() {
   write("volume_files", "gipl-gzip", gzip(gipl + voxels));
 }
 
+// Two boxes that overlap, one of them with a hole.
+Segments boxes() {
+  Segments segments{{{7, 5, 4}}, {}, {}};
+  const Index3 size = segments.geometry.size;
+  for (const bool is_hollow : {false, true}) {
+    std::vector<std::uint8_t> voxels(static_cast<std::size_t>(segments.geometry.voxel_count()));
+    for (std::int64_t k = is_hollow ? 1 : 0; k < size.z - 1; ++k) {
+      for (std::int64_t j = 1; j < size.y - 1; ++j) {
+        for (std::int64_t i = is_hollow ? 3 : 1; i < size.x - 1; ++i) {
+          const bool is_hole = is_hollow && i == 4 && j == 2;
+          voxels[static_cast<std::size_t>(segments.geometry.offset({i, j, k}))] = is_hole ? 0 : 1;
+        }
+      }
+    }
+    Segment segment;
+    segment.name = is_hollow ? "hollow" : "box";
+    segment.slices = slices_of(segments.geometry, voxels);
+    segments.list.push_back(std::move(segment));
+  }
+  return segments;
+}
+
+// As fractions of 255, a byte each.
+void make_fractional(DcmDataset& dataset) {
+  const Segments segments = boxes();
+  std::vector<Uint8> bytes;
+  for (const Segment& segment : segments.list) {
+    for (const auto& [k, slice] : segment.slices) {
+      for (const std::uint8_t inside : slice) bytes.push_back(inside != 0 ? 200 : 60);
+    }
+  }
+  if (bytes.size() % 2 != 0) bytes.push_back(0);
+  for (const auto& [key, bits] : {std::pair{DCM_BitsAllocated, 8}, {DCM_BitsStored, 8}, {DCM_HighBit, 7}}) {
+    dataset.putAndInsertUint16(key, static_cast<Uint16>(bits));
+  }
+  dataset.putAndInsertString(DCM_SegmentationType, "FRACTIONAL");
+  dataset.putAndInsertString(DCM_SegmentationFractionalType, "PROBABILITY");
+  dataset.putAndInsertUint16(DCM_MaximumFractionalValue, 255);
+  dataset.putAndInsertUint8Array(DcmTag(DCM_PixelData, EVR_OB), bytes.data(), bytes.size());
+}
+
+void write_results() {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder / "result.dcm";
+  const auto must = [](const Status& done) {
+    if (!done) qFatal("%s", done.error().message.c_str());
+  };
+  must(write_structure_set(boxes(), {}, file));
+  write("result_files", "structure-set", test::contents(file));
+  test::edit(file, [](DcmDataset& dataset) {
+    DcmItem* region = nullptr;
+    DcmItem* contour = nullptr;
+    dataset.findAndGetSequenceItem(DCM_ROIContourSequence, region);
+    region->findAndGetSequenceItem(DCM_ContourSequence, contour);
+    contour->putAndInsertString(DCM_ContourData, "2\\-3\\0\\2\\9.5\\3\\2\\1\\1e2");
+  });
+  write("result_files", "sagittal-beyond", test::contents(file));
+  must(write_segmentation(boxes(), {}, file));
+  write("result_files", "segmentation", test::contents(file));
+  test::set_text(file, 0x0062, 0x0001, "FRACTIONAL");
+  write("result_files", "bits-for-bytes", test::contents(file));
+  test::edit(file, make_fractional);
+  write("result_files", "fractions", test::contents(file));
+  test::set_text(file, 0x0062, 0x0001, "BINARY");
+  write("result_files", "bytes-for-bits", test::contents(file));
+  test::set_text(file, 0x0062, 0x0001, "FRACTIONAL");
+  if (!test::recode(file, EXS_RLELossless, false)) qFatal("cannot encode fractions");
+  write("result_files", "fractions-rle", test::contents(file));
+}
+
 void write_studies() {
   const auto document = test::make_case(test::lumpy_volume({9, 8, 9}));
   Start start;
@@ -212,7 +332,11 @@ int main(int argc, char** argv) {
   write_plain_dicom();
   write_dicom_of_several_slices();
   write_compressed_dicom();
+  write_csa_headers();
+  write_media_directories();
+  write_archives();
   write_volumes();
+  write_results();
   write_studies();
   return 0;
 }
