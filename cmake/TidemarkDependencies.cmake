@@ -10,6 +10,8 @@ find_package(hwy REQUIRED)
 find_package(DCMTK REQUIRED)
 find_package(OpenJPEG REQUIRED)
 find_package(Qt6 6.4 REQUIRED COMPONENTS Core Gui Widgets OpenGL OpenGLWidgets Svg Test)
+# Without the names of each test's folders, which would keep tests from sharing precompiled headers.
+set_property(TARGET Qt6::Test PROPERTY INTERFACE_COMPILE_DEFINITIONS QT_TESTLIB_LIB)
 
 # ITK without its Use file: include directories and libraries go to the targets that need them, no others.
 # Its configuration finds every library that any of its modules may use and says much about each.

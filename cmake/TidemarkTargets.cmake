@@ -19,6 +19,21 @@ function(tidemark_precompile target)
   tidemark_cache_precompiled(${target})
 endfunction()
 
+# A test's time goes into what it tests: its own code is compiled quickly.
+set(TIDEMARK_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
+
+# A target that is nothing but these headers, read once for all the test programs that take them over.
+#   tidemark_test_headers(target LINKS lib... HEADERS header...)
+function(tidemark_test_headers target)
+  cmake_parse_arguments(arg "" "" "LINKS;HEADERS" ${ARGN})
+  set(file ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp)
+  file(CONFIGURE OUTPUT ${file} CONTENT "// Precompiled headers belong to a target, and a target has a file.\n")
+  add_library(${target} STATIC ${file})
+  target_compile_options(${target} PRIVATE ${TIDEMARK_TEST_OPTIONS})
+  target_link_libraries(${target} PRIVATE ${arg_LINKS})
+  tidemark_precompile(${target} ${arg_HEADERS})
+endfunction()
+
 # What ccache wants of files that are compiled so (its manual, "Precompiled headers").
 function(tidemark_cache_precompiled target)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
@@ -31,9 +46,15 @@ endfunction()
 
 # A test program of its own, run by Qt Test and registered with ctest under its name. Its class stands in NAME.cpp.
 #   tidemark_test(name SOURCES name.cpp more.cpp... LINKS lib... [LABELS quick])
+# Where a folder sets TIDEMARK_TEST_HEADERS, its tests take over the headers of that target.
 function(tidemark_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINKS;LABELS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
+  if(TIDEMARK_TEST_HEADERS)
+    target_precompile_headers(${name} REUSE_FROM ${TIDEMARK_TEST_HEADERS})
+    tidemark_cache_precompiled(${name})
+  endif()
+  target_compile_options(${name} PRIVATE ${TIDEMARK_TEST_OPTIONS})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   # By name: to look through its files would take longer than to compile some of them.
   qt_generate_moc(${name}.cpp ${CMAKE_CURRENT_BINARY_DIR}/${name}.moc)
@@ -50,10 +71,6 @@ endfunction()
 # is given: the sanitizers' build leaves the widgets out.
 function(tidemark_gui_test name)
   tidemark_test(${name} ${ARGN})
-  if(TARGET tidemark_gui_test_headers)
-    target_precompile_headers(${name} REUSE_FROM tidemark_gui_test_headers)
-    tidemark_cache_precompiled(${name})
-  endif()
   set_property(TARGET ${name} PROPERTY CROSSCOMPILING_EMULATOR
                xvfb-run -a -s "-screen 0 2600x1700x24 -nolisten tcp")
   set_property(TEST ${name} PROPERTY LABELS windows)

@@ -1,6 +1,7 @@
 // How quick the desktop is while a level set evolves: pictures and steps a second, and the time from a move
 // of the mouse to the picture that shows it. Opens a window: without a screen, run it by xvfb-run -a.
 //   desktop_bench [--executor host|compute|stream] [--phantom tumour] [--seconds 5]
+//   desktop_bench --open STUDY     how long it takes from opening to the first picture of each view
 #include <QApplication>
 #include <QCommandLineParser>
 #include <QElapsedTimer>
@@ -111,6 +112,20 @@ void measure_latency(CaseWindow& window) {
   }
 }
 
+int measure_opening(MainWindow& window, const QString& path) {
+  QElapsedTimer since;
+  since.start();
+  window.open(path);
+  const auto passed = [&] { return static_cast<double>(since.nsecsElapsed()) / 1e9; };
+  if (!wait_for([&] { return window.active_case() != nullptr; }, 60000)) return 1;
+  std::printf("%s:\n  loaded                after %5.2f s\n", qPrintable(path), passed());
+  for (PictureView* view : window.active_case()->views()) {
+    if (!wait_for([&] { return view->feed().shown().number > 0; }, 60000)) return 1;
+    std::printf("  %-20s  after %5.2f s\n", qPrintable(view->title()), passed());
+  }
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -124,6 +139,7 @@ int main(int argc, char** argv) {
   QCommandLineParser parser;
   parser.addHelpOption();
   parser.addOptions({{"executor", "host, compute or stream", "name", "host"},
+                     {"open", "a study to open, and nothing more", "folder or file"},
                      {"phantom", "which synthetic study", "kind", "tumour"},
                      {"seconds", "how long rates are measured", "s", "5"}});
   parser.process(application);
@@ -136,6 +152,7 @@ int main(int argc, char** argv) {
   window.set_executor(*executor);
   window.resize(1280, 800);
   window.show();
+  if (parser.isSet("open")) return measure_opening(window, parser.value("open"));
   window.open_phantom(parser.value("phantom"));
   if (!wait_for([&] { return window.active_case() != nullptr; }, 60000)) return 1;
   CaseSession& session = window.active_case()->session();

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <variant>
 #include <vector>
 
 #include "core/stopwatch.h"
@@ -77,7 +78,7 @@ class Bench {
     expect_done(renderer_->set_phi(phi));
     struct Contestant {
       std::string name;
-      VolumeView view;
+      std::variant<SliceView, VolumeView> view;
       std::int64_t side;
       std::vector<double> seconds;
       double preparing = 0.0;
@@ -117,11 +118,23 @@ class Bench {
     volume.region = Region::everywhere;
     volume.clip = ClipPlane{{0.0, -1.0, 0.0}, -middle_of(study_.source->geometry).y};
     enter("source with clip plane", volume);
+    SliceView slice;
+    slice.window = window_of(*study_.source);
+    slice.position_mm = middle_of(study_.source->geometry);
+    const auto enter_slice = [&](const std::string& name, SliceContent content, SpeedTerm term) {
+      slice.content = content;
+      slice.term = term;
+      contestants.push_back({name, slice, options_.side, {}});
+    };
+    enter_slice("slice", SliceContent::source, SpeedTerm::total);
+    enter_slice("slice, speed", SliceContent::speed, SpeedTerm::total);
+    enter_slice("slice, data term", SliceContent::speed, SpeedTerm::data);
+    enter_slice("slice, pages", SliceContent::pages, SpeedTerm::total);
 
     for (int round = -1; round < options_.rounds; ++round) {  // the first one compiles
       for (Contestant& c : contestants) {
         const Stopwatch watch;
-        expect(renderer_->draw(c.view, {c.side, c.side}));
+        expect(std::visit([&](const auto& view) { return renderer_->draw(view, {c.side, c.side}); }, c.view));
         if (round >= 0) c.seconds.push_back(watch.seconds());
         c.preparing = std::max(c.preparing, renderer_->last_draw().prepare_seconds);
         c.longest_piece = std::max(c.longest_piece, renderer_->last_draw().longest_piece_seconds);

@@ -15,6 +15,8 @@ class CliUsageTest : public QObject {
   void initTestCase();
   void help_names_units_and_an_example_data();
   void help_names_units_and_an_example();
+  void help_says_how_a_series_is_named_data();
+  void help_says_how_a_series_is_named();
   void help_hides_what_is_not_built();
   void the_version_is_told();
   void wrong_usage_ends_with_2_and_one_line_data();
@@ -53,6 +55,19 @@ void CliUsageTest::help_names_units_and_an_example() {
   QVERIFY2(help.out.contains("Examples:\n  tidemark-cli " + command.toUtf8()), help.told());
   QVERIFY2(help.out.contains("--json"), help.told());
   QVERIFY2(run_cli({"--help"}).out.contains("  " + command.toUtf8() + " "), "missing from the list");
+}
+
+void CliUsageTest::help_says_how_a_series_is_named_data() {
+  QTest::addColumn<QString>("command");
+  for (const char* command : {"segment", "replay", "convert", "render"}) QTest::newRow(command) << command;
+}
+
+void CliUsageTest::help_says_how_a_series_is_named() {
+  QFETCH(QString, command);
+  const Outcome help = run_cli({command, "--help"});
+  QVERIFY2(help.out.contains("--series UID[#N]"), help.told());
+  QVERIFY2(help.out.contains("UID#N is the N-th"), help.told());
+  QVERIFY2(help.out.contains("DICOMDIR") && help.out.contains("zip archive"), help.told());
 }
 
 void CliUsageTest::help_hides_what_is_not_built() {

@@ -95,6 +95,23 @@ class CoreTest : public QObject {
     QVERIFY(status.error().message.find("/nonexistent/folder/result.txt") != std::string::npos);
   }
 
+  void a_folder_whose_place_cannot_be_taken_is_refused_at_once() {
+    const TemporaryFolder folder;
+    const auto here = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    for (const auto& [target, why] : {std::pair{std::filesystem::path("."), "it is the current folder"},
+                                      {folder.path(), "it is the current folder"},
+                                      {"/proc", "a disk is mounted there"},
+                                      {"/proc/version", "it is a file"}}) {
+      const auto refused = AtomicFolder::create(target);
+      QVERIFY2(!refused, target.c_str());
+      QCOMPARE(refused.error().kind, ErrorKind::write);
+      QVERIFY2(refused.error().message.find(why) != std::string::npos, refused.error().message.c_str());
+    }
+    std::filesystem::current_path(here);
+    QCOMPARE(files_in(folder.path()), 0);
+  }
+
   void a_disk_that_is_full_leaves_the_target_alone() {
     const TemporaryFolder folder;
     const auto target = folder / "result.txt";
