@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <span>
 #include <tuple>
 #include <type_traits>
 
+#include "core/thread_pool.h"
 #include "core/typed_volume.h"
 #include "renderer/sheet.h"
 
@@ -38,23 +41,35 @@ float gradient_magnitude(const TypedVolume<Stored>& volume, Index3 voxel) {
   return static_cast<float>(std::sqrt(square));
 }
 
-// Calls visit(stored) for every voxel, or until it is told to stop.
-template <class Stored, class Visit>
-void for_each_voxel(const std::vector<Stored>& stored, const Progress& progress, Visit visit) {
-  const auto count = static_cast<std::int64_t>(stored.size());
-  for (std::int64_t begin = 0; begin < count && !progress.cancelled(); begin += kPiece) {
-    const auto end = stored.begin() + std::min(begin + kPiece, count);
-    for (auto voxel = stored.begin() + begin; voxel != end; ++voxel) visit(*voxel);
-  }
+// What count(piece of the voxels, counts) adds up in `size` counters, on every thread in counters of its own.
+// Stops early when it is told to.
+template <class Stored, class Count>
+std::vector<std::int64_t> add_up(const std::vector<Stored>& voxels, std::size_t size, ThreadPool& pool,
+                                 const Progress& progress, const Count& count) {
+  std::vector<std::vector<std::int64_t>> counts(static_cast<std::size_t>(pool.threads()),
+                                                std::vector<std::int64_t>(size));
+  const auto piece = [&](std::int64_t begin, std::int64_t end, int member) {
+    if (progress.cancelled()) return;
+    count(std::span(voxels).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)),
+          counts[static_cast<std::size_t>(member)]);
+  };
+  pool.for_each(static_cast<std::int64_t>(voxels.size()), kPiece, piece);
+  std::vector<std::int64_t> sum(size);
+  for (const auto& own : counts)
+    std::transform(own.begin(), own.end(), sum.begin(), sum.begin(), std::plus());
+  return sum;
 }
 
 // Integers have a counter for each value that can be stored, and are looked at once.
 template <class Stored>
-void count_integers(const TypedVolume<Stored>& volume, SourceSummary& summary, const Progress& progress) {
+void count_integers(const TypedVolume<Stored>& volume, SourceSummary& summary, ThreadPool& pool,
+                    const Progress& progress) {
   using Limits = std::numeric_limits<Stored>;
-  std::vector<std::int64_t> counts(std::size_t{1} << 16U);
-  for_each_voxel(volume.stored, progress,
-                 [&](Stored voxel) { ++counts[static_cast<std::size_t>(voxel - Limits::min())]; });
+  const std::vector<std::int64_t> counts =
+      add_up(volume.stored, std::size_t{1} << 16U, pool, progress,
+             [](std::span<const Stored> voxels, std::vector<std::int64_t>& own) {
+               for (const Stored voxel : voxels) ++own[static_cast<std::size_t>(voxel - Limits::min())];
+             });
   const auto value_at = [&](std::size_t place) {
     return volume.rescaled(static_cast<Stored>(static_cast<int>(place) + Limits::min()));
   };
@@ -72,11 +87,15 @@ void count_integers(const TypedVolume<Stored>& volume, SourceSummary& summary, c
   }
 }
 
-void count_numbers(const TypedVolume<float>& volume, SourceSummary& summary, const Progress& progress) {
-  for_each_voxel(volume.stored, progress, [&](float voxel) {
-    const int bin = bin_of(volume.rescaled(voxel), summary.lowest, summary.highest);
-    ++summary.values[static_cast<std::size_t>(bin)];
-  });
+void count_numbers(const TypedVolume<float>& volume, SourceSummary& summary, ThreadPool& pool,
+                   const Progress& progress) {
+  summary.values = add_up(volume.stored, SourceSummary::kBins, pool, progress,
+                          [&](std::span<const float> voxels, std::vector<std::int64_t>& own) {
+                            for (const float voxel : voxels) {
+                              const int bin = bin_of(volume.rescaled(voxel), summary.lowest, summary.highest);
+                              ++own[static_cast<std::size_t>(bin)];
+                            }
+                          });
 }
 
 // A value and its gradient.
@@ -84,16 +103,20 @@ using Sample = std::pair<float, float>;
 
 // Of every stride-th voxel.
 template <class Stored>
-std::vector<Sample> sample(const TypedVolume<Stored>& volume, const Progress& progress) {
+std::vector<Sample> sample(const TypedVolume<Stored>& volume, ThreadPool& pool, const Progress& progress) {
   const auto count = static_cast<std::int64_t>(volume.stored.size());
   const std::int64_t stride = std::max<std::int64_t>(1, count / kSamples) | 1;  // odd: no column is favoured
   const Index3 size = volume.geometry.size;
-  std::vector<Sample> samples;
-  samples.reserve(static_cast<std::size_t>(count / stride + 1));
-  for (std::int64_t offset = 0; offset < count && !progress.cancelled(); offset += stride) {
-    const Index3 voxel{offset % size.x, offset / size.x % size.y, offset / (size.x * size.y)};
-    samples.emplace_back(volume.value(offset), gradient_magnitude(volume, voxel));
-  }
+  std::vector<Sample> samples(static_cast<std::size_t>((count + stride - 1) / stride));
+  const auto piece = [&](std::int64_t begin, std::int64_t end, int) {
+    if (progress.cancelled()) return;
+    for (std::int64_t i = begin; i < end; ++i) {
+      const std::int64_t offset = i * stride;
+      const Index3 voxel{offset % size.x, offset / size.x % size.y, offset / (size.x * size.y)};
+      samples[static_cast<std::size_t>(i)] = {volume.value(offset), gradient_magnitude(volume, voxel)};
+    }
+  };
+  pool.for_each(static_cast<std::int64_t>(samples.size()), kPiece / 16, piece);
   return samples;
 }
 
@@ -119,6 +142,7 @@ float gradient_magnitude(const Volume& volume, Index3 voxel) {
 }
 
 SourceSummary summarise(const Volume& volume, const Progress& progress) {
+  ThreadPool pool;
   SourceSummary summary;
   std::tie(summary.low, summary.high) = volume.common_range();
   summary.window = window_of(volume);
@@ -126,11 +150,12 @@ SourceSummary summarise(const Volume& volume, const Progress& progress) {
   summary.value_gradient.assign(std::size_t{SourceSummary::kBins} * SourceSummary::kBins, 0);
   with_type(volume, [&](const auto& typed) {
     if constexpr (std::is_integral_v<std::decay_t<decltype(typed.stored.front())>>) {
-      count_integers(typed, summary, progress);
+      count_integers(typed, summary, pool, progress);
     } else {
-      count_numbers(typed, summary, progress);
+      std::tie(summary.lowest, summary.highest) = volume.range();
+      count_numbers(typed, summary, pool, progress);
     }
-    count_gradients(sample(typed, progress), summary);
+    count_gradients(sample(typed, pool, progress), summary);
   });
   return summary;
 }

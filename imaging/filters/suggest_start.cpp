@@ -8,15 +8,16 @@
 #include <utility>
 #include <vector>
 
+#include "core/thread_pool.h"
 #include "core/typed_volume.h"
 
 namespace tidemark {
 namespace {
 
 constexpr int kBins = 1024;
-constexpr std::int64_t kMostCounted = std::int64_t{1} << 24;  // in larger volumes only every n-th voxel
+constexpr std::int64_t kMostCounted = std::int64_t{1} << 22;  // in larger volumes only every n-th voxel
 constexpr std::int64_t kHalfWidth = 2;                        // neighbourhoods of 5 voxels along each axis
-constexpr std::int64_t kMostCandidates = 1'000'000;  // in larger volumes only every n-th voxel is tried
+constexpr std::int64_t kMostCandidates = 250'000;  // in larger volumes only every n-th voxel is tried
 constexpr double kSpanShare = 0.05;
 constexpr double kSeedSpacings = 3.0;  // the seed's radius in smallest spacings
 
@@ -138,9 +139,9 @@ struct Candidate {
   double variance = 0.0;
 };
 
-// In the central half along each axis.
+// In the central half along each axis; in the order of voxels.
 template <class Stored>
-std::vector<Candidate> candidates(const TypedVolume<Stored>& volume, const Wanted& wanted,
+std::vector<Candidate> candidates(const TypedVolume<Stored>& volume, const Wanted& wanted, ThreadPool& pool,
                                   const Progress& progress) {
   const Index3 size = volume.geometry.size;
   const Span x = middle_half(size.x);
@@ -149,25 +150,34 @@ std::vector<Candidate> candidates(const TypedVolume<Stored>& volume, const Wante
   const double tried = static_cast<double>((x.end - x.begin) * (y.end - y.begin)) *
                        static_cast<double>(z.end - z.begin) / static_cast<double>(kMostCandidates);
   const auto stride = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(std::cbrt(tried))));
-  std::vector<Candidate> found;
-  for (std::int64_t k = z.begin; k < z.end && !progress.cancelled(); k += stride) {
-    progress(static_cast<double>(k - z.begin) / static_cast<double>(z.end - z.begin), "looking for a start");
+  std::vector<std::vector<Candidate>> of_slice(
+      static_cast<std::size_t>((z.end - z.begin + stride - 1) / stride));
+  const auto look_in = [&](std::int64_t slice) {
     for (std::int64_t j = y.begin; j < y.end; j += stride) {
       for (std::int64_t i = x.begin; i < x.end; i += stride) {
-        const Index3 voxel(i, j, k);
+        const Index3 voxel(i, j, z.begin + slice * stride);
         const double value = volume.value(voxel);
-        if (value >= wanted.low && value <= wanted.high)
-          found.push_back({voxel, neighbourhood(volume, voxel).variance});
+        if (value >= wanted.low && value <= wanted.high) {
+          of_slice[static_cast<std::size_t>(slice)].push_back({voxel, neighbourhood(volume, voxel).variance});
+        }
       }
     }
-  }
-  return found;
+  };
+  progress(0.0, "looking for a start");
+  pool.for_each(static_cast<std::int64_t>(of_slice.size()), 1,
+                [&](std::int64_t begin, std::int64_t end, int) {
+                  for (std::int64_t slice = begin; slice < end && !progress.cancelled(); ++slice)
+                    look_in(slice);
+                });
+  std::vector<Candidate> all;
+  for (const auto& found : of_slice) all.insert(all.end(), found.begin(), found.end());
+  return all;
 }
 
 template <class Stored>
 std::optional<Index3> most_even_voxel(const TypedVolume<Stored>& volume, const Wanted& wanted,
-                                      const Progress& progress) {
-  const std::vector<Candidate> all = candidates(volume, wanted, progress);
+                                      ThreadPool& pool, const Progress& progress) {
+  const std::vector<Candidate> all = candidates(volume, wanted, pool, progress);
   if (all.empty()) return std::nullopt;
   const auto varies_less = [](const Candidate& a, const Candidate& b) { return a.variance < b.variance; };
   const double most = wanted.even_enough * std::min_element(all.begin(), all.end(), varies_less)->variance;
@@ -189,11 +199,13 @@ Result<SuggestedStart> suggest(const Volume& source, const TypedVolume<Stored>& 
   if (!(highest > lowest)) {
     return fail(ErrorKind::input, "all voxels have the value {}: there is nothing to find", lowest);
   }
+  ThreadPool pool;
   const Histogram values = histogram(volume, lowest, highest);
   const bool ct = looks_like_ct(source, values);
   // The most even tissue of a body is often fat, and its most frequent value, too.
-  if (!seed && ct) seed = most_even_voxel(volume, {kSoftTissueLow, kSoftTissueHigh, kEvenEnough}, progress);
-  if (!seed) seed = most_even_voxel(volume, {otsu_threshold(values), highest}, progress);
+  if (!seed && ct)
+    seed = most_even_voxel(volume, {kSoftTissueLow, kSoftTissueHigh, kEvenEnough}, pool, progress);
+  if (!seed) seed = most_even_voxel(volume, {otsu_threshold(values), highest}, pool, progress);
   if (progress.cancelled()) return cancelled_error();
   // Nothing of the kind in the middle: the middle itself.
   const Index3 voxel = seed.value_or(volume.geometry.size / std::int64_t{2});
