@@ -3,14 +3,12 @@
 #include <QCoreApplication>
 #include <QStringList>
 #include <algorithm>
-#include <future>
 
 #include "imaging/archive/study_archive.h"
 #include "imaging/filters/suggest_start.h"
 #include "imaging/phantom/phantom.h"
 #include "imaging/study.h"
 #include "session/phantom_text.h"
-#include "study/checksum.h"
 
 namespace tidemark {
 namespace {
@@ -58,10 +56,8 @@ Result<LoadedStudy> load_study(const ChosenSeries& chosen, const Progress& progr
   study.origin.name = study.name.toStdString();
   study.origin.date = series.date;
   progress(0.0, "measuring values");
-  auto checksum = std::async(std::launch::async, [volume = study.volume] { return checksum_of(*volume); });
   study.summary = summarise(*study.volume, progress);
   study.parameters = suggest_parameters(*study.volume, progress);
-  study.origin.checksum = checksum.get();
   if (progress.cancelled()) return cancelled_error();
   return study;
 }
@@ -72,11 +68,7 @@ Result<Catalogue> find_choice(const fs::path& path, const GridPolicy& policy, co
   if (!catalogue || catalogue->series.size() != 1) return catalogue;
   const Series& only = catalogue->series.front();
   if (only.loadable || only.fillable()) return catalogue;
-  // A reason that names the file need not do it twice.
-  std::string reason = only.reason;
-  if (const std::string name = path.filename().string() + ": "; reason.starts_with(name))
-    reason.erase(0, name.size());
-  return fail(ErrorKind::input, "{}: {}", path.string(), reason);
+  return fail(ErrorKind::input, "{}", reason_under(path, only));
 }
 
 // The series to load of what lies under the path.

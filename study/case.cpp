@@ -7,20 +7,24 @@
 namespace tidemark {
 
 Case::Case(std::shared_ptr<const Volume> volume, StudyOrigin origin)
-    : volume_(std::move(volume)), origin_(std::move(origin)), labels_(volume_->geometry, &history_) {}
+    : volume_(std::move(volume)), origin_(std::move(origin)), labels_(volume_->geometry, &history_) {
+  checksum_ = std::async(std::launch::async, [volume = volume_] { return checksum_of(*volume); });
+}
 
 Result<std::unique_ptr<Case>> Case::create(std::shared_ptr<const Volume> volume, StudyOrigin origin,
                                            const Parameters& parameters, ExecutorKind kind,
                                            const ExecutorOptions& options) {
-  if (origin.checksum.empty()) origin.checksum = checksum_of(*volume);
   std::unique_ptr<Case> made(new Case(std::move(volume), std::move(origin)));
   auto level_set = LevelSet::create(made->volume_, parameters, kind, options, made->history_);
   if (!level_set) return pass_on(level_set);
   made->level_set_ = std::move(*level_set);
-  const Geometry& geometry = made->volume_->geometry;
-  made->level_set_->set_source_identity({geometry.size, geometry.spacing_mm, made->origin_.series_uid,
-                                         made->origin_.checksum, made->origin_.policy});
   return made;
+}
+
+StudyOrigin Case::origin() const {
+  StudyOrigin origin = origin_;
+  origin.checksum = checksum_.get();
+  return origin;
 }
 
 Status Case::smooth_source(double sigma_mm, const Progress& progress) {

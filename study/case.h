@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <future>
 #include <memory>
 #include <string>
 
@@ -15,7 +16,7 @@ namespace tidemark {
 // Used on one thread at a time, as its level set.
 class Case {
  public:
-  // A checksum that the origin has not got is computed.
+  // The origin's checksum is computed, beside everything else.
   static Result<std::unique_ptr<Case>> create(std::shared_ptr<const Volume> volume, StudyOrigin origin,
                                               const Parameters& parameters, ExecutorKind kind,
                                               const ExecutorOptions& options);
@@ -24,7 +25,8 @@ class Case {
   Case& operator=(const Case&) = delete;
 
   [[nodiscard]] const std::shared_ptr<const Volume>& volume() const { return volume_; }  // as loaded
-  [[nodiscard]] const StudyOrigin& origin() const { return origin_; }
+  // Waits for the checksum where that is still being computed.
+  [[nodiscard]] StudyOrigin origin() const;
   [[nodiscard]] LevelSet& level_set() { return *level_set_; }
   [[nodiscard]] const LevelSet& level_set() const { return *level_set_; }
   [[nodiscard]] Labels& labels() { return labels_; }
@@ -58,7 +60,8 @@ class Case {
 
   std::shared_ptr<const Volume> volume_;
   StudyOrigin origin_;
-  History history_;  // before what its entries speak of
+  std::shared_future<std::string> checksum_;  // which origin_ has not got
+  History history_;                           // before what its entries speak of
   std::unique_ptr<LevelSet> level_set_;
   Labels labels_;
   std::uint64_t saved_position_ = 0;

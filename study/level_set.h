@@ -35,9 +35,8 @@ class LevelSet final : private OpenChange {
   [[nodiscard]] double smoothed_mm() const { return rig_.smoothed_mm(); }
   [[nodiscard]] std::int64_t step() const { return recipe_.steps; }  // since the start
   [[nodiscard]] bool begun() const { return recipe_.begun(); }       // there is a surface to steer
-  [[nodiscard]] const Recipe& recipe() const { return recipe_; }     // everything since the start
-  // Which volume it is, for recipes.
-  void set_source_identity(const RecipeSource& source) { recipe_.source = known_.recipe.source = source; }
+  // Everything since the start. Which series its source comes from, the case knows.
+  [[nodiscard]] const Recipe& recipe() const { return recipe_; }
 
   // Each of these is an entry of the history that undo takes back. Edits with the same `gesture` (not 0: one
   // drag of a slider, one stroke of a brush), with whatever was computed between them, are one entry. So is

@@ -23,6 +23,10 @@ Result<SessionContents> snapshot_of(Case& document) {
   contents.origin = document.origin();
   contents.geometry = document.volume()->geometry;
   contents.recipe = document.level_set().recipe();
+  RecipeSource& source = contents.recipe.source;
+  source.series_uid = contents.origin.series_uid;
+  source.checksum = contents.origin.checksum;
+  source.policy = contents.origin.policy;
   contents.phi = std::move(*phi);
   contents.labels = document.labels().list();
   if (const auto voxels = document.labels().voxels(); !voxels.empty()) {
@@ -49,10 +53,8 @@ Result<std::unique_ptr<Case>> restore_case(const SessionContents& contents,
         "the session was saved for a grid of {} x {} x {} voxels that is not the volume's of {} x {} x {}",
         then.x, then.y, then.z, now.x, now.y, now.z);
   }
-  StudyOrigin origin = contents.origin;
-  origin.checksum.clear();  // of the volume at hand
   auto made =
-      Case::create(std::move(volume), std::move(origin), contents.recipe.final_parameters(), kind, options);
+      Case::create(std::move(volume), contents.origin, contents.recipe.final_parameters(), kind, options);
   if (!made) return made;
   Case& document = **made;
   Status restored = document.level_set().resume_from(contents.recipe, contents.phi, contents.curve);

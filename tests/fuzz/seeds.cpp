@@ -308,9 +308,9 @@ void write_studies() {
   Label label = *document->labels().find(document->labels().add("Left").value());
   label.meaning = find_segment_meaning("kidney").value();
   if (const auto set = document->labels().set(label); !set) qFatal("%s", set.error().message.c_str());
-  write("study_files", "recipe.json", document->level_set().recipe().to_text().value());
 
   auto contents = snapshot_of(*document).value();
+  write("study_files", "recipe.json", contents.recipe.to_text().value());
   contents.origin.phantom = "tumour";
   const test::TemporaryFolder folder;
   if (const auto saved = write_session(contents, folder / "case"); !saved) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases.h"
+#include "study/checksum.h"
 #include "study/session_file.h"
 
 using namespace tidemark;
@@ -101,6 +102,8 @@ class SessionTest : public QObject {
     const auto contents = load_session(folder / "one.tidemark");
     QCOMPARE(failure(contents), QString());
     QCOMPARE(contents->origin, document->origin());
+    QCOMPARE(contents->origin.checksum, checksum_of(*document->volume()));
+    QCOMPARE(contents->recipe.source.checksum, contents->origin.checksum);
     QVERIFY(contents->recipe.source.policy == document->origin().policy);
     QVERIFY(match(*contents, *document->volume()) == VolumeMatch::same);
     ExecutorOptions options;
