@@ -60,7 +60,6 @@ gpu::Defines variant_of(const SliceView& view, bool source_by_plane) {
 Renderer::Renderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source)
     : device_(std::move(device)),
       source_(std::move(source)),
-      common_range_(source_->common_range()),
       constants_(Model(*source_, Parameters()).constants<float>()) {}
 
 Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> device,
@@ -75,9 +74,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> 
   auto slots = gpu::SamplerSlots::create(gl);
   if (!slots) return pass_on(slots);
   renderer->slots_ = std::move(*slots);
-  ThreadPool pool;
   const std::int64_t largest = std::min(largest_volume, gl.capabilities().largest_volume_texture);
-  auto source_picture = SourcePicture::create(gl, *renderer->source_, layout, largest, pool);
+  auto source_picture = SourcePicture::create(gl, *renderer->source_, layout, largest);
   if (!source_picture) return pass_on(source_picture);
   renderer->source_picture_ = std::move(*source_picture);
   auto phi = PhiPicture::create(gl, layout, default_band(renderer->source_->geometry));
@@ -190,9 +188,12 @@ Result<const gpu::Program*> Renderer::use_program(const char* fragment, const gp
 }
 
 // The view in the source's own units.
-VolumeView Renderer::resolved(const VolumeView& asked) const {
+VolumeView Renderer::resolved(const VolumeView& asked) {
   VolumeView view = asked;
-  if (view.source) view.source = view.source->for_range(common_range_.first, common_range_.second);
+  if (view.source) {
+    if (!common_range_) common_range_ = source_->common_range();
+    view.source = view.source->for_range(common_range_->first, common_range_->second);
+  }
   if (view.colouring != SurfaceColouring::plain)
     view.lighting.specular = 0.0;  // white would hide what is taught
   return view;
@@ -220,7 +221,7 @@ Result<const gpu::Program*> Renderer::use_volume_program(const char* fragment, c
   const gpu::Program& program = **used;
   const Geometry& geometry = source_->geometry;
   set_shading(program, view, geometry);
-  if (source) source_picture_.set_transfer_function(*view.source, view.region, phi_.band());
+  if (source) source_picture_.set_transfer_function(*source_, *view.source, view.region, phi_.band());
   program.set("voxel_from_view", glm::mat4(view.camera.voxel_from_view(geometry, size.aspect()) *
                                            moved_by(offset_of_round(view.quality.round), size)));
   program.set("pixel_mm", static_cast<float>(2.0 * view.camera.half_height_mm(geometry, size.aspect()) /

@@ -81,7 +81,7 @@ class Renderer {
   Result<const gpu::Program*> use_program(const char* fragment, const gpu::Defines& variant);
   Result<const gpu::Program*> use_volume_program(const char* fragment, const VolumeView& view,
                                                  PictureSize size, gpu::Defines variant);
-  [[nodiscard]] VolumeView resolved(const VolumeView& asked) const;
+  [[nodiscard]] VolumeView resolved(const VolumeView& asked);
   template <class View>
   Result<Picture> draw_and_read(const View& view, PictureSize size, const Progress& progress);
   Status draw_from_slices(Canvas& canvas, const VolumeView& view, const Progress& progress);
@@ -90,7 +90,7 @@ class Renderer {
   std::shared_ptr<gpu::Device> device_;
   std::shared_ptr<const Volume> source_;
   gpu::SamplerSlots slots_;
-  std::pair<float, float> common_range_;
+  std::optional<std::pair<float, float>> common_range_;  // of the source, once it is needed
   StepConstants<float> constants_;
   SourcePicture source_picture_;
   PhiPicture phi_;

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <variant>
 
+#include "core/thread_pool.h"
 #include "renderer/source_stack.h"
 
 namespace tidemark {
 namespace {
 
 // Least and greatest value in each page and one voxel around it: what filtering reaches from inside the page.
-std::vector<glm::vec2> page_ranges(const Volume& source, const PageLayout& layout, ThreadPool& pool) {
+std::vector<glm::vec2> page_ranges(const Volume& source, const PageLayout& layout) {
+  ThreadPool pool;
   std::vector<glm::vec2> ranges(static_cast<std::size_t>(layout.page_count()));
   const Geometry& geometry = source.geometry;
   pool.for_each(layout.page_count(), 64, [&](std::int64_t begin, std::int64_t end, int) {
@@ -47,9 +49,9 @@ std::vector<glm::vec2> page_ranges(const Volume& source, const PageLayout& layou
 }  // namespace
 
 Result<SourcePicture> SourcePicture::create(gpu::Device& device, const Volume& source,
-                                            const PageLayout& layout, std::int64_t largest,
-                                            ThreadPool& pool) {
+                                            const PageLayout& layout, std::int64_t largest) {
   SourcePicture picture;
+  picture.layout_ = layout;
   picture.unit_ = 1.0F / glm::vec3(source.geometry.size);
   const auto [format, scale] = stored_as(source);
   picture.scale_ = scale;
@@ -72,7 +74,6 @@ Result<SourcePicture> SourcePicture::create(gpu::Device& device, const Volume& s
   }
   if (!texture) return pass_on(texture);
   picture.texture_ = std::move(*texture);
-  picture.ranges_ = page_ranges(source, layout, pool);
   auto buffer = gpu::Buffer::create(
       device, layout.page_count() * static_cast<std::int64_t>(sizeof(glm::vec4)), "page opacities");
   if (!buffer) return pass_on(buffer);
@@ -84,9 +85,11 @@ Result<SourcePicture> SourcePicture::create(gpu::Device& device, const Volume& s
   return picture;
 }
 
-void SourcePicture::set_transfer_function(const TransferFunction& function, Region region, double band) {
+void SourcePicture::set_transfer_function(const Volume& source, const TransferFunction& function,
+                                          Region region, double band) {
   Shown wanted{function, region, band};
   if (shown_ == wanted) return;
+  if (ranges_.empty()) ranges_ = page_ranges(source, layout_);
   page_opacities_.clear();
   page_opacities_.reserve(ranges_.size());
   for (const glm::vec2 range : ranges_) {

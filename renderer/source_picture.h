@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/thread_pool.h"
 #include "core/volume.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
@@ -21,13 +20,14 @@ class SourcePicture {
   // Volumes with more than `largest` voxels along an axis get no texture. Fails (ErrorKind::capability) when
   // memory is short.
   static Result<SourcePicture> create(gpu::Device& device, const Volume& source, const PageLayout& layout,
-                                      std::int64_t largest, ThreadPool& pool);
+                                      std::int64_t largest);
 
   // Whether there is a texture. If not, pictures are made from slices (SourceStack, source_on_plane()).
   [[nodiscard]] bool has_volume() const { return has_volume_; }
 
-  // From now on the transfer function, for that region and that band, says what pages show.
-  void set_transfer_function(const TransferFunction& function, Region region, double band);
+  // From now on the transfer function, for that region and that band, says what pages of the source show.
+  void set_transfer_function(const Volume& source, const TransferFunction& function, Region region,
+                             double band);
 
   // The most that a page shows by that function: when it is outside throughout, inside throughout, mixed.
   [[nodiscard]] const std::vector<glm::vec4>& page_opacities() const { return page_opacities_; }
@@ -38,7 +38,8 @@ class SourcePicture {
  private:
   gpu::Texture3D texture_;
   bool has_volume_ = false;
-  std::vector<glm::vec2> ranges_;  // least and greatest value in each page, and one voxel around
+  PageLayout layout_;
+  std::vector<glm::vec2> ranges_;  // of the values in each page; empty until a transfer function needs them
   std::vector<glm::vec4> page_opacities_;
   gpu::Buffer opacity_buffer_;
   gpu::BufferTexture opacities_;
