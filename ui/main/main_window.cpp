@@ -34,8 +34,8 @@
 #include "ui/opening/load_report.h"
 #include "ui/opening/loading_view.h"
 #include "ui/opening/phantom_menu.h"
+#include "ui/opening/preview_page.h"
 #include "ui/opening/recent_studies.h"
-#include "ui/opening/series_browser.h"
 #include "ui/opening/start_page.h"
 #include "ui/opening/study_opener.h"
 #include "ui/views/picture_surface.h"
@@ -80,6 +80,7 @@ void MainWindow::make_centre() {
   area_->setDocumentMode(true);
   centre_->addWidget(start);
   centre_->addWidget(area_);
+  new PreviewPage(*centre_, *opener_);
   messages_ = new MessageBar;
   auto* whole = new QWidget;
   auto* layout = new QVBoxLayout(whole);

@@ -8,10 +8,11 @@
 
 #include "imaging/study.h"
 #include "ui/opening/phantom_menu.h"
-#include "ui/opening/series_browser.h"
 
 namespace tidemark {
 namespace {
+
+constexpr int kPreviewPixels = 1024;
 
 QCheckBox* make_tilt_box(const GridPolicy& policy) {
   auto* box = new QCheckBox(StudyOpener::tr("&Correct the tilt of the gantry"));
@@ -35,6 +36,9 @@ StudyOpener::StudyOpener(QWidget* window) : QObject(window), window_(window) {
   connect(&loader_, &StudyLoader::loaded, this, [this](const std::shared_ptr<const LoadedStudy>& study) {
     emit opened(study);
     next();
+  });
+  connect(&previews_, &SeriesPreviews::made, this, [this](int, const QImage& picture) {
+    if (!picture.isNull()) emit previewed(picture);
   });
 }
 
@@ -73,6 +77,7 @@ void StudyOpener::add(const QString& what, std::function<void()> start) {
 }
 
 void StudyOpener::next() {
+  previews_.forget();
   if (!waiting_.empty()) {
     const Request request = std::move(waiting_.front());
     waiting_.pop_front();
@@ -112,6 +117,7 @@ void StudyOpener::look_at(const std::shared_ptr<const Catalogue>& catalogue) {
 
 void StudyOpener::load(const Series& series, const std::vector<std::string>& remarks) {
   begin(StudyLoader::name_of(series));
+  previews_.request(0, series, kPreviewPixels);
   loader_.load(series, remarks);
 }
 

@@ -11,11 +11,11 @@
 #include <functional>
 #include <optional>
 
+#include "session/series_preview.h"
 #include "session/study_loader.h"
+#include "ui/opening/series_browser.h"
 
 namespace tidemark {
-
-class SeriesBrowser;
 
 // One study after the other, in the order in which they were asked for. While the user chooses a series, or
 // how its slices become a regular grid, those that were asked for before wait; whoever opens something else
@@ -42,6 +42,7 @@ class StudyOpener : public QObject {
  signals:
   void began(const QString& what);                        // for LoadingView::begin(): "head_t1 (2 of 3)"
   void progressed(double fraction, const QString& step);  // for LoadingView::set_progress()
+  void previewed(const QImage& middle_slice);             // of what is being loaded; not of all series
   void opened(std::shared_ptr<const tidemark::LoadedStudy> study);
   void failed(const QString& message);  // for LoadingView::fail(); once for all that wait for each other
   void ended();  // nothing is being looked for or loaded (opened, given up, or to be chosen by the user)
@@ -63,6 +64,7 @@ class StudyOpener : public QObject {
 
   QWidget* window_;
   StudyLoader loader_;
+  SeriesPreviews previews_;
   QPointer<SeriesBrowser> browser_;
   QPointer<QMessageBox> question_;
   std::deque<Request> waiting_;

@@ -4,6 +4,7 @@
 #include <QAbstractButton>
 #include <QCheckBox>
 #include <QSignalSpy>
+#include <QStackedWidget>
 #include <QTableView>
 #include <algorithm>
 
@@ -13,6 +14,7 @@
 #include "tests/support/support.h"
 #include "ui/opening/load_report.h"
 #include "ui/opening/loading_view.h"
+#include "ui/opening/preview_page.h"
 #include "ui/opening/series_browser.h"
 
 using namespace tidemark;
@@ -248,6 +250,50 @@ class StudyOpenerTest : public QObject {
     QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
     QCoreApplication::processEvents();
     QCOMPARE(opened_->size() + failed_->size(), 0);
+  }
+
+  void what_is_being_loaded_is_seen_before_it_is_loaded() {
+    constexpr int kPixels = 1024;
+    QCOMPARE(test::failure(write_series(folder_ / "many", 20, 300)), QString());
+    QSignalSpy previewed(opener_, &StudyOpener::previewed);
+    // Whether one slice is there before all of them, other programs on this machine have a say in.
+    for (int attempt = 0; attempt < 5 && previewed.isEmpty(); ++attempt) {
+      opened_->clear();
+      opener_->open(text(folder_ / "many"));
+      QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
+    }
+    QCOMPARE(previewed.size(), 1);
+    const auto picture = previewed.first()[0].value<QImage>();
+    QCOMPARE(picture.height(), kPixels);
+    QCOMPARE(picture.width(), kPixels * 20 / 24);
+    // It counts from 0 to 499 again and again in a window from 0 to 500.
+    QVERIFY(picture.pixelColor(kPixels / 2, kPixels / 2).red() > 0);
+    QCoreApplication::processEvents();
+    QCOMPARE(previewed.size(), 1);
+  }
+
+  void the_preview_takes_no_place_but_the_start_pages() {
+    QStackedWidget pages;
+    pages.addWidget(new QWidget);  // where nothing is open
+    pages.addWidget(new QWidget);  // with cases
+    auto* preview = new PreviewPage(pages, *opener_);
+    QImage picture(10, 20, QImage::Format_Grayscale8);
+    picture.fill(200);
+    pages.resize(300, 200);
+    pages.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&pages));
+    emit opener_->previewed(picture);
+    QCOMPARE(pages.currentWidget(), preview);
+    const QImage seen = preview->grab().toImage();
+    QCOMPARE(seen.pixelColor(seen.width() / 2, seen.height() / 2), QColor(200, 200, 200));
+    QCOMPARE(seen.pixelColor(seen.width() / 5, seen.height() / 2), QColor(Qt::black));  // in proportion
+    emit opener_->ended();
+    QCOMPARE(pages.currentIndex(), 0);
+    pages.setCurrentIndex(1);
+    emit opener_->previewed(picture);
+    QCOMPARE(pages.currentIndex(), 1);
+    emit opener_->ended();
+    QCOMPARE(pages.currentIndex(), 1);
   }
 
   void several_studies_are_opened_one_after_the_other() {

@@ -1,0 +1,32 @@
+// A first look at the study that is being loaded: its middle slice.
+#pragma once
+
+#include <QImage>
+#include <QStackedWidget>
+#include <QWidget>
+
+namespace tidemark {
+
+class StudyOpener;
+
+// A page of `pages` that takes the first page's place from when the opener has a picture until what it loads
+// is there or given up. Where another page is shown, that stays: whoever works on a case is not disturbed.
+class PreviewPage : public QWidget {
+  Q_OBJECT
+ public:
+  PreviewPage(QStackedWidget& pages, const StudyOpener& opener);
+
+ signals:
+  void painted();
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  void show_picture(const QImage& middle_slice);
+
+  QStackedWidget& pages_;
+  QImage picture_;
+};
+
+}  // namespace tidemark
