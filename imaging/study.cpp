@@ -176,17 +176,6 @@ Status require_loadable(const Series& series) {
   return fail(ErrorKind::input, "{}: cannot be loaded: {}", series.description, series.reason);
 }
 
-Result<LoadedSeries> load(const fs::path& path, const std::string& uid, const Progress& progress,
-                          const GridPolicy& policy) {
-  const auto catalogue = find_series(path, progress, policy);
-  if (!catalogue) return tl::unexpected(catalogue.error());
-  auto chosen = choose_series(*catalogue, uid, path);
-  if (!chosen) return pass_on(chosen);
-  auto volume = load_series(*chosen, progress);
-  if (!volume) return pass_on(volume);
-  return LoadedSeries{std::move(chosen->series), std::move(*volume)};
-}
-
 Mask mask_of(const Volume& volume) {
   Mask mask;
   mask.geometry = volume.geometry;
@@ -207,6 +196,14 @@ Mask mask_of(const Volume& volume) {
 Series by_policy(Series series, const GridPolicy& policy) {
   set_grid(series, policy);
   return series;
+}
+
+std::string reason_under(const fs::path& path, const Series& series) {
+  for (const std::string& named : {path.string(), path.filename().string()}) {
+    const std::string start = named + ": ";
+    if (series.reason.starts_with(start)) return path.string() + ": " + series.reason.substr(start.size());
+  }
+  return path.string() + ": " + series.reason;
 }
 
 const Series* find_fillable(const Catalogue& catalogue, const std::string& uid) {
@@ -253,7 +250,7 @@ Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string
   if (loadable.empty()) {
     const std::string others =
         matching.size() == 1 ? "" : fmt::format(" (and {} more series)", matching.size() - 1);
-    return fail(ErrorKind::input, "{}: {}{}", path.string(), matching.front()->reason, others);
+    return fail(ErrorKind::input, "{}{}", reason_under(path, *matching.front()), others);
   }
   const Series* best = *std::max_element(
       loadable.begin(), loadable.end(),
@@ -281,7 +278,13 @@ Result<Volume> load_volume(const fs::path& path, const std::string& uid, const P
 
 Result<LoadedSeries> load_with_series(const fs::path& path, const std::string& uid, const Progress& progress,
                                       const GridPolicy& policy) {
-  return guarded(path, [&] { return load(path, uid, progress, policy); });
+  const auto catalogue = find_series(path, progress, policy);
+  if (!catalogue) return tl::unexpected(catalogue.error());
+  auto chosen = choose_series(*catalogue, uid, path);
+  if (!chosen) return pass_on(chosen);
+  auto volume = load_series(*chosen, progress);
+  if (!volume) return pass_on(volume);
+  return LoadedSeries{std::move(chosen->series), std::move(*volume)};
 }
 
 std::vector<fs::path> dicom_files_of(const Series& series) {
@@ -307,7 +310,7 @@ Result<Volume> load_slice(const Series& series, std::int64_t k, const Progress& 
 
 Result<Mask> load_mask(const fs::path& path, const Progress& progress) {
   return guarded(path, [&]() -> Result<Mask> {
-    const auto study = load(path, {}, progress, {});
+    const auto study = load_with_series(path, {}, progress);
     if (!study) return tl::unexpected(study.error());
     return mask_of(study->volume);
   });

@@ -35,6 +35,10 @@ struct ChosenSeries {
 Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string& uid,
                                    const std::filesystem::path& path);
 
+// Why the series, which lies under the path, cannot be loaded: one line that begins with the path and names no
+// file twice.
+[[nodiscard]] std::string reason_under(const std::filesystem::path& path, const Series& series);
+
 // Loads the series that choose_series() takes, and says so in Volume::changes where there were others. The
 // volume is finite everywhere. Fails (ErrorKind::input) naming the file and the field at fault.
 Result<Volume> load_volume(const std::filesystem::path& path, const std::string& uid = {},

@@ -121,6 +121,20 @@ class StudyTest : public QObject {
     QCOMPARE(volume.error().message, folder.path().string() + ": " + found->series.at(0).reason);
   }
 
+  void a_file_at_fault_is_named_once() {
+    const test::TemporaryFolder folder;
+    const fs::path file = folder / "text.nii";
+    std::ofstream(file) << "hello";
+    for (const fs::path& path : {file, folder.path()}) {
+      const auto volume = load_volume(path);
+      QVERIFY(!volume);
+      const QString message = QString::fromStdString(volume.error().message);
+      QVERIFY2(message.startsWith(QString::fromStdString(path.string() + ": ")), qPrintable(message));
+      QVERIFY2(message.count("text.nii") == 1, qPrintable(message));
+      QVERIFY2(message.contains("not a NIfTI file"), qPrintable(message));
+    }
+  }
+
   void values_that_are_not_finite_are_refused() {
     const test::TemporaryFolder folder;
     Volume volume = counting_volume({3, 4, 5});
