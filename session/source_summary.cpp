@@ -117,6 +117,7 @@ std::vector<Sample> sample(const TypedVolume<Stored>& volume, ThreadPool& pool, 
     }
   };
   pool.for_each(static_cast<std::int64_t>(samples.size()), kPiece / 16, piece);
+  if (progress.cancelled()) samples.clear();
   return samples;
 }
 

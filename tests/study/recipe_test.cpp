@@ -6,6 +6,7 @@
 #include "cases.h"
 #include "imaging/filters/filters.h"
 #include "study/replay.h"
+#include "study/session_contents.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -82,10 +83,11 @@ class RecipeTest : public QObject {
   void a_replay_gives_the_same_bits_data() { add_executors(); }
   void a_replay_gives_the_same_bits() {
     const auto document = eventful_case(this_executor());
-    const Recipe recipe = again(document->level_set().recipe());
-    QVERIFY(recipe.events == document->level_set().recipe().events);
-    QVERIFY(recipe.source == document->level_set().recipe().source);
-    QVERIFY(recipe.executor == document->level_set().recipe().executor);
+    const Recipe written = snapshot_of(*document)->recipe;
+    const Recipe recipe = again(written);
+    QVERIFY(recipe.events == written.events);
+    QVERIFY(recipe.source == written.source);
+    QVERIFY(recipe.executor == written.executor);
     QVERIFY(differences(recipe, *document->volume()).empty());
     QVERIFY(replayed(recipe, document->volume()) == values_of(document->level_set()));
   }
@@ -156,7 +158,7 @@ class RecipeTest : public QObject {
   }
 
   void another_volume_is_noticed() {
-    const Recipe recipe = begun_case()->level_set().recipe();
+    const Recipe recipe = snapshot_of(*begun_case())->recipe;
     Volume other = *lumpy_volume();
     QVERIFY(differences(recipe, other).empty());
     std::get<std::vector<std::int16_t>>(other.voxels)[1000] += 1;
