@@ -18,6 +18,7 @@ namespace tidemark {
 namespace {
 
 Result<std::string> ask_system(const std::string& host) {
+  if (host == "localhost") return "127.0.0.1";  // whatever the system's tables say (RFC 6761 6.3)
   addrinfo hints{};
   hints.ai_family = AF_INET;  // all that DCMTK connects to by its numbers
   hints.ai_socktype = SOCK_STREAM;

@@ -15,6 +15,8 @@
 namespace tidemark {
 namespace {
 
+constexpr auto kProfile = TSP_Profile_BCP195;
+
 // An IPv4 address, which is no server name for TLS.
 bool is_address(const std::string& host) {
   return host.find_first_not_of("0123456789.") == std::string::npos;
@@ -139,6 +141,17 @@ Status set_up_verification(TlsTransport& transport, const PacsTls& tls, Transpor
   return {};
 }
 
+// DCMTK 3.6.9 wants the profile, too.
+template <class Transport>
+OFCondition read_certificate(Transport& transport, const std::filesystem::path& file) {
+  constexpr auto kType = DCF_Filetype_PEM;
+  if constexpr (requires { transport.setCertificateFile(file.c_str(), kType, kProfile); }) {
+    return transport.setCertificateFile(file.c_str(), kType, kProfile);
+  } else {
+    return transport.setCertificateFile(file.c_str(), kType);
+  }
+}
+
 Status set_up_own_certificate(TlsTransport& transport, const PacsTls& tls) {
   if (tls.certificate.empty()) return {};
   // A key with a password must not make the library ask for it on the terminal.
@@ -147,8 +160,7 @@ Status set_up_own_certificate(TlsTransport& transport, const PacsTls& tls) {
     return fail(ErrorKind::input, "{}: no private key can be read from it: {}", tls.key.string(),
                 read.text());
   }
-  if (const OFCondition read = transport.setCertificateFile(tls.certificate.c_str(), DCF_Filetype_PEM);
-      read.bad()) {
+  if (const OFCondition read = read_certificate(transport, tls.certificate); read.bad()) {
     return fail(ErrorKind::input, "{}: no certificate can be read from it: {}", tls.certificate.string(),
                 read.text());
   }
@@ -167,7 +179,7 @@ Result<std::unique_ptr<DcmTransportLayer>> make_transport(const std::optional<Pa
   auto transport = std::make_unique<TlsTransport>(role, host, std::move(line_of_next));
   if (Status ready = set_up_verification(*transport, *tls, role, host); !ready) return pass_on(ready);
   if (Status ready = set_up_own_certificate(*transport, *tls); !ready) return pass_on(ready);
-  const OFCondition chosen = transport->setTLSProfile(TSP_Profile_BCP195);
+  const OFCondition chosen = transport->setTLSProfile(kProfile);
   if (chosen.bad() || transport->activateCipherSuites().bad()) {
     return fail(ErrorKind::capability, "TLS of BCP 195 is not to be had from this OpenSSL");
   }
