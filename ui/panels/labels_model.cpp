@@ -28,9 +28,11 @@ void LabelsModel::show(const std::vector<Label>& labels, const std::vector<Regio
     endResetModel();
     return;
   }
+  // Of what is as it was nothing is said: the view would put back a name that is being typed.
+  const int first_changed = labels == given_ ? volume : 0;
   if (labels != given_) labels_ = given_ = labels;
   statistics_ = statistics;
-  if (!labels_.empty()) emit dataChanged(index(0, 0), index(rowCount() - 1, columns - 1));
+  if (!labels_.empty()) emit dataChanged(index(0, first_changed), index(rowCount() - 1, columns - 1));
 }
 
 const Label* LabelsModel::label(int row) const {

@@ -3,6 +3,7 @@
 #include <QColorDialog>
 #include <QDoubleSpinBox>
 #include <QLineEdit>
+#include <QPointer>
 #include <QPushButton>
 #include <QTableView>
 #include <QToolButton>
@@ -85,6 +86,26 @@ class LabelsPanelTest : public QObject {
     the_case_->settle();
     QCOMPARE(QString::fromStdString(the_case_->state().labels.front().name), QStringLiteral("Left kidney"));
     QCOMPARE(text(0, LabelsModel::name), QStringLiteral("Left kidney"));
+  }
+
+  void a_name_can_be_typed_while_the_surface_moves() {
+    add();
+    auto& table = *panel_->findChild<QTableView*>();
+    table.setCurrentIndex(table.model()->index(0, LabelsModel::name));
+    table.setFocus();
+    QTest::keyClick(&table, Qt::Key_F2);
+    const QPointer<QLineEdit> editor = table.viewport()->findChild<QLineEdit*>();
+    QVERIFY(editor);
+    editor->selectAll();
+    QTest::keyClicks(editor, "Left kid");
+    the_case_->begin(5.0);
+    the_case_->session->step(3);
+    the_case_->settle();
+    QVERIFY(editor);
+    QTest::keyClicks(editor, "ney");
+    QTest::keyClick(editor, Qt::Key_Return);
+    the_case_->settle();
+    QCOMPARE(QString::fromStdString(the_case_->state().labels.front().name), QStringLiteral("Left kidney"));
   }
 
   void boxes_show_and_lock_a_label_and_a_locked_one_takes_no_surface() {

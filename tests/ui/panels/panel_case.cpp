@@ -16,6 +16,7 @@ PanelCase::PanelCase() : session(std::make_unique<CaseSession>(engine, ball_stud
 }
 
 void PanelCase::settle() {
+  QCoreApplication::processEvents();  // editors in tables hand over what was typed a moment later
   static_cast<void>(QTest::qWaitFor([this] { return engine.idle(); }, 60000));
   QCoreApplication::sendPostedEvents();
   QCoreApplication::processEvents();
