@@ -3,11 +3,10 @@
 #include <QAction>
 #include <QHBoxLayout>
 #include <QMenu>
-#include <QSignalBlocker>
 #include <algorithm>
-#include <cmath>
 
 #include "ui/look/icons.h"
+#include "ui/widgets/typed_number.h"
 
 namespace tidemark {
 namespace {
@@ -35,9 +34,10 @@ ViewBar::ViewBar(CaseSession& session, const QString& title, const QList<QAction
     layout->addWidget(button);
     evolution_ << button;
   }
-  target_ = add_number(tr("T"), tr("Target T"), tr("T: the brightness that attracts the surface"));
-  range_ =
-      add_number(tr("ε"), tr("Range epsilon"), tr("ε: the surface grows where brightness is within T ± ε"));
+  target_ = add_number(&Parameters::target, tr("T"), tr("Target T"),
+                       tr("T: the brightness that attracts the surface"));
+  range_ = add_number(&Parameters::range, tr("ε"), tr("Range epsilon"),
+                      tr("ε: the surface grows where brightness is within T ± ε"));
   tool_ = new QToolButton;
   tool_->setAutoRaise(true);
   tool_->setPopupMode(QToolButton::InstantPopup);
@@ -68,7 +68,8 @@ QToolButton* ViewBar::add_button(const char* picture, const QString& text) {
   return button;
 }
 
-QDoubleSpinBox* ViewBar::add_number(const QString& label, const QString& name, const QString& tip) {
+QDoubleSpinBox* ViewBar::add_number(double Parameters::*parameter, const QString& label, const QString& name,
+                                    const QString& tip) {
   auto* text = new QLabel(label);
   auto* number = new QDoubleSpinBox;
   text->setBuddy(number);
@@ -87,7 +88,8 @@ QDoubleSpinBox* ViewBar::add_number(const QString& label, const QString& name, c
   layout()->addWidget(text);
   layout()->addWidget(number);
   numbers_ << text << number;
-  connect(number, &QDoubleSpinBox::valueChanged, this, &ViewBar::change_parameters);
+  connect(number, &QDoubleSpinBox::valueChanged, this,
+          [this, parameter](double value) { change(parameter, value); });
   return number;
 }
 
@@ -95,20 +97,17 @@ void ViewBar::set_title(const QString& title) {
   title_->setText(title);
 }
 
-void ViewBar::change_parameters() {
+// The other parameters keep all their digits, of which the bar shows a few.
+void ViewBar::change(double Parameters::*parameter, double value) {
   Parameters parameters = session_.parameters();
-  parameters.target = target_->value();
-  parameters.range = std::max(range_->value(), kMinimumRange);
+  parameters.*parameter = value;
+  parameters.range = std::max(parameters.range, kMinimumRange);
   session_.set_parameters(parameters);
 }
 
 void ViewBar::follow_state() {
-  const QSignalBlocker quiet_target(target_);
-  const QSignalBlocker quiet_range(range_);
-  if (!target_->hasFocus() || std::abs(target_->value() - session_.parameters().target) > 0.0) {
-    target_->setValue(session_.parameters().target);
-  }
-  range_->setValue(session_.parameters().range);
+  show_unless_typed(*target_, session_.parameters().target);
+  show_unless_typed(*range_, session_.parameters().range);
 }
 
 void ViewBar::follow_tool() {

@@ -18,7 +18,6 @@ class ViewBar : public QWidget {
           const QList<QAction*>& tools, QWidget* parent = nullptr);
 
   void set_title(const QString& title);
-  void set_floating(bool floating);
 
   [[nodiscard]] QSize minimumSizeHint() const override { return {60, sizeHint().height()}; }
 
@@ -32,10 +31,11 @@ class ViewBar : public QWidget {
 
  private:
   QToolButton* add_button(const char* picture, const QString& text);
-  QDoubleSpinBox* add_number(const QString& label, const QString& name, const QString& tip);
+  QDoubleSpinBox* add_number(double Parameters::*parameter, const QString& label, const QString& name,
+                             const QString& tip);
   void follow_state();
   void follow_tool();
-  void change_parameters();
+  void change(double Parameters::*parameter, double value);
 
   CaseSession& session_;
   QLabel* title_;

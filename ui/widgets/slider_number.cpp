@@ -10,6 +10,7 @@
 #include "session/case_session.h"
 #include "ui/look/theme.h"
 #include "ui/widgets/number_text.h"
+#include "ui/widgets/typed_number.h"
 #include "ui/widgets/wheel_guard.h"
 
 namespace tidemark {
@@ -71,13 +72,8 @@ void SliderNumber::set_unit(const QString& unit) {
 }
 
 void SliderNumber::set_value(double value) {
-  // What is being typed, or held by the mouse, is not taken out of the user's hands.
-  if (slider_->isSliderDown()) return;
-  const bool typed = number_->hasFocus() && number_->cleanText() != number_->textFromValue(number_->value());
-  if (!typed) {
-    const QSignalBlocker quiet(number_);
-    number_->setValue(value);
-  }
+  if (slider_->isSliderDown()) return;  // by the mouse
+  show_unless_typed(*number_, value);
   show_in_slider(value);
 }
 
