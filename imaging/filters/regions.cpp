@@ -2,6 +2,7 @@
 // eight bytes a voxel for labels; one byte a voxel and a list of line pieces do.
 #include <algorithm>
 
+#include "core/typed_volume.h"
 #include "imaging/filters/filters.h"
 
 namespace tidemark {
@@ -56,15 +57,12 @@ Mask threshold(const Volume& volume, double low, double high) {
   Mask mask;
   mask.geometry = volume.geometry;
   mask.voxels.resize(static_cast<std::size_t>(volume.geometry.voxel_count()));
-  std::visit(
-      [&](const auto& stored) {
-        std::transform(stored.begin(), stored.end(), mask.voxels.begin(), [&](auto voxel) {
-          // In float, as Volume::value() gives it.
-          const auto value = static_cast<float>(volume.slope * static_cast<double>(voxel) + volume.intercept);
-          return static_cast<double>(value) >= low && static_cast<double>(value) <= high ? kInside : kOutside;
-        });
-      },
-      volume.voxels);
+  with_type(volume, [&](const auto& typed) {
+    std::transform(typed.stored.begin(), typed.stored.end(), mask.voxels.begin(), [&](auto voxel) {
+      const double value{typed.rescaled(voxel)};
+      return value >= low && value <= high ? kInside : kOutside;
+    });
+  });
   return mask;
 }
 
