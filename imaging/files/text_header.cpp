@@ -13,6 +13,9 @@ namespace {
 constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
 constexpr std::size_t kLongestMetaLine = 499;  // MetaIO's buffer, less the zero byte
 constexpr std::size_t kLongestMetaName = 200;
+constexpr std::size_t kLongestMetaText = 254;  // where MetaIO copies a text without looking at its length
+constexpr std::string_view kMetaTexts[] = {"AcquisitionDate", "Comment", "Name", "ObjectSubType",
+                                           "ObjectType"};
 
 std::string trimmed(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r";
@@ -62,8 +65,8 @@ void add_nrrd_field(TextHeader& header, std::string_view line) {
 }
 
 // What MetaIO would take for something else than is written there: it ends a name at ':' too and copies one
-// of up to 500 bytes where it has room for 255, ends a line at '\r', a text at a zero byte, and, where a
-// value is empty or begins with a separator, skips to the next thing that is neither.
+// of up to 500 bytes where it has room for 255 (as it does some values), ends a line at '\r', a text at a zero
+// byte, and, where a value is empty or begins with a separator, skips to the next thing that is neither.
 std::optional<std::string> ambiguity_of(std::string_view line) {
   if (line.ends_with('\r')) line.remove_suffix(1);
   const auto is_control = [](char c) { return c != '\t' && static_cast<unsigned char>(c) < ' '; };
@@ -75,6 +78,10 @@ std::optional<std::string> ambiguity_of(std::string_view line) {
   if (end < line.size() && line[end] == ':') return fmt::format("':' instead of '=' after '{}'", name);
   const std::string value = trimmed(line.substr(std::min(end + 1, line.size())));
   if (value.empty() || value[0] == '=' || value[0] == ':') return fmt::format("no value of '{}'", name);
+  const bool is_text = std::find(std::begin(kMetaTexts), std::end(kMetaTexts), name) != std::end(kMetaTexts);
+  if (const std::size_t length = line.size() - end - 1; is_text && length > kLongestMetaText) {
+    return fmt::format("a value of '{}' of {} bytes", name, length);
+  }
   return std::nullopt;
 }
 

@@ -216,6 +216,9 @@ void write_volumes() {
       "TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 0 0 0\nElementType = MET_UCHAR\n";
   write("volume_files", "mha-raw", meta + "ElementDataFile = LOCAL\n" + voxels);
   write("volume_files", "mha-text", meta + "BinaryData = False\nElementDataFile = LOCAL\n1 2 3 4 5 6 7 8\n");
+  write("volume_files", "mha-texts",
+        "Comment = " + std::string(240, 'c') + "\nAcquisitionDate = 2007.03.21\nName = n\nObjectSubType = s\n" +
+            meta + "Modality = MET_MOD_CT\nAnatomicalOrientation = RAI\nElementDataFile = LOCAL\n" + voxels);
   std::string gipl(256, '\0');
   for (const std::size_t axis : {0, 1, 2}) gipl[2 * axis + 1] = 2;
   gipl[9] = 8;                                                                          // unsigned bytes
