@@ -62,6 +62,11 @@ QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* pa
   dock->setMinimumWidth(kWidth);
   window_.addDockWidget(Qt::RightDockWidgetArea, dock);
   docks_ << dock;
+  // To Qt, a panel behind another tab is visible, too; ours are to rest there. In a turn of the event loop of
+  // its own: each takes its time to show all that has changed.
+  panel->hide();
+  const auto follow = [dock, panel] { panel->setVisible(!dock->visibleRegion().isEmpty()); };
+  connect(dock, &QDockWidget::visibilityChanged, panel, follow, Qt::QueuedConnection);
   return dock;
 }
 

@@ -15,7 +15,7 @@ void SessionWidget::set_session(CaseSession* session) {
     connect(session, &QObject::destroyed, this, &SessionWidget::forget);
   }
   attach();
-  if (session) refresh();
+  follow();
 }
 
 void SessionWidget::showEvent(QShowEvent* event) {
@@ -24,7 +24,7 @@ void SessionWidget::showEvent(QShowEvent* event) {
 }
 
 void SessionWidget::follow() {
-  if (isVisible()) refresh();
+  if (session_ && isVisible()) refresh();
 }
 
 // The session is half gone: nothing of it may be used.

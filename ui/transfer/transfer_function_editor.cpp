@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "core/atomic_file.h"
 #include "ui/transfer/histogram_plot.h"
@@ -120,12 +121,9 @@ void TransferFunctionEditor::set_display(Display* display, const SourceSummary* 
   unit_ = unit;
   surface_chosen_ = 0;
   showing_ = false;
+  new_volume_ = true;
   top_row_->setEnabled(!display_.isNull());
   tabs_->setEnabled(!display_.isNull());
-  presets_->set_summary(summary_);
-  histogram_->set_counts(summary_.values, {summary_.lowest, summary_.highest});
-  joint_->set_counts(summary_.value_gradient, SourceSummary::kBins, {summary_.low, summary_.high},
-                     {0.0, summary_.steepest});
   if (display_.isNull()) {
     for (PrimitivePage* page : {volume_page_, surface_page_}) page->set_primitives({}, -1);
     presets_->setCurrentIndex(-1);
@@ -135,8 +133,18 @@ void TransferFunctionEditor::set_display(Display* display, const SourceSummary* 
   connect(display_, &Display::changed, this, &TransferFunctionEditor::refresh);
   connect(display_, &QObject::destroyed, this, [this] { set_display(nullptr, nullptr); });
   refresh();
-  volume_page_->reset_zoom();
-  surface_page_->reset_zoom();
+}
+
+void TransferFunctionEditor::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  refresh();
+}
+
+void TransferFunctionEditor::show_volume() {
+  presets_->set_summary(summary_);
+  histogram_->set_counts(summary_.values, {summary_.lowest, summary_.highest});
+  joint_->set_counts(summary_.value_gradient, SourceSummary::kBins, {summary_.low, summary_.high},
+                     {0.0, summary_.steepest});
 }
 
 void TransferFunctionEditor::refresh_axes() {
@@ -156,12 +164,14 @@ void TransferFunctionEditor::refresh_axes() {
 }
 
 void TransferFunctionEditor::refresh() {
-  if (!display_) return;
+  if (!display_ || !isVisible()) return;
   const DisplaySettings& now = display_->settings();
   if (showing_ && now.transfer == shown_.transfer && now.chosen_primitive == shown_.chosen_primitive &&
       now.region == shown_.region && now.clip_on == shown_.clip_on && now.show_source == shown_.show_source) {
     return;  // a camera that moves is nothing to us
   }
+  const bool is_new = std::exchange(new_volume_, false);
+  if (is_new) show_volume();
   const bool new_axes = !showing_ || now.clip_on != shown_.clip_on;
   shown_ = now;
   showing_ = true;
@@ -174,6 +184,9 @@ void TransferFunctionEditor::refresh() {
   const QSignalBlocker quiet(show_source_);
   show_source_->setChecked(now.show_source);
   region_->setCurrentIndex(region_->findData(static_cast<int>(now.region)));
+  if (!is_new) return;
+  volume_page_->reset_zoom();
+  surface_page_->reset_zoom();
 }
 
 void TransferFunctionEditor::edit(PrimitiveKind kind, const std::vector<AxisPrimitive>& primitives,

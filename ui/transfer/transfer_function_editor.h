@@ -21,7 +21,8 @@ class PrimitivePage;
 enum class PrimitiveKind;
 struct AxisPrimitive;
 
-// Everything is read from the display and written to it at once: there is nothing to apply.
+// Everything is read from the display and written to it at once: there is nothing to apply. While nobody
+// looks, nothing is drawn either.
 class TransferFunctionEditor : public QWidget {
   Q_OBJECT
  public:
@@ -42,11 +43,15 @@ class TransferFunctionEditor : public QWidget {
   [[nodiscard]] QTabWidget* tabs() const { return tabs_; }
   [[nodiscard]] QString message() const { return message_->text(); }
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  private:
   QWidget* make_top_row();
   QWidget* make_volume_tab();
   QWidget* make_surface_tab();
   void refresh();
+  void show_volume();
   void refresh_axes();
   void replace(const TransferFunction& function);
   void edit(PrimitiveKind kind, const std::vector<AxisPrimitive>& primitives, int chosen);
@@ -57,8 +62,9 @@ class TransferFunctionEditor : public QWidget {
   QPointer<Display> display_;
   SourceSummary summary_;
   QString unit_;
-  DisplaySettings shown_;  // what the widgets were last set to
-  bool showing_ = false;   // anything
+  DisplaySettings shown_;   // what the widgets were last set to
+  bool showing_ = false;    // anything
+  bool new_volume_ = true;  // of which nothing is drawn yet
   int surface_chosen_ = 0;
 
   QWidget* top_row_;

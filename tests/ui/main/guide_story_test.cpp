@@ -79,6 +79,7 @@ void GuideStoryTest::the_first_minute_leads_to_a_tumour() {
   QCOMPARE(desktop.state().surface.voxels_inside, inside);
 
   desktop.window().panels().show("labels");
+  desktop.settle();
   QVERIFY(click(desktop, "Accept surface into label"));
   desktop.settle();
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
