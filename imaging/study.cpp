@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/typed_volume.h"
 #include "imaging/archive/study_archive.h"
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/series_geometry.h"
@@ -90,15 +91,10 @@ std::string list_uids(const std::vector<Series>& series) {
 // Stored integers are finite, but slope and intercept may take them beyond what a float holds.
 Status require_finite_range(const Volume& volume, const std::string& source) {
   if (volume.geometry.voxel_count() <= 0) return fail(ErrorKind::input, "{}: has no voxels", source);
-  const auto is_finite = [&](double stored) {
-    return std::isfinite(static_cast<float>(volume.slope * stored + volume.intercept));
-  };
-  const bool are_ends_finite = std::visit(
-      [&](const auto& stored) {
-        using Limits = std::numeric_limits<typename std::decay_t<decltype(stored)>::value_type>;
-        return is_finite(Limits::lowest()) && is_finite(Limits::max());
-      },
-      volume.voxels);
+  const bool are_ends_finite = with_type(volume, [](const auto& typed) {
+    using Limits = std::numeric_limits<typename std::decay_t<decltype(typed.stored)>::value_type>;
+    return std::isfinite(typed.rescaled(Limits::lowest())) && std::isfinite(typed.rescaled(Limits::max()));
+  });
   if (are_ends_finite) return {};  // and with them all between
   const auto [low, high] = volume.range();
   if (std::isfinite(low) && std::isfinite(high)) return {};
@@ -179,15 +175,11 @@ Status require_loadable(const Series& series) {
 Mask mask_of(const Volume& volume) {
   Mask mask;
   mask.geometry = volume.geometry;
-  std::visit(
-      [&](const auto& stored) {
-        mask.voxels.resize(stored.size());
-        std::transform(stored.begin(), stored.end(), mask.voxels.begin(), [&](auto value) {
-          const bool inside = volume.slope * static_cast<double>(value) + volume.intercept != 0.0;
-          return static_cast<std::uint8_t>(inside ? 1 : 0);
-        });
-      },
-      volume.voxels);
+  with_type(volume, [&](const auto& typed) {
+    mask.voxels.resize(typed.stored.size());
+    std::transform(typed.stored.begin(), typed.stored.end(), mask.voxels.begin(),
+                   [&](auto voxel) { return static_cast<std::uint8_t>(typed.rescaled(voxel) != 0.0F); });
+  });
   return mask;
 }
 

@@ -4,44 +4,38 @@
 #include <variant>
 
 #include "core/thread_pool.h"
+#include "core/typed_volume.h"
 #include "renderer/source_stack.h"
 
 namespace tidemark {
 namespace {
 
 // Least and greatest value in each page and one voxel around it: what filtering reaches from inside the page.
-std::vector<glm::vec2> page_ranges(const Volume& source, const PageLayout& layout) {
+template <class Stored>
+std::vector<glm::vec2> page_ranges(const TypedVolume<Stored>& source, const PageLayout& layout) {
   ThreadPool pool;
   std::vector<glm::vec2> ranges(static_cast<std::size_t>(layout.page_count()));
-  const Geometry& geometry = source.geometry;
-  pool.for_each(layout.page_count(), 64, [&](std::int64_t begin, std::int64_t end, int) {
-    for (std::int64_t page = begin; page < end; ++page) {
-      const Index3 first = layout.first_voxel(page);
-      const Index3 low = glm::max(first - Index3(1), Index3(0));
-      const Index3 high = glm::min(first + layout.valid_shape(page), geometry.size - Index3(1));
-      float least = source.value(first);
-      float greatest = least;
-      std::visit(
-          [&](const auto& voxels) {
-            auto lowest = voxels[static_cast<std::size_t>(geometry.offset(first))];
-            auto highest = lowest;
-            for (std::int64_t z = low.z; z <= high.z; ++z) {
-              for (std::int64_t y = low.y; y <= high.y; ++y) {
-                const auto* row = voxels.data() + geometry.offset({0, y, z});
-                for (std::int64_t x = low.x; x <= high.x; ++x) {
-                  lowest = std::min(lowest, row[x]);
-                  highest = std::max(highest, row[x]);
-                }
-              }
-            }
-            const double a = source.slope * static_cast<double>(lowest) + source.intercept;
-            const double b = source.slope * static_cast<double>(highest) + source.intercept;
-            least = static_cast<float>(std::min(a, b));
-            greatest = static_cast<float>(std::max(a, b));
-          },
-          source.voxels);
-      ranges[static_cast<std::size_t>(page)] = {least, greatest};
+  const auto measure = [&](std::int64_t page) -> glm::vec2 {
+    const Index3 first = layout.first_voxel(page);
+    const Index3 low = glm::max(first - Index3(1), Index3(0));
+    const Index3 high = glm::min(first + layout.valid_shape(page), source.geometry.size - Index3(1));
+    Stored lowest = source.stored[static_cast<std::size_t>(source.geometry.offset(first))];
+    Stored highest = lowest;
+    for (std::int64_t z = low.z; z <= high.z; ++z) {
+      for (std::int64_t y = low.y; y <= high.y; ++y) {
+        const Stored* row = source.stored.data() + source.geometry.offset({0, y, z});
+        for (std::int64_t x = low.x; x <= high.x; ++x) {
+          lowest = std::min(lowest, row[x]);
+          highest = std::max(highest, row[x]);
+        }
+      }
     }
+    const auto [least, greatest] = std::minmax({source.rescaled(lowest), source.rescaled(highest)});
+    return {least, greatest};
+  };
+  pool.for_each(layout.page_count(), 64, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t page = begin; page < end; ++page)
+      ranges[static_cast<std::size_t>(page)] = measure(page);
   });
   return ranges;
 }
@@ -89,7 +83,9 @@ void SourcePicture::set_transfer_function(const Volume& source, const TransferFu
                                           Region region, double band) {
   Shown wanted{function, region, band};
   if (shown_ == wanted) return;
-  if (ranges_.empty()) ranges_ = page_ranges(source, layout_);
+  if (ranges_.empty()) {
+    ranges_ = with_type(source, [&](const auto& typed) { return page_ranges(typed, layout_); });
+  }
   page_opacities_.clear();
   page_opacities_.reserve(ranges_.size());
   for (const glm::vec2 range : ranges_) {
