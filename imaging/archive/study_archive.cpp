@@ -83,6 +83,11 @@ class Unpacker {
             {file_.string() + '/' + shown(name), "is an archive within the archive: unpack it first"});
         continue;
       }
+      if (!record.is_readable()) {
+        return refuse(fmt::format(
+            "is compressed in a way that is not read ({}, method {}); unpack it and open the folder",
+            shown(name), record.method));
+      }
       // No more than the whole may be, so that the sum cannot overflow.
       constexpr std::int64_t kMost = std::int64_t{1} << 44;
       if (record.bytes > kMost) {

@@ -129,22 +129,21 @@ Result<std::vector<ZipRecord>> parse(std::span<const std::uint8_t> bytes, std::i
   return records;
 }
 
-// zlib's state for a raw deflate stream.
-class Inflation {
- public:
-  Inflation() { is_good_ = inflateInit2(&stream_, -MAX_WBITS) == Z_OK; }
-  ~Inflation() {
-    if (is_good_) inflateEnd(&stream_);
+Status hand_out(ByteSource& bytes, const ZipDirectory::Take& take) {
+  std::vector<std::uint8_t> piece(kPiece);
+  std::int64_t at = 0;
+  while (const std::size_t got = bytes.read(at, piece)) {
+    if (Status taken = take(std::span(piece).first(got)); !taken) return taken;
+    at += static_cast<std::int64_t>(got);
   }
-  Inflation(const Inflation&) = delete;
-  Inflation& operator=(const Inflation&) = delete;
-  [[nodiscard]] bool is_good() const { return is_good_; }
-  z_stream& stream() { return stream_; }
+  return {};
+}
 
- private:
-  z_stream stream_{};
-  bool is_good_ = false;
-};
+Status hand_out_inflated(ByteSource& packed, const ZipDirectory::Take& take) {
+  InflatedBytes bytes(packed, 0, 0);
+  if (Status done = hand_out(bytes, take); !done) return done;
+  return bytes.ended();
+}
 
 }  // namespace
 
@@ -202,61 +201,15 @@ Status ZipDirectory::unpack(const ZipRecord& record, const Take& take) {
     checksum = crc32(checksum, piece.data(), static_cast<uInt>(piece.size()));
     return take(piece);
   };
-  constexpr std::uint16_t kStored = 0;
-  constexpr std::uint16_t kDeflated = 8;
-  if (record.method != kStored && record.method != kDeflated) {
+  if (!record.is_readable()) {
     return fail(ErrorKind::input, "is compressed in a way that is not read (method {})", record.method);
   }
+  ByteRange packed(file_, begin, record.packed);
   const Status done =
-      record.method == kStored ? copy(record, begin, counted) : inflate(record, begin, counted);
+      record.method == ZipRecord::kStored ? hand_out(packed, counted) : hand_out_inflated(packed, counted);
   if (!done) return done;
   if (bytes != record.bytes) return fail(ErrorKind::input, "holds less than it says");
   if (checksum != record.checksum) return fail(ErrorKind::input, "its checksum is another one");
-  return {};
-}
-
-Status ZipDirectory::copy(const ZipRecord& record, std::int64_t begin, const Take& take) {
-  std::vector<std::uint8_t> piece(kPiece);
-  for (std::int64_t done = 0; done < record.packed;) {
-    const auto wanted =
-        static_cast<std::size_t>(std::min(record.packed - done, static_cast<std::int64_t>(piece.size())));
-    if (file_.read(begin + done, std::span(piece).first(wanted)) != wanted) {
-      return fail(ErrorKind::input, "cannot be read");
-    }
-    if (Status taken = take(std::span(piece).first(wanted)); !taken) return taken;
-    done += static_cast<std::int64_t>(wanted);
-  }
-  return {};
-}
-
-Status ZipDirectory::inflate(const ZipRecord& record, std::int64_t begin, const Take& take) {
-  Inflation inflation;
-  if (!inflation.is_good()) return fail(ErrorKind::capability, "there is not enough memory");
-  z_stream& stream = inflation.stream();
-  std::vector<std::uint8_t> in(kPiece);
-  std::vector<std::uint8_t> out(kPiece);
-  std::int64_t read = 0;
-  for (int state = Z_OK; state != Z_STREAM_END;) {
-    if (stream.avail_in == 0) {
-      const auto wanted =
-          static_cast<std::size_t>(std::min(record.packed - read, static_cast<std::int64_t>(in.size())));
-      if (wanted == 0 || file_.read(begin + read, std::span(in).first(wanted)) != wanted) {
-        return fail(ErrorKind::input, "ends early");
-      }
-      read += static_cast<std::int64_t>(wanted);
-      stream.next_in = in.data();
-      stream.avail_in = static_cast<uInt>(wanted);
-    }
-    stream.next_out = out.data();
-    stream.avail_out = static_cast<uInt>(out.size());
-    state = ::inflate(&stream, Z_NO_FLUSH);
-    if (state != Z_OK && state != Z_STREAM_END && state != Z_BUF_ERROR) {
-      return fail(ErrorKind::input, "its compressed bytes are wrong");
-    }
-    const std::size_t made = out.size() - stream.avail_out;
-    if (made == 0) continue;
-    if (Status taken = take(std::span(out).first(made)); !taken) return taken;
-  }
   return {};
 }
 

@@ -22,8 +22,11 @@ struct ZipRecord {
   std::int64_t packed = 0;     // bytes in the archive
   std::int64_t bytes = 0;      // that they are unpacked to
   std::uint32_t checksum = 0;  // CRC-32 of those
-  std::uint16_t method = 0;    // 0: as they are, 8: deflated
+  static constexpr std::uint16_t kStored = 0;
+  static constexpr std::uint16_t kDeflated = 8;
+  std::uint16_t method = kStored;  // of compression
   bool is_encrypted = false;
+  [[nodiscard]] bool is_readable() const { return method == kStored || method == kDeflated; }
 };
 
 class ZipDirectory {
@@ -43,8 +46,6 @@ class ZipDirectory {
  private:
   explicit ZipDirectory(FileBytes file) : file_(std::move(file)) {}
   Status read_records(std::int64_t most_entries);
-  Status copy(const ZipRecord& record, std::int64_t begin, const Take& take);
-  Status inflate(const ZipRecord& record, std::int64_t begin, const Take& take);
 
   FileBytes file_;
   std::vector<ZipRecord> records_;

@@ -53,6 +53,12 @@ std::size_t FileBytes::read(std::int64_t offset, std::span<std::uint8_t> room) {
   return done;
 }
 
+std::size_t ByteRange::read(std::int64_t offset, std::span<std::uint8_t> room) {
+  if (offset >= size_) return 0;
+  const auto most = static_cast<std::uint64_t>(size_ - offset);
+  return whole_.read(begin_ + offset, room.first(std::min<std::uint64_t>(room.size(), most)));
+}
+
 InflatedBytes::InflatedBytes(ByteSource& packed, std::int64_t begin, std::int64_t size)
     : packed_(packed), packed_at_(begin), size_(size) {
   constexpr int kRawDeflate = -MAX_WBITS;
@@ -69,12 +75,14 @@ std::size_t InflatedBytes::inflate_some(std::span<std::uint8_t> room) {
   while (stream_.avail_out > 0 && state_ == Z_OK) {
     if (stream_.avail_in == 0) {
       const std::size_t got = packed_.read(packed_at_, packed_window_);
-      if (got == 0) break;
       packed_at_ += static_cast<std::int64_t>(got);
       stream_.next_in = packed_window_.data();
       stream_.avail_in = static_cast<uInt>(got);
     }
-    state_ = inflate(&stream_, Z_NO_FLUSH);
+    // Also when nothing is left to take in: of what was, something may still have to come out.
+    const int state = inflate(&stream_, Z_NO_FLUSH);
+    if (state == Z_BUF_ERROR) break;  // nothing has
+    state_ = state;
   }
   return room.size() - stream_.avail_out;
 }
@@ -93,6 +101,13 @@ std::size_t InflatedBytes::read(std::int64_t offset, std::span<std::uint8_t> roo
   return got;
 }
 
+Status InflatedBytes::ended() const {
+  if (state_ == Z_STREAM_END) return {};
+  if (state_ == Z_MEM_ERROR) return fail(ErrorKind::capability, "there is not enough memory");
+  return fail(ErrorKind::input, "{}",
+              state_ == Z_OK ? "ends within its deflate stream" : "is not a deflate stream");
+}
+
 Result<std::int64_t> InflatedBytes::measure(ByteSource& packed, std::int64_t begin, std::int64_t limit) {
   InflatedBytes bytes(packed, begin, 0);
   std::array<std::uint8_t, 4096> passed;
@@ -102,10 +117,8 @@ Result<std::int64_t> InflatedBytes::measure(ByteSource& packed, std::int64_t beg
       return fail(ErrorKind::input, "inflates to more than {} bytes", limit);
     }
   }
-  if (bytes.state_ == Z_STREAM_END) return bytes.at_;
-  return fail(ErrorKind::input, "{}",
-              bytes.state_ == Z_OK || bytes.state_ == Z_BUF_ERROR ? "ends within its deflate stream"
-                                                                  : "is not a deflate stream");
+  if (Status ended = bytes.ended(); !ended) return pass_on(ended);
+  return bytes.at_;
 }
 
 const std::uint8_t* ByteReader::at(std::int64_t offset, std::size_t count) {

@@ -48,11 +48,26 @@ class FileBytes : public ByteSource {
   std::int64_t size_;
 };
 
+// A part of another source.
+class ByteRange : public ByteSource {
+ public:
+  // It lies within `whole`, which must outlive it.
+  ByteRange(ByteSource& whole, std::int64_t begin, std::int64_t size)
+      : whole_(whole), begin_(begin), size_(size) {}
+  [[nodiscard]] std::int64_t size() const override { return size_; }
+  std::size_t read(std::int64_t offset, std::span<std::uint8_t> room) override;
+
+ private:
+  ByteSource& whole_;
+  std::int64_t begin_;
+  std::int64_t size_;
+};
+
 // What the raw deflate stream that begins at `begin` of another source inflates to. It can be read forward
 // only; zlib keeps some 40 KB for it.
 class InflatedBytes : public ByteSource {
  public:
-  // `size` is what measure() gave; `packed` must outlive it.
+  // `size` is what measure() gave, or what somebody says who is not believed; `packed` must outlive it.
   InflatedBytes(ByteSource& packed, std::int64_t begin, std::int64_t size);
   ~InflatedBytes() override;
   InflatedBytes(const InflatedBytes&) = delete;
@@ -64,6 +79,8 @@ class InflatedBytes : public ByteSource {
 
   [[nodiscard]] std::int64_t size() const override { return size_; }
   std::size_t read(std::int64_t offset, std::span<std::uint8_t> room) override;
+  // Once all was read: fails, without naming a file, when the stream is damaged or ends early.
+  [[nodiscard]] Status ended() const;
 
  private:
   std::size_t inflate_some(std::span<std::uint8_t> room);

@@ -213,7 +213,7 @@ class StudyArchiveTest : public QObject {
     row("an entry of 64 bits that are nowhere", with(text, kRecord, 20, "\xff\xff\xff\xff"),
         "beyond its end");
     row("an entry elsewhere", with(text, kRecord, 42, "\1"), "is not where the directory says");
-    row("an entry of bzip2", with(text, kRecord, 10, "\x0c"), "is not read (method 12)");
+    row("an entry of bzip2", with(text, kRecord, 10, "\x0c"), "is not read (a.txt, method 12)");
     row("an entry of deflate that is none", with(text, kRecord, 10, "\x08"), "is damaged: a.txt");
     row("a longer name than there is", with(text, kRecord, 28, "\xff\xff"), "its directory is cut off");
     row("a directory that begins late", with(text, kEnd, 16, "\xff\xff"), "its directory is not whole");
