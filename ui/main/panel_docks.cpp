@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kWidth = 320;  // logical pixels: what the panels are made for
 constexpr int kStateVersion = 1;
+constexpr const char* kInFront = "in_front";  // property of a panel
 
 QScrollArea* scrolled(QWidget* panel) {
   auto* scroll = new QScrollArea;
@@ -37,9 +38,10 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
   paint->set_actions(actions.undo, actions.redo);
   auto* display = new DisplayPanel;
   auto* labels = new LabelsPanel;
-  statistics_ = new StatisticsPanel;
+  auto* statistics = new StatisticsPanel;
+  statistics->set_export_action(actions.export_statistics);
   transfer_ = new TransferFunctionEditor;
-  panels_ = {level_set, initialise, paint, display, labels, statistics_};
+  panels_ = {level_set, initialise, paint, display, labels, statistics};
   // One column with its tabs at the side: the views keep the room. The editor scrolls its parts itself.
   const QList<QDockWidget*> docks{add("initialise", tr("Start"), scrolled(initialise)),
                                   add("level-set", tr("Level set"), scrolled(level_set)),
@@ -47,7 +49,7 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
                                   add("display", tr("Display"), scrolled(display)),
                                   add("transfer", tr("Transfer"), transfer_),
                                   add("labels", tr("Labels"), scrolled(labels)),
-                                  add("statistics", tr("Statistics"), scrolled(statistics_))};
+                                  add("statistics", tr("Statistics"), scrolled(statistics))};
   for (qsizetype next = 1; next < docks.size(); ++next)
     window_.tabifyDockWidget(docks[next - 1], docks[next]);
   window_.setTabPosition(Qt::RightDockWidgetArea, QTabWidget::East);
@@ -62,11 +64,18 @@ QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* pa
   dock->setMinimumWidth(kWidth);
   window_.addDockWidget(Qt::RightDockWidgetArea, dock);
   docks_ << dock;
-  // To Qt, a panel behind another tab is visible, too; ours are to rest there. In a turn of the event loop of
-  // its own: each takes its time to show all that has changed.
+  // To Qt, a panel behind another tab is visible, too; ours are to rest there, without their docks growing
+  // smaller. In a turn of the event loop of its own, because each takes its time to show all that has
+  // changed; by then the dock's last word counts.
+  QSizePolicy policy = panel->sizePolicy();
+  policy.setRetainSizeWhenHidden(true);
+  panel->setSizePolicy(policy);
   panel->hide();
-  const auto follow = [dock, panel] { panel->setVisible(!dock->visibleRegion().isEmpty()); };
-  connect(dock, &QDockWidget::visibilityChanged, panel, follow, Qt::QueuedConnection);
+  connect(dock, &QDockWidget::visibilityChanged, panel, [panel](bool in_front) {
+    panel->setProperty(kInFront, in_front);
+    const auto follow = [panel] { panel->setVisible(panel->property(kInFront).toBool()); };
+    QMetaObject::invokeMethod(panel, follow, Qt::QueuedConnection);
+  });
   return dock;
 }
 

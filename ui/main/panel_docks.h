@@ -14,7 +14,6 @@ class QMainWindow;
 namespace tidemark {
 
 class SessionWidget;
-class StatisticsPanel;
 class TransferFunctionEditor;
 
 class PanelDocks : public QObject {
@@ -29,7 +28,6 @@ class PanelDocks : public QObject {
   [[nodiscard]] QByteArray arrangement() const;
   void restore(const QByteArray& arrangement);
   [[nodiscard]] QList<QAction*> toggles() const;  // one a panel: shows or hides it
-  [[nodiscard]] StatisticsPanel& statistics() { return *statistics_; }
   // Brings a panel to the front, at once or when panels show again: "initialise", "level-set", ...
   void show(const QString& name);
 
@@ -47,7 +45,6 @@ class PanelDocks : public QObject {
   bool shown_ = true;
   QByteArray arrangement_;  // while they do not show: as it was
   QString front_;           // while they do not show: which is to come to the front
-  StatisticsPanel* statistics_ = nullptr;
   TransferFunctionEditor* transfer_ = nullptr;
 };
 

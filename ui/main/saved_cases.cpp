@@ -22,7 +22,7 @@
 #include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
 #include "ui/main/rescue_dialog.h"
-#include "ui/panels/statistics_panel.h"
+#include "ui/panels/region_table.h"
 #include "ui/views/picture_view.h"
 
 namespace tidemark {
@@ -97,6 +97,7 @@ void SavedCases::write(CaseWindow& window, const QString& file, Write work) {
 }
 
 QString SavedCases::ask_for_file(const CaseWindow& window, const QString& title, const QString& suffixes) {
+  const QPointer alive(&window);
   QFileDialog dialog(&window_, title, QSettings().value("save/folder").toString(), suffixes);
   dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.selectFile(window.windowTitle().remove(QStringLiteral("[*]")).simplified().replace('/', '-'));
@@ -109,6 +110,7 @@ QString SavedCases::ask_for_file(const CaseWindow& window, const QString& title,
                             QMessageBox::Yes | QMessageBox::No, QMessageBox::No) != QMessageBox::Yes) {
     return {};
   }
+  if (!alive) return {};
   QSettings().setValue("save/folder", QFileInfo(file).absolutePath());
   return file;
 }
@@ -123,7 +125,9 @@ void SavedCases::export_mask(CaseWindow& window) {
                     &window_);
     QAbstractButton* surface = box.addButton(tr("Inside of the surface"), QMessageBox::AcceptRole);
     box.addButton(tr("All labels"), QMessageBox::AcceptRole);
+    const QPointer alive(&window);
     box.exec();
+    if (!alive) return;
     if (box.clickedButton() == box.button(QMessageBox::Cancel)) return;
     if (box.clickedButton() != surface) what = tr("labels");
   }
@@ -180,7 +184,12 @@ void SavedCases::write_picture(CaseWindow& window, const QString& file) {
 
 void SavedCases::export_statistics(CaseWindow& window) {
   const QString file = ask_for_file(window, tr("Export statistics"), tr("Table (*.csv)"));
-  if (!file.isEmpty()) window_.panels().statistics().export_csv(path_of(file));
+  if (!file.isEmpty()) write_statistics(window, file);
+}
+
+void SavedCases::write_statistics(CaseWindow& window, const QString& file) {
+  run(about_writing(window, file), file,
+      [csv = to_csv(window.session()), path = path_of(file)] { return write_file(path, csv); });
 }
 
 void SavedCases::export_recipe(CaseWindow& window) {
@@ -286,8 +295,12 @@ void SavedCases::find_volume(std::shared_ptr<const SessionContents> contents) {
 void SavedCases::compare(const std::shared_ptr<const LoadedStudy>& study) {
   jobs_.push_back(
       BackgroundJob::start(this, [this, study, contents = waiting_.front().contents](BackgroundJob& job) {
-        const VolumeMatch found = match(*contents, *study->volume);
-        job.deliver([this, study, found] { restore(study, found); });
+        const auto found =
+            without_exceptions([&]() -> Result<VolumeMatch> { return match(*contents, *study->volume); });
+        job.deliver([this, study, found] {
+          if (!found) return end_reading(QString::fromStdString(found.error().message));
+          restore(study, *found);
+        });
       }));
 }
 

@@ -44,6 +44,7 @@ class SavedCases : public QObject {
   void write_labels(CaseWindow& window, const QString& file);
   void write_surface(CaseWindow& window, const QString& file);
   void write_picture(CaseWindow& window, const QString& file);
+  void write_statistics(CaseWindow& window, const QString& file);
 
   // Asks before something is lost.
   void close(CaseWindow& window, QCloseEvent* event);
@@ -58,6 +59,7 @@ class SavedCases : public QObject {
 
  private:
   using Write = std::function<Status(const SessionContents&)>;
+  // Empty when none is wanted, or the case was closed meanwhile.
   [[nodiscard]] QString ask_for_file(const CaseWindow& window, const QString& title, const QString& suffixes);
   void write(CaseWindow& window, const QString& file, Write work);
   void run(const QString& about, const QString& file, std::function<Status()> work,

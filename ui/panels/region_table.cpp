@@ -4,6 +4,8 @@
 #include <QLocale>
 #include <QStringList>
 
+#include "ui/panels/value_unit.h"
+
 namespace tidemark {
 namespace {
 
@@ -115,6 +117,11 @@ std::string to_csv(const std::vector<RegionRow>& rows, const std::vector<Measure
     csv += csv_line(line << (distance ? QStringLiteral("mm") : QStringLiteral("degrees")));
   }
   return csv;
+}
+
+std::string to_csv(CaseSession& session) {
+  return to_csv(region_rows(session.state()), session.display().settings().measurements,
+                value_unit(session.volume()));
 }
 
 QString to_text(const std::vector<RegionRow>& rows, const std::vector<Measurement>& measurements,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "session/case_session.h"
 #include "session/case_state.h"
 #include "session/measurement.h"
 
@@ -26,6 +27,9 @@ std::vector<RegionRow> region_rows(const CaseState& state);
 // RFC 4180, numbers with a point in every locale. `unit` is that of the values (may be empty).
 std::string to_csv(const std::vector<RegionRow>& rows, const std::vector<Measurement>& measurements,
                    const QString& unit);
+
+// Of all that a case has.
+std::string to_csv(CaseSession& session);
 
 // Columns parted by tabs, numbers as the user's language writes them: for spreadsheets and reports.
 QString to_text(const std::vector<RegionRow>& rows, const std::vector<Measurement>& measurements,

@@ -1,16 +1,14 @@
 #include "ui/panels/statistics_panel.h"
 
+#include <QAction>
 #include <QClipboard>
-#include <QFileDialog>
 #include <QGuiApplication>
+#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
 #include <QTableWidget>
-#include <QVBoxLayout>
 
-#include "core/atomic_file.h"
-#include "session/background_job.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/panels/region_table.h"
@@ -82,10 +80,6 @@ StatisticsPanel::StatisticsPanel(QWidget* parent) : Panel(tr("Open a study to me
   add(make_buttons());
 }
 
-StatisticsPanel::~StatisticsPanel() {
-  if (writing_) writing_->abandon();
-}
-
 QWidget* StatisticsPanel::make_surface() {
   auto* part = new QWidget;
   Form form(part);
@@ -113,23 +107,16 @@ QWidget* StatisticsPanel::make_tables() {
 
 QWidget* StatisticsPanel::make_buttons() {
   auto* part = new QWidget;
-  auto* column = new QVBoxLayout(part);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(kSpace);
-  auto* row = new QHBoxLayout;
+  auto* row = new QHBoxLayout(part);
+  row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(kSpace);
   auto* copy_button = new QPushButton(icon(u"duplicate"), tr("Copy"));
   copy_button->setToolTip(tr("All figures as text, for a spreadsheet or a report."));
-  auto* export_button = new QPushButton(icon(u"export"), tr("Export CSV…"));
-  export_button->setToolTip(tr("All figures as a file of comma-separated values."));
+  export_ = new QPushButton(icon(u"export"), tr("Export CSV…"));
+  export_->setToolTip(tr("All figures as a file of comma-separated values."));
   row->addWidget(copy_button);
-  row->addWidget(export_button);
-  message_ = make_note({});
-  message_->hide();
-  column->addLayout(row);
-  column->addWidget(message_);
+  row->addWidget(export_);
   connect(copy_button, &QPushButton::clicked, this, &StatisticsPanel::copy);
-  connect(export_button, &QPushButton::clicked, this, &StatisticsPanel::choose_file);
   return part;
 }
 
@@ -150,41 +137,12 @@ void StatisticsPanel::copy() const {
                                                 value_unit(session()->volume())));
 }
 
-void StatisticsPanel::choose_file() {
-  if (!session()) return;
-  auto* dialog = new QFileDialog(this, tr("Export figures"), session()->name() + QStringLiteral(".csv"),
-                                 tr("Comma-separated values (*.csv)"));
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setAcceptMode(QFileDialog::AcceptSave);
-  dialog->setDefaultSuffix(QStringLiteral("csv"));
-  connect(dialog, &QFileDialog::fileSelected, this,
-          [this](const QString& file) { export_csv(file.toStdU16String()); });
-  dialog->open();
-}
-
-void StatisticsPanel::export_csv(const std::filesystem::path& file) {
-  if (!session()) return;
-  const std::string csv =
-      to_csv(region_rows(session()->state()), session()->display().settings().measurements,
-             value_unit(session()->volume()));
-  const QString name = QString::fromStdU16String(file.filename().u16string());
-  if (writing_) writing_->abandon();
-  writing_ = BackgroundJob::start(this, [this, file, csv, name](BackgroundJob& job) {
-    const Status written = write_file(file, csv);
-    const QString outcome =
-        written ? tr("Wrote %1").arg(name) : QString::fromStdString(written.error().message);
-    job.deliver([this, outcome] { say(outcome); });
-  });
-}
-
-void StatisticsPanel::say(const QString& message) {
-  message_->setText(message);
-  message_->setVisible(!message.isEmpty());
+void StatisticsPanel::set_export_action(QAction* action) {
+  connect(export_, &QPushButton::clicked, action, &QAction::trigger);
 }
 
 void StatisticsPanel::attach() {
   Panel::attach();
-  say({});
   if (session()) return;
   show_surface({});
   show_labels({});

@@ -1,28 +1,24 @@
 // Figures of the surface, the labels and what was measured, for reading and for reports.
 #pragma once
 
-#include <filesystem>
-#include <memory>
-
 #include "ui/panels/panel.h"
 
+class QAction;
 class QLabel;
+class QPushButton;
 class QTableWidget;
 
 namespace tidemark {
 
-class BackgroundJob;
 struct RegionRow;
 
 class StatisticsPanel : public Panel {
   Q_OBJECT
  public:
   explicit StatisticsPanel(QWidget* parent = nullptr);
-  ~StatisticsPanel() override;
 
+  void set_export_action(QAction* action);
   void copy() const;  // to the clipboard
-  // Written away from the user interface; how it went is said in the panel.
-  void export_csv(const std::filesystem::path& file);
 
  protected:
   void attach() override;
@@ -35,8 +31,6 @@ class StatisticsPanel : public Panel {
   void show_surface(const std::vector<RegionRow>& rows);
   void show_labels(const std::vector<RegionRow>& rows);
   void show_measurements(const std::vector<Measurement>& measurements);
-  void choose_file();
-  void say(const QString& message);
 
   QLabel* volume_;
   QLabel* area_;
@@ -47,8 +41,7 @@ class StatisticsPanel : public Panel {
   QTableWidget* labels_;
   QLabel* measurements_title_;
   QTableWidget* measured_;
-  QLabel* message_;
-  std::shared_ptr<BackgroundJob> writing_;
+  QPushButton* export_;
 };
 
 }  // namespace tidemark

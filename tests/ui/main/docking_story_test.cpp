@@ -5,6 +5,7 @@
 #include <QToolButton>
 
 #include "tests/ui/main/desktop.h"
+#include "ui/main/panel_docks.h"
 
 namespace tidemark::test {
 
@@ -16,6 +17,7 @@ class DockingStoryTest : public QObject {
   void every_layout_shows_its_views();
   void a_view_is_maximised_by_a_double_click_and_back();
   void a_closed_view_comes_back();
+  void a_panel_rests_behind_a_tab_and_keeps_its_size();
 
  private:
   static QList<QImage> pictures(CaseWindow& window);
@@ -167,6 +169,39 @@ void DockingStoryTest::a_closed_view_comes_back() {
   desktop.settle();
   QVERIFY(window.active_view());
   QVERIFY(shows_a_picture(*window.active_view()));
+}
+
+void DockingStoryTest::a_panel_rests_behind_a_tab_and_keeps_its_size() {
+  Desktop desktop(story_executor(), {1400, 900});
+  QVERIFY(desktop.open_phantom("sphere"));
+  MainWindow& window = desktop.window();
+  auto* start = window.findChild<QDockWidget*>("initialise");
+  auto* level_set = window.findChild<QDockWidget*>("level-set");
+  desktop.settle();
+  QVERIFY(start->widget()->isVisible());
+  QVERIFY(!level_set->widget()->isVisible());
+  window.resizeDocks({start}, {460}, Qt::Horizontal);
+  desktop.settle();
+  const int width = start->width();  // with the tabs beside it, as much as that
+  QVERIFY2(width > 400, qPrintable(QString::number(width)));
+  window.panels().show("level-set");
+  QVERIFY(Desktop::wait_for([&] { return level_set->widget()->isVisible(); }));
+  QVERIFY(!start->widget()->isVisible());
+  QCOMPARE(level_set->width(), width);
+
+  level_set->setFloating(true);
+  level_set->resize(400, 700);
+  window.panels().show("initialise");
+  QVERIFY(Desktop::wait_for([&] { return start->widget()->isVisible(); }));
+  QCOMPARE(level_set->size(), QSize(400, 700));
+  QVERIFY(level_set->widget()->isVisible());
+  for (const bool hidden : {true, false}) {
+    window.actions().hide_interface->setChecked(hidden);
+    QVERIFY(Desktop::wait_for([&] { return level_set->widget()->isVisible() == !hidden; }));
+    QCOMPARE(start->widget()->isVisible(), !hidden);
+  }
+  desktop.settle();
+  QCOMPARE(level_set->size(), QSize(400, 700));
 }
 
 }  // namespace tidemark::test

@@ -13,7 +13,6 @@
 #include "tests/ui/main/desktop.h"
 #include "ui/main/panel_docks.h"
 #include "ui/main/saved_cases.h"
-#include "ui/panels/statistics_panel.h"
 
 namespace tidemark::test {
 namespace {
@@ -153,9 +152,8 @@ void PrivacyStoryTest::write_everything() {
   files.write_surface(*window_, name("surface.ply"));
   window_->session_file = name("case.tidemark");
   files.save(*window_);
-  const fs::path figures = written() / "figures.csv";
-  desktop_->window().panels().statistics().export_csv(figures);
-  QVERIFY(Desktop::wait_for([&] { return done.size() == 5 && fs::exists(figures); }));
+  files.write_statistics(*window_, name("figures.csv"));
+  QVERIFY(Desktop::wait_for([&] { return done.size() == 6; }));
   bool copied = false;
   connect(&window_->autosave(), &CaseAutosave::saved, &scope, [&] { copied = true; });
   desktop_->session().step();

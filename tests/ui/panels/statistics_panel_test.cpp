@@ -1,13 +1,15 @@
 #include "ui/panels/statistics_panel.h"
 
+#include <QAction>
 #include <QClipboard>
-#include <QFile>
 #include <QGuiApplication>
 #include <QLabel>
 #include <QPushButton>
+#include <QSignalSpy>
 #include <QTableWidget>
 
 #include "tests/ui/panels/panel_case.h"
+#include "ui/panels/region_table.h"
 
 namespace tidemark {
 
@@ -106,17 +108,12 @@ class StatisticsPanelTest : public QObject {
              QLocale().toString(the_case_->state().label_statistics.front().volume_ml, 'f', 1));
   }
 
-  void a_file_that_cannot_be_written_is_told() {
-    the_case_->begin(8.0);
-    panel_->export_csv(folder_ / "no such folder" / "figures.csv");
-    QTRY_VERIFY(said(QStringLiteral("no such folder")));
-  }
-
-  void the_panel_may_die_while_it_writes() {
-    the_case_->begin(8.0);
-    panel_->export_csv(folder_ / "late.csv");
-    panel_.reset();
-    QTRY_VERIFY(QFile::exists(path("late.csv")));
+  void the_button_asks_for_a_file() {
+    QAction action;
+    panel_->set_export_action(&action);
+    const QSignalSpy asked(&action, &QAction::triggered);
+    QTest::mouseClick(button<QPushButton>(*panel_, tr("Export CSV…")), Qt::LeftButton);
+    QCOMPARE(asked.count(), 1);
   }
 
   void without_a_session_there_are_no_figures() {
@@ -128,12 +125,6 @@ class StatisticsPanelTest : public QObject {
 
  private:
   QString figure(const QString& name) { return named<QLabel>(*panel_, name)->text(); }
-  bool said(const QString& text) {
-    const auto labels = panel_->findChildren<QLabel*>();
-    return std::any_of(labels.begin(), labels.end(),
-                       [&](QLabel* label) { return label->isVisible() && label->text().contains(text); });
-  }
-  QString path(const std::string& name) { return QString::fromStdString((folder_ / name).string()); }
   // A distance, an angle, and one that is not complete.
   void measure() {
     the_case_->session->display().change([](DisplaySettings& settings) {
@@ -144,14 +135,9 @@ class StatisticsPanelTest : public QObject {
     });
   }
   QStringList exported() {
-    panel_->export_csv(folder_ / "figures.csv");
-    if (!QTest::qWaitFor([&] { return said(QStringLiteral("figures.csv")); })) return {};
-    QFile file(path("figures.csv"));
-    if (!file.open(QIODevice::ReadOnly)) return {};
-    return QString::fromUtf8(file.readAll()).split(QStringLiteral("\r\n"));
+    return QString::fromStdString(to_csv(*the_case_->session)).split(QStringLiteral("\r\n"));
   }
 
-  TemporaryFolder folder_;
   std::unique_ptr<PanelCase> the_case_;
   std::unique_ptr<StatisticsPanel> panel_;
 };
