@@ -118,14 +118,16 @@ int measure_opening(MainWindow& window, const QString& path) {
   QElapsedTimer since;
   const auto passed = [&] { return static_cast<double>(since.nsecsElapsed()) / 1e9; };
   double previewed = 0.0;
-  QObject::connect(window.findChild<PreviewPage*>(), &PreviewPage::painted, [&] {
+  QObject scope;
+  QObject::connect(window.findChild<PreviewPage*>(), &PreviewPage::painted, &scope, [&] {
     if (previewed == 0.0) previewed = passed();
   });
   since.start();
   window.open(path);
   if (!wait_for([&] { return window.active_case() != nullptr; }, 60000)) return 1;
-  std::printf("%s:\n  middle slice          after %5.2f s\n  loaded                after %5.2f s\n",
-              qPrintable(path), previewed, passed());
+  std::printf("%s:\n", qPrintable(path));
+  if (previewed > 0.0) std::printf("  middle slice          after %5.2f s\n", previewed);
+  std::printf("  loaded                after %5.2f s\n", passed());
   for (PictureView* view : window.active_case()->views()) {
     if (!wait_for([&] { return view->feed().shown().number > 0; }, 60000)) return 1;
     std::printf("  %-20s  after %5.2f s\n", qPrintable(view->title()), passed());

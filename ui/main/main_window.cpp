@@ -274,6 +274,7 @@ void MainWindow::activate(QMdiSubWindow* child) {
   if (!child && !area_->subWindowList().isEmpty()) return;
   for (const auto& connection : std::exchange(active_connections_, {})) disconnect(connection);
   active_ = child ? qobject_cast<CaseWindow*>(child->widget()) : nullptr;
+  opener_->set_previews_wanted(!active_);
   if (!active_) {
     centre_->setCurrentIndex(0);
     messages_->dismiss();  // it spoke of what is closed now

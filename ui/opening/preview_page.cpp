@@ -10,10 +10,13 @@ PreviewPage::PreviewPage(QStackedWidget& pages, const StudyOpener& opener) : pag
   setAccessibleName(tr("Middle slice of the study that is being opened"));
   pages_.addWidget(this);
   connect(&opener, &StudyOpener::previewed, this, &PreviewPage::show_picture);
-  connect(&opener, &StudyOpener::ended, this, [this] {
-    if (pages_.currentWidget() == this) pages_.setCurrentIndex(0);
-    picture_ = {};
-  });
+  connect(&opener, &StudyOpener::began, this, &PreviewPage::forget);  // that was another study's
+  connect(&opener, &StudyOpener::ended, this, &PreviewPage::forget);
+}
+
+void PreviewPage::forget() {
+  if (pages_.currentWidget() == this) pages_.setCurrentIndex(0);
+  picture_ = {};
 }
 
 void PreviewPage::show_picture(const QImage& middle_slice) {

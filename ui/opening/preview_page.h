@@ -24,6 +24,7 @@ class PreviewPage : public QWidget {
 
  private:
   void show_picture(const QImage& middle_slice);
+  void forget();
 
   QStackedWidget& pages_;
   QImage picture_;

@@ -117,7 +117,7 @@ void StudyOpener::look_at(const std::shared_ptr<const Catalogue>& catalogue) {
 
 void StudyOpener::load(const Series& series, const std::vector<std::string>& remarks) {
   begin(StudyLoader::name_of(series));
-  previews_.request(0, series, kPreviewPixels);
+  if (previews_wanted_) previews_.request(0, series, kPreviewPixels);
   loader_.load(series, remarks);
 }
 

@@ -34,6 +34,9 @@ class StudyOpener : public QObject {
   void open_series(const QString& path, const QString& uid, const GridPolicy& policy = {});
   void open_phantom(const QString& kind);
   void cancel();  // the one that is being opened, and those that wait
+  // Whether somebody looks at previewed(); at first, yes. For a volume file the whole of it is read once
+  // more.
+  void set_previews_wanted(bool wanted) { previews_wanted_ = wanted; }
 
   // Null while there is nothing to choose from, and nothing to ask.
   [[nodiscard]] SeriesBrowser* browser() const { return browser_; }
@@ -65,6 +68,7 @@ class StudyOpener : public QObject {
   QWidget* window_;
   StudyLoader loader_;
   SeriesPreviews previews_;
+  bool previews_wanted_ = true;
   QPointer<SeriesBrowser> browser_;
   QPointer<QMessageBox> question_;
   std::deque<Request> waiting_;

@@ -268,6 +268,11 @@ class StudyOpenerTest : public QObject {
     QCOMPARE(picture.width(), kPixels * 20 / 24);
     // It counts from 0 to 499 again and again in a window from 0 to 500.
     QVERIFY(picture.pixelColor(kPixels / 2, kPixels / 2).red() > 0);
+    opened_->clear();
+    opener_->set_previews_wanted(false);
+    opener_->open(text(folder_ / "many"));
+    QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
+    QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
     QCoreApplication::processEvents();
     QCOMPARE(previewed.size(), 1);
   }
@@ -287,6 +292,10 @@ class StudyOpenerTest : public QObject {
     const QImage seen = preview->grab().toImage();
     QCOMPARE(seen.pixelColor(seen.width() / 2, seen.height() / 2), QColor(200, 200, 200));
     QCOMPARE(seen.pixelColor(seen.width() / 5, seen.height() / 2), QColor(Qt::black));  // in proportion
+    emit opener_->began(QStringLiteral("another one"));  // the first was given up
+    QCOMPARE(pages.currentIndex(), 0);
+    emit opener_->previewed(picture);
+    QCOMPARE(pages.currentWidget(), preview);
     emit opener_->ended();
     QCOMPARE(pages.currentIndex(), 0);
     pages.setCurrentIndex(1);
