@@ -3,7 +3,9 @@
 #include <QHBoxLayout>
 #include <QPushButton>
 #include <QSettings>
+#include <QSignalBlocker>
 #include <algorithm>
+#include <optional>
 
 #include "ui/look/icons.h"
 #include "ui/pacs/servers_dialog.h"
@@ -53,7 +55,13 @@ void ServerChoice::read() {
 void ServerChoice::edit() {
   ServersDialog dialog(file_, this);
   if (dialog.exec() != QDialog::Accepted) return;
-  read();
+  const auto before = server() ? std::optional(*server()) : std::nullopt;
+  {
+    const QSignalBlocker quiet(server_);  // the list is made anew, and not chosen from
+    read();
+  }
+  const auto now = server() ? std::optional(*server()) : std::nullopt;
+  if (now != before) emit chosen();
   emit edited();
 }
 
