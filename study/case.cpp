@@ -8,7 +8,13 @@ namespace tidemark {
 
 Case::Case(std::shared_ptr<const Volume> volume, StudyOrigin origin)
     : volume_(std::move(volume)), origin_(std::move(origin)), labels_(volume_->geometry, &history_) {
-  checksum_ = std::async(std::launch::async, [volume = volume_] { return checksum_of(*volume); });
+  checksum_ = std::async(std::launch::async, [volume = volume_, stop = checksum_stop_.get_token()] {
+    return checksum_of(*volume, stop);
+  });
+}
+
+Case::~Case() {
+  checksum_stop_.request_stop();  // else the future would wait for it
 }
 
 Result<std::unique_ptr<Case>> Case::create(std::shared_ptr<const Volume> volume, StudyOrigin origin,

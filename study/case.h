@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <future>
 #include <memory>
+#include <stop_token>
 #include <string>
 
 #include "study/history.h"
@@ -21,6 +22,7 @@ class Case {
                                               const Parameters& parameters, ExecutorKind kind,
                                               const ExecutorOptions& options);
 
+  ~Case();
   Case(const Case&) = delete;
   Case& operator=(const Case&) = delete;
 
@@ -60,6 +62,7 @@ class Case {
 
   std::shared_ptr<const Volume> volume_;
   StudyOrigin origin_;
+  std::stop_source checksum_stop_;
   std::shared_future<std::string> checksum_;  // which origin_ has not got
   History history_;                           // before what its entries speak of
   std::unique_ptr<LevelSet> level_set_;

@@ -2,6 +2,7 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <fstream>
@@ -13,6 +14,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little,
               "files and checksums are made of little-endian numbers");
+
+constexpr std::size_t kPiece = std::size_t{1} << 20;
 
 class Sha256 {
  public:
@@ -51,7 +54,7 @@ std::string sha256(std::span<const std::byte> bytes) {
 Result<std::string> sha256_of_file(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   Sha256 sum;
-  std::vector<char> piece(std::size_t{1} << 20);
+  std::vector<char> piece(kPiece);
   while (stream.good()) {
     stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
     sum.add(std::as_bytes(std::span(piece).first(static_cast<std::size_t>(stream.gcount()))));
@@ -60,7 +63,7 @@ Result<std::string> sha256_of_file(const std::filesystem::path& file) {
   return sum.finish();
 }
 
-std::string checksum_of(const Volume& volume) {
+std::string checksum_of(const Volume& volume, const std::stop_token& stop) {
   Sha256 sum;
   const Geometry& geometry = volume.geometry;
   const std::array<std::int64_t, 4> sizes{geometry.size.x, geometry.size.y, geometry.size.z,
@@ -72,7 +75,14 @@ std::string checksum_of(const Volume& volume) {
     for (int b = 0; b < 3; ++b) numbers.push_back(geometry.direction[a][b]);
   }
   sum.add_numbers(std::span<const double>(numbers));
-  std::visit([&](const auto& stored) { sum.add(std::as_bytes(std::span(stored))); }, volume.voxels);
+  auto voxels =
+      std::visit([](const auto& stored) { return std::as_bytes(std::span(stored)); }, volume.voxels);
+  while (!voxels.empty()) {
+    if (stop.stop_requested()) return {};
+    const auto piece = voxels.first(std::min(voxels.size(), kPiece));
+    sum.add(piece);
+    voxels = voxels.subspan(piece.size());
+  }
   return sum.finish();
 }
 

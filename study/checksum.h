@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <stop_token>
 #include <string>
 
 #include "core/volume.h"
@@ -15,7 +16,7 @@ namespace tidemark {
 // Fails with ErrorKind::input.
 Result<std::string> sha256_of_file(const std::filesystem::path& file);
 
-// Of a volume's voxels, their scale and their geometry.
-[[nodiscard]] std::string checksum_of(const Volume& volume);
+// Of a volume's voxels, their scale and their geometry. Empty when it was told to stop before it was through.
+[[nodiscard]] std::string checksum_of(const Volume& volume, const std::stop_token& stop = {});
 
 }  // namespace tidemark
