@@ -130,6 +130,8 @@ Result<AtomicFolder> AtomicFolder::create(const fs::path& target) {
   std::error_code error;
   // A link stays one: what it leads to is exchanged. "series/" is "series".
   const fs::path named = target.has_filename() ? target : target.parent_path();
+  if (named.has_parent_path()) fs::create_directories(named.parent_path(), error);
+  if (error) return fail(ErrorKind::write, "{}: cannot be made: {}", target.string(), error.message());
   const fs::path place = fs::exists(named, error) ? fs::canonical(named, error) : named;
   const bool has_older = fs::exists(place, error);
   if (has_older) {

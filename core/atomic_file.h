@@ -40,8 +40,9 @@ class AtomicFile {
 // away then.
 class AtomicFolder {
  public:
-  // Fails (ErrorKind::write) when the parent does not exist or cannot be written to, or the target is a file,
-  // or a folder that nothing else can take the place of: the current one, or one where a disk is mounted.
+  // Makes the folders above the target where they are missing. Fails (ErrorKind::write) when they cannot be
+  // made or written to, or the target is a file, or a folder that nothing else can take the place of: the
+  // current one, or one where a disk is mounted.
   static Result<AtomicFolder> create(const std::filesystem::path& target);
   ~AtomicFolder();
   AtomicFolder(AtomicFolder&& other) noexcept;

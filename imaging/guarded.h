@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <string>
 
 #include "core/result.h"
 
@@ -31,6 +32,13 @@ auto guarded_writing(const std::filesystem::path& path, const Work& work) -> dec
   } catch (const std::exception& error) {
     return fail(ErrorKind::write, "{}: cannot write: {}", path.string(), error.what());
   }
+}
+
+// A reason without the path that is put before it, for where that stands beside it.
+inline std::string without_path(std::string reason, const std::filesystem::path& path) {
+  if (const std::string start = path.string() + ": "; reason.starts_with(start))
+    reason.erase(0, start.size());
+  return reason;
 }
 
 }  // namespace tidemark

@@ -49,14 +49,6 @@ struct Headers {
   std::vector<SkippedFile> damaged;
 };
 
-// A reason without the file's name, which stands beside it.
-std::string without_name(std::string reason, const fs::path& file) {
-  if (const std::string prefix = file.string() + ": "; reason.starts_with(prefix)) {
-    reason.erase(0, prefix.size());
-  }
-  return reason;
-}
-
 Result<Headers> read_headers(const std::vector<fs::path>& files, const Progress& progress) {
   std::vector<std::optional<Result<std::vector<SliceHeader>>>> read(files.size());
   SharedProgress shared(progress, static_cast<std::int64_t>(files.size()), "reading headers");
@@ -77,7 +69,7 @@ Result<Headers> read_headers(const std::vector<fs::path>& files, const Progress&
       std::move(result->begin(), result->end(), std::back_inserter(headers.slices));
       continue;
     }
-    std::string reason = without_name(result.error().message, files[i]);
+    std::string reason = without_path(result.error().message, files[i]);
     const bool is_damaged = result.error().kind == ErrorKind::capability ||
                             reason.starts_with("is damaged") || reason.starts_with("cannot be read") ||
                             (files[i].extension() == ".dcm" && !looks_like_dicom(files[i]));
@@ -150,7 +142,7 @@ Result<Catalogue> scan_folder(const fs::path& folder, const Progress& progress) 
     if (directory) {
       warn_of_missing(*catalogue, file, *directory);
     } else {
-      catalogue->skipped.push_back({file, without_name(directory.error().message, file)});
+      catalogue->skipped.push_back({file, without_path(directory.error().message, file)});
     }
   }
   return catalogue;

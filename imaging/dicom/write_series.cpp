@@ -188,9 +188,6 @@ std::string slice_name(std::int64_t k) {
 // An older series of no more slices may be replaced; nothing else may be in its folder.
 Status check_folder(const fs::path& folder, std::int64_t slices) {
   std::error_code error;
-  if (folder.has_parent_path()) fs::create_directories(folder.parent_path(), error);
-  if (error)
-    return fail(ErrorKind::write, "{}: cannot create the folder: {}", folder.string(), error.message());
   if (!fs::exists(folder, error)) return {};
   std::vector<std::string> names;
   for (std::int64_t k = 0; k < slices; ++k) names.push_back(slice_name(k));

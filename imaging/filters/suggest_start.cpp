@@ -150,8 +150,12 @@ std::vector<Candidate> candidates(const TypedVolume<Stored>& volume, const Wante
   const double tried = static_cast<double>((x.end - x.begin) * (y.end - y.begin)) *
                        static_cast<double>(z.end - z.begin) / static_cast<double>(kMostCandidates);
   const auto stride = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(std::cbrt(tried))));
-  std::vector<std::vector<Candidate>> of_slice(
-      static_cast<std::size_t>((z.end - z.begin + stride - 1) / stride));
+  const auto steps = [&](const Span& span) {
+    return static_cast<std::size_t>((span.end - span.begin + stride - 1) / stride);
+  };
+  std::vector<std::vector<Candidate>> of_slice(steps(z));
+  // Here, because nothing may throw in the pool.
+  for (auto& found : of_slice) found.reserve(steps(x) * steps(y));
   const auto look_in = [&](std::int64_t slice) {
     for (std::int64_t j = y.begin; j < y.end; j += stride) {
       for (std::int64_t i = x.begin; i < x.end; i += stride) {

@@ -6,6 +6,7 @@
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/header_reader.h"
 #include "imaging/dicom/transfer_syntaxes.h"
+#include "imaging/guarded.h"
 #include "imaging/pacs/storage_classes.h"
 
 namespace tidemark {
@@ -45,16 +46,12 @@ Result<ObjectIdentity> identity_of(const fs::path& file, const TransferSyntax& s
 }  // namespace
 
 Result<ObjectIdentity> check_object(const fs::path& file) {
-  try {
+  return guarded(file, [&]() -> Result<ObjectIdentity> {
     if (Status ready = set_up_dicom(); !ready) return pass_on(ready);
     const auto syntax = syntax_to_parse(file);
     if (!syntax) return tl::unexpected<Error>(syntax.error());
     return identity_of(file, **syntax);
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::capability, "{}: there is not enough memory", file.string());
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(), error.what());
-  }
+  });
 }
 
 }  // namespace tidemark

@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include "imaging/guarded.h"
 #include "imaging/pacs/checked_object.h"
 
 namespace tidemark {
@@ -27,14 +28,7 @@ Status require_empty(const fs::path& folder) {
 Result<std::unique_ptr<Inbox>> Inbox::create(const RetrieveRequest& request, const PacsLimits& limits,
                                              const Progress& progress) {
   if (Status empty = require_empty(request.folder); !empty) return pass_on(empty);
-  std::error_code error;
-  // "series/" is "series".
-  const fs::path named = request.folder.has_filename() ? request.folder : request.folder.parent_path();
-  if (named.has_parent_path()) fs::create_directories(named.parent_path(), error);
-  if (error) {
-    return fail(ErrorKind::write, "{}: cannot be made: {}", request.folder.string(), error.message());
-  }
-  auto collected = AtomicFolder::create(named);
+  auto collected = AtomicFolder::create(request.folder);
   if (!collected) return pass_on(collected);
   std::unique_ptr<Inbox> inbox(new Inbox(request, limits, progress, std::move(*collected)));
   if (Status enough = inbox->check_free_space(); !enough) return pass_on(enough);
@@ -77,13 +71,8 @@ Status Inbox::grown(std::int64_t bytes) {
 Status Inbox::look_into(const fs::path& object, const std::string& sop_class,
                         const std::string& sop_instance) const {
   const auto identity = check_object(object);
-  if (!identity) {
-    // The name says nothing to anybody.
-    std::string reason = identity.error().message;
-    if (const std::string prefix = object.string() + ": "; reason.starts_with(prefix))
-      reason.erase(0, prefix.size());
-    return fail(ErrorKind::input, "{}", reason);
-  }
+  // The name says nothing to anybody.
+  if (!identity) return fail(ErrorKind::input, "{}", without_path(identity.error().message, object));
   if (identity->sop_class != sop_class || identity->sop_instance != sop_instance) {
     return fail(ErrorKind::input, "is another object than was announced");
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/without_exceptions.h"
+#include "imaging/guarded.h"
 #include "imaging/pacs/association.h"
 #include "imaging/pacs/checked_object.h"
 #include "imaging/pacs/pacs.h"
@@ -36,12 +37,6 @@ std::vector<std::string> encodings(const std::string& transfer_syntax) {
   return all;
 }
 
-std::string without_name(const fs::path& file, std::string message) {
-  if (const std::string prefix = file.string() + ": "; message.starts_with(prefix))
-    message.erase(0, prefix.size());
-  return message;
-}
-
 // What can be sent at all; the rest goes to `sent.unsent`.
 Result<std::vector<Outgoing>> look_into(const std::vector<fs::path>& files, Sent& sent,
                                         const Progress& progress) {
@@ -52,7 +47,7 @@ Result<std::vector<Outgoing>> look_into(const std::vector<fs::path>& files, Sent
     if (identity) {
       outgoing.push_back({file, std::move(*identity)});
     } else {
-      sent.unsent.push_back({file, without_name(file, identity.error().message)});
+      sent.unsent.push_back({file, without_path(identity.error().message, file)});
     }
     progress(0.2 * static_cast<double>(&file - files.data() + 1) / static_cast<double>(files.size()),
              "looking at the files");

@@ -14,6 +14,7 @@
 
 #include "core/checked.h"
 #include "imaging/dicom/decimal.h"
+#include "imaging/dicom/same_slices.h"
 #include "imaging/guarded.h"
 #include "imaging/results/dicom_object.h"
 #include "imaging/results/results.h"
@@ -184,12 +185,10 @@ Result<SegmentFrame> SegmentationReader::read_frame(std::size_t index) {
       segment->getReferencedSegmentNumber(frame.segment).bad()) {
     return missing("its place, orientation, pixel spacing or segment cannot be read");
   }
-  const bool orthonormal = std::abs(glm::length(row) - 1.0) < 1e-3 &&
-                           std::abs(glm::length(column) - 1.0) < 1e-3 &&
-                           std::abs(glm::dot(row, column)) < 1e-3;
   const auto finite = [](const glm::dvec3& v) { return std::isfinite(glm::dot(v, v)); };
   const bool is_spaced = between_rows > 0.0 && between_columns > 0.0;
-  if (!finite(corner) || !orthonormal || !is_spaced || !finite({between_rows, between_columns, 0.0})) {
+  if (!finite(corner) || !is_orthonormal({row, column}) || !is_spaced ||
+      !finite({between_rows, between_columns, 0.0})) {
     return missing("its place, orientation or pixel spacing makes no sense");
   }
   if (frame.segment < 1 || frame.segment > document_->getNumberOfSegments()) {

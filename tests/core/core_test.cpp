@@ -112,6 +112,20 @@ class CoreTest : public QObject {
     QCOMPARE(files_in(folder.path()), 0);
   }
 
+  void a_folder_that_is_given_up_is_not_there() {
+    const TemporaryFolder folder;
+    for (const char* name : {"series", "series/"}) {
+      const auto above = folder / "new";
+      QVERIFY(AtomicFolder::create(above / name));  // and let go
+      QCOMPARE(files_in(above), 0);
+      auto kept = AtomicFolder::create(above / name);
+      QVERIFY(kept && kept->commit());
+      QCOMPARE(files_in(above), 1);
+      QVERIFY(std::filesystem::is_directory(above / "series"));
+      std::filesystem::remove_all(above);
+    }
+  }
+
   void a_disk_that_is_full_leaves_the_target_alone() {
     const TemporaryFolder folder;
     const auto target = folder / "result.txt";
