@@ -41,6 +41,7 @@ class Hold {
 // Writes down on which thread it dies.
 struct Mortal {
   QThread*& died_on;
+  explicit Mortal(QThread*& thread) : died_on(thread) {}
   ~Mortal() { died_on = QThread::currentThread(); }
 };
 

@@ -140,9 +140,10 @@ void RoughStoryTest::executors_are_changed_while_it_plays() {
   const std::vector<std::pair<ExecutorKind, QString>> kinds{
       {ExecutorKind::compute, "compute"}, {ExecutorKind::stream, "stream"}, {ExecutorKind::host, "host"}};
   for (const auto& [kind, name] : kinds) {
+    const QString& wanted = name;  // clang before 16 captures no structured binding
     const std::int64_t step = desktop.state().step;
     desktop.session().change_executor(kind);
-    QVERIFY(Desktop::wait_for([&] { return desktop.state().executor == name; }));
+    QVERIFY(Desktop::wait_for([&] { return desktop.state().executor == wanted; }));
     QVERIFY(desktop.state().step >= step);
     QVERIFY(desktop.state().playing);
     QVERIFY(advances(desktop, 5));
