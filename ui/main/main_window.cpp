@@ -69,7 +69,11 @@ MainWindow::MainWindow(Engine& engine, QWidget* parent) : QMainWindow(parent), e
   follow_case();
 }
 
-MainWindow::~MainWindow() = default;
+MainWindow::~MainWindow() {
+  // Its cases go after it, and what they still say would reach what is no main window any more.
+  area_->disconnect(this);
+  for (const auto& connection : active_connections_) disconnect(connection);
+}
 
 void MainWindow::make_centre() {
   centre_ = new QStackedWidget;
