@@ -24,6 +24,7 @@ PictureSurface::PictureSurface(const PictureFeed& feed, Paint paint_over, QWidge
 }
 
 PictureSurface::~PictureSurface() {
+  if (context() != nullptr) context()->disconnect(this);  // it goes after this, and tells of it
   let_go();
 }
 
