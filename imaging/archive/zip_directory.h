@@ -17,13 +17,14 @@
 namespace tidemark {
 
 struct ZipRecord {
-  std::string name;            // as it is in the file
-  std::int64_t begin = 0;      // of the entry, which repeats its name before its bytes
-  std::int64_t packed = 0;     // bytes in the archive
-  std::int64_t bytes = 0;      // that they are unpacked to
-  std::uint32_t checksum = 0;  // CRC-32 of those
   static constexpr std::uint16_t kStored = 0;
   static constexpr std::uint16_t kDeflated = 8;
+
+  std::string name;                // as it is in the file
+  std::int64_t begin = 0;          // of the entry, which repeats its name before its bytes
+  std::int64_t packed = 0;         // bytes in the archive
+  std::int64_t bytes = 0;          // that they are unpacked to
+  std::uint32_t checksum = 0;      // CRC-32 of those
   std::uint16_t method = kStored;  // of compression
   bool is_encrypted = false;
   [[nodiscard]] bool is_readable() const { return method == kStored || method == kDeflated; }

@@ -20,7 +20,6 @@
 #include "study/session_file.h"
 #include "ui/main/main_window.h"
 #include "ui/main/message_bar.h"
-#include "ui/main/panel_docks.h"
 #include "ui/main/rescue_dialog.h"
 #include "ui/panels/region_table.h"
 #include "ui/views/picture_view.h"

@@ -4,6 +4,7 @@
 #include <QLocale>
 #include <QStringList>
 
+#include "session/case_session.h"
 #include "ui/panels/value_unit.h"
 
 namespace tidemark {
@@ -94,8 +95,8 @@ std::vector<RegionRow> region_rows(const CaseState& state) {
 }
 
 // Names of columns do not depend on the language: programs read them.
-std::string to_csv(const std::vector<RegionRow>& rows, const std::vector<Measurement>& measurements,
-                   const QString& unit) {
+std::string to_csv(CaseSession& session) {
+  const QString unit = value_unit(session.volume());
   QLocale plain = QLocale::c();
   plain.setNumberOptions(QLocale::OmitGroupSeparator);
   const Notation notation{plain};
@@ -103,12 +104,12 @@ std::string to_csv(const std::vector<RegionRow>& rows, const std::vector<Measure
       csv_line({QStringLiteral("name"), QStringLiteral("volume_ml"), QStringLiteral("area_mm2"),
                 QStringLiteral("voxels"), QStringLiteral("mean"), QStringLiteral("sd"),
                 QStringLiteral("value_unit"), QStringLiteral("measured"), QStringLiteral("measured_unit")});
-  for (const RegionRow& row : rows) {
+  for (const RegionRow& row : region_rows(session.state())) {
     QStringList line = cells(row, notation);
     line.insert(kFigures, row.values ? unit : QString());
     csv += csv_line(line << QString());
   }
-  for (const Measurement& measurement : measurements) {
+  for (const Measurement& measurement : session.display().settings().measurements) {
     if (!measurement.complete()) continue;
     const bool distance = measurement.kind == Measurement::Kind::distance;
     QStringList line =
@@ -119,13 +120,8 @@ std::string to_csv(const std::vector<RegionRow>& rows, const std::vector<Measure
   return csv;
 }
 
-std::string to_csv(CaseSession& session) {
-  return to_csv(region_rows(session.state()), session.display().settings().measurements,
-                value_unit(session.volume()));
-}
-
-QString to_text(const std::vector<RegionRow>& rows, const std::vector<Measurement>& measurements,
-                const QString& unit) {
+QString to_text(CaseSession& session) {
+  const QString unit = value_unit(session.volume());
   const Notation notation{QLocale()};
   QStringList lines;
   lines << QStringList{text(QT_TRANSLATE_NOOP("RegionTable", "Region")),
@@ -136,8 +132,8 @@ QString to_text(const std::vector<RegionRow>& rows, const std::vector<Measuremen
                        with_unit(text(QT_TRANSLATE_NOOP("RegionTable", "SD")), unit),
                        text(QT_TRANSLATE_NOOP("RegionTable", "Measured"))}
                .join(u'\t');
-  for (const RegionRow& row : rows) lines << cells(row, notation).join(u'\t');
-  for (const Measurement& measurement : measurements) {
+  for (const RegionRow& row : region_rows(session.state())) lines << cells(row, notation).join(u'\t');
+  for (const Measurement& measurement : session.display().settings().measurements) {
     if (!measurement.complete()) continue;
     const QString name = with_unit(kind_text(measurement.kind), unit_text(measurement.kind));
     lines << cells(measurement, name, notation).join(u'\t');

@@ -7,11 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "session/case_session.h"
 #include "session/case_state.h"
 #include "session/measurement.h"
 
 namespace tidemark {
+
+class CaseSession;
 
 struct RegionRow {
   QString name;
@@ -24,16 +25,11 @@ struct RegionRow {
 // The surface first, if there is one, then the labels.
 std::vector<RegionRow> region_rows(const CaseState& state);
 
-// RFC 4180, numbers with a point in every locale. `unit` is that of the values (may be empty).
-std::string to_csv(const std::vector<RegionRow>& rows, const std::vector<Measurement>& measurements,
-                   const QString& unit);
-
-// Of all that a case has.
+// RFC 4180, numbers with a point in every locale.
 std::string to_csv(CaseSession& session);
 
 // Columns parted by tabs, numbers as the user's language writes them: for spreadsheets and reports.
-QString to_text(const std::vector<RegionRow>& rows, const std::vector<Measurement>& measurements,
-                const QString& unit);
+QString to_text(CaseSession& session);
 
 QString kind_text(Measurement::Kind kind);
 QString unit_text(Measurement::Kind kind);  // of its value

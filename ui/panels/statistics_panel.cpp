@@ -132,9 +132,7 @@ void StatisticsPanel::show_measurements(const std::vector<Measurement>& measurem
 
 void StatisticsPanel::copy() const {
   if (!session()) return;
-  QGuiApplication::clipboard()->setText(to_text(region_rows(session()->state()),
-                                                session()->display().settings().measurements,
-                                                value_unit(session()->volume())));
+  QGuiApplication::clipboard()->setText(to_text(*session()));
 }
 
 void StatisticsPanel::set_export_action(QAction* action) {

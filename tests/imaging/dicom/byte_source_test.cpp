@@ -3,8 +3,8 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <span>
-
 #include <string>
 #include <vector>
 

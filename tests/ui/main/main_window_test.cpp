@@ -197,6 +197,11 @@ void MainWindowTest::a_failure_is_forgotten_once_it_has_succeeded() {
   QCOMPARE(messages->text(), message);
   saved.write_mask(window, inside("mask.nrrd"));
   QVERIFY(forgotten());
+  saved.write_statistics(window, inside("missing/figures.csv"));
+  QVERIFY(told());
+  saved.write_statistics(window, inside("figures.csv"));
+  QVERIFY(forgotten());
+  QVERIFY(std::filesystem::exists(folder / "figures.csv"));
 
   // The case itself.
   desktop.session().begin_from_label(77);

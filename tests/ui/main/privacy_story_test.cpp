@@ -11,7 +11,6 @@
 #include "session/case_autosave.h"
 #include "study/zip_archive.h"
 #include "tests/ui/main/desktop.h"
-#include "ui/main/panel_docks.h"
 #include "ui/main/saved_cases.h"
 
 namespace tidemark::test {
