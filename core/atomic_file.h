@@ -5,13 +5,15 @@
 #include <string>
 #include <string_view>
 
+#include "core/file_lock.h"
 #include "core/result.h"
 
 namespace tidemark {
 
 // A file that is written beside its target and takes the target's name only when it is complete. Whoever
 // writes uses temporary_path(); commit() syncs it to disk and renames it. Without a commit, the destructor
-// removes the temporary file and the target is left as it was.
+// removes the temporary file and the target is left as it was. A program that is killed leaves the temporary
+// file behind, unlocked: whoever next writes the same target removes it.
 class AtomicFile {
  public:
   // Fails (ErrorKind::write) when the target's folder does not exist or cannot be written to.
@@ -25,14 +27,14 @@ class AtomicFile {
 
   [[nodiscard]] Status commit();
 
-  // The name of the target of which `file` is the temporary file or folder; empty when it is none. A program
-  // that is killed leaves it behind.
+  // The name of the target of which `file` is the temporary file or folder; empty when it is none.
   [[nodiscard]] static std::string target_of(const std::filesystem::path& file);
 
  private:
   AtomicFile() = default;
   std::filesystem::path target_;
   std::filesystem::path temporary_;  // empty when committed or moved from
+  FileLock lock_;                    // of the temporary file
 };
 
 // The same for a folder of files that belong together: it is filled under a temporary name beside its target,
@@ -58,6 +60,7 @@ class AtomicFolder {
   int exchange();  // returns 0 or errno
   std::filesystem::path target_;
   std::filesystem::path temporary_;  // empty when it has been renamed or moved from
+  FileLock lock_;                    // of the folder that was made
 };
 
 // Waits until what was written to a file, or the names in a folder, are on the disk. Fails

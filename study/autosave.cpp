@@ -1,7 +1,5 @@
 #include "study/autosave.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,8 +13,8 @@
 #include <utility>
 
 #include "core/atomic_file.h"
-#include "study/checksum.h"
 #include "core/json/json_field.h"
+#include "study/checksum.h"
 #include "study/session_file.h"
 
 namespace tidemark {
@@ -58,20 +56,8 @@ Status make_private_folder(const std::filesystem::path& folder) {
   return {};
 }
 
-// A descriptor that holds the case's lock; -1 where another one holds it.
-int take_lock(const std::filesystem::path& file, int flags) {
-  const int descriptor = ::open(file.c_str(), flags | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (descriptor < 0) return -1;
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
-  ::close(descriptor);
-  return -1;
-}
-
 bool is_locked(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(std::filesystem::symlink_status(file))) return false;
-  const int descriptor = take_lock(file, 0);
-  if (descriptor >= 0) ::close(descriptor);
-  return descriptor < 0;
+  return std::filesystem::exists(std::filesystem::symlink_status(file)) && !FileLock::take(file);
 }
 
 // The generation of a copy that is whole.
@@ -103,8 +89,8 @@ Result<Autosave> Autosave::create(const std::filesystem::path& folder, const std
   Autosave autosave;
   autosave.folder_ = folder;
   autosave.case_id_ = case_id;
-  autosave.lock_ = take_lock(lock_file(folder, case_id), O_CREAT);
-  if (autosave.lock_ < 0) {
+  autosave.lock_ = FileLock::take(lock_file(folder, case_id), FileLock::Missing::make);
+  if (!autosave.lock_) {
     return fail(ErrorKind::write, "{}: cannot be locked", lock_file(folder, case_id).string());
   }
   for (int slot = 0; slot < kGenerations; ++slot) {
@@ -112,24 +98,6 @@ Result<Autosave> Autosave::create(const std::filesystem::path& folder, const std
     autosave.generation_ = std::max(autosave.generation_, there.value_or(0));
   }
   return autosave;
-}
-
-Autosave::~Autosave() {
-  if (lock_ >= 0) ::close(lock_);
-}
-
-Autosave::Autosave(Autosave&& other) noexcept
-    : folder_(std::move(other.folder_)),
-      case_id_(std::move(other.case_id_)),
-      generation_(other.generation_),
-      lock_(std::exchange(other.lock_, -1)) {}
-
-Autosave& Autosave::operator=(Autosave&& other) noexcept {
-  std::swap(folder_, other.folder_);
-  std::swap(case_id_, other.case_id_);
-  std::swap(generation_, other.generation_);
-  std::swap(lock_, other.lock_);
-  return *this;
 }
 
 Status Autosave::write(const SessionContents& contents) {
@@ -146,7 +114,7 @@ Status Autosave::write(const SessionContents& contents) {
 
 void Autosave::finish() {
   discard(folder_, case_id_);
-  if (lock_ >= 0) ::close(std::exchange(lock_, -1));
+  lock_ = FileLock();
 }
 
 std::vector<Recoverable> find_recoverable(const std::filesystem::path& folder) {

@@ -1,8 +1,8 @@
 // Copies of unsaved cases that outlive a crash: two generations each, written in turn.
 //
 // A generation is a session file and beside it, written after it, its SHA-256: one that was cut off does not
-// match, and the older one is offered. A lock file tells the copies of programs that run from those of
-// programs that have died.
+// match, and the older one is offered. A program that ends without finish() leaves them behind; a lock file
+// tells the copies of programs that run from those of programs that have died.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/file_lock.h"
 #include "study/session_contents.h"
 
 namespace tidemark {
@@ -23,11 +24,6 @@ class Autosave {
   static Result<Autosave> create(const std::filesystem::path& folder, const std::string& case_id);
   [[nodiscard]] static std::string new_case_id();
 
-  // A program that ends without finish() leaves the copies behind.
-  ~Autosave();
-  Autosave(Autosave&& other) noexcept;
-  Autosave& operator=(Autosave&& other) noexcept;
-
   // The next generation, in place of the one before the last.
   Status write(const SessionContents& contents);
   // The case was closed cleanly: removes its copies.
@@ -38,7 +34,7 @@ class Autosave {
   std::filesystem::path folder_;
   std::string case_id_;
   std::uint64_t generation_ = 0;
-  int lock_ = -1;
+  FileLock lock_;
 };
 
 // A copy that can be offered.

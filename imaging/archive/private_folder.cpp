@@ -1,7 +1,5 @@
 #include "imaging/archive/private_folder.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -22,15 +20,6 @@ constexpr const char* kLock = "lock";
 // How long a folder may be without its lock file: it is being made.
 constexpr std::chrono::minutes kYouth(10);
 
-// A descriptor that holds the folder's lock; -1 where another one holds it, or there is none.
-int take_lock(const fs::path& folder, int flags) {
-  const int descriptor = ::open((folder / kLock).c_str(), flags | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (descriptor < 0) return -1;
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
-  ::close(descriptor);
-  return -1;
-}
-
 bool is_ours(const fs::path& folder) {
   struct stat found {};
   return ::lstat(folder.c_str(), &found) == 0 && S_ISDIR(found.st_mode) && found.st_uid == ::geteuid();
@@ -45,15 +34,15 @@ bool is_being_made(const fs::path& folder) {
 
 }  // namespace
 
-PrivateFolder::PrivateFolder(fs::path folder, int lock) : folder_(std::move(folder)), lock_(lock) {}
+PrivateFolder::PrivateFolder(fs::path folder, FileLock lock)
+    : folder_(std::move(folder)), lock_(std::move(lock)) {}
 
 PrivateFolder::PrivateFolder(PrivateFolder&& other) noexcept
-    : folder_(std::exchange(other.folder_, {})), lock_(std::exchange(other.lock_, -1)) {}
+    : folder_(std::exchange(other.folder_, {})), lock_(std::move(other.lock_)) {}
 
 PrivateFolder::~PrivateFolder() {
   std::error_code ignored;
   if (!folder_.empty()) fs::remove_all(folder_, ignored);
-  if (lock_ >= 0) ::close(lock_);
 }
 
 Result<PrivateFolder> PrivateFolder::create() {
@@ -66,8 +55,8 @@ Result<PrivateFolder> PrivateFolder::create() {
     return fail(ErrorKind::write, "{}: cannot make a folder: {}", parent.string(),
                 std::generic_category().message(errno));
   }
-  PrivateFolder folder(pattern, take_lock(pattern, O_CREAT));
-  if (folder.lock_ < 0 || !fs::create_directory(folder.path(), error)) {
+  PrivateFolder folder(pattern, FileLock::take(fs::path(pattern) / kLock, FileLock::Missing::make));
+  if (!folder.lock_ || !fs::create_directory(folder.path(), error)) {
     return fail(ErrorKind::write, "{}: cannot be written to", pattern);
   }
   return folder;
@@ -82,10 +71,8 @@ void sweep_private_folders(const fs::path& parent) {
   }
   for (const fs::path& folder : left) {
     if (is_being_made(folder)) continue;
-    const int lock = take_lock(folder, O_CREAT);
-    if (lock < 0) continue;
-    fs::remove_all(folder, error);
-    ::close(lock);
+    const FileLock lock = FileLock::take(folder / kLock, FileLock::Missing::make);
+    if (lock) fs::remove_all(folder, error);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "core/file_lock.h"
 #include "core/result.h"
 
 namespace tidemark {
@@ -21,9 +22,9 @@ class PrivateFolder {
   [[nodiscard]] std::filesystem::path path() const { return folder_ / "files"; }
 
  private:
-  PrivateFolder(std::filesystem::path folder, int lock);
+  PrivateFolder(std::filesystem::path folder, FileLock lock);
   std::filesystem::path folder_;  // empty when moved from
-  int lock_;
+  FileLock lock_;
 };
 
 // Removes this user's private folders below `parent` that no running program holds.

@@ -210,15 +210,24 @@ class WholeFilesTest : public QObject {
       const test::Ended read = test::run_in_child([&] { return read_newer(part); });
       QVERIFY2(read.failure.empty(), read.failure.c_str());
     }
-    for (const fs::path& folder : {target.parent_path(), parts_of(target).front().parent_path()}) {
+    for (const fs::path& stranger : strangers_beside(target)) {
+      QVERIFY2(!AtomicFile::target_of(stranger).empty(), stranger.c_str());
+    }
+  }
+
+  // What lies in the folders of a target and is no part of it.
+  static std::vector<fs::path> strangers_beside(const fs::path& target) {
+    const auto parts = parts_of(target);
+    std::vector<fs::path> found;
+    for (const fs::path& folder : {target.parent_path(), parts.front().parent_path()}) {
       if (!fs::exists(folder)) continue;
       for (const auto& entry : fs::directory_iterator(folder)) {
-        const auto parts = parts_of(target);
         const bool is_known =
             entry.path() == target || std::count(parts.begin(), parts.end(), entry.path()) > 0;
-        QVERIFY2(is_known || !AtomicFile::target_of(entry.path()).empty(), entry.path().c_str());
+        if (!is_known) found.push_back(entry.path());
       }
     }
+    return found;
   }
 
   static std::map<fs::path, Bytes> read_parts(const fs::path& target) {
@@ -229,7 +238,8 @@ class WholeFilesTest : public QObject {
     return found;
   }
 
-  // Writes the newer version, disturbed, and looks at what is there.
+  // Writes the newer version, disturbed, and looks at what is there. Written again, it takes away what a
+  // killed writer left.
   void disturb(const Writer& writer, bool has_older, test::Disturbance how,
                const std::map<fs::path, Bytes>& newer, bool& was_killed) const {
     const Place place(writer);
@@ -241,6 +251,10 @@ class WholeFilesTest : public QObject {
     was_killed = ended.was_killed;
     QCOMPARE(ended.failure, std::string());
     verify_old_or_new(place.target, before, newer);
+    if (!was_killed) return;
+    write(writer, newer_, place.target);
+    const auto strangers = strangers_beside(place.target);
+    QVERIFY2(strangers.empty(), strangers.empty() ? "" : strangers.front().c_str());
   }
 
   static void add_rows() {

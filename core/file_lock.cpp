@@ -1,0 +1,50 @@
+#include "core/file_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <utility>
+
+namespace tidemark {
+namespace {
+
+constexpr int kOpened = O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
+
+// A folder cannot be opened for writing; a file must be, for a network file system to lock it.
+int open_to_lock(const std::filesystem::path& path, int flags) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | kOpened | flags, 0600);
+  return descriptor < 0 && errno == EISDIR ? ::open(path.c_str(), O_RDONLY | O_DIRECTORY | kOpened)
+                                           : descriptor;
+}
+
+}  // namespace
+
+FileLock FileLock::take(const std::filesystem::path& path, Missing missing) {
+  FileLock lock;
+  lock.descriptor_ = open_to_lock(path, missing == Missing::make ? O_CREAT : 0);
+  if (lock && ::flock(lock.descriptor_, LOCK_EX | LOCK_NB) != 0) lock = FileLock();
+  return lock;
+}
+
+bool FileLock::is_taken(const std::filesystem::path& path) {
+  const int descriptor = open_to_lock(path, 0);
+  if (descriptor < 0) return false;
+  const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return taken;
+}
+
+FileLock::~FileLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+FileLock& FileLock::operator=(FileLock&& other) noexcept {
+  std::swap(descriptor_, other.descriptor_);
+  return *this;
+}
+
+}  // namespace tidemark

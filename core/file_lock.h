@@ -1,0 +1,31 @@
+// Who holds a file or a folder, across programs.
+#pragma once
+
+#include <filesystem>
+
+namespace tidemark {
+
+// The lock of a file or a folder, which one holder at a time has and which ends with the program that took
+// it, however that ends: what a killed program left is told from what a running one needs by it. It hinders
+// nobody from reading, writing or renaming. Links are not followed.
+class FileLock {
+ public:
+  enum class Missing { give_up, make };  // a file that is made is for its owner alone
+
+  FileLock() = default;  // holds nothing
+  // Holds nothing where another holder has it, `path` cannot be opened, or the file system knows no locks.
+  static FileLock take(const std::filesystem::path& path, Missing missing = Missing::give_up);
+  // Whether another holder has it.
+  [[nodiscard]] static bool is_taken(const std::filesystem::path& path);
+
+  ~FileLock();
+  FileLock(FileLock&& other) noexcept;
+  FileLock& operator=(FileLock&& other) noexcept;
+
+  [[nodiscard]] explicit operator bool() const { return descriptor_ >= 0; }
+
+ private:
+  int descriptor_ = -1;
+};
+
+}  // namespace tidemark
