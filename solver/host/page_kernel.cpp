@@ -37,19 +37,14 @@ HWY_INLINE void gather_rows(D d, const PageRow& from, int offset, Tile& tile, in
   hn::StoreU(hn::TableLookupLanes(hn::IfThenElse(first, after, page), turned(1)), d, tile.right + to);
 }
 
-// One row where vectors are shorter than that.
-HWY_INLINE void gather_row(const PageRow& from, int offset, Tile& tile, int to) {
+// One row, in a vector where vectors are as long as that.
+HWY_INLINE void gather_one_row(const PageRow& from, int offset, Tile& tile, int to) {
   const hn::CappedTag<float, kPageSide> d;
   if (hn::Lanes(d) == kPageSide) {
     gather_rows(d, from, offset, tile, to);
-    return;
+  } else {
+    gather_row(from, offset, tile, to);
   }
-  const float* page = from.page + offset;
-  std::memcpy(tile.centre + to, page, sizeof(float) * kPageSide);
-  std::memcpy(tile.left + to + 1, page, sizeof(float) * (kPageSide - 1));
-  tile.left[to] = from.before[offset + kPageSide - 1];
-  std::memcpy(tile.right + to, page + 1, sizeof(float) * (kPageSide - 1));
-  tile.right[to + kPageSide - 1] = from.after[offset];
 }
 
 // Gathers slices of a page that is surrounded by pages.
@@ -66,15 +61,15 @@ HWY_INLINE void gather_inner(const PageJob& job, unsigned slices) {
       const int z = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest)) - 1;
       const int slice = (z & (kPageSide - 1)) * kPageRows;
       const int to = Tile::row(0, z);
-      gather_row(below, slice + kPageRows - kPageSide, tile, to - Tile::kRowStride);
+      gather_one_row(below, slice + kPageRows - kPageSide, tile, to - Tile::kRowStride);
       if (hn::Lanes(d) > kPageSide) {
         for (int i = 0; i < kPageRows; i += static_cast<int>(hn::Lanes(d))) {
           gather_rows(d, own, slice + i, tile, to + i);
         }
       } else {
-        for (int i = 0; i < kPageRows; i += kPageSide) gather_row(own, slice + i, tile, to + i);
+        for (int i = 0; i < kPageRows; i += kPageSide) gather_one_row(own, slice + i, tile, to + i);
       }
-      gather_row(above, slice, tile, to + kPageRows);
+      gather_one_row(above, slice, tile, to + kPageRows);
     }
   }
 }
@@ -181,7 +176,9 @@ void update_page(const PageJob& job, PageResult& result) {
   auto near_voxels = hn::Zero(d);
   ConstantVoxels constant;
   const Rows one_vector = (Rows{1} << rows_per_vector) - 1;
+  PagePrefetch ahead(job.ahead, static_cast<int>(hwy::PopCount(job.rows)) / rows_per_vector);
   for (Rows rest = job.rows; rest != 0;) {
+    ahead.go_on();
     const int row = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(rest));
     rest &= ~(one_vector << row);
     const int tile_row = Tile::row(row % kPageSide, row / kPageSide);

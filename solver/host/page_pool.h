@@ -1,6 +1,8 @@
 // The host's physical memory G: two buffers of phi and the source for each physical page.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "solver/host/reserved_array.h"
@@ -33,6 +35,7 @@ class PagePool {
  public:
   // Room for at most `capacity` pages; memory is taken as pages are used.
   explicit PagePool(PhysicalPage capacity);
+  static constexpr int kFloatsPerPage = 3 * kPageVoxels;
 
   [[nodiscard]] float* phi(int buffer, PhysicalPage page) const {
     return values(page) + buffer * kPageVoxels;
@@ -48,20 +51,14 @@ class PagePool {
     return masks_[buffer][index(page)];
   }
 
-  // Asks for a page's values to be brought into the second-level cache; the first would be too small.
-  void prefetch(PhysicalPage page) const {
-    constexpr int kFloatsPerLine = 16;
-    const float* first = values(page);
-    for (int i = 0; i < kFloatsPerPage; i += kFloatsPerLine) __builtin_prefetch(first + i, 0, 2);
-  }
+  // All that is kept for each voxel of a page, for PagePrefetch.
+  [[nodiscard]] const float* all_values(PhysicalPage page) const { return values(page); }
 
   // Bytes that `pages` pages take for phi and what is kept beside it, and for the source.
   [[nodiscard]] static std::int64_t state_bytes(std::int64_t pages);
   [[nodiscard]] static std::int64_t source_bytes(std::int64_t pages);
 
  private:
-  static constexpr int kFloatsPerPage = 3 * kPageVoxels;
-
   static std::size_t index(PhysicalPage page) { return static_cast<std::size_t>(page); }
   [[nodiscard]] float* values(PhysicalPage page) const {
     return values_.data() + index(page) * kFloatsPerPage;
@@ -70,6 +67,29 @@ class PagePool {
   ReservedArray<float> values_;
   ReservedArray<RowMasks> masks_[2];
   ReservedArray<PageInfo> infos_;
+};
+
+// Asks for a page's values to be brought into the second-level cache (the first would be too small), a few
+// lines at a time while another page is computed: asked for at once they would fill the processor's queue of
+// loads, and the computation would wait behind them.
+class PagePrefetch {
+ public:
+  // `values` as all_values() gives them, or null; `turns` is how often go_on() will be called.
+  PagePrefetch(const float* values, int turns)
+      : next_(values),
+        end_(values != nullptr ? values + PagePool::kFloatsPerPage : values),
+        floats_a_turn_(((kLines + turns - 1) / (turns > 0 ? turns : 1)) * kFloatsPerLine) {}
+  void go_on() {
+    const float* const end = next_ + std::min<std::ptrdiff_t>(end_ - next_, floats_a_turn_);
+    for (; next_ != end; next_ += kFloatsPerLine) __builtin_prefetch(next_, 0, 2);
+  }
+
+ private:
+  static constexpr int kFloatsPerLine = 16;
+  static constexpr int kLines = PagePool::kFloatsPerPage / kFloatsPerLine;
+  const float* next_;
+  const float* end_;
+  int floats_a_turn_;
 };
 
 }  // namespace tidemark

@@ -82,6 +82,17 @@ ConstantRows constant_slices(const PagePool& pool, int buffer, const PhysicalPag
           three_along_y(below.outside, page.outside, above.outside)};
 }
 
+// A row of which the volume has only `width` voxels.
+void gather_short_row(const PageRow& from, int offset, int width, Tile& tile, int to) {
+  float row[kPageSide + 2];  // x = -1..8
+  std::copy_n(from.page + offset, width, row + 1);
+  std::fill(row + 1 + width, std::end(row), row[width]);
+  row[0] = from.before == nullptr ? row[1] : from.before[offset + kPageSide - 1];
+  std::copy_n(row, kPageSide, tile.left + to);
+  std::copy_n(row + 1, kPageSide, tile.centre + to);
+  std::copy_n(row + 2, kPageSide, tile.right + to);
+}
+
 }  // namespace
 
 RowWork find_row_work(const PagePool& pool, int buffer, const PageInfo& info) {
@@ -122,15 +133,12 @@ void gather_at_border(const PagePool& pool, int buffer, const PageInfo& info, un
       const int from_y = y_range.clamp(y);
       const PageRow from = page_row(pool, buffer, info, page_step(from_y), page_step(from_z));
       const int offset = ((from_z & 7) * kPageSide + (from_y & 7)) * kPageSide;
-      float row[kPageSide + 2];  // x = -1..8
-      std::copy_n(from.page + offset, width, row + 1);
-      std::fill(row + 1 + width, std::end(row), row[width]);
-      row[0] = from.before == nullptr ? row[1] : from.before[offset + kPageSide - 1];
-      if (from.after != nullptr) row[kPageSide + 1] = from.after[offset];
       const int to = Tile::row(y, z);
-      std::copy_n(row, kPageSide, tile.left + to);
-      std::copy_n(row + 1, kPageSide, tile.centre + to);
-      std::copy_n(row + 2, kPageSide, tile.right + to);
+      if (width == kPageSide) {
+        gather_row(from, offset, tile, to);
+      } else {
+        gather_short_row(from, offset, width, tile, to);
+      }
     }
   }
 }

@@ -1,6 +1,8 @@
 // A page with its apron, gathered so that the stencil finds its neighbours at fixed distances.
 #pragma once
 
+#include <cstring>
+
 #include "solver/host/page_pool.h"
 #include "solver/host/row_masks.h"
 
@@ -40,6 +42,17 @@ struct PageRow {
   const float* page;
   const float* after;
 };
+
+// Copies a row, at `offset` in its page, and what is to its left and right into the tile.
+inline void gather_row(const PageRow& from, int offset, Tile& tile, int to) {
+  constexpr int kLast = kPageSide - 1;
+  const float* row = from.page + offset;
+  std::memcpy(tile.centre + to, row, sizeof(float) * kPageSide);
+  std::memcpy(tile.left + to + 1, row, sizeof(float) * kLast);
+  tile.left[to] = from.before != nullptr ? from.before[offset + kLast] : row[0];
+  std::memcpy(tile.right + to, row + 1, sizeof(float) * kLast);
+  tile.right[to + kLast] = from.after != nullptr ? from.after[offset] : row[kLast];
+}
 
 // The pages at (dy, dz) beside a page; null where the volume ends.
 inline PageRow page_row(const PagePool& pool, int buffer, const PageInfo& info, int dy, int dz) {
