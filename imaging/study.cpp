@@ -191,11 +191,7 @@ Series by_policy(Series series, const GridPolicy& policy) {
 }
 
 std::string reason_under(const fs::path& path, const Series& series) {
-  for (const std::string& named : {path.string(), path.filename().string()}) {
-    const std::string start = named + ": ";
-    if (series.reason.starts_with(start)) return path.string() + ": " + series.reason.substr(start.size());
-  }
-  return path.string() + ": " + series.reason;
+  return path.string() + ": " + without_path(without_path(series.reason, path), path.filename());
 }
 
 const Series* find_fillable(const Catalogue& catalogue, const std::string& uid) {

@@ -11,6 +11,7 @@
 
 #include "core/checked.h"
 #include "imaging/dicom/j2k_stream.h"
+#include "imaging/dicom/transfer_syntaxes.h"
 
 namespace tidemark {
 namespace {
@@ -149,7 +150,8 @@ class J2kDecoder : public CodecWithBits {
 
   OFBool canChangeCoding(const E_TransferSyntax from, const E_TransferSyntax to) const override {
     const bool from_j2k = from == EXS_JPEG2000 || from == EXS_JPEG2000LosslessOnly;
-    return from_j2k && !DcmXfer(to).isEncapsulated();
+    const TransferSyntax* syntax = find_transfer_syntax(DcmXfer(to).getXferID());
+    return from_j2k && syntax != nullptr && !syntax->is_encapsulated();
   }
 
   OFCondition determineDecompressedColorModel(const DcmRepresentationParameter*, DcmPixelSequence*,

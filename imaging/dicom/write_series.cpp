@@ -233,11 +233,8 @@ Status write_all(const Volume& volume, const DicomSeriesHeader& header, const fs
     if (progress.cancelled()) return cancelled_error();
     const fs::path slice = whole->temporary_path() / slice_name(k);
     if (Status written = write_slice_file(volume, header, identity, k, slice); !written) {
-      std::string& message = written.error().message;
-      if (const std::string inside = slice.string(); message.starts_with(inside)) {
-        message.replace(0, inside.size(), (folder / slice_name(k)).string());
-      }
-      return written;
+      const std::string told = (folder / slice_name(k)).string();
+      return fail(written.error().kind, "{}: {}", told, without_path(written.error().message, slice));
     }
     progress(static_cast<double>(k + 1) / static_cast<double>(slices), "writing slices");
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/without_exceptions.h"
+#include "imaging/dicom/transfer_syntaxes.h"
 #include "imaging/guarded.h"
 #include "imaging/pacs/association.h"
 #include "imaging/pacs/checked_object.h"
@@ -24,8 +25,8 @@ struct Outgoing {
 };
 
 bool is_compressed(const std::string& transfer_syntax) {
-  const DcmXfer syntax(transfer_syntax.c_str());
-  return syntax.isEncapsulated() || syntax.getStreamCompression() != ESC_none;
+  const TransferSyntax* syntax = find_transfer_syntax(transfer_syntax);
+  return syntax == nullptr || syntax->is_encapsulated() || syntax->is_deflated;
 }
 
 // The encodings that an object may be sent in.
