@@ -61,6 +61,15 @@ QString about_writing(const CaseWindow& window, const QString& file) {
   return QStringLiteral("%1 of %2").arg(QFileInfo(file).suffix()).arg(reinterpret_cast<quintptr>(&window));
 }
 
+// What programs left behind that died; nothing where there is no memory even for that.
+std::vector<Recoverable> find_copies() {
+  auto found = without_exceptions([]() -> Result<std::vector<Recoverable>> {
+    sweep_unfinished(recovery_folder());
+    return find_recoverable(recovery_folder());
+  });
+  return found ? std::move(*found) : std::vector<Recoverable>();
+}
+
 }  // namespace
 
 SavedCases::SavedCases(MainWindow& window) : QObject(&window), window_(window) {
@@ -123,12 +132,11 @@ void SavedCases::export_mask(CaseWindow& window) {
     QMessageBox box(QMessageBox::Question, tr("Export"), tr("What is to be written?"), QMessageBox::Cancel,
                     &window_);
     QAbstractButton* surface = box.addButton(tr("Inside of the surface"), QMessageBox::AcceptRole);
-    box.addButton(tr("All labels"), QMessageBox::AcceptRole);
+    QAbstractButton* labels = box.addButton(tr("All labels"), QMessageBox::AcceptRole);
     const QPointer alive(&window);
     box.exec();
-    if (!alive) return;
-    if (box.clickedButton() == box.button(QMessageBox::Cancel)) return;
-    if (box.clickedButton() != surface) what = tr("labels");
+    if (!alive || (box.clickedButton() != surface && box.clickedButton() != labels)) return;
+    if (box.clickedButton() == labels) what = tr("labels");
   }
   const QString file = ask_for_file(window, tr("Export %1").arg(what),
                                     tr("NIfTI (*.nii.gz *.nii);;NRRD (*.nrrd);;MetaImage (*.mha)"));
@@ -254,7 +262,7 @@ void SavedCases::read_next() {
   jobs_.push_back(BackgroundJob::start(this, [this, path, is_copy](BackgroundJob& job) {
     auto contents = without_exceptions([&] { return load_session(path); });
     if (!contents) {
-      auto copies = is_copy ? std::vector<Recoverable>() : find_recoverable(recovery_folder());
+      auto copies = is_copy ? std::vector<Recoverable>() : find_copies();
       job.deliver([this, message = QString::fromStdString(contents.error().message),
                    copies = std::move(copies)] { refuse(message, copies); });
       return;
@@ -333,10 +341,14 @@ void SavedCases::keep_rescued(CaseWindow& window, const std::string& copy) {
   window.autosave().save_soon();
 }
 
+// To tell whether a copy is whole, all of it is read.
 void SavedCases::offer_rescued() {
-  sweep_unfinished(recovery_folder());
-  offer(find_recoverable(recovery_folder()),
-        tr("Tidemark did not end as it should the last time, and kept copies of what was not saved:"));
+  jobs_.push_back(BackgroundJob::start(this, [this](BackgroundJob& job) {
+    job.deliver([this, copies = find_copies()] {
+      offer(copies,
+            tr("Tidemark did not end as it should the last time, and kept copies of what was not saved:"));
+    });
+  }));
 }
 
 void SavedCases::offer(const std::vector<Recoverable>& copies, const QString& why) {

@@ -14,6 +14,16 @@
 #include "ui/transfer/primitive_page.h"
 
 namespace tidemark {
+namespace {
+
+// As far as this editor shows it: a camera that moves is nothing to it.
+bool look_the_same(const DisplaySettings& a, const DisplaySettings& b) {
+  return a.transfer == b.transfer && a.chosen_primitive == b.chosen_primitive && a.region == b.region &&
+         a.clip_on == b.clip_on && a.show_source == b.show_source;
+}
+
+}  // namespace
+
 TransferFunctionEditor::TransferFunctionEditor(QWidget* parent)
     : QWidget(parent), message_(new QLabel(this)), tabs_(new QTabWidget(this)) {
   setWindowTitle(tr("Transfer function"));
@@ -120,7 +130,7 @@ void TransferFunctionEditor::set_display(Display* display, const SourceSummary* 
   summary_ = display_ ? *summary : SourceSummary();
   unit_ = unit;
   surface_chosen_ = 0;
-  showing_ = false;
+  shown_.reset();
   new_volume_ = true;
   top_row_->setEnabled(!display_.isNull());
   tabs_->setEnabled(!display_.isNull());
@@ -166,15 +176,11 @@ void TransferFunctionEditor::refresh_axes() {
 void TransferFunctionEditor::refresh() {
   if (!display_ || !isVisible()) return;
   const DisplaySettings& now = display_->settings();
-  if (showing_ && now.transfer == shown_.transfer && now.chosen_primitive == shown_.chosen_primitive &&
-      now.region == shown_.region && now.clip_on == shown_.clip_on && now.show_source == shown_.show_source) {
-    return;  // a camera that moves is nothing to us
-  }
+  if (shown_ && look_the_same(*shown_, now)) return;
   const bool is_new = std::exchange(new_volume_, false);
   if (is_new) show_volume();
-  const bool new_axes = !showing_ || now.clip_on != shown_.clip_on;
+  const bool new_axes = !shown_ || now.clip_on != shown_->clip_on;
   shown_ = now;
-  showing_ = true;
   if (new_axes) refresh_axes();
   const TransferFunction function = now.transfer.for_range(summary_.low, summary_.high);
   volume_page_->set_primitives(primitives_of(function, PrimitiveKind::source), now.chosen_primitive);
@@ -194,7 +200,7 @@ void TransferFunctionEditor::edit(PrimitiveKind kind, const std::vector<AxisPrim
   if (!display_) return;
   if (kind == PrimitiveKind::surface) {
     surface_chosen_ = chosen;
-    showing_ = false;
+    shown_.reset();
   }
   display_->change([&](DisplaySettings& s) {
     TransferFunction next = s.transfer.for_range(summary_.low, summary_.high);

@@ -8,6 +8,7 @@
 #include <QPushButton>
 #include <QTabWidget>
 #include <filesystem>
+#include <optional>
 
 #include "session/display.h"
 #include "session/source_summary.h"
@@ -62,9 +63,8 @@ class TransferFunctionEditor : public QWidget {
   QPointer<Display> display_;
   SourceSummary summary_;
   QString unit_;
-  DisplaySettings shown_;   // what the widgets were last set to
-  bool showing_ = false;    // anything
-  bool new_volume_ = true;  // of which nothing is drawn yet
+  std::optional<DisplaySettings> shown_;  // what the widgets were last set to
+  bool new_volume_ = true;                // of which nothing is drawn yet
   int surface_chosen_ = 0;
 
   QWidget* top_row_;
