@@ -2,6 +2,7 @@
 
 #include <QAbstractEventDispatcher>
 #include <QMetaEnum>
+#include <QPainter>
 #include <QPushButton>
 #include <QSettings>
 #include <QStandardPaths>
@@ -204,10 +205,22 @@ bool Desktop::wait_for(const std::function<bool()>& condition, int milliseconds)
 }
 
 void Desktop::screenshot(const QString& name) {
-  const QByteArray folder = qgetenv("TIDEMARK_SCREENSHOTS");
-  if (folder.isEmpty()) return;
+  if (qEnvironmentVariableIsEmpty("TIDEMARK_SCREENSHOTS")) return;
   settle();
-  window_->grab().save(QString::fromLocal8Bit(folder) + '/' + name + ".png");
+  screenshot_at_once(name);
+}
+
+void Desktop::screenshot_at_once(const QString& name) {
+  const QString folder = qEnvironmentVariable("TIDEMARK_SCREENSHOTS");
+  if (folder.isEmpty()) return;
+  QPixmap picture = window_->grab();
+  if (QWidget* dialog = QApplication::activeModalWidget()) {
+    QPainter painter(&picture);
+    const QRect frame = dialog->geometry().translated(-window_->pos());
+    painter.drawPixmap(frame.topLeft(), dialog->grab());
+    painter.drawRect(frame);  // there may be no window manager to draw one
+  }
+  picture.save(folder + '/' + name + ".png");
 }
 
 double difference(const QImage& a, const QImage& b) {

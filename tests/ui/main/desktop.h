@@ -90,8 +90,10 @@ class Desktop {
   // Until the engine has done everything, and the user interface has seen it.
   void settle();
   static bool wait_for(const std::function<bool()>& condition, int milliseconds = 20000);
-  // Where TIDEMARK_SCREENSHOTS says, if it does.
+  // Where TIDEMARK_SCREENSHOTS says, if it does: of the window once it has settled, or as it is, with the
+  // dialog that is open.
   void screenshot(const QString& name);
+  void screenshot_at_once(const QString& name);
 
  private:
   CaseWindow* opened(qsizetype before);  // when there are more cases than that

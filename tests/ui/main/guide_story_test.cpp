@@ -1,8 +1,11 @@
 // The guide's first minute (docs/user-first-minute.md) as it is written, and the layouts in both themes
 // (docs/user-interface.md). With TIDEMARK_SCREENSHOTS it leaves the pictures of both pages.
 #include <QApplication>
+#include <QMessageBox>
 #include <QPushButton>
+#include <QTimer>
 #include <QToolButton>
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -59,7 +62,14 @@ void GuideStoryTest::the_first_minute_leads_to_a_tumour() {
   QVERIFY(desktop.state().begun);
 
   desktop.press(Qt::Key_P);
-  QVERIFY(Desktop::wait_for([&] { return desktop.state().step > 60; }, 60000));
+  const auto is_on_its_way = [&] {
+    const auto views = desktop.window().active_case()->views();
+    return std::all_of(views.begin(), views.end(), [](const PictureView* view) {
+      return !view->isVisible() || view->feed().shown().step > 120;
+    });
+  };
+  QVERIFY(Desktop::wait_for(is_on_its_way, 60000));
+  desktop.screenshot_at_once("minute-4-playing");
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }, 120000));
   desktop.settle();
   QVERIFY(desktop.state().converged);
@@ -85,6 +95,19 @@ void GuideStoryTest::the_first_minute_leads_to_a_tumour() {
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
   QCOMPARE(desktop.state().label_statistics[0].voxels, desktop.state().surface.voxels_inside);
   desktop.screenshot("minute-7-label");
+
+  QString question;
+  QTimer user;
+  connect(&user, &QTimer::timeout, this, [&] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (!box || !box->isVisible()) return;
+    question = box->text();
+    desktop.screenshot_at_once("minute-8-export");
+    box->reject();
+  });
+  user.start(200);
+  desktop.press(Qt::Key_E, Qt::ControlModifier);
+  QCOMPARE(question, QString("What is to be written?"));
 }
 
 void GuideStoryTest::every_layout_is_whole_in_both_themes() {

@@ -111,12 +111,15 @@ void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
     Desktop::in_an_event([&] { layout->trigger(); });
     desktop.settle();
   }
+  // What is taken back may be the last steps alone, which hardly move the surface.
   const std::int64_t inside = desktop.state().surface.voxels_inside;
+  const std::int64_t step = desktop.state().step;
   desktop.press(Qt::Key_Z, Qt::ControlModifier);
   desktop.settle();
-  QVERIFY(desktop.state().surface.voxels_inside != inside);
+  QVERIFY(desktop.state().step < step);
   desktop.press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
   desktop.settle();
+  QCOMPARE(desktop.state().step, step);
   QCOMPARE(desktop.state().surface.voxels_inside, inside);
   Desktop::in_an_event([&] { desktop.session().add_label("Lesion"); });
   desktop.settle();
