@@ -20,7 +20,6 @@ namespace fs = std::filesystem;
 // A temporary name: this, six characters, a hyphen, and the target's name.
 constexpr std::string_view kPrefix = ".tidemark-";
 constexpr std::size_t kUnique = 6;
-constexpr std::size_t kStart = kPrefix.size() + kUnique + 1;
 
 std::string reason(int error) {
   return std::generic_category().message(error);
@@ -58,59 +57,50 @@ Status require_replaceable(const fs::path& folder, const fs::path& target) {
   return {};
 }
 
-// Whether `path` is a file or a folder of this user's, not a link.
-bool is_own(const fs::path& path) {
+// Whether `path` is a folder of this user's, not a link.
+bool is_own_folder(const fs::path& path) {
   struct stat found {};
-  return ::lstat(path.c_str(), &found) == 0 && found.st_uid == ::geteuid() &&
-         (S_ISREG(found.st_mode) || S_ISDIR(found.st_mode));
+  return ::lstat(path.c_str(), &found) == 0 && found.st_uid == ::geteuid() && S_ISDIR(found.st_mode);
 }
 
-// Removes what killed programs left that were writing this target, also what libraries made beside its
-// temporary file: they add to its name.
+// Removes the folders that killed programs were filling for this target.
 void sweep_beside(const fs::path& target) {
-  const fs::path folder = folder_of(target);
-  if (!AtomicFile::target_of(folder).empty()) return;  // it is being written itself, as a whole
-  const std::string name = target.filename().string();
   std::error_code error;
   std::vector<fs::path> left;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    const std::string of = AtomicFile::target_of(entry->path());
-    if (of == name || of.starts_with(name + ".")) left.push_back(entry->path());
+  for (fs::directory_iterator entry(folder_of(target), error), end; !error && entry != end;
+       entry.increment(error)) {
+    const bool is_named_so = AtomicFile::target_of(entry->path()) == target.filename();
+    if (is_named_so && is_own_folder(entry->path())) left.push_back(entry->path());
   }
-  for (const fs::path& path : left) {
-    if (!is_own(path)) continue;
-    const fs::path temporary = folder / path.filename().string().substr(0, kStart + name.size());
-    const FileLock lock = FileLock::take(is_own(temporary) ? temporary : path);
-    if (lock) fs::remove_all(path, error);
+  for (const fs::path& folder : left) {
+    if (const FileLock lock = FileLock::take(folder)) fs::remove_all(folder, error);
   }
 }
-
-struct Made {
-  fs::path path;
-  FileLock lock;  // of none where the file system knows no locks
-};
 
 // Makes something beside the target whose name nothing has yet: `make` takes the name and returns 0 or errno.
 // What it makes gets the permissions of anything new, which the C library's own temporary files do not.
 template <class Make>
-Result<Made> make_beside(const fs::path& target, const Make& make) {
+Result<fs::path> make_beside(const fs::path& target, const Make& make) {
   constexpr int kAttempts = 100;
-  sweep_beside(target);
   std::random_device random;
   int error = EEXIST;
   for (int attempt = 0; attempt < kAttempts && error == EEXIST; ++attempt) {
     const std::string name =
         fmt::format("{}{:0{}x}-{}", kPrefix, random() & 0xffffffU, kUnique, target.filename().string());
-    Made made{folder_of(target) / name, {}};
-    error = make(made.path);
-    if (error != 0) continue;
-    made.lock = FileLock::take(made.path);
-    // Before it was locked, it was as one that is left: somebody's sweep may have it, or have had it.
-    const bool is_swept = (!made.lock && FileLock::is_taken(made.path)) || !is_own(made.path);
-    if (!is_swept) return made;
-    error = EEXIST;
+    const fs::path made = folder_of(target) / name;
+    error = make(made);
+    if (error == 0) return made;
   }
   return fail(ErrorKind::write, "{}: cannot write: {}", target.string(), reason(error));
+}
+
+// Makes a folder of that name and takes its lock, where the file system knows locks; returns 0 or errno.
+int make_locked_folder(const fs::path& name, FileLock& lock) {
+  if (::mkdir(name.c_str(), 0777) != 0) return errno;
+  lock = FileLock::take(name);
+  // Before it was locked, it was as one that is left: somebody's sweep may have it, or have had it.
+  const bool is_swept = (!lock && FileLock::is_taken(name)) || !is_own_folder(name);
+  return is_swept ? EEXIST : 0;
 }
 
 }  // namespace
@@ -129,15 +119,15 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
   if (!made) return pass_on(made);
   AtomicFile file;
   file.target_ = target;
-  file.temporary_ = std::move(made->path);
-  file.lock_ = std::move(made->lock);
+  file.temporary_ = std::move(*made);
   return file;
 }
 
 std::string AtomicFile::target_of(const fs::path& file) {
   const std::string name = file.filename().string();
-  const bool is_temporary = name.starts_with(kPrefix) && name.size() >= kStart && name[kStart - 1] == '-';
-  return is_temporary ? name.substr(kStart) : std::string();
+  constexpr std::size_t kHyphen = kPrefix.size() + kUnique;
+  return name.starts_with(kPrefix) && name.size() > kHyphen && name[kHyphen] == '-' ? name.substr(kHyphen + 1)
+                                                                                    : std::string();
 }
 
 AtomicFile::~AtomicFile() {
@@ -146,20 +136,15 @@ AtomicFile::~AtomicFile() {
 }
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : target_(std::move(other.target_)),
-      temporary_(std::exchange(other.temporary_, {})),
-      lock_(std::move(other.lock_)) {}
+    : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})) {}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   std::swap(target_, other.target_);
   std::swap(temporary_, other.temporary_);
-  std::swap(lock_, other.lock_);
   return *this;
 }
 
 Status AtomicFile::commit() {
-  // A library may have put another file in its place.
-  if (FileLock lock = FileLock::take(temporary_)) lock_ = std::move(lock);
   if (const int error = sync_path(temporary_); error != 0) {
     return fail(ErrorKind::write, "{}: cannot write: {}", target_.string(), reason(error));
   }
@@ -182,13 +167,14 @@ Result<AtomicFolder> AtomicFolder::create(const fs::path& target) {
   if (has_older) {
     if (Status good = require_replaceable(place, target); !good) return pass_on(good);
   }
-  auto made =
-      make_beside(place, [](const fs::path& name) { return ::mkdir(name.c_str(), 0777) == 0 ? 0 : errno; });
+  sweep_beside(place);
+  FileLock lock;
+  auto made = make_beside(place, [&](const fs::path& name) { return make_locked_folder(name, lock); });
   if (!made) return pass_on(made);
   AtomicFolder folder;
   folder.target_ = place;
-  folder.temporary_ = std::move(made->path);
-  folder.lock_ = std::move(made->lock);
+  folder.temporary_ = std::move(*made);
+  folder.lock_ = std::move(lock);
   if (has_older) {
     const fs::perms older = fs::status(place, error).permissions();
     fs::permissions(folder.temporary_, older | fs::perms::owner_all, error);

@@ -12,8 +12,7 @@ namespace tidemark {
 
 // A file that is written beside its target and takes the target's name only when it is complete. Whoever
 // writes uses temporary_path(); commit() syncs it to disk and renames it. Without a commit, the destructor
-// removes the temporary file and the target is left as it was. A program that is killed leaves the temporary
-// file behind, unlocked: whoever next writes the same target removes it.
+// removes the temporary file and the target is left as it was.
 class AtomicFile {
  public:
   // Fails (ErrorKind::write) when the target's folder does not exist or cannot be written to.
@@ -27,19 +26,20 @@ class AtomicFile {
 
   [[nodiscard]] Status commit();
 
-  // The name of the target of which `file` is the temporary file or folder; empty when it is none.
+  // The name of the target of which `file` is the temporary file or folder; empty when it is none. A program
+  // that is killed leaves it behind.
   [[nodiscard]] static std::string target_of(const std::filesystem::path& file);
 
  private:
   AtomicFile() = default;
   std::filesystem::path target_;
   std::filesystem::path temporary_;  // empty when committed or moved from
-  FileLock lock_;                    // of the temporary file
 };
 
 // The same for a folder of files that belong together: it is filled under a temporary name beside its target,
 // and takes the target's place and permissions when all are there. An older folder and everything in it goes
-// away then.
+// away then. Until then it is locked: what a killed program was filling is known by its lock, which nobody
+// holds, and goes when the same target is next filled.
 class AtomicFolder {
  public:
   // Makes the folders above the target where they are missing. Fails (ErrorKind::write) when they cannot be

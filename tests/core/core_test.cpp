@@ -126,44 +126,29 @@ class CoreTest : public QObject {
     }
   }
 
-  void what_a_killed_program_left_of_a_target_goes_when_it_is_next_written() {
-    const TemporaryFolder folder;
-    const auto leave = [&](const char* name) {
-      std::ofstream(folder / name) << "half";
-      return folder / name;
-    };
-    std::filesystem::create_directory(folder / ".tidemark-0a1b2c-result.txt");
-    leave(".tidemark-0a1b2c-result.txt/slice.dcm");
-    leave(".tidemark-012345-result.txt");
-    const auto elsewhere = leave("elsewhere.txt");
-    std::filesystem::create_symlink(elsewhere, folder / ".tidemark-333333-result.txt");
-    leave(".tidemark-012345-result.txt.by-a-library");
-    leave(".tidemark-012345-other.txt");
-    auto running = AtomicFile::create(folder / "result.txt");
-    QVERIFY(running);
-    QCOMPARE(files_in(folder.path()), 4);  // the running one's, another target's, the link and where it leads
-    auto beside = running->temporary_path();
-    beside += ".by-a-library";
-    std::ofstream(beside) << "half";
-    QCOMPARE(failure(write_file(folder / "result.txt", "whole")), QString());
-    QCOMPARE(files_in(folder.path()), 6);
-    QVERIFY(std::filesystem::exists(running->temporary_path()) && std::filesystem::exists(beside));
-    QCOMPARE(contents(elsewhere), std::string("half"));
-  }
-
   void a_folder_that_a_killed_program_was_filling_goes_when_it_is_next_filled() {
     const TemporaryFolder folder;
-    std::filesystem::create_directory(folder / ".tidemark-0a1b2c-series");
-    std::ofstream(folder / ".tidemark-0a1b2c-series" / "slice.dcm") << "half";
+    const auto leave = [&](const std::string& name) {
+      std::filesystem::create_directory(folder / name);
+      std::ofstream(folder / name / "slice.dcm") << "half";
+      return folder / name;
+    };
+    leave(".tidemark-0a1b2c-series");
+    const auto other = leave(".tidemark-0a1b2c-other");
+    const auto elsewhere = leave("elsewhere");
+    std::filesystem::create_directory_symlink(elsewhere, folder / ".tidemark-333333-series");
+    constexpr int kKept = 3;  // the last three
     {
       auto first = AtomicFolder::create(folder / "series");
       auto second = AtomicFolder::create(folder / "series");
       QVERIFY(first && second);
-      QCOMPARE(files_in(folder.path()), 2);
+      QCOMPARE(files_in(folder.path()), kKept + 2);
       QVERIFY(first->commit());
       QVERIFY(second->commit());
     }
-    QCOMPARE(files_in(folder.path()), 1);
+    QCOMPARE(files_in(folder.path()), kKept + 1);
+    QCOMPARE(files_in(elsewhere), 1);
+    QCOMPARE(files_in(other), 1);
   }
 
   void a_disk_that_is_full_leaves_the_target_alone() {

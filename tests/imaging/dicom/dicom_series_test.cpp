@@ -361,8 +361,8 @@ class DicomSeriesTest : public QObject {
   void what_a_killed_program_was_writing_is_no_series() {
     const test::TemporaryFolder folder;
     const Volume volume = test::sample_volume({6, 4, 5});
-    QVERIFY(write_dicom_series(volume, {}, folder / ".tidemark-0123ab-series"));
     QVERIFY(write_dicom_series(volume, {}, folder / "series"));
+    QVERIFY(write_dicom_series(volume, {}, folder / ".tidemark-0123ab-series"));
     fs::copy_file(folder / ".tidemark-0123ab-series/slice-00001.dcm",
                   folder / "series/.tidemark-0123ab-slice-00001.dcm");
     const auto found = scan_dicom(folder.path());
