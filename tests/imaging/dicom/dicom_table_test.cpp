@@ -182,7 +182,7 @@ void compare_with_peer(Findings& findings) {
     converted += volumes.size();
     for (const Loaded& one : findings.loaded) {
       if (one.series->files.front().parent_path() != folder) continue;
-      const auto best = [&](Agreement wanted) {
+      const auto best = [&, &volumes = volumes](Agreement wanted) {  // clang before 16 captures no parts
         return std::any_of(volumes.begin(), volumes.end(),
                            [&](const PeerVolume& peer) { return test::compare(one.volume, peer) == wanted; });
       };
