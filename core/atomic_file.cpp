@@ -57,12 +57,6 @@ Status require_replaceable(const fs::path& folder, const fs::path& target) {
   return {};
 }
 
-// Whether `path` is a folder of this user's, not a link.
-bool is_own_folder(const fs::path& path) {
-  struct stat found {};
-  return ::lstat(path.c_str(), &found) == 0 && found.st_uid == ::geteuid() && S_ISDIR(found.st_mode);
-}
-
 // Removes the folders that killed programs were filling for this target.
 void sweep_beside(const fs::path& target) {
   std::error_code error;

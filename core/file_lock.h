@@ -1,4 +1,4 @@
-// Who holds a file or a folder, across programs.
+// Who holds a file or a folder, across programs, and whose it is.
 #pragma once
 
 #include <filesystem>
@@ -27,5 +27,8 @@ class FileLock {
  private:
   int descriptor_ = -1;
 };
+
+// Whether `path` is a folder of this user's, not a link.
+[[nodiscard]] bool is_own_folder(const std::filesystem::path& path);
 
 }  // namespace tidemark

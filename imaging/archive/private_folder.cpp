@@ -1,10 +1,8 @@
 #include "imaging/archive/private_folder.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -19,11 +17,6 @@ constexpr std::string_view kPrefix = "tidemark-study-";
 constexpr const char* kLock = "lock";
 // How long a folder may be without its lock file: it is being made.
 constexpr std::chrono::minutes kYouth(10);
-
-bool is_ours(const fs::path& folder) {
-  struct stat found {};
-  return ::lstat(folder.c_str(), &found) == 0 && S_ISDIR(found.st_mode) && found.st_uid == ::geteuid();
-}
 
 bool is_being_made(const fs::path& folder) {
   std::error_code error;
@@ -67,7 +60,7 @@ void sweep_private_folders(const fs::path& parent) {
   std::vector<fs::path> left;
   for (fs::directory_iterator entry(parent, error), end; !error && entry != end; entry.increment(error)) {
     const bool is_named_so = entry->path().filename().string().starts_with(kPrefix);
-    if (is_named_so && is_ours(entry->path())) left.push_back(entry->path());
+    if (is_named_so && is_own_folder(entry->path())) left.push_back(entry->path());
   }
   for (const fs::path& folder : left) {
     if (is_being_made(folder)) continue;
