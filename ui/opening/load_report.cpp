@@ -9,31 +9,12 @@
 
 #include "ui/look/theme.h"
 #include "ui/opening/grid_text.h"
+#include "ui/widgets/elided_label.h"
 
 namespace tidemark {
 namespace {
 
 constexpr int kMostLines = 8;  // of the details; more scroll
-
-// A line that ends with an ellipsis where there is no room for all of it.
-class ElidedLabel : public QLabel {
- public:
-  explicit ElidedLabel(const QString& text) : whole_(text) {
-    setTextFormat(Qt::PlainText);
-    setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    setToolTip(QStringLiteral("<p>%1</p>").arg(text.toHtmlEscaped()));
-    setText(text);
-  }
-
- protected:
-  void resizeEvent(QResizeEvent* event) override {
-    QLabel::resizeEvent(event);
-    setText(fontMetrics().elidedText(whole_, Qt::ElideRight, width()));
-  }
-
- private:
-  QString whole_;
-};
 
 // As high as its text is, up to some lines.
 class TextArea : public QScrollArea {

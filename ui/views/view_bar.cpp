@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "ui/look/icons.h"
+#include "ui/widgets/elided_label.h"
 #include "ui/widgets/typed_number.h"
 
 namespace tidemark {
@@ -22,9 +23,7 @@ ViewBar::ViewBar(CaseSession& session, const QString& title, const QList<QAction
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(8, 1, 2, 1);
   layout->setSpacing(2);
-  title_ = new QLabel(title);
-  title_->setMinimumWidth(0);
-  title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  title_ = new ElidedLabel(title);
   layout->addWidget(title_, 1);
   for (QAction* action : evolution) {
     auto* button = new QToolButton;

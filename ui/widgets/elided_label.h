@@ -1,0 +1,21 @@
+// One line of plain text that ends with an ellipsis where there is no room for all of it.
+#pragma once
+
+#include <QLabel>
+
+namespace tidemark {
+
+// text() is the whole; where only a part is seen, the tool tip tells the rest.
+class ElidedLabel : public QLabel {
+ public:
+  explicit ElidedLabel(const QString& text, QWidget* parent = nullptr);
+
+ protected:
+  bool event(QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  [[nodiscard]] QString shown_text() const;
+};
+
+}  // namespace tidemark
