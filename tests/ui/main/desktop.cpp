@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "session/case_runner.h"
 #include "ui/look/theme.h"
 
 namespace tidemark::test {
@@ -198,6 +199,16 @@ void Desktop::settle() {
     wait_for([this] { return engine_->idle(); }, 60000);
     QTest::qWait(20);
   }
+}
+
+PhiTraffic Desktop::phi_traffic(CaseSession& session) {
+  PhiTraffic traffic;
+  session.runner()->post([&](CaseRunner& runner, const Progress&) -> Status {
+    traffic = {runner.painter().phi_copies(), runner.painter().pages_uploaded()};
+    return {};
+  });
+  settle();
+  return traffic;
 }
 
 bool Desktop::wait_for(const std::function<bool()>& condition, int milliseconds) {

@@ -45,6 +45,12 @@ class WatchedApplication : public QApplication {
 // ("compute" or "stream").
 ExecutorKind story_executor();
 
+// What was needed of phi for the pictures of a case, since it was opened.
+struct PhiTraffic {
+  std::int64_t copies = 0;          // read from the executor
+  std::int64_t pages_uploaded = 0;  // to where pictures are drawn
+};
+
 // Settings, recovery and everything else of this program goes into a folder of its own that is gone after it.
 // At the end it tells which event kept the user interface longest since the window was there.
 class Desktop {
@@ -89,6 +95,7 @@ class Desktop {
   static void in_an_event(const std::function<void()>& something);
   // Until the engine has done everything, and the user interface has seen it.
   void settle();
+  PhiTraffic phi_traffic(CaseSession& session);
   static bool wait_for(const std::function<bool()>& condition, int milliseconds = 20000);
   // Where TIDEMARK_SCREENSHOTS says, if it does: of the window once it has settled, or as it is, with the
   // dialog that is open.
