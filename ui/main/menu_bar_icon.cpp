@@ -11,24 +11,19 @@
 namespace tidemark {
 namespace {
 
-// Qt's own class has no header, and inherits() does not know it.
-bool is_icon_label(const QObject& object) {
-  return qstrcmp(object.metaObject()->className(), "QMdi::ControlLabel") == 0;
-}
-
-// Watches the menu bar for Qt's label, and paints in its place.
+// Watches what is put on the menu bar, and paints in place of the label in its corner.
 class IconPainter : public QObject {
  public:
-  using QObject::QObject;
+  explicit IconPainter(QMenuBar& bar) : QObject(&bar), bar_(bar) {}
 
   bool eventFilter(QObject* watched, QEvent* event) override {
-    if (event->type() == QEvent::ChildAdded) {
-      QObject* child = static_cast<QChildEvent*>(event)->child();
-      if (is_icon_label(*child)) child->installEventFilter(this);
+    if (event->type() == QEvent::ChildAdded && watched == &bar_) {
+      static_cast<QChildEvent*>(event)->child()->installEventFilter(this);
       return false;
     }
-    if (event->type() != QEvent::Paint || !is_icon_label(*watched)) return false;
-    auto* label = static_cast<QWidget*>(watched);
+    if (event->type() != QEvent::Paint) return false;
+    QWidget* label = bar_.cornerWidget(Qt::TopLeftCorner);
+    if (watched != label) return false;
     QPainter painter(label);
     QRect place(0, 0, kIconSmall, kIconSmall);
     place.moveCenter(label->rect().center());
@@ -36,12 +31,15 @@ class IconPainter : public QObject {
     application_icon().paint(&painter, place);
     return true;
   }
+
+ private:
+  QMenuBar& bar_;
 };
 
 }  // namespace
 
 void draw_menu_bar_icon_whole(QMenuBar& bar) {
-  bar.installEventFilter(new IconPainter(&bar));
+  bar.installEventFilter(new IconPainter(bar));
 }
 
 }  // namespace tidemark
