@@ -33,7 +33,7 @@ HWY_INLINE V curvature_motion(const Differences<V>& d, V& four_squared_gradient)
       mul_add(g[0], mul_add(g[1], d.four_mixed[0], g[2] * d.four_mixed[1]), g[1] * (g[2] * d.four_mixed[2]));
   const V along_gradient = mul_add(two_mixed, V(Real(0.5)), pure);
   four_squared_gradient = max(squared, V(Real(4.0 * kSmallestGradientSquared)));
-  return (squared * trace - along_gradient) * inverse(four_squared_gradient);
+  return mul_sub(squared, trace, along_gradient) * inverse(four_squared_gradient);
 }
 
 template <class Real, class V>

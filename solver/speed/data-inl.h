@@ -16,7 +16,7 @@ namespace tidemark::HWY_NAMESPACE {
 template <class V, class Real>
 HWY_INLINE V data_speed(V source, const StepConstants<Real>& k) {
   const V distance = abs(source - V(k.target));
-  return max(V(k.data_peak) - distance * V(k.data_slope), V(k.data_floor));
+  return max(neg_mul_add(distance, V(k.data_slope), V(k.data_peak)), V(k.data_floor));
 }
 
 }  // namespace tidemark::HWY_NAMESPACE

@@ -31,15 +31,19 @@ HWY_INLINE double sqrt(double a) {
 HWY_INLINE double inverse(double a) {
   return 1.0 / a;
 }
+// a b + c, a b - c and c - a b
 HWY_INLINE double mul_add(double a, double b, double c) {
   return a * b + c;
 }
-// a where test > 0, else b; and a where test < 0, else b.
+HWY_INLINE double mul_sub(double a, double b, double c) {
+  return a * b - c;
+}
+HWY_INLINE double neg_mul_add(double a, double b, double c) {
+  return c - a * b;
+}
+// a where test > 0, else b.
 HWY_INLINE double if_positive(double test, double a, double b) {
   return test > 0.0 ? a : b;
-}
-HWY_INLINE double if_negative(double test, double a, double b) {
-  return test < 0.0 ? a : b;
 }
 
 // Two rows of a page at most: 16 lanes.
@@ -67,11 +71,12 @@ struct Lanes {
     return Lanes(hn::Mul(estimate, error));
   }
   friend HWY_INLINE Lanes mul_add(Lanes a, Lanes b, Lanes c) { return Lanes(hn::MulAdd(a.v, b.v, c.v)); }
+  friend HWY_INLINE Lanes mul_sub(Lanes a, Lanes b, Lanes c) { return Lanes(hn::MulSub(a.v, b.v, c.v)); }
+  friend HWY_INLINE Lanes neg_mul_add(Lanes a, Lanes b, Lanes c) {
+    return Lanes(hn::NegMulAdd(a.v, b.v, c.v));
+  }
   friend HWY_INLINE Lanes if_positive(Lanes test, Lanes a, Lanes b) {
     return Lanes(hn::IfThenElse(hn::Gt(test.v, hn::Zero(LanesTag())), a.v, b.v));
-  }
-  friend HWY_INLINE Lanes if_negative(Lanes test, Lanes a, Lanes b) {
-    return Lanes(hn::IfThenElse(hn::Lt(test.v, hn::Zero(LanesTag())), a.v, b.v));
   }
 };
 

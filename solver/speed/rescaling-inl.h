@@ -15,17 +15,15 @@ namespace tidemark::HWY_NAMESPACE {
 // The product of phi with a neighbour of the other sign at which that neighbour counts in full.
 inline constexpr double kFullSignChange = 0.1;
 
-// phi (g_phi - |grad phi|), the gradient taken from the side of the surface. Beside the surface the mean of
-// both one-sided gradients stands in, which keeps the surface where it is to about a tenth of a voxel. The
-// one goes over into the other continuously as a neighbour changes sign: a switch would leave voxels flipping
-// between the two for ever, and the surface would never come to rest.
-template <class V, class Real>
-HWY_INLINE V rescaling_speed(const Differences<V>& d, const StepConstants<Real>& k) {
-  const V toward = if_positive(d.phi, d.upwind_shrinking, d.upwind_growing);
-  const V away = if_positive(d.phi, d.upwind_growing, d.upwind_shrinking);
-  const V share = max(min(d.lowest_product * V(Real(-0.5 / kFullSignChange)), V(Real(0.5))), V(Real(0)));
-  const V gradient = mul_add(share, away - toward, toward);
-  return d.phi * (V(k.target_gradient) - gradient);
+// How the two one-sided gradients share in |grad phi| here: the one from the side of the surface counts
+// alone, but beside the surface the mean of both stands in, which keeps the surface where it is to about a
+// tenth of a voxel. The one goes over into the other continuously as a neighbour changes sign: a switch would
+// leave voxels flipping between the two for ever, and the surface would never come to rest.
+template <class Real, class V>
+HWY_INLINE UpwindWeights<V> rescaling_shares(const Differences<V>& d) {
+  const V away = max(min(d.lowest_product * V(Real(-0.5 / kFullSignChange)), V(Real(0.5))), V(Real(0)));
+  const V toward = V(Real(1)) - away;
+  return {if_positive(d.phi, away, toward), if_positive(d.phi, toward, away)};
 }
 
 }  // namespace tidemark::HWY_NAMESPACE

@@ -41,26 +41,46 @@ struct Differences {
   V lowest_product;    // least product of phi with a face neighbour: < 0 beside the surface
 };
 
+template <class V>
+HWY_INLINE V sum_of_squares(const V (&v)[3]) {
+  return mul_add(v[2], v[2], mul_add(v[1], v[1], v[0] * v[0]));
+}
+
+// Factors of the two upwind gradients.
+template <class V>
+struct UpwindWeights {
+  V growing;
+  V shrinking;
+};
+
 // kAnisotropic = false leaves out the divisions by spacings that are all 1.
 template <bool kAnisotropic, class V, class Real>
 HWY_INLINE Differences<V> differences(const Stencil<V>& s, const StepConstants<Real>& k) {
   Differences<V> d;
   d.phi = s.c;
-  // One-sided first differences D- and D+.
-  V minus[3] = {s.c - s.xm, s.c - s.ym, s.c - s.zm};
-  V plus[3] = {s.xp - s.c, s.yp - s.c, s.zp - s.c};
+  // To each neighbour: -D- and D+. By size, the two of an axis are the same for a mirrored field.
+  const V behind[3] = {s.xm - s.c, s.ym - s.c, s.zm - s.c};
+  const V ahead[3] = {s.xp - s.c, s.yp - s.c, s.zp - s.c};
+  V lower[3];
+  V higher[3];
   for (int axis = 0; axis < 3; ++axis) {
-    d.second[axis] = plus[axis] - minus[axis];
-    d.two_central[axis] = plus[axis] + minus[axis];
+    d.second[axis] = ahead[axis] + behind[axis];
+    d.two_central[axis] = ahead[axis] - behind[axis];
+    lower[axis] = min(ahead[axis], behind[axis]);
+    higher[axis] = max(ahead[axis], behind[axis]);
   }
   d.four_mixed[0] = (s.xpyp - s.xpym) - (s.xmyp - s.xmym);
   d.four_mixed[1] = (s.xpzp - s.xpzm) - (s.xmzp - s.xmzm);
   d.four_mixed[2] = (s.ypzp - s.ypzm) - (s.ymzp - s.ymzm);
+  // The way to the neighbour that is least on phi's side.
+  const V to_least =
+      if_positive(s.c, min(min(lower[0], lower[1]), lower[2]), max(max(higher[0], higher[1]), higher[2]));
+  d.lowest_product = s.c * (s.c + to_least);
   if constexpr (kAnisotropic) {
     const V inverse[3] = {V(k.inverse_spacing[0]), V(k.inverse_spacing[1]), V(k.inverse_spacing[2])};
     for (int axis = 0; axis < 3; ++axis) {
-      minus[axis] = minus[axis] * inverse[axis];
-      plus[axis] = plus[axis] * inverse[axis];
+      lower[axis] = lower[axis] * inverse[axis];
+      higher[axis] = higher[axis] * inverse[axis];
       d.two_central[axis] = d.two_central[axis] * inverse[axis];
       d.second[axis] = d.second[axis] * (inverse[axis] * inverse[axis]);
     }
@@ -69,21 +89,20 @@ HWY_INLINE Differences<V> differences(const Stencil<V>& s, const StepConstants<R
     d.four_mixed[2] = d.four_mixed[2] * (inverse[1] * inverse[2]);
   }
 
+  // A surface that grows looks at the neighbours above, one that shrinks at those below.
   const V zero = V(Real(0));
-  V growing[3];
-  V shrinking[3];
+  V higher_up[3];
+  V lower_up[3];
+  V higher_down[3];
+  V lower_down[3];
   for (int axis = 0; axis < 3; ++axis) {
-    const V rise_ahead = max(plus[axis], zero);
-    const V fall_behind = min(minus[axis], zero);
-    const V fall_ahead = min(plus[axis], zero);
-    const V rise_behind = max(minus[axis], zero);
-    growing[axis] = rise_ahead * rise_ahead + fall_behind * fall_behind;
-    shrinking[axis] = fall_ahead * fall_ahead + rise_behind * rise_behind;
+    higher_up[axis] = max(higher[axis], zero);
+    lower_up[axis] = max(lower[axis], zero);
+    higher_down[axis] = min(higher[axis], zero);
+    lower_down[axis] = min(lower[axis], zero);
   }
-  d.upwind_growing = sqrt(growing[0] + growing[1] + growing[2]);
-  d.upwind_shrinking = sqrt(shrinking[0] + shrinking[1] + shrinking[2]);
-  d.lowest_product =
-      min(min(min(s.xm * s.c, s.xp * s.c), min(s.ym * s.c, s.yp * s.c)), min(s.zm * s.c, s.zp * s.c));
+  d.upwind_growing = sqrt(sum_of_squares(higher_up) + sum_of_squares(lower_up));
+  d.upwind_shrinking = sqrt(sum_of_squares(higher_down) + sum_of_squares(lower_down));
   return d;
 }
 
