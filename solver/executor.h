@@ -54,7 +54,7 @@ struct MemoryReport {
   std::int64_t quiet_pages = 0;  // resident, but not computed at present
   std::int64_t state_bytes = 0;  // phi, tables and lists as allocated
   std::int64_t peak_state_bytes = 0;
-  std::int64_t source_bytes = 0;  // the source values kept beside resident pages
+  std::int64_t source_bytes = 0;  // what resident pages keep of the source
   Index3 page_shape{0};
 };
 

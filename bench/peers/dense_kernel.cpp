@@ -22,33 +22,32 @@ HWY_INLINE Stencil<Lanes> load_dense(const float* at, std::int64_t row, std::int
   s.yp = load(row);
   s.zm = load(-slice);
   s.zp = load(slice);
-  s.xmym = load(-1 - row);
-  s.xmyp = load(-1 + row);
-  s.xpym = load(1 - row);
-  s.xpyp = load(1 + row);
-  s.xmzm = load(-1 - slice);
-  s.xmzp = load(-1 + slice);
-  s.xpzm = load(1 - slice);
-  s.xpzp = load(1 + slice);
   s.ymzm = load(-row - slice);
   s.ymzp = load(-row + slice);
   s.ypzm = load(row - slice);
   s.ypzp = load(row + slice);
+  const auto dx = [&](std::int64_t shift) HWY_ATTR { return load(shift + 1) - load(shift - 1); };
+  s.dx = dx(0);
+  s.dx_ym = dx(-row);
+  s.dx_yp = dx(row);
+  s.dx_zm = dx(-slice);
+  s.dx_zp = dx(slice);
   return s;
 }
 
 void step_dense(const bench::DenseStep& step, Index3 begin, Index3 end) {
   const LanesTag d;
   const auto lanes = static_cast<std::int64_t>(hn::Lanes(d));
-  const StepConstants<float> constants = *step.constants;
+  const auto constants = update_constants<Lanes>(*step.constants);
   for (std::int64_t z = begin.z; z < end.z; ++z) {
     for (std::int64_t y = begin.y; y < end.y; ++y) {
       const std::int64_t first = y * step.row + z * step.slice;
       for (std::int64_t x = 0; x < step.length; x += lanes) {
         const std::int64_t at = first + x;
         const Stencil<Lanes> stencil = load_dense(step.phi + at, step.row, step.slice);
-        const Lanes source(hn::LoadU(d, step.source + at));
-        const Lanes phi = updated_phi<false>(differences<false>(stencil, constants), source, constants);
+        const Lanes data(hn::LoadU(d, step.data + at));
+        const auto differences_here = differences<false, float>(stencil, constants.inverse_spacing);
+        const Lanes phi = updated_phi<false, float>(differences_here, data, constants);
         hn::StoreU(phi.v, d, step.next + at);
       }
     }

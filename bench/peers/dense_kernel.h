@@ -13,7 +13,7 @@ namespace tidemark::bench {
 // margin of at least one voxel before each axis and, along x, of kDenseMargin behind it.
 struct DenseStep {
   const float* phi = nullptr;
-  const float* source = nullptr;
+  const float* data = nullptr;  // how far the data term moves the surface in a step
   float* next = nullptr;
   std::int64_t row = 0;
   std::int64_t slice = 0;

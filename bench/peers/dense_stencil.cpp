@@ -6,6 +6,9 @@
 #include "bench/peers/dense_kernel.h"
 #include "core/thread_pool.h"
 
+// After the standard headers: defines functions of these names.
+#include "solver/speed/data-inl.h"
+
 namespace tidemark::bench {
 namespace {
 
@@ -19,9 +22,13 @@ class DenseStencil final : public Contestant {
     row_ = kDenseMargin + geometry_.size.x + kDenseMargin;
     slice_ = row_ * (geometry_.size.y + 2);
     const auto count = static_cast<std::size_t>(slice_ * (geometry_.size.z + 2));
-    source_.resize(count);
+    data_.resize(count);
     for (auto& phi : phi_) phi.resize(count);
-    copy_in(problem.values, source_);
+    copy_in(problem.values, data_);
+    const auto constants = model_.constants<double>();
+    std::transform(data_.begin(), data_.end(), data_.begin(), [&](float value) {
+      return static_cast<float>(HWY_NAMESPACE::data_motion(double{value}, constants));
+    });
     copy_in(start_distance(problem, model_.band()), phi_[0]);
     repeat_border(phi_[0]);
   }
@@ -87,7 +94,7 @@ class DenseStencil final : public Contestant {
     constexpr std::int64_t kSlices = 16;
     const Index3 size = geometry_.size;
     const DenseStep work{phi_[0].data() + at(0, 0, 0),
-                         source_.data() + at(0, 0, 0),
+                         data_.data() + at(0, 0, 0),
                          phi_[1].data() + at(0, 0, 0),
                          row_,
                          slice_,
@@ -112,7 +119,7 @@ class DenseStencil final : public Contestant {
   ThreadPool pool_;
   std::int64_t row_ = 0;
   std::int64_t slice_ = 0;
-  std::vector<float> source_;
+  std::vector<float> data_;
   std::vector<float> phi_[2];
 };
 

@@ -6,6 +6,9 @@
 #include "solver/host/page_code.h"
 #include "solver/paging/validate.h"
 
+// After the standard headers: defines functions of these names.
+#include "solver/speed/data-inl.h"
+
 namespace tidemark {
 namespace {
 
@@ -24,29 +27,11 @@ Index3 neighbour_step(int neighbour) {
 // otherwise allocate and free it all the time.
 constexpr int kConstantStepsBeforeRelease = 2;
 
-// Copies a page's source values, rescaled; padding becomes 0.
-void copy_source(const Volume& source, Index3 first, Index3 valid, float* page) {
-  std::fill_n(page, kPageVoxels, 0.0F);
-  std::visit(
-      [&](const auto& stored) {
-        for (std::int64_t z = 0; z < valid.z; ++z) {
-          for (std::int64_t y = 0; y < valid.y; ++y) {
-            const auto* row = stored.data() + source.geometry.offset(first + Index3(0, y, z));
-            float* to = page + (y + kPageSide * z) * kPageSide;
-            for (std::int64_t x = 0; x < valid.x; ++x) {
-              to[x] = static_cast<float>(source.slope * static_cast<double>(row[x]) + source.intercept);
-            }
-          }
-        }
-      },
-      source.voxels);
-}
-
 }  // namespace
 
 // As many pages as the volume has or the budget allows.
 PhysicalPage HostExecutor::pool_capacity() const {
-  const std::int64_t page_bytes = PagePool::state_bytes(1) + PagePool::source_bytes(1);
+  const std::int64_t page_bytes = PagePool::state_bytes(1) + PagePool::data_bytes(1);
   const std::int64_t affordable = options_.memory_budget_bytes / page_bytes + 1;
   return static_cast<PhysicalPage>(std::min(affordable, table_.layout().page_count()) + kFirstPage);
 }
@@ -161,7 +146,7 @@ Status HostExecutor::check_budget(std::int64_t more_pages) const {
   // The lists and tables that grow with the pages take at most this much more for each, their reserve
   // included.
   constexpr std::int64_t kListBytesPerPage = 64;
-  const std::int64_t bytes = PagePool::state_bytes(capacity) + PagePool::source_bytes(capacity) +
+  const std::int64_t bytes = PagePool::state_bytes(capacity) + PagePool::data_bytes(capacity) +
                              table_.bytes() + capacity * kListBytesPerPage;
   if (bytes <= options_.memory_budget_bytes) return {};
   return fail(ErrorKind::capability, "the surface needs {} pages, {} MB, and the memory budget is {} MB",
@@ -203,17 +188,51 @@ void HostExecutor::fill_new_pages() {
       static_cast<std::int64_t>(new_pages_.size()), 8, [&](std::int64_t begin, std::int64_t end, int) {
         for (std::int64_t i = begin; i < end; ++i) {
           const PhysicalPage page = new_pages_[static_cast<std::size_t>(i)];
-          const std::int64_t virtual_page = table_.virtual_page(page);
           // A page without voxels that are W is all -W: constant pages have one kind of row.
           const bool inside = pool_.masks(0, page).all_inside();
           for (const int buffer : {0, 1}) {
             std::fill_n(pool_.phi(buffer, page), kPageVoxels, inside ? constants_.band : -constants_.band);
           }
-          copy_source(*source_, table_.layout().first_voxel(virtual_page),
-                      table_.layout().valid_shape(virtual_page), pool_.source(page));
+          fill_data_motion(page);
         }
       });
   new_pages_.clear();
+}
+
+// How far the data term moves the surface in a step at each voxel of a page; 0 at padding.
+void HostExecutor::fill_data_motion(PhysicalPage page) {
+  const std::int64_t virtual_page = table_.virtual_page(page);
+  const Index3 first = table_.layout().first_voxel(virtual_page);
+  const Index3 valid = table_.layout().valid_shape(virtual_page);
+  const auto constants = model_.constants<double>();
+  float* motion = pool_.data_motion(page);
+  std::fill_n(motion, kPageVoxels, 0.0F);
+  std::visit(
+      [&](const auto& stored) {
+        for (std::int64_t z = 0; z < valid.z; ++z) {
+          for (std::int64_t y = 0; y < valid.y; ++y) {
+            const auto* row = stored.data() + source_->geometry.offset(first + Index3(0, y, z));
+            float* to = motion + (y + kPageSide * z) * kPageSide;
+            for (std::int64_t x = 0; x < valid.x; ++x) {
+              const double value = source_->slope * static_cast<double>(row[x]) + source_->intercept;
+              to[x] = static_cast<float>(HWY_NAMESPACE::data_motion(value, constants));
+            }
+          }
+        }
+      },
+      source_->voxels);
+}
+
+// The same for every resident page, after the parameters changed.
+void HostExecutor::refill_data_motion() {
+  std::vector<PhysicalPage> pages;
+  for_each_resident([&](PhysicalPage page) { pages.push_back(page); });
+  threads_->for_each(static_cast<std::int64_t>(pages.size()), 8,
+                     [&](std::int64_t begin, std::int64_t end, int) {
+                       for (std::int64_t i = begin; i < end; ++i) {
+                         fill_data_motion(pages[static_cast<std::size_t>(i)]);
+                       }
+                     });
 }
 
 void HostExecutor::release_page(PhysicalPage page) {

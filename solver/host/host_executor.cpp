@@ -55,6 +55,7 @@ Status HostExecutor::set_parameters(const Parameters& parameters) {
   model_ = *model;
   constants_ = model_.constants<float>();
   wake_all();
+  refill_data_motion();
   return {};
 }
 
@@ -82,7 +83,7 @@ std::int64_t HostExecutor::update_page(std::size_t index, const float* ahead, Ti
     job.buffer = current_;
     job.info = &info;
     job.tile = &tile;
-    job.source = pool_.source(page);
+    job.data_motion = pool_.data_motion(page);
     job.next = phi;
     job.rows = rows;
     job.ahead = ahead;
@@ -181,7 +182,7 @@ MemoryReport HostExecutor::memory() const {
       PagePool::state_bytes(table_.capacity()) + table_.bytes() +
       static_cast<std::int64_t>(active_.capacity() * sizeof(PhysicalPage) + codes_.capacity());
   report.peak_state_bytes = report.state_bytes;  // pages are kept for reuse, so memory never shrinks
-  report.source_bytes = PagePool::source_bytes(table_.capacity());
+  report.source_bytes = PagePool::data_bytes(table_.capacity());
   report.page_shape = kDefaultPageShape;
   return report;
 }

@@ -57,6 +57,8 @@ class HostExecutor final : public ExecutorBase {
   Result<PhysicalPage> make_resident(std::int64_t virtual_page);
   Status make_neighbours_resident(PhysicalPage page, std::uint8_t code);
   void fill_new_pages();
+  void fill_data_motion(PhysicalPage page);
+  void refill_data_motion();
   void release_page(PhysicalPage page);
   Status update_domain();
   Status activate_all();

@@ -16,98 +16,140 @@ HWY_BEFORE_NAMESPACE();
 namespace tidemark::HWY_NAMESPACE {
 namespace {
 
-// Copies `lanes of D` voxels of a page, whole rows, with those to their left and right into the tile.
-template <class D>
-HWY_INLINE void gather_rows(D d, const PageRow& from, int offset, Tile& tile, int to) {
+// The voxels to the left and to the right of whole rows: `before` and `after` are the same rows of the pages
+// beside theirs.
+#if HWY_TARGET <= HWY_AVX3
+// One permutation of two vectors, which Highway 1.0 has not.
+HWY_INLINE hn::Vec512<float> lanes_of_two(hn::Vec512<float> a, hn::Vec512<float> b,
+                                          hn::Vec512<std::int32_t> lanes) {
+  return {_mm512_permutex2var_ps(a.raw, lanes.raw, b.raw)};
+}
+HWY_INLINE hn::Vec256<float> lanes_of_two(hn::Vec256<float> a, hn::Vec256<float> b,
+                                          hn::Vec256<std::int32_t> lanes) {
+  return {_mm256_permutex2var_ps(a.raw, lanes.raw, b.raw)};
+}
+
+template <class D, class V>
+HWY_INLINE V to_the_left(D d, V before, V page) {
   const hn::RebindToSigned<D> di;
+  const auto x = hn::And(hn::Iota(di, 0), hn::Set(di, kPageSide - 1));
+  const auto last_before = hn::Iota(di, static_cast<int>(hn::Lanes(d)) + kPageSide - 1);
+  return lanes_of_two(page, before, hn::IfThenElse(hn::Eq(x, hn::Zero(di)), last_before, hn::Iota(di, -1)));
+}
+
+template <class D, class V>
+HWY_INLINE V to_the_right(D d, V page, V after) {
+  const hn::RebindToSigned<D> di;
+  const auto end = hn::Set(di, kPageSide - 1);
+  const auto x = hn::And(hn::Iota(di, 0), end);
+  const auto first_after = hn::Iota(di, static_cast<int>(hn::Lanes(d)) - kPageSide + 1);
+  return lanes_of_two(page, after, hn::IfThenElse(hn::Eq(x, end), first_after, hn::Iota(di, 1)));
+}
+#else
+// Rows turned by `by` voxels, each with the voxel x from `beside` in the place of its own.
+template <class D, class V>
+HWY_INLINE V turned(D d, V rows, V beside, int x, int by) {
+  const hn::RebindToSigned<D> di;
+  const auto end = hn::Set(di, kPageSide - 1);
   const auto lane = hn::Iota(di, 0);
-  const auto x = hn::And(lane, hn::Set(di, kPageSide - 1));
-  const auto row = hn::Sub(lane, x);
-  const auto turned = [&](int by) HWY_ATTR {
-    return hn::IndicesFromVec(d,
-                              hn::Add(row, hn::And(hn::Add(x, hn::Set(di, by)), hn::Set(di, kPageSide - 1))));
-  };
-  const auto first = hn::RebindMask(d, hn::Eq(x, hn::Zero(di)));
-  const auto last = hn::RebindMask(d, hn::Eq(x, hn::Set(di, kPageSide - 1)));
-  const auto before = hn::LoadU(d, from.before + offset);
+  const auto lane_x = hn::And(lane, end);
+  const auto from = hn::Add(hn::Sub(lane, lane_x), hn::And(hn::Add(lane_x, hn::Set(di, by)), end));
+  const auto is_beside = hn::RebindMask(d, hn::Eq(lane_x, hn::Set(di, x)));
+  return hn::TableLookupLanes(hn::IfThenElse(is_beside, beside, rows), hn::IndicesFromVec(d, from));
+}
+
+template <class D, class V>
+HWY_INLINE V to_the_left(D d, V before, V page) {
+  return turned(d, page, before, kPageSide - 1, -1);
+}
+
+template <class D, class V>
+HWY_INLINE V to_the_right(D d, V page, V after) {
+  return turned(d, page, after, 0, 1);
+}
+#endif
+
+// Copies whole rows, `lanes of D` voxels at `offset` in their page, into the tile at `to`: phi and its
+// differences along x. kOwn: the page is the one that is computed, so what is to the left and right goes
+// there, too.
+template <bool kOwn, class D>
+HWY_INLINE void gather_rows(D d, const PageRow& from, int offset, Tile& tile, int to) {
   const auto page = hn::LoadU(d, from.page + offset);
-  const auto after = hn::LoadU(d, from.after + offset);
-  hn::StoreU(hn::TableLookupLanes(hn::IfThenElse(last, before, page), turned(-1)), d, tile.left + to);
+  const auto left = to_the_left(d, hn::LoadU(d, from.before + offset), page);
+  const auto right = to_the_right(d, page, hn::LoadU(d, from.after + offset));
   hn::StoreU(page, d, tile.centre + to);
-  hn::StoreU(hn::TableLookupLanes(hn::IfThenElse(first, after, page), turned(1)), d, tile.right + to);
-}
-
-// One row, in a vector where vectors are as long as that.
-HWY_INLINE void gather_one_row(const PageRow& from, int offset, Tile& tile, int to) {
-  const hn::CappedTag<float, kPageSide> d;
-  if (hn::Lanes(d) == kPageSide) {
-    gather_rows(d, from, offset, tile, to);
-  } else {
-    gather_row(from, offset, tile, to);
+  hn::StoreU(hn::Sub(right, left), d, tile.dx + to);
+  if constexpr (kOwn) {
+    hn::StoreU(left, d, tile.left + offset);
+    hn::StoreU(right, d, tile.right + offset);
   }
 }
 
-// Gathers slices of a page that is surrounded by pages.
-HWY_INLINE void gather_inner(const PageJob& job, unsigned slices) {
+// A slice, at `offset` in its pages.
+template <bool kOwn>
+HWY_INLINE void gather_slice(const PageRow& from, int offset, Tile& tile, int to) {
   const LanesTag d;
-  Tile& tile = *job.tile;
-  for (int dz = -1; dz <= 1; ++dz) {
-    // Bit z + 1 for slice z: the pages below give slice -1, those above slice 8.
-    const unsigned of_pages = dz < 0 ? 0x001U : dz > 0 ? 0x200U : 0x1feU;
-    const PageRow below = page_row(*job.pool, job.buffer, *job.info, -1, dz);
-    const PageRow own = page_row(*job.pool, job.buffer, *job.info, 0, dz);
-    const PageRow above = page_row(*job.pool, job.buffer, *job.info, 1, dz);
-    for (unsigned rest = slices & of_pages; rest != 0; rest &= rest - 1) {
-      const int z = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest)) - 1;
-      const int slice = (z & (kPageSide - 1)) * kPageRows;
-      const int to = Tile::row(0, z);
-      gather_one_row(below, slice + kPageRows - kPageSide, tile, to - Tile::kRowStride);
-      if (hn::Lanes(d) > kPageSide) {
-        for (int i = 0; i < kPageRows; i += static_cast<int>(hn::Lanes(d))) {
-          gather_rows(d, own, slice + i, tile, to + i);
-        }
-      } else {
-        for (int i = 0; i < kPageRows; i += kPageSide) gather_one_row(own, slice + i, tile, to + i);
-      }
-      gather_one_row(above, slice, tile, to + kPageRows);
-    }
+  for (int i = 0; i < kPageRows; i += static_cast<int>(hn::Lanes(d))) {
+    gather_rows<kOwn>(d, from, offset + i, tile, to + i);
   }
 }
 
-// The stencil of the voxels that begin at `at` in the tile.
-HWY_INLINE Stencil<Lanes> load_stencil(const Tile& tile, int at) {
+// Gathers slices of a page that is surrounded by pages. A row must not be longer than a vector.
+HWY_INLINE void gather_inner(const PageJob& job, unsigned slices) {
+  constexpr int kLastRow = kPageRows - kPageSide;
+  const hn::CappedTag<float, kPageSide> one_row;
+  Tile& tile = *job.tile;
+  const auto pages = [&](int dy, int dz) { return page_row(*job.pool, job.buffer, *job.info, dy, dz); };
+  // Bit z + 1 for slice z: the pages below give slice -1, those above slice 8.
+  for (const int dz : {-1, 1}) {
+    const int z = dz < 0 ? -1 : kPageSide;
+    if ((slices >> static_cast<unsigned>(z + 1) & 1U) == 0) continue;
+    const int offset = dz < 0 ? kPageVoxels - kPageRows : 0;
+    const int to = Tile::row(0, z);
+    const auto copy_row = [&](const float* from, int row)
+                              HWY_ATTR { hn::StoreU(hn::LoadU(one_row, from), one_row, tile.centre + row); };
+    copy_row(pages(-1, dz).page + offset + kLastRow, to - Tile::kRowStride);
+    gather_slice<false>(pages(0, dz), offset, tile, to);
+    copy_row(pages(1, dz).page + offset, to + kPageRows);
+  }
+  const PageRow below = pages(-1, 0);
+  const PageRow own = pages(0, 0);
+  const PageRow above = pages(1, 0);
+  for (unsigned rest = slices >> 1U & 0xffU; rest != 0; rest &= rest - 1) {
+    const int z = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
+    const int offset = z * kPageRows;
+    const int to = Tile::row(0, z);
+    gather_rows<false>(one_row, below, offset + kLastRow, tile, to - Tile::kRowStride);
+    gather_slice<true>(own, offset, tile, to);
+    gather_rows<false>(one_row, above, offset, tile, to + kPageRows);
+  }
+}
+
+// The stencil of the voxels that begin at `voxel` in the page and at `at` in the tile.
+HWY_INLINE Stencil<Lanes> load_stencil(const Tile& tile, int voxel, int at) {
   constexpr int kY = Tile::kRowStride;
   constexpr int kZ = Tile::kSliceStride;
-  const auto load = [at](const float* values, int shift)
-                        HWY_ATTR { return Lanes(hn::LoadU(LanesTag(), values + at + shift)); };
+  const auto load = [](const float* values) HWY_ATTR { return Lanes(hn::LoadU(LanesTag(), values)); };
+  const float* phi = tile.centre + at;
+  const float* dx = tile.dx + at;
   Stencil<Lanes> s;
-  s.c = load(tile.centre, 0);
-  s.xm = load(tile.left, 0);
-  s.xp = load(tile.right, 0);
-  s.ym = load(tile.centre, -kY);
-  s.yp = load(tile.centre, kY);
-  s.zm = load(tile.centre, -kZ);
-  s.zp = load(tile.centre, kZ);
-  s.xmym = load(tile.left, -kY);
-  s.xmyp = load(tile.left, kY);
-  s.xpym = load(tile.right, -kY);
-  s.xpyp = load(tile.right, kY);
-  s.xmzm = load(tile.left, -kZ);
-  s.xmzp = load(tile.left, kZ);
-  s.xpzm = load(tile.right, -kZ);
-  s.xpzp = load(tile.right, kZ);
-  s.ymzm = load(tile.centre, -kY - kZ);
-  s.ymzp = load(tile.centre, -kY + kZ);
-  s.ypzm = load(tile.centre, kY - kZ);
-  s.ypzp = load(tile.centre, kY + kZ);
+  s.c = load(phi);
+  s.xm = load(tile.left + voxel);
+  s.xp = load(tile.right + voxel);
+  s.ym = load(phi - kY);
+  s.yp = load(phi + kY);
+  s.zm = load(phi - kZ);
+  s.zp = load(phi + kZ);
+  s.ymzm = load(phi - kY - kZ);
+  s.ymzp = load(phi - kY + kZ);
+  s.ypzm = load(phi + kY - kZ);
+  s.ypzp = load(phi + kY + kZ);
+  s.dx = load(dx);
+  s.dx_ym = load(dx - kY);
+  s.dx_yp = load(dx + kY);
+  s.dx_zm = load(dx - kZ);
+  s.dx_zp = load(dx + kZ);
   return s;
-}
-
-template <class Mask>
-HWY_INLINE unsigned mask_bits(Mask mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(LanesTag(), mask, bytes);
-  return bytes[0] | static_cast<unsigned>(bytes[1]) << 8U;
 }
 
 // One byte a row, one bit a voxel: which of them are W and which are -W. Kept as bytes while rows are
@@ -117,39 +159,37 @@ struct ConstantVoxels {
   alignas(64) std::uint8_t outside[kPageRows] = {};
 };
 
+// Sets the bits of the voxels that begin at `voxel`.
+template <class Mask>
+HWY_INLINE void set_bits(Mask mask, int voxel, std::uint8_t* rows) {
+  const LanesTag d;
+  if (hn::Lanes(d) >= kPageSide) {
+    hn::StoreMaskBits(d, mask, rows + voxel / kPageSide);
+  } else {
+    std::uint8_t bits[8];
+    hn::StoreMaskBits(d, mask, bits);
+    rows[voxel / kPageSide] |= static_cast<std::uint8_t>(bits[0] << static_cast<unsigned>(voxel % kPageSide));
+  }
+}
+
 // Bit r of the result is set when byte r, after `and_mask`, equals it.
 HWY_INLINE Rows rows_where(const std::uint8_t* bytes, std::uint8_t and_mask) {
-  const hn::CappedTag<std::uint8_t, 16> d;
+  const hn::CappedTag<std::uint8_t, kPageRows> d;
   const auto wanted = hn::Set(d, and_mask);
   std::uint8_t bits[kPageRows / 8 + 8] = {};
   for (std::size_t i = 0; i < kPageRows; i += hn::Lanes(d)) {
     const auto equal = hn::Eq(hn::And(hn::Load(d, bytes + i), wanted), wanted);
-    std::uint8_t part[8] = {};
-    hn::StoreMaskBits(d, equal, part);
-    bits[i / 8] |= static_cast<std::uint8_t>(part[0] << (i % 8));
-    bits[i / 8 + 1] |= part[1];
+    if (hn::Lanes(d) >= 8) {
+      hn::StoreMaskBits(d, equal, bits + i / 8);
+    } else {
+      std::uint8_t part[8] = {};
+      hn::StoreMaskBits(d, equal, part);
+      bits[i / 8] |= static_cast<std::uint8_t>(part[0] << (i % 8));
+    }
   }
   Rows rows = 0;
   std::memcpy(&rows, bits, sizeof rows);
   return rows;
-}
-
-HWY_INLINE StepConstants<Lanes> in_every_lane(const StepConstants<float>& k) {
-  StepConstants<Lanes> lanes;
-  for (int axis = 0; axis < 3; ++axis) lanes.inverse_spacing[axis] = Lanes(k.inverse_spacing[axis]);
-  lanes.time_step = Lanes(k.time_step);
-  lanes.band = Lanes(k.band);
-  lanes.minus_band = Lanes(k.minus_band);
-  lanes.data_weight = Lanes(k.data_weight);
-  lanes.curvature_weight = Lanes(k.curvature_weight);
-  lanes.rescaling_weight = Lanes(k.rescaling_weight);
-  lanes.target_gradient = Lanes(k.target_gradient);
-  lanes.target = Lanes(k.target);
-  lanes.near = Lanes(k.near);
-  lanes.data_peak = Lanes(k.data_peak);
-  lanes.data_slope = Lanes(k.data_slope);
-  lanes.data_floor = Lanes(k.data_floor);
-  return lanes;
 }
 
 template <bool kPaper, bool kAnisotropic, bool kMotion>
@@ -157,11 +197,11 @@ void update_page(const PageJob& job, PageResult& result) {
   const LanesTag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const int rows_per_vector = lanes > kPageSide ? lanes / kPageSide : 1;
-  const StepConstants<Lanes> constants = in_every_lane(*job.constants);
+  const auto constants = update_constants<Lanes>(*job.constants);
 
   const unsigned slices = slices_read(job.rows);
-  if (at_border(*job.info)) {
-    gather_at_border(*job.pool, job.buffer, *job.info, slices, *job.tile);
+  if (lanes < kPageSide || at_border(*job.info)) {
+    gather(*job.pool, job.buffer, *job.info, slices, *job.tile);
   } else {
     gather_inner(job, slices);
   }
@@ -173,8 +213,12 @@ void update_page(const PageJob& job, PageResult& result) {
 
   auto largest_change = hn::Zero(d);
   auto squared_change = hn::Zero(d);
-  auto near_voxels = hn::Zero(d);
+  std::size_t near_voxels = 0;
   ConstantVoxels constant;
+  // Bytes are written in the loop, which the compiler takes for changes of the job.
+  const Tile& tile = *job.tile;
+  const float* const data_motion = job.data_motion;
+  float* const next = job.next;
   const Rows one_vector = (Rows{1} << rows_per_vector) - 1;
   PagePrefetch ahead(job.ahead, static_cast<int>(hwy::PopCount(job.rows)) / rows_per_vector);
   for (Rows rest = job.rows; rest != 0;) {
@@ -182,28 +226,22 @@ void update_page(const PageJob& job, PageResult& result) {
     const int row = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(rest));
     rest &= ~(one_vector << row);
     const int tile_row = Tile::row(row % kPageSide, row / kPageSide);
-    unsigned inside = 0;
-    unsigned outside = 0;
     for (int x = 0; x < kPageSide; x += lanes) {
       const int voxel = row * kPageSide + x;
-      const Stencil<Lanes> stencil = load_stencil(*job.tile, tile_row + x);
-      const Lanes source(hn::LoadU(d, job.source + voxel));
-      const auto phi =
-          updated_phi<kPaper>(differences<kAnisotropic>(stencil, constants), source, constants).v;
+      const auto differences_here = differences<kAnisotropic, float>(load_stencil(tile, voxel, tile_row + x),
+                                                                     constants.inverse_spacing);
+      const Lanes data(hn::LoadU(d, data_motion + voxel));
+      const auto phi = updated_phi<kPaper, float>(differences_here, data, constants).v;
       if constexpr (kMotion) {
         const auto near = hn::Le(hn::Abs(phi), hn::LoadU(d, near_limit + x));
-        const auto change = hn::IfThenElseZero(near, hn::Abs(hn::Sub(phi, hn::LoadU(d, job.next + voxel))));
-        largest_change = hn::Max(largest_change, change);
+        const auto change = hn::IfThenElseZero(near, hn::Sub(phi, hn::LoadU(d, next + voxel)));
+        largest_change = hn::Max(largest_change, hn::Abs(change));
         squared_change = hn::MulAdd(change, change, squared_change);
-        near_voxels = hn::Add(near_voxels, hn::IfThenElseZero(near, hn::Set(d, 1.0F)));
+        near_voxels += hn::CountTrue(d, near);
       }
-      hn::StoreU(phi, d, job.next + voxel);
-      inside |= mask_bits(hn::Eq(phi, constants.band.v)) << static_cast<unsigned>(x);
-      outside |= mask_bits(hn::Eq(phi, constants.minus_band.v)) << static_cast<unsigned>(x);
-    }
-    for (int r = 0; r < rows_per_vector; ++r) {
-      constant.inside[row + r] = static_cast<std::uint8_t>(inside >> (r * kPageSide));
-      constant.outside[row + r] = static_cast<std::uint8_t>(outside >> (r * kPageSide));
+      hn::StoreU(phi, d, next + voxel);
+      set_bits(hn::Eq(phi, constants.band.v), voxel, constant.inside);
+      set_bits(hn::Eq(phi, constants.minus_band.v), voxel, constant.outside);
     }
   }
   // Padding voxels count as constant: only the others are asked for.
@@ -217,7 +255,7 @@ void update_page(const PageJob& job, PageResult& result) {
   result.masks.outside_last = rows_where(constant.outside, last) & job.rows;
   result.largest_change = hn::GetLane(hn::MaxOfLanes(d, largest_change));
   result.squared_change = hn::GetLane(hn::SumOfLanes(d, squared_change));
-  result.near_voxels = static_cast<std::int32_t>(hn::GetLane(hn::SumOfLanes(d, near_voxels)));
+  result.near_voxels = static_cast<std::int32_t>(near_voxels);
 }
 
 template <bool kPaper, bool kAnisotropic>

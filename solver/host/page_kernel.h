@@ -15,11 +15,11 @@ struct PageJob {
   const PagePool* pool = nullptr;
   int buffer = 0;  // of the pool: the one that holds phi
   const PageInfo* info = nullptr;
-  Tile* tile = nullptr;           // scratch
-  const float* source = nullptr;  // of the page
-  float* next = nullptr;          // out: the new phi, in the rows of `rows`; in, for motion: phi a step ago
-  Rows rows = 0;                  // a multiple of PageKernels::rows_per_vector neighbouring rows
-  const float* ahead = nullptr;   // the values of a page that will soon be computed, if any
+  Tile* tile = nullptr;                // scratch
+  const float* data_motion = nullptr;  // of the page
+  float* next = nullptr;         // out: the new phi, in the rows of `rows`; in, for motion: phi a step ago
+  Rows rows = 0;                 // a multiple of PageKernels::rows_per_vector neighbouring rows
+  const float* ahead = nullptr;  // the values of a page that will soon be computed, if any
   const StepConstants<float>* constants = nullptr;
 };
 

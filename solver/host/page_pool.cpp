@@ -12,7 +12,7 @@ std::int64_t PagePool::state_bytes(std::int64_t pages) {
          static_cast<std::int64_t>(2 * (kPageVoxels * sizeof(float) + sizeof(RowMasks)) + sizeof(PageInfo));
 }
 
-std::int64_t PagePool::source_bytes(std::int64_t pages) {
+std::int64_t PagePool::data_bytes(std::int64_t pages) {
   return pages * static_cast<std::int64_t>(kPageVoxels * sizeof(float));
 }
 

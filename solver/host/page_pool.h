@@ -1,7 +1,6 @@
-// The host's physical memory G: two buffers of phi and the source for each physical page.
+// The host's physical memory G: two buffers of phi and the data term for each physical page.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -30,7 +29,8 @@ struct PageInfo {
   bool woke_neighbours = false;     // in this window
 };
 
-// Pages lie one after the other in reserved address space: phi of buffer 0, of buffer 1, then the source.
+// Pages lie one after the other in reserved address space: phi of buffer 0, of buffer 1, then how far the
+// data term moves the surface in a step.
 class PagePool {
  public:
   // Room for at most `capacity` pages; memory is taken as pages are used.
@@ -40,7 +40,7 @@ class PagePool {
   [[nodiscard]] float* phi(int buffer, PhysicalPage page) const {
     return values(page) + buffer * kPageVoxels;
   }
-  [[nodiscard]] float* source(PhysicalPage page) const { return values(page) + 2 * kPageVoxels; }
+  [[nodiscard]] float* data_motion(PhysicalPage page) const { return values(page) + 2 * kPageVoxels; }
 
   [[nodiscard]] PageInfo& info(PhysicalPage page) { return infos_[index(page)]; }
   [[nodiscard]] const PageInfo& info(PhysicalPage page) const { return infos_[index(page)]; }
@@ -54,9 +54,9 @@ class PagePool {
   // All that is kept for each voxel of a page, for PagePrefetch.
   [[nodiscard]] const float* all_values(PhysicalPage page) const { return values(page); }
 
-  // Bytes that `pages` pages take for phi and what is kept beside it, and for the source.
+  // Bytes that `pages` pages take for phi and what is kept beside it, and for the data term.
   [[nodiscard]] static std::int64_t state_bytes(std::int64_t pages);
-  [[nodiscard]] static std::int64_t source_bytes(std::int64_t pages);
+  [[nodiscard]] static std::int64_t data_bytes(std::int64_t pages);
 
  private:
   static std::size_t index(PhysicalPage page) { return static_cast<std::size_t>(page); }
@@ -71,25 +71,29 @@ class PagePool {
 
 // Asks for a page's values to be brought into the second-level cache (the first would be too small), a few
 // lines at a time while another page is computed: asked for at once they would fill the processor's queue of
-// loads, and the computation would wait behind them.
+// loads, and the computation would wait behind them. Lines are asked for in fours, because the end of a loop
+// over them would be mispredicted.
 class PagePrefetch {
  public:
-  // `values` as all_values() gives them, or null; `turns` is how often go_on() will be called.
+  // `values` as all_values() gives them, or null; `turns` is how often go_on() will be called, at least 1.
   PagePrefetch(const float* values, int turns)
       : next_(values),
         end_(values != nullptr ? values + PagePool::kFloatsPerPage : values),
-        floats_a_turn_(((kLines + turns - 1) / (turns > 0 ? turns : 1)) * kFloatsPerLine) {}
+        fours_a_turn_((kFours + turns - 1) / turns) {}
   void go_on() {
-    const float* const end = next_ + std::min<std::ptrdiff_t>(end_ - next_, floats_a_turn_);
-    for (; next_ != end; next_ += kFloatsPerLine) __builtin_prefetch(next_, 0, 2);
+    for (int i = 0; i < fours_a_turn_ && next_ != end_; ++i) {
+      for (int line = 0; line < 4; ++line) __builtin_prefetch(next_ + line * kFloatsPerLine, 0, 2);
+      next_ += 4 * kFloatsPerLine;
+    }
   }
 
  private:
   static constexpr int kFloatsPerLine = 16;
-  static constexpr int kLines = PagePool::kFloatsPerPage / kFloatsPerLine;
+  static constexpr int kFours = PagePool::kFloatsPerPage / (4 * kFloatsPerLine);
+  static_assert(PagePool::kFloatsPerPage % (4 * kFloatsPerLine) == 0);
   const float* next_;
   const float* end_;
-  int floats_a_turn_;
+  int fours_a_turn_;
 };
 
 }  // namespace tidemark

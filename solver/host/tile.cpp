@@ -82,15 +82,44 @@ ConstantRows constant_slices(const PagePool& pool, int buffer, const PhysicalPag
           three_along_y(below.outside, page.outside, above.outside)};
 }
 
-// A row of which the volume has only `width` voxels.
-void gather_short_row(const PageRow& from, int offset, int width, Tile& tile, int to) {
+// Whether a row is one of the page's own.
+bool is_own(int y, int z) {
+  return y >= 0 && y < kPageSide && z >= 0 && z < kPageSide;
+}
+
+// Copies the row (y, z), at `offset` in its page, and what is to its left and right into the tile. What was
+// just written is not read again: the processor cannot forward parts of several stores to one load.
+void gather_row(const PageRow& from, int offset, Tile& tile, int y, int z) {
+  constexpr int kLast = kPageSide - 1;
+  const float* row = from.page + offset;
+  const float before = from.before != nullptr ? from.before[offset + kLast] : row[0];
+  const float after = from.after != nullptr ? from.after[offset] : row[kLast];
+  const int to = Tile::row(y, z);
+  std::copy_n(row, kPageSide, tile.centre + to);
+  tile.dx[to] = row[1] - before;
+  for (int x = 1; x < kLast; ++x) tile.dx[to + x] = row[x + 1] - row[x - 1];
+  tile.dx[to + kLast] = after - row[kLast - 1];
+  if (!is_own(y, z)) return;
+  const int own = (y + kPageSide * z) * kPageSide;
+  tile.left[own] = before;
+  std::copy_n(row, kLast, tile.left + own + 1);
+  std::copy_n(row + 1, kLast, tile.right + own);
+  tile.right[own + kLast] = after;
+}
+
+// The same for a row of which the volume has only `width` voxels.
+void gather_short_row(const PageRow& from, int offset, int width, Tile& tile, int y, int z) {
   float row[kPageSide + 2];  // x = -1..8
   std::copy_n(from.page + offset, width, row + 1);
   std::fill(row + 1 + width, std::end(row), row[width]);
   row[0] = from.before == nullptr ? row[1] : from.before[offset + kPageSide - 1];
-  std::copy_n(row, kPageSide, tile.left + to);
+  const int to = Tile::row(y, z);
   std::copy_n(row + 1, kPageSide, tile.centre + to);
-  std::copy_n(row + 2, kPageSide, tile.right + to);
+  for (int x = 0; x < kPageSide; ++x) tile.dx[to + x] = row[x + 2] - row[x];
+  if (!is_own(y, z)) return;
+  const int own = (y + kPageSide * z) * kPageSide;
+  std::copy_n(row, kPageSide, tile.left + own);
+  std::copy_n(row + 2, kPageSide, tile.right + own);
 }
 
 }  // namespace
@@ -122,7 +151,7 @@ unsigned slices_read(Rows rows) {
   return slices;
 }
 
-void gather_at_border(const PagePool& pool, int buffer, const PageInfo& info, unsigned slices, Tile& tile) {
+void gather(const PagePool& pool, int buffer, const PageInfo& info, unsigned slices, Tile& tile) {
   const Span y_range = y_span(info);
   const Span z_range = z_span(info);
   const int width = info.valid[0];
@@ -133,11 +162,10 @@ void gather_at_border(const PagePool& pool, int buffer, const PageInfo& info, un
       const int from_y = y_range.clamp(y);
       const PageRow from = page_row(pool, buffer, info, page_step(from_y), page_step(from_z));
       const int offset = ((from_z & 7) * kPageSide + (from_y & 7)) * kPageSide;
-      const int to = Tile::row(y, z);
       if (width == kPageSide) {
-        gather_row(from, offset, tile, to);
+        gather_row(from, offset, tile, y, z);
       } else {
-        gather_short_row(from, offset, width, tile, to);
+        gather_short_row(from, offset, width, tile, y, z);
       }
     }
   }

@@ -1,16 +1,16 @@
 // A page with its apron, gathered so that the stencil finds its neighbours at fixed distances.
 #pragma once
 
-#include <cstring>
-
 #include "solver/host/page_pool.h"
 #include "solver/host/row_masks.h"
 
 namespace tidemark {
 
-// phi at (x, y, z), x in 0..7, y and z in -1..8, is centre[row(y, z) + x]; `left` and `right` hold the values
-// one voxel to the left and to the right at the same place. Rows follow each other without a gap, so that a
-// vector may hold several of them, and every operand of the stencil is one load.
+// phi at (x, y, z), x in 0..7, y and z in -1..8, is centre[row(y, z) + x]; dx holds phi(x + 1) - phi(x - 1)
+// at the same place, but not at the edges of the apron, which nobody reads. `left` and `right` hold the
+// values one voxel to the left and to the right of the page's own voxels, in their order. Rows follow each
+// other without a gap, so that a vector may hold several of them, and every operand of the stencil is one
+// load.
 struct Tile {
   static constexpr int kSide = kPageSide + 2;
   static constexpr int kRowStride = kPageSide;
@@ -20,9 +20,10 @@ struct Tile {
   static constexpr int row(int y, int z) { return (z + 1) * kSliceStride + (y + 1) * kRowStride + kFirst; }
 
   using Values = float[kSide * kSliceStride + 2 * kFirst];
-  alignas(64) Values left;
   alignas(64) Values centre;
-  alignas(64) Values right;
+  alignas(64) Values dx;
+  alignas(64) float left[kPageVoxels];
+  alignas(64) float right[kPageVoxels];
 };
 
 // The rows of a page that may change in the next step, and what the others are.
@@ -43,17 +44,6 @@ struct PageRow {
   const float* after;
 };
 
-// Copies a row, at `offset` in its page, and what is to its left and right into the tile.
-inline void gather_row(const PageRow& from, int offset, Tile& tile, int to) {
-  constexpr int kLast = kPageSide - 1;
-  const float* row = from.page + offset;
-  std::memcpy(tile.centre + to, row, sizeof(float) * kPageSide);
-  std::memcpy(tile.left + to + 1, row, sizeof(float) * kLast);
-  tile.left[to] = from.before != nullptr ? from.before[offset + kLast] : row[0];
-  std::memcpy(tile.right + to, row + 1, sizeof(float) * kLast);
-  tile.right[to + kLast] = from.after != nullptr ? from.after[offset] : row[kLast];
-}
-
 // The pages at (dy, dz) beside a page; null where the volume ends.
 inline PageRow page_row(const PagePool& pool, int buffer, const PageInfo& info, int dy, int dz) {
   const PhysicalPage* pages = info.neighbours + 13 + 3 * dy + 9 * dz;
@@ -67,8 +57,8 @@ bool at_border(const PageInfo& info);
 // The slices of the tile, bit z + 1 for slice z, that computing `rows` reads.
 unsigned slices_read(Rows rows);
 
-// Gathers those slices of a page at the volume's border; the index is clamped there (Neumann). The kernels
-// gather the other pages by themselves.
-void gather_at_border(const PagePool& pool, int buffer, const PageInfo& info, unsigned slices, Tile& tile);
+// Gathers those slices of a page; at the volume's border the index is clamped (Neumann). The kernels gather
+// pages inside the volume by themselves where a vector is as long as a row.
+void gather(const PagePool& pool, int buffer, const PageInfo& info, unsigned slices, Tile& tile);
 
 }  // namespace tidemark

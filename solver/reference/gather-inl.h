@@ -31,18 +31,16 @@ Stencil<double> gather(const Value& value, Index3 size, Index3 v) {
   s.yp = at(0, 1, 0);
   s.zm = at(0, 0, -1);
   s.zp = at(0, 0, 1);
-  s.xmym = at(-1, -1, 0);
-  s.xmyp = at(-1, 1, 0);
-  s.xpym = at(1, -1, 0);
-  s.xpyp = at(1, 1, 0);
-  s.xmzm = at(-1, 0, -1);
-  s.xmzp = at(-1, 0, 1);
-  s.xpzm = at(1, 0, -1);
-  s.xpzp = at(1, 0, 1);
   s.ymzm = at(0, -1, -1);
   s.ymzp = at(0, -1, 1);
   s.ypzm = at(0, 1, -1);
   s.ypzp = at(0, 1, 1);
+  const auto dx = [&](int dy, int dz) { return at(1, dy, dz) - at(-1, dy, dz); };
+  s.dx = dx(0, 0);
+  s.dx_ym = dx(-1, 0);
+  s.dx_yp = dx(1, 0);
+  s.dx_zm = dx(0, -1);
+  s.dx_zp = dx(0, 1);
   return s;
 }
 

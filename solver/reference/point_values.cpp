@@ -20,13 +20,12 @@ PointValues values_at(const Field& phi, const Volume& source, const Parameters& 
   values.data = data_speed(parameters, values.intensity);
   values.phi = phi.at(voxel);
   if (std::abs(values.phi) >= phi.band) return values;
-  // The spacings are all that differences need to know.
-  StepConstants<double> constants{};
+  double inverse_spacing[3];
   const glm::dvec3 spacing = phi.geometry.spacing_mm;
   const double smallest = std::min({spacing.x, spacing.y, spacing.z});
-  for (int axis = 0; axis < 3; ++axis) constants.inverse_spacing[axis] = smallest / spacing[axis];
+  for (int axis = 0; axis < 3; ++axis) inverse_spacing[axis] = smallest / spacing[axis];
   const auto stencil = HWY_NAMESPACE::gather([&](Index3 n) { return phi.at(n); }, phi.geometry.size, voxel);
-  const auto differences = HWY_NAMESPACE::differences<true>(stencil, constants);
+  const auto differences = HWY_NAMESPACE::differences<true, double>(stencil, inverse_spacing);
   values.gradient = 0.5 * std::sqrt(differences.two_central[0] * differences.two_central[0] +
                                     differences.two_central[1] * differences.two_central[1] +
                                     differences.two_central[2] * differences.two_central[2]);

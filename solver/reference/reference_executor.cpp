@@ -13,8 +13,8 @@ namespace {
 using HWY_NAMESPACE::Stencil;
 
 Stencil<double> gather(const std::vector<double>& phi, const Geometry& geometry, Index3 v) {
-  return HWY_NAMESPACE::gather(
-      [&](Index3 n) { return phi[static_cast<std::size_t>(geometry.offset(n))]; }, geometry.size, v);
+  return HWY_NAMESPACE::gather([&](Index3 n) { return phi[static_cast<std::size_t>(geometry.offset(n))]; },
+                               geometry.size, v);
 }
 
 }  // namespace
@@ -81,12 +81,15 @@ template <bool kPaper>
 void ReferenceExecutor::step() {
   const Geometry& geometry = source_->geometry;
   const StepConstants<double> constants = model_.constants<double>();
+  const auto update = HWY_NAMESPACE::update_constants<double>(constants);
   for (std::int64_t z = 0; z < geometry.size.z; ++z) {
     for (std::int64_t y = 0; y < geometry.size.y; ++y) {
       for (std::int64_t x = 0; x < geometry.size.x; ++x) {
         const auto i = static_cast<std::size_t>(geometry.offset({x, y, z}));
-        const auto d = HWY_NAMESPACE::differences<true>(gather(phi_, geometry, {x, y, z}), constants);
-        next_[i] = HWY_NAMESPACE::updated_phi<kPaper>(d, static_cast<double>(source_values_[i]), constants);
+        const auto d = HWY_NAMESPACE::differences<true, double>(gather(phi_, geometry, {x, y, z}),
+                                                                update.inverse_spacing);
+        const double data = HWY_NAMESPACE::data_motion(static_cast<double>(source_values_[i]), constants);
+        next_[i] = HWY_NAMESPACE::updated_phi<kPaper, double>(d, data, update);
         if (std::abs(next_[i]) <= constants.near) {
           const double change = next_[i] - previous_[i];
           motion_.squared_change += change * change;

@@ -7,7 +7,8 @@
 #define TIDEMARK_SPEED_DATA_INL_H_
 #endif
 
-#include "solver/speed/stencil-inl.h"
+#include "solver/model.h"
+#include "solver/speed/numbers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tidemark::HWY_NAMESPACE {
@@ -17,6 +18,12 @@ template <class V, class Real>
 HWY_INLINE V data_speed(V source, const StepConstants<Real>& k) {
   const V distance = abs(source - V(k.target));
   return max(neg_mul_add(distance, V(k.data_slope), V(k.data_peak)), V(k.data_floor));
+}
+
+// How far the data term moves the surface in a step: dt alpha D.
+template <class V, class Real>
+HWY_INLINE V data_motion(V source, const StepConstants<Real>& k) {
+  return V(k.time_step) * V(k.data_weight) * data_speed(source, k);
 }
 
 }  // namespace tidemark::HWY_NAMESPACE

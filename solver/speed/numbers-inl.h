@@ -41,10 +41,6 @@ HWY_INLINE double mul_sub(double a, double b, double c) {
 HWY_INLINE double neg_mul_add(double a, double b, double c) {
   return c - a * b;
 }
-// a where test > 0, else b.
-HWY_INLINE double if_positive(double test, double a, double b) {
-  return test > 0.0 ? a : b;
-}
 
 // Two rows of a page at most: 16 lanes.
 using LanesTag = hn::CappedTag<float, 16>;
@@ -74,9 +70,6 @@ struct Lanes {
   friend HWY_INLINE Lanes mul_sub(Lanes a, Lanes b, Lanes c) { return Lanes(hn::MulSub(a.v, b.v, c.v)); }
   friend HWY_INLINE Lanes neg_mul_add(Lanes a, Lanes b, Lanes c) {
     return Lanes(hn::NegMulAdd(a.v, b.v, c.v));
-  }
-  friend HWY_INLINE Lanes if_positive(Lanes test, Lanes a, Lanes b) {
-    return Lanes(hn::IfThenElse(hn::Gt(test.v, hn::Zero(LanesTag())), a.v, b.v));
   }
 };
 

@@ -15,15 +15,14 @@ namespace tidemark::HWY_NAMESPACE {
 // The product of phi with a neighbour of the other sign at which that neighbour counts in full.
 inline constexpr double kFullSignChange = 0.1;
 
-// How the two one-sided gradients share in |grad phi| here: the one from the side of the surface counts
-// alone, but beside the surface the mean of both stands in, which keeps the surface where it is to about a
+// How the two one-sided gradients share in |grad phi| here: at 1 the one from the side of the surface counts
+// alone; at 0, beside the surface, the mean of both stands in, which keeps the surface where it is to about a
 // tenth of a voxel. The one goes over into the other continuously as a neighbour changes sign: a switch would
 // leave voxels flipping between the two for ever, and the surface would never come to rest.
 template <class Real, class V>
-HWY_INLINE UpwindWeights<V> rescaling_shares(const Differences<V>& d) {
-  const V away = max(min(d.lowest_product * V(Real(-0.5 / kFullSignChange)), V(Real(0.5))), V(Real(0)));
-  const V toward = V(Real(1)) - away;
-  return {if_positive(d.phi, away, toward), if_positive(d.phi, toward, away)};
+HWY_INLINE V one_sidedness(const Differences<V>& d) {
+  const V one = V(Real(1));
+  return max(min(mul_add(d.lowest_product, V(Real(1.0 / kFullSignChange)), one), one), V(Real(0)));
 }
 
 }  // namespace tidemark::HWY_NAMESPACE

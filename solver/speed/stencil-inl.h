@@ -1,4 +1,4 @@
-// The 19 values of phi around a voxel, and the differences that every speed term is made of.
+// What the equation reads of phi around a voxel, and the differences that every speed term is made of.
 //
 // The headers of this folder are written once for any kind of number V: the reference computes with double,
 // the host executor with vectors of float, compiled anew for each instruction set. V has + - * and the
@@ -13,20 +13,19 @@
 #define TIDEMARK_SPEED_STENCIL_INL_H_
 #endif
 
-#include "solver/model.h"
 #include "solver/speed/numbers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tidemark::HWY_NAMESPACE {
 
-// phi at a voxel (c), at its face neighbours (xm: x - 1, xp: x + 1) and at its edge neighbours.
+// phi at a voxel (c), at its face neighbours (xm: x - 1, xp: x + 1) and at those of its edge neighbours that
+// have its x. The others are read as differences phi(x + 1) - phi(x - 1): here (dx) and at face neighbours.
 template <class V>
 struct Stencil {
   V c;
   V xm, xp, ym, yp, zm, zp;
-  V xmym, xmyp, xpym, xpyp;
-  V xmzm, xmzp, xpzm, xpzp;
   V ymzm, ymzp, ypzm, ypzp;
+  V dx, dx_ym, dx_yp, dx_zm, dx_zp;
 };
 
 // What the terms of one voxel share. Lengths are in units of the smallest spacing.
@@ -42,20 +41,15 @@ struct Differences {
 };
 
 template <class V>
-HWY_INLINE V sum_of_squares(const V (&v)[3]) {
-  return mul_add(v[2], v[2], mul_add(v[1], v[1], v[0] * v[0]));
+HWY_INLINE V sum_of_squares(const V (&a)[3], const V (&b)[3]) {
+  const V sum = mul_add(a[2], a[2], mul_add(a[1], a[1], a[0] * a[0]));
+  return mul_add(b[2], b[2], mul_add(b[1], b[1], mul_add(b[0], b[0], sum)));
 }
 
-// Factors of the two upwind gradients.
-template <class V>
-struct UpwindWeights {
-  V growing;
-  V shrinking;
-};
-
-// kAnisotropic = false leaves out the divisions by spacings that are all 1.
-template <bool kAnisotropic, class V, class Real>
-HWY_INLINE Differences<V> differences(const Stencil<V>& s, const StepConstants<Real>& k) {
+// `inverse` are the inverse spacings; kAnisotropic = false leaves out the divisions by spacings that are
+// all 1.
+template <bool kAnisotropic, class Real, class V>
+HWY_INLINE Differences<V> differences(const Stencil<V>& s, const V (&inverse)[3]) {
   Differences<V> d;
   d.phi = s.c;
   // To each neighbour: -D- and D+. By size, the two of an axis are the same for a mirrored field.
@@ -65,19 +59,20 @@ HWY_INLINE Differences<V> differences(const Stencil<V>& s, const StepConstants<R
   V higher[3];
   for (int axis = 0; axis < 3; ++axis) {
     d.second[axis] = ahead[axis] + behind[axis];
-    d.two_central[axis] = ahead[axis] - behind[axis];
     lower[axis] = min(ahead[axis], behind[axis]);
     higher[axis] = max(ahead[axis], behind[axis]);
   }
-  d.four_mixed[0] = (s.xpyp - s.xpym) - (s.xmyp - s.xmym);
-  d.four_mixed[1] = (s.xpzp - s.xpzm) - (s.xmzp - s.xmzm);
+  d.two_central[0] = s.dx;
+  d.two_central[1] = s.yp - s.ym;
+  d.two_central[2] = s.zp - s.zm;
+  d.four_mixed[0] = s.dx_yp - s.dx_ym;
+  d.four_mixed[1] = s.dx_zp - s.dx_zm;
   d.four_mixed[2] = (s.ypzp - s.ypzm) - (s.ymzp - s.ymzm);
-  // The way to the neighbour that is least on phi's side.
-  const V to_least =
-      if_positive(s.c, min(min(lower[0], lower[1]), lower[2]), max(max(higher[0], higher[1]), higher[2]));
-  d.lowest_product = s.c * (s.c + to_least);
+  // The lowest neighbour gives it where phi > 0, the highest where phi < 0.
+  const V to_lowest = min(min(lower[0], lower[1]), lower[2]);
+  const V to_highest = max(max(higher[0], higher[1]), higher[2]);
+  d.lowest_product = mul_add(s.c, s.c, min(s.c * to_lowest, s.c * to_highest));
   if constexpr (kAnisotropic) {
-    const V inverse[3] = {V(k.inverse_spacing[0]), V(k.inverse_spacing[1]), V(k.inverse_spacing[2])};
     for (int axis = 0; axis < 3; ++axis) {
       lower[axis] = lower[axis] * inverse[axis];
       higher[axis] = higher[axis] * inverse[axis];
@@ -101,8 +96,9 @@ HWY_INLINE Differences<V> differences(const Stencil<V>& s, const StepConstants<R
     higher_down[axis] = min(higher[axis], zero);
     lower_down[axis] = min(lower[axis], zero);
   }
-  d.upwind_growing = sqrt(sum_of_squares(higher_up) + sum_of_squares(lower_up));
-  d.upwind_shrinking = sqrt(sum_of_squares(higher_down) + sum_of_squares(lower_down));
+  // In this order -phi, where higher and lower change places, gives the same sums.
+  d.upwind_growing = sqrt(sum_of_squares(higher_up, lower_up));
+  d.upwind_shrinking = sqrt(sum_of_squares(lower_down, higher_down));
   return d;
 }
 

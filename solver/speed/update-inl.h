@@ -15,29 +15,52 @@
 HWY_BEFORE_NAMESPACE();
 namespace tidemark::HWY_NAMESPACE {
 
-// The new phi of a voxel. kPaper: eq. 6 literally, with one upwind gradient for the total speed.
+// What a step multiplies with. The halves are of what is added to both upwind parts of the result.
+template <class V>
+struct UpdateConstants {
+  V inverse_spacing[3];
+  V band;                  // W
+  V minus_band;            // -W
+  V curvature;             // dt (1 - alpha)
+  V half_curvature;        // dt (1 - alpha) / 2
+  V minus_half_rescaling;  // -dt w / 2
+  V half_grown;            // (1 + dt w g_phi) / 2
+};
+
+template <class V, class Real>
+HWY_INLINE UpdateConstants<V> update_constants(const StepConstants<Real>& k) {
+  UpdateConstants<V> constants;
+  for (int axis = 0; axis < 3; ++axis) constants.inverse_spacing[axis] = V(k.inverse_spacing[axis]);
+  constants.band = V(k.band);
+  constants.minus_band = V(k.minus_band);
+  const Real half = Real(0.5);
+  const Real rescaling = k.time_step * k.rescaling_weight;
+  constants.curvature = V(k.time_step * k.curvature_weight);
+  constants.half_curvature = V(half * (k.time_step * k.curvature_weight));
+  constants.minus_half_rescaling = V(-half * rescaling);
+  constants.half_grown = V(half + half * rescaling * k.target_gradient);
+  return constants;
+}
+
+// The new phi of a voxel; `data` as data_motion() gives it. kPaper: eq. 6 literally, with one upwind gradient
+// for the total speed.
 //
 // dphi/dt is linear in the upwind gradients. Their weights are put together first, which a processor does
-// while it draws the roots of the gradients.
-template <bool kPaper, class V, class Real>
-HWY_INLINE V updated_phi(const Differences<V>& d, V source, const StepConstants<Real>& k) {
-  const V zero = V(Real(0));
-  const V data = V(k.data_weight) * data_speed(source, k);
-  const V upwind_speed = kPaper ? data + V(k.curvature_weight) * curvature<Real>(d) : data;
-  UpwindWeights<V> weights{max(upwind_speed, zero), min(upwind_speed, zero)};
+// while it draws the roots of the gradients. Both parts are treated alike, so that inside and outside are
+// alike to the last bit.
+template <bool kPaper, class Real, class V>
+HWY_INLINE V updated_phi(const Differences<V>& d, V data, const UpdateConstants<V>& k) {
+  const V moved = kPaper ? data + k.curvature * curvature<Real>(d) : data;
+  // The weight of each gradient in -w phi |grad phi| where both share alike.
+  const V shared = k.minus_half_rescaling * d.phi;
+  const V one_sided = one_sidedness<Real>(d);
+  const V growing = mul_add(abs(shared), one_sided, max(moved + shared, shared));
+  const V shrinking = neg_mul_add(abs(shared), one_sided, min(moved + shared, shared));
 
-  // w phi (g_phi - |grad phi|)
-  const V rescaling = V(k.rescaling_weight) * d.phi;
-  const UpwindWeights<V> shares = rescaling_shares<Real>(d);
-  weights.growing = neg_mul_add(rescaling, shares.growing, weights.growing);
-  weights.shrinking = neg_mul_add(rescaling, shares.shrinking, weights.shrinking);
-  V change = rescaling * V(k.target_gradient);
-
-  if constexpr (!kPaper) change = mul_add(V(k.curvature_weight), curvature_motion<Real>(d), change);
-  // Not fused: inside and outside are alike to the last bit.
-  change = change + (weights.growing * d.upwind_growing + weights.shrinking * d.upwind_shrinking);
-  const V phi = mul_add(V(k.time_step), change, d.phi);
-  return max(min(phi, V(k.band)), V(k.minus_band));
+  V half = k.half_grown * d.phi;
+  if constexpr (!kPaper) half = mul_add(k.half_curvature, curvature_motion<Real>(d), half);
+  const V phi = mul_add(growing, d.upwind_growing, half) + mul_add(shrinking, d.upwind_shrinking, half);
+  return max(min(phi, k.band), k.minus_band);
 }
 
 }  // namespace tidemark::HWY_NAMESPACE

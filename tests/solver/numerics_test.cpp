@@ -16,14 +16,16 @@ namespace {
 
 HWY_NAMESPACE::Stencil<double> stencil_of(const Function& phi, glm::dvec3 p) {
   const auto at = [&](int x, int y, int z) { return phi(p + glm::dvec3(x, y, z)); };
-  return {at(0, 0, 0),   at(-1, 0, 0),  at(1, 0, 0),  at(0, -1, 0), at(0, 1, 0),   at(0, 0, -1), at(0, 0, 1),
-          at(-1, -1, 0), at(-1, 1, 0),  at(1, -1, 0), at(1, 1, 0),  at(-1, 0, -1), at(-1, 0, 1), at(1, 0, -1),
-          at(1, 0, 1),   at(0, -1, -1), at(0, -1, 1), at(0, 1, -1), at(0, 1, 1)};
+  const auto dx = [&](int y, int z) { return at(1, y, z) - at(-1, y, z); };
+  return {at(0, 0, 0), at(-1, 0, 0),  at(1, 0, 0),  at(0, -1, 0), at(0, 1, 0), at(0, 0, -1),
+          at(0, 0, 1), at(0, -1, -1), at(0, -1, 1), at(0, 1, -1), at(0, 1, 1), dx(0, 0),
+          dx(-1, 0),   dx(1, 0),      dx(0, -1),    dx(0, 1)};
 }
 
 double kappa(const Function& phi, glm::dvec3 p) {
-  const StepConstants<double> constants{};
-  return HWY_NAMESPACE::curvature<double>(HWY_NAMESPACE::differences<false>(stencil_of(phi, p), constants));
+  const double inverse_spacing[3] = {1.0, 1.0, 1.0};
+  return HWY_NAMESPACE::curvature<double>(
+      HWY_NAMESPACE::differences<false, double>(stencil_of(phi, p), inverse_spacing));
 }
 
 // The largest relative error of kappa at points of the surface, off the axes.
