@@ -52,15 +52,16 @@ template <bool kAnisotropic, class Real, class V>
 HWY_INLINE Differences<V> differences(const Stencil<V>& s, const V (&inverse)[3]) {
   Differences<V> d;
   d.phi = s.c;
-  // To each neighbour: -D- and D+. By size, the two of an axis are the same for a mirrored field.
-  const V behind[3] = {s.xm - s.c, s.ym - s.c, s.zm - s.c};
-  const V ahead[3] = {s.xp - s.c, s.yp - s.c, s.zp - s.c};
+  // The neighbours of an axis by size are the same for a mirrored field.
+  const V low[3] = {min(s.xm, s.xp), min(s.ym, s.yp), min(s.zm, s.zp)};
+  const V high[3] = {max(s.xm, s.xp), max(s.ym, s.yp), max(s.zm, s.zp)};
+  // One-sided differences: D+ and -D-, by size, too.
   V lower[3];
   V higher[3];
   for (int axis = 0; axis < 3; ++axis) {
-    d.second[axis] = ahead[axis] + behind[axis];
-    lower[axis] = min(ahead[axis], behind[axis]);
-    higher[axis] = max(ahead[axis], behind[axis]);
+    lower[axis] = low[axis] - s.c;
+    higher[axis] = high[axis] - s.c;
+    d.second[axis] = higher[axis] + lower[axis];
   }
   d.two_central[0] = s.dx;
   d.two_central[1] = s.yp - s.ym;
@@ -69,9 +70,9 @@ HWY_INLINE Differences<V> differences(const Stencil<V>& s, const V (&inverse)[3]
   d.four_mixed[1] = s.dx_zp - s.dx_zm;
   d.four_mixed[2] = (s.ypzp - s.ypzm) - (s.ymzp - s.ymzm);
   // The lowest neighbour gives it where phi > 0, the highest where phi < 0.
-  const V to_lowest = min(min(lower[0], lower[1]), lower[2]);
-  const V to_highest = max(max(higher[0], higher[1]), higher[2]);
-  d.lowest_product = mul_add(s.c, s.c, min(s.c * to_lowest, s.c * to_highest));
+  const V lowest = min(min(low[0], low[1]), low[2]);
+  const V highest = max(max(high[0], high[1]), high[2]);
+  d.lowest_product = min(s.c * lowest, s.c * highest);
   if constexpr (kAnisotropic) {
     for (int axis = 0; axis < 3; ++axis) {
       lower[axis] = lower[axis] * inverse[axis];

@@ -82,14 +82,4 @@ inline Scene lumpy_scene(Index3 size, glm::dvec3 spacing = glm::dvec3(1.0)) {
   return scene;
 }
 
-inline double largest_difference(const Executor& one, const Executor& other) {
-  const std::vector<float> a = one.snapshot().value().dense();
-  const std::vector<float> b = other.snapshot().value().dense();
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    largest = std::max(largest, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
-  }
-  return largest;
-}
-
 }  // namespace tidemark::test

@@ -58,7 +58,7 @@ class ExecutorsPagingTest : public QObject {
     const auto host = executor(ExecutorKind::host, source, parameters);
     std::mt19937 random(5);
     for (int edit = 0; edit < 60; ++edit) {
-      const glm::dvec3 voxel(random() % 90, random() % 70, random() % 50);
+      const glm::dvec3 voxel{random() % 90, random() % 70, random() % 50};
       const Sphere sphere = sphere_at_voxel(geometry, voxel, 1.0 + random() % 14);
       const Brush brush = random() % 3 == 0 ? Brush::erase : Brush::add;
       const std::int64_t steps = random() % 4;
@@ -90,7 +90,7 @@ class ExecutorsPagingTest : public QObject {
     const auto reference = executor(ExecutorKind::reference, source, Parameters());
     std::mt19937 random(11);
     for (int edit = 0; edit < 20; ++edit) {
-      const glm::dvec3 voxel(random() % 30, random() % 26, random() % 22);
+      const glm::dvec3 voxel{random() % 30, random() % 26, random() % 22};
       const Sphere sphere = sphere_at_voxel(geometry, voxel, 1.0 + random() % 8);
       const Brush brush = edit % 3 == 2 ? Brush::erase : Brush::add;
       QVERIFY(tested->paint(sphere, brush));

@@ -76,6 +76,17 @@ inline AdvanceReport run(Executor& level_set, std::int64_t steps, bool until_con
   return *report;
 }
 
+inline double largest_difference(const auto& a, const auto& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
+  }
+  return largest;
+}
+inline double largest_difference(const Executor& a, const Executor& b) {
+  return largest_difference(a.snapshot().value().dense(), b.snapshot().value().dense());
+}
+
 // Calls visit(point in mm) for each crossing of phi = 0 along a grid line, by linear interpolation.
 inline void for_each_crossing(const Field& phi, const std::function<void(glm::dvec3)>& visit) {
   const Geometry& g = phi.geometry;

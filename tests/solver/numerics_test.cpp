@@ -73,14 +73,6 @@ std::vector<float> evolved(const Geometry& geometry, const std::vector<float>& s
   return level_set->snapshot().value().dense();
 }
 
-double largest_difference(const std::vector<float>& a, const std::vector<float>& b) {
-  double worst = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    worst = std::max(worst, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
-  }
-  return worst;
-}
-
 }  // namespace
 
 class NumericsTest : public QObject {

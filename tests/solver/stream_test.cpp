@@ -105,16 +105,6 @@ struct Scene {
   }
 };
 
-double largest_difference(const Executor& a, const Executor& b) {
-  const std::vector<float> first = good(a.snapshot()).dense();
-  const std::vector<float> second = good(b.snapshot()).dense();
-  double largest = 0.0;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    largest = std::max(largest, static_cast<double>(std::abs(first[i] - second[i])));
-  }
-  return largest;
-}
-
 bool same_bits(const Executor& a, const Executor& b) {
   const Field first = good(a.snapshot());
   const Field second = good(b.snapshot());
@@ -258,7 +248,7 @@ class StreamTest : public QObject {
     const auto stream = scene.start(ExecutorKind::stream);
     std::int64_t most = 0;
     for (int round = 0; round < 12; ++round) {
-      const glm::dvec3 voxel(random() % 100, random() % 100, random() % 60);
+      const glm::dvec3 voxel{random() % 100, random() % 100, random() % 60};
       const Sphere sphere = sphere_at_voxel(scene.geometry, voxel, 4.0 + random() % 24);
       const Brush brush = round % 3 == 2 ? Brush::erase : Brush::add;
       for (Executor* level_set : {host.get(), stream.get()}) {

@@ -177,7 +177,7 @@ class LabelsTest : public QObject {
     std::vector<SeenLabels> states{seen()};
     for (int round = 0; round < 50; ++round) {
       const auto id = static_cast<std::uint8_t>(1 + random() % 2);
-      const Index3 first(random() % 8, random() % 8, random() % 8);
+      const Index3 first{random() % 8, random() % 8, random() % 8};
       Status done;
       if (labels.find(id) == nullptr) {
         if (auto added = labels.add("label"); !added) done = pass_on(added);
