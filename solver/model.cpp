@@ -52,7 +52,6 @@ StepConstants<Real> Model::constants() const {
   for (int axis = 0; axis < 3; ++axis) c.inverse_spacing[axis] = static_cast<Real>(1.0 / spacing_[axis]);
   c.time_step = static_cast<Real>(time_step_);
   c.band = static_cast<Real>(band_);
-  c.minus_band = -c.band;
   c.data_weight = static_cast<Real>(parameters_.data_term ? parameters_.alpha : 0.0);
   c.curvature_weight = static_cast<Real>(parameters_.curvature_term ? 1.0 - parameters_.alpha : 0.0);
   c.rescaling_weight = static_cast<Real>(parameters_.rescaling_term ? rescale_ : 0.0);

@@ -15,7 +15,6 @@ struct StepConstants {
   Real inverse_spacing[3];  // 1 / h of each axis
   Real time_step;           // dt
   Real band;                // W
-  Real minus_band;          // -W
   Real data_weight;         // alpha; 0 when the term is off
   Real curvature_weight;    // 1 - alpha; 0 when the term is off
   Real rescaling_weight;    // w; 0 when the term is off

@@ -50,6 +50,7 @@ void HostExecutor::clear() {
   new_pages_.clear();
   needs_activation_ = false;
   steps_in_window_ = 0;
+  quiet_pages_ = 0;
   active_list_is_stale_ = true;
 }
 

@@ -1,5 +1,6 @@
 #include "solver/host/host_executor.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdlib>
 #include <cstring>
@@ -59,13 +60,12 @@ Status HostExecutor::set_parameters(const Parameters& parameters) {
   return {};
 }
 
-// Computes an active page from the current buffer into the other one and writes its code; returns the number
-// of voxels computed.
-std::int64_t HostExecutor::update_page(std::size_t index, const float* ahead, Tile& tile) {
+// Computes those rows of an active page from the current buffer into the other one and writes its code;
+// returns the number of voxels computed.
+std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const float* ahead, Tile& tile) {
   const PhysicalPage page = active_[index];
   PageInfo& info = pool_.info(page);
   const int next = 1 - current_;
-  RowWork work = find_row_work(pool_, current_, info);
   const Rows rows = whole_vectors(work.compute, kernels_.rows_per_vector);
   work.inside &= ~rows;
   work.outside &= ~rows;
@@ -114,23 +114,33 @@ void HostExecutor::step() {
   kernel_ = kernels_.kernels[model_.parameters().scheme == Scheme::paper ? 1 : 0]
                             [model_.spacing() == glm::dvec3(1.0) ? 0 : 1][motion ? 1 : 0];
   std::fill(updates_.begin(), updates_.end(), 0);
-  constexpr std::int64_t kGrain = 4;
+  constexpr std::int64_t kLongestPiece = 16;  // pages
   constexpr std::int64_t kPrefetchAhead = 5;  // pages; from 2 to 12 it makes no difference (measured)
   // There and back: of a surface that is larger than the cache, a step finds there what the last one left.
   const auto count = static_cast<std::int64_t>(active_.size());
   const bool back = current_ == 1;
   const std::int64_t stride = back ? -1 : 1;
+  // Short enough that no thread waits for another's last piece for long.
+  const std::int64_t grain = std::clamp<std::int64_t>(count / (8 * threads_->threads()), 1, kLongestPiece);
   threads_->for_each(
-      count, kGrain,
+      count, grain,
       [&](std::int64_t begin, std::int64_t end, int member) {
+        // What is to do is found for all pages of the piece first: the masks that this waits for then come at
+        // the same time.
+        RowWork work[kLongestPiece];
+        for (std::int64_t i = begin; i < end; ++i) {
+          work[i - begin] = find_row_work(pool_, current_, pool_.info(active_[static_cast<std::size_t>(i)]));
+        }
         const auto m = static_cast<std::size_t>(member);
+        std::int64_t updates = 0;  // added once a piece: the threads' sums share a cache line
         std::int64_t i = back ? end - 1 : begin;
         for (std::int64_t left = end - begin; left > 0; --left, i += stride) {
           const std::int64_t then = i + stride * kPrefetchAhead;
           const float* ahead =
               then >= 0 && then < count ? pool_.all_values(active_[static_cast<std::size_t>(then)]) : nullptr;
-          updates_[m] += update_page(static_cast<std::size_t>(i), ahead, *tiles_[m]);
+          updates += update_page(static_cast<std::size_t>(i), work[i - begin], ahead, *tiles_[m]);
         }
+        updates_[m] += updates;
       },
       back ? ThreadPool::Direction::backward : ThreadPool::Direction::forward);
   current_ = 1 - current_;

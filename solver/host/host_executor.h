@@ -41,7 +41,7 @@ class HostExecutor final : public ExecutorBase {
 
   // Steps (host_executor.cpp).
   void step();
-  std::int64_t update_page(std::size_t index, const float* ahead, Tile& tile);
+  std::int64_t update_page(std::size_t index, RowWork work, const float* ahead, Tile& tile);
   bool finish_window();
 
   // Which pages are resident (domain.cpp).

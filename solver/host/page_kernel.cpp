@@ -198,6 +198,7 @@ void update_page(const PageJob& job, PageResult& result) {
   const int lanes = static_cast<int>(hn::Lanes(d));
   const int rows_per_vector = lanes > kPageSide ? lanes / kPageSide : 1;
   const auto constants = update_constants<Lanes>(*job.constants);
+  const auto minus_band = hn::Neg(constants.band.v);
 
   const unsigned slices = slices_read(job.rows);
   if (lanes < kPageSide || at_border(*job.info)) {
@@ -241,7 +242,7 @@ void update_page(const PageJob& job, PageResult& result) {
       }
       hn::StoreU(phi, d, next + voxel);
       set_bits(hn::Eq(phi, constants.band.v), voxel, constant.inside);
-      set_bits(hn::Eq(phi, constants.minus_band.v), voxel, constant.outside);
+      set_bits(hn::Eq(phi, minus_band), voxel, constant.outside);
     }
   }
   // Padding voxels count as constant: only the others are asked for.

@@ -26,12 +26,14 @@ void HostExecutor::wake(PhysicalPage page) {
   PageInfo& info = pool_.info(page);
   if (!info.asleep) return;
   info.asleep = false;
+  --quiet_pages_;
   info.near_voxels = 0;
   active_list_is_stale_ = true;
 }
 
 void HostExecutor::wake_around(PhysicalPage page) {
   pool_.info(page).woke_neighbours = true;
+  if (quiet_pages_ == 0) return;
   for (int n = 0; n < 27; ++n) {
     const PhysicalPage other = pool_.info(page).neighbours[n];
     if (other >= kFirstPage && within_stencil(n)) wake(other);
@@ -45,6 +47,7 @@ void HostExecutor::wake_all() {
 void HostExecutor::put_to_sleep(PhysicalPage page) {
   PageInfo& info = pool_.info(page);
   info.asleep = true;
+  ++quiet_pages_;
   std::copy_n(pool_.phi(current_, page), kPageVoxels, pool_.phi(1 - current_, page));
   pool_.masks(1 - current_, page) = pool_.masks(current_, page);
 }
@@ -59,7 +62,7 @@ void HostExecutor::judge_quiet_pages() {
     for (const PhysicalPage page : active_) {
       if (table_.virtual_page(page) < 0) continue;  // freed in this step
       const PageInfo& info = pool_.info(page);
-      bool all_still = true;
+      bool all_still = still(page);
       for (int n = 0; n < 27 && all_still; ++n) all_still = !within_stencil(n) || still(info.neighbours[n]);
       if (all_still) quiet.push_back(page);
     }

@@ -19,8 +19,10 @@ inline constexpr Rows kAllRows = ~Rows{0};
 // Rows whose voxels are all W (inside) or all -W (outside); the same for the first and the last voxel of each
 // row alone, which is what the pages beside it along x see. Rows and voxels that are padding count as both.
 struct RowMasks {
-  Rows inside = 0, inside_first = 0, inside_last = 0;
-  Rows outside = 0, outside_first = 0, outside_last = 0;
+  // In pairs, which a compiler treats as vectors of two.
+  Rows inside = 0, outside = 0;
+  Rows inside_first = 0, outside_first = 0;
+  Rows inside_last = 0, outside_last = 0;
 
   static constexpr RowMasks constant(bool is_inside) {
     RowMasks masks;

@@ -25,6 +25,10 @@ HWY_INLINE double min(double a, double b) {
 HWY_INLINE double abs(double a) {
   return std::abs(a);
 }
+// a within [-limit, limit]
+HWY_INLINE double clamp(double a, double limit) {
+  return max(min(a, limit), -limit);
+}
 HWY_INLINE double sqrt(double a) {
   return std::sqrt(a);
 }
@@ -45,6 +49,17 @@ HWY_INLINE double neg_mul_add(double a, double b, double c) {
 // Two rows of a page at most: 16 lanes.
 using LanesTag = hn::CappedTag<float, 16>;
 
+#if HWY_TARGET <= HWY_AVX3
+// The one that is smaller by size, with the sign of a: one instruction, which Highway has not.
+HWY_INLINE hn::Vec<LanesTag> clamp(hn::Vec<LanesTag> a, hn::Vec<LanesTag> limit) {
+  return {_mm512_range_ps(a.raw, limit.raw, 0x2)};
+}
+#else
+HWY_INLINE hn::Vec<LanesTag> clamp(hn::Vec<LanesTag> a, hn::Vec<LanesTag> limit) {
+  return hn::Max(hn::Min(a, limit), hn::Neg(limit));
+}
+#endif
+
 struct Lanes {
   hn::Vec<LanesTag> v;
 
@@ -59,6 +74,7 @@ struct Lanes {
   friend HWY_INLINE Lanes max(Lanes a, Lanes b) { return Lanes(hn::Max(a.v, b.v)); }
   friend HWY_INLINE Lanes min(Lanes a, Lanes b) { return Lanes(hn::Min(a.v, b.v)); }
   friend HWY_INLINE Lanes abs(Lanes a) { return Lanes(hn::Abs(a.v)); }
+  friend HWY_INLINE Lanes clamp(Lanes a, Lanes limit) { return Lanes(clamp(a.v, limit.v)); }
   friend HWY_INLINE Lanes sqrt(Lanes a) { return Lanes(hn::Sqrt(a.v)); }
   // The processor's estimate after one Newton step: some 22 bits, a fraction of the cost of a division.
   friend HWY_INLINE Lanes inverse(Lanes a) {

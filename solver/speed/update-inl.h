@@ -20,7 +20,6 @@ template <class V>
 struct UpdateConstants {
   V inverse_spacing[3];
   V band;                  // W
-  V minus_band;            // -W
   V curvature;             // dt (1 - alpha)
   V half_curvature;        // dt (1 - alpha) / 2
   V minus_half_rescaling;  // -dt w / 2
@@ -32,7 +31,6 @@ HWY_INLINE UpdateConstants<V> update_constants(const StepConstants<Real>& k) {
   UpdateConstants<V> constants;
   for (int axis = 0; axis < 3; ++axis) constants.inverse_spacing[axis] = V(k.inverse_spacing[axis]);
   constants.band = V(k.band);
-  constants.minus_band = V(k.minus_band);
   const Real half = Real(0.5);
   const Real rescaling = k.time_step * k.rescaling_weight;
   constants.curvature = V(k.time_step * k.curvature_weight);
@@ -60,7 +58,7 @@ HWY_INLINE V updated_phi(const Differences<V>& d, V data, const UpdateConstants<
   V half = k.half_grown * d.phi;
   if constexpr (!kPaper) half = mul_add(k.half_curvature, curvature_motion<Real>(d), half);
   const V phi = mul_add(growing, d.upwind_growing, half) + mul_add(shrinking, d.upwind_shrinking, half);
-  return max(min(phi, k.band), k.minus_band);
+  return clamp(phi, k.band);
 }
 
 }  // namespace tidemark::HWY_NAMESPACE

@@ -206,6 +206,29 @@ class ExecutorsPagingTest : public QObject {
     }
   }
 
+  void a_page_that_has_just_become_quiet_wakes_when_painted_data() { add_rows_with_host(); }
+  void a_page_that_has_just_become_quiet_wakes_when_painted() {
+    const Setting setting = this_row();
+    const Scene scene = lumpy_scene({45, 40, 35});
+    const auto level_set = setting.make(scene.source, scene.parameters);
+    QCOMPARE(failure(level_set->paint(scene.seed, Brush::add)), QString());
+    std::vector<std::int64_t> quiet;
+    for (int i = 0; i < 200 && quiet.empty(); ++i) {
+      run(*level_set, kConvergenceWindow);
+      quiet = level_set->quiet_pages().value();
+    }
+    QVERIFY(!quiet.empty());
+    const Field phi = level_set->snapshot().value();
+    const Index3 voxel = phi.layout.first_voxel(quiet.front());
+    const Brush other = phi.at(voxel) > 0.0F ? Brush::erase : Brush::add;
+    QCOMPARE(failure(level_set->paint({scene.geometry.to_patient(voxel), 2.0}, other)), QString());
+    const std::vector<std::int64_t> still = level_set->quiet_pages().value();
+    QVERIFY(std::find(still.begin(), still.end(), quiet.front()) == still.end());
+    run(*level_set, 2);
+    QVERIFY((level_set->snapshot().value().at(voxel) > 0.0F) == (other == Brush::add));
+    QCOMPARE(failure(level_set->validate()), QString());
+  }
+
   void its_phi_can_be_drawn_where_it_lies_data() { add_rows(); }
   void its_phi_can_be_drawn_where_it_lies() {
     const Setting setting = this_row();
