@@ -10,6 +10,9 @@
 namespace tidemark {
 namespace {
 
+// Pages that a thread takes at a time.
+constexpr std::int64_t kLongestPiece = 16;
+
 // Bits for whole groups of rows_per_vector rows: a vector computes all of its rows or none.
 Rows whole_vectors(Rows rows, int rows_per_vector) {
   if (rows_per_vector == 1) return rows;
@@ -108,41 +111,44 @@ std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const fl
   return std::popcount(rows & ~info.padding) * std::int64_t{info.valid[0]};
 }
 
+// Updates the active pages [begin, end), at most kLongestPiece; returns the number of voxels computed.
+std::int64_t HostExecutor::update_piece(std::int64_t begin, std::int64_t end, Tile& tile) {
+  // What is to do is found for all of them first: the masks that this waits for then come at the same time.
+  RowWork work[kLongestPiece];
+  for (std::int64_t i = begin; i < end; ++i) {
+    work[i - begin] = find_row_work(pool_, current_, pool_.info(active_[static_cast<std::size_t>(i)]));
+  }
+  constexpr std::int64_t kPrefetchAhead = 5;  // pages; from 2 to 12 it makes no difference (measured)
+  const auto count = static_cast<std::int64_t>(active_.size());
+  const std::int64_t stride = goes_back() ? -1 : 1;
+  std::int64_t updates = 0;
+  std::int64_t i = goes_back() ? end - 1 : begin;
+  for (std::int64_t left = end - begin; left > 0; --left, i += stride) {
+    const std::int64_t then = i + stride * kPrefetchAhead;
+    const float* ahead =
+        then >= 0 && then < count ? pool_.all_values(active_[static_cast<std::size_t>(then)]) : nullptr;
+    updates += update_page(static_cast<std::size_t>(i), work[i - begin], ahead, tile);
+  }
+  return updates;
+}
+
 void HostExecutor::step() {
   // The change over two steps is known after the second of them.
   const bool motion = steps_in_window_ % 2 == 1;
   kernel_ = kernels_.kernels[model_.parameters().scheme == Scheme::paper ? 1 : 0]
                             [model_.spacing() == glm::dvec3(1.0) ? 0 : 1][motion ? 1 : 0];
   std::fill(updates_.begin(), updates_.end(), 0);
-  constexpr std::int64_t kLongestPiece = 16;  // pages
-  constexpr std::int64_t kPrefetchAhead = 5;  // pages; from 2 to 12 it makes no difference (measured)
-  // There and back: of a surface that is larger than the cache, a step finds there what the last one left.
   const auto count = static_cast<std::int64_t>(active_.size());
-  const bool back = current_ == 1;
-  const std::int64_t stride = back ? -1 : 1;
   // Short enough that no thread waits for another's last piece for long.
   const std::int64_t grain = std::clamp<std::int64_t>(count / (8 * threads_->threads()), 1, kLongestPiece);
   threads_->for_each(
       count, grain,
       [&](std::int64_t begin, std::int64_t end, int member) {
-        // What is to do is found for all pages of the piece first: the masks that this waits for then come at
-        // the same time.
-        RowWork work[kLongestPiece];
-        for (std::int64_t i = begin; i < end; ++i) {
-          work[i - begin] = find_row_work(pool_, current_, pool_.info(active_[static_cast<std::size_t>(i)]));
-        }
         const auto m = static_cast<std::size_t>(member);
-        std::int64_t updates = 0;  // added once a piece: the threads' sums share a cache line
-        std::int64_t i = back ? end - 1 : begin;
-        for (std::int64_t left = end - begin; left > 0; --left, i += stride) {
-          const std::int64_t then = i + stride * kPrefetchAhead;
-          const float* ahead =
-              then >= 0 && then < count ? pool_.all_values(active_[static_cast<std::size_t>(then)]) : nullptr;
-          updates += update_page(static_cast<std::size_t>(i), work[i - begin], ahead, *tiles_[m]);
-        }
-        updates_[m] += updates;
+        // Once a piece: the threads' sums share a cache line.
+        updates_[m] += update_piece(begin, end, *tiles_[m]);
       },
-      back ? ThreadPool::Direction::backward : ThreadPool::Direction::forward);
+      goes_back() ? ThreadPool::Direction::backward : ThreadPool::Direction::forward);
   current_ = 1 - current_;
 }
 
