@@ -84,3 +84,14 @@ function(tidemark_spare_openvdb target)
     set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS -fno-sanitize=alignment)
   endif()
 endfunction()
+
+# tidemark_kernels(target sources...): vectorised numerics, the solver's and those it is measured against. Mirrored
+# fields give mirrored results to the last bit only if the compiler fuses nothing by itself. On x86 GCC does not order
+# instructions before it allocates registers unless it is told to; then less goes through memory.
+function(tidemark_kernels target)
+  set(options -ffp-contract=off)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    list(APPEND options -fschedule-insns -fsched-pressure)
+  endif()
+  set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS "${options}")
+endfunction()

@@ -284,8 +284,10 @@ Status HostExecutor::activate_all() {
 Status HostExecutor::validate() const {
   if (auto status = table_.validate(); !status) return status;
   Status result;
+  std::int64_t asleep = 0;
   for_each_resident([&](PhysicalPage page) {
     const PageInfo& info = pool_.info(page);
+    if (info.asleep) ++asleep;
     const Index3 coordinates = table_.layout().page_coordinates(table_.virtual_page(page));
     for (int n = 0; n < 27 && result; ++n) {
       if (info.neighbours[n] != table_.physical(coordinates + neighbour_step(n))) {
@@ -299,6 +301,9 @@ Status HostExecutor::validate() const {
     }
   });
   if (!result) return result;
+  if (asleep != quiet_pages_) {
+    return fail(ErrorKind::internal, "{} pages are quiet, and {} are counted", asleep, quiet_pages_);
+  }
   return tidemark::validate(*snapshot());
 }
 

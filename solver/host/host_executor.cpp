@@ -65,7 +65,8 @@ Status HostExecutor::set_parameters(const Parameters& parameters) {
 
 // Computes those rows of an active page from the current buffer into the other one and writes its code;
 // returns the number of voxels computed.
-std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const float* ahead, Tile& tile) {
+std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const PagePrefetch& ahead,
+                                       Tile& tile) {
   const PhysicalPage page = active_[index];
   PageInfo& info = pool_.info(page);
   const int next = 1 - current_;
@@ -89,11 +90,11 @@ std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const fl
     job.data_motion = pool_.data_motion(page);
     job.next = phi;
     job.rows = rows;
-    job.ahead = ahead;
+    job.ahead = &ahead;
     job.constants = &constants_;
     kernel_(job, result);
   } else {
-    PagePrefetch(ahead, 1).go_on();
+    PagePrefetch::Turns(ahead, 1).go_on();
   }
   masks = result.masks;
   masks.inside |= work.inside;
@@ -119,14 +120,21 @@ std::int64_t HostExecutor::update_piece(std::int64_t begin, std::int64_t end, Ti
     work[i - begin] = find_row_work(pool_, current_, pool_.info(active_[static_cast<std::size_t>(i)]));
   }
   constexpr std::int64_t kPrefetchAhead = 5;  // pages; from 2 to 12 it makes no difference (measured)
+  // Asking for neighbours, too, makes a step 7 % longer while the surface is small, and 7 % shorter when it
+  // has 6,600 pages, 40 MB of values (measured).
+  constexpr std::int64_t kMostPagesInCache = 3000;
   const auto count = static_cast<std::int64_t>(active_.size());
   const std::int64_t stride = goes_back() ? -1 : 1;
   std::int64_t updates = 0;
   std::int64_t i = goes_back() ? end - 1 : begin;
   for (std::int64_t left = end - begin; left > 0; --left, i += stride) {
     const std::int64_t then = i + stride * kPrefetchAhead;
-    const float* ahead =
-        then >= 0 && then < count ? pool_.all_values(active_[static_cast<std::size_t>(then)]) : nullptr;
+    PagePrefetch ahead;
+    if (then >= 0 && then < count) {
+      const PhysicalPage page = active_[static_cast<std::size_t>(then)];
+      ahead.add_values(pool_, page);
+      if (count > kMostPagesInCache) ahead.add_neighbours(pool_, current_, page);
+    }
     updates += update_page(static_cast<std::size_t>(i), work[i - begin], ahead, tile);
   }
   return updates;

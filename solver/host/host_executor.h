@@ -44,7 +44,7 @@ class HostExecutor final : public ExecutorBase {
   // Steps go through the pages there and back: of a surface that is larger than the cache, a step finds there
   // what the last one left.
   [[nodiscard]] bool goes_back() const { return current_ == 1; }
-  std::int64_t update_page(std::size_t index, RowWork work, const float* ahead, Tile& tile);
+  std::int64_t update_page(std::size_t index, RowWork work, const PagePrefetch& ahead, Tile& tile);
   std::int64_t update_piece(std::int64_t begin, std::int64_t end, Tile& tile);
   bool finish_window();
 

@@ -16,6 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tidemark::HWY_NAMESPACE {
 namespace {
 
+#if HWY_TARGET <= HWY_AVX2  // vectors of at least a row
+
 // The voxels to the left and to the right of whole rows: `before` and `after` are the same rows of the pages
 // beside theirs.
 #if HWY_TARGET <= HWY_AVX3
@@ -46,26 +48,15 @@ HWY_INLINE V to_the_right(D d, V page, V after) {
   return lanes_of_two(page, after, hn::IfThenElse(hn::Eq(x, end), first_after, hn::Iota(di, 1)));
 }
 #else
-// Rows turned by `by` voxels, each with the voxel x from `beside` in the place of its own.
-template <class D, class V>
-HWY_INLINE V turned(D d, V rows, V beside, int x, int by) {
-  const hn::RebindToSigned<D> di;
-  const auto end = hn::Set(di, kPageSide - 1);
-  const auto lane = hn::Iota(di, 0);
-  const auto lane_x = hn::And(lane, end);
-  const auto from = hn::Add(hn::Sub(lane, lane_x), hn::And(hn::Add(lane_x, hn::Set(di, by)), end));
-  const auto is_beside = hn::RebindMask(d, hn::Eq(lane_x, hn::Set(di, x)));
-  return hn::TableLookupLanes(hn::IfThenElse(is_beside, beside, rows), hn::IndicesFromVec(d, from));
-}
-
+// Halves of two rows side by side, then a shift within them.
 template <class D, class V>
 HWY_INLINE V to_the_left(D d, V before, V page) {
-  return turned(d, page, before, kPageSide - 1, -1);
+  return hn::CombineShiftRightLanes<3>(d, page, hn::ConcatLowerUpper(d, page, before));
 }
 
 template <class D, class V>
 HWY_INLINE V to_the_right(D d, V page, V after) {
-  return turned(d, page, after, 0, 1);
+  return hn::CombineShiftRightLanes<1>(d, hn::ConcatLowerUpper(d, after, page), page);
 }
 #endif
 
@@ -94,7 +85,7 @@ HWY_INLINE void gather_slice(const PageRow& from, int offset, Tile& tile, int to
   }
 }
 
-// Gathers slices of a page that is surrounded by pages. A row must not be longer than a vector.
+// Gathers slices of a page that is surrounded by pages.
 HWY_INLINE void gather_inner(const PageJob& job, unsigned slices) {
   constexpr int kLastRow = kPageRows - kPageSide;
   const hn::CappedTag<float, kPageSide> one_row;
@@ -123,6 +114,16 @@ HWY_INLINE void gather_inner(const PageJob& job, unsigned slices) {
     gather_slice<true>(own, offset, tile, to);
     gather_rows<false>(one_row, above, offset, tile, to + kPageRows);
   }
+}
+
+#endif  // vectors of at least a row
+
+HWY_INLINE void gather_page(const PageJob& job) {
+  const unsigned slices = slices_read(job.rows);
+#if HWY_TARGET <= HWY_AVX2
+  if (!at_border(*job.info)) return gather_inner(job, slices);
+#endif
+  gather(*job.pool, job.buffer, *job.info, slices, *job.tile);
 }
 
 // The stencil of the voxels that begin at `voxel` in the page and at `at` in the tile.
@@ -200,12 +201,7 @@ void update_page(const PageJob& job, PageResult& result) {
   const auto constants = update_constants<Lanes>(*job.constants);
   const auto minus_band = hn::Neg(constants.band.v);
 
-  const unsigned slices = slices_read(job.rows);
-  if (lanes < kPageSide || at_border(*job.info)) {
-    gather(*job.pool, job.buffer, *job.info, slices, *job.tile);
-  } else {
-    gather_inner(job, slices);
-  }
+  gather_page(job);
 
   // The largest |phi| of a voxel whose change counts; padding never does.
   const int valid_x = job.info->valid[0];
@@ -221,7 +217,7 @@ void update_page(const PageJob& job, PageResult& result) {
   const float* const data_motion = job.data_motion;
   float* const next = job.next;
   const Rows one_vector = (Rows{1} << rows_per_vector) - 1;
-  PagePrefetch ahead(job.ahead, static_cast<int>(hwy::PopCount(job.rows)) / rows_per_vector);
+  PagePrefetch::Turns ahead(*job.ahead, static_cast<int>(hwy::PopCount(job.rows)) / rows_per_vector);
   for (Rows rest = job.rows; rest != 0;) {
     ahead.go_on();
     const int row = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(rest));

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/result.h"
+#include "solver/host/page_prefetch.h"
 #include "solver/host/row_masks.h"
 #include "solver/host/tile.h"
 #include "solver/model.h"
@@ -17,9 +18,9 @@ struct PageJob {
   const PageInfo* info = nullptr;
   Tile* tile = nullptr;                // scratch
   const float* data_motion = nullptr;  // of the page
-  float* next = nullptr;         // out: the new phi, in the rows of `rows`; in, for motion: phi a step ago
-  Rows rows = 0;                 // a multiple of PageKernels::rows_per_vector neighbouring rows
-  const float* ahead = nullptr;  // the values of a page that will soon be computed, if any
+  float* next = nullptr;  // out: the new phi, in the rows of `rows`; in, for motion: phi a step ago
+  Rows rows = 0;          // a multiple of PageKernels::rows_per_vector neighbouring rows
+  const PagePrefetch* ahead = nullptr;  // what to ask for on the way
   const StepConstants<float>* constants = nullptr;
 };
 

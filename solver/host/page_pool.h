@@ -42,6 +42,9 @@ class PagePool {
   }
   [[nodiscard]] float* data_motion(PhysicalPage page) const { return values(page) + 2 * kPageVoxels; }
 
+  // All that is kept for each voxel of a page, kFloatsPerPage floats.
+  [[nodiscard]] const float* all_values(PhysicalPage page) const { return values(page); }
+
   [[nodiscard]] PageInfo& info(PhysicalPage page) { return infos_[index(page)]; }
   [[nodiscard]] const PageInfo& info(PhysicalPage page) const { return infos_[index(page)]; }
 
@@ -50,9 +53,6 @@ class PagePool {
   [[nodiscard]] const RowMasks& masks(int buffer, PhysicalPage page) const {
     return masks_[buffer][index(page)];
   }
-
-  // All that is kept for each voxel of a page, for PagePrefetch.
-  [[nodiscard]] const float* all_values(PhysicalPage page) const { return values(page); }
 
   // Bytes that `pages` pages take for phi and what is kept beside it, and for the data term.
   [[nodiscard]] static std::int64_t state_bytes(std::int64_t pages);
@@ -67,33 +67,6 @@ class PagePool {
   ReservedArray<float> values_;
   ReservedArray<RowMasks> masks_[2];
   ReservedArray<PageInfo> infos_;
-};
-
-// Asks for a page's values to be brought into the second-level cache (the first would be too small), a few
-// lines at a time while another page is computed: asked for at once they would fill the processor's queue of
-// loads, and the computation would wait behind them. Lines are asked for in fours, because the end of a loop
-// over them would be mispredicted.
-class PagePrefetch {
- public:
-  // `values` as all_values() gives them, or null; `turns` is how often go_on() will be called, at least 1.
-  PagePrefetch(const float* values, int turns)
-      : next_(values),
-        end_(values != nullptr ? values + PagePool::kFloatsPerPage : values),
-        fours_a_turn_((kFours + turns - 1) / turns) {}
-  void go_on() {
-    for (int i = 0; i < fours_a_turn_ && next_ != end_; ++i) {
-      for (int line = 0; line < 4; ++line) __builtin_prefetch(next_ + line * kFloatsPerLine, 0, 2);
-      next_ += 4 * kFloatsPerLine;
-    }
-  }
-
- private:
-  static constexpr int kFloatsPerLine = 16;
-  static constexpr int kFours = PagePool::kFloatsPerPage / (4 * kFloatsPerLine);
-  static_assert(PagePool::kFloatsPerPage % (4 * kFloatsPerLine) == 0);
-  const float* next_;
-  const float* end_;
-  int fours_a_turn_;
 };
 
 }  // namespace tidemark

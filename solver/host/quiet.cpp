@@ -62,7 +62,7 @@ void HostExecutor::judge_quiet_pages() {
     for (const PhysicalPage page : active_) {
       if (table_.virtual_page(page) < 0) continue;  // freed in this step
       const PageInfo& info = pool_.info(page);
-      bool all_still = still(page);
+      bool all_still = still(page);  // first, because it most often decides
       for (int n = 0; n < 27 && all_still; ++n) all_still = !within_stencil(n) || still(info.neighbours[n]);
       if (all_still) quiet.push_back(page);
     }
@@ -89,11 +89,9 @@ Result<std::vector<std::int64_t>> HostExecutor::quiet_pages() const {
 
 void HostExecutor::rebuild_active_list() {
   active_.clear();
-  quiet_pages_ = 0;
   quiet_near_voxels_ = 0;
   for_each_resident([&](PhysicalPage page) {
     if (pool_.info(page).asleep) {
-      ++quiet_pages_;
       quiet_near_voxels_ += pool_.info(page).near_voxels;
     } else {
       active_.push_back(page);

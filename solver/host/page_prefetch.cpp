@@ -1,0 +1,28 @@
+#include "solver/host/page_prefetch.h"
+
+namespace tidemark {
+
+void PagePrefetch::add_values(const PagePool& pool, PhysicalPage page) {
+  const float* values = pool.all_values(page);
+  for (int four = 0; four < kFoursOfValues; ++four) add(values + four * 4 * kFloatsPerLine, kFloatsPerLine);
+}
+
+// Without a look at which neighbours may be in the cache: branches on that would be mispredicted.
+void PagePrefetch::add_neighbours(const PagePool& pool, int buffer, PhysicalPage page) {
+  constexpr int kSlice = kPageVoxels / kPageSide;
+  const PhysicalPage* beside = pool.info(page).neighbours + 13;
+  const auto phi = [&](PhysicalPage neighbour) {
+    return pool.phi(buffer, neighbour == kNoPage ? kOutsidePage : neighbour);
+  };
+  for (int dx = -1; dx <= 1; ++dx) {
+    // Along z a slice, along y a row of each slice.
+    add(phi(beside[dx - 9]) + kPageVoxels - kSlice, kFloatsPerLine);
+    add(phi(beside[dx + 9]), kFloatsPerLine);
+    for (const int half : {0, kPageVoxels / 2}) {
+      add(phi(beside[dx - 3]) + half + kSlice - kPageSide, kSlice);
+      add(phi(beside[dx + 3]) + half, kSlice);
+    }
+  }
+}
+
+}  // namespace tidemark
