@@ -45,14 +45,14 @@ ThreadPool::~ThreadPool() {
 void ThreadPool::run_pieces(int member) {
   const auto members = shares_.size();
   for (std::size_t i = 0; i < members; ++i) {
-    Share& share = shares_[(static_cast<std::size_t>(member) + i) % members];
+    Share& from = shares_[(static_cast<std::size_t>(member) + i) % members];
     for (;;) {
-      const std::int64_t taken = share.taken.fetch_add(grain_, std::memory_order_relaxed);
-      const std::int64_t left = share.end - share.begin - taken;
+      const std::int64_t taken = from.taken.fetch_add(grain_, std::memory_order_relaxed);
+      const std::int64_t left = from.range.end - from.range.begin - taken;
       if (left <= 0) break;
       const std::int64_t size = std::min(grain_, left);
       const std::int64_t begin =
-          direction_ == Direction::forward ? share.begin + taken : share.begin + left - size;
+          direction_ == Direction::forward ? from.range.begin + taken : from.range.begin + left - size;
       (*body_)(begin, begin + size, member);
     }
   }
@@ -88,12 +88,10 @@ void ThreadPool::for_each(std::int64_t count, std::int64_t grain, const Body& bo
   grain_ = std::max<std::int64_t>(1, grain);
   direction_ = direction;
   body_ = &body;
-  const auto members = static_cast<std::int64_t>(shares_.size());
-  for (std::int64_t member = 0; member < members; ++member) {
-    Share& share = shares_[static_cast<std::size_t>(member)];
-    share.taken.store(0, std::memory_order_relaxed);
-    share.begin = count * member / members;
-    share.end = count * (member + 1) / members;
+  for (int member = 0; member < threads(); ++member) {
+    Share& own = shares_[static_cast<std::size_t>(member)];
+    own.taken.store(0, std::memory_order_relaxed);
+    own.range = share(count, member);
   }
   // A loop of one piece is not worth waking anybody.
   if (workers_.empty() || count <= grain_) {

@@ -23,9 +23,18 @@ class ThreadPool {
 
   [[nodiscard]] int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
+  // A member's contiguous share of a loop over [0, count): [begin, end).
+  struct Range {
+    std::int64_t begin = 0;
+    std::int64_t end = 0;
+  };
+  [[nodiscard]] Range share(std::int64_t count, int member) const {
+    return {count * member / threads(), count * (member + 1) / threads()};
+  }
+
   // Calls body(begin, end, member) for pieces of [0, count) of at most `grain` until all are done, and
-  // returns then. member is in [0, threads()). Each member begins with its own contiguous share, the same one
-  // every time, so that what it touched in the last loop is still in its cache; then it helps the others.
+  // returns then. member is in [0, threads()). Each member begins with its own share, the same one every
+  // time, so that what it touched in the last loop is still in its cache; then it helps the others.
   // Backward, a share's pieces come from its end: loops that change direction each time meet first what the
   // last one touched last. Not re-entrant: body must not call for_each of this pool, and only one thread at
   // a time may call it. body must not throw.
@@ -47,8 +56,7 @@ class ThreadPool {
 
   struct alignas(64) Share {  // a cache line each
     std::atomic<std::int64_t> taken{0};
-    std::int64_t begin = 0;
-    std::int64_t end = 0;
+    Range range;
   };
   std::vector<Share> shares_;  // one a member
   std::int64_t grain_ = 1;

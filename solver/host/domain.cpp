@@ -48,6 +48,8 @@ void HostExecutor::clear() {
   }
   current_ = 0;
   new_pages_.clear();
+  listed_.clear();
+  listed_in_order_ = 0;
   needs_activation_ = false;
   steps_in_window_ = 0;
   quiet_pages_ = 0;
@@ -167,6 +169,7 @@ Result<PhysicalPage> HostExecutor::make_resident(std::int64_t virtual_page) {
   pool_.masks(0, page) = pool_.masks(1, page) = masks;
   link_neighbours(page);
   new_pages_.push_back(page);
+  listed_.push_back(virtual_page);
   peak_resident_ = std::max(peak_resident_, table_.resident());
   active_list_is_stale_ = true;
   return page;
@@ -303,6 +306,19 @@ Status HostExecutor::validate() const {
   if (!result) return result;
   if (asleep != quiet_pages_) {
     return fail(ErrorKind::internal, "{} pages are quiet, and {} are counted", asleep, quiet_pages_);
+  }
+  if (!active_list_is_stale_) {
+    if (std::ssize(active_) != table_.resident() - asleep) {
+      return fail(ErrorKind::internal, "{} pages are active, and {} are listed", table_.resident() - asleep,
+                  active_.size());
+    }
+    std::int64_t before = -1;
+    for (const PhysicalPage page : active_) {
+      if (table_.virtual_page(page) <= before || pool_.info(page).asleep) {
+        return fail(ErrorKind::internal, "page {} is not in its place in the list of active pages", page);
+      }
+      before = table_.virtual_page(page);
+    }
   }
   return tidemark::validate(*snapshot());
 }

@@ -3,34 +3,10 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
-#include <tuple>
 
 #include "solver/host/host_executor.h"
 
 namespace tidemark {
-namespace {
-
-// The order in which pages are made resident. A step visits them in the order in which they lie in memory:
-// blocks of pages that are near each other along every axis find each other's values still in the cache.
-class BlockOrder {
- public:
-  explicit BlockOrder(const PageLayout& layout) : layout_(layout) {}
-
-  bool operator()(std::int64_t a, std::int64_t b) const { return key(a) < key(b); }
-
- private:
-  static constexpr std::int64_t kBlockSide = 4;  // pages
-
-  [[nodiscard]] std::tuple<std::int64_t, std::int64_t, std::int64_t, std::int64_t> key(
-      std::int64_t page) const {
-    const Index3 block = layout_.page_coordinates(page) / kBlockSide;
-    return {block.z, block.y, block.x, page};
-  }
-
-  const PageLayout& layout_;
-};
-
-}  // namespace
 
 Status HostExecutor::restore(const Field& phi) {
   if (auto status = phi.check_fits(source_->geometry, band()); !status) return status;
@@ -43,12 +19,8 @@ Status HostExecutor::restore(const Field& phi) {
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
     if (phi.table[static_cast<std::size_t>(page)] == Field::kInside) table_.set_static(page, true);
   }
-  std::vector<std::int64_t> resident;
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
-    if (phi.table[static_cast<std::size_t>(page)] >= 0) resident.push_back(page);
-  }
-  std::sort(resident.begin(), resident.end(), BlockOrder(phi.layout));
-  for (const std::int64_t page : resident) {
+    if (phi.table[static_cast<std::size_t>(page)] < 0) continue;
     if (auto made = make_resident(page); !made) return pass_on(made);
   }
   fill_new_pages();
@@ -129,7 +101,6 @@ Status HostExecutor::paint(const Sphere& sphere, Brush brush) {
     }
   });
   if (auto status = check_budget(static_cast<std::int64_t>(to_allocate.size())); !status) return status;
-  std::sort(to_allocate.begin(), to_allocate.end(), BlockOrder(layout));
 
   for (const Index3 coordinates : to_flip) {
     const bool inside = brush == Brush::add;

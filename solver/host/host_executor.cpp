@@ -113,7 +113,7 @@ std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const Pa
 }
 
 // Updates the active pages [begin, end), at most kLongestPiece; returns the number of voxels computed.
-std::int64_t HostExecutor::update_piece(std::int64_t begin, std::int64_t end, Tile& tile) {
+std::int64_t HostExecutor::update_piece(std::int64_t begin, std::int64_t end, int member) {
   // What is to do is found for all of them first: the masks that this waits for then come at the same time.
   RowWork work[kLongestPiece];
   for (std::int64_t i = begin; i < end; ++i) {
@@ -124,13 +124,17 @@ std::int64_t HostExecutor::update_piece(std::int64_t begin, std::int64_t end, Ti
   // has 6,600 pages, 40 MB of values (measured).
   constexpr std::int64_t kMostPagesInCache = 3000;
   const auto count = static_cast<std::int64_t>(active_.size());
+  // Not beyond the thread's own share, nor beyond a piece of another's: what lies there is being written.
+  ThreadPool::Range reach = threads_->share(count, member);
+  if (begin < reach.begin || end > reach.end) reach = {begin, end};
+  Tile& tile = *tiles_[static_cast<std::size_t>(member)];
   const std::int64_t stride = goes_back() ? -1 : 1;
   std::int64_t updates = 0;
   std::int64_t i = goes_back() ? end - 1 : begin;
   for (std::int64_t left = end - begin; left > 0; --left, i += stride) {
     const std::int64_t then = i + stride * kPrefetchAhead;
     PagePrefetch ahead;
-    if (then >= 0 && then < count) {
+    if (then >= reach.begin && then < reach.end) {
       const PhysicalPage page = active_[static_cast<std::size_t>(then)];
       ahead.add_values(pool_, page);
       if (count > kMostPagesInCache) ahead.add_neighbours(pool_, current_, page);
@@ -152,9 +156,8 @@ void HostExecutor::step() {
   threads_->for_each(
       count, grain,
       [&](std::int64_t begin, std::int64_t end, int member) {
-        const auto m = static_cast<std::size_t>(member);
         // Once a piece: the threads' sums share a cache line.
-        updates_[m] += update_piece(begin, end, *tiles_[m]);
+        updates_[static_cast<std::size_t>(member)] += update_piece(begin, end, member);
       },
       goes_back() ? ThreadPool::Direction::backward : ThreadPool::Direction::forward);
   current_ = 1 - current_;
@@ -182,7 +185,9 @@ Result<AdvanceReport> HostExecutor::advance(const Advance& run) {
     if (auto status = activate_all(); !status) return pass_on(status);
   }
   return run_steps(run, [this](AdvanceReport& report) -> Result<bool> {
+    const Stopwatch list;
     if (active_list_is_stale_) rebuild_active_list();
+    report.paging_seconds += list.seconds();
     step();
     for (const std::int64_t updates : updates_) report.voxel_updates += updates;
 
@@ -204,7 +209,8 @@ MemoryReport HostExecutor::memory() const {
   report.quiet_pages = quiet_pages_;
   report.state_bytes =
       PagePool::state_bytes(table_.capacity()) + table_.bytes() +
-      static_cast<std::int64_t>(active_.capacity() * sizeof(PhysicalPage) + codes_.capacity());
+      static_cast<std::int64_t>(active_.capacity() * sizeof(PhysicalPage) + codes_.capacity() +
+                                listed_.capacity() * sizeof(std::int64_t));
   report.peak_state_bytes = report.state_bytes;  // pages are kept for reuse, so memory never shrinks
   report.source_bytes = PagePool::data_bytes(table_.capacity());
   report.page_shape = kDefaultPageShape;

@@ -45,7 +45,7 @@ class HostExecutor final : public ExecutorBase {
   // what the last one left.
   [[nodiscard]] bool goes_back() const { return current_ == 1; }
   std::int64_t update_page(std::size_t index, RowWork work, const PagePrefetch& ahead, Tile& tile);
-  std::int64_t update_piece(std::int64_t begin, std::int64_t end, Tile& tile);
+  std::int64_t update_piece(std::int64_t begin, std::int64_t end, int member);
   bool finish_window();
 
   // Which pages are resident (domain.cpp).
@@ -92,10 +92,16 @@ class HostExecutor final : public ExecutorBase {
 
   PageTable table_;
   PagePool pool_{kFirstPage};
-  int current_ = 0;                      // the buffer that holds phi
-  std::vector<PhysicalPage> active_;     // the pages that are computed
+  int current_ = 0;  // the buffer that holds phi
+  // The pages that are computed, in the order of their virtual numbers: each thread's share is then one
+  // region of the surface, and few of its pages are beside one that another thread writes.
+  std::vector<PhysicalPage> active_;
   std::vector<std::uint8_t> codes_;      // what each of them asks for after a step
   std::vector<PhysicalPage> new_pages_;  // resident since this maintenance, not filled yet
+  // The virtual numbers of all resident pages, and of those freed since the active list was built: first so
+  // many in order, then those made resident since.
+  std::vector<std::int64_t> listed_;
+  std::ptrdiff_t listed_in_order_ = 0;
   bool active_list_is_stale_ = true;
   bool needs_activation_ = false;  // the budget stopped an allocation
   std::int64_t quiet_pages_ = 0;

@@ -127,7 +127,7 @@ HWY_INLINE void gather_page(const PageJob& job) {
 }
 
 // The stencil of the voxels that begin at `voxel` in the page and at `at` in the tile.
-HWY_INLINE Stencil<Lanes> load_stencil(const Tile& tile, int voxel, int at) {
+HWY_INLINE Stencil<Lanes> load_stencil(const Tile& tile, std::size_t voxel, std::size_t at) {
   constexpr int kY = Tile::kRowStride;
   constexpr int kZ = Tile::kSliceStride;
   const auto load = [](const float* values) HWY_ATTR { return Lanes(hn::LoadU(LanesTag(), values)); };
@@ -162,7 +162,7 @@ struct ConstantVoxels {
 
 // Sets the bits of the voxels that begin at `voxel`.
 template <class Mask>
-HWY_INLINE void set_bits(Mask mask, int voxel, std::uint8_t* rows) {
+HWY_INLINE void set_bits(Mask mask, std::size_t voxel, std::uint8_t* rows) {
   const LanesTag d;
   if (hn::Lanes(d) >= kPageSide) {
     hn::StoreMaskBits(d, mask, rows + voxel / kPageSide);
@@ -220,11 +220,11 @@ void update_page(const PageJob& job, PageResult& result) {
   PagePrefetch::Turns ahead(*job.ahead, static_cast<int>(hwy::PopCount(job.rows)) / rows_per_vector);
   for (Rows rest = job.rows; rest != 0;) {
     ahead.go_on();
-    const int row = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(rest));
-    rest &= ~(one_vector << row);
-    const int tile_row = Tile::row(row % kPageSide, row / kPageSide);
+    const std::size_t row = hwy::Num0BitsBelowLS1Bit_Nonzero64(rest);
+    rest &= rows_per_vector == 1 ? rest - 1 : ~(one_vector << row);  // the first is one instruction
+    const std::size_t tile_row = Tile::row(row);
     for (int x = 0; x < kPageSide; x += lanes) {
-      const int voxel = row * kPageSide + x;
+      const std::size_t voxel = row * kPageSide + x;
       const auto differences_here = differences<kAnisotropic, float>(load_stencil(tile, voxel, tile_row + x),
                                                                      constants.inverse_spacing);
       const Lanes data(hn::LoadU(d, data_motion + voxel));

@@ -87,16 +87,28 @@ Result<std::vector<std::int64_t>> HostExecutor::quiet_pages() const {
   return pages;
 }
 
+// In time linear in the resident pages: only the new ones are sorted.
 void HostExecutor::rebuild_active_list() {
+  const auto first_new = listed_.begin() + listed_in_order_;
+  if (first_new != listed_.end()) {
+    std::sort(first_new, listed_.end());
+    std::inplace_merge(listed_.begin(), first_new, listed_.end());
+    // A page that was freed and made resident again is there twice.
+    listed_.erase(std::unique(listed_.begin(), listed_.end()), listed_.end());
+  }
   active_.clear();
   quiet_near_voxels_ = 0;
-  for_each_resident([&](PhysicalPage page) {
+  std::erase_if(listed_, [&](std::int64_t virtual_page) {
+    const PhysicalPage page = table_.physical(virtual_page);
+    if (is_static_page(page)) return true;
     if (pool_.info(page).asleep) {
       quiet_near_voxels_ += pool_.info(page).near_voxels;
     } else {
       active_.push_back(page);
     }
+    return false;
   });
+  listed_in_order_ = std::ssize(listed_);
   codes_.resize(active_.size());
   active_list_is_stale_ = false;
 }

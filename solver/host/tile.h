@@ -1,6 +1,8 @@
 // A page with its apron, gathered so that the stencil finds its neighbours at fixed distances.
 #pragma once
 
+#include <cstddef>
+
 #include "solver/host/page_pool.h"
 #include "solver/host/row_masks.h"
 
@@ -18,6 +20,10 @@ struct Tile {
   static constexpr int kFirst = 8;  // row (0, z) begins a cache line
 
   static constexpr int row(int y, int z) { return (z + 1) * kSliceStride + (y + 1) * kRowStride + kFirst; }
+  // The same for row y + kPageSide * z of the page.
+  static constexpr std::size_t row(std::size_t number) {
+    return number * kRowStride + number / kPageSide * (kSliceStride - kPageSide * kRowStride) + row(0, 0);
+  }
 
   using Values = float[kSide * kSliceStride + 2 * kFirst];
   alignas(64) Values centre;

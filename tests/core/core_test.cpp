@@ -187,6 +187,24 @@ class CoreTest : public QObject {
     }
   }
 
+  void the_pools_shares_follow_each_other_and_hold_whole_pieces() {
+    ThreadPool pool(3);
+    std::int64_t end = 0;
+    for (int member = 0; member < pool.threads(); ++member) {
+      QCOMPARE(pool.share(100, member).begin, end);
+      end = pool.share(100, member).end;
+    }
+    QCOMPARE(end, 100);
+    std::atomic<int> across{0};
+    pool.for_each(100, 8, [&](std::int64_t piece_begin, std::int64_t piece_end, int) {
+      for (int member = 0; member < pool.threads(); ++member) {
+        const std::int64_t share_end = pool.share(100, member).end;
+        if (piece_begin < share_end && piece_end > share_end) ++across;
+      }
+    });
+    QCOMPARE(across.load(), 0);
+  }
+
   void a_pool_of_one_goes_there_and_back_in_order() {
     ThreadPool pool(1);
     std::vector<std::int64_t> begins;
