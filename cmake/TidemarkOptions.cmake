@@ -17,6 +17,8 @@ set(TIDEMARK_SANITIZE "" CACHE STRING "Sanitizers, as in -fsanitize=: 'address,u
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual)
 # GCC 12 warns of an overlap that cannot be in std::string (its bug 105651).
 add_compile_options($<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+# Clang warns of an accidental override by itself.
+add_compile_options($<$<AND:$<CXX_COMPILER_ID:GNU>,$<COMPILE_LANGUAGE:CXX>>:-Wsuggest-override>)
 if(TIDEMARK_WERROR)
   add_compile_options(-Werror)
 endif()

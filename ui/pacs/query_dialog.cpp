@@ -44,8 +44,8 @@ QueryDialog::QueryDialog(std::filesystem::path servers, QWidget* parent)
   column->addWidget(make_bottom());
   connect(search_, &QPushButton::clicked, this, &QueryDialog::search);
   connect(form_, &QueryForm::submitted, this, &QueryDialog::search);
-  connect(open_, &QPushButton::clicked, this, &QueryDialog::open);
-  connect(tree_, &StudyTree::opened, this, &QueryDialog::open);
+  connect(open_, &QPushButton::clicked, this, &QueryDialog::retrieve);
+  connect(tree_, &StudyTree::opened, this, &QueryDialog::retrieve);
   connect(tree_, &StudyTree::choice_changed, this, &QueryDialog::follow);
   connect(tree_, &StudyTree::series_wanted, this, [this](const QString& study_uid) {
     // Unfolding must not end a retrieval.
@@ -154,7 +154,7 @@ void QueryDialog::search() {
   client_.find_studies(*servers_->server(), form_->query(), servers_->limits());
 }
 
-void QueryDialog::open() {
+void QueryDialog::retrieve() {
   const auto chosen = tree_->chosen();
   if (!chosen || servers_->server() == nullptr || client_.busy()) return;
   QSettings().setValue("pacs/folder", folder_->text());

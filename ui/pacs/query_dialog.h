@@ -37,7 +37,7 @@ class QueryDialog : public QDialog {
   QWidget* make_top();
   QWidget* make_bottom();
   void search();
-  void open();
+  void retrieve();
   void choose_folder();
   void begin(const QString& what);  // until rest()
   void rest(const QString& said);
