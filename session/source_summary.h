@@ -19,8 +19,8 @@ struct SourceSummary {
   static constexpr int kBins = 256;  // of [lowest, highest]
   std::vector<std::int64_t> values;  // kBins counts
   float steepest = 1.0F;             // the gradient magnitude (units a mm) that 1 in 200 exceeds
-  std::vector<std::int64_t>
-      value_gradient;  // kBins x kBins counts over [low, high] x [0, steepest], value fastest
+  // kBins x kBins counts over [low, high] x [0, steepest], value fastest; of a large study's voxels a sample.
+  std::vector<std::int64_t> value_gradient;
 };
 // At a voxel, by central differences (to one side at the border), in units a mm.
 float gradient_magnitude(const Volume& volume, Index3 voxel);

@@ -4,7 +4,6 @@
 #include <numeric>
 #include <random>
 
-#include "core/stopwatch.h"
 #include "tests/support/support.h"
 
 using namespace tidemark;
@@ -119,14 +118,11 @@ class SourceSummaryTest : public QObject {
     }
   }
 
-  void a_large_study_takes_well_under_a_second() {
-    const Volume volume = noise<std::int16_t>({512, 512, 100}, -1000, 2000);
-    const Stopwatch clock;
+  // More of one value than a float counts to.
+  void a_large_study_is_counted_to_the_last_voxel() {
+    const Volume volume = noise<std::int16_t>({512, 512, 100}, 7, 7);
     const SourceSummary summary = summarise(volume);
-    const double seconds = clock.seconds();
-    qInfo("512 x 512 x 100 voxels took %.0f ms", 1000.0 * seconds);
-    QCOMPARE(sum(summary.values), volume.geometry.voxel_count());
-    QVERIFY(seconds < 2.0);  // on a machine that does much besides
+    QCOMPARE(summary.values.front(), std::int64_t{512} * 512 * 100);
   }
 };
 
