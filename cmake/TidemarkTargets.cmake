@@ -44,37 +44,71 @@ function(tidemark_cache_precompiled target)
   endif()
 endfunction()
 
-# A test program of its own, run by Qt Test and registered with ctest under its name. Its class stands in NAME.cpp.
-#   tidemark_test(name SOURCES name.cpp more.cpp... LINKS lib... [LABELS quick])
-# Where a folder sets TIDEMARK_TEST_HEADERS, its tests take over the headers of that target.
-function(tidemark_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINKS;LABELS" ${ARGN})
+# A test program: one for a folder, of as many test classes as its folder has (tests/support/test_program.h).
+#   tidemark_test_program(name [WINDOWS] [MAIN lib] [HEADERS target] [SOURCES helper.cpp...] LINKS lib...)
+# WINDOWS: it runs on a screen of its own that nobody sees. MAIN: who has main(); HEADERS: whose precompiled headers it
+# takes over. Both have a suitable default; HEADERS NONE is for programs that see Qt Gui without Qt's widgets.
+function(tidemark_test_program name)
+  cmake_parse_arguments(arg "WINDOWS" "MAIN;HEADERS" "SOURCES;LINKS" ${ARGN})
+  if(NOT arg_MAIN)
+    set(arg_MAIN $<IF:$<BOOL:${arg_WINDOWS}>,tidemark_window_test_main,tidemark_test_main>)
+  endif()
+  if(NOT arg_HEADERS)
+    set(arg_HEADERS tidemark_test_headers)
+    if(arg_WINDOWS)
+      set(arg_HEADERS tidemark_window_test_headers)
+    endif()
+  endif()
   add_executable(${name} ${arg_SOURCES})
-  if(TIDEMARK_TEST_HEADERS)
-    target_precompile_headers(${name} REUSE_FROM ${TIDEMARK_TEST_HEADERS})
+  if(NOT arg_HEADERS STREQUAL NONE)
+    target_precompile_headers(${name} REUSE_FROM ${arg_HEADERS})
     tidemark_cache_precompiled(${name})
   endif()
   target_compile_options(${name} PRIVATE ${TIDEMARK_TEST_OPTIONS})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  # By name: to look through its files would take longer than to compile some of them.
-  qt_generate_moc(${name}.cpp ${CMAKE_CURRENT_BINARY_DIR}/${name}.moc)
-  target_sources(${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${name}.moc)
-  target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
-  target_link_libraries(${name} PRIVATE tidemark_test_support Qt6::Test ${arg_LINKS})
-  add_test(NAME ${name} COMMAND ${name})
-  # Qt Test would end a function after five minutes, which is short under a sanitizer.
-  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 900 SKIP_RETURN_CODE 77
-                       ENVIRONMENT QTEST_FUNCTION_TIMEOUT=900000)
+  if(arg_WINDOWS)
+    set_target_properties(${name} PROPERTIES
+      CROSSCOMPILING_EMULATOR "xvfb-run;-a;-s;-screen 0 2600x1700x24 -nolisten tcp")
+  endif()
+  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE ${arg_MAIN} tidemark_test_support Qt6::Test ${arg_LINKS})
 endfunction()
 
-# A test that opens windows: the same, on a screen of its own that nobody sees. Its label is windows, whatever it
-# is given: the sanitizers' build leaves the widgets out.
-function(tidemark_gui_test name)
-  tidemark_test(${name} ${ARGN})
-  set_property(TARGET ${name} PROPERTY CROSSCOMPILING_EMULATOR
-               xvfb-run -a -s "-screen 0 2600x1700x24 -nolisten tcp")
-  set_property(TEST ${name} PROPERTY LABELS windows)
-  set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT QT_QPA_PLATFORM=xcb)
+# The programs that have a test with the label "quick".
+add_custom_target(quick_tests)
+
+# Test classes of a program, each in a file of its own and known to ctest by the file's name. They are named in the
+# folder that makes the program: the output of Qt's moc is known there alone.
+#   tidemark_tests(program [LABELS label...] TESTS [folder/]name...)
+# Tests of programs with windows have the label "windows" as well.
+function(tidemark_tests program)
+  cmake_parse_arguments(arg "" "" "LABELS;TESTS" ${ARGN})
+  foreach(test ${arg_TESTS})
+    cmake_path(GET test FILENAME name)
+    # By name: to look through its files would take longer than to compile some of them.
+    qt_generate_moc(${test}.cpp ${CMAKE_CURRENT_BINARY_DIR}/${name}.moc)
+    target_sources(${program} PRIVATE ${test}.cpp ${CMAKE_CURRENT_BINARY_DIR}/${name}.moc)
+    target_include_directories(${program} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+    tidemark_ctest(${name} ${program} LABELS ${arg_LABELS} ARGUMENTS ${name})
+  endforeach()
+  if(quick IN_LIST arg_LABELS)
+    add_dependencies(quick_tests ${program})
+  endif()
+endfunction()
+
+# A run of a test program that ctest knows by a name: tidemark_ctest(name program [LABELS ...] [ARGUMENTS ...] [ENVIRONMENT ...])
+function(tidemark_ctest name program)
+  cmake_parse_arguments(arg "" "" "LABELS;ARGUMENTS;ENVIRONMENT" ${ARGN})
+  add_test(NAME ${name} COMMAND ${program} ${arg_ARGUMENTS})
+  # Qt Test would end a function after five minutes, which is short under a sanitizer.
+  set(environment QTEST_FUNCTION_TIMEOUT=900000 ${arg_ENVIRONMENT})
+  get_target_property(screen ${program} CROSSCOMPILING_EMULATOR)
+  if(screen)
+    list(APPEND arg_LABELS windows)
+    list(APPEND environment QT_QPA_PLATFORM=xcb)
+  endif()
+  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 900 SKIP_RETURN_CODE 77
+                       ENVIRONMENT "${environment}")
 endfunction()
 
 # tidemark_spare_openvdb(target sources...): what includes OpenVDB. Its trees hold TBB's hash map, which casts what is no

@@ -1,23 +1,28 @@
-# What a machine needs to build and test Tidemark, and how it is installed. Sourced by run and test.
+# What a machine needs to build, run and test Tidemark, and how it is installed. Sourced by run and test.
 # What each package is for: docs/5-dependencies.md.
 
 # These names are the same on Debian 12, Debian 13 and Ubuntu 24.04.
 tidemark_packages=(
   g++ cmake ninja-build ccache pkg-config
-  qt6-base-dev qt6-svg-dev xvfb xauth fonts-dejavu-core libgl-dev libepoxy-dev libegl-dev libegl1 libgl1 libgl1-mesa-dri
+  qt6-base-dev qt6-svg-dev fonts-dejavu-core libgl-dev libepoxy-dev libegl-dev libegl1 libgl1 libgl1-mesa-dri
   libglm-dev libfmt-dev libspdlog-dev libexpected-dev nlohmann-json3-dev libcli11-dev libhwy-dev
   libzip-dev libssl-dev libdcmtk-dev libnsl-dev libopenjp2-7-dev
   libinsighttoolkit5-dev libgdcm-dev zlib1g-dev libpng-dev
   libopenvdb-dev libtbb-dev libboost-dev
-  dicom3tools dcm2niix plastimatch python3-pydicom python3-numpy locales dpkg-dev file
-  orthanc dcmtk openssl
 )
 
 # Qt's OpenGL classes are a package of their own on Debian 12, and part of qt6-base-dev later.
 if grep -qs '^VERSION_CODENAME=bookworm' /etc/os-release; then tidemark_packages+=(libqt6opengl6-dev); fi
 
-# Only the sanitizers' build needs a second compiler and its run-time libraries: tidemark_install_dependencies --with-clang.
-tidemark_fuzz_packages=(clang libclang-rt-dev)
+# Only tests need these: a screen that nobody sees, other readers and validators of DICOM, PACS servers, what makes and
+# looks at the Debian package, and a second compiler with its sanitizers.
+tidemark_test_packages=(
+  xvfb xauth locales python3-pydicom python3-numpy dicom3tools dcm2niix plastimatch orthanc dcmtk openssl
+  dpkg-dev file clang libclang-rt-dev
+)
+
+# Only ./test --long needs these.
+tidemark_long_test_packages=(clang-format clang-tidy)
 
 # The packages of the list that are not installed, one a line.
 tidemark_missing_packages() {
@@ -29,10 +34,11 @@ tidemark_missing_packages() {
   done
 }
 
-# Installs what is missing. Where that cannot be done it says what is needed and goes on: the build finds out
+# tidemark_install_dependencies [--tests | --long-tests]: installs what is missing. Where that cannot be done it says what is needed and goes on: the build finds out
 # whether it is there all the same.
 tidemark_install_dependencies() {
-  if [[ ${1:-} == --with-clang ]]; then tidemark_packages+=("${tidemark_fuzz_packages[@]}"); fi
+  if [[ ${1:-} == --* ]]; then tidemark_packages+=("${tidemark_test_packages[@]}"); fi
+  if [[ ${1:-} == --long-tests ]]; then tidemark_packages+=("${tidemark_long_test_packages[@]}"); fi
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     echo "This system has no apt. Tidemark needs what these Debian packages hold:"
     echo "  ${tidemark_packages[*]}"

@@ -8,6 +8,7 @@
 #include "imaging/files/volume_file.h"
 #include "tests/app/cli_runner.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -225,7 +226,7 @@ void CliFailureTest::a_phantom_on_a_full_disk_is_a_failed_write() {
 
 void CliFailureTest::a_closed_standard_output_is_a_failed_write() {
   QProcess shell;
-  shell.start("sh", {"-c", QString("'%1' segment --help > /dev/full").arg(TIDEMARK_CLI)});
+  shell.start("sh", {"-c", QString("'%1' segment --help > /dev/full").arg(cli_program())});
   QVERIFY(shell.waitForFinished());
   QCOMPARE(shell.exitCode(), 5);
   QCOMPARE(shell.readAllStandardError(), QByteArray("tidemark-cli: error: standard output: cannot write\n"));
@@ -265,5 +266,5 @@ void CliFailureTest::a_machine_without_opengl_ends_with_4_and_host_still_runs() 
   }
 }
 
-QTEST_GUILESS_MAIN(CliFailureTest)
+TIDEMARK_TEST(CliFailureTest)
 #include "cli_failure_test.moc"

@@ -8,6 +8,7 @@
 #include "imaging/files/volume_file.h"
 #include "tests/app/cli_runner.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -144,5 +145,5 @@ void CliFilesTest::pictures_are_drawn_from_masks_and_fields() {
   QCOMPARE(told["height"].toInt(), 200);
 }
 
-QTEST_GUILESS_MAIN(CliFilesTest)
+TIDEMARK_TEST(CliFilesTest)
 #include "cli_files_test.moc"

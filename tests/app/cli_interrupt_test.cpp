@@ -4,6 +4,7 @@
 #include "imaging/files/volume_file.h"
 #include "tests/app/cli_runner.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -57,5 +58,5 @@ void CliInterruptTest::an_interrupted_segmentation_writes_nothing() {
   QCOMPARE(names_in(out), QStringList());
 }
 
-QTEST_GUILESS_MAIN(CliInterruptTest)
+TIDEMARK_TEST(CliInterruptTest)
 #include "cli_interrupt_test.moc"

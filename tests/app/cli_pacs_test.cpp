@@ -11,6 +11,7 @@
 #include "tests/imaging/pacs/scripted_peer.h"
 #include "tests/imaging/pacs/wire.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -161,8 +162,8 @@ class CliPacsTest : public QObject {
     server.timeout_seconds = 600;
     const TemporaryFolder folder;
     QProcess process;
-    process.start(TIDEMARK_CLI, {"pacs", "get", "peer", "--study", "1.2.3", "--out", text(folder / "in"),
-                                 "--servers", servers(folder, server)});
+    process.start(cli_program(), {"pacs", "get", "peer", "--study", "1.2.3", "--out", text(folder / "in"),
+                                  "--servers", servers(folder, server)});
     QTRY_VERIFY_WITH_TIMEOUT(is_waiting.load(), 60'000);
     QTest::qWait(200);
     const auto collected = [&] {  // beside the folder, under a temporary name
@@ -181,5 +182,5 @@ class CliPacsTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(CliPacsTest)
+TIDEMARK_TEST(CliPacsTest)
 #include "cli_pacs_test.moc"

@@ -6,6 +6,7 @@
 #include "imaging/study.h"
 #include "tests/app/cli_runner.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -169,5 +170,5 @@ class CliRecipeTest : public QObject {
   const SphereStudy sphere_;
 };
 
-QTEST_GUILESS_MAIN(CliRecipeTest)
+TIDEMARK_TEST(CliRecipeTest)
 #include "cli_recipe_test.moc"

@@ -10,6 +10,7 @@
 #include "imaging/study.h"
 #include "tests/app/cli_runner.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -223,7 +224,7 @@ void CliResultsTest::a_kill_leaves_the_old_file_or_the_new_one() {
   int killed = 0;
   for (int delay = 0; delay < 2000; delay += 40) {
     QProcess process;
-    process.start(TIDEMARK_CLI, command);
+    process.start(cli_program(), command);
     QVERIFY(process.waitForStarted());
     if (process.waitForFinished(delay)) break;  // it is too fast for more
     ::kill(static_cast<pid_t>(process.processId()), SIGKILL);
@@ -242,5 +243,5 @@ void CliResultsTest::a_kill_leaves_the_old_file_or_the_new_one() {
   QVERIFY(killed > 0);
 }
 
-QTEST_GUILESS_MAIN(CliResultsTest)
+TIDEMARK_TEST(CliResultsTest)
 #include "cli_results_test.moc"

@@ -6,6 +6,7 @@
 #include "imaging/files/volume_file.h"
 #include "tests/app/cli_runner.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -170,5 +171,5 @@ void CliRunTest::bench_prints_its_figures() {
   QVERIFY(figures["bytes_per_resident_voxel"].toDouble() <= 10.0);
 }
 
-QTEST_GUILESS_MAIN(CliRunTest)
+TIDEMARK_TEST(CliRunTest)
 #include "cli_run_test.moc"

@@ -26,6 +26,10 @@ QByteArray Outcome::told() const {
   return "code " + QByteArray::number(code) + "\nstdout: " + out + "\nstderr: " + err;
 }
 
+QString cli_program() {
+  return QStringLiteral(TIDEMARK_CLI);
+}
+
 Outcome run_cli(const QStringList& arguments, const RunOptions& options) {
   QProcess process;
   process.setProcessEnvironment(options.environment);
@@ -36,7 +40,7 @@ Outcome run_cli(const QStringList& arguments, const RunOptions& options) {
       setrlimit(RLIMIT_FSIZE, &bytes);
     });
   }
-  process.start(TIDEMARK_CLI, arguments);
+  process.start(cli_program(), arguments);
   Outcome outcome;
   const bool ended = process.waitForFinished(kLongestRun) && process.exitStatus() == QProcess::NormalExit;
   if (ended) outcome.code = process.exitCode();
@@ -52,7 +56,7 @@ Outcome must_run(const QStringList& arguments, const RunOptions& options) {
 }
 
 bool start_cli(QProcess& process, const QStringList& arguments, const QByteArray& line) {
-  process.start(TIDEMARK_CLI, arguments);
+  process.start(cli_program(), arguments);
   QByteArray seen;
   QElapsedTimer timer;
   for (timer.start(); timer.elapsed() < kLongestRun;) {

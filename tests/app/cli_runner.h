@@ -28,6 +28,9 @@ struct RunOptions {
   QString folder;            // to run in
 };
 
+// The path of the program that was built.
+QString cli_program();
+
 // Runs to the end.
 Outcome run_cli(const QStringList& arguments, const RunOptions& options = {});
 

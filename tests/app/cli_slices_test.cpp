@@ -4,6 +4,7 @@
 
 #include "tests/app/cli_runner.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -86,5 +87,5 @@ class CliSlicesTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(CliSlicesTest)
+TIDEMARK_TEST(CliSlicesTest)
 #include "cli_slices_test.moc"

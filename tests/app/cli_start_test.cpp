@@ -2,6 +2,7 @@
 #include "imaging/files/volume_file.h"
 #include "tests/app/cli_runner.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -94,5 +95,5 @@ void CliStartTest::an_automatic_start_says_what_it_chose() {
   QVERIFY2(!given.out.contains("--target") && given.out.contains("Chose      --range"), given.told());
 }
 
-QTEST_GUILESS_MAIN(CliStartTest)
+TIDEMARK_TEST(CliStartTest)
 #include "cli_start_test.moc"

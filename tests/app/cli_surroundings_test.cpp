@@ -4,6 +4,7 @@
 
 #include "tests/app/cli_runner.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -27,7 +28,7 @@ void CliSurroundingsTest::a_terminal_gets_a_progress_bar() {
   if (terminal < 0) QSKIP("NOT TESTED: this machine has no pseudo-terminals (/dev/pts)");
   ::close(terminal);
   QProcess script;
-  const QStringList command = QStringList{TIDEMARK_CLI} + sphere_.arguments() + QStringList{"--steps", "20"};
+  const QStringList command = QStringList{cli_program()} + sphere_.arguments() + QStringList{"--steps", "20"};
   script.start("script", {"-qec", command.join(' '), "/dev/null"});
   QVERIFY2(script.waitForFinished(60'000), "script is needed (Debian: package bsdutils)");
   const QByteArray seen = script.readAllStandardOutput();
@@ -75,5 +76,5 @@ void CliSurroundingsTest::a_german_locale_changes_nothing() {
   }
 }
 
-QTEST_GUILESS_MAIN(CliSurroundingsTest)
+TIDEMARK_TEST(CliSurroundingsTest)
 #include "cli_surroundings_test.moc"

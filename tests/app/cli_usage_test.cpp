@@ -4,6 +4,7 @@
 #include "imaging/files/volume_file.h"
 #include "tests/app/cli_runner.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -223,12 +224,12 @@ void CliUsageTest::an_output_may_not_be_the_input() {
 
 void CliUsageTest::the_program_links_no_qt() {
   QProcess ldd;
-  ldd.start("ldd", {TIDEMARK_CLI});
+  ldd.start("ldd", {cli_program()});
   QVERIFY(ldd.waitForFinished());
   const QByteArray libraries = ldd.readAllStandardOutput();
   QVERIFY2(libraries.contains("libstdc++"), libraries);
   QVERIFY2(!libraries.contains("libQt"), libraries);
 }
 
-QTEST_GUILESS_MAIN(CliUsageTest)
+TIDEMARK_TEST(CliUsageTest)
 #include "cli_usage_test.moc"

@@ -6,6 +6,8 @@
 #include <QTest>
 #include <string>
 
+#include "tests/support/test_program.h"
+
 using namespace tidemark;
 
 namespace {
@@ -87,5 +89,5 @@ class DiagnosticsTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(DiagnosticsTest)
+TIDEMARK_TEST(DiagnosticsTest)
 #include "diagnostics_test.moc"

@@ -13,6 +13,7 @@
 #include "core/thread_pool.h"
 #include "core/volume.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using tidemark::test::failure;
@@ -245,5 +246,5 @@ class CoreTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(CoreTest)
+TIDEMARK_TEST(CoreTest)
 #include "core_test.moc"

@@ -6,6 +6,7 @@
 #include "gpu/program.h"
 #include "gpu/texture.h"
 #include "gpu/timer.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::gpu;
@@ -154,5 +155,5 @@ class DeviceTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(DeviceTest)
+TIDEMARK_TEST(DeviceTest)
 #include "device_test.moc"

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "gpu/shader_source.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::gpu;
@@ -77,5 +78,5 @@ class ShaderSourceTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(ShaderSourceTest)
+TIDEMARK_TEST(ShaderSourceTest)
 #include "shader_source_test.moc"

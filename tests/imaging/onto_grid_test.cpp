@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 
@@ -109,5 +110,5 @@ class OntoGridTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(OntoGridTest)
+TIDEMARK_TEST(OntoGridTest)
 #include "onto_grid_test.moc"

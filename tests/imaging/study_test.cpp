@@ -10,6 +10,7 @@
 #include "imaging/study.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -215,5 +216,5 @@ class StudyTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(StudyTest)
+TIDEMARK_TEST(StudyTest)
 #include "study_test.moc"

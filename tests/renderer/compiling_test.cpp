@@ -6,6 +6,7 @@
 
 #include "tests/renderer/scenes.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -80,5 +81,5 @@ class CompilingTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(CompilingTest)
+TIDEMARK_TEST(CompilingTest)
 #include "compiling_test.moc"

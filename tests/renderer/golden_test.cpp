@@ -14,6 +14,7 @@
 #include "solver/distance_transform.h"
 #include "tests/renderer/scenes.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -325,5 +326,5 @@ class GoldenTest : public QObject {
   std::map<std::string, std::optional<Patient>> patients_;
 };
 
-QTEST_APPLESS_MAIN(GoldenTest)
+TIDEMARK_TEST(GoldenTest)
 #include "golden_test.moc"

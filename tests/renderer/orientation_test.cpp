@@ -7,6 +7,7 @@
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/renderer/scenes.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -172,5 +173,5 @@ class OrientationTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(OrientationTest)
+TIDEMARK_TEST(OrientationTest)
 #include "orientation_test.moc"

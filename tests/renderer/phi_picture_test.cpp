@@ -5,6 +5,7 @@
 #include "solver/gl/packed_view.h"
 #include "tests/renderer/scenes.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -195,5 +196,5 @@ class PhiPictureTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(PhiPictureTest)
+TIDEMARK_TEST(PhiPictureTest)
 #include "phi_picture_test.moc"

@@ -5,6 +5,7 @@
 #include "renderer/quality_control.h"
 #include "tests/renderer/scenes.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -120,5 +121,5 @@ class QualityControlTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(QualityControlTest)
+TIDEMARK_TEST(QualityControlTest)
 #include "quality_control_test.moc"

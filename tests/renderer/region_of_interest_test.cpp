@@ -7,6 +7,7 @@
 #include "solver/distance_transform.h"
 #include "tests/renderer/scenes.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -79,5 +80,5 @@ class RegionOfInterestTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(RegionOfInterestTest)
+TIDEMARK_TEST(RegionOfInterestTest)
 #include "region_of_interest_test.moc"

@@ -7,6 +7,7 @@
 
 #include "tests/renderer/scenes.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -308,5 +309,5 @@ class SliceStackTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(SliceStackTest)
+TIDEMARK_TEST(SliceStackTest)
 #include "slice_stack_test.moc"

@@ -6,6 +6,7 @@
 #include "core/label_colour.h"
 #include "tests/renderer/scenes.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -243,5 +244,5 @@ class SliceViewTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(SliceViewTest)
+TIDEMARK_TEST(SliceViewTest)
 #include "slice_view_test.moc"

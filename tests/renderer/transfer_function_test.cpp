@@ -3,6 +3,7 @@
 
 #include "renderer/transfer_function.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -137,5 +138,5 @@ class TransferFunctionTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(TransferFunctionTest)
+TIDEMARK_TEST(TransferFunctionTest)
 #include "transfer_function_test.moc"

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "tests/renderer/scenes.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -152,5 +153,5 @@ class TransferViewTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(TransferViewTest)
+TIDEMARK_TEST(TransferViewTest)
 #include "transfer_view_test.moc"

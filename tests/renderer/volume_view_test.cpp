@@ -5,6 +5,7 @@
 
 #include "tests/renderer/scenes.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -315,5 +316,5 @@ class VolumeViewTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(VolumeViewTest)
+TIDEMARK_TEST(VolumeViewTest)
 #include "volume_view_test.moc"

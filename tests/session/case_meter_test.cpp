@@ -2,6 +2,7 @@
 #include "session/case_meter.h"
 
 #include "tests/study/cases.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -60,5 +61,5 @@ class CaseMeterTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(CaseMeterTest)
+TIDEMARK_TEST(CaseMeterTest)
 #include "case_meter_test.moc"

@@ -8,6 +8,7 @@
 #include "session/case_runner.h"
 #include "session/picture_feed.h"
 #include "tests/session/ball_study.h"
+#include "tests/support/test_program.h"
 
 namespace tidemark::test {
 namespace {
@@ -244,5 +245,5 @@ class CaseSessionTest : public QObject {
 
 }  // namespace tidemark::test
 
-QTEST_MAIN(tidemark::test::CaseSessionTest)
+TIDEMARK_TEST(tidemark::test::CaseSessionTest)
 #include "case_session_test.moc"

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/test_program.h"
+
 namespace tidemark {
 namespace {
 
@@ -208,5 +210,5 @@ class EngineTest : public QObject {
 
 }  // namespace tidemark
 
-QTEST_MAIN(tidemark::EngineTest)
+TIDEMARK_TEST(tidemark::EngineTest)
 #include "engine_test.moc"

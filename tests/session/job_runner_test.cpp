@@ -9,6 +9,7 @@
 
 #include "session/background_job.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace std::chrono_literals;
@@ -141,5 +142,5 @@ class JobRunnerTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(JobRunnerTest)
+TIDEMARK_TEST(JobRunnerTest)
 #include "job_runner_test.moc"

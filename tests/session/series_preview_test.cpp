@@ -8,6 +8,7 @@
 #include "imaging/study.h"
 #include "session/background_job.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -140,5 +141,5 @@ class SeriesPreviewTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(SeriesPreviewTest)
+TIDEMARK_TEST(SeriesPreviewTest)
 #include "series_preview_test.moc"

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 
@@ -126,5 +127,5 @@ class SourceSummaryTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(SourceSummaryTest)
+TIDEMARK_TEST(SourceSummaryTest)
 #include "source_summary_test.moc"

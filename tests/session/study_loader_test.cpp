@@ -7,6 +7,7 @@
 #include "imaging/phantom/phantom.h"
 #include "session/background_job.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace std::chrono_literals;
@@ -260,5 +261,5 @@ class StudyLoaderTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(StudyLoaderTest)
+TIDEMARK_TEST(StudyLoaderTest)
 #include "study_loader_test.moc"

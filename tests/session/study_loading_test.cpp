@@ -5,6 +5,7 @@
 #include "session/series_preview.h"
 #include "session/study_loader.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -63,10 +64,5 @@ class StudyLoadingTest : public QObject {
   }
 };
 
-int main(int argc, char** argv) {
-  if (const int code = require_studies(); code != 0) return code;
-  QCoreApplication application(argc, argv);
-  StudyLoadingTest test;
-  return QTest::qExec(&test, argc, argv);
-}
+TIDEMARK_STUDY_TEST(StudyLoadingTest)
 #include "study_loading_test.moc"

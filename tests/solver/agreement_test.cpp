@@ -6,6 +6,7 @@
 #include "solver/paging/page_table.h"
 #include "solver/reference/reference_executor.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -240,5 +241,5 @@ class AgreementTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(AgreementTest)
+TIDEMARK_TEST(AgreementTest)
 #include "agreement_test.moc"

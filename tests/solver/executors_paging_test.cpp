@@ -6,6 +6,7 @@
 #include "executor_rows.h"
 #include "solver/gl/packed_view.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -267,5 +268,5 @@ class ExecutorsPagingTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(ExecutorsPagingTest)
+TIDEMARK_TEST(ExecutorsPagingTest)
 #include "executors_paging_test.moc"

@@ -2,6 +2,7 @@
 // own.
 #include "executor_rows.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -223,5 +224,5 @@ class ExecutorsTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(ExecutorsTest)
+TIDEMARK_TEST(ExecutorsTest)
 #include "executors_test.moc"

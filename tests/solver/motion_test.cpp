@@ -3,6 +3,7 @@
 #include "tests/support/support.h"
 
 #include "imaging/filters/filters.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -231,5 +232,5 @@ class MotionTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(MotionTest)
+TIDEMARK_TEST(MotionTest)
 #include "motion_test.moc"

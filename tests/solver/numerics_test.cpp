@@ -8,6 +8,7 @@
 
 // After the standard headers: defines functions of these names.
 #include "solver/speed/curvature-inl.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -348,5 +349,5 @@ class NumericsTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(NumericsTest)
+TIDEMARK_TEST(NumericsTest)
 #include "numerics_test.moc"

@@ -5,6 +5,7 @@
 #include "solver/paging/page_table.h"
 #include "solver/paging/validate.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -116,5 +117,5 @@ class PagingTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(PagingTest)
+TIDEMARK_TEST(PagingTest)
 #include "paging_test.moc"

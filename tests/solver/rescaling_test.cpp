@@ -5,6 +5,7 @@
 #include "solver/distance_transform.h"
 #include "solver/statistics.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -199,5 +200,5 @@ class RescalingTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(RescalingTest)
+TIDEMARK_TEST(RescalingTest)
 #include "rescaling_test.moc"

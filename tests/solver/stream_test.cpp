@@ -8,6 +8,7 @@
 #include "level_sets.h"
 #include "solver/stream/stream_executor.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -322,5 +323,5 @@ class StreamTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(StreamTest)
+TIDEMARK_TEST(StreamTest)
 #include "stream_test.moc"

@@ -3,6 +3,7 @@
 #include "imaging/phantom/phantom.h"
 #include "same_mask.h"
 #include "solver/distance_transform.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -39,5 +40,5 @@ class PhantomExecutorsTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(PhantomExecutorsTest)
+TIDEMARK_TEST(PhantomExecutorsTest)
 #include "phantom_executors_test.moc"

@@ -2,6 +2,7 @@
 #include "imaging/phantom/phantom.h"
 #include "solver/executor.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -49,5 +50,5 @@ class PhantomHeadTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(PhantomHeadTest)
+TIDEMARK_TEST(PhantomHeadTest)
 #include "phantom_head_test.moc"

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "tests/support/test_program.h"
+
 using namespace tidemark;
 using namespace tidemark::test;
 
@@ -159,5 +161,5 @@ class SegmentationTest : public QObject {
   }
 };
 
-TIDEMARK_STUDY_TEST_MAIN(SegmentationTest)
+TIDEMARK_STUDY_TEST(SegmentationTest)
 #include "segmentation_test.moc"

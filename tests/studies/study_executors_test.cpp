@@ -2,6 +2,7 @@
 #include "imaging/filters/filters.h"
 #include "imaging/study.h"
 #include "same_mask.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -27,5 +28,5 @@ class StudyExecutorsTest : public QObject {
   }
 };
 
-TIDEMARK_STUDY_TEST_MAIN(StudyExecutorsTest)
+TIDEMARK_STUDY_TEST(StudyExecutorsTest)
 #include "study_executors_test.moc"

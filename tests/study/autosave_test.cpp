@@ -7,6 +7,7 @@
 #include "cases.h"
 #include "study/autosave.h"
 #include "study/session_file.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -203,5 +204,5 @@ class AutosaveTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(AutosaveTest)
+TIDEMARK_TEST(AutosaveTest)
 #include "autosave_test.moc"

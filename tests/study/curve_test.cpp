@@ -2,6 +2,7 @@
 #include "study/curve.h"
 
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 
@@ -54,5 +55,5 @@ class CurveTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(CurveTest)
+TIDEMARK_TEST(CurveTest)
 #include "curve_test.moc"

@@ -1,5 +1,6 @@
 // A gesture, with the steps that are computed meanwhile, is one entry of the history.
 #include "cases.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -67,5 +68,5 @@ class GestureTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(GestureTest)
+TIDEMARK_TEST(GestureTest)
 #include "gesture_test.moc"

@@ -2,6 +2,7 @@
 #include <random>
 
 #include "cases.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -279,5 +280,5 @@ class HistoryTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(HistoryTest)
+TIDEMARK_TEST(HistoryTest)
 #include "history_test.moc"

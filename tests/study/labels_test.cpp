@@ -4,6 +4,7 @@
 
 #include "cases.h"
 #include "study/label_segments.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -254,5 +255,5 @@ class LabelsTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(LabelsTest)
+TIDEMARK_TEST(LabelsTest)
 #include "labels_test.moc"

@@ -1,6 +1,7 @@
 // A level set goes on elsewhere: on another executor, or after its GPU was lost.
 #include "cases.h"
 #include "gpu/device.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -74,5 +75,5 @@ class OtherExecutorTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(OtherExecutorTest)
+TIDEMARK_TEST(OtherExecutorTest)
 #include "other_executor_test.moc"

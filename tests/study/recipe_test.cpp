@@ -7,6 +7,7 @@
 #include "imaging/filters/filters.h"
 #include "study/replay.h"
 #include "study/session_contents.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -346,5 +347,5 @@ class RecipeTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(RecipeTest)
+TIDEMARK_TEST(RecipeTest)
 #include "recipe_test.moc"

@@ -10,6 +10,7 @@
 #include "cases.h"
 #include "study/checksum.h"
 #include "study/session_file.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -359,5 +360,5 @@ class SessionTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(SessionTest)
+TIDEMARK_TEST(SessionTest)
 #include "session_test.moc"

@@ -1,5 +1,6 @@
 // Steps back and restarts lead to what was seen there.
 #include "cases.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -93,5 +94,5 @@ class StepBackTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(StepBackTest)
+TIDEMARK_TEST(StepBackTest)
 #include "step_back_test.moc"

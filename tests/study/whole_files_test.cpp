@@ -23,6 +23,7 @@
 #include "study/session_file.h"
 #include "tests/study/cases.h"
 #include "tests/support/child_process.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -335,5 +336,5 @@ class WholeFilesTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(WholeFilesTest)
+TIDEMARK_TEST(WholeFilesTest)
 #include "whole_files_test.moc"

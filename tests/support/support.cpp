@@ -16,7 +16,8 @@ int require_studies() {
                "\n*** REAL STUDIES ARE MISSING: %s is not a folder. Nothing was tested. ***\n"
                "*** Set TIDEMARK_STUDIES to the folder that holds them. ***\n\n",
                studies_folder().c_str());
-  return 77;
+  // Continuous integration has them: where they are missing it would test less without anybody seeing it.
+  return std::getenv("CI") != nullptr ? 1 : 77;
 }
 
 }  // namespace tidemark::test

@@ -23,7 +23,8 @@ class TemporaryFolder {
 // The folder of real studies: $TIDEMARK_STUDIES, else ../shared/data beside the checkout.
 std::filesystem::path studies_folder();
 
-// Ends the program with ctest's "skipped" code (77), loudly, when the studies are not there.
+// The exit code of a test that needs the studies: 0 where they are, else ctest's "skipped" (77), loudly, or under
+// continuous integration ($CI) a failure.
 int require_studies();
 
 // "" on success, else the error: QCOMPARE(failure(result), QString()) shows the reason.
@@ -33,11 +34,3 @@ QString failure(const Result<T>& result) {
 }
 
 }  // namespace tidemark::test
-
-// main() of a test that works on the real studies.
-#define TIDEMARK_STUDY_TEST_MAIN(Class)                                             \
-  int main(int argc, char** argv) {                                                 \
-    if (const int code = tidemark::test::require_studies(); code != 0) return code; \
-    Class test;                                                                     \
-    return QTest::qExec(&test, argc, argv);                                         \
-  }

@@ -17,6 +17,7 @@
 #include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -304,5 +305,5 @@ class StudyArchiveTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(StudyArchiveTest)
+TIDEMARK_TEST(StudyArchiveTest)
 #include "study_archive_test.moc"

@@ -4,6 +4,7 @@
 #include "imaging/dicom/dicom.h"
 #include "tests/imaging/dicom/bad_dicom.h"
 #include "tests/imaging/dicom/frame_bytes.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark::test;
 
@@ -128,5 +129,5 @@ class BadDicomFramesTest : public QObject {
   void a_mosaic_of_unknown_slices_is_refused() { verify_refused(); }
 };
 
-QTEST_GUILESS_MAIN(BadDicomFramesTest)
+TIDEMARK_TEST(BadDicomFramesTest)
 #include "bad_dicom_frames_test.moc"

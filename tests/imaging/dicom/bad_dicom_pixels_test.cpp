@@ -1,6 +1,7 @@
 // Files whose pixel data are not what their header promises.
 #include "tests/imaging/dicom/bad_dicom.h"
 #include "tests/imaging/dicom/dicom_bytes.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark::test;
 
@@ -276,5 +277,5 @@ class BadDicomPixelsTest : public QObject {
   void a_wrong_frame_is_refused() { verify_refused(); }
 };
 
-QTEST_GUILESS_MAIN(BadDicomPixelsTest)
+TIDEMARK_TEST(BadDicomPixelsTest)
 #include "bad_dicom_pixels_test.moc"

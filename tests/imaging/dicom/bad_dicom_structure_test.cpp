@@ -1,6 +1,7 @@
 // Files whose tags are wrong. DCMTK would crash on some of them, and read others as something else.
 #include "tests/imaging/dicom/bad_dicom.h"
 #include "tests/imaging/dicom/dicom_bytes.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark::test;
 
@@ -241,5 +242,5 @@ class BadDicomStructureTest : public QObject {
   void a_piece_of_a_file_is_refused() { verify_refused(); }
 };
 
-QTEST_GUILESS_MAIN(BadDicomStructureTest)
+TIDEMARK_TEST(BadDicomStructureTest)
 #include "bad_dicom_structure_test.moc"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 
@@ -68,5 +69,5 @@ class ByteSourceTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(ByteSourceTest)
+TIDEMARK_TEST(ByteSourceTest)
 #include "byte_source_test.moc"

@@ -12,6 +12,7 @@
 #include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -269,5 +270,5 @@ class DicomDamageTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(DicomDamageTest)
+TIDEMARK_TEST(DicomDamageTest)
 #include "dicom_damage_test.moc"

@@ -12,6 +12,7 @@
 #include "tests/imaging/dicom/recode.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -344,5 +345,5 @@ class DicomFramesTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(DicomFramesTest)
+TIDEMARK_TEST(DicomFramesTest)
 #include "dicom_frames_test.moc"

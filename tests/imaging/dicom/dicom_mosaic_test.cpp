@@ -12,6 +12,7 @@
 #include "tests/imaging/dicom/frame_bytes.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -200,5 +201,5 @@ class DicomMosaicTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(DicomMosaicTest)
+TIDEMARK_TEST(DicomMosaicTest)
 #include "dicom_mosaic_test.moc"

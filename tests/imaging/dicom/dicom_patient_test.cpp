@@ -2,6 +2,7 @@
 #include "imaging/patient.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -127,5 +128,5 @@ class DicomPatientTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(DicomPatientTest)
+TIDEMARK_TEST(DicomPatientTest)
 #include "dicom_patient_test.moc"

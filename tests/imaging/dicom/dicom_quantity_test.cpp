@@ -11,6 +11,7 @@
 #include "tests/imaging/dicom/enhanced_files.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -327,5 +328,5 @@ class DicomQuantityTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(DicomQuantityTest)
+TIDEMARK_TEST(DicomQuantityTest)
 #include "dicom_quantity_test.moc"

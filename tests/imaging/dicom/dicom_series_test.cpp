@@ -11,6 +11,7 @@
 #include "imaging/dicom/dicom.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -373,5 +374,5 @@ class DicomSeriesTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(DicomSeriesTest)
+TIDEMARK_TEST(DicomSeriesTest)
 #include "dicom_series_test.moc"

@@ -13,6 +13,7 @@
 #include "imaging/dicom/pixels.h"
 #include "imaging/study.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -379,5 +380,5 @@ class DicomStudiesTest : public QObject {
   }
 };
 
-TIDEMARK_STUDY_TEST_MAIN(DicomStudiesTest)
+TIDEMARK_STUDY_TEST(DicomStudiesTest)
 #include "dicom_studies_test.moc"

@@ -11,6 +11,7 @@
 #include "tests/imaging/dicom/recode.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -193,5 +194,5 @@ class DicomSyntaxesTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(DicomSyntaxesTest)
+TIDEMARK_TEST(DicomSyntaxesTest)
 #include "dicom_syntaxes_test.moc"

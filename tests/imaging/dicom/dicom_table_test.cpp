@@ -14,6 +14,7 @@
 #include "tests/imaging/dicom/nifti_peer.h"
 #include "tests/imaging/dicom/study_truth.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -387,9 +388,9 @@ class DicomTableTest : public QObject {
     QVERIFY2(
         committed.substr(begin) == table || std::getenv("TIDEMARK_WRITE_TABLE") != nullptr,
         "the table of docs/dicom.md is not what is found; after a look at the difference write it anew:\n"
-        "  TIDEMARK_WRITE_TABLE=docs/dicom.md build/release/tests/dicom_table_test");
+        "  TIDEMARK_WRITE_TABLE=docs/dicom.md build/release/tests/dicom_tests dicom_table_test");
   }
 };
 
-TIDEMARK_STUDY_TEST_MAIN(DicomTableTest)
+TIDEMARK_STUDY_TEST(DicomTableTest)
 #include "dicom_table_test.moc"

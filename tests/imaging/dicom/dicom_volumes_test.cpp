@@ -6,6 +6,7 @@
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/pixels.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -169,5 +170,5 @@ class DicomVolumesTest : public QObject {
   }
 };
 
-TIDEMARK_STUDY_TEST_MAIN(DicomVolumesTest)
+TIDEMARK_STUDY_TEST(DicomVolumesTest)
 #include "dicom_volumes_test.moc"

@@ -11,6 +11,7 @@
 #include "imaging/study.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -248,5 +249,5 @@ class IrregularSeriesTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(IrregularSeriesTest)
+TIDEMARK_TEST(IrregularSeriesTest)
 #include "irregular_series_test.moc"

@@ -6,6 +6,7 @@
 #include "tests/imaging/dicom/bad_dicom.h"
 #include "tests/imaging/dicom/directory_bytes.h"
 #include "tests/imaging/dicom/series_files.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -180,5 +181,5 @@ class MediaDirectoryTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(MediaDirectoryTest)
+TIDEMARK_TEST(MediaDirectoryTest)
 #include "media_directory_test.moc"

@@ -8,6 +8,7 @@
 
 #include "imaging/dicom/resample_slices.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 
@@ -366,5 +367,5 @@ class RegularGridTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(RegularGridTest)
+TIDEMARK_TEST(RegularGridTest)
 #include "regular_grid_test.moc"

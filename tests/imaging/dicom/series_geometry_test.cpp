@@ -8,6 +8,7 @@
 #include "imaging/dicom/decimal.h"
 #include "imaging/dicom/series_geometry.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 
@@ -235,5 +236,5 @@ class SeriesGeometryTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(SeriesGeometryTest)
+TIDEMARK_TEST(SeriesGeometryTest)
 #include "series_geometry_test.moc"

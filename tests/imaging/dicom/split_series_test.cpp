@@ -7,6 +7,7 @@
 #include "imaging/dicom/series_geometry.h"
 #include "imaging/dicom/split_series.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 
@@ -285,5 +286,5 @@ class SplitSeriesTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(SplitSeriesTest)
+TIDEMARK_TEST(SplitSeriesTest)
 #include "split_series_test.moc"

@@ -4,6 +4,7 @@
 
 #include "bad_volumes.h"
 #include "imaging/files/volume_file.h"
+#include "tests/support/test_program.h"
 #include "volumes.h"
 
 using namespace tidemark;
@@ -152,5 +153,5 @@ class BadNiftiTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(BadNiftiTest)
+TIDEMARK_TEST(BadNiftiTest)
 #include "bad_nifti_test.moc"

@@ -6,6 +6,7 @@
 
 #include "bad_volumes.h"
 #include "imaging/files/volume_file.h"
+#include "tests/support/test_program.h"
 #include "volumes.h"
 
 using namespace tidemark;
@@ -273,5 +274,5 @@ class BadVolumeFileTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(BadVolumeFileTest)
+TIDEMARK_TEST(BadVolumeFileTest)
 #include "bad_volume_file_test.moc"

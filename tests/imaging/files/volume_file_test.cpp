@@ -9,6 +9,7 @@
 
 #include "imaging/files/volume_file.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 #include "volumes.h"
 
 using namespace tidemark;
@@ -337,5 +338,5 @@ class VolumeFileTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(VolumeFileTest)
+TIDEMARK_TEST(VolumeFileTest)
 #include "volume_file_test.moc"

@@ -7,6 +7,7 @@
 
 #include "imaging/files/volume_file.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -166,5 +167,5 @@ class VolumeStudiesTest : public QObject {
   }
 };
 
-TIDEMARK_STUDY_TEST_MAIN(VolumeStudiesTest)
+TIDEMARK_STUDY_TEST(VolumeStudiesTest)
 #include "volume_studies_test.moc"

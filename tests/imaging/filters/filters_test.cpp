@@ -11,6 +11,7 @@
 #include "imaging/filters/filters.h"
 #include "imaging/filters/suggest_start.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using tidemark::test::failure;
@@ -278,5 +279,5 @@ class FiltersTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(FiltersTest)
+TIDEMARK_TEST(FiltersTest)
 #include "filters_test.moc"

@@ -10,6 +10,7 @@
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/pacs/archives.h"
 #include "tests/imaging/pacs/encodings.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -303,5 +304,5 @@ class PacsArchiveTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(PacsArchiveTest)
+TIDEMARK_TEST(PacsArchiveTest)
 #include "pacs_archive_test.moc"

@@ -5,6 +5,7 @@
 #include "imaging/pacs/configuration.h"
 #include "imaging/pacs/pacs.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -149,5 +150,5 @@ class PacsConfigurationTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(PacsConfigurationTest)
+TIDEMARK_TEST(PacsConfigurationTest)
 #include "pacs_configuration_test.moc"

@@ -10,6 +10,7 @@
 #include "tests/imaging/pacs/scripted_peer.h"
 #include "tests/imaging/pacs/wire.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -278,5 +279,5 @@ class PacsFloodTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(PacsFloodTest)
+TIDEMARK_TEST(PacsFloodTest)
 #include "pacs_flood_test.moc"

@@ -8,6 +8,7 @@
 #include "tests/imaging/pacs/archives.h"
 #include "tests/imaging/pacs/scripted_peer.h"
 #include "tests/imaging/pacs/wire.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -343,5 +344,5 @@ class PacsHostileTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(PacsHostileTest)
+TIDEMARK_TEST(PacsHostileTest)
 #include "pacs_hostile_test.moc"

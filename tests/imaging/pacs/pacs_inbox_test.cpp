@@ -9,6 +9,7 @@
 #include "tests/imaging/pacs/wire.h"
 #include "tests/support/child_process.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -144,5 +145,5 @@ class PacsInboxTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(PacsInboxTest)
+TIDEMARK_TEST(PacsInboxTest)
 #include "pacs_inbox_test.moc"

@@ -7,6 +7,7 @@
 #include "tests/imaging/pacs/archives.h"
 #include "tests/imaging/pacs/certificates.h"
 #include "tests/imaging/pacs/scripted_peer.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -153,5 +154,5 @@ class PacsTlsTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(PacsTlsTest)
+TIDEMARK_TEST(PacsTlsTest)
 #include "pacs_tls_test.moc"

@@ -5,6 +5,7 @@
 
 #include "tests/imaging/phantom/measures.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -146,5 +147,5 @@ class PhantomKindsTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(PhantomKindsTest)
+TIDEMARK_TEST(PhantomKindsTest)
 #include "phantom_kinds_test.moc"

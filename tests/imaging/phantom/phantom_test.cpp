@@ -9,6 +9,7 @@
 #include "imaging/phantom/shapes.h"
 #include "tests/imaging/phantom/measures.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -206,5 +207,5 @@ class PhantomTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(PhantomTest)
+TIDEMARK_TEST(PhantomTest)
 #include "phantom_test.moc"

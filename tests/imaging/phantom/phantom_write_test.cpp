@@ -8,6 +8,7 @@
 #include "imaging/files/volume_file.h"
 #include "imaging/phantom/phantom.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -131,5 +132,5 @@ class PhantomWriteTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(PhantomWriteTest)
+TIDEMARK_TEST(PhantomWriteTest)
 #include "phantom_write_test.moc"

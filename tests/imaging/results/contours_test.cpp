@@ -5,6 +5,7 @@
 
 #include "imaging/results/polygon_fill.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 
@@ -130,5 +131,5 @@ class ContoursTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(ContoursTest)
+TIDEMARK_TEST(ContoursTest)
 #include "contours_test.moc"

@@ -10,6 +10,7 @@
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/results/sample_results.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 
@@ -384,5 +385,5 @@ class DicomSegmentationTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(DicomSegmentationTest)
+TIDEMARK_TEST(DicomSegmentationTest)
 #include "dicom_segmentation_test.moc"

@@ -7,6 +7,7 @@
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/results/sample_results.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 
@@ -104,5 +105,5 @@ class FrameReferencesTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(FrameReferencesTest)
+TIDEMARK_TEST(FrameReferencesTest)
 #include "frame_references_test.moc"

@@ -9,6 +9,7 @@
 
 #include "tests/imaging/results/sample_results.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 
@@ -131,5 +132,5 @@ class LevelSetFileTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(LevelSetFileTest)
+TIDEMARK_TEST(LevelSetFileTest)
 #include "level_set_file_test.moc"

@@ -3,6 +3,7 @@
 
 #include "tests/imaging/results/sample_results.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -65,5 +66,5 @@ class SegmentsTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(SegmentsTest)
+TIDEMARK_TEST(SegmentsTest)
 #include "segments_test.moc"

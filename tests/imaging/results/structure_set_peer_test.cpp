@@ -9,6 +9,7 @@
 #include "imaging/study.h"
 #include "tests/imaging/results/sample_results.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 
@@ -109,5 +110,5 @@ class StructureSetPeerTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(StructureSetPeerTest)
+TIDEMARK_TEST(StructureSetPeerTest)
 #include "structure_set_peer_test.moc"

@@ -3,6 +3,7 @@
 #include "imaging/results/results.h"
 #include "imaging/study.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 
@@ -31,5 +32,5 @@ class StructureSetStudiesTest : public QObject {
   }
 };
 
-TIDEMARK_STUDY_TEST_MAIN(StructureSetStudiesTest)
+TIDEMARK_STUDY_TEST(StructureSetStudiesTest)
 #include "structure_set_studies_test.moc"

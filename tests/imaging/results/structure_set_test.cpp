@@ -9,6 +9,7 @@
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/results/sample_results.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 
@@ -249,5 +250,5 @@ class StructureSetTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(StructureSetTest)
+TIDEMARK_TEST(StructureSetTest)
 #include "structure_set_test.moc"

@@ -10,6 +10,7 @@
 #include "fields.h"
 #include "imaging/surface/surface.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -146,5 +147,5 @@ class MeshFileTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(MeshFileTest)
+TIDEMARK_TEST(MeshFileTest)
 #include "mesh_file_test.moc"

@@ -6,6 +6,7 @@
 #include "fields.h"
 #include "imaging/surface/surface.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -250,5 +251,5 @@ class SurfaceTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(SurfaceTest)
+TIDEMARK_TEST(SurfaceTest)
 #include "surface_test.moc"

@@ -8,6 +8,7 @@
 #include "imaging/phantom/phantom.h"
 #include "solver/executor.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 namespace tidemark {
 namespace {
@@ -171,5 +172,5 @@ class ItkTest : public QObject {
 
 }  // namespace tidemark
 
-QTEST_GUILESS_MAIN(tidemark::ItkTest)
+TIDEMARK_TEST(tidemark::ItkTest)
 #include "itk_test.moc"

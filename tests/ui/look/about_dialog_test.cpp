@@ -6,6 +6,7 @@
 #include <QTableWidget>
 #include <QTest>
 
+#include "tests/support/test_program.h"
 #include "ui/look/theme.h"
 
 using namespace tidemark;
@@ -61,5 +62,5 @@ class AboutDialogTest : public QObject {
   }
 };
 
-QTEST_MAIN(AboutDialogTest)
+TIDEMARK_TEST(AboutDialogTest)
 #include "about_dialog_test.moc"

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/test_program.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 
@@ -309,5 +310,5 @@ class LookTest : public QObject {
   }
 };
 
-QTEST_MAIN(LookTest)
+TIDEMARK_TEST(LookTest)
 #include "look_test.moc"

@@ -14,13 +14,6 @@
 #include "ui/look/theme.h"
 
 namespace tidemark::test {
-void prepare_desktop() {
-  QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
-  QCoreApplication::setOrganizationName("tidemark-test");
-  QCoreApplication::setApplicationName("tidemark-test");
-  QStandardPaths::setTestModeEnabled(true);
-}
-
 namespace {
 constexpr double kWorthTelling = 30.0;  // milliseconds
 }

@@ -116,16 +116,3 @@ double difference(const QImage& a, const QImage& b);
 bool shows_a_picture(const PictureView& view);
 
 }  // namespace tidemark::test
-
-// main() of a test that opens windows: Qt as the program itself sets it up.
-#define TIDEMARK_DESKTOP_TEST_MAIN(Class)                       \
-  int main(int argc, char** argv) {                             \
-    tidemark::test::prepare_desktop();                          \
-    tidemark::test::WatchedApplication application(argc, argv); \
-    Class test;                                                 \
-    return QTest::qExec(&test, argc, argv);                     \
-  }
-
-namespace tidemark::test {
-void prepare_desktop();
-}

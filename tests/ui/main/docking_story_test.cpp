@@ -4,6 +4,7 @@
 #include <QMdiSubWindow>
 #include <QToolButton>
 
+#include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/panel_docks.h"
 
@@ -206,5 +207,5 @@ void DockingStoryTest::a_panel_rests_behind_a_tab_and_keeps_its_size() {
 
 }  // namespace tidemark::test
 
-TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::DockingStoryTest)
+TIDEMARK_TEST(tidemark::test::DockingStoryTest)
 #include "docking_story_test.moc"

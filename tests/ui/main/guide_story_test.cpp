@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/look/theme.h"
 #include "ui/main/panel_docks.h"
@@ -136,5 +137,5 @@ void GuideStoryTest::every_layout_is_whole_in_both_themes() {
 
 }  // namespace tidemark::test
 
-TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::GuideStoryTest)
+TIDEMARK_TEST(tidemark::test::GuideStoryTest)
 #include "guide_story_test.moc"

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/thread_pool.h"
+#include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/saved_cases.h"
 
@@ -145,5 +146,5 @@ void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
 
 }  // namespace tidemark::test
 
-TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::LargeStudyStoryTest)
+TIDEMARK_TEST(tidemark::test::LargeStudyStoryTest)
 #include "large_study_story_test.moc"

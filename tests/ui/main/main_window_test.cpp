@@ -5,6 +5,7 @@
 #include <QTextBrowser>
 #include <glm/geometric.hpp>
 
+#include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
@@ -250,5 +251,5 @@ void MainWindowTest::the_left_button_moves_the_crosshair_as_in_itk_snap_if_one_w
 
 }  // namespace tidemark::test
 
-TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::MainWindowTest)
+TIDEMARK_TEST(tidemark::test::MainWindowTest)
 #include "main_window_test.moc"

@@ -5,6 +5,7 @@
 #include <QToolButton>
 #include <glm/geometric.hpp>
 
+#include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/panels/speed_controls.h"
 #include "ui/views/view_bar.h"
@@ -235,5 +236,5 @@ void OneModelStoryTest::the_clip_plane_is_moved_tilted_and_worked_on() {
 
 }  // namespace tidemark::test
 
-TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::OneModelStoryTest)
+TIDEMARK_TEST(tidemark::test::OneModelStoryTest)
 #include "one_model_story_test.moc"

@@ -10,6 +10,7 @@
 #include "imaging/dicom/dicom.h"
 #include "session/case_autosave.h"
 #include "study/zip_archive.h"
+#include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/saved_cases.h"
 
@@ -179,5 +180,5 @@ void PrivacyStoryTest::the_patient_is_in_no_file_that_is_written() {
 
 }  // namespace tidemark::test
 
-TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::PrivacyStoryTest)
+TIDEMARK_TEST(tidemark::test::PrivacyStoryTest)
 #include "privacy_story_test.moc"

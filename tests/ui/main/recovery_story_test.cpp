@@ -10,6 +10,7 @@
 #include "imaging/phantom/phantom.h"
 #include "session/background_job.h"
 #include "study/autosave.h"
+#include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/message_bar.h"
 #include "ui/main/saved_cases.h"
@@ -211,12 +212,8 @@ void RecoveryStoryTest::nothing_is_offered_after_a_clean_end() {
 
 }  // namespace tidemark::test
 
-int main(int argc, char** argv) {
-  tidemark::test::prepare_desktop();
-  tidemark::test::WatchedApplication application(argc, argv);
-  if (argc > 1 && std::strcmp(argv[1], tidemark::test::kVictim) == 0)
-    return tidemark::test::work_until_killed();
-  tidemark::test::RecoveryStoryTest test;
-  return QTest::qExec(&test, argc, argv);
-}
+static const tidemark::test::RegisteredTest kVictimProcess(tidemark::test::kVictim, [](int, char**) {
+  return tidemark::test::work_until_killed();
+});
+TIDEMARK_TEST(tidemark::test::RecoveryStoryTest)
 #include "recovery_story_test.moc"

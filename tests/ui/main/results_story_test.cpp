@@ -15,6 +15,7 @@
 #include "imaging/results/results.h"
 #include "tests/imaging/pacs/archives.h"
 #include "tests/imaging/pacs/scripted_peer.h"
+#include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/look/theme.h"
 #include "ui/main/panel_docks.h"
@@ -379,5 +380,5 @@ void ResultsStoryTest::a_server_that_keeps_silent_is_given_up_by_a_click() {
 
 }  // namespace tidemark::test
 
-TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::ResultsStoryTest)
+TIDEMARK_TEST(tidemark::test::ResultsStoryTest)
 #include "results_story_test.moc"

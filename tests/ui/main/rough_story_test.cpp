@@ -4,6 +4,7 @@
 #include <QDockWidget>
 #include <vector>
 
+#include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 
 namespace tidemark::test {
@@ -236,5 +237,5 @@ void RoughStoryTest::a_lost_context_is_made_good() {
 
 }  // namespace tidemark::test
 
-TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::RoughStoryTest)
+TIDEMARK_TEST(tidemark::test::RoughStoryTest)
 #include "rough_story_test.moc"

@@ -9,6 +9,7 @@
 #include <QToolButton>
 #include <glm/geometric.hpp>
 
+#include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/panel_docks.h"
 #include "ui/views/view_bar.h"
@@ -172,5 +173,5 @@ void ScaleStoryTest::the_icon_of_a_case_is_whole() {
 
 }  // namespace tidemark::test
 
-TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::ScaleStoryTest)
+TIDEMARK_TEST(tidemark::test::ScaleStoryTest)
 #include "scale_story_test.moc"

@@ -5,6 +5,7 @@
 
 #include "imaging/phantom/phantom.h"
 #include "imaging/study.h"
+#include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/saved_cases.h"
 
@@ -169,5 +170,5 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
 
 }  // namespace tidemark::test
 
-TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::SteeringStoryTest)
+TIDEMARK_TEST(tidemark::test::SteeringStoryTest)
 #include "steering_story_test.moc"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/panels/speed_controls.h"
 
@@ -300,5 +301,5 @@ void TwoCasesStoryTest::one_case_that_goes_back_stops_both() {
 
 }  // namespace tidemark::test
 
-TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::TwoCasesStoryTest)
+TIDEMARK_TEST(tidemark::test::TwoCasesStoryTest)
 #include "two_cases_story_test.moc"

@@ -9,6 +9,7 @@
 #include "session/background_job.h"
 #include "session/study_loader.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/series_model.h"
 
@@ -212,5 +213,5 @@ class SeriesBrowserTest : public QObject {
   }
 };
 
-QTEST_MAIN(SeriesBrowserTest)
+TIDEMARK_TEST(SeriesBrowserTest)
 #include "series_browser_test.moc"

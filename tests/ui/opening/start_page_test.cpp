@@ -11,6 +11,7 @@
 #include "imaging/phantom/phantom.h"
 #include "session/background_job.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 #include "ui/opening/card_button.h"
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/phantom_menu.h"
@@ -188,5 +189,5 @@ class StartPageTest : public QObject {
   }
 };
 
-QTEST_MAIN(StartPageTest)
+TIDEMARK_TEST(StartPageTest)
 #include "start_page_test.moc"

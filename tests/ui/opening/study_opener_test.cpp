@@ -12,6 +12,7 @@
 #include "session/background_job.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 #include "ui/opening/load_report.h"
 #include "ui/opening/loading_view.h"
 #include "ui/opening/preview_page.h"
@@ -440,5 +441,5 @@ class StudyOpenerTest : public QObject {
   }
 };
 
-QTEST_MAIN(StudyOpenerTest)
+TIDEMARK_TEST(StudyOpenerTest)
 #include "study_opener_test.moc"

@@ -9,6 +9,7 @@
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/pacs/archives.h"
 #include "tests/imaging/pacs/scripted_peer.h"
+#include "tests/support/test_program.h"
 #include "ui/look/theme.h"
 
 using namespace tidemark;
@@ -159,5 +160,5 @@ class QueryDialogTest : public QObject {
   }
 };
 
-QTEST_MAIN(QueryDialogTest)
+TIDEMARK_TEST(QueryDialogTest)
 #include "query_dialog_test.moc"

@@ -7,6 +7,7 @@
 
 #include "core/atomic_file.h"
 #include "tests/imaging/pacs/archives.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -119,5 +120,5 @@ class ServersDialogTest : public QObject {
   }
 };
 
-QTEST_MAIN(ServersDialogTest)
+TIDEMARK_TEST(ServersDialogTest)
 #include "servers_dialog_test.moc"

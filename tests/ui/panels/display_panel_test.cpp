@@ -8,6 +8,7 @@
 #include <QToolButton>
 #include <glm/geometric.hpp>
 
+#include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 #include "ui/widgets/colour_button.h"
 
@@ -200,5 +201,5 @@ class DisplayPanelTest : public QObject {
 
 }  // namespace tidemark
 
-QTEST_MAIN(tidemark::DisplayPanelTest)
+TIDEMARK_TEST(tidemark::DisplayPanelTest)
 #include "display_panel_test.moc"

@@ -8,6 +8,7 @@
 #include <QTableView>
 #include <functional>
 
+#include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 #include "ui/panels/display_panel.h"
 #include "ui/panels/initialise_panel.h"
@@ -118,5 +119,5 @@ class EveryPanelTest : public QObject {
 
 }  // namespace tidemark
 
-QTEST_MAIN(tidemark::EveryPanelTest)
+TIDEMARK_TEST(tidemark::EveryPanelTest)
 #include "every_panel_test.moc"

@@ -8,6 +8,7 @@
 #include <QToolButton>
 
 #include "imaging/files/volume_file.h"
+#include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 
 namespace tidemark {
@@ -246,5 +247,5 @@ class InitialisePanelTest : public QObject {
 
 }  // namespace tidemark
 
-QTEST_MAIN(tidemark::InitialisePanelTest)
+TIDEMARK_TEST(tidemark::InitialisePanelTest)
 #include "initialise_panel_test.moc"

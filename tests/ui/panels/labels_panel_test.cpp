@@ -8,6 +8,7 @@
 #include <QTableView>
 #include <QToolButton>
 
+#include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 #include "ui/panels/labels_model.h"
 #include "ui/panels/meaning_picker.h"
@@ -270,5 +271,5 @@ class LabelsPanelTest : public QObject {
 
 }  // namespace tidemark
 
-QTEST_MAIN(tidemark::LabelsPanelTest)
+TIDEMARK_TEST(tidemark::LabelsPanelTest)
 #include "labels_panel_test.moc"

@@ -13,6 +13,7 @@
 #include <QStyleOptionSlider>
 #include <QToolButton>
 
+#include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 #include "ui/panels/curve_plot.h"
 #include "ui/panels/tent_plot.h"
@@ -284,5 +285,5 @@ class LevelSetPanelTest : public QObject {
 
 }  // namespace tidemark
 
-QTEST_MAIN(tidemark::LevelSetPanelTest)
+TIDEMARK_TEST(tidemark::LevelSetPanelTest)
 #include "level_set_panel_test.moc"

@@ -6,6 +6,7 @@
 #include <QSignalSpy>
 #include <QToolButton>
 
+#include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 
 namespace tidemark {
@@ -82,5 +83,5 @@ class PaintPanelTest : public QObject {
 
 }  // namespace tidemark
 
-QTEST_MAIN(tidemark::PaintPanelTest)
+TIDEMARK_TEST(tidemark::PaintPanelTest)
 #include "paint_panel_test.moc"

@@ -8,6 +8,7 @@
 #include <QVBoxLayout>
 #include <QWheelEvent>
 
+#include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 #include "ui/widgets/number_text.h"
 
@@ -130,5 +131,5 @@ class SliderNumberTest : public QObject {
 
 }  // namespace tidemark
 
-QTEST_MAIN(tidemark::SliderNumberTest)
+TIDEMARK_TEST(tidemark::SliderNumberTest)
 #include "slider_number_test.moc"

@@ -8,6 +8,7 @@
 #include <QSignalSpy>
 #include <QTableWidget>
 
+#include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 #include "ui/panels/region_table.h"
 
@@ -144,5 +145,5 @@ class StatisticsPanelTest : public QObject {
 
 }  // namespace tidemark
 
-QTEST_MAIN(tidemark::StatisticsPanelTest)
+TIDEMARK_TEST(tidemark::StatisticsPanelTest)
 #include "statistics_panel_test.moc"

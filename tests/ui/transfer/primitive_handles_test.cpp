@@ -2,6 +2,7 @@
 #include <QTest>
 #include <cmath>
 
+#include "tests/support/test_program.h"
 #include "ui/transfer/primitive_handles.h"
 #include "ui/widgets/plot_axis.h"
 
@@ -137,5 +138,5 @@ class PrimitiveHandlesTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(PrimitiveHandlesTest)
+TIDEMARK_TEST(PrimitiveHandlesTest)
 #include "primitive_handles_test.moc"

@@ -3,6 +3,7 @@
 
 #include "editor_fixture.h"
 #include "tests/support/support.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -326,5 +327,5 @@ class TransferEditorTest : public QObject {
   }
 };
 
-QTEST_MAIN(TransferEditorTest)
+TIDEMARK_TEST(TransferEditorTest)
 #include "transfer_editor_test.moc"

@@ -1,5 +1,6 @@
 // Primitives are dragged, and moved by keys, in the plots of the real editor.
 #include "editor_fixture.h"
+#include "tests/support/test_program.h"
 
 using namespace tidemark;
 using namespace tidemark::test;
@@ -249,5 +250,5 @@ class TransferPlotTest : public QObject {
   }
 };
 
-QTEST_MAIN(TransferPlotTest)
+TIDEMARK_TEST(TransferPlotTest)
 #include "transfer_plot_test.moc"

@@ -1,4 +1,5 @@
 // Whose images they are stands in the corners of every view, until it is hidden.
+#include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 #include "ui/views/overlay.h"
 #include "ui/views/slice_view.h"
@@ -110,5 +111,5 @@ class CornersTest : public QObject {
   }
 };
 
-QTEST_MAIN(CornersTest)
+TIDEMARK_TEST(CornersTest)
 #include "corners_test.moc"

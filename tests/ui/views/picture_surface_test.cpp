@@ -9,6 +9,7 @@
 
 #include "session/case_runner.h"
 #include "session/view_textures.h"
+#include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 
 namespace tidemark::test {
@@ -113,7 +114,8 @@ void PictureSurfaceTest::textures_show_what_images_show_and_nothing_is_read_back
       QTest::qWait(20);
     }
     QTest::qWait(300);
-    qInfo("%s: the user interface was late by %.0f ms at most", way, WatchedApplication::instance().longest_ms());
+    qInfo("%s: the user interface was late by %.0f ms at most", way,
+          WatchedApplication::instance().longest_ms());
     desktop.session().pause();
     desktop.settle();
     QCOMPARE(desktop.pictures_read_back() == 0, textures);
@@ -234,5 +236,5 @@ void PictureSurfaceTest::a_case_is_closed_while_its_pictures_are_drawn() {
 
 }  // namespace tidemark::test
 
-TIDEMARK_DESKTOP_TEST_MAIN(tidemark::test::PictureSurfaceTest)
+TIDEMARK_TEST(tidemark::test::PictureSurfaceTest)
 #include "picture_surface_test.moc"

@@ -1,6 +1,7 @@
 // T and epsilon in the bar over a view.
 #include "ui/views/view_bar.h"
 
+#include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 
 using namespace tidemark;
@@ -79,5 +80,5 @@ class ViewBarTest : public QObject {
   }
 };
 
-QTEST_MAIN(ViewBarTest)
+TIDEMARK_TEST(ViewBarTest)
 #include "view_bar_test.moc"
