@@ -24,6 +24,7 @@
 #include "ui/main/case_messages.h"
 #include "ui/main/case_results.h"
 #include "ui/main/first_steps.h"
+#include "ui/main/focus_chain.h"
 #include "ui/main/keys_dialog.h"
 #include "ui/main/menus.h"
 #include "ui/main/message_bar.h"
@@ -384,6 +385,16 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   QSettings().setValue("main/state", panels_->arrangement());
   QSettings().setValue("main/geometry", saveGeometry());
   event->accept();
+}
+
+bool MainWindow::focusNextPrevChild(bool next) {
+  const QWidget* from = focusWidget() ? focusWidget() : this;
+  const auto allowed = [this](const QWidget& widget) {
+    return !area_->viewport()->isAncestorOf(&widget) || (active_ && active_->isAncestorOf(&widget));
+  };
+  QWidget* to = next_in_focus_chain(*from, next, allowed);
+  if (to) to->setFocus(next ? Qt::TabFocusReason : Qt::BacktabFocusReason);
+  return to != nullptr;
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

@@ -1,0 +1,15 @@
+// The next widget for the keyboard, where Qt's own choice would not do.
+#pragma once
+
+#include <functional>
+
+class QWidget;
+
+namespace tidemark {
+
+// The first widget behind `from` in the focus chain of its window (before it, when not `forward`) that can be
+// reached by Tab and that `allowed` lets pass; null: there is none.
+[[nodiscard]] QWidget* next_in_focus_chain(const QWidget& from, bool forward,
+                                           const std::function<bool(const QWidget&)>& allowed);
+
+}  // namespace tidemark
