@@ -1,6 +1,7 @@
 #include "ui/look/theme.h"
 
 #include <QApplication>
+#include <iterator>
 
 #include "ui/look/style.h"
 
@@ -69,6 +70,8 @@ constexpr Colours kDark{
     .dark = 0xff151616,
     .shadow = 0xff0b0b0c,
 };
+
+constexpr QRgb kCases[] = {0xff0072b2, 0xffd55e00, 0xff009e73, 0xffcc79a7, 0xff56b4e9, 0xff8c6d1f};
 
 QPalette palette_of(const Colours& colours) {
   QPalette palette;
@@ -168,6 +171,11 @@ void apply_theme(QApplication& application, Theme theme) {
   QApplication::setStyle(new Style);  // owned by the application
   QApplication::setPalette(palette);
   application.setStyleSheet(style_sheet(palette));
+}
+
+QColor case_colour(int number) {
+  const int colours = static_cast<int>(std::size(kCases));
+  return QColor::fromRgb(kCases[(number - 1 + colours) % colours]);
 }
 
 }  // namespace tidemark

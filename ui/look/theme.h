@@ -19,6 +19,10 @@ QPalette light_palette();
 QPalette dark_palette();
 bool is_dark(const QPalette& palette);
 
+// The colour of an open case's mark, by its number from 1 on; colours repeat after six. Colour-blind eyes
+// tell them apart too (Okabe and Ito, "Color Universal Design"), and none is the surface's yellow.
+QColor case_colour(int number);
+
 // Distances of layouts, in pixels of the unscaled screen.
 inline constexpr int kSpaceTight = 4;    // between parts of one control
 inline constexpr int kSpace = 8;         // between controls, and from a panel's edge

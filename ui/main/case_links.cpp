@@ -4,34 +4,42 @@
 
 namespace tidemark {
 
-void CaseLinks::add(CaseWindow& window) {
-  windows_ << &window;
-  connect(&window.session().display(), &Display::changed, this, [this, moved = QPointer(&window)] {
-    if (moved) follow(*moved);
-  });
+void CaseLinks::link(const QList<CaseWindow*>& windows) {
+  for (CaseWindow* window : std::exchange(windows_, {})) {
+    window->disconnect(this);
+    window->session().display().disconnect(this);
+    window->set_linked(false);
+  }
+  if (windows.size() > 1) {
+    for (CaseWindow* window : windows) {
+      windows_ << window;
+      window->set_linked(true);
+      connect(&window->session().display(), &Display::changed, this, [this, window] { follow(*window); });
+      connect(window, &QObject::destroyed, this, [this, window] { forget(window); });
+    }
+    follow(*windows_.first());
+  }
+  emit changed();
 }
 
-void CaseLinks::set_linked(bool linked) {
-  linked_ = linked;
-  for (const auto& window : windows_) {
-    if (!linked_ || !window) continue;
-    follow(*window);  // the first one leads
-    return;
-  }
+void CaseLinks::forget(CaseWindow* closed) {
+  windows_.removeAll(closed);
+  if (windows_.size() < 2) unlink();
 }
 
 void CaseLinks::follow(CaseWindow& moved) {
-  if (!linked_ || following_) return;
+  if (following_) return;
   const QScopedValueRollback guard(following_, true);
   const DisplaySettings& from = moved.session().display().settings();
-  for (const auto& window : windows_) {
-    if (!window || window == &moved) continue;
+  for (CaseWindow* window : windows_) {
+    if (window == &moved) continue;
+    const bool same_values = window->session().volume().modality == moved.session().volume().modality;
     window->session().display().change([&](DisplaySettings& to) {
       to.cursor_mm = from.cursor_mm;
       to.slice_centre_mm = from.slice_centre_mm;
       to.slice_zoom = from.slice_zoom;
       to.oblique = from.oblique;
-      to.window = from.window;
+      if (same_values) to.window = from.window;
       to.camera = from.camera;
       to.clip_on = from.clip_on;
       to.clip = from.clip;

@@ -1,8 +1,8 @@
 // Cases that are looked at together: what moves in one moves in all.
 #pragma once
 
+#include <QList>
 #include <QObject>
-#include <QPointer>
 
 #include "ui/main/case_window.h"
 
@@ -13,17 +13,21 @@ class CaseLinks : public QObject {
  public:
   using QObject::QObject;
 
-  void add(CaseWindow& window);
-  // Cursor, slices, window and level, camera and clip plane. Positions are the patient's: cases of one
-  // patient show the same place whatever their grids.
-  void set_linked(bool linked);
-  [[nodiscard]] bool linked() const { return linked_; }
+  // Links these cases instead of those that were linked, if there are two at least; the first one leads. They
+  // share cursor, slices, camera and clip plane, and within a modality window and level. Positions are the
+  // patient's: cases of one patient show the same place whatever their grids. A case that is closed leaves,
+  // and the last one is free.
+  void link(const QList<CaseWindow*>& windows);
+  void unlink() { link({}); }
+
+ signals:
+  void changed();
 
  private:
   void follow(CaseWindow& moved);
+  void forget(CaseWindow* closed);
 
-  QList<QPointer<CaseWindow>> windows_;
-  bool linked_ = false;
+  QList<CaseWindow*> windows_;  // those that are open
   bool following_ = false;
 };
 

@@ -11,6 +11,7 @@
 
 #include "renderer/camera.h"
 #include "session/display_json.h"
+#include "ui/main/case_head.h"
 #include "ui/views/slice_view.h"
 #include "ui/views/view_bar.h"
 #include "ui/views/volume_view.h"
@@ -82,6 +83,9 @@ CaseWindow::CaseWindow(std::unique_ptr<CaseSession> session, Actions& actions, Q
     setTabPosition(area, QTabWidget::North);
   }
   session_->display().set(first_settings(*session_));
+  auto* head = new CaseHead;
+  setMenuWidget(head);
+  head->set_case(this);
   connect(session_.get(), &CaseSession::state_changed, this, &CaseWindow::follow_state);
   follow_state();
   autosave_ = std::make_unique<CaseAutosave>(*session_, recovery_folder(), [this] { return view_state(); });
@@ -93,6 +97,16 @@ CaseWindow::~CaseWindow() {
   autosave_.reset();
   // Views speak of the session to their end.
   qDeleteAll(docks_);
+}
+
+void CaseWindow::set_number(int number) {
+  number_ = number;
+  emit mark_changed();
+}
+
+void CaseWindow::set_linked(bool linked) {
+  linked_ = linked;
+  emit mark_changed();
 }
 
 void CaseWindow::follow_state() {

@@ -31,6 +31,13 @@ class CaseWindow : public QMainWindow {
 
   [[nodiscard]] CaseSession& session() { return *session_; }
 
+  // What tells open cases apart: a number from 1 on, with a colour (CaseHead), and whether others follow this
+  // one.
+  [[nodiscard]] int number() const { return number_; }
+  void set_number(int number);
+  [[nodiscard]] bool linked() const { return linked_; }
+  void set_linked(bool linked);
+
   // Another view, as a tab behind the active one.
   PictureView* add_view(ViewKind kind);
   void set_layout(ViewLayout layout);
@@ -54,6 +61,8 @@ class CaseWindow : public QMainWindow {
   QString session_file;
 
  signals:
+  // The number, or whether it is linked.
+  void mark_changed();
   // The case may go: nothing would be lost, or the user does not mind.
   void close_wanted(CaseWindow& window, QCloseEvent* event);
 
@@ -74,6 +83,8 @@ class CaseWindow : public QMainWindow {
   Actions& actions_;
   std::unique_ptr<CaseAutosave> autosave_;
   QList<QDockWidget*> docks_;
+  int number_ = 1;
+  bool linked_ = false;
   int docks_made_ = 0;  // for names
   ViewLayout layout_ = ViewLayout::paper;
   QByteArray before_maximised_;

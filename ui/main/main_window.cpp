@@ -11,6 +11,7 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
+#include <QSet>
 #include <QSettings>
 #include <QStackedWidget>
 #include <QStatusBar>
@@ -20,6 +21,7 @@
 #include "ui/look/about_dialog.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/main/case_head.h"
 #include "ui/main/case_links.h"
 #include "ui/main/case_messages.h"
 #include "ui/main/case_results.h"
@@ -73,6 +75,7 @@ MainWindow::MainWindow(Engine& engine, QWidget* parent) : QMainWindow(parent), e
 MainWindow::~MainWindow() {
   // Its cases go after it, and what they still say would reach what is no main window any more.
   area_->disconnect(this);
+  links_->disconnect(this);
   for (const auto& connection : active_connections_) disconnect(connection);
 }
 
@@ -214,6 +217,7 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
     settings.tool = active_ ? active_->session().display().settings().tool : settings.tool;
   });
   settle(kAboutOpening);
+  window->set_number(free_number());
   new CaseMessages(*window, *messages_);  // its child
   connect(window, &CaseWindow::close_wanted, saved_, &SavedCases::close);
   QMdiSubWindow* child = area_->addSubWindow(window);
@@ -222,8 +226,7 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
   for (QAction* action : child->systemMenu()->actions()) action->setShortcut({});
   connect(window, &QWidget::windowTitleChanged, child, &QWidget::setWindowTitle);
   child->setWindowTitle(window->windowTitle());
-  child->setWindowIcon(application_icon());
-  links_->add(*window);
+  child->setWindowIcon(case_mark(window->number()));
   // The user interface draws breath between making a case and showing it.
   const auto show = [this, child = QPointer(child), study, restored] {
     if (child) show_case(*child, *study, restored);
@@ -274,6 +277,14 @@ QList<CaseWindow*> MainWindow::cases() const {
   return cases;
 }
 
+int MainWindow::free_number() const {
+  QSet<int> taken;
+  for (CaseWindow* window : cases()) taken << window->number();
+  int number = 1;
+  while (taken.contains(number)) ++number;
+  return number;
+}
+
 void MainWindow::activate(QMdiSubWindow* child) {
   // While dialogs and docks have the focus no child is active, but the case still is.
   if (!child && !area_->subWindowList().isEmpty()) return;
@@ -287,7 +298,7 @@ void MainWindow::activate(QMdiSubWindow* child) {
       QMetaObject::invokeMethod(this, &QWidget::close, Qt::QueuedConnection);
   }
   CaseSession* session = active_ ? &active_->session() : nullptr;
-  panels_->set_session(session);
+  panels_->set_case(active_);
   values_->set_session(session);
   if (session) {
     active_connections_ << connect(session, &CaseSession::state_changed, this, &MainWindow::follow_case)
@@ -298,6 +309,7 @@ void MainWindow::activate(QMdiSubWindow* child) {
 
 void MainWindow::follow_case() {
   actions_->follow(active_ ? &active_->session() : nullptr);
+  actions_->link->setChecked(active_ && active_->linked());
 }
 
 template <class Do>
@@ -358,7 +370,9 @@ void MainWindow::connect_windows() {
   });
   connect(actions_->tabs, &QAction::toggled, this,
           [this](bool tabs) { area_->setViewMode(tabs ? QMdiArea::TabbedView : QMdiArea::SubWindowView); });
-  connect(actions_->link, &QAction::toggled, links_, &CaseLinks::set_linked);
+  connect(actions_->link, &QAction::triggered, this,
+          [this](bool linked) { links_->link(linked ? cases() : QList<CaseWindow*>{}); });
+  connect(links_, &CaseLinks::changed, this, &MainWindow::follow_case);
   connect(actions_->lock_step, &QAction::toggled, this, [this](bool together) {
     if (!together) {
       for (CaseWindow* window : cases()) window->session().leave_lock_step();

@@ -69,6 +69,7 @@ class MainWindow : public QMainWindow {
   void ask_for_file();
   void open_recent(const RecentStudy& study);
   void show_case(QMdiSubWindow& child, const LoadedStudy& study, const RestoredCase& restored);
+  [[nodiscard]] int free_number() const;
   void activate(QMdiSubWindow* window);
   void follow_case();
   // A case as it is wanted by an action; nothing happens without one.

@@ -2,7 +2,10 @@
 
 #include <QMainWindow>
 #include <QScrollArea>
+#include <QVBoxLayout>
 
+#include "ui/main/case_head.h"
+#include "ui/main/case_window.h"
 #include "ui/panels/display_panel.h"
 #include "ui/panels/initialise_panel.h"
 #include "ui/panels/labels_panel.h"
@@ -60,7 +63,15 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
 QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* panel) {
   auto* dock = new QDockWidget(title, &window_);
   dock->setObjectName(QString::fromLatin1(name));
-  dock->setWidget(panel);
+  auto* head = new CaseHead;
+  heads_ << head;
+  auto* headed = new QWidget;
+  auto* column = new QVBoxLayout(headed);
+  column->setContentsMargins({});
+  column->setSpacing(0);
+  column->addWidget(head);
+  column->addWidget(panel, 1);
+  dock->setWidget(headed);
   dock->setMinimumWidth(kWidth);
   window_.addDockWidget(Qt::RightDockWidgetArea, dock);
   docks_ << dock;
@@ -79,7 +90,9 @@ QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* pa
   return dock;
 }
 
-void PanelDocks::set_session(CaseSession* session) {
+void PanelDocks::set_case(CaseWindow* window) {
+  CaseSession* session = window ? &window->session() : nullptr;
+  for (CaseHead* head : heads_) head->set_case(window);
   for (SessionWidget* panel : panels_) panel->set_session(session);
   if (session_) disconnect(session_, nullptr, this, nullptr);
   session_ = session;

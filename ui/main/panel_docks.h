@@ -13,6 +13,8 @@ class QMainWindow;
 
 namespace tidemark {
 
+class CaseHead;
+class CaseWindow;
 class SessionWidget;
 class TransferFunctionEditor;
 
@@ -21,8 +23,8 @@ class PanelDocks : public QObject {
  public:
   PanelDocks(QMainWindow& window, Actions& actions);
 
-  // Null: no case is open, and no panels beside the start page.
-  void set_session(CaseSession* session);
+  // The case on which all panels act. Null: no case is open, and no panels beside the start page.
+  void set_case(CaseWindow* window);
   void set_hidden(bool hidden);  // as the user wants it
   // How the window's docks and tool bars stand while panels show, for the settings.
   [[nodiscard]] QByteArray arrangement() const;
@@ -41,6 +43,7 @@ class PanelDocks : public QObject {
   bool begun_ = false;
   QList<QDockWidget*> docks_;
   QList<SessionWidget*> panels_;
+  QList<CaseHead*> heads_;
   bool unwanted_ = false;  // by the user
   bool shown_ = true;
   QByteArray arrangement_;  // while they do not show: as it was

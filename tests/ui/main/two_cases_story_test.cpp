@@ -176,7 +176,7 @@ void TwoCasesStoryTest::linked_cases_are_looked_at_together() {
   QVERIFY(one.settings().camera.azimuth != 77.0);
   QVERIFY(one.settings().camera == two.settings().camera);
 
-  // And apart again; one that is opened later is linked, too.
+  // And apart again.
   desktop.press(Qt::Key_L);
   one.change([](DisplaySettings& s) { s.camera.azimuth = -11.0; });
   QVERIFY(two.settings().camera.azimuth != -11.0);

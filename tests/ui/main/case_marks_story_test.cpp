@@ -1,0 +1,119 @@
+// Two patients open at once: panels act on the active case, say which it is, and never make another one
+#include <QPointer>
+
+// active.
+
+#include "tests/support/test_program.h"
+#include "tests/ui/main/desktop.h"
+#include "ui/look/theme.h"
+#include "ui/main/case_head.h"
+
+namespace tidemark::test {
+
+class CaseMarksStoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void panels_say_whose_case_they_act_on();
+  void linked_cases_show_it_and_links_end_with_them();
+  void linked_cases_of_two_modalities_keep_their_windows();
+
+ private:
+  // Side by side; the first one is active, by a click on one of its views.
+  static QList<CaseWindow*> open_two(Desktop& desktop, const QString& first, const QString& second);
+  static void click(CaseWindow& window);
+};
+
+QList<CaseWindow*> CaseMarksStoryTest::open_two(Desktop& desktop, const QString& first,
+                                                const QString& second) {
+  QList<CaseWindow*> cases{desktop.open_phantom(first), desktop.open_phantom(second)};
+  desktop.window().actions().tile->trigger();
+  desktop.settle();
+  click(*cases[0]);
+  desktop.settle();
+  return cases;
+}
+
+void CaseMarksStoryTest::click(CaseWindow& window) {
+  PictureView* view = window.views().first();
+  QTest::mouseClick(view, Qt::LeftButton, {}, view->rect().center());
+}
+
+void CaseMarksStoryTest::panels_say_whose_case_they_act_on() {
+  Desktop desktop(story_executor(), {1300, 800});
+  const auto cases = open_two(desktop, "sphere", "tumour");
+  QCOMPARE(cases[0]->number(), 1);
+  QCOMPARE(cases[1]->number(), 2);
+  QVERIFY(case_colour(cases[0]->number()) != case_colour(cases[1]->number()));
+  for (const int turn : {0, 1, 0}) {
+    click(*cases[turn]);
+    desktop.settle();
+    auto* own = cases[turn]->findChild<CaseHead*>();
+    QVERIFY(own && own->isVisible());
+    QVERIFY2(own->text().contains(cases[turn]->session().name()), qPrintable(own->text()));
+    int shown = 0;
+    for (auto* head : desktop.window().findChildren<CaseHead*>()) {
+      if (cases[0]->isAncestorOf(head) || cases[1]->isAncestorOf(head)) continue;
+      QCOMPARE(head->text(), own->text());
+      if (head->visibleRegion().isEmpty()) continue;
+      ++shown;
+      // The colour of the case's window is the panel's.
+      QCOMPARE(head->grab().toImage().pixelColor(head->width() / 2, head->height() - 1).rgb(),
+               case_colour(cases[turn]->number()).rgb());
+    }
+    QCOMPARE(shown, 1);
+    QCOMPARE(own->grab().toImage().pixelColor(own->width() / 2, own->height() - 1).rgb(),
+             case_colour(cases[turn]->number()).rgb());
+  }
+  desktop.screenshot("two-patients");
+}
+
+void CaseMarksStoryTest::linked_cases_show_it_and_links_end_with_them() {
+  Desktop desktop(story_executor(), {1300, 800});
+  auto cases = open_two(desktop, "tumour", "tumour");
+  const auto linked = [&] { return desktop.window().actions().link->isChecked(); };
+  QVERIFY(!linked() && !cases[0]->linked());
+  desktop.press(Qt::Key_L);
+  QVERIFY(linked() && cases[0]->linked() && cases[1]->linked());
+
+  // Another one is not linked until the user says so.
+  CaseWindow* third = desktop.open_phantom("tumour");
+  desktop.settle();
+  QVERIFY(!third->linked() && !linked());
+  const WindowLevel before = third->session().display().settings().window;
+  cases[0]->session().display().change([](DisplaySettings& s) { s.window.centre += 55.0; });
+  QVERIFY(third->session().display().settings().window == before);
+
+  // What remains of a pair is free.
+  for (CaseWindow* window : {cases[0], third}) {
+    QPointer<CaseWindow> closed(window);
+    window->close_saved();
+    QVERIFY(Desktop::wait_for([&] { return closed.isNull(); }));
+  }
+  desktop.settle();
+  QVERIFY(!cases[1]->linked() && !linked());
+  CaseWindow* next = desktop.open_phantom("tumour");
+  desktop.settle();
+  QVERIFY(!next->linked() && !linked());
+  next->session().display().change([](DisplaySettings& s) { s.camera.azimuth = 12.0; });
+  QVERIFY(cases[1]->session().display().settings().camera.azimuth != 12.0);
+}
+
+void CaseMarksStoryTest::linked_cases_of_two_modalities_keep_their_windows() {
+  Desktop desktop(story_executor(), {1300, 800});
+  const auto cases = open_two(desktop, "tumour", "organ");
+  QVERIFY(cases[0]->session().volume().modality != cases[1]->session().volume().modality);
+  const WindowLevel of_other = cases[1]->session().display().settings().window;
+  desktop.press(Qt::Key_L);
+  cases[0]->session().display().change([](DisplaySettings& s) {
+    s.window.centre += 77.0;
+    s.camera.azimuth = 12.0;
+  });
+  QVERIFY(cases[1]->session().display().settings().window == of_other);
+  QCOMPARE(cases[1]->session().display().settings().camera.azimuth, 12.0);
+}
+
+}  // namespace tidemark::test
+
+TIDEMARK_TEST(tidemark::test::CaseMarksStoryTest)
+#include "case_marks_story_test.moc"
