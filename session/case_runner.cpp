@@ -120,6 +120,14 @@ Status CaseRunner::adjust(Status outcome) {
   return outcome;
 }
 
+Status CaseRunner::accept_surface(std::uint8_t label, Take take) {
+  auto accepted = case_->accept_surface(label, take);
+  if (!accepted) return adjust(pass_on(accepted));
+  acceptance_ = std::move(*accepted);
+  acceptance_position_ = case_->history().position();
+  return adjust({});
+}
+
 // Playing.
 
 void CaseRunner::set_playing(bool playing) {
@@ -293,6 +301,7 @@ void CaseRunner::publish() {
   state.curve = level_set.curve();
   state.labels = case_->labels().list();
   state.label_voxels = label_voxels();
+  if (case_->history().position() == acceptance_position_) state.acceptance = acceptance_;
   if (const auto change = case_->history().undo_description()) state.undo_text = change_text(*change);
   if (const auto change = case_->history().redo_description()) state.redo_text = change_text(*change);
   state.modified = case_->changed_since_save() || restored_.rescued;

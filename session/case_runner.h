@@ -46,6 +46,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   // After a command that has changed phi, or else what is seen: hands its outcome on.
   Status edit(Status outcome);
   Status adjust(Status outcome);
+  Status accept_surface(std::uint8_t label, Take take);
 
   [[nodiscard]] bool playing() const { return playing_; }
   // With all that it is in lock-step with: playing, and steps after which it rests.
@@ -105,6 +106,8 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
 
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels_;  // as of label_revision_
   std::uint64_t label_revision_ = 0;
+  std::optional<Acceptance> acceptance_;
+  std::uint64_t acceptance_position_ = 0;  // in the history, right after it
 
   // The newest state, until the session has taken it.
   struct Post {

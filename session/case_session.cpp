@@ -178,17 +178,15 @@ void CaseSession::import_labels(std::shared_ptr<const Segments> segments) {
   });
 }
 
-void CaseSession::accept_surface(std::uint8_t label) {
-  tell([label](CaseRunner& runner, const Progress&) {
-    return runner.adjust(runner.document().accept_surface(label));
-  });
+void CaseSession::accept_surface(std::uint8_t label, Take take) {
+  tell([=](CaseRunner& runner, const Progress&) { return runner.accept_surface(label, take); });
 }
 
-void CaseSession::accept_surface_as(const QString& name) {
-  tell([name = name.toStdString()](CaseRunner& runner, const Progress&) -> Status {
+void CaseSession::accept_surface_as(const QString& name, Take take) {
+  tell([name = name.toStdString(), take](CaseRunner& runner, const Progress&) -> Status {
     const auto id = runner.document().labels().add(name);
     if (!id) return tl::unexpected<Error>(id.error());
-    return runner.adjust(runner.document().accept_surface(*id));
+    return runner.accept_surface(*id, take);
   });
 }
 

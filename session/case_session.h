@@ -82,8 +82,9 @@ class CaseSession : public QObject {
   void set_label(const Label& label);
   void remove_label(std::uint8_t id);
   void import_labels(std::shared_ptr<const Segments> segments);  // as new labels
-  void accept_surface(std::uint8_t label);                       // the surface's inside becomes the label
-  void accept_surface_as(const QString& name);                   // and a new one
+  // The surface's inside becomes the label, or a new one; CaseState::acceptance says what it took.
+  void accept_surface(std::uint8_t label, Take take = Take::free_voxels);
+  void accept_surface_as(const QString& name, Take take = Take::free_voxels);
   void begin_from_label(std::uint8_t label);
 
   // What is seen at a pixel of a 3D view (from its top left, physical pixels); the answer comes later, or

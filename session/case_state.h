@@ -4,6 +4,7 @@
 #include <QString>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "solver/executor.h"
@@ -34,6 +35,7 @@ struct CaseState {
   std::vector<Label> labels;
   std::vector<RegionStatistics> label_statistics;                 // in the order of `labels`
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null while there are none
+  std::optional<Acceptance> acceptance;                           // while it is the last change
   QString undo_text;                                              // what undo would take back; empty: nothing
   QString redo_text;
   std::uint64_t edits = 0;  // how much was done: grows with each edit

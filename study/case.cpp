@@ -40,12 +40,12 @@ Status Case::smooth_source(double sigma_mm, const Progress& progress) {
   return smoothed;
 }
 
-Status Case::accept_surface(std::uint8_t label) {
+Result<Acceptance> Case::accept_surface(std::uint8_t label, Take take) {
   if (!level_set_->begun()) return fail(ErrorKind::usage, "there is no surface to accept");
-  if (Status ended = level_set_->end_run(); !ended) return ended;
+  if (Status ended = level_set_->end_run(); !ended) return pass_on(ended);
   const auto phi = level_set_->checkpoint();
   if (!phi) return tl::unexpected<Error>(phi.error());
-  return labels_.accept((*phi)->mask(), label);
+  return labels_.accept((*phi)->mask(), label, take);
 }
 
 Status Case::begin_from_label(std::uint8_t label) {

@@ -41,7 +41,7 @@ class Case {
   [[nodiscard]] double smoothed_mm() const { return level_set_->smoothed_mm(); }
 
   // Changes of labels that undo takes back, one entry each.
-  Status accept_surface(std::uint8_t label);
+  Result<Acceptance> accept_surface(std::uint8_t label, Take take);
   Status begin_from_label(std::uint8_t label);
 
   // One step back or forward in the history of everything.

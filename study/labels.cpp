@@ -136,7 +136,7 @@ Status Labels::remove(std::uint8_t id) {
   });
 }
 
-Status Labels::accept(const Mask& mask, std::uint8_t id, bool replace) {
+Result<Acceptance> Labels::accept(const Mask& mask, std::uint8_t id, Take take, bool replace) {
   const Label* label = find(id);
   if (label == nullptr) return fail(ErrorKind::usage, "there is no label {}", id);
   if (label->locked) return fail(ErrorKind::usage, "label {} is locked", label->name);
@@ -144,19 +144,30 @@ Status Labels::accept(const Mask& mask, std::uint8_t id, bool replace) {
     return fail(ErrorKind::usage, "the mask and the labels have different grids");
   }
   std::array<bool, 256> free{};  // whose voxels may be given away
-  free.fill(true);
-  for (const Label& other : list_) free[other.id] = !other.locked;
-  return change(ChangeKind::accept, label->name, Touches::voxels, [&] {
+  free[0] = free[id] = true;
+  for (const Label& other : list_) {
+    if (take == Take::others_too && !other.locked) free[other.id] = true;
+  }
+  Acceptance acceptance{.label = label->name};
+  Status changed = change(ChangeKind::accept, label->name, Touches::voxels, [&] {
     voxels_.resize(mask.voxels.size());
     for (std::size_t i = 0; i < mask.voxels.size(); ++i) {
       std::uint8_t& voxel = voxels_[i];
       if (mask.voxels[i] != 0) {
-        if (free[voxel]) voxel = id;
+        if (!free[voxel]) {
+          ++acceptance.left;
+          continue;
+        }
+        ++acceptance.taken;
+        if (voxel != 0 && voxel != id) ++acceptance.from_others;
+        voxel = id;
       } else if (replace && voxel == id) {
         voxel = 0;
       }
     }
   });
+  if (!changed) return pass_on(changed);
+  return acceptance;
 }
 
 Mask Labels::mask(std::uint8_t id) const {

@@ -27,6 +27,17 @@ struct Label {
   bool operator==(const Label&) const = default;
 };
 
+// Whose voxels a label may take when it accepts a mask. Those of locked labels stay in either case.
+enum class Take { free_voxels, others_too };
+
+// What a label took when it accepted a mask, in voxels of the mask.
+struct Acceptance {
+  std::string label;
+  std::int64_t taken = 0;        // of all that it has now
+  std::int64_t from_others = 0;  // of `taken`: had another label before
+  std::int64_t left = 0;         // stayed with other labels
+};
+
 class Labels {
  public:
   // Changes become entries of the history, if there is one; it must not be used any more when this is gone.
@@ -45,9 +56,10 @@ class Labels {
   Status set(const Label& label);  // everything but the voxels of the label with that id
   Status remove(std::uint8_t id);  // and clears its voxels
 
-  // Gives the voxels of `mask` to the label; voxels of locked labels stay. With `replace`, the label's other
-  // voxels are cleared. Fails (ErrorKind::usage) when the label is locked or unknown, or the grid differs.
-  Status accept(const Mask& mask, std::uint8_t id, bool replace = true);
+  // Gives the voxels of `mask` to the label. With `replace`, the label's other voxels are cleared. Fails
+  // (ErrorKind::usage) when the label is locked or unknown, or the grid differs.
+  Result<Acceptance> accept(const Mask& mask, std::uint8_t id, Take take = Take::free_voxels,
+                            bool replace = true);
   [[nodiscard]] Mask mask(std::uint8_t id) const;
 
   // Other labels and other voxels, all at once. Fails as assign() does.

@@ -38,7 +38,8 @@ class LabelsTest : public QObject {
     const std::uint8_t liver = labels.add("Liver").value();
     const std::uint8_t tumour = labels.add("Tumour").value();
     QCOMPARE(failure(labels.accept(box(labels.geometry(), {0, 0, 0}, {5, 5, 5}), liver)), QString());
-    QCOMPARE(failure(labels.accept(box(labels.geometry(), {4, 0, 0}, {9, 5, 5}), tumour)), QString());
+    QCOMPARE(failure(labels.accept(box(labels.geometry(), {4, 0, 0}, {9, 5, 5}), tumour, Take::others_too)),
+             QString());
     Label chosen = *labels.find(tumour);
     chosen.meaning = find_segment_meaning("cyst").value();
     QCOMPARE(failure(labels.set(chosen)), QString());
@@ -111,23 +112,46 @@ class LabelsTest : public QObject {
     Label locked = *labels.find(liver);
     locked.locked = true;
     QCOMPARE(failure(labels.set(locked)), QString());
-    QCOMPARE(failure(labels.accept(right, tumour)), QString());
+    QCOMPARE(failure(labels.accept(right, tumour, Take::others_too)), QString());
     QCOMPARE(labels.mask(liver).count(), std::int64_t{216});
     QCOMPARE(labels.mask(tumour).count(), std::int64_t{144});
     QCOMPARE(labels.accept(right, liver).error().kind, ErrorKind::usage);
     QCOMPARE(labels.remove(liver).error().kind, ErrorKind::usage);
     locked.locked = false;
     QCOMPARE(failure(labels.set(locked)), QString());
-    QCOMPARE(failure(labels.accept(right, tumour)), QString());
+    QCOMPARE(failure(labels.accept(right, tumour, Take::others_too)), QString());
     QCOMPARE(labels.mask(liver).count(), std::int64_t{144});
     QCOMPARE(labels.mask(tumour).count(), std::int64_t{216});
+  }
+
+  void a_label_takes_free_voxels_unless_it_is_to_take_all() {
+    Labels labels(small_grid());
+    const std::uint8_t liver = labels.add("Liver").value();
+    const std::uint8_t tumour = labels.add("Tumour").value();
+    QCOMPARE(labels.accept(box(labels.geometry(), {0, 0, 0}, {5, 5, 5}), liver).value().taken,
+             std::int64_t{216});
+    const Mask right = box(labels.geometry(), {4, 0, 0}, {9, 5, 5});
+    const Acceptance careful = labels.accept(right, tumour).value();
+    QCOMPARE(labels.mask(liver).count(), std::int64_t{216});
+    QCOMPARE(labels.mask(tumour).count(), std::int64_t{144});
+    QCOMPARE(careful.label, std::string("Tumour"));
+    QCOMPARE(careful.taken, std::int64_t{144});
+    QCOMPARE(careful.from_others, std::int64_t{0});
+    QCOMPARE(careful.left, std::int64_t{72});
+    const Acceptance all = labels.accept(right, tumour, Take::others_too).value();
+    QCOMPARE(labels.mask(liver).count(), std::int64_t{144});
+    QCOMPARE(all.taken, std::int64_t{216});
+    QCOMPARE(all.from_others, std::int64_t{72});
+    QCOMPARE(all.left, std::int64_t{0});
   }
 
   void accepting_replaces_or_adds() {
     Labels labels(small_grid());
     const std::uint8_t id = labels.add("one").value();
     QCOMPARE(failure(labels.accept(box(labels.geometry(), {0, 0, 0}, {1, 1, 1}), id)), QString());
-    QCOMPARE(failure(labels.accept(box(labels.geometry(), {2, 0, 0}, {3, 1, 1}), id, false)), QString());
+    QCOMPARE(
+        failure(labels.accept(box(labels.geometry(), {2, 0, 0}, {3, 1, 1}), id, Take::free_voxels, false)),
+        QString());
     QCOMPARE(labels.mask(id).count(), std::int64_t{16});
     QCOMPARE(failure(labels.accept(box(labels.geometry(), {2, 0, 0}, {3, 1, 1}), id)), QString());
     QCOMPARE(labels.mask(id).count(), std::int64_t{8});
@@ -190,7 +214,10 @@ class LabelsTest : public QObject {
         other.visible = !other.visible;
         done = labels.set(other);
       } else {
-        done = labels.accept(box(labels.geometry(), first, first + Index3(2)), id, random() % 2 == 0);
+        const Take take = random() % 2 == 0 ? Take::free_voxels : Take::others_too;
+        auto accepted =
+            labels.accept(box(labels.geometry(), first, first + Index3(2)), id, take, random() % 2 == 0);
+        done = accepted ? Status() : pass_on(accepted);
       }
       QCOMPARE(failure(done), QString());
       states.push_back(seen());
@@ -241,7 +268,7 @@ class LabelsTest : public QObject {
     run(document->level_set(), 12);
     const Mask surface = document->level_set().executor().snapshot().value().mask();
     const std::uint8_t id = document->labels().add("Liver").value();
-    QCOMPARE(failure(document->accept_surface(id)), QString());
+    QCOMPARE(failure(document->accept_surface(id, Take::free_voxels)), QString());
     QVERIFY(document->labels().mask(id).voxels == surface.voxels);
     QCOMPARE(describe(*document->history().undo_description()), std::string("accept into Liver"));
     QCOMPARE(failure(document->undo()), QString());

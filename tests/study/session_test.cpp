@@ -71,7 +71,9 @@ std::unique_ptr<Case> labelled_case(ExecutorKind kind = ExecutorKind::host) {
   must(level_set.begin(seed_in(*document->volume())));
   level_set.note({0, 1.5, 300.0, 0.25});
   run(level_set, 12);
-  must(document->accept_surface(document->labels().add("Lümp, \"one\"").value()));
+  const auto accepted =
+      document->accept_surface(document->labels().add("Lümp, \"one\"").value(), Take::free_voxels);
+  if (!accepted) qFatal("%s", accepted.error().message.c_str());
   Label label = document->labels().list()[0];
   label.locked = true;
   label.colour = {1, 2, 3};

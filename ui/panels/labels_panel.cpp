@@ -1,8 +1,11 @@
 #include "ui/panels/labels_panel.h"
 
+#include <QCheckBox>
 #include <QColorDialog>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QLabel>
+#include <QLocale>
 #include <QPushButton>
 #include <QTableView>
 #include <QToolButton>
@@ -108,6 +111,14 @@ QWidget* LabelsPanel::make_actions() {
   accept_ = new QPushButton(tr("Accept surface into label"));
   form.wide(accept_);
   connect(accept_, &QPushButton::clicked, this, &LabelsPanel::accept_surface);
+  take_all_ = new QCheckBox(tr("Take voxels of other labels"));
+  take_all_->setToolTip(
+      tr("Otherwise only voxels that have no label yet are taken. Voxels of locked labels stay."));
+  form.wide(take_all_);
+  accepted_ = new QLabel;
+  accepted_->setWordWrap(true);
+  accepted_->hide();
+  form.wide(accepted_);
   begin_ = new QPushButton(tr("Start again from label"));
   begin_->setToolTip(tr("The level set begins anew as the chosen label, to go on with it."));
   form.wide(begin_);
@@ -142,12 +153,28 @@ QString LabelsPanel::new_name() const {
 // Into the chosen label; the first one is made on the way.
 void LabelsPanel::accept_surface() {
   if (!session()) return;
+  const Take take = take_all_->isChecked() ? Take::others_too : Take::free_voxels;
   if (const Label* label = chosen()) {
-    session()->accept_surface(label->id);
+    session()->accept_surface(label->id, take);
   } else {
     choose_new_ = true;
-    session()->accept_surface_as(new_name());
+    session()->accept_surface_as(new_name(), take);
   }
+}
+
+void LabelsPanel::show_acceptance() {
+  const auto& acceptance = session()->state().acceptance;
+  accepted_->setVisible(acceptance.has_value());
+  if (!acceptance) return;
+  const QLocale locale;
+  QStringList sentences{
+      tr("%1 took %2 voxels.")
+          .arg(QString::fromStdString(acceptance->label), locale.toString(qlonglong{acceptance->taken}))};
+  if (acceptance->from_others > 0)
+    sentences << tr("%1 of them had another label.").arg(locale.toString(qlonglong{acceptance->from_others}));
+  if (acceptance->left > 0)
+    sentences << tr("%1 voxels stayed with other labels.").arg(locale.toString(qlonglong{acceptance->left}));
+  accepted_->setText(sentences.join(u' '));
 }
 
 void LabelsPanel::choose_colour(const QModelIndex& index) {
@@ -185,6 +212,7 @@ void LabelsPanel::refresh() {
     choose_new_ = false;
   }
   opacity_->set_value(100.0 * session()->display().settings().label_opacity);
+  show_acceptance();
   show_buttons();
 }
 
@@ -198,8 +226,7 @@ void LabelsPanel::show_buttons() {
   accept_->setToolTip(!begun   ? tr("There is no surface yet.")
                       : locked ? tr("The chosen label is locked.")
                       : !label ? tr("The surface's inside becomes a new label.")
-                               : tr("The surface's inside becomes the chosen label. Voxels of locked "
-                                    "labels stay."));
+                               : tr("The surface's inside becomes the chosen label."));
   begin_->setEnabled(label != nullptr);
 }
 

@@ -3,6 +3,8 @@
 
 #include "ui/panels/panel.h"
 
+class QCheckBox;
+class QLabel;
 class QModelIndex;
 class QPushButton;
 class QTableView;
@@ -29,6 +31,7 @@ class LabelsPanel : public Panel {
   QWidget* make_actions();
   void add_label();
   void accept_surface();
+  void show_acceptance();
   [[nodiscard]] QString new_name() const;
   void choose_colour(const QModelIndex& index);
   void show_buttons();
@@ -39,6 +42,8 @@ class LabelsPanel : public Panel {
   QToolButton* remove_;
   MeaningPicker* meaning_;
   QPushButton* accept_;
+  QCheckBox* take_all_;
+  QLabel* accepted_;  // what the last acceptance took
   QPushButton* begin_;
   SliderNumber* opacity_;
   bool choose_new_ = false;  // a label was added here: it becomes the chosen one

@@ -1,7 +1,9 @@
 #include "ui/panels/labels_panel.h"
 
+#include <QCheckBox>
 #include <QColorDialog>
 #include <QDoubleSpinBox>
+#include <QLabel>
 #include <QLineEdit>
 #include <QPointer>
 #include <QPushButton>
@@ -48,6 +50,29 @@ class LabelsPanelTest : public QObject {
     const QString shown = text(0, LabelsModel::volume);
     QCOMPARE(shown, QLocale().toString(statistics.front().volume_ml, 'f', 1));
     QVERIFY(shown != QLocale().toString(0.0, 'f', 1));
+  }
+
+  void voxels_of_other_labels_are_taken_only_when_it_is_asked_for() {
+    add();
+    the_case_->begin(8.0);
+    click(tr("Accept surface into label"));
+    const std::int64_t all = the_case_->state().surface.voxels_inside;
+    add();
+    click(tr("Accept surface into label"));
+    QCOMPARE(the_case_->state().label_statistics[0].voxels, all);
+    QCOMPARE(the_case_->state().label_statistics[1].voxels, std::int64_t{0});
+    QVERIFY(says(QLocale().toString(qlonglong{all}) + " voxels stayed"));
+    auto* take_all = panel_->findChild<QCheckBox*>();
+    QVERIFY(take_all && !take_all->isChecked());
+    take_all->click();
+    click(tr("Accept surface into label"));
+    QCOMPARE(the_case_->state().label_statistics[0].voxels, std::int64_t{0});
+    QCOMPARE(the_case_->state().label_statistics[1].voxels, all);
+    QVERIFY(says(QLocale().toString(qlonglong{all}) + " of them had another label"));
+    the_case_->session->undo();
+    the_case_->settle();
+    QVERIFY(!says("voxels"));
+    QCOMPARE(the_case_->state().label_statistics[0].voxels, all);
   }
 
   void without_a_label_the_surface_becomes_a_new_one() {
@@ -249,6 +274,13 @@ class LabelsPanelTest : public QObject {
     QVERIFY(one->isEnabled());
     QTest::mouseClick(one, Qt::LeftButton);
     the_case_->settle();
+  }
+  // Whether a sentence that is seen has this in it.
+  bool says(const QString& words) {
+    const auto labels = panel_->findChildren<QLabel*>();
+    return std::any_of(labels.begin(), labels.end(), [&](const QLabel* label) {
+      return label->isVisible() && label->text().contains(words);
+    });
   }
   static void tick(QTableView& table, int column) {
     const QModelIndex cell = table.model()->index(0, column);
