@@ -78,14 +78,14 @@ QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* pa
   // To Qt, a panel behind another tab is visible, too; ours are to rest there, without their docks growing
   // smaller. In a turn of the event loop of its own, because each takes its time to show all that has
   // changed; by then the dock's last word counts.
-  QSizePolicy policy = panel->sizePolicy();
+  QSizePolicy policy = headed->sizePolicy();
   policy.setRetainSizeWhenHidden(true);
-  panel->setSizePolicy(policy);
-  panel->hide();
-  connect(dock, &QDockWidget::visibilityChanged, panel, [panel](bool in_front) {
-    panel->setProperty(kInFront, in_front);
-    const auto follow = [panel] { panel->setVisible(panel->property(kInFront).toBool()); };
-    QMetaObject::invokeMethod(panel, follow, Qt::QueuedConnection);
+  headed->setSizePolicy(policy);
+  headed->hide();
+  connect(dock, &QDockWidget::visibilityChanged, headed, [headed](bool in_front) {
+    headed->setProperty(kInFront, in_front);
+    const auto follow = [headed] { headed->setVisible(headed->property(kInFront).toBool()); };
+    QMetaObject::invokeMethod(headed, follow, Qt::QueuedConnection);
   });
   return dock;
 }
