@@ -82,9 +82,10 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   const std::uint64_t pictures = axial->feed().shown().number;
   desktop.press(Qt::Key_P);
   // Once it is so large that the eraser takes a part of it only, however fast the executor is.
-  QVERIFY(Desktop::wait_for([&] {
+  const auto large_enough = [&] {
     return desktop.state().playing && desktop.state().step > 20 && desktop.state().surface.volume_ml > 15.0;
-  }));
+  };
+  QVERIFY(Desktop::wait_for(large_enough, 120000));
   parameters.target += 5.0;
   desktop.session().set_parameters(parameters);
   QVERIFY(Desktop::wait_for([&] { return desktop.state().parameters.target == parameters.target; }));
