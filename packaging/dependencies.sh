@@ -34,8 +34,8 @@ tidemark_missing_packages() {
   done
 }
 
-# tidemark_install_dependencies [--tests | --long-tests]: installs what is missing. Where that cannot be done it says what is needed and goes on: the build finds out
-# whether it is there all the same.
+# tidemark_install_dependencies [--tests | --long-tests]: installs what is missing. Where that cannot be done it says
+# what is needed and goes on: the build finds out whether it is there all the same.
 tidemark_install_dependencies() {
   if [[ ${1:-} == --* ]]; then tidemark_packages+=("${tidemark_test_packages[@]}"); fi
   if [[ ${1:-} == --long-tests ]]; then tidemark_packages+=("${tidemark_long_test_packages[@]}"); fi

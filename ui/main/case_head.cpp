@@ -75,8 +75,8 @@ void CaseHead::set_case(CaseWindow* window) {
   window_ = window;
   if (window_) {
     connect(window_, &CaseWindow::mark_changed, this, &CaseHead::refresh);
-    connect(window_, &QWidget::windowTitleChanged, this, &CaseHead::refresh);
-    connect(&window_->session().display(), &Display::changed, this, &CaseHead::refresh);
+    connect(window_, &QWidget::windowTitleChanged, this, &CaseHead::refresh_text);
+    connect(&window_->session().display(), &Display::changed, this, &CaseHead::refresh_text);
   }
   refresh();
 }
@@ -90,10 +90,16 @@ void CaseHead::refresh() {
   if (!window_) return;
   mark_->setPixmap(case_mark(window_->number()).pixmap(QSize(kIconSmall, kIconSmall), devicePixelRatioF()));
   mark_->setAccessibleName(tr("Case %1").arg(window_->number()));
-  text_->setText(text_of(window_->session()));
+  refresh_text();
   chain_->setPixmap(icon(u"link").pixmap(QSize(kIconSmall, kIconSmall), devicePixelRatioF()));
   chain_->setVisible(window_->linked());
   update();
+}
+
+// With each move of the mouse: it is cheap where nothing has changed.
+void CaseHead::refresh_text() {
+  const QString text = text_of(window_->session());
+  if (text != text_->text()) text_->setText(text);
 }
 
 void CaseHead::paintEvent(QPaintEvent* /*event*/) {

@@ -31,6 +31,7 @@ class CaseHead : public QWidget {
 
  private:
   void refresh();
+  void refresh_text();
 
   QPointer<CaseWindow> window_;
   QLabel* mark_ = nullptr;
