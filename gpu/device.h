@@ -55,7 +55,7 @@ class Device {
   // Where debug messages go: severe or not, and the text. By default they are only counted.
   void on_message(std::function<void(bool severe, const std::string& text)> sink) { sink_ = std::move(sink); }
   // Sends a message of our own there: all that a compiler had to say.
-  void tell(const std::string& text) const {
+  void report_message(const std::string& text) const {
     if (sink_) sink_(false, text);
   }
 

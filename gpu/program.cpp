@@ -46,7 +46,7 @@ Result<ShaderHandle> compile(Device& device, GLenum stage, std::string_view path
   if (compiled == GL_TRUE) return shader;
   if (auto status = device.check("compiling a shader"); !status) return pass_on(status);
   const std::string log = name_files(info_log(shader.id(), glGetShaderiv, glGetShaderInfoLog), *source);
-  device.tell(log);
+  device.report_message(log);
   return fail(ErrorKind::internal, "{}", first_error(log));
 }
 

@@ -158,7 +158,7 @@ Result<const gpu::Program*> Renderer::find_program(const char* fragment, const g
   if (found == programs_.end()) {
     gpu::Defines defines = phi_.layout().defines();
     defines.emplace_back("ANISOTROPIC", "");
-    if (device_->capabilities().software) defines.emplace_back("BOTH_SIDES_COMPUTED", "");
+    if (device_->capabilities().software) defines.emplace_back("SOFTWARE_RASTERISER", "");
     defines.insert(defines.end(), variant.begin(), variant.end());
     auto made = gpu::Program::render(*device_, "render/full_view.vert", "", fragment, defines);
     if (!made) return pass_on(made);
@@ -210,7 +210,7 @@ Result<const gpu::Program*> Renderer::use_volume_program(const char* fragment, c
   with(source && (view.region != Region::everywhere || view.source->source_needs_phi()), "REGION");
   with(source && view.source->source_needs_gradient(), "BY_GRADIENT");
   with(view.clip.has_value(), "CLIP");
-  with(view.colouring != SurfaceColouring::plain, "TAUGHT");
+  with(view.colouring != SurfaceColouring::plain, "SPEED_COLOURS");
   with(view.lighting.occlusion > 0.0, "OCCLUSION");
   with(source && view.quality.fast_gradient, "FAST_GRADIENT");
   with(!view.quality.skip_empty, "NO_SKIP");

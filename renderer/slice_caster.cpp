@@ -94,7 +94,7 @@ Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, 
   const SliceBounds bounds = bounds_of(axis, scene, view);
   const glm::dmat4 view_from_voxel = glm::inverse(view.camera.voxel_from_view(geometry, size.aspect()));
   const double along = direction_in_voxels(view, geometry)[axis.along];
-  Pace pace(device, progress);
+  DrawThrottle throttle(device, progress);
   framebuffer_.bind();
   gpu::clear_colours(1);
   const std::vector<Slab> all = slabs(axis.count(), along > 0.0);
@@ -105,18 +105,18 @@ Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, 
     const gpu::TexelRect pixels =
         bounds.pixels(across, slab.front_plane, slab.back_plane, view_from_voxel, size);
     if (pixels.width == 0) continue;
-    if (auto status = show_slices(slab_program, scene, view, bounds, slab, units, pace); !status)
+    if (auto status = show_slices(slab_program, scene, view, bounds, slab, units, throttle); !status)
       return status;
     const double length = std::abs((slab.back_plane - slab.front_plane) / along);  // of a ray, in voxels
     const int steps = std::max(1, static_cast<int>(std::ceil(length / view.quality.step_voxels - 0.01)));
     slab_program.set("low_across", glm::vec2(across.low));
     slab_program.set("high_across", glm::vec2(across.high));
     slab_program.set("steps", steps);
-    if (auto status = draw_slab(slab_program, slab, steps, pixels, pace); !status) return status;
+    if (auto status = draw_slab(slab_program, slab, steps, pixels, throttle); !status) return status;
     progress(static_cast<double>(i + 1) / static_cast<double>(all.size()), "drawing");
   }
-  if (auto status = pace.settle(); !status) return status;
-  report_ = pace.report();
+  if (auto status = throttle.wait(); !status) return status;
+  report_ = throttle.report();
   const bool in_one = report_.pieces == 0;  // a GPU is not waited for
   report_.seconds = whole.seconds();
   if (in_one) {
@@ -128,7 +128,7 @@ Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, 
 
 // Makes sure that the slab's two slices are there, and binds them.
 Status SliceCaster::show_slices(const gpu::Program& slab_program, const Scene& scene, const VolumeView& view,
-                                const SliceBounds& bounds, const Slab& slab, const Units& units, Pace& pace) {
+                                const SliceBounds& bounds, const Slab& slab, const Units& units, DrawThrottle& throttle) {
   const auto along = static_cast<std::size_t>(bounds.axis().along);
   SliceStack& phi = *phi_[along];
   SourceStack& source = *source_[along];
@@ -136,11 +136,11 @@ Status SliceCaster::show_slices(const gpu::Program& slab_program, const Scene& s
   const bool by_source = needs_source(view);
   for (const std::int64_t slice : {slab.front_slice, slab.back_slice}) {
     if (by_phi) {
-      if (auto status = phi.reconstruct(scene.phi, slice, units.phi, units.free, pace); !status)
+      if (auto status = phi.reconstruct(scene.phi, slice, units.phi, units.free, throttle); !status)
         return status;
     }
     if (by_source) {
-      auto status = source.prepare(scene.source, slice, bounds.voxels(slice), units.free, pace);
+      auto status = source.prepare(scene.source, slice, bounds.voxels(slice), units.free, throttle);
       if (!status) return status;
     }
   }
@@ -162,7 +162,7 @@ Status SliceCaster::show_slices(const gpu::Program& slab_program, const Scene& s
 }
 
 Status SliceCaster::draw_slab(const gpu::Program& slab_program, const Slab& slab, int steps,
-                              const gpu::TexelRect& pixels, Pace& pace) {
+                              const gpu::TexelRect& pixels, DrawThrottle& throttle) {
   slab_program.set("front_slice", static_cast<float>(slab.front_slice));
   slab_program.set("back_slice", static_cast<float>(slab.back_slice));
   slab_program.set("front_plane", static_cast<float>(slab.front_plane));
@@ -171,7 +171,7 @@ Status SliceCaster::draw_slab(const gpu::Program& slab_program, const Slab& slab
   vertices_.bind();
   gpu::begin_exact_drawing();
   const gpu::BlendScope under(gpu::Blending::under);
-  return pace.rectangle(slab_program, pixels, steps, [](const gpu::TexelRect& part) {
+  return throttle.rectangle(slab_program, pixels, steps, [](const gpu::TexelRect& part) {
     const gpu::ScissorScope scissor(part);
     gpu::draw(gpu::Primitive::triangles, 3);
   });

@@ -47,9 +47,9 @@ class SliceCaster {
   static std::vector<Slab> slabs(std::int64_t slices, bool forward);
   Status prepare(gpu::Device& device, const Scene& scene, const SliceAxis& axis, PictureSize size);
   Status show_slices(const gpu::Program& slab_program, const Scene& scene, const VolumeView& view,
-                     const SliceBounds& bounds, const Slab& slab, const Units& units, Pace& pace);
+                     const SliceBounds& bounds, const Slab& slab, const Units& units, DrawThrottle& throttle);
   Status draw_slab(const gpu::Program& slab_program, const Slab& slab, int steps,
-                   const gpu::TexelRect& pixels, Pace& pace);
+                   const gpu::TexelRect& pixels, DrawThrottle& throttle);
 
   gpu::Texture2D layers_;
   gpu::Framebuffer framebuffer_;

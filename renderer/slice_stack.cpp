@@ -49,7 +49,7 @@ void SliceStack::begin(std::span<const PhysicalPage> table) {
 }
 
 Status SliceStack::reconstruct(const PhiPicture& phi, std::int64_t slice, int phi_unit, int list_unit,
-                               Pace& pace) {
+                               DrawThrottle& throttle) {
   constexpr double kWeight = 0.5;  // of a fragment, beside one of a slab
   if (pair_.holds(slice)) return {};
   pair_.begin(slice);
@@ -68,7 +68,7 @@ Status SliceStack::reconstruct(const PhiPicture& phi, std::int64_t slice, int ph
     program_.set("first_shown", static_cast<int>(layer_begins_[layer] + first));
     gpu::draw(gpu::Primitive::triangles, 6 * count);
   };
-  return pace.things(program_, layer_begins_[layer + 1] - layer_begins_[layer], fragments, kWeight, draw);
+  return throttle.things(program_, layer_begins_[layer + 1] - layer_begins_[layer], fragments, kWeight, draw);
 }
 
 }  // namespace tidemark

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gpu/draw.h"
-#include "renderer/pace.h"
+#include "renderer/draw_throttle.h"
 #include "renderer/phi_picture.h"
 #include "renderer/slice_pair.h"
 
@@ -21,7 +21,7 @@ class SliceStack {
   // Begins a picture. `table`: the physical page of each virtual one.
   void begin(std::span<const PhysicalPage> table);
   // Makes sure that a slice is there. Units: three of phi's, one of the list of pages.
-  Status reconstruct(const PhiPicture& phi, std::int64_t slice, int phi_unit, int list_unit, Pace& pace);
+  Status reconstruct(const PhiPicture& phi, std::int64_t slice, int phi_unit, int list_unit, DrawThrottle& throttle);
 
   [[nodiscard]] const gpu::Texture2D& texture(std::int64_t slice) const { return pair_.texture(slice); }
 

@@ -79,11 +79,11 @@ std::span<const std::byte> SourceStack::gather(const std::vector<Scalar>& voxels
                                                        bytes);
 }
 
-Status SourceStack::send(const Volume& source, std::int64_t slice, Pace& pace) {
+Status SourceStack::send(const Volume& source, std::int64_t slice, DrawThrottle& throttle) {
   Stored& stored = stored_[static_cast<std::size_t>(slice % 3)];
   if (stored.slice == slice) return {};
   // What is drawn from this texture's old slice must be done anyhow.
-  if (auto status = pace.settle(); !status) return status;
+  if (auto status = throttle.wait(); !status) return status;
   const auto texels = std::visit([&](const auto& voxels) { return gather(voxels, slice); }, source.voxels);
   stored.texture.upload(axis_.rect(), texels);
   stored.slice = slice;
@@ -91,13 +91,13 @@ Status SourceStack::send(const Volume& source, std::int64_t slice, Pace& pace) {
 }
 
 Status SourceStack::prepare(const Volume& source, std::int64_t slice, const gpu::TexelRect& part, int unit,
-                            Pace& pace) {
+                            DrawThrottle& throttle) {
   constexpr double kWeight = 0.3;  // of a fragment, beside one of a slab
   if (pair_.holds(slice)) return {};
   const std::array<std::int64_t, 3> slices{std::max<std::int64_t>(slice - 1, 0), slice,
                                            std::min(slice + 1, axis_.count() - 1)};
   for (const std::int64_t one : slices) {
-    if (auto status = send(source, one, pace); !status) return status;
+    if (auto status = send(source, one, throttle); !status) return status;
   }
   pair_.begin(slice);
   vertices_.bind();
@@ -110,7 +110,7 @@ Status SourceStack::prepare(const Volume& source, std::int64_t slice, const gpu:
     stored_[static_cast<std::size_t>(one % 3)].texture.bind(static_cast<unsigned>(next));
     program_.set(name, next++);
   }
-  return pace.rectangle(program_, part, kWeight, [](const gpu::TexelRect& piece) {
+  return throttle.rectangle(program_, part, kWeight, [](const gpu::TexelRect& piece) {
     const gpu::ScissorScope scissor(piece);
     gpu::draw(gpu::Primitive::triangles, 3);
   });

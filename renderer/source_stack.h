@@ -8,7 +8,7 @@
 
 #include "core/volume.h"
 #include "gpu/draw.h"
-#include "renderer/pace.h"
+#include "renderer/draw_throttle.h"
 #include "renderer/slice_pair.h"
 
 namespace tidemark {
@@ -23,7 +23,7 @@ class SourceStack {
   // Begins a picture.
   void begin() { pair_.forget(); }
   // Makes sure that a slice is there, at least its `part`. `source` is that of create(). Uses three units.
-  Status prepare(const Volume& source, std::int64_t slice, const gpu::TexelRect& part, int unit, Pace& pace);
+  Status prepare(const Volume& source, std::int64_t slice, const gpu::TexelRect& part, int unit, DrawThrottle& throttle);
 
   [[nodiscard]] const gpu::Texture2D& texture(std::int64_t slice) const { return pair_.texture(slice); }
 
@@ -32,7 +32,7 @@ class SourceStack {
     gpu::Texture2D texture;
     std::int64_t slice = -1;
   };
-  Status send(const Volume& source, std::int64_t slice, Pace& pace);
+  Status send(const Volume& source, std::int64_t slice, DrawThrottle& throttle);
   template <class Scalar>
   std::span<const std::byte> gather(const std::vector<Scalar>& voxels, std::int64_t slice);
 

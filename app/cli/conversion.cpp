@@ -5,7 +5,7 @@
 
 #include "imaging/files/volume_file.h"
 #include "imaging/onto_grid.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "solver/distance_transform.h"
 
 namespace tidemark::cli {

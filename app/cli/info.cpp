@@ -3,7 +3,7 @@
 
 #include "app/cli/program.h"
 #include "app/cli/study_input.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 
 namespace tidemark::cli {
 namespace {

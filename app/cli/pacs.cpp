@@ -1,7 +1,7 @@
 // tidemark-cli pacs: the group of its commands, and echo.
-#include "app/cli/pacs.h"
+#include "app/cli/pacs_commands.h"
 
-#include "imaging/pacs/pacs.h"
+#include "imaging/pacs/services.h"
 
 namespace tidemark::cli {
 namespace {

@@ -1,6 +1,6 @@
 // tidemark-cli pacs find: the studies that a server has, or the series of one.
-#include "app/cli/pacs.h"
-#include "imaging/pacs/pacs.h"
+#include "app/cli/pacs_commands.h"
+#include "imaging/pacs/services.h"
 
 namespace tidemark::cli {
 namespace {

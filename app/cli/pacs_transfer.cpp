@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <system_error>
 
-#include "app/cli/pacs.h"
+#include "app/cli/pacs_commands.h"
 #include "imaging/dicom/dicom.h"
-#include "imaging/pacs/pacs.h"
+#include "imaging/pacs/services.h"
 
 namespace tidemark::cli {
 namespace {

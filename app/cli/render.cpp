@@ -11,7 +11,7 @@
 #include "imaging/files/png_file.h"
 #include "imaging/onto_grid.h"
 #include "imaging/results/results.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "renderer/sheet.h"
 #include "solver/distance_transform.h"
 #include "solver/model.h"

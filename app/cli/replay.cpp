@@ -5,9 +5,9 @@
 #include "app/cli/results.h"
 #include "app/cli/solver_options.h"
 #include "app/cli/study_input.h"
-#include "imaging/study.h"
-#include "study/checksum.h"
-#include "study/replay.h"
+#include "imaging/load_study.h"
+#include "document/checksum.h"
+#include "document/replay.h"
 
 namespace tidemark::cli {
 namespace {

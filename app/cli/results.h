@@ -12,7 +12,7 @@
 #include "imaging/results/results.h"
 #include "imaging/series.h"
 #include "renderer/picture.h"
-#include "study/recipe.h"
+#include "document/recipe.h"
 
 namespace tidemark::gpu {
 class Device;

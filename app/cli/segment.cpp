@@ -7,8 +7,8 @@
 #include "imaging/filters/filters.h"
 #include "imaging/filters/suggest_start.h"
 #include "imaging/onto_grid.h"
-#include "imaging/study.h"
-#include "study/checksum.h"
+#include "imaging/load_study.h"
+#include "document/checksum.h"
 
 namespace tidemark::cli {
 namespace {

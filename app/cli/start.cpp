@@ -5,7 +5,7 @@
 
 #include "imaging/onto_grid.h"
 #include "imaging/results/results.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 
 namespace tidemark::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/console.h"
 #include "core/volume.h"
-#include "study/start.h"
+#include "document/start.h"
 
 namespace tidemark::cli {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/progress.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 
 namespace tidemark::cli {
 

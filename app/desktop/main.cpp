@@ -9,7 +9,7 @@
 
 #include "app/desktop/diagnostics.h"
 #include "core/result.h"
-#include "session/engine.h"
+#include "engine/engine.h"
 #include "solver/host/page_kernel.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"

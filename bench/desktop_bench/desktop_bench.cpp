@@ -12,7 +12,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "session/engine.h"
+#include "engine/engine.h"
 #include "ui/look/theme.h"
 #include "ui/main/main_window.h"
 #include "ui/opening/preview_page.h"
@@ -56,23 +56,23 @@ bool wait_for(Condition condition, int milliseconds) {
   return condition();
 }
 
-void begin(CaseSession& session) {
+void begin(CaseProxy& proxy) {
   Start start;
-  if (const auto& from = session.study().start; from && from->seed) {
+  if (const auto& from = proxy.study().start; from && from->seed) {
     const auto& seed = *from->seed;
-    start.seeds.push_back(sphere_at_voxel(session.volume().geometry, {seed[0], seed[1], seed[2]}, seed[3]));
+    start.seeds.push_back(sphere_at_voxel(proxy.volume().geometry, {seed[0], seed[1], seed[2]}, seed[3]));
   } else if (from && from->threshold) {
     start.from = ThresholdStart{from->threshold->first, from->threshold->second};
   }
-  session.set_pause_at_convergence(false);
-  session.begin(start);
+  proxy.set_pause_at_convergence(false);
+  proxy.begin(start);
 }
 
 void measure_rates(CaseWindow& window, double seconds) {
-  CaseSession& session = window.session();
+  CaseProxy& proxy = window.proxy();
   std::vector<std::uint64_t> before;
   for (PictureView* view : window.views()) before.push_back(view->feed().shown().number);
-  const std::int64_t step = session.state().step;
+  const std::int64_t step = proxy.state().step;
   QElapsedTimer since;
   since.start();
   wait(static_cast<int>(seconds * 1000.0));
@@ -84,7 +84,7 @@ void measure_rates(CaseWindow& window, double seconds) {
                 view->height(), pictures / passed);
   }
   std::printf("  steps                %12.0f steps/s\n",
-              static_cast<double>(session.state().step - step) / passed);
+              static_cast<double>(proxy.state().step - step) / passed);
 }
 
 // From a change of what is to be seen to the first picture of it.
@@ -94,11 +94,11 @@ void measure_latency(CaseWindow& window) {
     for (int turn = 0; turn < 20; ++turn) {
       QElapsedTimer since;
       since.start();
-      window.session().display().change([](DisplaySettings& settings) {
+      window.proxy().display().change([](DisplaySettings& settings) {
         settings.cursor_mm.z += 1.0;
         settings.camera.azimuth += 3.0;
       });
-      const DisplaySettings wanted = window.session().display().settings();
+      const DisplaySettings wanted = window.proxy().display().settings();
       const auto shown = [&] {
         const AnyView& now = view->feed().shown().view;
         if (const auto* slice = std::get_if<SliceView>(&now)) return slice->position_mm == wanted.cursor_mm;
@@ -164,18 +164,18 @@ int main(int argc, char** argv) {
   if (parser.isSet("open")) return measure_opening(window, parser.value("open"));
   window.open_phantom(parser.value("phantom"));
   if (!wait_for([&] { return window.active_case() != nullptr; }, 60000)) return 1;
-  CaseSession& session = window.active_case()->session();
-  begin(session);
-  if (!wait_for([&] { return session.state().begun; }, 60000)) return 1;
+  CaseProxy& proxy = window.active_case()->proxy();
+  begin(proxy);
+  if (!wait_for([&] { return proxy.state().begun; }, 60000)) return 1;
   wait(500);
   application.longest_ms = 0.0;
-  session.play();
+  proxy.play();
   wait(1000);
   std::printf("%s, %s, playing:\n", qPrintable(parser.value("phantom")),
-              qPrintable(session.state().executor));
+              qPrintable(proxy.state().executor));
   measure_rates(*window.active_case(), parser.value("seconds").toDouble());
   measure_latency(*window.active_case());
-  session.pause();
+  proxy.pause();
   std::printf("  longest event of the user interface %.0f ms\n", application.longest_ms);
   return 0;
 }

@@ -16,7 +16,7 @@
 #include "bench/dicom_bench/itk_reader.h"
 #include "bench/dicom_bench/studies.h"
 #include "core/stopwatch.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;

@@ -196,7 +196,7 @@ Result<std::shared_ptr<const StudyArchive>> StudyArchive::unpack(const fs::path&
   return archive;
 }
 
-std::string StudyArchive::told_outside(std::string message) const {
+std::string StudyArchive::name_archive_in(std::string message) const {
   const std::string inside = folder().string();
   for (auto at = message.find(inside); at != std::string::npos; at = message.find(inside, at)) {
     message.replace(at, inside.size(), file_.string());

@@ -33,7 +33,7 @@ class StudyArchive {
   [[nodiscard]] std::filesystem::path folder() const { return folder_.path(); }
   [[nodiscard]] const std::vector<SkippedFile>& left_out() const { return left_out_; }
   // A message with the archive's name where the folder's stood.
-  [[nodiscard]] std::string told_outside(std::string message) const;
+  [[nodiscard]] std::string name_archive_in(std::string message) const;
 
  private:
   StudyArchive(std::filesystem::path file, PrivateFolder folder);

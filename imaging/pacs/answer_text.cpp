@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "imaging/pacs/pacs.h"
+#include "imaging/pacs/services.h"
 
 namespace tidemark {
 namespace {

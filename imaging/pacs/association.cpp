@@ -61,10 +61,10 @@ Status set_up_network() {
   return {};
 }
 
-Association::Association(std::shared_ptr<Line> line) : line_(std::move(line)) {}
+Association::Association(std::shared_ptr<ConnectionWatch> watch) : watch_(std::move(watch)) {}
 
-Association::Association(std::shared_ptr<Line> line, T_ASC_Association* accepted)
-    : line_(std::move(line)), association_(accepted) {}
+Association::Association(std::shared_ptr<ConnectionWatch> watch, T_ASC_Association* accepted)
+    : watch_(std::move(watch)), association_(accepted) {}
 
 Association::~Association() {
   if (association_ != nullptr) {
@@ -86,7 +86,7 @@ Result<std::unique_ptr<Association>> Association::open(const PacsServer& server,
   if (!address) return fail(ErrorKind::input, "{}: {}", peer, address.error().message);
 
   for (const Stopwatch stopwatch;;) {
-    std::unique_ptr<Association> association(new Association(std::make_shared<Line>(peer, patience, stop)));
+    std::unique_ptr<Association> association(new Association(std::make_shared<ConnectionWatch>(peer, patience, stop)));
     bool may_try_again = false;
     const Status called = association->call(server, *address, proposals, may_try_again);
     if (called) return association;
@@ -104,7 +104,7 @@ Status Association::call(const PacsServer& server, const std::string& address,
   bool connected = false;
   auto transport = make_transport(server.tls, TransportRole::caller, server.host, [this, &connected] {
     connected = true;
-    return line_;
+    return watch_;
   });
   if (!transport) return pass_on(transport);
   transport_ = std::move(*transport);
@@ -121,14 +121,14 @@ Status Association::call(const PacsServer& server, const std::string& address,
   if (made.good()) made = propose(parameters, proposals);
   if (made.bad()) {
     if (parameters != nullptr) ASC_destroyAssociationParameters(&parameters);
-    return fail(ErrorKind::internal, "{}: {}", line_->peer(), one_line(made.text()));
+    return fail(ErrorKind::internal, "{}: {}", watch_->peer(), one_line(made.text()));
   }
 
-  line_->allow(kLongestHandshake, "an answer to the call");
+  watch_->allow(kLongestHandshake, "an answer to the call");
   const Stopwatch stopwatch;
   const OFCondition called = ASC_requestAssociation(network_, parameters, &association_);
   if (called.good() && ASC_countAcceptedPresentationContexts(association_->params) > 0) {
-    line_->completed_message();
+    watch_->completed_message();
     return {};
   }
   ended_ = called.bad();  // there is nobody to tell that we abort
@@ -138,7 +138,7 @@ Status Association::call(const PacsServer& server, const std::string& address,
 
 Error Association::refusal(const OFCondition& condition, const PacsServer& server) const {
   if (condition.good()) {
-    return {ErrorKind::input, fmt::format("{}: offers nothing of what is asked for", line_->peer())};
+    return {ErrorKind::input, fmt::format("{}: offers nothing of what is asked for", watch_->peer())};
   }
   if (condition != DUL_ASSOCIATIONREJECTED) return error(condition, "cannot be called");
   T_ASC_RejectParameters rejected{};
@@ -151,13 +151,13 @@ Error Association::refusal(const OFCondition& condition, const PacsServer& serve
   } else if (rejected.result == ASC_RESULT_REJECTEDTRANSIENT) {
     why += " for now";
   }
-  return {ErrorKind::input, fmt::format("{}: {}", line_->peer(), why)};
+  return {ErrorKind::input, fmt::format("{}: {}", watch_->peer(), why)};
 }
 
 void Association::release() {
   if (std::exchange(ended_, true)) return;
-  line_->allow(kLongestCommand, "an answer to the goodbye");
-  line_->set_patience(kGoodbyePatience);
+  watch_->allow(kLongestCommand, "an answer to the goodbye");
+  watch_->set_patience(kGoodbyePatience);
   ASC_releaseAssociation(association_);
 }
 
@@ -199,12 +199,12 @@ Status Association::send(int context, T_DIMSE_Message& message, DcmDataset* data
       DIMSE_sendMessageUsingMemoryData(association_, static_cast<T_ASC_PresentationContextID>(context),
                                        &message, nullptr, data, nullptr, nullptr);
   if (sent.bad()) return tl::unexpected<Error>(error(sent, "cannot be told"));
-  line_->completed_message();
+  watch_->completed_message();
   return {};
 }
 
 Result<int> Association::receive(T_DIMSE_Message& message, bool* released) {
-  line_->allow(kLongestCommand, "a command");
+  watch_->allow(kLongestCommand, "a command");
   T_ASC_PresentationContextID context = 0;
   const OFCondition got = DIMSE_receiveCommand(association_, DIMSE_BLOCKING, 0, &context, &message, nullptr);
   if (released != nullptr && got == DUL_PEERREQUESTEDRELEASE) {
@@ -216,7 +216,7 @@ Result<int> Association::receive(T_DIMSE_Message& message, bool* released) {
 }
 
 Result<std::unique_ptr<DcmDataset>> Association::receive_data(std::int64_t longest) {
-  line_->allow(longest, "the data of a command");
+  watch_->allow(longest, "the data of a command");
   T_ASC_PresentationContextID context = 0;
   DcmDataset* data = nullptr;
   const OFCondition got =
@@ -227,13 +227,13 @@ Result<std::unique_ptr<DcmDataset>> Association::receive_data(std::int64_t longe
 }
 
 Error Association::error(const OFCondition& condition, std::string_view doing) const {
-  if (const Status trouble = line_->trouble(); !trouble) return trouble.error();
+  if (const Status trouble = watch_->trouble(); !trouble) return trouble.error();
   std::string why = one_line(condition.text());
   if (const std::string prefix = "TCP Initialization Error: "; why.starts_with(prefix))
     why.erase(0, prefix.size());
   if (condition == DUL_PEERREQUESTEDRELEASE) why = "it hangs up before it has answered";
   if (condition == DUL_PEERABORTEDASSOCIATION) why = "it aborts the conversation";
-  return {ErrorKind::input, fmt::format("{}: {}: {}", line_->peer(), doing, why)};
+  return {ErrorKind::input, fmt::format("{}: {}: {}", watch_->peer(), doing, why)};
 }
 
 }  // namespace tidemark

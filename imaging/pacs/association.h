@@ -10,7 +10,7 @@
 
 #include "core/result.h"
 #include "imaging/pacs/configuration.h"
-#include "imaging/pacs/line.h"
+#include "imaging/pacs/connection_watch.h"
 
 class DcmDataset;
 class DcmTransportLayer;
@@ -48,7 +48,7 @@ class Association {
                                                    const std::vector<Proposal>& proposals,
                                                    const std::stop_token& stop);
   // One that the peer called for and that was accepted.
-  Association(std::shared_ptr<Line> line, T_ASC_Association* accepted);
+  Association(std::shared_ptr<ConnectionWatch> watch, T_ASC_Association* accepted);
   ~Association();  // aborts what was not released
   Association(const Association&) = delete;
   Association& operator=(const Association&) = delete;
@@ -74,17 +74,17 @@ class Association {
 
   // What to tell of a failure of DCMTK's: why the line was shut, if it was.
   [[nodiscard]] Error error(const OFCondition& condition, std::string_view doing) const;
-  [[nodiscard]] Line& line() const { return *line_; }
-  [[nodiscard]] const std::shared_ptr<Line>& shared_line() const { return line_; }
+  [[nodiscard]] ConnectionWatch& watch() const { return *watch_; }
+  [[nodiscard]] const std::shared_ptr<ConnectionWatch>& shared_watch() const { return watch_; }
   [[nodiscard]] T_ASC_Association* get() const { return association_; }
 
  private:
-  explicit Association(std::shared_ptr<Line> line);
+  explicit Association(std::shared_ptr<ConnectionWatch> watch);
   Status call(const PacsServer& server, const std::string& address, const std::vector<Proposal>& proposals,
               bool& may_try_again);
   Error refusal(const OFCondition& condition, const PacsServer& server) const;
 
-  std::shared_ptr<Line> line_;
+  std::shared_ptr<ConnectionWatch> watch_;
   std::unique_ptr<DcmTransportLayer> transport_;
   T_ASC_Network* network_ = nullptr;
   T_ASC_Association* association_ = nullptr;

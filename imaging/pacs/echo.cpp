@@ -5,7 +5,7 @@
 #include "core/stopwatch.h"
 #include "core/without_exceptions.h"
 #include "imaging/pacs/association.h"
-#include "imaging/pacs/pacs.h"
+#include "imaging/pacs/services.h"
 
 namespace tidemark {
 namespace {
@@ -31,7 +31,7 @@ Result<double> echo(const PacsServer& server, const Progress& progress) {
   auto received = association.receive(answer);
   if (!received) return pass_on(received);
   if (answer.CommandField != DIMSE_C_ECHO_RSP || answer.msg.CEchoRSP.DimseStatus != STATUS_Success) {
-    return fail(ErrorKind::input, "{}: does not echo", association.line().peer());
+    return fail(ErrorKind::input, "{}: does not echo", association.watch().peer());
   }
   const double seconds = stopwatch.seconds();
   association.release();

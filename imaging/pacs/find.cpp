@@ -8,7 +8,7 @@
 #include "core/without_exceptions.h"
 #include "imaging/pacs/answer_text.h"
 #include "imaging/pacs/association.h"
-#include "imaging/pacs/pacs.h"
+#include "imaging/pacs/services.h"
 #include "imaging/pacs/storage_classes.h"
 
 namespace tidemark {
@@ -99,22 +99,22 @@ Result<bool> ask(const PacsServer& server, Question& question, const TakeAnswer&
     if (!received) return pass_on(received);
     if (message.CommandField != DIMSE_C_FIND_RSP ||
         message.msg.CFindRSP.MessageIDBeingRespondedTo != find.MessageID)
-      return fail(ErrorKind::input, "{}: answers something that was not asked", association.line().peer());
+      return fail(ErrorKind::input, "{}: answers something that was not asked", association.watch().peer());
     const T_DIMSE_C_FindRSP& response = message.msg.CFindRSP;
     const bool has_data = response.DataSetType != DIMSE_DATASET_NULL;
     if (!DICOM_PENDING_STATUS(response.DimseStatus)) {
       if (response.DimseStatus != STATUS_Success) {
         return fail(ErrorKind::input, "{}: cannot answer the query (status {:04X})",
-                    association.line().peer(), response.DimseStatus);
+                    association.watch().peer(), response.DimseStatus);
       }
       if (!has_data) association.release();
       return false;
     }
     if (!has_data)
-      return fail(ErrorKind::input, "{}: answers without saying anything", association.line().peer());
+      return fail(ErrorKind::input, "{}: answers without saying anything", association.watch().peer());
     auto data = association.receive_data();
     if (!data) return pass_on(data);
-    association.line().completed_message();
+    association.watch().completed_message();
     if (!take(Answer(**data))) return true;  // the association is aborted
   }
 }

@@ -45,12 +45,12 @@ std::vector<const char*> c_texts(const std::vector<std::string>& texts) {
 
 }  // namespace
 
-Result<std::unique_ptr<Receiver>> Receiver::start(const PacsServer& server, Inbox& inbox,
+Result<std::unique_ptr<Receiver>> Receiver::start(const PacsServer& server, RetrievalFolder& retrieval_folder,
                                                   const PacsLimits& limits) {
   if (Status ready = set_up_network(); !ready) return pass_on(ready);
-  std::unique_ptr<Receiver> receiver(new Receiver(server, inbox, limits));
+  std::unique_ptr<Receiver> receiver(new Receiver(server, retrieval_folder, limits));
   auto transport = make_transport(server.tls, TransportRole::called, server.host,
-                                  [self = receiver.get()] { return self->next_line_; });
+                                  [self = receiver.get()] { return self->next_watch_; });
   if (!transport) return pass_on(transport);
   receiver->transport_ = std::move(*transport);
   const OFCondition listening =
@@ -65,8 +65,8 @@ Result<std::unique_ptr<Receiver>> Receiver::start(const PacsServer& server, Inbo
   return receiver;
 }
 
-Receiver::Receiver(const PacsServer& server, Inbox& inbox, const PacsLimits& limits)
-    : server_(server), inbox_(inbox), limits_(limits) {}
+Receiver::Receiver(const PacsServer& server, RetrievalFolder& retrieval_folder, const PacsLimits& limits)
+    : server_(server), retrieval_folder_(retrieval_folder), limits_(limits) {}
 
 Receiver::~Receiver() {
   stop_.request_stop();
@@ -99,18 +99,18 @@ void Receiver::accept(const std::stop_token& quit) {
     return;
   }
   const std::chrono::milliseconds patience = std::chrono::seconds(server_.timeout_seconds);
-  const auto line = std::make_shared<Line>(fmt::format("the caller on port {}", server_.move_port),
+  const auto watch = std::make_shared<ConnectionWatch>(fmt::format("the caller on port {}", server_.move_port),
                                            std::min(patience, kGreetingPatience), stop_.get_token());
-  line->allow(kLongestCall, "a call");
-  next_line_ = line;
+  watch->allow(kLongestCall, "a call");
+  next_watch_ = watch;
   T_ASC_Association* called = nullptr;
   const OFCondition received =
       ASC_receiveAssociation(network_, &called, kLongestPdu, nullptr, nullptr, server_.tls.has_value());
   if (called == nullptr) return;
-  auto association = std::make_unique<Association>(line, called);
+  auto association = std::make_unique<Association>(watch, called);
   if (received.bad() || quit.stop_requested() || !greet(*called)) return;
-  line->set_patience(patience);
-  line->completed_message();
+  watch->set_patience(patience);
+  watch->completed_message();
   auto ended = std::make_shared<std::atomic<bool>>(false);
   std::jthread thread([this, ended, taken = std::move(association)]() mutable {
     const Status conversed = without_exceptions([&] { return converse(*taken); });
@@ -156,7 +156,7 @@ Status Receiver::converse(Association& association) {
     if (!context) return {};
     Status answered;
     if (request.CommandField == DIMSE_C_STORE_RQ) {
-      answered = answer_storage_request(association, *context, request, inbox_, limits_);
+      answered = answer_storage_request(association, *context, request, retrieval_folder_, limits_);
     } else if (request.CommandField == DIMSE_C_ECHO_RQ) {
       answered = answer_echo(association, *context, request);
     } else {

@@ -11,15 +11,15 @@
 
 #include "core/result.h"
 #include "imaging/pacs/association.h"
-#include "imaging/pacs/inbox.h"
+#include "imaging/pacs/retrieval_folder.h"
 
 namespace tidemark {
 
-// Listens on a server's move_port, for calls to our AE title alone, and takes what comes into the inbox. Up
+// Listens on a server's move_port, for calls to our AE title alone, and takes what comes into the retrieval_folder. Up
 // to four calls at once; each conversation has a thread and a line of its own.
 class Receiver {
  public:
-  static Result<std::unique_ptr<Receiver>> start(const PacsServer& server, Inbox& inbox,
+  static Result<std::unique_ptr<Receiver>> start(const PacsServer& server, RetrievalFolder& retrieval_folder,
                                                  const PacsLimits& limits);
   ~Receiver();  // ends all conversations
   Receiver(const Receiver&) = delete;
@@ -30,7 +30,7 @@ class Receiver {
   [[nodiscard]] Status trouble();
 
  private:
-  Receiver(const PacsServer& server, Inbox& inbox, const PacsLimits& limits);
+  Receiver(const PacsServer& server, RetrievalFolder& retrieval_folder, const PacsLimits& limits);
   void listen(const std::stop_token& quit);
   void accept(const std::stop_token& quit);
   Status greet(T_ASC_Association& association) const;
@@ -38,11 +38,11 @@ class Receiver {
   void note(const Error& error);
 
   const PacsServer server_;
-  Inbox& inbox_;
+  RetrievalFolder& retrieval_folder_;
   const PacsLimits limits_;
   std::unique_ptr<DcmTransportLayer> transport_;
   T_ASC_Network* network_ = nullptr;
-  std::shared_ptr<Line> next_line_;  // of the call that is being accepted
+  std::shared_ptr<ConnectionWatch> next_watch_;  // of the call that is being accepted
   std::stop_source stop_;            // of all lines
   std::mutex mutex_;                 // guards trouble_
   std::optional<Error> trouble_;

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "imaging/pacs/association.h"
-#include "imaging/pacs/inbox.h"
+#include "imaging/pacs/retrieval_folder.h"
 
 namespace tidemark {
 
@@ -26,7 +26,7 @@ struct SubOperations {
 // keep us waiting by saying the same again and again.
 class ResponseReader {
  public:
-  ResponseReader(Association& association, Inbox& inbox) : association_(association), inbox_(inbox) {}
+  ResponseReader(Association& association, RetrievalFolder& retrieval_folder) : association_(association), retrieval_folder_(retrieval_folder) {}
 
   // A response to either way. True when it was the last. Fails (ErrorKind::input) when the server says that
   // it has failed altogether.
@@ -36,16 +36,16 @@ class ResponseReader {
 
  private:
   Association& association_;
-  Inbox& inbox_;
+  RetrievalFolder& retrieval_folder_;
   SubOperations counted_;
   std::int64_t missing_ = 0;
   std::int64_t read_ = 0;
 };
 
-// Each brings what is wanted into the inbox and gives the number of objects that the server could not send.
+// Each brings what is wanted into the retrieval_folder and gives the number of objects that the server could not send.
 Result<std::int64_t> retrieve_by_get(const PacsServer& server, const RetrieveRequest& request,
-                                     const PacsLimits& limits, Inbox& inbox, const std::stop_token& stop);
+                                     const PacsLimits& limits, RetrievalFolder& retrieval_folder, const std::stop_token& stop);
 Result<std::int64_t> retrieve_by_move(const PacsServer& server, const RetrieveRequest& request,
-                                      const PacsLimits& limits, Inbox& inbox, const std::stop_token& stop);
+                                      const PacsLimits& limits, RetrievalFolder& retrieval_folder, const std::stop_token& stop);
 
 }  // namespace tidemark

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/without_exceptions.h"
-#include "imaging/pacs/pacs.h"
+#include "imaging/pacs/services.h"
 #include "imaging/pacs/retrieval.h"
 #include "imaging/pacs/storage_classes.h"
 
@@ -44,15 +44,15 @@ Result<Retrieved> retrieve_into_folder(const PacsServer& server, const RetrieveR
   if (!request.series_uid.empty() && !is_uid(request.series_uid))
     return fail(ErrorKind::usage, "'{}' is no UID of a series", request.series_uid.substr(0, 80));
   if (Status good = check_pacs_server(server); !good) return pass_on(good);
-  auto inbox = Inbox::create(request, limits, progress);
-  if (!inbox) return pass_on(inbox);
+  auto retrieval_folder = RetrievalFolder::create(request, limits, progress);
+  if (!retrieval_folder) return pass_on(retrieval_folder);
   progress(-1.0, "calling the server");
   const auto missing = server.retrieve == PacsServer::Retrieve::get
-                           ? retrieve_by_get(server, request, limits, **inbox, progress.stop)
-                           : retrieve_by_move(server, request, limits, **inbox, progress.stop);
+                           ? retrieve_by_get(server, request, limits, **retrieval_folder, progress.stop)
+                           : retrieve_by_move(server, request, limits, **retrieval_folder, progress.stop);
   if (progress.cancelled()) return cancelled_error();
   if (!missing) return tl::unexpected<Error>(missing.error());
-  return (*inbox)->keep(*missing);
+  return (*retrieval_folder)->keep(*missing);
 }
 
 }  // namespace
@@ -69,20 +69,20 @@ std::unique_ptr<DcmDataset> identifier_of(const RetrieveRequest& request) {
 Result<bool> ResponseReader::read(const T_DIMSE_Message& message) {
   const auto response = response_in(message);
   if (!response) {
-    return fail(ErrorKind::input, "{}: answers something that was not asked", association_.line().peer());
+    return fail(ErrorKind::input, "{}: answers something that was not asked", association_.watch().peer());
   }
   if (++read_ > kMostResponses) {
-    return fail(ErrorKind::input, "{}: answers without end", association_.line().peer());
+    return fail(ErrorKind::input, "{}: answers without end", association_.watch().peer());
   }
   if (response->has_data) {
     auto data = association_.receive_data(kLongestResponseData);
     if (!data) return pass_on(data);
   }
   const std::uint16_t status = response->status;
-  if (response->counted != counted_) association_.line().completed_message();
+  if (response->counted != counted_) association_.watch().completed_message();
   if (response->counted.total() > 0) {  // the last response need not say it
     counted_ = response->counted;
-    inbox_.set_expected(counted_.total());
+    retrieval_folder_.set_expected(counted_.total());
   }
   if (DICOM_PENDING_STATUS(status)) return false;
   missing_ = counted_.failed;
@@ -96,10 +96,10 @@ Result<bool> ResponseReader::read(const T_DIMSE_Message& message) {
     return fail(ErrorKind::input,
                 "{}: does not know where to send to: our AE title with host and port must be "
                 "entered there",
-                association_.line().peer());
+                association_.watch().peer());
   }
   return fail(ErrorKind::input, "{}: cannot send what is asked for (status {:04X})",
-              association_.line().peer(), status);
+              association_.watch().peer(), status);
 }
 
 Result<Retrieved> retrieve(const PacsServer& server, const RetrieveRequest& request, const PacsLimits& limits,

@@ -8,7 +8,7 @@
 
 namespace tidemark {
 Result<std::int64_t> retrieve_by_get(const PacsServer& server, const RetrieveRequest& request,
-                                     const PacsLimits& limits, Inbox& inbox, const std::stop_token& stop) {
+                                     const PacsLimits& limits, RetrievalFolder& retrieval_folder, const std::stop_token& stop) {
   std::vector<Proposal> proposals = storage_proposals();
   const Proposal get{UID_GETStudyRootQueryRetrieveInformationModel,
                      {UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax}};
@@ -19,7 +19,7 @@ Result<std::int64_t> retrieve_by_get(const PacsServer& server, const RetrieveReq
   const int context = association.context(get.abstract_syntax);
   if (context == 0) {
     return fail(ErrorKind::input, "{}: does not offer retrieval by get; most servers do so by move",
-                association.line().peer());
+                association.watch().peer());
   }
 
   T_DIMSE_Message message{};
@@ -31,12 +31,12 @@ Result<std::int64_t> retrieve_by_get(const PacsServer& server, const RetrieveReq
   const auto identifier = identifier_of(request);
   if (Status sent = association.send(context, message, identifier.get()); !sent) return pass_on(sent);
 
-  for (ResponseReader responses(association, inbox);;) {
+  for (ResponseReader responses(association, retrieval_folder);;) {
     message = {};
     const auto received = association.receive(message);
     if (!received) return tl::unexpected<Error>(received.error());
     if (message.CommandField == DIMSE_C_STORE_RQ) {
-      Status taken = answer_storage_request(association, *received, message, inbox, limits);
+      Status taken = answer_storage_request(association, *received, message, retrieval_folder, limits);
       if (!taken) return pass_on(taken);
       continue;
     }

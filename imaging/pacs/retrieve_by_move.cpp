@@ -9,7 +9,7 @@ namespace tidemark {
 namespace {
 
 Result<std::int64_t> move(Association& association, const Proposal& proposal, const PacsServer& server,
-                          const RetrieveRequest& request, Inbox& inbox, Receiver& receiver) {
+                          const RetrieveRequest& request, RetrievalFolder& retrieval_folder, Receiver& receiver) {
   T_DIMSE_Message message{};
   message.CommandField = DIMSE_C_MOVE_RQ;
   T_DIMSE_C_MoveRQ& asked = message.msg.CMoveRQ;
@@ -22,7 +22,7 @@ Result<std::int64_t> move(Association& association, const Proposal& proposal, co
   const int context = association.context(proposal.abstract_syntax);
   if (Status sent = association.send(context, message, identifier.get()); !sent) return pass_on(sent);
 
-  for (ResponseReader responses(association, inbox);;) {
+  for (ResponseReader responses(association, retrieval_folder);;) {
     message = {};
     const auto received = association.receive(message);
     if (Status fine = receiver.trouble(); !fine) return pass_on(fine);
@@ -38,15 +38,15 @@ Result<std::int64_t> move(Association& association, const Proposal& proposal, co
 }  // namespace
 
 Result<std::int64_t> retrieve_by_move(const PacsServer& server, const RetrieveRequest& request,
-                                      const PacsLimits& limits, Inbox& inbox, const std::stop_token& stop) {
-  auto receiver = Receiver::start(server, inbox, limits);
+                                      const PacsLimits& limits, RetrievalFolder& retrieval_folder, const std::stop_token& stop) {
+  auto receiver = Receiver::start(server, retrieval_folder, limits);
   if (!receiver) return pass_on(receiver);
   const Proposal proposal{UID_MOVEStudyRootQueryRetrieveInformationModel,
                           {UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax}};
   auto opened = Association::open(server, {proposal}, stop);
   if (!opened) return pass_on(opened);
-  inbox.excuse((*opened)->shared_line());
-  return move(**opened, proposal, server, request, inbox, **receiver);
+  retrieval_folder.excuse((*opened)->shared_watch());
+  return move(**opened, proposal, server, request, retrieval_folder, **receiver);
 }
 
 }  // namespace tidemark

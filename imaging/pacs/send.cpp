@@ -12,7 +12,7 @@
 #include "imaging/guarded.h"
 #include "imaging/pacs/association.h"
 #include "imaging/pacs/checked_object.h"
-#include "imaging/pacs/pacs.h"
+#include "imaging/pacs/services.h"
 
 namespace tidemark {
 namespace {
@@ -93,9 +93,9 @@ Result<std::uint16_t> send_object(Association& association, int context, const O
   const auto answered = association.receive(message);
   if (!answered) return tl::unexpected<Error>(answered.error());
   if (message.CommandField != DIMSE_C_STORE_RSP || message.msg.CStoreRSP.MessageIDBeingRespondedTo != id) {
-    return fail(ErrorKind::input, "{}: answers something that was not asked", association.line().peer());
+    return fail(ErrorKind::input, "{}: answers something that was not asked", association.watch().peer());
   }
-  association.line().completed_message();
+  association.watch().completed_message();
   return message.msg.CStoreRSP.DimseStatus;
 }
 

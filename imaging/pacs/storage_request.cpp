@@ -14,38 +14,38 @@ namespace {
 
 // Looks at what has come of an object, piece by piece. DCMTK gives no way to say stop: the line is shut.
 struct Growth {
-  Line& line;
-  Inbox& inbox;
+  ConnectionWatch& watch;
+  RetrievalFolder& retrieval_folder;
   unsigned long counted = 0;
 
   static void note(void* growth, unsigned long bytes) {
     auto& self = *static_cast<Growth*>(growth);
-    const Status allowed = self.inbox.grown(static_cast<std::int64_t>(bytes - self.counted));
+    const Status allowed = self.retrieval_folder.grown(static_cast<std::int64_t>(bytes - self.counted));
     self.counted = bytes;
-    if (!allowed) self.line.shut({allowed.error().kind, self.line.peer() + ": " + allowed.error().message});
+    if (!allowed) self.watch.shut({allowed.error().kind, self.watch.peer() + ": " + allowed.error().message});
   }
 };
 
 Status receive_into(const std::filesystem::path& object, Association& association, int context,
-                    const T_DIMSE_C_StoreRQ& request, Inbox& inbox, const PacsLimits& limits) {
-  Line& line = association.line();
+                    const T_DIMSE_C_StoreRQ& request, RetrievalFolder& retrieval_folder, const PacsLimits& limits) {
+  ConnectionWatch& watch = association.watch();
   DcmOutputFileStream* opened = nullptr;
   const OFCondition created =
       DIMSE_createFilestream(object.c_str(), &request, association.get(),
                              static_cast<T_ASC_PresentationContextID>(context), 1, &opened);
   const std::unique_ptr<DcmOutputFileStream> stream(opened);
-  if (created.bad()) return fail(ErrorKind::write, "{}: cannot be written", inbox.folder().string());
-  line.allow(limits.object_bytes, "an object");
-  Growth growth{line, inbox};
+  if (created.bad()) return fail(ErrorKind::write, "{}: cannot be written", retrieval_folder.folder().string());
+  watch.allow(limits.object_bytes, "an object");
+  Growth growth{watch, retrieval_folder};
   T_ASC_PresentationContextID data_context = 0;
   const OFCondition received = DIMSE_receiveDataSetInFile(association.get(), DIMSE_BLOCKING, 0, &data_context,
                                                           stream.get(), Growth::note, &growth);
   if (received.good() && data_context == context && stream->good()) {
-    line.completed_message();
+    watch.completed_message();
     return {};
   }
-  if (const Status trouble = line.trouble(); !trouble) return trouble;
-  if (!stream->good()) return fail(ErrorKind::write, "{}: cannot be written", inbox.folder().string());
+  if (const Status trouble = watch.trouble(); !trouble) return trouble;
+  if (!stream->good()) return fail(ErrorKind::write, "{}: cannot be written", retrieval_folder.folder().string());
   return tl::unexpected<Error>(association.error(received, "breaks off in the midst of an object"));
 }
 
@@ -66,19 +66,19 @@ Status respond(Association& association, int context, const T_DIMSE_C_StoreRQ& r
 }  // namespace
 
 Status answer_storage_request(Association& association, int context, const T_DIMSE_Message& request,
-                              Inbox& inbox, const PacsLimits& limits) {
+                              RetrievalFolder& retrieval_folder, const PacsLimits& limits) {
   const T_DIMSE_C_StoreRQ& store = request.msg.CStoreRQ;
-  auto object = inbox.next_object();
-  if (!object) return fail(object.error().kind, "{}: {}", association.line().peer(), object.error().message);
+  auto object = retrieval_folder.next_object();
+  if (!object) return fail(object.error().kind, "{}: {}", association.watch().peer(), object.error().message);
   const std::string sop_class = store.AffectedSOPClassUID;
   const bool is_agreed = sop_class == association.abstract_syntax(context) && is_storage_class(sop_class);
-  Status received = receive_into(*object, association, context, store, inbox, limits);
+  Status received = receive_into(*object, association, context, store, retrieval_folder, limits);
   if (!received) return received;
   if (!is_agreed) {
-    inbox.refuse(*object, "is of a class that was not asked for");
+    retrieval_folder.refuse(*object, "is of a class that was not asked for");
     return respond(association, context, store, STATUS_STORE_Refused_SOPClassNotSupported);
   }
-  const bool taken = inbox.take(*object, sop_class, store.AffectedSOPInstanceUID);
+  const bool taken = retrieval_folder.take(*object, sop_class, store.AffectedSOPInstanceUID);
   return respond(association, context, store,
                  taken ? STATUS_Success : STATUS_STORE_Error_DataSetDoesNotMatchSOPClass);
 }

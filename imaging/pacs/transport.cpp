@@ -22,16 +22,16 @@ bool is_address(const std::string& host) {
   return host.find_first_not_of("0123456789.") == std::string::npos;
 }
 
-using LineOfNext = std::function<std::shared_ptr<Line>()>;
+using LineOfNext = std::function<std::shared_ptr<ConnectionWatch>()>;
 
 // A connection of DCMTK's whose waiting and whose bytes the line knows.
 template <class Connection>
 class Watched final : public Connection {
  public:
   template <class... Arguments>
-  Watched(std::shared_ptr<Line> line, DcmNativeSocketType socket, Arguments... arguments)
-      : Connection(socket, arguments...), line_(std::move(line)) {
-    line_->opened(socket);
+  Watched(std::shared_ptr<ConnectionWatch> watch, DcmNativeSocketType socket, Arguments... arguments)
+      : Connection(socket, arguments...), watch_(std::move(watch)) {
+    watch_->opened(socket);
     set(TCP_NODELAY);
   }
   // Here, where closing still is ours: the base's destructor would close without telling the line.
@@ -40,36 +40,36 @@ class Watched final : public Connection {
   Watched& operator=(const Watched&) = delete;
 
   OFCondition clientSideHandshake() override {
-    const Line::Wait wait(*line_);
+    const ConnectionWatch::Wait wait(*watch_);
     return Connection::clientSideHandshake();
   }
   OFCondition serverSideHandshake() override {
-    const Line::Wait wait(*line_);
+    const ConnectionWatch::Wait wait(*watch_);
     return Connection::serverSideHandshake();
   }
   OFBool networkDataAvailable(int seconds) override {
-    const Line::Wait wait(*line_);
+    const ConnectionWatch::Wait wait(*watch_);
     return Connection::networkDataAvailable(seconds);
   }
   ssize_t read(void* bytes, size_t count) override {
-    const Line::Wait wait(*line_);
+    const ConnectionWatch::Wait wait(*watch_);
     set(TCP_QUICKACK);  // it lasts for a while only
     const ssize_t got = Connection::read(bytes, count);
-    if (got > 0 && !line_->received(got)) return 0;  // as if the peer had hung up
+    if (got > 0 && !watch_->received(got)) return 0;  // as if the peer had hung up
     return got;
   }
   ssize_t write(void* bytes, size_t count) override {
-    const Line::Wait wait(*line_);
+    const ConnectionWatch::Wait wait(*watch_);
     const ssize_t put = Connection::write(bytes, count);
-    if (put > 0) line_->sent(put);
+    if (put > 0) watch_->sent(put);
     return put;
   }
   void close() override {
-    const Line::Wait wait(*line_);  // TLS says goodbye
+    const ConnectionWatch::Wait wait(*watch_);  // TLS says goodbye
     Connection::close();
   }
   void closeTransportConnection() override {
-    line_->closing();
+    watch_->closing();
     Connection::closeTransportConnection();
   }
 
@@ -81,7 +81,7 @@ class Watched final : public Connection {
     ::setsockopt(this->getSocket(), IPPROTO_TCP, option, &on, sizeof(on));
   }
 
-  std::shared_ptr<Line> line_;
+  std::shared_ptr<ConnectionWatch> watch_;
 };
 
 class PlainTransport final : public DcmTransportLayer {

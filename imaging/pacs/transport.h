@@ -1,4 +1,4 @@
-// DCMTK's transport with a Line under it.
+// DCMTK's transport with a ConnectionWatch under it.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 
 #include "core/result.h"
 #include "imaging/pacs/configuration.h"
-#include "imaging/pacs/line.h"
+#include "imaging/pacs/connection_watch.h"
 
 class DcmTransportLayer;
 
@@ -20,6 +20,6 @@ enum class TransportRole { caller, called };
 // file of a key or certificate that is not usable.
 Result<std::unique_ptr<DcmTransportLayer>> make_transport(
     const std::optional<PacsTls>& tls, TransportRole role, const std::string& host,
-    std::function<std::shared_ptr<Line>()> line_of_next);
+    std::function<std::shared_ptr<ConnectionWatch>()> line_of_next);
 
 }  // namespace tidemark

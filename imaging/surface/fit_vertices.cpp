@@ -119,7 +119,7 @@ struct Place {
 };
 
 // Finds the vertex's place and puts it on the outer face if it belongs to a cap.
-Place settle(const SmoothField& field, glm::dvec3& vertex) {
+Place move_to_surface(const SmoothField& field, glm::dvec3& vertex) {
   Place place{glm::floor(vertex), glm::dvec3(1.0), true};
   for (int axis = 0; axis < 3; ++axis) {
     const auto last = static_cast<double>(field.size()[axis] - 1);
@@ -164,7 +164,7 @@ void fit_vertices(const Geometry& geometry, const std::vector<float>& phi,
   std::vector<Place> places;
   places.reserve(vertices.size());
   for (glm::dvec3& vertex : vertices) {
-    places.push_back(settle(field, vertex));
+    places.push_back(move_to_surface(field, vertex));
     project(field, places.back(), vertex);
   }
   // Area-weighted means over the triangles around each vertex.

@@ -264,8 +264,8 @@ Status ComputeExecutor::grow(std::int64_t more_pages) {
   return {};
 }
 
-Status ComputeExecutor::settle() {
-  unsettled_ = true;
+Status ComputeExecutor::activate_pages() {
+  needs_activation_ = true;
   for (;;) {
     control_ = memory_.read_control();
     control_.starved = 0;
@@ -282,7 +282,7 @@ Status ComputeExecutor::settle() {
     if (control_.starved == 0) break;
     if (auto status = grow(with_reserve(memory_.capacity()) - memory_.capacity()); !status) return status;
   }
-  unsettled_ = false;
+  needs_activation_ = false;
   return {};
 }
 
@@ -292,8 +292,8 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
   AdvanceReport report;
   steps_of_last_run_ = 0;
   if (auto status = device_->make_current(); !status) return pass_on(status);
-  if (unsettled_) {
-    if (auto status = settle(); !status) return pass_on(status);
+  if (needs_activation_) {
+    if (auto status = activate_pages(); !status) return pass_on(status);
   }
   control_.converged = 0;
   while (report.steps < run.steps && !run.progress.cancelled()) {
@@ -308,7 +308,7 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
     report.surface_speed = static_cast<double>(control->surface_speed);
     report.converged = control->converged != 0;
     if (control->starved != 0) {
-      if (auto status = settle(); !status) {
+      if (auto status = activate_pages(); !status) {
         return fail(status.error().kind, "after {} steps: {}", report.steps, status.error().message);
       }
       control_.converged = 0;

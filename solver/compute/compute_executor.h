@@ -55,7 +55,7 @@ class ComputeExecutor final : public ExecutorBase {
   Result<ComputeControl> run_steps(std::int64_t count, bool until_converged);
 
   // Grants every request of phi as it is; G grows as it must.
-  Status settle();
+  Status activate_pages();
   Status grow(std::int64_t more_pages);
   void order_sphere(const Sphere& sphere, Brush brush, bool only_count);
   void note_memory(const ComputeControl& control);
@@ -70,7 +70,7 @@ class ComputeExecutor final : public ExecutorBase {
 
   int current_ = 0;  // the buffer that holds phi
   int steps_in_window_ = 0;
-  bool unsettled_ = false;  // the budget stopped an allocation
+  bool needs_activation_ = false;  // the budget stopped an allocation
   std::int64_t steps_per_run_ = 1;
   double seconds_per_step_ = 0.0;  // as last measured
   double paging_seconds_ = 0.0;    // since the last report

@@ -24,7 +24,7 @@ Status ComputeExecutor::restore(const Field& phi) {
   current_ = 0;
   steps_in_window_ = 0;
   peak_resident_ = peak_bytes_ = 0;
-  return settle();
+  return activate_pages();
 }
 
 Status ComputeExecutor::set_parameters(const Parameters& parameters) {
@@ -87,7 +87,7 @@ Status ComputeExecutor::paint(const Sphere& sphere, Brush brush) {
   control.free_tail_ready = control.free_tail;
   memory_.write_control(control);
   order_sphere(sphere, brush, false);
-  return settle();
+  return activate_pages();
 }
 
 }  // namespace tidemark

@@ -101,7 +101,7 @@ Status StreamExecutor::update_domain(const std::vector<PageMessage>& messages) {
     const PageMessage message = messages[i];
     if (message.differs_across_any() && result) {
       result = grant_requests(page, message);
-      unsettled_ = !result;
+      needs_activation_ = !result;
     }
     if (message.moved() && !info(page).woke_neighbours) wake_around(page);
     std::uint8_t& constant_steps = info(page).constant_steps;
@@ -125,8 +125,8 @@ std::vector<PhysicalPage> StreamExecutor::resident_pages() const {
 
 // Grants every request of phi as it is, after phi was replaced or painted; `asked` are the pages that may
 // have some.
-Status StreamExecutor::settle(std::vector<PhysicalPage> asked) {
-  unsettled_ = true;
+Status StreamExecutor::activate_pages(std::vector<PhysicalPage> asked) {
+  needs_activation_ = true;
   // Pages that are made resident on the way may ask for more.
   while (!asked.empty()) {
     if (auto status = special_geometry_.describe(*device_, table_, asked); !status) return status;
@@ -142,7 +142,7 @@ Status StreamExecutor::settle(std::vector<PhysicalPage> asked) {
     if (auto status = fill_new_pages(); !status) return status;
     if (!result) return result;
   }
-  unsettled_ = false;
+  needs_activation_ = false;
   return device_->check("making pages resident");
 }
 

@@ -90,7 +90,7 @@ Status StreamExecutor::restore(const Field& phi) {
   active_list_is_stale_ = true;
   peak_resident_ = table_.resident();
   peak_bytes_ = state_bytes(memory_.capacity());
-  if (auto status = settle(resident_pages()); !status) return status;
+  if (auto status = activate_pages(resident_pages()); !status) return status;
   return rebuild_active_list();
 }
 
@@ -202,7 +202,7 @@ Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
   std::sort(pages.begin(), pages.end());
   pages.erase(std::unique(pages.begin(), pages.end()), pages.end());
   active_list_is_stale_ = true;
-  if (auto status = settle(unsettled_ ? resident_pages() : std::move(pages)); !status) return status;
+  if (auto status = activate_pages(needs_activation_ ? resident_pages() : std::move(pages)); !status) return status;
   return rebuild_active_list();
 }
 

@@ -69,7 +69,7 @@ Status StreamExecutor::judge_quiet_pages(const std::vector<PageMotion>& motion) 
   const Index3 reach = band_reach();
   std::vector<PhysicalPage> quiet;
   // A page that waits for a page must not sleep over it.
-  if (options_.skip_quiet_pages && !unsettled_ && std::isfinite(band())) {
+  if (options_.skip_quiet_pages && !needs_activation_ && std::isfinite(band())) {
     for (const PhysicalPage page : active_) {
       if (table_.virtual_page(page) < 0) continue;  // freed in this step
       if (all_within(reach, table_.layout().page_coordinates(table_.virtual_page(page)), still))

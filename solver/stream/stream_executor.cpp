@@ -91,8 +91,8 @@ Result<AdvanceReport> StreamExecutor::advance(const Advance& run) {
   steps_of_last_run_ = 0;
   if (auto status = device_->make_current(); !status) return pass_on(status);
   gpu::begin_exact_drawing();
-  if (unsettled_) {
-    if (auto status = settle(resident_pages()); !status) return pass_on(status);
+  if (needs_activation_) {
+    if (auto status = activate_pages(resident_pages()); !status) return pass_on(status);
   }
   if (active_list_is_stale_) {
     if (auto status = rebuild_active_list(); !status) return pass_on(status);

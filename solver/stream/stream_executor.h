@@ -70,7 +70,7 @@ class StreamExecutor final : public ExecutorBase {
   void release_page(PhysicalPage page, bool inside);
   Status update_domain(const std::vector<PageMessage>& messages);
   [[nodiscard]] std::vector<PhysicalPage> resident_pages() const;
-  Status settle(std::vector<PhysicalPage> asked);
+  Status activate_pages(std::vector<PhysicalPage> asked);
   Status validate_sleeping_pages() const;
 
   // Painting (edit.cpp).
@@ -112,7 +112,7 @@ class StreamExecutor final : public ExecutorBase {
   std::vector<PhysicalPage> new_[2];  // resident since this maintenance, not filled yet: outside, inside
   int current_ = 0;                   // the buffer that holds phi
   bool active_list_is_stale_ = true;
-  bool unsettled_ = false;  // the budget stopped an allocation
+  bool needs_activation_ = false;  // the budget stopped an allocation
   int steps_in_window_ = 0;
   std::int64_t quiet_pages_ = 0;
   std::int64_t quiet_near_voxels_ = 0;

@@ -3,7 +3,7 @@
 
 #include "core/atomic_file.h"
 #include "imaging/files/volume_file.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "tests/app/cli_runner.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"

@@ -13,8 +13,8 @@
 #include "imaging/files/volume_file.h"
 #include "imaging/results/results.h"
 #include "renderer/transfer_function.h"
-#include "study/session_file.h"
-#include "study/zip_archive.h"
+#include "document/session_file.h"
+#include "document/zip_archive.h"
 #include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/imaging/dicom/directory_bytes.h"
 #include "tests/imaging/dicom/frame_bytes.h"
@@ -22,7 +22,7 @@
 #include "tests/imaging/dicom/recode.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/files/volumes.h"
-#include "tests/study/cases.h"
+#include "tests/document/cases.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -158,8 +158,8 @@ void write_media_directories() {
 void write_archives() {
   const std::string text(3000, 'x');
   const auto bytes = std::as_bytes(std::span(text));
-  const std::array<ZipEntry, 5> entries{{{"study/1/slice.dcm", bytes.first(300)},
-                                         {"study/1/", bytes.first(0)},
+  const std::array<ZipEntry, 5> entries{{{"document/1/slice.dcm", bytes.first(300)},
+                                         {"document/1/", bytes.first(0)},
                                          {"..\\..\\a:b\n.dcm", bytes},
                                          {"/etc/passwd", bytes.first(1)},
                                          {"more.ZIP", bytes.first(20)}}};

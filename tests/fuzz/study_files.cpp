@@ -3,9 +3,9 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "study/recipe.h"
-#include "study/session_file.h"
-#include "study/zip_archive.h"
+#include "document/recipe.h"
+#include "document/session_file.h"
+#include "document/zip_archive.h"
 #include "tests/fuzz/scratch_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {

@@ -2,7 +2,7 @@
 #include <QTest>
 #include <glm/trigonometric.hpp>
 
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "renderer/annotation.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/renderer/scenes.h"

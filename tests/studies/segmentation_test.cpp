@@ -1,7 +1,7 @@
 // Real studies, segmented by a few seeds: Dice against the reference segmentations that come with them.
 #include "core/volume.h"
 #include "imaging/filters/filters.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "solver/executor.h"
 #include "tests/support/support.h"
 

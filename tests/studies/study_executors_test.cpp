@@ -1,6 +1,6 @@
 // Host, compute and stream end with the same mask on a real study.
 #include "imaging/filters/filters.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "same_mask.h"
 #include "tests/support/test_program.h"
 

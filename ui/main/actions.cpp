@@ -2,7 +2,7 @@
 
 #include <QSettings>
 
-#include "session/case_session.h"
+#include "engine/case_proxy.h"
 #include "ui/look/icons.h"
 #include "ui/views/mouse_scheme.h"
 
@@ -208,13 +208,13 @@ QAction* Actions::tool(Tool tool) const {
   return tools->actions().at(static_cast<int>(tool));
 }
 
-void Actions::follow(CaseSession* session) {
+void Actions::follow(CaseProxy* proxy) {
   static const CaseState kNothing{};
-  for (QAction* action : of_cases_) action->setEnabled(session != nullptr);
-  follow_evolution(session ? session->state() : kNothing);
-  clip->setChecked(session && session->display().settings().clip_on);
-  patient_text->setChecked(session && session->display().settings().patient_text);
-  if (session) return tool(session->display().settings().tool)->setChecked(true);
+  for (QAction* action : of_cases_) action->setEnabled(proxy != nullptr);
+  follow_evolution(proxy ? proxy->state() : kNothing);
+  clip->setChecked(proxy && proxy->display().settings().clip_on);
+  patient_text->setChecked(proxy && proxy->display().settings().patient_text);
+  if (proxy) return tool(proxy->display().settings().tool)->setChecked(true);
   if (!tools->checkedAction()) return;
   // An exclusive group lets go of none.
   tools->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);

@@ -6,11 +6,11 @@
 #include <QObject>
 #include <vector>
 
-#include "session/display.h"
+#include "engine/display.h"
 
 namespace tidemark {
 
-class CaseSession;
+class CaseProxy;
 struct CaseState;
 
 // Names, pictures and keys; what they do is connected by those who can do it. Keys are kept in the settings
@@ -74,7 +74,7 @@ class Actions : public QObject {
   // Those whose keys can be changed.
   [[nodiscard]] const std::vector<QAction*>& all() const { return all_; }
   // Shows what the active case can do now and what is chosen in it; null: there is none.
-  void follow(CaseSession* session);
+  void follow(CaseProxy* proxy);
   void set_key(QAction* action, const QKeySequence& key);  // an empty one: its own again
 
  private:

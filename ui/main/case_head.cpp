@@ -33,15 +33,15 @@ QPixmap drawn_mark(int number, int side) {
 }
 
 // "Name · ID · series", without what is not known or not to be read.
-QString text_of(CaseSession& session) {
+QString text_of(CaseProxy& proxy) {
   QStringList parts;
-  if (session.display().settings().patient_text) {
-    const Patient& patient = session.study().patient;
+  if (proxy.display().settings().patient_text) {
+    const Patient& patient = proxy.study().patient;
     for (const std::string& part : {patient.name, patient.id}) {
       if (!part.empty()) parts << QString::fromStdString(part);
     }
   }
-  parts << session.name();
+  parts << proxy.name();
   return parts.join(QStringLiteral(" \u00b7 "));
 }
 
@@ -70,13 +70,13 @@ CaseHead::CaseHead(QWidget* parent)
 void CaseHead::set_case(CaseWindow* window) {
   if (window_) {
     window_->disconnect(this);
-    window_->session().display().disconnect(this);
+    window_->proxy().display().disconnect(this);
   }
   window_ = window;
   if (window_) {
     connect(window_, &CaseWindow::mark_changed, this, &CaseHead::refresh);
     connect(window_, &QWidget::windowTitleChanged, this, &CaseHead::refresh_text);
-    connect(&window_->session().display(), &Display::changed, this, &CaseHead::refresh_text);
+    connect(&window_->proxy().display(), &Display::changed, this, &CaseHead::refresh_text);
   }
   refresh();
 }
@@ -98,7 +98,7 @@ void CaseHead::refresh() {
 
 // With each move of the mouse: it is cheap where nothing has changed.
 void CaseHead::refresh_text() {
-  const QString text = text_of(window_->session());
+  const QString text = text_of(window_->proxy());
   if (text != text_->text()) text_->setText(text);
 }
 

@@ -7,14 +7,14 @@ namespace tidemark {
 void CaseLinks::link(const QList<CaseWindow*>& windows) {
   for (CaseWindow* window : std::exchange(windows_, {})) {
     window->disconnect(this);
-    window->session().display().disconnect(this);
+    window->proxy().display().disconnect(this);
     window->set_linked(false);
   }
   if (windows.size() > 1) {
     for (CaseWindow* window : windows) {
       windows_ << window;
       window->set_linked(true);
-      connect(&window->session().display(), &Display::changed, this, [this, window] { follow(*window); });
+      connect(&window->proxy().display(), &Display::changed, this, [this, window] { follow(*window); });
       connect(window, &QObject::destroyed, this, [this, window] { forget(window); });
     }
     follow(*windows_.first());
@@ -30,11 +30,11 @@ void CaseLinks::forget(CaseWindow* closed) {
 void CaseLinks::follow(CaseWindow& moved) {
   if (following_) return;
   const QScopedValueRollback guard(following_, true);
-  const DisplaySettings& from = moved.session().display().settings();
+  const DisplaySettings& from = moved.proxy().display().settings();
   for (CaseWindow* window : windows_) {
     if (window == &moved) continue;
-    const bool same_values = window->session().volume().modality == moved.session().volume().modality;
-    window->session().display().change([&](DisplaySettings& to) {
+    const bool same_values = window->proxy().volume().modality == moved.proxy().volume().modality;
+    window->proxy().display().change([&](DisplaySettings& to) {
       to.cursor_mm = from.cursor_mm;
       to.slice_centre_mm = from.slice_centre_mm;
       to.slice_zoom = from.slice_zoom;

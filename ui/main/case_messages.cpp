@@ -1,7 +1,7 @@
 #include "ui/main/case_messages.h"
 
-#include "session/case_autosave.h"
-#include "session/case_session.h"
+#include "engine/case_autosave.h"
+#include "engine/case_proxy.h"
 #include "ui/main/case_window.h"
 #include "ui/main/message_bar.h"
 
@@ -17,15 +17,15 @@ QString name_of(const CaseWindow& window) {
 
 CaseMessages::CaseMessages(CaseWindow& window, MessageBar& bar)
     : QObject(&window), window_(window), bar_(bar) {
-  connect(&window.session(), &CaseSession::failed, this, &CaseMessages::tell_failure);
-  connect(&window.session(), &CaseSession::state_changed, this, &CaseMessages::follow);
+  connect(&window.proxy(), &CaseProxy::failed, this, &CaseMessages::tell_failure);
+  connect(&window.proxy(), &CaseProxy::state_changed, this, &CaseMessages::follow);
   connect(&window.autosave(), &CaseAutosave::failed, this, [this](const QString& message) {
     bar_.show_text(tr("No copy is kept for the case of a crash: %1").arg(message));
   });
 }
 
 QString CaseMessages::done() const {
-  const CaseState& state = window_.session().state();
+  const CaseState& state = window_.proxy().state();
   return QStringLiteral("%1 %2").arg(state.edits).arg(state.undo_text);
 }
 

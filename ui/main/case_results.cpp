@@ -110,7 +110,7 @@ void CaseResults::read_next() {
   if (!next.window) return end_reading();
   progress_->begin(QFileInfo(next.file).fileName());
   progress_->show();
-  jobs_.read_labels(next.file.toStdU16String(), next.window->session().volume().geometry, next.only_results);
+  jobs_.read_labels(next.file.toStdU16String(), next.window->proxy().volume().geometry, next.only_results);
 }
 
 void CaseResults::end_reading(const QString& problem) {
@@ -122,7 +122,7 @@ void CaseResults::end_reading(const QString& problem) {
 
 void CaseResults::add(const std::shared_ptr<const Segments>& segments) {
   if (CaseWindow* into = waiting_.front().window) {
-    into->session().import_labels(segments);
+    into->proxy().import_labels(segments);
     window_.settle(kAboutImport);
     window_.panels().show("labels");
     const auto count = segments->list.size();

@@ -7,7 +7,7 @@
 #include <deque>
 #include <memory>
 
-#include "session/result_jobs.h"
+#include "engine/result_jobs.h"
 #include "ui/main/case_window.h"
 
 namespace tidemark {

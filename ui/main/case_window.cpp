@@ -10,7 +10,7 @@
 #include <algorithm>
 
 #include "renderer/camera.h"
-#include "session/display_json.h"
+#include "engine/display_json.h"
 #include "ui/main/case_head.h"
 #include "ui/views/slice_view.h"
 #include "ui/views/view_bar.h"
@@ -31,16 +31,16 @@ PictureView* view_of(const QDockWidget* dock) {
 }
 
 // What a new case is looked at like.
-DisplaySettings first_settings(const CaseSession& session) {
-  const Volume& volume = session.volume();
+DisplaySettings first_settings(const CaseProxy& proxy) {
+  const Volume& volume = proxy.volume();
   DisplaySettings settings;
   settings.cursor_mm = settings.slice_centre_mm = middle_of(volume.geometry);
-  if (const auto& start = session.study().start; start && start->seed) {
+  if (const auto& start = proxy.study().start; start && start->seed) {
     // Where a phantom wants to be started from.
     const auto& seed = *start->seed;
     settings.cursor_mm = volume.geometry.to_patient({seed[0], seed[1], seed[2]});
   }
-  settings.window = session.summary().window;
+  settings.window = proxy.summary().window;
   settings.clip.normal = {0.0, -1.0, 0.0};
   settings.clip.offset_mm = -middle_of(volume.geometry).y;
   settings.camera.azimuth = 30.0;
@@ -72,8 +72,8 @@ QString text_of(ViewKind kind) {
   return {};
 }
 
-CaseWindow::CaseWindow(std::unique_ptr<CaseSession> session, Actions& actions, QWidget* parent)
-    : QMainWindow(parent), session_(std::move(session)), actions_(actions) {
+CaseWindow::CaseWindow(std::unique_ptr<CaseProxy> proxy, Actions& actions, QWidget* parent)
+    : QMainWindow(parent), proxy_(std::move(proxy)), actions_(actions) {
   setWindowFlags(Qt::Widget);
   setDockNestingEnabled(true);
   setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowNestedDocks | QMainWindow::AllowTabbedDocks);
@@ -82,13 +82,13 @@ CaseWindow::CaseWindow(std::unique_ptr<CaseSession> session, Actions& actions, Q
        {Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea, Qt::TopDockWidgetArea}) {
     setTabPosition(area, QTabWidget::North);
   }
-  session_->display().set(first_settings(*session_));
+  proxy_->display().set(first_settings(*proxy_));
   auto* head = new CaseHead;
   setMenuWidget(head);
   head->set_case(this);
-  connect(session_.get(), &CaseSession::state_changed, this, &CaseWindow::follow_state);
+  connect(proxy_.get(), &CaseProxy::state_changed, this, &CaseWindow::follow_state);
   follow_state();
-  autosave_ = std::make_unique<CaseAutosave>(*session_, recovery_folder(), [this] { return view_state(); });
+  autosave_ = std::make_unique<CaseAutosave>(*proxy_, recovery_folder(), [this] { return view_state(); });
   const int remembered = QSettings().value("layout", static_cast<int>(ViewLayout::paper)).toInt();
   set_layout(static_cast<ViewLayout>(std::clamp(remembered, 0, static_cast<int>(ViewLayout::paper))));
 }
@@ -110,8 +110,8 @@ void CaseWindow::set_linked(bool linked) {
 }
 
 void CaseWindow::follow_state() {
-  setWindowTitle(session_->name() + QStringLiteral("[*]"));
-  setWindowModified(session_->state().modified);
+  setWindowTitle(proxy_->name() + QStringLiteral("[*]"));
+  setWindowModified(proxy_->state().modified);
 }
 
 // Views.
@@ -119,21 +119,21 @@ void CaseWindow::follow_state() {
 PictureView* CaseWindow::make_view(ViewKind kind) {
   switch (kind) {
     case ViewKind::axial:
-      return new SliceViewWidget(*session_, SlicePlane::axial, SliceContent::source);
+      return new SliceViewWidget(*proxy_, SlicePlane::axial, SliceContent::source);
     case ViewKind::coronal:
-      return new SliceViewWidget(*session_, SlicePlane::coronal, SliceContent::source);
+      return new SliceViewWidget(*proxy_, SlicePlane::coronal, SliceContent::source);
     case ViewKind::sagittal:
-      return new SliceViewWidget(*session_, SlicePlane::sagittal, SliceContent::source);
+      return new SliceViewWidget(*proxy_, SlicePlane::sagittal, SliceContent::source);
     case ViewKind::oblique:
-      return new SliceViewWidget(*session_, SlicePlane::oblique, SliceContent::source);
+      return new SliceViewWidget(*proxy_, SlicePlane::oblique, SliceContent::source);
     case ViewKind::speed:
-      return new SliceViewWidget(*session_, SlicePlane::axial, SliceContent::speed);
+      return new SliceViewWidget(*proxy_, SlicePlane::axial, SliceContent::speed);
     case ViewKind::pages:
-      return new SliceViewWidget(*session_, SlicePlane::axial, SliceContent::pages);
+      return new SliceViewWidget(*proxy_, SlicePlane::axial, SliceContent::pages);
     case ViewKind::volume:
       break;
   }
-  return new VolumeViewWidget(*session_);
+  return new VolumeViewWidget(*proxy_);
 }
 
 QDockWidget* CaseWindow::make_dock(ViewKind kind) {
@@ -143,7 +143,7 @@ QDockWidget* CaseWindow::make_dock(ViewKind kind) {
   dock->setProperty(kKind, static_cast<int>(kind));
   dock->setWidget(view);
   auto* bar =
-      new ViewBar(*session_, view->title(), {actions_.play, actions_.step}, actions_.tools->actions());
+      new ViewBar(*proxy_, view->title(), {actions_.play, actions_.step}, actions_.tools->actions());
   dock->setTitleBarWidget(bar);
   connect(bar, &ViewBar::close_wanted, dock, &QDockWidget::close);
   connect(bar, &ViewBar::float_wanted, dock, [dock] { dock->setFloating(!dock->isFloating()); });
@@ -273,8 +273,8 @@ QDockWidget* CaseWindow::dock_of(const PictureView* view) const {
 }
 
 void CaseWindow::reset_views() {
-  const DisplaySettings first = first_settings(*session_);
-  session_->display().change([&](DisplaySettings& settings) {
+  const DisplaySettings first = first_settings(*proxy_);
+  proxy_->display().change([&](DisplaySettings& settings) {
     settings.cursor_mm = first.cursor_mm;
     settings.slice_centre_mm = first.slice_centre_mm;
     settings.slice_zoom = first.slice_zoom;
@@ -316,7 +316,7 @@ void CaseWindow::restore_arrangement(const QByteArray& arrangement) {
 }
 
 std::string CaseWindow::view_state() const {
-  const QJsonObject state{{"display", QString::fromStdString(to_json(session_->display().settings()))},
+  const QJsonObject state{{"display", QString::fromStdString(to_json(proxy_->display().settings()))},
                           {"views", QString::fromLatin1(arrangement().toBase64())}};
   return QJsonDocument(state).toJson(QJsonDocument::Compact).toStdString();
 }
@@ -326,9 +326,9 @@ Status CaseWindow::restore_view_state(const std::string& text) {
   const QByteArray views = QByteArray::fromBase64(state["views"].toString().toLatin1());
   if (!views.isEmpty()) restore_arrangement(views);
   auto settings =
-      display_settings(state["display"].toString("{}").toStdString(), session_->display().settings());
+      display_settings(state["display"].toString("{}").toStdString(), proxy_->display().settings());
   if (!settings) return pass_on(settings);
-  session_->display().set(std::move(*settings));
+  proxy_->display().set(std::move(*settings));
   return {};
 }
 

@@ -5,8 +5,8 @@
 #include <QPointer>
 #include <memory>
 
-#include "session/case_autosave.h"
-#include "session/case_session.h"
+#include "engine/case_autosave.h"
+#include "engine/case_proxy.h"
 #include "ui/main/actions.h"
 
 class QDockWidget;
@@ -26,10 +26,10 @@ QString text_of(ViewKind kind);
 class CaseWindow : public QMainWindow {
   Q_OBJECT
  public:
-  CaseWindow(std::unique_ptr<CaseSession> session, Actions& actions, QWidget* parent = nullptr);
+  CaseWindow(std::unique_ptr<CaseProxy> proxy, Actions& actions, QWidget* parent = nullptr);
   ~CaseWindow() override;
 
-  [[nodiscard]] CaseSession& session() { return *session_; }
+  [[nodiscard]] CaseProxy& proxy() { return *proxy_; }
 
   // What tells open cases apart: a number from 1 on, with a colour (CaseHead), and whether others follow this
   // one.
@@ -79,7 +79,7 @@ class CaseWindow : public QMainWindow {
   [[nodiscard]] QByteArray arrangement() const;
   void restore_arrangement(const QByteArray& arrangement);
 
-  std::unique_ptr<CaseSession> session_;
+  std::unique_ptr<CaseProxy> proxy_;
   Actions& actions_;
   std::unique_ptr<CaseAutosave> autosave_;
   QList<QDockWidget*> docks_;

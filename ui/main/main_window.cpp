@@ -212,9 +212,9 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
                   QString::fromStdString(study->origin.series_uid), study->name, study->origin.policy});
   }
   auto* window =
-      new CaseWindow(std::make_unique<CaseSession>(engine_, study, executor_, restored), *actions_);
-  window->session().display().change([this](DisplaySettings& settings) {
-    settings.tool = active_ ? active_->session().display().settings().tool : settings.tool;
+      new CaseWindow(std::make_unique<CaseProxy>(engine_, study, executor_, restored), *actions_);
+  window->proxy().display().change([this](DisplaySettings& settings) {
+    settings.tool = active_ ? active_->proxy().display().settings().tool : settings.tool;
   });
   settle(kAboutOpening);
   window->set_number(free_number());
@@ -297,18 +297,18 @@ void MainWindow::activate(QMdiSubWindow* child) {
     if (std::exchange(quitting_, false))
       QMetaObject::invokeMethod(this, &QWidget::close, Qt::QueuedConnection);
   }
-  CaseSession* session = active_ ? &active_->session() : nullptr;
+  CaseProxy* proxy = active_ ? &active_->proxy() : nullptr;
   panels_->set_case(active_);
-  values_->set_session(session);
-  if (session) {
-    active_connections_ << connect(session, &CaseSession::state_changed, this, &MainWindow::follow_case)
-                        << connect(&session->display(), &Display::changed, this, &MainWindow::follow_case);
+  values_->set_proxy(proxy);
+  if (proxy) {
+    active_connections_ << connect(proxy, &CaseProxy::state_changed, this, &MainWindow::follow_case)
+                        << connect(&proxy->display(), &Display::changed, this, &MainWindow::follow_case);
   }
   follow_case();
 }
 
 void MainWindow::follow_case() {
-  actions_->follow(active_ ? &active_->session() : nullptr);
+  actions_->follow(active_ ? &active_->proxy() : nullptr);
   actions_->link->setChecked(active_ && active_->linked());
 }
 
@@ -320,18 +320,18 @@ void MainWindow::with_case(QAction* action, Do act) {
 }
 
 void MainWindow::connect_evolution() {
-  with_case(actions_->play, [](CaseWindow& window) { window.session().toggle_play(); });
-  with_case(actions_->step, [](CaseWindow& window) { window.session().step(); });
-  with_case(actions_->step_back, [](CaseWindow& window) { window.session().step_back(); });
-  with_case(actions_->restart, [](CaseWindow& window) { window.session().restart(); });
-  with_case(actions_->undo, [](CaseWindow& window) { window.session().undo(); });
-  with_case(actions_->redo, [](CaseWindow& window) { window.session().redo(); });
+  with_case(actions_->play, [](CaseWindow& window) { window.proxy().toggle_play(); });
+  with_case(actions_->step, [](CaseWindow& window) { window.proxy().step(); });
+  with_case(actions_->step_back, [](CaseWindow& window) { window.proxy().step_back(); });
+  with_case(actions_->restart, [](CaseWindow& window) { window.proxy().restart(); });
+  with_case(actions_->undo, [](CaseWindow& window) { window.proxy().undo(); });
+  with_case(actions_->redo, [](CaseWindow& window) { window.proxy().redo(); });
   with_case(actions_->last_tool, [](CaseWindow& window) {
-    window.session().display().choose_tool(window.session().display().settings().last_tool);
+    window.proxy().display().choose_tool(window.proxy().display().settings().last_tool);
   });
   connect(actions_->tools, &QActionGroup::triggered, this, [this](QAction* chosen) {
     for (CaseWindow* window : cases())
-      window->session().display().choose_tool(static_cast<Tool>(chosen->data().toInt()));
+      window->proxy().display().choose_tool(static_cast<Tool>(chosen->data().toInt()));
   });
 }
 
@@ -341,11 +341,11 @@ void MainWindow::connect_views() {
   });
   with_case(actions_->reset_view, [](CaseWindow& window) { window.reset_views(); });
   with_case(actions_->clip, [](CaseWindow& window) {
-    window.session().display().change(
+    window.proxy().display().change(
         [](DisplaySettings& settings) { settings.clip_on = !settings.clip_on; });
   });
   with_case(actions_->patient_text, [](CaseWindow& window) {
-    window.session().display().change(
+    window.proxy().display().change(
         [](DisplaySettings& settings) { settings.patient_text = !settings.patient_text; });
   });
   connect(actions_->hide_interface, &QAction::toggled, panels_, &PanelDocks::set_hidden);
@@ -375,12 +375,12 @@ void MainWindow::connect_windows() {
   connect(links_, &CaseLinks::changed, this, &MainWindow::follow_case);
   connect(actions_->lock_step, &QAction::toggled, this, [this](bool together) {
     if (!together) {
-      for (CaseWindow* window : cases()) window->session().leave_lock_step();
+      for (CaseWindow* window : cases()) window->proxy().leave_lock_step();
       return;
     }
-    std::vector<CaseSession*> sessions;
-    for (CaseWindow* window : cases()) sessions.push_back(&window->session());
-    CaseSession::play_in_lock_step(sessions);
+    std::vector<CaseProxy*> proxies;
+    for (CaseWindow* window : cases()) proxies.push_back(&window->proxy());
+    CaseProxy::play_in_lock_step(proxies);
   });
   connect(actions_->keys, &QAction::triggered, this, [this] { KeysDialog(*actions_, this).exec(); });
   connect(actions_->first_steps, &QAction::triggered, this, [this] { show_first_steps(this, *actions_); });

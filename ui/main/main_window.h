@@ -4,7 +4,7 @@
 #include <QMainWindow>
 #include <memory>
 
-#include "session/engine.h"
+#include "engine/engine.h"
 #include "ui/main/actions.h"
 #include "ui/main/case_window.h"
 

@@ -91,22 +91,22 @@ QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* pa
 }
 
 void PanelDocks::set_case(CaseWindow* window) {
-  CaseSession* session = window ? &window->session() : nullptr;
+  CaseProxy* proxy = window ? &window->proxy() : nullptr;
   for (CaseHead* head : heads_) head->set_case(window);
-  for (SessionWidget* panel : panels_) panel->set_session(session);
-  if (session_) disconnect(session_, nullptr, this, nullptr);
-  session_ = session;
-  begun_ = session && session->state().begun;
-  if (session_) connect(session_, &CaseSession::state_changed, this, &PanelDocks::follow_start);
-  transfer_->set_display(session ? &session->display() : nullptr, session ? &session->summary() : nullptr,
-                         session ? value_unit(session->volume()) : QString());
+  for (CaseWidget* panel : panels_) panel->set_proxy(proxy);
+  if (proxy_) disconnect(proxy_, nullptr, this, nullptr);
+  proxy_ = proxy;
+  begun_ = proxy && proxy->state().begun;
+  if (proxy_) connect(proxy_, &CaseProxy::state_changed, this, &PanelDocks::follow_start);
+  transfer_->set_display(proxy ? &proxy->display() : nullptr, proxy ? &proxy->summary() : nullptr,
+                         proxy ? value_unit(proxy->volume()) : QString());
   show_or_hide();
 }
 
 // Once there is a surface, what steers it comes to the front where the start was.
 void PanelDocks::follow_start() {
-  const bool began = !begun_ && session_->state().begun;
-  begun_ = session_->state().begun;
+  const bool began = !begun_ && proxy_->state().begun;
+  begun_ = proxy_->state().begun;
   if (began && !docks_.first()->visibleRegion().isEmpty()) show("level-set");
 }
 
@@ -116,7 +116,7 @@ void PanelDocks::set_hidden(bool hidden) {
 }
 
 void PanelDocks::show_or_hide() {
-  const bool show_them = session_ && !unwanted_;
+  const bool show_them = proxy_ && !unwanted_;
   for (QDockWidget* dock : docks_) dock->toggleViewAction()->setEnabled(show_them);
   if (show_them == shown_) return;
   if (show_them) {

@@ -6,7 +6,7 @@
 #include <QObject>
 #include <QPointer>
 
-#include "session/case_session.h"
+#include "engine/case_proxy.h"
 #include "ui/main/actions.h"
 
 class QMainWindow;
@@ -15,7 +15,7 @@ namespace tidemark {
 
 class CaseHead;
 class CaseWindow;
-class SessionWidget;
+class CaseWidget;
 class TransferFunctionEditor;
 
 class PanelDocks : public QObject {
@@ -39,10 +39,10 @@ class PanelDocks : public QObject {
   void show_or_hide();
 
   QMainWindow& window_;
-  QPointer<CaseSession> session_;
+  QPointer<CaseProxy> proxy_;
   bool begun_ = false;
   QList<QDockWidget*> docks_;
-  QList<SessionWidget*> panels_;
+  QList<CaseWidget*> panels_;
   QList<CaseHead*> heads_;
   bool unwanted_ = false;  // by the user
   bool shown_ = true;

@@ -8,7 +8,7 @@
 #include <QPushButton>
 #include <algorithm>
 
-#include "session/phantom_text.h"
+#include "engine/phantom_text.h"
 
 namespace tidemark {
 namespace {

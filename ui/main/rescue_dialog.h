@@ -4,7 +4,7 @@
 #include <QString>
 #include <vector>
 
-#include "study/autosave.h"
+#include "document/autosave.h"
 
 class QWidget;
 

@@ -15,9 +15,9 @@
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/surface/surface.h"
-#include "session/background_job.h"
-#include "session/case_autosave.h"
-#include "study/session_file.h"
+#include "engine/background_job.h"
+#include "engine/case_autosave.h"
+#include "document/session_file.h"
 #include "ui/main/main_window.h"
 #include "ui/main/message_bar.h"
 #include "ui/main/rescue_dialog.h"
@@ -98,7 +98,7 @@ void SavedCases::run(const QString& about, const QString& file, std::function<St
 }
 
 void SavedCases::write(CaseWindow& window, const QString& file, Write work) {
-  window.session().take_snapshot(window.view_state(), [this, about = about_writing(window, file), file,
+  window.proxy().take_snapshot(window.view_state(), [this, about = about_writing(window, file), file,
                                                        work = std::move(work)](const auto& snapshot) {
     run(about, file, [snapshot, work] { return work(snapshot->contents); });
   });
@@ -126,7 +126,7 @@ QString SavedCases::ask_for_file(const CaseWindow& window, const QString& title,
 // Exports.
 
 void SavedCases::export_mask(CaseWindow& window) {
-  const bool has_labels = !window.session().state().labels.empty();
+  const bool has_labels = !window.proxy().state().labels.empty();
   QString what = tr("mask");
   if (has_labels) {
     QMessageBox box(QMessageBox::Question, tr("Export"), tr("What is to be written?"), QMessageBox::Cancel,
@@ -178,7 +178,7 @@ void SavedCases::write_picture(CaseWindow& window, const QString& file) {
   PictureView* view = window.active_view();
   if (!view) return;
   // Nothing that tells who the patient is.
-  Display& display = window.session().display();
+  Display& display = window.proxy().display();
   const bool text = display.settings().patient_text;
   display.change([](DisplaySettings& settings) { settings.patient_text = false; });
   const QImage image = view->grab_picture().convertToFormat(QImage::Format_RGBA8888);
@@ -196,7 +196,7 @@ void SavedCases::export_statistics(CaseWindow& window) {
 
 void SavedCases::write_statistics(CaseWindow& window, const QString& file) {
   run(about_writing(window, file), file,
-      [csv = to_csv(window.session()), path = path_of(file)] { return write_file(path, csv); });
+      [csv = to_csv(window.proxy()), path = path_of(file)] { return write_file(path, csv); });
 }
 
 void SavedCases::export_recipe(CaseWindow& window) {
@@ -222,14 +222,14 @@ void SavedCases::save_as(CaseWindow& window) {
 }
 
 void SavedCases::save_to(CaseWindow& window, const QString& file, std::function<void()> done) {
-  window.session().take_snapshot(window.view_state(), [this, about = about_writing(window, file), file, done,
+  window.proxy().take_snapshot(window.view_state(), [this, about = about_writing(window, file), file, done,
                                                        saved = QPointer(&window)](const auto& snapshot) {
     run(
         about, file, [snapshot, path = path_of(file)] { return write_session(snapshot->contents, path); },
         [file, saved, snapshot, done] {
           if (!saved) return;
           saved->session_file = file;
-          saved->session().mark_saved(*snapshot);
+          saved->proxy().mark_saved(*snapshot);
           if (done) done();
         });
   });
@@ -361,10 +361,10 @@ void SavedCases::offer(const std::vector<Recoverable>& copies, const QString& wh
 }
 
 void SavedCases::close(CaseWindow& window, QCloseEvent* event) {
-  if (!window.session().state().modified) return event->accept();
+  if (!window.proxy().state().modified) return event->accept();
   const auto answer = QMessageBox::question(
       &window_, tr("Close"),
-      tr("%1 has changes that are not in a session file.").arg(window.session().name()),
+      tr("%1 has changes that are not in a session file.").arg(window.proxy().name()),
       QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
   event->setAccepted(answer == QMessageBox::Discard);
   if (answer != QMessageBox::Save) return;

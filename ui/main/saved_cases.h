@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/result.h"
-#include "session/study_loader.h"
-#include "study/autosave.h"
+#include "engine/study_loader.h"
+#include "document/autosave.h"
 #include "ui/main/case_window.h"
 
 class QCloseEvent;

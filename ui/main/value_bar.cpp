@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "solver/point_values.h"
+#include "solver/voxel_values.h"
 #include "ui/panels/value_unit.h"
 
 namespace tidemark {
@@ -14,26 +14,26 @@ ValueBar::ValueBar(QWidget* parent) : QLabel(parent) {
   setIndent(6);
 }
 
-void ValueBar::set_session(CaseSession* session) {
-  if (session_) {
-    disconnect(&session_->display(), nullptr, this, nullptr);
-    disconnect(session_, nullptr, this, nullptr);
+void ValueBar::set_proxy(CaseProxy* proxy) {
+  if (proxy_) {
+    disconnect(&proxy_->display(), nullptr, this, nullptr);
+    disconnect(proxy_, nullptr, this, nullptr);
   }
-  session_ = session;
-  if (session_) {
-    connect(&session_->display(), &Display::pointer_moved, this, &ValueBar::follow);
-    connect(session_, &CaseSession::state_changed, this, &ValueBar::follow);
+  proxy_ = proxy;
+  if (proxy_) {
+    connect(&proxy_->display(), &Display::pointer_moved, this, &ValueBar::follow);
+    connect(proxy_, &CaseProxy::state_changed, this, &ValueBar::follow);
   }
   follow();
 }
 
 void ValueBar::follow() {
-  const auto point = session_ ? session_->display().pointer_mm() : std::nullopt;
-  if (!point) return setText(session_ ? tr("Move the mouse over a view to see values") : QString());
-  const Volume& volume = session_->volume();
+  const auto point = proxy_ ? proxy_->display().pointer_mm() : std::nullopt;
+  if (!point) return setText(proxy_ ? tr("Move the mouse over a view to see values") : QString());
+  const Volume& volume = proxy_->volume();
   const Index3 voxel(glm::round(volume.geometry.to_voxel(*point)));
   if (!volume.geometry.contains(voxel)) return setText(tr("outside the volume"));
-  const CaseState& state = session_->state();
+  const CaseState& state = proxy_->state();
   const QString place = tr("voxel %1, %2, %3   %4, %5, %6 mm")
                             .arg(voxel.x)
                             .arg(voxel.y)
@@ -46,9 +46,9 @@ void ValueBar::follow() {
   QString values = tr("I %1%2   D %3")
                        .arg(intensity, 0, 'g', 5)
                        .arg(unit)
-                       .arg(data_speed(session_->parameters(), intensity), 0, 'f', 2);
+                       .arg(data_speed(proxy_->parameters(), intensity), 0, 'f', 2);
   if (state.phi && state.begun) {
-    const PointValues at = values_at(*state.phi, volume, session_->parameters(), voxel);
+    const VoxelValues at = values_at(*state.phi, volume, proxy_->parameters(), voxel);
     const bool clamped = std::abs(at.phi) >= state.phi->band;
     values += clamped ? tr("   φ %1").arg(at.phi, 0, 'f', 2)
                       : tr("   φ %1   κ %2   |∇φ| %3")

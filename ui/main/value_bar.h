@@ -4,7 +4,7 @@
 #include <QLabel>
 #include <QPointer>
 
-#include "session/case_session.h"
+#include "engine/case_proxy.h"
 
 namespace tidemark {
 
@@ -12,12 +12,12 @@ class ValueBar : public QLabel {
   Q_OBJECT
  public:
   explicit ValueBar(QWidget* parent = nullptr);
-  void set_session(CaseSession* session);
+  void set_proxy(CaseProxy* proxy);
 
  private:
   void follow();
 
-  QPointer<CaseSession> session_;
+  QPointer<CaseProxy> proxy_;
 };
 
 }  // namespace tidemark

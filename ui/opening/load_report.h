@@ -4,7 +4,7 @@
 
 #include <QFrame>
 
-#include "session/study_loader.h"
+#include "engine/study_loader.h"
 
 class QPushButton;
 

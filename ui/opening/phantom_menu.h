@@ -3,7 +3,7 @@
 
 #include <QMenu>
 
-#include "session/phantom_text.h"
+#include "engine/phantom_text.h"
 
 namespace tidemark {
 

@@ -3,7 +3,7 @@
 #include <QFileInfo>
 #include <QSettings>
 
-#include "session/background_job.h"
+#include "engine/background_job.h"
 
 namespace tidemark {
 namespace {

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "session/study_loader.h"
+#include "engine/study_loader.h"
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/grid_text.h"
 

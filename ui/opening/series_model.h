@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "imaging/series.h"
-#include "session/series_preview.h"
+#include "engine/series_preview.h"
 
 namespace tidemark {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "ui/opening/phantom_menu.h"
 
 namespace tidemark {

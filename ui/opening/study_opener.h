@@ -11,8 +11,8 @@
 #include <functional>
 #include <optional>
 
-#include "session/series_preview.h"
-#include "session/study_loader.h"
+#include "engine/series_preview.h"
+#include "engine/study_loader.h"
 #include "ui/opening/series_browser.h"
 
 namespace tidemark {

@@ -6,7 +6,7 @@
 #include <QPushButton>
 #include <filesystem>
 
-#include "session/pacs_client.h"
+#include "engine/pacs_client.h"
 
 namespace tidemark {
 

@@ -5,7 +5,7 @@
 #include <QLineEdit>
 #include <QWidget>
 
-#include "imaging/pacs/pacs.h"
+#include "imaging/pacs/services.h"
 
 namespace tidemark {
 

@@ -13,7 +13,7 @@
 #include <filesystem>
 
 #include "imaging/pacs/configuration.h"
-#include "session/pacs_client.h"
+#include "engine/pacs_client.h"
 
 namespace tidemark {
 

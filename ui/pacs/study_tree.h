@@ -4,7 +4,7 @@
 #include <QTreeWidget>
 #include <optional>
 
-#include "imaging/pacs/pacs.h"
+#include "imaging/pacs/services.h"
 
 namespace tidemark {
 

@@ -39,7 +39,7 @@ double half_extent_mm(const Geometry& geometry, const glm::dvec3& direction) {
 
 }  // namespace
 
-ClipControls::ClipControls(QWidget* parent) : SessionWidget(parent) {
+ClipControls::ClipControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Clip plane"));
   on_ = form.check(tr("Clip plane in 3D"), tr("Hides what is in front of a plane."));
@@ -51,8 +51,8 @@ ClipControls::ClipControls(QWidget* parent) : SessionWidget(parent) {
   distance_->set_decimals(1);
   distance_->set_unit(tr("mm"));
   connect(distance_, &SliderNumber::edited, this, [this](double value) {
-    if (!session()) return;
-    const glm::dvec3 middle = middle_of(session()->volume().geometry);
+    if (!proxy()) return;
+    const glm::dvec3 middle = middle_of(proxy()->volume().geometry);
     change_display([&](DisplaySettings& settings) {
       settings.clip.offset_mm = glm::dot(settings.clip.normal, middle) + value;
     });
@@ -72,7 +72,7 @@ QWidget* ClipControls::make_orientations() {
   const auto add = [&](int place, QToolButton* button, auto direction) {
     grid->addWidget(button, place / 2, place % 2);
     connect(button, &QToolButton::clicked, this, [this, direction] {
-      if (session()) lay_across(direction());
+      if (proxy()) lay_across(direction());
     });
   };
   add(0,
@@ -106,7 +106,7 @@ void ClipControls::add_effects(Form& form) {
 }
 
 glm::dvec3 ClipControls::towards_viewer() const {
-  const Camera& camera = session()->display().settings().camera;
+  const Camera& camera = proxy()->display().settings().camera;
   return glm::normalize(glm::cross(camera.right(), camera.up()));
 }
 
@@ -127,9 +127,9 @@ void ClipControls::flip() {
 }
 
 void ClipControls::refresh() {
-  const DisplaySettings& settings = session()->display().settings();
+  const DisplaySettings& settings = proxy()->display().settings();
   const ClipPlane& clip = settings.clip;
-  const Geometry& geometry = session()->volume().geometry;
+  const Geometry& geometry = proxy()->volume().geometry;
   const double most = half_extent_mm(geometry, clip.normal);
   on_->setChecked(settings.clip_on);
   distance_->set_range(-most, most, -4.0 * most, 4.0 * most);

@@ -1,7 +1,7 @@
 // The clip plane (paper section 6.2), by numbers: 3D views drag it.
 #pragma once
 
-#include "ui/panels/session_widget.h"
+#include "ui/panels/case_widget.h"
 
 class QCheckBox;
 class QPushButton;
@@ -11,7 +11,7 @@ namespace tidemark {
 class Form;
 class SliderNumber;
 
-class ClipControls : public SessionWidget {
+class ClipControls : public CaseWidget {
   Q_OBJECT
  public:
   explicit ClipControls(QWidget* parent = nullptr);

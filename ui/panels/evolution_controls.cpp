@@ -55,7 +55,7 @@ QString title(ExecutorKind kind) {
 
 }  // namespace
 
-EvolutionControls::EvolutionControls(QWidget* parent) : SessionWidget(parent) {
+EvolutionControls::EvolutionControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Evolution"));
   form.wide(make_buttons());
@@ -66,18 +66,18 @@ EvolutionControls::EvolutionControls(QWidget* parent) : SessionWidget(parent) {
                     QVariant::fromValue<qint64>(steps));
   }
   connect(steps_, &QComboBox::activated, this, [this] {
-    if (session()) session()->set_steps_per_picture(steps_->currentData().toLongLong());
+    if (proxy()) proxy()->set_steps_per_picture(steps_->currentData().toLongLong());
   });
   executor_ =
       form.choice(tr("Computed by"), tr("What computes the steps. It can be changed while the surface "
                                         "moves. Stream uses the GPU as in the paper."));
   connect(executor_, &QComboBox::activated, this, [this](int index) {
-    if (session()) session()->change_executor(kChoices[index].kind);
+    if (proxy()) proxy()->change_executor(kChoices[index].kind);
     refresh();
   });
   pause_ = form.check(tr("Pause at convergence"), tr("Pauses as soon as the surface has stopped moving."));
   connect(pause_, &QCheckBox::clicked, this, [this](bool on) {
-    if (session()) session()->set_pause_at_convergence(on);
+    if (proxy()) proxy()->set_pause_at_convergence(on);
   });
 }
 
@@ -112,7 +112,7 @@ void EvolutionControls::fill_executors() {
   auto* items = qobject_cast<QStandardItemModel*>(executor_->model());
   for (const Choice& choice : kChoices) {
     executor_->addItem(title(choice.kind), QLatin1String(choice.name));
-    const QString why = obstacle(choice.kind, session()->engine());
+    const QString why = obstacle(choice.kind, proxy()->engine());
     if (why.isEmpty()) continue;
     items->item(executor_->count() - 1)->setEnabled(false);
     executor_->setItemText(executor_->count() - 1, tr("%1 (not here)").arg(title(choice.kind)));
@@ -122,18 +122,18 @@ void EvolutionControls::fill_executors() {
 
 void EvolutionControls::attach() {
   state_->clear();
-  if (session()) fill_executors();
+  if (proxy()) fill_executors();
 }
 
 void EvolutionControls::refresh() {
-  const CaseState& state = session()->state();
+  const CaseState& state = proxy()->state();
   state_->setText(!state.begun      ? tr("not begun")
                   : state.playing   ? tr("playing")
                   : state.converged ? tr("converged")
                                     : tr("paused"));
   steps_->setCurrentIndex(
-      std::max(0, steps_->findData(QVariant::fromValue<qint64>(session()->steps_per_picture()))));
-  pause_->setChecked(session()->pause_at_convergence());
+      std::max(0, steps_->findData(QVariant::fromValue<qint64>(proxy()->steps_per_picture()))));
+  pause_->setChecked(proxy()->pause_at_convergence());
   // What computes is shown, not how it came to be chosen.
   executor_->setCurrentIndex(executor_->findData(state.executor));
 }

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "ui/panels/session_widget.h"
+#include "ui/panels/case_widget.h"
 
 class QAction;
 class QCheckBox;
@@ -21,7 +21,7 @@ struct EvolutionActions {
   QAction* restart = nullptr;
 };
 
-class EvolutionControls : public SessionWidget {
+class EvolutionControls : public CaseWidget {
   Q_OBJECT
  public:
   explicit EvolutionControls(QWidget* parent = nullptr);

@@ -9,7 +9,7 @@
 
 namespace tidemark {
 
-EvolutionFigures::EvolutionFigures(QWidget* parent) : SessionWidget(parent) {
+EvolutionFigures::EvolutionFigures(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Figures"));
   step_ = form.figure(tr("Step"), tr("Steps since the start."));
@@ -33,13 +33,13 @@ EvolutionFigures::EvolutionFigures(QWidget* parent) : SessionWidget(parent) {
 }
 
 void EvolutionFigures::attach() {
-  if (session()) return;
+  if (proxy()) return;
   for (CurvePlot* plot : {volume_, area_, motion_}) plot->set_points({});
   for (QLabel* figure : {step_, pages_, bytes_, pace_}) figure->clear();
 }
 
 void EvolutionFigures::show_curves() {
-  const Curve::Points& curve = *session()->state().curve.points();
+  const Curve::Points& curve = *proxy()->state().curve.points();
   const auto show = [&curve](CurvePlot* plot, double CurvePoint::*quantity) {
     std::vector<QPointF> points;
     points.reserve(curve.size());
@@ -53,7 +53,7 @@ void EvolutionFigures::show_curves() {
 }
 
 void EvolutionFigures::refresh() {
-  const CaseState& state = session()->state();
+  const CaseState& state = proxy()->state();
   show_curves();
   step_->setText(count_text(state.step));
   const double pace = state.playing ? state.steps_per_second : state.solver_steps_per_second;

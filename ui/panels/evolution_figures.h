@@ -1,7 +1,7 @@
 // What the evolution has come to: curves over its steps, and figures.
 #pragma once
 
-#include "ui/panels/session_widget.h"
+#include "ui/panels/case_widget.h"
 
 class QLabel;
 
@@ -9,7 +9,7 @@ namespace tidemark {
 
 class CurvePlot;
 
-class EvolutionFigures : public SessionWidget {
+class EvolutionFigures : public CaseWidget {
   Q_OBJECT
  public:
   explicit EvolutionFigures(QWidget* parent = nullptr);

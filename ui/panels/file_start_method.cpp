@@ -7,7 +7,7 @@
 #include <QToolButton>
 
 #include "core/without_exceptions.h"
-#include "session/background_job.h"
+#include "engine/background_job.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/widgets/form.h"
@@ -55,7 +55,7 @@ QString FileStartMethod::sentence() const {
 }
 
 bool FileStartMethod::can_start() const {
-  return session() && !reading_ && !path_->text().isEmpty();
+  return proxy() && !reading_ && !path_->text().isEmpty();
 }
 
 void FileStartMethod::choose() {
@@ -72,11 +72,11 @@ void FileStartMethod::choose() {
 }
 
 void FileStartMethod::start() {
-  const QPointer<CaseSession> wanted(session());
+  const QPointer<CaseProxy> wanted(proxy());
   const std::filesystem::path path(path_->text().toStdU16String());
   reading_ =
-      BackgroundJob::start(this, [this, wanted, kind = kind_, path, grid = session()->volume().geometry,
-                                  band = session()->state().band](BackgroundJob& job) {
+      BackgroundJob::start(this, [this, wanted, kind = kind_, path, grid = proxy()->volume().geometry,
+                                  band = proxy()->state().band](BackgroundJob& job) {
         const auto start = std::make_shared<Result<Start>>(without_exceptions([&] {
           return load_start(kind, path, grid, band, {nullptr, job.stop()});
         }));
@@ -85,12 +85,12 @@ void FileStartMethod::start() {
   emit changed();
 }
 
-void FileStartMethod::take(const Result<Start>& start, CaseSession* session) {
+void FileStartMethod::take(const Result<Start>& start, CaseProxy* proxy) {
   reading_.reset();
   if (!start) {
     emit failed(QString::fromStdString(start.error().message));
-  } else if (session) {
-    session->begin(*start);
+  } else if (proxy) {
+    proxy->begin(*start);
   }
   emit changed();
 }

@@ -28,7 +28,7 @@ class FileStartMethod : public StartMethod {
 
  private:
   void choose();
-  void take(const Result<Start>& start, CaseSession* session);
+  void take(const Result<Start>& start, CaseProxy* proxy);
 
   StartFile kind_;
   QLineEdit* path_;

@@ -79,11 +79,11 @@ void InitialisePanel::show_method(int index) {
 }
 
 void InitialisePanel::show_sentence() {
-  if (!session()) return;
+  if (!proxy()) return;
   const StartMethod& method = *methods_[static_cast<std::size_t>(method_)];
   sentence_->setText(method.sentence());
   start_->setEnabled(method.can_start());
-  replaces_->setVisible(session()->state().begun && method.can_start());
+  replaces_->setVisible(proxy()->state().begun && method.can_start());
 }
 
 void InitialisePanel::attach() {

@@ -4,7 +4,7 @@
 #include <QAbstractTableModel>
 #include <vector>
 
-#include "session/case_state.h"
+#include "engine/case_state.h"
 
 namespace tidemark {
 

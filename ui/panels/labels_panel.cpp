@@ -30,7 +30,7 @@ LabelsPanel::LabelsPanel(QWidget* parent)
   add(make_table());
   add(make_actions());
   connect(model_, &LabelsModel::edited, this, [this](const Label& label) {
-    if (session()) session()->set_label(label);
+    if (proxy()) proxy()->set_label(label);
   });
   show_buttons();
 }
@@ -93,7 +93,7 @@ QWidget* LabelsPanel::make_table_buttons() {
   row->addStretch(1);
   connect(add, &QToolButton::clicked, this, &LabelsPanel::add_label);
   connect(remove_, &QToolButton::clicked, this, [this] {
-    if (session() && chosen()) session()->remove_label(chosen()->id);
+    if (proxy() && chosen()) proxy()->remove_label(chosen()->id);
   });
   return buttons;
 }
@@ -123,7 +123,7 @@ QWidget* LabelsPanel::make_actions() {
   begin_->setToolTip(tr("The level set begins anew as the chosen label, to go on with it."));
   form.wide(begin_);
   connect(begin_, &QPushButton::clicked, this, [this] {
-    if (session() && chosen()) session()->begin_from_label(chosen()->id);
+    if (proxy() && chosen()) proxy()->begin_from_label(chosen()->id);
   });
   opacity_ = form.slider(tr("Opacity"), tr("Of all labels, in slices."));
   opacity_->set_decimals(0);
@@ -141,9 +141,9 @@ const Label* LabelsPanel::chosen() const {
 }
 
 void LabelsPanel::add_label() {
-  if (!session()) return;
+  if (!proxy()) return;
   choose_new_ = true;
-  session()->add_label(new_name());
+  proxy()->add_label(new_name());
 }
 
 QString LabelsPanel::new_name() const {
@@ -152,18 +152,18 @@ QString LabelsPanel::new_name() const {
 
 // Into the chosen label; the first one is made on the way.
 void LabelsPanel::accept_surface() {
-  if (!session()) return;
+  if (!proxy()) return;
   const Take take = take_all_->isChecked() ? Take::others_too : Take::free_voxels;
   if (const Label* label = chosen()) {
-    session()->accept_surface(label->id, take);
+    proxy()->accept_surface(label->id, take);
   } else {
     choose_new_ = true;
-    session()->accept_surface_as(new_name(), take);
+    proxy()->accept_surface_as(new_name(), take);
   }
 }
 
 void LabelsPanel::show_acceptance() {
-  const auto& acceptance = session()->state().acceptance;
+  const auto& acceptance = proxy()->state().acceptance;
   accepted_->setVisible(acceptance.has_value());
   if (!acceptance) return;
   const QLocale locale;
@@ -193,11 +193,11 @@ void LabelsPanel::choose_colour(const QModelIndex& index) {
 void LabelsPanel::attach() {
   Panel::attach();
   choose_new_ = false;
-  if (!session()) model_->show({}, {});
+  if (!proxy()) model_->show({}, {});
 }
 
 void LabelsPanel::refresh() {
-  const CaseState& state = session()->state();
+  const CaseState& state = proxy()->state();
   const int before = model_->rowCount();
   const int was = chosen() ? chosen()->id : 0;  // 0: none
   model_->show(state.labels, state.label_statistics);
@@ -211,7 +211,7 @@ void LabelsPanel::refresh() {
     if (row >= 0) table_->selectRow(row);
     choose_new_ = false;
   }
-  opacity_->set_value(100.0 * session()->display().settings().label_opacity);
+  opacity_->set_value(100.0 * proxy()->display().settings().label_opacity);
   show_acceptance();
   show_buttons();
 }
@@ -220,7 +220,7 @@ void LabelsPanel::show_buttons() {
   const Label* label = chosen();
   remove_->setEnabled(label != nullptr);
   meaning_->show_label(label);
-  const bool begun = session() && session()->state().begun;
+  const bool begun = proxy() && proxy()->state().begun;
   const bool locked = label && label->locked;
   accept_->setEnabled(begun && !locked);
   accept_->setToolTip(!begun   ? tr("There is no surface yet.")

@@ -4,7 +4,7 @@
 #include <QComboBox>
 #include <optional>
 
-#include "study/labels.h"
+#include "document/labels.h"
 
 namespace tidemark {
 

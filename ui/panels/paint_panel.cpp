@@ -66,7 +66,7 @@ QWidget* PaintPanel::make_tools() {
   add_tool(Tool::paint, u"tool-paint", tr("Paint"), tr("Adds spheres to the inside of the surface."));
   add_tool(Tool::erase, u"tool-erase", tr("Erase"), tr("Takes spheres away from it."));
   connect(tools_, &QButtonGroup::idClicked, this, [this](int tool) {
-    if (session()) session()->display().choose_tool(static_cast<Tool>(tool));
+    if (proxy()) proxy()->display().choose_tool(static_cast<Tool>(tool));
   });
   return row;
 }
@@ -97,7 +97,7 @@ void PaintPanel::set_actions(QAction* undo, QAction* redo) {
 }
 
 void PaintPanel::refresh() {
-  const DisplaySettings& settings = session()->display().settings();
+  const DisplaySettings& settings = proxy()->display().settings();
   // With another tool neither is chosen, which an exclusive group does not allow otherwise.
   tools_->setExclusive(false);
   for (QAbstractButton* button : tools_->buttons()) {
@@ -105,7 +105,7 @@ void PaintPanel::refresh() {
   }
   tools_->setExclusive(true);
   radius_->set_value(settings.brush_mm);
-  const glm::dvec3 radius = settings.brush_mm / session()->volume().geometry.spacing_mm;
+  const glm::dvec3 radius = settings.brush_mm / proxy()->volume().geometry.spacing_mm;
   voxels_->setText(QStringLiteral("%1 × %2 × %3")
                        .arg(number_text(radius.x, 1), number_text(radius.y, 1), number_text(radius.z, 1)));
 }

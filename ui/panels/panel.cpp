@@ -9,7 +9,7 @@
 namespace tidemark {
 
 Panel::Panel(const QString& hint, QWidget* parent)
-    : SessionWidget(parent),
+    : CaseWidget(parent),
       hint_(make_note(hint)),
       content_(new QWidget),
       parts_(new QVBoxLayout(content_)) {
@@ -28,16 +28,16 @@ void Panel::add(QWidget* part) {
   parts_->addWidget(part);
 }
 
-void Panel::add(SessionWidget* part) {
+void Panel::add(CaseWidget* part) {
   parts_->addWidget(part);
-  session_parts_.push_back(part);
-  part->set_session(session());
+  proxy_parts_.push_back(part);
+  part->set_proxy(proxy());
 }
 
 void Panel::attach() {
-  hint_->setVisible(session() == nullptr);
-  content_->setEnabled(session() != nullptr);
-  for (SessionWidget* part : session_parts_) part->set_session(session());
+  hint_->setVisible(proxy() == nullptr);
+  content_->setEnabled(proxy() != nullptr);
+  for (CaseWidget* part : proxy_parts_) part->set_proxy(proxy());
 }
 
 }  // namespace tidemark

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "ui/panels/session_widget.h"
+#include "ui/panels/case_widget.h"
 
 class QLabel;
 class QVBoxLayout;
@@ -12,7 +12,7 @@ class QVBoxLayout;
 namespace tidemark {
 
 // Parts below each other. Without a session they are grey, and a sentence says what is missing.
-class Panel : public SessionWidget {
+class Panel : public CaseWidget {
   Q_OBJECT
  public:
   // `hint`: "Open a study to ..."
@@ -20,7 +20,7 @@ class Panel : public SessionWidget {
 
  protected:
   void add(QWidget* part);
-  void add(SessionWidget* part);  // which gets the session, too
+  void add(CaseWidget* part);  // which gets the session, too
   void attach() override;
   void refresh() override {}
   [[nodiscard]] QWidget* content() const { return content_; }
@@ -29,7 +29,7 @@ class Panel : public SessionWidget {
   QLabel* hint_;
   QWidget* content_;
   QVBoxLayout* parts_;
-  std::vector<SessionWidget*> session_parts_;
+  std::vector<CaseWidget*> proxy_parts_;
 };
 
 }  // namespace tidemark

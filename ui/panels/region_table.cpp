@@ -4,7 +4,7 @@
 #include <QLocale>
 #include <QStringList>
 
-#include "session/case_session.h"
+#include "engine/case_proxy.h"
 #include "ui/panels/value_unit.h"
 
 namespace tidemark {
@@ -95,8 +95,8 @@ std::vector<RegionRow> region_rows(const CaseState& state) {
 }
 
 // Names of columns do not depend on the language: programs read them.
-std::string to_csv(CaseSession& session) {
-  const QString unit = value_unit(session.volume());
+std::string to_csv(CaseProxy& proxy) {
+  const QString unit = value_unit(proxy.volume());
   QLocale plain = QLocale::c();
   plain.setNumberOptions(QLocale::OmitGroupSeparator);
   const Notation notation{plain};
@@ -104,12 +104,12 @@ std::string to_csv(CaseSession& session) {
       csv_line({QStringLiteral("name"), QStringLiteral("volume_ml"), QStringLiteral("area_mm2"),
                 QStringLiteral("voxels"), QStringLiteral("mean"), QStringLiteral("sd"),
                 QStringLiteral("value_unit"), QStringLiteral("measured"), QStringLiteral("measured_unit")});
-  for (const RegionRow& row : region_rows(session.state())) {
+  for (const RegionRow& row : region_rows(proxy.state())) {
     QStringList line = cells(row, notation);
     line.insert(kFigures, row.values ? unit : QString());
     csv += csv_line(line << QString());
   }
-  for (const Measurement& measurement : session.display().settings().measurements) {
+  for (const Measurement& measurement : proxy.display().settings().measurements) {
     if (!measurement.complete()) continue;
     const bool distance = measurement.kind == Measurement::Kind::distance;
     QStringList line =
@@ -120,8 +120,8 @@ std::string to_csv(CaseSession& session) {
   return csv;
 }
 
-QString to_text(CaseSession& session) {
-  const QString unit = value_unit(session.volume());
+QString to_text(CaseProxy& proxy) {
+  const QString unit = value_unit(proxy.volume());
   const Notation notation{QLocale()};
   QStringList lines;
   lines << QStringList{text(QT_TRANSLATE_NOOP("RegionTable", "Region")),
@@ -132,8 +132,8 @@ QString to_text(CaseSession& session) {
                        with_unit(text(QT_TRANSLATE_NOOP("RegionTable", "SD")), unit),
                        text(QT_TRANSLATE_NOOP("RegionTable", "Measured"))}
                .join(u'\t');
-  for (const RegionRow& row : region_rows(session.state())) lines << cells(row, notation).join(u'\t');
-  for (const Measurement& measurement : session.display().settings().measurements) {
+  for (const RegionRow& row : region_rows(proxy.state())) lines << cells(row, notation).join(u'\t');
+  for (const Measurement& measurement : proxy.display().settings().measurements) {
     if (!measurement.complete()) continue;
     const QString name = with_unit(kind_text(measurement.kind), unit_text(measurement.kind));
     lines << cells(measurement, name, notation).join(u'\t');

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "session/case_state.h"
-#include "session/measurement.h"
+#include "engine/case_state.h"
+#include "engine/measurement.h"
 
 namespace tidemark {
 
-class CaseSession;
+class CaseProxy;
 
 struct RegionRow {
   QString name;
@@ -26,10 +26,10 @@ struct RegionRow {
 std::vector<RegionRow> region_rows(const CaseState& state);
 
 // RFC 4180, numbers with a point in every locale.
-std::string to_csv(CaseSession& session);
+std::string to_csv(CaseProxy& proxy);
 
 // Columns parted by tabs, numbers as the user's language writes them: for spreadsheets and reports.
-QString to_text(CaseSession& session);
+QString to_text(CaseProxy& proxy);
 
 QString kind_text(Measurement::Kind kind);
 QString unit_text(Measurement::Kind kind);  // of its value

@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-SliceControls::SliceControls(QWidget* parent) : SessionWidget(parent) {
+SliceControls::SliceControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Slices"));
   add_picture(form);
@@ -70,7 +70,7 @@ void SliceControls::add_overlays(Form& form) {
 }
 
 void SliceControls::refresh() {
-  const DisplaySettings& settings = session()->display().settings();
+  const DisplaySettings& settings = proxy()->display().settings();
   voxels_->setCurrentIndex(settings.nearest ? 1 : 0);
   side_->setCurrentIndex(settings.radiological ? 0 : 1);
   term_->setCurrentIndex(term_->findData(static_cast<int>(settings.speed_term)));

@@ -1,7 +1,7 @@
 // How slices look.
 #pragma once
 
-#include "ui/panels/session_widget.h"
+#include "ui/panels/case_widget.h"
 
 class QCheckBox;
 class QComboBox;
@@ -11,7 +11,7 @@ namespace tidemark {
 class Form;
 class SliderNumber;
 
-class SliceControls : public SessionWidget {
+class SliceControls : public CaseWidget {
   Q_OBJECT
  public:
   explicit SliceControls(QWidget* parent = nullptr);

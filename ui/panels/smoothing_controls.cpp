@@ -15,7 +15,7 @@ constexpr int kDecimals = 2;
 
 }  // namespace
 
-SmoothingControls::SmoothingControls(QWidget* parent) : SessionWidget(parent) {
+SmoothingControls::SmoothingControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Noise"));
   now_ = form.note({});
@@ -31,16 +31,16 @@ SmoothingControls::SmoothingControls(QWidget* parent) : SessionWidget(parent) {
   apply_->setToolTip(tr("Smooths the study for the level set; takes some seconds where it is large."));
   form.wide(apply_);
   connect(apply_, &QPushButton::clicked, this, [this] {
-    if (session()) session()->smooth_source(sigma_->value());
+    if (proxy()) proxy()->smooth_source(sigma_->value());
   });
 }
 
 void SmoothingControls::attach() {
-  if (session()) sigma_->set_value(session()->state().smoothed_mm);
+  if (proxy()) sigma_->set_value(proxy()->state().smoothed_mm);
 }
 
 void SmoothingControls::refresh() {
-  const double now = session()->state().smoothed_mm;
+  const double now = proxy()->state().smoothed_mm;
   now_->setText(
       now > 0.0
           ? tr("The level set sees the study smoothed by %1.").arg(number_text(now, kDecimals, tr("mm")))
@@ -49,10 +49,10 @@ void SmoothingControls::refresh() {
 }
 
 void SmoothingControls::show_button() {
-  if (!session()) return;
-  const bool undoes = sigma_->value() == 0.0 && session()->state().smoothed_mm > 0.0;
+  if (!proxy()) return;
+  const bool undoes = sigma_->value() == 0.0 && proxy()->state().smoothed_mm > 0.0;
   apply_->setText(undoes ? tr("Use the study as it is") : tr("Smooth"));
-  apply_->setEnabled(std::abs(sigma_->value() - session()->state().smoothed_mm) > 1e-6);
+  apply_->setEnabled(std::abs(sigma_->value() - proxy()->state().smoothed_mm) > 1e-6);
 }
 
 }  // namespace tidemark

@@ -1,7 +1,7 @@
 // The source can be smoothed before the level set sees it.
 #pragma once
 
-#include "ui/panels/session_widget.h"
+#include "ui/panels/case_widget.h"
 
 class QLabel;
 class QPushButton;
@@ -10,7 +10,7 @@ namespace tidemark {
 
 class SliderNumber;
 
-class SmoothingControls : public SessionWidget {
+class SmoothingControls : public CaseWidget {
   Q_OBJECT
  public:
   explicit SmoothingControls(QWidget* parent = nullptr);

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "ui/look/theme.h"
-#include "ui/panels/tent_plot.h"
+#include "ui/panels/speed_plot.h"
 #include "ui/panels/value_unit.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
@@ -16,12 +16,12 @@
 
 namespace tidemark {
 
-SpeedControls::SpeedControls(QWidget* parent) : SessionWidget(parent) {
+SpeedControls::SpeedControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Speed"));
-  tent_ = new TentPlot;
+  tent_ = new SpeedPlot;
   form.wide(tent_);
-  connect(tent_, &TentPlot::edited, this, [this](double target, double range, std::uint64_t gesture) {
+  connect(tent_, &SpeedPlot::edited, this, [this](double target, double range, std::uint64_t gesture) {
     change(
         [=](Parameters& parameters) {
           parameters.target = target;
@@ -71,7 +71,7 @@ void SpeedControls::add_terms(Form& form) {
     check->setAccessibleName(tr("%1 term").arg(text));
     row->addWidget(check);
     connect(check, &QCheckBox::clicked, this, [this, term](bool on) {
-      change([=](Parameters& parameters) { parameters.*term = on; }, CaseSession::new_gesture());
+      change([=](Parameters& parameters) { parameters.*term = on; }, CaseProxy::new_gesture());
     });
     return check;
   };
@@ -87,9 +87,9 @@ void SpeedControls::add_terms(Form& form) {
 }
 
 void SpeedControls::attach() {
-  if (!session()) return;
-  const SourceSummary& summary = session()->summary();
-  const QString unit = value_unit(session()->volume());
+  if (!proxy()) return;
+  const SourceSummary& summary = proxy()->summary();
+  const QString unit = value_unit(proxy()->volume());
   const double span = std::max<double>(summary.high - summary.low, 1e-6);
   const double all = std::max<double>(summary.highest - summary.lowest, span);
   const int decimals = decimals_for(span);
@@ -105,7 +105,7 @@ void SpeedControls::attach() {
 }
 
 void SpeedControls::refresh() {
-  const Parameters& parameters = session()->parameters();
+  const Parameters& parameters = proxy()->parameters();
   tent_->set_tent(parameters.target, parameters.range);
   target_->set_value(parameters.target);
   range_->set_value(parameters.range);
@@ -117,10 +117,10 @@ void SpeedControls::refresh() {
 }
 
 void SpeedControls::change(const std::function<void(Parameters&)>& apply, std::uint64_t gesture) {
-  if (!session()) return;
-  Parameters parameters = session()->parameters();
+  if (!proxy()) return;
+  Parameters parameters = proxy()->parameters();
   apply(parameters);
-  session()->set_parameters(parameters, gesture);
+  proxy()->set_parameters(parameters, gesture);
 }
 
 }  // namespace tidemark

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "ui/panels/session_widget.h"
+#include "ui/panels/case_widget.h"
 
 class QCheckBox;
 class QLabel;
@@ -12,9 +12,9 @@ namespace tidemark {
 
 class Form;
 class SliderNumber;
-class TentPlot;
+class SpeedPlot;
 
-class SpeedControls : public SessionWidget {
+class SpeedControls : public CaseWidget {
   Q_OBJECT
  public:
   explicit SpeedControls(QWidget* parent = nullptr);
@@ -28,7 +28,7 @@ class SpeedControls : public SessionWidget {
   void add_terms(Form& form);
   void change(const std::function<void(Parameters&)>& apply, std::uint64_t gesture);
 
-  TentPlot* tent_;
+  SpeedPlot* tent_;
   SliderNumber* target_;
   SliderNumber* range_;
   SliderNumber* alpha_;

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/progress.h"
-#include "study/start.h"
+#include "document/start.h"
 
 namespace tidemark {
 

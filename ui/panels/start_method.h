@@ -1,14 +1,14 @@
 // One way in which a level set can begin.
 #pragma once
 
-#include "ui/panels/session_widget.h"
+#include "ui/panels/case_widget.h"
 
 namespace tidemark {
 
-class StartMethod : public SessionWidget {
+class StartMethod : public CaseWidget {
   Q_OBJECT
  public:
-  using SessionWidget::SessionWidget;
+  using CaseWidget::CaseWidget;
 
   [[nodiscard]] virtual QString title() const = 0;
   // What start() would do, in words.

@@ -59,7 +59,7 @@ SphereStartMethod::SphereStartMethod(QWidget* parent) : StartMethod(parent) {
   draw_->setCheckable(true);
   form.wide(draw_);
   connect(draw_, &QToolButton::clicked, this, [this] {
-    if (session()) session()->display().choose_tool(Tool::seed);
+    if (proxy()) proxy()->display().choose_tool(Tool::seed);
     draw_->setChecked(true);
   });
   radius_ = form.slider(tr("Radius"), tr("Of the sphere around the crosshair."));
@@ -76,17 +76,17 @@ QString SphereStartMethod::sentence() const {
 }
 
 bool SphereStartMethod::can_start() const {
-  return session() != nullptr;
+  return proxy() != nullptr;
 }
 
 void SphereStartMethod::start() {
   Start start;
-  start.seeds.push_back({session()->display().settings().cursor_mm, radius_->value()});
-  session()->begin(start);
+  start.seeds.push_back({proxy()->display().settings().cursor_mm, radius_->value()});
+  proxy()->begin(start);
 }
 
 void SphereStartMethod::refresh() {
-  draw_->setChecked(session()->display().settings().tool == Tool::seed);
+  draw_->setChecked(proxy()->display().settings().tool == Tool::seed);
 }
 
 // Values.
@@ -112,18 +112,18 @@ QString ValueStartMethod::title() const {
 }
 
 void ValueStartMethod::attach() {
-  if (!session()) return;
-  const SourceSummary& summary = session()->summary();
+  if (!proxy()) return;
+  const SourceSummary& summary = proxy()->summary();
   const double lowest = summary.lowest;
   const double highest = summary.highest;
-  const QString unit = value_unit(session()->volume());
+  const QString unit = value_unit(proxy()->volume());
   for (SliderNumber* number : {low_, high_}) {
     number->set_decimals(decimals_for(summary.high - summary.low));
     number->set_range(summary.low, summary.high, lowest, highest);
     number->set_unit(unit);
   }
   take_tent();
-  const auto& known = session()->study().start;
+  const auto& known = proxy()->study().start;
   if (known && known->threshold) {
     low_->set_value(known->threshold->first);
     high_->set_value(known->threshold->second);
@@ -131,30 +131,30 @@ void ValueStartMethod::attach() {
 }
 
 void ValueStartMethod::take_tent() {
-  if (!session()) return;
-  const Parameters& parameters = session()->parameters();
+  if (!proxy()) return;
+  const Parameters& parameters = proxy()->parameters();
   low_->set_value(parameters.target - parameters.range);
   high_->set_value(parameters.target + parameters.range);
   emit changed();
 }
 
 QString ValueStartMethod::range_text() const {
-  const QString unit = value_unit(session()->volume());
-  const int decimals = decimals_for(session()->summary().high - session()->summary().low);
+  const QString unit = value_unit(proxy()->volume());
+  const int decimals = decimals_for(proxy()->summary().high - proxy()->summary().low);
   return tr("%1 to %2")
       .arg(number_text(low_->value(), decimals), number_text(high_->value(), decimals, unit));
 }
 
 std::optional<Index3> ValueStartMethod::voxel() const {
-  const Geometry& geometry = session()->volume().geometry;
-  const Index3 voxel = nearest_voxel(geometry.to_voxel(session()->display().settings().cursor_mm));
+  const Geometry& geometry = proxy()->volume().geometry;
+  const Index3 voxel = nearest_voxel(geometry.to_voxel(proxy()->display().settings().cursor_mm));
   if (!geometry.contains(voxel)) return std::nullopt;
   return voxel;
 }
 
 QString ValueStartMethod::everywhere_text() const {
-  const Volume& volume = session()->volume();
-  const double count = count_between(session()->summary(), low_->value(), high_->value());
+  const Volume& volume = proxy()->volume();
+  const double count = count_between(proxy()->summary(), low_->value(), high_->value());
   const double share = 100.0 * count / static_cast<double>(volume.geometry.voxel_count());
   return tr("Starts with the voxels from %1: about %2 of the study, %3.")
       .arg(range_text(), number_text(share, share < 10.0 ? 1 : 0, QStringLiteral("%")),
@@ -163,7 +163,7 @@ QString ValueStartMethod::everywhere_text() const {
 
 QString ValueStartMethod::connected_text() const {
   if (!voxel()) return tr("The crosshair is outside the study.");
-  const double here = session()->volume().value(*voxel());
+  const double here = proxy()->volume().value(*voxel());
   if (here < low_->value() || here > high_->value()) {
     return tr("The value at the crosshair is not from %1.").arg(range_text());
   }
@@ -171,16 +171,16 @@ QString ValueStartMethod::connected_text() const {
 }
 
 QString ValueStartMethod::sentence() const {
-  if (!session()) return {};
+  if (!proxy()) return {};
   if (low_->value() > high_->value()) return tr("The first value is larger than the second.");
   return extent_ == Extent::everywhere ? everywhere_text() : connected_text();
 }
 
 bool ValueStartMethod::can_start() const {
-  if (!session() || low_->value() > high_->value()) return false;
+  if (!proxy() || low_->value() > high_->value()) return false;
   if (extent_ == Extent::everywhere) return true;
   if (!voxel()) return false;
-  const double here = session()->volume().value(*voxel());
+  const double here = proxy()->volume().value(*voxel());
   return here >= low_->value() && here <= high_->value();
 }
 
@@ -191,15 +191,15 @@ void ValueStartMethod::start() {
   } else {
     start.from = FloodStart{*voxel(), low_->value(), high_->value()};
   }
-  session()->begin(start);
+  proxy()->begin(start);
 }
 
 void ValueStartMethod::refresh() {
   if (!here_) return;
   const auto at = voxel();
-  here_->setText(at ? number_text(session()->volume().value(*at),
-                                  decimals_for(session()->summary().high - session()->summary().low),
-                                  value_unit(session()->volume()))
+  here_->setText(at ? number_text(proxy()->volume().value(*at),
+                                  decimals_for(proxy()->summary().high - proxy()->summary().low),
+                                  value_unit(proxy()->volume()))
                     : QStringLiteral("–"));
   emit changed();
 }
@@ -219,7 +219,7 @@ void LabelStartMethod::attach() {
 }
 
 void LabelStartMethod::refresh() {
-  const std::vector<Label>& labels = session()->state().labels;
+  const std::vector<Label>& labels = proxy()->state().labels;
   if (labels == shown_) return;
   shown_ = labels;
   const QVariant chosen = label_->currentData();
@@ -235,11 +235,11 @@ QString LabelStartMethod::sentence() const {
 }
 
 bool LabelStartMethod::can_start() const {
-  return session() && label_->count() > 0;
+  return proxy() && label_->count() > 0;
 }
 
 void LabelStartMethod::start() {
-  session()->begin_from_label(static_cast<std::uint8_t>(label_->currentData().toUInt()));
+  proxy()->begin_from_label(static_cast<std::uint8_t>(label_->currentData().toUInt()));
 }
 
 }  // namespace tidemark

@@ -131,8 +131,8 @@ void StatisticsPanel::show_measurements(const std::vector<Measurement>& measurem
 }
 
 void StatisticsPanel::copy() const {
-  if (!session()) return;
-  QGuiApplication::clipboard()->setText(to_text(*session()));
+  if (!proxy()) return;
+  QGuiApplication::clipboard()->setText(to_text(*proxy()));
 }
 
 void StatisticsPanel::set_export_action(QAction* action) {
@@ -141,7 +141,7 @@ void StatisticsPanel::set_export_action(QAction* action) {
 
 void StatisticsPanel::attach() {
   Panel::attach();
-  if (session()) return;
+  if (proxy()) return;
   show_surface({});
   show_labels({});
   show_measurements({});
@@ -150,7 +150,7 @@ void StatisticsPanel::attach() {
 void StatisticsPanel::show_surface(const std::vector<RegionRow>& rows) {
   const bool there = !rows.empty() && rows.front().area_mm2.has_value();
   const bool measured = there && rows.front().values.has_value();
-  const QString unit = session() ? value_unit(session()->volume()) : QString();
+  const QString unit = proxy() ? value_unit(proxy()->volume()) : QString();
   volume_->setText(there ? number_text(rows.front().volume_ml, 2, tr("ml")) : kNothing);
   area_->setText(there ? number_text(*rows.front().area_mm2, 0, tr("mm²")) : kNothing);
   voxels_->setText(there ? count_text(rows.front().voxels) : kNothing);
@@ -170,10 +170,10 @@ void StatisticsPanel::show_labels(const std::vector<RegionRow>& rows) {
 }
 
 void StatisticsPanel::refresh() {
-  const auto rows = region_rows(session()->state());
+  const auto rows = region_rows(proxy()->state());
   show_surface(rows);
   show_labels(rows);
-  show_measurements(session()->display().settings().measurements);
+  show_measurements(proxy()->display().settings().measurements);
 }
 
 }  // namespace tidemark

@@ -16,7 +16,7 @@ QColor to_colour(const glm::vec4& colour) {
 
 }  // namespace
 
-SurfaceControls::SurfaceControls(QWidget* parent) : SessionWidget(parent) {
+SurfaceControls::SurfaceControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("3D"));
   mode_ = form.choice(tr("Drawn by"), tr("A ray for each pixel, or the paper's own way: slices that are "
@@ -92,7 +92,7 @@ void SurfaceControls::add_source(Form& form) {
 }
 
 void SurfaceControls::refresh() {
-  const DisplaySettings& settings = session()->display().settings();
+  const DisplaySettings& settings = proxy()->display().settings();
   mode_->setCurrentIndex(settings.mode == Mode::raycast ? 0 : 1);
   surface_->setChecked(settings.surface);
   colouring_->setCurrentIndex(colouring_->findData(static_cast<int>(settings.colouring)));

@@ -1,7 +1,7 @@
 // How the 3D view looks: surface and source.
 #pragma once
 
-#include "ui/panels/session_widget.h"
+#include "ui/panels/case_widget.h"
 
 class QCheckBox;
 class QComboBox;
@@ -12,7 +12,7 @@ class ColourButton;
 class Form;
 class SliderNumber;
 
-class SurfaceControls : public SessionWidget {
+class SurfaceControls : public CaseWidget {
   Q_OBJECT
  public:
   explicit SurfaceControls(QWidget* parent = nullptr);

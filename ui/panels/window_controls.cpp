@@ -37,7 +37,7 @@ std::vector<WindowPreset> window_presets(const Volume& volume, const SourceSumma
   return presets;
 }
 
-WindowControls::WindowControls(QWidget* parent) : SessionWidget(parent) {
+WindowControls::WindowControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Window"));
   preset_ = form.choice(tr("Preset"), tr("Windows for tissues, and for all that the study holds."));
@@ -57,10 +57,10 @@ WindowControls::WindowControls(QWidget* parent) : SessionWidget(parent) {
 }
 
 void WindowControls::attach() {
-  if (!session()) return;
-  const SourceSummary& summary = session()->summary();
-  const QString unit = value_unit(session()->volume());
-  presets_ = window_presets(session()->volume(), summary);
+  if (!proxy()) return;
+  const SourceSummary& summary = proxy()->summary();
+  const QString unit = value_unit(proxy()->volume());
+  presets_ = window_presets(proxy()->volume(), summary);
   preset_->clear();
   preset_->addItem(tr("Own"));
   preset_->setItemData(0, tr("As set below, or in a view"), Qt::ToolTipRole);
@@ -80,8 +80,8 @@ void WindowControls::attach() {
 }
 
 void WindowControls::refresh() {
-  if (!session()) return;
-  const WindowLevel& window = session()->display().settings().window;
+  if (!proxy()) return;
+  const WindowLevel& window = proxy()->display().settings().window;
   width_->set_value(window.width);
   level_->set_value(window.centre);
   int chosen = 0;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "ui/panels/session_widget.h"
+#include "ui/panels/case_widget.h"
 #include "ui/panels/window_presets.h"
 
 class QComboBox;
@@ -12,7 +12,7 @@ namespace tidemark {
 
 class SliderNumber;
 
-class WindowControls : public SessionWidget {
+class WindowControls : public CaseWidget {
   Q_OBJECT
  public:
   explicit WindowControls(QWidget* parent = nullptr);

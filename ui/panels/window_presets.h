@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/volume.h"
-#include "session/source_summary.h"
+#include "engine/source_summary.h"
 
 namespace tidemark {
 

@@ -4,8 +4,8 @@
 #include <QGroupBox>
 #include <QRadioButton>
 
-#include "session/case_state.h"
-#include "study/result_files.h"
+#include "engine/case_state.h"
+#include "document/result_files.h"
 
 namespace tidemark {
 

@@ -33,8 +33,8 @@ ResultDialog::ResultDialog(CaseWindow& window, const QString& title)
       go_(new QPushButton(this)) {
   setWindowTitle(title);
   setAttribute(Qt::WA_DeleteOnClose);
-  connect(&session(), &CaseSession::state_changed, this, &ResultDialog::follow);
-  connect(&session(), &CaseSession::failed, this, [this](const QString& message) {
+  connect(&proxy(), &CaseProxy::state_changed, this, &ResultDialog::follow);
+  connect(&proxy(), &CaseProxy::failed, this, [this](const QString& message) {
     if (waiting_) rest(message);
   });
   connect(work_, &WorkLine::cancelled, this, [this] {
@@ -68,8 +68,8 @@ void ResultDialog::build(bool with_choice, QWidget* target, const QString& note,
 }
 
 void ResultDialog::follow() {
-  choice_->show_state(session().state());
-  const bool something = with_choice_ ? choice_->has_choice() : session().state().begun;
+  choice_->show_state(proxy().state());
+  const bool something = with_choice_ ? choice_->has_choice() : proxy().state().begun;
   choice_->setEnabled(!busy_);
   target_->setEnabled(!busy_);
   go_->setEnabled(!busy_ && something && ready());
@@ -80,7 +80,7 @@ void ResultDialog::start() {
   busy_ = waiting_ = true;
   work_->begin(tr("Looking at the case"));
   follow();
-  session().take_snapshot(window_.view_state(), [self = QPointer(this)](const Snapshot& snapshot) {
+  proxy().take_snapshot(window_.view_state(), [self = QPointer(this)](const Snapshot& snapshot) {
     if (!self || !std::exchange(self->waiting_, false)) return;
     self->begin(snapshot);
   });

@@ -19,7 +19,7 @@ class ResultDialog : public QDialog {
   ResultDialog(CaseWindow& window, const QString& title);
 
  protected:
-  using Snapshot = std::shared_ptr<const CaseSession::Snapshot>;
+  using Snapshot = std::shared_ptr<const CaseProxy::Snapshot>;
 
   // From the constructor: whether there is something to choose, where it goes, what that means, the button.
   void build(bool with_choice, QWidget* target, const QString& note, const QString& verb, const QString& tip);
@@ -33,7 +33,7 @@ class ResultDialog : public QDialog {
   void follow();
   void rest(const QString& said);
   void reject() override;
-  [[nodiscard]] CaseSession& session() const { return window_.session(); }
+  [[nodiscard]] CaseProxy& proxy() const { return window_.proxy(); }
   [[nodiscard]] ResultContent content() const { return choice_->content(); }
   [[nodiscard]] WorkLine& work() const { return *work_; }
 

@@ -33,7 +33,7 @@ SendResultDialog::SendResultDialog(CaseWindow& window, std::filesystem::path ser
       servers_(new ServerChoice(std::move(servers), tr("The server that gets the result"), this)),
       segmentation_(new QCheckBox(tr("&Segmentation (SEG)"), this)),
       contours_(new QCheckBox(tr("Contours (&RT structure set)"), this)) {
-  build(true, make_target(), source_note(session().study()), tr("Se&nd"),
+  build(true, make_target(), source_note(proxy().study()), tr("Se&nd"),
         tr("Sends what the case is like now"));
   connect(&client_, &PacsClient::progressed, &work(), &WorkLine::set_progress);
   connect(&client_, &PacsClient::failed, this, &SendResultDialog::rest);
@@ -79,7 +79,7 @@ void SendResultDialog::begin(const Snapshot& snapshot) {
   std::vector<ResultForm> forms;
   if (segmentation_->isChecked()) forms.push_back(ResultForm::segmentation);
   if (contours_->isChecked()) forms.push_back(ResultForm::structure_set);
-  client_.send(server, [snapshot, forms, what = content(), source = session().study().dicom_files](
+  client_.send(server, [snapshot, forms, what = content(), source = proxy().study().dicom_files](
                            const std::filesystem::path& folder, const Progress& progress) {
     return write_forms(snapshot->contents, what, forms, source, folder, progress);
   });
@@ -90,7 +90,7 @@ void SendResultDialog::tell(const Sent& sent) {
     return rest(tr("%1 did not take all of it: %2.")
                     .arg(receiver_, QString::fromStdString(sent.unsent.front().reason)));
   }
-  const bool of_study = !session().study().dicom_files.empty();
+  const bool of_study = !proxy().study().dicom_files.empty();
   rest(sent.objects > 1 ? of_study
                               ? tr("%1 has it, as two new series of this study.").arg(receiver_)
                               : tr("%1 has it, as two new studies of an anonymous patient.").arg(receiver_)

@@ -4,7 +4,7 @@
 #include <QCheckBox>
 #include <filesystem>
 
-#include "session/pacs_client.h"
+#include "engine/pacs_client.h"
 #include "ui/pacs/server_choice.h"
 #include "ui/results/result_dialog.h"
 

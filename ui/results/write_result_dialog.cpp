@@ -67,7 +67,7 @@ WriteResultDialog::WriteResultDialog(CaseWindow& window, ResultFile kind)
   const QString note = kind == ResultFile::level_set ? tr("For programs that use OpenVDB: the distance to "
                                                           "the surface near it, negative inside, in mm of "
                                                           "the patient (LPS).")
-                                                     : source_note(session().study());
+                                                     : source_note(proxy().study());
   build(kind != ResultFile::level_set, make_target(), note, tr("&Write"),
         tr("Writes what the case is like now"));
   connect(file_, &QLineEdit::textChanged, this, &WriteResultDialog::follow);
@@ -112,7 +112,7 @@ QString WriteResultDialog::usual_file() const {
   const QString what = kind_ == ResultFile::segmentation    ? tr("segmentation")
                        : kind_ == ResultFile::structure_set ? tr("contours")
                                                             : tr("level set");
-  const QString name = session().name().left(kLongest).replace(kNotInNames, QStringLiteral("-")).simplified();
+  const QString name = proxy().name().left(kLongest).replace(kNotInNames, QStringLiteral("-")).simplified();
   return QDir(usual_folder()).filePath(QStringLiteral("%1 %2%3").arg(name, what, suffix()).trimmed());
 }
 
@@ -132,7 +132,7 @@ bool WriteResultDialog::confirm() {
   QString file = QDir(usual_folder()).absoluteFilePath(file_->text().trimmed());
   if (!file.endsWith(suffix(), Qt::CaseInsensitive)) file += suffix();
   file_->setText(file);
-  if (is_of_study(session().study(), path_of(file))) {
+  if (is_of_study(proxy().study(), path_of(file))) {
     rest(tr("%1 is a file of the study, which is never written to: choose another name.").arg(file));
     return false;
   }
@@ -143,7 +143,7 @@ bool WriteResultDialog::confirm() {
 
 void WriteResultDialog::begin(const Snapshot& snapshot) {
   QSettings().setValue(kFolder, QFileInfo(file_->text()).absolutePath());
-  jobs_.write([snapshot, kind = kind_, what = content(), source = session().study().dicom_files,
+  jobs_.write([snapshot, kind = kind_, what = content(), source = proxy().study().dicom_files,
                file = path_of(file_->text())](const Progress& progress) {
     return write_kind(snapshot->contents, kind, what, source, file, progress);
   });

@@ -3,7 +3,7 @@
 
 #include <QLineEdit>
 
-#include "session/result_jobs.h"
+#include "engine/result_jobs.h"
 #include "ui/results/result_dialog.h"
 
 namespace tidemark {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "renderer/transfer_function.h"
-#include "session/source_summary.h"
+#include "engine/source_summary.h"
 
 namespace tidemark {
 

@@ -4,7 +4,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "ui/transfer/plane_plot.h"
+#include "ui/transfer/joint_histogram_plot.h"
 
 namespace tidemark {
 
@@ -115,7 +115,7 @@ AxisPrimitive PrimitivePage::new_primitive(TransferFactor::Kind kind) const {
   const TransferPlot& plot = *shown_plot();
   AxisPrimitive primitive;
   primitive.factors[0] = middle_factor(kind, {{}, {}, plot.x_axis().low, plot.x_axis().high, {}});
-  const bool in_plane = qobject_cast<const PlanePlot*>(&plot) != nullptr;
+  const bool in_plane = qobject_cast<const JointHistogramPlot*>(&plot) != nullptr;
   if (in_plane && kind == TransferFactor::Kind::gaussian) {
     primitive.factors[1] = middle_factor(kind, {{}, {}, plot.y_axis().low, plot.y_axis().high, {}});
   }

@@ -9,7 +9,7 @@
 #include "core/atomic_file.h"
 #include "ui/transfer/histogram_plot.h"
 #include "ui/transfer/panel_scroll.h"
-#include "ui/transfer/plane_plot.h"
+#include "ui/transfer/joint_histogram_plot.h"
 #include "ui/transfer/preset_picker.h"
 #include "ui/transfer/primitive_page.h"
 
@@ -74,7 +74,7 @@ QWidget* TransferFunctionEditor::make_volume_tab() {
   column->addWidget(show_source_);
   histogram_ = new HistogramPlot;
   joint_ =
-      new PlanePlot(tr("Primitives by value and gradient magnitude, over how often both occur together"));
+      new JointHistogramPlot(tr("Primitives by value and gradient magnitude, over how often both occur together"));
   volume_page_ =
       new PrimitivePage(PrimitiveKind::source, 3, tr("No primitives: nothing of the volume shows."), tab);
   volume_page_->add_plot(tr("Value"), histogram_);
@@ -111,7 +111,7 @@ QWidget* TransferFunctionEditor::make_surface_tab() {
   auto* column = new QVBoxLayout(tab);
   column->setContentsMargins(6, 6, 6, 6);
   surface_plane_ =
-      new PlanePlot(tr("Primitives of the surface by intensity and distance from the clip plane"));
+      new JointHistogramPlot(tr("Primitives of the surface by intensity and distance from the clip plane"));
   surface_page_ = new PrimitivePage(PrimitiveKind::surface, 2,
                                     tr("No primitives: the whole surface has its plain colour."), tab);
   surface_page_->add_plot(tr("Intensity × distance"), surface_plane_);

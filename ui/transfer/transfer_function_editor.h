@@ -10,13 +10,13 @@
 #include <filesystem>
 #include <optional>
 
-#include "session/display.h"
-#include "session/source_summary.h"
+#include "engine/display.h"
+#include "engine/source_summary.h"
 
 namespace tidemark {
 
 class HistogramPlot;
-class PlanePlot;
+class JointHistogramPlot;
 class PresetPicker;
 class PrimitivePage;
 enum class PrimitiveKind;
@@ -75,8 +75,8 @@ class TransferFunctionEditor : public QWidget {
   QCheckBox* show_source_;
   QComboBox* region_;
   HistogramPlot* histogram_;
-  PlanePlot* joint_;
-  PlanePlot* surface_plane_;
+  JointHistogramPlot* joint_;
+  JointHistogramPlot* surface_plane_;
   PrimitivePage* volume_page_;
   PrimitivePage* surface_page_;
 };

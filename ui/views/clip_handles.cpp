@@ -62,7 +62,7 @@ class TiltDrag : public Drag {
         into_(screen.into()) {
     right_ = screen.ray_at({1.0, 0.0}).origin_mm - screen.ray_at({0.0, 0.0}).origin_mm;
     down_ = screen.ray_at({0.0, 1.0}).origin_mm - screen.ray_at({0.0, 0.0}).origin_mm;
-    pivot_mm_ = middle_of_cut(plane_, session().volume().geometry);
+    pivot_mm_ = middle_of_cut(plane_, proxy().volume().geometry);
   }
   void move(const Pointer& pointer) override {
     const QPointF way = pointer.position - from_;

@@ -16,7 +16,7 @@ class WindowDrag : public Drag {
  public:
   WindowDrag(DragView view, const Pointer& pressed)
       : Drag(std::move(view)), from_(pressed.position), window_(display().settings().window) {
-    const SourceSummary& summary = session().summary();
+    const SourceSummary& summary = proxy().summary();
     per_pixel_ = std::max<double>(summary.high - summary.low, 1e-6) / 400.0;
   }
 

@@ -9,7 +9,7 @@
 #include <memory>
 #include <optional>
 
-#include "session/case_session.h"
+#include "engine/case_proxy.h"
 
 namespace tidemark {
 
@@ -23,7 +23,7 @@ struct Pointer {
 
 // A view as drags see it.
 struct DragView {
-  CaseSession& session;
+  CaseProxy& proxy;
   QSizeF size;
   double mm_per_pixel = 1.0;
   std::function<QPointF(glm::dvec3)> position_of;  // of a point of the patient
@@ -43,9 +43,9 @@ class Drag {
   [[nodiscard]] virtual QString text() const { return {}; }  // beside the mouse: what it has found so far
 
  protected:
-  [[nodiscard]] CaseSession& session() const { return view_.session; }
+  [[nodiscard]] CaseProxy& proxy() const { return view_.proxy; }
   [[nodiscard]] const DragView& view() const { return view_; }
-  [[nodiscard]] Display& display() const { return view_.session.display(); }
+  [[nodiscard]] Display& display() const { return view_.proxy.display(); }
 
  private:
   DragView view_;

@@ -32,7 +32,7 @@ void SphereDrag::move(const Pointer& pointer) {
 }
 
 void SphereDrag::release() {
-  session().paint({centre_mm_, radius_mm_}, brush_, CaseSession::new_gesture());
+  proxy().paint({centre_mm_, radius_mm_}, brush_, CaseProxy::new_gesture());
 }
 
 QString SphereDrag::text() const {
@@ -42,14 +42,14 @@ QString SphereDrag::text() const {
 StrokeDrag::StrokeDrag(DragView view, const Pointer& pressed, Brush brush)
     : Drag(std::move(view)),
       brush_(brush),
-      gesture_(CaseSession::new_gesture()),
+      gesture_(CaseProxy::new_gesture()),
       radius_mm_(display().settings().brush_mm),
       last_mm_(*pressed.patient_mm) {
   dab(last_mm_);
 }
 
 void StrokeDrag::dab(glm::dvec3 at_mm) {
-  session().paint({at_mm, radius_mm_}, brush_, gesture_);
+  proxy().paint({at_mm, radius_mm_}, brush_, gesture_);
 }
 
 void StrokeDrag::move(const Pointer& pointer) {

@@ -8,8 +8,8 @@
 
 #include "core/geometry.h"
 #include "renderer/camera.h"
-#include "session/measurement.h"
-#include "session/study_loader.h"
+#include "engine/measurement.h"
+#include "engine/study_loader.h"
 #include "ui/views/view_geometry.h"
 
 namespace tidemark {

@@ -6,7 +6,7 @@
 #include <QPainter>
 #include <utility>
 
-#include "session/view_textures.h"
+#include "engine/view_textures.h"
 
 namespace tidemark {
 

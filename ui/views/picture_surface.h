@@ -6,7 +6,7 @@
 #include <QOpenGLWidget>
 #include <functional>
 
-#include "session/picture_feed.h"
+#include "engine/picture_feed.h"
 
 namespace tidemark {
 

@@ -42,12 +42,12 @@ Qt::CursorShape cursor_for(Tool tool) {
 
 }  // namespace
 
-PictureView::PictureView(CaseSession& session, QWidget* parent)
-    : QWidget(parent), session_(session), feed_(session) {
+PictureView::PictureView(CaseProxy& proxy, QWidget* parent)
+    : QWidget(parent), proxy_(proxy), feed_(proxy) {
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
-  if (session.engine().pictures() == Engine::Pictures::textures) {
+  if (proxy.engine().pictures() == Engine::Pictures::textures) {
     surface_ = new PictureSurface(
         feed_, [this](QPainter& painter) { paint_all(painter); }, this);
   }
@@ -82,7 +82,7 @@ QImage PictureView::grab_picture() {
 }
 
 DragView PictureView::drag_view() {
-  return {session_, QSizeF(size()), mm_per_pixel(), [this](glm::dvec3 point) { return position_of(point); }};
+  return {proxy_, QSizeF(size()), mm_per_pixel(), [this](glm::dvec3 point) { return position_of(point); }};
 }
 
 void PictureView::ask() {
@@ -132,11 +132,11 @@ void PictureView::paint_picture(QPainter& painter) {
     return;
   }
   painter.fillRect(rect(), QColor(18, 20, 24));
-  if (session_.engine().graphics() != Engine::Graphics::none) return;
+  if (proxy_.engine().graphics() != Engine::Graphics::none) return;
   paint_text(painter, QRectF(rect()).adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
              tr("Pictures need OpenGL 3.3:\n%1.\n\nSegmentation works all the same: figures and exports are "
                 "right.")
-                 .arg(QString::fromStdString(session_.engine().graphics_problem())));
+                 .arg(QString::fromStdString(proxy_.engine().graphics_problem())));
 }
 
 void PictureView::paint_study(QPainter& painter, const QString& note) const {
@@ -144,7 +144,7 @@ void PictureView::paint_study(QPainter& painter, const QString& note) const {
   const bool is_low = height() < kLines * fontMetrics().height();
   QStringList upper_right;
   if (settings().patient_text) {
-    const LoadedStudy& study = session_.study();
+    const LoadedStudy& study = proxy_.study();
     const QStringList patient = patient_lines(study.patient);
     paint_corner(painter, size(), Qt::AlignLeft | Qt::AlignTop, is_low ? patient.mid(0, 1) : patient);
     if (!is_low) upper_right = series_lines(study);

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "session/picture_feed.h"
+#include "engine/picture_feed.h"
 #include "ui/views/drag.h"
 
 namespace tidemark {
@@ -15,10 +15,10 @@ class PictureSurface;
 class PictureView : public QWidget {
   Q_OBJECT
  public:
-  explicit PictureView(CaseSession& session, QWidget* parent = nullptr);
+  explicit PictureView(CaseProxy& proxy, QWidget* parent = nullptr);
   ~PictureView() override;
 
-  [[nodiscard]] CaseSession& session() const { return session_; }
+  [[nodiscard]] CaseProxy& proxy() const { return proxy_; }
   [[nodiscard]] const PictureFeed& feed() const { return feed_; }
   [[nodiscard]] virtual QString title() const = 0;
   [[nodiscard]] PictureSize physical_size() const;
@@ -49,8 +49,8 @@ class PictureView : public QWidget {
   void activated();  // clicked, or given the keyboard
 
  protected:
-  [[nodiscard]] Display& display() const { return session_.display(); }
-  [[nodiscard]] const DisplaySettings& settings() const { return session_.display().settings(); }
+  [[nodiscard]] Display& display() const { return proxy_.display(); }
+  [[nodiscard]] const DisplaySettings& settings() const { return proxy_.display().settings(); }
   [[nodiscard]] DragView drag_view();
 
   [[nodiscard]] virtual AnyView wanted() const = 0;
@@ -91,7 +91,7 @@ class PictureView : public QWidget {
   void paint_picture(QPainter& painter);
   [[nodiscard]] Pointer pointer_at(const QMouseEvent& event) const;
 
-  CaseSession& session_;
+  CaseProxy& proxy_;
   PictureFeed feed_;
   PictureSurface* surface_ = nullptr;  // covers the whole view
   std::unique_ptr<Drag> drag_;

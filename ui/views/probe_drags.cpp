@@ -21,14 +21,14 @@ double reach_mm(const Geometry& geometry) {
 }  // namespace
 
 ProbeDrag::ProbeDrag(DragView view, const Pointer& pressed)
-    : Drag(std::move(view)), probe_(session().volume()), last_mm_(*pressed.patient_mm) {
-  probe_.add(last_mm_, last_mm_, reach_mm(session().volume().geometry));
+    : Drag(std::move(view)), probe_(proxy().volume()), last_mm_(*pressed.patient_mm) {
+  probe_.add(last_mm_, last_mm_, reach_mm(proxy().volume().geometry));
   way_mm_.push_back(last_mm_);
 }
 
 void ProbeDrag::move(const Pointer& pointer) {
   if (!pointer.patient_mm) return;
-  probe_.add(last_mm_, *pointer.patient_mm, reach_mm(session().volume().geometry));
+  probe_.add(last_mm_, *pointer.patient_mm, reach_mm(proxy().volume().geometry));
   last_mm_ = *pointer.patient_mm;
   way_mm_.push_back(last_mm_);
   if (probe_.count() >= kEnough) set();
@@ -41,12 +41,12 @@ void ProbeDrag::paint(QPainter& painter) const {
 }
 
 void SpeedProbeDrag::set() {
-  const SourceSummary& summary = session().summary();
+  const SourceSummary& summary = proxy().summary();
   const ValueProbe::Spread values = probe().values();
-  Parameters parameters = session().parameters();
+  Parameters parameters = proxy().parameters();
   parameters.target = values.mean;
   parameters.range = std::max(values.deviation, least_probed_range(summary.low, summary.high));
-  session().set_parameters(parameters, gesture_);
+  proxy().set_parameters(parameters, gesture_);
 }
 
 QString SpeedProbeDrag::text() const {
@@ -58,7 +58,7 @@ QString SpeedProbeDrag::text() const {
 }
 
 void TransferProbeDrag::set() {
-  const SourceSummary& summary = session().summary();
+  const SourceSummary& summary = proxy().summary();
   const ValueProbe::Spread values = probe().values();
   const ValueProbe::Spread gradients = probe().gradients();
   display().change([&](DisplaySettings& settings) {

@@ -1,7 +1,7 @@
 // Drags that set parameters from the values they go over (paper section 6.2).
 #pragma once
 
-#include "session/value_probe.h"
+#include "engine/value_probe.h"
 #include "ui/views/drag.h"
 
 namespace tidemark {
@@ -32,7 +32,7 @@ class SpeedProbeDrag : public ProbeDrag {
 
  private:
   void set() override;
-  std::uint64_t gesture_ = CaseSession::new_gesture();
+  std::uint64_t gesture_ = CaseProxy::new_gesture();
 };
 
 // Centre and width, in value and gradient, of the chosen primitive of the transfer function.

@@ -62,9 +62,9 @@ QString term_name(SpeedTerm term) {
 
 }  // namespace
 
-SliceViewWidget::SliceViewWidget(CaseSession& session, SlicePlane plane, SliceContent content,
+SliceViewWidget::SliceViewWidget(CaseProxy& proxy, SlicePlane plane, SliceContent content,
                                  QWidget* parent)
-    : PictureView(session, parent), plane_(plane), content_(content) {
+    : PictureView(proxy, parent), plane_(plane), content_(content) {
   setAccessibleName(title());
 }
 
@@ -111,7 +111,7 @@ SliceView SliceViewWidget::slice() const {
   view.orientation = orientation();
   view.position_mm = s.cursor_mm;
   view.zoom = s.slice_zoom;
-  const glm::dvec3 shift = s.slice_centre_mm - middle_of(session().volume().geometry);
+  const glm::dvec3 shift = s.slice_centre_mm - middle_of(proxy().volume().geometry);
   view.pan_mm = {glm::dot(shift, view.orientation.right), glm::dot(shift, view.orientation.up)};
   view.content = content_;
   view.term = s.speed_term;
@@ -124,7 +124,7 @@ SliceView SliceViewWidget::slice() const {
 }
 
 SliceScreen SliceViewWidget::screen() const {
-  return {slice(), QSizeF(size()), session().volume().geometry};
+  return {slice(), QSizeF(size()), proxy().volume().geometry};
 }
 
 QPointF SliceViewWidget::position_of(glm::dvec3 patient_mm) const {
@@ -136,7 +136,7 @@ std::optional<glm::dvec3> SliceViewWidget::patient_at(QPointF position) const {
 }
 
 SliceViewWidget::Place SliceViewWidget::place() const {
-  const Geometry& geometry = session().volume().geometry;
+  const Geometry& geometry = proxy().volume().geometry;
   const glm::dvec3 into = orientation().into();
   // Slices of an oblique view are as far apart as the voxels are along its normal.
   double extent_mm = 0.0;

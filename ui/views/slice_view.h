@@ -11,7 +11,7 @@ enum class SlicePlane { axial, coronal, sagittal, oblique };
 class SliceViewWidget : public PictureView {
   Q_OBJECT
  public:
-  SliceViewWidget(CaseSession& session, SlicePlane plane, SliceContent content, QWidget* parent = nullptr);
+  SliceViewWidget(CaseProxy& proxy, SlicePlane plane, SliceContent content, QWidget* parent = nullptr);
 
   [[nodiscard]] QString title() const override;
   [[nodiscard]] SlicePlane plane() const { return plane_; }

@@ -17,9 +17,9 @@ constexpr int kWidthForEvolution = 220;
 
 }  // namespace
 
-ViewBar::ViewBar(CaseSession& session, const QString& title, const QList<QAction*>& evolution,
+ViewBar::ViewBar(CaseProxy& proxy, const QString& title, const QList<QAction*>& evolution,
                  const QList<QAction*>& tools, QWidget* parent)
-    : QWidget(parent), session_(session), tools_(tools) {
+    : QWidget(parent), proxy_(proxy), tools_(tools) {
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(8, 1, 2, 1);
   layout->setSpacing(2);
@@ -50,8 +50,8 @@ ViewBar::ViewBar(CaseSession& session, const QString& title, const QList<QAction
   connect(add_button("duplicate", tr("Let the view float, or put it back")), &QToolButton::clicked, this,
           &ViewBar::float_wanted);
   connect(add_button("close", tr("Close the view")), &QToolButton::clicked, this, &ViewBar::close_wanted);
-  connect(&session_, &CaseSession::state_changed, this, &ViewBar::follow_state);
-  connect(&session_.display(), &Display::changed, this, &ViewBar::follow_tool);
+  connect(&proxy_, &CaseProxy::state_changed, this, &ViewBar::follow_state);
+  connect(&proxy_.display(), &Display::changed, this, &ViewBar::follow_tool);
   follow_state();
   follow_tool();
 }
@@ -79,7 +79,7 @@ QDoubleSpinBox* ViewBar::add_number(double Parameters::*parameter, const QString
   number->setAlignment(Qt::AlignRight);
   number->setFixedWidth(62);
   number->setKeyboardTracking(false);
-  const SourceSummary& summary = session_.summary();
+  const SourceSummary& summary = proxy_.summary();
   const double span = std::max<double>(summary.highest - summary.lowest, 1e-3);
   number->setRange(-1e7, 1e7);
   number->setDecimals(span > 100.0 ? 1 : 4);
@@ -98,19 +98,19 @@ void ViewBar::set_title(const QString& title) {
 
 // The other parameters keep all their digits, of which the bar shows a few.
 void ViewBar::change(double Parameters::*parameter, double value) {
-  Parameters parameters = session_.parameters();
+  Parameters parameters = proxy_.parameters();
   parameters.*parameter = value;
   parameters.range = std::max(parameters.range, kMinimumRange);
-  session_.set_parameters(parameters);
+  proxy_.set_parameters(parameters);
 }
 
 void ViewBar::follow_state() {
-  show_unless_typed(*target_, session_.parameters().target);
-  show_unless_typed(*range_, session_.parameters().range);
+  show_unless_typed(*target_, proxy_.parameters().target);
+  show_unless_typed(*range_, proxy_.parameters().range);
 }
 
 void ViewBar::follow_tool() {
-  const auto chosen = static_cast<qsizetype>(session_.display().settings().tool);
+  const auto chosen = static_cast<qsizetype>(proxy_.display().settings().tool);
   if (chosen >= tools_.size()) return;
   tool_->setIcon(tools_[chosen]->icon());
   tool_->setToolTip(tr("Tool: %1").arg(tools_[chosen]->toolTip()));

@@ -6,7 +6,7 @@
 #include <QToolButton>
 #include <QWidget>
 
-#include "session/case_session.h"
+#include "engine/case_proxy.h"
 
 namespace tidemark {
 
@@ -14,7 +14,7 @@ class ViewBar : public QWidget {
   Q_OBJECT
  public:
   // `evolution` and `tools`: the actions whose buttons stand here.
-  ViewBar(CaseSession& session, const QString& title, const QList<QAction*>& evolution,
+  ViewBar(CaseProxy& proxy, const QString& title, const QList<QAction*>& evolution,
           const QList<QAction*>& tools, QWidget* parent = nullptr);
 
   void set_title(const QString& title);
@@ -37,7 +37,7 @@ class ViewBar : public QWidget {
   void follow_tool();
   void change(double Parameters::*parameter, double value);
 
-  CaseSession& session_;
+  CaseProxy& proxy_;
   QLabel* title_;
   QToolButton* tool_;
   QList<QAction*> tools_;

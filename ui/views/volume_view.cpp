@@ -44,7 +44,7 @@ class CameraPanDrag : public Drag {
   void move(const Pointer& pointer) override {
     const QPointF way = (pointer.position - from_) * view().mm_per_pixel;
     Camera camera = camera_;
-    camera.focus_mm = camera_.focus_mm.value_or(middle_of(session().volume().geometry)) -
+    camera.focus_mm = camera_.focus_mm.value_or(middle_of(proxy().volume().geometry)) -
                       camera_.right() * way.x() + camera_.up() * way.y();
     display().change([&](DisplaySettings& settings) { settings.camera = camera; });
   }
@@ -72,7 +72,7 @@ class CameraZoomDrag : public Drag {
 
 }  // namespace
 
-VolumeViewWidget::VolumeViewWidget(CaseSession& session, QWidget* parent) : PictureView(session, parent) {
+VolumeViewWidget::VolumeViewWidget(CaseProxy& proxy, QWidget* parent) : PictureView(proxy, parent) {
   setAccessibleName(title());
 }
 
@@ -96,11 +96,11 @@ VolumeView VolumeViewWidget::view() const {
 }
 
 VolumeScreen VolumeViewWidget::screen() const {
-  return {settings().camera, QSizeF(size()), session().volume().geometry};
+  return {settings().camera, QSizeF(size()), proxy().volume().geometry};
 }
 
 ClipHandles VolumeViewWidget::handles() const {
-  return {settings().clip, screen(), session().volume().geometry};
+  return {settings().clip, screen(), proxy().volume().geometry};
 }
 
 std::optional<glm::dvec3> VolumeViewWidget::patient_at(QPointF position) const {
@@ -111,7 +111,7 @@ std::optional<glm::dvec3> VolumeViewWidget::patient_at(QPointF position) const {
   }
   if (!settings().clip_on) return std::nullopt;
   const auto point = screen().on_plane(position, settings().clip.normal, settings().clip.offset_mm);
-  if (!point || !ClipHandles::is_in_box(*point, session().volume().geometry)) return std::nullopt;
+  if (!point || !ClipHandles::is_in_box(*point, proxy().volume().geometry)) return std::nullopt;
   return point;
 }
 
@@ -146,7 +146,7 @@ void VolumeViewWidget::pick_and_begin(const Pointer& pressed) {
     there.patient_mm = hit->patient_mm;
     self->set_drag(self->PictureView::begin_drag(there));
   };
-  session().pick(view(), physical_size(), pixel, answer);
+  proxy().pick(view(), physical_size(), pixel, answer);
 }
 
 void VolumeViewWidget::mouseMoveEvent(QMouseEvent* event) {
@@ -171,7 +171,7 @@ std::unique_ptr<Drag> VolumeViewWidget::navigation_drag(const Pointer& pressed) 
 // Through the slices of the clip plane; nearer and farther without one.
 void VolumeViewWidget::scroll(int clicks) {
   if (!settings().clip_on) return zoom(std::pow(1.1, clicks), rect().center());
-  const glm::dvec3 spacing = session().volume().geometry.spacing_mm;
+  const glm::dvec3 spacing = proxy().volume().geometry.spacing_mm;
   const double stride_mm = std::min({spacing.x, spacing.y, spacing.z});
   display().change([&](DisplaySettings& settings) { settings.clip.offset_mm += clicks * stride_mm; });
 }
@@ -193,7 +193,7 @@ void VolumeViewWidget::keyPressEvent(QKeyEvent* event) {
         const glm::dvec3 n = settings.clip.normal;
         const glm::dvec3 turned = n * std::cos(angle) + glm::cross(axis, n) * std::sin(angle) +
                                   axis * (glm::dot(axis, n) * (1.0 - std::cos(angle)));
-        const glm::dvec3 middle = middle_of(session().volume().geometry);
+        const glm::dvec3 middle = middle_of(proxy().volume().geometry);
         const glm::dvec3 pivot = middle + n * (settings.clip.offset_mm - glm::dot(middle, n));
         settings.clip.normal = glm::normalize(turned);
         settings.clip.offset_mm = glm::dot(pivot, settings.clip.normal);
@@ -223,8 +223,8 @@ void VolumeViewWidget::paint_overlay(QPainter& painter) {
   paint_orientation(painter, size(), camera.right(), camera.up());
   paint_scale_bar(painter, size(), mm_per_pixel());
   paint_study(painter);
-  const bool draws = session().engine().graphics() != Engine::Graphics::none;
-  if (draws && !session().state().begun && !settings().show_source && !settings().clip_on) {
+  const bool draws = proxy().engine().graphics() != Engine::Graphics::none;
+  if (draws && !proxy().state().begun && !settings().show_source && !settings().clip_on) {
     paint_text(painter, QRectF(rect()).adjusted(40, 40, -40, -40), Qt::AlignCenter | Qt::TextWordWrap,
                tr("No surface yet: draw a sphere in a slice, or choose another start."));
   }

@@ -9,7 +9,7 @@ namespace tidemark {
 class VolumeViewWidget : public PictureView {
   Q_OBJECT
  public:
-  explicit VolumeViewWidget(CaseSession& session, QWidget* parent = nullptr);
+  explicit VolumeViewWidget(CaseProxy& proxy, QWidget* parent = nullptr);
 
   [[nodiscard]] QString title() const override { return tr("3D"); }
   [[nodiscard]] QPointF position_of(glm::dvec3 patient_mm) const override {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "session/case_session.h"
+#include "engine/case_proxy.h"
 #include "ui/look/theme.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/typed_number.h"
@@ -116,7 +116,7 @@ void SliderNumber::number_changed(double value) {
 }
 
 void SliderNumber::begin_gesture() {
-  gesture_ = CaseSession::new_gesture();
+  gesture_ = CaseProxy::new_gesture();
 }
 
 void SliderNumber::announce() {

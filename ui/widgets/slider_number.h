@@ -34,7 +34,7 @@ class SliderNumber : public QWidget {
   [[nodiscard]] QDoubleSpinBox* number() const { return number_; }
 
  signals:
-  // By the user. One drag of the slider is one gesture (CaseSession::new_gesture()), and so are keys that
+  // By the user. One drag of the slider is one gesture (CaseProxy::new_gesture()), and so are keys that
   // follow each other quickly.
   void edited(double value, std::uint64_t gesture);
 

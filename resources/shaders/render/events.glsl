@@ -1,5 +1,5 @@
 // What happens to a ray on its way, whichever mode draws it: it meets the surface or the clip plane's picture, and the
-// clip plane hides a part of it. Needs solver/phi.glsl, render/shade.glsl and render/ray.glsl; with TAUGHT also
+// clip plane hides a part of it. Needs solver/phi.glsl, render/shade.glsl and render/ray.glsl; with SPEED_COLOURS also
 // render/page_state.glsl and render/speed_terms.glsl.
 
 uniform float pixel_mm;
@@ -53,7 +53,7 @@ float openness(vec3 p, vec3 outward) {
   return 1.0 - occlusion * hidden;
 }
 
-#ifdef TAUGHT
+#ifdef SPEED_COLOURS
 vec3 taught_colour(vec3 p) {
   ivec3 voxel = clamp(ivec3(floor(p + 0.5)), ivec3(0), volume_size - 1);
   if (colouring == kActivity) return page_colour(page_state(voxel / kPageShape));
@@ -65,7 +65,7 @@ vec3 taught_colour(vec3 p) {
 // `rise`: d phi / d voxel there.
 void add_surface(vec3 p, vec3 rise) {
   vec4 material = material_of_surface(p);
-#ifdef TAUGHT
+#ifdef SPEED_COLOURS
   material.rgb = taught_colour(p);
 #endif
   vec3 slope = rise / spacing;

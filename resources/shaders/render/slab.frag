@@ -6,7 +6,7 @@
 #include "render/shade.glsl"
 #include "render/page_state.glsl"
 #include "render/ray.glsl"
-#ifdef TAUGHT
+#ifdef SPEED_COLOURS
 #include "render/speed_terms.glsl"
 #endif
 #include "render/events.glsl"

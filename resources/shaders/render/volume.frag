@@ -2,7 +2,7 @@
 // resident pages; pages in which neither surface nor source shows anything are crossed in one stride.
 //
 // Variants: SURFACE and SOURCE show them; REGION where phi says which part of the source shows; CLIP with a clip
-// plane; TAUGHT where a term of the speed colours the surface; OCCLUSION darkens its hollows; PICK says where a ray
+// plane; SPEED_COLOURS where a term of the speed colours the surface; OCCLUSION darkens its hollows; PICK says where a ray
 // first meets something instead of a colour; FAST_GRADIENT lights the source less well; NO_SKIP computes what is empty,
 // too.
 //
@@ -14,7 +14,7 @@
 #include "render/shade.glsl"
 #include "render/page_state.glsl"
 #include "render/ray.glsl"
-#ifdef TAUGHT
+#ifdef SPEED_COLOURS
 #include "render/speed_terms.glsl"
 #endif
 #include "render/events.glsl"

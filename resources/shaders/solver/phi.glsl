@@ -1,4 +1,4 @@
-// phi at any voxel and between voxels, straight from the packed pages. BOTH_SIDES_COMPUTED: the driver computes both sides
+// phi at any voxel and between voxels, straight from the packed pages. SOFTWARE_RASTERISER: the driver computes both sides
 // of every branch (a processor that plays the GPU).
 
 #include "solver/paging.glsl"
@@ -31,7 +31,7 @@ float phi_between(vec3 position) {
   vec3 f = p - vec3(low);
   const ivec2 u = ivec2(1, 0);
   vec4 below, above;  // the corners (0,0), (1,0), (0,1), (1,1) along x and y
-#ifndef BOTH_SIDES_COMPUTED
+#ifndef SOFTWARE_RASTERISER
   ivec3 page = low / kPageShape;
   ivec3 local = low - page * kPageShape;
   if (all(lessThan(local + 1, kPageShape))) {

@@ -13,7 +13,7 @@
 #include "imaging/archive/private_folder.h"
 #include "imaging/archive/study_archive.h"
 #include "imaging/files/volume_file.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
@@ -48,7 +48,7 @@ void write_archive(const fs::path& file, const std::vector<Entry>& entries, cons
 }
 
 // The files of a series, in a folder of the archive.
-std::vector<Entry> entries_of(const Volume& volume, const std::string& within = "study/series/") {
+std::vector<Entry> entries_of(const Volume& volume, const std::string& within = "document/series/") {
   const test::TemporaryFolder folder;
   std::vector<Entry> entries;
   for (const fs::path& file : test::write_series(volume, folder / "series")) {
@@ -109,7 +109,7 @@ class StudyArchiveTest : public QObject {
   void an_archive_opens_like_a_folder() {
     const test::TemporaryFolder folder;
     std::vector<Entry> entries = entries_of(sample_);
-    entries.push_back({"study/readme.txt", "hello"});
+    entries.push_back({"document/readme.txt", "hello"});
     QVERIFY(write_volume_file(sample_, folder / "a.nii.gz"));
     entries.push_back({"a.nii.gz", contents(folder / "a.nii.gz")});
     entries.push_back({"more.ZIP", "PK"});

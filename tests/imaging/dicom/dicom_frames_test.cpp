@@ -7,7 +7,7 @@
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/header_reader.h"
 #include "imaging/dicom/pixels.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "tests/imaging/dicom/enhanced_files.h"
 #include "tests/imaging/dicom/recode.h"
 #include "tests/imaging/dicom/series_files.h"

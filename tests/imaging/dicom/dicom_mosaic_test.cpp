@@ -8,7 +8,7 @@
 #include "imaging/dicom/csa_header.h"
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/dicom_values.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "tests/imaging/dicom/frame_bytes.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"

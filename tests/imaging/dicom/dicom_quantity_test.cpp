@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "imaging/dicom/dicom.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "tests/imaging/dicom/enhanced_files.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"

@@ -11,7 +11,7 @@
 
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/pixels.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 

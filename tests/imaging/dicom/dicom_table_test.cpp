@@ -10,7 +10,7 @@
 #include <set>
 
 #include "imaging/dicom/transfer_syntaxes.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "tests/imaging/dicom/nifti_peer.h"
 #include "tests/imaging/dicom/study_truth.h"
 #include "tests/support/support.h"

@@ -2,7 +2,7 @@
 #include <QElapsedTimer>
 #include <cctype>
 
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "tests/imaging/dicom/bad_dicom.h"
 #include "tests/imaging/dicom/directory_bytes.h"
 #include "tests/imaging/dicom/series_files.h"

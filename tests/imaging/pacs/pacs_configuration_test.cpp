@@ -3,7 +3,7 @@
 #include <QTest>
 
 #include "imaging/pacs/configuration.h"
-#include "imaging/pacs/pacs.h"
+#include "imaging/pacs/services.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 

@@ -4,7 +4,7 @@
 #include <QTest>
 #include <random>
 
-#include "imaging/pacs/pacs.h"
+#include "imaging/pacs/services.h"
 #include "tests/imaging/pacs/archives.h"
 #include "tests/imaging/pacs/scripted_peer.h"
 #include "tests/imaging/pacs/wire.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "tests/imaging/results/sample_results.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"

@@ -61,12 +61,12 @@ void ActiveCaseTest::init() {
   cases_ = {desktop_->open_phantom("sphere"), desktop_->open_phantom("tumour")};
   desktop_->window().actions().tile->trigger();
   for (CaseWindow* window : cases_) {
-    const auto& seed = *window->session().study().start->seed;
+    const auto& seed = *window->proxy().study().start->seed;
     Start start;
-    start.seeds.push_back({window->session().volume().geometry.to_patient({seed[0], seed[1], seed[2]}), 8.0});
-    window->session().begin(start);
+    start.seeds.push_back({window->proxy().volume().geometry.to_patient({seed[0], seed[1], seed[2]}), 8.0});
+    window->proxy().begin(start);
   }
-  desktop_->settle();
+  desktop_->wait_until_idle();
 }
 
 void ActiveCaseTest::orders() {
@@ -194,11 +194,11 @@ void ActiveCaseTest::a_label_goes_to_the_case_whose_panel_was_used() {
       if (button->text() == "Add") add = button;
     }
     QVERIFY(add && add->isVisible());
-    const auto labels = [&](int of) { return cases_[of]->session().state().labels.size(); };
+    const auto labels = [&](int of) { return cases_[of]->proxy().state().labels.size(); };
     const std::size_t mine = labels(which);
     const std::size_t others = labels(1 - which);
     click(*add);
-    desktop_->settle();
+    desktop_->wait_until_idle();
     QCOMPARE(labels(which), mine + 1);
     QCOMPARE(labels(1 - which), others);
   }
@@ -209,7 +209,7 @@ void ActiveCaseTest::a_panel_that_is_closed_keeps_the_case() {
   QDockWidget* dock = choose("Level set");
   click(*number("Target T"));
   dock->close();
-  desktop_->settle();
+  desktop_->wait_until_idle();
   QCOMPARE(active(), cases_[0]);
   // The last one, too, after which only views can have the keyboard.
   for (const QString& title : titles()) {
@@ -219,7 +219,7 @@ void ActiveCaseTest::a_panel_that_is_closed_keeps_the_case() {
         if (inside->isVisible() && (inside->focusPolicy() & Qt::TabFocus)) inside->setFocus();
       }
       other->close();
-      desktop_->settle();
+      desktop_->wait_until_idle();
       QVERIFY2(active() == cases_[0], qPrintable(title));
     }
   }
@@ -233,7 +233,7 @@ void ActiveCaseTest::a_control_that_becomes_grey_keeps_the_case() {
   click(*target);
   QVERIFY(target->hasFocus());
   target->setEnabled(false);
-  desktop_->settle();
+  desktop_->wait_until_idle();
   QCOMPARE(active(), cases_[0]);
   target->setEnabled(true);
 }
@@ -243,10 +243,10 @@ void ActiveCaseTest::hiding_all_panels_keeps_the_case() {
   choose("Level set");
   click(*number("Target T"));
   desktop_->press(Qt::Key_F3);
-  desktop_->settle();
+  desktop_->wait_until_idle();
   QCOMPARE(active(), cases_[0]);
   desktop_->press(Qt::Key_F3);
-  desktop_->settle();
+  desktop_->wait_until_idle();
   QCOMPARE(active(), cases_[0]);
 }
 
@@ -263,18 +263,18 @@ void ActiveCaseTest::popups_and_dialogs_of_panels_keep_the_case() {
   for (const Qt::Key end : {Qt::Key_Escape, Qt::Key_Return}) {
     box->setFocus(Qt::MouseFocusReason);
     box->showPopup();
-    desktop_->settle();
+    desktop_->wait_until_idle();
     QVERIFY(box->view()->isVisible());
     QTest::keyClick(box->view(), end);
-    desktop_->settle();
+    desktop_->wait_until_idle();
     QVERIFY(!box->view()->isVisible());
     QCOMPARE(active(), cases_[0]);
   }
   // A dialog that a panel opens, without and with the other panel in front when it closes.
   QVERIFY(choose("Labels"));
   auto* table = desktop_->window().findChild<LabelsPanel*>()->findChild<QTableView*>();
-  cases_[0]->session().add_label("A");
-  desktop_->settle();
+  cases_[0]->proxy().add_label("A");
+  desktop_->wait_until_idle();
   constexpr int kColour = 2;
   for (int turn = 0; turn < 2; ++turn) {
     QTest::mouseClick(table->viewport(), Qt::LeftButton, {},
@@ -291,7 +291,7 @@ void ActiveCaseTest::popups_and_dialogs_of_panels_keep_the_case() {
     if (turn == 1) desktop_->window().panels().show("paint");
     QTest::keyClick(dialog, Qt::Key_Escape);
     QVERIFY(QTest::qWaitForWindowActive(&desktop_->window()));
-    desktop_->settle();
+    desktop_->wait_until_idle();
     QCOMPARE(active(), cases_[0]);
   }
 }
@@ -313,7 +313,7 @@ void ActiveCaseTest::keys_of_panels_keep_the_case() {
       }
       if (!inside->isVisible()) break;
     }
-    desktop_->settle();
+    desktop_->wait_until_idle();
     QCOMPARE(active(), cases_[0]);
   }
 }
@@ -328,12 +328,12 @@ void ActiveCaseTest::what_is_done_to_a_case_window_changes_the_case() {
   auto* child = qobject_cast<QMdiSubWindow*>(cases_[0]->parentWidget());
   QVERIFY(child);
   QTest::mouseClick(child, Qt::LeftButton, {}, QPoint(child->width() / 2, 8));
-  desktop_->settle();
+  desktop_->wait_until_idle();
   QCOMPARE(active(), cases_[0]);
   // Qt's key for the next window.
   QTest::keyClick(cases_[0]->views().first(), Qt::Key_Tab, Qt::ControlModifier);
   QTest::keyRelease(cases_[0]->views().first(), Qt::Key_Control);
-  desktop_->settle();
+  desktop_->wait_until_idle();
   QCOMPARE(active(), cases_[1]);
   // Tabs.
   desktop_->window().actions().tabs->setChecked(true);
@@ -353,19 +353,19 @@ void ActiveCaseTest::a_case_that_closes_hands_over_to_the_other() {
   const QPointer<CaseWindow> closed = cases_[0];
   closed->close_saved();
   QVERIFY(Desktop::wait_for([&] { return closed.isNull(); }));
-  desktop_->settle();
+  desktop_->wait_until_idle();
   QCOMPARE(active(), cases_[1]);
   QVERIFY(number("Target T")->isVisible());
   // One that is not active closes without changing anything.
   CaseWindow* third = desktop_->open_phantom("sphere");
   desktop_->window().actions().tile->trigger();
-  desktop_->settle();
+  desktop_->wait_until_idle();
   QCOMPARE(active(), third);
   choose("Level set");
   click(*number("Target T"));
   cases_[1]->close_saved();
   QVERIFY(Desktop::wait_for([&] { return desktop_->window().cases().size() == 1; }));
-  desktop_->settle();
+  desktop_->wait_until_idle();
   QCOMPARE(active(), third);
 }
 

@@ -28,9 +28,9 @@ QList<CaseWindow*> CaseMarksStoryTest::open_two(Desktop& desktop, const QString&
                                                 const QString& second) {
   QList<CaseWindow*> cases{desktop.open_phantom(first), desktop.open_phantom(second)};
   desktop.window().actions().tile->trigger();
-  desktop.settle();
+  desktop.wait_until_idle();
   click(*cases[0]);
-  desktop.settle();
+  desktop.wait_until_idle();
   return cases;
 }
 
@@ -47,10 +47,10 @@ void CaseMarksStoryTest::panels_say_whose_case_they_act_on() {
   QVERIFY(case_colour(cases[0]->number()) != case_colour(cases[1]->number()));
   for (const int turn : {0, 1, 0}) {
     click(*cases[turn]);
-    desktop.settle();
+    desktop.wait_until_idle();
     auto* own = cases[turn]->findChild<CaseHead*>();
     QVERIFY(own && own->isVisible());
-    QVERIFY2(own->text().contains(cases[turn]->session().name()), qPrintable(own->text()));
+    QVERIFY2(own->text().contains(cases[turn]->proxy().name()), qPrintable(own->text()));
     int shown = 0;
     for (auto* head : desktop.window().findChildren<CaseHead*>()) {
       if (cases[0]->isAncestorOf(head) || cases[1]->isAncestorOf(head)) continue;
@@ -78,11 +78,11 @@ void CaseMarksStoryTest::linked_cases_show_it_and_links_end_with_them() {
 
   // Another one is not linked until the user says so.
   CaseWindow* third = desktop.open_phantom("tumour");
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(!third->linked() && !linked());
-  const WindowLevel before = third->session().display().settings().window;
-  cases[0]->session().display().change([](DisplaySettings& s) { s.window.centre += 55.0; });
-  QVERIFY(third->session().display().settings().window == before);
+  const WindowLevel before = third->proxy().display().settings().window;
+  cases[0]->proxy().display().change([](DisplaySettings& s) { s.window.centre += 55.0; });
+  QVERIFY(third->proxy().display().settings().window == before);
 
   // What remains of a pair is free.
   for (CaseWindow* window : {cases[0], third}) {
@@ -90,27 +90,27 @@ void CaseMarksStoryTest::linked_cases_show_it_and_links_end_with_them() {
     window->close_saved();
     QVERIFY(Desktop::wait_for([&] { return closed.isNull(); }));
   }
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(!cases[1]->linked() && !linked());
   CaseWindow* next = desktop.open_phantom("tumour");
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(!next->linked() && !linked());
-  next->session().display().change([](DisplaySettings& s) { s.camera.azimuth = 12.0; });
-  QVERIFY(cases[1]->session().display().settings().camera.azimuth != 12.0);
+  next->proxy().display().change([](DisplaySettings& s) { s.camera.azimuth = 12.0; });
+  QVERIFY(cases[1]->proxy().display().settings().camera.azimuth != 12.0);
 }
 
 void CaseMarksStoryTest::linked_cases_of_two_modalities_keep_their_windows() {
   Desktop desktop(story_executor(), {1300, 800});
   const auto cases = open_two(desktop, "tumour", "organ");
-  QVERIFY(cases[0]->session().volume().modality != cases[1]->session().volume().modality);
-  const WindowLevel of_other = cases[1]->session().display().settings().window;
+  QVERIFY(cases[0]->proxy().volume().modality != cases[1]->proxy().volume().modality);
+  const WindowLevel of_other = cases[1]->proxy().display().settings().window;
   desktop.press(Qt::Key_L);
-  cases[0]->session().display().change([](DisplaySettings& s) {
+  cases[0]->proxy().display().change([](DisplaySettings& s) {
     s.window.centre += 77.0;
     s.camera.azimuth = 12.0;
   });
-  QVERIFY(cases[1]->session().display().settings().window == of_other);
-  QCOMPARE(cases[1]->session().display().settings().camera.azimuth, 12.0);
+  QVERIFY(cases[1]->proxy().display().settings().window == of_other);
+  QCOMPARE(cases[1]->proxy().display().settings().camera.azimuth, 12.0);
 }
 
 }  // namespace tidemark::test

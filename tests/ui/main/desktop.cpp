@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "session/case_runner.h"
+#include "engine/case_runner.h"
 #include "ui/look/theme.h"
 
 namespace tidemark::test {
@@ -111,7 +111,7 @@ CaseWindow* Desktop::opened(qsizetype before) {
   wait_for(
       [&] { return window_->cases().size() > before && window_->active_case() == window_->cases().back(); },
       60000);
-  settle();
+  wait_until_idle();
   return window_->active_case();
 }
 
@@ -174,18 +174,18 @@ void Desktop::press(Qt::Key key, Qt::KeyboardModifiers modifiers) {
 }
 
 glm::dvec3 Desktop::seed_mm() {
-  const auto& seed = *session().study().start->seed;
-  return session().volume().geometry.to_patient({seed[0], seed[1], seed[2]});
+  const auto& seed = *proxy().study().start->seed;
+  return proxy().volume().geometry.to_patient({seed[0], seed[1], seed[2]});
 }
 
 void Desktop::begin(double radius_mm) {
   Start start;
   start.seeds.push_back({seed_mm(), radius_mm});
-  session().begin(start);
-  settle();
+  proxy().begin(start);
+  wait_until_idle();
 }
 
-void Desktop::settle() {
+void Desktop::wait_until_idle() {
   // Pictures and figures ask for each other: twice nothing to do means that all is done.
   for (int quiet = 0; quiet < 2; ++quiet) {
     QTest::qWait(20);
@@ -194,13 +194,13 @@ void Desktop::settle() {
   }
 }
 
-PhiTraffic Desktop::phi_traffic(CaseSession& session) {
+PhiTraffic Desktop::phi_traffic(CaseProxy& proxy) {
   PhiTraffic traffic;
-  session.runner()->post([&](CaseRunner& runner, const Progress&) -> Status {
+  proxy.runner()->post([&](CaseRunner& runner, const Progress&) -> Status {
     traffic = {runner.painter().phi_copies(), runner.painter().pages_uploaded()};
     return {};
   });
-  settle();
+  wait_until_idle();
   return traffic;
 }
 
@@ -210,7 +210,7 @@ bool Desktop::wait_for(const std::function<bool()>& condition, int milliseconds)
 
 void Desktop::screenshot(const QString& name) {
   if (qEnvironmentVariableIsEmpty("TIDEMARK_SCREENSHOTS")) return;
-  settle();
+  wait_until_idle();
   screenshot_at_once(name);
 }
 

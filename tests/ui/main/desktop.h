@@ -9,7 +9,7 @@
 #include <functional>
 #include <memory>
 
-#include "session/engine.h"
+#include "engine/engine.h"
 #include "tests/support/support.h"
 #include "ui/main/main_window.h"
 #include "ui/views/picture_view.h"
@@ -60,8 +60,8 @@ class Desktop {
 
   [[nodiscard]] MainWindow& window() { return *window_; }
   [[nodiscard]] Engine& engine() { return *engine_; }
-  [[nodiscard]] CaseSession& session() { return window_->active_case()->session(); }
-  [[nodiscard]] const CaseState& state() { return session().state(); }
+  [[nodiscard]] CaseProxy& proxy() { return window_->active_case()->proxy(); }
+  [[nodiscard]] const CaseState& state() { return proxy().state(); }
 
   // Opens and waits until the first pictures are there.
   CaseWindow* open_phantom(const QString& kind);
@@ -94,8 +94,8 @@ class Desktop {
   // Does something as the user interface would: within an event, which WatchedApplication sees.
   static void in_an_event(const std::function<void()>& something);
   // Until the engine has done everything, and the user interface has seen it.
-  void settle();
-  PhiTraffic phi_traffic(CaseSession& session);
+  void wait_until_idle();
+  PhiTraffic phi_traffic(CaseProxy& proxy);
   static bool wait_for(const std::function<bool()>& condition, int milliseconds = 20000);
   // Where TIDEMARK_SCREENSHOTS says, if it does: of the window once it has settled, or as it is, with the
   // dialog that is open.

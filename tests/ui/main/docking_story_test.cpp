@@ -45,7 +45,7 @@ void DockingStoryTest::fifty_moves_change_no_picture_and_cost_no_context() {
   desktop.begin(10.0);
   CaseWindow& window = *desktop.window().active_case();
   window.set_layout(ViewLayout::paper);
-  desktop.settle();
+  desktop.wait_until_idle();
   const QList<QImage> before = pictures(window);
   const QList<PictureView*> views = window.views();
   QCOMPARE(views.size(), 3);
@@ -61,7 +61,7 @@ void DockingStoryTest::fifty_moves_change_no_picture_and_cost_no_context() {
     QTest::qWait(10);
     QVERIFY(dock->isWindow());
     if (round % 10 == 0) {
-      desktop.settle();
+      desktop.wait_until_idle();
       QVERIFY(shows_a_picture(*view));
     }
     dock->setFloating(false);
@@ -73,7 +73,7 @@ void DockingStoryTest::fifty_moves_change_no_picture_and_cost_no_context() {
     QTest::qWait(5);
     child->showMaximized();
     if (round % 10 == 9) {
-      desktop.settle();
+      desktop.wait_until_idle();
       for (const PictureView* each : views) {
         QVERIFY2(shows_a_picture(*each), qPrintable(QString("%1: %2, %3 x %4")
                                                         .arg(round)
@@ -84,7 +84,7 @@ void DockingStoryTest::fifty_moves_change_no_picture_and_cost_no_context() {
     }
   }
   window.set_layout(ViewLayout::paper);
-  desktop.settle();
+  desktop.wait_until_idle();
   QCOMPARE(window.views(), views);
   const QList<QImage> after = pictures(window);
   for (qsizetype index = 0; index < before.size(); ++index) {
@@ -105,7 +105,7 @@ void DockingStoryTest::every_layout_shows_its_views() {
   QCOMPARE(layouts.size(), views.size());
   for (const int layout : {0, 1, 2, 3, 1, 0, 3, 2}) {
     desktop.press(static_cast<Qt::Key>(Qt::Key_1 + layout), Qt::ControlModifier);
-    desktop.settle();
+    desktop.wait_until_idle();
     QCOMPARE(static_cast<int>(window.view_layout()), layout);
     QCOMPARE(visible(window).size(), views[layout]);
     for (const PictureView* view : visible(window)) {
@@ -121,17 +121,17 @@ void DockingStoryTest::a_view_is_maximised_by_a_double_click_and_back() {
   desktop.begin(10.0);
   CaseWindow& window = *desktop.window().active_case();
   window.set_layout(ViewLayout::two_two);
-  desktop.settle();
+  desktop.wait_until_idle();
   for (PictureView* view : visible(window)) {
     const QSize small = view->size();
     const QImage before = view->grab_picture();
     QTest::mouseDClick(view, Qt::LeftButton, {}, view->rect().center() + QPoint(30, 30));
-    desktop.settle();
+    desktop.wait_until_idle();
     QCOMPARE(visible(window).size(), 1);
     QVERIFY(view->width() > small.width() + 100 && view->height() > small.height() + 100);
     QVERIFY(shows_a_picture(*view));
     QTest::mouseDClick(view, Qt::LeftButton, {}, view->rect().center() + QPoint(30, 30));
-    desktop.settle();
+    desktop.wait_until_idle();
     QCOMPARE(visible(window).size(), 4);
     QCOMPARE(view->size(), small);
     QVERIFY(difference(view->grab_picture(), before) < 0.005);
@@ -144,30 +144,30 @@ void DockingStoryTest::a_closed_view_comes_back() {
   desktop.begin(10.0);
   CaseWindow& window = *desktop.window().active_case();
   window.set_layout(ViewLayout::paper);
-  desktop.settle();
+  desktop.wait_until_idle();
   for (const ViewKind kind : {ViewKind::volume, ViewKind::axial, ViewKind::speed}) {
     const qsizetype views = window.views().size();
     PictureView* view = window.add_view(kind);  // beside the first of its kind
-    desktop.settle();
+    desktop.wait_until_idle();
     QCOMPARE(window.views().size(), views + 1);
     window.dock_of(view)->close();
-    desktop.settle();
+    desktop.wait_until_idle();
     QVERIFY(!view->isVisible());
     // What happens meanwhile is seen when it is back.
-    desktop.session().step(5);
-    desktop.settle();
+    desktop.proxy().step(5);
+    desktop.wait_until_idle();
     QCOMPARE(window.add_view(kind), view);
-    desktop.settle();
+    desktop.wait_until_idle();
     QVERIFY(view->isVisible());
     QVERIFY(shows_a_picture(*view));
     QCOMPARE(view->feed().shown().step, desktop.state().step);
   }
   // Nothing is shown when all are closed, and nothing breaks.
   for (PictureView* view : window.views()) window.dock_of(view)->close();
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(!window.active_view());
   QVERIFY(window.add_view(ViewKind::volume));
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(window.active_view());
   QVERIFY(shows_a_picture(*window.active_view()));
 }
@@ -178,11 +178,11 @@ void DockingStoryTest::a_panel_rests_behind_a_tab_and_keeps_its_size() {
   MainWindow& window = desktop.window();
   auto* start = window.findChild<QDockWidget*>("initialise");
   auto* level_set = window.findChild<QDockWidget*>("level-set");
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(start->widget()->isVisible());
   QVERIFY(!level_set->widget()->isVisible());
   window.resizeDocks({start}, {460}, Qt::Horizontal);
-  desktop.settle();
+  desktop.wait_until_idle();
   const int width = start->width();  // with the tabs beside it, as much as that
   QVERIFY2(width > 400, qPrintable(QString::number(width)));
   window.panels().show("level-set");
@@ -201,7 +201,7 @@ void DockingStoryTest::a_panel_rests_behind_a_tab_and_keeps_its_size() {
     QVERIFY(Desktop::wait_for([&] { return level_set->widget()->isVisible() == !hidden; }));
     QCOMPARE(start->widget()->isVisible(), !hidden);
   }
-  desktop.settle();
+  desktop.wait_until_idle();
   QCOMPARE(level_set->size(), QSize(400, 700));
 }
 

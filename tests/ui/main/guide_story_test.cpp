@@ -43,23 +43,23 @@ void GuideStoryTest::the_first_minute_leads_to_a_tumour() {
   desktop.screenshot("minute-1-start");
   QVERIFY(click(desktop, "phantom_tumour"));
   QVERIFY(Desktop::wait_for([&] { return desktop.window().active_case() != nullptr; }, 60000));
-  desktop.settle();
+  desktop.wait_until_idle();
   desktop.screenshot("minute-2-opened");
   QVERIFY(!desktop.state().begun);
 
   // A sphere in the middle of the tumour, by press and drag.
   auto* axial = desktop.view<SliceViewWidget>("Axial");
   QVERIFY(axial);
-  const glm::dvec3 centre = desktop.session().display().settings().cursor_mm;
+  const glm::dvec3 centre = desktop.proxy().display().settings().cursor_mm;
   QVERIFY2(glm::distance(centre, desktop.seed_mm()) < 15.0, "the study opens at the tumour");
   desktop.press(Qt::Key_S);
-  QVERIFY(desktop.session().display().settings().tool == Tool::seed);
+  QVERIFY(desktop.proxy().display().settings().tool == Tool::seed);
   Desktop::mouse(*axial, QEvent::MouseButtonPress, centre);
   Desktop::mouse(*axial, QEvent::MouseMove, centre + glm::dvec3(6, 0, 0));
   Desktop::mouse(*axial, QEvent::MouseMove, centre + glm::dvec3(14, 0, 0));
   desktop.screenshot("minute-3-sphere");
   Desktop::mouse(*axial, QEvent::MouseButtonRelease, centre + glm::dvec3(14, 0, 0));
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(desktop.state().begun);
 
   desktop.press(Qt::Key_P);
@@ -72,7 +72,7 @@ void GuideStoryTest::the_first_minute_leads_to_a_tumour() {
   QVERIFY(Desktop::wait_for(is_on_its_way, 60000));
   desktop.screenshot_at_once("minute-4-playing");
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }, 120000));
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(desktop.state().converged);
   QVERIFY2(std::abs(desktop.state().surface.volume_ml / 117.6 - 1.0) < 0.04,
            qPrintable(QString::number(desktop.state().surface.volume_ml)));
@@ -82,17 +82,17 @@ void GuideStoryTest::the_first_minute_leads_to_a_tumour() {
   desktop.press(Qt::Key_E);
   const glm::dvec3 beside = centre + glm::dvec3(14, 0, 0);
   Desktop::drag(*axial, {beside, beside + glm::dvec3(4, 0, 0), beside + glm::dvec3(9, 0, 0)});
-  desktop.settle();
+  desktop.wait_until_idle();
   desktop.screenshot("minute-6-erased");
   QVERIFY(desktop.state().surface.voxels_inside < inside);
   desktop.press(Qt::Key_Z, Qt::ControlModifier);
-  desktop.settle();
+  desktop.wait_until_idle();
   QCOMPARE(desktop.state().surface.voxels_inside, inside);
 
   desktop.window().panels().show("labels");
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(click(desktop, "Accept surface into label"));
-  desktop.settle();
+  desktop.wait_until_idle();
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
   QCOMPARE(desktop.state().label_statistics[0].voxels, desktop.state().surface.voxels_inside);
   desktop.screenshot("minute-7-label");
@@ -115,7 +115,7 @@ void GuideStoryTest::every_layout_is_whole_in_both_themes() {
   Desktop desktop(story_executor(), {1400, 900});
   QVERIFY(desktop.open_phantom("tumour"));
   desktop.begin(14.0);
-  desktop.session().play();
+  desktop.proxy().play();
   QVERIFY(Desktop::wait_for([&] { return desktop.state().step > 30 && !desktop.state().playing; }, 120000));
   const QString scale = QString::number(std::lround(100.0 * desktop.window().devicePixelRatioF()));
   for (const Theme theme : {Theme::light, Theme::dark}) {
@@ -123,7 +123,7 @@ void GuideStoryTest::every_layout_is_whole_in_both_themes() {
     const QList<QAction*> layouts = desktop.window().actions().layouts->actions();
     for (int layout = 0; layout < layouts.size(); ++layout) {
       layouts[layout]->trigger();
-      desktop.settle();
+      desktop.wait_until_idle();
       for (const PictureView* view : desktop.window().active_case()->views()) {
         QVERIFY2(!view->isVisible() || shows_a_picture(*view), qPrintable(view->title()));
       }

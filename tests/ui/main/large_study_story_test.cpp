@@ -69,36 +69,36 @@ void LargeStudyStoryTest::initTestCase() {
 void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
   Desktop desktop(story_executor());
   QVERIFY(desktop.open(file_));
-  QCOMPARE(desktop.session().volume().geometry.size, Index3(kWidth, kWidth, kDepth));
+  QCOMPARE(desktop.proxy().volume().geometry.size, Index3(kWidth, kWidth, kDepth));
   auto* axial = desktop.view<SliceViewWidget>("Axial");
   auto* volume = desktop.view<VolumeViewWidget>();
   QVERIFY(axial && volume);
   Desktop::in_an_event(
-      [&] { desktop.session().display().change([](DisplaySettings& s) { s.cursor_mm = centre(); }); });
-  desktop.settle();
+      [&] { desktop.proxy().display().change([](DisplaySettings& s) { s.cursor_mm = centre(); }); });
+  desktop.wait_until_idle();
 
   // T and epsilon from the lesion, a seed in it, and on to convergence, erasing on the way.
   desktop.press(Qt::Key_T);
   Desktop::drag(*axial, {centre() - glm::dvec3(12, 0, 0), centre(), centre() + glm::dvec3(12, 6, 0)});
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(std::abs(desktop.state().parameters.target - kLesion) < 5.0);
   Parameters parameters = desktop.state().parameters;
   parameters.range = 40.0;
-  Desktop::in_an_event([&] { desktop.session().set_parameters(parameters); });
+  Desktop::in_an_event([&] { desktop.proxy().set_parameters(parameters); });
   desktop.press(Qt::Key_S);
   Desktop::drag(*axial, {centre(), centre() + glm::dvec3(5, 0, 0), centre() + glm::dvec3(15, 0, 0)});
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(desktop.state().begun);
   desktop.press(Qt::Key_P);
   QVERIFY(Desktop::wait_for([&] { return desktop.state().playing && desktop.state().step > 10; }, 60000));
   parameters.target += 2.0;
-  Desktop::in_an_event([&] { desktop.session().set_parameters(parameters); });
+  Desktop::in_an_event([&] { desktop.proxy().set_parameters(parameters); });
   desktop.press(Qt::Key_E);
   Desktop::drag(*axial, {centre(), centre() + glm::dvec3(8, 0, 0)});
   desktop.press(Qt::Key_W);
   Desktop::drag(static_cast<QWidget&>(*volume), {QPoint(60, 60), QPoint(100, 80), QPoint(160, 90)});
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }, 240000));
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(desktop.state().converged);
   const double lesion_ml = 4.0 / 3.0 * M_PI * kRadius * kRadius * kRadius / 1000.0;
   QVERIFY2(std::abs(desktop.state().surface.volume_ml / lesion_ml - 1.0) < 0.05,
@@ -110,22 +110,22 @@ void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
   // Through the layouts, back and forth, into a label, out as a mask, and closed while it runs.
   for (QAction* layout : desktop.window().actions().layouts->actions()) {
     Desktop::in_an_event([&] { layout->trigger(); });
-    desktop.settle();
+    desktop.wait_until_idle();
   }
   // What is taken back may be the last steps alone, which hardly move the surface.
   const std::int64_t inside = desktop.state().surface.voxels_inside;
   const std::int64_t step = desktop.state().step;
   desktop.press(Qt::Key_Z, Qt::ControlModifier);
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(desktop.state().step < step);
   desktop.press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
-  desktop.settle();
+  desktop.wait_until_idle();
   QCOMPARE(desktop.state().step, step);
   QCOMPARE(desktop.state().surface.voxels_inside, inside);
-  Desktop::in_an_event([&] { desktop.session().add_label("Lesion"); });
-  desktop.settle();
-  Desktop::in_an_event([&] { desktop.session().accept_surface(desktop.state().labels[0].id); });
-  desktop.settle();
+  Desktop::in_an_event([&] { desktop.proxy().add_label("Lesion"); });
+  desktop.wait_until_idle();
+  Desktop::in_an_event([&] { desktop.proxy().accept_surface(desktop.state().labels[0].id); });
+  desktop.wait_until_idle();
   QCOMPARE(desktop.state().label_statistics[0].voxels, desktop.state().surface.voxels_inside);
   bool written = false;
   SavedCases& saved = desktop.window().saved_cases();
@@ -135,7 +135,7 @@ void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
       [&] { saved.write_mask(*desktop.window().active_case(), QString::fromStdString(mask.string())); });
   QVERIFY(Desktop::wait_for([&] { return written; }, 60000));
   QVERIFY(std::filesystem::file_size(mask) > 0);
-  Desktop::in_an_event([&] { desktop.session().restart(); });
+  Desktop::in_an_event([&] { desktop.proxy().restart(); });
   desktop.press(Qt::Key_P);
   QVERIFY(Desktop::wait_for([&] { return desktop.state().playing; }));
   Desktop::answer(QMessageBox::Discard);

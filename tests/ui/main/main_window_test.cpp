@@ -59,7 +59,7 @@ void MainWindowTest::panels_come_and_go_with_the_cases() {
   for (QAction* toggle : desktop.window().panels().toggles()) QVERIFY(toggle->isEnabled());
   QCOMPARE(desktop.window().findChild<QDockWidget*>("initialise")->width(), 320);
   desktop.window().panels().show("labels");
-  desktop.settle();
+  desktop.wait_until_idle();
   close_case(desktop);
   QVERIFY(!any_panel_shows(desktop));
   // As they stood.
@@ -77,7 +77,7 @@ void MainWindowTest::hidden_panels_stay_hidden_for_the_next_case() {
   QVERIFY(desktop.open_phantom("sphere"));
   QVERIFY(!any_panel_shows(desktop));
   desktop.press(Qt::Key_F3);
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(is_in_front(desktop, "initialise"));
 }
 
@@ -90,7 +90,7 @@ void MainWindowTest::how_panels_stand_is_remembered_though_none_shows_at_the_end
     QVERIFY(QTest::qWaitForWindowExposed(&window));
     window.open_phantom("sphere");
     QVERIFY(Desktop::wait_for([&] { return window.active_case() != nullptr; }));
-    desktop.settle();
+    desktop.wait_until_idle();
     if (first) {
       window.panels().show("display");
       QTest::qWait(50);
@@ -111,7 +111,7 @@ void MainWindowTest::without_a_case_nothing_is_chosen_or_playing() {
   QCOMPARE(actions.tools->checkedAction(), actions.tool(Tool::paint));
   desktop.press(Qt::Key_X);
   desktop.begin(10.0);
-  desktop.session().set_pause_at_convergence(false);
+  desktop.proxy().set_pause_at_convergence(false);
   desktop.press(Qt::Key_P);
   QVERIFY(Desktop::wait_for([&] { return desktop.state().playing; }));
   QVERIFY(actions.play->isChecked());
@@ -163,7 +163,7 @@ void MainWindowTest::a_session_that_is_opened_shows_the_level_set() {
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().modified; }));
   for (const char* before : {"initialise", "labels", "transfer"}) {
     desktop.window().panels().show(before);
-    desktop.settle();
+    desktop.wait_until_idle();
     QVERIFY(is_in_front(desktop, before));
     close_case(desktop);
     QVERIFY(desktop.open(file));
@@ -194,7 +194,7 @@ void MainWindowTest::a_failure_is_forgotten_once_it_has_succeeded() {
   const QString message = messages->text();
   saved.write_surface(window, inside("surface.stl"));
   QVERIFY(Desktop::wait_for([&] { return std::filesystem::exists(folder / "surface.stl"); }));
-  desktop.settle();
+  desktop.wait_until_idle();
   QCOMPARE(messages->text(), message);
   saved.write_mask(window, inside("mask.nrrd"));
   QVERIFY(forgotten());
@@ -205,18 +205,18 @@ void MainWindowTest::a_failure_is_forgotten_once_it_has_succeeded() {
   QVERIFY(std::filesystem::exists(folder / "figures.csv"));
 
   // The case itself.
-  desktop.session().begin_from_label(77);
+  desktop.proxy().begin_from_label(77);
   QVERIFY(told());
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(!messages->text().isEmpty());
-  desktop.session().paint({desktop.seed_mm(), 12.0}, Brush::add, CaseSession::new_gesture());
+  desktop.proxy().paint({desktop.seed_mm(), 12.0}, Brush::add, CaseProxy::new_gesture());
   QVERIFY(forgotten());
 }
 
 void MainWindowTest::a_phantom_has_one_name() {
   Desktop desktop(ExecutorKind::host, {1100, 700});
   QVERIFY(desktop.open_phantom("organ"));
-  QCOMPARE(desktop.session().name(), QString("Liver"));
+  QCOMPARE(desktop.proxy().name(), QString("Liver"));
   QVERIFY(desktop.window().active_case()->windowTitle().startsWith("Liver[*]"));
 }
 
@@ -225,7 +225,7 @@ void MainWindowTest::the_left_button_moves_the_crosshair_as_in_itk_snap_if_one_w
   QVERIFY(desktop.open_phantom("sphere"));
   auto* axial = desktop.view<SliceViewWidget>("Axial");
   QVERIFY(axial);
-  const auto settings = [&] { return desktop.session().display().settings(); };
+  const auto settings = [&] { return desktop.proxy().display().settings(); };
   Actions& actions = desktop.window().actions();
   actions.tool(Tool::window)->trigger();
   const DisplaySettings before = settings();

@@ -72,17 +72,17 @@ void OneModelStoryTest::a_parameter_reads_the_same_everywhere() {
       typed->selectAll();
       QTest::keyClicks(typed, QString::number(value));
       QTest::keyClick(typed, Qt::Key_Return);
-      desktop.settle();
+      desktop.wait_until_idle();
       for (const QDoubleSpinBox* read : all) QCOMPARE(read->value(), value);
-      QCOMPARE(desktop.session().parameters().*kind.value, value);
+      QCOMPARE(desktop.proxy().parameters().*kind.value, value);
       QCOMPARE(desktop.state().parameters.*kind.value, value);
       value += 4.0;
     }
   }
   // And one that is taken back.
   const double range = desktop.state().parameters.range;
-  desktop.session().undo();
-  desktop.settle();
+  desktop.proxy().undo();
+  desktop.wait_until_idle();
   QVERIFY(desktop.state().parameters.range != range);
   for (const QDoubleSpinBox* read : numbers(window, "Range epsilon"))
     QCOMPARE(read->value(), desktop.state().parameters.range);
@@ -101,7 +101,7 @@ void OneModelStoryTest::a_tool_is_the_same_in_all_bars() {
   for (qsizetype tool = 0; tool < tools.size(); ++tool) {
     // From the menu of one bar after the other.
     buttons[tool % 3]->menu()->actions().at(tool)->trigger();
-    QCOMPARE(desktop.session().display().settings().tool, static_cast<Tool>(tool));
+    QCOMPARE(desktop.proxy().display().settings().tool, static_cast<Tool>(tool));
     QVERIFY(tools[tool]->isChecked());
     for (const QToolButton* button : buttons) QVERIFY(button->toolTip().contains(tools[tool]->toolTip()));
   }
@@ -111,7 +111,7 @@ void OneModelStoryTest::a_sphere_that_is_being_drawn_is_seen_in_all_views() {
   Desktop desktop(ExecutorKind::host, {1300, 800});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.window().active_case()->set_layout(ViewLayout::two_two);
-  desktop.settle();
+  desktop.wait_until_idle();
   auto* axial = desktop.view<SliceViewWidget>("Axial");
   auto* coronal = desktop.view<SliceViewWidget>("Coronal");
   auto* sagittal = desktop.view<SliceViewWidget>("Sagittal");
@@ -119,7 +119,7 @@ void OneModelStoryTest::a_sphere_that_is_being_drawn_is_seen_in_all_views() {
   const glm::dvec3 centre = desktop.seed_mm();
   constexpr double kRadius = 13.0;
   constexpr double kBeside = 5.0;  // the coronal slice does not go through the middle
-  desktop.session().display().change([&](DisplaySettings& s) {
+  desktop.proxy().display().change([&](DisplaySettings& s) {
     s.cursor_mm = centre + glm::dvec3(0.0, kBeside, 0.0);
     s.brush_mm = 2.0;
   });
@@ -138,7 +138,7 @@ void OneModelStoryTest::a_sphere_that_is_being_drawn_is_seen_in_all_views() {
   // Then it is the brush again.
   Desktop::mouse(*axial, QEvent::MouseButtonRelease, centre + glm::dvec3(kRadius, 0.0, 0.0));
   QVERIFY(std::abs(radius_in(*axial) - 2.0) < 1e-6);
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(desktop.state().begun);
 }
 
@@ -149,7 +149,7 @@ void OneModelStoryTest::the_clip_plane_is_moved_tilted_and_worked_on() {
   desktop.begin(10.0);
   auto* view = desktop.view<VolumeViewWidget>();
   QVERIFY(view);
-  Display& display = desktop.session().display();
+  Display& display = desktop.proxy().display();
   const glm::dvec3 centre = desktop.seed_mm();
   display.change([&](DisplaySettings& s) {
     s.cursor_mm = centre;
@@ -158,14 +158,14 @@ void OneModelStoryTest::the_clip_plane_is_moved_tilted_and_worked_on() {
     s.clip.offset_mm = glm::dot(s.clip.normal, centre) - 6.0;
   });
   desktop.press(Qt::Key_X);
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(display.settings().clip_on);
 
   // By its handles: along the normal, and about the middle of the cut.
   const auto drag_grip = [&](ClipHandles::Grip grip, QPoint way) {
     const QPoint from = view->handles().position_of(grip).toPoint();
     Desktop::drag(static_cast<QWidget&>(*view), {from, from + way / 2, from + way});
-    desktop.settle();
+    desktop.wait_until_idle();
   };
   const ClipPlane first = display.settings().clip;
   const QPointF along = view->position_of(first.normal) - view->position_of(glm::dvec3(0.0));
@@ -180,7 +180,7 @@ void OneModelStoryTest::the_clip_plane_is_moved_tilted_and_worked_on() {
   QVERIFY(glm::dot(tilted.normal, moved.normal) < 0.999);
   // So that it goes through the seed, whatever the drags were.
   display.change([&](DisplaySettings& s) { s.clip.offset_mm = glm::dot(s.clip.normal, centre); });
-  desktop.settle();
+  desktop.wait_until_idle();
   desktop.screenshot("clip-1-tilted");
   const qint64 cut = yellow_pixels(*view);
   QVERIFY2(cut > 50, qPrintable(QString::number(cut)));
@@ -189,44 +189,44 @@ void OneModelStoryTest::the_clip_plane_is_moved_tilted_and_worked_on() {
   const glm::dvec3 aside = glm::normalize(glm::cross(display.settings().clip.normal, {0.3, 0.1, 1.0}));
   desktop.press(Qt::Key_T);
   Desktop::drag(*view, {centre - aside * 6.0, centre, centre + aside * 6.0});
-  desktop.settle();
-  QVERIFY2(std::abs(desktop.state().parameters.target - desktop.session().study().parameters.target) < 60.0,
+  desktop.wait_until_idle();
+  QVERIFY2(std::abs(desktop.state().parameters.target - desktop.proxy().study().parameters.target) < 60.0,
            qPrintable(QString::number(desktop.state().parameters.target)));
-  QVERIFY(desktop.state().parameters != desktop.session().study().parameters);
+  QVERIFY(desktop.state().parameters != desktop.proxy().study().parameters);
 
   // The transfer function's Gaussian, too.
   desktop.press(Qt::Key_G);
   const auto before = display.settings().transfer;
   Desktop::drag(*view, {centre - aside * 6.0, centre, centre + aside * 6.0});
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(display.settings().transfer != before);
   QCOMPARE(display.settings().chosen_primitive, 0);
   QVERIFY(!display.settings().transfer.source.empty());
   QVERIFY(display.settings().show_source);
   display.change([](DisplaySettings& s) { s.show_source = false; });
-  desktop.session().set_parameters(desktop.session().study().parameters);
-  desktop.settle();
+  desktop.proxy().set_parameters(desktop.proxy().study().parameters);
+  desktop.wait_until_idle();
 
   // Spheres drawn and taken away on it while the surface moves: the cut in the picture follows.
   const qint64 before_sphere = yellow_pixels(*view);
   const std::int64_t inside = desktop.state().surface.voxels_inside;
-  desktop.session().play();
+  desktop.proxy().play();
   QVERIFY(Desktop::wait_for([&] { return desktop.state().playing && desktop.state().step > 5; }));
   desktop.press(Qt::Key_S);
   const std::uint64_t edits = desktop.state().edits;
   const glm::dvec3 beside = centre + aside * 16.0;
   Desktop::drag(*view, {beside, beside + aside * 4.0, beside + aside * 9.0});
   QVERIFY(Desktop::wait_for([&] { return desktop.state().edits > edits; }));
-  desktop.session().pause();
+  desktop.proxy().pause();
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }));
-  desktop.settle();
+  desktop.wait_until_idle();
   const qint64 with_sphere = yellow_pixels(*view);
   const std::int64_t inside_with = desktop.state().surface.voxels_inside;
   desktop.screenshot("clip-2-sphere");
   QVERIFY(inside_with > inside);
   QVERIFY2(with_sphere != before_sphere, qPrintable(QString("%1 %2").arg(before_sphere).arg(with_sphere)));
   Desktop::drag(*view, {beside, beside + aside * 4.0, beside + aside * 14.0}, Qt::RightButton);
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(desktop.state().surface.voxels_inside < inside_with);
   QVERIFY(yellow_pixels(*view) != with_sphere);
   desktop.screenshot("clip-3-erased");

@@ -8,8 +8,8 @@
 #include <iterator>
 
 #include "imaging/dicom/dicom.h"
-#include "session/case_autosave.h"
-#include "study/zip_archive.h"
+#include "engine/case_autosave.h"
+#include "document/zip_archive.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/saved_cases.h"
@@ -65,9 +65,9 @@ QString telling_file(const fs::path& folder) {
 // Sessions are compressed.
 std::string json_of_session(const fs::path& file) {
   constexpr std::array<std::string_view, 4> kNames{"session.json", "phi.table", "phi.pages", "labels"};
-  auto session = ZipReader::open(file, kNames);
-  if (!session) qFatal("%s", session.error().message.c_str());
-  const auto json = session->read(kNames[0], session->size(kNames[0]));
+  auto proxy = ZipReader::open(file, kNames);
+  if (!proxy) qFatal("%s", proxy.error().message.c_str());
+  const auto json = proxy->read(kNames[0], proxy->size(kNames[0]));
   if (!json) qFatal("%s", json.error().message.c_str());
   return {reinterpret_cast<const char*>(json->data()), json->size()};
 }
@@ -102,21 +102,21 @@ void PrivacyStoryTest::init() {
   desktop_ = std::make_unique<Desktop>(ExecutorKind::host, QSize(1000, 700));
   window_ = desktop_->open(QString::fromStdString((folder_ / "study").string()));
   QVERIFY(window_);
-  QCOMPARE(desktop_->session().study().patient.name, std::string("ZZYX, QVODIAN"));
-  QCOMPARE(desktop_->session().study().patient.id, std::string(kNumber));
+  QCOMPARE(desktop_->proxy().study().patient.name, std::string("ZZYX, QVODIAN"));
+  QCOMPARE(desktop_->proxy().study().patient.id, std::string(kNumber));
   Start start;
-  start.seeds.push_back({desktop_->session().display().settings().cursor_mm, 8.0});
-  desktop_->session().begin(start);
-  desktop_->session().add_label("Ball");
-  desktop_->session().step(3);
-  desktop_->settle();
+  start.seeds.push_back({desktop_->proxy().display().settings().cursor_mm, 8.0});
+  desktop_->proxy().begin(start);
+  desktop_->proxy().add_label("Ball");
+  desktop_->proxy().step(3);
+  desktop_->wait_until_idle();
   slice_ = desktop_->view<SliceViewWidget>("Axial");
   QVERIFY(slice_);
 }
 
 void PrivacyStoryTest::a_key_hides_who_the_patient_is() {
   desktop_->screenshot("patient-text");
-  const auto is_shown = [this] { return desktop_->session().display().settings().patient_text; };
+  const auto is_shown = [this] { return desktop_->proxy().display().settings().patient_text; };
   QAction& action = *desktop_->window().actions().patient_text;
   QVERIFY(is_shown() && action.isChecked());
   const QImage named = slice_->grab_picture();
@@ -156,8 +156,8 @@ void PrivacyStoryTest::write_everything() {
   QVERIFY(Desktop::wait_for([&] { return done.size() == 6; }));
   bool copied = false;
   connect(&window_->autosave(), &CaseAutosave::saved, &scope, [&] { copied = true; });
-  desktop_->session().step();
-  desktop_->settle();
+  desktop_->proxy().step();
+  desktop_->wait_until_idle();
   window_->autosave().save_now();
   QVERIFY(Desktop::wait_for([&] { return copied; }));
 }

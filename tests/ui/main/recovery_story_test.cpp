@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "imaging/phantom/phantom.h"
-#include "session/background_job.h"
-#include "study/autosave.h"
+#include "engine/background_job.h"
+#include "document/autosave.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/message_bar.h"
@@ -20,10 +20,10 @@ namespace tidemark::test {
 constexpr const char* kVictim = "--work-until-killed";
 
 // What must come back, as text: the same in both programs.
-QString facts(const CaseSession& session) {
-  const CaseState& state = session.state();
+QString facts(const CaseProxy& proxy) {
+  const CaseState& state = proxy.state();
   return QStringLiteral("%1 step %2 inside %3 labels %4 of %5 voxels")
-      .arg(session.name())
+      .arg(proxy.name())
       .arg(state.step)
       .arg(state.surface.voxels_inside)
       .arg(state.labels.size())
@@ -43,20 +43,20 @@ int work_until_killed() {
   Desktop desktop(story_executor(), {900, 640});
   for (const char* kind : {"sphere", "dumbbell"}) {
     desktop.open_phantom(kind);
-    CaseSession& session = desktop.session();
+    CaseProxy& proxy = desktop.proxy();
     desktop.begin(9.0);
-    session.step(17);
-    session.add_label("Ball");
-    desktop.settle();
-    session.accept_surface(desktop.state().labels[0].id);
+    proxy.step(17);
+    proxy.add_label("Ball");
+    desktop.wait_until_idle();
+    proxy.accept_surface(desktop.state().labels[0].id);
     // As many edits as bring about a copy, all before it is made.
     for (std::uint64_t edit = 0; edit < CaseAutosave::kEdits; ++edit)
-      session.paint({desktop.seed_mm(), 9.5}, Brush::add, CaseSession::new_gesture());
+      proxy.paint({desktop.seed_mm(), 9.5}, Brush::add, CaseProxy::new_gesture());
     QTest::qWait(100);
-    desktop.settle();
+    desktop.wait_until_idle();
   }
   if (!Desktop::wait_for([] { return files_of_copies() >= 2; })) return 1;
-  for (CaseWindow* window : desktop.window().cases()) std::puts(qPrintable(facts(window->session())));
+  for (CaseWindow* window : desktop.window().cases()) std::puts(qPrintable(facts(window->proxy())));
   std::puts("ready");
   std::fflush(stdout);
   return QApplication::exec();
@@ -116,12 +116,12 @@ void RecoveryStoryTest::work_is_there_again_after_a_kill() {
   QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 2; }));
   user.stop();
   QVERIFY2(offered.contains("Sphere") && offered.contains("Dumbbell"), qPrintable(offered));
-  desktop.settle();
+  desktop.wait_until_idle();
   QStringList found;
   for (CaseWindow* window : desktop.window().cases()) {
-    QVERIFY(window->session().state().modified);
+    QVERIFY(window->proxy().state().modified);
     QVERIFY(window->session_file.isEmpty());
-    found << facts(window->session());
+    found << facts(window->proxy());
   }
   found.sort();
   QCOMPARE(found, expected);
@@ -154,7 +154,7 @@ void RecoveryStoryTest::a_damaged_session_brings_the_copies_that_there_are() {
 
   // A copy that a program left behind.
   bool kept = false;
-  desktop.session().take_snapshot("{}", [&kept](const auto& snapshot) {
+  desktop.proxy().take_snapshot("{}", [&kept](const auto& snapshot) {
     auto copies = Autosave::create(recovery_folder(), Autosave::new_case_id());
     kept = copies && copies->write(snapshot->contents);
   });
@@ -174,7 +174,7 @@ void RecoveryStoryTest::a_damaged_session_brings_the_copies_that_there_are() {
   QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 2; }));
   user.stop();
   QVERIFY2(offered.contains("damaged.tidemark") && offered.contains("Dumbbell"), qPrintable(offered));
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(desktop.state().begun);
   // What could not be opened is over.
   QCOMPARE(messages->text(), QString());

@@ -11,7 +11,7 @@
 
 #include "imaging/dicom/dicom.h"
 #include "imaging/files/volume_file.h"
-#include "imaging/pacs/pacs.h"
+#include "imaging/pacs/services.h"
 #include "imaging/results/results.h"
 #include "tests/imaging/pacs/archives.h"
 #include "tests/imaging/pacs/scripted_peer.h"
@@ -119,7 +119,7 @@ class ResultsStoryTest : public QObject {
   [[nodiscard]] QString path(const char* name) const {
     return QString::fromStdString((folder_ / name).string());
   }
-  [[nodiscard]] const Geometry& grid() { return desktop_->session().volume().geometry; }
+  [[nodiscard]] const Geometry& grid() { return desktop_->proxy().volume().geometry; }
   [[nodiscard]] std::vector<std::uint8_t> voxels() { return *desktop_->state().label_voxels; }
   void begin(glm::dvec3 middle);
   void segment(glm::dvec3 middle, const char* name, const char* meaning);
@@ -142,42 +142,42 @@ void ResultsStoryTest::init() {
   QVERIFY(window_);
   window_->set_layout(ViewLayout::single);  // no story about pictures
   desktop_->window().panels().show("labels");
-  desktop_->settle();
+  desktop_->wait_until_idle();
 }
 
 void ResultsStoryTest::begin(glm::dvec3 middle) {
   Start start;
   start.seeds.push_back({middle, 5.0});
-  desktop_->session().begin(start);
-  desktop_->settle();
+  desktop_->proxy().begin(start);
+  desktop_->wait_until_idle();
 }
 
 // A surface that fills a ball becomes a new label, with that name and a meaning that is typed.
 void ResultsStoryTest::segment(glm::dvec3 middle, const char* name, const char* meaning) {
-  Parameters parameters = desktop_->session().parameters();
+  Parameters parameters = desktop_->proxy().parameters();
   parameters.target = 100.0;
   parameters.range = 60.0;
   parameters.alpha = 0.9;
-  desktop_->session().set_parameters(parameters);
+  desktop_->proxy().set_parameters(parameters);
   begin(middle);
-  desktop_->session().step(40);
-  desktop_->settle();
+  desktop_->proxy().step(40);
+  desktop_->wait_until_idle();
   auto& window = desktop_->window();
   auto& model = *window.findChild<LabelsModel*>();
   for (QToolButton* add : window.findChildren<QToolButton*>()) {
     if (add->text() == "Add" && add->isVisible()) QTest::mouseClick(add, Qt::LeftButton);
   }
-  desktop_->settle();
+  desktop_->wait_until_idle();
   QTest::mouseClick(button(window, "Accept surface into label"), Qt::LeftButton);
-  desktop_->settle();
+  desktop_->wait_until_idle();
   model.setData(model.index(model.rowCount() - 1, LabelsModel::name), name, Qt::EditRole);
-  desktop_->settle();
+  desktop_->wait_until_idle();
   auto& picker = *window.findChild<MeaningPicker*>();
   picker.setFocus();
   picker.lineEdit()->selectAll();
   QTest::keyClicks(&picker, meaning);
   QTest::keyClick(&picker, Qt::Key_Return);
-  desktop_->settle();
+  desktop_->wait_until_idle();
 }
 
 void ResultsStoryTest::segment_both() {
@@ -213,7 +213,7 @@ void ResultsStoryTest::import_by_the_menu(const QString& file) {
   dialog->selectFile(file);
   static_cast<QDialog*>(dialog)->accept();
   QVERIFY(Desktop::wait_for([&] { return desktop_->state().labels.size() > before; }, kPatience));
-  desktop_->settle();
+  desktop_->wait_until_idle();
 }
 
 void ResultsStoryTest::labels_go_out_as_dicom_and_come_back() {
@@ -243,7 +243,7 @@ void ResultsStoryTest::labels_go_out_as_dicom_and_come_back() {
 
   QCOMPARE(actions.undo->text(), QStringLiteral("&Undo: import of Left one, Right one"));
   actions.undo->trigger();
-  desktop_->settle();
+  desktop_->wait_until_idle();
   QVERIFY(desktop_->state().labels == labels);
   QVERIFY(voxels() == before);
 
@@ -279,16 +279,16 @@ void ResultsStoryTest::a_dropped_segmentation_becomes_labels_and_a_dropped_volum
   QCOMPARE(failure(write_segmentation(one, {}, folder_ / "dropped.dcm")), QString());
   drop(path("dropped.dcm"));
   QVERIFY(Desktop::wait_for([&] { return desktop_->state().labels.size() == 1; }, kPatience));
-  desktop_->settle();
+  desktop_->wait_until_idle();
   QCOMPARE(desktop_->state().labels[0].name, std::string("Spleen"));
   QVERIFY(desktop_->state().labels[0].coded() == find_segment_meaning("spleen").value());
   QCOMPARE(desktop_->state().label_statistics[0].voxels, std::int64_t{1});
   QCOMPARE(desktop_->window().cases().size(), 1);
 
-  QCOMPARE(failure(write_volume_file(desktop_->session().volume(), folder_ / "study.nrrd")), QString());
+  QCOMPARE(failure(write_volume_file(desktop_->proxy().volume(), folder_ / "study.nrrd")), QString());
   drop(path("study.nrrd"));
   QVERIFY(Desktop::wait_for([&] { return desktop_->window().cases().size() == 2; }, kPatience));
-  desktop_->settle();
+  desktop_->wait_until_idle();
 }
 
 void ResultsStoryTest::the_surface_alone_is_a_result_too() {
@@ -321,7 +321,7 @@ void ResultsStoryTest::a_file_of_the_study_is_never_written_to() {
   desktop_->window().actions().export_segmentation->trigger();
   auto* dialog = window_->findChild<WriteResultDialog*>();
   QVERIFY(dialog);
-  const fs::path slice = desktop_->session().study().dicom_files.front();
+  const fs::path slice = desktop_->proxy().study().dicom_files.front();
   const auto size = fs::file_size(slice);
   dialog->findChild<QLineEdit*>()->setText(QString::fromStdString(slice.string()));
   QTest::mouseClick(button(*dialog, "Write"), Qt::LeftButton);

@@ -32,7 +32,7 @@ class RoughStoryTest : public QObject {
 // Plays on: without a rest at convergence.
 void RoughStoryTest::play(Desktop& desktop) {
   desktop.begin(10.0);
-  desktop.session().set_pause_at_convergence(false);
+  desktop.proxy().set_pause_at_convergence(false);
   desktop.press(Qt::Key_P);
   QVERIFY(Desktop::wait_for([&] { return desktop.state().playing && desktop.state().step > 3; }));
 }
@@ -87,9 +87,9 @@ void RoughStoryTest::a_hundred_sizes_end_with_the_right_picture() {
     QTest::qWait(index % 10 == 0 ? 30 : 2);
   }
   QVERIFY(advances(desktop, 3));
-  desktop.session().pause();
+  desktop.proxy().pause();
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }));
-  desktop.settle();
+  desktop.wait_until_idle();
   for (PictureView* view : desktop.window().active_case()->views()) {
     QVERIFY2(shows_a_picture(*view), qPrintable(view->title()));
     QVERIFY(view->feed().shown().finished);
@@ -112,9 +112,9 @@ void RoughStoryTest::views_go_before_their_pictures_arrive() {
   }
   QCOMPARE(window.views().size(), 3);
   QVERIFY(advances(desktop, 3));
-  desktop.session().pause();
+  desktop.proxy().pause();
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }));
-  desktop.settle();
+  desktop.wait_until_idle();
   for (PictureView* view : window.views()) QVERIFY2(shows_a_picture(*view), qPrintable(view->title()));
 }
 
@@ -127,10 +127,10 @@ void RoughStoryTest::another_study_is_opened_while_one_plays() {
   desktop.window().open_phantom("tumour");
   QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 2; }));
   QVERIFY(Desktop::wait_for([&] { return desktop.window().active_case() != first; }));
-  QVERIFY(first->session().state().step > step);
+  QVERIFY(first->proxy().state().step > step);
   for (PictureView* view : desktop.window().active_case()->views())
     QVERIFY(Desktop::wait_for([&] { return view->feed().shown().size == view->physical_size(); }));
-  QVERIFY(first->session().state().playing);
+  QVERIFY(first->proxy().state().playing);
   QCOMPARE(desktop.engine().contexts_made(), 1);
 }
 
@@ -143,15 +143,15 @@ void RoughStoryTest::executors_are_changed_while_it_plays() {
   for (const auto& [kind, name] : kinds) {
     const QString& wanted = name;  // clang before 16 captures no structured binding
     const std::int64_t step = desktop.state().step;
-    desktop.session().change_executor(kind);
+    desktop.proxy().change_executor(kind);
     QVERIFY(Desktop::wait_for([&] { return desktop.state().executor == wanted; }));
     QVERIFY(desktop.state().step >= step);
     QVERIFY(desktop.state().playing);
     QVERIFY(advances(desktop, 5));
   }
-  desktop.session().pause();
+  desktop.proxy().pause();
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }));
-  desktop.settle();
+  desktop.wait_until_idle();
   for (PictureView* view : desktop.window().active_case()->views()) QVERIFY(shows_a_picture(*view));
 }
 
@@ -159,9 +159,9 @@ void RoughStoryTest::keys_of_undo_and_redo_are_hammered_while_it_plays() {
   Desktop desktop(story_executor(), {900, 640});
   QVERIFY(desktop.open_phantom("sphere"));
   play(desktop);
-  desktop.session().pause();
+  desktop.proxy().pause();
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }));
-  desktop.settle();
+  desktop.wait_until_idle();
   const std::int64_t step = desktop.state().step;
   const double volume_ml = desktop.state().surface.volume_ml;
   for (int round = 0; round < 60; ++round) {
@@ -170,18 +170,18 @@ void RoughStoryTest::keys_of_undo_and_redo_are_hammered_while_it_plays() {
     desktop.press(Qt::Key_Z, undo ? Qt::ControlModifier : Qt::ControlModifier | Qt::ShiftModifier);
     if (round % 4 == 0) QTest::qWait(round % 9);
   }
-  desktop.session().pause();
-  desktop.settle();
+  desktop.proxy().pause();
+  desktop.wait_until_idle();
   QVERIFY(!desktop.state().playing);
   // All the way back there is no surface; forwards there is one again.
   for (int guard = 0; guard < 200 && !desktop.state().undo_text.isEmpty(); ++guard) {
     desktop.press(Qt::Key_Z, Qt::ControlModifier);
-    desktop.settle();
+    desktop.wait_until_idle();
   }
   QVERIFY(desktop.state().undo_text.isEmpty());
   QVERIFY(!desktop.state().begun);
   desktop.press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(desktop.state().begun);
   QCOMPARE(desktop.state().step, 0);
   QVERIFY(step > 0 && volume_ml > 0.0);
@@ -205,7 +205,7 @@ void RoughStoryTest::a_lost_context_is_made_good() {
   CaseWindow* resting = desktop.window().cases().first();
   QVERIFY(resting != desktop.window().active_case());
   QStringList failures;
-  connect(&desktop.session(), &CaseSession::failed, this, [&](const QString& text) { failures << text; });
+  connect(&desktop.proxy(), &CaseProxy::failed, this, [&](const QString& text) { failures << text; });
   int contexts = 1;
   for (const int checks : {1, 3, 11}) {
     QCOMPARE(desktop.engine().contexts_made(), contexts);
@@ -222,17 +222,17 @@ void RoughStoryTest::a_lost_context_is_made_good() {
       QVERIFY(Desktop::wait_for([&] { return view->feed().shown().number > pictures + 1; }));
     }
   }
-  desktop.session().pause();
+  desktop.proxy().pause();
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }));
-  desktop.settle();
+  desktop.wait_until_idle();
   for (PictureView* view : desktop.window().active_case()->views()) QVERIFY(shows_a_picture(*view));
   // The other case draws on the new context, too.
   desktop.window().actions().tile->trigger();
-  desktop.settle();
+  desktop.wait_until_idle();
   for (PictureView* view : resting->views()) QVERIFY(shows_a_picture(*view));
   qInfo("%d contexts; told: %s", contexts, qPrintable(failures.join("; ")));
   QVERIFY(failures.isEmpty());
-  disconnect(&desktop.session(), nullptr, this, nullptr);
+  disconnect(&desktop.proxy(), nullptr, this, nullptr);
 }
 
 }  // namespace tidemark::test

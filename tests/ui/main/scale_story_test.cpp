@@ -50,14 +50,14 @@ void ScaleStoryTest::a_click_hits_what_is_seen() {
   QVERIFY(desktop.open_phantom("sphere"));
   auto* axial = desktop.view<SliceViewWidget>("Axial");
   QVERIFY(axial);
-  const Geometry& geometry = desktop.session().volume().geometry;
+  const Geometry& geometry = desktop.proxy().volume().geometry;
   const double voxel_mm = geometry.spacing_mm.x;
   const glm::dvec3 there = desktop.seed_mm() + glm::dvec3(9.0, -6.0, 0.0);
-  desktop.session().display().change([](DisplaySettings& s) { s.crosshair = false; });
+  desktop.proxy().display().change([](DisplaySettings& s) { s.crosshair = false; });
   const double reach = std::max(axial->mm_per_pixel(), voxel_mm);
   desktop.press(Qt::Key_S);
   Desktop::drag(*axial, {there, there + glm::dvec3(3.0, 0.0, 0.0), there + glm::dvec3(8.0, 0.0, 0.0)});
-  desktop.settle();
+  desktop.wait_until_idle();
   // The sphere is where the mouse was.
   QVERIFY(desktop.state().phi);
   const Mask inside = desktop.state().phi->mask();
@@ -101,7 +101,7 @@ void ScaleStoryTest::texts_of_the_bars_fit() {
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
   desktop.window().active_case()->set_layout(ViewLayout::two_two);
-  desktop.settle();
+  desktop.wait_until_idle();
   int bars = 0;
   for (const ViewBar* bar : desktop.window().active_case()->findChildren<ViewBar*>()) {
     if (!bar->isVisible()) continue;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "imaging/phantom/phantom.h"
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/saved_cases.h"
@@ -36,7 +36,7 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
 
   // A DICOM folder.
   QVERIFY(desktop.open(QString::fromStdString((folder / "series").string())));
-  QCOMPARE(desktop.session().volume().geometry.size.x, std::int64_t{256});
+  QCOMPARE(desktop.proxy().volume().geometry.size.x, std::int64_t{256});
   auto* axial = desktop.view<SliceViewWidget>("Axial");
   auto* speed = desktop.view<SliceViewWidget>("Speed map, axial");
   auto* volume = desktop.view<VolumeViewWidget>();
@@ -45,34 +45,34 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   QVERIFY(desktop.engine().contexts_made() == 1);
 
   // The slice of the tumour, by the linked cursor.
-  const Geometry& geometry = desktop.session().volume().geometry;
+  const Geometry& geometry = desktop.proxy().volume().geometry;
   const auto& seed = *phantom->seed;
   const glm::dvec3 centre = geometry.to_patient({seed[0], seed[1], seed[2]});
-  desktop.session().display().change([&](DisplaySettings& s) { s.cursor_mm = centre; });
+  desktop.proxy().display().change([&](DisplaySettings& s) { s.cursor_mm = centre; });
 
   // Probe: T and epsilon from the tissue.
   desktop.press(Qt::Key_T);
-  QCOMPARE(desktop.session().display().settings().tool, Tool::probe_speed);
+  QCOMPARE(desktop.proxy().display().settings().tool, Tool::probe_speed);
   Desktop::drag(*axial, {centre - glm::dvec3(8, 0, 0), centre, centre + glm::dvec3(8, 4, 0)});
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(std::abs(desktop.state().parameters.target - phantom->target) < 60.0);
   const double probed_range = desktop.state().parameters.range;
   QVERIFY(probed_range > 1.0 && probed_range < 200.0);
   desktop.screenshot(QStringLiteral("story-%1-1-probed").arg(executor));
   // One drag is one entry of the history.
   desktop.press(Qt::Key_Z, Qt::ControlModifier);
-  desktop.settle();
-  QCOMPARE(desktop.state().parameters.range, desktop.session().study().parameters.range);
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().parameters.range, desktop.proxy().study().parameters.range);
   Parameters parameters = desktop.state().parameters;
   parameters.target = phantom->target;
   parameters.range = phantom->range;
   parameters.alpha = phantom->alpha;
-  desktop.session().set_parameters(parameters);
+  desktop.proxy().set_parameters(parameters);
 
   // A sphere by press and drag.
   desktop.press(Qt::Key_S);
   Desktop::drag(*axial, {centre, centre + glm::dvec3(3, 0, 0), centre + glm::dvec3(7, 0, 0)});
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(desktop.state().begun);
   const double sphere_ml = 4.0 / 3.0 * M_PI * 7.0 * 7.0 * 7.0 / 1000.0;
   QVERIFY2(std::abs(desktop.state().surface.volume_ml / sphere_ml - 1.0) < 0.25,
@@ -87,13 +87,13 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   };
   QVERIFY(Desktop::wait_for(large_enough, 120000));
   parameters.target += 5.0;
-  desktop.session().set_parameters(parameters);
+  desktop.proxy().set_parameters(parameters);
   QVERIFY(Desktop::wait_for([&] { return desktop.state().parameters.target == parameters.target; }));
   desktop.press(Qt::Key_E);
   const glm::dvec3 outwards = centre + glm::dvec3(5, 0, 0);
   Desktop::drag(*axial, {centre, outwards});
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }, 120000));
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(axial->feed().shown().number > pictures);
   QVERIFY(desktop.state().converged);
   QVERIFY2(desktop.state().surface.volume_ml > 100.0 && desktop.state().surface.volume_ml < 130.0,
@@ -103,7 +103,7 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
         desktop.state().solver_steps_per_second);
 
   // With the executors on OpenGL pictures come from their own memory: phi is neither read nor sent for them.
-  const PhiTraffic traffic = desktop.phi_traffic(desktop.session());
+  const PhiTraffic traffic = desktop.phi_traffic(desktop.proxy());
   qInfo("phi was read %lld times for %llu pictures of the axial view, %lld pages were uploaded",
         static_cast<long long>(traffic.copies), static_cast<unsigned long long>(axial->feed().shown().number),
         static_cast<long long>(traffic.pages_uploaded));
@@ -117,20 +117,20 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   const auto curve = desktop.state().curve.points();
   QVERIFY(curve->size() > 2);
   desktop.press(Qt::Key_Z, Qt::ControlModifier);
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(desktop.state().step < step);
   desktop.press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
-  desktop.settle();
+  desktop.wait_until_idle();
   QCOMPARE(desktop.state().step, step);
   QVERIFY(std::abs(desktop.state().surface.volume_ml - volume_ml) < 1e-9);
   QVERIFY(desktop.state().curve.points()->size() >= curve->size());
 
   // Into a label, out as mask and polygons.
-  desktop.session().add_label("Tumour");
-  desktop.settle();
+  desktop.proxy().add_label("Tumour");
+  desktop.wait_until_idle();
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
-  desktop.session().accept_surface(desktop.state().labels[0].id);
-  desktop.settle();
+  desktop.proxy().accept_surface(desktop.state().labels[0].id);
+  desktop.wait_until_idle();
   QCOMPARE(desktop.state().label_statistics[0].voxels, desktop.state().surface.voxels_inside);
   int written = 0;
   SavedCases& saved = desktop.window().saved_cases();
@@ -153,7 +153,7 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   QVERIFY(desktop.state().modified);
   desktop.press(Qt::Key_S, Qt::ControlModifier);
   QVERIFY(Desktop::wait_for([&] { return written == 4; }));
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(!desktop.state().modified);
   const QImage before = volume->grab_picture();
   desktop.press(Qt::Key_W, Qt::ControlModifier);

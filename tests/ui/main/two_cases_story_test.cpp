@@ -36,7 +36,7 @@ QList<CaseWindow*> TwoCasesStoryTest::open_two(Desktop& desktop, const QString& 
   CaseWindow* one = desktop.open_phantom(first);
   CaseWindow* two = desktop.open_phantom(second);
   desktop.window().actions().tile->trigger();
-  desktop.settle();
+  desktop.wait_until_idle();
   return {one, two};
 }
 
@@ -49,20 +49,20 @@ double TwoCasesStoryTest::target_in_panel(Desktop& desktop) {
 }
 
 void TwoCasesStoryTest::set_alpha(CaseWindow& window, double alpha) {
-  Parameters parameters = window.session().parameters();
+  Parameters parameters = window.proxy().parameters();
   parameters.alpha = alpha;
-  window.session().set_parameters(parameters);
+  window.proxy().set_parameters(parameters);
 }
 
 void TwoCasesStoryTest::begin_both(Desktop& desktop, const QList<CaseWindow*>& cases, double radius_mm) {
   for (CaseWindow* window : cases) {
-    const auto& seed = *window->session().study().start->seed;
+    const auto& seed = *window->proxy().study().start->seed;
     Start start;
     start.seeds.push_back(
-        {window->session().volume().geometry.to_patient({seed[0], seed[1], seed[2]}), radius_mm});
-    window->session().begin(start);
+        {window->proxy().volume().geometry.to_patient({seed[0], seed[1], seed[2]}), radius_mm});
+    window->proxy().begin(start);
   }
-  desktop.settle();
+  desktop.wait_until_idle();
 }
 
 void TwoCasesStoryTest::panels_follow_the_active_case() {
@@ -72,27 +72,27 @@ void TwoCasesStoryTest::panels_follow_the_active_case() {
   begin_both(desktop, cases, 8.0);
   double target = 40.0;
   for (CaseWindow* window : cases) {
-    Parameters parameters = window->session().parameters();
+    Parameters parameters = window->proxy().parameters();
     parameters.target = target;
-    window->session().set_parameters(parameters);
+    window->proxy().set_parameters(parameters);
     target += 13.0;
   }
-  desktop.settle();
+  desktop.wait_until_idle();
   for (const int turn : {0, 1, 0}) {
     // By a click on one of its views.
     PictureView* view = cases[turn]->views().first();
     QVERIFY(view->isVisible());
     QTest::mouseClick(view, Qt::LeftButton, {}, view->rect().center());
-    desktop.settle();
+    desktop.wait_until_idle();
     QCOMPARE(desktop.window().active_case(), cases[turn]);
     QCOMPARE(target_in_panel(desktop), turn == 0 ? 40.0 : 53.0);
     // Keys act on it alone.
-    const std::int64_t before = cases[turn]->session().state().step;
-    const std::int64_t of_other = cases[1 - turn]->session().state().step;
+    const std::int64_t before = cases[turn]->proxy().state().step;
+    const std::int64_t of_other = cases[1 - turn]->proxy().state().step;
     desktop.press(Qt::Key_Period);
-    desktop.settle();
-    QCOMPARE(cases[turn]->session().state().step, before + 1);
-    QCOMPARE(cases[1 - turn]->session().state().step, of_other);
+    desktop.wait_until_idle();
+    QCOMPARE(cases[turn]->proxy().state().step, before + 1);
+    QCOMPARE(cases[1 - turn]->proxy().state().step, of_other);
   }
   // Six views, each with its picture.
   int shown = 0;
@@ -119,24 +119,24 @@ void TwoCasesStoryTest::six_views_follow_two_surfaces_and_phi_stays_where_it_is(
   for (CaseWindow* window : cases) {
     const auto before = pictures(*window);
     QCOMPARE(before.size(), std::size_t{3});
-    window->session().set_pause_at_convergence(false);
-    window->session().play();
+    window->proxy().set_pause_at_convergence(false);
+    window->proxy().play();
     const auto all_moved = [&] {
       const auto now = pictures(*window);
       return std::ranges::equal(before, now, [](auto a, auto b) { return b >= a + 5; });
     };
     QVERIFY(Desktop::wait_for(all_moved, 60000));
   }
-  for (CaseWindow* window : cases) window->session().pause();
-  desktop.settle();
+  for (CaseWindow* window : cases) window->proxy().pause();
+  desktop.wait_until_idle();
   for (CaseWindow* window : cases) {
-    const PhiTraffic traffic = desktop.phi_traffic(window->session());
+    const PhiTraffic traffic = desktop.phi_traffic(window->proxy());
     std::uint64_t shown = 0;
     for (const std::uint64_t number : pictures(*window)) shown += number;
     qInfo(
         "step %lld: %llu pictures in three views, phi read %lld times, %lld pages uploaded, contexts made: "
         "%d",
-        static_cast<long long>(window->session().state().step), static_cast<unsigned long long>(shown),
+        static_cast<long long>(window->proxy().state().step), static_cast<unsigned long long>(shown),
         static_cast<long long>(traffic.copies), static_cast<long long>(traffic.pages_uploaded),
         desktop.engine().contexts_made());
     const bool on_gpu = story_executor() != ExecutorKind::host;
@@ -149,8 +149,8 @@ void TwoCasesStoryTest::six_views_follow_two_surfaces_and_phi_stays_where_it_is(
 void TwoCasesStoryTest::linked_cases_are_looked_at_together() {
   Desktop desktop(story_executor(), {1200, 760});
   const auto cases = open_two(desktop, "sphere", "tumour");
-  Display& one = cases[0]->session().display();
-  Display& two = cases[1]->session().display();
+  Display& one = cases[0]->proxy().display();
+  Display& two = cases[1]->proxy().display();
   one.change([](DisplaySettings& s) { s.camera.azimuth = 77.0; });
   QVERIFY(two.settings().camera.azimuth != 77.0);
   desktop.press(Qt::Key_L);
@@ -193,14 +193,14 @@ void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {
   QFETCH(int, executor);
   Desktop desktop(static_cast<ExecutorKind>(executor), {1200, 760});
   const auto cases = open_two(desktop, "tumour", "tumour");
-  CaseSession& one = cases[0]->session();
-  CaseSession& two = cases[1]->session();
+  CaseProxy& one = cases[0]->proxy();
+  CaseProxy& two = cases[1]->proxy();
   set_alpha(*cases[0], 0.2);
   set_alpha(*cases[1], 0.8);
   // From a seed that curvature alone would not make vanish: 0.8 of it is strong.
   begin_both(desktop, cases, 20.0);
   // Few steps a picture: on a busy machine the surfaces would rest before the next key is pressed.
-  for (CaseSession* session : {&one, &two}) session->set_steps_per_picture(5);
+  for (CaseProxy* proxy : {&one, &two}) proxy->set_steps_per_picture(5);
   int rests = 0;
   int torn = 0;
   const auto look = [&] {
@@ -210,8 +210,8 @@ void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {
   };
   desktop.press(Qt::Key_L, Qt::ControlModifier);
   QVERIFY(one.in_lock_step() && two.in_lock_step());
-  connect(&one, &CaseSession::state_changed, this, look);
-  connect(&two, &CaseSession::state_changed, this, look);
+  connect(&one, &CaseProxy::state_changed, this, look);
+  connect(&two, &CaseProxy::state_changed, this, look);
   std::int64_t step = 0;
   for (int round = 0; round < 6; ++round) {
     desktop.press(Qt::Key_P);
@@ -219,7 +219,7 @@ void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {
     QVERIFY(one.state().playing && two.state().playing);
     desktop.press(Qt::Key_P);
     QVERIFY(Desktop::wait_for([&] { return !one.state().playing && !two.state().playing; }));
-    desktop.settle();
+    desktop.wait_until_idle();
     step = one.state().step;
     QCOMPARE(two.state().step, step);
   }
@@ -229,10 +229,10 @@ void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {
 
   // To the end: who is there first waits for the other, at the same step.
   if (static_cast<ExecutorKind>(executor) == ExecutorKind::host) {
-    for (CaseSession* session : {&one, &two}) session->set_steps_per_picture(0);
+    for (CaseProxy* proxy : {&one, &two}) proxy->set_steps_per_picture(0);
     desktop.press(Qt::Key_P);
     QVERIFY(Desktop::wait_for([&] { return !one.state().playing && !two.state().playing; }, 60000));
-    desktop.settle();
+    desktop.wait_until_idle();
     QCOMPARE(one.state().step, two.state().step);
     QVERIFY(one.state().converged && two.state().converged);
     QVERIFY(one.state().surface.volume_ml > 10.0 && two.state().surface.volume_ml > 10.0);
@@ -248,12 +248,12 @@ void TwoCasesStoryTest::one_step_in_lock_step_is_one_of_each() {
   Desktop desktop(ExecutorKind::host, {1200, 760});
   const auto cases = open_two(desktop, "tumour", "tumour");
   begin_both(desktop, cases, 8.0);
-  CaseSession& one = cases[0]->session();
-  CaseSession& two = cases[1]->session();
+  CaseProxy& one = cases[0]->proxy();
+  CaseProxy& two = cases[1]->proxy();
   desktop.press(Qt::Key_L, Qt::ControlModifier);
   for (std::int64_t step = 1; step <= 3; ++step) {
     desktop.press(Qt::Key_Period);
-    desktop.settle();
+    desktop.wait_until_idle();
     QCOMPARE(one.state().step, step);
     QCOMPARE(two.state().step, step);
   }
@@ -262,13 +262,13 @@ void TwoCasesStoryTest::one_step_in_lock_step_is_one_of_each() {
   QVERIFY(Desktop::wait_for([&] { return one.state().step > 10 && two.state().step > 10; }));
   desktop.press(Qt::Key_Period);
   QVERIFY(Desktop::wait_for([&] { return !one.state().playing && !two.state().playing; }));
-  desktop.settle();
+  desktop.wait_until_idle();
   QCOMPARE(one.state().step, two.state().step);
   // Apart again each steps alone.
   desktop.press(Qt::Key_L, Qt::ControlModifier);
   const std::int64_t rest = two.state().step;
   one.step();
-  desktop.settle();
+  desktop.wait_until_idle();
   QCOMPARE(one.state().step, rest + 1);
   QCOMPARE(two.state().step, rest);
 }
@@ -277,14 +277,14 @@ void TwoCasesStoryTest::one_case_that_goes_back_stops_both() {
   Desktop desktop(story_executor(), {1200, 760});
   const auto cases = open_two(desktop, "tumour", "tumour");
   begin_both(desktop, cases, 8.0);
-  CaseSession& one = cases[0]->session();
-  CaseSession& two = cases[1]->session();
+  CaseProxy& one = cases[0]->proxy();
+  CaseProxy& two = cases[1]->proxy();
   desktop.press(Qt::Key_L, Qt::ControlModifier);
   one.play();
   QVERIFY(Desktop::wait_for([&] { return two.state().step > 20; }));
   one.restart();
   QVERIFY(Desktop::wait_for([&] { return !one.state().playing && !two.state().playing; }));
-  desktop.settle();
+  desktop.wait_until_idle();
   QCOMPARE(one.state().step, 0);
   const std::int64_t step = two.state().step;
   QVERIFY(step > 20);

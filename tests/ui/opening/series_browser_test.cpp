@@ -5,9 +5,9 @@
 #include <QSignalSpy>
 
 #include "imaging/dicom/dicom.h"
-#include "imaging/study.h"
-#include "session/background_job.h"
-#include "session/study_loader.h"
+#include "imaging/load_study.h"
+#include "engine/background_job.h"
+#include "engine/study_loader.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 #include "ui/opening/dropped_paths.h"

@@ -9,7 +9,7 @@
 #include <QToolButton>
 
 #include "imaging/phantom/phantom.h"
-#include "session/background_job.h"
+#include "engine/background_job.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 #include "ui/opening/card_button.h"

@@ -9,7 +9,7 @@
 #include <algorithm>
 
 #include "imaging/dicom/dicom.h"
-#include "session/background_job.h"
+#include "engine/background_job.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"

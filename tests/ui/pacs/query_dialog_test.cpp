@@ -5,7 +5,7 @@
 #include <QSignalSpy>
 #include <QTreeWidget>
 
-#include "imaging/study.h"
+#include "imaging/load_study.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/pacs/archives.h"
 #include "tests/imaging/pacs/scripted_peer.h"

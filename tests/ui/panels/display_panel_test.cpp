@@ -35,7 +35,7 @@ class DisplayPanelTest : public QObject {
     QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Level"))->value(), -600.0);
     choose(tr("Preset"), tr("As in the file"));
     QCOMPARE(settings().window, (WindowLevel{50.0, 300.0}));
-    the_case_->session->display().change([](DisplaySettings& s) { s.window = {40.0, 80.0}; });
+    the_case_->proxy->display().change([](DisplaySettings& s) { s.window = {40.0, 80.0}; });
     QCOMPARE(preset(), tr("Brain"));
     type(tr("Width"), "81");
     QCOMPARE(settings().window, (WindowLevel{40.0, 81.0}));
@@ -49,18 +49,18 @@ class DisplayPanelTest : public QObject {
     volume->unit.clear();
     volume->window.reset();
     study->volume = volume;
-    CaseSession session(the_case_->engine, study, ExecutorKind::host);
-    panel_->set_session(&session);
+    CaseProxy proxy(the_case_->engine, study, ExecutorKind::host);
+    panel_->set_proxy(&proxy);
     auto* presets = named<QComboBox>(*panel_, tr("Preset"));
     QCOMPARE(presets->findText(tr("Lung")), -1);
     QCOMPARE(presets->findText(tr("As in the file")), -1);
     choose(tr("Preset"), tr("Full range"));
     const auto [lowest, highest] = volume->range();
-    const WindowLevel window = session.display().settings().window;
+    const WindowLevel window = proxy.display().settings().window;
     QCOMPARE(window.centre - window.width / 2.0, double{lowest});
     QCOMPARE(window.centre + window.width / 2.0, double{highest});
     QVERIFY(named<QDoubleSpinBox>(*panel_, tr("Width"))->suffix().isEmpty());  // no HU
-    panel_->set_session(nullptr);
+    panel_->set_proxy(nullptr);
   }
 
   void slices_can_be_set() {
@@ -113,7 +113,7 @@ class DisplayPanelTest : public QObject {
   }
 
   void the_clip_plane_lies_across_the_crosshair_and_hides_the_viewers_side() {
-    the_case_->session->display().change([](DisplaySettings& s) {
+    the_case_->proxy->display().change([](DisplaySettings& s) {
       s.camera.azimuth = 0.0;  // from the front: the viewer is anterior
       s.camera.elevation = 0.0;
     });
@@ -146,7 +146,7 @@ class DisplayPanelTest : public QObject {
   }
 
   void what_is_changed_in_a_view_shows() {
-    the_case_->session->display().change([](DisplaySettings& s) {
+    the_case_->proxy->display().change([](DisplaySettings& s) {
       s.window = {12.0, 345.0};
       s.radiological = false;
       s.clip_on = true;
@@ -160,19 +160,19 @@ class DisplayPanelTest : public QObject {
 
   void a_panel_behind_another_one_catches_up_when_it_is_seen() {
     panel_->hide();
-    the_case_->session->display().change([](DisplaySettings& s) { s.window.width = 222.0; });
+    the_case_->proxy->display().change([](DisplaySettings& s) { s.window.width = 222.0; });
     show(*panel_);
     QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Width"))->value(), 222.0);
   }
 
   void the_session_may_die() {
-    the_case_->session.reset();
+    the_case_->proxy.reset();
     QVERIFY(!named<QComboBox>(*panel_, tr("Preset"))->isEnabled());
     panel_->grab();
   }
 
  private:
-  const DisplaySettings& settings() { return panel_->session()->display().settings(); }
+  const DisplaySettings& settings() { return panel_->proxy()->display().settings(); }
   QString preset() { return named<QComboBox>(*panel_, tr("Preset"))->currentText(); }
   // As from the list that opens.
   void choose(const QString& name, const QString& text) {

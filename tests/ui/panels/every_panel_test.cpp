@@ -16,7 +16,7 @@
 #include "ui/panels/level_set_panel.h"
 #include "ui/panels/paint_panel.h"
 #include "ui/panels/statistics_panel.h"
-#include "ui/panels/tent_plot.h"
+#include "ui/panels/speed_plot.h"
 
 namespace tidemark {
 
@@ -40,7 +40,7 @@ static QWidgetList controls(const QWidget& panel) {
     const bool is_control = qobject_cast<QAbstractButton*>(widget) ||
                             qobject_cast<QAbstractSlider*>(widget) ||
                             qobject_cast<QAbstractSpinBox*>(widget) || qobject_cast<QComboBox*>(widget) ||
-                            qobject_cast<QLineEdit*>(widget) || qobject_cast<TentPlot*>(widget);
+                            qobject_cast<QLineEdit*>(widget) || qobject_cast<SpeedPlot*>(widget);
     // A button without an action is not shown.
     const bool waits =
         widget->isHidden() && widget->toolTip().isEmpty() && qobject_cast<QAbstractButton*>(widget);
@@ -75,7 +75,7 @@ class EveryPanelTest : public QObject {
   void a_panel_fits_into_280_pixels_with_a_scroll_bar() {
     the_case_.begin();
     const auto panel = made();
-    panel->set_session(the_case_.session.get());
+    panel->set_proxy(the_case_.proxy.get());
     show(*panel);
     QVERIFY2(panel->minimumSizeHint().width() <= 280 - 14,
              qPrintable(QString::number(panel->minimumSizeHint().width())));
@@ -86,15 +86,15 @@ class EveryPanelTest : public QObject {
     const auto panel = made();
     show(*panel);
     const auto enabled = [&] { return controls(*panel).first()->isEnabledTo(panel.get()); };
-    panel->set_session(nullptr);
+    panel->set_proxy(nullptr);
     QVERIFY(!enabled());
     auto short_lived = std::make_unique<PanelCase>();
-    panel->set_session(short_lived->session.get());
+    panel->set_proxy(short_lived->proxy.get());
     short_lived->begin();
-    panel->set_session(the_case_.session.get());
+    panel->set_proxy(the_case_.proxy.get());
     short_lived.reset();
-    QVERIFY(panel->session() == the_case_.session.get());
-    panel->set_session(nullptr);
+    QVERIFY(panel->proxy() == the_case_.proxy.get());
+    panel->set_proxy(nullptr);
     QVERIFY(!enabled());
   }
 

@@ -40,10 +40,10 @@ class InitialisePanelTest : public QObject {
     choose(tr("Spheres"));
     auto* draw = button<QToolButton>(*panel_, tr("Draw in a view"));
     QTest::mouseClick(draw, Qt::LeftButton);
-    QCOMPARE(the_case_->session->display().settings().tool, Tool::seed);
-    the_case_->session->display().choose_tool(Tool::window);
+    QCOMPARE(the_case_->proxy->display().settings().tool, Tool::seed);
+    the_case_->proxy->display().choose_tool(Tool::window);
     QVERIFY(!draw->isChecked());
-    the_case_->session->display().choose_tool(Tool::seed);
+    the_case_->proxy->display().choose_tool(Tool::seed);
     QVERIFY(draw->isChecked());
   }
 
@@ -51,7 +51,7 @@ class InitialisePanelTest : public QObject {
     choose(tr("Threshold"));
     type(tr("From"), "60");
     type(tr("To"), "105");
-    const Volume& volume = the_case_->session->volume();
+    const Volume& volume = the_case_->proxy->volume();
     double count = 0.0;
     for (const float value : volume.values()) count += value >= 60.0F && value <= 105.0F ? 1.0 : 0.0;
     const double share = 100.0 * count / static_cast<double>(volume.geometry.voxel_count());
@@ -74,17 +74,17 @@ class InitialisePanelTest : public QObject {
     QVERIFY(start_button()->isEnabled());
     start();
     QVERIFY(std::abs(the_case_->state().surface.volume_ml - ball_ml()) < 0.08 * ball_ml());
-    the_case_->session->display().change(
+    the_case_->proxy->display().change(
         [](DisplaySettings& settings) { settings.cursor_mm = glm::dvec3(1.0); });
     QVERIFY(!start_button()->isEnabled());
     QVERIFY(says(tr("The value at the crosshair is not")));
-    the_case_->session->display().change(
+    the_case_->proxy->display().change(
         [](DisplaySettings& settings) { settings.cursor_mm = glm::dvec3(-500.0); });
     QVERIFY(says(tr("outside the study")));
   }
 
   void a_mask_file_is_read_away_from_the_interface() {
-    Mask mask{the_case_->session->volume().geometry, {}};
+    Mask mask{the_case_->proxy->volume().geometry, {}};
     mask.voxels.assign(static_cast<std::size_t>(mask.geometry.voxel_count()), 0);
     for (std::int64_t k = 8; k < 14; ++k) {
       for (std::int64_t j = 10; j < 30; ++j) {
@@ -100,14 +100,14 @@ class InitialisePanelTest : public QObject {
     QTest::mouseClick(start_button(), Qt::LeftButton);
     QVERIFY(!start_button()->isEnabled());  // while it is read
     QTRY_VERIFY(the_case_->state().begun);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QCOMPARE(the_case_->state().surface.voxels_inside, mask.count());
     QVERIFY(start_button()->isEnabled());
   }
 
   // As other programs write it: rows and columns from the other side.
   void a_mask_on_flipped_axes_is_taken() {
-    const Geometry grid = the_case_->session->volume().geometry;
+    const Geometry grid = the_case_->proxy->volume().geometry;
     Mask mask{grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))};
     mask.geometry.direction[0] = -grid.direction[0];
     mask.geometry.direction[1] = -grid.direction[1];
@@ -124,7 +124,7 @@ class InitialisePanelTest : public QObject {
     type_path("flipped.nrrd");
     QTest::mouseClick(start_button(), Qt::LeftButton);
     QTRY_VERIFY(the_case_->state().begun);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     const auto inside = the_case_->state().phi->mask();
     QCOMPARE(inside.count(), mask.count());
     const Index3 mirrored(grid.size.x - 1 - 5, grid.size.y - 1 - 10, 8);
@@ -132,7 +132,7 @@ class InitialisePanelTest : public QObject {
   }
 
   void a_mask_of_another_grid_is_refused_with_the_reason() {
-    Geometry other = the_case_->session->volume().geometry;
+    Geometry other = the_case_->proxy->volume().geometry;
     other.size.x -= 1;
     Mask mask{other, std::vector<std::uint8_t>(static_cast<std::size_t>(other.voxel_count()), 1)};
     QCOMPARE(failure(write_mask_file(mask, folder_ / "other.nii.gz")), QString());
@@ -159,9 +159,9 @@ class InitialisePanelTest : public QObject {
     choose(tr("Label"));
     QVERIFY(!start_button()->isEnabled());
     the_case_->begin(7.0);
-    the_case_->session->add_label(QStringLiteral("Liver"));
-    the_case_->settle();
-    the_case_->session->accept_surface(the_case_->state().labels.front().id);
+    the_case_->proxy->add_label(QStringLiteral("Liver"));
+    the_case_->wait_until_idle();
+    the_case_->proxy->accept_surface(the_case_->state().labels.front().id);
     const auto voxels = the_case_->state().surface.voxels_inside;
     the_case_->begin(3.0);
     QVERIFY(says(QStringLiteral("Liver")));
@@ -174,23 +174,23 @@ class InitialisePanelTest : public QObject {
     QVERIFY(!apply->isEnabled());
     type(tr("Smoothing σ"), "1.5");
     QTest::mouseClick(apply, Qt::LeftButton);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QCOMPARE(the_case_->state().smoothed_mm, 1.5);
     QVERIFY(says(QLocale().toString(1.5, 'f', 2)));
     type(tr("Smoothing σ"), "0");
     QTest::mouseClick(apply, Qt::LeftButton);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QCOMPARE(the_case_->state().smoothed_mm, 0.0);
   }
 
   void a_session_may_die_while_a_file_is_read() {
-    Mask mask{the_case_->session->volume().geometry, {}};
+    Mask mask{the_case_->proxy->volume().geometry, {}};
     mask.voxels.assign(static_cast<std::size_t>(mask.geometry.voxel_count()), 1);
     QCOMPARE(failure(write_mask_file(mask, folder_ / "all.nii.gz")), QString());
     choose(tr("Mask file"));
     type_path("all.nii.gz");
     QTest::mouseClick(start_button(), Qt::LeftButton);
-    the_case_->session.reset();
+    the_case_->proxy.reset();
     QTest::qWait(200);
     QVERIFY(!start_button()->isEnabled());
     QVERIFY(says(tr("Open a study to")));
@@ -226,7 +226,7 @@ class InitialisePanelTest : public QObject {
   void start() {
     QVERIFY(start_button()->isEnabled());
     QTest::mouseClick(start_button(), Qt::LeftButton);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QVERIFY(the_case_->state().begun);
   }
   // All texts that are seen.

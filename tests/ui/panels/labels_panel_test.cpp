@@ -69,8 +69,8 @@ class LabelsPanelTest : public QObject {
     QCOMPARE(the_case_->state().label_statistics[0].voxels, std::int64_t{0});
     QCOMPARE(the_case_->state().label_statistics[1].voxels, all);
     QVERIFY(says(QLocale().toString(qlonglong{all}) + " of them had another label"));
-    the_case_->session->undo();
-    the_case_->settle();
+    the_case_->proxy->undo();
+    the_case_->wait_until_idle();
     QVERIFY(!says("voxels"));
     QCOMPARE(the_case_->state().label_statistics[0].voxels, all);
   }
@@ -109,7 +109,7 @@ class LabelsPanelTest : public QObject {
     editor->selectAll();
     QTest::keyClicks(editor, "Left kidney");
     QTest::keyClick(editor, Qt::Key_Return);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QCOMPARE(QString::fromStdString(the_case_->state().labels.front().name), QStringLiteral("Left kidney"));
     QCOMPARE(text(0, LabelsModel::name), QStringLiteral("Left kidney"));
   }
@@ -125,12 +125,12 @@ class LabelsPanelTest : public QObject {
     editor->selectAll();
     QTest::keyClicks(editor, "Left kid");
     the_case_->begin(5.0);
-    the_case_->session->step(3);
-    the_case_->settle();
+    the_case_->proxy->step(3);
+    the_case_->wait_until_idle();
     QVERIFY(editor);
     QTest::keyClicks(editor, "ney");
     QTest::keyClick(editor, Qt::Key_Return);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QCOMPARE(QString::fromStdString(the_case_->state().labels.front().name), QStringLiteral("Left kidney"));
   }
 
@@ -140,7 +140,7 @@ class LabelsPanelTest : public QObject {
     auto& table = *panel_->findChild<QTableView*>();
     tick(table, LabelsModel::visible);
     tick(table, LabelsModel::locked);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QVERIFY(!the_case_->state().labels.front().visible);
     QVERIFY(the_case_->state().labels.front().locked);
     QVERIFY(!button<QPushButton>(*panel_, tr("Accept surface into label"))->isEnabled());
@@ -151,7 +151,7 @@ class LabelsPanelTest : public QObject {
     auto& model = *panel_->findChild<LabelsModel*>();
     model.setData(model.index(0, LabelsModel::locked), Qt::Checked, Qt::CheckStateRole);
     model.setData(model.index(0, LabelsModel::name), QStringLiteral("Spleen"), Qt::EditRole);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QVERIFY(the_case_->state().labels.front().locked);
     QCOMPARE(the_case_->state().labels.front().name, std::string("Spleen"));
   }
@@ -171,7 +171,7 @@ class LabelsPanelTest : public QObject {
     QVERIFY(dialog);
     dialog->setCurrentColor(QColor(10, 200, 30));
     dialog->accept();
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QCOMPARE(the_case_->state().labels.front().colour, (std::array<std::uint8_t, 3>{10, 200, 30}));
   }
 
@@ -179,7 +179,7 @@ class LabelsPanelTest : public QObject {
     add();
     auto& model = *panel_->findChild<LabelsModel*>();
     model.setData(model.index(0, LabelsModel::name), QStringLiteral("Left kidney"), Qt::EditRole);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     auto& picker = *panel_->findChild<MeaningPicker*>();
     QCOMPARE(picker.currentText(), QStringLiteral("By its name: Kidney"));
     QVERIFY(!the_case_->state().labels.front().meaning);
@@ -187,11 +187,11 @@ class LabelsPanelTest : public QObject {
     picker.lineEdit()->selectAll();
     QTest::keyClicks(&picker, "cys");
     QTest::keyClick(&picker, Qt::Key_Return);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QVERIFY(the_case_->state().labels.front().meaning == find_segment_meaning("cyst").value());
     QCOMPARE(picker.currentText(), QStringLiteral("Cyst"));
-    the_case_->session->undo();
-    the_case_->settle();
+    the_case_->proxy->undo();
+    the_case_->wait_until_idle();
     QVERIFY(!the_case_->state().labels.front().meaning);
     QCOMPARE(picker.currentText(), QStringLiteral("By its name: Kidney"));
   }
@@ -200,18 +200,18 @@ class LabelsPanelTest : public QObject {
     add();
     Label label = the_case_->state().labels.front();
     label.meaning = SegmentMeaning{{"1", "99X", "Thing"}, {"2", "99X", "Left gizmo"}};
-    the_case_->session->set_label(label);
-    the_case_->settle();
+    the_case_->proxy->set_label(label);
+    the_case_->wait_until_idle();
     auto& picker = *panel_->findChild<MeaningPicker*>();
     QCOMPARE(picker.currentText(), QStringLiteral("Left gizmo"));
     const int rows = picker.count();
     picker.setFocus();
     QTest::keyClick(&picker, Qt::Key_Up);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QCOMPARE(picker.currentText(), QStringLiteral("White matter"));
     QVERIFY(the_case_->state().labels.front().meaning == find_segment_meaning("white-matter").value());
-    the_case_->session->undo();
-    the_case_->settle();
+    the_case_->proxy->undo();
+    the_case_->wait_until_idle();
     QVERIFY(the_case_->state().labels.front().meaning == label.meaning);
     QCOMPARE(picker.currentText(), QStringLiteral("Left gizmo"));
     QCOMPARE(picker.count(), rows);
@@ -226,7 +226,7 @@ class LabelsPanelTest : public QObject {
     QTest::keyClicks(&picker, "zzz");
     QTest::keyClick(&picker, Qt::Key_Return);
     panel_->findChild<QTableView*>()->setFocus();
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QCOMPARE(picker.currentText(), before);
     QVERIFY(!the_case_->state().labels.front().meaning);
   }
@@ -236,15 +236,15 @@ class LabelsPanelTest : public QObject {
     add();
     const auto kept = the_case_->state().labels.front().id;
     QTest::mouseClick(button<QToolButton>(*panel_, tr("Remove")), Qt::LeftButton);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QCOMPARE(the_case_->state().labels.size(), std::size_t{1});
     QCOMPARE(the_case_->state().labels.front().id, kept);
     QCOMPARE(chosen_row(), 0);
   }
 
   void a_label_added_elsewhere_shows() {
-    the_case_->session->add_label(QStringLiteral("Tumour"));
-    the_case_->settle();
+    the_case_->proxy->add_label(QStringLiteral("Tumour"));
+    the_case_->wait_until_idle();
     QCOMPARE(text(0, LabelsModel::name), QStringLiteral("Tumour"));
   }
 
@@ -254,12 +254,12 @@ class LabelsPanelTest : public QObject {
     opacity->selectAll();
     QTest::keyClicks(opacity, "75");
     QTest::keyClick(opacity, Qt::Key_Return);
-    QCOMPARE(the_case_->session->display().settings().label_opacity, 0.75);
+    QCOMPARE(the_case_->proxy->display().settings().label_opacity, 0.75);
   }
 
   void without_a_session_the_table_is_empty() {
     add();
-    the_case_->session.reset();
+    the_case_->proxy.reset();
     QCOMPARE(panel_->findChild<LabelsModel*>()->rowCount(), 0);
     QVERIFY(!panel_->findChild<QTableView*>()->isEnabled());
   }
@@ -267,13 +267,13 @@ class LabelsPanelTest : public QObject {
  private:
   void add() {
     QTest::mouseClick(button<QToolButton>(*panel_, tr("Add")), Qt::LeftButton);
-    the_case_->settle();
+    the_case_->wait_until_idle();
   }
   void click(const QString& text) {
     auto* one = button<QPushButton>(*panel_, text);
     QVERIFY(one->isEnabled());
     QTest::mouseClick(one, Qt::LeftButton);
-    the_case_->settle();
+    the_case_->wait_until_idle();
   }
   // Whether a sentence that is seen has this in it.
   bool says(const QString& words) {

@@ -16,7 +16,7 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 #include "ui/panels/curve_plot.h"
-#include "ui/panels/tent_plot.h"
+#include "ui/panels/speed_plot.h"
 
 namespace tidemark {
 
@@ -57,25 +57,25 @@ class LevelSetPanelTest : public QObject {
 
   void a_slider_dragged_in_mid_run_reaches_the_level_set_and_is_one_entry_of_the_history() {
     the_case_->begin();
-    CaseSession& session = *the_case_->session;
-    session.set_pause_at_convergence(false);
-    session.play();
-    QTRY_VERIFY(session.state().step > 5);
+    CaseProxy& proxy = *the_case_->proxy;
+    proxy.set_pause_at_convergence(false);
+    proxy.play();
+    QTRY_VERIFY(proxy.state().step > 5);
     auto* slider = named<QSlider>(*panel_, tr("Target T"));
     const QPoint handle = handle_of(*slider);
     drag(*slider, handle, handle - QPoint(30, 0));
-    QVERIFY(session.state().playing);
-    const double wanted = session.parameters().target;
+    QVERIFY(proxy.state().playing);
+    const double wanted = proxy.parameters().target;
     QVERIFY2(wanted < 90.0, qPrintable(QString::number(wanted)));
     QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Target T"))->value(), wanted);
-    QTRY_COMPARE(session.state().parameters.target, wanted);
-    session.pause();
-    the_case_->settle();
-    session.undo();  // the drag, with the steps in between
-    the_case_->settle();
-    if (session.state().parameters.target != 100.0) session.undo();  // steps after it were an entry
-    the_case_->settle();
-    QCOMPARE(session.state().parameters.target, 100.0);
+    QTRY_COMPARE(proxy.state().parameters.target, wanted);
+    proxy.pause();
+    the_case_->wait_until_idle();
+    proxy.undo();  // the drag, with the steps in between
+    the_case_->wait_until_idle();
+    if (proxy.state().parameters.target != 100.0) proxy.undo();  // steps after it were an entry
+    the_case_->wait_until_idle();
+    QCOMPARE(proxy.state().parameters.target, 100.0);
   }
 
   void a_typed_range_arrives() {
@@ -84,21 +84,21 @@ class LevelSetPanelTest : public QObject {
     number->selectAll();
     QTest::keyClicks(number, "33");
     QTest::keyClick(number, Qt::Key_Return);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QCOMPARE(the_case_->state().parameters.range, 33.0);
-    QCOMPARE(panel_->findChild<TentPlot*>()->range(), 33.0);
+    QCOMPARE(panel_->findChild<SpeedPlot*>()->range(), 33.0);
   }
 
   void to_the_right_the_data_weigh_more() {
     auto* slider = named<QSlider>(*panel_, tr("Data weight α"));
     slider->setFocus();
-    const double before = the_case_->session->parameters().alpha;
+    const double before = the_case_->proxy->parameters().alpha;
     QTest::keyClick(slider, Qt::Key_Right);
-    QVERIFY(the_case_->session->parameters().alpha > before);
+    QVERIFY(the_case_->proxy->parameters().alpha > before);
     QTest::keyClick(slider, Qt::Key_End);
-    QCOMPARE(the_case_->session->parameters().alpha, 1.0);
+    QCOMPARE(the_case_->proxy->parameters().alpha, 1.0);
     QTest::keyClick(slider, Qt::Key_Home);
-    QCOMPARE(the_case_->session->parameters().alpha, 0.0);
+    QCOMPARE(the_case_->proxy->parameters().alpha, 0.0);
   }
 
   void the_ends_of_alpha_say_what_they_stand_for() {
@@ -115,24 +115,24 @@ class LevelSetPanelTest : public QObject {
   }
 
   void the_peak_of_the_tent_moves_t_alone() {
-    auto& tent = *panel_->findChild<TentPlot*>();
+    auto& tent = *panel_->findChild<SpeedPlot*>();
     const QPoint peak = tent.peak().toPoint();
     drag(tent, peak, peak - QPoint(40, 0));
-    the_case_->settle();
+    the_case_->wait_until_idle();
     const Parameters& parameters = the_case_->state().parameters;
     QVERIFY(parameters.target < 95.0);
     QCOMPARE(parameters.range, 50.0);
-    the_case_->session->undo();
-    the_case_->settle();
+    the_case_->proxy->undo();
+    the_case_->wait_until_idle();
     QCOMPARE(the_case_->state().parameters.target, 100.0);
     QVERIFY(the_case_->state().undo_text.isEmpty());
   }
 
   void a_foot_of_the_tent_changes_epsilon_alone() {
-    auto& tent = *panel_->findChild<TentPlot*>();
+    auto& tent = *panel_->findChild<SpeedPlot*>();
     const QPoint foot = tent.left_foot().toPoint();
     drag(tent, foot, foot + QPoint(20, 30));
-    the_case_->settle();
+    the_case_->wait_until_idle();
     const Parameters& parameters = the_case_->state().parameters;
     QVERIFY(parameters.range < 48.0);
     QCOMPARE(parameters.target, 100.0);
@@ -140,43 +140,43 @@ class LevelSetPanelTest : public QObject {
   }
 
   void a_press_beside_the_tents_handles_changes_nothing() {
-    auto& tent = *panel_->findChild<TentPlot*>();
+    auto& tent = *panel_->findChild<SpeedPlot*>();
     drag(tent, {40, tent.height() - 20}, {90, tent.height() - 20});
-    QCOMPARE(the_case_->session->parameters(), the_case_->session->study().parameters);
+    QCOMPARE(the_case_->proxy->parameters(), the_case_->proxy->study().parameters);
   }
 
   void arrow_keys_move_the_tent() {
-    auto& tent = *panel_->findChild<TentPlot*>();
+    auto& tent = *panel_->findChild<SpeedPlot*>();
     tent.setFocus();
     QTest::keyClick(&tent, Qt::Key_Left);
-    QVERIFY(the_case_->session->parameters().target < 100.0);
+    QVERIFY(the_case_->proxy->parameters().target < 100.0);
     QTest::keyClick(&tent, Qt::Key_Up);
-    QVERIFY(the_case_->session->parameters().range > 50.0);
+    QVERIFY(the_case_->proxy->parameters().range > 50.0);
   }
 
   void terms_can_be_switched_off_and_on() {
     auto* curvature = button<QCheckBox>(*panel_, tr("Curvature"));
     QTest::mouseClick(curvature, Qt::LeftButton, {}, {8, curvature->height() / 2});
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QVERIFY(!the_case_->state().parameters.curvature_term);
     QVERIFY(the_case_->state().parameters.data_term);
     button<QCheckBox>(*panel_, tr("Data"))->setFocus();
     QTest::keyClick(button<QCheckBox>(*panel_, tr("Data")), Qt::Key_Space);
     QTest::mouseClick(curvature, Qt::LeftButton, {}, {8, curvature->height() / 2});
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QVERIFY(the_case_->state().parameters.curvature_term);
     QVERIFY(!the_case_->state().parameters.data_term);
   }
 
   void what_is_changed_elsewhere_shows() {
-    Parameters parameters = the_case_->session->parameters();
+    Parameters parameters = the_case_->proxy->parameters();
     parameters.target = 42.0;
     parameters.alpha = 0.25;
     parameters.rescaling_term = false;
-    the_case_->session->set_parameters(parameters);
+    the_case_->proxy->set_parameters(parameters);
     QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Target T"))->value(), 42.0);
     QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Data weight α"))->value(), 0.25);
-    QCOMPARE(panel_->findChild<TentPlot*>()->target(), 42.0);
+    QCOMPARE(panel_->findChild<SpeedPlot*>()->target(), 42.0);
     QVERIFY(!button<QCheckBox>(*panel_, tr("Rescaling"))->isChecked());
     // alpha / (alpha + (1 - alpha) epsilon) = 0.25 / (0.25 + 0.75 * 50)
     QVERIFY(named<QLabel>(*panel_, tr("α as in the paper"))
@@ -201,11 +201,11 @@ class LevelSetPanelTest : public QObject {
     auto* steps = named<QComboBox>(*panel_, tr("Picture every"));
     steps->setFocus();
     QTest::keyClicks(steps, "5");
-    QCOMPARE(the_case_->session->steps_per_picture(), std::int64_t{5});
+    QCOMPARE(the_case_->proxy->steps_per_picture(), std::int64_t{5});
     auto* pause = button<QCheckBox>(*panel_, tr("Pause at convergence"));
     QVERIFY(pause->isChecked());
     QTest::mouseClick(pause, Qt::LeftButton, {}, {8, pause->height() / 2});
-    QVERIFY(!the_case_->session->pause_at_convergence());
+    QVERIFY(!the_case_->proxy->pause_at_convergence());
   }
 
   void executors_that_cannot_run_are_grey_and_say_why() {
@@ -220,16 +220,16 @@ class LevelSetPanelTest : public QObject {
     QVERIFY(items->item(executor->findData(QStringLiteral("automatic")))->isEnabled());
     executor->setFocus();
     executor->activated(executor->findData(QStringLiteral("automatic")));
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QCOMPARE(executor->currentData().toString(), QStringLiteral("host"));
   }
 
   void figures_and_curves_follow_the_run_to_convergence() {
     the_case_->begin();
     QVERIFY(button<QLabel>(*panel_, tr("paused")));
-    the_case_->session->play();
+    the_case_->proxy->play();
     QTRY_VERIFY_WITH_TIMEOUT(the_case_->state().converged, 60000);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QVERIFY(button<QLabel>(*panel_, tr("converged")));
     QCOMPARE(named<QLabel>(*panel_, tr("Step"))->text(),
              QLocale().toString(qlonglong(the_case_->state().step)));
@@ -244,20 +244,20 @@ class LevelSetPanelTest : public QObject {
   }
 
   void without_a_session_it_is_grey_and_says_what_is_missing() {
-    panel_->set_session(nullptr);
+    panel_->set_proxy(nullptr);
     QVERIFY(button<QLabel>(*panel_, tr("Open a study to steer a level set in it."))->isVisible());
     QVERIFY(!named<QSlider>(*panel_, tr("Target T"))->isEnabled());
-    panel_->set_session(the_case_->session.get());
+    panel_->set_proxy(the_case_->proxy.get());
     QVERIFY(named<QSlider>(*panel_, tr("Target T"))->isEnabled());
   }
 
   void a_session_may_die_while_the_panel_lives_even_in_a_drag() {
-    auto& tent = *panel_->findChild<TentPlot*>();
+    auto& tent = *panel_->findChild<SpeedPlot*>();
     const QPoint peak = tent.peak().toPoint();
     QTest::mousePress(&tent, Qt::LeftButton, {}, peak);
     QTest::mouseMove(&tent, peak + QPoint(10, 0));
-    the_case_->session.reset();
-    QVERIFY(panel_->session() == nullptr);
+    the_case_->proxy.reset();
+    QVERIFY(panel_->proxy() == nullptr);
     QTest::mouseMove(&tent, peak + QPoint(20, 0));
     QTest::mouseRelease(&tent, Qt::LeftButton, {}, peak + QPoint(20, 0));
     QVERIFY(!tent.isEnabled());
@@ -266,16 +266,16 @@ class LevelSetPanelTest : public QObject {
 
   void another_session_shows_its_own() {
     PanelCase other;
-    Parameters parameters = other.session->parameters();
+    Parameters parameters = other.proxy->parameters();
     parameters.target = 11.0;
-    other.session->set_parameters(parameters);
-    panel_->set_session(other.session.get());
+    other.proxy->set_parameters(parameters);
+    panel_->set_proxy(other.proxy.get());
     QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Target T"))->value(), 11.0);
-    parameters = the_case_->session->parameters();
+    parameters = the_case_->proxy->parameters();
     parameters.target = 77.0;
-    the_case_->session->set_parameters(parameters);  // no longer shown
+    the_case_->proxy->set_parameters(parameters);  // no longer shown
     QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Target T"))->value(), 11.0);
-    panel_->set_session(nullptr);
+    panel_->set_proxy(nullptr);
   }
 
  private:

@@ -36,7 +36,7 @@ class PaintPanelTest : public QObject {
 
   void with_another_tool_neither_is_chosen() {
     QTest::mouseClick(named<QToolButton>(*panel_, tr("Paint")), Qt::LeftButton);
-    the_case_->session->display().choose_tool(Tool::measure_angle);
+    the_case_->proxy->display().choose_tool(Tool::measure_angle);
     QVERIFY(!named<QToolButton>(*panel_, tr("Paint"))->isChecked());
     QVERIFY(!named<QToolButton>(*panel_, tr("Erase"))->isChecked());
   }
@@ -54,7 +54,7 @@ class PaintPanelTest : public QObject {
   }
 
   void the_radius_follows_the_wheel_in_a_view() {
-    the_case_->session->display().change([](DisplaySettings& s) { s.brush_mm = 2.5; });
+    the_case_->proxy->display().change([](DisplaySettings& s) { s.brush_mm = 2.5; });
     QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Radius"))->value(), 2.5);
   }
 
@@ -70,12 +70,12 @@ class PaintPanelTest : public QObject {
   }
 
   void the_session_may_die() {
-    the_case_->session.reset();
+    the_case_->proxy.reset();
     QVERIFY(!named<QToolButton>(*panel_, tr("Paint"))->isEnabled());
   }
 
  private:
-  const DisplaySettings& settings() { return the_case_->session->display().settings(); }
+  const DisplaySettings& settings() { return the_case_->proxy->display().settings(); }
 
   std::unique_ptr<PanelCase> the_case_;
   std::unique_ptr<PaintPanel> panel_;

@@ -10,12 +10,12 @@ void show(QWidget& widget) {
   if (!QTest::qWaitForWindowActive(&widget)) qFatal("the window does not show");
 }
 
-PanelCase::PanelCase() : session(std::make_unique<CaseSession>(engine, ball_study(), ExecutorKind::host)) {
-  session->display().change([this](DisplaySettings& settings) { settings.cursor_mm = middle(); });
-  settle();
+PanelCase::PanelCase() : proxy(std::make_unique<CaseProxy>(engine, ball_study(), ExecutorKind::host)) {
+  proxy->display().change([this](DisplaySettings& settings) { settings.cursor_mm = middle(); });
+  wait_until_idle();
 }
 
-void PanelCase::settle() {
+void PanelCase::wait_until_idle() {
   QCoreApplication::processEvents();  // editors in tables hand over what was typed a moment later
   static_cast<void>(QTest::qWaitFor([this] { return engine.idle(); }, 60000));
   QCoreApplication::sendPostedEvents();
@@ -25,12 +25,12 @@ void PanelCase::settle() {
 void PanelCase::begin(double radius_mm) {
   Start start;
   start.seeds.push_back({middle(), radius_mm});
-  session->begin(start);
-  settle();
+  proxy->begin(start);
+  wait_until_idle();
 }
 
 glm::dvec3 PanelCase::middle() const {
-  return middle_of(session->volume().geometry);
+  return middle_of(proxy->volume().geometry);
 }
 
 }  // namespace tidemark::test

@@ -4,8 +4,8 @@
 #include <QTest>
 #include <memory>
 
-#include "session/case_session.h"
-#include "tests/session/ball_study.h"
+#include "engine/case_proxy.h"
+#include "tests/engine/ball_study.h"
 #include "tests/support/support.h"
 
 namespace tidemark::test {
@@ -35,13 +35,13 @@ class PanelCase {
   PanelCase();
 
   Engine engine{false};
-  std::unique_ptr<CaseSession> session;
+  std::unique_ptr<CaseProxy> proxy;
 
   // Waits until all that was asked for is done, and the session knows. Not while it plays.
-  void settle();
+  void wait_until_idle();
   // A ball of that radius in the middle of the study.
   void begin(double radius_mm = 6.0);
-  [[nodiscard]] const CaseState& state() const { return session->state(); }
+  [[nodiscard]] const CaseState& state() const { return proxy->state(); }
   [[nodiscard]] glm::dvec3 middle() const;
 };
 
@@ -49,7 +49,7 @@ class PanelCase {
 template <class AnyPanel>
 std::unique_ptr<AnyPanel> shown(PanelCase& of, int height) {
   auto panel = std::make_unique<AnyPanel>();
-  panel->set_session(of.session.get());
+  panel->set_proxy(of.proxy.get());
   panel->resize(300, height);
   show(*panel);
   return panel;

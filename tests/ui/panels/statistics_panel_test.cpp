@@ -44,21 +44,21 @@ class StatisticsPanelTest : public QObject {
 
   void values_of_an_older_surface_are_not_shown_while_it_moves() {
     the_case_->begin(6.0);
-    the_case_->session->set_pause_at_convergence(false);
-    the_case_->session->play();
+    the_case_->proxy->set_pause_at_convergence(false);
+    the_case_->proxy->play();
     QTRY_VERIFY(the_case_->state().surface.voxels_inside != the_case_->state().inside.voxels);
     QTRY_COMPARE(figure(tr("Mean")), QStringLiteral("–"));
-    the_case_->session->pause();
-    the_case_->settle();
+    the_case_->proxy->pause();
+    the_case_->wait_until_idle();
     QVERIFY(figure(tr("Mean")) != QStringLiteral("–"));
   }
 
   void the_file_has_points_and_names_for_programs_in_every_language() {
     the_case_->begin(8.0);
-    the_case_->session->add_label(QStringLiteral("Liver, \"left\""));
-    the_case_->settle();
-    the_case_->session->accept_surface(the_case_->state().labels.front().id);
-    the_case_->settle();
+    the_case_->proxy->add_label(QStringLiteral("Liver, \"left\""));
+    the_case_->wait_until_idle();
+    the_case_->proxy->accept_surface(the_case_->state().labels.front().id);
+    the_case_->wait_until_idle();
     measure();
     const QStringList lines = exported();
     QCOMPARE(lines.size(), 6);  // the last line ends, too
@@ -98,10 +98,10 @@ class StatisticsPanelTest : public QObject {
 
   void labels_have_rows() {
     the_case_->begin(8.0);
-    the_case_->session->add_label(QStringLiteral("Liver"));
-    the_case_->settle();
-    the_case_->session->accept_surface(the_case_->state().labels.front().id);
-    the_case_->settle();
+    the_case_->proxy->add_label(QStringLiteral("Liver"));
+    the_case_->wait_until_idle();
+    the_case_->proxy->accept_surface(the_case_->state().labels.front().id);
+    the_case_->wait_until_idle();
     auto* table = named<QTableWidget>(*panel_, tr("Figures of the labels"));
     QCOMPARE(table->rowCount(), 1);
     QCOMPARE(table->item(0, 0)->text(), QStringLiteral("Liver"));
@@ -119,7 +119,7 @@ class StatisticsPanelTest : public QObject {
 
   void without_a_session_there_are_no_figures() {
     the_case_->begin(8.0);
-    the_case_->session.reset();
+    the_case_->proxy.reset();
     QCOMPARE(figure(tr("Volume")), QStringLiteral("–"));
     panel_->copy();  // copies nothing, and does not crash
   }
@@ -128,7 +128,7 @@ class StatisticsPanelTest : public QObject {
   QString figure(const QString& name) { return named<QLabel>(*panel_, name)->text(); }
   // A distance, an angle, and one that is not complete.
   void measure() {
-    the_case_->session->display().change([](DisplaySettings& settings) {
+    the_case_->proxy->display().change([](DisplaySettings& settings) {
       using Kind = Measurement::Kind;
       settings.measurements = {{Kind::distance, {{0.0, 0.0, 0.0}, {3.0, 4.0, 0.0}}},
                                {Kind::angle, {{1.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}},
@@ -136,7 +136,7 @@ class StatisticsPanelTest : public QObject {
     });
   }
   QStringList exported() {
-    return QString::fromStdString(to_csv(*the_case_->session)).split(QStringLiteral("\r\n"));
+    return QString::fromStdString(to_csv(*the_case_->proxy)).split(QStringLiteral("\r\n"));
   }
 
   std::unique_ptr<PanelCase> the_case_;

@@ -17,12 +17,12 @@ std::shared_ptr<const LoadedStudy> ball_of(const std::string& patient, const std
 }
 
 // What the engine without OpenGL cannot draw: the overlay alone.
-std::unique_ptr<PictureView> view_of(CaseSession& session, bool in_3d) {
+std::unique_ptr<PictureView> view_of(CaseProxy& proxy, bool in_3d) {
   std::unique_ptr<PictureView> view;
   if (in_3d) {
-    view = std::make_unique<VolumeViewWidget>(session);
+    view = std::make_unique<VolumeViewWidget>(proxy);
   } else {
-    view = std::make_unique<SliceViewWidget>(session, SlicePlane::axial, SliceContent::source);
+    view = std::make_unique<SliceViewWidget>(proxy, SlicePlane::axial, SliceContent::source);
   }
   view->resize(500, 400);
   view->show();
@@ -66,16 +66,16 @@ class CornersTest : public QObject {
 
   void a_low_view_has_room_for_the_name_alone() {
     Engine engine{false};
-    CaseSession session(engine, ball_of("Doe, John", "2004-07-31"), ExecutorKind::host);
-    CaseSession nameless(engine, ball_of("", ""), ExecutorKind::host);
+    CaseProxy proxy(engine, ball_of("Doe, John", "2004-07-31"), ExecutorKind::host);
+    CaseProxy nameless(engine, ball_of("", ""), ExecutorKind::host);
     QVERIFY(QTest::qWaitFor([&] { return engine.idle(); }, 60000));
-    const auto view = view_of(session, false);
+    const auto view = view_of(proxy, false);
     const auto other = view_of(nameless, false);
     const int line = view->fontMetrics().height();
     view->resize(400, 7 * line);
     other->resize(400, 7 * line);
     const QImage low = view->grab_picture();
-    other->session().display().change([](DisplaySettings& settings) { settings.patient_text = false; });
+    other->proxy().display().change([](DisplaySettings& settings) { settings.patient_text = false; });
     const QImage without = other->grab_picture();
     const int below_name = 8 + line + 2;
     QVERIFY(differing_pixels(low, without, QRect(0, 0, 190, below_name)) > 50);
@@ -92,8 +92,8 @@ class CornersTest : public QObject {
   void every_view_names_the_patient_until_that_is_hidden() {
     QFETCH(bool, in_3d);
     Engine engine{false};
-    CaseSession one(engine, ball_of("Doe, John", "2004-07-31"), ExecutorKind::host);
-    CaseSession other(engine, ball_of("Mustermann, Erika", "2011-01-02"), ExecutorKind::host);
+    CaseProxy one(engine, ball_of("Doe, John", "2004-07-31"), ExecutorKind::host);
+    CaseProxy other(engine, ball_of("Mustermann, Erika", "2011-01-02"), ExecutorKind::host);
     QVERIFY(QTest::qWaitFor([&] { return engine.idle(); }, 60000));
     const auto view = view_of(one, in_3d);
     const auto other_view = view_of(other, in_3d);
@@ -103,8 +103,8 @@ class CornersTest : public QObject {
     const QRect upper_right(260, 0, 240, 100);
     QVERIFY(differing_pixels(shown, shown_other, upper_left) > 50);
     QVERIFY(differing_pixels(shown, shown_other, upper_right) > 20);
-    for (CaseSession* session : {&one, &other})
-      session->display().change([](DisplaySettings& settings) { settings.patient_text = false; });
+    for (CaseProxy* proxy : {&one, &other})
+      proxy->display().change([](DisplaySettings& settings) { settings.patient_text = false; });
     const QImage hidden = view->grab_picture();
     QVERIFY(differing_pixels(shown, hidden, upper_left) > 50);
     QCOMPARE(differing_pixels(hidden, other_view->grab_picture(), hidden.rect()), 0);

@@ -7,8 +7,8 @@
 #include <QScreen>
 #include <set>
 
-#include "session/case_runner.h"
-#include "session/view_textures.h"
+#include "engine/case_runner.h"
+#include "engine/view_textures.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 
@@ -29,8 +29,8 @@ class DesktopWith : public Desktop {
     return views;
   }
   std::int64_t pictures_read_back() {
-    settle();
-    return session().runner()->painter().pictures_read_back();
+    wait_until_idle();
+    return proxy().runner()->painter().pictures_read_back();
   }
 
  private:
@@ -43,11 +43,11 @@ class DesktopWith : public Desktop {
 // With a level set inside.
 void open_sphere(Desktop& desktop) {
   QVERIFY(desktop.open_phantom("sphere"));
-  const Geometry& geometry = desktop.session().volume().geometry;
+  const Geometry& geometry = desktop.proxy().volume().geometry;
   Start start;
   start.seeds.push_back({geometry.to_patient(0.5 * glm::dvec3(geometry.size - Index3(1))), 12.0});
-  desktop.session().begin(start);
-  desktop.settle();
+  desktop.proxy().begin(start);
+  desktop.wait_until_idle();
 }
 
 // What is on the screen, after Qt has put all widgets together.
@@ -108,16 +108,16 @@ void PictureSurfaceTest::textures_show_what_images_show_and_nothing_is_read_back
     }
     // Everything moves at once.
     WatchedApplication::instance().restart();
-    desktop.session().play();
+    desktop.proxy().play();
     for (int i = 0; i < 20; ++i) {
-      desktop.session().display().change([](DisplaySettings& settings) { settings.camera.azimuth += 3.0; });
+      desktop.proxy().display().change([](DisplaySettings& settings) { settings.camera.azimuth += 3.0; });
       QTest::qWait(20);
     }
     QTest::qWait(300);
     qInfo("%s: the user interface was late by %.0f ms at most", way,
           WatchedApplication::instance().longest_ms());
-    desktop.session().pause();
-    desktop.settle();
+    desktop.proxy().pause();
+    desktop.wait_until_idle();
     QCOMPARE(desktop.pictures_read_back() == 0, textures);
     QCOMPARE(desktop.engine().contexts_made(), 1);
   }
@@ -134,22 +134,22 @@ void PictureSurfaceTest::views_survive_being_undocked_docked_and_put_into_tabs()
   QDockWidget* other = window.dock_of(volume);
   for (int i = 0; i < 10; ++i) {
     dock->setFloating(true);
-    desktop.settle();
+    desktop.wait_until_idle();
     dock->setFloating(false);
     window.tabifyDockWidget(other, dock);
     other->raise();
     QTest::qWait(10);
     dock->raise();
-    desktop.settle();
+    desktop.wait_until_idle();
     // The size is a new one each time; what is compared is the screen with a picture painted anew.
     QVERIFY(difference(on_screen(*axial), axial->grab_picture()) < 0.006);
     QVERIFY(axial->feed().shown().texture);
   }
   other->raise();
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(difference(on_screen(*volume), volume->grab_picture()) < 0.006);
   desktop.window().resize(900, 600);
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(volume->feed().shown().texture->size() == volume->physical_size());
   for (PictureView* view : {static_cast<PictureView*>(axial), static_cast<PictureView*>(volume)}) {
     QCOMPARE(view->surface()->times_initialised(), 1);
@@ -170,9 +170,9 @@ void PictureSurfaceTest::the_mouse_and_the_keyboard_reach_the_view() {
   QVERIFY2(under_mouse == axial, under_mouse ? under_mouse->metaObject()->className() : "nothing");
   QTest::mouseClick(window.windowHandle(), Qt::LeftButton, {}, axial->mapTo(&window, middle));
   QTRY_VERIFY(axial->hasFocus());
-  const glm::dvec3 before = desktop.session().display().settings().cursor_mm;
+  const glm::dvec3 before = desktop.proxy().display().settings().cursor_mm;
   QTest::keyClick(window.windowHandle(), Qt::Key_Up);
-  QTRY_VERIFY(desktop.session().display().settings().cursor_mm != before);
+  QTRY_VERIFY(desktop.proxy().display().settings().cursor_mm != before);
 }
 
 void PictureSurfaceTest::a_texture_that_somebody_holds_is_not_drawn_into() {
@@ -184,7 +184,7 @@ void PictureSurfaceTest::a_texture_that_somebody_holds_is_not_drawn_into() {
   std::set<unsigned> others;
   for (int i = 0; i < 10; ++i) {
     QTest::keyClick(axial, Qt::Key_Up);
-    desktop.settle();
+    desktop.wait_until_idle();
     QVERIFY(axial->feed().shown().texture != held);
     others.insert(axial->feed().shown().texture->id());
   }
@@ -204,9 +204,9 @@ void PictureSurfaceTest::a_lost_context_of_the_engine_costs_one_picture() {
   engine.post(Priority::edit, this, [&engine](const std::stop_token&) { engine.device()->lose_at_check(1); });
   QTest::keyClick(axial, Qt::Key_Up);
   QTRY_COMPARE(engine.contexts_made(), 2);
-  desktop.settle();
+  desktop.wait_until_idle();
   QTest::keyClick(axial, Qt::Key_Down);
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(axial->feed().shown().number > number);
   QVERIFY(axial->feed().shown().texture);
   QVERIFY(difference(axial->grab_picture(), before) < 0.01);
@@ -222,14 +222,14 @@ void PictureSurfaceTest::a_case_is_closed_while_its_pictures_are_drawn() {
   // Held by nobody else any more, it dies on the engine's thread.
   std::shared_ptr<const PictureTexture> held = view->feed().shown().texture;
   open_sphere(desktop);
-  first->session().play();
+  first->proxy().play();
   QTest::qWait(50);
   first->close_saved();
   QTRY_COMPARE(desktop.window().cases().size(), qsizetype{1});
   held.reset();
   auto* other = desktop.view<VolumeViewWidget>();
   QVERIFY(other);
-  desktop.settle();
+  desktop.wait_until_idle();
   QVERIFY(difference(on_screen(*other), other->grab_picture()) < 0.006);
   QCOMPARE(desktop.engine().contexts_made(), 1);
 }

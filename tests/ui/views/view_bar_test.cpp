@@ -24,7 +24,7 @@ class ViewBarTest : public QObject {
  private slots:
   void init() {
     the_case_ = std::make_unique<test::PanelCase>();
-    bar_ = std::make_unique<ViewBar>(*the_case_->session, "Axial", QList<QAction*>(), QList<QAction*>());
+    bar_ = std::make_unique<ViewBar>(*the_case_->proxy, "Axial", QList<QAction*>(), QList<QAction*>());
     bar_->resize(600, 30);
     test::show(*bar_);
   }
@@ -42,39 +42,39 @@ class ViewBarTest : public QObject {
     QFETCH(QString, name);
     type(box(name), "12");
     the_case_->begin(5.0);
-    the_case_->session->step(3);
-    the_case_->settle();
+    the_case_->proxy->step(3);
+    the_case_->wait_until_idle();
     QTest::keyClicks(&box(name), "3");
     QTest::keyClick(&box(name), Qt::Key_Return);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     const Parameters now = the_case_->state().parameters;
     QCOMPARE(name == "Target T" ? now.target : now.range, 123.0);
   }
 
   void a_change_of_one_leaves_the_others_digits() {
-    Parameters parameters = the_case_->session->parameters();
+    Parameters parameters = the_case_->proxy->parameters();
     parameters.target = 40.123456;
     parameters.range = 30.123456;
-    the_case_->session->set_parameters(parameters);
-    the_case_->settle();
+    the_case_->proxy->set_parameters(parameters);
+    the_case_->wait_until_idle();
     type(box("Target T"), "77");
     QTest::keyClick(&box("Target T"), Qt::Key_Return);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QCOMPARE(the_case_->state().parameters.target, 77.0);
     QCOMPARE(the_case_->state().parameters.range, 30.123456);
     type(box("Range epsilon"), "20");
     QTest::keyClick(&box("Range epsilon"), Qt::Key_Return);
-    the_case_->settle();
+    the_case_->wait_until_idle();
     QCOMPARE(the_case_->state().parameters.target, 77.0);
     QCOMPARE(the_case_->state().parameters.range, 20.0);
   }
 
   void it_follows_what_is_set_elsewhere() {
-    Parameters parameters = the_case_->session->parameters();
+    Parameters parameters = the_case_->proxy->parameters();
     parameters.target = 55.0;
     parameters.range = 11.0;
-    the_case_->session->set_parameters(parameters);
-    the_case_->settle();
+    the_case_->proxy->set_parameters(parameters);
+    the_case_->wait_until_idle();
     QCOMPARE(box("Target T").value(), 55.0);
     QCOMPARE(box("Range epsilon").value(), 11.0);
   }

@@ -1,0 +1,59 @@
+#include "document/case.h"
+
+#include <utility>
+
+#include "document/checksum.h"
+
+namespace tidemark {
+
+Case::Case(std::shared_ptr<const Volume> volume, StudyOrigin origin)
+    : volume_(std::move(volume)), origin_(std::move(origin)), labels_(volume_->geometry, &history_) {
+  checksum_ = std::async(std::launch::async, [volume = volume_, stop = checksum_stop_.get_token()] {
+    return checksum_of(*volume, stop);
+  });
+}
+
+Case::~Case() {
+  checksum_stop_.request_stop();  // else the future would wait for it
+}
+
+Result<std::unique_ptr<Case>> Case::create(std::shared_ptr<const Volume> volume, StudyOrigin origin,
+                                           const Parameters& parameters, ExecutorKind kind,
+                                           const ExecutorOptions& options) {
+  std::unique_ptr<Case> made(new Case(std::move(volume), std::move(origin)));
+  auto level_set = LevelSet::create(made->volume_, parameters, kind, options, made->history_);
+  if (!level_set) return pass_on(level_set);
+  made->level_set_ = std::move(*level_set);
+  return made;
+}
+
+StudyOrigin Case::origin() const {
+  StudyOrigin origin = origin_;
+  origin.checksum = checksum_.get();
+  return origin;
+}
+
+Status Case::smooth_source(double sigma_mm, const Progress& progress) {
+  progress(0.0, "smoothing");
+  Status smoothed = level_set_->smooth_source(sigma_mm);
+  progress(1.0, "smoothing");
+  return smoothed;
+}
+
+Result<Acceptance> Case::accept_surface(std::uint8_t label, Take take) {
+  if (!level_set_->begun()) return fail(ErrorKind::usage, "there is no surface to accept");
+  if (Status ended = level_set_->end_run(); !ended) return pass_on(ended);
+  const auto phi = level_set_->checkpoint();
+  if (!phi) return tl::unexpected<Error>(phi.error());
+  return labels_.accept((*phi)->mask(), label, take);
+}
+
+Status Case::begin_from_label(std::uint8_t label) {
+  const Label* known = labels_.find(label);
+  if (known == nullptr) return fail(ErrorKind::usage, "there is no label {}", label);
+  Start start;
+  start.from = MaskStart{std::make_shared<const Mask>(labels_.mask(label)), "label " + known->name};
+  return level_set_->begin(start);
+}
+
+}  // namespace tidemark

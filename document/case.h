@@ -1,0 +1,73 @@
+// The document: a volume, its level set, its labels, how it is shown, and its history.
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "document/history.h"
+#include "document/labels.h"
+#include "document/level_set.h"
+#include "document/origin.h"
+
+namespace tidemark {
+
+// Used on one thread at a time, as its level set.
+class Case {
+ public:
+  // The origin's checksum is computed, beside everything else.
+  static Result<std::unique_ptr<Case>> create(std::shared_ptr<const Volume> volume, StudyOrigin origin,
+                                              const Parameters& parameters, ExecutorKind kind,
+                                              const ExecutorOptions& options);
+
+  ~Case();
+  Case(const Case&) = delete;
+  Case& operator=(const Case&) = delete;
+
+  [[nodiscard]] const std::shared_ptr<const Volume>& volume() const { return volume_; }  // as loaded
+  // Waits for the checksum where that is still being computed.
+  [[nodiscard]] StudyOrigin origin() const;
+  [[nodiscard]] LevelSet& level_set() { return *level_set_; }
+  [[nodiscard]] const LevelSet& level_set() const { return *level_set_; }
+  [[nodiscard]] Labels& labels() { return labels_; }
+  [[nodiscard]] const Labels& labels() const { return labels_; }
+  [[nodiscard]] History& history() { return history_; }
+  [[nodiscard]] const History& history() const { return history_; }
+
+  // The source that the level set sees: the volume smoothed by that many mm (0: as it is).
+  Status smooth_source(double sigma_mm, const Progress& progress = {});
+  [[nodiscard]] double smoothed_mm() const { return level_set_->smoothed_mm(); }
+
+  // Changes of labels that undo takes back, one entry each.
+  Result<Acceptance> accept_surface(std::uint8_t label, Take take);
+  Status begin_from_label(std::uint8_t label);
+
+  // One step back or forward in the history of everything.
+  Status undo() { return history_.undo(); }
+  Status redo() { return history_.redo(); }
+
+  // How the case is shown: JSON of whoever shows it, kept in session files.
+  std::string view_state;
+
+  // Whether undo would lead to, or something has led to, another state than the one that was saved.
+  [[nodiscard]] bool changed_since_save() const { return history_.position() != saved_position_; }
+  void mark_saved() { mark_saved(history_.position()); }
+  // What was saved was the state at that position of the history.
+  void mark_saved(std::uint64_t position) { saved_position_ = position; }
+
+ private:
+  Case(std::shared_ptr<const Volume> volume, StudyOrigin origin);
+
+  std::shared_ptr<const Volume> volume_;
+  StudyOrigin origin_;
+  std::stop_source checksum_stop_;
+  std::shared_future<std::string> checksum_;  // which origin_ has not got
+  History history_;                           // before what its entries speak of
+  std::unique_ptr<LevelSet> level_set_;
+  Labels labels_;
+  std::uint64_t saved_position_ = 0;
+};
+
+}  // namespace tidemark

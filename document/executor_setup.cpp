@@ -1,0 +1,132 @@
+#include "document/executor_setup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "imaging/filters/filters.h"
+
+namespace tidemark {
+namespace {
+
+Result<std::shared_ptr<const Volume>> smoothed(const std::shared_ptr<const Volume>& volume, double sigma_mm) {
+  if (sigma_mm == 0.0) return volume;
+  if (!std::isfinite(sigma_mm) || sigma_mm < 0.0) {
+    return fail(ErrorKind::usage, "a volume cannot be smoothed by {} mm", sigma_mm);
+  }
+  auto source = smooth(*volume, sigma_mm);
+  if (!source) return pass_on(source);
+  return std::make_shared<const Volume>(std::move(*source));
+}
+
+void add(const AdvanceReport& run, AdvanceReport& total) {
+  total.steps += run.steps;
+  total.converged = run.converged;
+  total.seconds += run.seconds;
+  total.paging_seconds += run.paging_seconds;
+  total.voxel_updates += run.voxel_updates;
+  total.surface_speed = run.surface_speed;
+}
+
+}  // namespace
+
+Result<ExecutorSetup> ExecutorSetup::create(std::shared_ptr<const Volume> volume, double smoothed_mm,
+                        const Parameters& parameters, ExecutorKind kind, const ExecutorOptions& options) {
+  ExecutorSetup setup;
+  auto source = smoothed(volume, smoothed_mm);
+  if (!source) return pass_on(source);
+  auto executor = make_executor(kind, *source, parameters, options);
+  if (!executor) return pass_on(executor);
+  setup.volume_ = std::move(volume);
+  setup.source_ = std::move(*source);
+  setup.smoothed_mm_ = smoothed_mm;
+  setup.kind_ = kind;
+  setup.options_ = options;
+  setup.executor_ = std::move(*executor);
+  return setup;
+}
+
+RecipeExecutor ExecutorSetup::description() const {
+  return {std::string(executor_->name()), executor_->memory().page_shape, options_.skip_quiet_pages};
+}
+
+Status ExecutorSetup::remake(std::shared_ptr<const Volume> source, ExecutorKind kind, const ExecutorOptions& options,
+                   const Field& phi) {
+  auto made = make_executor(kind, source, executor_->parameters(), options);
+  if (!made) return pass_on(made);
+  if (Status restored = (*made)->restore(phi); !restored) return restored;
+  source_ = std::move(source);
+  kind_ = kind;
+  options_ = options;
+  executor_ = std::move(*made);
+  return {};
+}
+
+Status ExecutorSetup::smooth_source(double sigma_mm) {
+  auto source = smoothed(volume_, sigma_mm);
+  if (!source) return pass_on(source);
+  const auto phi = executor_->snapshot();
+  if (!phi) return tl::unexpected<Error>(phi.error());
+  if (Status remade = remake(std::move(*source), kind_, options_, *phi); !remade) return remade;
+  smoothed_mm_ = sigma_mm;
+  return {};
+}
+
+Status ExecutorSetup::change_executor(ExecutorKind kind, const ExecutorOptions& options, const Field& phi) {
+  return remake(source_, kind, options, phi);
+}
+
+Status ExecutorSetup::begin(const Recipe& recipe, const Progress& progress) {
+  if (recipe.start.empty()) return executor_->restore(Field::empty(source_->geometry, executor_->band()));
+  if (auto begun = tidemark::begin(*executor_, *source_, recipe.start, progress); !begun)
+    return pass_on(begun);
+  return {};
+}
+
+Status ExecutorSetup::resume() {
+  const auto phi = executor_->snapshot();
+  if (!phi) return tl::unexpected<Error>(phi.error());
+  return executor_->restore(*phi);
+}
+
+Status ExecutorSetup::apply(const RecipeEvent& event) {
+  if (const auto* paint = std::get_if<PaintEvent>(&event.what)) {
+    return executor_->paint(paint->sphere, paint->brush);
+  }
+  if (const auto* change = std::get_if<ParametersEvent>(&event.what)) {
+    return executor_->set_parameters(change->parameters);
+  }
+  if (const auto* smoothing = std::get_if<SmoothEvent>(&event.what))
+    return smooth_source(smoothing->sigma_mm);
+  return resume();
+}
+
+Status ExecutorSetup::play(const Recipe& recipe, std::size_t first_event, std::int64_t step, std::int64_t last_step,
+                 const Progress& progress, AdvanceReport* total) {
+  const std::int64_t first_step = step;
+  const auto advance_to = [&](std::int64_t target) -> Status {
+    while (step < target) {
+      if (progress.cancelled()) return cancelled_error();
+      Advance run{target - step, false, {nullptr, progress.stop}};
+      run.progress.report = [&](double fraction, std::string_view what) {
+        const double done =
+            static_cast<double>(step - first_step) + fraction * static_cast<double>(run.steps);
+        progress(done / static_cast<double>(last_step - first_step), what);
+      };
+      const auto report = executor_->advance(run);
+      if (!report) return tl::unexpected<Error>(report.error());
+      step += report->steps;
+      if (total != nullptr) add(*report, *total);
+    }
+    return {};
+  };
+  for (std::size_t i = first_event; i < recipe.events.size(); ++i) {
+    const RecipeEvent& event = recipe.events[i];
+    if (event.step > last_step) break;
+    if (Status done = advance_to(event.step); !done) return done;
+    if (Status done = apply(event); !done) return done;
+  }
+  return advance_to(last_step);
+}
+
+}  // namespace tidemark

@@ -1,0 +1,113 @@
+#include "document/label_segments.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/label_colour.h"
+
+namespace tidemark {
+namespace {
+
+constexpr std::size_t kLongestName = 64;  // bytes, as other systems have it (DICOM's LO)
+
+// What is cut off leaves whole characters of UTF-8.
+std::string shortened(std::string text) {
+  std::size_t length = std::min(text.size(), kLongestName);
+  while (length > 0 && length < text.size() && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) {
+    --length;
+  }
+  text.resize(length);
+  return text;
+}
+
+bool makes_sense(const Code& code) {
+  constexpr std::size_t kLongestValue = 16;  // of a DICOM SH
+  return !code.value.empty() && code.value.size() <= kLongestValue && !code.scheme.empty() &&
+         code.scheme.size() <= kLongestValue && !code.meaning.empty() && code.meaning.size() <= kLongestName;
+}
+
+// Some tissue is what a file says that knows no better; then the name may say more.
+std::optional<SegmentMeaning> meaning_in(const Segment& segment) {
+  const SegmentMeaning& meaning = segment.meaning;
+  if (meaning == SegmentMeaning() || !makes_sense(meaning.category) || !makes_sense(meaning.type)) {
+    return std::nullopt;
+  }
+  return meaning;
+}
+
+// Which ids are taken, and by labels that keep their voxels.
+struct Taken {
+  std::array<bool, 256> id{true};
+  std::array<bool, 256> locked{};
+
+  explicit Taken(const std::vector<Label>& list) {
+    for (const Label& label : list) {
+      id[label.id] = true;
+      locked[label.id] = label.locked;
+    }
+  }
+  std::uint8_t next() {
+    const auto free = std::find(id.begin(), id.end(), false);
+    *free = true;
+    return static_cast<std::uint8_t>(free - id.begin());
+  }
+};
+
+void give_voxels(const Segment& segment, std::uint8_t id, const Geometry& geometry, const Taken& taken,
+                 std::vector<std::uint8_t>& voxels) {
+  for (const auto& [k, slice] : segment.slices) {
+    const auto first = static_cast<std::size_t>(geometry.offset({0, 0, k}));
+    for (std::size_t i = 0; i < slice.size(); ++i) {
+      std::uint8_t& voxel = voxels[first + i];
+      if (slice[i] != 0 && !taken.locked[voxel]) voxel = id;
+    }
+  }
+}
+
+}  // namespace
+
+Segments segments_of(const Geometry& geometry, std::span<const Label> labels,
+                     std::span<const std::uint8_t> voxels) {
+  Segments segments{geometry, {}, {}};
+  for (const Label& label : labels) {
+    Segment segment;
+    segment.name = label.name;
+    segment.colour = label.colour;
+    segment.meaning = label.coded();
+    segment.slices = slices_of(geometry, voxels, label.id);
+    segments.list.push_back(std::move(segment));
+  }
+  return segments;
+}
+
+Segments segments_of(const Labels& labels) {
+  return segments_of(labels.geometry(), labels.list(), labels.voxels());
+}
+
+Status add_segments(Labels& labels, const Segments& segments) {
+  if (segments.geometry.size != labels.geometry().size) {
+    return fail(ErrorKind::usage, "the segments and the labels have different grids");
+  }
+  if (labels.list().size() + segments.list.size() > 255) {
+    return fail(ErrorKind::usage, "{} segments and the {} labels there are make more than 255",
+                segments.list.size(), labels.list().size());
+  }
+  std::vector<Label> list = labels.list();
+  std::vector<std::uint8_t> voxels(labels.voxels().begin(), labels.voxels().end());
+  voxels.resize(static_cast<std::size_t>(labels.geometry().voxel_count()));
+  Taken taken(list);
+  std::string names;
+  for (const Segment& segment : segments.list) {
+    Label label;
+    label.id = taken.next();
+    label.name = shortened(segment.name);
+    label.colour = segment.colour.value_or(label_colour(label.id));
+    label.meaning = meaning_in(segment);
+    give_voxels(segment, label.id, labels.geometry(), taken, voxels);
+    names += (names.empty() ? "" : ", ") + label.name;
+    list.push_back(std::move(label));
+  }
+  return labels.replace(ChangeKind::import_labels, names, std::move(list), std::move(voxels));
+}
+
+}  // namespace tidemark

@@ -1,0 +1,376 @@
+#include "document/level_set.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "document/level_set_change.h"
+
+namespace tidemark {
+namespace {
+
+bool moves_phi(ChangeKind kind) {
+  return kind != ChangeKind::target && kind != ChangeKind::range && kind != ChangeKind::smoothing &&
+         kind != ChangeKind::parameters && kind != ChangeKind::source;
+}
+
+// Which of the parameters was changed.
+ChangeKind kind_of_change(const Parameters& before, const Parameters& after) {
+  Parameters changed = before;
+  changed.target = after.target;
+  if (changed == after) return ChangeKind::target;
+  changed = before;
+  changed.range = after.range;
+  if (changed == after) return ChangeKind::range;
+  changed = before;
+  changed.alpha = after.alpha;
+  return changed == after ? ChangeKind::smoothing : ChangeKind::parameters;
+}
+
+std::int64_t field_bytes(const Field& field) {
+  return static_cast<std::int64_t>(field.pages.size() * sizeof(float) +
+                                   field.table.size() * sizeof(std::int32_t));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<LevelSet>> LevelSet::create(std::shared_ptr<const Volume> volume,
+                                                   const Parameters& parameters, ExecutorKind kind,
+                                                   const ExecutorOptions& options, History& history) {
+  auto setup = ExecutorSetup::create(std::move(volume), 0.0, parameters, kind, options);
+  if (!setup) return pass_on(setup);
+  return std::unique_ptr<LevelSet>(new LevelSet(std::move(*setup), parameters, history));
+}
+
+LevelSet::LevelSet(ExecutorSetup setup, const Parameters& parameters, History& history)
+    : setup_(std::move(setup)), history_(history) {
+  const Geometry& geometry = setup_.volume()->geometry;
+  recipe_.source.size = geometry.size;
+  recipe_.source.spacing_mm = geometry.spacing_mm;
+  recipe_.executor = setup_.description();
+  recipe_.parameters = parameters;
+  start_ =
+      std::make_shared<const Field>(Field::empty(geometry, executor().band(), recipe_.executor.page_shape));
+  put_in_place({recipe_, start_, start_});
+}
+
+ChangeDescription LevelSet::description() const {
+  ChangeKind kind = open_->kind;
+  if (!moves_phi(kind)) kind = kind_of_change(open_->before.recipe.final_parameters(), parameters());
+  return {kind, kind == ChangeKind::evolution ? step() - open_->before.recipe.steps : 0, {}};
+}
+
+std::int64_t LevelSet::bytes() const {
+  std::int64_t sum = field_bytes(*open_->before.phi);
+  if (open_->last_edit) sum += field_bytes(*open_->last_edit->phi);
+  return sum;
+}
+
+Status LevelSet::close() {
+  const Status known = read_back_phi();
+  const ChangeKind kind = description().kind;
+  const Open ended = *std::exchange(open_, std::nullopt);
+  if (!known) return known;
+  if (ended.before.same_as(known_)) return {};
+  if (!ended.last_edit) {
+    add_entry(kind, ended.before, known_);
+  } else {
+    add_entry(kind, ended.before, *ended.last_edit);
+    add_entry(ChangeKind::evolution, *ended.last_edit, known_);
+  }
+  return {};
+}
+
+void LevelSet::add_entry(ChangeKind kind, const Point& before, const Point& after) {
+  const bool counts_steps = kind == ChangeKind::evolution || kind == ChangeKind::step_back;
+  const std::int64_t steps = counts_steps ? std::abs(after.recipe.steps - before.recipe.steps) : 0;
+  history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after));
+}
+
+Status LevelSet::end_run() {
+  return history_.close();
+}
+
+// Before an edit: ends what goes on unless the edit belongs to it.
+Status LevelSet::end_other_change(std::uint64_t gesture) {
+  if (open_ && gesture != 0 && open_->gesture == gesture) return {};
+  return history_.close();
+}
+
+// Unless one goes on, an entry begins at `before`.
+void LevelSet::begin_change(ChangeKind kind, std::uint64_t gesture, Point before) {
+  if (open_) {
+    open_->last_edit.reset();
+    if (moves_phi(kind) && !moves_phi(open_->kind)) open_->kind = kind;
+    return;
+  }
+  open_ = Open{kind, gesture, std::move(before), std::nullopt};
+  history_.open(*this);
+}
+
+// Appends to the recipe, after what the executor has forgotten when phi was put back.
+void LevelSet::record(RecipeEvent event) {
+  if (std::exchange(resumed_, false) && step() > 0) recipe_.events.push_back({step(), ResumeEvent{}});
+  std::vector<RecipeEvent>& events = recipe_.events;
+  // Of parameters that follow each other without a step between, the last count.
+  const bool replaces = !events.empty() && events.back().step == event.step &&
+                        std::holds_alternative<ParametersEvent>(event.what) &&
+                        std::holds_alternative<ParametersEvent>(events.back().what);
+  if (replaces) events.pop_back();
+  events.push_back(std::move(event));
+}
+
+Status LevelSet::read_back_phi() {
+  if (!dirty_) {
+    known_.recipe = recipe_;
+    known_.start = start_;
+    known_.curve = curve_;
+    return {};
+  }
+  auto phi = executor().snapshot();
+  if (!phi) return pass_on(phi);
+  auto shared = std::make_shared<const Field>(std::move(*phi));
+  if (step() == 0) start_ = shared;
+  known_ = {recipe_, std::move(shared), start_, curve_};
+  dirty_ = false;
+  return {};
+}
+
+Result<std::shared_ptr<const Field>> LevelSet::checkpoint() {
+  if (Status known = read_back_phi(); !known) return pass_on(known);
+  if (open_ && open_->gesture != 0 && !open_->last_edit) {
+    const std::vector<RecipeEvent>& events = recipe_.events;
+    const bool computed_since = events.empty() || events.back().step < step();
+    if (computed_since && begun()) open_->last_edit = known_;
+  }
+  return known_.phi;
+}
+
+Status LevelSet::begin(const Start& start, const Progress& progress) {
+  if (Status ended = history_.close(); !ended) return ended;
+  auto phi = tidemark::begin(executor(), *source(), start, progress);
+  if (!phi) {
+    if (Status back = go_to(known_); !back) return back;
+    return pass_on(phi);
+  }
+  const Point before = known_;
+  Point point{{}, std::make_shared<const Field>(std::move(*phi)), nullptr};
+  point.recipe.source = recipe_.source;
+  point.recipe.executor = setup_.description();
+  point.recipe.smoothed_mm = smoothed_mm();
+  point.recipe.start = start;
+  point.recipe.parameters = parameters();
+  point.start = point.phi;
+  put_in_place(std::move(point));
+  add_entry(ChangeKind::start, before, known_);
+  return {};
+}
+
+Status LevelSet::paint(const Sphere& sphere, Brush brush, std::uint64_t gesture) {
+  if (Status ended = end_other_change(gesture); !ended) return ended;
+  if (Status painted = executor().paint(sphere, brush); !painted) return painted;
+  begin_change(brush == Brush::add ? ChangeKind::paint : ChangeKind::erase, gesture, known_);
+  record({step(), PaintEvent{sphere, brush}});
+  curve_.cut(step());
+  dirty_ = true;
+  return gesture == 0 ? history_.close() : Status();
+}
+
+Status LevelSet::set_parameters(const Parameters& parameters, std::uint64_t gesture) {
+  if (Status ended = end_other_change(gesture); !ended) return ended;
+  if (parameters == this->parameters()) return {};
+  if (Status set = executor().set_parameters(parameters); !set) return set;
+  begin_change(ChangeKind::parameters, gesture, known_);
+  if (begun()) {
+    record({step(), ParametersEvent{parameters}});
+  } else {
+    recipe_.parameters = parameters;
+  }
+  return gesture == 0 ? history_.close() : Status();
+}
+
+Status LevelSet::smooth_source(double sigma_mm) {
+  if (Status ended = history_.close(); !ended) return ended;
+  if (sigma_mm == smoothed_mm()) return {};
+  if (Status smoothed = setup_.smooth_source(sigma_mm); !smoothed) return smoothed;
+  const Point before = known_;
+  if (begun()) {
+    record({step(), SmoothEvent{sigma_mm}});
+  } else {
+    recipe_.smoothed_mm = sigma_mm;
+  }
+  if (Status known = read_back_phi(); !known) return known;
+  in_place_ = known_;
+  add_entry(ChangeKind::source, before, known_);
+  return {};
+}
+
+Result<AdvanceReport> LevelSet::advance(const Advance& run) {
+  if (!begun()) return fail(ErrorKind::usage, "there is no surface yet: a start is needed");
+  if (step() == 0 && dirty_) {
+    if (Status known = read_back_phi(); !known) return pass_on(known);  // restart() comes back to it
+  }
+  auto report = executor().advance(run);
+  const std::int64_t steps = executor().steps_of_last_run();
+  if (steps == 0) return report;
+  if (!open_) begin_change(ChangeKind::evolution, 0, known_);
+  if (std::exchange(resumed_, false) && step() > 0) recipe_.events.push_back({step(), ResumeEvent{}});
+  recipe_.steps += steps;
+  dirty_ = true;
+  return report;
+}
+
+void LevelSet::put_in_place(Point point) {
+  recipe_ = point.recipe;
+  start_ = point.start;
+  curve_ = point.curve;
+  known_ = std::move(point);
+  in_place_ = known_;
+  dirty_ = false;
+  resumed_ = false;
+}
+
+// Gives the executor what the point has.
+Status LevelSet::hand_over(const Point& point) {
+  const Parameters& wanted = point.recipe.final_parameters();
+  if (const double sigma_mm = point.recipe.final_smoothed_mm(); sigma_mm != smoothed_mm()) {
+    if (Status smoothed = setup_.smooth_source(sigma_mm); !smoothed) return smoothed;
+  }
+  if (!(wanted == parameters())) {
+    if (Status set = executor().set_parameters(wanted); !set) return set;
+  }
+  return executor().restore(*point.phi);
+}
+
+// When there is no room for the point, back to what is known; no edit goes on then.
+Status LevelSet::go_to(Point point) {
+  Status gone = hand_over(point);
+  if (!gone) {
+    if (Status back = hand_over(known_); !back) return gone;
+    point = known_;
+  }
+  point.recipe.executor = setup_.description();
+  point.recipe.source = recipe_.source;
+  put_in_place(std::move(point));
+  resumed_ = true;
+  return gone;
+}
+
+Status LevelSet::resume_from(const Recipe& recipe, std::shared_ptr<const Field> phi, const Curve& curve) {
+  if (Status ended = history_.close(); !ended) return ended;
+  return go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr, curve});
+}
+
+void LevelSet::note(const CurvePoint& point) {
+  curve_.add(point);
+  if (!dirty_) known_.curve = curve_;
+}
+
+// Brings the executor back to the recipe's start, with the edits that were made before the first step.
+Status LevelSet::prepare_start() {
+  if (recipe_.smoothed_mm != smoothed_mm()) {
+    if (Status smoothed = setup_.smooth_source(recipe_.smoothed_mm); !smoothed) return smoothed;
+  }
+  if (Status set = executor().set_parameters(recipe_.parameters); !set) return set;
+  if (start_ == nullptr) {
+    if (Status begun = setup_.begin(recipe_, {}); !begun) return begun;
+    return setup_.play(recipe_.up_to(0), 0, 0, 0, {});
+  }
+  if (Status restored = executor().restore(*start_); !restored) return restored;
+  for (const RecipeEvent& event : recipe_.events) {
+    if (event.step > 0) break;
+    if (std::holds_alternative<PaintEvent>(event.what)) continue;  // in start_ already
+    if (Status applied = setup_.apply(event); !applied) return applied;
+  }
+  return {};
+}
+
+Status LevelSet::compute_again(std::int64_t target, const Progress& progress) {
+  if (in_place_.recipe.steps > 0 && in_place_.recipe.steps <= target) {
+    if (Status there = hand_over(in_place_); !there) return there;
+    const Recipe& from = in_place_.recipe;
+    return setup_.play(recipe_, from.events.size(), from.steps, target, progress);
+  }
+  if (Status prepared = prepare_start(); !prepared) return prepared;
+  std::size_t first_event = 0;
+  while (first_event < recipe_.events.size() && recipe_.events[first_event].step == 0) ++first_event;
+  return setup_.play(recipe_, first_event, 0, target, progress);
+}
+
+Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
+  if (Status ended = history_.close(); !ended) return ended;
+  const std::int64_t target = step() - std::clamp<std::int64_t>(steps, 0, step());
+  if (target == step()) return {};
+  const Point before = known_;
+  Status computed = compute_again(target, progress);
+  if (computed) {
+    recipe_ = recipe_.up_to(target);
+    curve_.cut(target);
+    recipe_.executor = setup_.description();
+    resumed_ = false;
+    dirty_ = true;
+    computed = read_back_phi();
+  }
+  if (!computed) {
+    if (Status back = go_to(before); !back) return back;
+    return computed;
+  }
+  if (in_place_.recipe.steps > target) in_place_ = {recipe_.up_to(0), start_, start_};
+  add_entry(ChangeKind::step_back, before, known_);
+  return {};
+}
+
+Status LevelSet::restart() {
+  if (Status ended = history_.close(); !ended) return ended;
+  if (step() == 0) return {};
+  const Point before = known_;
+  const Parameters present = parameters();
+  const double smoothed = smoothed_mm();
+  if (start_ == nullptr) {
+    // It was saved later than its start: what lies between is made again.
+    Status prepared = prepare_start();
+    auto phi = prepared ? executor().snapshot() : Result<Field>(pass_on(prepared));
+    if (!phi) {
+      if (Status back = go_to(before); !back) return back;
+      return pass_on(phi);
+    }
+    start_ = std::make_shared<const Field>(std::move(*phi));
+  }
+  Point point{recipe_.up_to(0), start_, start_};
+  std::erase_if(point.recipe.events,
+                [](const RecipeEvent& event) { return !std::holds_alternative<PaintEvent>(event.what); });
+  point.recipe.parameters = present;
+  if (smoothed != point.recipe.smoothed_mm) point.recipe.events.push_back({0, SmoothEvent{smoothed}});
+  if (Status gone = go_to(std::move(point)); !gone) return gone;
+  add_entry(ChangeKind::restart, before, known_);
+  return {};
+}
+
+Status LevelSet::change_executor(ExecutorKind kind, const ExecutorOptions& options) {
+  if (Status ended = history_.close(); !ended) return ended;
+  if (Status changed = setup_.change_executor(kind, options, *known_.phi); !changed) return changed;
+  recipe_.executor = setup_.description();
+  known_.recipe.executor = recipe_.executor;
+  in_place_ = known_;
+  resumed_ = true;
+  return {};
+}
+
+Status LevelSet::rebuild(const ExecutorOptions& options, std::optional<ExecutorKind> kind) {
+  const Status rebuilt = setup_.change_executor(kind.value_or(setup_.kind()), options, *known_.phi);
+  if (!rebuilt) return rebuilt;
+  if (open_) open_->last_edit.reset();
+  const Parameters present = parameters();
+  if (Status back = go_to(known_); !back) return back;
+  if (present == parameters()) return {};
+  if (!open_) return set_parameters(present);
+  // What goes on has set them.
+  if (Status set = executor().set_parameters(present); !set) return set;
+  if (begun()) {
+    record({step(), ParametersEvent{present}});
+  } else {
+    recipe_.parameters = present;
+  }
+  return {};
+}
+
+}  // namespace tidemark

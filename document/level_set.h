@@ -1,0 +1,129 @@
+// The level set of a case while it is steered: an executor, everything that was done to it, and the way back.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "solver/executor.h"
+#include "document/curve.h"
+#include "document/history.h"
+#include "document/recipe.h"
+#include "document/executor_setup.h"
+#include "document/start.h"
+
+namespace tidemark {
+
+// Used on one thread at a time: that of the executor's graphics context, where it has one.
+//
+// phi is read back only when it has to be known: at the end of an entry of the history, for a checkpoint,
+// and before the first step after something was painted. Between these, `dirty_` says that known_ is not
+// phi any more.
+class LevelSet final : private OpenChange {
+ public:
+  // Everywhere outside at first, on the volume as it is. Fails as make_executor() does. `history` must
+  // outlive it.
+  static Result<std::unique_ptr<LevelSet>> create(std::shared_ptr<const Volume> volume,
+                                                  const Parameters& parameters, ExecutorKind kind,
+                                                  const ExecutorOptions& options, History& history);
+
+  [[nodiscard]] const Executor& executor() const { return setup_.executor(); }
+  [[nodiscard]] Executor& executor() { return setup_.executor(); }
+  [[nodiscard]] const Parameters& parameters() const { return executor().parameters(); }
+  [[nodiscard]] const std::shared_ptr<const Volume>& source() const { return setup_.source(); }
+  [[nodiscard]] double smoothed_mm() const { return setup_.smoothed_mm(); }
+  [[nodiscard]] std::int64_t step() const { return recipe_.steps; }  // since the start
+  [[nodiscard]] bool begun() const { return recipe_.begun(); }       // there is a surface to steer
+  // Everything since the start. Which series its source comes from, the case knows.
+  [[nodiscard]] const Recipe& recipe() const { return recipe_; }
+
+  // Each of these is an entry of the history that undo takes back. Edits with the same `gesture` (not 0: one
+  // drag of a slider, one stroke of a brush), with whatever was computed between them, are one entry. So is
+  // what is computed after the last of them until the next checkpoint.
+  Status begin(const Start& start, const Progress& progress = {});
+  Status paint(const Sphere& sphere, Brush brush, std::uint64_t gesture = 0);
+  Status set_parameters(const Parameters& parameters, std::uint64_t gesture = 0);
+  // What the level set sees: the volume smoothed by that many mm (0: as it is).
+  Status smooth_source(double sigma_mm);
+  // Steps, one after the other, are one entry until another edit or end_run(). When a memory budget ends the
+  // run, what was computed up to there counts.
+  Result<AdvanceReport> advance(const Advance& run);
+  Status end_run();
+
+  // Back to where the level set was `steps` steps ago, by computing again from where phi was last put in
+  // place: the same voxels. At most to the start. An entry of its own.
+  Status step_back(std::int64_t steps, const Progress& progress = {});
+  // Back to the start as it was before the first step, with the present parameters. An entry of its own.
+  Status restart();
+
+  // Goes on with another executor from the same phi.
+  Status change_executor(ExecutorKind kind, const ExecutorOptions& options);
+  // After the graphics context was lost: a new executor on options.device, from the last checkpoint, with the
+  // present parameters; of another kind, where none of the same can be had.
+  Status rebuild(const ExecutorOptions& options, std::optional<ExecutorKind> kind = std::nullopt);
+
+  // phi for whoever saves or measures. Counts as a checkpoint for rebuild().
+  Result<std::shared_ptr<const Field>> checkpoint();
+
+  // Goes on from what was saved: a recipe and the phi that it had led to. Not an entry of the history.
+  Status resume_from(const Recipe& recipe, std::shared_ptr<const Field> phi, const Curve& curve = {});
+
+  // How the surface has developed since the start, by whoever measures it: undo and redo bring it back.
+  [[nodiscard]] const Curve& curve() const { return curve_; }
+  void note(const CurvePoint& point);
+
+ private:
+  friend class LevelSetChange;
+
+  // phi, how it came about, phi before the first step (null: to be made from the recipe), and what was
+  // measured.
+  struct Point {
+    Recipe recipe;
+    std::shared_ptr<const Field> phi;
+    std::shared_ptr<const Field> start;
+    Curve curve{};
+
+    [[nodiscard]] bool same_as(const Point& other) const {
+      return phi == other.phi && recipe.steps == other.recipe.steps && recipe.events == other.recipe.events &&
+             recipe.parameters == other.recipe.parameters;
+    }
+  };
+  // An entry that goes on.
+  struct Open {
+    ChangeKind kind = ChangeKind::evolution;
+    std::uint64_t gesture = 0;
+    Point before;
+    std::optional<Point> last_edit;  // a checkpoint after the last edit of the gesture: there it can be divided
+  };
+
+  LevelSet(ExecutorSetup setup, const Parameters& parameters, History& history);
+
+  ChangeDescription description() const override;
+  std::int64_t bytes() const override;
+  Status close() override;
+
+  Status end_other_change(std::uint64_t gesture);
+  void begin_change(ChangeKind kind, std::uint64_t gesture, Point before);
+  void record(RecipeEvent event);
+  void add_entry(ChangeKind kind, const Point& before, const Point& after);
+  Status read_back_phi();
+  void put_in_place(Point point);
+  Status hand_over(const Point& point);
+  Status go_to(Point point);
+  Status prepare_start();
+  Status compute_again(std::int64_t target, const Progress& progress);
+
+  ExecutorSetup setup_;
+  History& history_;
+  Recipe recipe_;
+  std::shared_ptr<const Field> start_;  // phi before the first step
+  Curve curve_;
+  Point known_;           // the last that is known of phi
+  bool dirty_ = false;    // phi has changed since
+  Point in_place_;        // where phi was last put in place; the executor has run on since
+  bool resumed_ = false;  // it was, and the recipe does not say so yet
+  std::optional<Open> open_;
+};
+
+}  // namespace tidemark

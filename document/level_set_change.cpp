@@ -1,0 +1,67 @@
+#include "document/level_set_change.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tidemark {
+namespace {
+
+Recipe without_events(const Recipe& recipe, std::size_t common) {
+  Recipe rest = recipe;
+  rest.events.assign(recipe.events.begin() + static_cast<std::ptrdiff_t>(common), recipe.events.end());
+  return rest;
+}
+
+std::int64_t field_bytes(const Field& field) {
+  return static_cast<std::int64_t>(field.pages.size() * sizeof(float) +
+                                   field.table.size() * sizeof(std::int32_t));
+}
+
+std::int64_t start_bytes(const Start& start) {
+  std::int64_t bytes = 0;
+  if (const auto* mask = std::get_if<MaskStart>(&start.from)) {
+    bytes = static_cast<std::int64_t>(mask->mask->voxels.size());
+  } else if (const auto* phi = std::get_if<FieldStart>(&start.from)) {
+    bytes = field_bytes(*phi->phi);
+  }
+  return bytes + static_cast<std::int64_t>((start.seeds.size() + start.erasers.size()) * sizeof(Sphere));
+}
+
+}  // namespace
+
+LevelSetChange::LevelSetChange(LevelSet& level_set, const LevelSet::Point& before,
+                               const LevelSet::Point& after)
+    : level_set_(level_set), delta_(*before.phi, *after.phi) {
+  const auto& a = before.recipe.events;
+  const auto& b = after.recipe.events;
+  const auto [first_different, ignored] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  common_events_ = static_cast<std::size_t>(first_different - a.begin());
+  before_ = {without_events(before.recipe, common_events_), before.start, before.curve};
+  after_ = {without_events(after.recipe, common_events_), after.start, after.curve};
+}
+
+std::int64_t LevelSetChange::bytes() const {
+  const std::size_t events = before_.recipe.events.size() + after_.recipe.events.size();
+  const std::size_t points = before_.curve.points()->size() + after_.curve.points()->size();
+  std::int64_t sum =
+      static_cast<std::int64_t>(sizeof(*this) + events * sizeof(RecipeEvent) + points * sizeof(CurvePoint)) +
+      delta_.bytes();
+  if (before_.start != after_.start) {
+    // Entries of one start share it; it counts where it was made, and where it is left.
+    for (const Side* side : {&before_, &after_}) {
+      sum += start_bytes(side->recipe.start);
+      if (side->start != nullptr) sum += field_bytes(*side->start);
+    }
+  }
+  return sum;
+}
+
+Status LevelSetChange::go(const Side& side, Field phi) {
+  LevelSet::Point point{side.recipe, std::make_shared<const Field>(std::move(phi)), side.start, side.curve};
+  const auto& present = level_set_.recipe_.events;
+  point.recipe.events.insert(point.recipe.events.begin(), present.begin(),
+                             present.begin() + static_cast<std::ptrdiff_t>(common_events_));
+  return level_set_.go_to(std::move(point));
+}
+
+}  // namespace tidemark

@@ -1,0 +1,61 @@
+#include "document/recipe.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace tidemark {
+namespace {
+
+template <class Event>
+const Event* last_event(const std::vector<RecipeEvent>& events) {
+  const auto found = std::find_if(events.rbegin(), events.rend(), [](const RecipeEvent& event) {
+    return std::holds_alternative<Event>(event.what);
+  });
+  return found == events.rend() ? nullptr : &std::get<Event>(found->what);
+}
+
+}  // namespace
+
+Result<Recipe> Recipe::load(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(), error.message());
+  if (size > kLargestFile) {
+    return fail(ErrorKind::input, "{}: {} bytes, more than {} are not read", file.string(), size,
+                kLargestFile);
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(size, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(size));
+  if (stream.gcount() != static_cast<std::streamsize>(size)) {
+    return fail(ErrorKind::input, "{}: cannot be read", file.string());
+  }
+  return parse(text, file.string());
+}
+
+bool Recipe::begun() const {
+  return !start.empty() || std::any_of(events.begin(), events.end(), [](const RecipeEvent& event) {
+    const auto* paint = std::get_if<PaintEvent>(&event.what);
+    return paint != nullptr && paint->brush == Brush::add;
+  });
+}
+
+const Parameters& Recipe::final_parameters() const {
+  const auto* event = last_event<ParametersEvent>(events);
+  return event != nullptr ? event->parameters : parameters;
+}
+
+double Recipe::final_smoothed_mm() const {
+  const auto* event = last_event<SmoothEvent>(events);
+  return event != nullptr ? event->sigma_mm : smoothed_mm;
+}
+
+Recipe Recipe::up_to(std::int64_t step) const {
+  Recipe earlier = *this;
+  std::erase_if(earlier.events, [&](const RecipeEvent& event) { return event.step > step; });
+  earlier.steps = step;
+  return earlier;
+}
+
+}  // namespace tidemark

@@ -1,0 +1,88 @@
+// Everything that was done to a level set since its start, by step number: what replays to the same voxels.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "imaging/grid_policy.h"
+#include "solver/parameters.h"
+#include "document/start.h"
+
+namespace tidemark {
+
+struct PaintEvent {
+  Sphere sphere;
+  Brush brush = Brush::add;
+  bool operator==(const PaintEvent&) const = default;
+};
+struct ParametersEvent {
+  Parameters parameters;
+  bool operator==(const ParametersEvent&) const = default;
+};
+// The volume as the level set sees it is from here on smoothed by that much; 0: as it is.
+struct SmoothEvent {
+  double sigma_mm = 0.0;
+  bool operator==(const SmoothEvent&) const = default;
+};
+// phi was put back (undo, recovery). Executors then forget which pages are quiet, which shows in the last
+// bits of what follows.
+struct ResumeEvent {
+  bool operator==(const ResumeEvent&) const = default;
+};
+
+// Happens when that many steps have been computed.
+struct RecipeEvent {
+  std::int64_t step = 0;
+  std::variant<PaintEvent, ParametersEvent, SmoothEvent, ResumeEvent> what;
+  bool operator==(const RecipeEvent&) const = default;
+};
+
+// Which volume it was, so that another one is noticed.
+struct RecipeSource {
+  Index3 size{0};
+  glm::dvec3 spacing_mm{1.0};
+  std::string series_uid;
+  std::string checksum;  // see checksum.h; empty: unknown
+  GridPolicy policy;     // by which the slices of the series were made a grid
+  bool operator==(const RecipeSource&) const = default;
+};
+
+// What computed it: the same bits come from the same executor with the same pages.
+struct RecipeExecutor {
+  std::string name;  // as Executor::name()
+  Index3 page_shape = kDefaultPageShape;
+  bool skip_quiet_pages = true;
+  bool operator==(const RecipeExecutor&) const = default;
+};
+
+struct Recipe {
+  static constexpr int kVersion = 1;
+  static constexpr std::size_t kLargestFile = std::size_t{64} << 20;  // bytes
+
+  RecipeSource source;
+  RecipeExecutor executor;
+  double smoothed_mm = 0.0;  // at the start
+  Start start;
+  Parameters parameters;  // at the start
+  std::vector<RecipeEvent> events;
+  std::int64_t steps = 0;  // in all
+
+  // JSON. Fails (ErrorKind::usage) when the start is too large for a file.
+  [[nodiscard]] Result<std::string> to_text() const;
+  // Fails (ErrorKind::input) naming `file` and the field: not JSON, an unknown version, something that is
+  // missing or not within its limits.
+  static Result<Recipe> parse(std::string_view text, const std::string& file);
+  static Result<Recipe> load(const std::filesystem::path& file);
+
+  [[nodiscard]] bool begun() const;  // there is a surface
+  [[nodiscard]] const Parameters& final_parameters() const;
+  [[nodiscard]] double final_smoothed_mm() const;
+  // What had been done when that many steps had been computed, the edits after the last of them included.
+  [[nodiscard]] Recipe up_to(std::int64_t step) const;
+};
+
+}  // namespace tidemark

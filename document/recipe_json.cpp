@@ -1,0 +1,379 @@
+#include "document/recipe_json.h"
+
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+
+#include "core/checked.h"
+#include "document/field_bytes.h"
+#include "document/packed_bytes.h"
+
+namespace tidemark {
+namespace {
+
+constexpr std::int64_t kLongestAxis = 1 << 20;
+constexpr std::int64_t kMostVoxels = std::int64_t{1} << 31;
+constexpr std::int64_t kMostSteps = 1'000'000'000;
+constexpr std::size_t kMostEvents = 1'000'000;
+constexpr std::size_t kMostSpheres = 100'000;
+constexpr double kFarthest_mm = 1e7;
+constexpr const char* kFormat = "tidemark recipe";
+
+Json vector_json(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+Json index_json(const Index3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Json to_json(const Sphere& sphere) {
+  return {{"centre_mm", vector_json(sphere.centre_mm)}, {"radius_mm", sphere.radius_mm}};
+}
+
+Json to_json(const std::vector<Sphere>& spheres) {
+  Json list = Json::array();
+  for (const Sphere& sphere : spheres) list.push_back(to_json(sphere));
+  return list;
+}
+
+Sphere read_sphere(const JsonField& field) {
+  Sphere sphere;
+  sphere.centre_mm = field.at("centre_mm").vector(-kFarthest_mm, kFarthest_mm);
+  sphere.radius_mm = field.at("radius_mm").number(std::numeric_limits<double>::min(), kFarthest_mm);
+  return sphere;
+}
+
+std::vector<Sphere> read_spheres(const JsonField& field) {
+  std::vector<Sphere> spheres;
+  const std::size_t count = field.size(kMostSpheres);
+  for (std::size_t i = 0; i < count && field.good(); ++i) spheres.push_back(read_sphere(field.at(i)));
+  return spheres;
+}
+
+Json packed_mask(const Mask& mask) {
+  std::vector<std::byte> bits((mask.voxels.size() + 7) / 8);
+  for (std::size_t i = 0; i < mask.voxels.size(); ++i) {
+    if (mask.voxels[i] != 0) bits[i / 8] |= std::byte{1} << (i % 8);
+  }
+  return pack_bytes(bits);
+}
+
+std::shared_ptr<const Mask> read_mask(const JsonField& field) {
+  auto mask = std::make_shared<Mask>();
+  mask->geometry = read_geometry(field.at("grid"));
+  const std::string packed = field.at("bits").text(std::numeric_limits<std::size_t>::max());
+  if (!field.good()) return mask;
+  const auto voxels = static_cast<std::size_t>(mask->geometry.voxel_count());
+  const auto bits = unpack_bytes(packed, (voxels + 7) / 8);
+  if (!bits) {
+    field.at("bits").wrong("does not hold the grid's voxels");
+    return mask;
+  }
+  mask->voxels.resize(voxels);
+  for (std::size_t i = 0; i < voxels; ++i) {
+    mask->voxels[i] = ((*bits)[i / 8] >> (i % 8) & std::byte{1}) != std::byte{0} ? 1 : 0;
+  }
+  return mask;
+}
+
+template <class Number>
+Json packed_numbers(const std::vector<Number>& numbers) {
+  return pack_bytes(std::as_bytes(std::span(numbers)));
+}
+
+template <class Number>
+std::vector<Number> read_numbers(const JsonField& field, std::size_t count) {
+  const std::string packed = field.text(std::numeric_limits<std::size_t>::max());
+  if (!field.good()) return {};
+  const auto bytes = unpack_bytes(packed, count * sizeof(Number));
+  if (!bytes) {
+    field.wrong("does not hold as many numbers as it should");
+    return {};
+  }
+  std::vector<Number> numbers(count);
+  std::memcpy(numbers.data(), bytes->data(), bytes->size());
+  return numbers;
+}
+
+Json to_json(const Field& phi) {
+  return {{"grid", tidemark::to_json(phi.geometry)},
+          {"band", phi.band},
+          {"page_shape", index_json(phi.layout.page_shape())},
+          {"resident_pages", phi.resident_pages()},
+          {"table", packed_numbers(phi.table)},
+          {"pages", packed_numbers(pages_for_file(phi))}};
+}
+
+std::shared_ptr<const Field> read_field(const JsonField& field) {
+  const Geometry geometry = read_geometry(field.at("grid"));
+  const double band = field.at("band").number(2.0, 1e6);
+  const Index3 shape = field.at("page_shape").index(1, 64);
+  if (field.good() && !is_page_shape(shape)) field.at("page_shape").wrong("no pages have that shape");
+  if (!field.good()) return nullptr;
+  const PageLayout layout(geometry.size, shape);
+  const auto resident = field.at("resident_pages").integer(0, layout.page_count());
+  auto table = read_numbers<std::int32_t>(field.at("table"), static_cast<std::size_t>(layout.page_count()));
+  auto pages =
+      read_numbers<float>(field.at("pages"), static_cast<std::size_t>(resident * layout.voxels_per_page()));
+  if (!field.good()) return nullptr;
+  auto phi = field_from_file(geometry, band, shape, std::move(table), std::move(pages), "phi");
+  if (!phi) {
+    field.wrong(phi.error().message);
+    return nullptr;
+  }
+  return std::make_shared<const Field>(std::move(*phi));
+}
+
+struct FromJson {
+  Json operator()(std::monostate) const { return {{"kind", "spheres"}}; }
+  Json operator()(const ThresholdStart& start) const {
+    return {{"kind", "threshold"}, {"low", start.low}, {"high", start.high}};
+  }
+  Json operator()(const FloodStart& start) const {
+    return {{"kind", "flood"}, {"voxel", index_json(start.voxel)}, {"low", start.low}, {"high", start.high}};
+  }
+  Json operator()(const MaskStart& start) const {
+    return {{"kind", "mask"},
+            {"origin", start.origin},
+            {"grid", tidemark::to_json(start.mask->geometry)},
+            {"bits", packed_mask(*start.mask)}};
+  }
+  Json operator()(const FieldStart& start) const {
+    Json json = to_json(*start.phi);
+    json["kind"] = "phi";
+    json["origin"] = start.origin;
+    return json;
+  }
+};
+
+Start read_start(const JsonField& field) {
+  Start start;
+  const JsonField from = field.at("from");
+  const auto low_to_high = [&](double& low, double& high) {
+    low = from.at("low").number();
+    high = from.at("high").number(low);
+  };
+  switch (from.at("kind").word({"spheres", "threshold", "flood", "mask", "phi"})) {
+    case 1: {
+      ThresholdStart part;
+      low_to_high(part.low, part.high);
+      start.from = part;
+      break;
+    }
+    case 2: {
+      FloodStart part;
+      part.voxel = from.at("voxel").index(0, kLongestAxis);
+      low_to_high(part.low, part.high);
+      start.from = part;
+      break;
+    }
+    case 3:
+      start.from = MaskStart{read_mask(from), from.at("origin").text()};
+      break;
+    case 4:
+      start.from = FieldStart{read_field(from), from.at("origin").text()};
+      break;
+    default:
+      break;
+  }
+  start.seeds = read_spheres(field.at("seeds"));
+  start.erasers = read_spheres(field.at("erasers"));
+  return start;
+}
+
+Json to_json(const RecipeEvent& event) {
+  Json json{{"step", event.step}};
+  if (const auto* paint = std::get_if<PaintEvent>(&event.what)) {
+    json[paint->brush == Brush::add ? "add" : "erase"] = to_json(paint->sphere);
+  } else if (const auto* change = std::get_if<ParametersEvent>(&event.what)) {
+    json["parameters"] = tidemark::to_json(change->parameters);
+  } else if (const auto* smoothing = std::get_if<SmoothEvent>(&event.what)) {
+    json["smoothed_mm"] = smoothing->sigma_mm;
+  } else {
+    json["resume"] = true;
+  }
+  return json;
+}
+
+RecipeEvent read_event(const JsonField& field, std::int64_t first_step, std::int64_t last_step) {
+  RecipeEvent event;
+  event.step = field.at("step").integer(first_step, last_step);
+  if (field.has("add")) {
+    event.what = PaintEvent{read_sphere(field.at("add")), Brush::add};
+  } else if (field.has("erase")) {
+    event.what = PaintEvent{read_sphere(field.at("erase")), Brush::erase};
+  } else if (field.has("parameters")) {
+    event.what = ParametersEvent{read_parameters(field.at("parameters"))};
+  } else if (field.has("smoothed_mm")) {
+    event.what = SmoothEvent{field.at("smoothed_mm").number(0.0, 1000.0)};
+  } else if (field.has("resume")) {
+    event.what = ResumeEvent{};
+  } else {
+    field.wrong("an event of an unknown kind");
+  }
+  return event;
+}
+
+std::optional<double> read_optional(const JsonField& field, const char* key) {
+  if (!field.has(key)) return std::nullopt;
+  return field.at(key).number();
+}
+
+}  // namespace
+
+Json to_json(const Geometry& geometry) {
+  Json direction = Json::array();
+  for (int a = 0; a < 3; ++a) direction.push_back(vector_json(geometry.direction[a]));
+  return {{"size", index_json(geometry.size)},
+          {"spacing_mm", vector_json(geometry.spacing_mm)},
+          {"origin_mm", vector_json(geometry.origin_mm)},
+          {"direction", direction}};
+}
+
+Geometry read_geometry(const JsonField& field) {
+  Geometry geometry;
+  geometry.size = field.at("size").index(1, kLongestAxis);
+  geometry.spacing_mm = field.at("spacing_mm").vector(1e-6, 1e6);
+  geometry.origin_mm = field.at("origin_mm").vector(-kFarthest_mm, kFarthest_mm);
+  const JsonField direction = field.at("direction");
+  if (direction.size(3) != 3) direction.wrong("not three vectors");
+  for (std::size_t a = 0; a < 3; ++a) {
+    geometry.direction[static_cast<int>(a)] = direction.at(a).vector(-1.001, 1.001);
+  }
+  if (!field.good()) return {};
+  const auto voxels = checked_product(geometry.size.x, geometry.size.y, geometry.size.z);
+  if (!voxels || *voxels > kMostVoxels) field.at("size").wrong("more voxels than are read");
+  if (std::abs(std::abs(glm::determinant(geometry.direction)) - 1.0) > 1e-3) {
+    direction.wrong("the axes are not at right angles");
+  }
+  return field.good() ? geometry : Geometry();
+}
+
+Json to_json(const Parameters& parameters) {
+  Json json;
+  json["target"] = parameters.target;
+  json["range"] = parameters.range;
+  json["alpha"] = parameters.alpha;
+  if (parameters.band)
+    json["band"] = std::isinf(*parameters.band) ? Json("infinite") : Json(*parameters.band);
+  if (parameters.rescale) json["rescale"] = *parameters.rescale;
+  json["target_gradient"] = parameters.target_gradient;
+  json["scheme"] = parameters.scheme == Scheme::split ? "split" : "paper";
+  json["data"] = parameters.data_form == DataForm::clamped ? "clamped" : "raw";
+  json["data_term"] = parameters.data_term;
+  json["curvature_term"] = parameters.curvature_term;
+  json["rescaling_term"] = parameters.rescaling_term;
+  json["time_step_factor"] = parameters.time_step_factor;
+  return json;
+}
+
+Parameters read_parameters(const JsonField& field) {
+  Parameters parameters;
+  parameters.target = field.at("target").number();
+  parameters.range = field.at("range").number();
+  parameters.alpha = field.at("alpha").number();
+  if (field.has("band") && field.at("band").is_text()) {
+    field.at("band").must_be("infinite");
+    parameters.band = std::numeric_limits<double>::infinity();
+  } else {
+    parameters.band = read_optional(field, "band");
+  }
+  parameters.rescale = read_optional(field, "rescale");
+  parameters.target_gradient = field.at("target_gradient").number();
+  parameters.scheme = field.at("scheme").word({"split", "paper"}) == 0 ? Scheme::split : Scheme::paper;
+  parameters.data_form = field.at("data").word({"clamped", "raw"}) == 0 ? DataForm::clamped : DataForm::raw;
+  parameters.data_term = field.at("data_term").boolean();
+  parameters.curvature_term = field.at("curvature_term").boolean();
+  parameters.rescaling_term = field.at("rescaling_term").boolean();
+  parameters.time_step_factor = field.at("time_step_factor").number();
+  if (!field.good()) return {};
+  if (const Status valid = check(parameters); !valid) field.wrong(valid.error().message);
+  return parameters;
+}
+
+Json to_json(const GridPolicy& policy) {
+  return {{"tilt", policy.tilt == GridPolicy::Tilt::keep ? "keep" : "correct"},
+          {"gaps", policy.gaps == GridPolicy::Gaps::fill ? "fill" : "refuse"}};
+}
+
+GridPolicy read_policy(const JsonField& field) {
+  GridPolicy policy;
+  if (field.at("tilt").word({"correct", "keep"}) == 1) policy.tilt = GridPolicy::Tilt::keep;
+  if (field.at("gaps").word({"refuse", "fill"}) == 1) policy.gaps = GridPolicy::Gaps::fill;
+  return policy;
+}
+
+Json to_json(const Recipe& recipe) {
+  Json json{{"format", kFormat}, {"version", Recipe::kVersion}};
+  json["source"] = {{"size", index_json(recipe.source.size)},
+                    {"spacing_mm", vector_json(recipe.source.spacing_mm)},
+                    {"series_uid", recipe.source.series_uid},
+                    {"sha256", recipe.source.checksum},
+                    {"slices", to_json(recipe.source.policy)}};
+  json["executor"] = {{"name", recipe.executor.name},
+                      {"page_shape", index_json(recipe.executor.page_shape)},
+                      {"skip_quiet_pages", recipe.executor.skip_quiet_pages}};
+  json["smoothed_mm"] = recipe.smoothed_mm;
+  json["start"] = {{"from", std::visit(FromJson{}, recipe.start.from)},
+                   {"seeds", to_json(recipe.start.seeds)},
+                   {"erasers", to_json(recipe.start.erasers)}};
+  json["parameters"] = to_json(recipe.parameters);
+  Json events = Json::array();
+  for (const RecipeEvent& event : recipe.events) events.push_back(to_json(event));
+  json["events"] = std::move(events);
+  json["steps"] = recipe.steps;
+  return json;
+}
+
+Recipe read_recipe(const JsonField& field) {
+  Recipe recipe;
+  field.at("format").must_be(kFormat);
+  const JsonField version = field.at("version");
+  if (version.integer(0, 1 << 30) != Recipe::kVersion) version.wrong("this version cannot be read");
+  if (!field.good()) return recipe;
+  const JsonField source = field.at("source");
+  recipe.source.size = source.at("size").index(1, kLongestAxis);
+  recipe.source.spacing_mm = source.at("spacing_mm").vector(1e-6, 1e6);
+  recipe.source.series_uid = source.at("series_uid").text(256);
+  recipe.source.checksum = source.at("sha256").text(64);
+  if (source.has("slices")) recipe.source.policy = read_policy(source.at("slices"));
+  const JsonField executor = field.at("executor");
+  const std::vector<std::string_view> names{"host", "compute", "stream", "reference"};
+  recipe.executor.name = names[executor.at("name").word(names)];
+  recipe.executor.page_shape = executor.at("page_shape").index(1, 64);
+  if (!is_page_shape(recipe.executor.page_shape)) executor.at("page_shape").wrong("no pages have that shape");
+  recipe.executor.skip_quiet_pages = executor.at("skip_quiet_pages").boolean();
+  recipe.smoothed_mm = field.at("smoothed_mm").number(0.0, 1000.0);
+  recipe.start = read_start(field.at("start"));
+  recipe.parameters = read_parameters(field.at("parameters"));
+  recipe.steps = field.at("steps").integer(0, kMostSteps);
+  const JsonField events = field.at("events");
+  const std::size_t count = events.size(kMostEvents);
+  std::int64_t step = 0;
+  for (std::size_t i = 0; i < count && field.good(); ++i) {
+    recipe.events.push_back(read_event(events.at(i), step, recipe.steps));
+    step = recipe.events.back().step;
+  }
+  return recipe;
+}
+
+Result<std::string> Recipe::to_text() const {
+  std::string text = tidemark::to_json(*this).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (text.size() <= kLargestFile) return text;
+  return fail(ErrorKind::usage,
+              "the recipe has {} MB, and files of at most {} MB are read again: its start is too large",
+              text.size() >> 20U, kLargestFile >> 20U);
+}
+
+Result<Recipe> Recipe::parse(std::string_view text, const std::string& file) {
+  const auto json = parse_json(text, file, {.bytes = kLargestFile});
+  if (!json) return tl::unexpected<Error>(json.error());
+  const JsonField root = root_of(*json, file);
+  Recipe recipe = read_recipe(root);
+  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  return recipe;
+}
+
+}  // namespace tidemark

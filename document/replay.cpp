@@ -1,0 +1,60 @@
+#include "document/replay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "document/checksum.h"
+#include "document/executor_setup.h"
+
+namespace tidemark {
+std::vector<std::string> differences(const Recipe& recipe, const Volume& volume) {
+  std::vector<std::string> found;
+  const glm::dvec3 then = recipe.source.spacing_mm;
+  const glm::dvec3 now = volume.geometry.spacing_mm;
+  bool same_spacing = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    same_spacing = same_spacing && std::abs(then[axis] - now[axis]) <= 1e-3 * then[axis];
+  }
+  if (!same_spacing) {
+    found.push_back(
+        fmt::format("the recipe was made for a spacing of {:.4g} x {:.4g} x {:.4g} mm, the volume "
+                    "has {:.4g} x {:.4g} x {:.4g}: the same alpha smooths differently",
+                    then.x, then.y, then.z, now.x, now.y, now.z));
+  }
+  if (recipe.source.size != volume.geometry.size) {
+    const Index3 size = recipe.source.size;
+    found.push_back(
+        fmt::format("the recipe was made on a volume of {} x {} x {} voxels", size.x, size.y, size.z));
+  } else if (!recipe.source.checksum.empty() && recipe.source.checksum != checksum_of(volume)) {
+    found.emplace_back("the recipe was made on a volume with other voxels");
+  }
+  return found;
+}
+
+Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume,
+                      const ReplayOptions& options, const Progress& progress) {
+  const ExecutorKind recorded = executor_named(recipe.executor.name).value_or(ExecutorKind::host);
+  const ExecutorKind kind = options.executor.value_or(recorded);
+  ExecutorOptions executor_options = options.options;
+  executor_options.skip_quiet_pages = executor_options.skip_quiet_pages && recipe.executor.skip_quiet_pages;
+  if (kind == recorded) executor_options.page_shape = recipe.executor.page_shape;
+  auto setup = ExecutorSetup::create(std::move(volume), recipe.smoothed_mm, recipe.parameters, kind, executor_options);
+  if (!setup) return pass_on(setup);
+  if (Status begun = setup->begin(recipe, progress); !begun) return pass_on(begun);
+  Replay result;
+  if (Status played = setup->play(recipe, 0, 0, recipe.steps, progress, &result.advance); !played) {
+    return pass_on(played);
+  }
+  auto phi = setup->executor().snapshot();
+  if (!phi) return pass_on(phi);
+  result.phi = std::move(*phi);
+  result.executor = setup->description();
+  result.memory = setup->executor().memory();
+  result.band = setup->executor().band();
+  result.time_step = setup->executor().time_step();
+  result.source = setup->source();
+  return result;
+}
+
+}  // namespace tidemark

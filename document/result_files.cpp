@@ -1,0 +1,56 @@
+#include "document/result_files.h"
+
+#include <algorithm>
+
+#include "imaging/onto_grid.h"
+#include "imaging/load_study.h"
+#include "document/label_segments.h"
+
+namespace tidemark {
+namespace {
+
+Result<Segments> surface_segments(const SessionContents& contents) {
+  Segments segments = segments_of(contents.phi->mask(), "Surface");
+  if (segments.list.front().slices.empty()) {
+    return fail(ErrorKind::usage, "nothing is inside the surface");
+  }
+  segments.list.front().phi = std::make_shared<const Volume>(contents.phi->to_volume());
+  return segments;
+}
+
+}  // namespace
+
+Result<Segments> result_segments(const SessionContents& contents, ResultContent content) {
+  if (content == ResultContent::surface) return surface_segments(contents);
+  std::vector<Label> wanted = contents.labels;
+  if (content == ResultContent::visible_labels) {
+    std::erase_if(wanted, [](const Label& label) { return !label.visible; });
+  }
+  std::span<const std::uint8_t> voxels;
+  if (contents.label_voxels) voxels = *contents.label_voxels;
+  Segments segments = segments_of(contents.geometry, wanted, voxels);
+  std::erase_if(segments.list, [](const Segment& segment) { return segment.slices.empty(); });
+  if (segments.list.empty()) return fail(ErrorKind::usage, "no voxel has one of these labels");
+  return segments;
+}
+
+Status write_result(const Segments& segments, ResultForm form, SourceFiles source,
+                    const std::filesystem::path& file, const Progress& progress) {
+  return form == ResultForm::segmentation ? write_segmentation(segments, source, file, progress)
+                                          : write_structure_set(segments, source, file, progress);
+}
+
+Result<Segments> read_labels(const std::filesystem::path& file, const Geometry& grid,
+                             const Progress& progress) {
+  progress(0.0, "reading labels");
+  if (result_form_of(file)) return read_result(file, &grid);
+  const auto volume = load_volume(file, {}, progress);
+  if (!volume) return tl::unexpected<Error>(volume.error());
+  const auto values = onto_grid(*volume, grid, file.string());
+  if (!values) return tl::unexpected<Error>(values.error());
+  auto segments = segments_of_numbers(grid, *values, file.string());
+  if (segments) segments->changes = volume->changes;
+  return segments;
+}
+
+}  // namespace tidemark

@@ -1,0 +1,26 @@
+// What a case holds, in files for other systems; and label maps from them.
+#pragma once
+
+#include "imaging/results/results.h"
+#include "document/session_contents.h"
+
+namespace tidemark {
+
+// Which of what was segmented is meant.
+enum class ResultContent { all_labels, visible_labels, surface };
+
+// The segments of a case as it was: its labels, without those that hold no voxel, or what is inside its
+// surface with phi. Fails (ErrorKind::usage) when there are none.
+Result<Segments> result_segments(const SessionContents& contents, ResultContent content);
+
+// As DICOM Segmentation or RT Structure Set; `source` as for write_segmentation(). Fails as both do.
+Status write_result(const Segments& segments, ResultForm form, SourceFiles source,
+                    const std::filesystem::path& file, const Progress& progress = {});
+
+// The labels in a file, on that grid: the segments of a DICOM Segmentation or RT Structure Set, or the
+// numbers of a volume file, whose axes may be in another order or run the other way. Fails (ErrorKind::input)
+// naming the file and why it does not fit.
+Result<Segments> read_labels(const std::filesystem::path& file, const Geometry& grid,
+                             const Progress& progress = {});
+
+}  // namespace tidemark

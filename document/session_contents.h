@@ -1,0 +1,40 @@
+// What a session file holds of a case, as values: they can be written on any thread while the case goes on.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "document/case.h"
+
+namespace tidemark {
+
+// The volume's voxels are not part of it: they are found again by the origin, or made again (phantoms).
+struct SessionContents {
+  StudyOrigin origin;
+  Geometry geometry;  // of the volume
+  Recipe recipe;      // with it, parameters, step number and smoothing
+  std::shared_ptr<const Field> phi;
+  std::vector<Label> labels;
+  std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null: no voxel has a label
+  Curve curve;
+  std::string view_state;
+};
+
+// On the case's thread: what it is like now. A checkpoint of its level set.
+Result<SessionContents> snapshot_of(Case& document);
+
+// How a volume compares with the one that was saved.
+enum class VolumeMatch {
+  same,
+  other_voxels,  // on the same grid: ask before going on with it
+  other_grid,    // nothing fits
+};
+VolumeMatch match(const SessionContents& contents, const Volume& volume);
+
+// A case as it was saved, with an empty history. Fails (ErrorKind::input) when the volume has another grid.
+Result<std::unique_ptr<Case>> restore_case(const SessionContents& contents,
+                                           std::shared_ptr<const Volume> volume, ExecutorKind kind,
+                                           const ExecutorOptions& options);
+
+}  // namespace tidemark

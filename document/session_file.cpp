@@ -1,0 +1,286 @@
+#include "document/session_file.h"
+
+#include <array>
+#include <cstring>
+#include <utility>
+
+#include "core/atomic_file.h"
+#include "document/field_bytes.h"
+#include "document/recipe_json.h"
+#include "document/zip_archive.h"
+
+namespace tidemark {
+namespace {
+
+constexpr std::string_view kJson = "session.json";
+constexpr std::string_view kTable = "phi.table";
+constexpr std::string_view kPages = "phi.pages";
+constexpr std::string_view kLabels = "labels";
+constexpr const char* kFormat = "tidemark session";
+constexpr std::size_t kLongestViewState = std::size_t{16} << 20;
+constexpr std::size_t kLongestName = 256;
+constexpr std::size_t kLongestDescription = std::size_t{1} << 20;
+// Starts from a saved phi are part of the recipe, and larger than its own file may be.
+constexpr JsonLimits kJsonLimits{.bytes = std::size_t{512} << 20, .depth = 32};
+
+Json code_json(const Code& code) {
+  return {{"value", code.value}, {"scheme", code.scheme}, {"meaning", code.meaning}};
+}
+
+Code read_code(const JsonField& field) {
+  return {field.at("value").text(kLongestName), field.at("scheme").text(kLongestName),
+          field.at("meaning").text(kLongestName)};
+}
+
+Json labels_json(const std::vector<Label>& labels) {
+  Json list = Json::array();
+  for (const Label& label : labels) {
+    Json one{{"id", label.id},
+             {"name", label.name},
+             {"colour", label.colour},
+             {"visible", label.visible},
+             {"locked", label.locked}};
+    if (label.meaning) {
+      one["meaning"] = {{"category", code_json(label.meaning->category)},
+                        {"type", code_json(label.meaning->type)}};
+    }
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+std::vector<Label> read_labels(const JsonField& field) {
+  std::vector<Label> labels;
+  const std::size_t count = field.size(255);
+  for (std::size_t i = 0; i < count && field.good(); ++i) {
+    const JsonField one = field.at(i);
+    Label label;
+    label.id = static_cast<std::uint8_t>(one.at("id").integer(1, 255));
+    label.name = one.at("name").text(kLongestName);
+    const glm::dvec3 colour(one.at("colour").index(0, 255));
+    for (int c = 0; c < 3; ++c)
+      label.colour[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(colour[c]);
+    label.visible = one.at("visible").boolean();
+    label.locked = one.at("locked").boolean();
+    if (one.has("meaning")) {
+      const JsonField meaning = one.at("meaning");
+      label.meaning = SegmentMeaning{read_code(meaning.at("category")), read_code(meaning.at("type"))};
+    }
+    labels.push_back(std::move(label));
+  }
+  return labels;
+}
+
+// A list a quantity, so that other programs can plot them.
+constexpr std::array<std::pair<const char*, double CurvePoint::*>, 3> kCurveQuantities{
+    {{"volume_ml", &CurvePoint::volume_ml},
+     {"surface_mm2", &CurvePoint::surface_mm2},
+     {"surface_speed", &CurvePoint::surface_speed}}};
+
+Json curve_json(const Curve::Points& points) {
+  Json json{{"step", Json::array()}};
+  for (const CurvePoint& point : points) json["step"].push_back(point.step);
+  for (const auto& [name, quantity] : kCurveQuantities) {
+    Json& list = json[name] = Json::array();
+    for (const CurvePoint& point : points) list.push_back(point.*quantity);
+  }
+  return json;
+}
+
+Curve read_curve(const JsonField& field) {
+  const JsonField steps = field.at("step");
+  Curve::Points points(steps.size(Curve::kMostPoints));
+  std::int64_t next = 0;
+  for (std::size_t i = 0; i < points.size() && field.good(); ++i) {
+    points[i].step = steps.at(i).integer(next, std::int64_t{1} << 62);
+    next = points[i].step + 1;
+  }
+  for (const auto& [name, quantity] : kCurveQuantities) {
+    const JsonField list = field.at(name);
+    if (list.size(Curve::kMostPoints) != points.size())
+      list.wrong("has not as many entries as there are steps");
+    for (std::size_t i = 0; i < points.size() && field.good(); ++i)
+      points[i].*quantity = list.at(i).number(0.0);
+  }
+  return Curve(std::move(points));
+}
+
+Json study_json(const StudyOrigin& origin, const std::filesystem::path& session) {
+  std::error_code ignored;
+  Json json{{"series_uid", origin.series_uid},  {"phantom", origin.phantom}, {"sha256", origin.checksum},
+            {"slices", to_json(origin.policy)}, {"name", origin.name},       {"date", origin.date}};
+  json["path"] = "";
+  json["relative_path"] = "";
+  if (origin.path.empty()) return json;
+  const auto whole = std::filesystem::absolute(origin.path, ignored);
+  json["path"] = whole.string();
+  json["relative_path"] =
+      std::filesystem::proximate(whole, std::filesystem::absolute(session, ignored).parent_path(), ignored)
+          .string();
+  return json;
+}
+
+StudyOrigin read_study(const JsonField& field, const std::filesystem::path& session) {
+  StudyOrigin origin;
+  origin.series_uid = field.at("series_uid").text(kLongestName);
+  origin.phantom = field.at("phantom").text(kLongestName);
+  origin.checksum = field.at("sha256").text(64);
+  origin.path = field.at("path").text();
+  if (field.has("slices")) origin.policy = read_policy(field.at("slices"));
+  if (field.has("name")) origin.name = field.at("name").text(kLongestDescription);
+  if (field.has("date")) origin.date = field.at("date").text(kLongestDescription);
+  const std::filesystem::path relative = field.at("relative_path").text();
+  if (field.good() && origin.path.empty() && origin.phantom.empty()) field.wrong("names no study");
+  for (const auto& path : {origin.path, relative}) {
+    if (path.string().find('\0') != std::string::npos) field.wrong("names no path");
+  }
+  if (!field.good() || relative.empty()) return origin;
+  std::error_code error;
+  const auto beside = std::filesystem::weakly_canonical(session.parent_path() / relative, error);
+  if (!error && std::filesystem::exists(beside, error)) origin.path = beside;
+  return origin;
+}
+
+Json session_json(const SessionContents& contents, const std::filesystem::path& file) {
+  Json json{{"format", kFormat}, {"version", kSessionVersion}};
+  json["study"] = study_json(contents.origin, file);
+  json["grid"] = to_json(contents.geometry);
+  json["recipe"] = to_json(contents.recipe);
+  const Index3 shape = contents.phi->layout.page_shape();
+  json["phi"] = {{"band", contents.phi->band},
+                 {"page_shape", {shape.x, shape.y, shape.z}},
+                 {"resident_pages", contents.phi->resident_pages()}};
+  json["labels"] = labels_json(contents.labels);
+  json["curve"] = curve_json(*contents.curve.points());
+  json["view_state"] = contents.view_state;
+  return json;
+}
+
+template <class Number>
+Result<std::vector<Number>> read_numbers(ZipReader& archive, std::string_view name, std::int64_t count) {
+  auto bytes = archive.read(name, static_cast<std::size_t>(count) * sizeof(Number));
+  if (!bytes) return pass_on(bytes);
+  std::vector<Number> numbers(static_cast<std::size_t>(count));
+  if (count > 0) std::memcpy(numbers.data(), bytes->data(), bytes->size());
+  return numbers;
+}
+
+Result<std::shared_ptr<const Field>> read_phi(ZipReader& archive, const JsonField& field,
+                                              const Geometry& geometry, const std::string& file) {
+  const double band = field.at("band").number(2.0, 1e6);
+  const Index3 shape = field.at("page_shape").index(1, 64);
+  if (!is_page_shape(shape)) field.at("page_shape").wrong("no pages have that shape");
+  if (!field.good()) return tl::unexpected<Error>(field.status().error());
+  const PageLayout layout(geometry.size, shape);
+  const std::int64_t resident = field.at("resident_pages").integer(0, layout.page_count());
+  if (!field.good()) return tl::unexpected<Error>(field.status().error());
+  auto table = read_numbers<std::int32_t>(archive, kTable, layout.page_count());
+  if (!table) return pass_on(table);
+  auto pages = read_numbers<float>(archive, kPages, resident * layout.voxels_per_page());
+  if (!pages) return pass_on(pages);
+  auto phi = field_from_file(geometry, band, shape, std::move(*table), std::move(*pages), file + ": phi");
+  if (!phi) return pass_on(phi);
+  return std::make_shared<const Field>(std::move(*phi));
+}
+
+Status read_label_voxels(ZipReader& archive, SessionContents& contents, const std::string& file) {
+  std::vector<std::uint8_t> voxels;
+  if (archive.has(kLabels)) {
+    auto read = read_numbers<std::uint8_t>(archive, kLabels, contents.geometry.voxel_count());
+    if (!read) return pass_on(read);
+    voxels = std::move(*read);
+  }
+  Labels trial(contents.geometry);
+  if (const Status good = trial.assign(contents.labels, voxels); !good) {
+    return fail(ErrorKind::input, "{}: labels: {}", file, good.error().message);
+  }
+  if (!voxels.empty())
+    contents.label_voxels = std::make_shared<const std::vector<std::uint8_t>>(std::move(voxels));
+  return {};
+}
+
+// A file of ours, of a version that can be read.
+struct OpenedSession {
+  ZipReader archive;
+  Json json;
+};
+
+Result<OpenedSession> open_session(const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 4> kNames{kJson, kTable, kPages, kLabels};
+  auto archive = ZipReader::open(file, kNames);
+  if (!archive) return pass_on(archive);
+  const std::string name = file.string();
+  if (archive->size(kJson) > kJsonLimits.bytes) {
+    return fail(ErrorKind::input, "{}: {} is too large", name, kJson);
+  }
+  const auto text = archive->read(kJson, archive->size(kJson));
+  if (!text) return tl::unexpected<Error>(text.error());
+  auto json = parse_json({reinterpret_cast<const char*>(text->data()), text->size()}, name, kJsonLimits);
+  if (!json) return pass_on(json);
+  const JsonField root = root_of(*json, name);
+  root.at("format").must_be(kFormat);
+  const JsonField version = root.at("version");
+  if (version.integer(0, 1 << 30) != kSessionVersion) version.wrong("this version cannot be read");
+  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  return OpenedSession{std::move(*archive), std::move(*json)};
+}
+
+}  // namespace
+
+Status write_session(const SessionContents& contents, const std::filesystem::path& file) {
+  const std::string json = session_json(contents, file).dump(1, ' ', false, Json::error_handler_t::replace);
+  const std::vector<float> pages = pages_for_file(*contents.phi);
+  std::vector<ZipEntry> entries{{kJson, std::as_bytes(std::span(json))},
+                                {kTable, std::as_bytes(std::span(contents.phi->table))},
+                                {kPages, std::as_bytes(std::span(pages))}};
+  if (contents.label_voxels) entries.push_back({kLabels, std::as_bytes(std::span(*contents.label_voxels))});
+  auto whole = AtomicFile::create(file);
+  if (!whole) return pass_on(whole);
+  if (Status written = write_zip(whole->temporary_path(), entries); !written) {
+    return fail(ErrorKind::write, "{}: {}", file.string(), written.error().message);
+  }
+  return whole->commit();
+}
+
+Result<SessionContents> load_session(const std::filesystem::path& file) {
+  auto opened = open_session(file);
+  if (!opened) return pass_on(opened);
+  const std::string name = file.string();
+  const JsonField root = root_of(opened->json, name);
+  SessionContents contents;
+  contents.origin = read_study(root.at("study"), file);
+  contents.geometry = read_geometry(root.at("grid"));
+  contents.recipe = read_recipe(root.at("recipe"));
+  contents.labels = read_labels(root.at("labels"));
+  if (root.has("curve")) contents.curve = read_curve(root.at("curve"));
+  contents.view_state = root.at("view_state").text(kLongestViewState);
+  if (root.good() && contents.recipe.source.size != contents.geometry.size) {
+    root.at("recipe").wrong("is of another grid");
+  }
+  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  auto phi = read_phi(opened->archive, root.at("phi"), contents.geometry, name);
+  if (!phi) return pass_on(phi);
+  contents.phi = std::move(*phi);
+  if (Status labels = read_label_voxels(opened->archive, contents, name); !labels) return pass_on(labels);
+  return contents;
+}
+
+Result<StudyOrigin> load_origin(const std::filesystem::path& file) {
+  const auto opened = open_session(file);
+  if (!opened) return tl::unexpected<Error>(opened.error());
+  const JsonField root = root_of(opened->json, file.string());
+  StudyOrigin origin = read_study(root.at("study"), file);
+  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  return origin;
+}
+
+Status save_session(Case& document, const std::filesystem::path& file) {
+  if (Status ended = document.level_set().end_run(); !ended) return ended;
+  const auto contents = snapshot_of(document);
+  if (!contents) return tl::unexpected<Error>(contents.error());
+  if (Status written = write_session(*contents, file); !written) return written;
+  document.mark_saved();
+  return {};
+}
+
+}  // namespace tidemark

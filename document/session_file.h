@@ -1,0 +1,26 @@
+// Session files (.tidemark): a case in one zip archive, but for the volume's voxels.
+//
+// Entries: session.json, phi.table (int32 a virtual page) and phi.pages (float), labels (uint8 a voxel, only
+// if there are any). Numbers are little-endian.
+#pragma once
+
+#include <filesystem>
+
+#include "document/session_contents.h"
+
+namespace tidemark {
+
+inline constexpr int kSessionVersion = 1;
+
+// Whole or not at all.
+Status write_session(const SessionContents& contents, const std::filesystem::path& file);
+// Fails (ErrorKind::input) naming the file and what is wrong in it. The origin's path is the one that exists:
+// relative to the session file, else where it was when it was saved.
+Result<SessionContents> load_session(const std::filesystem::path& file);
+// What it is about, without reading the rest.
+Result<StudyOrigin> load_origin(const std::filesystem::path& file);
+
+// Ends what goes on, writes the case, and notes that it is saved.
+Status save_session(Case& document, const std::filesystem::path& file);
+
+}  // namespace tidemark

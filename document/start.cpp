@@ -1,0 +1,135 @@
+#include "document/start.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "imaging/filters/filters.h"
+#include "solver/distance_transform.h"
+
+namespace tidemark {
+namespace {
+
+constexpr double kGridTolerance = 0.1;  // of the smallest spacing: files round their numbers
+
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string describe_origin(const char* what, const std::string& origin) {
+  return origin.empty() ? what : fmt::format("{} {}", what, origin);
+}
+
+struct Describe {
+  std::string operator()(std::monostate) const { return {}; }
+  std::string operator()(const ThresholdStart& start) const {
+    return fmt::format("values {} to {}", start.low, start.high);
+  }
+  std::string operator()(const FloodStart& start) const {
+    return fmt::format("flood fill, values {} to {}", start.low, start.high);
+  }
+  std::string operator()(const MaskStart& start) const { return describe_origin("mask", start.origin); }
+  std::string operator()(const FieldStart& start) const { return describe_origin("phi", start.origin); }
+};
+
+Status check_grid(const Geometry& part, const Geometry& grid, const char* what) {
+  const double tolerance =
+      kGridTolerance * std::min({grid.spacing_mm.x, grid.spacing_mm.y, grid.spacing_mm.z});
+  if (part.size == grid.size && same_grid(part, grid, tolerance)) return {};
+  return fail(ErrorKind::usage,
+              "the start's {} has a grid of {} x {} x {} voxels that is not the volume's of {} x {} x {}",
+              what, part.size.x, part.size.y, part.size.z, grid.size.x, grid.size.y, grid.size.z);
+}
+
+Status check_sphere(const Sphere& sphere, const Geometry& grid, const char* what) {
+  const glm::dvec3 voxel = grid.to_voxel(sphere.centre_mm);
+  bool inside = sphere.radius_mm > 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    inside = inside && voxel[axis] >= -0.5 && voxel[axis] <= static_cast<double>(grid.size[axis]) - 0.5;
+  }
+  if (inside) return {};
+  return fail(ErrorKind::usage,
+              "{} at voxel ({:.6g}, {:.6g}, {:.6g}) with a radius of {} mm is not in the "
+              "volume of {} x {} x {} voxels",
+              what, voxel.x, voxel.y, voxel.z, sphere.radius_mm, grid.size.x, grid.size.y, grid.size.z);
+}
+
+Status check_spheres(const Start& start, const Geometry& grid) {
+  for (const Sphere& sphere : start.seeds) {
+    if (Status good = check_sphere(sphere, grid, "a seed"); !good) return good;
+  }
+  for (const Sphere& sphere : start.erasers) {
+    if (Status good = check_sphere(sphere, grid, "an eraser"); !good) return good;
+  }
+  return {};
+}
+
+// The first part as phi.
+struct FirstPart {
+  const Executor& executor;
+  const Volume& source;
+
+  [[nodiscard]] Field from_mask(const Mask& mask) const {
+    return distance_transform(mask, executor.band(), executor.memory().page_shape);
+  }
+  Result<Field> operator()(std::monostate) const { return Field::empty(source.geometry, executor.band()); }
+  Result<Field> operator()(const ThresholdStart& start) const {
+    return from_mask(threshold(source, start.low, start.high));
+  }
+  Result<Field> operator()(const FloodStart& start) const {
+    auto mask = flood_fill(source, start.voxel, start.low, start.high);
+    if (!mask) return pass_on(mask);
+    return from_mask(*mask);
+  }
+  Result<Field> operator()(const MaskStart& start) const {
+    if (Status fits = check_grid(start.mask->geometry, source.geometry, "mask"); !fits) return pass_on(fits);
+    return from_mask(*start.mask);
+  }
+  Result<Field> operator()(const FieldStart& start) const {
+    if (Status fits = check_grid(start.phi->geometry, source.geometry, "phi"); !fits) return pass_on(fits);
+    if (start.phi->check_fits(source.geometry, executor.band())) return *start.phi;
+    return Field::from_dense(source.geometry, start.phi->dense(), executor.band());  // another band
+  }
+};
+
+Result<Field> begin_unguarded(Executor& executor, const Volume& source, const Start& start,
+                              const Progress& progress) {
+  auto first = std::visit(FirstPart{executor, source}, start.from);
+  if (!first) return first;
+  if (progress.cancelled()) return cancelled_error();
+  if (Status restored = executor.restore(*first); !restored) return pass_on(restored);
+  for (const Sphere& sphere : start.seeds) {
+    if (Status painted = executor.paint(sphere, Brush::add); !painted) return pass_on(painted);
+  }
+  for (const Sphere& sphere : start.erasers) {
+    if (Status painted = executor.paint(sphere, Brush::erase); !painted) return pass_on(painted);
+  }
+  if (progress.cancelled()) return cancelled_error();
+  auto phi = executor.snapshot();
+  if (phi && phi->mask().count() == 0) {
+    return fail(ErrorKind::usage, "the start is empty: no voxel is inside ({})", start.describe());
+  }
+  return phi;
+}
+
+}  // namespace
+
+std::string Start::describe() const {
+  std::string text = std::visit(Describe{}, from);
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  if (!seeds.empty()) add(counted(seeds.size(), "seed"));
+  if (!erasers.empty()) add(counted(erasers.size(), "eraser"));
+  return text.empty() ? "nothing" : text;
+}
+
+Result<Field> begin(Executor& executor, const Volume& source, const Start& start, const Progress& progress) {
+  if (Status inside = check_spheres(start, source.geometry); !inside) return pass_on(inside);
+  const auto before = executor.snapshot();
+  if (!before) return tl::unexpected<Error>(before.error());
+  auto phi = begin_unguarded(executor, source, start, progress);
+  if (!phi) {
+    if (Status restored = executor.restore(*before); !restored) return pass_on(restored);
+  }
+  return phi;
+}
+
+}  // namespace tidemark

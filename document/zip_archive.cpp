@@ -1,0 +1,99 @@
+#include "document/zip_archive.h"
+
+#include <zip.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace tidemark {
+namespace {
+
+// Deflate makes at most so many bytes of one.
+constexpr std::size_t kMostPerByte = 1032;
+
+std::string reason(int code) {
+  zip_error_t error;
+  zip_error_init_with_code(&error, code);
+  std::string text = zip_error_strerror(&error);
+  zip_error_fini(&error);
+  return text;
+}
+
+}  // namespace
+
+Result<ZipReader> ZipReader::open(const std::filesystem::path& file,
+                                  std::span<const std::string_view> names) {
+  constexpr std::int64_t kMostEntries = 100;  // before their names are looked at
+  if (auto readable = FileBytes::open(file); !readable) return pass_on(readable);
+  ZipReader reader;
+  reader.file_ = file.string();
+  auto directory = ZipDirectory::read(file, kMostEntries);
+  if (!directory) {
+    return fail(ErrorKind::input, "{}: is damaged, or was not written by Tidemark", reader.file_);
+  }
+  reader.directory_ = std::make_unique<ZipDirectory>(std::move(*directory));
+  for (const ZipRecord& record : reader.directory_->records()) {
+    const bool is_known = std::find(names.begin(), names.end(), record.name) != names.end();
+    if (!is_known || !reader.entries_.try_emplace(record.name, &record).second) {
+      return fail(ErrorKind::input, "{}: holds entries that do not belong into it", reader.file_);
+    }
+  }
+  return reader;
+}
+
+bool ZipReader::has(std::string_view name) const {
+  return entries_.find(name) != entries_.end();
+}
+
+std::size_t ZipReader::size(std::string_view name) const {
+  const auto found = entries_.find(name);
+  return found == entries_.end() ? 0 : static_cast<std::size_t>(found->second->bytes);
+}
+
+Result<std::vector<std::byte>> ZipReader::read(std::string_view name, std::size_t bytes) {
+  const auto found = entries_.find(name);
+  if (found == entries_.end()) return fail(ErrorKind::input, "{}: {} is missing", file_, name);
+  const ZipRecord& record = *found->second;
+  if (static_cast<std::size_t>(record.bytes) != bytes) {
+    return fail(ErrorKind::input, "{}: {} has {} bytes instead of {}", file_, name, record.bytes, bytes);
+  }
+  if (static_cast<std::int64_t>(bytes / kMostPerByte) > record.packed) {
+    return fail(ErrorKind::input, "{}: {} cannot hold {} bytes", file_, name, bytes);
+  }
+  std::vector<std::byte> contents(bytes);
+  std::size_t done = 0;
+  const Status unpacked = directory_->unpack(record, [&](std::span<const std::uint8_t> piece) -> Status {
+    std::memcpy(contents.data() + done, piece.data(), piece.size());
+    done += piece.size();
+    return {};
+  });
+  if (!unpacked)
+    return fail(ErrorKind::input, "{}: {} is damaged: {}", file_, name, unpacked.error().message);
+  return contents;
+}
+
+Status write_zip(const std::filesystem::path& file, std::span<const ZipEntry> entries) {
+  int code = 0;
+  zip_t* archive = zip_open(file.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
+  if (archive == nullptr) {
+    return fail(ErrorKind::write, "cannot write: {}", reason(code));
+  }
+  bool good = true;
+  for (const ZipEntry& entry : entries) {
+    zip_source_t* source = zip_source_buffer(archive, entry.bytes.data(), entry.bytes.size(), 0);
+    const zip_int64_t index =
+        source == nullptr ? -1
+                          : zip_file_add(archive, std::string(entry.name).c_str(), source, ZIP_FL_ENC_UTF_8);
+    if (index < 0 && source != nullptr) zip_source_free(source);
+    constexpr zip_uint32_t kFastest = 1;
+    good = good && index >= 0 &&
+           zip_set_file_compression(archive, static_cast<zip_uint64_t>(index), ZIP_CM_DEFLATE, kFastest) == 0;
+  }
+  if (good && zip_close(archive) == 0) return {};
+  const std::string why = zip_strerror(archive);
+  zip_discard(archive);
+  return fail(ErrorKind::write, "cannot write: {}", why);
+}
+
+}  // namespace tidemark

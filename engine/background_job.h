@@ -1,0 +1,46 @@
+// Work on a thread of its own, for an object on the thread of the user interface.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <stop_token>
+
+#include "engine/weak_receiver.h"
+
+namespace tidemark {
+
+// The thread of the user interface never waits for such work: whoever does not want its result any more
+// abandons it. The thread then ends when it next looks at its stop token, and what it says until then is not
+// heard. At the end of the program, QCoreApplication's destructor gives those that still run a few seconds.
+class BackgroundJob {
+ public:
+  using Work = std::function<void(BackgroundJob&)>;
+
+  // Starts `work`, which must hold nothing that the receiver owns, and must not throw.
+  static std::shared_ptr<BackgroundJob> start(QObject* receiver, Work work);
+
+  // Asks the work to stop, and still hears how it ended.
+  void request_stop() { stop_.request_stop(); }
+  // On the receiver's thread, at the latest in its destructor: asks the work to stop; no call is delivered
+  // any more.
+  void abandon() {
+    stop_.request_stop();
+    weak_receiver_->close();
+  }
+
+  // From the work: calls `call` on the receiver's thread, unless the job is abandoned by then.
+  void deliver(std::function<void()> call) { weak_receiver_->send(std::move(call)); }
+  [[nodiscard]] std::stop_token stop() const { return stop_.get_token(); }
+
+  // Waits until no job runs; false when some still do after `limit`.
+  static bool finish_all(std::chrono::milliseconds limit);
+
+ private:
+  explicit BackgroundJob(QObject* receiver) : weak_receiver_(WeakReceiver::of(receiver)) {}
+
+  std::stop_source stop_;
+  std::shared_ptr<WeakReceiver> weak_receiver_;
+};
+
+}  // namespace tidemark

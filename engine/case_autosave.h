@@ -1,0 +1,60 @@
+// Copies of a case while it has changes that are in no file.
+#pragma once
+
+#include <QObject>
+#include <QPointer>
+#include <QTimer>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "engine/case_proxy.h"
+#include "document/autosave.h"
+
+namespace tidemark {
+
+class BackgroundJob;
+
+// Written every kSeconds or kEdits edits, away from the user interface. A program that dies leaves the last
+// copy behind, for find_recoverable().
+class CaseAutosave : public QObject {
+  Q_OBJECT
+ public:
+  static constexpr int kSeconds = 30;
+  static constexpr std::uint64_t kEdits = 50;
+
+  // `view_state`: how the case is shown, asked for at each copy.
+  CaseAutosave(CaseProxy& proxy, std::filesystem::path folder, std::function<std::string()> view_state);
+  // The case was closed because the user wanted it: nothing is left behind.
+  ~CaseAutosave() override;
+
+  void save_now();
+  // As soon as it is known what the case is like: a rescued one is in no file but the copy that it came from.
+  void save_soon() { soon_ = true; }
+
+ signals:
+  void saved();
+  void failed(const QString& message);  // once: where one copy cannot be written, others cannot either
+
+ private:
+  struct Copies;
+  void follow();
+
+  CaseProxy& proxy_;
+  std::function<std::string()> view_state_;
+  std::shared_ptr<Copies> copies_;
+  std::shared_ptr<BackgroundJob> job_;
+  QTimer timer_;
+  std::uint64_t saved_edits_ = 0;
+  std::int64_t saved_step_ = 0;
+  bool soon_ = false;
+  bool writing_ = false;
+  bool was_modified_ = false;
+  bool failed_ = false;
+};
+
+// Where copies are, for all cases of this user.
+std::filesystem::path recovery_folder();
+
+}  // namespace tidemark

@@ -1,0 +1,76 @@
+#include "engine/case_meter.h"
+
+#include <algorithm>
+
+namespace tidemark {
+namespace {
+
+constexpr auto kLapWindow = std::chrono::seconds(1);
+// Between two measurements, in terms of the last one's time.
+constexpr int kRest = 10;
+constexpr auto kShortestRest = std::chrono::milliseconds(50);
+constexpr auto kLongestRest = std::chrono::seconds(1);
+constexpr double kSmoothing = 0.3;  // weight of the newest run in the mean time of a step
+
+}  // namespace
+
+void CaseMeter::computed(const AdvanceReport& report, std::int64_t step) {
+  thorough_ = false;
+  if (report.steps == 0) return;
+  const double seconds = report.seconds / static_cast<double>(report.steps);
+  seconds_per_step_ =
+      seconds_per_step_ == 0.0 ? seconds : (1.0 - kSmoothing) * seconds_per_step_ + kSmoothing * seconds;
+  surface_speed_ = report.surface_speed;
+  converged_ = report.converged;
+  laps_.push_back({Clock::now(), step});
+  while (laps_.size() > 2 && laps_.back().at - laps_.front().at > kLapWindow) laps_.pop_front();
+}
+
+void CaseMeter::edited() {
+  laps_.clear();
+  converged_ = false;
+  thorough_ = false;
+}
+
+Status CaseMeter::measure(const ReadPhi& read_phi, Case& document, bool thoroughly) {
+  const auto began = Clock::now();
+  const auto phi = read_phi();
+  if (!phi) return tl::unexpected<Error>(phi.error());
+  phi_ = *phi;
+  surface_ = tidemark::measure(*phi_);
+  const auto ended = Clock::now();
+  due_at_ = ended + std::clamp<Clock::duration>(kRest * (ended - began), kShortestRest, kLongestRest);
+  // A case that was read from a file has not moved since its last point.
+  LevelSet& level_set = document.level_set();
+  const Curve::Points& before = *level_set.curve().points();
+  const double last_speed = before.empty() ? 0.0 : before.back().surface_speed;
+  level_set.note(
+      {level_set.step(), surface_.volume_ml, surface_.surface_mm2, surface_speed_.value_or(last_speed)});
+  if (thoroughly) {
+    inside_ = statistics_in(*document.volume(), phi_->mask());
+    const auto all = statistics_by_label(*document.volume(), document.labels());
+    labels_.clear();
+    for (const Label& label : document.labels().list()) labels_.push_back(all[label.id]);
+  }
+  thorough_ = thoroughly;
+  return {};
+}
+
+void CaseMeter::report(CaseState& state) const {
+  state.converged = converged_;
+  state.phi = phi_;
+  state.surface = surface_;
+  state.inside = inside_;
+  state.label_statistics = labels_;
+  state.label_statistics.resize(state.labels.size());
+  state.solver_steps_per_second = seconds_per_step_ > 0.0 ? 1.0 / seconds_per_step_ : 0.0;
+  state.steps_per_second = 0.0;
+  if (state.playing && laps_.size() > 1) {
+    const std::chrono::duration<double> time = laps_.back().at - laps_.front().at;
+    if (time.count() > 0.0) {
+      state.steps_per_second = static_cast<double>(laps_.back().step - laps_.front().step) / time.count();
+    }
+  }
+}
+
+}  // namespace tidemark

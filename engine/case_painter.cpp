@@ -1,0 +1,247 @@
+#include "engine/case_painter.h"
+
+#include <QPointer>
+#include <chrono>
+
+#include "solver/gl/packed_view.h"
+
+namespace tidemark {
+namespace {
+
+constexpr QImage::Format kImageFormat = QImage::Format_RGB32;  // what Qt paints without a conversion
+
+QImage to_image(const Picture& picture) {
+  const QImage view(picture.pixels.data(), static_cast<int>(picture.width), static_cast<int>(picture.height),
+                    static_cast<qsizetype>(picture.width) * 4, QImage::Format_RGBX8888);
+  return view.convertToFormat(kImageFormat);
+}
+
+bool shows_pages(const AnyView& view) {
+  if (const auto* slice = std::get_if<SliceView>(&view)) return slice->content == SliceContent::pages;
+  return std::get<VolumeView>(view).colouring == SurfaceColouring::pages;
+}
+
+// Whether the view shows what the speed is computed from, not what the patient looks like.
+bool shows_speed(const AnyView& view) {
+  if (const auto* slice = std::get_if<SliceView>(&view)) return slice->content == SliceContent::speed;
+  const SurfaceColouring colouring = std::get<VolumeView>(view).colouring;
+  return colouring != SurfaceColouring::plain && colouring != SurfaceColouring::pages;
+}
+
+}  // namespace
+
+void CasePainter::add(const std::shared_ptr<ViewSlot>& slot) {
+  const std::lock_guard lock(views_mutex_);
+  views_.push_back(slot);
+}
+
+std::vector<std::shared_ptr<ViewSlot>> CasePainter::views() {
+  const std::lock_guard lock(views_mutex_);
+  std::erase_if(views_, [](const auto& view) { return view.expired(); });
+  std::vector<std::shared_ptr<ViewSlot>> views;
+  for (const auto& view : views_) {
+    if (auto slot = view.lock()) views.push_back(std::move(slot));
+  }
+  return views;
+}
+
+void CasePainter::forget() {
+  shown_ = {};
+  solved_ = {};
+  const bool lost = device_ && device_->lost();
+  for (const auto& slot : views()) {
+    slot->textures.reset();
+    if (lost) withdraw(*slot);
+  }
+}
+
+// A texture of a lost context shows nothing that anybody should see.
+void CasePainter::withdraw(ViewSlot& slot) {
+  {
+    const std::lock_guard lock(slot.mutex);
+    if (!slot.finished.texture) return;
+    slot.finished.texture.reset();
+  }
+  announce(slot);
+}
+
+Result<std::shared_ptr<const Field>> CasePainter::phi(Case& document) {
+  if (!phi_) {
+    auto phi = document.level_set().checkpoint();
+    if (!phi) return phi;
+    phi_ = std::move(*phi);
+  }
+  return phi_;
+}
+
+bool CasePainter::out_of_date(ViewSlot& slot) const {
+  const std::lock_guard lock(slot.mutex);
+  return slot.wish &&
+         (slot.wish_is_new || slot.drawn_phi != phi_revision_ || slot.drawn_look != look_revision_);
+}
+
+Status CasePainter::show_phi(Canvas& canvas, Case& document, bool with_pages) {
+  Executor& executor = document.level_set().executor();
+  std::optional<std::vector<std::int64_t>> quiet;
+  if (with_pages) {
+    auto pages = executor.quiet_pages();
+    if (!pages) return pass_on(pages);
+    quiet = std::move(*pages);
+  }
+  PackedView view;
+  if (executor.packed_view(view)) return canvas.renderer->look_at(view, quiet);
+  const auto field = phi(document);
+  if (!field) return tl::unexpected<Error>(field.error());
+  ++phi_copies_;
+  auto status = canvas.renderer->set_phi(**field, quiet.value_or(std::vector<std::int64_t>()));
+  pages_uploaded_ += canvas.renderer->pages_uploaded();
+  return status;
+}
+
+Status CasePainter::show_labels(Canvas& canvas, const Labels& labels) {
+  if (canvas.labels != labels.revision() && !labels.voxels().empty()) {
+    if (auto status = canvas.renderer->set_labels(labels.voxels()); !status) return status;
+    canvas.labels = labels.revision();
+  }
+  if (canvas.label_list == labels.list()) return {};
+  std::vector<Renderer::LabelColour> colours(Renderer::kLabels);
+  for (const Label& label : labels.list()) {
+    const std::uint8_t opacity = label.visible ? 255 : 0;
+    colours[label.id] = {label.colour[0], label.colour[1], label.colour[2], opacity};
+  }
+  if (auto status = canvas.renderer->set_label_colours(colours); !status) return status;
+  canvas.label_list = labels.list();
+  return {};
+}
+
+Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>& source, Case& document,
+                            bool with_pages) {
+  LevelSet& level_set = document.level_set();
+  if (canvas.renderer && canvas.source != source) canvas = {};
+  if (!canvas.renderer) {
+    const PageLayout layout(source->geometry.size, level_set.executor().memory().page_shape);
+    auto renderer = Renderer::create(device_, source, layout);
+    if (!renderer) return pass_on(renderer);
+    canvas.renderer = std::move(*renderer);
+    canvas.source = source;
+  }
+  if (canvas.parameters != level_set.parameters()) {
+    canvas.renderer->set_parameters(level_set.parameters());
+    canvas.parameters = level_set.parameters();
+  }
+  if (auto status = show_labels(canvas, document.labels()); !status) return status;
+  if (canvas.phi != phi_revision_ || (with_pages && canvas.pages != phi_revision_)) {
+    if (auto status = show_phi(canvas, document, with_pages); !status) return status;
+    canvas.phi = phi_revision_;
+    if (with_pages) canvas.pages = phi_revision_;
+  }
+  return {};
+}
+
+Result<Renderer*> CasePainter::renderer_for(const AnyView& view, Case& document) {
+  const auto& solved = document.level_set().source();
+  const bool another = solved != document.volume() && shows_speed(view);
+  Canvas& canvas = another ? solved_ : shown_;
+  if (auto status = prepare(canvas, another ? solved : document.volume(), document, shows_pages(view));
+      !status) {
+    return pass_on(status);
+  }
+  return canvas.renderer.get();
+}
+
+Result<bool> CasePainter::draw(ViewSlot& slot, Case& document, std::stop_token stop) {
+  std::optional<ViewSlot::Wish> wish;
+  bool is_new = false;
+  {
+    const std::lock_guard lock(slot.mutex);
+    wish = slot.wish;
+    is_new = std::exchange(slot.wish_is_new, false);
+  }
+  if (!wish || !can_draw() || wish->size.width <= 0 || wish->size.height <= 0) return false;
+  const auto renderer = renderer_for(wish->view, document);
+  if (!renderer) return tl::unexpected<Error>(renderer.error());
+  if (is_new || slot.drawn_phi != phi_revision_ || slot.drawn_look != look_revision_) {
+    slot.quality.moved();
+    slot.mean.clear();
+    if (slot.textures) slot.textures->clear_mean();
+  }
+  slot.drawn_phi = phi_revision_;
+  slot.drawn_look = look_revision_;
+  const std::int64_t step = document.level_set().step();
+  const Progress progress{nullptr, std::move(stop)};
+  if (std::holds_alternative<VolumeView>(wish->view))
+    return draw_volume(slot, *wish, **renderer, step, progress);
+  auto shown = paint(slot, std::get<SliceView>(wish->view), wish->size, false, **renderer, progress);
+  if (!shown) return pass_on(shown);
+  deliver(slot, *wish, std::move(*shown), step, true);
+  return false;
+}
+
+Result<bool> CasePainter::draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, Renderer& renderer,
+                                      std::int64_t step, const Progress& progress) {
+  const auto pass = slot.quality.next(wish.size);
+  if (!pass) return false;
+  VolumeView view = std::get<VolumeView>(wish.view);
+  view.quality = pass->quality;
+  const auto begin = std::chrono::steady_clock::now();
+  auto shown = paint(slot, view, pass->size, !pass->moving, renderer, progress);
+  if (!shown) return pass_on(shown);
+  slot.quality.drawn(*pass, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  const bool more = slot.quality.next(wish.size).has_value();
+  deliver(slot, wish, std::move(*shown), step, !more);
+  return more;
+}
+
+template <class View>
+Result<ShownPicture> CasePainter::paint(ViewSlot& slot, const View& view, PictureSize size, bool into_mean,
+                                        Renderer& renderer, const Progress& progress) {
+  ShownPicture shown;
+  if (engine_.pictures() == Engine::Pictures::textures) {
+    if (!slot.textures) {
+      auto made = ViewTextures::create(engine_, device_);
+      if (!made) return pass_on(made);
+      slot.textures = std::move(*made);
+    }
+    auto texture = slot.textures->draw(renderer, view, size, into_mean, progress);
+    if (!texture) return pass_on(texture);
+    shown.texture = std::move(*texture);
+    return shown;
+  }
+  auto picture = renderer.draw(view, size, progress);
+  if (!picture) return pass_on(picture);
+  ++pictures_read_back_;
+  if (into_mean) {
+    slot.mean.add(*picture);
+    *picture = slot.mean.mean();
+  }
+  shown.image = to_image(*picture);
+  return shown;
+}
+
+void CasePainter::deliver(ViewSlot& slot, const ViewSlot::Wish& wish, ShownPicture shown, std::int64_t step,
+                          bool finished) {
+  shown.view = wish.view;
+  shown.size = wish.size;
+  shown.step = step;
+  shown.finished = finished;
+  shown.number = ++slot.pictures;
+  {
+    const std::lock_guard lock(slot.mutex);
+    slot.finished = std::move(shown);
+  }
+  announce(slot);
+}
+
+void CasePainter::announce(ViewSlot& slot) {
+  if (!slot.announced.exchange(true)) slot.weak_receiver->send(slot.take);
+}
+
+Result<std::optional<Hit>> CasePainter::pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel,
+                                             Case& document) {
+  if (!can_draw()) return std::optional<Hit>();
+  const auto renderer = renderer_for(view, document);
+  if (!renderer) return tl::unexpected<Error>(renderer.error());
+  return (*renderer)->pick(view, size, pixel);
+}
+
+}  // namespace tidemark

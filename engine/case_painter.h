@@ -1,0 +1,96 @@
+// Pictures of a case, drawn on the engine's thread.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <vector>
+
+#include "renderer/renderer.h"
+#include "engine/engine.h"
+#include "engine/view_slot.h"
+#include "document/case.h"
+
+namespace tidemark {
+
+class CasePainter {
+ public:
+  explicit CasePainter(Engine& engine) : engine_(engine) {}
+
+  // Any thread.
+  void add(const std::shared_ptr<ViewSlot>& slot);
+  // Of the views that still exist.
+  [[nodiscard]] std::vector<std::shared_ptr<ViewSlot>> views();
+
+  // The engine's thread. Without a device nothing is ever drawn.
+  void use(std::shared_ptr<gpu::Device> device) { device_ = std::move(device); }
+  [[nodiscard]] bool can_draw() const { return device_ != nullptr; }
+  // Lets go of everything on the GPU: it has been lost, or another executor has other pages.
+  void forget();
+
+  // phi, or something else that is seen, has changed: every view is out of date.
+  void phi_changed() {
+    phi_.reset();
+    ++phi_revision_;
+  }
+  void look_changed() { ++look_revision_; }
+
+  [[nodiscard]] bool out_of_date(ViewSlot& slot) const;
+  // Draws the next picture of a view and announces it. Returns whether a better one can follow. Fails
+  // (ErrorKind::cancelled) when told to stop, (ErrorKind::capability) when the context was lost.
+  Result<bool> draw(ViewSlot& slot, Case& document, std::stop_token stop);
+  Result<std::optional<Hit>> pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel, Case& document);
+
+  // phi as it is: read from the executor at most once until it changes.
+  Result<std::shared_ptr<const Field>> phi(Case& document);
+
+  // Of phi, since the start: what a GL executor's pictures must not need.
+  [[nodiscard]] std::int64_t pages_uploaded() const { return pages_uploaded_; }
+  [[nodiscard]] std::int64_t phi_copies() const { return phi_copies_; }
+  // What pictures that are handed on as textures must not need.
+  [[nodiscard]] std::int64_t pictures_read_back() const { return pictures_read_back_; }
+
+ private:
+  // What pictures of one source are drawn by, and what it has seen of the case.
+  struct Canvas {
+    std::unique_ptr<Renderer> renderer;
+    std::shared_ptr<const Volume> source;
+    std::int64_t phi = -1;
+    std::int64_t pages = -1;   // revision of phi with which the pages' state was shown
+    std::uint64_t labels = 0;  // revision
+    std::vector<Label> label_list;
+    std::optional<Parameters> parameters;
+  };
+
+  Result<Renderer*> renderer_for(const AnyView& view, Case& document);
+  Status prepare(Canvas& canvas, const std::shared_ptr<const Volume>& source, Case& document,
+                 bool with_pages);
+  static Status show_labels(Canvas& canvas, const Labels& labels);
+  Status show_phi(Canvas& canvas, Case& document, bool with_pages);
+  Result<bool> draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, Renderer& renderer, std::int64_t step,
+                           const Progress& progress);
+  // Draws a picture as the views want it; says nothing of what it is.
+  template <class View>
+  Result<ShownPicture> paint(ViewSlot& slot, const View& view, PictureSize size, bool into_mean,
+                             Renderer& renderer, const Progress& progress);
+  static void withdraw(ViewSlot& slot);
+  void deliver(ViewSlot& slot, const ViewSlot::Wish& wish, ShownPicture shown, std::int64_t step,
+               bool finished);
+  static void announce(ViewSlot& slot);
+
+  Engine& engine_;
+  std::shared_ptr<gpu::Device> device_;
+  Canvas shown_;   // the volume as it was loaded
+  Canvas solved_;  // what the level set sees, where that is another one
+  std::shared_ptr<const Field> phi_;
+  std::int64_t phi_revision_ = 0;
+  std::uint64_t look_revision_ = 1;
+  std::int64_t pages_uploaded_ = 0;
+  std::int64_t phi_copies_ = 0;
+  std::int64_t pictures_read_back_ = 0;
+
+  std::mutex views_mutex_;
+  std::vector<std::weak_ptr<ViewSlot>> views_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,254 @@
+#include "engine/case_proxy.h"
+
+#include <atomic>
+#include <utility>
+
+#include "engine/case_runner.h"
+#include "engine/lock_step.h"
+#include "document/label_segments.h"
+
+namespace tidemark {
+
+CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor,
+                         RestoredCase restored)
+    : engine_(engine),
+      study_(std::move(study)),
+      weak_receiver_(WeakReceiver::of(this)),
+      wanted_parameters_(restored.contents ? restored.contents->recipe.final_parameters()
+                                           : study_->parameters) {
+  state_.parameters = wanted_parameters_;
+  CaseRunner::Receiver receiver;
+  receiver.weak_receiver = weak_receiver_;
+  receiver.state_arrived = [this](CaseState state) { take(std::move(state)); };
+  receiver.failed = [this](const QString& message) { emit failed(message); };
+  receiver.progressed = [this](double fraction, const QString& what) { emit progressed(fraction, what); };
+  runner_ = std::make_shared<CaseRunner>(engine_, study_, executor, std::move(receiver), std::move(restored));
+  post([](CaseRunner& runner, const Progress&) { return runner.open(); });
+}
+
+CaseProxy::~CaseProxy() {
+  weak_receiver_->close();
+  engine_.cancel(runner_.get());
+  // Its objects die where they live.
+  engine_.post(Priority::edit, nullptr, [runner = std::move(runner_)](const std::stop_token&) mutable {
+    runner->close();
+    runner.reset();
+  });
+}
+
+std::uint64_t CaseProxy::new_gesture() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
+void CaseProxy::post(Command command) {
+  ++edits_sent_;
+  runner_->post([this_edit = edits_sent_, command = std::move(command), done = edits_done_](
+                    CaseRunner& runner, const Progress& progress) -> Status {
+    *done = this_edit;
+    if (!runner.opened() && this_edit > 1) return {};
+    return command(runner, progress);
+  });
+}
+
+void CaseProxy::take(CaseState state) {
+  state_ = std::move(state);
+  // While edits are under way, what the user sees is what was wished for.
+  if (*edits_done_ == edits_sent_) wanted_parameters_ = state_.parameters;
+  emit state_changed();
+}
+
+void CaseProxy::play() {
+  set_playing(true);
+}
+void CaseProxy::pause() {
+  set_playing(false);
+}
+
+void CaseProxy::set_playing(bool playing) {
+  post([playing](CaseRunner& runner, const Progress&) -> Status {
+    runner.set_playing(playing);
+    return {};
+  });
+}
+
+void CaseProxy::step(std::int64_t steps) {
+  post([steps](CaseRunner& runner, const Progress& progress) { return runner.step(steps, progress); });
+}
+
+void CaseProxy::step_back(std::int64_t steps) {
+  post([steps](CaseRunner& runner, const Progress& progress) {
+    runner.set_playing(false);
+    return runner.report_edit(runner.document().level_set().step_back(steps, progress));
+  });
+}
+
+void CaseProxy::restart() {
+  post([](CaseRunner& runner, const Progress&) {
+    runner.set_playing(false);
+    return runner.report_edit(runner.document().level_set().restart());
+  });
+}
+
+void CaseProxy::set_steps_per_picture(std::int64_t steps) {
+  steps_per_picture_ = steps;
+  post([steps](CaseRunner& runner, const Progress&) -> Status {
+    runner.set_steps_per_picture(steps);
+    return {};
+  });
+}
+
+void CaseProxy::set_pause_at_convergence(bool pause) {
+  pause_at_convergence_ = pause;
+  post([pause](CaseRunner& runner, const Progress&) -> Status {
+    runner.set_pause_at_convergence(pause);
+    return {};
+  });
+}
+
+void CaseProxy::set_parameters(const Parameters& parameters, std::uint64_t gesture) {
+  if (parameters == wanted_parameters_) return;
+  wanted_parameters_ = parameters;
+  post([parameters, gesture](CaseRunner& runner, const Progress&) {
+    return runner.report_change(runner.document().level_set().set_parameters(parameters, gesture));
+  });
+  emit state_changed();  // every view and panel shows the wish at once
+}
+
+void CaseProxy::begin(const Start& start) {
+  post([start](CaseRunner& runner, const Progress& progress) {
+    runner.set_playing(false);
+    return runner.report_edit(runner.document().level_set().begin(start, progress));
+  });
+}
+
+void CaseProxy::paint(const Sphere& sphere, Brush brush, std::uint64_t gesture) {
+  post([sphere, brush, gesture](CaseRunner& runner, const Progress&) {
+    return runner.report_edit(runner.document().level_set().paint(sphere, brush, gesture));
+  });
+}
+
+void CaseProxy::smooth_source(double sigma_mm) {
+  post([sigma_mm](CaseRunner& runner, const Progress& progress) {
+    return runner.report_change(runner.document().smooth_source(sigma_mm, progress));
+  });
+}
+
+void CaseProxy::change_executor(ExecutorKind kind) {
+  post([kind](CaseRunner& runner, const Progress&) { return runner.change_executor(kind); });
+}
+
+void CaseProxy::undo() {
+  post([](CaseRunner& runner, const Progress&) {
+    runner.set_playing(false);
+    return runner.report_edit(runner.document().undo());
+  });
+}
+
+void CaseProxy::redo() {
+  post([](CaseRunner& runner, const Progress&) {
+    runner.set_playing(false);
+    return runner.report_edit(runner.document().redo());
+  });
+}
+
+void CaseProxy::add_label(const QString& name) {
+  post([name = name.toStdString()](CaseRunner& runner, const Progress&) -> Status {
+    const auto id = runner.document().labels().add(name);
+    if (!id) return tl::unexpected<Error>(id.error());
+    return runner.report_change({});
+  });
+}
+
+void CaseProxy::set_label(const Label& label) {
+  post([label](CaseRunner& runner, const Progress&) {
+    return runner.report_change(runner.document().labels().set(label));
+  });
+}
+
+void CaseProxy::remove_label(std::uint8_t id) {
+  post([id](CaseRunner& runner, const Progress&) {
+    return runner.report_change(runner.document().labels().remove(id));
+  });
+}
+
+void CaseProxy::import_labels(std::shared_ptr<const Segments> segments) {
+  post([segments = std::move(segments)](CaseRunner& runner, const Progress&) {
+    return runner.report_change(add_segments(runner.document().labels(), *segments));
+  });
+}
+
+void CaseProxy::accept_surface(std::uint8_t label, Take take) {
+  post([=](CaseRunner& runner, const Progress&) { return runner.accept_surface(label, take); });
+}
+
+void CaseProxy::accept_surface_as(const QString& name, Take take) {
+  post([name = name.toStdString(), take](CaseRunner& runner, const Progress&) -> Status {
+    const auto id = runner.document().labels().add(name);
+    if (!id) return tl::unexpected<Error>(id.error());
+    return runner.accept_surface(*id, take);
+  });
+}
+
+void CaseProxy::begin_from_label(std::uint8_t label) {
+  post([label](CaseRunner& runner, const Progress&) {
+    runner.set_playing(false);
+    return runner.report_edit(runner.document().begin_from_label(label));
+  });
+}
+
+void CaseProxy::pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel,
+                       std::function<void(std::optional<Hit>)> answer) {
+  post([view, size, pixel, answer = std::move(answer), weak_receiver = weak_receiver_](CaseRunner& runner,
+                                                                         const Progress&) -> Status {
+    const auto hit = runner.painter().pick(view, size, pixel, runner.document());
+    if (!hit) return tl::unexpected<Error>(hit.error());
+    weak_receiver->send([answer, found = *hit] { answer(found); });
+    return {};
+  });
+}
+
+void CaseProxy::take_snapshot(std::string view_state,
+                                std::function<void(std::shared_ptr<const Snapshot>)> answer) {
+  post([view_state = std::move(view_state), answer = std::move(answer), weak_receiver = weak_receiver_](
+           CaseRunner& runner, const Progress&) -> Status {
+    Case& document = runner.document();
+    document.view_state = view_state;
+    if (auto status = document.history().close(); !status) return status;
+    auto contents = snapshot_of(document);
+    if (!contents) return pass_on(contents);
+    auto snapshot =
+        std::make_shared<const Snapshot>(Snapshot{std::move(*contents), document.history().position()});
+    weak_receiver->send([answer, snapshot] { answer(snapshot); });
+    return {};
+  });
+}
+
+void CaseProxy::mark_saved(const Snapshot& snapshot) {
+  post([position = snapshot.position](CaseRunner& runner, const Progress&) -> Status {
+    runner.mark_saved(position);
+    return {};
+  });
+}
+
+void CaseProxy::play_in_lock_step(const std::vector<CaseProxy*>& proxies) {
+  const auto group = proxies.empty() ? nullptr : std::make_shared<LockStep>();
+  for (CaseProxy* proxy : proxies) {
+    proxy->lock_step_ = group;
+    proxy->post([group](CaseRunner& runner, const Progress&) -> Status {
+      runner.set_playing(false);
+      group->add(runner.shared_from_this());
+      return {};
+    });
+  }
+}
+
+void CaseProxy::leave_lock_step() {
+  lock_step_.reset();
+  post([](CaseRunner& runner, const Progress&) -> Status {
+    runner.join({});
+    return {};
+  });
+}
+
+}  // namespace tidemark

@@ -1,0 +1,139 @@
+// A case as widgets know it: what it was like after the last job, what it can be told to do, and how it is
+// shown.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/progress.h"
+#include "renderer/renderer.h"
+#include "engine/case_state.h"
+#include "engine/display.h"
+#include "engine/engine.h"
+#include "engine/study_loader.h"
+#include "solver/executor.h"
+#include "solver/statistics.h"
+#include "document/case.h"
+#include "document/session_contents.h"
+
+namespace tidemark {
+
+class CaseRunner;
+class LockStep;
+class WeakReceiver;
+struct Segments;
+
+// A case as a session file had it. One that was rescued is in no file that the user knows.
+struct RestoredCase {
+  std::shared_ptr<const SessionContents> contents;
+  bool rescued = false;
+};
+
+// Lives on the thread of the user interface. Commands return at once; their outcome comes with
+// state_changed(), what went wrong with failed().
+class CaseProxy : public QObject {
+  Q_OBJECT
+ public:
+  CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor,
+              RestoredCase restored = {});
+  ~CaseProxy() override;  // cancels what is running
+
+  [[nodiscard]] const CaseState& state() const { return state_; }
+  [[nodiscard]] const Volume& volume() const { return *study_->volume; }
+  [[nodiscard]] const SourceSummary& summary() const { return study_->summary; }
+  [[nodiscard]] const StudyOrigin& origin() const { return study_->origin; }
+  [[nodiscard]] const LoadedStudy& study() const { return *study_; }
+  [[nodiscard]] const QString& name() const { return study_->name; }
+  [[nodiscard]] Display& display() { return display_; }
+  [[nodiscard]] Engine& engine() { return engine_; }
+  // The parameters as last set here, before the engine has taken them: what sliders show.
+  [[nodiscard]] const Parameters& parameters() const { return wanted_parameters_; }
+
+  // The evolution.
+  void play();
+  void pause();
+  void toggle_play() { state_.playing ? pause() : play(); }
+  void step(std::int64_t steps = 1);
+  void step_back(std::int64_t steps = 1);
+  void restart();
+  // Between two pictures while it plays; 0: as many as take about 16 ms.
+  void set_steps_per_picture(std::int64_t steps);
+  [[nodiscard]] std::int64_t steps_per_picture() const { return steps_per_picture_; }
+  void set_pause_at_convergence(bool pause);
+  [[nodiscard]] bool pause_at_convergence() const { return pause_at_convergence_; }
+
+  // Edits. One gesture (a drag, a stroke) is one entry of the history; 0: an edit of its own.
+  [[nodiscard]] static std::uint64_t new_gesture();
+  void set_parameters(const Parameters& parameters, std::uint64_t gesture = 0);
+  void begin(const Start& start);
+  void paint(const Sphere& sphere, Brush brush, std::uint64_t gesture);
+  void smooth_source(double sigma_mm);  // what the level set sees; 0: the volume as it is
+  void change_executor(ExecutorKind kind);
+  void undo();
+  void redo();
+
+  // Labels.
+  void add_label(const QString& name);
+  void set_label(const Label& label);
+  void remove_label(std::uint8_t id);
+  void import_labels(std::shared_ptr<const Segments> segments);  // as new labels
+  // The surface's inside becomes the label, or a new one; CaseState::acceptance says what it took.
+  void accept_surface(std::uint8_t label, Take take = Take::free_voxels);
+  void accept_surface_as(const QString& name, Take take = Take::free_voxels);
+  void begin_from_label(std::uint8_t label);
+
+  // What is seen at a pixel of a 3D view (from its top left, physical pixels); the answer comes later, or
+  // never when the case is closed before.
+  void pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel,
+            std::function<void(std::optional<Hit>)> answer);
+
+  // What the case is like now, for whoever writes it on another thread; the answer comes as pick()'s does.
+  // What goes on ends as an entry of the history.
+  struct Snapshot {
+    SessionContents contents;
+    std::uint64_t position = 0;  // for mark_saved()
+  };
+  void take_snapshot(std::string view_state, std::function<void(std::shared_ptr<const Snapshot>)> answer);
+  // A session file holds what the snapshot held.
+  void mark_saved(const Snapshot& snapshot);
+
+  // Plays cases together, always at the same step; in no group any more when there are none.
+  static void play_in_lock_step(const std::vector<CaseProxy*>& proxies);
+  void leave_lock_step();
+  [[nodiscard]] bool in_lock_step() const { return lock_step_ != nullptr; }
+
+  // The case on the engine's thread, for views.
+  [[nodiscard]] const std::shared_ptr<CaseRunner>& runner() const { return runner_; }
+
+ signals:
+  void state_changed();
+  void failed(const QString& message);
+  // Long work (smoothing, flood fill): fraction in 0..1, 1 when it is over.
+  void progressed(double fraction, const QString& what);
+
+ private:
+  using Command = std::function<Status(CaseRunner&, const Progress&)>;
+  void post(Command command);
+  void take(CaseState state);
+  void set_playing(bool playing);
+
+  Engine& engine_;
+  std::shared_ptr<const LoadedStudy> study_;
+  Display display_;
+  std::shared_ptr<WeakReceiver> weak_receiver_;
+  std::shared_ptr<CaseRunner> runner_;
+  std::shared_ptr<LockStep> lock_step_;
+  CaseState state_;
+  Parameters wanted_parameters_;
+  std::int64_t steps_per_picture_ = 0;
+  bool pause_at_convergence_ = true;
+  std::uint64_t edits_sent_ = 0;
+  std::shared_ptr<std::atomic<std::uint64_t>> edits_done_ = std::make_shared<std::atomic<std::uint64_t>>(0);
+};
+
+}  // namespace tidemark

@@ -1,0 +1,327 @@
+#include "engine/case_runner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/change_text.h"
+#include "engine/lock_step.h"
+
+namespace tidemark {
+namespace {
+
+constexpr double kChunkSeconds = 0.016;  // of steps between two pictures
+constexpr std::int64_t kMostSteps = 50;  // between two pictures: it should be seen how the surface moves
+
+}  // namespace
+
+CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor,
+                       Receiver receiver, RestoredCase restored)
+    : engine_(engine),
+      study_(std::move(study)),
+      executor_kind_(executor),
+      receiver_(std::move(receiver)),
+      restored_(std::move(restored)),
+      painter_(engine) {}
+
+void CaseRunner::post(Command command) {
+  engine_.interrupt(Priority::step, this);  // refinement can wait
+  auto job = [self = shared_from_this(), command = std::move(command)](const std::stop_token& stop) {
+    Progress progress;
+    progress.stop = stop;
+    progress.report = [self](double fraction, std::string_view what) {
+      self->receiver_.weak_receiver->send(
+          [report = self->receiver_.progressed, fraction,
+           text = QString::fromUtf8(what.data(), static_cast<qsizetype>(what.size()))] {
+            report(fraction, text);
+          });
+    };
+    if (auto status = self->follow_graphics(); !status) self->report_failure(status.error());
+    if (auto status = command(*self, progress); !status) self->report_failure(status.error());
+    if (self->case_) self->show();
+  };
+  engine_.post(Priority::edit, this, std::move(job));
+}
+
+void CaseRunner::show() {
+  show_pictures();
+  post_measurement();
+  publish();
+}
+
+Status CaseRunner::open() {
+  painter_.use(engine_.device());
+  graphics_ = engine_.contexts_made();
+  auto made = restored_.contents
+                  ? restore_case(*restored_.contents, study_->volume, executor_kind_, executor_options())
+                  : Case::create(study_->volume, study_->origin, study_->parameters, executor_kind_,
+                                 executor_options());
+  if (!made) return pass_on(made);
+  case_ = std::move(*made);
+  return {};
+}
+
+void CaseRunner::mark_saved(std::uint64_t position) {
+  case_->mark_saved(position);
+  restored_.rescued = false;
+}
+
+void CaseRunner::close() {
+  playing_ = false;
+  painter_.forget();
+  painter_.use(nullptr);
+  case_.reset();
+}
+
+ExecutorOptions CaseRunner::executor_options() const {
+  ExecutorOptions options;
+  options.device = engine_.device();
+  return options;
+}
+
+// After a lost context: the executor goes on from its last checkpoint on the new one.
+Status CaseRunner::follow_graphics() {
+  const auto& device = engine_.device();
+  if (device && device->lost()) {
+    if (auto status = engine_.renew_graphics(); !status) {
+      painter_.forget();
+      painter_.use(nullptr);
+      return status;
+    }
+  }
+  if (!case_ || graphics_ == engine_.contexts_made()) return {};
+  graphics_ = engine_.contexts_made();
+  painter_.forget();
+  painter_.use(engine_.device());
+  auto status = case_->level_set().rebuild(executor_options());
+  phi_changed();
+  return status;
+}
+
+void CaseRunner::report_failure(const Error& error) {
+  if (error.kind == ErrorKind::cancelled) return;
+  receiver_.weak_receiver->send(
+      [failed = receiver_.failed, text = QString::fromStdString(error.message)] { failed(text); });
+}
+
+void CaseRunner::phi_changed() {
+  painter_.phi_changed();
+  meter_.edited();
+}
+
+Status CaseRunner::report_edit(Status outcome) {
+  if (outcome) phi_changed();
+  return outcome;
+}
+
+Status CaseRunner::report_change(Status outcome) {
+  painter_.look_changed();
+  meter_.adjusted();
+  return outcome;
+}
+
+Status CaseRunner::accept_surface(std::uint8_t label, Take take) {
+  auto accepted = case_->accept_surface(label, take);
+  if (!accepted) return report_change(pass_on(accepted));
+  acceptance_ = std::move(*accepted);
+  acceptance_position_ = case_->history().position();
+  return report_change({});
+}
+
+// Playing.
+
+void CaseRunner::set_playing(bool playing) {
+  if (const auto group = group_.lock()) return group->set_playing(playing);
+  play_alone(playing);
+}
+
+void CaseRunner::play_alone(bool playing) {
+  const bool begins = playing && !playing_;
+  playing_ = playing && case_->level_set().begun();
+  if (begins && playing_) post_steps();
+  if (!playing_) end_run();
+}
+
+Status CaseRunner::step(std::int64_t steps, const Progress& progress) {
+  if (!case_->level_set().begun()) return {};
+  if (const auto group = group_.lock()) return group->step(steps, progress);
+  play_alone(false);
+  return advance(steps, progress);
+}
+
+void CaseRunner::end_run() {
+  if (auto status = case_->level_set().end_run(); !status) report_failure(status.error());
+}
+
+std::int64_t CaseRunner::steps_to_next_picture() const {
+  if (steps_per_picture_ > 0) return steps_per_picture_;
+  const double seconds = meter_.seconds_per_step();
+  if (seconds <= 0.0) return 1;
+  return std::clamp(std::llround(kChunkSeconds / seconds), 1LL, static_cast<long long>(kMostSteps));
+}
+
+void CaseRunner::post_steps() {
+  engine_.post(Priority::step, this,
+               [self = shared_from_this()](std::stop_token stop) { self->run_steps(std::move(stop)); });
+}
+
+void CaseRunner::run_steps(std::stop_token stop) {
+  if (!playing_ || !case_) return;
+  Status status = follow_graphics();
+  const auto group = group_.lock();
+  const Progress progress{nullptr, std::move(stop)};
+  if (status) status = group ? group->advance(*this, progress) : advance(steps_to_next_picture(), progress);
+  if (!status && status.error().kind != ErrorKind::cancelled &&
+      !(engine_.device() && engine_.device()->lost())) {
+    set_playing(false);
+    report_failure(status.error());
+  }
+  if (playing_) {
+    post_steps();
+  } else {
+    end_run();
+  }
+  show();
+}
+
+Status CaseRunner::advance(std::int64_t steps, const Progress& progress) {
+  LevelSet& level_set = case_->level_set();
+  const bool pauses = pause_at_convergence_ && group_.expired();
+  Advance run{steps, pauses, progress};
+  run.progress.report = nullptr;
+  const auto report = level_set.advance(run);
+  if (!report) return tl::unexpected<Error>(report.error());
+  ++advances_;
+  meter_.computed(*report, level_set.step());
+  painter_.phi_changed();
+  if (report->converged && pauses) playing_ = false;
+  return meter_.due() ? measure(false) : Status{};
+}
+
+Status CaseRunner::measure(bool thoroughly) {
+  return meter_.measure([this] { return painter_.phi(*case_); }, *case_, thoroughly);
+}
+
+Status CaseRunner::change_executor(ExecutorKind kind) {
+  executor_kind_ = kind;
+  painter_.forget();
+  auto status = case_->level_set().change_executor(kind, executor_options());
+  phi_changed();
+  return status;
+}
+
+// Pictures.
+
+void CaseRunner::view_changed(const std::shared_ptr<ViewSlot>& slot) {
+  engine_.interrupt(Priority::step, this);
+  post_picture(slot, Priority::picture);
+}
+
+void CaseRunner::show_pictures() {
+  for (const auto& slot : painter_.views()) {
+    if (painter_.out_of_date(*slot)) post_picture(slot, Priority::picture);
+  }
+}
+
+void CaseRunner::post_picture(const std::shared_ptr<ViewSlot>& slot, Priority priority) {
+  // A view waits once; a better picture of what has changed meanwhile is not wanted.
+  auto& waiting = priority == Priority::refine ? slot->refining : slot->waiting;
+  if (waiting.exchange(true)) return;
+  engine_.post(priority, this, [self = shared_from_this(), slot, &waiting, priority](std::stop_token stop) {
+    waiting = false;
+    self->draw_in_turn(slot, priority, std::move(stop));
+  });
+}
+
+// Whoever turns the camera or paints asks for the next picture before this one is there. The surface must
+// move on all the same: while it plays, a view is drawn once between steps and then waits behind the next
+// ones.
+void CaseRunner::draw_in_turn(const std::shared_ptr<ViewSlot>& slot, Priority priority,
+                              std::stop_token stop) {
+  if (priority == Priority::picture && playing_ && slot->drawn_advance == advances_) {
+    post_picture(slot, Priority::step);
+  } else {
+    draw(slot, std::move(stop));
+  }
+}
+
+void CaseRunner::draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token stop) {
+  if (!case_) return;
+  if (auto status = follow_graphics(); !status) return report_failure(status.error());
+  slot->drawn_advance = advances_;
+  const auto more = painter_.draw(*slot, *case_, std::move(stop));
+  if (more) {
+    if (*more) post_picture(slot, Priority::refine);
+  } else if (more.error().kind == ErrorKind::cancelled) {
+    post_picture(slot, Priority::refine);
+  } else if (engine_.device() && engine_.device()->lost()) {
+    post_picture(slot, Priority::picture);  // on the next context
+  } else {
+    report_failure(more.error());
+  }
+}
+
+// Figures.
+
+void CaseRunner::post_measurement() {
+  if (playing_ || meter_.thorough() || std::exchange(measurement_waits_, true)) return;
+  engine_.post(Priority::background, this, [self = shared_from_this()](const std::stop_token&) {
+    self->measurement_waits_ = false;
+    if (!self->case_ || self->playing_) return;
+    if (auto status = self->measure(true); !status) return self->report_failure(status.error());
+    self->publish();
+  });
+}
+
+std::shared_ptr<const std::vector<std::uint8_t>> CaseRunner::label_voxels() {
+  const Labels& labels = case_->labels();
+  if (labels.voxels().empty()) return nullptr;
+  if (!label_voxels_ || label_revision_ != labels.revision()) {
+    label_voxels_ =
+        std::make_shared<const std::vector<std::uint8_t>>(labels.voxels().begin(), labels.voxels().end());
+    label_revision_ = labels.revision();
+  }
+  return label_voxels_;
+}
+
+void CaseRunner::publish() {
+  if (!case_) return;
+  LevelSet& level_set = case_->level_set();
+  CaseState state;
+  state.parameters = level_set.parameters();
+  state.step = level_set.step();
+  state.begun = level_set.begun();
+  state.playing = playing_;
+  state.time_step = level_set.executor().time_step();
+  state.band = level_set.executor().band();
+  state.smoothed_mm = case_->smoothed_mm();
+  state.executor = QString::fromUtf8(level_set.executor().name().data(),
+                                     static_cast<qsizetype>(level_set.executor().name().size()));
+  state.memory = level_set.executor().memory();
+  state.curve = level_set.curve();
+  state.labels = case_->labels().list();
+  state.label_voxels = label_voxels();
+  if (case_->history().position() == acceptance_position_) state.acceptance = acceptance_;
+  if (const auto change = case_->history().undo_description()) state.undo_text = change_text(*change);
+  if (const auto change = case_->history().redo_description()) state.redo_text = change_text(*change);
+  state.modified = case_->changed_since_save() || restored_.rescued;
+  state.edits = case_->history().edits();
+  state.start_text = QString::fromStdString(level_set.recipe().start.describe());
+  meter_.report(state);
+  {
+    const std::lock_guard lock(post_->mutex);
+    post_->state = std::move(state);
+    if (std::exchange(post_->announced, true)) return;
+  }
+  receiver_.weak_receiver->send([arrived = receiver_.state_arrived, post = post_] {
+    CaseState newest;
+    {
+      const std::lock_guard lock(post->mutex);
+      post->announced = false;
+      newest = std::move(post->state);
+    }
+    arrived(std::move(newest));
+  });
+}
+
+}  // namespace tidemark

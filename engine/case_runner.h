@@ -1,0 +1,121 @@
+// A case on the engine's thread: commands are carried out, steps are computed, pictures drawn, figures taken.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "engine/case_meter.h"
+#include "engine/case_painter.h"
+#include "engine/case_proxy.h"
+#include "engine/weak_receiver.h"
+
+namespace tidemark {
+
+class LockStep;
+
+// Everything but post(), add_view() and view_changed() belongs to the engine's thread.
+class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
+ public:
+  // Called on the session's thread through the weak_receiver.
+  struct Receiver {
+    std::shared_ptr<WeakReceiver> weak_receiver;
+    std::function<void(CaseState)> state_arrived;
+    std::function<void(QString)> failed;
+    std::function<void(double, QString)> progressed;
+  };
+  // Does something to the case. What it returns as an error is told to the user.
+  using Command = std::function<Status(CaseRunner&, const Progress&)>;
+
+  CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor,
+             Receiver receiver, RestoredCase restored = {});
+
+  // Any thread. Before anything else is done, the command is; then all that shows the case is brought up to
+  // date.
+  void post(Command command);
+  void add_view(const std::shared_ptr<ViewSlot>& slot) { painter_.add(slot); }
+  void view_changed(const std::shared_ptr<ViewSlot>& slot);
+
+  // The first command: makes the document.
+  Status open();
+  // The last one: lets go of everything that lives on the engine's thread.
+  void close();
+
+  [[nodiscard]] bool opened() const { return case_ != nullptr; }
+  [[nodiscard]] Case& document() { return *case_; }
+  [[nodiscard]] CasePainter& painter() { return painter_; }
+  // After a command that has changed phi, or else what is seen: hands its outcome on.
+  Status report_edit(Status outcome);
+  Status report_change(Status outcome);
+  Status accept_surface(std::uint8_t label, Take take);
+
+  [[nodiscard]] bool playing() const { return playing_; }
+  // With all that it is in lock-step with: playing, and steps after which it rests.
+  void set_playing(bool playing);
+  Status step(std::int64_t steps, const Progress& progress);
+  void play_alone(bool playing);
+  void set_steps_per_picture(std::int64_t steps) { steps_per_picture_ = steps; }
+  void set_pause_at_convergence(bool pause) { pause_at_convergence_ = pause; }
+  [[nodiscard]] std::int64_t steps_to_next_picture() const;
+  // Computes steps and takes note of what came of it; a level set that has converged stops playing, unless it
+  // is in lock-step: then all go on until all have converged.
+  Status advance(std::int64_t steps, const Progress& progress);
+  [[nodiscard]] bool may_rest() const { return pause_at_convergence_ && meter_.converged(); }
+  Status change_executor(ExecutorKind kind);
+  void join(std::weak_ptr<LockStep> group) { group_ = std::move(group); }
+
+  // A file holds what the case was like at that position of its history.
+  void mark_saved(std::uint64_t position);
+
+  // Brings all that shows the case up to date.
+  void show();
+  void report_failure(const Error& error);
+
+ private:
+  void publish();
+  void show_pictures();  // posts those that are out of date
+  void phi_changed();
+  void post_steps();
+  void run_steps(std::stop_token stop);
+  void post_picture(const std::shared_ptr<ViewSlot>& slot, Priority priority);
+  void draw_in_turn(const std::shared_ptr<ViewSlot>& slot, Priority priority, std::stop_token stop);
+  void draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token stop);
+  Status measure(bool thoroughly);
+  void post_measurement();
+  void end_run();
+  std::shared_ptr<const std::vector<std::uint8_t>> label_voxels();
+  Status follow_graphics();
+  [[nodiscard]] ExecutorOptions executor_options() const;
+
+  Engine& engine_;
+  std::shared_ptr<const LoadedStudy> study_;
+  ExecutorKind executor_kind_;
+  Receiver receiver_;
+  RestoredCase restored_;
+
+  std::unique_ptr<Case> case_;
+  CasePainter painter_;
+  CaseMeter meter_;
+  int graphics_ = 0;  // Engine::contexts_made() when the executor was made
+  std::weak_ptr<LockStep> group_;
+
+  bool playing_ = false;
+  bool pause_at_convergence_ = true;
+  bool measurement_waits_ = false;
+  std::int64_t steps_per_picture_ = 0;
+  std::int64_t advances_ = 0;  // how often steps were computed
+
+  std::shared_ptr<const std::vector<std::uint8_t>> label_voxels_;  // as of label_revision_
+  std::uint64_t label_revision_ = 0;
+  std::optional<Acceptance> acceptance_;
+  std::uint64_t acceptance_position_ = 0;  // in the history, right after it
+
+  // The newest state, until the session has taken it.
+  struct Post {
+    std::mutex mutex;
+    CaseState state;
+    bool announced = false;
+  };
+  std::shared_ptr<Post> post_ = std::make_shared<Post>();
+};
+
+}  // namespace tidemark

@@ -1,0 +1,46 @@
+// What a case is like, for those who show it.
+#pragma once
+
+#include <QString>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "solver/executor.h"
+#include "solver/statistics.h"
+#include "document/curve.h"
+#include "document/labels.h"
+
+namespace tidemark {
+
+// What a case was like after the engine's last job for it.
+struct CaseState {
+  Parameters parameters;
+  std::int64_t step = 0;  // since the start
+  bool begun = false;     // there is a surface
+  bool playing = false;
+  bool converged = false;
+  double time_step = 0.0;
+  double band = 2.5;
+  double smoothed_mm = 0.0;
+  QString executor;               // "host", "compute", "stream"
+  double steps_per_second = 0.0;  // while it plays, in the last second: steps by time, pictures included
+  double solver_steps_per_second = 0.0;  // in the solver's own time
+  MemoryReport memory;
+  std::shared_ptr<const Field> phi;  // at most a second old while it plays, else as it is
+  Curve curve;                       // how it has developed since the start
+  SurfaceStatistics surface;         // as of the last measurement
+  RegionStatistics inside;           // of the volume's values, under the surface; measured when it rests
+  std::vector<Label> labels;
+  std::vector<RegionStatistics> label_statistics;                 // in the order of `labels`
+  std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null while there are none
+  std::optional<Acceptance> acceptance;                           // while it is the last change
+  QString undo_text;                                              // what undo would take back; empty: nothing
+  QString redo_text;
+  std::uint64_t edits = 0;  // how much was done: grows with each edit
+  bool modified = false;    // something would be lost
+  QString start_text;       // how it began
+};
+
+}  // namespace tidemark

@@ -1,0 +1,12 @@
+// What a change of a case was, in the user's language.
+#pragma once
+
+#include <QString>
+
+#include "document/history.h"
+
+namespace tidemark {
+
+QString change_text(const ChangeDescription& change);
+
+}  // namespace tidemark

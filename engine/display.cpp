@@ -1,0 +1,31 @@
+#include "engine/display.h"
+
+namespace tidemark {
+
+void Display::set(DisplaySettings next) {
+  if (next == settings_) return;
+  settings_ = std::move(next);
+  emit changed();
+}
+
+void Display::choose_tool(Tool tool) {
+  change([&](DisplaySettings& settings) {
+    if (settings.tool == tool) return;
+    settings.last_tool = settings.tool;
+    settings.tool = tool;
+  });
+}
+
+void Display::set_pointer(std::optional<glm::dvec3> patient_mm) {
+  if (patient_mm == pointer_mm_) return;
+  pointer_mm_ = patient_mm;
+  emit pointer_moved();
+}
+
+void Display::set_drawn_sphere(std::optional<DrawnSphere> drawn) {
+  if (drawn == drawn_sphere_) return;
+  drawn_sphere_ = drawn;
+  emit pointer_moved();
+}
+
+}  // namespace tidemark

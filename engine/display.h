@@ -1,0 +1,107 @@
+// How a case is shown, and with what the mouse works: one model that all its views and panels share.
+#pragma once
+
+#include <QObject>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/result.h"
+#include "renderer/views.h"
+#include "engine/measurement.h"
+#include "solver/sphere.h"
+
+namespace tidemark {
+
+// What the left button does in a view.
+enum class Tool {
+  window,          // window and level
+  crosshair,       // moves the linked cursor
+  probe_speed,     // T and epsilon from what is dragged over (paper section 6.2)
+  probe_transfer,  // centre and width of the chosen Gaussian
+  seed,            // spheres to start from: press for the centre, drag for the radius
+  paint,           // adds; the right button erases
+  erase,           // erases; the right button adds
+  measure_distance,
+  measure_angle,
+};
+
+struct DisplaySettings {
+  // Slices.
+  glm::dvec3 cursor_mm{0.0};        // the linked crosshair (LPS): every slice goes through it
+  glm::dvec3 slice_centre_mm{0.0};  // what is in the middle of the slices, seen along their normal
+  double slice_zoom = 1.0;
+  SliceOrientation oblique = kAxial;  // of oblique views
+  WindowLevel window;
+  bool nearest = false;
+  bool outline = true;
+  double line_pixels = 2.0;
+  double label_opacity = 0.4;
+  bool crosshair = true;
+  SpeedTerm speed_term = SpeedTerm::data;  // of the speed map
+  bool radiological = true;                // the patient's right on the left of the screen
+  bool patient_text = true;                // names and dates in the corners
+
+  // 3D.
+  Camera camera;
+  Mode mode = Mode::raycast;
+  bool surface = true;
+  glm::vec4 surface_colour{0.93F, 0.72F, 0.45F, 1.0F};
+  SurfaceColouring colouring = SurfaceColouring::plain;
+  bool show_source = false;
+  TransferFunction transfer;  // of source and surface
+  Region region = Region::everywhere;
+  double occlusion = 0.0;
+  bool clip_on = false;
+  ClipPlane clip;
+
+  // The mouse.
+  Tool tool = Tool::window;
+  Tool last_tool = Tool::crosshair;  // Space goes back to it
+  double brush_mm = 5.0;             // radius
+  int chosen_primitive = 0;          // of transfer.source: what probing sets
+  std::vector<Measurement> measurements;
+
+  bool operator==(const DisplaySettings&) const = default;
+};
+
+// A sphere that adds to the level set or takes from it, before it does.
+struct DrawnSphere {
+  Sphere sphere;
+  bool erases = false;
+
+  bool operator==(const DrawnSphere&) const = default;
+};
+
+class Display : public QObject {
+  Q_OBJECT
+ public:
+  [[nodiscard]] const DisplaySettings& settings() const { return settings_; }
+  // Changes some of the settings: display.change([&](DisplaySettings& s) { s.window = window; });
+  template <class Change>
+  void change(Change&& apply) {
+    DisplaySettings next = settings_;
+    apply(next);
+    set(std::move(next));
+  }
+  void set(DisplaySettings next);  // emits changed() unless nothing is different
+  void choose_tool(Tool tool);     // remembers the one before
+
+  // Where the mouse is in the patient (LPS, mm), in whatever view: brushes and values follow it in all.
+  [[nodiscard]] const std::optional<glm::dvec3>& pointer_mm() const { return pointer_mm_; }
+  void set_pointer(std::optional<glm::dvec3> patient_mm);
+  // What is being drawn in one view is seen in all.
+  [[nodiscard]] const std::optional<DrawnSphere>& drawn_sphere() const { return drawn_sphere_; }
+  void set_drawn_sphere(std::optional<DrawnSphere> drawn);
+
+ signals:
+  void changed();
+  void pointer_moved();  // or what is being drawn has changed
+
+ private:
+  DisplaySettings settings_;
+  std::optional<glm::dvec3> pointer_mm_;
+  std::optional<DrawnSphere> drawn_sphere_;
+};
+
+}  // namespace tidemark

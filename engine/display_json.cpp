@@ -1,0 +1,185 @@
+#include "engine/display_json.h"
+
+#include <glm/geometric.hpp>
+
+#include "core/json/json_field.h"
+
+namespace tidemark {
+namespace {
+
+constexpr double kFarthest = 1e6;  // mm: nothing in a patient is as far away
+constexpr int kTools = 9;
+
+Json json_of(glm::dvec3 v) {
+  return {v.x, v.y, v.z};
+}
+
+template <class Enum>
+void read_enum(const JsonField& parent, const char* key, int count, Enum& value) {
+  if (parent.has(key)) value = static_cast<Enum>(parent.at(key).integer(0, count - 1));
+}
+void read(const JsonField& parent, const char* key, bool& value) {
+  if (parent.has(key)) value = parent.at(key).boolean();
+}
+void read(const JsonField& parent, const char* key, double low, double high, double& value) {
+  if (parent.has(key)) value = parent.at(key).number(low, high);
+}
+void read(const JsonField& parent, const char* key, glm::dvec3& value) {
+  if (parent.has(key)) value = parent.at(key).vector(-kFarthest, kFarthest);
+}
+void read_unit(const JsonField& parent, const char* key, glm::dvec3& value) {
+  if (!parent.has(key)) return;
+  const glm::dvec3 read = parent.at(key).vector(-1.0, 1.0);
+  if (glm::length(read) < 0.5) return parent.at(key).wrong("is not a direction");
+  value = glm::normalize(read);
+}
+
+Json slices_json(const DisplaySettings& s) {
+  return {{"cursor_mm", json_of(s.cursor_mm)},
+          {"centre_mm", json_of(s.slice_centre_mm)},
+          {"zoom", s.slice_zoom},
+          {"oblique_right", json_of(s.oblique.right)},
+          {"oblique_up", json_of(s.oblique.up)},
+          {"window_centre", s.window.centre},
+          {"window_width", s.window.width},
+          {"nearest", s.nearest},
+          {"outline", s.outline},
+          {"line_pixels", s.line_pixels},
+          {"label_opacity", s.label_opacity},
+          {"crosshair", s.crosshair},
+          {"speed_term", static_cast<int>(s.speed_term)},
+          {"radiological", s.radiological},
+          {"patient_text", s.patient_text}};
+}
+
+void read_slices(const JsonField& field, DisplaySettings& s) {
+  read(field, "cursor_mm", s.cursor_mm);
+  read(field, "centre_mm", s.slice_centre_mm);
+  read(field, "zoom", 0.01, 1000.0, s.slice_zoom);
+  read_unit(field, "oblique_right", s.oblique.right);
+  read_unit(field, "oblique_up", s.oblique.up);
+  read(field, "window_centre", -1e9, 1e9, s.window.centre);
+  read(field, "window_width", 1e-9, 1e9, s.window.width);
+  read(field, "nearest", s.nearest);
+  read(field, "outline", s.outline);
+  read(field, "line_pixels", 0.1, 20.0, s.line_pixels);
+  read(field, "label_opacity", 0.0, 1.0, s.label_opacity);
+  read(field, "crosshair", s.crosshair);
+  read_enum(field, "speed_term", 4, s.speed_term);
+  read(field, "radiological", s.radiological);
+  read(field, "patient_text", s.patient_text);
+}
+
+Json volume_json(const DisplaySettings& s) {
+  Json json{
+      {"azimuth", s.camera.azimuth},
+      {"elevation", s.camera.elevation},
+      {"zoom", s.camera.zoom},
+      {"mode", static_cast<int>(s.mode)},
+      {"surface", s.surface},
+      {"surface_colour", {s.surface_colour.r, s.surface_colour.g, s.surface_colour.b, s.surface_colour.a}},
+      {"colouring", static_cast<int>(s.colouring)},
+      {"show_source", s.show_source},
+      {"region", static_cast<int>(s.region)},
+      {"occlusion", s.occlusion},
+      {"clip_on", s.clip_on},
+      {"clip_normal", json_of(s.clip.normal)},
+      {"clip_offset_mm", s.clip.offset_mm},
+      {"clips_source", s.clip.clips_source},
+      {"clips_surface", s.clip.clips_surface},
+      {"clip_picture", s.clip.picture}};
+  const bool transfers = !s.transfer.source.empty() || !s.transfer.surface.empty();
+  if (transfers) json["transfer"] = s.transfer.to_json();
+  if (s.camera.focus_mm) json["focus_mm"] = json_of(*s.camera.focus_mm);
+  return json;
+}
+
+void read_volume(const JsonField& field, DisplaySettings& s) {
+  read(field, "azimuth", -360.0, 360.0, s.camera.azimuth);
+  read(field, "elevation", -90.0, 90.0, s.camera.elevation);
+  read(field, "zoom", 0.01, 1000.0, s.camera.zoom);
+  if (field.has("focus_mm")) s.camera.focus_mm = field.at("focus_mm").vector(-kFarthest, kFarthest);
+  read_enum(field, "mode", 2, s.mode);
+  read(field, "surface", s.surface);
+  if (field.has("surface_colour")) {
+    const JsonField colour = field.at("surface_colour");
+    for (std::size_t i = 0; i < 4; ++i) {
+      s.surface_colour[static_cast<int>(i)] = static_cast<float>(colour.at(i).number(0.0, 1.0));
+    }
+  }
+  read_enum(field, "colouring", 7, s.colouring);
+  read(field, "show_source", s.show_source);
+  s.transfer = {};
+  if (field.has("transfer")) {
+    auto transfer = TransferFunction::parse(field.at("transfer").text(std::size_t{1} << 20U));
+    if (transfer) {
+      s.transfer = std::move(*transfer);
+    } else {
+      field.at("transfer").wrong(transfer.error().message);
+    }
+  }
+  read_enum(field, "region", 4, s.region);
+  read(field, "occlusion", 0.0, 1.0, s.occlusion);
+  read(field, "clip_on", s.clip_on);
+  read_unit(field, "clip_normal", s.clip.normal);
+  read(field, "clip_offset_mm", -kFarthest, kFarthest, s.clip.offset_mm);
+  read(field, "clips_source", s.clip.clips_source);
+  read(field, "clips_surface", s.clip.clips_surface);
+  read(field, "clip_picture", s.clip.picture);
+}
+
+Json measurements_json(const DisplaySettings& s) {
+  Json list = Json::array();
+  for (const Measurement& measurement : s.measurements) {
+    Json points = Json::array();
+    for (const glm::dvec3& point : measurement.points_mm) points.push_back(json_of(point));
+    list.push_back({{"kind", measurement.kind == Measurement::Kind::distance ? "distance" : "angle"},
+                    {"points_mm", points}});
+  }
+  return list;
+}
+
+void read_measurements(const JsonField& field, DisplaySettings& s) {
+  constexpr std::size_t kMost = 1000;
+  s.measurements.clear();
+  for (std::size_t i = 0; i < field.size(kMost); ++i) {
+    const JsonField one = field.at(i);
+    Measurement measurement;
+    measurement.kind = one.at("kind").word({"distance", "angle"}) == 0 ? Measurement::Kind::distance
+                                                                       : Measurement::Kind::angle;
+    const JsonField points = one.at("points_mm");
+    for (std::size_t p = 0; p < points.size(3); ++p) {
+      measurement.points_mm.push_back(points.at(p).vector(-kFarthest, kFarthest));
+    }
+    if (measurement.complete()) s.measurements.push_back(std::move(measurement));
+  }
+}
+
+}  // namespace
+
+std::string to_json(const DisplaySettings& s) {
+  return Json{{"slices", slices_json(s)},
+              {"volume", volume_json(s)},
+              {"tool", static_cast<int>(s.tool)},
+              {"brush_mm", s.brush_mm},
+              {"chosen_primitive", s.chosen_primitive},
+              {"measurements", measurements_json(s)}}
+      .dump();
+}
+
+Result<DisplaySettings> display_settings(const std::string& text, DisplaySettings s) {
+  const auto json = parse_json(text, "view state");
+  if (!json) return tl::unexpected<Error>(json.error());
+  const JsonField root = root_of(*json, "view state");
+  if (root.has("slices")) read_slices(root.at("slices"), s);
+  if (root.has("volume")) read_volume(root.at("volume"), s);
+  read_enum(root, "tool", kTools, s.tool);
+  read(root, "brush_mm", 0.01, 1000.0, s.brush_mm);
+  if (root.has("chosen_primitive"))
+    s.chosen_primitive = static_cast<int>(root.at("chosen_primitive").integer(0, 1000));
+  if (root.has("measurements")) read_measurements(root.at("measurements"), s);
+  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  return s;
+}
+
+}  // namespace tidemark

@@ -1,0 +1,16 @@
+// How a case is shown, as text for session files.
+#pragma once
+
+#include <string>
+
+#include "core/result.h"
+#include "engine/display.h"
+
+namespace tidemark {
+
+[[nodiscard]] std::string to_json(const DisplaySettings& settings);
+// Fields that are missing keep the values of `settings`. Fails (ErrorKind::input) naming one that makes no
+// sense.
+Result<DisplaySettings> display_settings(const std::string& json, DisplaySettings settings);
+
+}  // namespace tidemark

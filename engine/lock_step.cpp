@@ -1,0 +1,90 @@
+#include "engine/lock_step.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "engine/case_runner.h"
+
+namespace tidemark {
+namespace {
+
+std::int64_t step_of(CaseRunner& runner) {
+  return runner.document().level_set().step();
+}
+
+// The steps of the last and of the first.
+std::pair<std::int64_t, std::int64_t> ends_of(const std::vector<std::shared_ptr<CaseRunner>>& all) {
+  std::int64_t last = std::numeric_limits<std::int64_t>::max();
+  std::int64_t first = 0;
+  for (const auto& member : all) {
+    last = std::min(last, step_of(*member));
+    first = std::max(first, step_of(*member));
+  }
+  return {last, first};
+}
+
+}  // namespace
+
+void LockStep::add(const std::shared_ptr<CaseRunner>& runner) {
+  members_.push_back(runner);
+  runner->join(weak_from_this());
+}
+
+LockStep::Members LockStep::members() {
+  Members members;
+  for (const auto& member : members_) {
+    if (auto runner = member.lock(); runner && runner->opened()) members.push_back(std::move(runner));
+  }
+  return members;
+}
+
+Status LockStep::advance(CaseRunner& runner, const Progress& progress) {
+  const Members all = members();
+  const auto [last, first] = ends_of(all);
+  // Where all go: beyond the first once all are there.
+  std::int64_t goal = first;
+  if (first == last) {
+    if (std::all_of(all.begin(), all.end(), [](const auto& member) { return member->may_rest(); })) {
+      set_playing(false);
+      return {};
+    }
+    leap_ = std::numeric_limits<std::int64_t>::max();
+    for (const auto& member : all) leap_ = std::min(leap_, member->steps_to_next_picture());
+    goal = first + leap_;
+  }
+  const std::int64_t steps = goal - step_of(runner);
+  return steps > 0 ? runner.advance(steps, progress) : Status();
+}
+
+void LockStep::set_playing(bool playing) {
+  const Members all = members();
+  const auto plays = [](const auto& member) { return member->playing(); };
+  if (!playing && std::any_of(all.begin(), all.end(), plays)) complete_leap(all);
+  for (const auto& member : all) {
+    member->play_alone(playing);
+    member->show();
+  }
+}
+
+Status LockStep::step(std::int64_t steps, const Progress& progress) {
+  set_playing(false);
+  for (const auto& member : members()) {
+    if (!member->document().level_set().begun()) continue;
+    if (auto status = member->advance(steps, progress); !status) return status;
+    member->show();
+  }
+  return {};
+}
+
+// One that has joined far behind the others stays there until they play again.
+void LockStep::complete_leap(const Members& all) const {
+  const std::int64_t first = ends_of(all).second;
+  for (const auto& member : all) {
+    const std::int64_t steps = first - step_of(*member);
+    if (steps == 0 || steps > leap_) continue;
+    if (auto status = member->advance(steps, {}); !status) member->report_failure(status.error());
+  }
+}
+
+}  // namespace tidemark

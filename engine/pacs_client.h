@@ -1,0 +1,38 @@
+// A PACS for the user interface, which never waits for it.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "imaging/pacs/services.h"
+#include "engine/job_runner.h"
+
+namespace tidemark {
+
+class PacsClient : public JobRunner {
+  Q_OBJECT
+ public:
+  explicit PacsClient(QObject* parent = nullptr);
+
+  // Each ends with its signal, or with failed().
+  void echo(const PacsServer& server);
+  void find_studies(const PacsServer& server, const StudyQuery& query, const PacsLimits& limits);
+  void find_series(const PacsServer& server, const SeriesQuery& query, const PacsLimits& limits);
+  void retrieve(const PacsServer& server, const RetrieveRequest& request, const PacsLimits& limits);
+  // Has files written into a new folder that is nobody else's, sends them, and removes it.
+  using WriteFiles = std::function<Result<std::vector<std::filesystem::path>>(
+      const std::filesystem::path& folder, const Progress& progress)>;
+  void send(const PacsServer& server, WriteFiles write);
+
+  void cancel() { give_up(); }
+
+ signals:
+  void answered(double seconds);
+  void studies_found(std::shared_ptr<const tidemark::Found<tidemark::PacsStudy>> studies);
+  void series_found(const QString& study_uid,
+                    std::shared_ptr<const tidemark::Found<tidemark::PacsSeries>> series);
+  void retrieved(const QString& folder, std::shared_ptr<const tidemark::Retrieved> what);
+  void sent(std::shared_ptr<const tidemark::Sent> what);
+};
+
+}  // namespace tidemark

@@ -1,0 +1,58 @@
+// The pictures of one view, as they come.
+#pragma once
+
+#include <QImage>
+#include <QObject>
+#include <cstdint>
+#include <memory>
+#include <variant>
+
+#include "renderer/picture.h"
+#include "renderer/views.h"
+
+namespace tidemark {
+
+class CaseRunner;
+class CaseProxy;
+class PictureTexture;
+struct ViewSlot;
+
+using AnyView = std::variant<SliceView, VolumeView>;
+
+// What is on the screen: the picture, and of what it is.
+struct ShownPicture {
+  // One of the two, by Engine::pictures(); neither where there is no picture. May be smaller than the view
+  // while something moves: to be shown enlarged.
+  QImage image;
+  std::shared_ptr<const PictureTexture> texture;
+  AnyView view;
+  PictureSize size;          // of the view, in physical pixels
+  std::int64_t step = 0;     // of the level set
+  bool finished = false;     // no better one will come
+  std::uint64_t number = 0;  // counts the pictures of this view
+};
+
+// Asks for pictures of a view, and hands on the newest. The picture follows the level set by itself: a view
+// is asked for again only when it is another one.
+class PictureFeed : public QObject {
+  Q_OBJECT
+ public:
+  explicit PictureFeed(CaseProxy& proxy, QObject* parent = nullptr);
+  ~PictureFeed() override;
+
+  // `size` in physical pixels. The newest request wins; one that is like the last asks for nothing.
+  void request(const AnyView& view, PictureSize size);
+  [[nodiscard]] const ShownPicture& shown() const { return shown_; }
+
+ signals:
+  void arrived();
+
+ private:
+  void take();
+
+  std::shared_ptr<CaseRunner> runner_;
+  std::shared_ptr<ViewSlot> slot_;
+  ShownPicture shown_;
+};
+
+}  // namespace tidemark

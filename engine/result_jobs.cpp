@@ -1,0 +1,43 @@
+#include "engine/result_jobs.h"
+
+#include <QCoreApplication>
+
+#include "document/result_files.h"
+
+namespace tidemark {
+namespace {
+
+// Steps as the folders below name them, for translators.
+[[maybe_unused]] constexpr const char* kSteps[] = {
+    QT_TRANSLATE_NOOP("tidemark::ResultStep", "writing segments"),
+    QT_TRANSLATE_NOOP("tidemark::ResultStep", "writing contours"),
+    QT_TRANSLATE_NOOP("tidemark::ResultStep", "writing the level set"),
+    QT_TRANSLATE_NOOP("tidemark::ResultStep", "reading labels"),
+    QT_TRANSLATE_NOOP("tidemark::ResultStep", "reading the volume"),
+};
+
+}  // namespace
+
+ResultJobs::ResultJobs(QObject* parent) : JobRunner("tidemark::ResultStep", parent) {}
+
+void ResultJobs::write(std::function<Status(const Progress&)> work) {
+  run(std::move(work), [this] { emit written(); });
+}
+
+void ResultJobs::read_labels(const std::filesystem::path& file, const Geometry& grid, bool only_results) {
+  using Found = std::shared_ptr<const Segments>;  // null: no result
+  run(
+      [=](const Progress& progress) -> Result<Found> {
+        if (only_results && !result_form_of(file)) return Found();
+        auto segments = tidemark::read_labels(file, grid, progress);
+        if (!segments) return pass_on(segments);
+        if (progress.cancelled()) return cancelled_error();
+        return std::make_shared<const Segments>(std::move(*segments));
+      },
+      [this](const Found& found) {
+        if (!found) return emit no_result();
+        emit labels_read(found);
+      });
+}
+
+}  // namespace tidemark

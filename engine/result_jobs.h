@@ -1,0 +1,35 @@
+// Results out of a case, and labels into it, for the user interface, which never waits.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "core/geometry.h"
+#include "engine/job_runner.h"
+
+namespace tidemark {
+
+struct Segments;
+
+class ResultJobs : public JobRunner {
+  Q_OBJECT
+ public:
+  explicit ResultJobs(QObject* parent = nullptr);
+
+  // Writes files of its own; ends with written(), failed() or, where it was stopped in time, cancelled().
+  void write(std::function<Status(const Progress&)> work);
+  // Ends with labels_read(), failed() or cancelled(). With `only_results`, what is neither a DICOM
+  // Segmentation nor a structure set ends with no_result().
+  void read_labels(const std::filesystem::path& file, const Geometry& grid, bool only_results = false);
+
+  // Ends with cancelled(), unless the work was past stopping: what is written then is told.
+  void cancel() { ask_to_stop(); }
+
+ signals:
+  void written();
+  void labels_read(std::shared_ptr<const tidemark::Segments> segments);
+  void no_result();
+};
+
+}  // namespace tidemark

@@ -1,0 +1,156 @@
+#include "engine/study_loader.h"
+
+#include <QCoreApplication>
+#include <QStringList>
+#include <algorithm>
+
+#include "imaging/archive/study_archive.h"
+#include "imaging/filters/suggest_start.h"
+#include "imaging/phantom/phantom.h"
+#include "imaging/load_study.h"
+#include "engine/phantom_text.h"
+
+namespace tidemark {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Steps as the folders below name them, for translators.
+[[maybe_unused]] constexpr const char* kSteps[] = {
+    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "unpacking the archive"),
+    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "reading headers"),
+    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "decoding slices"),
+    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "reading the volume"),
+    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "measuring values"),
+    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "looking for a start"),
+    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "making the phantom"),
+};
+
+// T and epsilon of a study that nobody has looked at yet.
+Parameters suggest_parameters(const Volume& volume, const Progress& progress) {
+  Parameters parameters;
+  if (const auto suggestion = suggest_start(volume, {}, progress)) {
+    parameters.target = suggestion->target;
+    parameters.range = suggestion->range;
+    parameters.alpha = suggestion->alpha;
+  } else {
+    parameters.target = static_cast<double>(volume.range().first);  // all voxels have this value
+  }
+  return parameters;
+}
+
+Result<LoadedStudy> load_study(const ChosenSeries& chosen, const Progress& progress) {
+  const Series& series = chosen.series;
+  auto volume = load_series(chosen, progress);
+  if (!volume) return pass_on(volume);
+  LoadedStudy study;
+  study.volume = std::make_shared<const Volume>(std::move(*volume));
+  study.origin.path = StudyLoader::place_of(series);
+  study.origin.series_uid = series.uid;
+  study.origin.policy = series.policy;
+  study.dicom_files = dicom_files_of(series);
+  study.name = StudyLoader::name_of(series);
+  study.patient = series.patient;
+  study.date = series.date;
+  study.archive = series.archive;
+  study.origin.name = study.name.toStdString();
+  study.origin.date = series.date;
+  progress(0.0, "measuring values");
+  study.summary = summarise(*study.volume, progress);
+  study.parameters = suggest_parameters(*study.volume, progress);
+  if (progress.cancelled()) return cancelled_error();
+  return study;
+}
+
+// What there is to choose from. A single series that cannot be loaded is no choice: its reason is the answer.
+Result<Catalogue> find_choice(const fs::path& path, const GridPolicy& policy, const Progress& progress) {
+  auto catalogue = find_series(path, progress, policy);
+  if (!catalogue || catalogue->series.size() != 1) return catalogue;
+  const Series& only = catalogue->series.front();
+  if (only.loadable || only.fillable()) return catalogue;
+  return fail(ErrorKind::input, "{}", reason_under(path, only));
+}
+
+// The series to load of what lies under the path.
+Result<LoadedStudy> find_and_load(const fs::path& path, const std::string& uid, const GridPolicy& policy,
+                                  const Progress& progress) {
+  const auto catalogue = find_series(path, progress, policy);
+  if (!catalogue) return tl::unexpected<Error>(catalogue.error());
+  const auto chosen = choose_series(*catalogue, uid, path);
+  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  return load_study(*chosen, progress);
+}
+
+Result<LoadedStudy> make_phantom_study(const std::string& kind, const Progress& progress) {
+  progress(0.0, "making the phantom");
+  auto phantom = tidemark::make_phantom(kind, {}, progress);
+  if (!phantom) return pass_on(phantom);
+  LoadedStudy study;
+  study.origin.phantom = phantom->kind;
+  study.name = phantom_text(phantom->kind).title;  // as it was chosen
+  study.patient.name = "Phantom";
+  study.origin.name = study.name.toStdString();
+  study.volume = std::make_shared<const Volume>(std::move(phantom->volume));
+  study.parameters.target = phantom->target;
+  study.parameters.range = phantom->range;
+  study.parameters.alpha = phantom->alpha;
+  study.start = PhantomStart{phantom->seed, phantom->init_threshold};
+  progress(0.0, "measuring values");
+  study.summary = summarise(*study.volume, progress);
+  if (progress.cancelled()) return cancelled_error();
+  return study;
+}
+
+}  // namespace
+
+StudyLoader::StudyLoader(QObject* parent) : JobRunner("tidemark::LoadingStep", parent) {}
+
+void StudyLoader::scan(const fs::path& path, const GridPolicy& policy) {
+  run([path, policy](const Progress& progress) { return find_choice(path, policy, progress); },
+      [this](Catalogue&& catalogue) { emit found(std::make_shared<const Catalogue>(std::move(catalogue))); });
+}
+
+void StudyLoader::load(const fs::path& path, const std::string& uid, const GridPolicy& policy) {
+  run([path, uid, policy](const Progress& progress) { return find_and_load(path, uid, policy, progress); },
+      [this](LoadedStudy&& study) { emit loaded(std::make_shared<const LoadedStudy>(std::move(study))); });
+}
+
+void StudyLoader::load(const Series& series, const std::vector<std::string>& remarks) {
+  run(
+      [series, remarks](const Progress& progress) {
+        return load_study({series, remarks}, progress);
+      },
+      [this](LoadedStudy&& study) { emit loaded(std::make_shared<const LoadedStudy>(std::move(study))); });
+}
+
+void StudyLoader::make_phantom(const std::string& kind) {
+  run([kind](const Progress& progress) { return make_phantom_study(kind, progress); },
+      [this](LoadedStudy&& study) { emit loaded(std::make_shared<const LoadedStudy>(std::move(study))); });
+}
+
+fs::path StudyLoader::place_of(const Series& series) {
+  if (series.files.empty()) return {};
+  if (series.archive) return series.archive->file();
+  if (series.transfer_syntaxes.empty()) return series.files.front();  // a volume file
+  fs::path folder = series.files.front().parent_path();
+  for (const fs::path& file : series.files) {
+    while (std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first != folder.end()) {
+      folder = folder.parent_path();
+    }
+  }
+  return folder;
+}
+
+QString StudyLoader::name_of(const Series& series) {
+  const QString description = QString::fromStdString(series.description).trimmed();
+  const bool is_file = series.transfer_syntaxes.empty();
+  // A series without a description lists its first file's name, which may be the patient's.
+  const bool is_described =
+      is_file || (!series.files.empty() && series.description != series.files.front().filename().string());
+  if (is_described && !description.isEmpty()) return description;
+  const QStringList known{QString::fromStdString(series.modality), QString::fromStdString(series.date)};
+  const QString text = known.join(QLatin1Char(' ')).trimmed();
+  return text.isEmpty() ? tr("Series without a description") : text;
+}
+
+}  // namespace tidemark

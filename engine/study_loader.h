@@ -1,0 +1,69 @@
+// Finds and loads studies without ever keeping the user interface waiting.
+#pragma once
+
+#include <QString>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/volume.h"
+#include "imaging/patient.h"
+#include "imaging/series.h"
+#include "engine/job_runner.h"
+#include "engine/source_summary.h"
+#include "solver/parameters.h"
+#include "document/origin.h"
+
+namespace tidemark {
+
+// Where a phantom can be started from; where there are both, the threshold is the quick way.
+struct PhantomStart {
+  std::optional<std::array<double, 4>> seed;           // i, j, k (voxels), radius (mm)
+  std::optional<std::pair<double, double>> threshold;  // low, high, in the volume's units
+};
+
+// All that a case begins with.
+struct LoadedStudy {
+  std::shared_ptr<const Volume> volume;
+  StudyOrigin origin;
+  std::vector<std::filesystem::path> dicom_files;  // in slice order: results refer to them; empty: not DICOM
+  SourceSummary summary;
+  QString name;  // for titles; never the patient's
+  Patient patient;
+  std::string date;       // of the study: "2004-07-31"; empty when unknown
+  Parameters parameters;  // that suit some even, bright tissue in the middle, or the phantom
+  std::optional<PhantomStart> start;
+  std::shared_ptr<const StudyArchive> archive;  // keeps the files of a series that lies in an archive
+};
+
+class StudyLoader : public JobRunner {
+  Q_OBJECT
+ public:
+  explicit StudyLoader(QObject* parent = nullptr);
+
+  // Ends with found(), or with failed() where nothing can be loaded or the only series cannot, not even with
+  // its gaps filled.
+  void scan(const std::filesystem::path& path, const GridPolicy& policy = {});
+  // End with loaded() or failed(). An empty uid: the only loadable series, or the one with the most voxels.
+  void load(const std::filesystem::path& path, const std::string& uid, const GridPolicy& policy = {});
+  // The remarks are told with what loading changed.
+  void load(const Series& series, const std::vector<std::string>& remarks = {});
+  void make_phantom(const std::string& kind);  // of phantom_kinds()
+
+  void cancel() { give_up(); }
+
+  // The folder or file under which a series is found again: the one folder that holds all its files, or its
+  // archive.
+  [[nodiscard]] static std::filesystem::path place_of(const Series& series);
+  // What a series is called in titles: its description, else modality and date.
+  [[nodiscard]] static QString name_of(const Series& series);
+
+ signals:
+  void found(std::shared_ptr<const tidemark::Catalogue> catalogue);
+  void loaded(std::shared_ptr<const tidemark::LoadedStudy> study);
+};
+
+}  // namespace tidemark

@@ -1,0 +1,45 @@
+// A view between the user interface, which says what is to be seen, and the engine, which draws it.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "renderer/quality_control.h"
+#include "engine/weak_receiver.h"
+#include "engine/picture_feed.h"
+#include "engine/view_textures.h"
+
+namespace tidemark {
+
+struct ViewSlot {
+  struct Wish {
+    AnyView view;
+    PictureSize size;
+    bool operator==(const Wish&) const = default;
+  };
+
+  std::shared_ptr<WeakReceiver> weak_receiver;
+  std::function<void()> take;  // what the weak_receiver is sent when there is a picture
+
+  std::mutex mutex;                    // of the next three
+  std::optional<Wish> wish;            // the newest; none before the first
+  bool wish_is_new = false;            // since it was last drawn
+  ShownPicture finished;               // what the engine drew last
+  std::atomic<bool> waiting{false};    // a job to draw it is in the queue
+  std::atomic<bool> refining{false};   // and one to draw it better
+  std::atomic<bool> announced{false};  // the user interface has been told of `finished`, and has not looked
+
+  // On the engine's thread alone.
+  QualityControl quality;
+  PictureMean mean;                        // of pictures that are read back
+  std::shared_ptr<ViewTextures> textures;  // of those that are not, when first needed
+  std::int64_t drawn_phi = -1;             // revision of phi that was last drawn
+  std::uint64_t drawn_look = 0;            // revision of labels and parameters
+  std::int64_t drawn_advance = -1;         // how often steps had been computed when it was last drawn
+  std::uint64_t pictures = 0;
+};
+
+}  // namespace tidemark

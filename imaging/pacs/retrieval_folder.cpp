@@ -1,0 +1,150 @@
+#include "imaging/pacs/retrieval_folder.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "imaging/guarded.h"
+#include "imaging/pacs/checked_object.h"
+
+namespace tidemark {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kBytesBetweenLooks = std::int64_t{16} << 20;  // at the disk's free space
+constexpr std::size_t kMostReasons = 20;
+
+// Nothing of the user's is to be replaced.
+Status require_empty(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return {};
+  if (fs::is_directory(folder, error) && fs::is_empty(folder, error)) return {};
+  return fail(ErrorKind::write, "{}: cannot be filled: it is no empty folder", folder.string());
+}
+
+}  // namespace
+
+Result<std::unique_ptr<RetrievalFolder>> RetrievalFolder::create(const RetrieveRequest& request, const PacsLimits& limits,
+                                             const Progress& progress) {
+  if (Status empty = require_empty(request.folder); !empty) return pass_on(empty);
+  auto collected = AtomicFolder::create(request.folder);
+  if (!collected) return pass_on(collected);
+  std::unique_ptr<RetrievalFolder> retrieval_folder(new RetrievalFolder(request, limits, progress, std::move(*collected)));
+  if (Status enough = retrieval_folder->check_free_space(); !enough) return pass_on(enough);
+  return retrieval_folder;
+}
+
+Status RetrievalFolder::check_free_space() const {
+  std::error_code error;
+  const fs::space_info space = fs::space(collected_.temporary_path(), error);
+  if (!error && space.available >= static_cast<std::uintmax_t>(limits_.free_bytes)) return {};
+  return fail(ErrorKind::write, "{}: the disk is nearly full: less than {} MiB would stay free",
+              request_.folder.string(), limits_.free_bytes >> 20);
+}
+
+Result<fs::path> RetrievalFolder::next_object() {
+  const std::lock_guard lock(mutex_);
+  if (begun_ >= limits_.objects) {
+    return fail(ErrorKind::input, "the server sends more than the {} objects that are allowed",
+                limits_.objects);
+  }
+  const fs::path object = collected_.temporary_path() / fmt::format("{:06}.dcm", ++begun_);
+  unfinished_.insert(object);
+  return object;
+}
+
+Status RetrievalFolder::grown(std::int64_t bytes) {
+  const std::lock_guard lock(mutex_);
+  if (excused_) excused_->completed_message();
+  retrieved_.bytes += bytes;
+  if (retrieved_.bytes > limits_.retrieval_bytes) {
+    return fail(ErrorKind::input, "the server sends more than the {} MiB that are allowed",
+                limits_.retrieval_bytes >> 20);
+  }
+  bytes_until_look_ -= bytes;
+  if (bytes_until_look_ > 0) return {};
+  bytes_until_look_ = kBytesBetweenLooks;
+  return check_free_space();
+}
+
+Status RetrievalFolder::look_into(const fs::path& object, const std::string& sop_class,
+                        const std::string& sop_instance) const {
+  const auto identity = check_object(object);
+  // The name says nothing to anybody.
+  if (!identity) return fail(ErrorKind::input, "{}", without_path(identity.error().message, object));
+  if (identity->sop_class != sop_class || identity->sop_instance != sop_instance) {
+    return fail(ErrorKind::input, "is another object than was announced");
+  }
+  if (identity->study != request_.study_uid) return fail(ErrorKind::input, "belongs to another study");
+  if (!request_.series_uid.empty() && identity->series != request_.series_uid) {
+    return fail(ErrorKind::input, "belongs to another series");
+  }
+  return {};
+}
+
+bool RetrievalFolder::take(const fs::path& object, const std::string& sop_class, const std::string& sop_instance) {
+  Status sound = look_into(object, sop_class, sop_instance);
+  if (sound && !sync_to_disk(object)) sound = fail(ErrorKind::write, "cannot be written");
+  const std::lock_guard lock(mutex_);
+  if (!sound) {
+    note_refusal(object, sound.error().message);
+    return false;
+  }
+  if (!instances_.insert(sop_instance).second) {
+    note_refusal(object, "came a second time");
+    return true;  // the server may believe that it is here: it is
+  }
+  unfinished_.erase(object);
+  retrieved_.files.push_back(request_.folder / object.filename());
+  const auto done = static_cast<double>(retrieved_.files.size());
+  progress_(expected_ > 0 ? std::min(1.0, done / static_cast<double>(expected_)) : -1.0, "receiving objects");
+  return true;
+}
+
+void RetrievalFolder::refuse(const fs::path& object, std::string reason) {
+  const std::lock_guard lock(mutex_);
+  note_refusal(object, std::move(reason));
+}
+
+void RetrievalFolder::note_refusal(const fs::path& object, std::string reason) {
+  std::error_code ignored;
+  fs::remove(object, ignored);
+  unfinished_.erase(object);
+  const std::string number = object.stem().string();  // which of the objects that came
+  if (retrieved_.refused.size() < kMostReasons) {
+    retrieved_.refused.push_back(fmt::format("object {}: {}", number, reason));
+  } else {
+    retrieved_.refused.resize(kMostReasons + 1);
+    retrieved_.refused.back() = "and others";
+  }
+}
+
+void RetrievalFolder::set_expected(std::int64_t objects) {
+  const std::lock_guard lock(mutex_);
+  expected_ = std::max(expected_, objects);
+}
+
+void RetrievalFolder::excuse(std::shared_ptr<ConnectionWatch> watch) {
+  const std::lock_guard lock(mutex_);
+  excused_ = std::move(watch);
+}
+
+Result<Retrieved> RetrievalFolder::keep(std::int64_t missing) {
+  const std::lock_guard lock(mutex_);
+  if (retrieved_.files.empty()) {
+    if (!retrieved_.refused.empty())
+      return fail(ErrorKind::input, "nothing of what came can be taken: {}", retrieved_.refused.front());
+    if (missing > 0) return fail(ErrorKind::input, "none of {} objects could be sent by the server", missing);
+    return fail(ErrorKind::input, "the server has nothing of the study or series that is asked for");
+  }
+  std::error_code ignored;
+  for (const fs::path& object : unfinished_) fs::remove(object, ignored);
+  if (Status empty = require_empty(request_.folder); !empty) return pass_on(empty);
+  if (Status placed = collected_.commit(); !placed) return pass_on(placed);
+  retrieved_.missing = missing;
+  std::sort(retrieved_.files.begin(), retrieved_.files.end());
+  return retrieved_;
+}
+
+}  // namespace tidemark

@@ -1,0 +1,74 @@
+// The folder that a retrieval fills.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/atomic_file.h"
+#include "core/progress.h"
+#include "core/result.h"
+#include "imaging/pacs/connection_watch.h"
+#include "imaging/pacs/services.h"
+
+namespace tidemark {
+
+// Objects are collected beside the folder under a temporary name, and are in it when all have come: whoever
+// is killed before leaves no series that lacks slices. They get names by a counter, 000001.dcm, nothing of
+// which comes from the peer. Several connections may fill it at once.
+class RetrievalFolder {
+ public:
+  // For a folder that is not there yet, or empty. Fails (ErrorKind::write).
+  static Result<std::unique_ptr<RetrievalFolder>> create(const RetrieveRequest& request, const PacsLimits& limits,
+                                               const Progress& progress);
+
+  // What is filled, as messages name it.
+  [[nodiscard]] const std::filesystem::path& folder() const { return request_.folder; }
+
+  // Where the next object is written to. These fail (ErrorKind::input: the peer sends too much;
+  // ErrorKind::write: the disk is full) where the retrieval has to end.
+  Result<std::filesystem::path> next_object();
+  Status grown(std::int64_t bytes);  // of any object, since the last time
+
+  // An object that is complete. False, with the reason noted, when it is not what was asked for.
+  bool take(const std::filesystem::path& object, const std::string& sop_class,
+            const std::string& sop_instance);
+  // One that is not to be taken.
+  void refuse(const std::filesystem::path& object, std::string reason);
+
+  void set_expected(std::int64_t objects);  // for the progress
+  // While objects come on other connections, the one on which they were asked for may be silent.
+  void excuse(std::shared_ptr<ConnectionWatch> watch);
+  // What came is put in place. Fails when nothing did (ErrorKind::input), or it cannot be put there
+  // (ErrorKind::write). `missing` objects could not be sent.
+  [[nodiscard]] Result<Retrieved> keep(std::int64_t missing);
+
+ private:
+  RetrievalFolder(const RetrieveRequest& request, const PacsLimits& limits, const Progress& progress,
+        AtomicFolder collected)
+      : request_(request), limits_(limits), progress_(progress), collected_(std::move(collected)) {}
+  Status check_free_space() const;
+  Status look_into(const std::filesystem::path& object, const std::string& sop_class,
+                   const std::string& sop_instance) const;
+  void note_refusal(const std::filesystem::path& object, std::string reason);
+
+  const RetrieveRequest request_;
+  const PacsLimits limits_;
+  const Progress progress_;
+  AtomicFolder collected_;
+  std::mutex mutex_;  // guards what follows
+  std::int64_t begun_ = 0;
+  std::int64_t expected_ = 0;
+  std::int64_t bytes_until_look_ = 0;
+  std::shared_ptr<ConnectionWatch> excused_;
+  std::set<std::filesystem::path> unfinished_;  // begun and neither taken nor refused
+  std::set<std::string> instances_;             // SOP Instance UIDs of what was taken
+  Retrieved retrieved_;
+};
+
+}  // namespace tidemark

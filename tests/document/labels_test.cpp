@@ -1,0 +1,286 @@
+// Labels: what is given to whom, what locks keep, and the way back.
+#include <random>
+#include <set>
+
+#include "cases.h"
+#include "document/label_segments.h"
+#include "tests/support/test_program.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+namespace {
+
+Mask box(const Geometry& geometry, Index3 first, Index3 last) {
+  Mask mask{geometry, std::vector<std::uint8_t>(static_cast<std::size_t>(geometry.voxel_count()))};
+  for (std::int64_t z = first.z; z <= last.z; ++z) {
+    for (std::int64_t y = first.y; y <= last.y; ++y) {
+      for (std::int64_t x = first.x; x <= last.x; ++x) {
+        mask.voxels[static_cast<std::size_t>(geometry.offset({x, y, z}))] = 1;
+      }
+    }
+  }
+  return mask;
+}
+
+Geometry small_grid() {
+  return lumpy_volume({12, 11, 10})->geometry;
+}
+
+}  // namespace
+
+class LabelsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void labels_become_segments_and_come_back() {
+    Labels labels(small_grid());
+    const std::uint8_t liver = labels.add("Liver").value();
+    const std::uint8_t tumour = labels.add("Tumour").value();
+    QCOMPARE(failure(labels.accept(box(labels.geometry(), {0, 0, 0}, {5, 5, 5}), liver)), QString());
+    QCOMPARE(failure(labels.accept(box(labels.geometry(), {4, 0, 0}, {9, 5, 5}), tumour, Take::others_too)),
+             QString());
+    Label chosen = *labels.find(tumour);
+    chosen.meaning = find_segment_meaning("cyst").value();
+    QCOMPARE(failure(labels.set(chosen)), QString());
+    const Segments segments = segments_of(labels);
+    QCOMPARE(segments.list.size(), std::size_t{2});
+    QVERIFY(segments.list[0].meaning == find_segment_meaning("liver").value());  // as its name says
+    QVERIFY(segments.list[1].meaning == chosen.meaning);
+    QCOMPARE(segments.list[1].count(), labels.mask(tumour).count());
+
+    Labels read(small_grid());
+    const std::uint8_t bone = read.add("Bone").value();
+    QCOMPARE(failure(read.accept(box(read.geometry(), {0, 0, 0}, {0, 0, 0}), bone)), QString());
+    Label locked = *read.find(bone);
+    locked.locked = true;
+    QCOMPARE(failure(read.set(locked)), QString());
+    QCOMPARE(failure(add_segments(read, segments)), QString());
+    QCOMPARE(read.list().size(), std::size_t{3});
+    QCOMPARE(read.list()[1].name, std::string("Liver"));
+    QVERIFY(read.list()[2].colour == labels.find(tumour)->colour);
+    QCOMPARE(read.mask(read.list()[1].id).count(), labels.mask(liver).count() - 1);  // one voxel is locked
+    QVERIFY(read.mask(read.list()[2].id).voxels == labels.mask(tumour).voxels);
+    QVERIFY(read.list()[2].meaning == chosen.meaning);
+
+    Geometry larger = small_grid();
+    larger.size.x += 1;
+    Labels elsewhere(larger);
+    QCOMPARE(add_segments(elsewhere, segments).error().kind, ErrorKind::usage);
+    QVERIFY(elsewhere.list().empty());
+  }
+
+  void an_import_is_one_entry_of_the_history() {
+    History history;
+    Labels labels(small_grid(), &history);
+    const std::uint8_t bone = labels.add("Bone").value();
+    QCOMPARE(failure(labels.accept(box(labels.geometry(), {0, 0, 0}, {3, 3, 3}), bone)), QString());
+    const std::vector<std::uint8_t> before(labels.voxels().begin(), labels.voxels().end());
+    Segments two = segments_of(box(labels.geometry(), {2, 2, 2}, {5, 5, 5}), "Left kidney");
+    two.list.push_back(segments_of(box(labels.geometry(), {5, 5, 5}, {7, 7, 7}), "Cyst").list.front());
+    QCOMPARE(failure(add_segments(labels, two)), QString());
+    QCOMPARE(labels.list().size(), std::size_t{3});
+    QCOMPARE(labels.mask(2).count(), std::int64_t{63});  // the later one has what both hold
+    const std::vector<std::uint8_t> after(labels.voxels().begin(), labels.voxels().end());
+    QCOMPARE(describe(*history.undo_description()), std::string("import of Left kidney, Cyst"));
+    QCOMPARE(failure(history.undo()), QString());
+    QCOMPARE(labels.list().size(), std::size_t{1});
+    QVERIFY(std::ranges::equal(labels.voxels(), before));
+    QCOMPARE(failure(history.redo()), QString());
+    QCOMPARE(labels.list().size(), std::size_t{3});
+    QVERIFY(std::ranges::equal(labels.voxels(), after));
+  }
+
+  // They come out of files of others, and go into session files and files for others.
+  void names_and_codes_that_nobody_could_write_again_are_cut_or_left_out() {
+    Labels labels(small_grid());
+    Segments segments = segments_of(box(labels.geometry(), {2, 2, 2}, {5, 5, 5}), std::string(63, 'x') + "ä");
+    segments.list.front().meaning.type = {std::string(300, '1'), "SCT", "Liver"};
+    QCOMPARE(failure(add_segments(labels, segments)), QString());
+    QCOMPARE(labels.list().front().name, std::string(63, 'x'));
+    QVERIFY(!labels.list().front().meaning);
+  }
+
+  void voxels_of_locked_labels_stay() {
+    Labels labels(small_grid());
+    const std::uint8_t liver = labels.add("Liver").value();
+    const std::uint8_t tumour = labels.add("Tumour").value();
+    const Mask left = box(labels.geometry(), {0, 0, 0}, {5, 5, 5});
+    const Mask right = box(labels.geometry(), {4, 0, 0}, {9, 5, 5});
+    QCOMPARE(failure(labels.accept(left, liver)), QString());
+    QCOMPARE(labels.mask(liver).count(), std::int64_t{216});
+    Label locked = *labels.find(liver);
+    locked.locked = true;
+    QCOMPARE(failure(labels.set(locked)), QString());
+    QCOMPARE(failure(labels.accept(right, tumour, Take::others_too)), QString());
+    QCOMPARE(labels.mask(liver).count(), std::int64_t{216});
+    QCOMPARE(labels.mask(tumour).count(), std::int64_t{144});
+    QCOMPARE(labels.accept(right, liver).error().kind, ErrorKind::usage);
+    QCOMPARE(labels.remove(liver).error().kind, ErrorKind::usage);
+    locked.locked = false;
+    QCOMPARE(failure(labels.set(locked)), QString());
+    QCOMPARE(failure(labels.accept(right, tumour, Take::others_too)), QString());
+    QCOMPARE(labels.mask(liver).count(), std::int64_t{144});
+    QCOMPARE(labels.mask(tumour).count(), std::int64_t{216});
+  }
+
+  void a_label_takes_free_voxels_unless_it_is_to_take_all() {
+    Labels labels(small_grid());
+    const std::uint8_t liver = labels.add("Liver").value();
+    const std::uint8_t tumour = labels.add("Tumour").value();
+    QCOMPARE(labels.accept(box(labels.geometry(), {0, 0, 0}, {5, 5, 5}), liver).value().taken,
+             std::int64_t{216});
+    const Mask right = box(labels.geometry(), {4, 0, 0}, {9, 5, 5});
+    const Acceptance careful = labels.accept(right, tumour).value();
+    QCOMPARE(labels.mask(liver).count(), std::int64_t{216});
+    QCOMPARE(labels.mask(tumour).count(), std::int64_t{144});
+    QCOMPARE(careful.label, std::string("Tumour"));
+    QCOMPARE(careful.taken, std::int64_t{144});
+    QCOMPARE(careful.from_others, std::int64_t{0});
+    QCOMPARE(careful.left, std::int64_t{72});
+    const Acceptance all = labels.accept(right, tumour, Take::others_too).value();
+    QCOMPARE(labels.mask(liver).count(), std::int64_t{144});
+    QCOMPARE(all.taken, std::int64_t{216});
+    QCOMPARE(all.from_others, std::int64_t{72});
+    QCOMPARE(all.left, std::int64_t{0});
+  }
+
+  void accepting_replaces_or_adds() {
+    Labels labels(small_grid());
+    const std::uint8_t id = labels.add("one").value();
+    QCOMPARE(failure(labels.accept(box(labels.geometry(), {0, 0, 0}, {1, 1, 1}), id)), QString());
+    QCOMPARE(
+        failure(labels.accept(box(labels.geometry(), {2, 0, 0}, {3, 1, 1}), id, Take::free_voxels, false)),
+        QString());
+    QCOMPARE(labels.mask(id).count(), std::int64_t{16});
+    QCOMPARE(failure(labels.accept(box(labels.geometry(), {2, 0, 0}, {3, 1, 1}), id)), QString());
+    QCOMPARE(labels.mask(id).count(), std::int64_t{8});
+  }
+
+  void what_cannot_be_done_is_refused() {
+    Labels labels(small_grid());
+    const Mask mask = box(labels.geometry(), {0, 0, 0}, {1, 1, 1});
+    QCOMPARE(labels.accept(mask, 3).error().kind, ErrorKind::usage);
+    QCOMPARE(labels.remove(3).error().kind, ErrorKind::usage);
+    QCOMPARE(labels.set({}).error().kind, ErrorKind::usage);
+    const std::uint8_t id = labels.add("one").value();
+    Mask other = mask;
+    other.geometry.size = {3, 3, 3};
+    other.voxels.resize(27);
+    QCOMPARE(labels.accept(other, id).error().kind, ErrorKind::usage);
+    QCOMPARE(labels.voxels().size(), std::size_t{0});
+  }
+
+  void there_is_room_for_255_with_colours_of_their_own() {
+    Labels labels(small_grid());
+    std::set<std::array<std::uint8_t, 3>> colours;
+    for (int i = 1; i <= 255; ++i) {
+      const std::uint8_t id = labels.add(std::to_string(i)).value();
+      QCOMPARE(int(id), i);
+      colours.insert(labels.find(id)->colour);
+    }
+    QCOMPARE(labels.add("one more").error().kind, ErrorKind::usage);
+    QCOMPARE(colours.size(), std::size_t{255});
+    QCOMPARE(failure(labels.remove(17)), QString());
+    QCOMPARE(int(labels.add("again").value()), 17);
+  }
+
+  void random_changes_are_taken_back_one_by_one() {
+    History history;
+    Labels labels(small_grid(), &history);
+    std::mt19937 random(3);
+    struct SeenLabels {
+      std::vector<Label> list;
+      std::vector<std::uint8_t> masks;  // of label 1 and 2
+    };
+    const auto seen = [&] {
+      SeenLabels now{labels.list(), labels.mask(1).voxels};
+      const Mask second = labels.mask(2);
+      now.masks.insert(now.masks.end(), second.voxels.begin(), second.voxels.end());
+      return now;
+    };
+    std::vector<SeenLabels> states{seen()};
+    for (int round = 0; round < 50; ++round) {
+      const auto id = static_cast<std::uint8_t>(1 + random() % 2);
+      const Index3 first{random() % 8, random() % 8, random() % 8};
+      Status done;
+      if (labels.find(id) == nullptr) {
+        if (auto added = labels.add("label"); !added) done = pass_on(added);
+      } else if (random() % 8 == 0) {
+        done = labels.remove(id);
+      } else if (random() % 6 == 0) {
+        Label other = *labels.find(id);
+        other.name += "'";
+        other.visible = !other.visible;
+        done = labels.set(other);
+      } else {
+        const Take take = random() % 2 == 0 ? Take::free_voxels : Take::others_too;
+        auto accepted =
+            labels.accept(box(labels.geometry(), first, first + Index3(2)), id, take, random() % 2 == 0);
+        done = accepted ? Status() : pass_on(accepted);
+      }
+      QCOMPARE(failure(done), QString());
+      states.push_back(seen());
+    }
+    for (std::size_t i = states.size() - 1; i-- > 0;) {
+      QCOMPARE(failure(history.undo()), QString());
+      QVERIFY(seen().list == states[i].list);
+      QVERIFY(seen().masks == states[i].masks);
+    }
+    for (std::size_t i = 1; i < states.size(); ++i) {
+      QCOMPARE(failure(history.redo()), QString());
+      QVERIFY(seen().list == states[i].list);
+      QVERIFY(seen().masks == states[i].masks);
+    }
+  }
+
+  void statistics_are_of_the_volumes_values() {
+    auto volume = *lumpy_volume({12, 11, 10});
+    volume.slope = -2.0;
+    volume.intercept = 500.0;
+    Labels labels(volume.geometry);
+    const std::uint8_t id = labels.add("one").value();
+    const Mask mask = box(volume.geometry, {2, 3, 4}, {6, 7, 8});
+    QCOMPARE(failure(labels.accept(mask, id)), QString());
+    double sum = 0.0;
+    double squares = 0.0;
+    const std::vector<float> values = volume.values();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (mask.voxels[i] == 0) continue;
+      sum += values[i];
+      squares += static_cast<double>(values[i]) * values[i];
+    }
+    const double mean = sum / 125.0;
+    const double deviation = std::sqrt(squares / 125.0 - mean * mean);
+    const std::vector<RegionStatistics> all = statistics_by_label(volume, labels);
+    QCOMPARE(all.size(), std::size_t{256});
+    for (const RegionStatistics& found : {statistics_in(volume, mask), all[id]}) {
+      QCOMPARE(found.voxels, std::int64_t{125});
+      QVERIFY(std::abs(found.volume_ml - 125.0 * 1.3 / 1000.0) < 1e-12);
+      QVERIFY(std::abs(found.mean - mean) < 1e-6 * std::abs(mean));
+      QVERIFY(std::abs(found.standard_deviation - deviation) < 1e-4);
+    }
+    QCOMPARE(all[0].voxels, std::int64_t{0});
+  }
+
+  void a_surface_becomes_a_label_and_a_label_a_surface() {
+    const auto document = begun_case();
+    run(document->level_set(), 12);
+    const Mask surface = document->level_set().executor().snapshot().value().mask();
+    const std::uint8_t id = document->labels().add("Liver").value();
+    QCOMPARE(failure(document->accept_surface(id, Take::free_voxels)), QString());
+    QVERIFY(document->labels().mask(id).voxels == surface.voxels);
+    QCOMPARE(describe(*document->history().undo_description()), std::string("accept into Liver"));
+    QCOMPARE(failure(document->undo()), QString());
+    QCOMPARE(document->labels().mask(id).count(), std::int64_t{0});
+    QCOMPARE(failure(document->redo()), QString());
+    run(document->level_set(), 5);
+    QCOMPARE(failure(document->begin_from_label(id)), QString());
+    QVERIFY(document->level_set().executor().snapshot().value().mask().voxels == surface.voxels);
+    QCOMPARE(document->level_set().recipe().start.describe(), std::string("mask label Liver"));
+    QCOMPARE(document->level_set().step(), std::int64_t{0});
+  }
+};
+
+TIDEMARK_TEST(LabelsTest)
+#include "labels_test.moc"

@@ -1,0 +1,366 @@
+// Session files: a case comes back as it was, and bad files are refused.
+#include <zip.h>
+
+#include <QFile>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "cases.h"
+#include "document/checksum.h"
+#include "document/session_file.h"
+#include "tests/support/test_program.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+using Json = nlohmann::json;
+
+namespace {
+
+using Entries = std::map<std::string, std::string>;
+
+Entries entries_of(const std::filesystem::path& file) {
+  Entries entries;
+  zip_t* archive = zip_open(file.c_str(), ZIP_RDONLY, nullptr);
+  if (archive == nullptr) qFatal("no archive");
+  for (zip_int64_t i = 0; i < zip_get_num_entries(archive, 0); ++i) {
+    zip_stat_t stat;
+    zip_stat_index(archive, static_cast<zip_uint64_t>(i), 0, &stat);
+    std::string bytes(stat.size, '\0');
+    zip_file_t* entry = zip_fopen_index(archive, static_cast<zip_uint64_t>(i), 0);
+    zip_fread(entry, bytes.data(), bytes.size());
+    zip_fclose(entry);
+    entries[stat.name] = std::move(bytes);
+  }
+  zip_discard(archive);
+  return entries;
+}
+
+void write_entries(const std::filesystem::path& file, const Entries& entries) {
+  zip_t* archive = zip_open(file.c_str(), ZIP_CREATE | ZIP_TRUNCATE, nullptr);
+  for (const auto& [name, bytes] : entries) {
+    zip_file_add(archive, name.c_str(), zip_source_buffer(archive, bytes.data(), bytes.size(), 0), 0);
+  }
+  if (zip_close(archive) != 0) qFatal("no archive could be written");
+}
+
+QByteArray bytes_of(const std::filesystem::path& file) {
+  QFile opened(QString::fromStdString(file.string()));
+  return opened.open(QIODevice::ReadOnly) ? opened.readAll() : QByteArray();
+}
+
+void write_bytes(const std::filesystem::path& file, const QByteArray& bytes) {
+  QFile opened(QString::fromStdString(file.string()));
+  if (!opened.open(QIODevice::WriteOnly) || opened.write(bytes) != bytes.size()) qFatal("cannot write");
+}
+
+void must(const Status& status) {
+  if (!status) qFatal("%s", status.error().message.c_str());
+}
+
+std::unique_ptr<Case> labelled_case(ExecutorKind kind = ExecutorKind::host) {
+  ExecutorOptions options;
+  options.threads = 1;
+  StudyOrigin origin;
+  origin.phantom = "lumpy";
+  origin.series_uid = "1.2.3";
+  origin.policy = {GridPolicy::Tilt::keep, GridPolicy::Gaps::fill};
+  auto document = std::move(Case::create(lumpy_volume(), origin, lumpy_parameters(), kind, options).value());
+  LevelSet& level_set = document->level_set();
+  must(level_set.begin(seed_in(*document->volume())));
+  level_set.note({0, 1.5, 300.0, 0.25});
+  run(level_set, 12);
+  const auto accepted =
+      document->accept_surface(document->labels().add("Lümp, \"one\"").value(), Take::free_voxels);
+  if (!accepted) qFatal("%s", accepted.error().message.c_str());
+  Label label = document->labels().list()[0];
+  label.locked = true;
+  label.colour = {1, 2, 3};
+  label.meaning = find_segment_meaning("tumour").value();
+  must(document->labels().set(label));
+  document->labels().add("empty").value();
+  must(level_set.paint(ball_at(*document->volume(), {5, 0, 0}, 4.0), Brush::add));
+  run(level_set, 9);
+  must(document->smooth_source(0.7));
+  run(level_set, 9);
+  level_set.note({30, 1.0 / 3.0, 310.5, 1e-5});
+  document->view_state = "{\"slice\": 12}";
+  return document;
+}
+
+}  // namespace
+
+class SessionTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_case_comes_back_as_it_was_data() { add_executors(); }
+  void a_case_comes_back_as_it_was() {
+    const TemporaryFolder folder;
+    const auto document = labelled_case(this_executor());
+    QVERIFY(document->changed_since_save());
+    QCOMPARE(failure(save_session(*document, folder / "one.tidemark")), QString());
+    QVERIFY(!document->changed_since_save());
+    const auto contents = load_session(folder / "one.tidemark");
+    QCOMPARE(failure(contents), QString());
+    QCOMPARE(contents->origin, document->origin());
+    QCOMPARE(contents->origin.checksum, checksum_of(*document->volume()));
+    QCOMPARE(contents->recipe.source.checksum, contents->origin.checksum);
+    QVERIFY(contents->recipe.source.policy == document->origin().policy);
+    QVERIFY(match(*contents, *document->volume()) == VolumeMatch::same);
+    ExecutorOptions options;
+    options.threads = 1;
+    const auto restored = restore_case(*contents, document->volume(), this_executor(), options);
+    QCOMPARE(failure(restored), QString());
+    LevelSet& before = document->level_set();
+    LevelSet& after = (*restored)->level_set();
+    QVERIFY(values_of(after) == values_of(before));
+    QCOMPARE(after.step(), std::int64_t{30});
+    QVERIFY(after.parameters() == before.parameters());
+    QVERIFY(after.recipe().events == before.recipe().events);
+    QCOMPARE(after.smoothed_mm(), 0.7);
+    QVERIFY((*restored)->labels().list() == document->labels().list());
+    QVERIFY((*restored)->labels().mask(1).voxels == document->labels().mask(1).voxels);
+    QVERIFY(*after.curve().points() == *before.curve().points());
+    QCOMPARE((*restored)->view_state, document->view_state);
+    QVERIFY(!(*restored)->changed_since_save());
+    QCOMPARE((*restored)->undo().error().kind, ErrorKind::usage);
+    // Steps that were computed before it was saved can be taken back, too.
+    run(after, 3);
+    QVERIFY((*restored)->changed_since_save());
+    QCOMPARE(failure(after.step_back(13)), QString());
+    QCOMPARE(failure(before.step_back(10)), QString());
+    QVERIFY(values_of(after) == values_of(before));
+    QCOMPARE(failure(after.restart()), QString());
+    QCOMPARE(failure(before.restart()), QString());
+    QVERIFY(values_of(after) == values_of(before));
+  }
+
+  void a_session_from_before_there_were_curves_is_read() {
+    const TemporaryFolder folder;
+    must(save_session(*labelled_case(), folder / "new.tidemark"));
+    Entries entries = entries_of(folder / "new.tidemark");
+    Json json = Json::parse(entries["session.json"]);
+    json.erase("curve");
+    entries["session.json"] = json.dump();
+    write_entries(folder / "old.tidemark", entries);
+    const auto contents = load_session(folder / "old.tidemark");
+    QCOMPARE(failure(contents), QString());
+    QVERIFY(contents->curve.points()->empty());
+  }
+
+  void a_case_without_a_surface_comes_back() {
+    const TemporaryFolder folder;
+    StudyOrigin origin;
+    origin.path = folder / "study.nii";
+    write_bytes(origin.path, "study");
+    const auto document =
+        std::move(Case::create(lumpy_volume(), origin, lumpy_parameters(), ExecutorKind::host, {}).value());
+    QCOMPARE(failure(save_session(*document, folder / "one.tidemark")), QString());
+    const auto contents = load_session(folder / "one.tidemark");
+    QCOMPARE(failure(contents), QString());
+    const auto restored = restore_case(*contents, document->volume(), ExecutorKind::host, {});
+    QCOMPARE(failure(restored), QString());
+    QVERIFY(!(*restored)->level_set().begun());
+  }
+
+  void the_study_is_found_again_when_both_have_moved() {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "a/sessions");
+    StudyOrigin origin;
+    origin.path = folder / "a/study.nii";
+    write_bytes(origin.path, "study");
+    const auto document =
+        std::move(Case::create(lumpy_volume(), origin, lumpy_parameters(), ExecutorKind::host, {}).value());
+    QCOMPARE(failure(save_session(*document, folder / "a/sessions/one.tidemark")), QString());
+    QCOMPARE(load_session(folder / "a/sessions/one.tidemark")->origin.path, folder / "a/study.nii");
+    std::filesystem::rename(folder / "a", folder / "b");
+    QCOMPARE(load_session(folder / "b/sessions/one.tidemark")->origin.path, folder / "b/study.nii");
+    std::filesystem::rename(folder / "b/sessions", folder / "elsewhere");
+    QCOMPARE(load_session(folder / "elsewhere/one.tidemark")->origin.path, folder / "a/study.nii");
+  }
+
+  void another_volume_is_noticed() {
+    const auto document = labelled_case();
+    const auto contents = snapshot_of(*document).value();
+    Volume other = *document->volume();
+    std::get<std::vector<std::int16_t>>(other.voxels)[77] += 1;
+    QVERIFY(match(contents, other) == VolumeMatch::other_voxels);
+    const auto shared = std::make_shared<const Volume>(other);
+    QVERIFY(restore_case(contents, shared, ExecutorKind::host, {}));
+    const auto small = lumpy_volume({20, 20, 20});
+    QVERIFY(match(contents, *small) == VolumeMatch::other_grid);
+    QCOMPARE(restore_case(contents, small, ExecutorKind::host, {}).error().kind, ErrorKind::input);
+  }
+
+  void a_session_that_cannot_be_written_leaves_the_old_one() {
+    const auto document = labelled_case();
+    QCOMPARE(save_session(*document, "/nowhere/one.tidemark").error().kind, ErrorKind::write);
+    QVERIFY(document->changed_since_save());
+  }
+
+  void a_bad_session_is_refused_data() {
+    QTest::addColumn<int>("spoiler");
+    QTest::addColumn<QString>("says");
+    for (std::size_t i = 0; i < spoilers().size(); ++i) {
+      QTest::newRow(spoilers()[i].name) << int(i) << QString(spoilers()[i].says);
+    }
+  }
+  void a_bad_session_is_refused() {
+    QFETCH(int, spoiler);
+    QFETCH(QString, says);
+    const TemporaryFolder folder;
+    static const Entries good = [] {
+      const TemporaryFolder other;
+      must(save_session(*labelled_case(), other / "good.tidemark"));
+      return entries_of(other / "good.tidemark");
+    }();
+    Entries entries = good;
+    spoilers()[static_cast<std::size_t>(spoiler)].spoil(entries);
+    write_entries(folder / "bad.tidemark", entries);
+    expect_refusal(folder / "bad.tidemark", says);
+  }
+
+  void a_session_cut_anywhere_is_refused() {
+    const TemporaryFolder folder;
+    must(save_session(*labelled_case(), folder / "good.tidemark"));
+    const QByteArray good = bytes_of(folder / "good.tidemark");
+    for (qsizetype length = 0; length < good.size(); length += 1 + good.size() / 40) {
+      write_bytes(folder / "cut.tidemark", good.left(length));
+      expect_refusal(folder / "cut.tidemark", "cut.tidemark: ");
+    }
+  }
+
+  void what_is_no_session_is_called_so_in_plain_words() {
+    const TemporaryFolder folder;
+    write_bytes(folder / "letter.tidemark", "Dear colleague,");
+    expect_refusal(folder / "letter.tidemark", "is damaged, or was not written by Tidemark");
+    expect_refusal(folder / "nowhere.tidemark", "cannot be read");
+  }
+
+  void a_session_with_changed_bytes_is_refused_or_read() {
+    const TemporaryFolder folder;
+    must(save_session(*labelled_case(), folder / "good.tidemark"));
+    const QByteArray good = bytes_of(folder / "good.tidemark");
+    int refused = 0;
+    for (int i = 0; i < 60; ++i) {
+      QByteArray bad = good;
+      const qsizetype at = i * (good.size() / 60);
+      bad[at] = static_cast<char>(bad[at] ^ 0x55);
+      write_bytes(folder / "bad.tidemark", bad);
+      if (const auto contents = load_session(folder / "bad.tidemark"); !contents) {
+        QCOMPARE(contents.error().kind, ErrorKind::input);
+        ++refused;
+      }
+    }
+    QVERIFY(refused > 40);  // a date may be another
+  }
+
+ private:
+  struct Spoiler {
+    const char* name;
+    std::function<void(Entries&)> spoil;
+    const char* says;
+  };
+
+  static void expect_refusal(const std::filesystem::path& file, const QString& says) {
+    const auto contents = load_session(file);
+    QVERIFY(!contents);
+    QCOMPARE(contents.error().kind, ErrorKind::input);
+    const QString message = QString::fromStdString(contents.error().message);
+    QVERIFY2(message.contains(says) && message.contains(QString::fromStdString(file.filename().string())),
+             qPrintable(message));
+  }
+
+  static const std::vector<Spoiler>& spoilers() {
+    const auto json = [](const std::function<void(Json&)>& change) {
+      return [change](Entries& entries) {
+        Json parsed = Json::parse(entries["session.json"]);
+        change(parsed);
+        entries["session.json"] = parsed.dump();
+      };
+    };
+    const auto number = [](const char* entry, std::size_t index, auto value) {
+      return [=](Entries& entries) {
+        std::memcpy(entries[entry].data() + index * sizeof(value), &value, sizeof(value));
+      };
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    static const std::vector<Spoiler> all{
+        {"no json", [](Entries& e) { e.erase("session.json"); }, "session.json is missing"},
+        {"no table", [](Entries& e) { e.erase("phi.table"); }, "phi.table is missing"},
+        {"no pages", [](Entries& e) { e.erase("phi.pages"); }, "phi.pages is missing"},
+        {"another entry", [](Entries& e) { e["extra"] = "1"; }, "entries that do not belong"},
+        {"an entry that climbs", [](Entries& e) { e["../phi.table"] = "1"; }, "entries that do not belong"},
+        {"json cut", [](Entries& e) { e["session.json"].resize(99); }, "not JSON"},
+        {"json empty", [](Entries& e) { e["session.json"].clear(); }, "not JSON"},
+        {"json deep", [](Entries& e) { e["session.json"] = std::string(99999, '['); }, "nested 99999 deep"},
+        {"version", json([](Json& j) { j["version"] = 99; }), "version: this version"},
+        {"format", json([](Json& j) { j["format"] = "tidemark recipe"; }), "format: "},
+        {"recipe version", json([](Json& j) { j["recipe"]["version"] = 7; }), "recipe.version: "},
+        {"recipe of another grid", json([](Json& j) { j["recipe"]["source"]["size"][0] = 5; }),
+         "recipe: is of"},
+        {"no study", json([](Json& j) {
+           j["study"] = {
+               {"series_uid", ""}, {"phantom", ""}, {"sha256", ""}, {"path", ""}, {"relative_path", ""}};
+         }),
+         "study: names no study"},
+        {"study path 0", json([](Json& j) { j["study"]["path"] = std::string("a\0b", 3); }),
+         "study: names no path"},
+        {"study path long", json([](Json& j) { j["study"]["path"] = std::string(5000, 'a'); }),
+         "study.path: 5000 bytes"},
+        {"grid size", json([](Json& j) { j["grid"]["size"][2] = -4; }), "grid.size[2]: -4"},
+        {"grid huge", json([](Json& j) {
+           j["grid"]["size"] = {1000000, 1000000, 1000000};
+         }),
+         "grid.size: more voxels"},
+        {"grid spacing", json([](Json& j) { j["grid"]["spacing_mm"][0] = "1"; }),
+         "grid.spacing_mm[0]: not a number"},
+        {"band", json([](Json& j) { j["phi"]["band"] = 0.5; }), "phi.band: 0.5"},
+        {"page shape", json([](Json& j) {
+           j["phi"]["page_shape"] = {8, 8, 7};
+         }),
+         "phi.page_shape: "},
+        {"page shape 16", json([](Json& j) {
+           j["phi"]["page_shape"] = {16, 16, 1};
+         }),
+         "phi.table has"},
+        {"resident pages", json([](Json& j) { j["phi"]["resident_pages"] = 1 << 30; }),
+         "phi.resident_pages: "},
+        {"fewer pages", json([](Json& j) { j["phi"]["resident_pages"] = 1; }), "phi.pages has"},
+        {"table long", [](Entries& e) { e["phi.table"] += "1234"; }, "phi.table has"},
+        {"table cut", [](Entries& e) { e["phi.table"].resize(8); }, "phi.table has 8 bytes"},
+        {"table page", number("phi.table", 3, std::int32_t{999999}), "phi: the page table names page 999999"},
+        {"table constant", number("phi.table", 3, std::int32_t{-3}), "phi: the page table names page -3"},
+        {"phi NaN", number("phi.pages", 700, nan), "phi: phi is nan"},
+        {"phi infinite", number("phi.pages", 700, std::numeric_limits<float>::infinity()), "phi: phi is inf"},
+        {"phi beyond the band", number("phi.pages", 700, 77.0F), "phi: phi is 77"},
+        {"labels cut", [](Entries& e) { e["labels"].resize(5); }, "labels has 5 bytes"},
+        {"label unknown", number("labels", 9, std::uint8_t{200}), "labels: a voxel has label 200"},
+        {"label twice", json([](Json& j) { j["labels"][1]["id"] = 1; }),
+         "labels: label 1 is in the list twice"},
+        {"label 0", json([](Json& j) { j["labels"][0]["id"] = 0; }), "labels[0].id: 0"},
+        {"label colour", json([](Json& j) { j["labels"][0]["colour"][1] = 256; }),
+         "labels[0].colour[1]: 256"},
+        {"label meaning", json([](Json& j) { j["labels"][0]["meaning"]["type"] = 7; }),
+         "labels[0].meaning.type"},
+        {"label code",
+         json([](Json& j) { j["labels"][0]["meaning"]["type"]["value"] = std::string(300, '1'); }),
+         "labels[0].meaning.type.value: 300"},
+        {"label name", json([](Json& j) { j["labels"][0]["name"] = std::string(300, 'n'); }),
+         "labels[0].name: 300"},
+        {"curve short", json([](Json& j) { j["curve"]["volume_ml"].erase(1); }), "curve.volume_ml: has not"},
+        {"curve backwards", json([](Json& j) { j["curve"]["step"][0] = 40; }), "curve.step[1]: 30"},
+        {"curve negative", json([](Json& j) { j["curve"]["surface_mm2"][1] = -1; }),
+         "curve.surface_mm2[1]: -1"},
+        {"curve long", json([](Json& j) { j["curve"]["step"] = std::vector<int>(5000, 1); }),
+         "curve.step: 5000"},
+        {"view state", json([](Json& j) { j["view_state"] = 5; }), "view_state: not a text"},
+    };
+    return all;
+  }
+};
+
+TIDEMARK_TEST(SessionTest)
+#include "session_test.moc"

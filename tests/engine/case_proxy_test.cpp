@@ -1,0 +1,249 @@
+// A case on the engine without any widget: told what to do, it answers with states and pictures.
+#include "engine/case_proxy.h"
+
+#include <QTest>
+#include <QTimer>
+#include <cmath>
+
+#include "engine/case_runner.h"
+#include "engine/picture_feed.h"
+#include "tests/engine/ball_study.h"
+#include "tests/support/test_program.h"
+
+namespace tidemark::test {
+namespace {
+
+constexpr int kPatience = 60000;  // ms
+constexpr PictureSize kSmall{96, 80};
+
+class Fixture {
+ public:
+  explicit Fixture(ExecutorKind executor = ExecutorKind::host, bool use_opengl = true)
+      : engine(use_opengl), proxy(engine, ball_study(), executor) {
+    QObject::connect(&proxy, &CaseProxy::failed, [this](const QString& why) { failures += why; });
+    wait_until_idle();
+  }
+
+  [[nodiscard]] glm::dvec3 middle() const { return middle_of(proxy.volume().geometry); }
+  void begin(double radius_mm = 4.0) {
+    Start start;
+    start.seeds.push_back({middle(), radius_mm});
+    proxy.begin(start);
+    wait_until_idle();
+  }
+  void wait_until_idle() {
+    static_cast<void>(QTest::qWaitFor([this] { return engine.idle(); }, kPatience));
+    QCoreApplication::processEvents();
+  }
+  [[nodiscard]] SliceView slice(SliceContent content) const {
+    SliceView view;
+    view.content = content;
+    view.term = SpeedTerm::total;
+    view.position_mm = middle();
+    view.window = {50.0, 300.0};
+    return view;
+  }
+
+  Engine engine;
+  CaseProxy proxy;
+  QStringList failures;
+};
+
+ExecutorKind executor_of_row() {
+  return *executor_named(QTest::currentDataTag());
+}
+
+void add_executors() {
+  QTest::addColumn<int>("unused");
+  for (const char* name : {"host", "compute", "stream"}) QTest::newRow(name) << 0;
+}
+
+}  // namespace
+
+class CaseProxyTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_surface_that_plays_comes_to_rest_on_the_ball_data() { add_executors(); }
+  void a_surface_that_plays_comes_to_rest_on_the_ball() {
+    Fixture fixture(executor_of_row());
+    QVERIFY(!fixture.proxy.state().begun);
+    fixture.begin();
+    QVERIFY(fixture.proxy.state().begun);
+    QCOMPARE(fixture.proxy.state().executor, QString(QTest::currentDataTag()));
+    fixture.proxy.play();
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.proxy.state().converged, kPatience);
+    QVERIFY(!fixture.proxy.state().playing);
+    fixture.wait_until_idle();
+    const double ball_ml = 4.0 / 3.0 * M_PI * std::pow(kBallRadius, 3) / 1000.0;
+    const double found_ml = fixture.proxy.state().surface.volume_ml;
+    QVERIFY2(std::abs(found_ml - ball_ml) < 0.04 * ball_ml, qPrintable(QString::number(found_ml)));
+    QCOMPARE(fixture.failures, QStringList());
+  }
+
+  void pictures_follow_the_surface_and_end_with_its_last_step_data() { add_executors(); }
+  void pictures_follow_the_surface_and_end_with_its_last_step() {
+    Fixture fixture(executor_of_row());
+    fixture.begin();
+    PictureFeed feed(fixture.proxy);
+    const AnyView view = fixture.slice(SliceContent::source);
+    feed.request(view, kSmall);
+    QTRY_VERIFY_WITH_TIMEOUT(feed.shown().number > 0, kPatience);
+    QVERIFY(feed.shown().view == view);
+    QCOMPARE(feed.shown().step, 0);
+    const std::int64_t copies = fixture.proxy.runner()->painter().phi_copies();
+    fixture.proxy.set_pause_at_convergence(false);
+    fixture.proxy.set_steps_per_picture(1);
+    fixture.proxy.play();
+    QTRY_VERIFY_WITH_TIMEOUT(feed.shown().number >= 10 && feed.shown().step >= 5, kPatience);
+    fixture.proxy.pause();
+    fixture.wait_until_idle();
+    QCOMPARE(feed.shown().step, fixture.proxy.state().step);
+    // An executor on the GPU has its pages drawn where they are.
+    const bool copied = fixture.proxy.runner()->painter().phi_copies() > copies;
+    QCOMPARE(copied, executor_of_row() == ExecutorKind::host);
+  }
+
+  // Whoever drags asks for the next picture before the last one is there.
+  void the_surface_moves_on_under_the_mouse_data() {
+    QTest::addColumn<int>("unused");
+    for (const char* what : {"camera", "paint", "parameters"}) QTest::newRow(what) << 0;
+  }
+  void the_surface_moves_on_under_the_mouse() {
+    const QString what = QTest::currentDataTag();
+    Fixture fixture;
+    fixture.begin();
+    PictureFeed volume(fixture.proxy);
+    PictureFeed slice(fixture.proxy);
+    VolumeView view;
+    Parameters parameters = fixture.proxy.parameters();
+    const std::uint64_t gesture = CaseProxy::new_gesture();
+    int moves = 0;
+    const auto move = [&] {
+      ++moves;
+      if (what == "camera") {
+        view.camera.azimuth += 1.0;
+      } else if (what == "paint") {
+        fixture.proxy.paint({fixture.middle() + glm::dvec3(0.1 * (moves % 50), 0.0, 0.0), 3.0}, Brush::add,
+                          gesture);
+      } else {
+        parameters.target = 100.0 + 0.1 * (moves % 50);
+        fixture.proxy.set_parameters(parameters, gesture);
+      }
+      volume.request(view, {256, 256});
+    };
+    volume.request(view, {256, 256});
+    slice.request(fixture.slice(SliceContent::speed), kSmall);
+    QTRY_VERIFY_WITH_TIMEOUT(volume.shown().number > 0 && slice.shown().number > 0, kPatience);
+    fixture.proxy.set_pause_at_convergence(false);
+    fixture.proxy.set_steps_per_picture(1);
+    fixture.proxy.play();
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.proxy.state().playing, kPatience);
+    QTimer mouse;
+    connect(&mouse, &QTimer::timeout, move);
+    mouse.start(1);
+    const std::uint64_t drawn = volume.shown().number;
+    const std::uint64_t sliced = slice.shown().number;
+    const std::int64_t step = fixture.proxy.state().step;
+    QTRY_VERIFY_WITH_TIMEOUT(volume.shown().number >= drawn + 20, kPatience);
+    mouse.stop();
+    const std::int64_t steps = fixture.proxy.state().step - step;
+    const auto slices = static_cast<std::int64_t>(slice.shown().number - sliced);
+    qInfo("%d moves of the mouse, 20 pictures of the volume, %lld of the slice, %lld steps", moves,
+          static_cast<long long>(slices), static_cast<long long>(steps));
+    QVERIFY(steps >= 15);
+    QVERIFY(slices >= 15);
+    fixture.proxy.pause();
+    fixture.wait_until_idle();
+    QCOMPARE(volume.shown().view, AnyView(view));
+    QCOMPARE(volume.shown().step, fixture.proxy.state().step);
+  }
+
+  void without_opengl_there_are_steps_and_no_pictures() {
+    Fixture fixture(ExecutorKind::host, false);
+    fixture.begin();
+    PictureFeed feed(fixture.proxy);
+    feed.request(fixture.slice(SliceContent::source), kSmall);
+    fixture.proxy.step(5);
+    fixture.wait_until_idle();
+    QCOMPARE(fixture.proxy.state().step, 5);
+    QCOMPARE(feed.shown().number, 0U);
+    QCOMPARE(fixture.failures, QStringList());
+  }
+
+  void what_is_done_can_be_taken_back_and_done_again() {
+    Fixture fixture;
+    fixture.begin();
+    fixture.proxy.step(10);
+    fixture.wait_until_idle();
+    const double before = fixture.proxy.state().surface.volume_ml;
+    fixture.proxy.paint({fixture.middle() + glm::dvec3(6.0, 0.0, 0.0), 5.0}, Brush::add,
+                      CaseProxy::new_gesture());
+    fixture.wait_until_idle();
+    const double painted = fixture.proxy.state().surface.volume_ml;
+    QVERIFY(painted > 1.2 * before);
+    fixture.proxy.undo();
+    fixture.wait_until_idle();
+    QCOMPARE(fixture.proxy.state().surface.volume_ml, before);
+    QCOMPARE(fixture.proxy.state().step, 10);
+    QVERIFY(!fixture.proxy.state().redo_text.isEmpty());
+    fixture.proxy.redo();
+    fixture.wait_until_idle();
+    QCOMPARE(fixture.proxy.state().surface.volume_ml, painted);
+  }
+
+  void what_cannot_be_done_is_told_and_changes_nothing() {
+    Fixture fixture;
+    fixture.begin();
+    const CaseState before = fixture.proxy.state();
+    Start outside;
+    outside.seeds.push_back({fixture.middle() + glm::dvec3(1000.0, 0.0, 0.0), 3.0});
+    fixture.proxy.begin(outside);
+    fixture.wait_until_idle();
+    QCOMPARE(fixture.failures.size(), 1);
+    QVERIFY2(fixture.failures.front().contains("is not in the volume"), qPrintable(fixture.failures.front()));
+    QVERIFY(fixture.proxy.state().begun);
+    QCOMPARE(fixture.proxy.state().surface.volume_ml, before.surface.volume_ml);
+  }
+
+  void cases_in_lock_step_stand_at_the_same_step() {
+    Fixture fixture;
+    CaseProxy other(fixture.engine, ball_study(), ExecutorKind::host);
+    Parameters smooth = other.parameters();
+    smooth.alpha = 0.2;
+    other.set_parameters(smooth);
+    fixture.begin();
+    Start start;
+    start.seeds.push_back({fixture.middle(), 4.0});
+    other.begin(start);
+    fixture.wait_until_idle();
+    CaseProxy::play_in_lock_step({&fixture.proxy, &other});
+    fixture.proxy.set_pause_at_convergence(false);
+    other.set_pause_at_convergence(false);
+    fixture.proxy.play();
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.proxy.state().step >= 20 && other.state().step >= 20, kPatience);
+    fixture.proxy.pause();
+    fixture.wait_until_idle();
+    QVERIFY(!other.state().playing);
+    QCOMPARE(other.state().step, fixture.proxy.state().step);
+    CaseProxy::play_in_lock_step({});
+  }
+
+  void a_session_that_goes_cancels_what_runs() {
+    Engine engine(false);
+    auto proxy = std::make_unique<CaseProxy>(engine, ball_study(), ExecutorKind::host);
+    proxy->begin({{}, {{middle_of(proxy->volume().geometry), 4.0}}, {}});
+    proxy->set_pause_at_convergence(false);
+    proxy->play();
+    QTRY_VERIFY_WITH_TIMEOUT(proxy->state().playing && proxy->state().step > 0, kPatience);
+    const std::weak_ptr<CaseRunner> runner = proxy->runner();
+    proxy.reset();
+    QTRY_VERIFY_WITH_TIMEOUT(engine.idle(), kPatience);
+    QVERIFY(runner.expired());
+  }
+};
+
+}  // namespace tidemark::test
+
+TIDEMARK_TEST(tidemark::test::CaseProxyTest)
+#include "case_proxy_test.moc"

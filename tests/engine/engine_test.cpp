@@ -1,0 +1,214 @@
+// The thread that computes and draws: what it does first, what it forgets, and what becomes of its context.
+#include "engine/engine.h"
+
+#include <QTest>
+#include <latch>
+#include <string>
+#include <vector>
+
+#include "tests/support/test_program.h"
+
+namespace tidemark {
+namespace {
+
+// Holds the engine's thread until it is released, so that jobs wait behind it.
+class Hold {
+ public:
+  explicit Hold(Engine& engine, Priority priority = Priority::edit, const void* owner = nullptr) {
+    engine.post(priority, owner, [state = state_](const std::stop_token& stop) {
+      state->begun.count_down();
+      state->released.wait();
+      state->told_to_stop = stop.stop_requested();
+      state->ended.count_down();
+    });
+    state_->begun.wait();
+  }
+  // Whether the job had been told to stop.
+  bool release() {
+    state_->released.count_down();
+    state_->ended.wait();
+    return state_->told_to_stop;
+  }
+
+ private:
+  struct State {
+    std::latch begun{1};
+    std::latch released{1};
+    std::latch ended{1};
+    bool told_to_stop = false;
+  };
+  std::shared_ptr<State> state_ = std::make_shared<State>();
+};
+
+// Writes down on which thread it dies.
+struct Mortal {
+  QThread*& died_on;
+  explicit Mortal(QThread*& thread) : died_on(thread) {}
+  ~Mortal() { died_on = QThread::currentThread(); }
+};
+
+void wait_until_idle(const Engine& engine) {
+  QTRY_VERIFY_WITH_TIMEOUT(engine.idle(), 10000);
+}
+
+}  // namespace
+
+class EngineTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void jobs_are_done_by_priority_and_then_as_they_came() {
+    Engine engine(false);
+    Hold hold(engine);
+    std::string done;  // written by the engine's thread alone, read when it is idle
+    const auto post = [&](Priority priority, char name) {
+      engine.post(priority, this, [&done, name](const std::stop_token&) { done += name; });
+    };
+    post(Priority::background, 'g');
+    post(Priority::refine, 'f');
+    post(Priority::step, 'e');
+    post(Priority::picture, 'c');
+    post(Priority::edit, 'a');
+    post(Priority::edit, 'b');
+    post(Priority::picture, 'd');
+    QVERIFY(!hold.release());
+    wait_until_idle(engine);
+    QCOMPARE(done, std::string("abcdefg"));
+  }
+
+  void jobs_of_an_owner_are_forgotten_and_the_running_one_is_told() {
+    Engine engine(false);
+    const int one = 0;
+    const int other = 0;
+    Hold hold(engine, Priority::step, &one);
+    std::string done;
+    const auto freed = std::make_shared<int>();
+    engine.post(Priority::edit, &one, [&done, freed](const std::stop_token&) { done += "one"; });
+    engine.post(Priority::edit, &other, [&done](const std::stop_token&) { done += "other"; });
+    QCOMPARE(freed.use_count(), 2L);
+    engine.cancel(&one);
+    QCOMPARE(freed.use_count(), 1L);
+    QVERIFY(hold.release());
+    wait_until_idle(engine);
+    QCOMPARE(done, std::string("other"));
+  }
+
+  void only_what_is_less_urgent_and_of_that_owner_is_interrupted() {
+    Engine engine(false);
+    const int one = 0;
+    const int other = 0;
+    const auto told = [&](Priority running, Priority asks, const void* whose) {
+      Hold hold(engine, running, &one);
+      engine.interrupt(asks, whose);
+      return hold.release();
+    };
+    QVERIFY(told(Priority::refine, Priority::step, &one));
+    QVERIFY(told(Priority::refine, Priority::step, nullptr));
+    QVERIFY(!told(Priority::refine, Priority::step, &other));
+    QVERIFY(!told(Priority::step, Priority::step, &one));
+    QVERIFY(!told(Priority::picture, Priority::step, &one));
+  }
+
+  void an_engine_that_closes_does_its_edits_and_forgets_the_rest() {
+    auto engine = std::make_unique<Engine>(false);
+    std::string done;
+    const auto freed = std::make_shared<int>();
+    engine->post(Priority::edit, this, [&, engine = engine.get()](const std::stop_token& first) {
+      // These wait behind this one when the engine closes.
+      engine->post(Priority::step, this, [&done, freed](const std::stop_token&) { done += "step"; });
+      engine->post(Priority::edit, this, [&done](const std::stop_token& stop) {
+        done += stop.stop_requested() ? "edit, told to stop" : "edit";
+      });
+      while (!first.stop_requested()) QThread::yieldCurrentThread();
+    });
+    engine.reset();
+    QCOMPARE(done, std::string("edit, told to stop"));
+    QCOMPARE(freed.use_count(), 1L);
+  }
+
+  void what_jobs_hold_may_post_as_it_dies() {
+    QThread* died_on = nullptr;
+    auto engine = std::make_unique<Engine>(false);
+    {
+      Hold hold(*engine);
+      auto shared = engine->share(std::make_unique<Mortal>(died_on));
+      engine->post(Priority::background, this, [shared](const std::stop_token&) {});
+      shared.reset();
+      engine->cancel(this);  // here the last to hold it lets go
+      hold.release();
+    }
+    wait_until_idle(*engine);
+    QVERIFY(died_on != nullptr);
+    QVERIFY(died_on != QThread::currentThread());
+    // And while the engine closes.
+    died_on = nullptr;
+    Hold hold(*engine);
+    engine->post(Priority::background, this,
+                 [shared = engine->share(std::make_unique<Mortal>(died_on))](const std::stop_token&) {});
+    hold.release();
+    engine.reset();
+    QVERIFY(died_on != nullptr);
+    QVERIFY(died_on != QThread::currentThread());
+  }
+
+  void without_opengl_it_computes_all_the_same() {
+    Engine engine(false);
+    QCOMPARE(engine.graphics(), Engine::Graphics::none);
+    QCOMPARE(engine.pictures(), Engine::Pictures::images);
+    QVERIFY(!engine.graphics_problem().empty());
+    QCOMPARE(engine.contexts_made(), 0);
+    bool has_device = true;
+    Status renewed;
+    engine.post(Priority::edit, this, [&](const std::stop_token&) {
+      has_device = engine.device() != nullptr;
+      renewed = engine.renew_graphics();
+    });
+    wait_until_idle(engine);
+    QVERIFY(!has_device);
+    QVERIFY(!renewed);
+    QCOMPARE(renewed.error().kind, ErrorKind::capability);
+  }
+
+  void the_context_belongs_to_its_thread_and_can_be_made_anew() {
+    Engine engine;
+    QVERIFY2(engine.graphics() != Engine::Graphics::none, engine.graphics_problem().c_str());
+    QCOMPARE(engine.contexts_made(), 1);
+    QVERIFY(engine.context() != nullptr);
+    QVERIFY(engine.context()->thread() != QThread::currentThread());
+    std::weak_ptr<gpu::Device> first;
+    bool current = false;
+    engine.post(Priority::edit, this, [&](const std::stop_token&) {
+      first = engine.device();
+      current = QOpenGLContext::currentContext() == engine.context();
+    });
+    wait_until_idle(engine);
+    QVERIFY(current);
+    QVERIFY(!first.expired());
+    Status renewed;
+    engine.post(Priority::edit, this, [&](const std::stop_token&) { renewed = engine.renew_graphics(); });
+    wait_until_idle(engine);
+    QVERIFY(renewed);
+    QCOMPARE(engine.contexts_made(), 2);
+    QVERIFY(first.expired());
+  }
+
+  void the_environment_says_how_pictures_are_handed_on_data() {
+    QTest::addColumn<QByteArray>("wanted");
+    QTest::addColumn<bool>("textures");
+    QTest::newRow("images") << QByteArray("images") << false;
+    QTest::newRow("textures") << QByteArray("textures") << true;
+  }
+  void the_environment_says_how_pictures_are_handed_on() {
+    QFETCH(QByteArray, wanted);
+    QFETCH(bool, textures);
+    qputenv("TIDEMARK_PICTURES", wanted);
+    const Engine engine;
+    qunsetenv("TIDEMARK_PICTURES");
+    QCOMPARE(engine.pictures() == Engine::Pictures::textures, textures);
+  }
+};
+
+}  // namespace tidemark
+
+TIDEMARK_TEST(tidemark::EngineTest)
+#include "engine_test.moc"

@@ -1,0 +1,36 @@
+#include "ui/panels/case_widget.h"
+
+namespace tidemark {
+
+void CaseWidget::set_proxy(CaseProxy* proxy) {
+  if (proxy_ == proxy) return;
+  if (proxy_) {
+    proxy_->disconnect(this);
+    proxy_->display().disconnect(this);
+  }
+  proxy_ = proxy;
+  if (proxy) {
+    connect(proxy, &CaseProxy::state_changed, this, &CaseWidget::follow);
+    connect(&proxy->display(), &Display::changed, this, &CaseWidget::follow);
+    connect(proxy, &QObject::destroyed, this, &CaseWidget::forget);
+  }
+  attach();
+  follow();
+}
+
+void CaseWidget::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  if (proxy_) refresh();
+}
+
+void CaseWidget::follow() {
+  if (proxy_ && isVisible()) refresh();
+}
+
+// The session is half gone: nothing of it may be used.
+void CaseWidget::forget() {
+  proxy_.clear();
+  attach();
+}
+
+}  // namespace tidemark

@@ -1,0 +1,40 @@
+// What all parts of the panels have in common: they show one case, the active one.
+#pragma once
+
+#include <QPointer>
+#include <QWidget>
+#include <utility>
+
+#include "engine/case_proxy.h"
+
+namespace tidemark {
+
+class CaseWidget : public QWidget {
+  Q_OBJECT
+ public:
+  explicit CaseWidget(QWidget* parent = nullptr) : QWidget(parent) {}
+
+  // Null: none is open. A session that dies is forgotten.
+  void set_proxy(CaseProxy* proxy);
+  [[nodiscard]] CaseProxy* proxy() const { return proxy_; }
+
+ protected:
+  // Another session, or none any more; refresh() follows.
+  virtual void attach() {}
+  // Something has changed. Called only with a session, and while nobody looks only when it is shown again.
+  virtual void refresh() = 0;
+  void showEvent(QShowEvent* event) override;
+
+  // change_display([&](DisplaySettings& settings) { settings.window = window; });
+  template <class Change>
+  void change_display(Change&& apply) {
+    if (proxy_) proxy_->display().change(std::forward<Change>(apply));
+  }
+
+ private:
+  void follow();
+  void forget();
+  QPointer<CaseProxy> proxy_;
+};
+
+}  // namespace tidemark
