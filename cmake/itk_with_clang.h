@@ -1,5 +1,6 @@
-// Included before everything that includes ITK, when the compiler is clang, which the fuzz targets need. Debian's ITK
-// was configured for g++ alone, and the file below refuses every other compiler: clang passes for g++ in it.
+// Included before everything that includes ITK, when the compiler is clang, which the fuzz targets need.
+// Debian's ITK was configured for g++ alone, and the file below refuses every other compiler: clang passes
+// for g++ in it.
 #pragma GCC system_header
 #pragma push_macro("__clang__")
 #pragma push_macro("__GNUC__")

@@ -159,7 +159,7 @@ Result<AtomicFolder> AtomicFolder::create(const fs::path& target) {
   const fs::path place = fs::exists(named, error) ? fs::canonical(named, error) : named;
   const bool has_older = fs::exists(place, error);
   if (has_older) {
-    if (Status good = require_replaceable(place, target); !good) return pass_on(good);
+    TIDEMARK_TRY(require_replaceable(place, target));
   }
   sweep_beside(place);
   FileLock lock;

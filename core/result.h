@@ -40,6 +40,13 @@ template <class T>
   return tl::unexpected<Error>(std::move(failed.error()));
 }
 
+// Returns the error of a Result or Status from the function around it:
+//   TIDEMARK_TRY(file.write(bytes));
+#define TIDEMARK_TRY(...)                                                                                 \
+  do {                                                                                                    \
+    if (auto tidemark_tried = (__VA_ARGS__); !tidemark_tried) return ::tidemark::pass_on(tidemark_tried); \
+  } while (false)
+
 // The command line's contract: 1 internal, 2 usage, 3 input, 4 capability, 5 write, 130 interrupted.
 int exit_code(ErrorKind kind);
 

@@ -85,7 +85,7 @@ std::string Autosave::new_case_id() {
 
 Result<Autosave> Autosave::create(const std::filesystem::path& folder, const std::string& case_id) {
   if (!is_case_id(case_id)) return fail(ErrorKind::usage, "'{}' names no case", case_id);
-  if (Status made = make_private_folder(folder); !made) return pass_on(made);
+  TIDEMARK_TRY(make_private_folder(folder));
   Autosave autosave;
   autosave.folder_ = folder;
   autosave.case_id_ = case_id;
@@ -103,11 +103,11 @@ Result<Autosave> Autosave::create(const std::filesystem::path& folder, const std
 Status Autosave::write(const SessionContents& contents) {
   const std::uint64_t next = generation_ + 1;
   const auto file = session_file(folder_, case_id_, static_cast<int>(next % kGenerations));
-  if (Status written = write_session(contents, file); !written) return written;
+  TIDEMARK_TRY(write_session(contents, file));
   auto sum = sha256_of_file(file);
   if (!sum) return pass_on(sum);
   const Json seal{{"version", kVersion}, {"generation", next}, {"sha256", *sum}};
-  if (Status sealed = write_file(seal_of(file), seal.dump()); !sealed) return sealed;
+  TIDEMARK_TRY(write_file(seal_of(file), seal.dump()));
   generation_ = next;
   return {};
 }

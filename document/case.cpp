@@ -42,7 +42,7 @@ Status Case::smooth_source(double sigma_mm, const Progress& progress) {
 
 Result<Acceptance> Case::accept_surface(std::uint8_t label, Take take) {
   if (!level_set_->begun()) return fail(ErrorKind::usage, "there is no surface to accept");
-  if (Status ended = level_set_->end_run(); !ended) return pass_on(ended);
+  TIDEMARK_TRY(level_set_->end_run());
   const auto phi = level_set_->checkpoint();
   if (!phi) return tl::unexpected<Error>(phi.error());
   return labels_.accept((*phi)->mask(), label, take);

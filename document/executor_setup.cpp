@@ -31,7 +31,8 @@ void add(const AdvanceReport& run, AdvanceReport& total) {
 }  // namespace
 
 Result<ExecutorSetup> ExecutorSetup::create(std::shared_ptr<const Volume> volume, double smoothed_mm,
-                        const Parameters& parameters, ExecutorKind kind, const ExecutorOptions& options) {
+                                            const Parameters& parameters, ExecutorKind kind,
+                                            const ExecutorOptions& options) {
   ExecutorSetup setup;
   auto source = smoothed(volume, smoothed_mm);
   if (!source) return pass_on(source);
@@ -50,11 +51,11 @@ RecipeExecutor ExecutorSetup::description() const {
   return {std::string(executor_->name()), executor_->memory().page_shape, options_.skip_quiet_pages};
 }
 
-Status ExecutorSetup::remake(std::shared_ptr<const Volume> source, ExecutorKind kind, const ExecutorOptions& options,
-                   const Field& phi) {
+Status ExecutorSetup::remake(std::shared_ptr<const Volume> source, ExecutorKind kind,
+                             const ExecutorOptions& options, const Field& phi) {
   auto made = make_executor(kind, source, executor_->parameters(), options);
   if (!made) return pass_on(made);
-  if (Status restored = (*made)->restore(phi); !restored) return restored;
+  TIDEMARK_TRY((*made)->restore(phi));
   source_ = std::move(source);
   kind_ = kind;
   options_ = options;
@@ -67,7 +68,7 @@ Status ExecutorSetup::smooth_source(double sigma_mm) {
   if (!source) return pass_on(source);
   const auto phi = executor_->snapshot();
   if (!phi) return tl::unexpected<Error>(phi.error());
-  if (Status remade = remake(std::move(*source), kind_, options_, *phi); !remade) return remade;
+  TIDEMARK_TRY(remake(std::move(*source), kind_, options_, *phi));
   smoothed_mm_ = sigma_mm;
   return {};
 }
@@ -78,8 +79,7 @@ Status ExecutorSetup::change_executor(ExecutorKind kind, const ExecutorOptions& 
 
 Status ExecutorSetup::begin(const Recipe& recipe, const Progress& progress) {
   if (recipe.start.empty()) return executor_->restore(Field::empty(source_->geometry, executor_->band()));
-  if (auto begun = tidemark::begin(*executor_, *source_, recipe.start, progress); !begun)
-    return pass_on(begun);
+  TIDEMARK_TRY(tidemark::begin(*executor_, *source_, recipe.start, progress));
   return {};
 }
 
@@ -101,8 +101,8 @@ Status ExecutorSetup::apply(const RecipeEvent& event) {
   return resume();
 }
 
-Status ExecutorSetup::play(const Recipe& recipe, std::size_t first_event, std::int64_t step, std::int64_t last_step,
-                 const Progress& progress, AdvanceReport* total) {
+Status ExecutorSetup::play(const Recipe& recipe, std::size_t first_event, std::int64_t step,
+                           std::int64_t last_step, const Progress& progress, AdvanceReport* total) {
   const std::int64_t first_step = step;
   const auto advance_to = [&](std::int64_t target) -> Status {
     while (step < target) {
@@ -123,8 +123,8 @@ Status ExecutorSetup::play(const Recipe& recipe, std::size_t first_event, std::i
   for (std::size_t i = first_event; i < recipe.events.size(); ++i) {
     const RecipeEvent& event = recipe.events[i];
     if (event.step > last_step) break;
-    if (Status done = advance_to(event.step); !done) return done;
-    if (Status done = apply(event); !done) return done;
+    TIDEMARK_TRY(advance_to(event.step));
+    TIDEMARK_TRY(apply(event));
   }
   return advance_to(last_step);
 }

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "core/progress.h"
-#include "solver/executor.h"
 #include "document/recipe.h"
+#include "solver/executor.h"
 
 namespace tidemark {
 
@@ -13,7 +13,8 @@ class ExecutorSetup {
  public:
   // phi is outside everywhere. Fails as make_executor() and smooth() do.
   static Result<ExecutorSetup> create(std::shared_ptr<const Volume> volume, double smoothed_mm,
-                            const Parameters& parameters, ExecutorKind kind, const ExecutorOptions& options);
+                                      const Parameters& parameters, ExecutorKind kind,
+                                      const ExecutorOptions& options);
 
   [[nodiscard]] Executor& executor() { return *executor_; }
   [[nodiscard]] const Executor& executor() const { return *executor_; }

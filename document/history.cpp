@@ -84,9 +84,9 @@ Status History::close() {
 }
 
 Status History::undo() {
-  if (Status closed = close(); !closed) return closed;
+  TIDEMARK_TRY(close());
   if (done_.empty()) return fail(ErrorKind::usage, "there is nothing to undo");
-  if (Status undone = done_.back().change->undo(); !undone) return undone;
+  TIDEMARK_TRY(done_.back().change->undo());
   undone_.push_back(std::move(done_.back()));
   done_.pop_back();
   ++edits_;
@@ -94,9 +94,9 @@ Status History::undo() {
 }
 
 Status History::redo() {
-  if (Status closed = close(); !closed) return closed;
+  TIDEMARK_TRY(close());
   if (undone_.empty()) return fail(ErrorKind::usage, "there is nothing to redo");
-  if (Status redone = undone_.back().change->redo(); !redone) return redone;
+  TIDEMARK_TRY(undone_.back().change->redo());
   done_.push_back(std::move(undone_.back()));
   undone_.pop_back();
   ++edits_;

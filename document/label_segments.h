@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "imaging/results/segments.h"
 #include "document/labels.h"
+#include "imaging/results/segments.h"
 
 namespace tidemark {
 

@@ -85,7 +85,7 @@ const Label* Labels::find(std::uint8_t id) const {
 Status Labels::change(ChangeKind kind, const std::string& name, Touches what,
                       const std::function<void()>& edit) {
   if (history_ != nullptr) {
-    if (Status closed = history_->close(); !closed) return closed;
+    TIDEMARK_TRY(history_->close());
   }
   std::vector<Label> list_before = list_;
   std::vector<Run> runs;
@@ -197,7 +197,7 @@ Status Labels::check(const std::vector<Label>& list, const std::vector<std::uint
 
 Status Labels::replace(ChangeKind kind, const std::string& name, std::vector<Label> list,
                        std::vector<std::uint8_t> voxels) {
-  if (Status good = check(list, voxels); !good) return good;
+  TIDEMARK_TRY(check(list, voxels));
   return change(kind, name, Touches::voxels, [&] {
     list_ = std::move(list);
     voxels_ = std::move(voxels);
@@ -205,7 +205,7 @@ Status Labels::replace(ChangeKind kind, const std::string& name, std::vector<Lab
 }
 
 Status Labels::assign(std::vector<Label> list, std::vector<std::uint8_t> voxels) {
-  if (Status good = check(list, voxels); !good) return good;
+  TIDEMARK_TRY(check(list, voxels));
   list_ = std::move(list);
   voxels_ = std::move(voxels);
   ++revision_;

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/volume.h"
-#include "imaging/results/segment_meaning.h"
 #include "document/history.h"
+#include "imaging/results/segment_meaning.h"
 
 namespace tidemark {
 

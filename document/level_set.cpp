@@ -136,7 +136,7 @@ Status LevelSet::read_back_phi() {
 }
 
 Result<std::shared_ptr<const Field>> LevelSet::checkpoint() {
-  if (Status known = read_back_phi(); !known) return pass_on(known);
+  TIDEMARK_TRY(read_back_phi());
   if (open_ && open_->gesture != 0 && !open_->last_edit) {
     const std::vector<RecipeEvent>& events = recipe_.events;
     const bool computed_since = events.empty() || events.back().step < step();
@@ -146,10 +146,10 @@ Result<std::shared_ptr<const Field>> LevelSet::checkpoint() {
 }
 
 Status LevelSet::begin(const Start& start, const Progress& progress) {
-  if (Status ended = history_.close(); !ended) return ended;
+  TIDEMARK_TRY(history_.close());
   auto phi = tidemark::begin(executor(), *source(), start, progress);
   if (!phi) {
-    if (Status back = go_to(known_); !back) return back;
+    TIDEMARK_TRY(go_to(known_));
     return pass_on(phi);
   }
   const Point before = known_;
@@ -166,8 +166,8 @@ Status LevelSet::begin(const Start& start, const Progress& progress) {
 }
 
 Status LevelSet::paint(const Sphere& sphere, Brush brush, std::uint64_t gesture) {
-  if (Status ended = end_other_change(gesture); !ended) return ended;
-  if (Status painted = executor().paint(sphere, brush); !painted) return painted;
+  TIDEMARK_TRY(end_other_change(gesture));
+  TIDEMARK_TRY(executor().paint(sphere, brush));
   begin_change(brush == Brush::add ? ChangeKind::paint : ChangeKind::erase, gesture, known_);
   record({step(), PaintEvent{sphere, brush}});
   curve_.cut(step());
@@ -176,9 +176,9 @@ Status LevelSet::paint(const Sphere& sphere, Brush brush, std::uint64_t gesture)
 }
 
 Status LevelSet::set_parameters(const Parameters& parameters, std::uint64_t gesture) {
-  if (Status ended = end_other_change(gesture); !ended) return ended;
+  TIDEMARK_TRY(end_other_change(gesture));
   if (parameters == this->parameters()) return {};
-  if (Status set = executor().set_parameters(parameters); !set) return set;
+  TIDEMARK_TRY(executor().set_parameters(parameters));
   begin_change(ChangeKind::parameters, gesture, known_);
   if (begun()) {
     record({step(), ParametersEvent{parameters}});
@@ -189,16 +189,16 @@ Status LevelSet::set_parameters(const Parameters& parameters, std::uint64_t gest
 }
 
 Status LevelSet::smooth_source(double sigma_mm) {
-  if (Status ended = history_.close(); !ended) return ended;
+  TIDEMARK_TRY(history_.close());
   if (sigma_mm == smoothed_mm()) return {};
-  if (Status smoothed = setup_.smooth_source(sigma_mm); !smoothed) return smoothed;
+  TIDEMARK_TRY(setup_.smooth_source(sigma_mm));
   const Point before = known_;
   if (begun()) {
     record({step(), SmoothEvent{sigma_mm}});
   } else {
     recipe_.smoothed_mm = sigma_mm;
   }
-  if (Status known = read_back_phi(); !known) return known;
+  TIDEMARK_TRY(read_back_phi());
   in_place_ = known_;
   add_entry(ChangeKind::source, before, known_);
   return {};
@@ -207,7 +207,7 @@ Status LevelSet::smooth_source(double sigma_mm) {
 Result<AdvanceReport> LevelSet::advance(const Advance& run) {
   if (!begun()) return fail(ErrorKind::usage, "there is no surface yet: a start is needed");
   if (step() == 0 && dirty_) {
-    if (Status known = read_back_phi(); !known) return pass_on(known);  // restart() comes back to it
+    TIDEMARK_TRY(read_back_phi());  // restart() comes back to it
   }
   auto report = executor().advance(run);
   const std::int64_t steps = executor().steps_of_last_run();
@@ -233,10 +233,10 @@ void LevelSet::put_in_place(Point point) {
 Status LevelSet::hand_over(const Point& point) {
   const Parameters& wanted = point.recipe.final_parameters();
   if (const double sigma_mm = point.recipe.final_smoothed_mm(); sigma_mm != smoothed_mm()) {
-    if (Status smoothed = setup_.smooth_source(sigma_mm); !smoothed) return smoothed;
+    TIDEMARK_TRY(setup_.smooth_source(sigma_mm));
   }
   if (!(wanted == parameters())) {
-    if (Status set = executor().set_parameters(wanted); !set) return set;
+    TIDEMARK_TRY(executor().set_parameters(wanted));
   }
   return executor().restore(*point.phi);
 }
@@ -256,7 +256,7 @@ Status LevelSet::go_to(Point point) {
 }
 
 Status LevelSet::resume_from(const Recipe& recipe, std::shared_ptr<const Field> phi, const Curve& curve) {
-  if (Status ended = history_.close(); !ended) return ended;
+  TIDEMARK_TRY(history_.close());
   return go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr, curve});
 }
 
@@ -268,36 +268,36 @@ void LevelSet::note(const CurvePoint& point) {
 // Brings the executor back to the recipe's start, with the edits that were made before the first step.
 Status LevelSet::prepare_start() {
   if (recipe_.smoothed_mm != smoothed_mm()) {
-    if (Status smoothed = setup_.smooth_source(recipe_.smoothed_mm); !smoothed) return smoothed;
+    TIDEMARK_TRY(setup_.smooth_source(recipe_.smoothed_mm));
   }
-  if (Status set = executor().set_parameters(recipe_.parameters); !set) return set;
+  TIDEMARK_TRY(executor().set_parameters(recipe_.parameters));
   if (start_ == nullptr) {
-    if (Status begun = setup_.begin(recipe_, {}); !begun) return begun;
+    TIDEMARK_TRY(setup_.begin(recipe_, {}));
     return setup_.play(recipe_.up_to(0), 0, 0, 0, {});
   }
-  if (Status restored = executor().restore(*start_); !restored) return restored;
+  TIDEMARK_TRY(executor().restore(*start_));
   for (const RecipeEvent& event : recipe_.events) {
     if (event.step > 0) break;
     if (std::holds_alternative<PaintEvent>(event.what)) continue;  // in start_ already
-    if (Status applied = setup_.apply(event); !applied) return applied;
+    TIDEMARK_TRY(setup_.apply(event));
   }
   return {};
 }
 
 Status LevelSet::compute_again(std::int64_t target, const Progress& progress) {
   if (in_place_.recipe.steps > 0 && in_place_.recipe.steps <= target) {
-    if (Status there = hand_over(in_place_); !there) return there;
+    TIDEMARK_TRY(hand_over(in_place_));
     const Recipe& from = in_place_.recipe;
     return setup_.play(recipe_, from.events.size(), from.steps, target, progress);
   }
-  if (Status prepared = prepare_start(); !prepared) return prepared;
+  TIDEMARK_TRY(prepare_start());
   std::size_t first_event = 0;
   while (first_event < recipe_.events.size() && recipe_.events[first_event].step == 0) ++first_event;
   return setup_.play(recipe_, first_event, 0, target, progress);
 }
 
 Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
-  if (Status ended = history_.close(); !ended) return ended;
+  TIDEMARK_TRY(history_.close());
   const std::int64_t target = step() - std::clamp<std::int64_t>(steps, 0, step());
   if (target == step()) return {};
   const Point before = known_;
@@ -311,7 +311,7 @@ Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
     computed = read_back_phi();
   }
   if (!computed) {
-    if (Status back = go_to(before); !back) return back;
+    TIDEMARK_TRY(go_to(before));
     return computed;
   }
   if (in_place_.recipe.steps > target) in_place_ = {recipe_.up_to(0), start_, start_};
@@ -320,7 +320,7 @@ Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
 }
 
 Status LevelSet::restart() {
-  if (Status ended = history_.close(); !ended) return ended;
+  TIDEMARK_TRY(history_.close());
   if (step() == 0) return {};
   const Point before = known_;
   const Parameters present = parameters();
@@ -330,7 +330,7 @@ Status LevelSet::restart() {
     Status prepared = prepare_start();
     auto phi = prepared ? executor().snapshot() : Result<Field>(pass_on(prepared));
     if (!phi) {
-      if (Status back = go_to(before); !back) return back;
+      TIDEMARK_TRY(go_to(before));
       return pass_on(phi);
     }
     start_ = std::make_shared<const Field>(std::move(*phi));
@@ -340,14 +340,14 @@ Status LevelSet::restart() {
                 [](const RecipeEvent& event) { return !std::holds_alternative<PaintEvent>(event.what); });
   point.recipe.parameters = present;
   if (smoothed != point.recipe.smoothed_mm) point.recipe.events.push_back({0, SmoothEvent{smoothed}});
-  if (Status gone = go_to(std::move(point)); !gone) return gone;
+  TIDEMARK_TRY(go_to(std::move(point)));
   add_entry(ChangeKind::restart, before, known_);
   return {};
 }
 
 Status LevelSet::change_executor(ExecutorKind kind, const ExecutorOptions& options) {
-  if (Status ended = history_.close(); !ended) return ended;
-  if (Status changed = setup_.change_executor(kind, options, *known_.phi); !changed) return changed;
+  TIDEMARK_TRY(history_.close());
+  TIDEMARK_TRY(setup_.change_executor(kind, options, *known_.phi));
   recipe_.executor = setup_.description();
   known_.recipe.executor = recipe_.executor;
   in_place_ = known_;
@@ -360,11 +360,11 @@ Status LevelSet::rebuild(const ExecutorOptions& options, std::optional<ExecutorK
   if (!rebuilt) return rebuilt;
   if (open_) open_->last_edit.reset();
   const Parameters present = parameters();
-  if (Status back = go_to(known_); !back) return back;
+  TIDEMARK_TRY(go_to(known_));
   if (present == parameters()) return {};
   if (!open_) return set_parameters(present);
   // What goes on has set them.
-  if (Status set = executor().set_parameters(present); !set) return set;
+  TIDEMARK_TRY(executor().set_parameters(present));
   if (begun()) {
     record({step(), ParametersEvent{present}});
   } else {

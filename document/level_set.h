@@ -6,12 +6,12 @@
 #include <optional>
 #include <string>
 
-#include "solver/executor.h"
 #include "document/curve.h"
+#include "document/executor_setup.h"
 #include "document/history.h"
 #include "document/recipe.h"
-#include "document/executor_setup.h"
 #include "document/start.h"
+#include "solver/executor.h"
 
 namespace tidemark {
 
@@ -94,7 +94,8 @@ class LevelSet final : private OpenChange {
     ChangeKind kind = ChangeKind::evolution;
     std::uint64_t gesture = 0;
     Point before;
-    std::optional<Point> last_edit;  // a checkpoint after the last edit of the gesture: there it can be divided
+    std::optional<Point>
+        last_edit;  // a checkpoint after the last edit of the gesture: there it can be divided
   };
 
   LevelSet(ExecutorSetup setup, const Parameters& parameters, History& history);

@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
+#include "document/start.h"
 #include "imaging/grid_policy.h"
 #include "solver/parameters.h"
-#include "document/start.h"
 
 namespace tidemark {
 

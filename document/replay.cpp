@@ -39,13 +39,12 @@ Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume
   ExecutorOptions executor_options = options.options;
   executor_options.skip_quiet_pages = executor_options.skip_quiet_pages && recipe.executor.skip_quiet_pages;
   if (kind == recorded) executor_options.page_shape = recipe.executor.page_shape;
-  auto setup = ExecutorSetup::create(std::move(volume), recipe.smoothed_mm, recipe.parameters, kind, executor_options);
+  auto setup =
+      ExecutorSetup::create(std::move(volume), recipe.smoothed_mm, recipe.parameters, kind, executor_options);
   if (!setup) return pass_on(setup);
-  if (Status begun = setup->begin(recipe, progress); !begun) return pass_on(begun);
+  TIDEMARK_TRY(setup->begin(recipe, progress));
   Replay result;
-  if (Status played = setup->play(recipe, 0, 0, recipe.steps, progress, &result.advance); !played) {
-    return pass_on(played);
-  }
+  TIDEMARK_TRY(setup->play(recipe, 0, 0, recipe.steps, progress, &result.advance));
   auto phi = setup->executor().snapshot();
   if (!phi) return pass_on(phi);
   result.phi = std::move(*phi);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "imaging/onto_grid.h"
-#include "imaging/load_study.h"
 #include "document/label_segments.h"
+#include "imaging/load_study.h"
+#include "imaging/onto_grid.h"
 
 namespace tidemark {
 namespace {

@@ -1,8 +1,8 @@
 // What a case holds, in files for other systems; and label maps from them.
 #pragma once
 
-#include "imaging/results/results.h"
 #include "document/session_contents.h"
+#include "imaging/results/results.h"
 
 namespace tidemark {
 

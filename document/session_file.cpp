@@ -261,7 +261,7 @@ Result<SessionContents> load_session(const std::filesystem::path& file) {
   auto phi = read_phi(opened->archive, root.at("phi"), contents.geometry, name);
   if (!phi) return pass_on(phi);
   contents.phi = std::move(*phi);
-  if (Status labels = read_label_voxels(opened->archive, contents, name); !labels) return pass_on(labels);
+  TIDEMARK_TRY(read_label_voxels(opened->archive, contents, name));
   return contents;
 }
 
@@ -275,10 +275,10 @@ Result<StudyOrigin> load_origin(const std::filesystem::path& file) {
 }
 
 Status save_session(Case& document, const std::filesystem::path& file) {
-  if (Status ended = document.level_set().end_run(); !ended) return ended;
+  TIDEMARK_TRY(document.level_set().end_run());
   const auto contents = snapshot_of(document);
   if (!contents) return tl::unexpected<Error>(contents.error());
-  if (Status written = write_session(*contents, file); !written) return written;
+  TIDEMARK_TRY(write_session(*contents, file));
   document.mark_saved();
   return {};
 }

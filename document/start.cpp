@@ -55,10 +55,10 @@ Status check_sphere(const Sphere& sphere, const Geometry& grid, const char* what
 
 Status check_spheres(const Start& start, const Geometry& grid) {
   for (const Sphere& sphere : start.seeds) {
-    if (Status good = check_sphere(sphere, grid, "a seed"); !good) return good;
+    TIDEMARK_TRY(check_sphere(sphere, grid, "a seed"));
   }
   for (const Sphere& sphere : start.erasers) {
-    if (Status good = check_sphere(sphere, grid, "an eraser"); !good) return good;
+    TIDEMARK_TRY(check_sphere(sphere, grid, "an eraser"));
   }
   return {};
 }
@@ -81,11 +81,11 @@ struct FirstPart {
     return from_mask(*mask);
   }
   Result<Field> operator()(const MaskStart& start) const {
-    if (Status fits = check_grid(start.mask->geometry, source.geometry, "mask"); !fits) return pass_on(fits);
+    TIDEMARK_TRY(check_grid(start.mask->geometry, source.geometry, "mask"));
     return from_mask(*start.mask);
   }
   Result<Field> operator()(const FieldStart& start) const {
-    if (Status fits = check_grid(start.phi->geometry, source.geometry, "phi"); !fits) return pass_on(fits);
+    TIDEMARK_TRY(check_grid(start.phi->geometry, source.geometry, "phi"));
     if (start.phi->check_fits(source.geometry, executor.band())) return *start.phi;
     return Field::from_dense(source.geometry, start.phi->dense(), executor.band());  // another band
   }
@@ -96,12 +96,12 @@ Result<Field> begin_unguarded(Executor& executor, const Volume& source, const St
   auto first = std::visit(FirstPart{executor, source}, start.from);
   if (!first) return first;
   if (progress.cancelled()) return cancelled_error();
-  if (Status restored = executor.restore(*first); !restored) return pass_on(restored);
+  TIDEMARK_TRY(executor.restore(*first));
   for (const Sphere& sphere : start.seeds) {
-    if (Status painted = executor.paint(sphere, Brush::add); !painted) return pass_on(painted);
+    TIDEMARK_TRY(executor.paint(sphere, Brush::add));
   }
   for (const Sphere& sphere : start.erasers) {
-    if (Status painted = executor.paint(sphere, Brush::erase); !painted) return pass_on(painted);
+    TIDEMARK_TRY(executor.paint(sphere, Brush::erase));
   }
   if (progress.cancelled()) return cancelled_error();
   auto phi = executor.snapshot();
@@ -122,12 +122,12 @@ std::string Start::describe() const {
 }
 
 Result<Field> begin(Executor& executor, const Volume& source, const Start& start, const Progress& progress) {
-  if (Status inside = check_spheres(start, source.geometry); !inside) return pass_on(inside);
+  TIDEMARK_TRY(check_spheres(start, source.geometry));
   const auto before = executor.snapshot();
   if (!before) return tl::unexpected<Error>(before.error());
   auto phi = begin_unguarded(executor, source, start, progress);
   if (!phi) {
-    if (Status restored = executor.restore(*before); !restored) return pass_on(restored);
+    TIDEMARK_TRY(executor.restore(*before));
   }
   return phi;
 }

@@ -25,7 +25,7 @@ std::string reason(int code) {
 Result<ZipReader> ZipReader::open(const std::filesystem::path& file,
                                   std::span<const std::string_view> names) {
   constexpr std::int64_t kMostEntries = 100;  // before their names are looked at
-  if (auto readable = FileBytes::open(file); !readable) return pass_on(readable);
+  TIDEMARK_TRY(FileBytes::open(file));
   ZipReader reader;
   reader.file_ = file.string();
   auto directory = ZipDirectory::read(file, kMostEntries);

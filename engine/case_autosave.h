@@ -9,8 +9,8 @@
 #include <memory>
 #include <string>
 
-#include "engine/case_proxy.h"
 #include "document/autosave.h"
+#include "engine/case_proxy.h"
 
 namespace tidemark {
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <optional>
 
-#include "engine/case_state.h"
 #include "document/case.h"
+#include "engine/case_state.h"
 
 namespace tidemark {
 

@@ -100,7 +100,7 @@ Status CasePainter::show_phi(Canvas& canvas, Case& document, bool with_pages) {
 
 Status CasePainter::show_labels(Canvas& canvas, const Labels& labels) {
   if (canvas.labels != labels.revision() && !labels.voxels().empty()) {
-    if (auto status = canvas.renderer->set_labels(labels.voxels()); !status) return status;
+    TIDEMARK_TRY(canvas.renderer->set_labels(labels.voxels()));
     canvas.labels = labels.revision();
   }
   if (canvas.label_list == labels.list()) return {};
@@ -109,7 +109,7 @@ Status CasePainter::show_labels(Canvas& canvas, const Labels& labels) {
     const std::uint8_t opacity = label.visible ? 255 : 0;
     colours[label.id] = {label.colour[0], label.colour[1], label.colour[2], opacity};
   }
-  if (auto status = canvas.renderer->set_label_colours(colours); !status) return status;
+  TIDEMARK_TRY(canvas.renderer->set_label_colours(colours));
   canvas.label_list = labels.list();
   return {};
 }
@@ -129,9 +129,9 @@ Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>&
     canvas.renderer->set_parameters(level_set.parameters());
     canvas.parameters = level_set.parameters();
   }
-  if (auto status = show_labels(canvas, document.labels()); !status) return status;
+  TIDEMARK_TRY(show_labels(canvas, document.labels()));
   if (canvas.phi != phi_revision_ || (with_pages && canvas.pages != phi_revision_)) {
-    if (auto status = show_phi(canvas, document, with_pages); !status) return status;
+    TIDEMARK_TRY(show_phi(canvas, document, with_pages));
     canvas.phi = phi_revision_;
     if (with_pages) canvas.pages = phi_revision_;
   }
@@ -142,10 +142,7 @@ Result<Renderer*> CasePainter::renderer_for(const AnyView& view, Case& document)
   const auto& solved = document.level_set().source();
   const bool another = solved != document.volume() && shows_speed(view);
   Canvas& canvas = another ? solved_ : shown_;
-  if (auto status = prepare(canvas, another ? solved : document.volume(), document, shows_pages(view));
-      !status) {
-    return pass_on(status);
-  }
+  TIDEMARK_TRY(prepare(canvas, another ? solved : document.volume(), document, shows_pages(view)));
   return canvas.renderer.get();
 }
 

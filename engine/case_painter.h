@@ -6,10 +6,10 @@
 #include <stop_token>
 #include <vector>
 
-#include "renderer/renderer.h"
+#include "document/case.h"
 #include "engine/engine.h"
 #include "engine/view_slot.h"
-#include "document/case.h"
+#include "renderer/renderer.h"
 
 namespace tidemark {
 

@@ -3,14 +3,14 @@
 #include <atomic>
 #include <utility>
 
+#include "document/label_segments.h"
 #include "engine/case_runner.h"
 #include "engine/lock_step.h"
-#include "document/label_segments.h"
 
 namespace tidemark {
 
 CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor,
-                         RestoredCase restored)
+                     RestoredCase restored)
     : engine_(engine),
       study_(std::move(study)),
       weak_receiver_(WeakReceiver::of(this)),
@@ -198,9 +198,9 @@ void CaseProxy::begin_from_label(std::uint8_t label) {
 }
 
 void CaseProxy::pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel,
-                       std::function<void(std::optional<Hit>)> answer) {
-  post([view, size, pixel, answer = std::move(answer), weak_receiver = weak_receiver_](CaseRunner& runner,
-                                                                         const Progress&) -> Status {
+                     std::function<void(std::optional<Hit>)> answer) {
+  post([view, size, pixel, answer = std::move(answer), weak_receiver = weak_receiver_](
+           CaseRunner& runner, const Progress&) -> Status {
     const auto hit = runner.painter().pick(view, size, pixel, runner.document());
     if (!hit) return tl::unexpected<Error>(hit.error());
     weak_receiver->send([answer, found = *hit] { answer(found); });
@@ -209,12 +209,12 @@ void CaseProxy::pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel,
 }
 
 void CaseProxy::take_snapshot(std::string view_state,
-                                std::function<void(std::shared_ptr<const Snapshot>)> answer) {
+                              std::function<void(std::shared_ptr<const Snapshot>)> answer) {
   post([view_state = std::move(view_state), answer = std::move(answer), weak_receiver = weak_receiver_](
            CaseRunner& runner, const Progress&) -> Status {
     Case& document = runner.document();
     document.view_state = view_state;
-    if (auto status = document.history().close(); !status) return status;
+    TIDEMARK_TRY(document.history().close());
     auto contents = snapshot_of(document);
     if (!contents) return pass_on(contents);
     auto snapshot =

@@ -11,15 +11,15 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "renderer/renderer.h"
+#include "document/case.h"
+#include "document/session_contents.h"
 #include "engine/case_state.h"
 #include "engine/display.h"
 #include "engine/engine.h"
 #include "engine/study_loader.h"
+#include "renderer/renderer.h"
 #include "solver/executor.h"
 #include "solver/statistics.h"
-#include "document/case.h"
-#include "document/session_contents.h"
 
 namespace tidemark {
 
@@ -40,7 +40,7 @@ class CaseProxy : public QObject {
   Q_OBJECT
  public:
   CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor,
-              RestoredCase restored = {});
+            RestoredCase restored = {});
   ~CaseProxy() override;  // cancels what is running
 
   [[nodiscard]] const CaseState& state() const { return state_; }

@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "solver/executor.h"
-#include "solver/statistics.h"
 #include "document/curve.h"
 #include "document/labels.h"
+#include "solver/executor.h"
+#include "solver/statistics.h"
 
 namespace tidemark {
 

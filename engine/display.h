@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/result.h"
-#include "renderer/views.h"
 #include "engine/measurement.h"
+#include "renderer/views.h"
 #include "solver/sphere.h"
 
 namespace tidemark {

@@ -71,7 +71,7 @@ Status LockStep::step(std::int64_t steps, const Progress& progress) {
   set_playing(false);
   for (const auto& member : members()) {
     if (!member->document().level_set().begun()) continue;
-    if (auto status = member->advance(steps, progress); !status) return status;
+    TIDEMARK_TRY(member->advance(steps, progress));
     member->show();
   }
   return {};

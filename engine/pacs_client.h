@@ -4,8 +4,8 @@
 #include <functional>
 #include <memory>
 
-#include "imaging/pacs/services.h"
 #include "engine/job_runner.h"
+#include "imaging/pacs/services.h"
 
 namespace tidemark {
 

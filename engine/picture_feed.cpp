@@ -1,7 +1,7 @@
 #include "engine/picture_feed.h"
 
-#include "engine/case_runner.h"
 #include "engine/case_proxy.h"
+#include "engine/case_runner.h"
 #include "engine/view_slot.h"
 
 namespace tidemark {

@@ -6,9 +6,9 @@
 #include <deque>
 #include <mutex>
 
+#include "engine/background_job.h"
 #include "imaging/load_study.h"
 #include "renderer/sheet.h"
-#include "engine/background_job.h"
 
 namespace tidemark {
 namespace {

@@ -4,11 +4,11 @@
 #include <QStringList>
 #include <algorithm>
 
+#include "engine/phantom_text.h"
 #include "imaging/archive/study_archive.h"
 #include "imaging/filters/suggest_start.h"
-#include "imaging/phantom/phantom.h"
 #include "imaging/load_study.h"
-#include "engine/phantom_text.h"
+#include "imaging/phantom/phantom.h"
 
 namespace tidemark {
 namespace {

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "core/volume.h"
-#include "imaging/patient.h"
-#include "imaging/series.h"
+#include "document/origin.h"
 #include "engine/job_runner.h"
 #include "engine/source_summary.h"
+#include "imaging/patient.h"
+#include "imaging/series.h"
 #include "solver/parameters.h"
-#include "document/origin.h"
 
 namespace tidemark {
 

@@ -7,10 +7,10 @@
 #include <mutex>
 #include <optional>
 
-#include "renderer/quality_control.h"
-#include "engine/weak_receiver.h"
 #include "engine/picture_feed.h"
 #include "engine/view_textures.h"
+#include "engine/weak_receiver.h"
+#include "renderer/quality_control.h"
 
 namespace tidemark {
 

@@ -19,7 +19,7 @@ Result<std::shared_ptr<PictureTexture>> ViewTextures::free_texture(PictureSize s
   for (const auto& texture : textures_) {
     if (!is_free(texture)) continue;
     // The view has let go of it, but its GPU may still be reading.
-    if (auto status = texture->take_reader().wait(); !status) return pass_on(status);
+    TIDEMARK_TRY(texture->take_reader().wait());
     return texture;
   }
   auto canvas = Canvas::create(*device_, size, gpu::TexelFormat::rgba8, gpu::Filter::linear);

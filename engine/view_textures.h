@@ -52,11 +52,11 @@ class ViewTextures {
     auto texture = free_texture(size);
     if (!texture) return pass_on(texture);
     Canvas& canvas = (*texture)->canvas_;
-    if (auto status = renderer.draw_on(canvas, view, progress); !status) return pass_on(status);
+    TIDEMARK_TRY(renderer.draw_on(canvas, view, progress));
     if (into_mean) {
-      if (auto status = mean_.replace_by_mean(*device_, canvas); !status) return pass_on(status);
+      TIDEMARK_TRY(mean_.replace_by_mean(*device_, canvas));
     }
-    if (auto status = gpu::Fence::insert(*device_).wait(); !status) return pass_on(status);
+    TIDEMARK_TRY(gpu::Fence::insert(*device_).wait());
     return std::shared_ptr<const PictureTexture>(std::move(*texture));
   }
 

@@ -8,7 +8,7 @@ namespace tidemark::gpu {
 // Buffers are edited through a binding that nothing draws from, which works in every version.
 
 Result<Buffer> Buffer::create(Device& device, std::int64_t bytes, std::string_view label) {
-  if (auto status = device.check("allocating a buffer"); !status) return pass_on(status);
+  TIDEMARK_TRY(device.check("allocating a buffer"));
   Buffer buffer;
   GLuint id = 0;
   glGenBuffers(1, &id);
@@ -18,7 +18,7 @@ Result<Buffer> Buffer::create(Device& device, std::int64_t bytes, std::string_vi
   glBindBuffer(GL_COPY_WRITE_BUFFER, id);
   glBufferData(GL_COPY_WRITE_BUFFER, bytes, zeros.data(), GL_DYNAMIC_COPY);
   set_label(device, GL_BUFFER, id, label);
-  if (auto status = device.check("allocating a buffer"); !status) return pass_on(status);
+  TIDEMARK_TRY(device.check("allocating a buffer"));
   return buffer;
 }
 
@@ -94,7 +94,7 @@ Status Fence::wait() const {
     const GLenum state =
         glClientWaitSync(static_cast<GLsync>(sync_), GL_SYNC_FLUSH_COMMANDS_BIT, kNanosecondsPerTry);
     if (state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED) return {};
-    if (auto status = device_->check("waiting for the GPU"); !status) return status;
+    TIDEMARK_TRY(device_->check("waiting for the GPU"));
     if (state == GL_WAIT_FAILED) return fail(ErrorKind::internal, "OpenGL: waiting for the GPU failed");
   }
 }
@@ -114,7 +114,7 @@ void Readback::start(Device& device, const Buffer& from, std::int64_t offset) {
 }
 
 Status Readback::finish(std::span<std::byte> data) {
-  if (auto status = fence_.wait(); !status) return status;
+  TIDEMARK_TRY(fence_.wait());
   staging_.download(0, data);
   return {};
 }

@@ -43,13 +43,13 @@ Result<std::shared_ptr<Device>> Device::create_headless(const DeviceOptions& opt
   if (!context) return pass_on(context);
   std::shared_ptr<Device> device(new Device());
   device->headless_ = std::make_unique<Headless>(Headless{std::move(*context)});
-  if (auto status = device->start(options); !status) return pass_on(status);
+  TIDEMARK_TRY(device->start(options));
   return device;
 }
 
 Result<std::shared_ptr<Device>> Device::adopt_current(const DeviceOptions& options) {
   std::shared_ptr<Device> device(new Device());
-  if (auto status = device->start(options); !status) return pass_on(status);
+  TIDEMARK_TRY(device->start(options));
   return device;
 }
 
@@ -59,7 +59,7 @@ Device::~Device() {
 }
 
 Status Device::start(const DeviceOptions& options) {
-  if (auto status = make_current(); !status) return status;
+  TIDEMARK_TRY(make_current());
   capabilities_ = query_capabilities();
   if (options.as_gpu) capabilities_.software = false;
   const bool wants_compute = options.version == GlVersion::gl45;

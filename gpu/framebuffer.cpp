@@ -27,7 +27,7 @@ Result<Framebuffer> Framebuffer::create(Device& device, std::initializer_list<co
   glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
   set_label(device, GL_FRAMEBUFFER, id, label);
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    if (auto status = device.check("making a framebuffer"); !status) return pass_on(status);
+    TIDEMARK_TRY(device.check("making a framebuffer"));
     return fail(ErrorKind::capability, "the graphics driver cannot draw into the texture of '{}'", label);
   }
   return framebuffer;

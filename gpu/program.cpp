@@ -44,7 +44,7 @@ Result<ShaderHandle> compile(Device& device, GLenum stage, std::string_view path
   GLint compiled = GL_FALSE;
   glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
   if (compiled == GL_TRUE) return shader;
-  if (auto status = device.check("compiling a shader"); !status) return pass_on(status);
+  TIDEMARK_TRY(device.check("compiling a shader"));
   const std::string log = name_files(info_log(shader.id(), glGetShaderiv, glGetShaderInfoLog), *source);
   device.report_message(log);
   return fail(ErrorKind::internal, "{}", first_error(log));
@@ -57,7 +57,7 @@ Result<ProgramHandle> link(Device& device, std::string_view label, const std::ve
   for (const ShaderHandle& shader : shaders) glDetachShader(program.id(), shader.id());
   GLint linked = GL_FALSE;
   glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
-  if (auto status = device.check("linking a shader"); !status) return pass_on(status);
+  TIDEMARK_TRY(device.check("linking a shader"));
   if (linked != GL_TRUE) {
     return fail(ErrorKind::internal, "{}: {}", label,
                 info_log(program.id(), glGetProgramiv, glGetProgramInfoLog));

@@ -71,7 +71,7 @@ Result<ShaderSource> assemble_shader(std::string_view path, std::string_view ver
   std::string& text = assembler.source().text;
   text = fmt::format("#version {}\n", version);
   for (const auto& [name, value] : defines) text += fmt::format("#define {} {}\n", name, value);
-  if (auto status = assembler.append(path); !status) return pass_on(status);
+  TIDEMARK_TRY(assembler.append(path));
   return std::move(assembler.source());
 }
 

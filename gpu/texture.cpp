@@ -80,7 +80,7 @@ Result<Texture2D> Texture2D::create(Device& device, TexelFormat format, std::int
     return fail(ErrorKind::capability, "a texture of {} x {} is needed; this driver allows {} along an axis",
                 width, height, limit);
   }
-  if (auto status = device.check("allocating a texture"); !status) return pass_on(status);
+  TIDEMARK_TRY(device.check("allocating a texture"));
   Texture2D texture;
   texture.handle_ = TextureHandle(device, new_texture(GL_TEXTURE_2D));
   texture.format_ = format;
@@ -96,7 +96,7 @@ Result<Texture2D> Texture2D::create(Device& device, TexelFormat format, std::int
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
   }
   set_label(device, GL_TEXTURE, texture.id(), label);
-  if (auto status = device.check("allocating a texture"); !status) return pass_on(status);
+  TIDEMARK_TRY(device.check("allocating a texture"));
   return texture;
 }
 
@@ -157,7 +157,7 @@ Result<Texture3D> Texture3D::create(Device& device, TexelFormat format, Index3 s
                 "a volume of {} x {} x {} voxels is needed as a texture; this driver allows {} along an axis",
                 size.x, size.y, size.z, limit);
   }
-  if (auto status = device.check("allocating a volume texture"); !status) return pass_on(status);
+  TIDEMARK_TRY(device.check("allocating a volume texture"));
   Texture3D texture;
   texture.handle_ = TextureHandle(device, new_texture(GL_TEXTURE_3D));
   const GlFormat gl = gl_format(format);
@@ -172,7 +172,7 @@ Result<Texture3D> Texture3D::create(Device& device, TexelFormat format, Index3 s
                static_cast<GLsizei>(size.y), static_cast<GLsizei>(size.z), 0, gl.format, gl.type,
                data.data());
   set_label(device, GL_TEXTURE, texture.id(), label);
-  if (auto status = device.check("allocating a volume texture"); !status) return pass_on(status);
+  TIDEMARK_TRY(device.check("allocating a volume texture"));
   return texture;
 }
 
@@ -192,7 +192,7 @@ Result<BufferTexture> BufferTexture::create(Device& device, const Buffer& buffer
   texture.handle_ = TextureHandle(device, new_texture(GL_TEXTURE_BUFFER));
   glTexBuffer(GL_TEXTURE_BUFFER, gl_format(format).internal, buffer.id());
   set_label(device, GL_TEXTURE, texture.handle_.id(), label);
-  if (auto status = device.check("making a table readable"); !status) return pass_on(status);
+  TIDEMARK_TRY(device.check("making a table readable"));
   return texture;
 }
 

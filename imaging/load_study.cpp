@@ -111,8 +111,8 @@ Result<Volume> load_chosen(const Series& series, const Progress& progress) {
   }
   const fs::path& first = series.files.front();
   const std::string source = is_volume_file(series) ? first.string() : first.parent_path().string();
-  if (auto finite = require_finite(*volume, source); !finite) return pass_on(finite);
-  if (auto finite = require_finite_range(*volume, source); !finite) return pass_on(finite);
+  TIDEMARK_TRY(require_finite(*volume, source));
+  TIDEMARK_TRY(require_finite_range(*volume, source));
   return volume;
 }
 
@@ -280,7 +280,7 @@ std::vector<fs::path> dicom_files_of(const Series& series) {
 }
 
 Result<Volume> load_series(const Series& series, const Progress& progress) {
-  if (auto loadable = require_loadable(series); !loadable) return pass_on(loadable);
+  TIDEMARK_TRY(require_loadable(series));
   return guarded(series.files.front(), [&] { return load_chosen(series, progress); });
 }
 
@@ -292,7 +292,7 @@ Result<Volume> load_series(const ChosenSeries& chosen, const Progress& progress)
 }
 
 Result<Volume> load_slice(const Series& series, std::int64_t k, const Progress& progress) {
-  if (auto loadable = require_loadable(series); !loadable) return pass_on(loadable);
+  TIDEMARK_TRY(require_loadable(series));
   return guarded(series.files.front(), [&] { return load_slice_of(series, k, progress); });
 }
 

@@ -35,8 +35,8 @@ struct ChosenSeries {
 Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string& uid,
                                    const std::filesystem::path& path);
 
-// Why the series, which lies under the path, cannot be loaded: one line that begins with the path and names no
-// file twice.
+// Why the series, which lies under the path, cannot be loaded: one line that begins with the path and names
+// no file twice.
 [[nodiscard]] std::string reason_under(const std::filesystem::path& path, const Series& series);
 
 // Loads the series that choose_series() takes, and says so in Volume::changes where there were others. The

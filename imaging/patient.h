@@ -5,8 +5,9 @@
 
 namespace tidemark {
 
-// In UTF-8; what a file does not say stays empty. Views show it in their corners, cases and panels at their heads, and
-// the list of series shows the name. It goes nowhere else: no log, title, statistics, recipe or session holds it.
+// In UTF-8; what a file does not say stays empty. Views show it in their corners, cases and panels at their
+// heads, and the list of series shows the name. It goes nowhere else: no log, title, statistics, recipe or
+// session holds it.
 struct Patient {
   std::string name;  // in the original script, the Latin one behind it: "山田 太郎 (Yamada, Tarou)"
   std::string id;

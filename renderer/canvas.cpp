@@ -60,7 +60,7 @@ Status Canvas::fill(gpu::Device& device, const Progress& progress, gpu::Blending
       const Stopwatch piece;
       const gpu::ScissorScope scissor({left, top, std::min(kPieceColumns, width - left), rows});
       gpu::draw(gpu::Primitive::triangles, 3);
-      if (auto status = gpu::Fence::insert(device).wait(); !status) return status;
+      TIDEMARK_TRY(gpu::Fence::insert(device).wait());
       longest = std::max(longest, piece.seconds());
       ++report_.pieces;
     }
@@ -78,11 +78,7 @@ Status Canvas::fill(gpu::Device& device, const Progress& progress, gpu::Blending
 Result<Picture> Canvas::read() const {
   const auto [width, height] = size();
   Picture picture{width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(4 * width * height))};
-  if (auto status =
-          colour_.download({0, 0, width, height}, std::as_writable_bytes(std::span(picture.pixels)));
-      !status) {
-    return pass_on(status);
-  }
+  TIDEMARK_TRY(colour_.download({0, 0, width, height}, std::as_writable_bytes(std::span(picture.pixels))));
   // OpenGL's rows begin at the bottom.
   const std::int64_t row = 4 * width;
   for (std::int64_t y = 0; y < height / 2; ++y) {

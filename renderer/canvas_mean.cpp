@@ -28,7 +28,7 @@ Status CanvasMean::replace_by_mean(gpu::Device& device, Canvas& picture) {
   }
   use(picture, 1.0F);
   const auto blending = count_ == 0 ? gpu::Blending::replace : gpu::Blending::add;
-  if (auto status = sum_.fill(device, {}, blending); !status) return status;
+  TIDEMARK_TRY(sum_.fill(device, {}, blending));
   ++count_;
   use(sum_, 1.0F / static_cast<float>(count_));
   return picture.fill(device, {});

@@ -19,7 +19,7 @@ Status DrawThrottle::prepare(const gpu::Program& program) {
   const std::pair change(in_use_, &program);
   in_use_ = &program;
   if (std::find(prepared_.begin(), prepared_.end(), change) != prepared_.end()) return {};
-  if (auto status = wait(); !status) return status;
+  TIDEMARK_TRY(wait());
   const Stopwatch watch;
   gpu::prepare_draw();
   report_.prepare_seconds += watch.seconds();
@@ -29,7 +29,7 @@ Status DrawThrottle::prepare(const gpu::Program& program) {
 
 Status DrawThrottle::before(double work) {
   if (on_its_way_ > 0.0 && (on_its_way_ + work) * seconds_each_ > kWantedPiece) {
-    if (auto status = wait(); !status) return status;
+    TIDEMARK_TRY(wait());
   }
   if (on_its_way_ == 0.0) since_begun_.restart();
   on_its_way_ += work;
@@ -38,7 +38,7 @@ Status DrawThrottle::before(double work) {
 
 Status DrawThrottle::wait() {
   if (!device_.capabilities().software || on_its_way_ == 0.0) return {};
-  if (auto status = gpu::Fence::insert(device_).wait(); !status) return status;
+  TIDEMARK_TRY(gpu::Fence::insert(device_).wait());
   const double took = since_begun_.seconds();
   ++report_.pieces;
   report_.seconds += took;
@@ -50,19 +50,19 @@ Status DrawThrottle::wait() {
 }
 
 Status DrawThrottle::things(const gpu::Program& program, std::int64_t count, std::int64_t fragments_each,
-                    double weight, const DrawSome& draw) {
+                            double weight, const DrawSome& draw) {
   if (!device_.capabilities().software) {
     if (progress_.cancelled()) return cancelled_error();
     draw(0, count);
     return {};
   }
-  if (auto status = prepare(program); !status) return status;
+  TIDEMARK_TRY(prepare(program));
   const double each = weight * static_cast<double>(std::max<std::int64_t>(fragments_each, 1));
   for (std::int64_t first = 0; first < count;) {
     const auto most = static_cast<std::int64_t>(kWantedPiece / (each * seconds_each_));
     const std::int64_t some = std::clamp<std::int64_t>(most, 1, count - first);
     if (progress_.cancelled()) return cancelled_error();
-    if (auto status = before(each * static_cast<double>(some)); !status) return status;
+    TIDEMARK_TRY(before(each * static_cast<double>(some)));
     draw(first, some);
     first += some;
   }
@@ -70,7 +70,7 @@ Status DrawThrottle::things(const gpu::Program& program, std::int64_t count, std
 }
 
 Status DrawThrottle::rectangle(const gpu::Program& program, const gpu::TexelRect& rect, double weight,
-                       const Draw& draw) {
+                               const Draw& draw) {
   return things(program, rect.height, rect.width, weight, [&](std::int64_t first, std::int64_t count) {
     draw({rect.x, rect.y + first, rect.width, count});
   });

@@ -98,11 +98,11 @@ Status PhiPicture::update(gpu::Device& device, const Field& phi, std::span<const
   if (table_.capacity() > field_.capacity()) {
     // By a quarter more than needed: a growing surface does not copy G with every picture.
     const std::int64_t wanted = table_.capacity() + table_.capacity() / 4;
-    if (auto status = field_.grow(device, without_power_of_two(layout(), wanted)); !status) return status;
+    TIDEMARK_TRY(field_.grow(device, without_power_of_two(layout(), wanted)));
   }
   for (std::size_t first = 0; first < changes.size(); first += static_cast<std::size_t>(most_staged_)) {
     const std::size_t count = std::min(changes.size() - first, static_cast<std::size_t>(most_staged_));
-    if (auto status = upload(device, phi, std::span(changes).subspan(first, count)); !status) return status;
+    TIDEMARK_TRY(upload(device, phi, std::span(changes).subspan(first, count)));
   }
   pages_uploaded_ = static_cast<std::int64_t>(changes.size());
   upload_tables(quiet);

@@ -68,7 +68,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> 
   if (layout.volume_size() != source->geometry.size) {
     return fail(ErrorKind::usage, "the pages are not those of the volume");
   }
-  if (auto status = device->make_current(); !status) return pass_on(status);
+  TIDEMARK_TRY(device->make_current());
   std::unique_ptr<Renderer> renderer(new Renderer(std::move(device), std::move(source)));
   gpu::Device& gl = *renderer->device_;
   auto slots = gpu::SamplerSlots::create(gl);
@@ -89,12 +89,9 @@ Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> 
   auto colours = gpu::Texture2D::create(gl, gpu::TexelFormat::rgba8, kLabels, 1, "colours of labels");
   if (!colours) return pass_on(colours);
   renderer->label_colours_ = std::move(*colours);
-  if (auto status = renderer->set_label_colours(first_label_colours()); !status) return pass_on(status);
-  if (auto status = renderer->set_phi(
-          Field::empty(renderer->source_->geometry, renderer->phi_.band(), layout.page_shape()));
-      !status) {
-    return pass_on(status);
-  }
+  TIDEMARK_TRY(renderer->set_label_colours(first_label_colours()));
+  TIDEMARK_TRY(renderer->set_phi(
+      Field::empty(renderer->source_->geometry, renderer->phi_.band(), layout.page_shape())));
   return renderer;
 }
 
@@ -102,7 +99,7 @@ Status Renderer::set_phi(const Field& phi, std::span<const std::int64_t> quiet) 
   if (phi.geometry.size != source_->geometry.size || phi.layout != phi_.layout().layout()) {
     return fail(ErrorKind::usage, "phi and the volume differ in size or in pages");
   }
-  if (auto status = device_->make_current(); !status) return status;
+  TIDEMARK_TRY(device_->make_current());
   if (phi.band != phi_.band()) {
     auto anew = PhiPicture::create(*device_, phi.layout, phi.band);
     if (!anew) return pass_on(anew);
@@ -116,7 +113,7 @@ Status Renderer::look_at(const PackedView& view, const std::optional<std::vector
   if (view.layout.layout() != phi_.layout().layout()) {
     return fail(ErrorKind::usage, "pictures and executor differ in pages");
   }
-  if (auto status = device_->make_current(); !status) return status;
+  TIDEMARK_TRY(device_->make_current());
   if (view.band != static_cast<float>(phi_.band())) {
     auto anew = PhiPicture::create(*device_, phi_.layout().layout(), static_cast<double>(view.band));
     if (!anew) return pass_on(anew);
@@ -134,7 +131,7 @@ Status Renderer::set_labels(std::span<const std::uint8_t> labels) {
     return fail(ErrorKind::usage, "there are {} labels for {} voxels", labels.size(),
                 source_->geometry.voxel_count());
   }
-  if (auto status = device_->make_current(); !status) return status;
+  TIDEMARK_TRY(device_->make_current());
   auto texture = gpu::Texture3D::create(*device_, gpu::TexelFormat::r8ui, source_->geometry.size,
                                         std::as_bytes(labels), "labels");
   if (!texture) return pass_on(texture);
@@ -145,7 +142,7 @@ Status Renderer::set_labels(std::span<const std::uint8_t> labels) {
 
 Status Renderer::set_label_colours(std::span<const LabelColour> colours) {
   if (colours.size() > kLabels) return fail(ErrorKind::usage, "there are more than {} labels", kLabels);
-  if (auto status = device_->make_current(); !status) return status;
+  TIDEMARK_TRY(device_->make_current());
   label_colours_.upload({0, 0, static_cast<std::int64_t>(colours.size()), 1}, std::as_bytes(colours));
   return {};
 }
@@ -239,13 +236,13 @@ Result<const gpu::Program*> Renderer::use_volume_program(const char* fragment, c
 
 template <class View>
 Result<Picture> Renderer::draw_and_read(const View& view, PictureSize size, const Progress& progress) {
-  if (auto status = device_->make_current(); !status) return pass_on(status);
+  TIDEMARK_TRY(device_->make_current());
   if (canvas_.size() != size) {
     auto made = Canvas::create(*device_, size, gpu::TexelFormat::rgba8);
     if (!made) return pass_on(made);
     canvas_ = std::move(*made);
   }
-  if (auto status = draw_on(canvas_, view, progress); !status) return pass_on(status);
+  TIDEMARK_TRY(draw_on(canvas_, view, progress));
   return canvas_.read();
 }
 
@@ -258,14 +255,12 @@ Result<Picture> Renderer::draw(const SliceView& view, PictureSize size, const Pr
 }
 
 Status Renderer::draw_on(Canvas& canvas, const VolumeView& asked, const Progress& progress) {
-  if (auto status = device_->make_current(); !status) return status;
+  TIDEMARK_TRY(device_->make_current());
   const VolumeView view = resolved(asked);
   if (view.mode == Mode::slices || !source_picture_.has_volume()) {
     return draw_from_slices(canvas, view, progress);
   }
-  if (auto program = use_volume_program("render/volume.frag", view, canvas.size(), {}); !program) {
-    return pass_on(program);
-  }
+  TIDEMARK_TRY(use_volume_program("render/volume.frag", view, canvas.size(), {}));
   return fill(canvas, progress);
 }
 
@@ -276,10 +271,7 @@ Status Renderer::draw_from_slices(Canvas& canvas, const VolumeView& view, const 
   if (!slab) return pass_on(slab);
   const std::vector<PhysicalPage> table = phi_.page_entries();
   const SliceCaster::Scene scene{*source_, phi_, table, source_picture_.page_opacities()};
-  if (auto status = slice_caster_.draw(*device_, **slab, scene, view, size, {kPhiUnit, kFreeUnit}, progress);
-      !status) {
-    return status;
-  }
+  TIDEMARK_TRY(slice_caster_.draw(*device_, **slab, scene, view, size, {kPhiUnit, kFreeUnit}, progress));
   auto over = use_program("render/over_background.frag", {});
   if (!over) return pass_on(over);
   slice_caster_.layers().bind(kFreeUnit);
@@ -291,7 +283,7 @@ Status Renderer::draw_from_slices(Canvas& canvas, const VolumeView& view, const 
 }
 
 Status Renderer::draw_on(Canvas& canvas, const SliceView& view, const Progress& progress) {
-  if (auto status = device_->make_current(); !status) return status;
+  TIDEMARK_TRY(device_->make_current());
   const PictureSize size = canvas.size();
   const bool by_plane = !source_picture_.has_volume();
   auto program = use_program("render/slice.frag", variant_of(view, by_plane));
@@ -326,7 +318,7 @@ Status Renderer::draw_on(Canvas& canvas, const SliceView& view, const Progress& 
 }
 
 Result<std::optional<Hit>> Renderer::pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel) {
-  if (auto status = device_->make_current(); !status) return pass_on(status);
+  TIDEMARK_TRY(device_->make_current());
   VolumeView finely = resolved(view);
   finely.quality = {};
   if (!source_picture_.has_volume()) finely.source.reset();  // rays cannot see it
@@ -344,13 +336,9 @@ Result<std::optional<Hit>> Renderer::pick(const VolumeView& view, PictureSize si
     if (!made) return pass_on(made);
     pick_canvas_ = std::move(*made);
   }
-  if (auto status = pick_canvas_.fill(*device_, {}); !status) return pass_on(status);
+  TIDEMARK_TRY(pick_canvas_.fill(*device_, {}));
   glm::vec4 found(0.0F);
-  if (auto status =
-          pick_canvas_.colour().download({0, 0, 1, 1}, std::as_writable_bytes(std::span(&found, 1)));
-      !status) {
-    return pass_on(status);
-  }
+  TIDEMARK_TRY(pick_canvas_.colour().download({0, 0, 1, 1}, std::as_writable_bytes(std::span(&found, 1))));
   if (found.w == 0.0F) return std::optional<Hit>();
   const glm::dvec3 voxel(found);
   return std::optional<Hit>(

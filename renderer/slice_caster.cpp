@@ -90,7 +90,7 @@ Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, 
   const Stopwatch whole;
   const Geometry& geometry = scene.source.geometry;
   const SliceAxis axis = axis_for(view, geometry);
-  if (auto status = prepare(device, scene, axis, size); !status) return status;
+  TIDEMARK_TRY(prepare(device, scene, axis, size));
   const SliceBounds bounds = bounds_of(axis, scene, view);
   const glm::dmat4 view_from_voxel = glm::inverse(view.camera.voxel_from_view(geometry, size.aspect()));
   const double along = direction_in_voxels(view, geometry)[axis.along];
@@ -105,17 +105,16 @@ Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, 
     const gpu::TexelRect pixels =
         bounds.pixels(across, slab.front_plane, slab.back_plane, view_from_voxel, size);
     if (pixels.width == 0) continue;
-    if (auto status = show_slices(slab_program, scene, view, bounds, slab, units, throttle); !status)
-      return status;
+    TIDEMARK_TRY(show_slices(slab_program, scene, view, bounds, slab, units, throttle));
     const double length = std::abs((slab.back_plane - slab.front_plane) / along);  // of a ray, in voxels
     const int steps = std::max(1, static_cast<int>(std::ceil(length / view.quality.step_voxels - 0.01)));
     slab_program.set("low_across", glm::vec2(across.low));
     slab_program.set("high_across", glm::vec2(across.high));
     slab_program.set("steps", steps);
-    if (auto status = draw_slab(slab_program, slab, steps, pixels, throttle); !status) return status;
+    TIDEMARK_TRY(draw_slab(slab_program, slab, steps, pixels, throttle));
     progress(static_cast<double>(i + 1) / static_cast<double>(all.size()), "drawing");
   }
-  if (auto status = throttle.wait(); !status) return status;
+  TIDEMARK_TRY(throttle.wait());
   report_ = throttle.report();
   const bool in_one = report_.pieces == 0;  // a GPU is not waited for
   report_.seconds = whole.seconds();
@@ -128,7 +127,8 @@ Status SliceCaster::draw(gpu::Device& device, const gpu::Program& slab_program, 
 
 // Makes sure that the slab's two slices are there, and binds them.
 Status SliceCaster::show_slices(const gpu::Program& slab_program, const Scene& scene, const VolumeView& view,
-                                const SliceBounds& bounds, const Slab& slab, const Units& units, DrawThrottle& throttle) {
+                                const SliceBounds& bounds, const Slab& slab, const Units& units,
+                                DrawThrottle& throttle) {
   const auto along = static_cast<std::size_t>(bounds.axis().along);
   SliceStack& phi = *phi_[along];
   SourceStack& source = *source_[along];
@@ -136,8 +136,7 @@ Status SliceCaster::show_slices(const gpu::Program& slab_program, const Scene& s
   const bool by_source = needs_source(view);
   for (const std::int64_t slice : {slab.front_slice, slab.back_slice}) {
     if (by_phi) {
-      if (auto status = phi.reconstruct(scene.phi, slice, units.phi, units.free, throttle); !status)
-        return status;
+      TIDEMARK_TRY(phi.reconstruct(scene.phi, slice, units.phi, units.free, throttle));
     }
     if (by_source) {
       auto status = source.prepare(scene.source, slice, bounds.voxels(slice), units.free, throttle);

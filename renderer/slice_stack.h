@@ -21,7 +21,8 @@ class SliceStack {
   // Begins a picture. `table`: the physical page of each virtual one.
   void begin(std::span<const PhysicalPage> table);
   // Makes sure that a slice is there. Units: three of phi's, one of the list of pages.
-  Status reconstruct(const PhiPicture& phi, std::int64_t slice, int phi_unit, int list_unit, DrawThrottle& throttle);
+  Status reconstruct(const PhiPicture& phi, std::int64_t slice, int phi_unit, int list_unit,
+                     DrawThrottle& throttle);
 
   [[nodiscard]] const gpu::Texture2D& texture(std::int64_t slice) const { return pair_.texture(slice); }
 

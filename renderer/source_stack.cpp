@@ -83,7 +83,7 @@ Status SourceStack::send(const Volume& source, std::int64_t slice, DrawThrottle&
   Stored& stored = stored_[static_cast<std::size_t>(slice % 3)];
   if (stored.slice == slice) return {};
   // What is drawn from this texture's old slice must be done anyhow.
-  if (auto status = throttle.wait(); !status) return status;
+  TIDEMARK_TRY(throttle.wait());
   const auto texels = std::visit([&](const auto& voxels) { return gather(voxels, slice); }, source.voxels);
   stored.texture.upload(axis_.rect(), texels);
   stored.slice = slice;
@@ -97,7 +97,7 @@ Status SourceStack::prepare(const Volume& source, std::int64_t slice, const gpu:
   const std::array<std::int64_t, 3> slices{std::max<std::int64_t>(slice - 1, 0), slice,
                                            std::min(slice + 1, axis_.count() - 1)};
   for (const std::int64_t one : slices) {
-    if (auto status = send(source, one, throttle); !status) return status;
+    TIDEMARK_TRY(send(source, one, throttle));
   }
   pair_.begin(slice);
   vertices_.bind();

@@ -23,7 +23,8 @@ class SourceStack {
   // Begins a picture.
   void begin() { pair_.forget(); }
   // Makes sure that a slice is there, at least its `part`. `source` is that of create(). Uses three units.
-  Status prepare(const Volume& source, std::int64_t slice, const gpu::TexelRect& part, int unit, DrawThrottle& throttle);
+  Status prepare(const Volume& source, std::int64_t slice, const gpu::TexelRect& part, int unit,
+                 DrawThrottle& throttle);
 
   [[nodiscard]] const gpu::Texture2D& texture(std::int64_t slice) const { return pair_.texture(slice); }
 

@@ -98,7 +98,7 @@ Result<Primitive> read_primitive(const Json& object, const std::string& where, A
     if (!factor) return tl::unexpected<Error>(factor.error());
     result.*member = *factor;
   }
-  if (Status good = read_material(object, where, result); !good) return pass_on(good);
+  TIDEMARK_TRY(read_material(object, where, result));
   return result;
 }
 

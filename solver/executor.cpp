@@ -35,7 +35,7 @@ std::optional<ExecutorKind> executor_named(std::string_view name) {
 Result<std::unique_ptr<Executor>> make_executor(ExecutorKind kind, std::shared_ptr<const Volume> source,
                                                 const Parameters& parameters,
                                                 const ExecutorOptions& options) {
-  if (auto status = check(parameters); !status) return pass_on(status);
+  TIDEMARK_TRY(check(parameters));
   switch (kind) {
     case ExecutorKind::automatic:
       if (auto device = hardware_device(options); device != nullptr) {

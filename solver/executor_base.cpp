@@ -8,7 +8,7 @@ ExecutorBase::ExecutorBase(std::shared_ptr<const Volume> source, const Parameter
     : source_(std::move(source)), model_(*source_, parameters) {}
 
 Result<Model> ExecutorBase::model_with(const Parameters& parameters) const {
-  if (auto status = check(parameters); !status) return pass_on(status);
+  TIDEMARK_TRY(check(parameters));
   Model model(*source_, parameters);
   if (model.band() != model_.band()) return fail(ErrorKind::usage, "the band W cannot change in mid-run");
   return model;

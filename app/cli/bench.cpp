@@ -145,7 +145,7 @@ Status let_rest(Executor& solver) {
   for (std::int64_t done = 0; done < 20 * kSteps; done += kSteps) {
     const MemoryReport memory = solver.memory();
     if (memory.quiet_pages == memory.resident_pages) break;
-    if (auto report = solver.advance({.steps = kSteps}); !report) return pass_on(report);
+    TIDEMARK_TRY(solver.advance({.steps = kSteps}));
   }
   return {};
 }
@@ -158,12 +158,12 @@ Result<std::vector<Stage>> measure_stages(Executor& solver, std::int64_t steps, 
   };
   std::vector<Stage> stages;
   // Kernels are compiled with their first step.
-  if (const auto first = solver.advance({}); !first) return tl::unexpected<Error>(first.error());
+  TIDEMARK_TRY(solver.advance({}));
   for (const Plan& plan :
        {Plan{"early", steps, false}, Plan{"middle", steps, false}, Plan{"late", steps, false},
         Plan{"to convergence", kMostSteps, true}, Plan{kConverged, steps, false}}) {
     if (plan.name == kConverged) {
-      if (Status rested = let_rest(solver); !rested) return pass_on(rested);
+      TIDEMARK_TRY(let_rest(solver));
     }
     const auto report = solver.advance(Advance{plan.steps, plan.until_converged, console.progress()});
     if (!report) return tl::unexpected<Error>(report.error());
@@ -192,7 +192,7 @@ Status begin(Executor& solver, const Case& benchmark) {
 
 Status run(Program& program, const BenchOptions& options) {
   Console& console = program.console;
-  if (Status good = check(options); !good) return good;
+  TIDEMARK_TRY(check(options));
   const auto benchmark = make_case(options, console);
   if (!benchmark) return tl::unexpected<Error>(benchmark.error());
   if (console.interrupted()) return cancelled_error();
@@ -202,7 +202,7 @@ Status run(Program& program, const BenchOptions& options) {
                                 benchmark->parameters, executor_options);
   if (!executor) return pass_on(executor);
   Executor& solver = **executor;
-  if (Status started = begin(solver, *benchmark); !started) return started;
+  TIDEMARK_TRY(begin(solver, *benchmark));
   const auto stages = measure_stages(solver, options.steps.value_or(kDefaultSteps), console);
   if (!stages) return tl::unexpected<Error>(stages.error());
 

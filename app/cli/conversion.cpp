@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "imaging/files/volume_file.h"
-#include "imaging/onto_grid.h"
 #include "imaging/load_study.h"
+#include "imaging/onto_grid.h"
 #include "solver/distance_transform.h"
 
 namespace tidemark::cli {
@@ -41,12 +41,9 @@ Volume::Voxels as_stored(std::vector<float> values) {
 
 Result<Conversion> Conversion::load(ConversionOptions options, const Progress& progress) {
   Conversion conversion(std::move(options));
-  if (auto loaded = conversion.load_source(progress); !loaded) return pass_on(loaded);
+  TIDEMARK_TRY(conversion.load_source(progress));
   const bool is_result = result_form_of(conversion.options_.study.path).has_value();
-  if (auto loaded = is_result ? conversion.load_result(progress) : conversion.load_volume(progress);
-      !loaded) {
-    return pass_on(loaded);
-  }
+  TIDEMARK_TRY(is_result ? conversion.load_result(progress) : conversion.load_volume(progress));
   const std::size_t given = conversion.options_.labels.size();
   if (given > conversion.segments_.list.size()) {
     return fail(ErrorKind::usage, "--label was given {} times for {} segments", given,
@@ -167,7 +164,7 @@ Status Conversion::write_surface(const fs::path& file) {
 
 Status Conversion::write(const fs::path& file, FileForm form, const Progress& progress) {
   if (form == FileForm::volume) return write_values(file);
-  if (auto good = require_segments(); !good) return good;
+  TIDEMARK_TRY(require_segments());
   if (form == FileForm::mesh) return write_surface(file);
   if (form == FileForm::segmentation) return write_segmentation(segments_, source_files_, file, progress);
   if (const auto& phi = segments_.list.front().phi) {
@@ -179,7 +176,7 @@ Status Conversion::write(const fs::path& file, FileForm form, const Progress& pr
 }
 
 Status Conversion::write_contours(const fs::path& file, const Progress& progress) {
-  if (auto good = require_segments(); !good) return good;
+  TIDEMARK_TRY(require_segments());
   return write_structure_set(segments_, source_files_, file, progress);
 }
 

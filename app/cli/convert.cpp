@@ -48,11 +48,11 @@ Status check(const ConvertOptions& options, Outputs& outputs) {
     if (!good) return good;
   }
   if (!options.rtstruct.empty()) {
-    if (Status good = outputs.announce_dicom("--rtstruct", options.rtstruct); !good) return good;
+    TIDEMARK_TRY(outputs.announce_dicom("--rtstruct", options.rtstruct));
   }
   for (const std::string& input : {options.conversion.study.path, options.conversion.source}) {
     if (input.empty()) continue;
-    if (Status good = outputs.spare(input); !good) return good;
+    TIDEMARK_TRY(outputs.spare(input));
   }
   return {};
 }
@@ -63,7 +63,7 @@ Status write_all(const ConvertOptions& options, Conversion& conversion, Outputs&
     const auto write = [&](const std::filesystem::path& name) {
       return conversion.write(name, form_of(file), console.progress());
     };
-    if (Status staged = outputs.stage(file, write); !staged) return staged;
+    TIDEMARK_TRY(outputs.stage(file, write));
   }
   if (options.rtstruct.empty()) return {};
   return outputs.stage(options.rtstruct, [&](const std::filesystem::path& name) {
@@ -106,7 +106,7 @@ Json to_json(const ConvertOptions& options, const Conversion& conversion) {
 Status run(Program& program, const ConvertOptions& options) {
   Console& console = program.console;
   Outputs outputs;
-  if (Status good = check(options, outputs); !good) return good;
+  TIDEMARK_TRY(check(options, outputs));
   ConversionOptions chosen = options.conversion;
   chosen.kind = options.as_mask     ? InputKind::mask
                 : options.as_labels ? InputKind::labels
@@ -114,9 +114,9 @@ Status run(Program& program, const ConvertOptions& options) {
                                     : InputKind::volume;
   auto conversion = Conversion::load(std::move(chosen), console.progress());
   if (!conversion) return pass_on(conversion);
-  if (Status written = write_all(options, *conversion, outputs, console); !written) return written;
+  TIDEMARK_TRY(write_all(options, *conversion, outputs, console));
   if (console.interrupted()) return cancelled_error();
-  if (Status done = outputs.commit(); !done) return done;
+  TIDEMARK_TRY(outputs.commit());
   say(options, *conversion, console);
   console.result(to_json(options, *conversion));
   return {};

@@ -56,10 +56,10 @@ double smallest_spacing(const Geometry& geometry) {
 }
 
 Status check(const DistanceOptions& options, Outputs& outputs) {
-  if (Status good = check(rescaling_alone(options.band)); !good) return good;
-  if (Status good = check(options.solver); !good) return good;
+  TIDEMARK_TRY(check(rescaling_alone(options.band)));
+  TIDEMARK_TRY(check(options.solver));
   for (const std::string& file : options.out) {
-    if (Status good = outputs.announce("--out", file, {FileForm::volume}); !good) return good;
+    TIDEMARK_TRY(outputs.announce("--out", file, {FileForm::volume}));
   }
   return outputs.spare(options.mask);
 }
@@ -87,7 +87,7 @@ Volume in_millimetres(const Field& phi) {
 Status run(Program& program, const DistanceOptions& options) {
   Console& console = program.console;
   Outputs outputs;
-  if (Status good = check(options, outputs); !good) return good;
+  TIDEMARK_TRY(check(options, outputs));
   const auto loaded = load_any_mask(options.mask, nullptr, console.progress());
   if (!loaded) return tl::unexpected<Error>(loaded.error());
   const Mask& mask = loaded->mask;
@@ -97,7 +97,7 @@ Status run(Program& program, const DistanceOptions& options) {
                     rescaling_alone(options.band), options.solver.executor_options());
   if (!executor) return pass_on(executor);
   Executor& solver = **executor;
-  if (Status set = solver.restore(distance_transform(mask, solver.band())); !set) return set;
+  TIDEMARK_TRY(solver.restore(distance_transform(mask, solver.band())));
   const auto report = solver.advance(Advance{kMostSteps, true, console.progress()});
   if (!report) return tl::unexpected<Error>(report.error());
   if (console.interrupted()) return cancelled_error();
@@ -107,10 +107,10 @@ Status run(Program& program, const DistanceOptions& options) {
   const Volume distance = in_millimetres(*phi);
   for (const std::string& file : options.out) {
     const auto write = [&](const std::filesystem::path& name) { return write_volume_file(distance, name); };
-    if (Status staged = outputs.stage(file, write); !staged) return staged;
+    TIDEMARK_TRY(outputs.stage(file, write));
     if (console.interrupted()) return cancelled_error();
   }
-  if (Status done = outputs.commit(); !done) return done;
+  TIDEMARK_TRY(outputs.commit());
   console.say("Steps      {}{}", report->steps, report->converged ? ", converged" : ", not converged");
   console.say("Distance   -{0:.4g} to {0:.4g} mm, > 0 inside",
               solver.band() * smallest_spacing(mask.geometry));

@@ -160,7 +160,7 @@ Status Outputs::stage(const std::filesystem::path& file,
 
 Status Outputs::commit() {
   for (AtomicFile& staged : staged_) {
-    if (Status done = staged.commit(); !done) return done;
+    TIDEMARK_TRY(staged.commit());
   }
   staged_.clear();
   return {};

@@ -97,7 +97,7 @@ Status run(Program& program, const PhantomArguments& arguments) {
   if (!phantom) return tl::unexpected<Error>(phantom.error());
   if (console.interrupted()) return cancelled_error();
   const std::filesystem::path folder = arguments.out;
-  if (Status written = write_or_clean_up(*phantom, folder, console.progress()); !written) return written;
+  TIDEMARK_TRY(write_or_clean_up(*phantom, folder, console.progress()));
 
   const Index3 size = phantom->volume.geometry.size;
   console.say("Wrote      {}: {} x {} x {} voxels", (folder / "series").string(), size.x, size.y, size.z);

@@ -9,9 +9,9 @@
 #include "app/cli/render_options.h"
 #include "gpu/device.h"
 #include "imaging/files/png_file.h"
+#include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
 #include "imaging/results/results.h"
-#include "imaging/load_study.h"
 #include "renderer/sheet.h"
 #include "solver/distance_transform.h"
 #include "solver/model.h"
@@ -127,7 +127,7 @@ Status run(Program& program, const RenderOptions& options) {
   auto views = views_of(options);
   if (!views) return pass_on(views);
   Outputs outputs;
-  if (Status announced = outputs.announce_png("--out", options.out); !announced) return announced;
+  TIDEMARK_TRY(outputs.announce_png("--out", options.out));
   auto loaded = load_study(options.study, console.progress());
   if (!loaded) return pass_on(loaded);
   const auto source = std::make_shared<const Volume>(std::move(loaded->volume));
@@ -139,12 +139,12 @@ Status run(Program& program, const RenderOptions& options) {
   if (!device) return pass_on(device);
   auto renderer = Renderer::create(*device, source, phi->layout);
   if (!renderer) return pass_on(renderer);
-  if (Status shown = (*renderer)->set_phi(*phi); !shown) return shown;
+  TIDEMARK_TRY((*renderer)->set_phi(*phi));
   (*renderer)->set_parameters(views->parameters);
   if (!options.labels.empty()) {
     const auto labels = load_labels(options.labels, source->geometry, console);
     if (!labels) return tl::unexpected<Error>(labels.error());
-    if (Status taken = (*renderer)->set_labels(*labels); !taken) return taken;
+    TIDEMARK_TRY((*renderer)->set_labels(*labels));
   }
   place(*views, options, *source, *phi, volume_aspect(options, views->size));
   const auto picture = draw(**renderer, options, *views, console.progress());
@@ -153,8 +153,8 @@ Status run(Program& program, const RenderOptions& options) {
   const auto write = [&](const std::filesystem::path& name) {
     return write_png_file(picture->width, picture->height, picture->pixels, name);
   };
-  if (Status staged = outputs.stage(options.out, write); !staged) return staged;
-  if (Status done = outputs.commit(); !done) return done;
+  TIDEMARK_TRY(outputs.stage(options.out, write));
+  TIDEMARK_TRY(outputs.commit());
   console.say("Picture    {} x {} pixels in {}", picture->width, picture->height, options.out);
   Json object;
   object["file"] = options.out;

@@ -128,7 +128,7 @@ Result<VolumeView> volume_view(const RenderOptions& options) {
   view.surface = has_surface(options);
   if (options.opacity) view.surface_colour.a = static_cast<float>(*options.opacity);
   if (options.occlusion) view.lighting.occlusion = *options.occlusion;
-  if (auto clipped = meaning("--clipped", options.clipped, kClipped); !clipped) return pass_on(clipped);
+  TIDEMARK_TRY(meaning("--clipped", options.clipped, kClipped));
   if (options.clip) {
     const auto plane = clip_plane(options);
     if (!plane) return tl::unexpected<Error>(plane.error());
@@ -157,7 +157,7 @@ Result<SliceView> slice_view(const RenderOptions& options) {
   return view;
 }
 Status check(const RenderOptions& options) {
-  if (auto view = meaning("--view", options.view, kViews); !view) return pass_on(view);
+  TIDEMARK_TRY(meaning("--view", options.view, kViews));
   if (!options.mask.empty() && !options.phi.empty()) {
     return fail(ErrorKind::usage, "--mask and --phi exclude each other");
   }
@@ -202,7 +202,7 @@ bool has_speed(const RenderOptions& options) {
   return options.target && options.range;
 }
 Result<Views> views_of(const RenderOptions& options) {
-  if (Status good = check(options); !good) return pass_on(good);
+  TIDEMARK_TRY(check(options));
   const auto size = parse_size(options.size);
   if (!size) return tl::unexpected<Error>(size.error());
   const auto volume = volume_view(options);
@@ -213,7 +213,7 @@ Result<Views> views_of(const RenderOptions& options) {
   if (options.target) parameters.target = *options.target;
   if (options.range) parameters.range = *options.range;
   if (options.alpha) parameters.alpha = *options.alpha;
-  if (Status good = tidemark::check(parameters); !good) return pass_on(good);
+  TIDEMARK_TRY(tidemark::check(parameters));
   return Views{*size, *volume, *slice, parameters};
 }
 

@@ -5,9 +5,9 @@
 #include "app/cli/results.h"
 #include "app/cli/solver_options.h"
 #include "app/cli/study_input.h"
-#include "imaging/load_study.h"
 #include "document/checksum.h"
 #include "document/replay.h"
+#include "imaging/load_study.h"
 
 namespace tidemark::cli {
 namespace {
@@ -31,10 +31,10 @@ struct ReplayArguments {
 };
 
 Status check(const ReplayArguments& arguments, ResultWriter& writer) {
-  if (Status good = check(arguments.solver); !good) return good;
-  if (Status good = writer.prepare(); !good) return good;
+  TIDEMARK_TRY(check(arguments.solver));
+  TIDEMARK_TRY(writer.prepare());
   for (const std::string& input : {arguments.recipe, arguments.study.path}) {
-    if (Status good = writer.spare(input); !good) return good;
+    TIDEMARK_TRY(writer.spare(input));
   }
   return {};
 }
@@ -77,7 +77,7 @@ RunResults results_of(const Recipe& recipe, const Volume& volume, Replay replaye
 Status run_replay(Program& program, const ReplayArguments& arguments) {
   Console& console = program.console;
   ResultWriter writer(arguments.results, console);
-  if (Status good = check(arguments, writer); !good) return good;
+  TIDEMARK_TRY(check(arguments, writer));
   const auto recipe = Recipe::load(arguments.recipe);
   if (!recipe) return tl::unexpected<Error>(recipe.error());
   auto study = load_study(arguments.study, console.progress(), recipe->source.policy);
@@ -101,7 +101,7 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
   RunResults results = results_of(*recipe, *volume, std::move(*replayed), arguments);
   results.dicom_files = dicom_files_of(study->series);
   if (writer.wants_recipe()) results.recipe.source.checksum = checksum_of(*volume);
-  if (Status written = writer.write(results); !written) return written;
+  TIDEMARK_TRY(writer.write(results));
   console.result(to_json(results.figures));
   return {};
 }

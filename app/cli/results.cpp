@@ -56,14 +56,14 @@ Status ResultWriter::prepare() {
     if (!good) return good;
   }
   if (!options_.rtstruct.empty()) {
-    if (Status good = outputs_.announce_dicom("--rtstruct", options_.rtstruct); !good) return good;
+    TIDEMARK_TRY(outputs_.announce_dicom("--rtstruct", options_.rtstruct));
   }
   for (const auto& [option, file] : {std::pair{"--stats", options_.stats}, {"--recipe", options_.recipe}}) {
     if (file.empty()) continue;
-    if (Status good = outputs_.announce_json(option, file); !good) return good;
+    TIDEMARK_TRY(outputs_.announce_json(option, file));
   }
   if (options_.picture.empty()) return {};
-  if (Status good = outputs_.announce_png("--picture", options_.picture); !good) return good;
+  TIDEMARK_TRY(outputs_.announce_png("--picture", options_.picture));
   auto device = gpu::Device::create_headless({gpu::GlVersion::gl33, false});
   if (!device) return pass_on(device);
   device_ = std::move(*device);
@@ -107,11 +107,11 @@ Status ResultWriter::stage_out(const RunResults& results) {
     if (form == FileForm::recipe) {
       const auto text = results.recipe.to_text();
       if (!text) return tl::unexpected<Error>(text.error());
-      if (Status staged = stage_text(file, *text); !staged) return staged;
+      TIDEMARK_TRY(stage_text(file, *text));
       continue;
     }
     if (form == FileForm::segmentation) {
-      if (Status staged = stage_dicom(file, ResultForm::segmentation, results); !staged) return staged;
+      TIDEMARK_TRY(stage_dicom(file, ResultForm::segmentation, results));
       continue;
     }
     if (form == FileForm::mesh && !mesh) {
@@ -122,19 +122,18 @@ Status ResultWriter::stage_out(const RunResults& results) {
     const auto write_one = [&](const std::filesystem::path& name) {
       return form == FileForm::mesh ? write_mesh(*mesh, name) : write_mask_file(results.mask, name);
     };
-    if (Status staged = outputs_.stage(file, write_one); !staged) return staged;
+    TIDEMARK_TRY(outputs_.stage(file, write_one));
   }
   return {};
 }
 
 Status ResultWriter::stage(const RunResults& results) {
-  if (Status staged = stage_out(results); !staged) return staged;
+  TIDEMARK_TRY(stage_out(results));
   if (!options_.out_phi.empty()) {
-    if (Status staged = stage_phi(results); !staged) return staged;
+    TIDEMARK_TRY(stage_phi(results));
   }
   if (!options_.rtstruct.empty()) {
-    if (Status staged = stage_dicom(options_.rtstruct, ResultForm::structure_set, results); !staged)
-      return staged;
+    TIDEMARK_TRY(stage_dicom(options_.rtstruct, ResultForm::structure_set, results));
   }
   if (!options_.picture.empty()) {
     const auto picture = draw(results);
@@ -142,7 +141,7 @@ Status ResultWriter::stage(const RunResults& results) {
     const auto write_picture = [&](const std::filesystem::path& name) {
       return write_png_file(picture->width, picture->height, picture->pixels, name);
     };
-    if (Status staged = outputs_.stage(options_.picture, write_picture); !staged) return staged;
+    TIDEMARK_TRY(outputs_.stage(options_.picture, write_picture));
   }
   if (!options_.stats.empty()) {
     Status staged = stage_text(options_.stats, to_text(to_json(results.figures)));
@@ -158,7 +157,7 @@ Status ResultWriter::stage(const RunResults& results) {
 Result<Picture> ResultWriter::draw(const RunResults& results) {
   auto renderer = Renderer::create(device_, results.source, results.phi.layout);
   if (!renderer) return pass_on(renderer);
-  if (Status shown = (*renderer)->set_phi(results.phi); !shown) return pass_on(shown);
+  TIDEMARK_TRY((*renderer)->set_phi(results.phi));
   (*renderer)->set_parameters(results.figures.parameters);
   constexpr PictureSize kSize{1200, 800};
   SheetView view;
@@ -173,9 +172,9 @@ Result<Picture> ResultWriter::draw(const RunResults& results) {
 }
 
 Status ResultWriter::write(const RunResults& results) {
-  if (Status staged = stage(results); !staged) return staged;
+  TIDEMARK_TRY(stage(results));
   if (console_.interrupted()) return cancelled_error();
-  if (Status done = outputs_.commit(); !done) return done;
+  TIDEMARK_TRY(outputs_.commit());
   say(console_, results.figures);
   for (const std::string& file : options_.out) console_.say("Wrote      {}", file);
   for (const std::string& file :

@@ -9,10 +9,10 @@
 #include "app/cli/label_argument.h"
 #include "app/cli/outputs.h"
 #include "app/cli/report.h"
+#include "document/recipe.h"
 #include "imaging/results/results.h"
 #include "imaging/series.h"
 #include "renderer/picture.h"
-#include "document/recipe.h"
 
 namespace tidemark::gpu {
 class Device;

@@ -4,11 +4,11 @@
 
 #include "app/cli/program.h"
 #include "app/cli/segment_options.h"
+#include "document/checksum.h"
 #include "imaging/filters/filters.h"
 #include "imaging/filters/suggest_start.h"
-#include "imaging/onto_grid.h"
 #include "imaging/load_study.h"
-#include "document/checksum.h"
+#include "imaging/onto_grid.h"
 
 namespace tidemark::cli {
 namespace {
@@ -64,17 +64,17 @@ class Segmentation {
 };
 
 Status Segmentation::run() {
-  if (Status done = check(options_); !done) return done;
-  if (Status done = writer_.prepare(); !done) return done;
+  TIDEMARK_TRY(check(options_));
+  TIDEMARK_TRY(writer_.prepare());
   for (const std::string& input : inputs_of(options_)) {
-    if (Status done = writer_.spare(input); !done) return done;
+    TIDEMARK_TRY(writer_.spare(input));
   }
   for (const auto step :
        {&Segmentation::load, &Segmentation::load_truth, &Segmentation::suggest, &Segmentation::evolve}) {
-    if (Status done = (this->*step)(); !done) return done;
+    TIDEMARK_TRY((this->*step)());
     if (console_.interrupted()) return cancelled_error();
   }
-  if (Status done = writer_.write(results_); !done) return done;
+  TIDEMARK_TRY(writer_.write(results_));
   say_warnings();
   console_.result(to_json(results_.figures));
   return {};
@@ -86,7 +86,7 @@ Status Segmentation::load() {
   results_.dicom_files = dicom_files_of(study->series);
   results_.archive = study->series.archive;
   Result<Volume> volume = std::move(study->volume);
-  if (Status inside = check_inside(options_.start, volume->geometry); !inside) return inside;
+  TIDEMARK_TRY(check_inside(options_.start, volume->geometry));
   RunFigures& figures = results_.figures;
   figures.geometry = volume->geometry;
   figures.modality = volume->modality;
@@ -191,9 +191,7 @@ Status Segmentation::evolve() {
   if (!start) return pass_on(start);
   recipe.start = std::move(*start);
   figures.start = recipe.start.describe();
-  if (auto begun = begin(solver, *results_.source, recipe.start, console_.progress()); !begun) {
-    return pass_on(begun);
-  }
+  TIDEMARK_TRY(begin(solver, *results_.source, recipe.start, console_.progress()));
   console_.say("Start      {}", figures.start);
   if (options_.step_limit() > 0) {
     Advance advance{options_.step_limit(), options_.until_converged(), console_.progress()};

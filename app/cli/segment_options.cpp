@@ -121,9 +121,9 @@ void add_segment_options(CLI::App& app, SegmentOptions& options) {
 }
 
 Status check(const SegmentOptions& options) {
-  if (Status good = check_present(options); !good) return good;
-  if (Status good = check_numbers(options); !good) return good;
-  if (Status good = check(options.start); !good) return good;
+  TIDEMARK_TRY(check_present(options));
+  TIDEMARK_TRY(check_numbers(options));
+  TIDEMARK_TRY(check(options.start));
   return check(options.solver);
 }
 

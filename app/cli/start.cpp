@@ -3,9 +3,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
 #include "imaging/results/results.h"
-#include "imaging/load_study.h"
 
 namespace tidemark::cli {
 namespace {
@@ -102,7 +102,7 @@ Status check(const StartOptions& options) {
 
 Status check_inside(const StartOptions& options, const Geometry& geometry) {
   for (const auto* spheres : {&options.seeds, &options.erasers}) {
-    if (auto inside = resolve(*spheres, geometry); !inside) return pass_on(inside);
+    TIDEMARK_TRY(resolve(*spheres, geometry));
   }
   if (options.flood && !geometry.contains(flood_seed(*options.flood))) {
     const Index3 voxel = flood_seed(*options.flood);

@@ -171,8 +171,7 @@ int main(int argc, char** argv) {
   application.longest_ms = 0.0;
   proxy.play();
   wait(1000);
-  std::printf("%s, %s, playing:\n", qPrintable(parser.value("phantom")),
-              qPrintable(proxy.state().executor));
+  std::printf("%s, %s, playing:\n", qPrintable(parser.value("phantom")), qPrintable(proxy.state().executor));
   measure_rates(*window.active_case(), parser.value("seconds").toDouble());
   measure_latency(*window.active_case());
   proxy.pause();

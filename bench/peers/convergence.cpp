@@ -21,8 +21,8 @@ Result<double> converged_step_percent(const Problem& problem, int rounds) {
   auto active = tidemark_host(false).make(problem);
   if (!active) return pass_on(active);
   constexpr std::int64_t kUntilQuiet = 2000;
-  if (auto cost = (*quiet)->advance(kUntilQuiet); !cost) return pass_on(cost);
-  if (auto cost = (*active)->advance(kUntilQuiet / 4); !cost) return pass_on(cost);
+  TIDEMARK_TRY((*quiet)->advance(kUntilQuiet));
+  TIDEMARK_TRY((*active)->advance(kUntilQuiet / 4));
   std::vector<double> percents;
   for (int round = 0; round < rounds; ++round) {
     auto cheap = (*quiet)->advance(2000);

@@ -44,7 +44,7 @@ Status print_memory_of(const Problem& problem, const std::string& contestant) {
     const std::int64_t before = process_bytes("VmRSS:");
     auto made = kind.make(problem);
     if (!made) return tl::unexpected<Error>(made.error());
-    if (auto cost = (*made)->advance(steps_of(problem)); !cost) return tl::unexpected<Error>(cost.error());
+    TIDEMARK_TRY((*made)->advance(steps_of(problem)));
     const std::int64_t peak = process_bytes("VmHWM:");
     fmt::print("{}\n", peak - before);
     return {};
@@ -68,7 +68,7 @@ Status measure_memory(const Problem& problem, const Settings& settings, Report& 
 
   auto ours = tidemark_host(true).make(problem);
   if (!ours) return tl::unexpected<Error>(ours.error());
-  if (auto cost = (*ours)->advance(steps_of(problem)); !cost) return tl::unexpected<Error>(cost.error());
+  TIDEMARK_TRY((*ours)->advance(steps_of(problem)));
   const MemoryReport memory = (*ours)->executor()->memory();
   const Index3 shape = memory.page_shape;
   const auto resident = static_cast<double>(memory.peak_resident_pages * shape.x * shape.y * shape.z);

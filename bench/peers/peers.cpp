@@ -45,14 +45,14 @@ Status measure(const Arguments& arguments, Report& report) {
     if (!problem) return tl::unexpected<Error>(problem.error());
     if (!arguments.memory_of.empty()) return print_memory_of(*problem, arguments.memory_of);
     if (arguments.simd) {
-      if (auto status = measure_instruction_sets(*problem, report); !status) return status;
+      TIDEMARK_TRY(measure_instruction_sets(*problem, report));
       continue;
     }
-    if (auto status = measure_stages(*problem, settings, report); !status) return status;
+    TIDEMARK_TRY(measure_stages(*problem, settings, report));
     if (problem->seed) {
-      if (auto status = measure_convergence(*problem, settings, report); !status) return status;
+      TIDEMARK_TRY(measure_convergence(*problem, settings, report));
     }
-    if (auto status = measure_memory(*problem, settings, report); !status) return status;
+    TIDEMARK_TRY(measure_memory(*problem, settings, report));
   }
   if (arguments.simd || !(arguments.which.empty() || arguments.which == "scaling")) return {};
   return measure_scaling(settings, report);

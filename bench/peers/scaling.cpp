@@ -47,8 +47,8 @@ Result<Point> make_point(const std::shared_ptr<const Volume>& source, double rad
   auto executor = make_executor(ExecutorKind::host, source, parameters, options);
   if (!executor) return pass_on(executor);
   const glm::dvec3 centre(0.5 * static_cast<double>(kSide - 1));
-  if (auto status = (*executor)->paint({centre, radius}, Brush::add); !status) return pass_on(status);
-  if (auto report = (*executor)->advance({.steps = 20}); !report) return pass_on(report);
+  TIDEMARK_TRY((*executor)->paint({centre, radius}, Brush::add));
+  TIDEMARK_TRY((*executor)->advance({.steps = 20}));
   const MemoryReport memory = (*executor)->memory();
   Point point;
   point.radius = radius;

@@ -64,7 +64,7 @@ Status run_round(const Problem& problem, Entry& entry) {
     std::int64_t done = 0;
     for (std::size_t stage = 0; stage < kStages.size(); ++stage) {
       const Window window = window_of(stage, entry.total);
-      if (auto skipped = (*contestant)->advance(window.begin - done); !skipped) return pass_on(skipped);
+      TIDEMARK_TRY((*contestant)->advance(window.begin - done));
       auto cost = (*contestant)->advance(window.end - window.begin);
       if (!cost) return pass_on(cost);
       add(costs[stage], *cost);
@@ -165,7 +165,7 @@ Status measure_stages(const Problem& problem, const Settings& settings, Report& 
   }
   for (int round = 0; round < settings.rounds; ++round) {
     for (Entry& entry : entries) {
-      if (auto status = run_round(problem, entry); !status) return status;
+      TIDEMARK_TRY(run_round(problem, entry));
     }
   }
   add_table(problem, entries, report);

@@ -49,7 +49,7 @@ Result<DenseRun> run_dense_gl(const Volume& source, const Parameters& parameters
   DenseRun result;
   result.steps = steps;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (auto status = (*device)->check("computing the whole volume"); !status) return pass_on(status);
+  TIDEMARK_TRY((*device)->check("computing the whole volume"));
   return result;
 }
 

@@ -104,8 +104,8 @@ Result<Field> measure_executor(const std::shared_ptr<const Volume>& source, cons
   if (!executor) return tl::unexpected<Error>(executor.error());
   const double unit = static_cast<double>(settings.size) / 256.0;
   const Sphere seed = sphere_at_voxel(source->geometry, glm::dvec3(128.0 * unit), 10.0 * unit);
-  if (auto status = (*executor)->paint(seed, Brush::add); !status) return pass_on(status);
-  if (auto first = (*executor)->advance({}); !first) return pass_on(first);  // compiles kernels
+  TIDEMARK_TRY((*executor)->paint(seed, Brush::add));
+  TIDEMARK_TRY((*executor)->advance({}));  // compiles kernels
 
   fmt::print("{}\n  {:<16} {:>7} {:>12} {:>13} {:>9} {:>9} {:>9}\n", name, "stage", "steps", "steps/s",
              "M updates/s", "paging %", "pages", "quiet");
@@ -134,7 +134,7 @@ Result<Field> measure_executor(const std::shared_ptr<const Volume>& source, cons
       "{:.1f} us\n",
       surface.voxels_inside, surface.surface_mm2, static_cast<double>(memory.peak_state_bytes) / resident,
       1e6 * converged->seconds / static_cast<double>(converged->steps));
-  if (auto status = (*executor)->validate(); !status) return pass_on(status);
+  TIDEMARK_TRY((*executor)->validate());
   return phi;
 }
 
@@ -156,8 +156,8 @@ Status measure_spheres(const std::shared_ptr<const Volume>& source, const Settin
     if (!executor) return tl::unexpected<Error>(executor.error());
     const double radius = part * static_cast<double>(settings.size);
     const Sphere ball = sphere_at_voxel(source->geometry, 0.5 * glm::dvec3(source->geometry.size), radius);
-    if (auto status = (*executor)->paint(ball, Brush::add); !status) return status;
-    if (auto first = (*executor)->advance({.steps = 2}); !first) return pass_on(first);
+    TIDEMARK_TRY((*executor)->paint(ball, Brush::add));
+    TIDEMARK_TRY((*executor)->advance({.steps = 2}));
     const auto run = (*executor)->advance({.steps = std::max<std::int64_t>(settings.steps / 10, 1)});
     if (!run) return tl::unexpected<Error>(run.error());
     const auto phi = (*executor)->snapshot();
@@ -209,16 +209,16 @@ Status run(const Settings& settings) {
   const auto source = std::make_shared<const Volume>(blobs(settings.size, pool));
   fmt::print("{}^3 voxels, {} threads\n", settings.size, pool.threads());
   if (settings.executors != std::vector<std::string>{"host"}) {
-    if (auto status = print_device(); !status) return status;
+    TIDEMARK_TRY(print_device());
   }
   std::optional<Mask> first;
   for (const std::string& name : settings.executors) {
     if (settings.spheres) {
-      if (auto status = measure_spheres(source, settings, name); !status) return status;
+      TIDEMARK_TRY(measure_spheres(source, settings, name));
       continue;
     }
     if (name == "dense") {
-      if (auto status = measure_dense(source, settings); !status) return status;
+      TIDEMARK_TRY(measure_dense(source, settings));
       continue;
     }
     auto phi = measure_executor(source, settings, name);

@@ -102,7 +102,7 @@ class Unpacker {
   Status unpack(const Progress& progress) {
     for (std::size_t entry = 0; entry < entries_.size(); ++entry) {
       if (progress.cancelled()) return cancelled_error();
-      if (Status written = unpack_one(entry, progress); !written) return written;
+      TIDEMARK_TRY(unpack_one(entry, progress));
     }
     return {};
   }
@@ -191,8 +191,8 @@ Result<std::shared_ptr<const StudyArchive>> StudyArchive::unpack(const fs::path&
   if (!folder) return pass_on(folder);
   const std::shared_ptr<StudyArchive> archive(new StudyArchive(file, std::move(*folder)));
   Unpacker unpacker(file, archive->folder());
-  if (Status listed = unpacker.list(archive->left_out_); !listed) return pass_on(listed);
-  if (Status unpacked = unpacker.unpack(progress); !unpacked) return pass_on(unpacked);
+  TIDEMARK_TRY(unpacker.list(archive->left_out_));
+  TIDEMARK_TRY(unpacker.unpack(progress));
   return archive;
 }
 

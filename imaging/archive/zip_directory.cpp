@@ -133,7 +133,7 @@ Status hand_out(ByteSource& bytes, const ZipDirectory::Take& take) {
   std::vector<std::uint8_t> piece(kPiece);
   std::int64_t at = 0;
   while (const std::size_t got = bytes.read(at, piece)) {
-    if (Status taken = take(std::span(piece).first(got)); !taken) return taken;
+    TIDEMARK_TRY(take(std::span(piece).first(got)));
     at += static_cast<std::int64_t>(got);
   }
   return {};
@@ -141,7 +141,7 @@ Status hand_out(ByteSource& bytes, const ZipDirectory::Take& take) {
 
 Status hand_out_inflated(ByteSource& packed, const ZipDirectory::Take& take) {
   InflatedBytes bytes(packed, 0, 0);
-  if (Status done = hand_out(bytes, take); !done) return done;
+  TIDEMARK_TRY(hand_out(bytes, take));
   return bytes.ended();
 }
 

@@ -117,7 +117,7 @@ Result<std::int64_t> InflatedBytes::measure(ByteSource& packed, std::int64_t beg
       return fail(ErrorKind::input, "inflates to more than {} bytes", limit);
     }
   }
-  if (Status ended = bytes.ended(); !ended) return pass_on(ended);
+  TIDEMARK_TRY(bytes.ended());
   return bytes.at_;
 }
 

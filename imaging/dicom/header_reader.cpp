@@ -152,7 +152,7 @@ Result<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file, cons
 
   DcmElement* element = nullptr;
   if (dataset.findAndGetElement(DCM_PixelData, element).bad() || element == nullptr) {
-    if (auto image = require_image(loaded, header); !image) return pass_on(image);
+    TIDEMARK_TRY(require_image(loaded, header));
     in.report(fmt::format("{} is missing", name_of(DCM_PixelData)));
   }
   check_kind(in);

@@ -50,9 +50,8 @@ class Codestream {
         if (length != 10 || at + 12 > bytes_.size()) return damaged();
         const std::size_t size = std::size_t{word(at + 6)} << 16U | word(at + 8);
         tile_end = size == 0 ? bytes_.size() : at + size;
-      } else if (auto known = check_style(marker, at, length); !known) {
-        return known;
-      }
+      } else
+        TIDEMARK_TRY(check_style(marker, at, length));
       at += 2 + length;
     }
     return {};
@@ -89,7 +88,7 @@ Status require_part_one(std::span<const std::uint8_t> bytes) {
   auto start = std::search(bytes.begin(), bytes.end(), kStart.begin(), kStart.end());
   while (start != bytes.end()) {
     const auto stream = bytes.subspan(static_cast<std::size_t>(start - bytes.begin()));
-    if (auto checked = Codestream(stream).check(steps); !checked) return checked;
+    TIDEMARK_TRY(Codestream(stream).check(steps));
     // The boxes of a JP2 file may hold others; a codestream by itself is the only one.
     if (start == bytes.begin()) return {};
     start = std::search(start + 1, bytes.end(), kStart.begin(), kStart.end());

@@ -109,7 +109,7 @@ Status check_header(const opj_image_t& image, std::int64_t columns, std::int64_t
 }  // namespace
 
 Result<J2kImage> decode_j2k(std::span<const std::uint8_t> bytes, std::int64_t columns, std::int64_t rows) {
-  if (auto part_one = require_part_one(bytes); !part_one) return pass_on(part_one);
+  TIDEMARK_TRY(require_part_one(bytes));
   Input input{bytes};
   const Stream stream = open_stream(input);
   const Codec codec = make_codec(bytes);
@@ -119,7 +119,7 @@ Result<J2kImage> decode_j2k(std::span<const std::uint8_t> bytes, std::int64_t co
   const bool has_header = opj_read_header(stream.get(), codec.get(), &raw_image) == OPJ_TRUE;
   const Image image(raw_image);
   if (!has_header || !image) return fail(ErrorKind::input, "the JPEG 2000 stream has no valid header");
-  if (auto valid = check_header(*image, columns, rows); !valid) return pass_on(valid);
+  TIDEMARK_TRY(check_header(*image, columns, rows));
   if (opj_decode(codec.get(), stream.get(), image.get()) == OPJ_FALSE) {
     return fail(ErrorKind::input, "the JPEG 2000 stream is damaged");
   }

@@ -130,7 +130,7 @@ bool is_media_directory(const fs::path& file) {
 }
 
 Result<MediaDirectory> read_media_directory(const fs::path& file) {
-  if (auto ready = set_up_dicom(); !ready) return pass_on(ready);
+  TIDEMARK_TRY(set_up_dicom());
   const auto syntax = syntax_to_parse(file);
   if (!syntax) return tl::unexpected<Error>(syntax.error());
   DcmFileFormat loaded;

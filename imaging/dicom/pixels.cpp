@@ -122,11 +122,11 @@ Status FrameReader::find_frames(ImageFile image) {
 
 Result<FrameReader> FrameReader::open(const fs::path& file) {
   return guarded(file, [&]() -> Result<FrameReader> {
-    if (auto ready = set_up_dicom(); !ready) return pass_on(ready);
+    TIDEMARK_TRY(set_up_dicom());
     auto image = open_image(file);
     if (!image) return pass_on(image);
     FrameReader reader;
-    if (auto found = reader.find_frames(std::move(*image)); !found) return pass_on(found);
+    TIDEMARK_TRY(reader.find_frames(std::move(*image)));
     return reader;
   });
 }
@@ -236,7 +236,7 @@ Status FrameReader::take_words(std::int64_t frame, std::span<std::uint16_t> targ
 
 Result<bool> FrameReader::read_words(std::int64_t frame, std::span<std::uint16_t> target) const {
   return guarded(slices_.front().file, [&]() -> Result<bool> {
-    if (auto taken = take_words(frame, target); !taken) return pass_on(taken);
+    TIDEMARK_TRY(take_words(frame, target));
     if (slices_.front().bits_stored == 16) return false;
     BitReader read(slices_.front());
     for (std::uint16_t& word : target) word = static_cast<std::uint16_t>(read(word));

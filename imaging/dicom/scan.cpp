@@ -202,7 +202,7 @@ Result<Catalogue> scan_file(const fs::path& file, const Progress& progress) {
 
 Result<Catalogue> scan_dicom(const fs::path& path, const Progress& progress) {
   return guarded(path, [&]() -> Result<Catalogue> {
-    if (auto ready = set_up_dicom(); !ready) return pass_on(ready);
+    TIDEMARK_TRY(set_up_dicom());
     std::error_code error;
     if (fs::is_directory(path, error)) return scan_folder(path, progress);
     if (fs::is_regular_file(path, error)) {

@@ -220,10 +220,10 @@ Status write_slice_file(const Volume& volume, const DicomSeriesHeader& header, c
 
 Status write_all(const Volume& volume, const DicomSeriesHeader& header, const fs::path& folder,
                  const Progress& progress) {
-  if (auto ready = set_up_dicom(); !ready) return ready;
-  if (auto writable = check_writable(volume, header, folder); !writable) return writable;
+  TIDEMARK_TRY(set_up_dicom());
+  TIDEMARK_TRY(check_writable(volume, header, folder));
   const std::int64_t slices = volume.geometry.size.z;
-  if (auto usable = check_folder(folder, slices); !usable) return usable;
+  TIDEMARK_TRY(check_folder(folder, slices));
 
   // The folder takes its name with every slice in it: some slices of a series, or of two, look like a volume.
   auto whole = AtomicFolder::create(folder);

@@ -92,13 +92,10 @@ Result<PixelLayout> locate_meta(const std::filesystem::path& file) {
   const auto header = read_meta_header(file);
   if (!header) return tl::unexpected<Error>(header.error());
   PixelLayout layout{.file = file, .offset = header->end};
-  if (auto status = count_bytes(*header, name, layout); !status) return pass_on(status);
-  if (auto status = require_finite_fields(*header, file,
-                                          {"TransformMatrix", "Rotation", "Orientation", "Offset", "Position",
-                                           "Origin", "ElementSpacing", "ElementSize"});
-      !status) {
-    return pass_on(status);
-  }
+  TIDEMARK_TRY(count_bytes(*header, name, layout));
+  TIDEMARK_TRY(require_finite_fields(*header, file,
+                                     {"TransformMatrix", "Rotation", "Orientation", "Offset", "Position",
+                                      "Origin", "ElementSpacing", "ElementSize"}));
   if (is_true(*header, "CompressedData", false)) {
     layout.coding = Coding::deflate;
   } else if (!is_true(*header, "BinaryData", true)) {
@@ -111,8 +108,8 @@ Result<PixelLayout> locate_meta(const std::filesystem::path& file) {
     layout.file = *path;
     layout.offset = 0;
   }
-  if (auto status = find_offset(*header, name, layout); !status) return pass_on(status);
-  if (auto status = check_compressed_size(*header, name, layout); !status) return pass_on(status);
+  TIDEMARK_TRY(find_offset(*header, name, layout));
+  TIDEMARK_TRY(check_compressed_size(*header, name, layout));
   layout.oriented =
       header->find("TransformMatrix") || header->find("Orientation") || header->find("Rotation");
   return layout;

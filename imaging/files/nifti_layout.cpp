@@ -215,7 +215,7 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
   if (std::isinf(header.read<float>(112)) || std::isinf(header.read<float>(116))) {
     return fail(ErrorKind::input, "{}: scl_slope or scl_inter is infinite", name);
   }
-  if (auto status = check_geometry(header, name); !status) return pass_on(status);
+  TIDEMARK_TRY(check_geometry(header, name));
   const auto bytes = checked_product(*voxels, *bits / 8);
   if (!bytes) return fail(ErrorKind::input, "{}: dim: too many voxels", name);
 

@@ -27,7 +27,7 @@ std::vector<To> scaled(const std::vector<From>& stored, double slope, double int
 template <class Stored, class To>
 Result<Volume::Voxels> read_as(const PixelLayout& layout) {
   std::vector<Stored> stored(static_cast<std::size_t>(layout.voxels));
-  if (auto status = read_stored(layout, stored.data()); !status) return pass_on(status);
+  TIDEMARK_TRY(read_stored(layout, stored.data()));
   if (layout.nifti->swapped) swap_bytes(stored);
   const double slope = layout.nifti->slope;
   const double intercept = layout.nifti->intercept;

@@ -105,12 +105,9 @@ Result<PixelLayout> locate_nrrd(const std::filesystem::path& file) {
   const auto header = read_nrrd_header(file);
   if (!header) return tl::unexpected<Error>(header.error());
   PixelLayout layout{.file = file, .offset = header->end};
-  if (auto status = count_bytes(*header, name, layout); !status) return pass_on(status);
-  if (auto status = choose_coding(*header, name, layout); !status) return pass_on(status);
-  if (auto status = require_finite_fields(*header, file, {"space directions", "space origin", "spacings"});
-      !status) {
-    return pass_on(status);
-  }
+  TIDEMARK_TRY(count_bytes(*header, name, layout));
+  TIDEMARK_TRY(choose_coding(*header, name, layout));
+  TIDEMARK_TRY(require_finite_fields(*header, file, {"space directions", "space origin", "spacings"}));
   auto data = header->find("data file");
   if (!data) data = header->find("datafile");
   if (data) {

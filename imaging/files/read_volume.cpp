@@ -35,7 +35,7 @@ std::vector<To> converted(const std::vector<From>& voxels) {
 
 Result<Volume::Voxels> read_voxels(const VolumeHeader& header) {
   if (header.layout.nifti) return files::read_nifti_voxels(header.layout);
-  if (auto status = files::check_stream(header.layout); !status) return pass_on(status);
+  TIDEMARK_TRY(files::check_stream(header.layout));
   using Type = itk::IOComponentEnum;
   switch (header.io->GetComponentType()) {
     case Type::UCHAR:
@@ -120,7 +120,7 @@ Result<Volume> read_volume_file(const std::filesystem::path& file, const Progres
   volume.description = file.filename().string();
   volume.changes = std::move(header->changes);
   volume.changes.insert(volume.changes.end(), header->warnings.begin(), header->warnings.end());
-  if (auto status = require_finite(volume, name); !status) return pass_on(status);
+  TIDEMARK_TRY(require_finite(volume, name));
   progress(1.0, "reading the volume");
   return volume;
 }

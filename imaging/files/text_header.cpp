@@ -31,7 +31,7 @@ std::string lower(std::string text) {
 
 // The start of the file as it is, without inflating.
 Result<std::string> read_text(const std::filesystem::path& file) {
-  if (auto exists = read_start(file, 1); !exists) return pass_on(exists);
+  TIDEMARK_TRY(read_start(file, 1));
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
   if (error) return fail(ErrorKind::input, "{}: {}", file.string(), error.message());
@@ -65,8 +65,8 @@ void add_nrrd_field(TextHeader& header, std::string_view line) {
 }
 
 // What MetaIO would take for something else than is written there: it ends a name at ':' too and copies one
-// of up to 500 bytes where it has room for 255 (as it does some values), ends a line at '\r', a text at a zero
-// byte, and, where a value is empty or begins with a separator, skips to the next thing that is neither.
+// of up to 500 bytes where it has room for 255 (as it does some values), ends a line at '\r', a text at a
+// zero byte, and, where a value is empty or begins with a separator, skips to the next thing that is neither.
 std::optional<std::string> ambiguity_of(std::string_view line) {
   if (line.ends_with('\r')) line.remove_suffix(1);
   const auto is_control = [](char c) { return c != '\t' && static_cast<unsigned char>(c) < ' '; };

@@ -127,7 +127,7 @@ Result<VolumeHeader> check_header(const std::filesystem::path& file) {
   const std::string name = file.string();
   auto layout = locate_pixels(file);
   if (!layout) return pass_on(layout);
-  if (auto status = check_extent(*layout); !status) return pass_on(status);
+  TIDEMARK_TRY(check_extent(*layout));
 
   const Format format = *format_of(file);
   auto name_for_itk = ItkName::create(format, file, ItkName::Use::read);
@@ -139,7 +139,7 @@ Result<VolumeHeader> check_header(const std::filesystem::path& file) {
     auto geometry = checked_geometry(*header.io, name);
     if (!geometry) return pass_on(geometry);
     header.geometry = *geometry;
-    if (auto status = choose_scalar(*header.io, name, header); !status) return pass_on(status);
+    TIDEMARK_TRY(choose_scalar(*header.io, name, header));
   } catch (const std::exception& exception) {
     return fail(ErrorKind::input, "{}: the header cannot be read: {}", name, one_line(exception));
   }

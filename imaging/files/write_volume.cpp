@@ -42,7 +42,7 @@ void write_through_itk(const std::filesystem::path& file, const Geometry& geomet
 Status verify(const std::filesystem::path& file, const Geometry& geometry) {
   auto header = files::check_header(file);
   if (!header) return pass_on(header);
-  if (auto status = files::check_stream(header->layout); !status) return status;
+  TIDEMARK_TRY(files::check_stream(header->layout));
   if (!same_grid(header->geometry, geometry, 1e-2)) {
     return fail(ErrorKind::write, "the format cannot hold this geometry");
   }

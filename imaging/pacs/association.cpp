@@ -49,7 +49,7 @@ OFCondition propose(T_ASC_Parameters* parameters, const std::vector<Proposal>& p
 }  // namespace
 
 Status set_up_network() {
-  if (Status ready = set_up_dicom(); !ready) return ready;
+  TIDEMARK_TRY(set_up_dicom());
   static std::once_flag once;
   std::call_once(once, [] {
     dcmConnectionTimeout.set(kConnectSeconds);
@@ -77,8 +77,8 @@ Association::~Association() {
 Result<std::unique_ptr<Association>> Association::open(const PacsServer& server,
                                                        const std::vector<Proposal>& proposals,
                                                        const std::stop_token& stop) {
-  if (Status good = check_pacs_server(server); !good) return pass_on(good);
-  if (Status ready = set_up_network(); !ready) return pass_on(ready);
+  TIDEMARK_TRY(check_pacs_server(server));
+  TIDEMARK_TRY(set_up_network());
   const std::string peer = fmt::format("PACS {} ({}:{})", server.name, server.host, server.port);
   const std::chrono::seconds patience(server.timeout_seconds);
   const auto address = resolve_host(server.host, patience, stop);
@@ -86,7 +86,8 @@ Result<std::unique_ptr<Association>> Association::open(const PacsServer& server,
   if (!address) return fail(ErrorKind::input, "{}: {}", peer, address.error().message);
 
   for (const Stopwatch stopwatch;;) {
-    std::unique_ptr<Association> association(new Association(std::make_shared<ConnectionWatch>(peer, patience, stop)));
+    std::unique_ptr<Association> association(
+        new Association(std::make_shared<ConnectionWatch>(peer, patience, stop)));
     bool may_try_again = false;
     const Status called = association->call(server, *address, proposals, may_try_again);
     if (called) return association;

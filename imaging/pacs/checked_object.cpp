@@ -47,7 +47,7 @@ Result<ObjectIdentity> identity_of(const fs::path& file, const TransferSyntax& s
 
 Result<ObjectIdentity> check_object(const fs::path& file) {
   return guarded(file, [&]() -> Result<ObjectIdentity> {
-    if (Status ready = set_up_dicom(); !ready) return pass_on(ready);
+    TIDEMARK_TRY(set_up_dicom());
     const auto syntax = syntax_to_parse(file);
     if (!syntax) return tl::unexpected<Error>(syntax.error());
     return identity_of(file, **syntax);

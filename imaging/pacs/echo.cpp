@@ -26,7 +26,7 @@ Result<double> echo(const PacsServer& server, const Progress& progress) {
   request.msg.CEchoRQ.MessageID = association.next_message_id();
   request.msg.CEchoRQ.DataSetType = DIMSE_DATASET_NULL;
   OFStandard::strlcpy(request.msg.CEchoRQ.AffectedSOPClassUID, UID_VerificationSOPClass, sizeof(DIC_UI));
-  if (Status sent = association.send(context, request); !sent) return pass_on(sent);
+  TIDEMARK_TRY(association.send(context, request));
   T_DIMSE_Message answer{};
   auto received = association.receive(answer);
   if (!received) return pass_on(received);

@@ -91,7 +91,7 @@ Result<bool> ask(const PacsServer& server, Question& question, const TakeAnswer&
   find.DataSetType = DIMSE_DATASET_PRESENT;
   OFStandard::strlcpy(find.AffectedSOPClassUID, proposal.abstract_syntax.c_str(), sizeof(DIC_UI));
   const int context = association.context(proposal.abstract_syntax);
-  if (Status sent = association.send(context, request, &question.dataset()); !sent) return pass_on(sent);
+  TIDEMARK_TRY(association.send(context, request, &question.dataset()));
 
   for (;;) {
     T_DIMSE_Message message{};
@@ -175,7 +175,7 @@ Result<Found<PacsStudy>> find_studies(const PacsServer& server, const StudyQuery
                                       {"patient ID", &query.patient_id},
                                       {"modality", &query.modality},
                                       {"description", &query.description}}) {
-      if (Status good = check_key(name, *value); !good) return pass_on(good);
+      TIDEMARK_TRY(check_key(name, *value));
     }
     auto dates = date_range(query.date_from, query.date_to);
     if (!dates) return pass_on(dates);
@@ -200,7 +200,7 @@ Result<Found<PacsSeries>> find_pacs_series(const PacsServer& server, const Serie
       return fail(ErrorKind::usage, "'{}' is no UID", query.study_uid.substr(0, 80));
     for (const auto& [name, value] :
          {std::pair{"modality", &query.modality}, {"description", &query.description}}) {
-      if (Status good = check_key(name, *value); !good) return pass_on(good);
+      TIDEMARK_TRY(check_key(name, *value));
     }
     Question question("SERIES");
     question.put(DCM_StudyInstanceUID, query.study_uid);

@@ -47,7 +47,7 @@ std::vector<const char*> c_texts(const std::vector<std::string>& texts) {
 
 Result<std::unique_ptr<Receiver>> Receiver::start(const PacsServer& server, RetrievalFolder& retrieval_folder,
                                                   const PacsLimits& limits) {
-  if (Status ready = set_up_network(); !ready) return pass_on(ready);
+  TIDEMARK_TRY(set_up_network());
   std::unique_ptr<Receiver> receiver(new Receiver(server, retrieval_folder, limits));
   auto transport = make_transport(server.tls, TransportRole::called, server.host,
                                   [self = receiver.get()] { return self->next_watch_; });
@@ -99,8 +99,9 @@ void Receiver::accept(const std::stop_token& quit) {
     return;
   }
   const std::chrono::milliseconds patience = std::chrono::seconds(server_.timeout_seconds);
-  const auto watch = std::make_shared<ConnectionWatch>(fmt::format("the caller on port {}", server_.move_port),
-                                           std::min(patience, kGreetingPatience), stop_.get_token());
+  const auto watch =
+      std::make_shared<ConnectionWatch>(fmt::format("the caller on port {}", server_.move_port),
+                                        std::min(patience, kGreetingPatience), stop_.get_token());
   watch->allow(kLongestCall, "a call");
   next_watch_ = watch;
   T_ASC_Association* called = nullptr;

@@ -26,7 +26,8 @@ struct SubOperations {
 // keep us waiting by saying the same again and again.
 class ResponseReader {
  public:
-  ResponseReader(Association& association, RetrievalFolder& retrieval_folder) : association_(association), retrieval_folder_(retrieval_folder) {}
+  ResponseReader(Association& association, RetrievalFolder& retrieval_folder)
+      : association_(association), retrieval_folder_(retrieval_folder) {}
 
   // A response to either way. True when it was the last. Fails (ErrorKind::input) when the server says that
   // it has failed altogether.
@@ -42,10 +43,13 @@ class ResponseReader {
   std::int64_t read_ = 0;
 };
 
-// Each brings what is wanted into the retrieval_folder and gives the number of objects that the server could not send.
+// Each brings what is wanted into the retrieval_folder and gives the number of objects that the server could
+// not send.
 Result<std::int64_t> retrieve_by_get(const PacsServer& server, const RetrieveRequest& request,
-                                     const PacsLimits& limits, RetrievalFolder& retrieval_folder, const std::stop_token& stop);
+                                     const PacsLimits& limits, RetrievalFolder& retrieval_folder,
+                                     const std::stop_token& stop);
 Result<std::int64_t> retrieve_by_move(const PacsServer& server, const RetrieveRequest& request,
-                                      const PacsLimits& limits, RetrievalFolder& retrieval_folder, const std::stop_token& stop);
+                                      const PacsLimits& limits, RetrievalFolder& retrieval_folder,
+                                      const std::stop_token& stop);
 
 }  // namespace tidemark

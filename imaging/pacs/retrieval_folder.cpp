@@ -25,13 +25,15 @@ Status require_empty(const fs::path& folder) {
 
 }  // namespace
 
-Result<std::unique_ptr<RetrievalFolder>> RetrievalFolder::create(const RetrieveRequest& request, const PacsLimits& limits,
-                                             const Progress& progress) {
-  if (Status empty = require_empty(request.folder); !empty) return pass_on(empty);
+Result<std::unique_ptr<RetrievalFolder>> RetrievalFolder::create(const RetrieveRequest& request,
+                                                                 const PacsLimits& limits,
+                                                                 const Progress& progress) {
+  TIDEMARK_TRY(require_empty(request.folder));
   auto collected = AtomicFolder::create(request.folder);
   if (!collected) return pass_on(collected);
-  std::unique_ptr<RetrievalFolder> retrieval_folder(new RetrievalFolder(request, limits, progress, std::move(*collected)));
-  if (Status enough = retrieval_folder->check_free_space(); !enough) return pass_on(enough);
+  std::unique_ptr<RetrievalFolder> retrieval_folder(
+      new RetrievalFolder(request, limits, progress, std::move(*collected)));
+  TIDEMARK_TRY(retrieval_folder->check_free_space());
   return retrieval_folder;
 }
 
@@ -69,7 +71,7 @@ Status RetrievalFolder::grown(std::int64_t bytes) {
 }
 
 Status RetrievalFolder::look_into(const fs::path& object, const std::string& sop_class,
-                        const std::string& sop_instance) const {
+                                  const std::string& sop_instance) const {
   const auto identity = check_object(object);
   // The name says nothing to anybody.
   if (!identity) return fail(ErrorKind::input, "{}", without_path(identity.error().message, object));
@@ -83,7 +85,8 @@ Status RetrievalFolder::look_into(const fs::path& object, const std::string& sop
   return {};
 }
 
-bool RetrievalFolder::take(const fs::path& object, const std::string& sop_class, const std::string& sop_instance) {
+bool RetrievalFolder::take(const fs::path& object, const std::string& sop_class,
+                           const std::string& sop_instance) {
   Status sound = look_into(object, sop_class, sop_instance);
   if (sound && !sync_to_disk(object)) sound = fail(ErrorKind::write, "cannot be written");
   const std::lock_guard lock(mutex_);
@@ -140,8 +143,8 @@ Result<Retrieved> RetrievalFolder::keep(std::int64_t missing) {
   }
   std::error_code ignored;
   for (const fs::path& object : unfinished_) fs::remove(object, ignored);
-  if (Status empty = require_empty(request_.folder); !empty) return pass_on(empty);
-  if (Status placed = collected_.commit(); !placed) return pass_on(placed);
+  TIDEMARK_TRY(require_empty(request_.folder));
+  TIDEMARK_TRY(collected_.commit());
   retrieved_.missing = missing;
   std::sort(retrieved_.files.begin(), retrieved_.files.end());
   return retrieved_;

@@ -24,8 +24,8 @@ namespace tidemark {
 class RetrievalFolder {
  public:
   // For a folder that is not there yet, or empty. Fails (ErrorKind::write).
-  static Result<std::unique_ptr<RetrievalFolder>> create(const RetrieveRequest& request, const PacsLimits& limits,
-                                               const Progress& progress);
+  static Result<std::unique_ptr<RetrievalFolder>> create(const RetrieveRequest& request,
+                                                         const PacsLimits& limits, const Progress& progress);
 
   // What is filled, as messages name it.
   [[nodiscard]] const std::filesystem::path& folder() const { return request_.folder; }
@@ -50,7 +50,7 @@ class RetrievalFolder {
 
  private:
   RetrievalFolder(const RetrieveRequest& request, const PacsLimits& limits, const Progress& progress,
-        AtomicFolder collected)
+                  AtomicFolder collected)
       : request_(request), limits_(limits), progress_(progress), collected_(std::move(collected)) {}
   Status check_free_space() const;
   Status look_into(const std::filesystem::path& object, const std::string& sop_class,

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "core/without_exceptions.h"
-#include "imaging/pacs/services.h"
 #include "imaging/pacs/retrieval.h"
+#include "imaging/pacs/services.h"
 #include "imaging/pacs/storage_classes.h"
 
 namespace tidemark {
@@ -43,7 +43,7 @@ Result<Retrieved> retrieve_into_folder(const PacsServer& server, const RetrieveR
     return fail(ErrorKind::usage, "'{}' is no UID of a study", request.study_uid.substr(0, 80));
   if (!request.series_uid.empty() && !is_uid(request.series_uid))
     return fail(ErrorKind::usage, "'{}' is no UID of a series", request.series_uid.substr(0, 80));
-  if (Status good = check_pacs_server(server); !good) return pass_on(good);
+  TIDEMARK_TRY(check_pacs_server(server));
   auto retrieval_folder = RetrievalFolder::create(request, limits, progress);
   if (!retrieval_folder) return pass_on(retrieval_folder);
   progress(-1.0, "calling the server");

@@ -8,7 +8,8 @@
 
 namespace tidemark {
 Result<std::int64_t> retrieve_by_get(const PacsServer& server, const RetrieveRequest& request,
-                                     const PacsLimits& limits, RetrievalFolder& retrieval_folder, const std::stop_token& stop) {
+                                     const PacsLimits& limits, RetrievalFolder& retrieval_folder,
+                                     const std::stop_token& stop) {
   std::vector<Proposal> proposals = storage_proposals();
   const Proposal get{UID_GETStudyRootQueryRetrieveInformationModel,
                      {UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax}};
@@ -29,7 +30,7 @@ Result<std::int64_t> retrieve_by_get(const PacsServer& server, const RetrieveReq
   message.msg.CGetRQ.DataSetType = DIMSE_DATASET_PRESENT;
   OFStandard::strlcpy(message.msg.CGetRQ.AffectedSOPClassUID, get.abstract_syntax.c_str(), sizeof(DIC_UI));
   const auto identifier = identifier_of(request);
-  if (Status sent = association.send(context, message, identifier.get()); !sent) return pass_on(sent);
+  TIDEMARK_TRY(association.send(context, message, identifier.get()));
 
   for (ResponseReader responses(association, retrieval_folder);;) {
     message = {};

@@ -9,7 +9,8 @@ namespace tidemark {
 namespace {
 
 Result<std::int64_t> move(Association& association, const Proposal& proposal, const PacsServer& server,
-                          const RetrieveRequest& request, RetrievalFolder& retrieval_folder, Receiver& receiver) {
+                          const RetrieveRequest& request, RetrievalFolder& retrieval_folder,
+                          Receiver& receiver) {
   T_DIMSE_Message message{};
   message.CommandField = DIMSE_C_MOVE_RQ;
   T_DIMSE_C_MoveRQ& asked = message.msg.CMoveRQ;
@@ -20,12 +21,12 @@ Result<std::int64_t> move(Association& association, const Proposal& proposal, co
   OFStandard::strlcpy(asked.MoveDestination, server.own_ae_title.c_str(), sizeof(DIC_AE));
   const auto identifier = identifier_of(request);
   const int context = association.context(proposal.abstract_syntax);
-  if (Status sent = association.send(context, message, identifier.get()); !sent) return pass_on(sent);
+  TIDEMARK_TRY(association.send(context, message, identifier.get()));
 
   for (ResponseReader responses(association, retrieval_folder);;) {
     message = {};
     const auto received = association.receive(message);
-    if (Status fine = receiver.trouble(); !fine) return pass_on(fine);
+    TIDEMARK_TRY(receiver.trouble());
     if (!received) return tl::unexpected<Error>(received.error());
     const auto last = responses.read(message);
     if (!last) return tl::unexpected<Error>(last.error());
@@ -38,7 +39,8 @@ Result<std::int64_t> move(Association& association, const Proposal& proposal, co
 }  // namespace
 
 Result<std::int64_t> retrieve_by_move(const PacsServer& server, const RetrieveRequest& request,
-                                      const PacsLimits& limits, RetrievalFolder& retrieval_folder, const std::stop_token& stop) {
+                                      const PacsLimits& limits, RetrievalFolder& retrieval_folder,
+                                      const std::stop_token& stop) {
   auto receiver = Receiver::start(server, retrieval_folder, limits);
   if (!receiver) return pass_on(receiver);
   const Proposal proposal{UID_MOVEStudyRootQueryRetrieveInformationModel,

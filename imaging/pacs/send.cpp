@@ -88,7 +88,7 @@ Result<std::uint16_t> send_object(Association& association, int context, const O
   OFStandard::strlcpy(request.AffectedSOPClassUID, identity.sop_class.c_str(), sizeof(DIC_UI));
   OFStandard::strlcpy(request.AffectedSOPInstanceUID, identity.sop_instance.c_str(), sizeof(DIC_UI));
   const auto id = request.MessageID;
-  if (Status sent = association.send(context, message, &object); !sent) return pass_on(sent);
+  TIDEMARK_TRY(association.send(context, message, &object));
   message = {};
   const auto answered = association.receive(message);
   if (!answered) return tl::unexpected<Error>(answered.error());
@@ -119,7 +119,7 @@ Result<std::string> send_one(Association& association, const Outgoing& one) {
 
 Result<Sent> send_all(const PacsServer& server, const std::vector<fs::path>& files,
                       const Progress& progress) {
-  if (Status ready = set_up_network(); !ready) return pass_on(ready);
+  TIDEMARK_TRY(set_up_network());
   Sent sent;
   const auto outgoing = look_into(files, sent, progress);
   if (!outgoing) return tl::unexpected<Error>(outgoing.error());

@@ -27,14 +27,16 @@ struct Growth {
 };
 
 Status receive_into(const std::filesystem::path& object, Association& association, int context,
-                    const T_DIMSE_C_StoreRQ& request, RetrievalFolder& retrieval_folder, const PacsLimits& limits) {
+                    const T_DIMSE_C_StoreRQ& request, RetrievalFolder& retrieval_folder,
+                    const PacsLimits& limits) {
   ConnectionWatch& watch = association.watch();
   DcmOutputFileStream* opened = nullptr;
   const OFCondition created =
       DIMSE_createFilestream(object.c_str(), &request, association.get(),
                              static_cast<T_ASC_PresentationContextID>(context), 1, &opened);
   const std::unique_ptr<DcmOutputFileStream> stream(opened);
-  if (created.bad()) return fail(ErrorKind::write, "{}: cannot be written", retrieval_folder.folder().string());
+  if (created.bad())
+    return fail(ErrorKind::write, "{}: cannot be written", retrieval_folder.folder().string());
   watch.allow(limits.object_bytes, "an object");
   Growth growth{watch, retrieval_folder};
   T_ASC_PresentationContextID data_context = 0;
@@ -44,8 +46,9 @@ Status receive_into(const std::filesystem::path& object, Association& associatio
     watch.completed_message();
     return {};
   }
-  if (const Status trouble = watch.trouble(); !trouble) return trouble;
-  if (!stream->good()) return fail(ErrorKind::write, "{}: cannot be written", retrieval_folder.folder().string());
+  TIDEMARK_TRY(watch.trouble());
+  if (!stream->good())
+    return fail(ErrorKind::write, "{}: cannot be written", retrieval_folder.folder().string());
   return tl::unexpected<Error>(association.error(received, "breaks off in the midst of an object"));
 }
 

@@ -177,8 +177,8 @@ Result<std::unique_ptr<DcmTransportLayer>> make_transport(const std::optional<Pa
                                                           LineOfNext line_of_next) {
   if (!tls) return std::make_unique<PlainTransport>(std::move(line_of_next));
   auto transport = std::make_unique<TlsTransport>(role, host, std::move(line_of_next));
-  if (Status ready = set_up_verification(*transport, *tls, role, host); !ready) return pass_on(ready);
-  if (Status ready = set_up_own_certificate(*transport, *tls); !ready) return pass_on(ready);
+  TIDEMARK_TRY(set_up_verification(*transport, *tls, role, host));
+  TIDEMARK_TRY(set_up_own_certificate(*transport, *tls));
   const OFCondition chosen = transport->setTLSProfile(kProfile);
   if (chosen.bad() || transport->activateCipherSuites().bad()) {
     return fail(ErrorKind::capability, "TLS of BCP 195 is not to be had from this OpenSSL");

@@ -14,7 +14,7 @@ namespace tidemark {
 namespace fs = std::filesystem;
 
 Result<std::unique_ptr<DcmFileFormat>> load_object(const fs::path& file, const DcmTagKey& stop_at) {
-  if (auto ready = set_up_dicom(); !ready) return pass_on(ready);
+  TIDEMARK_TRY(set_up_dicom());
   const auto syntax = syntax_to_parse(file);
   if (!syntax) return tl::unexpected<Error>(syntax.error());
   auto loaded = std::make_unique<DcmFileFormat>();

@@ -152,7 +152,7 @@ Status SegmentationReader::load() {
   rows_ = rows;
   columns_ = columns;
   least_inside_ = least_inside(dataset, is_binary_);
-  if (auto found = find_pixels(dataset); !found) return found;
+  TIDEMARK_TRY(find_pixels(dataset));
   DcmSegmentation* document = nullptr;
   const OFCondition loaded = DcmSegmentation::loadDataset(dataset, document);
   document_.reset(document);
@@ -251,8 +251,8 @@ Status SegmentationReader::fill(std::size_t index, Segments& segments) {
 }
 
 Result<Segments> SegmentationReader::read(const Geometry* grid) {
-  if (auto loaded = load(); !loaded) return pass_on(loaded);
-  if (auto read = read_frames(); !read) return pass_on(read);
+  TIDEMARK_TRY(load());
+  TIDEMARK_TRY(read_frames());
   Segments segments;
   if (grid != nullptr) {
     segments.geometry = *grid;
@@ -263,7 +263,7 @@ Result<Segments> SegmentationReader::read(const Geometry* grid) {
   }
   read_segments(segments);
   for (std::size_t index = 0; index < frames_.size(); ++index) {
-    if (auto filled = fill(index, segments); !filled) return pass_on(filled);
+    TIDEMARK_TRY(fill(index, segments));
   }
   if (!is_binary_) {
     segments.changes.push_back("the segments are fractions; half and more of a voxel is taken as inside");

@@ -29,7 +29,7 @@ template <class Sequence, class Visit>
 Status for_each_item(Sequence& sequence, const Visit& visit) {
   typename Sequence::Item* item = nullptr;
   for (sequence.gotoFirstItem(); sequence.getCurrentItem(item).good(); sequence.gotoNextItem()) {
-    if (Status done = visit(*item); !done) return done;
+    TIDEMARK_TRY(visit(*item));
   }
   return {};
 }

@@ -1,7 +1,7 @@
 #include "imaging/results/results.h"
 
-#include "imaging/onto_grid.h"
 #include "imaging/load_study.h"
+#include "imaging/onto_grid.h"
 
 namespace tidemark {
 

@@ -107,7 +107,7 @@ Result<SourceStudy> source_study(SourceFiles files, const Geometry& geometry) {
     take(DCM_FrameOfReferenceUID, study.frame_of_reference_uid);
     study.series_uid = text_of(attributes, DCM_SeriesInstanceUID);
     if (!study.series_uid.empty()) {
-      if (auto read = read_images(files, geometry, study); !read) return pass_on(read);
+      TIDEMARK_TRY(read_images(files, geometry, study));
     }
   }
   // All text is UTF-8 now, what we add too.

@@ -92,7 +92,7 @@ Status write(const Volume& phi, double band, const fs::path& file) {
   if (values == nullptr || static_cast<std::int64_t>(values->size()) != phi.geometry.voxel_count()) {
     return fail(ErrorKind::internal, "phi must be a float volume with a value for every voxel");
   }
-  if (auto finite = require_finite(phi, file.string()); !finite) return finite;
+  TIDEMARK_TRY(require_finite(phi, file.string()));
   for (int axis = 0; axis < 3; ++axis) {
     if (phi.geometry.size[axis] > std::numeric_limits<int>::max() - 2) {
       return fail(ErrorKind::capability, "{} voxels along an axis are too many", phi.geometry.size[axis]);
@@ -107,7 +107,7 @@ Status write(const Volume& phi, double band, const fs::path& file) {
   out.setCompression(openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK);
   out.write({grid});
   out.close();
-  if (auto whole = verify(target->temporary_path(), *grid); !whole) return whole;
+  TIDEMARK_TRY(verify(target->temporary_path(), *grid));
   return target->commit();
 }
 

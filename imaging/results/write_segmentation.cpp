@@ -120,7 +120,7 @@ Status SegmentationWriter::add_segment(const Segment& segment) {
   DcmSegment* made = nullptr;
   failure_ << DcmSegment::create(made, "Segment", of(segment.meaning.category), of(segment.meaning.type),
                                  DcmSegTypes::SAT_SEMIAUTOMATIC, "Tidemark level set");
-  if (auto good = failure_.status(file_); !good) return good;
+  TIDEMARK_TRY(failure_.status(file_));
   const auto [red, green, blue] = segment.colour.value_or(kDefaultColour);
   double l = 0.0;
   double a = 0.0;
@@ -187,7 +187,7 @@ Status SegmentationWriter::add_frames(const Progress& progress) {
     for (const auto& [k, slice] : segment.slices) {
       if (progress.cancelled()) return cancelled_error();
       pixels = slice;  // DCMTK asks for memory that it may write to
-      if (auto added = add_frame(number, k, pixels); !added) return added;
+      TIDEMARK_TRY(add_frame(number, k, pixels));
     }
   }
   return {};
@@ -225,14 +225,14 @@ void SegmentationWriter::put_pixels(DcmDataset& dataset) {
 }
 
 Status SegmentationWriter::write(const Progress& progress) {
-  if (auto created = create(); !created) return created;
+  TIDEMARK_TRY(create());
   identify();
   describe_planes();
   refer_to_source();
   for (const Segment& segment : segments_.list) {
-    if (auto added = add_segment(segment); !added) return added;
+    TIDEMARK_TRY(add_segment(segment));
   }
-  if (auto added = add_frames(progress); !added) return added;
+  TIDEMARK_TRY(add_frames(progress));
   // What was just made need not be checked again frame by frame.
   document_->setCheckFGOnWrite(OFFalse);
   document_->setCheckDimensionsOnWrite(OFFalse);
@@ -240,7 +240,7 @@ Status SegmentationWriter::write(const Progress& progress) {
   failure_ << document_->writeDataset(*dataset);
   put_names(*dataset);
   put_pixels(*dataset);
-  if (auto good = failure_.status(file_); !good) return good;
+  TIDEMARK_TRY(failure_.status(file_));
   document_.reset();
   return save_object(std::move(dataset), EXS_LittleEndianExplicit, file_);
 }
@@ -250,7 +250,7 @@ Status SegmentationWriter::write(const Progress& progress) {
 Status write_segmentation(const Segments& segments, SourceFiles source, const fs::path& file,
                           const Progress& progress) {
   return guarded_writing(file, [&]() -> Status {
-    if (auto planes = require_planes(segments.geometry, file); !planes) return planes;
+    TIDEMARK_TRY(require_planes(segments.geometry, file));
     if (segments.list.empty() || segments.list.size() > 65535) {
       return fail(ErrorKind::write, "{}: cannot write a segmentation of {} segments", file.string(),
                   segments.list.size());

@@ -136,14 +136,14 @@ void StructureSetWriter::refer_to_source() {
 
 Status StructureSetWriter::describe(const Segment& segment, const std::string& number) {
   DRTStructureSetROISequence::Item* region = nullptr;
-  if (auto added = add(set_.getStructureSetROISequence(), region); !added) return added;
+  TIDEMARK_TRY(add(set_.getStructureSetROISequence(), region));
   failure_ << region->setROINumber(of(number));
   failure_ << region->setReferencedFrameOfReferenceUID(of(study_.frame_of_reference_uid));
   failure_ << region->setROIName(of(short_text(segment.name.empty() ? "Region " + number : segment.name)),
                                  OFFalse);
   failure_ << region->setROIGenerationAlgorithm("SEMIAUTOMATIC");
   DRTRTROIObservationsSequence::Item* observation = nullptr;
-  if (auto added = add(set_.getRTROIObservationsSequence(), observation); !added) return added;
+  TIDEMARK_TRY(add(set_.getRTROIObservationsSequence(), observation));
   failure_ << observation->setObservationNumber(of(number))
            << observation->setReferencedROINumber(of(number));
   failure_ << observation->setRTROIInterpretedType("") << observation->setROIInterpreter("");
@@ -152,10 +152,10 @@ Status StructureSetWriter::describe(const Segment& segment, const std::string& n
 
 Status StructureSetWriter::add_contour(DRTContourSequence& sequence, const Contour& contour, std::int64_t k) {
   DRTContourSequence::Item* item = nullptr;
-  if (auto added = add(sequence, item); !added) return added;
+  TIDEMARK_TRY(add(sequence, item));
   if (const auto& place = study_.places[static_cast<std::size_t>(k)]) {
     DRTContourImageSequence::Item* image = nullptr;
-    if (auto added = add(item->getContourImageSequence(), image); !added) return added;
+    TIDEMARK_TRY(add(item->getContourImageSequence(), image));
     failure_ << image->setReferencedSOPClassUID(of(study_.images[place->image].sop_class_uid));
     failure_ << image->setReferencedSOPInstanceUID(of(study_.images[place->image].sop_instance_uid));
     if (!place->frames.empty()) {
@@ -178,14 +178,14 @@ Status StructureSetWriter::add_contour(DRTContourSequence& sequence, const Conto
 Status StructureSetWriter::add_contours(const Segment& segment, const std::string& number,
                                         const Progress& progress) {
   DRTROIContourSequence::Item* region = nullptr;
-  if (auto added = add(set_.getROIContourSequence(), region); !added) return added;
+  TIDEMARK_TRY(add(set_.getROIContourSequence(), region));
   failure_ << region->setReferencedROINumber(of(number));
   const auto [red, green, blue] = segment.colour.value_or(kDefaultColour);
   failure_ << region->setROIDisplayColor(of(fmt::format("{}\\{}\\{}", red, green, blue)));
   for (const auto& [k, slice] : segment.slices) {
     if (progress.cancelled()) return cancelled_error();
     for (const Contour& contour : contours_of(segment, geometry_, k)) {
-      if (auto added = add_contour(region->getContourSequence(), contour, k); !added) return added;
+      TIDEMARK_TRY(add_contour(region->getContourSequence(), contour, k));
     }
   }
   return failure_.status(file_);
@@ -197,12 +197,12 @@ Status StructureSetWriter::write(const Progress& progress) {
   for (std::size_t n = 0; n < segments_.list.size(); ++n) {
     progress(static_cast<double>(n) / static_cast<double>(segments_.list.size()), "writing contours");
     const std::string number = fmt::format("{}", n + 1);
-    if (auto described = describe(segments_.list[n], number); !described) return described;
-    if (auto added = add_contours(segments_.list[n], number, progress); !added) return added;
+    TIDEMARK_TRY(describe(segments_.list[n], number));
+    TIDEMARK_TRY(add_contours(segments_.list[n], number, progress));
   }
   auto dataset = std::make_unique<DcmDataset>();
   failure_ << set_.write(*dataset);
-  if (auto good = failure_.status(file_); !good) return good;
+  TIDEMARK_TRY(failure_.status(file_));
   // Implicit, because a contour of many points is longer than the 65534 bytes that the explicit form of
   // decimal strings can hold (the note on Contour Data in PS3.3 C.8.8.6).
   return save_object(std::move(dataset), EXS_LittleEndianImplicit, file_);
@@ -213,7 +213,7 @@ Status StructureSetWriter::write(const Progress& progress) {
 Status write_structure_set(const Segments& segments, SourceFiles source, const fs::path& file,
                            const Progress& progress) {
   return guarded_writing(file, [&]() -> Status {
-    if (auto planes = require_planes(segments.geometry, file); !planes) return planes;
+    TIDEMARK_TRY(require_planes(segments.geometry, file));
     for (const Segment& segment : segments.list) {
       if (segment.phi && segment.phi->geometry.size != segments.geometry.size) {
         return fail(ErrorKind::internal, "{}: phi and its segment have different grids", file.string());

@@ -68,7 +68,7 @@ Result<Mesh> extract_surface(const Volume& phi) {
                   phi.geometry.size[axis]);
     }
   }
-  if (auto status = require_finite(phi, "surface"); !status) return pass_on(status);
+  TIDEMARK_TRY(require_finite(phi, "surface"));
   if (values->empty()) return Mesh{};
   try {
     return polygonise(phi.geometry, *values);

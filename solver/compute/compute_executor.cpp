@@ -44,13 +44,13 @@ Result<std::unique_ptr<Executor>> ComputeExecutor::create(std::shared_ptr<const 
     return fail(ErrorKind::capability, "the compute executor needs OpenGL 4.5; {} offers {}.{}",
                 device->capabilities().renderer, device->capabilities().major, device->capabilities().minor);
   }
-  if (auto status = device->make_current(); !status) return pass_on(status);
+  TIDEMARK_TRY(device->make_current());
   std::unique_ptr<ComputeExecutor> executor(
       new ComputeExecutor(std::move(device), std::move(source), parameters, options));
-  if (auto status = executor->compile(); !status) return pass_on(status);
+  TIDEMARK_TRY(executor->compile());
   const Field nothing =
       Field::empty(executor->source_->geometry, executor->band(), executor->layout_.layout().page_shape());
-  if (auto status = executor->restore(nothing); !status) return pass_on(status);
+  TIDEMARK_TRY(executor->restore(nothing));
   return executor;
 }
 
@@ -232,10 +232,8 @@ Result<ComputeControl> ComputeExecutor::run_steps(std::int64_t count, bool until
   }
   readback_.start(*device_, memory_.control(), 0);
   ComputeControl control{};
-  if (auto status = readback_.finish(std::as_writable_bytes(std::span(&control, 1))); !status) {
-    return pass_on(status);
-  }
-  if (auto status = device_->check("computing steps"); !status) return pass_on(status);
+  TIDEMARK_TRY(readback_.finish(std::as_writable_bytes(std::span(&control, 1))));
+  TIDEMARK_TRY(device_->check("computing steps"));
   current_ = static_cast<int>((current_ + control.steps_done) % 2);
   steps_in_window_ = static_cast<int>((steps_in_window_ + control.steps_done) % kConvergenceWindow);
   note_memory(control);
@@ -259,7 +257,7 @@ Status ComputeExecutor::grow(std::int64_t more_pages) {
                 "the surface needs {} pages, {} MB while they are copied, and the memory budget is {} MB",
                 capacity, bytes >> 20, options_.memory_budget_bytes >> 20);
   }
-  if (auto status = memory_.grow(*device_, capacity); !status) return status;
+  TIDEMARK_TRY(memory_.grow(*device_, capacity));
   note_memory(memory_.read_control());
   return {};
 }
@@ -278,9 +276,9 @@ Status ComputeExecutor::activate_pages() {
     gpu::finish_writes();
     order_maintenance(false);
     note_memory(memory_.read_control());
-    if (auto status = device_->check("making pages resident"); !status) return status;
+    TIDEMARK_TRY(device_->check("making pages resident"));
     if (control_.starved == 0) break;
-    if (auto status = grow(with_reserve(memory_.capacity()) - memory_.capacity()); !status) return status;
+    TIDEMARK_TRY(grow(with_reserve(memory_.capacity()) - memory_.capacity()));
   }
   needs_activation_ = false;
   return {};
@@ -291,9 +289,9 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
   const Stopwatch whole;
   AdvanceReport report;
   steps_of_last_run_ = 0;
-  if (auto status = device_->make_current(); !status) return pass_on(status);
+  TIDEMARK_TRY(device_->make_current());
   if (needs_activation_) {
-    if (auto status = activate_pages(); !status) return pass_on(status);
+    TIDEMARK_TRY(activate_pages());
   }
   control_.converged = 0;
   while (report.steps < run.steps && !run.progress.cancelled()) {
@@ -328,10 +326,10 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
 }
 
 Result<Field> ComputeExecutor::snapshot() const {
-  if (auto status = device_->make_current(); !status) return pass_on(status);
+  TIDEMARK_TRY(device_->make_current());
   auto phi = memory_.download(source_->geometry, band(), current_);
   if (!phi) return pass_on(phi);
-  if (auto status = device_->check("reading phi back"); !status) return pass_on(status);
+  TIDEMARK_TRY(device_->check("reading phi back"));
   return phi;
 }
 
@@ -348,9 +346,9 @@ MemoryReport ComputeExecutor::memory() const {
 }
 
 Result<std::vector<std::int64_t>> ComputeExecutor::quiet_pages() const {
-  if (auto status = device_->make_current(); !status) return pass_on(status);
+  TIDEMARK_TRY(device_->make_current());
   std::vector<std::int64_t> pages = memory_.sleeping_pages();
-  if (auto status = device_->check("reading which pages are quiet"); !status) return pass_on(status);
+  TIDEMARK_TRY(device_->check("reading which pages are quiet"));
   return pages;
 }
 
@@ -360,8 +358,8 @@ bool ComputeExecutor::packed_view(PackedView& view) {
 }
 
 Status ComputeExecutor::validate() const {
-  if (auto status = device_->make_current(); !status) return status;
-  if (auto status = memory_.validate(); !status) return status;
+  TIDEMARK_TRY(device_->make_current());
+  TIDEMARK_TRY(memory_.validate());
   auto phi = snapshot();
   if (!phi) return pass_on(phi);
   return tidemark::validate(*phi);

@@ -6,11 +6,11 @@
 namespace tidemark {
 
 Status ComputeExecutor::restore(const Field& phi) {
-  if (auto status = phi.check_fits(source_->geometry, band()); !status) return status;
+  TIDEMARK_TRY(phi.check_fits(source_->geometry, band()));
   if (phi.layout.page_shape() != layout_.layout().page_shape()) {
     return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band, layout_.layout().page_shape()));
   }
-  if (auto status = device_->make_current(); !status) return status;
+  TIDEMARK_TRY(device_->make_current());
   constexpr std::int64_t kFewPages = 16;
   const std::int64_t pages = phi.resident_pages() + kFewPages;
   const std::int64_t bytes = PageMemory::bytes_for(layout_, pages);
@@ -30,11 +30,11 @@ Status ComputeExecutor::restore(const Field& phi) {
 Status ComputeExecutor::set_parameters(const Parameters& parameters) {
   auto model = model_with(parameters);
   if (!model) return pass_on(model);
-  if (auto status = device_->make_current(); !status) return status;
+  TIDEMARK_TRY(device_->make_current());
   const bool other_kernel = model_.parameters().scheme != parameters.scheme;
   model_ = *model;
   if (other_kernel) {
-    if (auto status = compile_update(); !status) return status;
+    TIDEMARK_TRY(compile_update());
   }
   memory_.bind();
   order_end_of_window(current_, false);
@@ -71,17 +71,17 @@ void ComputeExecutor::order_sphere(const Sphere& sphere, Brush brush, bool only_
 }
 
 Status ComputeExecutor::paint(const Sphere& sphere, Brush brush) {
-  if (auto status = device_->make_current(); !status) return status;
+  TIDEMARK_TRY(device_->make_current());
   // A sphere is drawn whole or not at all: its pages find room first.
   ComputeControl control = memory_.read_control();
   control.pages_wanted = 0;
   memory_.write_control(control);
   order_sphere(sphere, brush, true);
   control = memory_.read_control();
-  if (auto status = device_->check("measuring a sphere"); !status) return status;
+  TIDEMARK_TRY(device_->check("measuring a sphere"));
   const std::int64_t missing = control.pages_wanted - control.free_pages();
   if (missing > 0) {
-    if (auto status = grow(missing); !status) return status;
+    TIDEMARK_TRY(grow(missing));
   }
   control = memory_.read_control();
   control.free_tail_ready = control.free_tail;

@@ -56,9 +56,7 @@ Result<PageMemory> PageMemory::create(gpu::Device& device, const PackedLayout& l
   if (!control) return pass_on(control);
   memory.control_ = std::move(*control);
   memory.write_control({});
-  if (auto status = memory.allocate_lists(device, pages, inverse, states, active); !status) {
-    return pass_on(status);
-  }
+  TIDEMARK_TRY(memory.allocate_lists(device, pages, inverse, states, active));
   return memory;
 }
 
@@ -109,8 +107,8 @@ Status PageMemory::grow(gpu::Device& device, std::int64_t capacity) {
   const auto inverse = inverse_table_.download_values<std::int32_t>(0, old);
   const auto states = states_.download_values<ComputePageState>(0, old);
   const auto active = active_list_.download_values<std::int32_t>(0, read_control().active_count);
-  if (auto status = device.check("growing the lists of pages"); !status) return status;
-  if (auto status = field_.grow(device, pages); !status) return status;
+  TIDEMARK_TRY(device.check("growing the lists of pages"));
+  TIDEMARK_TRY(field_.grow(device, pages));
   return allocate_lists(device, pages, inverse, states, active);
 }
 

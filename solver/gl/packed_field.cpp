@@ -31,7 +31,7 @@ Result<PackedField> PackedField::create(gpu::Device& device, const PackedLayout&
   field.band_ = band;
   field.phi_ = std::move(*textures);
   field.write_static_pages();
-  if (auto status = device.check("making physical memory"); !status) return pass_on(status);
+  TIDEMARK_TRY(device.check("making physical memory"));
   return field;
 }
 
@@ -53,7 +53,7 @@ Status PackedField::grow(gpu::Device& device, std::int64_t capacity) {
     if (!source) return pass_on(source);
     source->copy_to({0, 0, old.width(), old.height()}, (*textures)[buffer], 0, 0);
   }
-  if (auto status = device.check("growing physical memory"); !status) return status;
+  TIDEMARK_TRY(device.check("growing physical memory"));
   phi_ = std::move(*textures);
   capacity_ = layout_.whole_rows(capacity);
   return {};
@@ -83,11 +83,8 @@ void PackedField::upload(std::span<const float> pages) {
 Result<std::vector<float>> PackedField::download(int buffer) const {
   const gpu::Texture2D& texture = phi(buffer);
   std::vector<float> texels(static_cast<std::size_t>(texture.width() * texture.height()));
-  if (auto status = texture.download({0, 0, texture.width(), texture.height()},
-                                     std::as_writable_bytes(std::span(texels)));
-      !status) {
-    return pass_on(status);
-  }
+  TIDEMARK_TRY(
+      texture.download({0, 0, texture.width(), texture.height()}, std::as_writable_bytes(std::span(texels))));
   const std::int64_t voxels = layout_.layout().voxels_per_page();
   std::vector<float> pages(texels.size());
   for (PhysicalPage page = 0; page < capacity_; ++page) {

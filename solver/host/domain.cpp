@@ -159,7 +159,7 @@ Status HostExecutor::check_budget(std::int64_t more_pages) const {
 // Makes a page resident with the constant that stood for it. Its voxels are written by fill_new_pages().
 Result<PhysicalPage> HostExecutor::make_resident(std::int64_t virtual_page) {
   if (table_.free_count() == 0) {
-    if (auto status = check_budget(1); !status) return pass_on(status);
+    TIDEMARK_TRY(check_budget(1));
   }
   const bool inside = table_.physical(virtual_page) == kInsidePage;
   const PhysicalPage page = table_.allocate(virtual_page);
@@ -182,7 +182,7 @@ Status HostExecutor::make_neighbours_resident(PhysicalPage page, std::uint8_t co
     const std::int64_t across =
         table_.layout().page_number(coordinates + neighbour_step(kFaceNeighbour[face]));
     if (!is_static_page(table_.physical(across))) continue;  // asked for by another page, too
-    if (auto made = make_resident(across); !made) return pass_on(made);
+    TIDEMARK_TRY(make_resident(across));
   }
   return {};
 }
@@ -285,7 +285,7 @@ Status HostExecutor::activate_all() {
 }
 
 Status HostExecutor::validate() const {
-  if (auto status = table_.validate(); !status) return status;
+  TIDEMARK_TRY(table_.validate());
   Status result;
   std::int64_t asleep = 0;
   for_each_resident([&](PhysicalPage page) {

@@ -9,11 +9,11 @@
 namespace tidemark {
 
 Status HostExecutor::restore(const Field& phi) {
-  if (auto status = phi.check_fits(source_->geometry, band()); !status) return status;
+  TIDEMARK_TRY(phi.check_fits(source_->geometry, band()));
   if (phi.layout.page_shape() != kDefaultPageShape) {
     return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band));
   }
-  if (auto status = check_budget(phi.resident_pages() - table_.resident()); !status) return status;
+  TIDEMARK_TRY(check_budget(phi.resident_pages() - table_.resident()));
 
   clear();
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
@@ -21,7 +21,7 @@ Status HostExecutor::restore(const Field& phi) {
   }
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
     if (phi.table[static_cast<std::size_t>(page)] < 0) continue;
-    if (auto made = make_resident(page); !made) return pass_on(made);
+    TIDEMARK_TRY(make_resident(page));
   }
   fill_new_pages();
   for_each_resident([&](PhysicalPage page) {
@@ -100,7 +100,7 @@ Status HostExecutor::paint(const Sphere& sphere, Brush brush) {
       to_allocate.push_back(layout.page_number(coordinates));
     }
   });
-  if (auto status = check_budget(static_cast<std::int64_t>(to_allocate.size())); !status) return status;
+  TIDEMARK_TRY(check_budget(static_cast<std::int64_t>(to_allocate.size())));
 
   for (const Index3 coordinates : to_flip) {
     const bool inside = brush == Brush::add;
@@ -108,7 +108,7 @@ Status HostExecutor::paint(const Sphere& sphere, Brush brush) {
     tell_neighbours(coordinates, inside ? kInsidePage : kOutsidePage);
   }
   for (const std::int64_t virtual_page : to_allocate) {
-    if (auto made = make_resident(virtual_page); !made) return pass_on(made);
+    TIDEMARK_TRY(make_resident(virtual_page));
   }
   fill_new_pages();
   for_each_page([&](Index3 coordinates, PhysicalPage page, float* phi) {

@@ -182,7 +182,7 @@ bool HostExecutor::finish_window() {
 Result<AdvanceReport> HostExecutor::advance(const Advance& run) {
   steps_of_last_run_ = 0;
   if (needs_activation_) {
-    if (auto status = activate_all(); !status) return pass_on(status);
+    TIDEMARK_TRY(activate_all());
   }
   return run_steps(run, [this](AdvanceReport& report) -> Result<bool> {
     const Stopwatch list;

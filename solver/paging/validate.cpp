@@ -58,11 +58,11 @@ Status validate(const Field& phi) {
     const Index3 first = phi.layout.first_voxel(page);
     const Index3 valid = phi.layout.valid_shape(page);
     if (phi.table[static_cast<std::size_t>(page)] >= 0) {
-      if (auto status = validate_values(phi, first, valid); !status) return status;
+      TIDEMARK_TRY(validate_values(phi, first, valid));
     }
     for (int axis = 0; axis < 3; ++axis) {
       for (const int side : {-1, 1}) {
-        if (auto status = validate_face(phi, first, valid, axis, side); !status) return status;
+        TIDEMARK_TRY(validate_face(phi, first, valid, axis, side));
       }
     }
   }

@@ -45,14 +45,14 @@ Status StreamExecutor::make_room(std::int64_t more_pages) {
                 "the surface needs {} pages, {} MB while they are copied, and the memory budget is {} MB",
                 capacity, bytes(capacity) >> 20, options_.memory_budget_bytes >> 20);
   }
-  if (auto status = memory_.grow(*device_, capacity); !status) return status;
+  TIDEMARK_TRY(memory_.grow(*device_, capacity));
   peak_bytes_ = std::max(peak_bytes_, state_bytes(memory_.capacity()));
   return {};
 }
 
 // Makes a page resident with the constant that stood for it. Its voxels are written by fill_new_pages().
 Result<PhysicalPage> StreamExecutor::make_resident(std::int64_t virtual_page) {
-  if (auto status = make_room(1); !status) return pass_on(status);
+  TIDEMARK_TRY(make_room(1));
   const bool inside = table_.physical(virtual_page) == kInsidePage;
   const PhysicalPage page = table_.allocate(virtual_page);
   infos_.resize(static_cast<std::size_t>(table_.capacity()));
@@ -71,7 +71,7 @@ Status StreamExecutor::grant_requests(PhysicalPage page, PageMessage message) {
     const Index3 across = coordinates + kFaceSteps[face];
     // Most are resident, or were made so for another page.
     if (!is_static_page(table_.physical(across))) continue;
-    if (auto made = make_resident(layout.page_number(across)); !made) return pass_on(made);
+    TIDEMARK_TRY(make_resident(layout.page_number(across)));
   }
   return {};
 }
@@ -80,7 +80,7 @@ Status StreamExecutor::fill_new_pages() {
   for (const bool inside : {false, true}) {
     std::vector<PhysicalPage>& pages = new_[inside ? 1 : 0];
     if (pages.empty()) continue;
-    if (auto status = special_geometry_.describe(*device_, table_, pages); !status) return status;
+    TIDEMARK_TRY(special_geometry_.describe(*device_, table_, pages));
     passes_.fill(special_geometry_, memory_, static_cast<float>(inside ? band() : -band()));
     pages.clear();
   }
@@ -129,8 +129,8 @@ Status StreamExecutor::activate_pages(std::vector<PhysicalPage> asked) {
   needs_activation_ = true;
   // Pages that are made resident on the way may ask for more.
   while (!asked.empty()) {
-    if (auto status = special_geometry_.describe(*device_, table_, asked); !status) return status;
-    if (auto status = passes_.reserve(*device_, special_geometry_.size()); !status) return status;
+    TIDEMARK_TRY(special_geometry_.describe(*device_, table_, asked));
+    TIDEMARK_TRY(passes_.reserve(*device_, special_geometry_.size()));
     auto messages =
         passes_.message(special_geometry_, memory_, current_, static_cast<float>(band()), kQuietChange);
     if (!messages) return pass_on(messages);
@@ -139,7 +139,7 @@ Status StreamExecutor::activate_pages(std::vector<PhysicalPage> asked) {
       result = grant_requests(asked[i], (*messages)[i]);
     asked = new_[0];
     asked.insert(asked.end(), new_[1].begin(), new_[1].end());
-    if (auto status = fill_new_pages(); !status) return status;
+    TIDEMARK_TRY(fill_new_pages());
     if (!result) return result;
   }
   needs_activation_ = false;
@@ -179,12 +179,12 @@ Status StreamExecutor::validate_sleeping_pages() const {
 }
 
 Status StreamExecutor::validate() const {
-  if (auto status = device_->make_current(); !status) return status;
-  if (auto status = table_.validate(); !status) return status;
+  TIDEMARK_TRY(device_->make_current());
+  TIDEMARK_TRY(table_.validate());
   if (table_.capacity() > memory_.capacity()) {
     return fail(ErrorKind::internal, "the tables hold {} pages, G {}", table_.capacity(), memory_.capacity());
   }
-  if (auto status = validate_sleeping_pages(); !status) return status;
+  TIDEMARK_TRY(validate_sleeping_pages());
   auto phi = snapshot();
   if (!phi) return pass_on(phi);
   return tidemark::validate(*phi);

@@ -56,11 +56,11 @@ bool all_equal(const std::vector<float>& values, float value) {
 }  // namespace
 
 Status StreamExecutor::restore(const Field& phi) {
-  if (auto status = phi.check_fits(source_->geometry, band()); !status) return status;
+  TIDEMARK_TRY(phi.check_fits(source_->geometry, band()));
   if (phi.layout.page_shape() != layout_.layout().page_shape()) {
     return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band, layout_.layout().page_shape()));
   }
-  if (auto status = device_->make_current(); !status) return status;
+  TIDEMARK_TRY(device_->make_current());
   gpu::begin_exact_drawing();
   constexpr std::int64_t kFewPages = 16;
   const std::int64_t pages = phi.resident_pages() + kFirstPage + kFewPages;
@@ -90,12 +90,12 @@ Status StreamExecutor::restore(const Field& phi) {
   active_list_is_stale_ = true;
   peak_resident_ = table_.resident();
   peak_bytes_ = state_bytes(memory_.capacity());
-  if (auto status = activate_pages(resident_pages()); !status) return status;
+  TIDEMARK_TRY(activate_pages(resident_pages()));
   return rebuild_active_list();
 }
 
 Result<Field> StreamExecutor::snapshot() const {
-  if (auto status = device_->make_current(); !status) return pass_on(status);
+  TIDEMARK_TRY(device_->make_current());
   auto physical = memory_.field().download(current_);
   if (!physical) return pass_on(physical);
   Field phi = Field::empty(source_->geometry, band(), layout_.layout().page_shape());
@@ -118,10 +118,9 @@ Result<Field> StreamExecutor::snapshot() const {
 Status StreamExecutor::set_parameters(const Parameters& parameters) {
   auto model = model_with(parameters);
   if (!model) return pass_on(model);
-  if (auto status = device_->make_current(); !status) return status;
+  TIDEMARK_TRY(device_->make_current());
   if (model_.parameters().scheme != parameters.scheme) {
-    if (auto status = passes_.compile_step(*device_, active_geometry_, source_texture_, *model); !status)
-      return status;
+    TIDEMARK_TRY(passes_.compile_step(*device_, active_geometry_, source_texture_, *model));
   }
   model_ = *model;
   for_each_resident([&](PhysicalPage page) { wake(page); });
@@ -166,25 +165,23 @@ StreamExecutor::PaintPlan StreamExecutor::plan_paint(const Sphere& sphere, Brush
 }
 
 Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
-  if (auto status = device_->make_current(); !status) return status;
+  TIDEMARK_TRY(device_->make_current());
   gpu::begin_exact_drawing();
   const PaintPlan plan = plan_paint(sphere, brush);
   // Every page that is drawn into finds room, so that a sphere is drawn whole or not at all.
-  if (auto status = make_room(plan.to_allocate); !status) return status;
+  TIDEMARK_TRY(make_room(plan.to_allocate));
   std::vector<PhysicalPage> pages;
   for (const std::int64_t page : plan.to_draw) {
     if (is_static_page(table_.physical(page))) {
-      if (auto made = make_resident(page); !made) return pass_on(made);
+      TIDEMARK_TRY(make_resident(page));
     }
     pages.push_back(table_.physical(page));
   }
-  if (auto status = fill_new_pages(); !status) return status;
+  TIDEMARK_TRY(fill_new_pages());
   if (!pages.empty()) {
-    if (auto status = special_geometry_.describe(*device_, table_, pages); !status) return status;
+    TIDEMARK_TRY(special_geometry_.describe(*device_, table_, pages));
     const auto blending = brush == Brush::add ? gpu::Blending::largest : gpu::Blending::smallest;
-    if (auto status = passes_.paint(*device_, special_geometry_, memory_, plan.values, blending); !status) {
-      return status;
-    }
+    TIDEMARK_TRY(passes_.paint(*device_, special_geometry_, memory_, plan.values, blending));
   }
   for (const PhysicalPage page : pages) {
     wake_around(page);
@@ -202,7 +199,7 @@ Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
   std::sort(pages.begin(), pages.end());
   pages.erase(std::unique(pages.begin(), pages.end()), pages.end());
   active_list_is_stale_ = true;
-  if (auto status = activate_pages(needs_activation_ ? resident_pages() : std::move(pages)); !status) return status;
+  TIDEMARK_TRY(activate_pages(needs_activation_ ? resident_pages() : std::move(pages)));
   return rebuild_active_list();
 }
 

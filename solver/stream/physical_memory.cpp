@@ -45,7 +45,7 @@ Result<PhysicalMemory> PhysicalMemory::create(gpu::Device& device, const PackedL
   memory.field_ = std::move(*field);
   memory.motion_ = std::move(motion->texture);
   memory.motion_target_ = std::move(motion->target);
-  if (auto status = memory.make_targets(device); !status) return pass_on(status);
+  TIDEMARK_TRY(memory.make_targets(device));
   return memory;
 }
 
@@ -53,7 +53,7 @@ Status PhysicalMemory::grow(gpu::Device& device, std::int64_t capacity) {
   auto motion = make_motion(device, field_.layout(), capacity);
   if (!motion) return pass_on(motion);
   motion_target_.copy_to({0, 0, motion_.width(), motion_.height()}, motion->texture, 0, 0);
-  if (auto status = field_.grow(device, capacity); !status) return status;
+  TIDEMARK_TRY(field_.grow(device, capacity));
   motion_ = std::move(motion->texture);
   motion_target_ = std::move(motion->target);
   return make_targets(device);
@@ -61,11 +61,8 @@ Status PhysicalMemory::grow(gpu::Device& device, std::int64_t capacity) {
 
 Result<std::vector<PageMotion>> PhysicalMemory::read_motion() const {
   std::vector<PageMotion> pages(static_cast<std::size_t>(motion_.width() * motion_.height()));
-  if (auto status = motion_.download({0, 0, motion_.width(), motion_.height()},
-                                     std::as_writable_bytes(std::span(pages)));
-      !status) {
-    return pass_on(status);
-  }
+  TIDEMARK_TRY(
+      motion_.download({0, 0, motion_.width(), motion_.height()}, std::as_writable_bytes(std::span(pages))));
   return pages;
 }
 

@@ -41,9 +41,9 @@ Result<RegionPasses> RegionPasses::create(gpu::Device& device, const GeometryEng
                                Wanted{passes.fill_points_, Substream::page_point, "constant", in_memory},
                                Wanted{passes.copy_, Substream::whole_page, "copy", in_memory},
                                Wanted{passes.paint_, Substream::whole_page, "paint", in_memory}}) {
-    if (auto status = compile(device, geometry, {}, wanted); !status) return pass_on(status);
+    TIDEMARK_TRY(compile(device, geometry, {}, wanted));
   }
-  if (auto status = passes.compile_step(device, geometry, source, model); !status) return pass_on(status);
+  TIDEMARK_TRY(passes.compile_step(device, geometry, source, model));
   return passes;
 }
 
@@ -57,7 +57,7 @@ Status RegionPasses::compile_step(gpu::Device& device, const GeometryEngine& geo
                                Wanted{derivatives_[2], Substream::corners, "derivatives", neighbours},
                                Wanted{speeds_, Substream::whole_page, "speeds", {}},
                                Wanted{update_, Substream::whole_page, "update", {{"IN_MEMORY", ""}}}}) {
-    if (auto status = compile(device, geometry, common, wanted); !status) return status;
+    TIDEMARK_TRY(compile(device, geometry, common, wanted));
   }
   return {};
 }

@@ -52,7 +52,7 @@ Result<bool> StreamExecutor::finish_window() {
       motion.squared_change += static_cast<double>(moved.squared_change);
       motion.voxels += static_cast<std::int64_t>(moved.near_voxels);
     }
-    if (auto status = judge_quiet_pages(*pages); !status) return pass_on(status);
+    TIDEMARK_TRY(judge_quiet_pages(*pages));
     memory_.draw_into_motion();
     gpu::clear_colours(1);
   }
@@ -85,7 +85,7 @@ Status StreamExecutor::judge_quiet_pages(const std::vector<PageMotion>& motion) 
         static_cast<std::int32_t>(motion[static_cast<std::size_t>(page)].near_voxels) / kMotionSamples;
   }
   active_list_is_stale_ = true;
-  if (auto status = special_geometry_.describe(*device_, table_, quiet); !status) return status;
+  TIDEMARK_TRY(special_geometry_.describe(*device_, table_, quiet));
   passes_.copy(special_geometry_, memory_, current_);
   return {};
 }
@@ -110,9 +110,8 @@ Status StreamExecutor::rebuild_active_list() {
       active_.push_back(page);
     }
   });
-  if (auto status = passes_.reserve(*device_, static_cast<std::int64_t>(active_.size())); !status)
-    return status;
-  if (auto status = active_geometry_.describe(*device_, table_, active_); !status) return status;
+  TIDEMARK_TRY(passes_.reserve(*device_, static_cast<std::int64_t>(active_.size())));
+  TIDEMARK_TRY(active_geometry_.describe(*device_, table_, active_));
   active_list_is_stale_ = false;
   return {};
 }

@@ -68,21 +68,18 @@ Status RegionPasses::make_pool(gpu::Device& device, std::int64_t pages,
 }
 
 Status RegionPasses::reserve(gpu::Device& device, std::int64_t pages) {
-  if (auto status = reserve_message(device, pages); !status) return status;
+  TIDEMARK_TRY(reserve_message(device, pages));
   const std::int64_t capacity = pool_size(pages, largest_region_, capacity_);
   if (capacity == capacity_) return {};
   using gpu::TexelFormat;
   capacity_ = 0;
-  if (auto status = make_pool(device, capacity,
-                              {{upwind_, TexelFormat::rgba32f, 1, false, "upwind gradients"},
-                               {central_, TexelFormat::rgba32f, 1, false, "central differences"},
-                               {second_, TexelFormat::rgba32f, 1, false, "second differences"},
-                               {mixed_, TexelFormat::rgba32f, 1, false, "mixed differences"},
-                               {speed_terms_, TexelFormat::rgba32f, 1, false, "speed terms"},
-                               {blocks_, TexelFormat::rgba32f, 4, false, "motion of blocks"}});
-      !status) {
-    return status;
-  }
+  TIDEMARK_TRY(make_pool(device, capacity,
+                         {{upwind_, TexelFormat::rgba32f, 1, false, "upwind gradients"},
+                          {central_, TexelFormat::rgba32f, 1, false, "central differences"},
+                          {second_, TexelFormat::rgba32f, 1, false, "second differences"},
+                          {mixed_, TexelFormat::rgba32f, 1, false, "mixed differences"},
+                          {speed_terms_, TexelFormat::rgba32f, 1, false, "speed terms"},
+                          {blocks_, TexelFormat::rgba32f, 4, false, "motion of blocks"}}));
   auto differences =
       gpu::Framebuffer::create(device, {&upwind_, &central_, &second_, &mixed_}, "differences");
   auto speeds = gpu::Framebuffer::create(device, {&speed_terms_}, "speed terms");
@@ -112,12 +109,9 @@ Status RegionPasses::reserve_message(gpu::Device& device, std::int64_t pages) {
   const std::int64_t capacity = pool_size(pages, kLargestMessage, message_capacity_);
   if (capacity == message_capacity_) return {};
   message_capacity_ = 0;
-  if (auto status = make_pool(device, capacity,
-                              {{in_slice_, TexelFormat::rgba16f, 4, true, "neighbours in the slice"},
-                               {slices_, TexelFormat::rgba16f, 4, true, "neighbours across slices"}});
-      !status) {
-    return status;
-  }
+  TIDEMARK_TRY(make_pool(device, capacity,
+                         {{in_slice_, TexelFormat::rgba16f, 4, true, "neighbours in the slice"},
+                          {slices_, TexelFormat::rgba16f, 4, true, "neighbours across slices"}}));
   auto neighbours = gpu::Framebuffer::create(device, {&in_slice_, &slices_}, "neighbour information");
   if (!neighbours) return pass_on(neighbours);
   neighbours_target_ = std::move(*neighbours);
@@ -229,11 +223,8 @@ Result<std::vector<PageMessage>> RegionPasses::read_message(std::int64_t pages) 
   const std::int64_t count = whole_rows(pages);
   std::vector<PageMessage> message(static_cast<std::size_t>(count));
   static_assert(sizeof(PageMessage) == 1);
-  if (auto status = message_.download({0, 0, kPlacesPerRow, count / kPlacesPerRow},
-                                      std::as_writable_bytes(std::span(message)));
-      !status) {
-    return pass_on(status);
-  }
+  TIDEMARK_TRY(message_.download({0, 0, kPlacesPerRow, count / kPlacesPerRow},
+                                 std::as_writable_bytes(std::span(message))));
   message.resize(static_cast<std::size_t>(pages));
   return message;
 }

@@ -24,10 +24,10 @@ Result<std::unique_ptr<Executor>> StreamExecutor::create(std::shared_ptr<const V
     return fail(ErrorKind::capability, "the stream executor needs OpenGL 3.3; {} offers {}.{}",
                 device->capabilities().renderer, device->capabilities().major, device->capabilities().minor);
   }
-  if (auto status = device->make_current(); !status) return pass_on(status);
+  TIDEMARK_TRY(device->make_current());
   std::unique_ptr<StreamExecutor> executor(
       new StreamExecutor(std::move(device), std::move(source), parameters, options));
-  if (auto status = executor->start(largest_region); !status) return pass_on(status);
+  TIDEMARK_TRY(executor->start(largest_region));
   return executor;
 }
 
@@ -78,7 +78,7 @@ Result<bool> StreamExecutor::finish_step(AdvanceReport& report) {
   auto window_ended = finish_window();
   if (!window_ended) return window_ended;
   if (active_list_is_stale_) {
-    if (auto status = rebuild_active_list(); !status) return pass_on(status);
+    TIDEMARK_TRY(rebuild_active_list());
   }
   report.paging_seconds += paging.seconds();
   if (!domain) {
@@ -89,17 +89,17 @@ Result<bool> StreamExecutor::finish_step(AdvanceReport& report) {
 
 Result<AdvanceReport> StreamExecutor::advance(const Advance& run) {
   steps_of_last_run_ = 0;
-  if (auto status = device_->make_current(); !status) return pass_on(status);
+  TIDEMARK_TRY(device_->make_current());
   gpu::begin_exact_drawing();
   if (needs_activation_) {
-    if (auto status = activate_pages(resident_pages()); !status) return pass_on(status);
+    TIDEMARK_TRY(activate_pages(resident_pages()));
   }
   if (active_list_is_stale_) {
-    if (auto status = rebuild_active_list(); !status) return pass_on(status);
+    TIDEMARK_TRY(rebuild_active_list());
   }
   return run_steps(run, [this](AdvanceReport& report) -> Result<bool> {
     if (!active_.empty()) {
-      if (auto status = step(); !status) return pass_on(status);
+      TIDEMARK_TRY(step());
       report.voxel_updates += active_geometry_.voxels();
     }
     return finish_step(report);

@@ -6,8 +6,8 @@
 
 #include "imaging/dicom/dicom.h"
 #include "imaging/files/volume_file.h"
-#include "imaging/results/results.h"
 #include "imaging/load_study.h"
+#include "imaging/results/results.h"
 #include "tests/app/cli_runner.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cases.h"
-#include "imaging/filters/filters.h"
 #include "document/replay.h"
 #include "document/session_contents.h"
+#include "imaging/filters/filters.h"
 #include "tests/support/test_program.h"
 
 using namespace tidemark;

@@ -12,15 +12,15 @@
 #include <random>
 
 #include "core/atomic_file.h"
+#include "document/session_file.h"
 #include "imaging/dicom/dicom.h"
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
+#include "imaging/load_study.h"
 #include "imaging/pacs/services.h"
 #include "imaging/phantom/phantom.h"
 #include "imaging/results/results.h"
-#include "imaging/load_study.h"
 #include "imaging/surface/surface.h"
-#include "document/session_file.h"
 #include "tests/document/cases.h"
 #include "tests/support/child_process.h"
 #include "tests/support/test_program.h"

@@ -125,7 +125,7 @@ class CaseProxyTest : public QObject {
         view.camera.azimuth += 1.0;
       } else if (what == "paint") {
         fixture.proxy.paint({fixture.middle() + glm::dvec3(0.1 * (moves % 50), 0.0, 0.0), 3.0}, Brush::add,
-                          gesture);
+                            gesture);
       } else {
         parameters.target = 100.0 + 0.1 * (moves % 50);
         fixture.proxy.set_parameters(parameters, gesture);
@@ -178,7 +178,7 @@ class CaseProxyTest : public QObject {
     fixture.wait_until_idle();
     const double before = fixture.proxy.state().surface.volume_ml;
     fixture.proxy.paint({fixture.middle() + glm::dvec3(6.0, 0.0, 0.0), 5.0}, Brush::add,
-                      CaseProxy::new_gesture());
+                        CaseProxy::new_gesture());
     fixture.wait_until_idle();
     const double painted = fixture.proxy.state().surface.volume_ml;
     QVERIFY(painted > 1.2 * before);

@@ -3,10 +3,10 @@
 
 #include <QSignalSpy>
 
+#include "engine/background_job.h"
 #include "imaging/dicom/dicom.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/load_study.h"
-#include "engine/background_job.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 

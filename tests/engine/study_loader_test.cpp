@@ -3,9 +3,9 @@
 
 #include <QSignalSpy>
 
+#include "engine/background_job.h"
 #include "heartbeat.h"
 #include "imaging/phantom/phantom.h"
-#include "engine/background_job.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 

@@ -1,9 +1,9 @@
 // Real studies, opened as the desktop opens them.
 #include <QSignalSpy>
 
-#include "heartbeat.h"
 #include "engine/series_preview.h"
 #include "engine/study_loader.h"
+#include "heartbeat.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 

@@ -9,12 +9,13 @@
 #include <fstream>
 #include <span>
 
+#include "document/session_file.h"
+#include "document/zip_archive.h"
 #include "imaging/dicom/preflight.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/results/results.h"
 #include "renderer/transfer_function.h"
-#include "document/session_file.h"
-#include "document/zip_archive.h"
+#include "tests/document/cases.h"
 #include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/imaging/dicom/directory_bytes.h"
 #include "tests/imaging/dicom/frame_bytes.h"
@@ -22,7 +23,6 @@
 #include "tests/imaging/dicom/recode.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/files/volumes.h"
-#include "tests/document/cases.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
@@ -217,8 +217,9 @@ void write_volumes() {
   write("volume_files", "mha-raw", meta + "ElementDataFile = LOCAL\n" + voxels);
   write("volume_files", "mha-text", meta + "BinaryData = False\nElementDataFile = LOCAL\n1 2 3 4 5 6 7 8\n");
   write("volume_files", "mha-texts",
-        "Comment = " + std::string(240, 'c') + "\nAcquisitionDate = 2007.03.21\nName = n\nObjectSubType = s\n" +
-            meta + "Modality = MET_MOD_CT\nAnatomicalOrientation = RAI\nElementDataFile = LOCAL\n" + voxels);
+        "Comment = " + std::string(240, 'c') +
+            "\nAcquisitionDate = 2007.03.21\nName = n\nObjectSubType = s\n" + meta +
+            "Modality = MET_MOD_CT\nAnatomicalOrientation = RAI\nElementDataFile = LOCAL\n" + voxels);
   std::string gipl(256, '\0');
   for (const std::size_t axis : {0, 1, 2}) gipl[2 * axis + 1] = 2;
   gipl[9] = 8;                                                                          // unsigned bytes

@@ -197,7 +197,7 @@ class ExecutorsTest : public QObject {
       const auto attempt = [&]() -> Result<Field> {
         auto made = make_executor(setting.kind, scene.source, scene.parameters, options);
         if (!made) return pass_on(made);
-        if (auto status = (*made)->restore(checkpoint); !status) return pass_on(status);
+        TIDEMARK_TRY((*made)->restore(checkpoint));
         auto report = (*made)->advance({.steps = 24});
         if (!report) return pass_on(report);
         return (*made)->snapshot();

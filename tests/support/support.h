@@ -23,8 +23,8 @@ class TemporaryFolder {
 // The folder of real studies: $TIDEMARK_STUDIES, else ../shared/data beside the checkout.
 std::filesystem::path studies_folder();
 
-// The exit code of a test that needs the studies: 0 where they are, else ctest's "skipped" (77), loudly, or under
-// continuous integration ($CI) a failure.
+// The exit code of a test that needs the studies: 0 where they are, else ctest's "skipped" (77), loudly, or
+// under continuous integration ($CI) a failure.
 int require_studies();
 
 // "" on success, else the error: QCOMPARE(failure(result), QString()) shows the reason.

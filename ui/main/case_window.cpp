@@ -9,8 +9,8 @@
 #include <QSettings>
 #include <algorithm>
 
-#include "renderer/camera.h"
 #include "engine/display_json.h"
+#include "renderer/camera.h"
 #include "ui/main/case_head.h"
 #include "ui/views/slice_view.h"
 #include "ui/views/view_bar.h"
@@ -142,8 +142,7 @@ QDockWidget* CaseWindow::make_dock(ViewKind kind) {
   dock->setObjectName(QStringLiteral("view-%1").arg(++docks_made_));
   dock->setProperty(kKind, static_cast<int>(kind));
   dock->setWidget(view);
-  auto* bar =
-      new ViewBar(*proxy_, view->title(), {actions_.play, actions_.step}, actions_.tools->actions());
+  auto* bar = new ViewBar(*proxy_, view->title(), {actions_.play, actions_.step}, actions_.tools->actions());
   dock->setTitleBarWidget(bar);
   connect(bar, &ViewBar::close_wanted, dock, &QDockWidget::close);
   connect(bar, &ViewBar::float_wanted, dock, [dock] { dock->setFloating(!dock->isFloating()); });

@@ -211,8 +211,7 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
     recent_->add({QString::fromStdString(study->origin.path.string()),
                   QString::fromStdString(study->origin.series_uid), study->name, study->origin.policy});
   }
-  auto* window =
-      new CaseWindow(std::make_unique<CaseProxy>(engine_, study, executor_, restored), *actions_);
+  auto* window = new CaseWindow(std::make_unique<CaseProxy>(engine_, study, executor_, restored), *actions_);
   window->proxy().display().change([this](DisplaySettings& settings) {
     settings.tool = active_ ? active_->proxy().display().settings().tool : settings.tool;
   });
@@ -341,8 +340,7 @@ void MainWindow::connect_views() {
   });
   with_case(actions_->reset_view, [](CaseWindow& window) { window.reset_views(); });
   with_case(actions_->clip, [](CaseWindow& window) {
-    window.proxy().display().change(
-        [](DisplaySettings& settings) { settings.clip_on = !settings.clip_on; });
+    window.proxy().display().change([](DisplaySettings& settings) { settings.clip_on = !settings.clip_on; });
   });
   with_case(actions_->patient_text, [](CaseWindow& window) {
     window.proxy().display().change(

@@ -12,12 +12,12 @@
 
 #include "core/atomic_file.h"
 #include "core/without_exceptions.h"
+#include "document/session_file.h"
+#include "engine/background_job.h"
+#include "engine/case_autosave.h"
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/surface/surface.h"
-#include "engine/background_job.h"
-#include "engine/case_autosave.h"
-#include "document/session_file.h"
 #include "ui/main/main_window.h"
 #include "ui/main/message_bar.h"
 #include "ui/main/rescue_dialog.h"
@@ -99,7 +99,7 @@ void SavedCases::run(const QString& about, const QString& file, std::function<St
 
 void SavedCases::write(CaseWindow& window, const QString& file, Write work) {
   window.proxy().take_snapshot(window.view_state(), [this, about = about_writing(window, file), file,
-                                                       work = std::move(work)](const auto& snapshot) {
+                                                     work = std::move(work)](const auto& snapshot) {
     run(about, file, [snapshot, work] { return work(snapshot->contents); });
   });
 }
@@ -223,7 +223,7 @@ void SavedCases::save_as(CaseWindow& window) {
 
 void SavedCases::save_to(CaseWindow& window, const QString& file, std::function<void()> done) {
   window.proxy().take_snapshot(window.view_state(), [this, about = about_writing(window, file), file, done,
-                                                       saved = QPointer(&window)](const auto& snapshot) {
+                                                     saved = QPointer(&window)](const auto& snapshot) {
     run(
         about, file, [snapshot, path = path_of(file)] { return write_session(snapshot->contents, path); },
         [file, saved, snapshot, done] {
@@ -363,8 +363,7 @@ void SavedCases::offer(const std::vector<Recoverable>& copies, const QString& wh
 void SavedCases::close(CaseWindow& window, QCloseEvent* event) {
   if (!window.proxy().state().modified) return event->accept();
   const auto answer = QMessageBox::question(
-      &window_, tr("Close"),
-      tr("%1 has changes that are not in a session file.").arg(window.proxy().name()),
+      &window_, tr("Close"), tr("%1 has changes that are not in a session file.").arg(window.proxy().name()),
       QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
   event->setAccepted(answer == QMessageBox::Discard);
   if (answer != QMessageBox::Save) return;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/result.h"
-#include "engine/study_loader.h"
 #include "document/autosave.h"
+#include "engine/study_loader.h"
 #include "ui/main/case_window.h"
 
 class QCloseEvent;

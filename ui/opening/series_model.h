@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "imaging/series.h"
 #include "engine/series_preview.h"
+#include "imaging/series.h"
 
 namespace tidemark {
 

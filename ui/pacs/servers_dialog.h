@@ -12,8 +12,8 @@
 #include <QSpinBox>
 #include <filesystem>
 
-#include "imaging/pacs/configuration.h"
 #include "engine/pacs_client.h"
+#include "imaging/pacs/configuration.h"
 
 namespace tidemark {
 

@@ -74,14 +74,13 @@ void FileStartMethod::choose() {
 void FileStartMethod::start() {
   const QPointer<CaseProxy> wanted(proxy());
   const std::filesystem::path path(path_->text().toStdU16String());
-  reading_ =
-      BackgroundJob::start(this, [this, wanted, kind = kind_, path, grid = proxy()->volume().geometry,
-                                  band = proxy()->state().band](BackgroundJob& job) {
-        const auto start = std::make_shared<Result<Start>>(without_exceptions([&] {
-          return load_start(kind, path, grid, band, {nullptr, job.stop()});
-        }));
-        job.deliver([this, wanted, start] { take(*start, wanted); });
-      });
+  reading_ = BackgroundJob::start(this, [this, wanted, kind = kind_, path, grid = proxy()->volume().geometry,
+                                         band = proxy()->state().band](BackgroundJob& job) {
+    const auto start = std::make_shared<Result<Start>>(without_exceptions([&] {
+      return load_start(kind, path, grid, band, {nullptr, job.stop()});
+    }));
+    job.deliver([this, wanted, start] { take(*start, wanted); });
+  });
   emit changed();
 }
 

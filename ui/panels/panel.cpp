@@ -9,10 +9,7 @@
 namespace tidemark {
 
 Panel::Panel(const QString& hint, QWidget* parent)
-    : CaseWidget(parent),
-      hint_(make_note(hint)),
-      content_(new QWidget),
-      parts_(new QVBoxLayout(content_)) {
+    : CaseWidget(parent), hint_(make_note(hint)), content_(new QWidget), parts_(new QVBoxLayout(content_)) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(kSpace, kSpace, kSpace, kSpace);
   column->setSpacing(kSpace);

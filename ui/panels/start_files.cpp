@@ -1,8 +1,8 @@
 #include "ui/panels/start_files.h"
 
+#include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
 #include "imaging/results/results.h"
-#include "imaging/load_study.h"
 
 namespace tidemark {
 

@@ -4,8 +4,8 @@
 #include <QGroupBox>
 #include <QRadioButton>
 
-#include "engine/case_state.h"
 #include "document/result_files.h"
+#include "engine/case_state.h"
 
 namespace tidemark {
 

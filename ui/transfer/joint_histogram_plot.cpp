@@ -18,7 +18,8 @@ bool is_ellipse(const AxisPrimitive& primitive) {
 
 }  // namespace
 
-JointHistogramPlot::JointHistogramPlot(const QString& accessible_name, QWidget* parent) : TransferPlot(parent) {
+JointHistogramPlot::JointHistogramPlot(const QString& accessible_name, QWidget* parent)
+    : TransferPlot(parent) {
   setAccessibleName(accessible_name);
   setToolTip(
       tr("Drag a primitive or its handles. Tab: next handle, arrows: move it (Shift: far), Page Up "
@@ -27,7 +28,7 @@ JointHistogramPlot::JointHistogramPlot(const QString& accessible_name, QWidget* 
 }
 
 void JointHistogramPlot::set_counts(const std::vector<std::int64_t>& counts, int columns, const Extent& x,
-                           const Extent& y) {
+                                    const Extent& y) {
   counts_x_ = x;
   counts_y_ = y;
   const int rows = columns > 0 ? static_cast<int>(counts.size()) / columns : 0;
@@ -87,7 +88,8 @@ void JointHistogramPlot::paint_background(QPainter& painter) {
   painter.drawImage(QRectF(top_left, bottom_right), picture);
 }
 
-void JointHistogramPlot::paint_primitive(QPainter& painter, const AxisPrimitive& primitive, int number, bool chosen) {
+void JointHistogramPlot::paint_primitive(QPainter& painter, const AxisPrimitive& primitive, int number,
+                                         bool chosen) {
   const QRectF room = area();
   // The product of both factors as it is, on a coarse grid that is smoothed.
   constexpr int kCells = 96;

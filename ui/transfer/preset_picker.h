@@ -4,8 +4,8 @@
 #include <QComboBox>
 #include <vector>
 
-#include "renderer/transfer_function.h"
 #include "engine/source_summary.h"
+#include "renderer/transfer_function.h"
 
 namespace tidemark {
 

@@ -8,8 +8,8 @@
 
 #include "core/atomic_file.h"
 #include "ui/transfer/histogram_plot.h"
-#include "ui/transfer/panel_scroll.h"
 #include "ui/transfer/joint_histogram_plot.h"
+#include "ui/transfer/panel_scroll.h"
 #include "ui/transfer/preset_picker.h"
 #include "ui/transfer/primitive_page.h"
 
@@ -73,8 +73,8 @@ QWidget* TransferFunctionEditor::make_volume_tab() {
   show_source_->setToolTip(tr("Draws the values of the volume as this function says"));
   column->addWidget(show_source_);
   histogram_ = new HistogramPlot;
-  joint_ =
-      new JointHistogramPlot(tr("Primitives by value and gradient magnitude, over how often both occur together"));
+  joint_ = new JointHistogramPlot(
+      tr("Primitives by value and gradient magnitude, over how often both occur together"));
   volume_page_ =
       new PrimitivePage(PrimitiveKind::source, 3, tr("No primitives: nothing of the volume shows."), tab);
   volume_page_->add_plot(tr("Value"), histogram_);

@@ -7,9 +7,9 @@
 #include <QStringList>
 
 #include "core/geometry.h"
-#include "renderer/camera.h"
 #include "engine/measurement.h"
 #include "engine/study_loader.h"
+#include "renderer/camera.h"
 #include "ui/views/view_geometry.h"
 
 namespace tidemark {

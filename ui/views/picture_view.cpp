@@ -42,8 +42,7 @@ Qt::CursorShape cursor_for(Tool tool) {
 
 }  // namespace
 
-PictureView::PictureView(CaseProxy& proxy, QWidget* parent)
-    : QWidget(parent), proxy_(proxy), feed_(proxy) {
+PictureView::PictureView(CaseProxy& proxy, QWidget* parent) : QWidget(parent), proxy_(proxy), feed_(proxy) {
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);

@@ -62,8 +62,7 @@ QString term_name(SpeedTerm term) {
 
 }  // namespace
 
-SliceViewWidget::SliceViewWidget(CaseProxy& proxy, SlicePlane plane, SliceContent content,
-                                 QWidget* parent)
+SliceViewWidget::SliceViewWidget(CaseProxy& proxy, SlicePlane plane, SliceContent content, QWidget* parent)
     : PictureView(proxy, parent), plane_(plane), content_(content) {
   setAccessibleName(title());
 }

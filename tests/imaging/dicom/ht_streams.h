@@ -1,5 +1,5 @@
-// A High-Throughput JPEG 2000 code stream (ISO 15444-15) of 12 bits, which nothing here can write: made by OpenJPH
-// 0.21.2, without its comment marker. Bytes as hexadecimal digits.
+// A High-Throughput JPEG 2000 code stream (ISO 15444-15) of 12 bits, which nothing here can write: made by
+// OpenJPH 0.21.2, without its comment marker. Bytes as hexadecimal digits.
 #pragma once
 
 #include <string_view>

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "imaging/dicom/dicom_values.h"
-#include "imaging/results/results.h"
 #include "imaging/load_study.h"
+#include "imaging/results/results.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"

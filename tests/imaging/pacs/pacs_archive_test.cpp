@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "imaging/dicom/dicom.h"
+#include "imaging/load_study.h"
 #include "imaging/pacs/services.h"
 #include "imaging/phantom/phantom.h"
-#include "imaging/load_study.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/pacs/archives.h"
 #include "tests/imaging/pacs/encodings.h"

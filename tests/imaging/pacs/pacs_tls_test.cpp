@@ -1,8 +1,8 @@
 // Encrypted conversations, with a real peer: who is believed, and who is not.
 #include <QTest>
 
-#include "imaging/pacs/services.h"
 #include "imaging/load_study.h"
+#include "imaging/pacs/services.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/pacs/archives.h"
 #include "tests/imaging/pacs/certificates.h"

@@ -1,7 +1,7 @@
 // A structure set that another program wrote, against the mask that another one made of it.
+#include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
 #include "imaging/results/results.h"
-#include "imaging/load_study.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 

@@ -25,11 +25,11 @@ Result<Field> our_steady_state(const Problem& problem, double alpha) {
   parameters.alpha = alpha;
   auto executor = make_executor(ExecutorKind::host, problem.source, parameters);
   if (!executor) return pass_on(executor);
-  if (auto status = (*executor)->paint(*problem.seed, Brush::add); !status) return pass_on(status);
+  TIDEMARK_TRY((*executor)->paint(*problem.seed, Brush::add));
   auto run = (*executor)->advance({.steps = kMostSteps, .until_converged = true});
   if (!run) return pass_on(run);
   if (!run->converged) return fail(ErrorKind::internal, "not converged after {} steps", run->steps);
-  if (auto status = (*executor)->validate(); !status) return pass_on(status);
+  TIDEMARK_TRY((*executor)->validate());
   return (*executor)->snapshot().value();
 }
 

@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 
-#include "imaging/dicom/dicom.h"
-#include "engine/case_autosave.h"
 #include "document/zip_archive.h"
+#include "engine/case_autosave.h"
+#include "imaging/dicom/dicom.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/saved_cases.h"

@@ -7,9 +7,9 @@
 #include <cstring>
 #include <fstream>
 
-#include "imaging/phantom/phantom.h"
-#include "engine/background_job.h"
 #include "document/autosave.h"
+#include "engine/background_job.h"
+#include "imaging/phantom/phantom.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/message_bar.h"

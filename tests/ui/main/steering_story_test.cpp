@@ -3,8 +3,8 @@
 #include <QObject>
 #include <cmath>
 
-#include "imaging/phantom/phantom.h"
 #include "imaging/load_study.h"
+#include "imaging/phantom/phantom.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/saved_cases.h"

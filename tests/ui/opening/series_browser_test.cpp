@@ -4,10 +4,10 @@
 #include <QDialogButtonBox>
 #include <QSignalSpy>
 
-#include "imaging/dicom/dicom.h"
-#include "imaging/load_study.h"
 #include "engine/background_job.h"
 #include "engine/study_loader.h"
+#include "imaging/dicom/dicom.h"
+#include "imaging/load_study.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 #include "ui/opening/dropped_paths.h"

@@ -8,8 +8,8 @@
 #include <QSignalSpy>
 #include <QToolButton>
 
-#include "imaging/phantom/phantom.h"
 #include "engine/background_job.h"
+#include "imaging/phantom/phantom.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 #include "ui/opening/card_button.h"

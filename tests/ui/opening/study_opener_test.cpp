@@ -8,8 +8,8 @@
 #include <QTableView>
 #include <algorithm>
 
-#include "imaging/dicom/dicom.h"
 #include "engine/background_job.h"
+#include "imaging/dicom/dicom.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"

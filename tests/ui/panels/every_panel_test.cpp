@@ -15,8 +15,8 @@
 #include "ui/panels/labels_panel.h"
 #include "ui/panels/level_set_panel.h"
 #include "ui/panels/paint_panel.h"
-#include "ui/panels/statistics_panel.h"
 #include "ui/panels/speed_plot.h"
+#include "ui/panels/statistics_panel.h"
 
 namespace tidemark {
 
