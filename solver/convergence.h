@@ -1,6 +1,7 @@
 // When a surface counts as stopped: see kConvergedSpeed.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -11,17 +12,31 @@ namespace tidemark {
 // How often motion is measured in a window: every two steps, over both of them.
 inline constexpr int kMotionSamples = kConvergenceWindow / 2;
 
-// Summed over samples in a window of steps and the voxels beside the surface (StepConstants::near): the
-// squared changes of phi over the last two steps, and how many voxels there were.
-struct SurfaceMotion {
-  double squared_change = 0.0;
-  std::int64_t voxels = 0;
-};
+// The motion of a surface in a window of steps, from that of its pages: over the voxels beside the surface
+// (StepConstants::near), the squared changes of phi over two steps, and how many voxels there were. Both are
+// summed over the samples.
+class SurfaceMotion {
+ public:
+  void add_page(double squared_change, std::int64_t voxels) {
+    add_resting(voxels);
+    squared_change_ += squared_change;
+    if (voxels > 0) fastest_page_ = std::max(fastest_page_, squared_change / static_cast<double>(voxels));
+  }
+  // Voxels of pages that did not move.
+  void add_resting(std::int64_t voxels) { voxels_ += voxels; }
 
-// The root mean square of the surface's normal speed, in smallest spacings per unit of time.
-inline double surface_speed(const SurfaceMotion& motion, double time_step) {
-  if (motion.voxels == 0) return 0.0;
-  return std::sqrt(motion.squared_change / static_cast<double>(motion.voxels)) / (2.0 * time_step);
-}
+  // As kConvergedSpeed says, in smallest spacings per unit of time.
+  [[nodiscard]] double speed(double time_step) const {
+    if (voxels_ == 0) return 0.0;
+    const double mean = squared_change_ / static_cast<double>(voxels_);
+    return std::sqrt(std::max(mean, kFastestPageWeight * kFastestPageWeight * fastest_page_)) /
+           (2.0 * time_step);
+  }
+
+ private:
+  double squared_change_ = 0.0;
+  double fastest_page_ = 0.0;  // the mean squared change of the page where it is largest
+  std::int64_t voxels_ = 0;
+};
 
 }  // namespace tidemark

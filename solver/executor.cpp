@@ -49,7 +49,7 @@ Result<std::unique_ptr<Executor>> make_executor(ExecutorKind kind, std::shared_p
     case ExecutorKind::stream:
       return StreamExecutor::create(std::move(source), parameters, options);
     case ExecutorKind::reference:
-      return std::make_unique<ReferenceExecutor>(std::move(source), parameters);
+      return std::make_unique<ReferenceExecutor>(std::move(source), parameters, options.page_shape);
     case ExecutorKind::host:
       break;
   }

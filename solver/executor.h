@@ -27,13 +27,17 @@ struct Advance {
   Progress progress = {};        // fraction = steps done / steps; cancelling keeps what was computed
 };
 
-// The surface counts as stopped when the root mean square of its normal speed, in smallest voxel spacings
-// per unit of time (a front with D = 1, alpha = 1 moves at 1), is below this over kConvergenceWindow steps.
-// It is taken over the voxels beside the surface, those with |phi| at most the largest spacing (1 on an
-// isotropic grid), from the change of phi over two steps, so that a voxel that
-// flips between two values does not count as motion.
+// The surface counts as stopped when its normal speed over kConvergenceWindow steps, in smallest voxel
+// spacings per unit of time (a front with D = 1, alpha = 1 moves at 1), is below this. The speed is the root
+// mean square over the voxels beside the surface, those with |phi| at most the largest spacing (1 on an
+// isotropic grid), from the change of phi over two steps, so that a voxel that flips between two values does
+// not count as motion. A change of phi or of the parameters begins a new window.
 inline constexpr double kConvergedSpeed = 0.01;
 inline constexpr int kConvergenceWindow = 16;
+// The same mean over the page where it is largest, times this, is the speed if that is more: a large surface
+// at rest does not hide a front that creeps in one of its pages at 0.06 or more. A weight of 1 would wait for
+// the last voxels that flip for a while.
+inline constexpr double kFastestPageWeight = 1.0 / 6.0;
 // A page may rest when phi changed by no more than this over such a window, beside the surface.
 inline constexpr float kQuietChange = 1e-3F;
 

@@ -29,6 +29,9 @@ class ExecutorBase : public Executor {
 
   std::shared_ptr<const Volume> source_;
   Model model_;
+  // Of the window over which motion is summed up. The change over two steps is known after the second.
+  int steps_in_window_ = 0;
+  [[nodiscard]] bool next_step_is_measured() const { return steps_in_window_ % 2 == 1; }
   double surface_speed_ = 0.0;  // in the last full window
   std::int64_t steps_of_last_run_ = 0;
 };

@@ -186,28 +186,32 @@ void ComputeExecutor::order_step(int now, int step_in_window, bool in_pieces) {
 
 void ComputeExecutor::order_paging(int next, int step_in_window) {
   order_maintenance(true);
-  if (step_in_window + 1 == kConvergenceWindow) order_end_of_window(next, true);
+  if (step_in_window + 1 == kConvergenceWindow) order_end_of_window(next);
 }
 
-void ComputeExecutor::order_end_of_window(int now, bool judge) {
-  if (judge) {
-    find_quiet_pages_.use();
-    set_layout(find_quiet_pages_);
-    find_quiet_pages_.set("quiet_change", static_cast<float>(kQuietChange));
-    find_quiet_pages_.set("skip_quiet_pages", options_.skip_quiet_pages ? 1 : 0);
-    gpu::dispatch(memory_.control(), 0);
-    gpu::finish_writes();
-  }
+void ComputeExecutor::order_end_of_window(int now) {
+  find_quiet_pages_.use();
+  set_layout(find_quiet_pages_);
+  find_quiet_pages_.set("quiet_change", static_cast<float>(kQuietChange));
+  find_quiet_pages_.set("skip_quiet_pages", options_.skip_quiet_pages ? 1 : 0);
+  gpu::dispatch(memory_.control(), 0);
+  gpu::finish_writes();
+  order_new_window(now, true, false);
+}
+
+// The next window's sums begin, and the active list is made anew.
+void ComputeExecutor::order_new_window(int now, bool judge_motion, bool wake_all) {
   check_convergence_.use();
-  check_convergence_.set("judge_motion", judge ? 1 : 0);
+  check_convergence_.set("judge_motion", judge_motion ? 1 : 0);
   check_convergence_.set("samples", static_cast<unsigned>(kMotionSamples));
   check_convergence_.set("time_step", static_cast<float>(time_step()));
   check_convergence_.set("converged_speed", static_cast<float>(kConvergedSpeed));
+  check_convergence_.set("fastest_page_weight", static_cast<float>(kFastestPageWeight));
   gpu::dispatch(glm::ivec3(1));
   gpu::finish_writes();
   rebuild_.use();
   set_layout(rebuild_);
-  rebuild_.set("wake_all", judge ? 0 : 1);
+  rebuild_.set("wake_all", wake_all ? 1 : 0);
   rebuild_.set("samples", static_cast<unsigned>(kMotionSamples));
   memory_.field().phi(now).bind_image(0, true);
   memory_.field().phi(1 - now).bind_image(1, true);
@@ -216,6 +220,13 @@ void ComputeExecutor::order_end_of_window(int now, bool judge) {
   gpu::dispatch({static_cast<int>(std::min(pages, kGroupsPerRow)),
                  static_cast<int>((pages + kGroupsPerRow - 1) / kGroupsPerRow), 1});
   gpu::finish_writes();
+}
+
+// What moved so far no longer counts.
+void ComputeExecutor::begin_window(bool wake_all) {
+  memory_.bind();
+  order_new_window(current_, false, wake_all);
+  steps_in_window_ = 0;
 }
 
 // Orders `count` steps and waits for them.

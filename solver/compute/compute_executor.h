@@ -51,7 +51,9 @@ class ComputeExecutor final : public ExecutorBase {
   void order_maintenance(bool count_step);
   void dispatch_update(bool in_pieces);
   void order_paging(int next, int step_in_window);
-  void order_end_of_window(int now, bool judge);
+  void order_end_of_window(int now);
+  void order_new_window(int now, bool judge_motion, bool wake_all);
+  void begin_window(bool wake_all);
   Result<ComputeControl> run_steps(std::int64_t count, bool until_converged);
 
   // Grants every request of phi as it is; G grows as it must.
@@ -68,8 +70,7 @@ class ComputeExecutor final : public ExecutorBase {
   PageMemory memory_;
   gpu::Readback readback_;
 
-  int current_ = 0;  // the buffer that holds phi
-  int steps_in_window_ = 0;
+  int current_ = 0;                // the buffer that holds phi
   bool needs_activation_ = false;  // the budget stopped an allocation
   std::int64_t steps_per_run_ = 1;
   double seconds_per_step_ = 0.0;  // as last measured

@@ -36,9 +36,7 @@ Status ComputeExecutor::set_parameters(const Parameters& parameters) {
   if (other_kernel) {
     TIDEMARK_TRY(compile_update());
   }
-  memory_.bind();
-  order_end_of_window(current_, false);
-  steps_in_window_ = 0;
+  begin_window(true);
   note_memory(memory_.read_control());
   return device_->check("waking all pages");
 }
@@ -87,6 +85,7 @@ Status ComputeExecutor::paint(const Sphere& sphere, Brush brush) {
   control.free_tail_ready = control.free_tail;
   memory_.write_control(control);
   order_sphere(sphere, brush, false);
+  begin_window(false);
   return activate_pages();
 }
 

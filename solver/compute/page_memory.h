@@ -31,7 +31,7 @@ struct ComputeControl {
   std::uint32_t step_ran;
   std::uint32_t list_is_rebuilt;
   std::uint32_t pages_wanted;
-  std::uint32_t padding;
+  float fastest_page;
 
   [[nodiscard]] std::int64_t free_pages() const { return free_tail - free_head; }
 };

@@ -119,6 +119,7 @@ Status HostExecutor::paint(const Sphere& sphere, Brush brush) {
     refresh_masks(page);
     wake_around(page);
   });
+  begin_window();
   return activate_all();
 }
 

@@ -58,6 +58,7 @@ Status HostExecutor::set_parameters(const Parameters& parameters) {
   if (!model) return pass_on(model);
   model_ = *model;
   constants_ = model_.constants<float>();
+  begin_window();
   wake_all();
   refill_data_motion();
   return {};
@@ -145,8 +146,7 @@ std::int64_t HostExecutor::update_piece(std::int64_t begin, std::int64_t end, in
 }
 
 void HostExecutor::step() {
-  // The change over two steps is known after the second of them.
-  const bool motion = steps_in_window_ % 2 == 1;
+  const bool motion = next_step_is_measured();
   kernel_ = kernels_.kernels[model_.parameters().scheme == Scheme::paper ? 1 : 0]
                             [model_.spacing() == glm::dvec3(1.0) ? 0 : 1][motion ? 1 : 0];
   std::fill(updates_.begin(), updates_.end(), 0);
@@ -163,19 +163,31 @@ void HostExecutor::step() {
   current_ = 1 - current_;
 }
 
+// What moved so far no longer counts.
+void HostExecutor::begin_window() {
+  steps_in_window_ = 0;
+  for (const PhysicalPage page : active_) {
+    PageInfo& info = pool_.info(page);
+    if (!info.asleep) info.near_voxels = 0;
+    info.change = 0.0F;
+    info.squared_change = 0.0F;
+    info.woke_neighbours = false;
+  }
+}
+
 // Ends the window of steps over which motion is summed up, when this step does: judges convergence and which
 // pages are quiet. Returns whether it did.
 bool HostExecutor::finish_window() {
   if (++steps_in_window_ < kConvergenceWindow) return false;
-  steps_in_window_ = 0;
   SurfaceMotion motion;
-  motion.voxels = quiet_near_voxels_ * kMotionSamples;
+  motion.add_resting(quiet_near_voxels_ * kMotionSamples);
   for (const PhysicalPage page : active_) {
-    motion.squared_change += static_cast<double>(pool_.info(page).squared_change);
-    motion.voxels += pool_.info(page).near_voxels;
+    const PageInfo& info = pool_.info(page);
+    motion.add_page(static_cast<double>(info.squared_change), info.near_voxels);
   }
-  surface_speed_ = surface_speed(motion, model_.time_step());
+  surface_speed_ = motion.speed(model_.time_step());
   judge_quiet_pages();
+  begin_window();
   return true;
 }
 

@@ -46,6 +46,7 @@ class HostExecutor final : public ExecutorBase {
   [[nodiscard]] bool goes_back() const { return current_ == 1; }
   std::int64_t update_page(std::size_t index, RowWork work, const PagePrefetch& ahead, Tile& tile);
   std::int64_t update_piece(std::int64_t begin, std::int64_t end, int member);
+  void begin_window();
   bool finish_window();
 
   // Which pages are resident (domain.cpp).
@@ -107,7 +108,6 @@ class HostExecutor final : public ExecutorBase {
   std::int64_t quiet_pages_ = 0;
   std::int64_t quiet_near_voxels_ = 0;  // in quiet pages, as last seen
   std::int64_t peak_resident_ = 0;
-  int steps_in_window_ = 0;
 };
 
 }  // namespace tidemark

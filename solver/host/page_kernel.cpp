@@ -205,8 +205,12 @@ void update_page(const PageJob& job, PageResult& result) {
 
   // The largest |phi| of a voxel whose change counts; padding never does.
   const int valid_x = job.info->valid[0];
-  alignas(64) float near_limit[16];
-  for (int i = 0; i < 16; ++i) near_limit[i] = i % kPageSide < valid_x ? job.constants->near : -1.0F;
+  // The second set is for a vector of two rows of which the second is padding.
+  alignas(64) float near_limit[2][16];
+  for (int i = 0; i < 16; ++i) {
+    near_limit[0][i] = i % kPageSide < valid_x ? job.constants->near : -1.0F;
+    near_limit[1][i] = i < kPageSide ? near_limit[0][i] : -1.0F;
+  }
 
   auto largest_change = hn::Zero(d);
   auto squared_change = hn::Zero(d);
@@ -230,7 +234,8 @@ void update_page(const PageJob& job, PageResult& result) {
       const Lanes data(hn::LoadU(d, data_motion + voxel));
       const auto phi = updated_phi<kPaper, float>(differences_here, data, constants).v;
       if constexpr (kMotion) {
-        const auto near = hn::Le(hn::Abs(phi), hn::LoadU(d, near_limit + x));
+        const std::size_t ends_in_padding = job.info->padding >> (row + rows_per_vector - 1) & 1U;
+        const auto near = hn::Le(hn::Abs(phi), hn::LoadU(d, near_limit[ends_in_padding] + x));
         const auto change = hn::IfThenElseZero(near, hn::Sub(phi, hn::LoadU(d, next + voxel)));
         largest_change = hn::Max(largest_change, hn::Abs(change));
         squared_change = hn::MulAdd(change, change, squared_change);

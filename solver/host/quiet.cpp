@@ -48,11 +48,13 @@ void HostExecutor::put_to_sleep(PhysicalPage page) {
   PageInfo& info = pool_.info(page);
   info.asleep = true;
   ++quiet_pages_;
+  // Its voxels belong to the surface, and they do not move.
+  info.near_voxels /= kMotionSamples;
   std::copy_n(pool_.phi(current_, page), kPageVoxels, pool_.phi(1 - current_, page));
   pool_.masks(1 - current_, page) = pool_.masks(current_, page);
 }
 
-// At the end of a window: puts pages to sleep, and starts the next window's sums.
+// At the end of a window: puts pages to sleep.
 void HostExecutor::judge_quiet_pages() {
   const auto still = [&](PhysicalPage page) {
     return page < kFirstPage || pool_.info(page).asleep || pool_.info(page).change <= kQuietChange;
@@ -68,14 +70,6 @@ void HostExecutor::judge_quiet_pages() {
     }
   }
   for (const PhysicalPage page : quiet) put_to_sleep(page);
-  for (const PhysicalPage page : active_) {
-    PageInfo& info = pool_.info(page);
-    // A sleeping page keeps its count: its voxels belong to the surface, and they do not move.
-    info.near_voxels = info.asleep ? info.near_voxels / kMotionSamples : 0;
-    info.change = 0.0F;
-    info.squared_change = 0.0F;
-    info.woke_neighbours = false;
-  }
   if (!quiet.empty()) active_list_is_stale_ = true;
 }
 

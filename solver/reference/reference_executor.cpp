@@ -19,8 +19,11 @@ Stencil<double> gather(const std::vector<double>& phi, const Geometry& geometry,
 
 }  // namespace
 
-ReferenceExecutor::ReferenceExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters)
-    : ExecutorBase(std::move(source), parameters), source_values_(source_->values()) {
+ReferenceExecutor::ReferenceExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters,
+                                     Index3 page_shape)
+    : ExecutorBase(std::move(source), parameters),
+      layout_(source_->geometry.size, page_shape),
+      source_values_(source_->values()) {
   set_values(std::vector<double>(source_values_.size(), -model_.band()));
 }
 
@@ -28,12 +31,22 @@ void ReferenceExecutor::set_values(std::vector<double> phi) {
   phi_ = std::move(phi);
   previous_ = phi_;
   next_.resize(phi_.size());
-  restart_window();
+  begin_window();
 }
 
-void ReferenceExecutor::restart_window() {
-  motion_ = {};
+void ReferenceExecutor::begin_window() {
+  motion_.assign(static_cast<std::size_t>(layout_.page_count()), {});
   steps_in_window_ = 0;
+}
+
+// Ends the window when this step does, and says whether it did.
+bool ReferenceExecutor::finish_window() {
+  if (++steps_in_window_ < kConvergenceWindow) return false;
+  SurfaceMotion motion;
+  for (const PageMotion& page : motion_) motion.add_page(page.squared_change, page.voxels);
+  surface_speed_ = motion.speed(model_.time_step());
+  begin_window();
+  return true;
 }
 
 Status ReferenceExecutor::restore(const Field& phi) {
@@ -65,7 +78,7 @@ Status ReferenceExecutor::paint(const Sphere& sphere, Brush brush) {
     }
   }
   previous_ = phi_;
-  restart_window();
+  begin_window();
   return {};
 }
 
@@ -73,7 +86,7 @@ Status ReferenceExecutor::set_parameters(const Parameters& parameters) {
   auto model = model_with(parameters);
   if (!model) return pass_on(model);
   model_ = *model;
-  restart_window();
+  begin_window();
   return {};
 }
 
@@ -82,6 +95,7 @@ void ReferenceExecutor::step() {
   const Geometry& geometry = source_->geometry;
   const StepConstants<double> constants = model_.constants<double>();
   const auto update = HWY_NAMESPACE::update_constants<double>(constants);
+  const bool is_measured = next_step_is_measured();
   for (std::int64_t z = 0; z < geometry.size.z; ++z) {
     for (std::int64_t y = 0; y < geometry.size.y; ++y) {
       for (std::int64_t x = 0; x < geometry.size.x; ++x) {
@@ -90,10 +104,11 @@ void ReferenceExecutor::step() {
                                                                 update.inverse_spacing);
         const double data = HWY_NAMESPACE::data_motion(static_cast<double>(source_values_[i]), constants);
         next_[i] = HWY_NAMESPACE::updated_phi<kPaper, double>(d, data, update);
-        if (std::abs(next_[i]) <= constants.near) {
+        if (is_measured && std::abs(next_[i]) <= constants.near) {
           const double change = next_[i] - previous_[i];
-          motion_.squared_change += change * change;
-          ++motion_.voxels;
+          PageMotion& page = motion_[static_cast<std::size_t>(layout_.translate({x, y, z}).page)];
+          page.squared_change += change * change;
+          ++page.voxels;
         }
       }
     }
@@ -110,21 +125,17 @@ Result<AdvanceReport> ReferenceExecutor::advance(const Advance& run) {
       step<false>();
     }
     report.voxel_updates += static_cast<std::int64_t>(phi_.size());
-    if (++steps_in_window_ < kConvergenceWindow) return false;
-    surface_speed_ = surface_speed(motion_, model_.time_step());
-    restart_window();
-    return true;
+    return finish_window();
   });
 }
 
 MemoryReport ReferenceExecutor::memory() const {
   MemoryReport report;
-  const PageLayout layout(source_->geometry.size, kDefaultPageShape);
-  report.resident_pages = report.peak_resident_pages = layout.page_count();
+  report.resident_pages = report.peak_resident_pages = layout_.page_count();
   report.state_bytes = report.peak_state_bytes =
       static_cast<std::int64_t>((phi_.size() + previous_.size() + next_.size()) * sizeof(double));
   report.source_bytes = static_cast<std::int64_t>(source_values_.size() * sizeof(float));
-  report.page_shape = kDefaultPageShape;
+  report.page_shape = layout_.page_shape();
   return report;
 }
 

@@ -11,7 +11,9 @@ namespace tidemark {
 
 class ReferenceExecutor final : public ExecutorBase {
  public:
-  ReferenceExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters);
+  // It has no pages; where the fastest page counts (kFastestPageWeight) they have this shape.
+  ReferenceExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters,
+                    Index3 page_shape = kDefaultPageShape);
 
   [[nodiscard]] std::string_view name() const override { return "reference"; }
   Status restore(const Field& phi) override;
@@ -30,14 +32,20 @@ class ReferenceExecutor final : public ExecutorBase {
  private:
   template <bool kPaper>
   void step();
-  void restart_window();
+  void begin_window();
+  [[nodiscard]] bool finish_window();
 
+  PageLayout layout_;
   std::vector<float> source_values_;
   std::vector<double> phi_;
   std::vector<double> previous_;  // of one step earlier
   std::vector<double> next_;
-  SurfaceMotion motion_;  // of the window so far
-  int steps_in_window_ = 0;
+  // Of each page in the window so far, as for SurfaceMotion.
+  struct PageMotion {
+    double squared_change = 0.0;
+    std::int64_t voxels = 0;
+  };
+  std::vector<PageMotion> motion_;
 };
 
 }  // namespace tidemark

@@ -119,10 +119,12 @@ Status StreamExecutor::set_parameters(const Parameters& parameters) {
   auto model = model_with(parameters);
   if (!model) return pass_on(model);
   TIDEMARK_TRY(device_->make_current());
+  gpu::begin_exact_drawing();
   if (model_.parameters().scheme != parameters.scheme) {
     TIDEMARK_TRY(passes_.compile_step(*device_, active_geometry_, source_texture_, *model));
   }
   model_ = *model;
+  begin_window();
   for_each_resident([&](PhysicalPage page) { wake(page); });
   return rebuild_active_list();
 }
@@ -185,7 +187,6 @@ Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
   }
   for (const PhysicalPage page : pages) {
     wake_around(page);
-    info(page).woke_neighbours = false;
     info(page).constant_steps = 0;
   }
   for (const std::int64_t page : plan.to_flip) table_.set_static(page, brush == Brush::add);
@@ -199,6 +200,7 @@ Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
   std::sort(pages.begin(), pages.end());
   pages.erase(std::unique(pages.begin(), pages.end()), pages.end());
   active_list_is_stale_ = true;
+  begin_window();
   TIDEMARK_TRY(activate_pages(needs_activation_ ? resident_pages() : std::move(pages)));
   return rebuild_active_list();
 }

@@ -37,26 +37,32 @@ void StreamExecutor::wake_around(PhysicalPage page) {
              });
 }
 
+// What moved so far no longer counts.
+void StreamExecutor::begin_window() {
+  steps_in_window_ = 0;
+  for (const PhysicalPage page : active_) info(page).woke_neighbours = false;
+  memory_.draw_into_motion();
+  gpu::clear_colours(1);
+}
+
 // Ends the window of steps over which motion is summed up, when this step does: judges convergence and which
 // pages are quiet. Returns whether it did.
 Result<bool> StreamExecutor::finish_window() {
   if (++steps_in_window_ < kConvergenceWindow) return false;
-  steps_in_window_ = 0;
   SurfaceMotion motion;
-  motion.voxels = quiet_near_voxels_ * kMotionSamples;
+  motion.add_resting(quiet_near_voxels_ * kMotionSamples);
   if (!active_.empty()) {
     auto pages = memory_.read_motion();
     if (!pages) return pass_on(pages);
     for (const PhysicalPage page : active_) {
       const PageMotion& moved = (*pages)[static_cast<std::size_t>(page)];
-      motion.squared_change += static_cast<double>(moved.squared_change);
-      motion.voxels += static_cast<std::int64_t>(moved.near_voxels);
+      motion.add_page(static_cast<double>(moved.squared_change),
+                      static_cast<std::int64_t>(moved.near_voxels));
     }
     TIDEMARK_TRY(judge_quiet_pages(*pages));
-    memory_.draw_into_motion();
-    gpu::clear_colours(1);
   }
-  surface_speed_ = surface_speed(motion, model_.time_step());
+  begin_window();
+  surface_speed_ = motion.speed(model_.time_step());
   return true;
 }
 
@@ -76,7 +82,6 @@ Status StreamExecutor::judge_quiet_pages(const std::vector<PageMotion>& motion) 
         quiet.push_back(page);
     }
   }
-  for (const PhysicalPage page : active_) info(page).woke_neighbours = false;
   if (quiet.empty()) return {};
   for (const PhysicalPage page : quiet) {
     info(page).asleep = true;

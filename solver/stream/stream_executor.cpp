@@ -56,10 +56,8 @@ Status StreamExecutor::start(std::int64_t largest_region) {
 
 // Computes the active pages and reads what they send.
 Status StreamExecutor::step() {
-  // The change over two steps is known after the second of them.
-  const bool measure_motion = steps_in_window_ % 2 == 1;
   passes_.step(active_geometry_, memory_, source_texture_, model_.constants<float>(), current_,
-               measure_motion);
+               next_step_is_measured());
   current_ = 1 - current_;
   // The message's own time is to be known; the wait costs nothing that could be measured.
   return gpu::Fence::insert(*device_).wait();

@@ -86,6 +86,7 @@ class StreamExecutor final : public ExecutorBase {
   void wake(PhysicalPage page);
   [[nodiscard]] Index3 band_reach() const;
   void wake_around(PhysicalPage page);
+  void begin_window();
   Result<bool> finish_window();
   Status judge_quiet_pages(const std::vector<PageMotion>& motion);
   Status rebuild_active_list();
@@ -113,7 +114,6 @@ class StreamExecutor final : public ExecutorBase {
   int current_ = 0;                   // the buffer that holds phi
   bool active_list_is_stale_ = true;
   bool needs_activation_ = false;  // the budget stopped an allocation
-  int steps_in_window_ = 0;
   std::int64_t quiet_pages_ = 0;
   std::int64_t quiet_near_voxels_ = 0;
   std::int64_t peak_resident_ = 0;

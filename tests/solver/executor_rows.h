@@ -51,6 +51,11 @@ inline void add_rows_with_host() {
   QTest::newRow("host") << int(ExecutorKind::host) << 0;
 }
 
+inline void add_all_rows() {
+  add_rows_with_host();
+  QTest::newRow("reference") << int(ExecutorKind::reference) << 0;
+}
+
 inline Setting this_row() {
   QFETCH(int, kind);
   QFETCH(int, layout);

@@ -8,6 +8,7 @@ uniform bool judge_motion;  // false when the list is only made anew
 uniform uint samples;       // of motion in a window
 uniform float time_step;
 uniform float converged_speed;
+uniform float fastest_page_weight;
 
 void main() {
   control.list_is_rebuilt = !judge_motion || control.step_ran != 0u ? 1u : 0u;
@@ -15,10 +16,13 @@ void main() {
   if (judge_motion) {
     float squared = float(control.squared_change.y) * 256.0 + float(control.squared_change.x) / 16777216.0;
     uint voxels = control.near_voxels + control.quiet_near_voxels * samples;
-    control.surface_speed = voxels == 0u ? 0.0 : sqrt(squared / float(voxels)) / (2.0 * time_step);
+    float mean = voxels == 0u ? 0.0 : squared / float(voxels);
+    float fastest = fastest_page_weight * fastest_page_weight * uintBitsToFloat(control.fastest_page);
+    control.surface_speed = sqrt(max(mean, fastest)) / (2.0 * time_step);
     control.converged = control.surface_speed < converged_speed ? 1u : 0u;
   }
   control.squared_change = uvec2(0u);
+  control.fastest_page = 0u;
   control.near_voxels = 0u;
   control.quiet_near_voxels = 0u;
   control.quiet_pages = 0u;

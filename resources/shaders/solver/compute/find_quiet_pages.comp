@@ -35,6 +35,8 @@ void main() {
   uint whole = uint(squared);
   atomicAdd(control.squared_change.y, whole >> 8);
   add_64((whole & 255u) << 24);
+  uint voxels = page_state[page].near_voxels;
+  if (voxels > 0u) atomicMax(control.fastest_page, floatBitsToUint(squared / float(voxels)));
   // A page that waits for a page must not sleep over it.
   if (!skip_quiet_pages || control.starved != 0u) return;
   for (int i = 0; i < pages_in_reach(); ++i) {

@@ -37,6 +37,7 @@ layout(std430, binding = 3) coherent buffer Control {
   uint step_ran;          // 0 when the run has ended before this step
   uint list_is_rebuilt;   // 0 when the window's end is not to be judged
   uint pages_wanted;      // that a sphere needs
+  uint fastest_page;      // the largest mean squared change of a page in the window, a float's bits
 } control;
 
 layout(std430, binding = 4) coherent buffer ActiveList { int active_list[]; };

@@ -1,0 +1,143 @@
+// When a surface counts as stopped, row by row: what begins a new window of steps, and what keeps it open.
+#include <glm/vec2.hpp>
+
+#include "executor_rows.h"
+#include "tests/support/support.h"
+#include "tests/support/test_program.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+namespace {
+
+// Slabs that rest where D is 0, and a tube from the side of one in which a front creeps at `kSpeed`. D
+// changes slowly across the slabs' faces: where it jumps, phi is so steep that no voxel counts as beside the
+// surface.
+struct CreepingFront {
+  static constexpr double kSpeed = 0.24;
+  static constexpr double kSlabsEnd = 39.5;
+
+  CreepingFront() {
+    parameters.alpha = 1.0;
+    parameters.range = 1.0;
+  }
+  // With T = 0 and epsilon = 1, D = 1 - |I|.
+  [[nodiscard]] std::shared_ptr<const Volume> source() const {
+    return volume_of(geometry, [](glm::dvec3 p) {
+      const double speed = std::max(0.1 * in_slabs(p), std::min(kSpeed, in_tube(p)));
+      return 1.0 - std::clamp(speed, -1.0, 1.0);
+    });
+  }
+  [[nodiscard]] static double in_slabs(glm::dvec3 p) {
+    const double y = std::fmod(p.y, 8.0);
+    return std::min(kSlabsEnd - p.x, 2.0 - std::abs(y - 3.5));
+  }
+  [[nodiscard]] static double in_tube(glm::dvec3 p) {
+    return p.x < kSlabsEnd ? -3.0 : 3.0 - glm::distance(glm::dvec2(p.y, p.z), glm::dvec2(19.5, 19.5));
+  }
+  // The slabs and the tube's first voxels.
+  [[nodiscard]] static double start(glm::dvec3 p) {
+    return std::max(in_slabs(p), std::min(in_tube(p), kSlabsEnd + 3.0 - p.x));
+  }
+
+  Geometry geometry = grid({64, 40, 40});
+  Parameters parameters;
+};
+
+}  // namespace
+
+class ConvergenceTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void every_change_begins_a_new_window_data() { add_all_rows(); }
+  void every_change_begins_a_new_window() {
+    const Setting setting = this_row();
+    const Scene scene = lumpy_scene({40, 37, 29});
+    const auto level_set = setting.make(scene.source, scene.parameters);
+    QCOMPARE(failure(level_set->paint(scene.seed, Brush::add)), QString());
+    QVERIFY(run(*level_set, 2000, true).converged);
+    const Field at_rest = level_set->snapshot().value();
+    const Sphere nowhere{centre_of(scene.geometry) - glm::dvec3(15.0), 1.0};
+    const std::function<Status()> changes[] = {[&] { return level_set->set_parameters(scene.parameters); },
+                                               [&] { return level_set->paint(nowhere, Brush::erase); },
+                                               [&] { return level_set->restore(at_rest); }};
+    for (const auto& change : changes) {
+      // In the middle of a window at rest: what rested before the change says nothing about what comes.
+      run(*level_set, 7);
+      QCOMPARE(failure(change()), QString());
+      const AdvanceReport report = run(*level_set, 100, true);
+      QVERIFY(report.converged);
+      QCOMPARE(report.steps, std::int64_t{kConvergenceWindow});
+    }
+  }
+
+  void a_slow_start_after_a_change_is_no_rest_data() { add_all_rows(); }
+  void a_slow_start_after_a_change_is_no_rest() {
+    const Setting setting = this_row();
+    const Geometry geometry = grid({32, 32, 32});
+    const glm::dvec3 centre = centre_of(geometry);
+    const auto source = volume_of(geometry, [&](glm::dvec3 p) { return glm::distance(p, centre); });
+    Parameters parameters;
+    parameters.target = 5.0;
+    parameters.range = 4.0;
+    parameters.alpha = 0.9;
+    const auto level_set = setting.make(source, parameters);
+    QCOMPARE(failure(level_set->paint({centre, 8.0}, Brush::add)), QString());
+    QVERIFY(run(*level_set, 2000, true).converged);
+    run(*level_set, kConvergenceWindow - 1);
+    const double before = mean_radius(level_set->snapshot().value(), centre);
+    // The surface now has D = 0.02 to go on: twice the speed that counts as none.
+    parameters.target += 0.1;
+    QCOMPARE(failure(level_set->set_parameters(parameters)), QString());
+    QVERIFY(run(*level_set, 2000, true).converged);
+    const double radius = mean_radius(level_set->snapshot().value(), centre);
+    QVERIFY2(radius > before + 0.05, qPrintable(QString("%1, then %2").arg(before).arg(radius)));
+  }
+
+  void a_front_that_creeps_on_a_large_resting_surface_counts_data() { add_all_rows(); }
+  void a_front_that_creeps_on_a_large_resting_surface_counts() {
+    const Setting setting = this_row();
+    const CreepingFront scene;
+    const auto level_set = setting.make(scene.source(), scene.parameters);
+    set_phi(*level_set, scene.geometry, CreepingFront::start);
+    run(*level_set, 4 * kConvergenceWindow);
+    const auto tip = [&] {
+      double furthest = 0.0;
+      for_each_crossing(level_set->snapshot().value(),
+                        [&](glm::dvec3 p) { furthest = std::max(furthest, p.x); });
+      return furthest;
+    };
+    const double before = tip();
+    const AdvanceReport report = run(*level_set, 4 * kConvergenceWindow, true);
+    qInfo("the tip goes from %.2f to %.2f, the surface's speed is %.4f", before, tip(), report.surface_speed);
+    QVERIFY(!report.converged);
+    QCOMPARE(report.steps, std::int64_t{4 * kConvergenceWindow});
+    QVERIFY(tip() > before + 1.0);
+  }
+
+  void all_executors_stop_at_the_same_step_data() { add_rows_with_host(); }
+  void all_executors_stop_at_the_same_step() {
+    const Setting setting = this_row();
+    const Scene scene = lumpy_scene({40, 37, 29});
+    ExecutorOptions options = setting.options();
+    options.skip_quiet_pages = false;  // the reference has none
+    const auto tested = executor(setting.kind, scene.source, scene.parameters, options);
+    const auto reference =
+        Setting{ExecutorKind::reference, setting.page_shape}.make(scene.source, scene.parameters);
+    AdvanceReport reports[2];
+    int i = 0;
+    for (Executor* level_set : {tested.get(), reference.get()}) {
+      QCOMPARE(failure(level_set->paint(scene.seed, Brush::add)), QString());
+      reports[i++] = run(*level_set, 2000, true);
+    }
+    QVERIFY(reports[0].converged && reports[1].converged);
+    QCOMPARE(reports[0].steps, reports[1].steps);
+    qInfo("%lld steps, speed %.5f and %.5f", static_cast<long long>(reports[0].steps),
+          reports[0].surface_speed, reports[1].surface_speed);
+    QVERIFY(std::abs(reports[0].surface_speed - reports[1].surface_speed) < 1e-4);
+  }
+};
+
+TIDEMARK_TEST(ConvergenceTest)
+#include "convergence_test.moc"
