@@ -1,4 +1,4 @@
-// Results appear whole or not at all.
+// Files and folders that appear whole or not at all.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Who holds a file or a folder, across programs, and whose it is.
+// Locks on files and folders across programs, and the owner of a folder.
 #pragma once
 
 #include <filesystem>

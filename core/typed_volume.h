@@ -1,4 +1,4 @@
-// A volume's voxels by their type: Volume::value() would ask for it at each of a hundred million.
+// A volume's voxels by their type. Volume::value() would ask for the type at each of a hundred million.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Where exceptions end that libraries, or the lack of memory, throw in work that has no file to blame.
+// The end of exceptions that libraries, or the lack of memory, throw in work that has no file to blame.
 #pragma once
 
 #include <exception>
