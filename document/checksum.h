@@ -1,4 +1,4 @@
-// What tells one volume, or one file, from another.
+// Checksums that tell one volume, or one file, from another.
 #pragma once
 
 #include <cstddef>

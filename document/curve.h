@@ -1,4 +1,4 @@
-// How the surface has developed since the start.
+// The development of the surface since the start: volume, area and motion by step.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// An executor with all that it was made from, so that it can be made anew and driven by a recipe.
+// An executor with all that it was made from, for making it anew and for driving it by a recipe.
 #pragma once
 
 #include <memory>

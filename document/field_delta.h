@@ -1,4 +1,4 @@
-// What differs between two level sets on one grid: the pages that are not the same, both ways.
+// The difference of two level sets on one grid: the pages that are not the same, both ways.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What was done, in order, with the way back and forward again: one history for everything in a case.
+// The history of a case: its changes in order, with the way back and forward again.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Several labels over the volume: what was segmented so far.
+// The labels over a volume: what was segmented so far.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The level set of a case while it is steered: an executor, everything that was done to it, and the way back.
+// The level set of a case while it is steered: an executor, its recipe, and the way back.
 #pragma once
 
 #include <cstdint>

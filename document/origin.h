@@ -1,4 +1,4 @@
-// Where a case's volume came from.
+// The origin of a case's volume.
 #pragma once
 
 #include <filesystem>

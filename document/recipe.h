@@ -1,4 +1,4 @@
-// Everything that was done to a level set since its start, by step number: what replays to the same voxels.
+// A recipe: everything done to a level set since its start, by step number. It replays to the same voxels.
 #pragma once
 
 #include <cstdint>

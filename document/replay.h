@@ -1,4 +1,4 @@
-// Does again what a recipe says.
+// The replay of a recipe.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What a case holds, in files for other systems; and label maps from them.
+// Result files for other systems, written from a case, and label maps read from them.
 #pragma once
 
 #include "document/session_contents.h"

@@ -1,4 +1,4 @@
-// What a session file holds of a case, as values: they can be written on any thread while the case goes on.
+// The contents of a session file as values, for writing on any thread while the case goes on.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// How a level set begins, as data: what a recipe records and a user can do again.
+// The start of a level set as data: what a recipe records and a user can do again.
 #pragma once
 
 #include <memory>
