@@ -1,4 +1,4 @@
-// Copies of a case while it has changes that are in no file.
+// Copies of a case's unsaved changes.
 #pragma once
 
 #include <QObject>

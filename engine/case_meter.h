@@ -1,4 +1,4 @@
-// What is measured on a case while it runs.
+// The measurements on a case while it runs.
 #pragma once
 
 #include <chrono>

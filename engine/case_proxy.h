@@ -1,5 +1,5 @@
-// A case as widgets know it: what it was like after the last job, what it can be told to do, and how it is
-// shown.
+// A case as widgets know it: its state after the last job, its commands, and its display. The case itself
+// belongs to the engine's thread (case_runner.h).
 #pragma once
 
 #include <QObject>

@@ -1,4 +1,4 @@
-// A case on the engine's thread: commands are carried out, steps are computed, pictures drawn, figures taken.
+// A case on the engine's thread: commands, steps, pictures and figures.
 #pragma once
 
 #include <functional>

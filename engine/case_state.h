@@ -1,4 +1,4 @@
-// What a case is like, for those who show it.
+// The state of a case, as values for those who show it.
 #pragma once
 
 #include <QString>

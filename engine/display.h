@@ -1,4 +1,4 @@
-// How a case is shown, and with what the mouse works: one model that all its views and panels share.
+// The display of a case and its tools: one model that all its views and panels share.
 #pragma once
 
 #include <QObject>

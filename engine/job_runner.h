@@ -1,4 +1,4 @@
-// Work for the user interface, which never waits: one piece at a time, on a thread of its own.
+// A runner of work beside the user interface: one piece at a time, on a thread of its own.
 #pragma once
 
 #include <QObject>

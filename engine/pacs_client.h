@@ -1,4 +1,4 @@
-// A PACS for the user interface, which never waits for it.
+// A client of a PACS that works beside the user interface.
 #pragma once
 
 #include <functional>

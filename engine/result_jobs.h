@@ -1,4 +1,4 @@
-// Results out of a case, and labels into it, for the user interface, which never waits.
+// The writing of a case's results, and the import of labels, beside the user interface.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// How often values occur in a volume.
+// The distribution of a volume's values: histograms and common range.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Finds and loads studies without ever keeping the user interface waiting.
+// The search for studies and their loading, beside the user interface.
 #pragma once
 
 #include <QString>

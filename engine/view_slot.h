@@ -1,4 +1,4 @@
-// A view between the user interface, which says what is to be seen, and the engine, which draws it.
+// The slot between a view, which asks for a picture, and the engine, which draws it.
 #pragma once
 
 #include <atomic>

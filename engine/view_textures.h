@@ -1,4 +1,4 @@
-// Pictures of a view that stay on the GPU, from the engine's context to the view's own.
+// The pictures of a view that stay on the GPU, from the engine's context to the view's own.
 #pragma once
 
 #include <atomic>
