@@ -1,4 +1,4 @@
-// What is written over pictures: where the patient's sides are, and how long a centimetre is.
+// The annotations over pictures: the patient's sides and a scale bar.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// Where a picture is taken from.
+// The camera: where a picture is taken from.
 #pragma once
 
 #include <glm/mat4x4.hpp>

@@ -1,4 +1,4 @@
-// Where pictures are drawn: a texture, filled in pieces so that nobody waits long for the GPU.
+// The canvas of a picture: a texture, filled in pieces so that nobody waits long for the GPU.
 #pragma once
 
 #include "core/progress.h"

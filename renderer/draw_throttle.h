@@ -1,4 +1,4 @@
-// Keeps drawing from holding a processor that plays the GPU for long.
+// A throttle that keeps drawing from holding a processor that plays the GPU for long.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// The level set as pictures are drawn from it: phi's packed pages and their page table on the GPU.
+// The level set for pictures: phi's packed pages and their page table on the GPU.
 #pragma once
 
 #include <optional>

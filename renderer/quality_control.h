@@ -1,4 +1,4 @@
-// Coarse pictures in time while something moves, better and better ones when nothing does. Knows no OpenGL.
+// The choice of quality: coarse pictures while something moves, better ones afterwards. Knows no OpenGL.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Where slices show anything, so that nothing is drawn elsewhere.
+// The bounds of what slices show; nothing is drawn elsewhere.
 #pragma once
 
 #include <glm/mat4x4.hpp>

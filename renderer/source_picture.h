@@ -1,4 +1,4 @@
-// The source volume as pictures are drawn from it.
+// The source volume for pictures: its texture, and its opacity page by page.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Transfer functions: how values of the source, and places of the surface, show (paper section 6.2).
+// Transfer functions: the look of the source's values and of places on the surface (paper section 6.2).
 #pragma once
 
 #include <filesystem>

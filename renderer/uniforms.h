@@ -1,4 +1,4 @@
-// A view as the uniforms of resources/shaders/render. The program is in use.
+// The uniforms of resources/shaders/render for a view. The program is in use.
 #pragma once
 
 #include "gpu/program.h"

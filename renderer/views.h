@@ -1,4 +1,4 @@
-// What is to be seen in a picture, and how.
+// The views: what a picture shows, and how.
 #pragma once
 
 #include <glm/vec2.hpp>
