@@ -1,4 +1,4 @@
-// When a surface counts as stopped: see kConvergedSpeed.
+// The measure of motion by which a surface counts as stopped: see kConvergedSpeed.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// One level set, several ways to run it: the interface that all executors share.
+// The interface of all executors: one level set, several ways to run it.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What the level set is like at one voxel: for values under a cursor.
+// The terms of the level set at one voxel, for values under a cursor.
 #pragma once
 
 #include "solver/field.h"

@@ -1,4 +1,4 @@
-// Where a page's voxels lie in physical memory G, a 2D texture: the C++ side of
+// The place of a page's voxels in physical memory G, a 2D texture: the C++ side of
 // resources/shaders/solver/paging.glsl.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What the solver's shaders read: the equation's constants and the source volume.
+// The uniforms of the solver's shaders: the equation's constants and the source volume.
 #pragma once
 
 #include "core/volume.h"

@@ -1,4 +1,4 @@
-// The shape of a page, and where a voxel is found: the address translation of paper section 3.2.
+// The shape of a page and the address of a voxel: the address translation of paper section 3.2.
 #pragma once
 
 #include "core/geometry.h"

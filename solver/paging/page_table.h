@@ -1,4 +1,4 @@
-// Which virtual pages are in physical memory, and where (paper sections 3.2 and 4.1).
+// The page table: which virtual pages are in physical memory, and where (paper sections 3.2 and 4.1).
 #pragma once
 
 #include <cstdint>

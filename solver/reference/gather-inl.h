@@ -1,4 +1,4 @@
-// The stencil of one voxel, for those who are in no hurry.
+// The stencil of one voxel, gathered without regard to speed.
 
 #if defined(TIDEMARK_REFERENCE_GATHER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TIDEMARK_REFERENCE_GATHER_INL_H_

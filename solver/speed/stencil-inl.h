@@ -1,4 +1,4 @@
-// What the equation reads of phi around a voxel, and the differences that every speed term is made of.
+// The values of phi around a voxel that the equation reads, and the differences in every speed term.
 //
 // The headers of this folder are written once for any kind of number V: the reference computes with double,
 // the host executor with vectors of float, compiled anew for each instruction set. V has + - * and the

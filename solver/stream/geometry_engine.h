@@ -1,5 +1,5 @@
-// Pages as geometry (paper sections 3.3 and 3.4): what is drawn so that a fragment is born for each voxel,
-// with the addresses that it reads.
+// Pages as geometry (paper sections 3.3 and 3.4): drawing it makes a fragment for each voxel, with the
+// addresses that it reads.
 #pragma once
 
 #include <cstdint>
