@@ -1,4 +1,4 @@
-// Fusion, with its few drawings that ignore the palette replaced: they are black, and lost in the dark theme.
+// The style: Fusion without its few drawings that ignore the palette and are lost in the dark theme.
 #pragma once
 
 #include <QProxyStyle>

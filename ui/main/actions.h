@@ -1,4 +1,4 @@
-// Everything that menus, tool bars and keys can do, made once.
+// The actions of menus, tool bars and keys, each made once.
 #pragma once
 
 #include <QAction>

@@ -1,4 +1,4 @@
-// What fails in a case, told until something else has succeeded in it.
+// The messages of failures in a case, shown until something has succeeded in it.
 #pragma once
 
 #include <QObject>

@@ -1,4 +1,4 @@
-// Asks what is to be done with copies of cases that were not saved.
+// The question after a crash: what to do with copies of cases that were not saved.
 #pragma once
 
 #include <QString>

@@ -1,4 +1,4 @@
-// From a PACS to a case.
+// The way from a PACS to a case.
 #pragma once
 
 namespace tidemark {

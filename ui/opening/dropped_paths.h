@@ -1,4 +1,4 @@
-// What is dragged into the program: files and folders from outside, series from the browser.
+// The paths of dragged files and folders from outside, and of series from the browser.
 #pragma once
 
 #include <QMimeData>

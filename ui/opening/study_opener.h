@@ -1,4 +1,4 @@
-// From a path to a study: looks what is there, asks which series where there are several, and loads it.
+// The way from a path to a study: search, choice among several series, loading.
 #pragma once
 
 #include <QMessageBox>

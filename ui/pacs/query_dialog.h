@@ -1,4 +1,4 @@
-// Asks a PACS for studies, and brings a series from it.
+// The dialog that asks a PACS for studies and brings a series from it.
 #pragma once
 
 #include <QDialog>

@@ -1,4 +1,4 @@
-// What all parts of the panels have in common: they show one case, the active one.
+// The common base of all parts of the panels: they show one case, the active one.
 #pragma once
 
 #include <QPointer>

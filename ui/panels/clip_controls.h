@@ -1,4 +1,4 @@
-// The clip plane (paper section 6.2), by numbers: 3D views drag it.
+// The clip plane (paper section 6.2) by numbers; 3D views drag it.
 #pragma once
 
 #include "ui/panels/case_widget.h"

@@ -1,4 +1,4 @@
-// Beginning with what lies in a file.
+// The start from a file.
 #pragma once
 
 #include <memory>

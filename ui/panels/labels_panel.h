@@ -1,4 +1,4 @@
-// What was segmented so far.
+// The panel Labels: what was segmented so far.
 #pragma once
 
 #include "ui/panels/panel.h"

@@ -1,4 +1,4 @@
-// What a label is, to be chosen from a list or found by typing.
+// A picker of a label's meaning, from a list or by typing.
 #pragma once
 
 #include <QComboBox>

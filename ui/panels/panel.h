@@ -1,4 +1,4 @@
-// A dock's content.
+// A panel: the content of a dock.
 #pragma once
 
 #include <initializer_list>

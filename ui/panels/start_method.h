@@ -1,4 +1,4 @@
-// One way in which a level set can begin.
+// One way to begin a level set.
 #pragma once
 
 #include "ui/panels/case_widget.h"

@@ -1,4 +1,4 @@
-// Which of what was segmented goes into a result.
+// The choice of segments that go into a result.
 #pragma once
 
 #include <QGroupBox>

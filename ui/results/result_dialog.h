@@ -1,4 +1,4 @@
-// What the dialogs have in common that make results for other systems.
+// The common base of the dialogs that make results for other systems.
 #pragma once
 
 #include <QDialog>

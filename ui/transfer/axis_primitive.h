@@ -1,4 +1,4 @@
-// What primitives of the source and of the surface have in common, for widgets that edit either.
+// The common form of primitives of the source and of the surface, for widgets that edit either.
 #pragma once
 
 #include <QColor>

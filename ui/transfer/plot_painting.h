@@ -1,4 +1,4 @@
-// What plots of transfer functions have in common to look at. Colours come from the palette.
+// The common look of plots of transfer functions. Colours come from the palette.
 #pragma once
 
 #include <QPainter>

@@ -1,4 +1,4 @@
-// By what a primitive is taken hold of, and what moving it does. Geometry alone: nothing is painted here.
+// The handles of a primitive, and the effect of moving them. Geometry alone: nothing is painted here.
 #pragma once
 
 #include <glm/vec2.hpp>

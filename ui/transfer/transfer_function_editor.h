@@ -1,4 +1,4 @@
-// Edits how the values of a case's volume and its surface show (paper section 6.2).
+// The editor of how the values of a case's volume and its surface show (paper section 6.2).
 #pragma once
 
 #include <QCheckBox>

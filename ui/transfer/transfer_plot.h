@@ -1,4 +1,4 @@
-// A plot on which primitives are chosen and dragged, by mouse and by keys.
+// A plot of primitives that mouse and keys choose and drag.
 #pragma once
 
 #include <QWidget>

@@ -1,4 +1,4 @@
-// What a mouse button does between press and release.
+// The gesture of a mouse button between press and release.
 #pragma once
 
 #include <QPainter>

@@ -1,4 +1,4 @@
-// Spheres that add to the level set or take from it.
+// Drags of spheres that add to the level set or take from it.
 #pragma once
 
 #include "ui/views/drag.h"

@@ -1,4 +1,4 @@
-// What is drawn over pictures: seen on bright and on dark ones.
+// The overlay of pictures: lines and text that are seen on bright and on dark ones.
 #pragma once
 
 #include <QPainter>

@@ -1,4 +1,4 @@
-// Where a view's picture is a texture that the engine has drawn: the only place of the user interface that
+// The surface of a view whose picture is a texture of the engine's: the only place of the user interface that
 // knows OpenGL.
 #pragma once
 
