@@ -30,7 +30,7 @@ class CaseAutosave : public QObject {
   ~CaseAutosave() override;
 
   void save_now();
-  // As soon as it is known what the case is like: a rescued one is in no file but the copy that it came from.
+  // Called with the case's first state: a rescued case is in no file but the copy that it came from.
   void save_soon() { soon_ = true; }
 
  signals:
