@@ -36,7 +36,7 @@ struct CaseState {
   std::vector<RegionStatistics> label_statistics;                 // in the order of `labels`
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null while there are none
   std::optional<Acceptance> acceptance;                           // while it is the last change
-  QString undo_text;                                              // the change that undo takes back; empty: none
+  QString undo_text;                                              // which change undo takes back; empty: none
   QString redo_text;
   std::uint64_t edits = 0;  // how much was done: grows with each edit
   bool modified = false;    // something would be lost
