@@ -5,7 +5,7 @@ namespace tidemark {
 
 class MainWindow;
 
-// Shows the window's one query dialog; what it brings is opened.
+// Shows the window's one query dialog, and opens the series that it brings.
 void query_server(MainWindow& window);
 
 }  // namespace tidemark

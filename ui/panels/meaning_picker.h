@@ -16,7 +16,7 @@ class MeaningPicker : public QComboBox {
   void show_label(const Label* label);  // null: there is none
 
  signals:
-  // Nothing: what the label's name says.
+  // Unset: the meaning of the label's name.
   void picked(const std::optional<tidemark::SegmentMeaning>& meaning);
 
  protected:

@@ -5,7 +5,7 @@
 
 namespace tidemark {
 
-// From the centre outwards, seen in all views; painted when the button is let go.
+// From the centre outwards, seen in all views; painted at the release.
 class SphereDrag : public Drag {
  public:
   SphereDrag(DragView view, const Pointer& pressed, Brush brush);
