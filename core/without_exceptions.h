@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-// work(), which returns a Result or a Status; what it throws becomes an error.
+// Calls work(), which returns a Result or a Status; an exception of it becomes an error.
 template <class Work>
 auto without_exceptions(const Work& work) -> decltype(work()) {
   try {
