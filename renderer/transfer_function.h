@@ -72,7 +72,7 @@ struct TransferFunction {
   // Fails (ErrorKind::input) and names the field.
   static Result<TransferFunction> parse(std::string_view json);
   static Result<TransferFunction> load(const std::filesystem::path& file);
-  // What parse() reads back as the same function, if all in it is as parse() allows it.
+  // JSON that parse() reads back as the same function, if it keeps to the limits of parse().
   [[nodiscard]] std::string to_json() const;
 };
 
