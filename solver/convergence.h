@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-// How often motion is measured in a window: every two steps, over both of them.
+// The measurements of motion in a window: one every two steps, over both of them.
 inline constexpr int kMotionSamples = kConvergenceWindow / 2;
 
 // Summed over samples in a window of steps and the voxels beside the surface (StepConstants::near): the

@@ -12,7 +12,7 @@ struct VirtualAddress {
 };
 
 // Maps the voxel space V of a volume to its virtual page space V_P. Sizes need not be multiples of the page:
-// the last pages of an axis then hold padding, which is nobody's voxel.
+// the last pages of an axis then hold padding, which belongs to no voxel.
 class PageLayout {
  public:
   PageLayout() = default;

@@ -28,7 +28,7 @@ struct Stencil {
   V dx, dx_ym, dx_yp, dx_zm, dx_zp;
 };
 
-// What the terms of one voxel share. Lengths are in units of the smallest spacing.
+// The differences that the terms of one voxel share. Lengths are in units of the smallest spacing.
 template <class V>
 struct Differences {
   V phi;
