@@ -80,7 +80,7 @@ struct SliceView {
   SliceOrientation orientation = kAxial;
   glm::dvec3 position_mm{0.0};  // a point of the slice (LPS)
   double zoom = 1.0;            // 1: the whole slice is seen
-  glm::dvec2 pan_mm{0.0};  // the picture's middle, right and up of the volume's middle
+  glm::dvec2 pan_mm{0.0};       // the picture's middle, right and up of the volume's middle
   SliceContent content = SliceContent::source;
   SpeedTerm term = SpeedTerm::data;  // of the speed map
   WindowLevel window;
