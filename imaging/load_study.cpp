@@ -47,7 +47,7 @@ Result<Catalogue> find_in_folder(const fs::path& folder, const Progress& progres
   return catalogue;
 }
 
-// As a folder, whose files go when nobody holds a series of it any more.
+// As a folder, whose files are removed with the last holder of a series of it.
 Result<Catalogue> find_in_archive(const fs::path& file, const Progress& progress) {
   const auto archive = StudyArchive::unpack(file, progress.part(0, 2));
   if (!archive) return tl::unexpected<Error>(archive.error());

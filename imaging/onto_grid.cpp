@@ -40,7 +40,7 @@ AxisMap match_axes(const Geometry& from, const Geometry& to) {
   return map;
 }
 
-// `from` as it is when its axes are renamed by the map.
+// `from` with its axes renamed by the map.
 Geometry renamed(const Geometry& from, const AxisMap& map) {
   Geometry result;
   Index3 first(0);

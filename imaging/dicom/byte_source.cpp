@@ -21,7 +21,7 @@ std::size_t MemoryBytes::read(std::int64_t offset, std::span<std::uint8_t> room)
 }
 
 Result<FileBytes> FileBytes::open(const std::filesystem::path& file) {
-  // Of a pipe that nobody writes to, a plain open would wait.
+  // A plain open would wait at a pipe without a writer.
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   struct stat status {};
   if (descriptor < 0 || ::fstat(descriptor, &status) != 0) {

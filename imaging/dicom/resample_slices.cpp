@@ -78,7 +78,7 @@ class SliceMixer {
   std::vector<Desk> desks_;
 };
 
-// All memory is taken here: threads of a pool must not fail to get it.
+// All memory is allocated here: threads of a pool must not fail to get it.
 template <class Voxel>
 SliceMixer<Voxel>::SliceMixer(const SliceResampling<Voxel>& work, std::vector<Voxel>& voxels, int threads)
     : work_(work),

@@ -126,8 +126,8 @@ void warn_of_missing(Catalogue& catalogue, const fs::path& file, const MediaDire
   }
 }
 
-// All files are looked at, also those that no directory of a medium names; of those that one names and that
-// are missing it is told.
+// Reads all files, also those that no directory of a medium names. Files that a directory names and that are
+// missing become a warning of their series.
 Result<Catalogue> scan_folder(const fs::path& folder, const Progress& progress) {
   auto files = list_files(folder, true, progress);
   if (!files) return pass_on(files);

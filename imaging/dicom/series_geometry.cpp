@@ -183,7 +183,7 @@ Reason check_unsorted(const Slices& slices) {
   return check_all_alike(slices);
 }
 
-// Sorts along the normal; says so when that changes the order.
+// Sorts along the normal; adds a sentence to the changes when that changes the order.
 void sort_slices(Slices& slices, glm::dvec3 normal, std::vector<std::string>& changes) {
   const auto before = [&](const SliceHeader& a, const SliceHeader& b) {
     return glm::dot(*a.position_mm, normal) < glm::dot(*b.position_mm, normal);

@@ -29,7 +29,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-// The start of the file as it is, without inflating.
+// The start of the file, not inflated.
 Result<std::string> read_text(const std::filesystem::path& file) {
   TIDEMARK_TRY(read_start(file, 1));
   std::error_code error;

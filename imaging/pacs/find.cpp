@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kLongestKey = 64;  // characters (DICOM PS3.5 6.2, LO)
 
-// What is asked: attributes to match, and empty ones that are to be told.
+// The query: attributes to match, and empty ones to be returned.
 class Question {
  public:
   explicit Question(const char* level) { put(DCM_QueryRetrieveLevel, level); }

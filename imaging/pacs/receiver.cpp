@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 constexpr long kLongestPdu = 131072;
 constexpr std::int64_t kLongestCall = std::int64_t{1} << 20;
 constexpr std::size_t kMostConversations = 4;
-// Whoever connects and says nothing keeps others waiting, so that he has less time than later on.
+// A silent caller keeps others waiting, so it has less time at first than later on.
 constexpr std::chrono::milliseconds kGreetingPatience = 5s;
 
 Status answer_echo(Association& association, int context, const T_DIMSE_Message& request) {

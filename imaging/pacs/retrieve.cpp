@@ -87,7 +87,7 @@ Result<bool> ResponseReader::read(const T_DIMSE_Message& message) {
   if (DICOM_PENDING_STATUS(status)) return false;
   missing_ = counted_.failed;
   if (status == STATUS_Success || DICOM_WARNING_STATUS(status)) return true;
-  // Some servers call it a failure when one object of many has failed, and give up the rest.
+  // Some servers report a failure when one object of many has failed, and give up the rest.
   missing_ += counted_.remaining;
   if (counted_.completed + counted_.warned > 0 &&
       status != STATUS_GET_Cancel_SubOperationsTerminatedDueToCancelIndication)

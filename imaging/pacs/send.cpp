@@ -38,7 +38,7 @@ std::vector<std::string> encodings(const std::string& transfer_syntax) {
   return all;
 }
 
-// What can be sent at all; the rest goes to `sent.unsent`.
+// The files that can be sent; the others go to `sent.unsent`.
 Result<std::vector<Outgoing>> look_into(const std::vector<fs::path>& files, Sent& sent,
                                         const Progress& progress) {
   std::vector<Outgoing> outgoing;

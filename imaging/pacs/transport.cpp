@@ -24,7 +24,7 @@ bool is_address(const std::string& host) {
 
 using LineOfNext = std::function<std::shared_ptr<ConnectionWatch>()>;
 
-// A connection of DCMTK's whose waiting and whose bytes the line knows.
+// A connection of DCMTK's that reports its waiting and its bytes to the watch.
 template <class Connection>
 class Watched final : public Connection {
  public:
@@ -34,7 +34,7 @@ class Watched final : public Connection {
     watch_->opened(socket);
     set(TCP_NODELAY);
   }
-  // Here, where closing still is ours: the base's destructor would close without telling the line.
+  // Here, where closing still is ours: the base's destructor would close without the watch.
   ~Watched() override { Watched::close(); }
   Watched(const Watched&) = delete;
   Watched& operator=(const Watched&) = delete;
