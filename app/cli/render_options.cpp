@@ -105,7 +105,7 @@ Result<TransferFunction> transfer_function(const RenderOptions& options) {
   return function;
 }
 
-// What needs no volume yet.
+// The checks that need no volume.
 Result<VolumeView> volume_view(const RenderOptions& options) {
   VolumeView view;
   const auto mode = meaning("--mode", options.mode, kModes);

@@ -21,7 +21,7 @@ struct SolverOptions {
   [[nodiscard]] ExecutorOptions executor_options() const;
 };
 
-// --executor, --threads, --memory-budget and --no-skip; `otherwise` says what computes without --executor.
+// --executor, --threads, --memory-budget and --no-skip; `otherwise` names the executor without --executor.
 void add_solver_options(CLI::App& app, SolverOptions& options, const std::string& otherwise = "auto");
 
 // How many threads that executor computes with.

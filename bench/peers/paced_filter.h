@@ -16,8 +16,8 @@
 namespace tidemark::bench {
 
 // ITK's filters run to their end in one call, and work on the whole volume before and after. This one runs
-// in a thread of its own and is held at the end of each iteration until more are asked for, so that nothing
-// but iterations is timed and several contestants can take turns.
+// in a thread of its own and is held at the end of each iteration until the next request, so that only
+// iterations are timed and several contestants can take turns.
 template <class Filter>
 class PacedFilter final : public Contestant {
  public:
