@@ -137,7 +137,8 @@ Result<Retrieved> RetrievalFolder::keep(std::int64_t missing) {
   const std::lock_guard lock(mutex_);
   if (retrieved_.files.empty()) {
     if (!retrieved_.refused.empty())
-      return fail(ErrorKind::input, "nothing of what came can be taken: {}", retrieved_.refused.front());
+      return fail(ErrorKind::input, "none of the objects that came can be taken: {}",
+                  retrieved_.refused.front());
     if (missing > 0) return fail(ErrorKind::input, "none of {} objects could be sent by the server", missing);
     return fail(ErrorKind::input, "the server has nothing of the study or series that is asked for");
   }

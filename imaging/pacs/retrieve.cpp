@@ -98,7 +98,7 @@ Result<bool> ResponseReader::read(const T_DIMSE_Message& message) {
                 "entered there",
                 association_.watch().peer());
   }
-  return fail(ErrorKind::input, "{}: cannot send what is asked for (status {:04X})",
+  return fail(ErrorKind::input, "{}: cannot send the requested objects (status {:04X})",
               association_.watch().peer(), status);
 }
 

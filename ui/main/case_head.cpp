@@ -61,7 +61,7 @@ CaseHead::CaseHead(QWidget* parent)
   row->addWidget(mark_);
   row->addWidget(text_, 1);
   row->addWidget(chain_);
-  chain_->setToolTip(tr("Linked with other cases: they are looked at together"));
+  chain_->setToolTip(tr("Linked with other cases: crosshair, slices and camera move together"));
   chain_->setAccessibleName(tr("Linked"));
   setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   refresh();
