@@ -64,7 +64,7 @@ class ComputeExecutor final : public ExecutorBase {
   ExecutorOptions options_;
   PackedLayout layout_;
   SourceTexture source_texture_;
-  gpu::Program update_, measure_, maintain_, judge_, conclude_, rebuild_, paint_;
+  gpu::Program update_, measure_, maintain_, find_quiet_pages_, check_convergence_, rebuild_, paint_;
   PageMemory memory_;
   gpu::Readback readback_;
 

@@ -92,7 +92,7 @@ class RegionPasses {
 
   std::int64_t largest_region_ = kLargestRegion;
   std::array<gpu::Program, 3> derivatives_;  // interior, edges, corners
-  gpu::Program speeds_, update_, motion_blocks_, motion_pages_, neighbours_, code_;
+  gpu::Program speeds_, update_, motion_blocks_, motion_pages_, neighbours_, page_message_;
   gpu::Program fill_, fill_points_, copy_, paint_;
 
   // Of the pools of a step and of the message, in pages.
