@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kLargestPicture = 8192;
 
-// A word of an option and what it means.
+// A word of an option and its meaning.
 template <class Value>
 using Words = std::initializer_list<std::pair<const char*, Value>>;
 

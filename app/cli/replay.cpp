@@ -1,4 +1,4 @@
-// tidemark-cli replay: does again what a recipe says.
+// tidemark-cli replay: the replay of a recipe.
 #include <memory>
 
 #include "app/cli/program.h"

@@ -13,7 +13,7 @@
 namespace tidemark::cli {
 
 struct SolverOptions {
-  std::optional<ExecutorKind> kind;              // unset: what the command takes otherwise
+  std::optional<ExecutorKind> kind;              // unset: the command's default
   std::optional<std::int64_t> threads;           // unset: all processors
   std::optional<std::int64_t> memory_budget_mb;  // unset: the executor's own limit
   bool no_skip = false;
