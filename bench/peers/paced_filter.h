@@ -29,7 +29,7 @@ class PacedFilter final : public Contestant {
     command->SetCallbackFunction(this, &PacedFilter::end_iteration);
     filter_->AddObserver(itk::IterationEvent(), command);
     thread_ = std::jthread([this] { run(); });
-    // Set-up and the first iteration, which is not told apart from it, are over when the filter waits.
+    // Set-up, together with the first iteration, is over when the filter waits.
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return waiting_ || ended_; });
   }
