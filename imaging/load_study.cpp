@@ -25,7 +25,7 @@ bool is_volume_file(const Series& series) {
   return series.transfer_syntaxes.empty();
 }
 
-// What the DICOM reader leaves aside may be a volume file.
+// Files that are no DICOM may be volume files.
 Result<Catalogue> find_in_folder(const fs::path& folder, const Progress& progress) {
   auto catalogue = scan_dicom(folder, progress);
   if (!catalogue) return catalogue;

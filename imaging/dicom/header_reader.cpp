@@ -134,7 +134,7 @@ SliceHeader header_without_image(const fs::path& file, const Preflight& checked)
   return header;
 }
 
-// What the dataset itself says, about all its frames.
+// The dataset's own attributes, which hold for all its frames.
 Result<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file, const TransferSyntax& syntax) {
   DcmDataset& dataset = *loaded.getDataset();
   SliceHeader header;
@@ -196,7 +196,7 @@ Result<std::vector<SliceHeader>> read_slices(DcmFileFormat& loaded, const fs::pa
   return slices;
 }
 
-// A file that is to be read, and what the preflight says of it.
+// A file to be read, and its preflight.
 struct CheckedFile {
   FileBytes bytes;
   Preflight checked;

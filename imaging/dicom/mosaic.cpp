@@ -39,7 +39,7 @@ std::span<const std::uint8_t> csa_header(const AttributeReader& in) {
   return {bytes, count};
 }
 
-// What the file says about its mosaic, each of it twice or in one of two places.
+// The file's attributes of its mosaic, each given twice or in one of two places.
 struct Mosaic {
   double tiles = 0.0;
   std::optional<glm::dvec3> normal;  // from each slice to the next

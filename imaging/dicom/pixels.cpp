@@ -87,7 +87,7 @@ std::string FrameReader::where(std::int64_t frame) const {
   return fmt::format("{}: PixelData (7FE0,0010), frame {},", file, frame + 1);
 }
 
-// A deflated dataset can be read forward only; what it inflates to is kept.
+// A deflated dataset can be read forward only; its inflated bytes are kept.
 Status FrameReader::inflate(const Preflight& checked) {
   const auto size = InflatedBytes::measure(*bytes_, checked.dataset, kLargestInflation);
   if (!size) return fail(ErrorKind::input, "{}: {}", slices_.front().file.string(), size.error().message);

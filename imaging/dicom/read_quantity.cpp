@@ -15,7 +15,7 @@
 namespace tidemark {
 namespace {
 
-// Codes and numbers are ASCII; what is not would spoil a message.
+// Codes and numbers are ASCII; other characters would spoil a message.
 std::string text(DcmItem& item, const DcmTagKey& key) {
   constexpr std::size_t kLongest = 256;
   std::string result = element_text(item, key).substr(0, kLongest);

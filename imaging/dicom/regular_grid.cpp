@@ -170,7 +170,7 @@ void GridPlanner::set_slices() {
     while (before + 1 < places_.last() && scale_.places[before + 1] <= place) ++before;
     const double low = scale_.places[before];
     const double high = scale_.places[before + 1];
-    // The last slice stands for what is at most half a step beyond it.
+    // The last slice also covers half a step beyond it.
     if (place - low <= kHere) {
       plan_.slices.push_back({share(before, 1.0), share(before, 0.0)});
     } else if (high - place <= kHere) {

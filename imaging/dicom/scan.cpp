@@ -109,7 +109,7 @@ Result<Catalogue> catalogue_of(const std::vector<fs::path>& files, const Progres
   return catalogue;
 }
 
-// What a medium's directory names and does not hold may be a series' first or last slice.
+// A file that a medium's directory names and that is missing may be a series' first or last slice.
 void warn_of_missing(Catalogue& catalogue, const fs::path& file, const MediaDirectory& directory) {
   using Missing = std::vector<MediaDirectory::Missing>;
   if (directory.missing.empty()) return;

@@ -172,7 +172,7 @@ bool may_belong(const SliceHeader& image, const SliceHeader& slice) {
          std::abs(glm::dot(normal_of(image), normal_of(slice))) > kSamePlane;
 }
 
-// Whether a slice may have got lost among what is in no volume.
+// Whether a slice may be among the images that are in no volume.
 bool is_doubtful(const std::vector<SeriesPart>& parts) {
   return std::any_of(parts.begin(), parts.end(), [&](const SeriesPart& odd) {
     return !is_volume(odd) && std::any_of(parts.begin(), parts.end(), [&](const SeriesPart& part) {

@@ -13,7 +13,7 @@ struct SeriesPart {
   std::vector<SliceHeader> slices;
   std::string label;                 // "echo 2, TE 30 ms"; empty when the series is one part
   bool is_rest = false;              // images that fit into none of the other parts
-  std::vector<std::string> changes;  // what was left out
+  std::vector<std::string> changes;  // the images left out
 };
 
 // Splits the slices of one series (at least one) by size, orientation, pixel spacing and stack. Where several

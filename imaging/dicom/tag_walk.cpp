@@ -145,7 +145,7 @@ tl::expected<void, TagDamage> TagWalk::walk_dataset(std::int64_t begin, ElementC
   }
 }
 
-// Bounds what a parser spends on the element.
+// Limits the memory and steps that a parser spends on the element.
 bool TagWalk::count(Level& level, const ElementHeader& header) {
   if (++objects_ > most_objects_) {
     return fails(header.tag, header.begin, fmt::format("is one of more than {} elements", most_objects_));
@@ -178,7 +178,7 @@ bool TagWalk::enter_sequence(const ElementHeader& header, bool is_implicit) {
               .tag = header.tag,
               .is_sequence = true,
               .is_delimited = header.is_undefined()};
-  // What is in an element of unknown representation is implicit little endian (PS3.5 6.2.2).
+  // The content of an element of unknown representation is implicit little endian (PS3.5 6.2.2).
   if (is_implicit) level.coding = {false, false};
   return enter(level, header);
 }

@@ -87,7 +87,7 @@ void write_common_modules(AttributeWriter& out, const DicomSeriesHeader& header,
   out.text(DCM_ManufacturerModelName, "Tidemark");
 }
 
-// What the CT Image and MR Image modules ask for beyond pixels (PS3.3 C.8.2.1, C.8.3.1).
+// The attributes of the CT Image and MR Image modules beyond pixels (PS3.3 C.8.2.1, C.8.3.1).
 void write_modality_module(AttributeWriter& out, const Volume& volume, const DicomSeriesHeader& header) {
   const bool is_ct = header.modality == "CT";
   out.text(DCM_SOPClassUID, is_ct ? UID_CTImageStorage : UID_MRImageStorage);

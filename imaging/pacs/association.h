@@ -49,7 +49,7 @@ class Association {
                                                    const std::stop_token& stop);
   // One that the peer called for and that was accepted.
   Association(std::shared_ptr<ConnectionWatch> watch, T_ASC_Association* accepted);
-  ~Association();  // aborts what was not released
+  ~Association();  // aborts an association that was not released
   Association(const Association&) = delete;
   Association& operator=(const Association&) = delete;
 

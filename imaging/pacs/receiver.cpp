@@ -153,7 +153,7 @@ Status Receiver::converse(Association& association) {
       association.acknowledge_release();
       return {};
     }
-    // Who breaks off between objects has done no harm: what is missing the server says itself.
+    // A caller that breaks off between objects does no harm: the server itself reports missing objects.
     if (!context) return {};
     Status answered;
     if (request.CommandField == DIMSE_C_STORE_RQ) {

@@ -14,7 +14,7 @@ namespace {
 
 // The UIDs of all objects that failed may come along.
 constexpr std::int64_t kLongestResponseData = std::int64_t{2} << 20;
-// A server says how things go at most once an object, of which it can count 65,535.
+// A server reports its progress at most once an object, of which it can count 65,535.
 constexpr std::int64_t kMostResponses = 100'000;
 
 struct Response {

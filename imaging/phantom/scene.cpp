@@ -14,7 +14,7 @@ std::int16_t to_stored(double value) {
   return static_cast<std::int16_t>(std::floor(std::clamp(value, kLow, kHigh) + 0.5));
 }
 
-// What the scanner reports for a true value.
+// The scanner's value for a true one.
 struct Receiver {
   double deviation;
   bool magnitude;  // MR: the length of a complex number, so that dark voxels are never negative
