@@ -32,7 +32,7 @@ QPixmap drawn_mark(int number, int side) {
   return pixmap;
 }
 
-// "Name · ID · series", without what is not known or not to be read.
+// "Name · ID · series", without unknown and hidden parts.
 QString text_of(CaseProxy& proxy) {
   QStringList parts;
   if (proxy.display().settings().patient_text) {

@@ -52,7 +52,7 @@ ServersDialog::ServersDialog(std::filesystem::path file, QWidget* parent)
     configuration_ = std::move(*read);
   } else if (std::filesystem::exists(file_, error)) {
     say(QString::fromStdString(read.error().message));
-    // What it holds would be lost.
+    // Its content would be lost.
     QPushButton* save = buttons->button(QDialogButtonBox::Save);
     save->setEnabled(false);
     save->setToolTip(tr("The file of servers cannot be read: repair it, or move it away"));
@@ -227,7 +227,7 @@ void ServersDialog::add() {
 void ServersDialog::remove() {
   const int row = list_->currentRow();
   if (row < 0) return;
-  shown_ = -1;  // what is entered goes with it
+  shown_ = -1;  // the entered text goes with it
   configuration_.servers.erase(configuration_.servers.begin() + row);
   {
     // On its way the list names rows that are no longer what they were.
