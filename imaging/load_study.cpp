@@ -166,7 +166,7 @@ bool is_asked_for(const Series& series, const std::string& uid) {
   return uid.empty() || series.uid == uid || series.uid.starts_with(uid + '#');
 }
 
-// A series as the functions of this file take it from outside.
+// The check on a series from outside.
 Status require_loadable(const Series& series) {
   if (series.loadable && !series.files.empty()) return {};
   return fail(ErrorKind::input, "{}: cannot be loaded: {}", series.description, series.reason);

@@ -19,7 +19,7 @@ double tolerance_mm(const Geometry& grid) {
   return kTolerance * std::min({grid.spacing_mm.x, grid.spacing_mm.y, grid.spacing_mm.z});
 }
 
-// Which axis of one grid runs along each axis of another, and whether it runs the other way.
+// The axis of one grid along each axis of another, and whether it runs the other way.
 struct AxisMap {
   std::array<int, 3> axis{};
   std::array<bool, 3> reversed{};

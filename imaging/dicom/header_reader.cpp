@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An enhanced image says on every frame where it lies; beyond this many a file is not believed.
+// The most frames of an enhanced image, which has a place for each; more are damage.
 constexpr std::int64_t kMostFrames = 65535;
 
 std::int64_t read_number_of_frames(AttributeReader& in) {
@@ -124,7 +124,7 @@ std::string describe(const Preflight& checked) {
   return fmt::format("{}{} {} (at byte {})", is_damaged ? "is damaged: " : "", element, what, offset);
 }
 
-// All that is known of a file that cannot be parsed.
+// The header of a file that cannot be parsed.
 SliceHeader header_without_image(const fs::path& file, const Preflight& checked) {
   SliceHeader header;
   header.file = file;

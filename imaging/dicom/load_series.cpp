@@ -89,7 +89,7 @@ class SeriesDecoder {
     });
   }
 
-  // Slices of the volume are made of images as the series' grid says.
+  // Slices of the volume are made of images by the series' grid.
   void resample(std::vector<Voxel>& voxels, const Progress& progress, Outcome& outcome) {
     SharedProgress shared(progress, series_.geometry.size.z, "decoding slices");
     std::vector<const FrameWork*> work_of(series_.sources.size());
@@ -196,7 +196,7 @@ class SeriesDecoder {
     }
   }
 
-  // Whether the slice still is as the series needs it.
+  // Whether the slice still suits the series.
   [[nodiscard]] bool has_kind(const SliceHeader& header) const {
     if (header.columns != series_.stack.size.x || header.rows != series_.stack.size.y) return false;
     return std::is_same_v<Voxel, float> ||
@@ -224,7 +224,7 @@ Status decode_into(const Series& series, const SliceHeader& first, FramePlan& pl
   return {};
 }
 
-// The header of the first slice tells what all have in common.
+// The header of the first slice has the attributes that all share.
 Result<SliceHeader> first_header(const Series& series, FramePlan& plan) {
   const SliceSource& source = series.sources.front();
   const auto reader = plan.open(plan.work().front());

@@ -80,7 +80,7 @@ const SliceHeader* FrameReader::slice(std::int64_t frame, std::int64_t tile) con
   return &slices_[index];
 }
 
-// What messages begin with.
+// The begin of messages.
 std::string FrameReader::where(std::int64_t frame) const {
   const std::string file = slices_.front().file.string();
   if (frames() == 1) return file + ": PixelData (7FE0,0010)";

@@ -110,7 +110,7 @@ std::optional<double> mapped_value(DcmItem& item, const DcmTagKey& whole, const 
   return is_signed ? static_cast<double>(static_cast<Sint16>(word)) : static_cast<double>(word);
 }
 
-// Why the mapping is not used; empty when it is.
+// The reason why the mapping is not used; empty when it is.
 std::string take_mapping(DcmItem& item, SliceHeader& header) {
   if (header.modality != "MR") return "it is used in MR only";
   ValueMapping mapping;

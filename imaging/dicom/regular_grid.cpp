@@ -14,10 +14,10 @@ namespace {
 
 // Gantries are tilted by at most 30 degrees; beyond this slices have little to do with each other.
 constexpr double kLargestTilt = 45.0;
-// For each voxel of the slices: what is made up is not the most of a volume, and headers cannot ask for any
-// amount of memory.
+// The most voxels of a grid for each voxel of the slices: most of a volume must be measured, and headers
+// cannot ask for any amount of memory.
 constexpr double kMostVoxels = 4.0;
-// In distances of slices and of pixels: nearer than this is there.
+// In distances of slices and of pixels: nearer slices count as being there.
 constexpr double kHere = 1e-3;
 constexpr std::size_t kMostGapsNamed = 8;
 

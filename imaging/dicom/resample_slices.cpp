@@ -27,7 +27,7 @@ Extent extent_of(double shift, std::int64_t pixels, std::int64_t voxels) {
   return {std::clamp<std::int64_t>(begin, 0, voxels), std::clamp<std::int64_t>(end, 0, voxels)};
 }
 
-// Between which two pixels a voxel lies.
+// The two pixels between which a voxel lies.
 struct Between {
   std::int64_t low = 0;
   std::int64_t high = 0;

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // All regular files below the folder, sorted, so that results do not depend on the file system. Links to
-// folders are not followed: they could lead in circles. What a killed program of ours left unfinished is no
+// folders are not followed: they could lead in circles. Unfinished files of a killed program are no
 // study.
 Result<std::vector<fs::path>> list_files(const fs::path& folder, bool recursive, const Progress& progress) {
   std::vector<fs::path> files;

@@ -12,7 +12,7 @@ namespace tidemark {
 namespace {
 
 using Slices = std::vector<SliceHeader>;
-// A reason why not, or nothing when the check is passed.
+// The reason for a failed check, or nothing.
 using Reason = std::optional<std::string>;
 
 // Beyond these (mm) a number is damage, not anatomy.
@@ -218,7 +218,7 @@ std::string scalar_of(const Slices& slices, std::vector<std::string>& changes) {
 }
 
 void describe(const Slices& slices, Series& series) {
-  // A damaged image may say no more than which series it belongs to.
+  // A damaged image may have no more than the UID of its series.
   const auto telling =
       std::find_if(slices.begin(), slices.end(), [](const SliceHeader& s) { return !s.modality.empty(); });
   const SliceHeader& first = telling != slices.end() ? *telling : slices.front();

@@ -11,10 +11,10 @@ constexpr DicomTag kSequenceEnd{0xfffe, 0xe0dd};
 constexpr DicomTag kPixelData{0x7fe0, 0x0010};
 constexpr DicomTag kSpecificCharacterSet{0x0008, 0x0005};
 
-// What DCMTK takes for an element with its node in a list, rounded up.
+// DCMTK's memory for an element with its node in a list, rounded up.
 constexpr std::int64_t kBytesOfObject = 256;
-// DCMTK looks for an element's place from the end of its list, and for a private element's creator through
-// all of them: so many steps are done in a moment.
+// DCMTK searches an element's place from the end of its list, and a private element's creator through all of
+// them: that many steps take a moment.
 constexpr std::int64_t kMostSearches = 20'000'000;
 
 // PS3.5 7.1.2: the representations with a length of 16 bits, and those with 32 bits.

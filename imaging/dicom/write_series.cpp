@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What all slices of a series have in common.
+// The attributes that all slices of a series share.
 struct SeriesIdentity {
   std::string study_uid = make_uid();
   std::string series_uid = make_uid();
@@ -154,7 +154,7 @@ void write_slice(AttributeWriter& out, const Volume& volume, const SeriesIdentit
   out.pixels(words, count);
 }
 
-// Whether the volume can be said in classic single-frame images.
+// Whether classic single-frame images can hold the volume.
 Status check_writable(const Volume& volume, const DicomSeriesHeader& header, const fs::path& folder) {
   const Geometry& geometry = volume.geometry;
   const auto refuse = [&](std::string_view why) {

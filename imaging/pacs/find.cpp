@@ -78,7 +78,7 @@ Result<std::string> date_range(const std::string& from, const std::string& to) {
 
 using TakeAnswer = std::function<bool(const Answer&)>;  // false: that was enough
 
-// Asks and takes answer by answer. True when the server had more to say than was taken.
+// Asks and takes answer by answer. True when the server had more answers than were taken.
 Result<bool> ask(const PacsServer& server, Question& question, const TakeAnswer& take,
                  const Progress& progress) {
   progress(-1.0, "asking the server");

@@ -115,7 +115,7 @@ class TlsTransport final : public DcmTLSTransportLayer {
   NextWatch next_watch_;
 };
 
-// Whose certificates are believed, and for which host.
+// The trusted certificates, and the host that they must be for.
 Status set_up_verification(TlsTransport& transport, const PacsTls& tls, TransportRole role,
                            const std::string& host) {
   SSL_CTX* context = transport.getNativeHandle();
