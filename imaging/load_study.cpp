@@ -13,7 +13,7 @@
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/series_geometry.h"
 #include "imaging/files/volume_file.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 
 namespace tidemark {
 namespace {

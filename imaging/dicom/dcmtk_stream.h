@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "imaging/dicom/byte_source.h"
 #include "imaging/dicom/transfer_syntaxes.h"
+#include "imaging/guard/byte_source.h"
 
 class DcmFileFormat;
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "imaging/dicom/byte_source.h"
 #include "imaging/dicom/transfer_syntaxes.h"
+#include "imaging/guard/byte_source.h"
 
 namespace tidemark {
 

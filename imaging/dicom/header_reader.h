@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/result.h"
-#include "imaging/dicom/byte_source.h"
 #include "imaging/dicom/preflight.h"
 #include "imaging/dicom/slice_header.h"
+#include "imaging/guard/byte_source.h"
 
 namespace tidemark {
 

@@ -16,7 +16,7 @@
 #include "imaging/dicom/media_directory.h"
 #include "imaging/dicom/series_geometry.h"
 #include "imaging/dicom/shared_progress.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 
 namespace tidemark {
 namespace {

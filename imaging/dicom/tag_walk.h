@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "imaging/dicom/byte_source.h"
+#include "imaging/guard/byte_source.h"
 
 namespace tidemark {
 

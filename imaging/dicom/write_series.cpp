@@ -15,7 +15,7 @@
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/dicom_values.h"
 #include "imaging/dicom/write_dicom_file.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 
 namespace tidemark {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-#include "imaging/files/pixel_layout.h"
+#include "imaging/guard/pixel_layout.h"
 
 namespace tidemark::files {
 

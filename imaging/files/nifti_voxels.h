@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/volume.h"
-#include "imaging/files/pixel_layout.h"
+#include "imaging/guard/pixel_layout.h"
 
 namespace tidemark::files {
 

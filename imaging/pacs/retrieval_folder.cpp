@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 #include "imaging/pacs/checked_object.h"
 
 namespace tidemark {

@@ -9,7 +9,7 @@
 
 #include "core/without_exceptions.h"
 #include "imaging/dicom/transfer_syntaxes.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 #include "imaging/pacs/association.h"
 #include "imaging/pacs/checked_object.h"
 #include "imaging/pacs/services.h"

@@ -15,7 +15,7 @@
 #include "core/checked.h"
 #include "imaging/dicom/decimal.h"
 #include "imaging/dicom/same_slices.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 #include "imaging/results/dicom_object.h"
 #include "imaging/results/results.h"
 #include "imaging/results/segment_frames.h"

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "imaging/dicom/decimal.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 #include "imaging/results/dicom_object.h"
 #include "imaging/results/polygon_fill.h"
 #include "imaging/results/results.h"

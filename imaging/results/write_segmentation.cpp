@@ -14,7 +14,7 @@
 #include <set>
 
 #include "imaging/dicom/dicom_values.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 #include "imaging/results/results.h"
 #include "imaging/results/source_study.h"
 

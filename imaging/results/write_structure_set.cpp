@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "imaging/dicom/dicom_values.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 #include "imaging/results/contours.h"
 #include "imaging/results/results.h"
 #include "imaging/results/source_study.h"

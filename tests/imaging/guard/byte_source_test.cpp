@@ -1,5 +1,5 @@
 // Deflated bytes as they are inflated piece by piece.
-#include "imaging/dicom/byte_source.h"
+#include "imaging/guard/byte_source.h"
 
 #include <zlib.h>
 

@@ -1,4 +1,4 @@
-#include "imaging/dicom/byte_source.h"
+#include "imaging/guard/byte_source.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "imaging/dicom/byte_source.h"
+#include "imaging/guard/byte_source.h"
 
 namespace tidemark {
 

@@ -1,4 +1,4 @@
-#include "imaging/files/text_header.h"
+#include "imaging/guard/text_header.h"
 
 #include <algorithm>
 #include <cctype>

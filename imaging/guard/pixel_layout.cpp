@@ -1,4 +1,4 @@
-#include "imaging/files/pixel_layout.h"
+#include "imaging/guard/pixel_layout.h"
 
 #include <zlib.h>
 
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <memory>
 
-#include "imaging/files/text_voxels.h"
+#include "imaging/guard/text_voxels.h"
 
 namespace tidemark::files {
 namespace {

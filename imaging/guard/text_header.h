@@ -3,7 +3,7 @@
 
 #include <initializer_list>
 
-#include "imaging/files/pixel_layout.h"
+#include "imaging/guard/pixel_layout.h"
 
 namespace tidemark::files {
 

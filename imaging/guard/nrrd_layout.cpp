@@ -1,7 +1,7 @@
 // The NRRD header: lines "field: value" up to an empty one (http://teem.sourceforge.net/nrrd/format.html).
 #include "core/checked.h"
-#include "imaging/files/pixel_layout.h"
-#include "imaging/files/text_header.h"
+#include "imaging/guard/pixel_layout.h"
+#include "imaging/guard/text_header.h"
 
 namespace tidemark::files {
 namespace {

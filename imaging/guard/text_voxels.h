@@ -1,7 +1,7 @@
 // Voxels written as text (NRRD "encoding: text", MetaImage "BinaryData = False"). Private to this folder.
 #pragma once
 
-#include "imaging/files/pixel_layout.h"
+#include "imaging/guard/pixel_layout.h"
 
 namespace tidemark::files {
 

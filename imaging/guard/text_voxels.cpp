@@ -1,4 +1,4 @@
-#include "imaging/files/text_voxels.h"
+#include "imaging/guard/text_voxels.h"
 
 #include <charconv>
 #include <cmath>

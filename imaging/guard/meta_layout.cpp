@@ -1,8 +1,8 @@
 // The MetaImage header: lines "name = value", the last is ElementDataFile
 // (https://itk.org/Wiki/ITK/MetaIO/Documentation).
 #include "core/checked.h"
-#include "imaging/files/pixel_layout.h"
-#include "imaging/files/text_header.h"
+#include "imaging/guard/pixel_layout.h"
+#include "imaging/guard/text_header.h"
 
 namespace tidemark::files {
 namespace {

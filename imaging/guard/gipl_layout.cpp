@@ -1,6 +1,6 @@
 // The GIPL header (Guy's Image Processing Lab): 256 bytes, big endian, the magic number at its end.
 #include "core/checked.h"
-#include "imaging/files/pixel_layout.h"
+#include "imaging/guard/pixel_layout.h"
 
 namespace tidemark::files {
 namespace {

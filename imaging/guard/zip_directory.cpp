@@ -1,4 +1,4 @@
-#include "imaging/archive/zip_directory.h"
+#include "imaging/guard/zip_directory.h"
 
 #include <zlib.h>
 

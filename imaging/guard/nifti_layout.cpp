@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/checked.h"
-#include "imaging/files/pixel_layout.h"
+#include "imaging/guard/pixel_layout.h"
 
 namespace tidemark::files {
 namespace {
