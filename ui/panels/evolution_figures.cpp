@@ -16,8 +16,7 @@ EvolutionFigures::EvolutionFigures(QWidget* parent) : CaseWidget(parent) {
   pace_ = form.figure(tr("Steps per second"), tr("While it plays: with the time for pictures. Else: in the "
                                                  "solver's own time."));
   pages_ = form.figure(tr("Resident pages"), tr("Pages of the level set that are in memory, those near the "
-                                                "surface; and how many of them are at rest: not computed, "
-                                                "because nothing moves in them."));
+                                                "surface; and how many of them rest."));
   bytes_ = form.figure(tr("Memory"), tr("Of the level set, without the source."));
   form.heading(tr("Over the steps"));
   volume_ = new CurvePlot(tr("Volume"), tr("ml"), false);

@@ -19,7 +19,7 @@ InitialisePanel::InitialisePanel(QWidget* parent)
   auto* part = new QWidget;
   Form form(part);
   form.heading(tr("Start"));
-  from_ = form.choice(tr("Begin with"), tr("The shape of the level set at its start."));
+  from_ = form.choice(tr("Begin with"), tr("What the level set is at first."));
   add(part);
   add_methods();
   add_start();
@@ -57,7 +57,7 @@ void InitialisePanel::add_start() {
   problem_ = make_note({});
   problem_->hide();
   start_ = new QPushButton(tr("Start"));
-  start_->setToolTip(tr("Begins the level set with this start."));
+  start_->setToolTip(tr("Begins the level set as said above."));
   connect(start_, &QPushButton::clicked, this, [this] {
     problem_->hide();
     methods_[static_cast<std::size_t>(method_)]->start();

@@ -208,7 +208,7 @@ void ValueStartMethod::refresh() {
 
 LabelStartMethod::LabelStartMethod(QWidget* parent) : StartMethod(parent) {
   Form form(this);
-  form.note(tr("Takes a label that was segmented before."));
+  form.note(tr("Takes what was segmented before."));
   label_ = form.choice(tr("Label"), tr("The level set begins as its voxels."));
   connect(label_, &QComboBox::activated, this, &StartMethod::changed);
 }

@@ -87,7 +87,7 @@ QWidget* StatisticsPanel::make_surface() {
   volume_ = form.figure(tr("Volume"), tr("Inside the surface, at sub-voxel precision."));
   area_ = form.figure(tr("Area"), tr("Of the surface, without the study's own border."));
   voxels_ = form.figure(tr("Voxels"), tr("Voxels whose centre is inside."));
-  mean_ = form.figure(tr("Mean"), tr("Of the study's values inside; measured while the surface is still."));
+  mean_ = form.figure(tr("Mean"), tr("Of the study's values inside; measured when the surface rests."));
   deviation_ = form.figure(tr("SD"), tr("Standard deviation of the study's values inside; measured when the "
                                         "surface rests."));
   return part;
