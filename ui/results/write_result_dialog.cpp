@@ -69,7 +69,7 @@ WriteResultDialog::WriteResultDialog(CaseWindow& window, ResultFile kind)
                                                           "the patient (LPS).")
                                                      : source_note(proxy().study());
   build(kind != ResultFile::level_set, make_target(), note, tr("&Write"),
-        tr("Writes the case in its present state"));
+        tr("Writes what the case is like now"));
   connect(file_, &QLineEdit::textChanged, this, &WriteResultDialog::follow);
   connect(&jobs_, &ResultJobs::progressed, &work(), &WorkLine::set_progress);
   connect(&jobs_, &ResultJobs::failed, this, &WriteResultDialog::rest);

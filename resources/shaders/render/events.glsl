@@ -54,11 +54,11 @@ float openness(vec3 p, vec3 outward) {
 }
 
 #ifdef SPEED_COLOURS
-vec3 speed_colour(vec3 p) {
+vec3 taught_colour(vec3 p) {
   ivec3 voxel = clamp(ivec3(floor(p + 0.5)), ivec3(0), volume_size - 1);
   if (colouring == kActivity) return page_colour(page_state(voxel / kPageShape));
-  vec2 terms = speed_and_curvature_between(colouring - 1, p, true);
-  return diverging(colouring == kBending ? 2.0 * terms.y : terms.x);
+  vec2 taught = speed_and_curvature_between(colouring - 1, p, true);
+  return diverging(colouring == kBending ? 2.0 * taught.y : taught.x);
 }
 #endif
 
@@ -66,7 +66,7 @@ vec3 speed_colour(vec3 p) {
 void add_surface(vec3 p, vec3 rise) {
   vec4 material = material_of_surface(p);
 #ifdef SPEED_COLOURS
-  material.rgb = speed_colour(p);
+  material.rgb = taught_colour(p);
 #endif
   vec3 slope = rise / spacing;
   float open = 1.0;
