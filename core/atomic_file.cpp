@@ -72,7 +72,7 @@ void sweep_beside(const fs::path& target) {
 }
 
 // Makes something beside the target whose name nothing has yet: `make` takes the name and returns 0 or errno.
-// What it makes gets the permissions of anything new, which the C library's own temporary files do not.
+// Its files and folders get usual permissions, which the C library's own temporary files do not.
 template <class Make>
 Result<fs::path> make_beside(const fs::path& target, const Make& make) {
   constexpr int kAttempts = 100;

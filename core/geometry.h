@@ -1,4 +1,4 @@
-// The place of a volume's voxels in the patient.
+// Where a volume's voxels lie in the patient.
 #pragma once
 
 #include <cstdint>

@@ -36,7 +36,7 @@ class CaseMeter {
   Status measure(const ReadPhi& read_phi, Case& document, bool thoroughly);
   [[nodiscard]] bool thorough() const { return thorough_; }
 
-  // Fills in what was measured.
+  // Fills in the measured figures.
   void report(CaseState& state) const;
 
  private:

@@ -81,7 +81,7 @@ class CasePainter {
   Engine& engine_;
   std::shared_ptr<gpu::Device> device_;
   Canvas shown_;   // the volume as it was loaded
-  Canvas solved_;  // what the level set sees, where that is another one
+  Canvas solved_;  // the level set's source, where that is another one
   std::shared_ptr<const Field> phi_;
   std::int64_t phi_revision_ = 0;
   std::uint64_t look_revision_ = 1;

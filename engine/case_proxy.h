@@ -72,7 +72,7 @@ class CaseProxy : public QObject {
   void set_parameters(const Parameters& parameters, std::uint64_t gesture = 0);
   void begin(const Start& start);
   void paint(const Sphere& sphere, Brush brush, std::uint64_t gesture);
-  void smooth_source(double sigma_mm);  // what the level set sees; 0: the volume as it is
+  void smooth_source(double sigma_mm);  // the level set's source; 0: the volume itself
   void change_executor(ExecutorKind kind);
   void undo();
   void redo();
@@ -82,7 +82,7 @@ class CaseProxy : public QObject {
   void set_label(const Label& label);
   void remove_label(std::uint8_t id);
   void import_labels(std::shared_ptr<const Segments> segments);  // as new labels
-  // The surface's inside becomes the label, or a new one; CaseState::acceptance says what it took.
+  // The surface's inside becomes the label, or a new one; CaseState::acceptance has the outcome.
   void accept_surface(std::uint8_t label, Take take = Take::free_voxels);
   void accept_surface_as(const QString& name, Take take = Take::free_voxels);
   void begin_from_label(std::uint8_t label);

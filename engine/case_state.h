@@ -31,7 +31,7 @@ struct CaseState {
   std::shared_ptr<const Field> phi;  // at most a second old while it plays, else current
   Curve curve;                       // how it has developed since the start
   SurfaceStatistics surface;         // as of the last measurement
-  RegionStatistics inside;           // of the volume's values, under the surface; measured while it is still
+  RegionStatistics inside;           // of the volume's values, under the surface; measured when it rests
   std::vector<Label> labels;
   std::vector<RegionStatistics> label_statistics;                 // in the order of `labels`
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null while there are none

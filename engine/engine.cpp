@@ -177,7 +177,7 @@ void Engine::run() {
     const std::stop_token stop = running_->stop.get_token();
     lock.unlock();
     waiting->job(stop);
-    waiting.reset();  // what it held dies on this thread
+    waiting.reset();  // its objects are destroyed on this thread
     lock.lock();
     running_.reset();
   }

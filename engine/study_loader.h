@@ -58,7 +58,7 @@ class StudyLoader : public JobRunner {
   // The folder or file under which a series is found again: the one folder that holds all its files, or its
   // archive.
   [[nodiscard]] static std::filesystem::path place_of(const Series& series);
-  // What a series is called in titles: its description, else modality and date.
+  // The name of a series in titles: its description, else modality and date.
   [[nodiscard]] static QString name_of(const Series& series);
 
  signals:

@@ -1,4 +1,4 @@
-// Mean and spread of what the mouse was dragged over (paper section 6.2).
+// Mean and spread of the values under a drag of the mouse (paper section 6.2).
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@ enum class GlVersion { gl33, gl45 };
 struct DeviceOptions {
   GlVersion version = GlVersion::gl45;  // a core context of exactly this version
   bool debug = false;                   // KHR_debug: messages are counted and logged, objects carry labels
-  bool as_gpu = false;  // tests: what is done on a GPU is done here, even if a processor plays it
+  bool as_gpu = false;                  // tests: takes the paths of a GPU, even if a processor plays it
 };
 
 // Objects that contexts of a share group have in common, and objects that belong to one context.

@@ -44,8 +44,8 @@ class ScissorScope {
   ~ScissorScope();
 };
 
-// How fragments combine with what is in the texture, while the object lives. `under`: fragments, multiplied
-// by their opacity, lie behind what is there.
+// The blending of fragments with the texture, while the object lives. `under`: fragments, multiplied by their
+// opacity, lie behind the texture.
 enum class Blending { add, largest, smallest, under, replace };
 class BlendScope {
  public:

@@ -5,7 +5,7 @@
 
 namespace tidemark {
 
-// In UTF-8; what a file does not say stays empty. Views show it in their corners, cases and panels at their
+// In UTF-8; absent attributes stay empty. Views show it in their corners, cases and panels at their
 // heads, and the list of series shows the name. It goes nowhere else: no log, title, statistics, recipe or
 // session holds it.
 struct Patient {

@@ -11,7 +11,7 @@
 
 namespace tidemark::cli {
 
-// What a file holds, by its suffix.
+// The content of a file, by its suffix.
 enum class FileForm { volume, mesh, recipe, segmentation, level_set };
 
 class Outputs {

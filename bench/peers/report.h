@@ -16,7 +16,7 @@ struct Cell {
 // A number with so many decimals; thousands are set apart.
 Cell number(double value, int decimals = 0);
 Cell text(std::string_view value);
-// Nothing to say here.
+// An empty cell.
 Cell none();
 
 // How a report appears on standard output while it grows.

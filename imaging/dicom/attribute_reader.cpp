@@ -12,7 +12,7 @@
 namespace tidemark {
 namespace {
 
-// Without a known representation, as private elements are where representations are not written down.
+// Without a known representation, like private elements of implicit coding.
 bool is_bytes(DcmElement& element) {
   switch (element.ident()) {
     case EVR_OB:
@@ -26,7 +26,7 @@ bool is_bytes(DcmElement& element) {
   }
 }
 
-// Bytes that can be nothing but text; empty when they can.
+// Bytes that can only be text; empty when they may be something else.
 std::string printable_text(DcmElement& element) {
   Uint8* bytes = nullptr;
   if (element.getUint8Array(bytes).bad() || bytes == nullptr) return {};

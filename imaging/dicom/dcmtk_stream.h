@@ -11,8 +11,8 @@ class DcmFileFormat;
 
 namespace tidemark {
 
-// Parses all bytes, in that transfer syntax; long values are read when they are asked for, so that the bytes
-// must outlive `loaded`. Returns what is wrong, in DCMTK's words; empty when nothing is.
+// Parses all bytes, in that transfer syntax. Long values are read on demand, so that the bytes must outlive
+// `loaded`. Returns the error in DCMTK's words; empty when there is none.
 [[nodiscard]] std::string parse_dicom(ByteSource& bytes, const TransferSyntax& syntax, DcmFileFormat& loaded);
 
 }  // namespace tidemark

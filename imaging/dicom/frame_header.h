@@ -23,8 +23,8 @@ struct FrameSize {
 [[nodiscard]] std::optional<FrameSize> read_frame_size(FrameCoding coding, ByteReader& reader,
                                                        std::int64_t begin, std::int64_t end);
 
-// Why a frame of that size is none of an image of `expected` size (its tiles do not count), in one line about
-// PixelData; empty when it is.
+// The reason why a frame of that size is none of an image of `expected` size (its tiles do not count), in one
+// line about PixelData; empty when it is one.
 [[nodiscard]] std::string frame_problem(FrameCoding coding, const std::optional<FrameSize>& size,
                                         const FrameSize& expected);
 

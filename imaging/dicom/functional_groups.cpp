@@ -104,7 +104,7 @@ std::vector<SliceHeader> refuse(SliceHeader whole, std::string problem) {
 }
 
 std::vector<SliceHeader> read_grouped_frames(AttributeReader& in, SliceHeader whole) {
-  // What stands outside the groups is not about a frame.
+  // Attributes outside the groups are not about a frame.
   whole.position_mm.reset();
   if (DcmItem* shared = in.first_item(DCM_SharedFunctionalGroupsSequence)) GroupReader(*shared, whole).read();
   if (!whole.problem.empty()) return refuse(std::move(whole), {});
@@ -117,7 +117,7 @@ std::vector<SliceHeader> read_grouped_frames(AttributeReader& in, SliceHeader wh
     return refuse(std::move(whole), problem);
   }
   std::vector<SliceHeader> frames;
-  // By steps: getting an item by its number counts from the first one.
+  // Step by step: access by number would count from the first item each time.
   for (DcmObject* item = sequence->nextInContainer(nullptr); item != nullptr;
        item = sequence->nextInContainer(item)) {
     SliceHeader frame = whole;

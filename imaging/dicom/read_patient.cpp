@@ -58,7 +58,7 @@ std::string sex(DcmItem& dataset) {
   return value == "F" || value == "M" || value == "O" ? value : std::string();
 }
 
-// The file's own ("045Y"; "000Y" is what is written when it is not known), else from the date of birth.
+// The file's own ("045Y"; some write "000Y" for unknown), else from the date of birth.
 std::string age(DcmItem& dataset, const std::string& study_date) {
   const std::string own = text(dataset, DCM_PatientAge);
   const std::size_t zeros = std::min(own.find_first_not_of('0'), own.size());

@@ -7,7 +7,7 @@
 
 namespace tidemark {
 
-// What is absent stays as it is; what is there must be numbers (PS3.3 C.7.6.2).
+// Absent attributes change nothing; present ones must be numbers (PS3.3 C.7.6.2).
 void read_position(AttributeReader& in, SliceHeader& header);
 void read_orientation(AttributeReader& in, SliceHeader& header);
 void read_pixel_spacing(AttributeReader& in, SliceHeader& header);
@@ -15,7 +15,7 @@ void read_pixel_spacing(AttributeReader& in, SliceHeader& header);
 // Modality LUT (PS3.3 C.11.1): slope, intercept and the unit that they lead to.
 void read_rescale(AttributeReader& in, SliceHeader& header);
 
-// VOI LUT (PS3.3 C.11.2). A window that makes no sense is as good as none: it decides nothing.
+// VOI LUT (PS3.3 C.11.2). A window that makes no sense counts as none.
 void read_window(const AttributeReader& in, SliceHeader& header);
 
 }  // namespace tidemark

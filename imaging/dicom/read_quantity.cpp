@@ -15,7 +15,7 @@
 namespace tidemark {
 namespace {
 
-// Codes and numbers are ASCII; what is not would spoil a message.
+// Codes and numbers are ASCII; other characters would spoil a message.
 std::string text(DcmItem& item, const DcmTagKey& key) {
   constexpr std::size_t kLongest = 256;
   std::string result = element_text(item, key).substr(0, kLongest);
@@ -110,7 +110,7 @@ std::optional<double> mapped_value(DcmItem& item, const DcmTagKey& whole, const 
   return is_signed ? static_cast<double>(static_cast<Sint16>(word)) : static_cast<double>(word);
 }
 
-// Why the mapping is not used; empty when it is.
+// The reason why the mapping is not used; empty when it is.
 std::string take_mapping(DcmItem& item, SliceHeader& header) {
   if (header.modality != "MR") return "it is used in MR only";
   ValueMapping mapping;

@@ -5,7 +5,7 @@
 
 namespace tidemark {
 
-// Images of more kinds than these are none of one volume, and are not compared kind by kind.
+// The most kinds of images in one volume; beyond that kinds are not compared.
 inline constexpr std::size_t kMostKinds = 256;
 
 [[nodiscard]] bool same_size(const SliceHeader& a, const SliceHeader& b);

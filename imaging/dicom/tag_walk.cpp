@@ -11,10 +11,10 @@ constexpr DicomTag kSequenceEnd{0xfffe, 0xe0dd};
 constexpr DicomTag kPixelData{0x7fe0, 0x0010};
 constexpr DicomTag kSpecificCharacterSet{0x0008, 0x0005};
 
-// What DCMTK takes for an element with its node in a list, rounded up.
+// DCMTK's memory for an element with its node in a list, rounded up.
 constexpr std::int64_t kBytesOfObject = 256;
-// DCMTK looks for an element's place from the end of its list, and for a private element's creator through
-// all of them: so many steps are done in a moment.
+// DCMTK searches an element's place from the end of its list, and a private element's creator through all of
+// them: that many steps take a moment.
 constexpr std::int64_t kMostSearches = 20'000'000;
 
 // PS3.5 7.1.2: the representations with a length of 16 bits, and those with 32 bits.
@@ -145,7 +145,7 @@ tl::expected<void, TagDamage> TagWalk::walk_dataset(std::int64_t begin, ElementC
   }
 }
 
-// Bounds what a parser spends on the element.
+// Limits the memory and steps that a parser spends on the element.
 bool TagWalk::count(Level& level, const ElementHeader& header) {
   if (++objects_ > most_objects_) {
     return fails(header.tag, header.begin, fmt::format("is one of more than {} elements", most_objects_));
@@ -178,7 +178,7 @@ bool TagWalk::enter_sequence(const ElementHeader& header, bool is_implicit) {
               .tag = header.tag,
               .is_sequence = true,
               .is_delimited = header.is_undefined()};
-  // What is in an element of unknown representation is implicit little endian (PS3.5 6.2.2).
+  // The content of an element of unknown representation is implicit little endian (PS3.5 6.2.2).
   if (is_implicit) level.coding = {false, false};
   return enter(level, header);
 }

@@ -1,9 +1,9 @@
 // A walk over the tags of a DICOM dataset that takes nothing on trust and no memory: what it lets pass can be
 // given to a parser that recurses into sequences and believes lengths.
 //
-// It does not know the data dictionary. Where only that would tell whether an element holds a sequence
-// (implicit value representation, UN), the bytes of the value decide: what begins as an item is walked as
-// one.
+// It does not know the data dictionary. Where only the dictionary knows whether an element holds a sequence
+// (implicit value representation, UN), the bytes of the value decide: a value that begins as an item is
+// walked as one.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct DicomTag {
   auto operator<=>(const DicomTag&) const = default;
 };
 
-// How a dataset's elements are written.
+// The encoding of a dataset's elements.
 struct ElementCoding {
   bool is_explicit = true;
   bool is_big_endian = false;
@@ -66,7 +66,7 @@ struct Fragments {
   std::int64_t end = 0;    // offset of the delimiter
 };
 
-// What is wrong, and where.
+// The damage, and its place.
 struct TagDamage {
   DicomTag tag;
   std::int64_t offset = 0;
@@ -100,7 +100,7 @@ class TagWalk {
  private:
   // A dataset, an item, or a sequence, that has been entered and not left.
   struct Level {
-    std::int64_t end = 0;  // or the end of what it stands in, when a delimiter ends it
+    std::int64_t end = 0;  // or the end of the level around it, when a delimiter ends it
     ElementCoding coding;
     DicomTag tag{};       // of the sequence
     DicomTag previous{};  // element in it

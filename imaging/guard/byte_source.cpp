@@ -21,7 +21,7 @@ std::size_t MemoryBytes::read(std::int64_t offset, std::span<std::uint8_t> room)
 }
 
 Result<FileBytes> FileBytes::open(const std::filesystem::path& file) {
-  // Of a pipe that nobody writes to, a plain open would wait.
+  // A plain open would wait at a pipe without a writer.
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   struct stat status {};
   if (descriptor < 0 || ::fstat(descriptor, &status) != 0) {
@@ -79,7 +79,7 @@ std::size_t InflatedBytes::inflate_some(std::span<std::uint8_t> room) {
       stream_.next_in = packed_window_.data();
       stream_.avail_in = static_cast<uInt>(got);
     }
-    // Also when nothing is left to take in: of what was, something may still have to come out.
+    // Also when all input is taken: some output may still be pending.
     const int state = inflate(&stream_, Z_NO_FLUSH);
     if (state == Z_BUF_ERROR) break;  // nothing has
     state_ = state;
@@ -125,7 +125,7 @@ const std::uint8_t* ByteReader::at(std::int64_t offset, std::size_t count) {
   const bool inside = offset >= begin_ &&
                       offset + static_cast<std::int64_t>(count) <= begin_ + static_cast<std::int64_t>(held_);
   if (!inside) {
-    // What is held and still wanted stays: a source that is inflated cannot be read backwards.
+    // Bytes that are held and still wanted stay: an inflated source cannot be read backwards.
     const std::int64_t end = begin_ + static_cast<std::int64_t>(held_);
     const std::size_t kept = offset >= begin_ && offset < end ? static_cast<std::size_t>(end - offset) : 0;
     std::memmove(window_.data(), window_.data() + (held_ - kept), kept);

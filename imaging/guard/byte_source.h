@@ -63,11 +63,11 @@ class ByteRange : public ByteSource {
   std::int64_t size_;
 };
 
-// What the raw deflate stream that begins at `begin` of another source inflates to. It can be read forward
-// only; zlib keeps some 40 KB for it.
+// The inflated bytes of the raw deflate stream that begins at `begin` of another source. They can be read
+// forward only; zlib keeps some 40 KB for it.
 class InflatedBytes : public ByteSource {
  public:
-  // `size` is what measure() gave, or what somebody says who is not believed; `packed` must outlive it.
+  // `size` is from measure(), or a claim that is not trusted; `packed` must outlive it.
   InflatedBytes(ByteSource& packed, std::int64_t begin, std::int64_t size);
   ~InflatedBytes() override;
   InflatedBytes(const InflatedBytes&) = delete;

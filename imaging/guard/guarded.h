@@ -10,7 +10,7 @@
 
 namespace tidemark {
 
-// Runs `work`, which returns a Result or a Status; what it throws becomes an error that names the path.
+// Runs `work`, which returns a Result or a Status; an exception of it becomes an error that names the path.
 template <class Work>
 auto guarded(const std::filesystem::path& path, const Work& work) -> decltype(work()) {
   try {
@@ -22,7 +22,7 @@ auto guarded(const std::filesystem::path& path, const Work& work) -> decltype(wo
   }
 }
 
-// The same of what writes the file.
+// The same for work that writes the file.
 template <class Work>
 auto guarded_writing(const std::filesystem::path& path, const Work& work) -> decltype(work()) {
   try {
@@ -34,7 +34,7 @@ auto guarded_writing(const std::filesystem::path& path, const Work& work) -> dec
   }
 }
 
-// A reason without the path that is put before it, for where that stands beside it.
+// A reason without the path at its begin, for places that show the path beside it.
 inline std::string without_path(std::string reason, const std::filesystem::path& path) {
   if (const std::string start = path.string() + ": "; reason.starts_with(start))
     reason.erase(0, start.size());

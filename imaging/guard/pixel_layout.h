@@ -17,9 +17,9 @@ namespace tidemark::files {
 enum class Format { nifti, nrrd, meta, gipl };
 enum class Coding { raw, deflate, text };
 
-// How NIfTI stores voxels, which are read without ITK: its NIfTI library turns NaN and infinity into 0
-// without a word, reads the voxels of a.nii.gz from a.nii when there is one, and adds scl_inter when there is
-// no slope.
+// The form of a NIfTI file's voxels, which are read without ITK: its NIfTI library silently turns NaN and
+// infinity into 0, reads the voxels of a.nii.gz from a.nii when there is one, and adds scl_inter when there
+// is no slope.
 struct NiftiVoxels {
   int datatype = 0;  // nifti1.h's code of a scalar type
   bool swapped = false;

@@ -29,7 +29,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-// The start of the file as it is, without inflating.
+// The start of the file, not inflated.
 Result<std::string> read_text(const std::filesystem::path& file) {
   TIDEMARK_TRY(read_start(file, 1));
   std::error_code error;
@@ -42,7 +42,7 @@ Result<std::string> read_text(const std::filesystem::path& file) {
   return text;
 }
 
-// Takes the next line off `rest`; nothing at the end of the text.
+// Removes the next line from `rest`; nothing at the end of the text.
 std::optional<std::string_view> next_line(std::string_view& rest) {
   const auto end = rest.find('\n');
   if (end == std::string_view::npos) return std::nullopt;

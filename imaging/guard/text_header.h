@@ -10,8 +10,8 @@ namespace tidemark::files {
 // Both fail (ErrorKind::input) when the file is not of that format or its header does not end within 1 MiB.
 // "name: value" up to an empty line; names in lower case.
 Result<TextHeader> read_nrrd_header(const std::filesystem::path& file);
-// "name = value" up to ElementDataFile; names as they are written, as ITK's reader knows them. Lines that it
-// would read otherwise than this are refused.
+// "name = value" up to ElementDataFile; the case of names counts, as in ITK's reader. Lines that this reader
+// would understand otherwise are refused.
 Result<TextHeader> read_meta_header(const std::filesystem::path& file);
 
 // Refuses the fields of these names that hold anything but finite numbers, brackets and commas ("none" stands

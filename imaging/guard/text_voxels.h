@@ -5,7 +5,7 @@
 
 namespace tidemark::files {
 
-// As check_stream(). The MetaImage library takes what is missing or is no number for 0 without a word.
+// As check_stream(). The MetaImage library silently reads missing numbers and other text as 0.
 Status check_text(const PixelLayout& layout);
 
 }  // namespace tidemark::files

@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-// What a DICOM file says that it is.
+// The identity of a DICOM file, by its own attributes.
 struct ObjectIdentity {
   std::string sop_class;
   std::string sop_instance;

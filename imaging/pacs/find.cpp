@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kLongestKey = 64;  // characters (DICOM PS3.5 6.2, LO)
 
-// What is asked: attributes to match, and empty ones that are to be told.
+// The query: attributes to match, and empty ones to be returned.
 class Question {
  public:
   explicit Question(const char* level) { put(DCM_QueryRetrieveLevel, level); }
@@ -78,7 +78,7 @@ Result<std::string> date_range(const std::string& from, const std::string& to) {
 
 using TakeAnswer = std::function<bool(const Answer&)>;  // false: that was enough
 
-// Asks and takes answer by answer. True when the server had more to say than was taken.
+// Asks and takes answer by answer. True when the server had more answers than were taken.
 Result<bool> ask(const PacsServer& server, Question& question, const TakeAnswer& take,
                  const Progress& progress) {
   progress(-1.0, "asking the server");

@@ -41,10 +41,10 @@ class FirstFailure {
   OFCondition first_ = EC_Normal;
 };
 
-// What a segment without a colour is written with; systems that read it expect one.
+// The colour of segments without one; systems that read them expect a colour.
 constexpr std::array<std::uint8_t, 3> kDefaultColour{255, 255, 0};
 
-// Whether slices of the grid can be said as DICOM image planes: columns and rows within 65535, orthonormal
+// Whether slices of the grid can be DICOM image planes: columns and rows within 65535, orthonormal
 // directions. Fails with ErrorKind::capability.
 Status require_planes(const Geometry& geometry, const std::filesystem::path& file);
 

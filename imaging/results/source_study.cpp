@@ -78,7 +78,7 @@ Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& stu
       if (slice.frames > 1) place->frames.push_back(static_cast<std::uint16_t>(slice.frame + 1));
     }
   }
-  // Results would be told in coordinates that are not the patient's.
+  // Results would be in coordinates that are not the patient's.
   for (std::size_t k = 0; k < beside.size(); ++k) {
     if (study.places[k] || beside[k].empty()) continue;
     return fail(ErrorKind::input,
@@ -98,7 +98,7 @@ Result<SourceStudy> source_study(SourceFiles files, const Geometry& geometry) {
     if (!first) return pass_on(first);
     study.first = std::move(*first);
     DcmDataset& attributes = study.attributes();
-    // What the source was stripped of, or never had, is new: a result needs it.
+    // UIDs that the source lacks are new: a result needs them.
     const auto take = [&](const DcmTagKey& key, std::string& uid) {
       if (const std::string its_own = element_text(attributes, key); !its_own.empty()) uid = its_own;
       attributes.putAndInsertString(DcmTag(key), uid.c_str());

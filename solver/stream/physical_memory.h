@@ -1,4 +1,4 @@
-// G of the stream executor: the packed field, what is drawn into it, and each physical page's motion.
+// G of the stream executor: the packed field, its framebuffers, and each physical page's motion.
 #pragma once
 
 #include <array>

@@ -54,7 +54,7 @@ Status StreamExecutor::start(std::int64_t largest_region) {
   return restore(Field::empty(source_->geometry, band(), kPageShape));
 }
 
-// Computes the active pages and reads what they send.
+// Computes the active pages and reads their messages.
 Status StreamExecutor::step() {
   // The change over two steps is known after the second of them.
   const bool measure_motion = steps_in_window_ % 2 == 1;

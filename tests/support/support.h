@@ -1,4 +1,4 @@
-// Helpers of many tests: temporary folders, texts of failures, the real studies.
+// What many tests need.
 #pragma once
 
 #include <QTemporaryDir>

@@ -63,7 +63,7 @@ class CaseWindow : public QMainWindow {
  signals:
   // The number changed, or whether the case is linked.
   void mark_changed();
-  // Whether the case may be closed: nothing would be lost, or the user agrees.
+  // The case may go: nothing would be lost, or the user does not mind.
   void close_wanted(CaseWindow& window, QCloseEvent* event);
 
  protected:

@@ -292,7 +292,7 @@ void MainWindow::activate(QMdiSubWindow* child) {
   opener_->set_previews_wanted(!active_);
   if (!active_) {
     centre_->setCurrentIndex(0);
-    messages_->dismiss();  // it spoke of what is closed now
+    messages_->dismiss();  // it was about a closed case
     if (std::exchange(quitting_, false))
       QMetaObject::invokeMethod(this, &QWidget::close, Qt::QueuedConnection);
   }

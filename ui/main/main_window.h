@@ -53,8 +53,8 @@ class MainWindow : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
-  // Qt calls it at Tab, and when the control that has the keyboard is hidden or becomes grey. A case window
-  // that gets the keyboard becomes the active one, so it passes over the other cases.
+  // Qt asks for it at Tab, and when the control that has the keyboard is hidden or becomes grey. A case
+  // window that gets the keyboard becomes the active one, so that the other cases are passed over.
   bool focusNextPrevChild(bool next) override;
 
  private:

@@ -1,4 +1,4 @@
-// Sentences above the cases that stay until they are dismissed, or what they tell of is over.
+// Sentences above the cases that stay until they are dismissed, or until their subject has succeeded.
 #pragma once
 
 #include <QFrame>

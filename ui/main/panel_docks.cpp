@@ -18,7 +18,7 @@
 namespace tidemark {
 namespace {
 
-constexpr int kWidth = 320;  // logical pixels: what the panels are made for
+constexpr int kWidth = 320;  // logical pixels
 constexpr int kStateVersion = 1;
 constexpr const char* kInFront = "in_front";  // property of a panel
 

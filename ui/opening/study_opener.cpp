@@ -144,8 +144,7 @@ void StudyOpener::ask_for_policy(const Series& series) {
   question_->setAttribute(Qt::WA_DeleteOnClose);
   question_->setTextFormat(Qt::PlainText);
   question_->setInformativeText(
-      fills ? tr("Interpolated slices show what lies between their neighbours on average, "
-                 "not what is there.")
+      fills ? tr("Interpolated slices show an average of their neighbours, not what was measured.")
             : tr("Corrected, the slices are moved back within their planes, and lie above each other. "
                  "As they are, distances across them are sheared."));
   if (!series.grid.tilt.empty()) question_->setCheckBox(make_tilt_box(series.policy));

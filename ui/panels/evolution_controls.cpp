@@ -69,7 +69,7 @@ EvolutionControls::EvolutionControls(QWidget* parent) : CaseWidget(parent) {
     if (proxy()) proxy()->set_steps_per_picture(steps_->currentData().toLongLong());
   });
   executor_ =
-      form.choice(tr("Computed by"), tr("What computes the steps. It can be changed while the surface "
+      form.choice(tr("Computed by"), tr("The executor of the steps. It can be changed while the surface "
                                         "moves. Stream uses the GPU as in the paper."));
   connect(executor_, &QComboBox::activated, this, [this](int index) {
     if (proxy()) proxy()->change_executor(kChoices[index].kind);

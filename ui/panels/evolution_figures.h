@@ -1,4 +1,4 @@
-// The figures of the evolution: curves over its steps, and numbers.
+// What the evolution has come to: curves over its steps, and figures.
 #pragma once
 
 #include "ui/panels/case_widget.h"

@@ -1,4 +1,4 @@
-// The panel Start: how the level set begins.
+// How the level set begins.
 #pragma once
 
 #include <vector>

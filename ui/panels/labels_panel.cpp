@@ -203,7 +203,7 @@ void LabelsPanel::refresh() {
   model_->show(state.labels, state.label_statistics);
   const int rows = model_->rowCount();
   if (rows != before) {
-    // A reset forgets what was chosen.
+    // A reset drops the selection.
     int row = rows - 1;
     for (int other = 0; other < rows && !(choose_new_ && rows > before); ++other) {
       if (model_->label(other)->id == was) row = other;

@@ -1,4 +1,4 @@
-// The panel Labels: what was segmented so far.
+// The panel Labels: the segments so far.
 #pragma once
 
 #include "ui/panels/panel.h"

@@ -62,7 +62,7 @@ int MeaningPicker::row_of(const std::optional<SegmentMeaning>& meaning) {
 
 void MeaningPicker::show_label(const Label* label) {
   setEnabled(label != nullptr);
-  // Nothing has changed: what is being typed stays.
+  // Nothing has changed: text that is being typed stays.
   if (label && shown_ && label->id == shown_->id && label->name == shown_->name &&
       label->meaning == shown_->meaning)
     return;

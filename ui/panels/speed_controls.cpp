@@ -34,8 +34,8 @@ SpeedControls::SpeedControls(QWidget* parent) : CaseWidget(parent) {
 }
 
 void SpeedControls::add_numbers(Form& form) {
-  target_ = form.slider(tr("Target T"), tr("The value in the middle of what is looked for: there the surface "
-                                           "grows fastest."));
+  target_ =
+      form.slider(tr("Target T"), tr("The value of the wanted tissue: there the surface grows fastest."));
   range_ = form.slider(tr("Range ε"), tr("How far a value may be from T for the surface to grow there."));
   alpha_ =
       form.slider(tr("Data weight α"),

@@ -1,4 +1,4 @@
-// The controls of the speed: T, epsilon and alpha (paper section 6.1), and the terms that take part.
+// What steers the surface: T, epsilon and alpha (paper section 6.1), and which terms take part.
 #pragma once
 
 #include <functional>

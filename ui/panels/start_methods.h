@@ -57,7 +57,7 @@ class ValueStartMethod : public StartMethod {
   QLabel* here_ = nullptr;  // the value under the crosshair
 };
 
-// What was segmented before.
+// A label that was segmented before.
 class LabelStartMethod : public StartMethod {
   Q_OBJECT
  public:

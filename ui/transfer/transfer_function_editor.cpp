@@ -70,7 +70,7 @@ QWidget* TransferFunctionEditor::make_volume_tab() {
   auto* column = new QVBoxLayout(tab);
   column->setContentsMargins(6, 6, 6, 6);
   show_source_ = new QCheckBox(tr("Show the volume in 3D"), tab);
-  show_source_->setToolTip(tr("Draws the values of the volume as this function says"));
+  show_source_->setToolTip(tr("Draws the values of the volume by this function"));
   column->addWidget(show_source_);
   histogram_ = new HistogramPlot;
   joint_ = new JointHistogramPlot(

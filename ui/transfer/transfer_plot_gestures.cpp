@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kHandleReach = 9.0;  // logical pixels around a handle's middle
 constexpr double kFineSteps = 500.0;  // of the keys, along an axis
-constexpr double kSmallest = 500.0;   // widths and ramps are at least this part of what is shown
+constexpr double kSmallest = 500.0;   // widths and ramps are at least this part of the range
 
 double distance_between(QPointF a, QPointF b) {
   return std::hypot(a.x() - b.x(), a.y() - b.y());

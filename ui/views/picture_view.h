@@ -65,7 +65,7 @@ class PictureView : public QWidget {
   virtual std::unique_ptr<Drag> navigation_drag(const Pointer& pressed) = 0;
   virtual void scroll(int clicks) = 0;
   virtual void zoom(double factor, QPointF about) = 0;
-  // The gesture that the left or right button starts with the chosen tool.
+  // What the left or right button starts with the tool that is chosen.
   virtual std::unique_ptr<Drag> begin_drag(const Pointer& pressed);
   void set_drag(std::unique_ptr<Drag> drag);
   [[nodiscard]] bool dragging() const { return drag_ != nullptr; }

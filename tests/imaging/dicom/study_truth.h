@@ -17,7 +17,7 @@ struct Loaded {
   Volume volume;
 };
 
-// What differs between a study of truth.json and what was loaded of it, one short line each. `folder` is the
+// The differences between a study of truth.json and its loaded volumes, one short line each. `folder` is the
 // study's.
 [[nodiscard]] std::vector<std::string> differences(const nlohmann::json& study,
                                                    const std::filesystem::path& folder,

@@ -16,7 +16,7 @@ std::shared_ptr<const LoadedStudy> ball_of(const std::string& patient, const std
   return study;
 }
 
-// What the engine without OpenGL cannot draw: the overlay alone.
+// The overlay alone, as the engine without OpenGL draws nothing else.
 std::unique_ptr<PictureView> view_of(CaseProxy& proxy, bool in_3d) {
   std::unique_ptr<PictureView> view;
   if (in_3d) {
