@@ -221,8 +221,11 @@ void MainWindow::open_phantom(const QString& kind) {
 CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study,
                                  const RestoredCase& restored) {
   if (!study->origin.path.empty()) {
-    recent_->add({QString::fromStdString(study->origin.path.string()),
-                  QString::fromStdString(study->origin.series_uid), study->name, study->origin.policy});
+    const RecentStudy recent{QString::fromStdString(study->origin.path.string()),
+                             QString::fromStdString(study->origin.series_uid), study->name,
+                             study->origin.policy};
+    recent_->add(recent);
+    recent_->add_picture(recent, study->volume, study->summary.window, study->volume->geometry.size.z / 2);
   }
   auto* window = new CaseWindow(std::make_unique<CaseProxy>(engine_, study, executor_, restored), *actions_);
   window->proxy().display().change([&](DisplaySettings& settings) {
