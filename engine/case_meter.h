@@ -9,11 +9,16 @@
 
 #include "document/case.h"
 #include "engine/case_state.h"
+#include "engine/truth_overlap.h"
 
 namespace tidemark {
 
 class CaseMeter {
  public:
+  // Nothing is compared when it is null.
+  void compare_with(std::shared_ptr<const Mask> truth) {
+    if (truth) overlap_.emplace(std::move(truth));
+  }
   // After a run of steps.
   void computed(const AdvanceReport& report, std::int64_t step);
   // After a change of phi that is not a step: nothing has converged.
@@ -56,6 +61,8 @@ class CaseMeter {
   SurfaceStatistics surface_;
   RegionStatistics inside_;
   std::vector<RegionStatistics> labels_;
+  std::optional<TruthOverlap> overlap_;  // where there is a truth
+  std::optional<double> dice_;
 };
 
 }  // namespace tidemark

@@ -22,7 +22,9 @@ CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study,
       executor_kind_(executor),
       receiver_(std::move(receiver)),
       restored_(std::move(restored)),
-      painter_(engine) {}
+      painter_(engine) {
+  meter_.compare_with(study_->truth);
+}
 
 void CaseRunner::post(Command command) {
   engine_.interrupt(Priority::step, this);  // refinement can wait

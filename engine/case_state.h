@@ -31,6 +31,7 @@ struct CaseState {
   std::shared_ptr<const Field> phi;  // at most a second old while it plays, else current
   Curve curve;                       // how it has developed since the start
   SurfaceStatistics surface;         // as of the last measurement
+  std::optional<double> dice;        // against the phantom's truth, as of the last measurement
   RegionStatistics inside;           // of the volume's values, under the surface; measured when it rests
   std::vector<Label> labels;
   std::vector<RegionStatistics> label_statistics;                 // in the order of `labels`

@@ -38,6 +38,7 @@ struct DisplaySettings {
   double line_pixels = 2.0;
   double label_opacity = 0.4;
   bool crosshair = true;
+  bool truth = false;                      // the outline of a phantom's known answer
   SpeedTerm speed_term = SpeedTerm::data;  // of the speed map
   bool radiological = true;                // the patient's right on the left of the screen
   bool patient_text = true;                // names and dates in the corners

@@ -36,6 +36,7 @@ struct LoadedStudy {
   std::string date;       // of the study: "2004-07-31"; empty when unknown
   Parameters parameters;  // that suit some even, bright tissue in the middle, or the phantom
   std::optional<PhantomStart> start;
+  std::shared_ptr<const Mask> truth;            // of a phantom, on the volume's grid; null: not known
   std::shared_ptr<const StudyArchive> archive;  // keeps the files of a series that lies in an archive
 };
 

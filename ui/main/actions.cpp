@@ -141,8 +141,9 @@ void Actions::make_tools() {
        tr("Drag over the tissue: T becomes its mean, ε its standard deviation"));
   tool(Tool::probe_transfer, "tool-probe-transfer", "tool-probe-transfer", tr("Probe t&ransfer function"),
        "G", tr("Drag over the tissue to set the chosen Gaussian of the transfer function"));
-  tool(Tool::seed, "tool-seed", "tool-seed", tr("&Sphere"), "S",
-       tr("Press in the middle and drag: a sphere to start from (right button: takes away)"));
+  tool(
+      Tool::seed, "tool-seed", "tool-seed", tr("&Sphere"), "S",
+      tr("Place a surface: click in the tissue, or press in its middle and drag (right button: takes away)"));
   tool(Tool::paint, "tool-paint", "tool-paint", tr("P&aint"), "B",
        tr("Add to the surface with a 3D brush (right button: erase)"));
   tool(Tool::erase, "tool-erase", "tool-erase", tr("&Erase"), "E",

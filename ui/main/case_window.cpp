@@ -12,6 +12,7 @@
 #include "engine/display_json.h"
 #include "renderer/camera.h"
 #include "ui/main/case_head.h"
+#include "ui/main/view_menu.h"
 #include "ui/views/slice_view.h"
 #include "ui/views/view_bar.h"
 #include "ui/views/volume_view.h"
@@ -149,6 +150,15 @@ QDockWidget* CaseWindow::make_dock(ViewKind kind) {
   connect(bar, &ViewBar::maximise_wanted, this, [this, dock] { toggle_maximised(dock); });
   connect(view, &PictureView::maximise_wanted, this, [this, dock] { toggle_maximised(dock); });
   connect(view, &PictureView::activated, this, [this, view] { active_ = view; });
+  connect(view, &PictureView::menu_wanted, this, [this, view](QPoint at, std::optional<glm::dvec3> place_mm) {
+    make_view_menu(*view, actions_, place_mm)->popup(view->mapToGlobal(at));
+  });
+  if (auto* volume = qobject_cast<VolumeViewWidget*>(view)) {
+    connect(volume, &VolumeViewWidget::place_wanted, this, [this] {
+      actions_.tool(Tool::seed)->trigger();
+      emit place_panel_wanted();
+    });
+  }
   docks_ << dock;
   return dock;
 }

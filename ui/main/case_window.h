@@ -63,6 +63,8 @@ class CaseWindow : public QMainWindow {
  signals:
   // The number changed, or whether the case is linked.
   void mark_changed();
+  // The panel with all ways to begin.
+  void place_panel_wanted();
   // The case may go: nothing would be lost, or the user does not mind.
   void close_wanted(CaseWindow& window, QCloseEvent* event);
 

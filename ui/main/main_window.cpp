@@ -1,10 +1,12 @@
 #include "ui/main/main_window.h"
 
+#include <QAbstractButton>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QMdiArea>
 #include <QMdiSubWindow>
@@ -16,6 +18,7 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
+#include <QToolButton>
 #include <QVBoxLayout>
 
 #include "ui/look/about_dialog.h"
@@ -127,6 +130,16 @@ void MainWindow::make_tool_bar() {
 void MainWindow::make_status_bar() {
   values_ = new ValueBar;
   statusBar()->addWidget(values_, 1);
+  auto* details = new QToolButton;
+  details->setText(tr("Details"));
+  details->setAccessibleName(tr("Details of the values under the mouse"));
+  details->setToolTip(tr("Shows also the terms of the equation under the mouse: D, φ, κ and |∇φ|."));
+  details->setAutoRaise(true);
+  details->setCheckable(true);
+  connect(details, &QToolButton::toggled, values_, &ValueBar::set_detailed);
+  connect(details, &QToolButton::clicked, this, [](bool on) { QSettings().setValue("details/values", on); });
+  details->setChecked(QSettings().value("details/values", false).toBool());
+  statusBar()->addPermanentWidget(details);
   loading_ = new LoadingView(LoadingView::Shape::line);
   loading_->hide();
   statusBar()->addPermanentWidget(loading_);
@@ -208,17 +221,25 @@ void MainWindow::open_phantom(const QString& kind) {
 CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study,
                                  const RestoredCase& restored) {
   if (!study->origin.path.empty()) {
-    recent_->add({QString::fromStdString(study->origin.path.string()),
-                  QString::fromStdString(study->origin.series_uid), study->name, study->origin.policy});
+    const RecentStudy recent{QString::fromStdString(study->origin.path.string()),
+                             QString::fromStdString(study->origin.series_uid), study->name,
+                             study->origin.policy};
+    recent_->add(recent);
+    recent_->add_picture(recent, study->volume, study->summary.window, study->volume->geometry.size.z / 2);
   }
   auto* window = new CaseWindow(std::make_unique<CaseProxy>(engine_, study, executor_, restored), *actions_);
-  window->proxy().display().change([this](DisplaySettings& settings) {
-    settings.tool = active_ ? active_->proxy().display().settings().tool : settings.tool;
+  window->proxy().display().change([&](DisplaySettings& settings) {
+    if (active_) {
+      settings.tool = active_->proxy().display().settings().tool;
+    } else if (!study->origin.phantom.empty()) {
+      settings.tool = Tool::seed;  // to be tried at once: its T and epsilon fit
+    }
   });
   settle(kAboutOpening);
   window->set_number(free_number());
   new CaseMessages(*window, *messages_);  // its child
   connect(window, &CaseWindow::close_wanted, saved_, &SavedCases::close);
+  connect(window, &CaseWindow::place_panel_wanted, this, [this] { panels_->show("initialise"); });
   QMdiSubWindow* child = area_->addSubWindow(window);
   child->setAttribute(Qt::WA_DeleteOnClose);
   // Its own menu has keys that ours have, too.
@@ -397,6 +418,15 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   QSettings().setValue("main/state", panels_->arrangement());
   QSettings().setValue("main/geometry", saveGeometry());
   event->accept();
+}
+
+bool MainWindow::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    const auto* key = static_cast<const QKeyEvent*>(event);
+    const bool is_space = key->key() == Qt::Key_Space && key->modifiers() == Qt::NoModifier;
+    if (is_space && qobject_cast<QAbstractButton*>(QApplication::focusWidget())) event->accept();
+  }
+  return QMainWindow::event(event);
 }
 
 bool MainWindow::focusNextPrevChild(bool next) {

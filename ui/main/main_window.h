@@ -53,6 +53,8 @@ class MainWindow : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
+  // Space presses the button that has the keyboard, before it is the key of an action.
+  bool event(QEvent* event) override;
   // Qt asks for it at Tab, and when the control that has the keyboard is hidden or becomes grey. A case
   // window that gets the keyboard becomes the active one, so that the other cases are passed over.
   bool focusNextPrevChild(bool next) override;

@@ -46,7 +46,7 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
   transfer_ = new TransferFunctionEditor;
   panels_ = {level_set, initialise, paint, display, labels, statistics};
   // One column with its tabs at the side: the views keep the room. The editor scrolls its parts itself.
-  const QList<QDockWidget*> docks{add("initialise", tr("Start"), scrolled(initialise)),
+  const QList<QDockWidget*> docks{add("initialise", tr("Place surface"), scrolled(initialise)),
                                   add("level-set", tr("Level set"), scrolled(level_set)),
                                   add("paint", tr("Paint"), scrolled(paint)),
                                   add("display", tr("Display"), scrolled(display)),

@@ -13,6 +13,8 @@ class QToolButton;
 
 namespace tidemark {
 
+class Form;
+
 // The main window's, so that buttons, menus and keys are one.
 struct EvolutionActions {
   QAction* play = nullptr;  // and pause
@@ -34,6 +36,7 @@ class EvolutionControls : public CaseWidget {
 
  private:
   QLayout* make_buttons();
+  void add_details(Form& form);
   void fill_executors();
 
   std::array<QToolButton*, 4> buttons_{};  // restart, step back, play, step

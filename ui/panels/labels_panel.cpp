@@ -119,8 +119,8 @@ QWidget* LabelsPanel::make_actions() {
   accepted_->setWordWrap(true);
   accepted_->hide();
   form.wide(accepted_);
-  begin_ = new QPushButton(tr("Start again from label"));
-  begin_->setToolTip(tr("The level set begins anew as the chosen label, to go on with it."));
+  begin_ = new QPushButton(tr("Place surface from label"));
+  begin_->setToolTip(tr("The surface begins anew around the chosen label, to go on with it."));
   form.wide(begin_);
   connect(begin_, &QPushButton::clicked, this, [this] {
     if (proxy() && chosen()) proxy()->begin_from_label(chosen()->id);

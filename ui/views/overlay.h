@@ -1,6 +1,8 @@
 // The overlay of pictures: lines and text that are seen on bright and on dark ones.
 #pragma once
 
+#include <QLineF>
+#include <QList>
 #include <QPainter>
 #include <QPolygonF>
 #include <QString>
@@ -14,11 +16,15 @@
 
 namespace tidemark {
 
-// Light with a dark rim.
+// Light on a dark veil, so that it is read on bright tissue, too.
 // `flags`: Qt::AlignmentFlag and Qt::TextFlag.
 void paint_text(QPainter& painter, const QRectF& where, int flags, const QString& text);
 void paint_line(QPainter& painter, const QPolygonF& line, const QColor& colour = Qt::white,
                 double width = 1.5);
+void paint_lines(QPainter& painter, const QList<QLineF>& lines, const QColor& colour);
+// Of a known answer: apart from the surface's yellow, the speed map's colours and the first labels', also
+// for colour-blind eyes.
+inline constexpr QColor kTruthColour(190, 40, 255);
 // A sphere's outline; one that takes away is dashed.
 void paint_circle(QPainter& painter, QPointF centre, double radius, bool erases);
 

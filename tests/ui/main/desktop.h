@@ -98,7 +98,7 @@ class Desktop {
   PhiTraffic phi_traffic(CaseProxy& proxy);
   static bool wait_for(const std::function<bool()>& condition, int milliseconds = 20000);
   // Where TIDEMARK_SCREENSHOTS says, if it does: of the window once it has settled, or as it is, with the
-  // dialog that is open.
+  // dialog or menu that is open.
   void screenshot(const QString& name);
   void screenshot_at_once(const QString& name);
 
