@@ -38,7 +38,7 @@ fs::path folder_of(const fs::path& target) {
   return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
-// A folder that a new one can take the place of. Whoever works in the current one, or has a disk mounted
+// A folder that a new one can replace. A user who works in the current one, or has a disk mounted
 // there, would be left with the old one.
 Status require_replaceable(const fs::path& folder, const fs::path& target) {
   const auto refuse = [&](const char* why) {
@@ -72,7 +72,7 @@ void sweep_beside(const fs::path& target) {
 }
 
 // Makes something beside the target whose name nothing has yet: `make` takes the name and returns 0 or errno.
-// What it makes gets the permissions of anything new, which the C library's own temporary files do not.
+// Its files and folders get usual permissions, which the C library's own temporary files do not.
 template <class Make>
 Result<fs::path> make_beside(const fs::path& target, const Make& make) {
   constexpr int kAttempts = 100;

@@ -4,15 +4,15 @@
 
 namespace tidemark {
 
-// Easy to tell apart, also for people who see few colours (after Okabe and Ito), then around the circle of
-// hues.
+// Easy to tell apart, also for people who see few colours (after Okabe and Ito). Those that resemble the
+// outline's yellow and the speed map's orange come late. Then around the circle of hues.
 std::array<std::uint8_t, 3> label_colour(std::uint8_t id) {
-  constexpr std::array<std::array<std::uint8_t, 3>, 7> kFirst{{{230, 159, 0},
-                                                               {86, 180, 233},
+  constexpr std::array<std::array<std::uint8_t, 3>, 7> kFirst{{{86, 180, 233},
                                                                {0, 158, 115},
                                                                {204, 121, 167},
                                                                {0, 114, 178},
                                                                {213, 94, 0},
+                                                               {230, 159, 0},
                                                                {240, 228, 66}}};
   if (id <= kFirst.size()) return kFirst[id - 1U];
   // Steps of the golden ratio never come back to the same hue; brightness alternates.

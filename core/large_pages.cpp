@@ -8,7 +8,7 @@ namespace tidemark {
 
 void prefer_large_pages(void* memory, std::size_t bytes) {
   constexpr std::size_t kLargePage = std::size_t{2} << 20;
-  // Only what the memory has to itself.
+  // Only whole pages within the memory.
   void* first = memory;
   if (std::align(kLargePage, kLargePage, first, bytes) == nullptr) return;
   ::madvise(first, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);

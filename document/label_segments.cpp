@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kLongestName = 64;  // bytes, as other systems have it (DICOM's LO)
 
-// What is cut off leaves whole characters of UTF-8.
+// Cuts between characters of UTF-8.
 std::string shortened(std::string text) {
   std::size_t length = std::min(text.size(), kLongestName);
   while (length > 0 && length < text.size() && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) {
@@ -26,7 +26,7 @@ bool makes_sense(const Code& code) {
          code.scheme.size() <= kLongestValue && !code.meaning.empty() && code.meaning.size() <= kLongestName;
 }
 
-// Some tissue is what a file says that knows no better; then the name may say more.
+// Files without a better meaning have "tissue"; the name may then have more.
 std::optional<SegmentMeaning> meaning_in(const Segment& segment) {
   const SegmentMeaning& meaning = segment.meaning;
   if (meaning == SegmentMeaning() || !makes_sense(meaning.category) || !makes_sense(meaning.type)) {

@@ -107,7 +107,7 @@ void LevelSet::begin_change(ChangeKind kind, std::uint64_t gesture, Point before
   history_.open(*this);
 }
 
-// Appends to the recipe, after what the executor has forgotten when phi was put back.
+// Appends to the recipe, after the ResumeEvent if phi was put back.
 void LevelSet::record(RecipeEvent event) {
   if (std::exchange(resumed_, false) && step() > 0) recipe_.events.push_back({step(), ResumeEvent{}});
   std::vector<RecipeEvent>& events = recipe_.events;
@@ -229,7 +229,7 @@ void LevelSet::put_in_place(Point point) {
   resumed_ = false;
 }
 
-// Gives the executor what the point has.
+// Puts the point's phi, parameters and smoothing into the executor.
 Status LevelSet::hand_over(const Point& point) {
   const Parameters& wanted = point.recipe.final_parameters();
   if (const double sigma_mm = point.recipe.final_smoothed_mm(); sigma_mm != smoothed_mm()) {
@@ -241,7 +241,7 @@ Status LevelSet::hand_over(const Point& point) {
   return executor().restore(*point.phi);
 }
 
-// When there is no room for the point, back to what is known; no edit goes on then.
+// When there is no room for the point, goes back to known_; no edit stays open then.
 Status LevelSet::go_to(Point point) {
   Status gone = hand_over(point);
   if (!gone) {

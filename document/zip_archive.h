@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "imaging/archive/zip_directory.h"
+#include "imaging/guard/zip_directory.h"
 
 namespace tidemark {
 

@@ -27,7 +27,7 @@ struct CaseAutosave::Copies {
     return files->write(contents);
   }
 
-  // What was copied is in a file now.
+  // The copied state is in a file now.
   void drop() {
     const std::lock_guard lock(mutex);
     if (files) files->finish();

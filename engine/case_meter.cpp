@@ -38,6 +38,7 @@ Status CaseMeter::measure(const ReadPhi& read_phi, Case& document, bool thorough
   if (!phi) return tl::unexpected<Error>(phi.error());
   phi_ = *phi;
   surface_ = tidemark::measure(*phi_);
+  if (overlap_) dice_ = overlap_->dice(*phi_);
   const auto ended = Clock::now();
   due_at_ = ended + std::clamp<Clock::duration>(kRest * (ended - began), kShortestRest, kLongestRest);
   // A case that was read from a file has not moved since its last point.
@@ -60,6 +61,7 @@ void CaseMeter::report(CaseState& state) const {
   state.converged = converged_;
   state.phi = phi_;
   state.surface = surface_;
+  state.dice = dice_;
   state.inside = inside_;
   state.label_statistics = labels_;
   state.label_statistics.resize(state.labels.size());

@@ -21,7 +21,7 @@ bool shows_pages(const AnyView& view) {
   return std::get<VolumeView>(view).colouring == SurfaceColouring::pages;
 }
 
-// Whether the view shows what the speed is computed from, not what the patient looks like.
+// Whether the view shows the level set's source, not the volume as loaded.
 bool shows_speed(const AnyView& view) {
   if (const auto* slice = std::get_if<SliceView>(&view)) return slice->content == SliceContent::speed;
   const SurfaceColouring colouring = std::get<VolumeView>(view).colouring;

@@ -53,7 +53,7 @@ void CaseProxy::post(Command command) {
 
 void CaseProxy::take(CaseState state) {
   state_ = std::move(state);
-  // While edits are under way, what the user sees is what was wished for.
+  // While edits are under way, the user sees the wanted values.
   if (*edits_done_ == edits_sent_) wanted_parameters_ = state_.parameters;
   emit state_changed();
 }

@@ -22,7 +22,9 @@ CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study,
       executor_kind_(executor),
       receiver_(std::move(receiver)),
       restored_(std::move(restored)),
-      painter_(engine) {}
+      painter_(engine) {
+  meter_.compare_with(study_->truth);
+}
 
 void CaseRunner::post(Command command) {
   engine_.interrupt(Priority::step, this);  // refinement can wait
@@ -233,7 +235,7 @@ void CaseRunner::post_picture(const std::shared_ptr<ViewSlot>& slot, Priority pr
   });
 }
 
-// Whoever turns the camera or paints asks for the next picture before this one is there. The surface must
+// A user who turns the camera or paints asks for the next picture before this one is there. The surface must
 // move on all the same: while it plays, a view is drawn once between steps and then waits behind the next
 // ones.
 void CaseRunner::draw_in_turn(const std::shared_ptr<ViewSlot>& slot, Priority priority,

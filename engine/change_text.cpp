@@ -9,7 +9,7 @@ QString change_text(const ChangeDescription& change) {
   const QString name = QString::fromStdString(change.name);
   switch (change.kind) {
     case ChangeKind::start:
-      return tr("start");
+      return tr("placing the surface");
     case ChangeKind::paint:
       return tr("paint");
     case ChangeKind::erase:

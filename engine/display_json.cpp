@@ -47,6 +47,7 @@ Json slices_json(const DisplaySettings& s) {
           {"line_pixels", s.line_pixels},
           {"label_opacity", s.label_opacity},
           {"crosshair", s.crosshair},
+          {"truth", s.truth},
           {"speed_term", static_cast<int>(s.speed_term)},
           {"radiological", s.radiological},
           {"patient_text", s.patient_text}};
@@ -65,6 +66,7 @@ void read_slices(const JsonField& field, DisplaySettings& s) {
   read(field, "line_pixels", 0.1, 20.0, s.line_pixels);
   read(field, "label_opacity", 0.0, 1.0, s.label_opacity);
   read(field, "crosshair", s.crosshair);
+  read(field, "truth", s.truth);
   read_enum(field, "speed_term", 4, s.speed_term);
   read(field, "radiological", s.radiological);
   read(field, "patient_text", s.patient_text);

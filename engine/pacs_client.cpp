@@ -21,7 +21,7 @@ Result<Sent> write_and_send(const PacsServer& server, const PacsClient::WriteFil
                             const Progress& progress) {
   const QTemporaryDir folder;  // of this user alone
   if (!folder.isValid()) {
-    return fail(ErrorKind::write, "{}: no folder can be made for what is to be sent",
+    return fail(ErrorKind::write, "{}: no folder can be made for the files to be sent",
                 folder.path().toStdString());
   }
   const auto files = write(folder.path().toStdString(), progress.part(0, 2));

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
     QT_TRANSLATE_NOOP("tidemark::LoadingStep", "making the phantom"),
 };
 
-// T and epsilon of a study that nobody has looked at yet.
+// The first T and epsilon of a study.
 Parameters suggest_parameters(const Volume& volume, const Progress& progress) {
   Parameters parameters;
   if (const auto suggestion = suggest_start(volume, {}, progress)) {
@@ -94,6 +94,7 @@ Result<LoadedStudy> make_phantom_study(const std::string& kind, const Progress& 
   study.parameters.target = phantom->target;
   study.parameters.range = phantom->range;
   study.parameters.alpha = phantom->alpha;
+  study.truth = std::make_shared<const Mask>(std::move(phantom->truth));
   study.start = PhantomStart{phantom->seed, phantom->init_threshold};
   progress(0.0, "measuring values");
   study.summary = summarise(*study.volume, progress);

@@ -1,4 +1,4 @@
-// Finds and loads studies without ever keeping the user interface waiting.
+// The search for studies and their loading, beside the user interface.
 #pragma once
 
 #include <QString>
@@ -19,7 +19,7 @@
 
 namespace tidemark {
 
-// Where a phantom can be started from; where there are both, the threshold is the quick way.
+// The start that suits a phantom; where there are both, the threshold is the quick way.
 struct PhantomStart {
   std::optional<std::array<double, 4>> seed;           // i, j, k (voxels), radius (mm)
   std::optional<std::pair<double, double>> threshold;  // low, high, in the volume's units
@@ -36,6 +36,7 @@ struct LoadedStudy {
   std::string date;       // of the study: "2004-07-31"; empty when unknown
   Parameters parameters;  // that suit some even, bright tissue in the middle, or the phantom
   std::optional<PhantomStart> start;
+  std::shared_ptr<const Mask> truth;            // of a phantom, on the volume's grid; null: not known
   std::shared_ptr<const StudyArchive> archive;  // keeps the files of a series that lies in an archive
 };
 
@@ -49,7 +50,7 @@ class StudyLoader : public JobRunner {
   void scan(const std::filesystem::path& path, const GridPolicy& policy = {});
   // End with loaded() or failed(). An empty uid: the only loadable series, or the one with the most voxels.
   void load(const std::filesystem::path& path, const std::string& uid, const GridPolicy& policy = {});
-  // The remarks are told with what loading changed.
+  // The remarks are shown with the changes that loading made.
   void load(const Series& series, const std::vector<std::string>& remarks = {});
   void make_phantom(const std::string& kind);  // of phantom_kinds()
 
@@ -58,7 +59,7 @@ class StudyLoader : public JobRunner {
   // The folder or file under which a series is found again: the one folder that holds all its files, or its
   // archive.
   [[nodiscard]] static std::filesystem::path place_of(const Series& series);
-  // What a series is called in titles: its description, else modality and date.
+  // The name of a series in titles: its description, else modality and date.
   [[nodiscard]] static QString name_of(const Series& series);
 
  signals:

@@ -17,7 +17,7 @@ enum class GlVersion { gl33, gl45 };
 struct DeviceOptions {
   GlVersion version = GlVersion::gl45;  // a core context of exactly this version
   bool debug = false;                   // KHR_debug: messages are counted and logged, objects carry labels
-  bool as_gpu = false;  // tests: what is done on a GPU is done here, even if a processor plays it
+  bool as_gpu = false;                  // tests: takes the paths of a GPU, even if a processor plays it
 };
 
 // Objects that contexts of a share group have in common, and objects that belong to one context.
@@ -54,7 +54,7 @@ class Device {
   [[nodiscard]] std::int64_t severe_messages() const { return severe_messages_; }
   // Where debug messages go: severe or not, and the text. By default they are only counted.
   void on_message(std::function<void(bool severe, const std::string& text)> sink) { sink_ = std::move(sink); }
-  // Sends a message of our own there: all that a compiler had to say.
+  // Sends a message of our own there: all messages of a compiler.
   void report_message(const std::string& text) const {
     if (sink_) sink_(false, text);
   }

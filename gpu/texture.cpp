@@ -53,7 +53,7 @@ void fetch_only(GLenum target, bool mipmaps) {
   glTexParameteri(target, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
 }
 
-// Textures are made and written on a unit of their own, so that what is bound to be drawn with stays bound.
+// Textures are made and written on a unit of their own, so that textures bound for drawing stay bound.
 void bind_for_editing(GLenum target, GLuint id) {
   constexpr GLenum kUnit = GL_TEXTURE0 + 15;
   glActiveTexture(kUnit);

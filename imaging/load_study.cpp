@@ -13,7 +13,7 @@
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/series_geometry.h"
 #include "imaging/files/volume_file.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 
 namespace tidemark {
 namespace {
@@ -25,7 +25,7 @@ bool is_volume_file(const Series& series) {
   return series.transfer_syntaxes.empty();
 }
 
-// What the DICOM reader leaves aside may be a volume file.
+// Files that are no DICOM may be volume files.
 Result<Catalogue> find_in_folder(const fs::path& folder, const Progress& progress) {
   auto catalogue = scan_dicom(folder, progress);
   if (!catalogue) return catalogue;
@@ -47,7 +47,7 @@ Result<Catalogue> find_in_folder(const fs::path& folder, const Progress& progres
   return catalogue;
 }
 
-// As a folder, whose files go when nobody holds a series of it any more.
+// As a folder, whose files are removed with the last holder of a series of it.
 Result<Catalogue> find_in_archive(const fs::path& file, const Progress& progress) {
   const auto archive = StudyArchive::unpack(file, progress.part(0, 2));
   if (!archive) return tl::unexpected<Error>(archive.error());
@@ -166,7 +166,7 @@ bool is_asked_for(const Series& series, const std::string& uid) {
   return uid.empty() || series.uid == uid || series.uid.starts_with(uid + '#');
 }
 
-// A series as the functions of this file take it from outside.
+// The check on a series from outside.
 Status require_loadable(const Series& series) {
   if (series.loadable && !series.files.empty()) return {};
   return fail(ErrorKind::input, "{}: cannot be loaded: {}", series.description, series.reason);

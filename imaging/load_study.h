@@ -1,5 +1,5 @@
-// The one way in: a DICOM folder, a DICOM file, a DICOMDIR, a volume file or a zip archive of these, by its
-// path.
+// The one way into the program: a DICOM folder, a DICOM file, a DICOMDIR, a volume file or a zip archive of
+// these, by its path.
 #pragma once
 
 #include <filesystem>
@@ -14,32 +14,32 @@ namespace tidemark {
 
 // Lists the series under `path` (a folder is searched recursively). Fails (ErrorKind::input) when the path
 // does not exist or holds nothing that looks like an image; a series that cannot be loaded is listed with
-// its reason. The policy says what is done with slices that make no regular grid.
+// its reason. The policy is for slices that make no regular grid.
 Result<Catalogue> find_series(const std::filesystem::path& path, const Progress& progress = {},
                               const GridPolicy& policy = {});
 
 // The same series on the grid that another policy makes.
 [[nodiscard]] Series by_policy(Series series, const GridPolicy& policy);
 // The series of that UID (any, where it is empty) that could be loaded if gaps were filled; null where there
-// is none, or one can be loaded as it is.
+// is none, or one can be loaded without that.
 [[nodiscard]] const Series* find_fillable(const Catalogue& catalogue, const std::string& uid);
 
-// The series `uid` of what find_series(path) gave; an empty uid takes the only loadable series, or the one
+// The series `uid` out of find_series(path); an empty uid takes the only loadable series, or the one
 // with the most voxels. The UID of a series that holds several volumes, without the number of one of them,
 // takes the largest. Fails (ErrorKind::input) with the reason why none can be loaded, or with the UIDs to
 // choose from.
 struct ChosenSeries {
   Series series;
-  std::vector<std::string> remarks;  // what a user should know about the choice
+  std::vector<std::string> remarks;  // about the choice, for the user
 };
 Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string& uid,
                                    const std::filesystem::path& path);
 
-// Why the series, which lies under the path, cannot be loaded: one line that begins with the path and names
-// no file twice.
+// The reason why the series under the path cannot be loaded: one line that begins with the path and names no
+// file twice.
 [[nodiscard]] std::string reason_under(const std::filesystem::path& path, const Series& series);
 
-// Loads the series that choose_series() takes, and says so in Volume::changes where there were others. The
+// Loads the series that choose_series() takes; Volume::changes has a sentence where there were others. The
 // volume is finite everywhere. Fails (ErrorKind::input) naming the file and the field at fault.
 Result<Volume> load_volume(const std::filesystem::path& path, const std::string& uid = {},
                            const Progress& progress = {}, const GridPolicy& policy = {});

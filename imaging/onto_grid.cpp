@@ -19,7 +19,7 @@ double tolerance_mm(const Geometry& grid) {
   return kTolerance * std::min({grid.spacing_mm.x, grid.spacing_mm.y, grid.spacing_mm.z});
 }
 
-// Which axis of one grid runs along each axis of another, and whether it runs the other way.
+// The axis of one grid along each axis of another, and whether it runs the other way.
 struct AxisMap {
   std::array<int, 3> axis{};
   std::array<bool, 3> reversed{};
@@ -40,7 +40,7 @@ AxisMap match_axes(const Geometry& from, const Geometry& to) {
   return map;
 }
 
-// `from` as it is when its axes are renamed by the map.
+// `from` with its axes renamed by the map.
 Geometry renamed(const Geometry& from, const AxisMap& map) {
   Geometry result;
   Index3 first(0);

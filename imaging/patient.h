@@ -1,11 +1,11 @@
-// Whose images they are, for people to read.
+// The patient and the study, for people to read.
 #pragma once
 
 #include <string>
 
 namespace tidemark {
 
-// In UTF-8; what a file does not say stays empty. Views show it in their corners, cases and panels at their
+// In UTF-8; absent attributes stay empty. Views show it in their corners, cases and panels at their
 // heads, and the list of series shows the name. It goes nowhere else: no log, title, statistics, recipe or
 // session holds it.
 struct Patient {

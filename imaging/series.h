@@ -1,4 +1,4 @@
-// What was found under a path, before any voxel is read.
+// The series found under a path, before any voxel is read.
 #pragma once
 
 #include <compare>
@@ -16,7 +16,7 @@ namespace tidemark {
 
 class StudyArchive;
 
-// Where the pixels of a slice are.
+// The place of a slice's pixels.
 struct SliceSource {
   std::filesystem::path file;
   std::int64_t frame = 0;  // of the file's frames, from 0
@@ -42,16 +42,16 @@ struct Series {
   double value_scale = 1.0;                    // by which rescaled values are multiplied to have that unit
   std::vector<std::string> transfer_syntaxes;  // UIDs, each once; empty for volume files
   bool loadable = false;
-  std::string reason;                 // why it is not loadable: one line that names the files at fault
-  ImageStack stack;                   // how the images lie; none for volume files and what is no stack
+  std::string reason;                 // of not being loadable: one line that names the files at fault
+  ImageStack stack;                   // the images' places; none for volume files and no stack
   GridPlan grid;                      // made of the stack; says how the user may make the series loadable
   GridPolicy policy;                  // by which it was made
-  std::vector<std::string> changes;   // what loading will change, e.g. "slices sorted by position"
-  std::vector<std::string> warnings;  // what a user should know, e.g. "3 slices are missing their window"
-  // In which the files lie; null for files that were there already. They stay as long as somebody holds it.
+  std::vector<std::string> changes;   // changes that loading will make: "slices sorted by position"
+  std::vector<std::string> warnings;  // for the user: "3 slices are missing their window"
+  // The archive of the files; null for files outside of one. They stay as long as it is held.
   std::shared_ptr<const StudyArchive> archive;
 
-  // Not loadable as it is, but with its gaps filled: grid.question asks for that.
+  // Loadable only with its gaps filled: grid.question asks the user for that.
   [[nodiscard]] bool fillable() const { return !loadable && !grid.question.empty(); }
 };
 

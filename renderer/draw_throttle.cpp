@@ -7,12 +7,12 @@
 namespace tidemark {
 namespace {
 
-// Leaves room for work that is harder than what was measured.
+// Leaves room for work that is harder than the measured one.
 constexpr double kWantedPiece = 0.3 * Canvas::kLongestPiece;
 
 }  // namespace
 
-// What a first draw compiles is no piece: that is done in this thread, and no other context waits for it. It
+// The compiling of a first draw is no piece: it happens in this thread, and no other context waits for it. It
 // may depend on the program before (gpu::SamplerSlots).
 Status DrawThrottle::prepare(const gpu::Program& program) {
   if (&program == in_use_) return {};

@@ -192,7 +192,7 @@ VolumeView Renderer::resolved(const VolumeView& asked) {
     view.source = view.source->for_range(common_range_->first, common_range_->second);
   }
   if (view.colouring != SurfaceColouring::plain)
-    view.lighting.specular = 0.0;  // white would hide what is taught
+    view.lighting.specular = 0.0;  // white would hide the colours
   return view;
 }
 

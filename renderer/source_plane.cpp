@@ -8,7 +8,7 @@
 namespace tidemark {
 namespace {
 
-// Trilinear; beyond the volume goes on what is at its border.
+// Trilinear; values at the border continue beyond the volume.
 template <class Scalar>
 double value_between(const std::vector<Scalar>& voxels, const Geometry& geometry, glm::dvec3 position) {
   const glm::dvec3 p = glm::clamp(position, glm::dvec3(0.0), glm::dvec3(geometry.size - Index3(1)));

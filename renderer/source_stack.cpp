@@ -82,7 +82,7 @@ std::span<const std::byte> SourceStack::gather(const std::vector<Scalar>& voxels
 Status SourceStack::send(const Volume& source, std::int64_t slice, DrawThrottle& throttle) {
   Stored& stored = stored_[static_cast<std::size_t>(slice % 3)];
   if (stored.slice == slice) return {};
-  // What is drawn from this texture's old slice must be done anyhow.
+  // Draws from this texture's old slice must be complete.
   TIDEMARK_TRY(throttle.wait());
   const auto texels = std::visit([&](const auto& voxels) { return gather(voxels, slice); }, source.voxels);
   stored.texture.upload(axis_.rect(), texels);

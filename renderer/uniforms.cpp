@@ -68,10 +68,10 @@ bool needs_phi(const VolumeView& view) {
 }
 
 bool needs_source(const VolumeView& view) {
-  const bool taught =
+  const bool speed_colours =
       view.colouring == SurfaceColouring::data || view.colouring == SurfaceColouring::total_speed;
   return shows_source(view) || (view.clip && view.clip->picture) ||
-         (view.surface && (taught || (view.source && !view.source->surface.empty())));
+         (view.surface && (speed_colours || (view.source && !view.source->surface.empty())));
 }
 
 gpu::Defines shading_defines(const VolumeView& view) {

@@ -1,4 +1,4 @@
-// When a surface counts as stopped: see kConvergedSpeed.
+// The measure of motion by which a surface counts as stopped: see kConvergedSpeed.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace tidemark {
 
-// How often motion is measured in a window: every two steps, over both of them.
+// The measurements of motion in a window: one every two steps, over both of them.
 inline constexpr int kMotionSamples = kConvergenceWindow / 2;
 
 // The motion of a surface in a window of steps, from that of its pages: over the voxels beside the surface

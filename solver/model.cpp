@@ -15,7 +15,7 @@ double default_band(const Geometry& geometry) {
 Model::Model(const Volume& source, const Parameters& parameters)
     : parameters_(parameters),
       smallest_spacing_mm_(glm::compMin(source.geometry.spacing_mm)),
-      // Rounded to what the executors compute with, so that all of them clamp to the same value.
+      // Rounded to the executors' type, so that all of them clamp to the same value.
       band_(static_cast<float>(parameters.band.value_or(default_band(source.geometry)))) {
   spacing_ = source.geometry.spacing_mm / smallest_spacing_mm_;
   rescale_ = parameters.rescale.value_or(0.75 / band_);

@@ -23,7 +23,7 @@ Result<std::int64_t> parse_count(std::string_view text);  // a whole number >= 0
 // Exactly `count` finite numbers, separated by commas.
 Result<std::vector<double>> parse_numbers(std::string_view text, std::size_t count);
 
-// Options that hold such numbers; what is wrong is said with the option's name and ends in wrong usage.
+// Options that hold such numbers. Errors name the option and end in wrong usage.
 CLI::Option* add_number(CLI::App& app, const std::string& name, std::optional<double>& value,
                         const std::string& description);
 CLI::Option* add_count(CLI::App& app, const std::string& name, std::optional<std::int64_t>& value,
@@ -45,7 +45,7 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value,
   return app.add_option_function<std::string>(name, store, description)->type_name(type);
 }
 
-// A seed or eraser as it was asked for.
+// A seed or eraser as given on the command line.
 struct SphereArgument {
   std::string option;  // "--seed 10,20,30,5", for messages
   glm::dvec3 centre{0.0};

@@ -40,7 +40,7 @@ struct BenchOptions {
   SolverOptions solver;
 };
 
-// What is measured, and where it starts.
+// A case of the benchmark, with its start.
 struct Case {
   std::shared_ptr<const Volume> volume;
   Parameters parameters;

@@ -1,4 +1,4 @@
-// What the program says, and where.
+// The program's output: results, messages and progress, each on its stream.
 #pragma once
 
 #include <fmt/format.h>
@@ -39,7 +39,7 @@ class Console {
   void say(fmt::format_string<Args...> format, Args&&... args) {
     say_line(fmt::format(format, std::forward<Args>(args)...));
   }
-  // What is being done, for --verbose alone.
+  // A line about the present work, for --verbose alone.
   template <class... Args>
   void log(fmt::format_string<Args...> format, Args&&... args) {
     log_line(fmt::format(format, std::forward<Args>(args)...));
@@ -53,8 +53,8 @@ class Console {
   [[nodiscard]] Progress progress();
   [[nodiscard]] bool interrupted() const { return stop_.stop_requested(); }
 
-  // Ends the program: clears the bar, tells the error if there is one in one line, returns the exit code.
-  // Results that standard output would not take count as a failed write.
+  // Ends the program: clears the bar, prints an error in one line, returns the exit code. Results that could
+  // not be written to standard output count as a failed write.
   int finish(const Status& status);
 
  private:

@@ -96,7 +96,7 @@ Status Conversion::load_volume(const Progress& progress) {
   return split();
 }
 
-// The segments that the volume is, if it is any.
+// The volume as segments, if it is a mask or a label map.
 Status Conversion::split() {
   const bool is_mask = options_.kind == InputKind::mask ||
                        (options_.kind == InputKind::volume && holds_only_zero_and_one(*volume_));
@@ -138,7 +138,7 @@ Status Conversion::require_segments() const {
               options_.study.path);
 }
 
-// The volume as it is, or what is inside: 1, or the number of the segment.
+// The volume itself, or its inside: 1, or the number of the segment.
 Status Conversion::write_values(const fs::path& file) {
   if (volume_ && options_.kind != InputKind::mask) return write_volume_file(*volume_, file);
   if (options_.kind == InputKind::mask) return write_mask_file(union_of(segments_), file);

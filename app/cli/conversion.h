@@ -17,7 +17,7 @@
 
 namespace tidemark::cli {
 
-// What INPUT is taken for, where that does not show in the file.
+// The meaning of INPUT, where the file does not show it.
 enum class InputKind { volume, mask, labels, level_set };
 
 struct ConversionOptions {

@@ -43,7 +43,7 @@ Parameters rescaling_alone(const std::optional<double>& band) {
   return parameters;
 }
 
-// A volume of zeros: the data term that would look at it is off.
+// A volume of zeros: the data term, which would read it, is off.
 std::shared_ptr<const Volume> empty_source(const Geometry& geometry) {
   auto source = std::make_shared<Volume>();
   source->geometry = geometry;

@@ -1,4 +1,4 @@
-// tidemark-cli info: what is found under a path, before any voxel is read.
+// tidemark-cli info: the series under a path, before any voxel is read.
 #include <memory>
 
 #include "app/cli/program.h"

@@ -1,4 +1,4 @@
-// Ctrl-C and termination as a request to stop.
+// The stop request that Ctrl-C and termination make.
 #pragma once
 
 #include <pthread.h>
@@ -9,8 +9,8 @@
 
 namespace tidemark::cli {
 
-// While it lives, SIGINT and SIGTERM are waited for by a thread of its own, which asks everybody to stop;
-// nothing runs inside a signal handler. Also ignores SIGXFSZ and SIGPIPE, so that a full disk and a closed
+// While it lives, a thread of its own waits for SIGINT and SIGTERM, and then requests the stop; nothing runs
+// inside a signal handler. Also ignores SIGXFSZ and SIGPIPE, so that a full disk and a closed
 // pipe are failed writes rather than sudden death. Create it before any other thread.
 class Interrupt {
  public:

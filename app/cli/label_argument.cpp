@@ -13,7 +13,7 @@ std::optional<SegmentColour> parse_colour(std::string_view text) {
                        static_cast<std::uint8_t>(rgb & 0xff)};
 }
 
-// The text up to the next comma, which is taken off.
+// The text up to the next comma, which is removed.
 std::string_view next_part(std::string_view& text) {
   const std::size_t comma = text.find(',');
   const std::string_view part = text.substr(0, comma);
@@ -36,7 +36,7 @@ std::string help(const char* which) {
          words;
 }
 
-// What is wrong is said with the option's name and ends in wrong usage.
+// Errors name the option and end in wrong usage.
 LabelArgument parse_or_throw(const std::string& text) {
   auto label = parse_label(text);
   if (!label) throw CLI::ValidationError("--label", label.error().message);

@@ -1,4 +1,4 @@
-// What DICOM results say about a segment: --label NAME[,MEANING[,RRGGBB]].
+// The argument --label NAME[,MEANING[,RRGGBB]]: a segment's name, meaning and colour in DICOM results.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -11,7 +11,7 @@
 
 namespace tidemark::cli {
 
-// What was not given stays as the segment has it.
+// Parts that were not given leave the segment's own.
 struct LabelArgument {
   std::string name;
   std::optional<SegmentMeaning> meaning;
@@ -27,7 +27,7 @@ Result<LabelArgument> parse_label(std::string_view text);
 CLI::Option* add_label(CLI::App& app, LabelArgument& label);
 CLI::Option* add_labels(CLI::App& app, std::vector<LabelArgument>& labels);
 
-// Said of results that have no patient to belong to.
+// The remark on results without a patient.
 inline constexpr const char* kAnonymousStudy =
     "The input is no DICOM study: DICOM results make a new one of an anonymous patient";
 

@@ -1,4 +1,4 @@
-// The files that a command writes: checked before the long work, and written all or none.
+// The output files of a command: checked before the long work, and written all or none.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace tidemark::cli {
 
-// What a file holds, by its suffix.
+// The content of a file, by its suffix.
 enum class FileForm { volume, mesh, recipe, segmentation, level_set };
 
 class Outputs {

@@ -9,7 +9,7 @@
 
 namespace tidemark::cli {
 
-// Which server is meant, in every one of them.
+// The choice of a server, common to all of them.
 struct ServerChoice {
   std::string server;
   std::string file;  // empty: pacs_configuration_file()

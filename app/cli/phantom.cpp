@@ -68,7 +68,7 @@ std::string next_command(const Phantom& phantom, const std::filesystem::path& fo
                      (folder / "mask.nii.gz").string());
 }
 
-// Writes the study; when that fails, what was not there before goes away again.
+// Writes the study; when that fails, everything new is removed again.
 Status write_or_clean_up(const Phantom& phantom, const std::filesystem::path& folder,
                          const Progress& progress) {
   std::vector<std::filesystem::path> fresh;

@@ -82,7 +82,7 @@ Status check_command_word(const CLI::App& app, int argc, char** argv) {
   return {};
 }
 
-// What is left over reads better as the one word that is wrong.
+// One of the unparsed words says more than all of them.
 std::string describe(const CLI::App& app, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
   const std::vector<std::string> extras = app.remaining(true);

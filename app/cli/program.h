@@ -1,4 +1,4 @@
-// The headless program: reads the command line, runs one command, ends with the contract's exit code.
+// The headless program: its commands, and main() with the exit codes of the contract.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -11,16 +11,16 @@
 namespace tidemark::cli {
 
 // Exit codes: 0, 1 internal error, 2 wrong usage, 3 unreadable input, 4 missing capability or memory budget,
-// 5 a write failed, 130 interrupted. A failure is told in one line on standard error. Nothing is thrown.
+// 5 a write failed, 130 interrupted. A failure is one line on standard error. Nothing is thrown.
 int run_program(int argc, char** argv);
 
-// What the commands share while the program runs.
+// The state that the commands share while the program runs.
 struct Program {
   Console console;
   std::function<Status()> chosen;  // the command that was asked for, ready to run
 };
 
-// What --help says about a command.
+// The help of a command.
 struct CommandHelp {
   const char* name;
   const char* summary;      // one line for the list of commands

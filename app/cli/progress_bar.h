@@ -1,4 +1,4 @@
-// A line on the terminal that shows how far the work has come.
+// A progress bar on the terminal.
 #pragma once
 
 #include <chrono>
@@ -20,7 +20,7 @@ class ProgressBar {
   void show(double fraction, std::string_view what);  // fraction in 0..1; any thread
   void clear();
 
-  // The line that show() draws: a bar of 30 characters, per cent, and what is being done.
+  // The line that show() draws: a bar of 30 characters, per cent, and the present work.
   [[nodiscard]] static std::string line(double fraction, std::string_view what);
 
  private:

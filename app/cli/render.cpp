@@ -64,7 +64,7 @@ WindowLevel window_of(const RenderOptions& options, const Volume& source) {
   if (options.window) return {(*options.window)[0], (*options.window)[1]};
   return tidemark::window_of(source);
 }
-// What depends on the study: where the middle is and which values are common.
+// Fills in the facts of the study: its middle and its common values.
 void place(Views& views, const RenderOptions& options, const Volume& source, const Field& phi,
            double aspect) {
   views.volume.window = views.slice.window = window_of(options, source);

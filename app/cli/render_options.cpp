@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kLargestPicture = 8192;
 
-// A word of an option and what it means.
+// A word of an option and its meaning.
 template <class Value>
 using Words = std::initializer_list<std::pair<const char*, Value>>;
 
@@ -105,7 +105,7 @@ Result<TransferFunction> transfer_function(const RenderOptions& options) {
   return function;
 }
 
-// What needs no volume yet.
+// The checks that need no volume.
 Result<VolumeView> volume_view(const RenderOptions& options) {
   VolumeView view;
   const auto mode = meaning("--mode", options.mode, kModes);

@@ -1,4 +1,4 @@
-// What `tidemark-cli render` can be asked for.
+// The options of `tidemark-cli render`.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -43,8 +43,8 @@ struct RenderOptions {
   std::string out;
 };
 
-// The views that the options ask for, less what depends on the study: where its middle is, which values are
-// common.
+// The views of the options, but for the facts that only the study knows: its middle, and its common
+// values.
 struct Views {
   PictureSize size;
   VolumeView volume;
@@ -55,8 +55,8 @@ struct Views {
 bool has_surface(const RenderOptions& options);
 bool has_speed(const RenderOptions& options);
 
-// Checks all options, whether the view that is asked for uses them or not. Fails (ErrorKind::usage, or
-// ErrorKind::input for what is wrong in a file of a transfer function).
+// Checks all options, also those that the chosen view does not use. Fails (ErrorKind::usage, or
+// ErrorKind::input for an error in a file of a transfer function).
 Result<Views> views_of(const RenderOptions& options);
 
 void add_render_options(CLI::App& command, RenderOptions& options);

@@ -1,4 +1,4 @@
-// tidemark-cli replay: does again what a recipe says.
+// tidemark-cli replay: the replay of a recipe.
 #include <memory>
 
 #include "app/cli/program.h"
@@ -39,7 +39,7 @@ Status check(const ReplayArguments& arguments, ResultWriter& writer) {
   return {};
 }
 
-// What a replay left, with the figures that segment tells, too.
+// The outcome of a replay, with the figures of segment.
 RunResults results_of(const Recipe& recipe, const Volume& volume, Replay replayed,
                       const ReplayArguments& arguments) {
   RunResults results;

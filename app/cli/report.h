@@ -12,7 +12,7 @@
 
 namespace tidemark::cli {
 
-// What a run of the solver leaves to be told.
+// The figures of a run of the solver.
 struct RunFigures {
   std::string executor;
   int threads = 1;
@@ -21,7 +21,7 @@ struct RunFigures {
   std::string unit;  // of the values
   std::string description;
   std::string series_uid;            // empty when it was not asked for by UID
-  std::vector<std::string> changes;  // what loading found and changed
+  std::vector<std::string> changes;  // found and changed by loading
   std::string start;
   Parameters parameters;
   std::optional<double> smooth_mm;

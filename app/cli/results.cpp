@@ -153,7 +153,7 @@ Status ResultWriter::stage(const RunResults& results) {
   return stage_text(options_.recipe, *text);
 }
 
-// The slices go through the middle of what was found, and the camera looks at it.
+// The slices go through the middle of the segmented region, and the camera looks at it.
 Result<Picture> ResultWriter::draw(const RunResults& results) {
   auto renderer = Renderer::create(device_, results.source, results.phi.layout);
   if (!renderer) return pass_on(renderer);

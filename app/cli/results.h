@@ -1,4 +1,4 @@
-// What commands that run the level set write: masks, segments, surfaces, phi, figures, pictures, recipes.
+// The results of commands that run the level set: masks, segments, surfaces, phi, figures, pictures, recipes.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -23,7 +23,7 @@ namespace tidemark::cli {
 struct ResultOptions {
   std::vector<std::string> out;
   std::string out_phi, rtstruct, stats, picture, recipe;
-  LabelArgument label;  // what DICOM results say about the segment
+  LabelArgument label;  // the segment in DICOM results
 };
 void add_result_options(CLI::App& app, ResultOptions& options);
 
@@ -42,12 +42,12 @@ class ResultWriter {
  public:
   ResultWriter(ResultOptions options, Console& console) : options_(std::move(options)), console_(console) {}
 
-  // Everything that can be found out before the long work: names, folders, whether pictures can be drawn.
+  // All checks that are possible before the long work: names, folders, whether pictures can be drawn.
   Status prepare();
   [[nodiscard]] Status spare(const std::string& input) const { return outputs_.spare(input); }
   [[nodiscard]] bool wants_recipe() const;
 
-  // Writes all files, or none, and says so.
+  // Writes all files, or none, and prints their names.
   Status write(const RunResults& results);
 
  private:

@@ -147,7 +147,7 @@ Status Segmentation::load_true_segments() {
   return {};
 }
 
-// Fills in what the user has left open.
+// Fills in the options that the user has left out.
 Status Segmentation::suggest() {
   if (!options_.auto_start) return {};
   const bool needs_seed = !options_.start.given();

@@ -76,7 +76,7 @@ Status check_numbers(const SegmentOptions& options) {
   if (options.max_steps && *options.max_steps < 1)
     return fail(ErrorKind::usage, "--max-steps: must be at least 1");
   if (options.truth_label && !options.truth) return fail(ErrorKind::usage, "--truth-label needs --truth");
-  // What --auto-start fills in is within the limits; the rest is checked now.
+  // The values of --auto-start are within the limits; the others are checked now.
   SegmentOptions filled = options;
   if (options.auto_start) {
     filled.target = options.target.value_or(0.0);

@@ -1,4 +1,4 @@
-// What `tidemark-cli segment` can be asked for.
+// The options of `tidemark-cli segment`.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -40,7 +40,7 @@ struct SegmentOptions {
 
 void add_segment_options(CLI::App& app, SegmentOptions& options);
 
-// Everything that can be checked before a file is read, the results apart.
+// All checks that need no file, but for the results.
 Status check(const SegmentOptions& options);
 // The files that are read.
 [[nodiscard]] std::vector<std::string> inputs_of(const SegmentOptions& options);

@@ -13,7 +13,7 @@
 namespace tidemark::cli {
 
 struct SolverOptions {
-  std::optional<ExecutorKind> kind;              // unset: what the command takes otherwise
+  std::optional<ExecutorKind> kind;              // unset: the command's default
   std::optional<std::int64_t> threads;           // unset: all processors
   std::optional<std::int64_t> memory_budget_mb;  // unset: the executor's own limit
   bool no_skip = false;
@@ -21,7 +21,7 @@ struct SolverOptions {
   [[nodiscard]] ExecutorOptions executor_options() const;
 };
 
-// --executor, --threads, --memory-budget and --no-skip; `otherwise` says what computes without --executor.
+// --executor, --threads, --memory-budget and --no-skip; `otherwise` names the executor without --executor.
 void add_solver_options(CLI::App& app, SolverOptions& options, const std::string& otherwise = "auto");
 
 // How many threads that executor computes with.

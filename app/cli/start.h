@@ -1,4 +1,4 @@
-// Where the level set starts: a mask, a threshold, a saved phi, seeds and erasers.
+// The start of a level set on the command line: a mask, a threshold, a saved phi, seeds and erasers.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -13,7 +13,7 @@
 
 namespace tidemark::cli {
 
-// At most one of the init options; seeds are added to it, then erasers are taken away.
+// At most one of the init options; seeds are added to it, then erasers are subtracted.
 struct StartOptions {
   std::vector<SphereArgument> seeds;
   std::vector<SphereArgument> erasers;
@@ -27,10 +27,10 @@ struct StartOptions {
 
 void add_start_options(CLI::App& app, StartOptions& options);
 
-// What needs no volume: at most one init option, limits in order. Fails with ErrorKind::usage.
+// The checks without a volume: at most one init option, limits in order. Fails with ErrorKind::usage.
 Status check(const StartOptions& options);
 
-// What needs the volume's grid: every centre inside it. Fails with ErrorKind::usage.
+// The check on the volume's grid: every centre lies inside it. Fails with ErrorKind::usage.
 Status check_inside(const StartOptions& options, const Geometry& geometry);
 
 // The start with its files read. `grid` and `band` are those of the level set. Fails with ErrorKind::input

@@ -1,4 +1,4 @@
-// The study that a command works on, and what is done with slices that make no regular grid.
+// The study that a command works on, and the options for slices that make no regular grid.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -16,11 +16,11 @@ struct StudyInput {
   std::optional<GridPolicy::Tilt> tilt;
   std::optional<GridPolicy::Gaps> gaps;
 
-  // What was asked for over what holds otherwise.
+  // The given options, else the defaults.
   [[nodiscard]] GridPolicy policy(const GridPolicy& otherwise = {}) const;
 };
 
-// INPUT and what add_series_options() adds.
+// INPUT and the options of add_series_options().
 void add_study_input(CLI::App& app, StudyInput& study);
 // --series, --tilt and --gaps; `holder` is what may hold several series.
 void add_series_options(CLI::App& app, StudyInput& study, const std::string& holder);
@@ -28,7 +28,7 @@ void add_series_options(CLI::App& app, StudyInput& study, const std::string& hol
 void add_grid_options(CLI::App& app, StudyInput& study);
 
 // The series that load_study() takes, before any voxel is read. Where filling gaps would make one loadable,
-// the failure says how.
+// the error names the option.
 Result<ChosenSeries> find_study(const StudyInput& study, const Progress& progress,
                                 const GridPolicy& otherwise = {});
 Result<LoadedSeries> load_study(const StudyInput& study, const Progress& progress,

@@ -1,4 +1,4 @@
-// What a report of a problem has to say about the machine: the text of `tidemark --diagnostics`.
+// The text of `tidemark --diagnostics`: the facts about the machine that a report of a problem needs.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace tidemark {
 
-// Holds nothing about patients, users or files, so that it can be sent to anybody as it is.
+// Holds nothing about patients, users or files, so that it can be sent to anyone unchanged.
 struct Diagnostics {
   std::string version;      // of Tidemark
   std::string qt_version;   // the one that runs, not the one that was built with
@@ -20,7 +20,7 @@ struct Diagnostics {
   std::string graphics_problem;  // why not more; may be empty
   std::optional<gpu::Capabilities> opengl;
 
-  std::string automatic_executor;  // what `auto` takes here: "compute" or "host"
+  std::string automatic_executor;  // the choice of `auto` here: "compute" or "host"
   std::string instruction_set;     // of the host executor
 
   std::string system;  // from here on: see describe_machine()
@@ -30,7 +30,7 @@ struct Diagnostics {
   std::int64_t free_memory_bytes = 0;
 };
 
-// Fills in what the operating system knows; never the machine's name.
+// Fills in the facts of the operating system; never the machine's name.
 void describe_machine(Diagnostics& diagnostics);
 
 // One "name: value" a line, in English whatever the locale.

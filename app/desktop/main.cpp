@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
   QCoreApplication::setApplicationName("tidemark");
   QCoreApplication::setApplicationVersion(TIDEMARK_VERSION);
   QApplication application(argc, argv);
-  // Qt has set the system's locale; what is parsed and written has a point in its numbers everywhere.
+  // Qt has set the system's locale; numbers are parsed and written with a point everywhere.
   std::setlocale(LC_NUMERIC, "C");
 
   QCommandLineParser parser;

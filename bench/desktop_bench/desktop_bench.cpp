@@ -87,7 +87,7 @@ void measure_rates(CaseWindow& window, double seconds) {
               static_cast<double>(proxy.state().step - step) / passed);
 }
 
-// From a change of what is to be seen to the first picture of it.
+// From a change of the view to the first picture of it.
 void measure_latency(CaseWindow& window) {
   for (PictureView* view : window.views()) {
     std::vector<double> times;

@@ -34,7 +34,7 @@ constexpr const char* kTidemark = "tidemark";
 constexpr const char* kItk = "itk";
 constexpr const char* kList = "list";
 
-// What a process of its own does.
+// The work of a process of its own.
 int measure(const std::string& what, const fs::path& folder) {
   std::int64_t sum = 0;
   if (what == kItk) sum = bench::read_with_itk(folder);

@@ -16,7 +16,7 @@ namespace tidemark::bench {
 // Threads for everything that can use more than one.
 inline constexpr int kThreads = 2;
 
-// What a number of steps cost. Zero where a contestant does not count it.
+// The cost of a number of steps. Zero where a contestant does not count it.
 struct Cost {
   std::int64_t steps = 0;  // fewer than asked for when the contestant has ended by itself
   double seconds = 0.0;
@@ -50,7 +50,7 @@ struct Convergence {
 
 struct ContestantKind {
   std::string name;         // for --only and JSON
-  std::string description;  // what it is, how many threads
+  std::string description;  // its name and its threads
   std::function<Result<std::unique_ptr<Contestant>>(const Problem&)> make;
   std::function<Result<Convergence>(const Problem&)> converge;  // empty: has no criterion of its own
 };
@@ -64,7 +64,7 @@ ContestantKind itk_threshold();
 ContestantKind itk_parallel_sparse();
 ContestantKind openvdb_tracker();
 ContestantKind dense_stencil();
-// The host executor; skip_quiet_pages is how users get it.
+// The host executor; users get it with skip_quiet_pages.
 ContestantKind tidemark_host(bool skip_quiet_pages);
 
 // All of them, ours last.

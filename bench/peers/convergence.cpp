@@ -13,7 +13,7 @@ struct Entry {
   Convergence last;
 };
 
-// What a step costs once the surface has stopped and its pages have gone quiet, in % of a step of the same
+// The cost of a step once the surface has stopped and its pages are quiet, in % of a step of the same
 // surface that computes every page.
 Result<double> converged_step_percent(const Problem& problem, int rounds) {
   auto quiet = tidemark_host(true).make(problem);

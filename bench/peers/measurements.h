@@ -1,4 +1,4 @@
-// What is measured. Each adds its tables and its goals to the report.
+// The measurements of peers. Each adds its tables and its goals to the report.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ double median(std::vector<double> values);
 // Steps/s at the beginning, in the middle and at the end of an evolution, voxel updates/s, paging.
 Status measure_stages(const Problem& problem, const Settings& settings, Report& report);
 
-// Seconds from source to mask by each contestant's own criterion, Dice, and what a step costs afterwards.
+// Seconds from source to mask by each contestant's own criterion, Dice, and the cost of a step afterwards.
 Status measure_convergence(const Problem& problem, const Settings& settings, Report& report);
 
 // Peak memory of each contestant, measured in a process of its own, and what our executor says of its state.

@@ -1,4 +1,4 @@
-// Runs an ITK filter a few iterations at a time.
+// An ITK filter that runs a few iterations at a time.
 #pragma once
 
 #include <itkCommand.h>
@@ -16,8 +16,8 @@
 namespace tidemark::bench {
 
 // ITK's filters run to their end in one call, and work on the whole volume before and after. This one runs
-// in a thread of its own and is held at the end of each iteration until more are asked for, so that nothing
-// but iterations is timed and several contestants can take turns.
+// in a thread of its own and is held at the end of each iteration until the next request, so that only
+// iterations are timed and several contestants can take turns.
 template <class Filter>
 class PacedFilter final : public Contestant {
  public:
@@ -29,7 +29,7 @@ class PacedFilter final : public Contestant {
     command->SetCallbackFunction(this, &PacedFilter::end_iteration);
     filter_->AddObserver(itk::IterationEvent(), command);
     thread_ = std::jthread([this] { run(); });
-    // Set-up and the first iteration, which is not told apart from it, are over when the filter waits.
+    // Set-up, together with the first iteration, is over when the filter waits.
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return waiting_ || ended_; });
   }

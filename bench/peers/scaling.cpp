@@ -10,7 +10,7 @@ namespace {
 constexpr std::int64_t kSide = 256;
 constexpr double kRange = 4.0;
 
-// The distance from the centre, so that a sphere of radius r rests near T = r - epsilon.
+// The distance from the centre, so that a sphere of radius r stops near T = r - epsilon.
 Volume distance_volume() {
   Volume volume;
   volume.geometry.size = Index3(kSide);

@@ -166,7 +166,7 @@ class Bench {
       QualityControl control;
       PictureSize size;
       double seconds = 0.0;
-      for (int i = -10; i < kPictures; ++i) {  // the first ones compile, and tell what a pixel takes
+      for (int i = -10; i < kPictures; ++i) {  // the first ones compile, and measure a pixel's cost
         control.moved();
         const Pass pass = *control.next({options_.side, options_.side});
         view.camera.azimuth = 3.0 * i;

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "imaging/archive/zip_directory.h"
+#include "imaging/guard/zip_directory.h"
 
 namespace tidemark {
 namespace {

@@ -7,11 +7,12 @@
 #include <algorithm>
 
 #include "imaging/dicom/decimal.h"
+#include "imaging/dicom/element_text.h"
 
 namespace tidemark {
 namespace {
 
-// Without a known representation, as private elements are where representations are not written down.
+// Without a known representation, like private elements of implicit coding.
 bool is_bytes(DcmElement& element) {
   switch (element.ident()) {
     case EVR_OB:
@@ -25,7 +26,7 @@ bool is_bytes(DcmElement& element) {
   }
 }
 
-// Bytes that can be nothing but text; empty when they can.
+// Bytes that can only be text; empty when they may be something else.
 std::string printable_text(DcmElement& element) {
   Uint8* bytes = nullptr;
   if (element.getUint8Array(bytes).bad() || bytes == nullptr) return {};
@@ -44,15 +45,8 @@ std::string name_of(const DcmTagKey& key) {
 std::string AttributeReader::text(const DcmTagKey& key) const {
   DcmElement* element = nullptr;
   if (item_.findAndGetElement(key, element).bad() || element == nullptr) return {};
-  constexpr Uint32 kLongest = 1U << 20;
-  if (element->getLength() > kLongest) return {};
-  OFString value;
-  std::string result;
-  if (is_bytes(*element)) {
-    result = printable_text(*element);
-  } else if (element->getOFStringArray(value).good()) {
-    result = value.c_str();
-  }
+  if (element->getLength() > kLongestText) return {};
+  std::string result = is_bytes(*element) ? printable_text(*element) : element_text(*element);
   result.erase(result.find_last_not_of(' ') + 1);
   return result;
 }

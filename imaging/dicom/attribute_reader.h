@@ -23,14 +23,14 @@ class AttributeReader {
   // any that is read (1 MiB).
   [[nodiscard]] std::string text(const DcmTagKey& key) const;
 
-  // The text of what is kept of every slice: a UID, a code or a name, of which no more than 256 bytes are. A
-  // file of many slices could make much of a long one otherwise.
+  // A text that is kept for every slice (a UID, a code or a name), cut to 256 bytes. A file of many slices
+  // could otherwise take much memory by a long one.
   [[nodiscard]] std::string name(const DcmTagKey& key) const;
 
   // Nothing when absent or empty; a problem when it is not `count` numbers (at least one when count is 0).
   std::optional<std::vector<double>> decimals(const DcmTagKey& key, std::size_t count);
 
-  // The first of the numbers. What is no number counts as absent: for what only helps.
+  // The first of the numbers. Text that is no number counts as absent: for attributes that only help.
   [[nodiscard]] std::optional<double> number(const DcmTagKey& key) const;
 
   // A size or a count of bits, whatever integer representation it comes in; a problem when it is absent or

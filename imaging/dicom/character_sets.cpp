@@ -31,7 +31,7 @@ bool is_japanese(const std::string& character_set) {
   return names("IR 13") || names("IR 87") || names("IR 159");
 }
 
-// Which table the bytes below 0x80 are of, as escape sequences say it (PS3.3 C.12.1.1.2).
+// The table of the bytes below 0x80, set by escape sequences (PS3.3 C.12.1.1.2).
 enum class JapaneseTable { latin, jis_x0208, jis_x0212 };
 
 struct Escape {

@@ -7,7 +7,7 @@
 namespace tidemark {
 
 // UTF-8 of `text`, which is in `character_set` (0008,0005). `delimiters`: characters after which the default
-// character set holds again (PS3.5 6.1.2.5.3), "^=" in names of persons. Bytes that make no sense become
+// character set holds again (PS3.5 6.1.2.5.3), "^=" in names of persons. Bytes that are no characters become
 // question marks.
 [[nodiscard]] std::string in_utf8(std::string text, const std::string& character_set,
                                   const std::string& delimiters = {});

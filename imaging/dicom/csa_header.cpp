@@ -70,7 +70,7 @@ std::vector<double> csa_numbers(std::span<const std::uint8_t> header, std::strin
       const auto one = reader.number();
       const auto two = reader.number();
       if (!one || !two || !reader.take(8)) return {};
-      // The first form says by how much its length is more than the first element's items.
+      // The first form gives the length by its excess over the first element's items.
       const std::uint32_t length = is_second_form ? *two : *one - *first_items;
       const auto value = reader.take(length);
       if (!value || !reader.take((4 - length % 4) % 4)) return {};

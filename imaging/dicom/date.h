@@ -9,8 +9,8 @@ namespace tidemark {
 // none. A date's digits are checked, not the calendar.
 [[nodiscard]] std::string iso_date(std::string text);
 
-// In years, months or days, as DICOM writes ages: "45Y"; two such dates. Empty where one is not in the
-// calendar, or nobody is as old.
+// The time between two such dates in years, months or days, as DICOM writes ages: "45Y". Empty where a date
+// is not in the calendar, or the age is beyond any person's.
 [[nodiscard]] std::string age_between(const std::string& birth, const std::string& study);
 
 }  // namespace tidemark

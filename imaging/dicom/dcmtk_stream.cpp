@@ -64,7 +64,7 @@ class Stream : public DcmInputStream {
  public:
   Stream(ByteSource& source, std::int64_t at)
       : DcmInputStream(&producer_), source_(source), producer_(source, at), begin_(at) {}
-  // For a value that is read later. What is inflated cannot be read again from its middle.
+  // For a value that is read later. An inflated stream cannot be read again from its middle.
   [[nodiscard]] DcmInputStreamFactory* newFactory() const override;
 
  private:

@@ -1,18 +1,18 @@
-// DCMTK over bytes that were checked. By the file's name it would open it a second time, and find there what
-// somebody has put in its place meanwhile.
+// A stream for DCMTK over bytes that were checked. By its name DCMTK would open the file a second time, and
+// find there what somebody has put in its place meanwhile.
 #pragma once
 
 #include <string>
 
-#include "imaging/dicom/byte_source.h"
 #include "imaging/dicom/transfer_syntaxes.h"
+#include "imaging/guard/byte_source.h"
 
 class DcmFileFormat;
 
 namespace tidemark {
 
-// Parses all bytes, in that transfer syntax; long values are read when they are asked for, so that the bytes
-// must outlive `loaded`. Returns what is wrong, in DCMTK's words; empty when nothing is.
+// Parses all bytes, in that transfer syntax. Long values are read on demand, so that the bytes must outlive
+// `loaded`. Returns the error in DCMTK's words; empty when there is none.
 [[nodiscard]] std::string parse_dicom(ByteSource& bytes, const TransferSyntax& syntax, DcmFileFormat& loaded);
 
 }  // namespace tidemark

@@ -1,7 +1,7 @@
-// What tells a DICOM file from others.
+// The detection of DICOM files.
 #pragma once
 
-#include "imaging/dicom/byte_source.h"
+#include "imaging/guard/byte_source.h"
 
 namespace tidemark {
 

@@ -23,7 +23,7 @@ Result<Catalogue> scan_dicom(const std::filesystem::path& path, const Progress& 
 // Decodes the frames of a loadable series (in parallel) into one volume.
 Result<Volume> load_dicom(const Series& series, const Progress& progress = {});
 
-// What a written series says about itself.
+// The attributes of a written series.
 struct DicomSeriesHeader {
   std::string modality = "MR";  // "CT" or "MR": the storage class that is written
   std::string patient_name = "Phantom";
@@ -34,7 +34,7 @@ struct DicomSeriesHeader {
 
 // Writes the volume (int16 or uint16) into `folder`, created if need be, as one classic single-frame
 // CT or MR Image Storage file a slice, explicit little endian, with UIDs from the 2.25 root. The series
-// appears whole or not at all: what is in the folder stays as it is on failure (ErrorKind::write).
+// appears whole or not at all: on failure (ErrorKind::write) the folder is unchanged.
 Status write_dicom_series(const Volume& volume, const DicomSeriesHeader& header,
                           const std::filesystem::path& folder, const Progress& progress = {});
 

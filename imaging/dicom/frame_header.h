@@ -1,12 +1,12 @@
-// What a compressed frame says of its own size, before a decoder takes memory for it.
+// A compressed frame's own size, read before a decoder takes memory for it.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
 
-#include "imaging/dicom/byte_source.h"
 #include "imaging/dicom/transfer_syntaxes.h"
+#include "imaging/guard/byte_source.h"
 
 namespace tidemark {
 
@@ -23,8 +23,8 @@ struct FrameSize {
 [[nodiscard]] std::optional<FrameSize> read_frame_size(FrameCoding coding, ByteReader& reader,
                                                        std::int64_t begin, std::int64_t end);
 
-// Why a frame of that size is none of an image of `expected` size (its tiles do not count), in one line about
-// PixelData; empty when it is.
+// The reason why a frame of that size is none of an image of `expected` size (its tiles do not count), in one
+// line about PixelData; empty when it is one.
 [[nodiscard]] std::string frame_problem(FrameCoding coding, const std::optional<FrameSize>& size,
                                         const FrameSize& expected);
 

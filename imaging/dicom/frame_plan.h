@@ -1,4 +1,4 @@
-// In which frames of which files the slices of a series are, and those files while they are needed.
+// The plan of a series' slices in frames of files, and those files while they are needed.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class FramePlan {
   // In the order of the slices.
   [[nodiscard]] const std::vector<FrameWork>& work() const { return work_; }
 
-  // A file is opened once, and closed when all its work is done; again for work that is done again. For any
+  // A file is opened once, and closed when all its work is done. Repeated work opens it again. For any
   // thread.
   Result<std::shared_ptr<const FrameReader>> open(const FrameWork& work);
   void is_done(const FrameWork& work);

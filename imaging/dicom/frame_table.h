@@ -1,4 +1,4 @@
-// Where each frame of an image's pixel data lies.
+// The place of each frame in an image's pixel data.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct FramePiece {
 class FrameTable {
  public:
   // Follows the offset table, or without one the number of fragments, or where a fragment begins a stream.
-  // `fragments` as the preflight found them good. The error is one line about PixelData.
+  // `fragments` have passed the preflight. The error is one line about PixelData.
   static tl::expected<FrameTable, std::string> read(const Fragments& fragments, FrameCoding coding,
                                                     ByteSource& bytes, std::int64_t frames);
 

@@ -104,7 +104,7 @@ std::vector<SliceHeader> refuse(SliceHeader whole, std::string problem) {
 }
 
 std::vector<SliceHeader> read_grouped_frames(AttributeReader& in, SliceHeader whole) {
-  // What stands outside the groups is not about a frame.
+  // Attributes outside the groups are not about a frame.
   whole.position_mm.reset();
   if (DcmItem* shared = in.first_item(DCM_SharedFunctionalGroupsSequence)) GroupReader(*shared, whole).read();
   if (!whole.problem.empty()) return refuse(std::move(whole), {});
@@ -117,7 +117,7 @@ std::vector<SliceHeader> read_grouped_frames(AttributeReader& in, SliceHeader wh
     return refuse(std::move(whole), problem);
   }
   std::vector<SliceHeader> frames;
-  // By steps: getting an item by its number counts from the first one.
+  // Step by step: access by number would count from the first item each time.
   for (DcmObject* item = sequence->nextInContainer(nullptr); item != nullptr;
        item = sequence->nextInContainer(item)) {
     SliceHeader frame = whole;
@@ -181,7 +181,7 @@ bool is_reconstruction(const AttributeReader& in) {
 std::vector<SliceHeader> read_frames(DcmItem& dataset, SliceHeader whole) {
   std::string problem;
   AttributeReader in(dataset, problem);
-  const std::string sop_class = in.text(DCM_SOPClassUID);
+  const std::string sop_class = in.name(DCM_SOPClassUID);
   const char* known = dcmFindNameOfUID(sop_class.c_str());
   const std::string name = known != nullptr ? known : "unknown SOP class " + sop_class;
   const bool has_groups = in.item().tagExists(DCM_PerFrameFunctionalGroupsSequence) ||

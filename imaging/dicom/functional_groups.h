@@ -10,9 +10,9 @@ class DcmItem;
 
 namespace tidemark {
 
-// The headers of all frames of the image with that dataset, made from what the dataset itself says (`whole`).
-// A single header with a problem where what the frames have in common, or one of them, makes no sense, or
-// nothing says where each of them lies.
+// The headers of all frames of the image with that dataset, made from the dataset's own attributes (`whole`).
+// A single header with a problem where the common attributes or those of a frame make no sense, or the places
+// of the frames are missing.
 [[nodiscard]] std::vector<SliceHeader> read_frames(DcmItem& dataset, SliceHeader whole);
 
 }  // namespace tidemark

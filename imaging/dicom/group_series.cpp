@@ -36,7 +36,7 @@ std::string reason_of_rest(const Group& rest) {
                      name, rest.size() - 1);
 }
 
-// One series, or each of the volumes in it and what is left.
+// One series, or each of the volumes in it and the images left over.
 std::vector<Series> arrange_parts(Group group) {
   auto parts = split_series(std::move(group));
   const auto volumes =

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An enhanced image says on every frame where it lies; beyond this many a file is not believed.
+// The most frames of an enhanced image, which has a place for each; more are damage.
 constexpr std::int64_t kMostFrames = 65535;
 
 std::int64_t read_number_of_frames(AttributeReader& in) {
@@ -100,7 +100,7 @@ Status require_image(DcmFileFormat& loaded, const SliceHeader& header) {
                 name_of(DCM_SOPClassUID));
   }
   const char* known = dcmFindNameOfUID(sop_class.c_str());
-  const std::string what = known != nullptr ? known : sop_class.c_str();
+  const std::string what = known != nullptr ? known : std::string(sop_class.c_str()).substr(0, 80);
   if (!has_rows && !dcmIsImageStorageSOPClassUID(sop_class.c_str())) {
     return fail(ErrorKind::input, "{}: holds no image ({})", header.file.string(), what);
   }
@@ -124,7 +124,7 @@ std::string describe(const Preflight& checked) {
   return fmt::format("{}{} {} (at byte {})", is_damaged ? "is damaged: " : "", element, what, offset);
 }
 
-// All that is known of a file that cannot be parsed.
+// The header of a file that cannot be parsed.
 SliceHeader header_without_image(const fs::path& file, const Preflight& checked) {
   SliceHeader header;
   header.file = file;
@@ -134,7 +134,7 @@ SliceHeader header_without_image(const fs::path& file, const Preflight& checked)
   return header;
 }
 
-// What the dataset itself says, about all its frames.
+// The dataset's own attributes, which hold for all its frames.
 Result<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file, const TransferSyntax& syntax) {
   DcmDataset& dataset = *loaded.getDataset();
   SliceHeader header;
@@ -196,7 +196,7 @@ Result<std::vector<SliceHeader>> read_slices(DcmFileFormat& loaded, const fs::pa
   return slices;
 }
 
-// A file that is to be read, and what the preflight says of it.
+// A file to be read, and its preflight.
 struct CheckedFile {
   FileBytes bytes;
   Preflight checked;

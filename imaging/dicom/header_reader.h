@@ -1,13 +1,13 @@
-// From a DICOM file to a SliceHeader, and what stands before DCMTK for files of other kinds.
+// The reader from a DICOM file to a SliceHeader, and the refusal of files of other kinds before DCMTK.
 #pragma once
 
 #include <filesystem>
 #include <vector>
 
 #include "core/result.h"
-#include "imaging/dicom/byte_source.h"
 #include "imaging/dicom/preflight.h"
 #include "imaging/dicom/slice_header.h"
+#include "imaging/guard/byte_source.h"
 
 namespace tidemark {
 

@@ -27,7 +27,7 @@ OFCondition failure(const std::string& why) {
   return makeOFCondition(OFM_dcmdata, kCode, OF_error, why.c_str());
 }
 
-// What the dataset says about the frame.
+// The dataset's attributes of the frame.
 struct FrameFormat {
   Uint16 rows = 0;
   Uint16 columns = 0;

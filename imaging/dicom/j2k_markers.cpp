@@ -34,7 +34,7 @@ class Codestream {
   Status check(std::size_t& steps) const {
     std::size_t at = 2;  // behind SOC
     std::size_t tile_end = 0;
-    // What ends early is for the decoder to find.
+    // The decoder finds streams that end early.
     while (at + 4 <= bytes_.size()) {
       if (steps-- == 0) return damaged();
       const unsigned marker = word(at);

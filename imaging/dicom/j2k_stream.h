@@ -19,7 +19,7 @@ struct J2kImage {
 };
 
 // Decodes a codestream (or a JP2 file) of exactly one component of columns x rows; the size is compared
-// before memory is taken. Fails (ErrorKind::input) without naming a file, which is not known here. Trailing
+// before any allocation. Fails (ErrorKind::input) without naming the file, which is not known here. Trailing
 // bytes are allowed; a stream that ends early is not.
 [[nodiscard]] Result<J2kImage> decode_j2k(std::span<const std::uint8_t> bytes, std::int64_t columns,
                                           std::int64_t rows);

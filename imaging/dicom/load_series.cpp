@@ -26,7 +26,7 @@ std::string first_file(const Series& series) {
   return series.files.empty() ? series.uid : series.files.front().string();
 }
 
-// What the slices say together, and the first error among them. Shared by the decoding threads.
+// The joint findings of the slices, and the first error among them. Shared by the decoding threads.
 class Outcome {
  public:
   [[nodiscard]] bool has_failed() const { return failed_.load(std::memory_order_relaxed); }
@@ -89,7 +89,7 @@ class SeriesDecoder {
     });
   }
 
-  // Slices of the volume are made of images as the series' grid says.
+  // Slices of the volume are made of images by the series' grid.
   void resample(std::vector<Voxel>& voxels, const Progress& progress, Outcome& outcome) {
     SharedProgress shared(progress, series_.geometry.size.z, "decoding slices");
     std::vector<const FrameWork*> work_of(series_.sources.size());
@@ -106,7 +106,7 @@ class SeriesDecoder {
         {series_.grid, series_.stack.size, decode, [&] { shared.advance(); }, background()}, voxels);
   }
 
-  // Of voxels that no image covers: what the images have where nothing was measured, else air.
+  // The value of voxels that no image covers: the images' padding value, else air.
   std::optional<Voxel> background() const {
     std::optional<double> stored = first_.padding;
     if (!stored && first_.modality == "CT") stored = (kAir - first_.intercept) / first_.slope;
@@ -154,7 +154,7 @@ class SeriesDecoder {
     if (*ignored_bits) outcome.note_ignored_bits(k);
   }
 
-  // Null, and a failure, where the slice is not what the series needs.
+  // Null, and a failure, where the slice does not suit the series.
   const SliceHeader* header_of(const FrameReader& reader, std::int64_t k, Outcome& outcome) const {
     const SliceSource& source = series_.sources[static_cast<std::size_t>(k)];
     const SliceHeader* header = reader.slice(source.frame, source.tile);
@@ -196,7 +196,7 @@ class SeriesDecoder {
     }
   }
 
-  // Whether the slice still is as the series needs it.
+  // Whether the slice still suits the series.
   [[nodiscard]] bool has_kind(const SliceHeader& header) const {
     if (header.columns != series_.stack.size.x || header.rows != series_.stack.size.y) return false;
     return std::is_same_v<Voxel, float> ||
@@ -224,7 +224,7 @@ Status decode_into(const Series& series, const SliceHeader& first, FramePlan& pl
   return {};
 }
 
-// The header of the first slice tells what all have in common.
+// The header of the first slice has the attributes that all share.
 Result<SliceHeader> first_header(const Series& series, FramePlan& plan) {
   const SliceSource& source = series.sources.front();
   const auto reader = plan.open(plan.work().front());

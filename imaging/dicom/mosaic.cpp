@@ -15,9 +15,9 @@
 namespace tidemark {
 namespace {
 
-// More slices are in no mosaic; a file could say that each of its pixels is one.
+// The most slices of a mosaic; a file could claim that each of its pixels is one.
 constexpr double kMostTiles = 1024.0;
-// How far the normal that Siemens states may be from the one that follows from the orientation.
+// The largest deviation of the normal that Siemens states from that of the orientation.
 constexpr double kParallel = 1e-3;
 
 // The private element `element` of the block that `creator` has reserved in the group (PS3.5 7.8.1).
@@ -39,7 +39,7 @@ std::span<const std::uint8_t> csa_header(const AttributeReader& in) {
   return {bytes, count};
 }
 
-// What the file says about its mosaic, each of it twice or in one of two places.
+// The file's attributes of its mosaic, each given twice or in one of two places.
 struct Mosaic {
   double tiles = 0.0;
   std::optional<glm::dvec3> normal;  // from each slice to the next

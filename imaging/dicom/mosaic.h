@@ -12,7 +12,7 @@ namespace tidemark {
 [[nodiscard]] bool is_mosaic(DcmItem& dataset);
 
 // The headers of the mosaic's slices, made from that of the whole image. A single header with a problem when
-// how many they are, which way they follow each other or how far apart they are is not known.
+// the number of slices, their direction or their distance is not known.
 [[nodiscard]] std::vector<SliceHeader> read_tiles(DcmItem& dataset, SliceHeader whole);
 
 }  // namespace tidemark

@@ -1,4 +1,4 @@
-// Whether the pixel data of a DICOM file can be the frames that its Image Pixel module promises.
+// The check that a DICOM file's pixel data can be the frames that its Image Pixel module promises.
 #pragma once
 
 #include <array>
@@ -18,11 +18,11 @@ class PixelExtent {
 
   explicit PixelExtent(const TransferSyntax& syntax);
 
-  // For every element of the dataset, as the walk comes by it.
+  // To be called by the walk for every element of the dataset.
   void note(const ElementHeader& header, ByteReader& reader, const Fragments* fragments);
 
-  // One line without the file's name, or empty. Fields that are missing, or are no numbers, are not its
-  // concern: they are checked where they are read.
+  // One line without the file's name, or empty. Missing fields and those that are no numbers are checked by
+  // their reader, not here.
   [[nodiscard]] std::string problem(std::int64_t file_size) const;
   [[nodiscard]] std::int64_t offset() const { return pixels_ ? pixels_->begin : 0; }
 

@@ -7,7 +7,7 @@
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/frame_codec.h"
 #include "imaging/dicom/frame_header.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 
 namespace tidemark {
 namespace {
@@ -80,14 +80,14 @@ const SliceHeader* FrameReader::slice(std::int64_t frame, std::int64_t tile) con
   return &slices_[index];
 }
 
-// What messages begin with.
+// The begin of messages.
 std::string FrameReader::where(std::int64_t frame) const {
   const std::string file = slices_.front().file.string();
   if (frames() == 1) return file + ": PixelData (7FE0,0010)";
   return fmt::format("{}: PixelData (7FE0,0010), frame {},", file, frame + 1);
 }
 
-// A deflated dataset can be read forward only; what it inflates to is kept.
+// A deflated dataset can be read forward only; its inflated bytes are kept.
 Status FrameReader::inflate(const Preflight& checked) {
   const auto size = InflatedBytes::measure(*bytes_, checked.dataset, kLargestInflation);
   if (!size) return fail(ErrorKind::input, "{}: {}", slices_.front().file.string(), size.error().message);

@@ -18,8 +18,8 @@ struct FramePixels {
   bool ignored_bits = false;         // bits outside BitsStored were set and have been cleared
 };
 
-// A file whose header has been read, for as many of its frames as are wanted, each by itself: of a file of
-// many frames never more than one a thread is in memory. Only what a deflated file inflates to is kept.
+// A file whose header has been read. Each frame is decoded by itself: of a file of many frames no more than
+// one a thread is in memory. Only the inflated bytes of a deflated file are kept.
 class FrameReader {
  public:
   // Fails (ErrorKind::input), naming the file, when the header has a problem, or when the file does not say

@@ -27,7 +27,7 @@ std::string uid_of(const ElementHeader& header, ByteReader& reader) {
   return uid;
 }
 
-// For a message: a file may hold anything where a UID belongs.
+// A UID for a message: a file may hold any bytes in its place.
 std::string printable(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
@@ -87,7 +87,7 @@ class Check {
       conclude(Preflight::Verdict::damaged, {{}, *dataset, "is missing"});
       return std::nullopt;
     }
-    // Which DCMTK would take for more meta information.
+    // DCMTK would read it as more meta information.
     std::array<std::uint8_t, 2> group{};
     bytes_.read(*dataset, group);
     if (group[0] == 0x00 && group[1] == 0x02) {

@@ -13,9 +13,9 @@ namespace {
 
 using Slices = std::vector<SliceHeader>;
 
-// Less activity (Bq) was never given to anybody: it is written in another unit.
+// A smaller dose (Bq) is never given: such a number is in another unit.
 constexpr double kLeastDose = 1e5;
-// After so many half-lives nothing is left to be seen.
+// After so many half-lives no activity is left.
 constexpr double kMostHalfLives = 10.0;
 constexpr double kDay = 86400.0;
 
@@ -23,7 +23,7 @@ tl::unexpected<std::string> because(std::string reason) {
   return tl::unexpected<std::string>(std::move(reason));
 }
 
-// The value that all images agree upon.
+// The value that all images share.
 template <class Value>
 tl::expected<Value, std::string> common(const Slices& slices, std::optional<Value> QuantityHeader::*member,
                                         const char* name) {

@@ -1,4 +1,4 @@
-// What the values of images stand for, and in which unit.
+// The quantity that an image's values stand for, and its unit.
 #pragma once
 
 #include <optional>
@@ -20,11 +20,11 @@ struct ValueMapping {
   std::string unit;  // UCUM
 };
 
-// What one image says of it. Moments are seconds since 1970 by the scanner's clock.
+// The attributes of one image about its quantity. Moments are seconds since 1970 by the scanner's clock.
 struct QuantityHeader {
   std::string rescale_type;             // (0028,1054)
   std::optional<ValueMapping> mapping;  // of the RealWorldValueMappingSequence (0040,9096), when it is used
-  std::string unused_mapping;           // why there is such a sequence and it is not used; else empty
+  std::string unused_mapping;           // the reason why such a sequence is not used; else empty
   bool has_philips_scale = false;       // (2005,100E), which is not used
 
   // PET (PS3.3 C.8.9.1, C.8.9.2)
@@ -43,15 +43,15 @@ struct QuantityHeader {
 
 void read_quantity(DcmItem& dataset, SliceHeader& header);
 
-// The mapping that stands in the dataset, or in the groups of a frame; without one, what was read before
-// holds. It is used when it is the only one, linear, of all stored values of an MR image, to a unit of UCUM.
+// Reads the mapping of the dataset, or of the groups of a frame; without one the earlier mapping
+// stays. It is used when it is the only one, linear, of all stored values of an MR image, to a unit of UCUM.
 void read_mapping(DcmItem& item, SliceHeader& header);
 
 // Puts slope and intercept of the mapping in place of the image's own.
 void apply_mapping(SliceHeader& header);
 
-// Sets the series' unit and what its values are to be multiplied by: activity becomes SUVbw where the images
-// hold all that it takes, without contradiction. Returns why the images cannot make a volume, or nothing.
+// Sets the series' unit and the factor of its values: activity becomes SUVbw where the images hold all that
+// is needed, without contradiction. Returns the reason why the images cannot make a volume, or nothing.
 [[nodiscard]] std::optional<std::string> state_quantity(const std::vector<SliceHeader>& slices,
                                                         Series& series);
 

@@ -10,16 +10,14 @@
 
 #include "imaging/dicom/character_sets.h"
 #include "imaging/dicom/date.h"
+#include "imaging/dicom/element_text.h"
 
 namespace tidemark {
 namespace {
 
 std::string text(DcmItem& dataset, const DcmTagKey& key, const std::string& delimiters = {}) {
-  OFString value;
-  OFString character_set;
-  if (dataset.findAndGetOFStringArray(key, value).bad()) return {};
-  dataset.findAndGetOFStringArray(DCM_SpecificCharacterSet, character_set);
-  return tidied(in_utf8(value.c_str(), character_set.c_str(), delimiters));
+  return tidied(
+      in_utf8(element_text(dataset, key), element_text(dataset, DCM_SpecificCharacterSet), delimiters));
 }
 
 // The first `count` parts of a text between delimiters; those that it does not have are empty.
@@ -60,7 +58,7 @@ std::string sex(DcmItem& dataset) {
   return value == "F" || value == "M" || value == "O" ? value : std::string();
 }
 
-// The file's own ("045Y"; "000Y" is what is written when it is not known), else from the date of birth.
+// The file's own ("045Y"; some write "000Y" for unknown), else from the date of birth.
 std::string age(DcmItem& dataset, const std::string& study_date) {
   const std::string own = text(dataset, DCM_PatientAge);
   const std::size_t zeros = std::min(own.find_first_not_of('0'), own.size());

@@ -1,5 +1,5 @@
-// What stands in a classic image itself, and of an enhanced one in the groups of its frames: where the slice
-// lies, and what its stored values mean.
+// The reader of a slice's place and of the meaning of its stored values, from a classic image itself and from
+// the groups of an enhanced image's frames.
 #pragma once
 
 #include "imaging/dicom/attribute_reader.h"
@@ -7,7 +7,7 @@
 
 namespace tidemark {
 
-// What is absent stays as it is; what is there must be numbers (PS3.3 C.7.6.2).
+// Absent attributes change nothing; present ones must be numbers (PS3.3 C.7.6.2).
 void read_position(AttributeReader& in, SliceHeader& header);
 void read_orientation(AttributeReader& in, SliceHeader& header);
 void read_pixel_spacing(AttributeReader& in, SliceHeader& header);
@@ -15,7 +15,7 @@ void read_pixel_spacing(AttributeReader& in, SliceHeader& header);
 // Modality LUT (PS3.3 C.11.1): slope, intercept and the unit that they lead to.
 void read_rescale(AttributeReader& in, SliceHeader& header);
 
-// VOI LUT (PS3.3 C.11.2). A window that makes no sense is as good as none: it decides nothing.
+// VOI LUT (PS3.3 C.11.2). A window that makes no sense counts as none.
 void read_window(const AttributeReader& in, SliceHeader& header);
 
 }  // namespace tidemark

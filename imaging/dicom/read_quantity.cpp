@@ -8,19 +8,18 @@
 
 #include "imaging/dicom/date.h"
 #include "imaging/dicom/decimal.h"
+#include "imaging/dicom/element_text.h"
 #include "imaging/dicom/quantity.h"
 #include "imaging/dicom/slice_header.h"
 
 namespace tidemark {
 namespace {
 
-// Codes and numbers are ASCII; what is not would spoil a message.
+// Codes and numbers are ASCII; other characters would spoil a message.
 std::string text(DcmItem& item, const DcmTagKey& key) {
   constexpr std::size_t kLongest = 256;
-  OFString value;
-  if (item.findAndGetOFStringArray(key, value).bad()) return {};
-  std::string result(value.c_str(), std::min<std::size_t>(value.size(), kLongest));
-  result.erase(result.find_last_not_of(std::string_view(" \0", 2)) + 1);
+  std::string result = element_text(item, key).substr(0, kLongest);
+  result.erase(result.find_last_not_of(' ') + 1);
   std::replace_if(
       result.begin(), result.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
   return result;
@@ -111,7 +110,7 @@ std::optional<double> mapped_value(DcmItem& item, const DcmTagKey& whole, const 
   return is_signed ? static_cast<double>(static_cast<Sint16>(word)) : static_cast<double>(word);
 }
 
-// Why the mapping is not used; empty when it is.
+// The reason why the mapping is not used; empty when it is.
 std::string take_mapping(DcmItem& item, SliceHeader& header) {
   if (header.modality != "MR") return "it is used in MR only";
   ValueMapping mapping;

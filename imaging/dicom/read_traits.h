@@ -1,4 +1,4 @@
-// What tells the volumes of one series apart, as files say it.
+// The attributes that tell the volumes of one series apart.
 #pragma once
 
 #include "imaging/dicom/attribute_reader.h"
@@ -6,8 +6,8 @@
 
 namespace tidemark {
 
-// Of a classic image, or of the attributes that a converted image has kept of one. What is absent stays as it
-// is.
+// Of a classic image, or of the attributes that a converted image has kept of one. Absent attributes change
+// nothing.
 void read_traits(const AttributeReader& in, SliceTraits& traits);
 
 // The first three numbers as a vector; nothing when there are fewer.

@@ -14,10 +14,10 @@ namespace {
 
 // Gantries are tilted by at most 30 degrees; beyond this slices have little to do with each other.
 constexpr double kLargestTilt = 45.0;
-// For each voxel of the slices: what is made up is not the most of a volume, and headers cannot ask for any
-// amount of memory.
+// The most voxels of a grid for each voxel of the slices: most of a volume must be measured, and headers
+// cannot ask for any amount of memory.
 constexpr double kMostVoxels = 4.0;
-// In distances of slices and of pixels: nearer than this is there.
+// In distances of slices and of pixels: nearer slices count as being there.
 constexpr double kHere = 1e-3;
 constexpr std::size_t kMostGapsNamed = 8;
 
@@ -170,7 +170,7 @@ void GridPlanner::set_slices() {
     while (before + 1 < places_.last() && scale_.places[before + 1] <= place) ++before;
     const double low = scale_.places[before];
     const double high = scale_.places[before + 1];
-    // The last slice stands for what is at most half a step beyond it.
+    // The last slice also covers half a step beyond it.
     if (place - low <= kHere) {
       plan_.slices.push_back({share(before, 1.0), share(before, 0.0)});
     } else if (high - place <= kHere) {

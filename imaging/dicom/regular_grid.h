@@ -1,4 +1,4 @@
-// From slices as they lie in the patient to a regular grid: which slices make which, and how.
+// The regular grid that slices make, as they lie in the patient: which slices, and how.
 #pragma once
 
 #include <array>
@@ -37,9 +37,9 @@ struct GridPlan {
   std::vector<GridSlice> slices;  // none: slice k of the grid is slice k of the stack, pixel by pixel
   std::vector<std::string> changes;
   std::vector<std::string> warnings;
-  std::string refusal;   // why the policy allows no grid: one line that names the slices
-  std::string question;  // where only the policy stands against filling gaps: what to ask the user
-  std::string tilt;      // where slices can be moved back or not: how far they are tilted, in a sentence
+  std::string refusal;   // the reason why the policy allows no grid, one line that names the slices
+  std::string question;  // for the user, where only the policy forbids filling gaps
+  std::string tilt;      // the tilt in a sentence, where slices can be moved back or not
 };
 
 // Slices may move sideways in proportion to their distance, by at most 45 degrees (gantry tilt). Where they

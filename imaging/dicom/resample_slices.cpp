@@ -27,7 +27,7 @@ Extent extent_of(double shift, std::int64_t pixels, std::int64_t voxels) {
   return {std::clamp<std::int64_t>(begin, 0, voxels), std::clamp<std::int64_t>(end, 0, voxels)};
 }
 
-// Between which two pixels a voxel lies.
+// The two pixels between which a voxel lies.
 struct Between {
   std::int64_t low = 0;
   std::int64_t high = 0;
@@ -78,7 +78,7 @@ class SliceMixer {
   std::vector<Desk> desks_;
 };
 
-// All memory is taken here: threads of a pool must not fail to get it.
+// All memory is allocated here: threads of a pool must not fail to get it.
 template <class Voxel>
 SliceMixer<Voxel>::SliceMixer(const SliceResampling<Voxel>& work, std::vector<Voxel>& voxels, int threads)
     : work_(work),

@@ -15,11 +15,11 @@ template <class Voxel>
 struct SliceResampling {
   const GridPlan& plan;  // with slices
   Index3 size;           // of the slices: columns, rows, count
-  // Decodes one slice into columns x rows voxels; false where that failed or somebody has stopped it. Called
-  // by several threads, and again for a slice that several threads need.
+  // Decodes one slice into columns x rows voxels; false when it failed or was stopped. Called by several
+  // threads, and again for a slice that several threads need.
   std::function<bool(std::int64_t slice, Voxel* target)> decode;
   std::function<void()> advance;    // one slice of the grid is done
-  std::optional<Voxel> background;  // where no slice is; without it, the smallest value of all slices
+  std::optional<Voxel> background;  // beside the slices; unset: their smallest value
 };
 
 // Linear within and between slices; integers are rounded. Fills `voxels`, which has the size of the grid, in

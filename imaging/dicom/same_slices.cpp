@@ -7,9 +7,9 @@
 namespace tidemark {
 namespace {
 
-// How much orientation and pixel spacing may differ from slice to slice.
+// The largest difference of orientation and pixel spacing from slice to slice.
 constexpr double kSameness = 1e-4;
-// How far the orientation may be from orthonormal before it is not believed.
+// The largest deviation of the orientation from orthonormal.
 constexpr double kOrthonormality = 1e-3;
 
 bool is_same(glm::dvec3 a, glm::dvec3 b) {

@@ -1,11 +1,11 @@
-// What counts as the same from slice to slice, but for rounding in files.
+// Equality from slice to slice, but for rounding in files.
 #pragma once
 
 #include "imaging/dicom/slice_header.h"
 
 namespace tidemark {
 
-// Images of more kinds than these are none of one volume, and are not compared kind by kind.
+// The most kinds of images in one volume; beyond that kinds are not compared.
 inline constexpr std::size_t kMostKinds = 256;
 
 [[nodiscard]] bool same_size(const SliceHeader& a, const SliceHeader& b);

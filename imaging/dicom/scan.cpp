@@ -16,7 +16,7 @@
 #include "imaging/dicom/media_directory.h"
 #include "imaging/dicom/series_geometry.h"
 #include "imaging/dicom/shared_progress.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 
 namespace tidemark {
 namespace {
@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // All regular files below the folder, sorted, so that results do not depend on the file system. Links to
-// folders are not followed: they could lead in circles. What a killed program of ours left unfinished is no
+// folders are not followed: they could lead in circles. Unfinished files of a killed program are no
 // study.
 Result<std::vector<fs::path>> list_files(const fs::path& folder, bool recursive, const Progress& progress) {
   std::vector<fs::path> files;
@@ -109,7 +109,7 @@ Result<Catalogue> catalogue_of(const std::vector<fs::path>& files, const Progres
   return catalogue;
 }
 
-// What a medium's directory names and does not hold may be a series' first or last slice.
+// A file that a medium's directory names and that is missing may be a series' first or last slice.
 void warn_of_missing(Catalogue& catalogue, const fs::path& file, const MediaDirectory& directory) {
   using Missing = std::vector<MediaDirectory::Missing>;
   if (directory.missing.empty()) return;
@@ -126,8 +126,8 @@ void warn_of_missing(Catalogue& catalogue, const fs::path& file, const MediaDire
   }
 }
 
-// All files are looked at, also those that no directory of a medium names; of those that one names and that
-// are missing it is told.
+// Reads all files, also those that no directory of a medium names. Files that a directory names and that are
+// missing become a warning of their series.
 Result<Catalogue> scan_folder(const fs::path& folder, const Progress& progress) {
   auto files = list_files(folder, true, progress);
   if (!files) return pass_on(files);

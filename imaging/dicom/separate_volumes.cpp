@@ -17,7 +17,7 @@
 namespace tidemark {
 namespace {
 
-// What an attribute says of a slice: numbers, or text. Keys are ordered as their volumes are listed.
+// The value of an attribute for a slice: numbers, or text. Keys have the order of the listed volumes.
 using Key = std::pair<std::vector<double>, std::string>;
 using Classes = std::map<Key, SliceRefs>;
 

@@ -1,4 +1,4 @@
-// Which attribute tells the volumes at one place apart.
+// The search for the attribute that tells the volumes at one place apart.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ struct LabelledSlices {
   SliceRefs slices;
 };
 
-// Slices of one size, orientation and pixel spacing. One volume with an empty label when no two lie at the
-// same position, or no attribute tells those that do apart.
+// Slices of one size, orientation and pixel spacing. One volume with an empty label when no two slices share
+// a position, or no attribute tells them apart.
 [[nodiscard]] std::vector<LabelledSlices> separate_volumes(const SliceRefs& slices);
 
 // "echo 2" and "time 1 of 3" as "echo 2, time 1 of 3"; either may be empty.

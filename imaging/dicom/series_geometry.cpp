@@ -12,7 +12,7 @@ namespace tidemark {
 namespace {
 
 using Slices = std::vector<SliceHeader>;
-// A reason why not, or nothing when the check is passed.
+// The reason for a failed check, or nothing.
 using Reason = std::optional<std::string>;
 
 // Beyond these (mm) a number is damage, not anatomy.
@@ -183,7 +183,7 @@ Reason check_unsorted(const Slices& slices) {
   return check_all_alike(slices);
 }
 
-// Sorts along the normal; says so when that changes the order.
+// Sorts along the normal; adds a sentence to the changes when that changes the order.
 void sort_slices(Slices& slices, glm::dvec3 normal, std::vector<std::string>& changes) {
   const auto before = [&](const SliceHeader& a, const SliceHeader& b) {
     return glm::dot(*a.position_mm, normal) < glm::dot(*b.position_mm, normal);
@@ -218,7 +218,7 @@ std::string scalar_of(const Slices& slices, std::vector<std::string>& changes) {
 }
 
 void describe(const Slices& slices, Series& series) {
-  // A damaged image may say no more than which series it belongs to.
+  // A damaged image may have no more than the UID of its series.
   const auto telling =
       std::find_if(slices.begin(), slices.end(), [](const SliceHeader& s) { return !s.modality.empty(); });
   const SliceHeader& first = telling != slices.end() ? *telling : slices.front();

@@ -1,4 +1,4 @@
-// From the headers of a series' images to a volume's grid, or to the reason why there is none.
+// The grid of a volume from the headers of a series' images, or the reason why there is none.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@ namespace tidemark {
 // Makes the grid of a series anew; nothing changes where there is no stack.
 void set_grid(Series& series, const GridPolicy& policy);
 
-// What the images of one series have in common: the Series Instance UID; images without one belong together
-// when they lie in one folder and have the same modality and description.
+// The key of a series: its Series Instance UID. Images without one belong together when they lie in one
+// folder and have the same modality and description.
 [[nodiscard]] std::string series_key(const SliceHeader& slice);
 
 // Splits images into series by their key, and series into the volumes that they hold (split_series.h), whose

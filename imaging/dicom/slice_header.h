@@ -1,5 +1,5 @@
-// What a DICOM image says about one slice in it, without any DCMTK type: about a classic image, a frame of an
-// image of several frames, or a tile of a mosaic.
+// The header of one slice, without any DCMTK type: of a classic image, a frame of an image of several frames,
+// or a tile of a mosaic.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace tidemark {
 
-// What may tell the volumes of one series apart. Nothing where the file does not say it.
+// The attributes that may tell the volumes of one series apart. Unset where the file lacks them.
 struct SliceTraits {
   std::optional<double> series_number;      // (0020,0011), which should be the same in a series
   std::string stack;                        // (0020,9056)
@@ -39,7 +39,7 @@ struct SliceHeader {
   std::int64_t frames = 1;  // of the file
   std::int64_t tile = 0;    // from 0
   std::int64_t tiles = 1;   // of the frame
-  // Why the image cannot be a slice of a volume, one line without the file's name; empty when it can.
+  // The reason why the image cannot be a slice, one line without the file's name; empty when it can.
   std::string problem;
 
   std::string series_uid;        // (0020,000E)

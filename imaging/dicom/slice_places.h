@@ -1,5 +1,5 @@
-// Where the slices of a stack lie: how far along their normal, how far to its side, and on which even scale.
-// Private to this folder.
+// The places of the slices of a stack: how far along their normal, how far to its side, and on which even
+// scale. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ struct SlicePlaces {
 
 SlicePlaces places_of(const std::vector<glm::dvec3>& positions_mm, const glm::dmat3& axes);
 
-// How slices move sideways as they advance.
+// The sideways movement of slices as they advance.
 struct SliceTilt {
   double degrees = 0.0;               // 0: they lie above each other
   std::optional<std::size_t> uneven;  // the first step that is not in proportion
@@ -34,7 +34,7 @@ struct SliceTilt {
 
 SliceTilt tilt_of(const SlicePlaces& places);
 
-// Where slices lie on an even scale, in its steps: at whole numbers unless they are uneven.
+// The places of slices on an even scale, in its steps: whole numbers unless the slices are uneven.
 struct SliceScale {
   enum class Kind { even, missing, uneven };
   Kind kind = Kind::even;

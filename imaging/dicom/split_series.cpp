@@ -53,7 +53,7 @@ std::string plane_of(const SliceHeader& slice) {
   return normal.x >= normal.y ? "sagittal" : "coronal";
 }
 
-// What sets a kind apart from the others.
+// The attributes that set a kind apart from the others.
 std::string label_of_kind(const SliceRefs& kind, const std::vector<SliceRefs>& kinds) {
   const SliceHeader& own = *kind.front();
   const auto differs = [&](const auto& same) {
@@ -72,7 +72,7 @@ std::string label_of_kind(const SliceRefs& kind, const std::vector<SliceRefs>& k
   return label;
 }
 
-// Whether two images with one SOPInstanceUID at one position also say the same of themselves.
+// Whether two images with one SOPInstanceUID at one position also have the same attributes.
 bool is_copy(const SliceHeader& a, const SliceHeader& b) {
   const auto format = [](const SliceHeader& s) {
     return std::tie(s.bits_allocated, s.bits_stored, s.is_signed, s.slope, s.intercept,
@@ -81,7 +81,7 @@ bool is_copy(const SliceHeader& a, const SliceHeader& b) {
   return a.frame == b.frame && a.tile == b.tile && same_kind(a, b) && format(a) == format(b);
 }
 
-// Takes out of the slices those that are there already, and says which.
+// Removes copies from the slices, and names them.
 std::vector<std::string> drop_copies(SliceRefs& slices) {
   // With the position, because some anonymisers write one UID into every image.
   std::map<std::tuple<std::string, double, double, double>, const SliceHeader*> known;
@@ -102,7 +102,7 @@ std::vector<std::string> drop_copies(SliceRefs& slices) {
   return {fmt::format("{} copies of images are left out (for example {})", copies.size(), first)};
 }
 
-// By stack, where each stack has several slices; else as they are.
+// By stack, where each stack has several slices; else all together.
 std::vector<LabelledSlices> by_stack(const SliceRefs& slices) {
   std::map<std::string, SliceRefs> stacks;
   for (const SliceHeader* slice : slices) stacks[slice->traits.stack].push_back(slice);
@@ -172,7 +172,7 @@ bool may_belong(const SliceHeader& image, const SliceHeader& slice) {
          std::abs(glm::dot(normal_of(image), normal_of(slice))) > kSamePlane;
 }
 
-// Whether a slice may have got lost among what is in no volume.
+// Whether a slice may be among the images that are in no volume.
 bool is_doubtful(const std::vector<SeriesPart>& parts) {
   return std::any_of(parts.begin(), parts.end(), [&](const SeriesPart& odd) {
     return !is_volume(odd) && std::any_of(parts.begin(), parts.end(), [&](const SeriesPart& part) {

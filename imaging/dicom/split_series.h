@@ -1,5 +1,5 @@
-// One Series Instance UID may stand for several volumes: echoes, times, directions of diffusion, magnitude
-// and phase, stacks, or a localiser in three orientations.
+// The volumes of one series. One Series Instance UID may stand for echoes, times, directions of diffusion,
+// magnitude and phase, stacks, or a localiser in three orientations.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ struct SeriesPart {
   std::vector<SliceHeader> slices;
   std::string label;                 // "echo 2, TE 30 ms"; empty when the series is one part
   bool is_rest = false;              // images that fit into none of the other parts
-  std::vector<std::string> changes;  // what was left out
+  std::vector<std::string> changes;  // the images left out
 };
 
-// Splits the slices of one series (at least one). Apart are: other sizes of images, orientations, pixel
-// spacings and stacks; then, where several images lie at one position, what the first attribute tells apart
+// Splits the slices of one series (at least one) by size, orientation, pixel spacing and stack. Where several
+// images lie at one position, it splits further by the first attribute that tells them apart
 // of: series number, type of image, echo, diffusion, temporal position, trigger time, acquisition, time of
 // acquisition, time of the content, number of the instance. Of exact copies one is kept. Images alone of
 // their kind come last, together: scouts, captures of the screen.

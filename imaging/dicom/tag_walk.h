@@ -1,9 +1,9 @@
 // A walk over the tags of a DICOM dataset that takes nothing on trust and no memory: what it lets pass can be
 // given to a parser that recurses into sequences and believes lengths.
 //
-// It does not know the data dictionary. Where only that would tell whether an element holds a sequence
-// (implicit value representation, UN), the bytes of the value decide: what begins as an item is walked as
-// one.
+// It does not know the data dictionary. Where only the dictionary knows whether an element holds a sequence
+// (implicit value representation, UN), the bytes of the value decide: a value that begins as an item is
+// walked as one.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "imaging/dicom/byte_source.h"
+#include "imaging/guard/byte_source.h"
 
 namespace tidemark {
 
@@ -23,7 +23,7 @@ struct DicomTag {
   auto operator<=>(const DicomTag&) const = default;
 };
 
-// How a dataset's elements are written.
+// The encoding of a dataset's elements.
 struct ElementCoding {
   bool is_explicit = true;
   bool is_big_endian = false;
@@ -66,7 +66,7 @@ struct Fragments {
   std::int64_t end = 0;    // offset of the delimiter
 };
 
-// What is wrong, and where.
+// The damage, and its place.
 struct TagDamage {
   DicomTag tag;
   std::int64_t offset = 0;
@@ -78,6 +78,10 @@ class TagWalk {
   // Sequences within sequences. Far above anything in use, and far below what a recursive parser's stack
   // holds.
   static constexpr int kDeepest = 64;
+  // Values of one SpecificCharacterSet (0008,0005): there are some twenty character sets (PS3.3 C.12.1.1.2).
+  static constexpr int kMostCharacterSets = 32;
+  // Values of all of them in a file, of which each item of a sequence may have its own.
+  static constexpr std::int64_t kMostCharacterSetsOfAll = 4096;
 
   // Called for each element of the dataset itself (not of its sequences), before its value is passed. The
   // reader may be moved within the value. Fragments are null unless the element has some.
@@ -96,7 +100,7 @@ class TagWalk {
  private:
   // A dataset, an item, or a sequence, that has been entered and not left.
   struct Level {
-    std::int64_t end = 0;  // or the end of what it stands in, when a delimiter ends it
+    std::int64_t end = 0;  // or the end of the level around it, when a delimiter ends it
     ElementCoding coding;
     DicomTag tag{};       // of the sequence
     DicomTag previous{};  // element in it
@@ -107,6 +111,7 @@ class TagWalk {
   };
 
   bool read_header(std::int64_t at, std::int64_t end, ElementCoding coding, ElementHeader& header);
+  bool check_character_sets(const ElementHeader& header);
   bool check_length(const ElementHeader& header, std::int64_t end);
   bool check_meta(const ElementHeader& header);
   bool read_representation(const std::uint8_t* bytes, ElementHeader& header, bool& has_long_length);
@@ -125,6 +130,7 @@ class TagWalk {
   std::int64_t most_objects_;
   std::int64_t objects_ = 0;
   std::int64_t searches_ = 0;
+  std::int64_t character_sets_ = 0;  // in all items together
   std::int64_t at_ = 0;
   int depth_ = 0;
   std::array<Level, 2 * kDeepest + 1> levels_{};  // a dataset, then a sequence and an item by turns

@@ -5,7 +5,7 @@
 
 namespace tidemark {
 
-// What is in the fragments of compressed pixels.
+// The compression of pixels in fragments.
 enum class FrameCoding { native, rle, jpeg, jpeg_ls, jpeg_2000 };
 
 struct TransferSyntax {

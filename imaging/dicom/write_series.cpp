@@ -15,14 +15,14 @@
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/dicom_values.h"
 #include "imaging/dicom/write_dicom_file.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 
 namespace tidemark {
 namespace {
 
 namespace fs = std::filesystem;
 
-// What all slices of a series have in common.
+// The attributes that all slices of a series share.
 struct SeriesIdentity {
   std::string study_uid = make_uid();
   std::string series_uid = make_uid();
@@ -87,7 +87,7 @@ void write_common_modules(AttributeWriter& out, const DicomSeriesHeader& header,
   out.text(DCM_ManufacturerModelName, "Tidemark");
 }
 
-// What the CT Image and MR Image modules ask for beyond pixels (PS3.3 C.8.2.1, C.8.3.1).
+// The attributes of the CT Image and MR Image modules beyond pixels (PS3.3 C.8.2.1, C.8.3.1).
 void write_modality_module(AttributeWriter& out, const Volume& volume, const DicomSeriesHeader& header) {
   const bool is_ct = header.modality == "CT";
   out.text(DCM_SOPClassUID, is_ct ? UID_CTImageStorage : UID_MRImageStorage);
@@ -154,7 +154,7 @@ void write_slice(AttributeWriter& out, const Volume& volume, const SeriesIdentit
   out.pixels(words, count);
 }
 
-// Whether the volume can be said in classic single-frame images.
+// Whether classic single-frame images can hold the volume.
 Status check_writable(const Volume& volume, const DicomSeriesHeader& header, const fs::path& folder) {
   const Geometry& geometry = volume.geometry;
   const auto refuse = [&](std::string_view why) {

@@ -1,4 +1,4 @@
-// What reading and writing through ITK's image IO classes have in common. Private to this folder.
+// The use of ITK's image IO classes, common to reading and writing. Private to this folder.
 #pragma once
 
 #include <itkImageIOBase.h>
@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-#include "imaging/files/pixel_layout.h"
+#include "imaging/guard/pixel_layout.h"
 
 namespace tidemark::files {
 
@@ -29,8 +29,8 @@ class ItkScope {
 itk::ImageIOBase::Pointer make_image_io(Format format, const std::filesystem::path& file);
 
 // A name under which ITK reads or writes a file. Its NIfTI and GIPL classes, and the others when they write,
-// go by suffixes of one case; a file whose suffix is of another is given to them as a link in a temporary
-// folder that goes away with the object.
+// go by suffixes of one case. A file with a suffix in another case is linked under such a name in a temporary
+// folder, which the object removes.
 class ItkName {
  public:
   enum class Use { read, write };
@@ -47,7 +47,7 @@ class ItkName {
   std::filesystem::path folder_;  // empty when the file is read under its own name
 };
 
-// What an ITK exception says, on one line, without the source locations that ITK puts first.
+// The text of an ITK exception, on one line, without the source locations that ITK puts first.
 std::string one_line(const std::exception& exception);
 
 }  // namespace tidemark::files

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "core/volume.h"
-#include "imaging/files/pixel_layout.h"
+#include "imaging/guard/pixel_layout.h"
 
 namespace tidemark::files {
 
-// What read_nifti_voxels() gives: "int16", "uint16" or "float"; `converted` when a type other than float
+// The type of read_nifti_voxels(): "int16", "uint16" or "float"; `converted` when a type other than float
 // became float for its range, and its name.
 struct NiftiType {
   const char* scalar = "float";

@@ -12,7 +12,7 @@ namespace {
 
 using files::VolumeHeader;
 
-// All voxels as ITK hands them out.
+// All voxels in ITK's type.
 template <class T>
 std::vector<T> read_as(const VolumeHeader& header) {
   itk::ImageIORegion region(header.io->GetNumberOfDimensions());

@@ -1,4 +1,4 @@
-// From ITK's view of a header to ours, checked. Private to this folder.
+// The conversion of ITK's view of a header to ours, checked. Private to this folder.
 #pragma once
 
 #include "core/geometry.h"
@@ -16,7 +16,7 @@ struct VolumeHeader {
   std::vector<std::string> warnings = {};
 };
 
-// Everything that can be said before memory is taken for voxels: three axes (a fourth of size 1 is ignored),
+// The checks before memory is allocated for voxels: three axes (a fourth of size 1 is ignored),
 // a scalar type, spacing finite and above 0, origin finite, axes at right angles within 1e-3 (smaller
 // deviations are removed), and bytes on disk for all voxels. An ItkScope must live. Fails (ErrorKind::input)
 // naming the file and the field.

@@ -122,7 +122,7 @@ Span middle_half(std::int64_t size) {
   return {begin, std::max(begin + 1, size - size / 4)};
 }
 
-// What a start is looked for in.
+// The values in which a start is sought.
 struct Wanted {
   double low = 0.0;
   double high = 0.0;

@@ -1,4 +1,4 @@
-// A start and parameters for a study that nobody has looked at yet.
+// A first start and parameters for a study, from its values alone.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-// What a person would read off the screen with the mouse.
+// The values that a user would find with the mouse.
 struct SuggestedStart {
   Index3 voxel{0};         // where to seed
   double radius_mm = 0.0;  // of the seed

@@ -53,8 +53,8 @@ Status set_up_network() {
   static std::once_flag once;
   std::call_once(once, [] {
     dcmConnectionTimeout.set(kConnectSeconds);
-    dcmDisableGethostbyaddr.set(OFTrue);  // it may take long, and nobody needs the name
-    // The lines watch over these.
+    dcmDisableGethostbyaddr.set(OFTrue);  // it may take long, and the name is not needed
+    // The watches are in charge of these.
     dcmSocketReceiveTimeout.set(0);
     dcmSocketSendTimeout.set(0);
   });
@@ -132,7 +132,7 @@ Status Association::call(const PacsServer& server, const std::string& address,
     watch_->completed_message();
     return {};
   }
-  ended_ = called.bad();  // there is nobody to tell that we abort
+  ended_ = called.bad();  // nobody is left to receive an abort
   may_try_again = called.bad() && !connected && stopwatch.seconds() >= 0.9 * kConnectSeconds;
   return tl::unexpected<Error>(refusal(called, server));
 }

@@ -25,7 +25,7 @@ namespace tidemark {
 // are off.
 Status set_up_network();
 
-// DCMTK's own time-out for calls: so long that it is the line that ends them, with better words.
+// DCMTK's own time-out for calls: so long that the watch ends them first, with a better message.
 constexpr int kNetworkSeconds = 86'400;
 
 // One presentation context of ours.
@@ -36,7 +36,7 @@ struct Proposal {
 };
 constexpr std::size_t kMostProposals = 128;  // an association has no more context numbers
 
-// What may come with a command, apart from objects.
+// The most bytes that may come with a command, apart from objects.
 constexpr std::int64_t kLongestCommand = std::int64_t{16} << 10;
 constexpr std::int64_t kLongestIdentifier = std::int64_t{64} << 10;
 
@@ -49,11 +49,11 @@ class Association {
                                                    const std::stop_token& stop);
   // One that the peer called for and that was accepted.
   Association(std::shared_ptr<ConnectionWatch> watch, T_ASC_Association* accepted);
-  ~Association();  // aborts what was not released
+  ~Association();  // aborts an association that was not released
   Association(const Association&) = delete;
   Association& operator=(const Association&) = delete;
 
-  // Says goodbye; what comes of it makes no difference to what was done before.
+  // Ends the association; its outcome does not change earlier results.
   void release();
   void acknowledge_release();
 
@@ -72,7 +72,7 @@ class Association {
   // The data that belongs to the command just received.
   Result<std::unique_ptr<DcmDataset>> receive_data(std::int64_t longest = kLongestIdentifier);
 
-  // What to tell of a failure of DCMTK's: why the line was shut, if it was.
+  // The error for a failure of DCMTK's: the reason why the connection was shut, if it was.
   [[nodiscard]] Error error(const OFCondition& condition, std::string_view doing) const;
   [[nodiscard]] ConnectionWatch& watch() const { return *watch_; }
   [[nodiscard]] const std::shared_ptr<ConnectionWatch>& shared_watch() const { return watch_; }

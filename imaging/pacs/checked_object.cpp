@@ -6,7 +6,7 @@
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/header_reader.h"
 #include "imaging/dicom/transfer_syntaxes.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 #include "imaging/pacs/storage_classes.h"
 
 namespace tidemark {

@@ -1,4 +1,4 @@
-// The one place where a file that is to be sent, or has come, is looked into.
+// The one check of a file that is to be sent, or has come.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-// What a DICOM file says that it is.
+// The identity of a DICOM file, by its own attributes.
 struct ObjectIdentity {
   std::string sop_class;
   std::string sop_instance;

@@ -32,7 +32,7 @@ bool is_host(const std::string& host) {
   return !host.empty() && host.size() <= 253 && std::all_of(host.begin(), host.end(), allowed);
 }
 
-// What is wrong with a server: the field and why; an empty field when all is well.
+// The fault of a server: the field and the reason; an empty field when there is none.
 struct Fault {
   const char* field = "";
   const char* reason = "";

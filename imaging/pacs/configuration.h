@@ -1,4 +1,4 @@
-// Which PACS servers there are, and how they are reached.
+// The configuration of PACS servers: which there are, and how they are reached.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ struct PacsServer {
   bool operator==(const PacsServer&) const = default;
 };
 
-// What a server may do to us.
+// The limits on a server's demands.
 struct PacsLimits {
   std::int64_t object_bytes = std::int64_t{4} << 30;      // of one object
   std::int64_t retrieval_bytes = std::int64_t{64} << 30;  // of all objects of a retrieval

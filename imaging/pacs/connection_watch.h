@@ -1,4 +1,4 @@
-// Watches over one connection, so that no peer can keep us waiting or flood us.
+// A watch over one connection: no peer can keep us waiting or flood us.
 #pragma once
 
 #include <chrono>
@@ -14,10 +14,10 @@
 
 namespace tidemark {
 
-// DCMTK reads and writes with calls that block. While such a call waits, a thread of the line looks at the
+// DCMTK reads and writes with calls that block. While such a call waits, a thread of the watch looks at the
 // clock: in every `patience` of waiting the peer must have sent or taken 64 KiB, or completed a message.
-// Otherwise, and when we are asked to stop, the socket is shut down, on which every blocked call returns at
-// once, also in the midst of a TLS record. A shut line stays shut; trouble() says why.
+// Otherwise, and on a request to stop, the socket is shut down. Every blocked call then returns at once, also
+// in the midst of a TLS record. A shut connection stays shut; trouble() has the reason.
 class ConnectionWatch {
  public:
   // `peer` begins the messages: "PACS main (pacs.example:104)".
@@ -26,8 +26,8 @@ class ConnectionWatch {
   ConnectionWatch(const ConnectionWatch&) = delete;
   ConnectionWatch& operator=(const ConnectionWatch&) = delete;
 
-  // By the transport: between these the socket is open. closing() comes before the close, so that never a
-  // stranger's socket that got the same number is shut down.
+  // By the transport: between these the socket is open. closing() comes before the close: the number may then
+  // belong to another socket, which must not be shut down.
   void opened(int socket);
   void closing();
   // Around a blocking call.
@@ -43,15 +43,15 @@ class ConnectionWatch {
   };
   void sent(std::int64_t bytes);
   [[nodiscard]] bool received(
-      std::int64_t bytes);  // false when it is more than was allowed: the line is shut
+      std::int64_t bytes);  // false when it is more than allowed: the connection is shut
 
-  // By the conversation: from now on the peer may send so many bytes, which are those of `what`.
+  // By the conversation: from now on the peer may send that many bytes; `what` names them in messages.
   void allow(std::int64_t bytes, std::string what);
   void completed_message();
   void set_patience(std::chrono::milliseconds patience);
 
   void shut(Error reason);
-  // Why it was shut; a success where it was not, so that whatever went wrong has another reason.
+  // The reason why it was shut; a success where it was not, and a failure has another reason.
   [[nodiscard]] Status trouble() const;
   [[nodiscard]] const std::string& peer() const { return peer_; }
 
@@ -66,7 +66,7 @@ class ConnectionWatch {
 
   const std::string peer_;
   const std::stop_token stop_;
-  mutable std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards the members below
   std::condition_variable_any quit_;
   std::chrono::milliseconds patience_;
   int socket_ = -1;

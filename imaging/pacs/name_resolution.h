@@ -1,4 +1,4 @@
-// From a host's name to its address.
+// The address of a host by its name.
 #pragma once
 
 #include <chrono>
@@ -9,8 +9,8 @@
 
 namespace tidemark {
 
-// The first IPv4 address of a host, as text. The system's resolver cannot be interrupted, so it is asked on a
-// thread of its own, which is left to itself when `stop` or `patience` comes first.
+// The first IPv4 address of a host, as text. The system's resolver cannot be interrupted, so it runs on a
+// thread of its own, which is abandoned when `stop` or `patience` comes first.
 Result<std::string> resolve_host(const std::string& host, std::chrono::milliseconds patience,
                                  const std::stop_token& stop);
 

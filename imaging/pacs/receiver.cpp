@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 constexpr long kLongestPdu = 131072;
 constexpr std::int64_t kLongestCall = std::int64_t{1} << 20;
 constexpr std::size_t kMostConversations = 4;
-// Whoever connects and says nothing keeps others waiting, so that he has less time than later on.
+// A silent caller keeps others waiting, so it has less time at first than later on.
 constexpr std::chrono::milliseconds kGreetingPatience = 5s;
 
 Status answer_echo(Association& association, int context, const T_DIMSE_Message& request) {
@@ -153,7 +153,7 @@ Status Receiver::converse(Association& association) {
       association.acknowledge_release();
       return {};
     }
-    // Who breaks off between objects has done no harm: what is missing the server says itself.
+    // A caller that breaks off between objects does no harm: the server itself reports missing objects.
     if (!context) return {};
     Status answered;
     if (request.CommandField == DIMSE_C_STORE_RQ) {

@@ -1,4 +1,4 @@
-// Where a server's own calls are answered while a retrieval by move runs.
+// The receiver of a server's own calls while a retrieval by move runs.
 #pragma once
 
 #include <atomic>
@@ -15,8 +15,8 @@
 
 namespace tidemark {
 
-// Listens on a server's move_port, for calls to our AE title alone, and takes what comes into the
-// retrieval_folder. Up to four calls at once; each conversation has a thread and a line of its own.
+// Listens on a server's move_port, for calls to our AE title alone, and takes objects into the
+// retrieval_folder. Up to four calls at once; each conversation has a thread and a watch of its own.
 class Receiver {
  public:
   static Result<std::unique_ptr<Receiver>> start(const PacsServer& server, RetrievalFolder& retrieval_folder,
@@ -43,7 +43,7 @@ class Receiver {
   std::unique_ptr<DcmTransportLayer> transport_;
   T_ASC_Network* network_ = nullptr;
   std::shared_ptr<ConnectionWatch> next_watch_;  // of the call that is being accepted
-  std::stop_source stop_;                        // of all lines
+  std::stop_source stop_;                        // of all watches
   std::mutex mutex_;                             // guards trouble_
   std::optional<Error> trouble_;
   struct Conversation {

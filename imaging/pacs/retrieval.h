@@ -1,4 +1,4 @@
-// What both ways of retrieving have in common.
+// The common part of both ways of retrieving.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-// How a server counts the objects that it sends.
+// A server's counts of the objects that it sends.
 struct SubOperations {
   std::int64_t remaining = 0;
   std::int64_t completed = 0;
@@ -19,11 +19,11 @@ struct SubOperations {
   [[nodiscard]] std::int64_t total() const { return remaining + completed + failed + warned; }
 };
 
-// Which objects are wanted, as requests say it.
+// The identifier of a request: the objects that are wanted.
 [[nodiscard]] std::unique_ptr<DcmDataset> identifier_of(const RetrieveRequest& request);
 
-// What a response says about the way of things. Only a change counts as progress, so that a server cannot
-// keep us waiting by saying the same again and again.
+// The progress by a server's responses. Only a change counts, so that a server cannot keep us waiting by the
+// same response again and again.
 class ResponseReader {
  public:
   ResponseReader(Association& association, RetrievalFolder& retrieval_folder)
@@ -43,8 +43,8 @@ class ResponseReader {
   std::int64_t read_ = 0;
 };
 
-// Each brings what is wanted into the retrieval_folder and gives the number of objects that the server could
-// not send.
+// Each brings the wanted objects into the retrieval_folder and returns the number of objects that the server
+// could not send.
 Result<std::int64_t> retrieve_by_get(const PacsServer& server, const RetrieveRequest& request,
                                      const PacsLimits& limits, RetrievalFolder& retrieval_folder,
                                      const std::stop_token& stop);

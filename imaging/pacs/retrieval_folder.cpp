@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 #include "imaging/pacs/checked_object.h"
 
 namespace tidemark {
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 constexpr std::int64_t kBytesBetweenLooks = std::int64_t{16} << 20;  // at the disk's free space
 constexpr std::size_t kMostReasons = 20;
 
-// Nothing of the user's is to be replaced.
+// Files of the user must not be replaced.
 Status require_empty(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error)) return {};
@@ -73,7 +73,7 @@ Status RetrievalFolder::grown(std::int64_t bytes) {
 Status RetrievalFolder::look_into(const fs::path& object, const std::string& sop_class,
                                   const std::string& sop_instance) const {
   const auto identity = check_object(object);
-  // The name says nothing to anybody.
+  // Without the file's name, which is only a number.
   if (!identity) return fail(ErrorKind::input, "{}", without_path(identity.error().message, object));
   if (identity->sop_class != sop_class || identity->sop_instance != sop_instance) {
     return fail(ErrorKind::input, "is another object than was announced");
@@ -137,7 +137,8 @@ Result<Retrieved> RetrievalFolder::keep(std::int64_t missing) {
   const std::lock_guard lock(mutex_);
   if (retrieved_.files.empty()) {
     if (!retrieved_.refused.empty())
-      return fail(ErrorKind::input, "nothing of what came can be taken: {}", retrieved_.refused.front());
+      return fail(ErrorKind::input, "none of the objects that came can be taken: {}",
+                  retrieved_.refused.front());
     if (missing > 0) return fail(ErrorKind::input, "none of {} objects could be sent by the server", missing);
     return fail(ErrorKind::input, "the server has nothing of the study or series that is asked for");
   }

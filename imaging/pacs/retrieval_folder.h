@@ -18,16 +18,16 @@
 
 namespace tidemark {
 
-// Objects are collected beside the folder under a temporary name, and are in it when all have come: whoever
-// is killed before leaves no series that lacks slices. They get names by a counter, 000001.dcm, nothing of
-// which comes from the peer. Several connections may fill it at once.
+// Objects are collected beside the folder under a temporary name, and are in it when all have come: a program
+// that is killed before leaves no series that lacks slices. Their names are counted, 000001.dcm, and
+// hold nothing from the peer. Several connections may fill it at once.
 class RetrievalFolder {
  public:
   // For a folder that is not there yet, or empty. Fails (ErrorKind::write).
   static Result<std::unique_ptr<RetrievalFolder>> create(const RetrieveRequest& request,
                                                          const PacsLimits& limits, const Progress& progress);
 
-  // What is filled, as messages name it.
+  // The folder's name in messages.
   [[nodiscard]] const std::filesystem::path& folder() const { return request_.folder; }
 
   // Where the next object is written to. These fail (ErrorKind::input: the peer sends too much;
@@ -35,16 +35,16 @@ class RetrievalFolder {
   Result<std::filesystem::path> next_object();
   Status grown(std::int64_t bytes);  // of any object, since the last time
 
-  // An object that is complete. False, with the reason noted, when it is not what was asked for.
+  // Takes an object that is complete. False, with the reason noted, when it was not asked for.
   bool take(const std::filesystem::path& object, const std::string& sop_class,
             const std::string& sop_instance);
-  // One that is not to be taken.
+  // Refuses an object.
   void refuse(const std::filesystem::path& object, std::string reason);
 
   void set_expected(std::int64_t objects);  // for the progress
   // While objects come on other connections, the one on which they were asked for may be silent.
   void excuse(std::shared_ptr<ConnectionWatch> watch);
-  // What came is put in place. Fails when nothing did (ErrorKind::input), or it cannot be put there
+  // Puts the objects in place. Fails when none has come (ErrorKind::input), or they cannot be put there
   // (ErrorKind::write). `missing` objects could not be sent.
   [[nodiscard]] Result<Retrieved> keep(std::int64_t missing);
 
@@ -67,7 +67,7 @@ class RetrievalFolder {
   std::int64_t bytes_until_look_ = 0;
   std::shared_ptr<ConnectionWatch> excused_;
   std::set<std::filesystem::path> unfinished_;  // begun and neither taken nor refused
-  std::set<std::string> instances_;             // SOP Instance UIDs of what was taken
+  std::set<std::string> instances_;             // SOP Instance UIDs of the objects taken
   Retrieved retrieved_;
 };
 

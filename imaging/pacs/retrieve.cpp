@@ -14,7 +14,7 @@ namespace {
 
 // The UIDs of all objects that failed may come along.
 constexpr std::int64_t kLongestResponseData = std::int64_t{2} << 20;
-// A server says how things go at most once an object, of which it can count 65,535.
+// A server reports its progress at most once an object, of which it can count 65,535.
 constexpr std::int64_t kMostResponses = 100'000;
 
 struct Response {
@@ -87,7 +87,7 @@ Result<bool> ResponseReader::read(const T_DIMSE_Message& message) {
   if (DICOM_PENDING_STATUS(status)) return false;
   missing_ = counted_.failed;
   if (status == STATUS_Success || DICOM_WARNING_STATUS(status)) return true;
-  // Some servers call it a failure when one object of many has failed, and give up the rest.
+  // Some servers report a failure when one object of many has failed, and give up the rest.
   missing_ += counted_.remaining;
   if (counted_.completed + counted_.warned > 0 &&
       status != STATUS_GET_Cancel_SubOperationsTerminatedDueToCancelIndication)
@@ -98,7 +98,7 @@ Result<bool> ResponseReader::read(const T_DIMSE_Message& message) {
                 "entered there",
                 association_.watch().peer());
   }
-  return fail(ErrorKind::input, "{}: cannot send what is asked for (status {:04X})",
+  return fail(ErrorKind::input, "{}: cannot send the requested objects (status {:04X})",
               association_.watch().peer(), status);
 }
 

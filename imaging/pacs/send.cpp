@@ -9,7 +9,7 @@
 
 #include "core/without_exceptions.h"
 #include "imaging/dicom/transfer_syntaxes.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 #include "imaging/pacs/association.h"
 #include "imaging/pacs/checked_object.h"
 #include "imaging/pacs/services.h"
@@ -38,7 +38,7 @@ std::vector<std::string> encodings(const std::string& transfer_syntax) {
   return all;
 }
 
-// What can be sent at all; the rest goes to `sent.unsent`.
+// The files that can be sent; the others go to `sent.unsent`.
 Result<std::vector<Outgoing>> look_into(const std::vector<fs::path>& files, Sent& sent,
                                         const Progress& progress) {
   std::vector<Outgoing> outgoing;
@@ -99,7 +99,7 @@ Result<std::uint16_t> send_object(Association& association, int context, const O
   return message.msg.CStoreRSP.DimseStatus;
 }
 
-// Why the object was not sent; empty when it was. Fails where the conversation cannot go on.
+// The reason why the object was not sent; empty when it was. Fails where the conversation cannot go on.
 Result<std::string> send_one(Association& association, const Outgoing& one) {
   const std::string& syntax = one.identity.transfer_syntax;
   const int context = context_for(association, one.identity);

@@ -17,10 +17,10 @@
 
 namespace tidemark {
 
-// Whether the server is there and knows us (C-ECHO). Gives the seconds that its answer took.
+// Whether the server is there and knows us (C-ECHO). Returns the seconds that its answer took.
 Result<double> pacs_echo(const PacsServer& server, const Progress& progress = {});
 
-// What is empty is not asked for. Texts may hold the wildcards * and ?.
+// Empty fields are not asked for. Texts may hold the wildcards * and ?.
 struct StudyQuery {
   std::string patient_name;  // as DICOM writes it: Family^Given
   std::string patient_id;
@@ -79,7 +79,7 @@ struct Retrieved {
   std::vector<std::filesystem::path> files;
   std::int64_t bytes = 0;
   std::int64_t missing = 0;          // objects that the server could not send
-  std::vector<std::string> refused;  // objects that came and were not taken: why
+  std::vector<std::string> refused;  // the reasons for objects that came and were not taken
 };
 // Brings a series or a study as the server's `retrieve` says. Objects are checked and get names of ours. The
 // folder holds them when all have come; when it fails, or is killed before, nothing is in it.
@@ -95,8 +95,8 @@ struct Sent {
   std::int64_t bytes = 0;
   std::vector<Unsent> unsent;  // not DICOM, not wanted by the server in their encoding, or refused by it
 };
-// Sends DICOM files as they are: compressed pixels stay compressed, so that a server that does not take the
-// encoding does not get the file; uncompressed ones may change their byte order on the way.
+// Sends DICOM files unchanged: compressed pixels stay compressed, so that a server that does not take the
+// encoding does not get the file. Uncompressed ones may change their byte order.
 Result<Sent> send_files(const PacsServer& server, const std::vector<std::filesystem::path>& files,
                         const Progress& progress = {});
 

@@ -1,4 +1,4 @@
-// What may be stored: the classes of objects that we take, and in which encodings.
+// The classes of objects that may be stored, and their encodings.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace tidemark {
 
-// Classes of objects that are of use here: slices and volumes, and what was segmented in them.
+// Classes of objects that are of use here: slices and volumes, and segmentations of them.
 [[nodiscard]] const std::vector<std::string>& storage_classes();
-// In which objects of these classes may come, the first being liked best: all that can be decoded.
+// The encodings of these classes, the best first: all that can be decoded.
 [[nodiscard]] const std::vector<std::string>& storage_syntaxes();
 [[nodiscard]] bool is_storage_class(const std::string& uid);
 
 // A context for each class without compression, and for images one for each compression, so that a server may
-// send what it has as it has it.
+// send its objects unchanged.
 [[nodiscard]] std::vector<Proposal> storage_proposals();
 
 // Digits and dots, at most 64 (DICOM PS3.5 9.1).

@@ -12,7 +12,7 @@
 namespace tidemark {
 namespace {
 
-// Looks at what has come of an object, piece by piece. DCMTK gives no way to say stop: the line is shut.
+// Checks an object piece by piece as it comes. DCMTK has no way to stop: the connection is shut.
 struct Growth {
   ConnectionWatch& watch;
   RetrievalFolder& retrieval_folder;

@@ -22,9 +22,9 @@ bool is_address(const std::string& host) {
   return host.find_first_not_of("0123456789.") == std::string::npos;
 }
 
-using LineOfNext = std::function<std::shared_ptr<ConnectionWatch>()>;
+using NextWatch = std::function<std::shared_ptr<ConnectionWatch>()>;
 
-// A connection of DCMTK's whose waiting and whose bytes the line knows.
+// A connection of DCMTK's that reports its waiting and its bytes to the watch.
 template <class Connection>
 class Watched final : public Connection {
  public:
@@ -34,7 +34,7 @@ class Watched final : public Connection {
     watch_->opened(socket);
     set(TCP_NODELAY);
   }
-  // Here, where closing still is ours: the base's destructor would close without telling the line.
+  // Here, where closing still is ours: the base's destructor would close without the watch.
   ~Watched() override { Watched::close(); }
   Watched(const Watched&) = delete;
   Watched& operator=(const Watched&) = delete;
@@ -86,36 +86,36 @@ class Watched final : public Connection {
 
 class PlainTransport final : public DcmTransportLayer {
  public:
-  explicit PlainTransport(LineOfNext line_of_next) : line_of_next_(std::move(line_of_next)) {}
+  explicit PlainTransport(NextWatch next_watch) : next_watch_(std::move(next_watch)) {}
   DcmTransportConnection* createConnection(DcmNativeSocketType socket, OFBool /*secure*/) override {
-    return new Watched<DcmTCPConnection>(line_of_next_(), socket);
+    return new Watched<DcmTCPConnection>(next_watch_(), socket);
   }
 
  private:
-  LineOfNext line_of_next_;
+  NextWatch next_watch_;
 };
 
 class TlsTransport final : public DcmTLSTransportLayer {
  public:
-  TlsTransport(TransportRole whose, std::string host, LineOfNext line_of_next)
+  TlsTransport(TransportRole whose, std::string host, NextWatch next_watch)
       : DcmTLSTransportLayer(whose == TransportRole::caller ? NET_REQUESTOR : NET_ACCEPTOR, nullptr, OFTrue),
         host_(whose == TransportRole::caller ? std::move(host) : std::string()),
-        line_of_next_(std::move(line_of_next)) {}
+        next_watch_(std::move(next_watch)) {}
 
   DcmTransportConnection* createConnection(DcmNativeSocketType socket, OFBool /*secure*/) override {
     SSL* tls = SSL_new(getNativeHandle());
     if (tls == nullptr) return nullptr;
     SSL_set_fd(tls, socket);
     if (!host_.empty() && !is_address(host_)) SSL_set_tlsext_host_name(tls, host_.c_str());
-    return new Watched<DcmTLSConnection>(line_of_next_(), socket, tls);
+    return new Watched<DcmTLSConnection>(next_watch_(), socket, tls);
   }
 
  private:
   std::string host_;
-  LineOfNext line_of_next_;
+  NextWatch next_watch_;
 };
 
-// Whose certificates are believed, and for which host.
+// The trusted certificates, and the host that they must be for.
 Status set_up_verification(TlsTransport& transport, const PacsTls& tls, TransportRole role,
                            const std::string& host) {
   SSL_CTX* context = transport.getNativeHandle();
@@ -174,9 +174,9 @@ Status set_up_own_certificate(TlsTransport& transport, const PacsTls& tls) {
 
 Result<std::unique_ptr<DcmTransportLayer>> make_transport(const std::optional<PacsTls>& tls,
                                                           TransportRole role, const std::string& host,
-                                                          LineOfNext line_of_next) {
-  if (!tls) return std::make_unique<PlainTransport>(std::move(line_of_next));
-  auto transport = std::make_unique<TlsTransport>(role, host, std::move(line_of_next));
+                                                          NextWatch next_watch) {
+  if (!tls) return std::make_unique<PlainTransport>(std::move(next_watch));
+  auto transport = std::make_unique<TlsTransport>(role, host, std::move(next_watch));
   TIDEMARK_TRY(set_up_verification(*transport, *tls, role, host));
   TIDEMARK_TRY(set_up_own_certificate(*transport, *tls));
   const OFCondition chosen = transport->setTLSProfile(kProfile);

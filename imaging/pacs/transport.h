@@ -15,11 +15,11 @@ namespace tidemark {
 
 enum class TransportRole { caller, called };
 
-// Makes connections, by TLS when `tls` says so; each is watched by the line that `line_of_next` gives when it
-// is made. As a caller the peer's certificate must be one for `host`. Fails (ErrorKind::input) naming the
-// file of a key or certificate that is not usable.
+// Makes connections, by TLS when `tls` is set; each gets the watch that `next_watch` returns at that moment.
+// As a caller the peer's certificate must be one for `host`. Fails (ErrorKind::input) naming the file of a
+// key or certificate that is not usable.
 Result<std::unique_ptr<DcmTransportLayer>> make_transport(
     const std::optional<PacsTls>& tls, TransportRole role, const std::string& host,
-    std::function<std::shared_ptr<ConnectionWatch>()> line_of_next);
+    std::function<std::shared_ptr<ConnectionWatch>()> next_watch);
 
 }  // namespace tidemark

@@ -21,7 +21,7 @@ Result<Phantom> make_head(const PhantomOptions&, ThreadPool&, const Progress&);
 Result<Phantom> make_on(ThreadPool& pool, std::string_view kind, const PhantomOptions& options,
                         const Progress& progress);
 
-// One sentence: what the ground truth of a kind is.
+// The ground truth of a kind, in one sentence.
 std::string_view truth_of(std::string_view kind);
 
 }  // namespace tidemark::phantom

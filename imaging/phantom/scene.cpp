@@ -14,7 +14,7 @@ std::int16_t to_stored(double value) {
   return static_cast<std::int16_t>(std::floor(std::clamp(value, kLow, kHigh) + 0.5));
 }
 
-// What the scanner reports for a true value.
+// The scanner's value for a true one.
 struct Receiver {
   double deviation;
   bool magnitude;  // MR: the length of a complex number, so that dark voxels are never negative
@@ -62,7 +62,7 @@ Result<Phantom> scan(const Scene& scene, const PhantomOptions& options, ThreadPo
     }
   };
 
-  // Blocks of slices, so that progress is reported and a wish to stop is heard by the caller's thread.
+  // Blocks of slices, so that the caller's thread reports progress and notices a request to stop.
   constexpr std::int64_t kBlock = 8;
   for (std::int64_t begin = 0; begin < geometry.size.z; begin += kBlock) {
     if (progress.cancelled()) return cancelled_error();

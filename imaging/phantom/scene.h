@@ -1,4 +1,4 @@
-// From a description of a body to voxels.
+// The voxels of a described body.
 #pragma once
 
 #include <functional>
@@ -15,21 +15,21 @@ namespace tidemark::phantom {
 // Of folds, lobes and textures: the body stays the same, the caller's random seed makes the noise.
 inline constexpr std::uint64_t kShapeSeed = 1;
 
-// A body and the scanner that looks at it.
+// A body and its scanner.
 struct Scene {
   Index3 size;
   double spacing_mm = 1.0;  // the same along all axes
   std::string modality = "MR";
   std::string description;
   WindowLevel window;
-  double brightest = 1000.0;  // what noise_percent is a part of
+  double brightest = 1000.0;  // noise_percent refers to it
   double default_noise_percent = 0.0;
 
-  // Patient coordinates (LPS, mm; the origin is the middle of the volume) to what is there. Called from
+  // Paints the voxel at patient coordinates (LPS, mm; the origin is the middle of the volume). Called from
   // several threads.
   std::function<Mixture(const glm::dvec3& p_mm)> tissue;
 
-  // What the scanner multiplies a value with there, when it is not the same everywhere (a bias field).
+  // The scanner's factor at a place, when it is not the same everywhere (a bias field).
   std::function<double(const glm::dvec3& p_mm)> gain;
 };
 

@@ -36,7 +36,7 @@ inline double smooth_union(double a, double b, double blend) {
   return std::min(a, b) - h * h * blend * 0.25;
 }
 
-// The union, or what both have in common, with the edge where they meet turned into a fillet of that radius.
+// The union, or the intersection, with the edge where they meet turned into a fillet of that radius.
 // Distances stay exact where the two boundaries are at right angles.
 inline double round_union(double a, double b, double radius) {
   const glm::dvec2 u(std::max(radius - a, 0.0), std::max(radius - b, 0.0));
@@ -53,7 +53,7 @@ inline double coverage(double distance, double voxel_mm = 1.0) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-// What fills a voxel, painted from the outside in.
+// The content of a voxel, painted from the outside in.
 class Mixture {
  public:
   explicit Mixture(double value) : value_(value) {}

@@ -89,7 +89,7 @@ std::vector<Contour> trace_loops(const PaddedSlice& slice, Links links,
   for (const std::int64_t start : order) {
     if (!links.contains(start)) continue;
     Contour& loop = loops.emplace_back();
-    // What was passed is taken away; the contour is closed when there is nothing further.
+    // Edges that were passed are removed; the contour is closed when none follows.
     for (auto here = links.find(start); here != links.end();) {
       loop.push_back(slice.crossing(here->first));
       const std::int64_t next = here->second;

@@ -1,4 +1,4 @@
-// Closed contours around what is inside a slice. Private to this folder.
+// Closed contours around the inside of a slice. Private to this folder.
 #pragma once
 
 #include <cstdint>

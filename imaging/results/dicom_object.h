@@ -12,6 +12,7 @@
 
 #include "core/geometry.h"
 #include "core/result.h"
+#include "imaging/dicom/element_text.h"
 
 namespace tidemark {
 
@@ -23,9 +24,6 @@ Result<std::unique_ptr<DcmFileFormat>> load_object(const std::filesystem::path& 
 // Encodes the dataset and writes it as the whole of the file. Fails with ErrorKind::write.
 Status save_object(std::unique_ptr<DcmDataset> dataset, E_TransferSyntax syntax,
                    const std::filesystem::path& file);
-
-// An attribute's text without padding; empty when it is absent.
-std::string text_of(DcmItem& item, const DcmTagKey& key);
 
 // Remembers the first of many calls that failed.
 class FirstFailure {
@@ -43,10 +41,10 @@ class FirstFailure {
   OFCondition first_ = EC_Normal;
 };
 
-// What a segment without a colour is written with; systems that read it expect one.
+// The colour of segments without one; systems that read them expect a colour.
 constexpr std::array<std::uint8_t, 3> kDefaultColour{255, 255, 0};
 
-// Whether slices of the grid can be said as DICOM image planes: columns and rows within 65535, orthonormal
+// Whether slices of the grid can be DICOM image planes: columns and rows within 65535, orthonormal
 // directions. Fails with ErrorKind::capability.
 Status require_planes(const Geometry& geometry, const std::filesystem::path& file);
 

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "imaging/dicom/decimal.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 #include "imaging/results/dicom_object.h"
 #include "imaging/results/polygon_fill.h"
 #include "imaging/results/results.h"
@@ -49,7 +49,7 @@ Result<std::vector<glm::dvec3>> points_of(const DRTContourSequence::Item& contou
   for (std::size_t n = 0; n + 2 < numbers.size(); n += 3) {
     const glm::dvec3 mm(numbers[n], numbers[n + 1], numbers[n + 2]);
     const glm::dvec3 point = rotation * (mm - grid.origin_mm) / grid.spacing_mm;
-    // What is so far off may not stay finite in what is computed from it.
+    // Numbers so far off may lead to infinite ones.
     if (!glm::all(glm::lessThanEqual(glm::abs(point), glm::dvec3(kFarthest)))) {
       return fail(ErrorKind::input, "{}: ContourData (3006,0050) has a point {:.3g} mm off", file.string(),
                   glm::length(mm));
@@ -192,7 +192,7 @@ Result<Segments> read(const fs::path& file, const Geometry& grid) {
   auto object = load_object(file);
   if (!object) return pass_on(object);
   DcmDataset& dataset = *(*object)->getDataset();
-  if (text_of(dataset, DCM_SOPClassUID) != UID_RTStructureSetStorage) {
+  if (element_text(dataset, DCM_SOPClassUID) != UID_RTStructureSetStorage) {
     return fail(ErrorKind::input, "{}: is no RT structure set", file.string());
   }
   DRTStructureSetIOD set;

@@ -1,5 +1,5 @@
-// What was segmented, as files that other systems accept, and back: DICOM Segmentation (SEG), RT Structure
-// Set, OpenVDB. Files are written through a temporary file: on failure the target is as it was before.
+// Segments as files that other systems accept, out and in: DICOM Segmentation (SEG), RT Structure Set,
+// OpenVDB. Files are written through a temporary file: on failure the target is as it was before.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace tidemark {
 
 enum class ResultForm { segmentation, structure_set };
 
-// Which of the two a DICOM file is, by its SOP class; nothing when it is neither or cannot be read.
+// The kind of a DICOM file by its SOP class; nothing when it is neither or cannot be read.
 [[nodiscard]] std::optional<ResultForm> result_form_of(const std::filesystem::path& file);
 
 // The DICOM files of the series that was segmented, in slice order (Series::files): the result belongs to
@@ -24,7 +24,7 @@ using SourceFiles = std::span<const std::filesystem::path>;
 
 // Segmentation Storage, BINARY: a frame for each segment and slice that is not empty (DICOM PS3.3 A.51).
 // Fails with ErrorKind::write, with ErrorKind::input when a source file cannot be read, and with
-// ErrorKind::capability on a grid that DICOM cannot say.
+// ErrorKind::capability on a grid that DICOM cannot describe.
 Status write_segmentation(const Segments& segments, SourceFiles source, const std::filesystem::path& file,
                           const Progress& progress = {});
 
@@ -51,7 +51,7 @@ Result<Segments> read_result(const std::filesystem::path& file, const Geometry* 
 // not. Fails (ErrorKind::input) naming the file and why it does not fit.
 struct LoadedMask {
   Mask mask;
-  std::vector<std::string> changes;  // what reading left out, one sentence each
+  std::vector<std::string> changes;  // left out by reading, one sentence each
 };
 Result<LoadedMask> load_any_mask(const std::filesystem::path& file, const Geometry* grid,
                                  const Progress& progress = {});

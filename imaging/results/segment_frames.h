@@ -1,4 +1,4 @@
-// Where the frames of a segmentation lie on a grid. Private to this folder.
+// The place of a segmentation's frames on a grid. Private to this folder.
 #pragma once
 
 #include <cstdint>
@@ -32,8 +32,8 @@ struct FrameMap {
 // within a tenth of a voxel; they may lie beyond its border. `what` names the file in the message.
 Result<FrameMap> map_frame(const SegmentFrame& frame, const Geometry& grid, const std::string& what);
 
-// The smallest grid that holds all frames: slices along their normal, as far apart as `between_mm` says if
-// that fits, else as the nearest two. Fails (ErrorKind::input) when they are not parallel or evenly apart, or
+// The smallest grid that holds all frames: slices along their normal, `between_mm` apart if that fits, else
+// as far apart as the nearest two. Fails (ErrorKind::input) when they are not parallel or evenly apart, or
 // so far apart that it would be empty for the most part, and large.
 Result<Geometry> grid_of_frames(const std::vector<SegmentFrame>& frames, std::optional<double> between_mm,
                                 double thickness_mm, const std::string& what);

@@ -1,4 +1,4 @@
-// What a region is, in codes that other systems understand.
+// The meaning of a region, in codes that other systems understand.
 #pragma once
 
 #include <span>
@@ -18,7 +18,7 @@ struct Code {
   bool operator==(const Code&) const = default;
 };
 
-// Segmented Property Category and Type (PS3.3 C.8.20.4, PS3.16 CID 7150 and 7151). As it stands: some tissue,
+// Segmented Property Category and Type (PS3.3 C.8.20.4, PS3.16 CID 7150 and 7151). The default: some tissue,
 // which is always true.
 struct SegmentMeaning {
   Code category{"123037004", "SCT", "Anatomical Structure"};
@@ -37,8 +37,8 @@ struct NamedMeaning {
 // By its word. Fails (ErrorKind::usage) naming the words there are.
 [[nodiscard]] Result<SegmentMeaning> find_segment_meaning(std::string_view word);
 
-// What a name of a region says in English ("Left kidney", "liver tumours": what is abnormal comes before
-// where it is); tissue where it says nothing.
+// The meaning of a region's English name ("Left kidney"; in "liver tumours" the abnormal thing comes before
+// its place); tissue where the name has none.
 [[nodiscard]] SegmentMeaning guess_segment_meaning(std::string_view name);
 
 }  // namespace tidemark

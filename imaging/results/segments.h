@@ -19,7 +19,7 @@ using SegmentColour = std::array<std::uint8_t, 3>;  // sRGB
 
 struct Segment {
   std::string name;                     // UTF-8
-  std::optional<SegmentColour> colour;  // nothing: up to whoever shows it
+  std::optional<SegmentColour> colour;  // unset: chosen by the viewer
   SegmentMeaning meaning;
   // The slices k in which it has voxels: 1 inside, 0 outside, size.x * size.y of them, i fastest.
   std::map<std::int64_t, std::vector<std::uint8_t>> slices;
@@ -32,7 +32,7 @@ struct Segment {
 struct Segments {
   Geometry geometry;
   std::vector<Segment> list;
-  std::vector<std::string> changes;  // what reading found and left out, one sentence each
+  std::vector<std::string> changes;  // found and left out by reading, one sentence each
 };
 
 // The slices of the voxels that hold `id` (a mask's hold 1). `voxels` are in voxel order.

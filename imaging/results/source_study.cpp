@@ -78,7 +78,7 @@ Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& stu
       if (slice.frames > 1) place->frames.push_back(static_cast<std::uint16_t>(slice.frame + 1));
     }
   }
-  // Results would be told in coordinates that are not the patient's.
+  // Results would be in coordinates that are not the patient's.
   for (std::size_t k = 0; k < beside.size(); ++k) {
     if (study.places[k] || beside[k].empty()) continue;
     return fail(ErrorKind::input,
@@ -98,14 +98,14 @@ Result<SourceStudy> source_study(SourceFiles files, const Geometry& geometry) {
     if (!first) return pass_on(first);
     study.first = std::move(*first);
     DcmDataset& attributes = study.attributes();
-    // What the source was stripped of, or never had, is new: a result needs it.
+    // UIDs that the source lacks are new: a result needs them.
     const auto take = [&](const DcmTagKey& key, std::string& uid) {
-      if (const std::string its_own = text_of(attributes, key); !its_own.empty()) uid = its_own;
+      if (const std::string its_own = element_text(attributes, key); !its_own.empty()) uid = its_own;
       attributes.putAndInsertString(DcmTag(key), uid.c_str());
     };
     take(DCM_StudyInstanceUID, study.study_uid);
     take(DCM_FrameOfReferenceUID, study.frame_of_reference_uid);
-    study.series_uid = text_of(attributes, DCM_SeriesInstanceUID);
+    study.series_uid = element_text(attributes, DCM_SeriesInstanceUID);
     if (!study.series_uid.empty()) {
       TIDEMARK_TRY(read_images(files, geometry, study));
     }

@@ -1,4 +1,4 @@
-// Whose patient and study a result belongs to, and which images it was made from. Private to this folder.
+// The patient and study of a result, and the images that it was made from. Private to this folder.
 #pragma once
 
 #include <memory>
@@ -36,7 +36,7 @@ struct SourceStudy {
   [[nodiscard]] DcmDataset& attributes() const { return *first->getDataset(); }
 };
 
-// Reads what the files say; of no files it makes a new study of an anonymous patient. UIDs that are missing
+// Reads the files; without files it makes a new study of an anonymous patient. UIDs that are missing
 // are new. Fails (ErrorKind::input) when a file cannot be read, or lies beside its slice of the grid.
 Result<SourceStudy> source_study(SourceFiles files, const Geometry& geometry);
 

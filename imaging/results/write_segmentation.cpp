@@ -14,7 +14,7 @@
 #include <set>
 
 #include "imaging/dicom/dicom_values.h"
-#include "imaging/guarded.h"
+#include "imaging/guard/guarded.h"
 #include "imaging/results/results.h"
 #include "imaging/results/source_study.h"
 
@@ -193,7 +193,7 @@ Status SegmentationWriter::add_frames(const Progress& progress) {
   return {};
 }
 
-// Into what is written, because DCMTK's segments take no letters beyond ASCII.
+// Into the written dataset, because DCMTK's segments take no letters beyond ASCII.
 void SegmentationWriter::put_names(DcmDataset& dataset) {
   for (std::size_t n = 0; n < segments_.list.size(); ++n) {
     DcmItem* segment = nullptr;
@@ -233,7 +233,7 @@ Status SegmentationWriter::write(const Progress& progress) {
     TIDEMARK_TRY(add_segment(segment));
   }
   TIDEMARK_TRY(add_frames(progress));
-  // What was just made need not be checked again frame by frame.
+  // A dataset that was just made need not be checked again frame by frame.
   document_->setCheckFGOnWrite(OFFalse);
   document_->setCheckDimensionsOnWrite(OFFalse);
   auto dataset = std::make_unique<DcmDataset>();

@@ -56,7 +56,7 @@ class ComputeExecutor final : public ExecutorBase {
   void begin_window(bool wake_all);
   Result<ComputeControl> run_steps(std::int64_t count, bool until_converged);
 
-  // Grants every request of phi as it is; G grows as it must.
+  // Grants every request of the present phi; G grows as needed.
   Status activate_pages();
   Status grow(std::int64_t more_pages);
   void order_sphere(const Sphere& sphere, Brush brush, bool only_count);

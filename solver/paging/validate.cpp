@@ -28,7 +28,7 @@ Status validate_values(const Field& phi, Index3 first, Index3 valid) {
   return {};
 }
 
-// One face of a page, against what is across when that is not resident.
+// One face of a page, against the constant across it when that page is not resident.
 Status validate_face(const Field& phi, Index3 first, Index3 valid, int axis, int side) {
   const int u = (axis + 1) % 3;
   const int w = (axis + 2) % 3;

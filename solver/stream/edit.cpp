@@ -9,7 +9,7 @@
 namespace tidemark {
 namespace {
 
-// What a sphere makes of pages.
+// The pages that a sphere changes, and how.
 struct PaintJob {
   const Geometry& geometry;
   const PageLayout& layout;

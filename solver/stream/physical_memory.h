@@ -1,4 +1,4 @@
-// G of the stream executor: the packed field, what is drawn into it, and each physical page's motion.
+// G of the stream executor: the packed field, its framebuffers, and each physical page's motion.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-// How a page moved in a window of steps, over its voxels beside the surface (StepConstants::near).
+// The motion of a page in a window of steps, over its voxels beside the surface (StepConstants::near).
 struct PageMotion {
   float change = 0.0F;          // the sum of the largest changes
   float squared_change = 0.0F;  // the sum of the squared changes

@@ -54,7 +54,7 @@ Status StreamExecutor::start(std::int64_t largest_region) {
   return restore(Field::empty(source_->geometry, band(), kPageShape));
 }
 
-// Computes the active pages and reads what they send.
+// Computes the active pages and reads their messages.
 Status StreamExecutor::step() {
   passes_.step(active_geometry_, memory_, source_texture_, model_.constants<float>(), current_,
                next_step_is_measured());

@@ -1,4 +1,4 @@
-// Runs the built tidemark-cli as a user would, and makes small inputs for it.
+// A runner of the built tidemark-cli, as a user runs it, and small inputs for it.
 #pragma once
 
 #include <QJsonObject>
@@ -34,7 +34,7 @@ QString cli_program();
 // Runs to the end.
 Outcome run_cli(const QStringList& arguments, const RunOptions& options = {});
 
-// The same, of what should succeed: what it says otherwise is shown.
+// The same for a command that should succeed; else its output is shown.
 Outcome must_run(const QStringList& arguments, const RunOptions& options = {});
 
 // Starts it and returns once `line` has appeared on standard output.
@@ -61,7 +61,7 @@ class SphereStudy {
 
   [[nodiscard]] std::filesystem::path folder() const { return folder_ / "sphere"; }
   std::filesystem::path operator/(const std::string& name) const { return folder() / name; }
-  // What segments it, from where the phantom says.
+  // The options that segment it, with the phantom's own start.
   [[nodiscard]] QStringList arguments() const;
 
  private:

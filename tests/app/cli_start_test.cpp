@@ -49,7 +49,7 @@ void CliStartTest::the_start_is_a_mask_or_a_threshold_or_a_fill() {
     QVERIFY2(json_of(outcome.out)["dice"].toDouble() > 0.95, outcome.told());
     QCOMPARE(json_of(outcome.out)["steps"].toInt(-1), 0);
   }
-  // The exact distance transform keeps the mask as it is.
+  // The exact distance transform keeps the mask unchanged.
   const Outcome kept =
       must_run(base + QStringList{"--init", truth, "--steps", "0", "--truth", truth, "--json"});
   QCOMPARE(json_of(kept.out)["dice"].toDouble(), 1.0);

@@ -1,4 +1,4 @@
-// A small volume in which a level set has something to do, and what tests ask of it.
+// A small volume in which a level set has something to do, and common questions of tests to it.
 #pragma once
 
 #include <QTest>
@@ -83,7 +83,7 @@ inline void run(LevelSet& level_set, std::int64_t steps) {
   QCOMPARE(report->steps, steps);
 }
 
-// What a level set is, for comparisons.
+// A level set's values, for comparisons.
 struct Seen {
   std::vector<float> phi;
   Parameters parameters;

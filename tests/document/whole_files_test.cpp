@@ -34,7 +34,7 @@ constexpr Index3 kSize{24, 20, 16};
 // How many bytes before its end a file is cut off: UIDs make some files longer by a few bytes each time.
 constexpr std::int64_t kNearTheEnd = 40;
 
-// What is written, in two versions: the older one is there when the newer one is written.
+// A file in two versions: the older one exists when the newer one is written.
 struct Contents {
   Volume volume;
   Mask mask;
@@ -270,7 +270,7 @@ class WholeFilesTest : public QObject {
     }
   }
 
-  // Writes one version as nobody disturbs it.
+  // Writes one version undisturbed.
   static void write(const Writer& writer, const Contents& contents, const fs::path& target) {
     const test::Ended ended = test::run_in_child([&] { return writer.write(contents, target); });
     QVERIFY2(!ended.was_killed && ended.failure.empty(), ended.failure.c_str());
@@ -304,7 +304,7 @@ class WholeFilesTest : public QObject {
       disturb(writer, has_older, {.largest_file = bytes}, newer, was_killed);
       QVERIFY(was_killed);
     }
-    // Whoever is quicker than the kill has written the whole.
+    // A child that was quicker than the kill has written the whole.
     int survived = 0;
     for (int events = 1; survived < 2; ++events) {
       disturb(writer, has_older, {.events = events}, newer, was_killed);

@@ -104,7 +104,7 @@ class CaseProxyTest : public QObject {
     QCOMPARE(copied, executor_of_row() == ExecutorKind::host);
   }
 
-  // Whoever drags asks for the next picture before the last one is there.
+  // A drag asks for the next picture before the last one is there.
   void the_surface_moves_on_under_the_mouse_data() {
     QTest::addColumn<int>("unused");
     for (const char* what : {"camera", "paint", "parameters"}) QTest::newRow(what) << 0;

@@ -23,7 +23,7 @@ class Hold {
     });
     state_->begun.wait();
   }
-  // Whether the job had been told to stop.
+  // Whether the job saw a request to stop.
   bool release() {
     state_->released.count_down();
     state_->ended.wait();
@@ -134,7 +134,7 @@ class EngineTest : public QObject {
       auto shared = engine->share(std::make_unique<Mortal>(died_on));
       engine->post(Priority::background, this, [shared](const std::stop_token&) {});
       shared.reset();
-      engine->cancel(this);  // here the last to hold it lets go
+      engine->cancel(this);  // here its last holder drops it
       hold.release();
     }
     wait_until_idle(*engine);

@@ -104,7 +104,7 @@ class JobRunnerTest : public QObject {
     QVERIFY(runner.busy());
     QTRY_COMPARE_WITH_TIMEOUT(cancelled.size(), 1, kPatience);
     QVERIFY(!runner.busy());
-    // What was past stopping is done.
+    // Work past stopping is done.
     std::binary_semaphore go{0};
     runner.number([&go](const Progress&) -> Result<int> {
       go.acquire();

@@ -7,7 +7,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
   using tidemark::Preflight;
   tidemark::MemoryBytes source({bytes, count});
   const Preflight checked = tidemark::preflight_dicom(source);
-  // Whoever parses asks for the syntax; whoever refuses gives a reason.
+  // A file to be parsed has a syntax; a refused one has a reason.
   if (checked.may_be_parsed() && checked.syntax == nullptr) std::abort();
   if ((checked.verdict == Preflight::Verdict::good) != checked.reason.what.empty()) std::abort();
   return 0;

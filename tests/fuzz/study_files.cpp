@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
     static_cast<void>(load_session(scratch.write("case.tidemark", bytes, count)));
     return 0;
   }
-  // What is read can be written, and is read again.
+  // A recipe that was read can be written, and is read again.
   if (const auto recipe = Recipe::parse(text, "recipe.json")) {
     const auto again = recipe->to_text();
     if (!again || !Recipe::parse(*again, "recipe.json")) std::abort();

@@ -36,11 +36,11 @@ std::vector<VolumeView> views() {
   VolumeView inside = source;
   inside.surface = false;
   inside.region = Region::inside;
-  VolumeView taught = surface;
-  taught.colouring = SurfaceColouring::total_speed;
+  VolumeView coloured_by_speed = surface;
+  coloured_by_speed.colouring = SurfaceColouring::total_speed;
   VolumeView clipped = surface;
   clipped.clip = ClipPlane{};
-  std::vector<VolumeView> all{surface, source, inside, taught, clipped};
+  std::vector<VolumeView> all{surface, source, inside, coloured_by_speed, clipped};
   for (std::size_t i = 0, rays = all.size(); i < rays; ++i) {
     all.push_back(all[i]);
     all.back().mode = Mode::slices;

@@ -21,7 +21,7 @@ Field ball(const Geometry& geometry, double radius, glm::dvec3 middle, Index3 pa
       band, page_shape);
 }
 
-// What the shaders would find, read back from physical memory through the page table.
+// phi as the shaders find it, read back from physical memory through the page table.
 std::vector<float> read_back(const PhiPicture& picture) {
   const PageLayout& layout = picture.table().layout();
   const std::vector<float> pages = *picture.field().download(0);
@@ -92,7 +92,7 @@ class PhiPictureTest : public QObject {
     QCOMPARE(draw.renderer().pages_uploaded(), 1);
   }
 
-  // What an executor keeps on the GPU is drawn as a copy of it is, also after its memory has grown.
+  // An executor's memory on the GPU is drawn like a copy of it, also after the memory has grown.
   void an_executors_own_memory_gives_the_same_picture_data() {
     QTest::addColumn<int>("kind");
     QTest::newRow("compute") << static_cast<int>(ExecutorKind::compute);
@@ -148,7 +148,7 @@ class PhiPictureTest : public QObject {
     draw(VolumeView(), 512, 512);
     const bool software = draw.device().capabilities().software;
     QVERIFY(software ? draw.renderer().last_draw().pieces > 8 : draw.renderer().last_draw().pieces == 1);
-    // Between two of them it can be told to stop.
+    // Between two of them it can be stopped.
     std::stop_source stop;
     stop.request_stop();
     Progress progress;

@@ -17,7 +17,7 @@ namespace {
 
 [[noreturn]] void work_as_child(const std::function<Status()>& work, const Disturbance& disturbance,
                                 int out) {
-  // Libraries say on standard error what the work's Status says too.
+  // Libraries print on standard error what is in the work's Status too.
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   ::dup2(nowhere, STDERR_FILENO);
   if (disturbance.largest_file) {
@@ -46,7 +46,7 @@ int take_events(int notifier) {
   return events;
 }
 
-// Reads what the child says until it has ended, and kills it at its event.
+// Reads the child's messages until it has ended, and kills it at its event.
 std::string attend(pid_t child, int in, int notifier, int events) {
   std::string said;
   std::array<char, 4096> buffer;

@@ -73,7 +73,7 @@ void Actions::make_files() {
   save = make("save", "save", tr("&Save session"), QKeySequence("Ctrl+S"), true);
   save_as = make("save-as", "save-as", tr("Save session &as…"), QKeySequence("Ctrl+Shift+S"), true);
   export_mask = make("export-mask", "export", tr("&Mask or labels…"), QKeySequence("Ctrl+E"), true,
-                     tr("Write what is inside the surface, or the labels"));
+                     tr("Write the inside of the surface, or the labels"));
   export_segmentation = make("export-segmentation", nullptr, tr("&DICOM segmentation…"), {}, true,
                              tr("Write labels or surface as DICOM segmentation (SEG) of the study"));
   export_structure_set = make("export-structure-set", nullptr, tr("RT s&tructure set…"), {}, true,
@@ -114,7 +114,8 @@ void Actions::make_mouse() {
 }
 
 void Actions::make_evolution() {
-  play = make("play", "play", tr("&Play"), QKeySequence("P"), true, tr("Let the surface evolve, or hold it"));
+  play = make("play", "play", tr("&Play"), QKeySequence("P"), true,
+              tr("Play or pause the evolution of the surface"));
   play->setCheckable(true);
   step = make("step", "step", tr("One &step"), QKeySequence("."), true, tr("Compute one step"));
   step_back =
@@ -140,8 +141,9 @@ void Actions::make_tools() {
        tr("Drag over the tissue: T becomes its mean, ε its standard deviation"));
   tool(Tool::probe_transfer, "tool-probe-transfer", "tool-probe-transfer", tr("Probe t&ransfer function"),
        "G", tr("Drag over the tissue to set the chosen Gaussian of the transfer function"));
-  tool(Tool::seed, "tool-seed", "tool-seed", tr("&Sphere"), "S",
-       tr("Press in the middle and drag: a sphere to start from (right button: takes away)"));
+  tool(
+      Tool::seed, "tool-seed", "tool-seed", tr("&Sphere"), "S",
+      tr("Place a surface: click in the tissue, or press in its middle and drag (right button: takes away)"));
   tool(Tool::paint, "tool-paint", "tool-paint", tr("P&aint"), "B",
        tr("Add to the surface with a 3D brush (right button: erase)"));
   tool(Tool::erase, "tool-erase", "tool-erase", tr("&Erase"), "E",
@@ -194,8 +196,9 @@ void Actions::make_windows() {
   cascade = make("cascade", "cascade", tr("&Cascade"), {}, false);
   tabs = make("tabs", "tabs", tr("Ta&bs"), {}, false);
   tabs->setCheckable(true);
-  link = make("link", "link", tr("&Link cases"), QKeySequence("L"), false,
-              tr("Cursor, slices, window and cameras of all cases move together"));
+  link =
+      make("link", "link", tr("&Link cases"), QKeySequence("L"), false,
+           tr("Cursor, slices and cameras of all cases move together, window and level within a modality"));
   link->setCheckable(true);
   lock_step = make("lock-step", "lockstep", tr("Play in &lock-step"), QKeySequence("Ctrl+L"), false,
                    tr("All cases play and step together, always at the same step"));
@@ -216,7 +219,7 @@ void Actions::follow(CaseProxy* proxy) {
   patient_text->setChecked(proxy && proxy->display().settings().patient_text);
   if (proxy) return tool(proxy->display().settings().tool)->setChecked(true);
   if (!tools->checkedAction()) return;
-  // An exclusive group lets go of none.
+  // An exclusive group keeps one action checked.
   tools->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);
   tools->checkedAction()->setChecked(false);
   tools->setExclusionPolicy(QActionGroup::ExclusionPolicy::Exclusive);

@@ -32,7 +32,7 @@ QPixmap drawn_mark(int number, int side) {
   return pixmap;
 }
 
-// "Name · ID · series", without what is not known or not to be read.
+// "Name · ID · series", without unknown and hidden parts.
 QString text_of(CaseProxy& proxy) {
   QStringList parts;
   if (proxy.display().settings().patient_text) {
@@ -61,7 +61,7 @@ CaseHead::CaseHead(QWidget* parent)
   row->addWidget(mark_);
   row->addWidget(text_, 1);
   row->addWidget(chain_);
-  chain_->setToolTip(tr("Linked with other cases: they are looked at together"));
+  chain_->setToolTip(tr("Linked with other cases: crosshair, slices and camera move together"));
   chain_->setAccessibleName(tr("Linked"));
   setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   refresh();

@@ -20,7 +20,7 @@ CaseMessages::CaseMessages(CaseWindow& window, MessageBar& bar)
   connect(&window.proxy(), &CaseProxy::failed, this, &CaseMessages::tell_failure);
   connect(&window.proxy(), &CaseProxy::state_changed, this, &CaseMessages::follow);
   connect(&window.autosave(), &CaseAutosave::failed, this, [this](const QString& message) {
-    bar_.show_text(tr("No copy is kept for the case of a crash: %1").arg(message));
+    bar_.show_text(tr("Unsaved work cannot be copied against a crash: %1").arg(message));
   });
 }
 

@@ -12,6 +12,7 @@
 #include "engine/display_json.h"
 #include "renderer/camera.h"
 #include "ui/main/case_head.h"
+#include "ui/main/view_menu.h"
 #include "ui/views/slice_view.h"
 #include "ui/views/view_bar.h"
 #include "ui/views/volume_view.h"
@@ -30,13 +31,13 @@ PictureView* view_of(const QDockWidget* dock) {
   return qobject_cast<PictureView*>(dock->widget());
 }
 
-// What a new case is looked at like.
+// The display of a new case.
 DisplaySettings first_settings(const CaseProxy& proxy) {
   const Volume& volume = proxy.volume();
   DisplaySettings settings;
   settings.cursor_mm = settings.slice_centre_mm = middle_of(volume.geometry);
   if (const auto& start = proxy.study().start; start && start->seed) {
-    // Where a phantom wants to be started from.
+    // The start that suits the phantom.
     const auto& seed = *start->seed;
     settings.cursor_mm = volume.geometry.to_patient({seed[0], seed[1], seed[2]});
   }
@@ -95,7 +96,7 @@ CaseWindow::CaseWindow(std::unique_ptr<CaseProxy> proxy, Actions& actions, QWidg
 
 CaseWindow::~CaseWindow() {
   autosave_.reset();
-  // Views speak of the session to their end.
+  // Views use the proxy until they are destroyed.
   qDeleteAll(docks_);
 }
 
@@ -149,6 +150,15 @@ QDockWidget* CaseWindow::make_dock(ViewKind kind) {
   connect(bar, &ViewBar::maximise_wanted, this, [this, dock] { toggle_maximised(dock); });
   connect(view, &PictureView::maximise_wanted, this, [this, dock] { toggle_maximised(dock); });
   connect(view, &PictureView::activated, this, [this, view] { active_ = view; });
+  connect(view, &PictureView::menu_wanted, this, [this, view](QPoint at, std::optional<glm::dvec3> place_mm) {
+    make_view_menu(*view, actions_, place_mm)->popup(view->mapToGlobal(at));
+  });
+  if (auto* volume = qobject_cast<VolumeViewWidget*>(view)) {
+    connect(volume, &VolumeViewWidget::place_wanted, this, [this] {
+      actions_.tool(Tool::seed)->trigger();
+      emit place_panel_wanted();
+    });
+  }
   docks_ << dock;
   return dock;
 }
@@ -217,7 +227,7 @@ void CaseWindow::set_layout(ViewLayout layout) {
       break;
   }
   for (QDockWidget* dock : shown) dock->show();
-  // The others go: restoreState() would show them again wherever they had been.
+  // The others are deleted: restoreState() would show them again at their old places.
   const auto unused = std::stable_partition(docks_.begin(), docks_.end(),
                                             [&](QDockWidget* dock) { return shown.contains(dock); });
   qDeleteAll(unused, docks_.end());

@@ -29,7 +29,8 @@ QString steps(const Actions& actions) {
       tr("Open a study (%1), or a phantom from File &gt; Phantoms.").arg(key(actions.open_folder)),
       tr("Choose <b>Probe T and ε</b> (%1) and drag over the tissue you want.")
           .arg(key(actions.tool(Tool::probe_speed))),
-      tr("Choose <b>Sphere</b> (%1), press inside the tissue and drag: that is where the surface starts.")
+      tr("Place a surface: choose <b>Sphere</b> (%1) and click in the tissue, or press in its middle and "
+         "drag.")
           .arg(key(actions.tool(Tool::seed))),
       tr("Press <b>Play</b> (%1) and watch. Change T, ε and α, the weight of the data, while it runs: near "
          "1 the surface follows brightness, near 0 it becomes smooth.")
@@ -49,7 +50,7 @@ QString mouse() {
                                ? tr("the tool; else the crosshair on slices, turning in 3D")
                                : tr("the tool; window and level on slices, turning in 3D")) +
            row(tr("middle"), tr("move the picture")) +
-           row(tr("right"), tr("zoom; the opposite of the brush while painting")) +
+           row(tr("right"), tr("zoom, a click opens a menu; the opposite of the brush while painting")) +
            row(tr("wheel"), tr("slices; the clip plane or zoom in 3D")) +
            row(tr("Shift + wheel"), tr("size of the brush")) + row(tr("Ctrl + wheel"), tr("zoom")) +
            row(tr("Shift + move"), tr("linked crosshair")) +

@@ -1,10 +1,12 @@
 #include "ui/main/main_window.h"
 
+#include <QAbstractButton>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QMdiArea>
 #include <QMdiSubWindow>
@@ -16,6 +18,7 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
+#include <QToolButton>
 #include <QVBoxLayout>
 
 #include "ui/look/about_dialog.h"
@@ -73,7 +76,7 @@ MainWindow::MainWindow(Engine& engine, QWidget* parent) : QMainWindow(parent), e
 }
 
 MainWindow::~MainWindow() {
-  // Its cases go after it, and what they still say would reach what is no main window any more.
+  // Its cases are destroyed after it; their signals would reach a main window that is no more.
   area_->disconnect(this);
   links_->disconnect(this);
   for (const auto& connection : active_connections_) disconnect(connection);
@@ -127,6 +130,16 @@ void MainWindow::make_tool_bar() {
 void MainWindow::make_status_bar() {
   values_ = new ValueBar;
   statusBar()->addWidget(values_, 1);
+  auto* details = new QToolButton;
+  details->setText(tr("Details"));
+  details->setAccessibleName(tr("Details of the values under the mouse"));
+  details->setToolTip(tr("Shows also the terms of the equation under the mouse: D, φ, κ and |∇φ|."));
+  details->setAutoRaise(true);
+  details->setCheckable(true);
+  connect(details, &QToolButton::toggled, values_, &ValueBar::set_detailed);
+  connect(details, &QToolButton::clicked, this, [](bool on) { QSettings().setValue("details/values", on); });
+  details->setChecked(QSettings().value("details/values", false).toBool());
+  statusBar()->addPermanentWidget(details);
   loading_ = new LoadingView(LoadingView::Shape::line);
   loading_->hide();
   statusBar()->addPermanentWidget(loading_);
@@ -208,17 +221,25 @@ void MainWindow::open_phantom(const QString& kind) {
 CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study,
                                  const RestoredCase& restored) {
   if (!study->origin.path.empty()) {
-    recent_->add({QString::fromStdString(study->origin.path.string()),
-                  QString::fromStdString(study->origin.series_uid), study->name, study->origin.policy});
+    const RecentStudy recent{QString::fromStdString(study->origin.path.string()),
+                             QString::fromStdString(study->origin.series_uid), study->name,
+                             study->origin.policy};
+    recent_->add(recent);
+    recent_->add_picture(recent, study->volume, study->summary.window, study->volume->geometry.size.z / 2);
   }
   auto* window = new CaseWindow(std::make_unique<CaseProxy>(engine_, study, executor_, restored), *actions_);
-  window->proxy().display().change([this](DisplaySettings& settings) {
-    settings.tool = active_ ? active_->proxy().display().settings().tool : settings.tool;
+  window->proxy().display().change([&](DisplaySettings& settings) {
+    if (active_) {
+      settings.tool = active_->proxy().display().settings().tool;
+    } else if (!study->origin.phantom.empty()) {
+      settings.tool = Tool::seed;  // to be tried at once: its T and epsilon fit
+    }
   });
   settle(kAboutOpening);
   window->set_number(free_number());
   new CaseMessages(*window, *messages_);  // its child
   connect(window, &CaseWindow::close_wanted, saved_, &SavedCases::close);
+  connect(window, &CaseWindow::place_panel_wanted, this, [this] { panels_->show("initialise"); });
   QMdiSubWindow* child = area_->addSubWindow(window);
   child->setAttribute(Qt::WA_DeleteOnClose);
   // Its own menu has keys that ours have, too.
@@ -226,7 +247,7 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
   connect(window, &QWidget::windowTitleChanged, child, &QWidget::setWindowTitle);
   child->setWindowTitle(window->windowTitle());
   child->setWindowIcon(case_mark(window->number()));
-  // The user interface draws breath between making a case and showing it.
+  // The event loop runs between making a case and showing it.
   const auto show = [this, child = QPointer(child), study, restored] {
     if (child) show_case(*child, *study, restored);
   };
@@ -292,7 +313,7 @@ void MainWindow::activate(QMdiSubWindow* child) {
   opener_->set_previews_wanted(!active_);
   if (!active_) {
     centre_->setCurrentIndex(0);
-    messages_->dismiss();  // it spoke of what is closed now
+    messages_->dismiss();  // it was about a closed case
     if (std::exchange(quitting_, false))
       QMetaObject::invokeMethod(this, &QWidget::close, Qt::QueuedConnection);
   }
@@ -390,13 +411,22 @@ void MainWindow::connect_windows() {
 void MainWindow::closeEvent(QCloseEvent* event) {
   area_->closeAllSubWindows();
   if (!area_->subWindowList().isEmpty()) {
-    // The user wants to keep one, or has one saved, after which this is tried again.
+    // The user keeps a case open, or saves one; closing is tried again after that.
     quitting_ = saved_->closes_later();
     return event->ignore();
   }
   QSettings().setValue("main/state", panels_->arrangement());
   QSettings().setValue("main/geometry", saveGeometry());
   event->accept();
+}
+
+bool MainWindow::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    const auto* key = static_cast<const QKeyEvent*>(event);
+    const bool is_space = key->key() == Qt::Key_Space && key->modifiers() == Qt::NoModifier;
+    if (is_space && qobject_cast<QAbstractButton*>(QApplication::focusWidget())) event->accept();
+  }
+  return QMainWindow::event(event);
 }
 
 bool MainWindow::focusNextPrevChild(bool next) {

@@ -12,6 +12,15 @@ ValueBar::ValueBar(QWidget* parent) : QLabel(parent) {
   setAccessibleName(tr("Values under the mouse"));
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   setIndent(6);
+  setToolTip(
+      tr("Under the mouse: the brightness I, the voxel and its place in mm (LPS).\n"
+         "In detail: the data term D (above 0 the surface grows here), φ (positive inside the surface),\n"
+         "and near the surface its curvature κ and the slope of φ."));
+}
+
+void ValueBar::set_detailed(bool detailed) {
+  detailed_ = detailed;
+  follow();
 }
 
 void ValueBar::set_proxy(CaseProxy* proxy) {
@@ -33,7 +42,6 @@ void ValueBar::follow() {
   const Volume& volume = proxy_->volume();
   const Index3 voxel(glm::round(volume.geometry.to_voxel(*point)));
   if (!volume.geometry.contains(voxel)) return setText(tr("outside the volume"));
-  const CaseState& state = proxy_->state();
   const QString place = tr("voxel %1, %2, %3   %4, %5, %6 mm")
                             .arg(voxel.x)
                             .arg(voxel.y)
@@ -43,20 +51,21 @@ void ValueBar::follow() {
                             .arg(point->z, 0, 'f', 1);
   const QString unit = volume.unit.empty() ? QString() : QLatin1Char(' ') + value_unit(volume);
   const double intensity = volume.value(voxel);
-  QString values = tr("I %1%2   D %3")
-                       .arg(intensity, 0, 'g', 5)
-                       .arg(unit)
-                       .arg(data_speed(proxy_->parameters(), intensity), 0, 'f', 2);
-  if (state.phi && state.begun) {
-    const VoxelValues at = values_at(*state.phi, volume, proxy_->parameters(), voxel);
-    const bool clamped = std::abs(at.phi) >= state.phi->band;
-    values += clamped ? tr("   φ %1").arg(at.phi, 0, 'f', 2)
-                      : tr("   φ %1   κ %2   |∇φ| %3")
-                            .arg(at.phi, 0, 'f', 2)
-                            .arg(at.curvature, 0, 'f', 2)
-                            .arg(at.gradient, 0, 'f', 2);
-  }
+  QString values = tr("I %1%2").arg(intensity, 0, 'g', 5).arg(unit);
+  if (detailed_) values += details_at(voxel, intensity);
   setText(values + QStringLiteral("      ") + place);
+}
+
+QString ValueBar::details_at(Index3 voxel, double intensity) const {
+  const CaseState& state = proxy_->state();
+  const Parameters& parameters = proxy_->parameters();
+  QString values = tr("   D %1").arg(data_speed(parameters, intensity), 0, 'f', 2);
+  if (!state.phi || !state.begun) return values;
+  const VoxelValues at = values_at(*state.phi, proxy_->volume(), parameters, voxel);
+  values += tr("   φ %1").arg(at.phi, 0, 'f', 2);
+  const bool clamped = std::abs(at.phi) >= state.phi->band;
+  if (!clamped) values += tr("   κ %1   |∇φ| %2").arg(at.curvature, 0, 'f', 2).arg(at.gradient, 0, 'f', 2);
+  return values;
 }
 
 }  // namespace tidemark

@@ -1,4 +1,4 @@
-// What is under the mouse: I, D, kappa, |grad phi|, phi and where that is.
+// What is under the mouse: the brightness and where that is; in detail also D, phi, kappa and |grad phi|.
 #pragma once
 
 #include <QLabel>
@@ -13,11 +13,14 @@ class ValueBar : public QLabel {
  public:
   explicit ValueBar(QWidget* parent = nullptr);
   void set_proxy(CaseProxy* proxy);
+  void set_detailed(bool detailed);
 
  private:
   void follow();
+  [[nodiscard]] QString details_at(Index3 voxel, double intensity) const;
 
   QPointer<CaseProxy> proxy_;
+  bool detailed_ = false;
 };
 
 }  // namespace tidemark

@@ -13,6 +13,7 @@ constexpr int kGap = 3;  // between title and sentence
 constexpr double kRadius = 6.0;
 constexpr int kWishedWidth = 300;
 constexpr int kLeastWidth = 150;
+constexpr int kPictureSide = 56;
 
 }  // namespace
 
@@ -39,6 +40,16 @@ void CardButton::set_one_line(bool one_line) {
   updateGeometry();
 }
 
+void CardButton::set_picture(const QImage& picture) {
+  picture_ = QPixmap::fromImage(picture);
+  updateGeometry();
+  update();
+}
+
+int CardButton::text_left() const {
+  return picture_.isNull() ? kPadding : 2 * kPadding + kPictureSide;
+}
+
 QFont CardButton::title_font() const {
   QFont bold = font();
   bold.setWeight(QFont::DemiBold);
@@ -55,10 +66,11 @@ QSize CardButton::minimumSizeHint() const {
 
 int CardButton::heightForWidth(int width) const {
   const QFontMetrics text(font());
-  const int room = std::max(1, width - 2 * kPadding);
+  const int room = std::max(1, width - text_left() - kPadding);
   const int lines =
       one_line_ ? text.height() : text.boundingRect(0, 0, room, 10'000, Qt::TextWordWrap, sentence_).height();
-  return 2 * kPadding + QFontMetrics(title_font()).height() + kGap + lines;
+  const int texts = QFontMetrics(title_font()).height() + kGap + lines;
+  return 2 * kPadding + std::max(texts, picture_.isNull() ? 0 : kPictureSide);
 }
 
 void CardButton::paint_frame(QPainter& painter) const {
@@ -83,13 +95,28 @@ void CardButton::paint_frame(QPainter& painter) const {
   }
 }
 
+// Whole, on black, in a square at the left.
+void CardButton::paint_picture(QPainter& painter) const {
+  if (picture_.isNull()) return;
+  const QRect square(kPadding, (height() - kPictureSide) / 2, kPictureSide, kPictureSide);
+  QRect place(QPoint(), picture_.size().scaled(square.size(), Qt::KeepAspectRatio));
+  place.moveCenter(square.center());
+  painter.save();
+  painter.setRenderHint(QPainter::SmoothPixmapTransform);
+  painter.setOpacity(isEnabled() ? 1.0 : 0.4);
+  painter.fillRect(square, Qt::black);
+  painter.drawPixmap(place, picture_);
+  painter.restore();
+}
+
 void CardButton::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   paint_frame(painter);
+  paint_picture(painter);
   const QPalette::ColorGroup group = isEnabled() ? QPalette::Active : QPalette::Disabled;
   const QColor strong = palette().color(group, QPalette::WindowText);
-  const QRect inside = rect().adjusted(kPadding, kPadding, -kPadding, -kPadding);
+  const QRect inside = rect().adjusted(text_left(), kPadding, -kPadding, -kPadding);
   const QFontMetrics title(title_font());
   painter.setFont(title_font());
   painter.setPen(strong);

@@ -1,7 +1,9 @@
-// A button with a title and a sentence below it.
+// A button with a title and a sentence below it, and a picture at its left if it has one.
 #pragma once
 
 #include <QAbstractButton>
+#include <QPixmap>
+
 #include "ui/look/colour.h"
 
 namespace tidemark {
@@ -11,8 +13,11 @@ class CardButton : public QAbstractButton {
  public:
   CardButton(const QString& title, const QString& sentence, QWidget* parent = nullptr);
 
-  // Stands out among its neighbours: what to try first.
+  // Makes it stand out among its neighbours, as the one to try first.
   void set_emphasised(bool emphasised);
+  // Whose pixels are square; null: none.
+  void set_picture(const QImage& picture);
+  [[nodiscard]] bool has_picture() const { return !picture_.isNull(); }
   // The sentence stays on one line and loses its middle where it is too long (paths).
   void set_one_line(bool one_line);
 
@@ -29,8 +34,11 @@ class CardButton : public QAbstractButton {
  private:
   [[nodiscard]] QFont title_font() const;
   void paint_frame(QPainter& painter) const;
+  void paint_picture(QPainter& painter) const;
+  [[nodiscard]] int text_left() const;
 
   QString sentence_;
+  QPixmap picture_;
   bool emphasised_ = false;
   bool one_line_ = false;
 };

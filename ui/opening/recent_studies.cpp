@@ -2,13 +2,18 @@
 
 #include <QFileInfo>
 #include <QSettings>
+#include <algorithm>
 
 #include "engine/background_job.h"
+#include "engine/study_picture.h"
+#include "ui/opening/recent_pictures.h"
 
 namespace tidemark {
 namespace {
 
 const QString kGroup = QStringLiteral("recent_studies");
+
+constexpr int kPicturePixels = 128;
 
 // As recipes call them.
 const QString kKeep = QStringLiteral("keep");
@@ -32,7 +37,7 @@ void write_study(const RecentStudy& study, QSettings& settings) {
   if (study.policy.gaps == GridPolicy::Gaps::fill) settings.setValue("gaps", kFill);
 }
 
-// A text that a menu shows as it is.
+// A text that a menu shows literally.
 QString menu_text(QString text) {
   return text.replace(QLatin1Char('&'), QStringLiteral("&&"));
 }
@@ -51,6 +56,7 @@ RecentStudies::RecentStudies(QObject* parent) : QObject(parent) {
 
 RecentStudies::~RecentStudies() {
   if (job_) job_->abandon();
+  for (const auto& job : picture_jobs_) job->abandon();
 }
 
 void RecentStudies::add(const RecentStudy& study) {
@@ -76,6 +82,30 @@ void RecentStudies::save() const {
     settings.setArrayIndex(index);
     write_study(list_[index], settings);
   }
+  QStringList pictures;
+  for (const RecentStudy& study : list_) pictures << recent_picture_name(study.path, study.uid);
+  keep_recent_pictures(pictures);
+}
+
+void RecentStudies::add_picture(const RecentStudy& study, std::shared_ptr<const Volume> volume,
+                                const WindowLevel& window, std::int64_t k) {
+  const QString name = recent_picture_name(study.path, study.uid);
+  picture_jobs_.push_back(
+      BackgroundJob::start(this, [this, name, volume = std::move(volume), window, k](BackgroundJob& job) {
+        const QImage picture = picture_of_volume(*volume, window, k, kPicturePixels);
+        job.deliver([this, name, picture] {
+          const auto has_name = [&](const RecentStudy& one) {
+            return recent_picture_name(one.path, one.uid) == name;
+          };
+          // It may have left the list by now.
+          if (std::none_of(list_.begin(), list_.end(), has_name)) return;
+          if (write_recent_picture(name, picture)) emit changed();
+        });
+      }));
+}
+
+QImage RecentStudies::picture_of(const RecentStudy& study) {
+  return read_recent_picture(recent_picture_name(study.path, study.uid));
 }
 
 void RecentStudies::check() {

@@ -1,12 +1,15 @@
 // The studies opened last, kept between runs.
 #pragma once
 
+#include <QImage>
 #include <QList>
 #include <QMenu>
 #include <QObject>
 #include <QString>
 #include <memory>
+#include <vector>
 
+#include "core/volume.h"
 #include "imaging/grid_policy.h"
 
 namespace tidemark {
@@ -21,7 +24,7 @@ struct RecentStudy {
   bool missing = false;  // as of the last check()
 };
 
-// At most ten, the latest first, in QSettings.
+// At most ten, the latest first, in QSettings; their pictures are files (recent_pictures.h).
 class RecentStudies : public QObject {
   Q_OBJECT
  public:
@@ -32,8 +35,13 @@ class RecentStudies : public QObject {
 
   [[nodiscard]] const QList<RecentStudy>& list() const { return list_; }
   void add(const RecentStudy& study);
+  // Keeps a small picture of it, made in the background from its slice k; changed() follows.
+  void add_picture(const RecentStudy& study, std::shared_ptr<const Volume> volume, const WindowLevel& window,
+                   std::int64_t k);
+  // Null: there is none.
+  [[nodiscard]] static QImage picture_of(const RecentStudy& study);
   void clear();
-  // Looks in the background which of them are still there, for a folder on a slow network takes its time.
+  // Looks in the background which of them still exist: a folder on a slow network takes its time.
   void check();
 
   // A submenu that follows the list: missing studies greyed, "Clear" at its end.
@@ -49,6 +57,7 @@ class RecentStudies : public QObject {
 
   QList<RecentStudy> list_;
   std::shared_ptr<BackgroundJob> job_;
+  std::vector<std::shared_ptr<BackgroundJob>> picture_jobs_;
 };
 
 }  // namespace tidemark

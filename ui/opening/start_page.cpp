@@ -146,6 +146,7 @@ QWidget* StartPage::build_phantoms() {
     auto* card = new CardButton(text.title, text.sentence, part);
     const QString name = QString::fromUtf8(kind.data(), static_cast<qsizetype>(kind.size()));
     card->setObjectName(QStringLiteral("phantom_") + name);
+    card->set_picture(QImage(QStringLiteral(":/tidemark/phantoms/%1.png").arg(name)));
     connect(card, &CardButton::clicked, this, [this, name] { emit phantom_chosen(name); });
     if (kind == kFirstToTry) {
       card->set_emphasised(true);
@@ -171,6 +172,7 @@ void StartPage::fill_recent() {
     const QString name = study.missing ? tr("%1 (not found)").arg(study.name) : study.name;
     auto* card = new CardButton(name, study.path, content_);
     card->set_one_line(true);
+    card->set_picture(RecentStudies::picture_of(study));
     card->setEnabled(!study.missing);
     connect(card, &CardButton::clicked, this, [this, study] { emit recent_chosen(study); });
     recent_list_->addWidget(card);

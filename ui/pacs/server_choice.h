@@ -1,4 +1,4 @@
-// One of the servers that there are, and a way to name others.
+// The choice of a server, with a way to name others.
 #pragma once
 
 #include <QComboBox>
@@ -12,7 +12,7 @@ namespace tidemark {
 class ServerChoice : public QWidget {
   Q_OBJECT
  public:
-  // `file` is that of the servers; `tip` says what the chosen one is for.
+  // `file` is that of the servers; `tip` is on the purpose of the chosen one.
   ServerChoice(std::filesystem::path file, const QString& tip, QWidget* parent = nullptr);
 
   [[nodiscard]] const PacsServer* server() const;  // null: there is none

@@ -52,10 +52,10 @@ ServersDialog::ServersDialog(std::filesystem::path file, QWidget* parent)
     configuration_ = std::move(*read);
   } else if (std::filesystem::exists(file_, error)) {
     say(QString::fromStdString(read.error().message));
-    // What it holds would be lost.
+    // Its content would be lost.
     QPushButton* save = buttons->button(QDialogButtonBox::Save);
     save->setEnabled(false);
-    save->setToolTip(tr("The file of servers cannot be read: mend it, or move it away"));
+    save->setToolTip(tr("The file of servers cannot be read: repair it, or move it away"));
   }
   for (const PacsServer& server : configuration_.servers) list_->addItem(QString::fromStdString(server.name));
   connect(list_, &QListWidget::currentRowChanged, this, &ServersDialog::show_entry);
@@ -111,7 +111,7 @@ QWidget* ServersDialog::make_entry() {
   ae_title_ = line(tr("AE title"), tr("The server's title, at most 16 characters"));
   own_ae_title_ = line(tr("Our AE title"), tr("Under which the server knows this workstation"));
   for (QLineEdit* title : {ae_title_, own_ae_title_}) title->setMaxLength(16);
-  retrieve_ = form.choice(tr("Series come"), tr("How the server sends what is asked for"));
+  retrieve_ = form.choice(tr("Series come"), tr("How the server sends the series"));
   retrieve_->addItem(tr("on our connection (C-GET)"));
   retrieve_->addItem(tr("by calls from the server (C-MOVE)"));
   move_port_ =
@@ -138,12 +138,13 @@ QWidget* ServersDialog::make_tls() {
   tls_->setCheckable(true);
   Form form(tls_);
   form.layout()->setContentsMargins(kSpace, kSpace, kSpace, kSpace);
-  ca_ = file_line(tr("Authority"), tr("PEM file of who signs the server's certificate; empty: the system's"),
-                  form);
+  ca_ = file_line(
+      tr("Authority"),
+      tr("PEM file of the authority behind the server's certificate; empty: the system's authorities"), form);
   certificate_ = file_line(tr("Certificate"), tr("Ours, for servers that want one; may be empty"), form);
   key_ = file_line(tr("Key"), tr("Of our certificate"), form);
   verify_ = form.check(tr("Verify the server's certificate"),
-                       tr("Without it the line is encrypted, but to whom is anybody's guess"));
+                       tr("Without it the connection is encrypted, but the server may be anyone"));
   return tls_;
 }
 
@@ -226,7 +227,7 @@ void ServersDialog::add() {
 void ServersDialog::remove() {
   const int row = list_->currentRow();
   if (row < 0) return;
-  shown_ = -1;  // what is entered goes with it
+  shown_ = -1;  // the entered text goes with it
   configuration_.servers.erase(configuration_.servers.begin() + row);
   {
     // On its way the list names rows that are no longer what they were.

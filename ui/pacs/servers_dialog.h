@@ -1,4 +1,4 @@
-// The servers that there are, to be looked at and changed.
+// The dialog of all servers, for looking at and changing them.
 #pragma once
 
 #include <QCheckBox>
@@ -33,7 +33,7 @@ class ServersDialog : public QDialog {
   QWidget* make_tls();
   QLineEdit* file_line(const QString& label, const QString& tip, Form& form);
   void show_entry(int row);
-  void keep_entry();  // what is entered becomes the server that is shown
+  void keep_entry();  // the entered text becomes the shown server
   void add();
   void remove();
   void test();

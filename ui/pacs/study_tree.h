@@ -17,7 +17,7 @@ class StudyTree : public QTreeWidget {
   void show_series(const QString& study_uid, const Found<PacsSeries>& series);
   void forget_question(const QString& study_uid);  // its series did not come: unfolding asks again
 
-  // What is selected: a series, or a study where the series is empty. Nothing without a selection.
+  // The selection: a series, or a study where the series is empty. Unset without a selection.
   struct Chosen {
     QString study_uid;
     QString series_uid;

@@ -42,7 +42,7 @@ double half_extent_mm(const Geometry& geometry, const glm::dvec3& direction) {
 ClipControls::ClipControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Clip plane"));
-  on_ = form.check(tr("Clip plane in 3D"), tr("Hides what is in front of a plane."));
+  on_ = form.check(tr("Clip plane in 3D"), tr("Hides everything in front of a plane."));
   connect(on_, &QCheckBox::clicked, this,
           [this](bool on) { change_display([=](DisplaySettings& settings) { settings.clip_on = on; }); });
   orientations_ = make_orientations();

@@ -9,6 +9,7 @@
 #include <QToolButton>
 
 #include "ui/look/theme.h"
+#include "ui/widgets/disclosure.h"
 #include "ui/widgets/form.h"
 
 namespace tidemark {
@@ -59,6 +60,17 @@ EvolutionControls::EvolutionControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Evolution"));
   form.wide(make_buttons());
+  pause_ = form.check(tr("Pause at convergence"), tr("Pauses as soon as the surface has stopped moving."));
+  connect(pause_, &QCheckBox::clicked, this, [this](bool on) {
+    if (proxy()) proxy()->set_pause_at_convergence(on);
+  });
+  auto* fold = new Disclosure(tr("Details of the evolution"), QStringLiteral("evolution"));
+  form.wide(fold);
+  Form details(fold->content());
+  add_details(details);
+}
+
+void EvolutionControls::add_details(Form& form) {
   steps_ = form.choice(tr("Picture every"), tr("How many steps are computed between two pictures while it "
                                                "plays. Automatic: as many as keep the pictures fluent."));
   for (const std::int64_t steps : kStepsPerPicture) {
@@ -69,15 +81,11 @@ EvolutionControls::EvolutionControls(QWidget* parent) : CaseWidget(parent) {
     if (proxy()) proxy()->set_steps_per_picture(steps_->currentData().toLongLong());
   });
   executor_ =
-      form.choice(tr("Computed by"), tr("What computes the steps. It can be changed while the surface "
+      form.choice(tr("Computed by"), tr("The executor of the steps. It can be changed while the surface "
                                         "moves. Stream uses the GPU as in the paper."));
   connect(executor_, &QComboBox::activated, this, [this](int index) {
     if (proxy()) proxy()->change_executor(kChoices[index].kind);
     refresh();
-  });
-  pause_ = form.check(tr("Pause at convergence"), tr("Pauses as soon as the surface has stopped moving."));
-  connect(pause_, &QCheckBox::clicked, this, [this](bool on) {
-    if (proxy()) proxy()->set_pause_at_convergence(on);
   });
 }
 
@@ -127,14 +135,14 @@ void EvolutionControls::attach() {
 
 void EvolutionControls::refresh() {
   const CaseState& state = proxy()->state();
-  state_->setText(!state.begun      ? tr("not begun")
+  state_->setText(!state.begun      ? tr("no surface yet")
                   : state.playing   ? tr("playing")
                   : state.converged ? tr("converged")
                                     : tr("paused"));
   steps_->setCurrentIndex(
       std::max(0, steps_->findData(QVariant::fromValue<qint64>(proxy()->steps_per_picture()))));
   pause_->setChecked(proxy()->pause_at_convergence());
-  // What computes is shown, not how it came to be chosen.
+  // The executor in use is shown, not "Automatic".
   executor_->setCurrentIndex(executor_->findData(state.executor));
 }
 

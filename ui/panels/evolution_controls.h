@@ -1,4 +1,4 @@
-// How the level set runs: buttons, steps per picture, when it pauses, on what it is computed.
+// The controls of the evolution: buttons, steps a picture, pause at convergence, executor.
 #pragma once
 
 #include <array>
@@ -12,6 +12,8 @@ class QLabel;
 class QToolButton;
 
 namespace tidemark {
+
+class Form;
 
 // The main window's, so that buttons, menus and keys are one.
 struct EvolutionActions {
@@ -34,6 +36,7 @@ class EvolutionControls : public CaseWidget {
 
  private:
   QLayout* make_buttons();
+  void add_details(Form& form);
   void fill_executors();
 
   std::array<QToolButton*, 4> buttons_{};  // restart, step back, play, step

@@ -1,13 +1,15 @@
-// What the evolution has come to: curves over its steps, and figures.
+// What the evolution has come to: curves over its steps, figures, and how well it agrees with a known answer.
 #pragma once
 
 #include "ui/panels/case_widget.h"
 
+class QCheckBox;
 class QLabel;
 
 namespace tidemark {
 
 class CurvePlot;
+class Form;
 
 class EvolutionFigures : public CaseWidget {
   Q_OBJECT
@@ -19,12 +21,17 @@ class EvolutionFigures : public CaseWidget {
   void refresh() override;
 
  private:
+  void add_curves(Form& form);
+  void add_details(Form& form);
   void show_curves();
 
   CurvePlot* volume_;
   CurvePlot* area_;
   CurvePlot* motion_;
   QLabel* step_;
+  QWidget* dice_part_;  // for phantoms
+  QLabel* dice_;
+  QCheckBox* truth_;
   QLabel* pages_;
   QLabel* bytes_;
   QLabel* pace_;

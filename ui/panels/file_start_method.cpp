@@ -50,7 +50,7 @@ QString FileStartMethod::sentence() const {
   if (reading_) return tr("Reading the file …");
   const QString name = QFileInfo(path_->text()).fileName();
   if (name.isEmpty()) return tr("Choose a file first.");
-  return kind_ == StartFile::mask ? tr("Starts with the mask in %1.").arg(name)
+  return kind_ == StartFile::mask ? tr("Places the surface around the mask in %1.").arg(name)
                                   : tr("Goes on with the level set in %1.").arg(name);
 }
 
@@ -64,7 +64,8 @@ void FileStartMethod::choose() {
           ? tr("Masks and segmentations (*.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz *.dcm);;"
                "All files (*)")
           : tr("Volumes (*.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;All files (*)");
-  auto* dialog = new QFileDialog(this, tr("Start from a file"), QFileInfo(path_->text()).path(), filter);
+  auto* dialog =
+      new QFileDialog(this, tr("Place surface from a file"), QFileInfo(path_->text()).path(), filter);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setFileMode(QFileDialog::ExistingFile);
   connect(dialog, &QFileDialog::fileSelected, path_, &QLineEdit::setText);

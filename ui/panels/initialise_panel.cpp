@@ -14,12 +14,12 @@
 namespace tidemark {
 
 InitialisePanel::InitialisePanel(QWidget* parent)
-    : Panel(tr("Open a study to begin a level set in it."), parent) {
+    : Panel(tr("Open a study to place a surface in it."), parent) {
   add(new SmoothingControls);
   auto* part = new QWidget;
   Form form(part);
-  form.heading(tr("Start"));
-  from_ = form.choice(tr("Begin with"), tr("What the level set is at first."));
+  form.heading(tr("Place surface"));
+  from_ = form.choice(tr("Begin with"), tr("What the surface is at first: from there it moves."));
   add(part);
   add_methods();
   add_start();
@@ -56,8 +56,8 @@ void InitialisePanel::add_start() {
   replaces_->hide();  // until there is a surface
   problem_ = make_note({});
   problem_->hide();
-  start_ = new QPushButton(tr("Start"));
-  start_->setToolTip(tr("Begins the level set as said above."));
+  start_ = new QPushButton(tr("Place surface"));
+  start_->setToolTip(tr("Places the surface as said above."));
   connect(start_, &QPushButton::clicked, this, [this] {
     problem_->hide();
     methods_[static_cast<std::size_t>(method_)]->start();

@@ -1,4 +1,4 @@
-// How the level set begins.
+// Places the surface from which the level set begins.
 #pragma once
 
 #include <vector>

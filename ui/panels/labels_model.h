@@ -14,7 +14,7 @@ class LabelsModel : public QAbstractTableModel {
   enum Column { visible, locked, colour, name, volume, columns };
   using QAbstractTableModel::QAbstractTableModel;
 
-  // Rows keep what was edited here until the case has another list.
+  // Rows keep edits until the case has another list.
   void show(const std::vector<Label>& labels, const std::vector<RegionStatistics>& statistics);
   [[nodiscard]] const Label* label(int row) const;  // null: there is no such row
   void set_colour(int row, const QColor& chosen);

@@ -119,8 +119,8 @@ QWidget* LabelsPanel::make_actions() {
   accepted_->setWordWrap(true);
   accepted_->hide();
   form.wide(accepted_);
-  begin_ = new QPushButton(tr("Start again from label"));
-  begin_->setToolTip(tr("The level set begins anew as the chosen label, to go on with it."));
+  begin_ = new QPushButton(tr("Place surface from label"));
+  begin_->setToolTip(tr("The surface begins anew around the chosen label, to go on with it."));
   form.wide(begin_);
   connect(begin_, &QPushButton::clicked, this, [this] {
     if (proxy() && chosen()) proxy()->begin_from_label(chosen()->id);
@@ -150,7 +150,7 @@ QString LabelsPanel::new_name() const {
   return tr("Label %1").arg(model_->rowCount() + 1);
 }
 
-// Into the chosen label; the first one is made on the way.
+// Accepts into the chosen label, or makes the first one.
 void LabelsPanel::accept_surface() {
   if (!proxy()) return;
   const Take take = take_all_->isChecked() ? Take::others_too : Take::free_voxels;
@@ -203,7 +203,7 @@ void LabelsPanel::refresh() {
   model_->show(state.labels, state.label_statistics);
   const int rows = model_->rowCount();
   if (rows != before) {
-    // A reset forgets what was chosen.
+    // A reset drops the selection.
     int row = rows - 1;
     for (int other = 0; other < rows && !(choose_new_ && rows > before); ++other) {
       if (model_->label(other)->id == was) row = other;

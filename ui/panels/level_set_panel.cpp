@@ -2,6 +2,7 @@
 
 #include "ui/panels/evolution_figures.h"
 #include "ui/panels/speed_controls.h"
+#include "ui/panels/speed_details.h"
 
 namespace tidemark {
 
@@ -9,6 +10,7 @@ LevelSetPanel::LevelSetPanel(QWidget* parent)
     : Panel(tr("Open a study to steer a level set in it."), parent), evolution_(new EvolutionControls) {
   add(evolution_);
   add(new SpeedControls);
+  add(new SpeedDetails);
   add(new EvolutionFigures);
 }
 

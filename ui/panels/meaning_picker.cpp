@@ -62,7 +62,7 @@ int MeaningPicker::row_of(const std::optional<SegmentMeaning>& meaning) {
 
 void MeaningPicker::show_label(const Label* label) {
   setEnabled(label != nullptr);
-  // Nothing has changed: what is being typed stays.
+  // Nothing has changed: text that is being typed stays.
   if (label && shown_ && label->id == shown_->id && label->name == shown_->name &&
       label->meaning == shown_->meaning)
     return;
@@ -101,7 +101,7 @@ void MeaningPicker::take_first_match() {
   pick(row);
 }
 
-// What was typed and is nothing that can be chosen goes.
+// Text that names no choice is removed.
 void MeaningPicker::focusOutEvent(QFocusEvent* event) {
   QComboBox::focusOutEvent(event);
   if (!completer()->popup()->isVisible()) setEditText(itemText(currentIndex()));

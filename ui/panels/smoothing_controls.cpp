@@ -44,14 +44,14 @@ void SmoothingControls::refresh() {
   now_->setText(
       now > 0.0
           ? tr("The level set sees the study smoothed by %1.").arg(number_text(now, kDecimals, tr("mm")))
-          : tr("The level set sees the study as it is."));
+          : tr("The level set sees the study unsmoothed."));
   show_button();
 }
 
 void SmoothingControls::show_button() {
   if (!proxy()) return;
   const bool undoes = sigma_->value() == 0.0 && proxy()->state().smoothed_mm > 0.0;
-  apply_->setText(undoes ? tr("Use the study as it is") : tr("Smooth"));
+  apply_->setText(undoes ? tr("Use the unsmoothed study") : tr("Smooth"));
   apply_->setEnabled(std::abs(sigma_->value() - proxy()->state().smoothed_mm) > 1e-6);
 }
 

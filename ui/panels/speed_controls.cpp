@@ -1,9 +1,6 @@
 #include "ui/panels/speed_controls.h"
 
-#include <QCheckBox>
 #include <QDoubleSpinBox>
-#include <QHBoxLayout>
-#include <QLabel>
 #include <QSignalBlocker>
 #include <cmath>
 
@@ -30,12 +27,11 @@ SpeedControls::SpeedControls(QWidget* parent) : CaseWidget(parent) {
         gesture);
   });
   add_numbers(form);
-  add_terms(form);
 }
 
 void SpeedControls::add_numbers(Form& form) {
-  target_ = form.slider(tr("Target T"), tr("The value in the middle of what is looked for: there the surface "
-                                           "grows fastest."));
+  target_ =
+      form.slider(tr("Target T"), tr("The value of the wanted tissue: there the surface grows fastest."));
   range_ = form.slider(tr("Range ε"), tr("How far a value may be from T for the surface to grow there."));
   alpha_ =
       form.slider(tr("Data weight α"),
@@ -45,9 +41,6 @@ void SpeedControls::add_numbers(Form& form) {
   alpha_->set_decimals(3);
   alpha_->set_step(0.01);
   form.ends_of(*alpha_, tr("smooth"), tr("follow data"));
-  paper_alpha_ = form.figure(tr("α as in the paper"),
-                             tr("The paper does not divide the data term by ε. With this α its own equation "
-                                "balances the terms as here."));
 
   connect(target_, &SliderNumber::edited, this, [this](double value, std::uint64_t gesture) {
     change([value](Parameters& parameters) { parameters.target = value; }, gesture);
@@ -58,32 +51,6 @@ void SpeedControls::add_numbers(Form& form) {
   connect(alpha_, &SliderNumber::edited, this, [this](double value, std::uint64_t gesture) {
     change([value](Parameters& parameters) { parameters.alpha = value; }, gesture);
   });
-}
-
-void SpeedControls::add_terms(Form& form) {
-  auto* terms = new QWidget;
-  auto* row = new QHBoxLayout(terms);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(kSpace);
-  const auto add = [&](const QString& text, const QString& tip, bool Parameters::*term) {
-    auto* check = new QCheckBox(text);
-    check->setToolTip(tip);
-    check->setAccessibleName(tr("%1 term").arg(text));
-    row->addWidget(check);
-    connect(check, &QCheckBox::clicked, this, [this, term](bool on) {
-      change([=](Parameters& parameters) { parameters.*term = on; }, CaseProxy::new_gesture());
-    });
-    return check;
-  };
-  data_term_ = add(tr("Data"), tr("Moves the surface by the values of the source."), &Parameters::data_term);
-  curvature_term_ =
-      add(tr("Curvature"), tr("Smooths the surface by its mean curvature."), &Parameters::curvature_term);
-  rescaling_term_ = add(tr("Rescaling"),
-                        tr("Keeps the slope of φ near 1, so that the band around the surface stays as wide."),
-                        &Parameters::rescaling_term);
-  row->addStretch(1);
-  form.heading(tr("Terms"));
-  form.wide(terms);
 }
 
 void SpeedControls::attach() {
@@ -110,10 +77,6 @@ void SpeedControls::refresh() {
   target_->set_value(parameters.target);
   range_->set_value(parameters.range);
   alpha_->set_value(parameters.alpha);
-  paper_alpha_->setText(short_text(paper_alpha(parameters)));
-  data_term_->setChecked(parameters.data_term);
-  curvature_term_->setChecked(parameters.curvature_term);
-  rescaling_term_->setChecked(parameters.rescaling_term);
 }
 
 void SpeedControls::change(const std::function<void(Parameters&)>& apply, std::uint64_t gesture) {

@@ -1,12 +1,9 @@
-// What steers the surface: T, epsilon and alpha (paper section 6.1), and which terms take part.
+// What steers the surface: T, epsilon and alpha (paper section 6.1).
 #pragma once
 
 #include <functional>
 
 #include "ui/panels/case_widget.h"
-
-class QCheckBox;
-class QLabel;
 
 namespace tidemark {
 
@@ -25,17 +22,12 @@ class SpeedControls : public CaseWidget {
 
  private:
   void add_numbers(Form& form);
-  void add_terms(Form& form);
   void change(const std::function<void(Parameters&)>& apply, std::uint64_t gesture);
 
   SpeedPlot* tent_;
   SliderNumber* target_;
   SliderNumber* range_;
   SliderNumber* alpha_;
-  QLabel* paper_alpha_;
-  QCheckBox* data_term_;
-  QCheckBox* curvature_term_;
-  QCheckBox* rescaling_term_;
 };
 
 }  // namespace tidemark

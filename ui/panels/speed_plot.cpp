@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kBars = 64;  // few enough that whole numbers leave no gaps between them
 constexpr double kHandle = 5.0;    // radius
 constexpr double kGrab = 11.0;     // how near a press must be
-constexpr double kStep = 0.005;    // of what is shown, for a key
+constexpr double kStep = 0.005;    // of the shown range, for a key
 
 // Heights of the histogram's bars. A few values (air, padding) are so frequent that the rest would not show:
 // bars are square roots of counts, and one in twenty is cut off.

@@ -71,8 +71,7 @@ SphereStartMethod::SphereStartMethod(QWidget* parent) : StartMethod(parent) {
 }
 
 QString SphereStartMethod::sentence() const {
-  return tr("Starts with one sphere of %1 around the crosshair.")
-      .arg(number_text(radius_->value(), 1, tr("mm")));
+  return tr("Places one sphere of %1 around the crosshair.").arg(number_text(radius_->value(), 1, tr("mm")));
 }
 
 bool SphereStartMethod::can_start() const {
@@ -156,7 +155,7 @@ QString ValueStartMethod::everywhere_text() const {
   const Volume& volume = proxy()->volume();
   const double count = count_between(proxy()->summary(), low_->value(), high_->value());
   const double share = 100.0 * count / static_cast<double>(volume.geometry.voxel_count());
-  return tr("Starts with the voxels from %1: about %2 of the study, %3.")
+  return tr("Places the surface around the voxels from %1: about %2 of the study, %3.")
       .arg(range_text(), number_text(share, share < 10.0 ? 1 : 0, QStringLiteral("%")),
            number_text(count * volume.geometry.voxel_volume_ml(), 1, tr("ml")));
 }
@@ -167,7 +166,8 @@ QString ValueStartMethod::connected_text() const {
   if (here < low_->value() || here > high_->value()) {
     return tr("The value at the crosshair is not from %1.").arg(range_text());
   }
-  return tr("Starts with the voxels from %1 that are connected to the crosshair.").arg(range_text());
+  return tr("Places the surface around the voxels from %1 that are connected to the crosshair.")
+      .arg(range_text());
 }
 
 QString ValueStartMethod::sentence() const {
@@ -209,7 +209,7 @@ void ValueStartMethod::refresh() {
 LabelStartMethod::LabelStartMethod(QWidget* parent) : StartMethod(parent) {
   Form form(this);
   form.note(tr("Takes what was segmented before."));
-  label_ = form.choice(tr("Label"), tr("The level set begins as its voxels."));
+  label_ = form.choice(tr("Label"), tr("The surface begins around its voxels."));
   connect(label_, &QComboBox::activated, this, &StartMethod::changed);
 }
 
@@ -231,7 +231,7 @@ void LabelStartMethod::refresh() {
 
 QString LabelStartMethod::sentence() const {
   if (label_->count() == 0) return tr("There are no labels yet.");
-  return tr("Starts with the voxels of “%1”.").arg(label_->currentText());
+  return tr("Places the surface around the voxels of “%1”.").arg(label_->currentText());
 }
 
 bool LabelStartMethod::can_start() const {

@@ -1,4 +1,4 @@
-// The ways in which a level set can begin (paper section 6.1): drawn spheres, values, what is there already.
+// The ways to begin a level set (paper section 6.1): drawn spheres, values, what is there already.
 #pragma once
 
 #include "ui/panels/start_method.h"
@@ -57,7 +57,7 @@ class ValueStartMethod : public StartMethod {
   QLabel* here_ = nullptr;  // the value under the crosshair
 };
 
-// What was segmented before.
+// A label that was segmented before.
 class LabelStartMethod : public StartMethod {
   Q_OBJECT
  public:

@@ -84,12 +84,14 @@ QWidget* StatisticsPanel::make_surface() {
   auto* part = new QWidget;
   Form form(part);
   form.heading(tr("Surface"));
-  volume_ = form.figure(tr("Volume"), tr("Inside the surface, at sub-voxel precision."));
-  area_ = form.figure(tr("Area"), tr("Of the surface, without the study's own border."));
-  voxels_ = form.figure(tr("Voxels"), tr("Voxels whose centre is inside."));
-  mean_ = form.figure(tr("Mean"), tr("Of the study's values inside; measured when the surface rests."));
-  deviation_ = form.figure(tr("SD"), tr("Standard deviation of the study's values inside; measured when the "
-                                        "surface rests."));
+  volume_ = form.figure(tr("Volume"), tr("The volume inside the surface, at sub-voxel precision."));
+  area_ = form.figure(tr("Area"), tr("The area of the surface, without the study's own border."));
+  voxels_ = form.figure(tr("Voxels"), tr("How many voxels have their centre inside."));
+  mean_ =
+      form.figure(tr("Mean"), tr("The mean of the study's values inside; measured when the surface rests."));
+  deviation_ =
+      form.figure(tr("SD"), tr("The standard deviation of the study's values inside; measured when the "
+                               "surface rests."));
   return part;
 }
 

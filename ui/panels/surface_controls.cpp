@@ -76,7 +76,7 @@ void SurfaceControls::add_surface(Form& form) {
 }
 
 void SurfaceControls::add_source(Form& form) {
-  source_ = form.check(tr("Source"), tr("Shows the study itself, as its transfer function says."));
+  source_ = form.check(tr("Source"), tr("Shows the study itself, by its transfer function."));
   connect(source_, &QCheckBox::clicked, this,
           [this](bool on) { change_display([=](DisplaySettings& settings) { settings.show_source = on; }); });
   region_ = form.choice(tr("Where"), tr("Where the source shows: the surface is a region of interest."));

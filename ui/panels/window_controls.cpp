@@ -40,7 +40,7 @@ std::vector<WindowPreset> window_presets(const Volume& volume, const SourceSumma
 WindowControls::WindowControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Window"));
-  preset_ = form.choice(tr("Preset"), tr("Windows for tissues, and for all that the study holds."));
+  preset_ = form.choice(tr("Preset"), tr("Windows for tissues, and for all values of the study."));
   width_ = form.slider(tr("Width"), tr("From black to white."));
   level_ = form.slider(tr("Level"), tr("The middle grey."));
   connect(preset_, &QComboBox::activated, this, [this](int index) {

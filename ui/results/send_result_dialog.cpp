@@ -34,7 +34,7 @@ SendResultDialog::SendResultDialog(CaseWindow& window, std::filesystem::path ser
       segmentation_(new QCheckBox(tr("&Segmentation (SEG)"), this)),
       contours_(new QCheckBox(tr("Contours (&RT structure set)"), this)) {
   build(true, make_target(), source_note(proxy().study()), tr("Se&nd"),
-        tr("Sends what the case is like now"));
+        tr("Sends the case in its present state"));
   connect(&client_, &PacsClient::progressed, &work(), &WorkLine::set_progress);
   connect(&client_, &PacsClient::failed, this, &SendResultDialog::rest);
   connect(&client_, &PacsClient::cancelled, this,

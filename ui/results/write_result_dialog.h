@@ -1,4 +1,4 @@
-// A result for other systems, written as a file.
+// The dialog that writes a result for other systems as a file.
 #pragma once
 
 #include <QLineEdit>

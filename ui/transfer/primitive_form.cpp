@@ -86,7 +86,7 @@ void PrimitiveForm::choose_colour() {
   connect(dialog_, &QColorDialog::currentColorChanged, this, [this](const QColor& colour) {
     take_colour({colour.redF(), colour.greenF(), colour.blueF()});
   });
-  // The very colour, not what a dialog's 8 bits make of it.
+  // The exact colour, not the dialog's 8 bits of it.
   connect(dialog_, &QColorDialog::rejected, this, [this, before] { take_colour(before); });
   dialog_->open();
 }

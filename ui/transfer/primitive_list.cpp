@@ -32,8 +32,8 @@ PrimitiveList::PrimitiveList(const QString& when_empty, QWidget* parent)
   auto* column = new QVBoxLayout;
   column->setSpacing(4);
   add_gaussian_ =
-      button(tr("Add Gaussian"), tr("Adds what shows values around a centre"), "add_gaussian", column);
-  add_ramp_ = button(tr("Add ramp"), tr("Adds what shows values from a start on"), "add_ramp", column);
+      button(tr("Add Gaussian"), tr("Adds a primitive for values around a centre"), "add_gaussian", column);
+  add_ramp_ = button(tr("Add ramp"), tr("Adds a primitive for values from a start on"), "add_ramp", column);
   duplicate_ = button(tr("Duplicate"), tr("Adds a copy of the chosen primitive"), "duplicate", column);
   remove_ = button(tr("Delete"), tr("Removes the chosen primitive (Delete)"), "delete", column);
   column->addStretch();

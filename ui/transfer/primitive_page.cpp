@@ -110,7 +110,7 @@ void PrimitivePage::remove_chosen() {
   emit edited(next, std::max(0, std::min(chosen_, static_cast<int>(next.size()) - 1)));
 }
 
-// In the middle of what is seen.
+// In the middle of the visible range.
 AxisPrimitive PrimitivePage::new_primitive(TransferFactor::Kind kind) const {
   const TransferPlot& plot = *shown_plot();
   AxisPrimitive primitive;

@@ -11,6 +11,8 @@ namespace tidemark {
 namespace {
 
 const QColor kRim(0, 0, 0, 170);
+const QColor kVeil(0, 0, 0, 155);  // over white, the text still has a contrast of 4.5
+constexpr double kVeilMargin = 4.0;
 constexpr double kMargin = 8.0;
 
 QString number(double value, int digits) {
@@ -20,12 +22,15 @@ QString number(double value, int digits) {
 }  // namespace
 
 void paint_text(QPainter& painter, const QRectF& where, int flags, const QString& text) {
+  if (text.isEmpty()) return;
   flags |= Qt::TextDontClip;
-  painter.setPen(kRim);
-  for (const auto& [dx, dy] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}, {1, 1}}) {
-    painter.drawText(where.translated(dx, dy), flags, text);
-  }
-  painter.setPen(QColor(240, 240, 240));
+  const QColor colour(240, 240, 240);
+  painter.setPen(colour);  // without a pen Qt finds that a text takes no room
+  const QRectF taken = painter.boundingRect(where, flags, text);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(kVeil);
+  painter.drawRoundedRect(taken.adjusted(-kVeilMargin, -1.0, kVeilMargin, 1.0), kVeilMargin, kVeilMargin);
+  painter.setPen(colour);
   painter.drawText(where, flags, text);
 }
 
@@ -35,6 +40,13 @@ void paint_line(QPainter& painter, const QPolygonF& line, const QColor& colour, 
   painter.drawPolyline(line);
   painter.setPen(QPen(colour, width, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
   painter.drawPolyline(line);
+}
+
+void paint_lines(QPainter& painter, const QList<QLineF>& lines, const QColor& colour) {
+  painter.setPen(QPen(kRim, 3.5, Qt::SolidLine, Qt::RoundCap));
+  painter.drawLines(lines);
+  painter.setPen(QPen(colour, 2.0, Qt::SolidLine, Qt::RoundCap));
+  painter.drawLines(lines);
 }
 
 void paint_circle(QPainter& painter, QPointF centre, double radius, bool erases) {

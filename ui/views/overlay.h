@@ -1,6 +1,8 @@
-// What is drawn over pictures: seen on bright and on dark ones.
+// The overlay of pictures: lines and text that are seen on bright and on dark ones.
 #pragma once
 
+#include <QLineF>
+#include <QList>
 #include <QPainter>
 #include <QPolygonF>
 #include <QString>
@@ -14,17 +16,21 @@
 
 namespace tidemark {
 
-// Light with a dark rim.
+// Light on a dark veil, so that it is read on bright tissue, too.
 // `flags`: Qt::AlignmentFlag and Qt::TextFlag.
 void paint_text(QPainter& painter, const QRectF& where, int flags, const QString& text);
 void paint_line(QPainter& painter, const QPolygonF& line, const QColor& colour = Qt::white,
                 double width = 1.5);
+void paint_lines(QPainter& painter, const QList<QLineF>& lines, const QColor& colour);
+// Of a known answer: apart from the surface's yellow, the speed map's colours and the first labels', also
+// for colour-blind eyes.
+inline constexpr QColor kTruthColour(190, 40, 255);
 // A sphere's outline; one that takes away is dashed.
 void paint_circle(QPainter& painter, QPointF centre, double radius, bool erases);
 
 // The letters of the patient's sides in the middle of the four edges.
 void paint_orientation(QPainter& painter, QSizeF size, glm::dvec3 right, glm::dvec3 up);
-// How long a round number of millimetres is.
+// A bar whose length is a round number of millimetres.
 void paint_scale_bar(QPainter& painter, QSizeF size, double mm_per_pixel);
 // With a gap in the middle.
 void paint_crosshair(QPainter& painter, QSizeF size, QPointF at);
@@ -35,7 +41,7 @@ QString text_of(const Measurement& measurement);
 
 // Lines in a corner, those at the top cut short where they would meet the ones of the other corner.
 void paint_corner(QPainter& painter, QSizeF size, Qt::Alignment corner, const QStringList& lines);
-// For the corners at the top: whose images they are, and which.
+// Texts of the corners at the top: patient and study, and series.
 QStringList patient_lines(const Patient& patient);
 QStringList series_lines(const LoadedStudy& study);
 

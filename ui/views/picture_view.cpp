@@ -18,6 +18,7 @@ constexpr int kWheelClick = 120;  // eighths of a degree (Qt)
 constexpr double kZoomStep = 1.15;
 constexpr double kSmallestBrush = 0.2;  // mm
 constexpr double kLargestBrush = 200.0;
+constexpr double kClickReach = 5.0;  // logical pixels: a hand is not quite still
 
 bool edits(Tool tool) {
   return tool == Tool::paint || tool == Tool::erase || tool == Tool::seed;
@@ -211,7 +212,10 @@ std::unique_ptr<Drag> PictureView::begin_drag(const Pointer& pressed) {
 void PictureView::mousePressEvent(QMouseEvent* event) {
   if (button_ != Qt::NoButton) return;  // one gesture at a time
   button_ = event->button();
-  mouse_ = event->position();
+  pressed_at_ = mouse_ = event->position();
+  // A brush has something to do at once.
+  const Tool tool = settings().tool;
+  may_be_click_ = button_ == Qt::RightButton && tool != Tool::paint && tool != Tool::erase;
   set_drag(begin_drag(pointer_at(*event)));
 }
 
@@ -219,6 +223,9 @@ void PictureView::mouseMoveEvent(QMouseEvent* event) {
   mouse_ = event->position();
   const Pointer pointer = pointer_at(*event);
   display().set_pointer(pointer.patient_mm);
+  const QPointF way = mouse_ - pressed_at_;
+  may_be_click_ = may_be_click_ && std::hypot(way.x(), way.y()) < kClickReach;
+  if (may_be_click_) return;
   if (drag_) {
     drag_->move(pointer);
     paint_again();
@@ -231,8 +238,33 @@ void PictureView::mouseMoveEvent(QMouseEvent* event) {
 void PictureView::mouseReleaseEvent(QMouseEvent* event) {
   if (event->button() != button_) return;
   button_ = Qt::NoButton;
-  if (drag_) drag_->release();
+  const bool clicked = std::exchange(may_be_click_, false);
+  if (drag_ && !clicked) drag_->release();
   set_drag(nullptr);
+  if (clicked) ask_for_menu(event->position());
+}
+
+// Platforms speak of the mouse at the press already; by then it may become a drag.
+void PictureView::contextMenuEvent(QContextMenuEvent* event) {
+  event->accept();
+  if (event->reason() == QContextMenuEvent::Keyboard) ask_for_menu_by_key();
+}
+
+void PictureView::ask_for_menu(QPointF position) {
+  find_place(position, [this, position](std::optional<glm::dvec3> place_mm) {
+    emit menu_wanted(position.toPoint(), place_mm);
+  });
+}
+
+// At the crosshair, where it is seen.
+void PictureView::ask_for_menu_by_key() {
+  const QPointF crosshair = position_of(settings().cursor_mm);
+  const QRectF all(rect());
+  ask_for_menu(all.contains(crosshair) ? crosshair : all.center());
+}
+
+void PictureView::find_place(QPointF position, std::function<void(std::optional<glm::dvec3>)> answer) {
+  answer(patient_at(position));
 }
 
 void PictureView::mouseDoubleClickEvent(QMouseEvent* event) {
@@ -287,6 +319,11 @@ void PictureView::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_Return:
     case Qt::Key_Enter:
       return emit maximise_wanted();
+    case Qt::Key_Menu:
+      return ask_for_menu_by_key();
+    case Qt::Key_F10:
+      if (event->modifiers() == Qt::ShiftModifier) return ask_for_menu_by_key();
+      return QWidget::keyPressEvent(event);
     default:
       QWidget::keyPressEvent(event);
   }

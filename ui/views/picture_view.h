@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QWidget>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -22,9 +23,9 @@ class PictureView : public QWidget {
   [[nodiscard]] const PictureFeed& feed() const { return feed_; }
   [[nodiscard]] virtual QString title() const = 0;
   [[nodiscard]] PictureSize physical_size() const;
-  // What is seen, with all that is drawn over it, in physical pixels.
+  // The picture with its overlay, in physical pixels.
   [[nodiscard]] QImage grab_picture();
-  // What shows pictures that are textures; null where they are images (Engine::pictures()).
+  // The widget for pictures that are textures; null where they are images (Engine::pictures()).
   [[nodiscard]] const PictureSurface* surface() const { return surface_; }
 
   // Of a point of the patient (LPS, mm), in logical pixels.
@@ -33,7 +34,7 @@ class PictureView : public QWidget {
   [[nodiscard]] virtual std::optional<glm::dvec3> patient_at(QPointF position) const = 0;
   [[nodiscard]] virtual double mm_per_pixel() const = 0;
 
-  // The cross-section of the brush, or of the sphere that is being drawn in whatever view, in logical pixels.
+  // The cross-section of the brush, or of the sphere that is being drawn in any view, in logical pixels.
   struct Ring {
     QPointF centre;
     double radius = 0.0;
@@ -47,6 +48,8 @@ class PictureView : public QWidget {
  signals:
   void maximise_wanted();
   void activated();  // clicked, or given the keyboard
+  // A click with the right button, or the key for menus: where, and what of the patient lies there.
+  void menu_wanted(QPoint position, std::optional<glm::dvec3> place_mm);
 
  protected:
   [[nodiscard]] Display& display() const { return proxy_.display(); }
@@ -57,14 +60,16 @@ class PictureView : public QWidget {
   // To be called instead of update().
   void paint_again();
   virtual void paint_overlay(QPainter& painter) = 0;
-  // The corners at the top: whose images they are, which, and what else is to be known of the view. A view
-  // that is low has room for the name and the note.
+  // The corners at the top: patient and study, series, and a note of the view. A low view has room for the
+  // name and the note only.
   void paint_study(QPainter& painter, const QString& note = {}) const;
   // Drags that are about the view itself; `first_choice`: the left button of a tool that has nothing to do
   // here.
   virtual std::unique_ptr<Drag> navigation_drag(const Pointer& pressed) = 0;
   virtual void scroll(int clicks) = 0;
   virtual void zoom(double factor, QPointF about) = 0;
+  // What of the patient is seen at a position; the answer may come later.
+  virtual void find_place(QPointF position, std::function<void(std::optional<glm::dvec3>)> answer);
   // What the left or right button starts with the tool that is chosen.
   virtual std::unique_ptr<Drag> begin_drag(const Pointer& pressed);
   void set_drag(std::unique_ptr<Drag> drag);
@@ -80,6 +85,7 @@ class PictureView : public QWidget {
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void focusInEvent(QFocusEvent* event) override;
   bool event(QEvent* event) override;
@@ -87,6 +93,8 @@ class PictureView : public QWidget {
  private:
   void ask();
   void follow_display();
+  void ask_for_menu(QPointF position);
+  void ask_for_menu_by_key();
   void paint_all(QPainter& painter);
   void paint_picture(QPainter& painter);
   [[nodiscard]] Pointer pointer_at(const QMouseEvent& event) const;
@@ -97,7 +105,9 @@ class PictureView : public QWidget {
   std::unique_ptr<Drag> drag_;
   Qt::MouseButton button_ = Qt::NoButton;  // that is held down
   QPointF mouse_;
-  int wheel_remainder_ = 0;  // of mice that turn by less than a click
+  QPointF pressed_at_;
+  bool may_be_click_ = false;  // the right button is down, and the mouse has not moved yet
+  int wheel_remainder_ = 0;    // of mice that turn by less than a click
 };
 
 }  // namespace tidemark

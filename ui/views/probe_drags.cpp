@@ -18,6 +18,14 @@ double reach_mm(const Geometry& geometry) {
   return 1.1 * std::min({spacing.x, spacing.y, spacing.z});
 }
 
+void set_speed(CaseProxy& proxy, const ValueProbe::Spread& values, std::uint64_t gesture) {
+  const SourceSummary& summary = proxy.summary();
+  Parameters parameters = proxy.parameters();
+  parameters.target = values.mean;
+  parameters.range = std::max(values.deviation, least_probed_range(summary.low, summary.high));
+  proxy.set_parameters(parameters, gesture);
+}
+
 }  // namespace
 
 ProbeDrag::ProbeDrag(DragView view, const Pointer& pressed)
@@ -41,12 +49,14 @@ void ProbeDrag::paint(QPainter& painter) const {
 }
 
 void SpeedProbeDrag::set() {
-  const SourceSummary& summary = proxy().summary();
-  const ValueProbe::Spread values = probe().values();
-  Parameters parameters = proxy().parameters();
-  parameters.target = values.mean;
-  parameters.range = std::max(values.deviation, least_probed_range(summary.low, summary.high));
-  proxy().set_parameters(parameters, gesture_);
+  set_speed(proxy(), probe().values(), gesture_);
+}
+
+void probe_speed_at(CaseProxy& proxy, glm::dvec3 place_mm) {
+  constexpr double kVoxels = 3.0;
+  ValueProbe probe(proxy.volume());
+  probe.add(place_mm, place_mm, kVoxels * reach_mm(proxy.volume().geometry));
+  if (probe.count() > 0) set_speed(proxy, probe.values(), CaseProxy::new_gesture());
 }
 
 QString SpeedProbeDrag::text() const {

@@ -35,6 +35,9 @@ class SpeedProbeDrag : public ProbeDrag {
   std::uint64_t gesture_ = CaseProxy::new_gesture();
 };
 
+// The same from the voxels around a place.
+void probe_speed_at(CaseProxy& proxy, glm::dvec3 place_mm);
+
 // Centre and width, in value and gradient, of the chosen primitive of the transfer function.
 class TransferProbeDrag : public ProbeDrag {
  public:

@@ -163,7 +163,7 @@ void SliceViewWidget::scroll(int clicks) {
 }
 
 void SliceViewWidget::zoom(double factor, QPointF about) {
-  // What is under the mouse stays there.
+  // The point under the mouse stays there.
   const glm::dvec3 point = screen().patient_at(about);
   display().change([&](DisplaySettings& s) {
     const double zoom = std::clamp(s.slice_zoom * factor, kLeastZoom, kMostZoom);
@@ -185,11 +185,28 @@ std::unique_ptr<Drag> SliceViewWidget::navigation_drag(const Pointer& pressed) {
 void SliceViewWidget::paint_overlay(QPainter& painter) {
   const SliceScreen on_screen = screen();
   const SliceOrientation o = orientation();
+  paint_truth(painter, on_screen);
   if (settings().crosshair) paint_crosshair(painter, size(), on_screen.position_of(settings().cursor_mm));
   paint_measurements(painter, settings().measurements, on_screen, 0.5 * place().thickness_mm + 1e-6);
   paint_orientation(painter, size(), o.right, o.up);
   paint_scale_bar(painter, size(), on_screen.mm_per_pixel());
   paint_corners(painter);
+}
+
+void SliceViewWidget::paint_truth(QPainter& painter, const SliceScreen& on_screen) {
+  const auto& truth = proxy().study().truth;
+  if (!settings().truth || !truth) return;
+  const SliceOrientation o = orientation();
+  const double along_normal_mm = glm::dot(settings().cursor_mm, o.into());
+  if (!outline_ || outline_->orientation != o || outline_->along_normal_mm != along_normal_mm)
+    outline_ = {o, along_normal_mm, outline_in_slice(*truth, o, settings().cursor_mm)};
+  const QPointF zero = on_screen.position_of(glm::dvec3(0.0));
+  const double scale = 1.0 / on_screen.mm_per_pixel();
+  const auto to_screen = [&](QPointF mm) { return zero + QPointF(mm.x() * scale, -mm.y() * scale); };
+  QList<QLineF> lines;
+  lines.reserve(outline_->lines.size());
+  for (const QLineF& line : outline_->lines) lines << QLineF(to_screen(line.p1()), to_screen(line.p2()));
+  paint_lines(painter, lines, kTruthColour);
 }
 
 void SliceViewWidget::paint_corners(QPainter& painter) const {

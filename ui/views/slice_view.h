@@ -1,6 +1,7 @@
-// Slices, speed maps and pages in 2D.
+// Views in 2D: slices, speed maps and pages.
 #pragma once
 
+#include "ui/views/mask_outline.h"
 #include "ui/views/picture_view.h"
 #include "ui/views/view_geometry.h"
 
@@ -40,10 +41,18 @@ class SliceViewWidget : public PictureView {
   [[nodiscard]] SliceOrientation orientation() const;
   [[nodiscard]] SliceView slice() const;
   [[nodiscard]] SliceScreen screen() const;
+  void paint_truth(QPainter& painter, const SliceScreen& on_screen);
   void paint_corners(QPainter& painter) const;
 
   SlicePlane plane_;
   SliceContent content_;
+  // Of the truth, as of the slice for which it was last found.
+  struct Outline {
+    SliceOrientation orientation;
+    double along_normal_mm = 0.0;
+    QList<QLineF> lines;
+  };
+  std::optional<Outline> outline_;
 };
 
 }  // namespace tidemark

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "ui/views/next_step.h"
 #include "ui/views/overlay.h"
 
 namespace tidemark {
@@ -17,7 +18,7 @@ constexpr double kDegreesPerPixel = 0.4;
 constexpr double kLeastZoom = 0.2;
 constexpr double kMostZoom = 40.0;
 
-// Turns the camera around what it looks at.
+// Turns the camera around its focus.
 class RotateDrag : public Drag {
  public:
   RotateDrag(DragView view, const Pointer& pressed) : Drag(std::move(view)), from_(pressed.position) {
@@ -74,6 +75,8 @@ class CameraZoomDrag : public Drag {
 
 VolumeViewWidget::VolumeViewWidget(CaseProxy& proxy, QWidget* parent) : PictureView(proxy, parent) {
   setAccessibleName(title());
+  auto* next = new NextStep(proxy, *this);
+  connect(next, &NextStep::place_wanted, this, &VolumeViewWidget::place_wanted);
 }
 
 VolumeView VolumeViewWidget::view() const {
@@ -134,7 +137,7 @@ std::unique_ptr<Drag> VolumeViewWidget::begin_drag(const Pointer& pressed) {
   return PictureView::begin_drag(pressed);
 }
 
-// What is under the mouse has to be asked for. Where nothing is, the drag turns the camera.
+// The engine finds the point under the mouse. Where there is none, the drag turns the camera.
 void VolumeViewWidget::pick_and_begin(const Pointer& pressed) {
   const double ratio = devicePixelRatioF();
   const glm::dvec2 pixel(pressed.position.x() * ratio, pressed.position.y() * ratio);
@@ -147,6 +150,15 @@ void VolumeViewWidget::pick_and_begin(const Pointer& pressed) {
     self->set_drag(self->PictureView::begin_drag(there));
   };
   proxy().pick(view(), physical_size(), pixel, answer);
+}
+
+void VolumeViewWidget::find_place(QPointF position, std::function<void(std::optional<glm::dvec3>)> answer) {
+  if (const auto on_cut = patient_at(position)) return answer(on_cut);
+  const double ratio = devicePixelRatioF();
+  const auto take = [self = QPointer(this), answer = std::move(answer)](std::optional<Hit> hit) {
+    if (self) answer(hit ? std::optional(hit->patient_mm) : std::nullopt);
+  };
+  proxy().pick(view(), physical_size(), {position.x() * ratio, position.y() * ratio}, take);
 }
 
 void VolumeViewWidget::mouseMoveEvent(QMouseEvent* event) {
@@ -223,11 +235,6 @@ void VolumeViewWidget::paint_overlay(QPainter& painter) {
   paint_orientation(painter, size(), camera.right(), camera.up());
   paint_scale_bar(painter, size(), mm_per_pixel());
   paint_study(painter);
-  const bool draws = proxy().engine().graphics() != Engine::Graphics::none;
-  if (draws && !proxy().state().begun && !settings().show_source && !settings().clip_on) {
-    paint_text(painter, QRectF(rect()).adjusted(40, 40, -40, -40), Qt::AlignCenter | Qt::TextWordWrap,
-               tr("No surface yet: draw a sphere in a slice, or choose another start."));
-  }
   if (!settings().clip_on) return;
   const ClipHandles on_screen = handles();
   on_screen.paint(painter, on_screen.grip_at(mapFromGlobal(QCursor::pos())));

@@ -1,4 +1,4 @@
-// The 3D rendering.
+// The view in 3D.
 #pragma once
 
 #include "ui/views/clip_handles.h"
@@ -20,9 +20,13 @@ class VolumeViewWidget : public PictureView {
   [[nodiscard]] ClipHandles handles() const;
   [[nodiscard]] VolumeView view() const;
 
+ signals:
+  void place_wanted();  // the tool and the panel that place a surface
+
  protected:
   [[nodiscard]] AnyView wanted() const override { return view(); }
   void paint_overlay(QPainter& painter) override;
+  void find_place(QPointF position, std::function<void(std::optional<glm::dvec3>)> answer) override;
   std::unique_ptr<Drag> begin_drag(const Pointer& pressed) override;
   std::unique_ptr<Drag> navigation_drag(const Pointer& pressed) override;
   void scroll(int clicks) override;

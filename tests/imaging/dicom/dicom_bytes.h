@@ -62,7 +62,7 @@ class Dataset {
   std::map<std::uint32_t, std::string> elements_;
 };
 
-// What a DICOM file begins with (PS3.10, section 7.1).
+// The begin of a DICOM file (PS3.10, section 7.1).
 std::string preamble();
 // Group 0002 with that transfer syntax, its group length as it is unless stated.
 std::string meta(const std::string& transfer_syntax, std::optional<std::uint32_t> group_length = {});

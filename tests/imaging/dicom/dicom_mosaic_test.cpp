@@ -51,7 +51,7 @@ Volume tiled(const Volume& volume, bool is_backward) {
   return mosaic;
 }
 
-// What the header says of the volume as a mosaic.
+// The header of the volume as a mosaic.
 CsaValues values_of(const Volume& volume, bool is_backward) {
   const glm::dvec3 normal = (is_backward ? -1.0 : 1.0) * volume.geometry.direction[2];
   return {{"NumberOfImagesInMosaic", {std::to_string(volume.geometry.size.z)}},

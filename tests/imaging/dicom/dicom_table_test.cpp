@@ -24,7 +24,7 @@ using test::PeerVolume;
 
 namespace {
 
-// What is expected of a study: how many of its series make volumes, and what the reasons of the others say.
+// The expectation of a study: how many of its series make volumes, and the reasons of the others.
 struct Study {
   const char* name;
   const char* what;

@@ -63,7 +63,7 @@ DcmItem& group(DcmItem& groups, const DcmTagKey& sequence) {
 
 void write_enhanced(const std::vector<EnhancedFrame>& frames, const std::filesystem::path& file,
                     const Enhanced& enhanced) {
-  // What a classic slice says of its patient, study, series and pixels holds for all frames.
+  // A classic slice's attributes of patient, study, series and pixels hold for all frames.
   const TemporaryFolder scratch;
   const auto classic = write_series(*frames.front().volume, scratch / "classic", "MR").front();
   const auto make = [&](DcmDataset& dataset) {

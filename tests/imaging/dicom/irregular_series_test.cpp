@@ -177,7 +177,7 @@ class IrregularSeriesTest : public QObject {
     QVERIFY(read->list.front().slices == segment.slices);
   }
 
-  // What is told in coordinates that are not the patient's must not get back among the patient's images.
+  // Results in coordinates that are not the patient's must not get back among the patient's images.
   void results_on_slices_whose_tilt_was_kept_are_refused() {
     test::tilt(files_, whole_.geometry, 0.9);
     for (const GridPolicy& policy : {GridPolicy(), kKeep}) {

@@ -1,4 +1,4 @@
-// What dcm2niix makes of a folder of DICOM files, as another reader's word on the same series.
+// The volumes that dcm2niix makes of a folder of DICOM files: another reader's word on the same series.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace tidemark::test {
 
 // The version whose volumes are compared; others convert some series otherwise.
 inline constexpr const char* kPeerVersion = "v1.0.20220720";
-// What `dcm2niix --version` says; empty when there is none.
+// The output of `dcm2niix --version`; empty when there is none.
 [[nodiscard]] std::string peer_version();
 
 // A volume as dcm2niix wrote it, rescaled. One of four dimensions counts as several.

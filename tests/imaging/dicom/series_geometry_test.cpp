@@ -114,7 +114,7 @@ class SeriesGeometryTest : public QObject {
     QVERIFY2(series.loadable, series.reason.c_str());
     QCOMPARE(series.geometry.size, Index3(10, 14, 5));
     QVERIFY(series.changes.at(0).find("15.0 degrees") != std::string::npos);
-    // Whichever policy makes the grid last is the one that is told of.
+    // The policy that makes the grid last is the one in the sentences.
     set_grid(series, {GridPolicy::Tilt::keep, GridPolicy::Gaps::refuse});
     QVERIFY(series.changes.empty());
     QCOMPARE(series.warnings.size(), std::size_t{1});

@@ -1,4 +1,4 @@
-// What other readers found in the real studies (truth.json beside them), against what was loaded.
+// The findings of other readers on the real studies (truth.json beside them), against what was loaded.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ struct Loaded {
   Volume volume;
 };
 
-// What differs between a study of truth.json and what was loaded of it, one short line each. `folder` is the
+// The differences between a study of truth.json and its loaded volumes, one short line each. `folder` is the
 // study's.
 [[nodiscard]] std::vector<std::string> differences(const nlohmann::json& study,
                                                    const std::filesystem::path& folder,

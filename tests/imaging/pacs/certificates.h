@@ -8,7 +8,7 @@
 
 namespace tidemark::test {
 
-// An authority, and what it signs. Everything lies in one folder, which goes away with the object.
+// An authority and its certificates. Everything lies in one folder, which is removed with the object.
 class Certificates {
  public:
   Certificates();

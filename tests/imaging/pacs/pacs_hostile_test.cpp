@@ -191,7 +191,7 @@ class PacsHostileTest : public QObject {
     QTest::newRow("has failed") << then([](PeerEnd& end) {
       end.send_command(1, response(kGetResponse, 1, 0xa701, false));
       end.read_command();
-    }) << "cannot send what is asked for (status A701)";
+    }) << "cannot send the requested objects (status A701)";
     QTest::newRow("says that all is well and sends nothing") << then([](PeerEnd& end) {
       end.send_command(1, response(kGetResponse, 1, 0, false));
       end.read_command();
@@ -205,7 +205,7 @@ class PacsHostileTest : public QObject {
     };
     QTest::newRow("an object of another series")
         << then([=](PeerEnd& end) { send_object(end, "1.2.5", object(kCt, "1.2.5", kStudy, "1.2.3.5")); })
-        << "nothing of what came can be taken: object 000001: belongs to another series";
+        << "none of the objects that came can be taken: object 000001: belongs to another series";
     QTest::newRow("an object of another study")
         << then([=](PeerEnd& end) { send_object(end, "1.2.5", object(kCt, "1.2.5", "1.2.9", kSeries)); })
         << "object 000001: belongs to another study";
@@ -217,9 +217,10 @@ class PacsHostileTest : public QObject {
     }) << "object 000001: is another object than was announced";
     QTest::newRow("an object that is noise")
         << then([=](PeerEnd& end) { send_object(end, "1.2.5", bytes_by_chance(4000)); })
-        << "nothing of what came can be taken: object 000001: ";
-    QTest::newRow("an object without content") << then([=](PeerEnd& end) { send_object(end, "1.2.5", {}); })
-                                               << "nothing of what came can be taken: object 000001: ";
+        << "none of the objects that came can be taken: object 000001: ";
+    QTest::newRow("an object without content")
+        << then([=](PeerEnd& end) { send_object(end, "1.2.5", {}); })
+        << "none of the objects that came can be taken: object 000001: ";
     QTest::newRow("a class that was not asked for") << then([=](PeerEnd& end) {
       constexpr const char* kReport = "1.2.840.10008.5.1.4.1.1.88.11";
       end.send_command(end.context(kCt), store_request(1, kReport, "1.2.5"));

@@ -38,7 +38,7 @@ Segments speckled_segments(const Geometry& geometry);
 // A ball around the middle of the grid as mask and as phi, radius in mm; with `hollow_mm`, without its core.
 Segment ball_segment(const Geometry& geometry, double radius_mm, double hollow_mm = 0.0);
 
-// What dciodvfy says about a file.
+// The output of dciodvfy about a file.
 QString validate(const std::filesystem::path& file);
 
 // What pydicom finds in a file (read_results.py). Ends the test program when it cannot read it.

@@ -239,7 +239,7 @@ class LookTest : public QObject {
           qUtf8Printable(
               QStringLiteral("group %1, role %2 on %3: %4").arg(group).arg(text).arg(behind).arg(ratio)));
     }
-    // What is chosen is told from what is not, and from the window, without its text.
+    // A chosen item differs from the others and from the window, also without its text.
     QVERIFY(contrast(palette.color(P::Highlight), palette.color(P::Window)) >= 2.0);
   }
 

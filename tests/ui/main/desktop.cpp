@@ -218,10 +218,11 @@ void Desktop::screenshot_at_once(const QString& name) {
   const QString folder = qEnvironmentVariable("TIDEMARK_SCREENSHOTS");
   if (folder.isEmpty()) return;
   QPixmap picture = window_->grab();
-  if (QWidget* dialog = QApplication::activeModalWidget()) {
+  for (QWidget* over : {QApplication::activeModalWidget(), QApplication::activePopupWidget()}) {
+    if (!over) continue;
     QPainter painter(&picture);
-    const QRect frame = dialog->geometry().translated(-window_->pos());
-    painter.drawPixmap(frame.topLeft(), dialog->grab());
+    const QRect frame = over->geometry().translated(-window_->pos());
+    painter.drawPixmap(frame.topLeft(), over->grab());
     painter.drawRect(frame);  // there may be no window manager to draw one
   }
   picture.save(folder + '/' + name + ".png");

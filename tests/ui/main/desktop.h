@@ -41,11 +41,11 @@ class WatchedApplication : public QApplication {
   QString in_;
 };
 
-// With which executor stories run that are not told with every one: host, or what TIDEMARK_STORIES names
+// The executor of stories that run with one only: host, or the one that TIDEMARK_STORIES names
 // ("compute" or "stream").
 ExecutorKind story_executor();
 
-// What was needed of phi for the pictures of a case, since it was opened.
+// Traffic of phi for the pictures of a case, since it was opened.
 struct PhiTraffic {
   std::int64_t copies = 0;          // read from the executor
   std::int64_t pages_uploaded = 0;  // to where pictures are drawn
@@ -75,7 +75,7 @@ class Desktop {
     }
     return nullptr;
   }
-  // Presses at one point of the patient, moves over the others, and lets go.
+  // Presses at one point of the patient, moves over the others, and releases.
   static void drag(PictureView& view, const std::vector<glm::dvec3>& patient_mm,
                    Qt::MouseButton button = Qt::LeftButton, Qt::KeyboardModifiers modifiers = {});
   static void drag(QWidget& widget, const std::vector<QPoint>& way, Qt::MouseButton button = Qt::LeftButton,
@@ -98,7 +98,7 @@ class Desktop {
   PhiTraffic phi_traffic(CaseProxy& proxy);
   static bool wait_for(const std::function<bool()>& condition, int milliseconds = 20000);
   // Where TIDEMARK_SCREENSHOTS says, if it does: of the window once it has settled, or as it is, with the
-  // dialog that is open.
+  // dialog or menu that is open.
   void screenshot(const QString& name);
   void screenshot_at_once(const QString& name);
 

@@ -13,6 +13,7 @@
 #include "tests/ui/main/desktop.h"
 #include "ui/look/theme.h"
 #include "ui/main/panel_docks.h"
+#include "ui/views/next_step.h"
 
 namespace tidemark::test {
 
@@ -52,7 +53,6 @@ void GuideStoryTest::the_first_minute_leads_to_a_tumour() {
   QVERIFY(axial);
   const glm::dvec3 centre = desktop.proxy().display().settings().cursor_mm;
   QVERIFY2(glm::distance(centre, desktop.seed_mm()) < 15.0, "the study opens at the tumour");
-  desktop.press(Qt::Key_S);
   QVERIFY(desktop.proxy().display().settings().tool == Tool::seed);
   Desktop::mouse(*axial, QEvent::MouseButtonPress, centre);
   Desktop::mouse(*axial, QEvent::MouseMove, centre + glm::dvec3(6, 0, 0));
@@ -62,7 +62,9 @@ void GuideStoryTest::the_first_minute_leads_to_a_tumour() {
   desktop.wait_until_idle();
   QVERIFY(desktop.state().begun);
 
-  desktop.press(Qt::Key_P);
+  auto* play = desktop.window().findChild<PlayButton*>();
+  QVERIFY(play && play->isVisible());
+  QTest::mouseClick(play, Qt::LeftButton);
   const auto is_on_its_way = [&] {
     const auto views = desktop.window().active_case()->views();
     return std::all_of(views.begin(), views.end(), [](const PictureView* view) {

@@ -112,7 +112,7 @@ void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
     Desktop::in_an_event([&] { layout->trigger(); });
     desktop.wait_until_idle();
   }
-  // What is taken back may be the last steps alone, which hardly move the surface.
+  // Undo may take back the last steps alone, which hardly move the surface.
   const std::int64_t inside = desktop.state().surface.voxels_inside;
   const std::int64_t step = desktop.state().step;
   desktop.press(Qt::Key_Z, Qt::ControlModifier);

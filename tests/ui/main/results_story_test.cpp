@@ -81,7 +81,7 @@ bool says(QWidget& dialog, const QString& text) {
                      [&](const QLabel* label) { return label->text().contains(text); });
 }
 
-// In both themes, where TIDEMARK_SCREENSHOTS says.
+// In both themes, into the folder of TIDEMARK_SCREENSHOTS.
 void picture(QWidget& widget, const QString& name) {
   const QString folder = qEnvironmentVariable("TIDEMARK_SCREENSHOTS");
   if (folder.isEmpty()) return;

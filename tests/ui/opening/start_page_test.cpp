@@ -1,12 +1,18 @@
 // The start page, the list of recent studies and the menu of phantoms.
 #include "ui/opening/start_page.h"
 
+#include <sys/stat.h>
+
+#include <QDir>
 #include <QDragEnterEvent>
 #include <QDropEvent>
+#include <QFileInfo>
+#include <QImageReader>
 #include <QMimeData>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QToolButton>
+#include <algorithm>
 
 #include "engine/background_job.h"
 #include "imaging/phantom/phantom.h"
@@ -15,6 +21,7 @@
 #include "ui/opening/card_button.h"
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/phantom_menu.h"
+#include "ui/opening/recent_pictures.h"
 #include "ui/opening/recent_studies.h"
 
 using namespace tidemark;
@@ -124,6 +131,58 @@ class StartPageTest : public QObject {
     QCOMPARE(again.list()[1].path, QString("/data/11"));
     QCOMPARE(again.list()[9].path, QString("/data/2"));
     QCOMPARE(again.list()[9].uid, QString("uid"));
+  }
+
+  // A picture of pixels is sensitive: nobody else reads it, and it goes with its entry.
+  void pictures_of_recent_studies_are_private_and_go_with_them() {
+    keep_recent_pictures({});
+    auto volume = std::make_shared<Volume>();
+    volume->geometry.size = {40, 30, 3};
+    std::vector<float> values(40 * 30 * 3);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i % 40);
+    volume->voxels = std::move(values);
+    const RecentStudy study{"/data/DOE^JOHN", "1.2.3", "T1", {}};
+    RecentStudies recent;
+    QVERIFY(RecentStudies::picture_of(study).isNull());
+    recent.add(study);
+    recent.add_picture(study, volume, {20.0, 40.0}, 1);
+    QTRY_VERIFY_WITH_TIMEOUT(!RecentStudies::picture_of(study).isNull(), 60'000);
+    const QImage picture = RecentStudies::picture_of(study);
+    QCOMPARE(picture.width(), 128);
+    QCOMPARE(picture.height(), 96);
+    QVERIFY(picture.pixelColor(2, 50).lightness() + 100 < picture.pixelColor(120, 50).lightness());
+
+    const QDir folder(recent_picture_folder());
+    QCOMPARE(folder.entryList(QDir::Files).size(), 1);
+    const QFileInfo file(folder.filePath(folder.entryList(QDir::Files).first()));
+    QVERIFY(!file.fileName().contains("DOE"));
+    struct stat found {};
+    QCOMPARE(::stat(QFile::encodeName(file.filePath()).constData(), &found), 0);
+    QCOMPARE(found.st_mode & 0777U, 0600U);
+    QCOMPARE(::stat(QFile::encodeName(folder.path()).constData(), &found), 0);
+    QCOMPARE(found.st_mode & 0777U, 0700U);
+    QVERIFY(QImageReader(file.filePath()).textKeys().isEmpty());
+
+    StartPage page(recent);
+    const auto cards = page.findChildren<CardButton*>();
+    const auto shows_it = [](const CardButton* card) { return card->text() == "T1" && card->has_picture(); };
+    QVERIFY(std::any_of(cards.begin(), cards.end(), shows_it));
+
+    recent.clear();
+    QCOMPARE(folder.entryList(QDir::Files).size(), 0);
+    // Ten others push it out of the list.
+    recent.add(study);
+    recent.add_picture(study, volume, {20.0, 40.0}, 1);
+    QTRY_VERIFY_WITH_TIMEOUT(!RecentStudies::picture_of(study).isNull(), 60'000);
+    for (int number = 0; number < 10; ++number) recent.add({QString("/data/%1").arg(number), "u", "S", {}});
+    QVERIFY(RecentStudies::picture_of(study).isNull());
+    // One that left the list before its picture was made has none.
+    recent.add(study);
+    recent.add_picture(study, volume, {20.0, 40.0}, 1);
+    recent.clear();
+    QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
+    QCoreApplication::processEvents();
+    QCOMPARE(folder.entryList(QDir::Files).size(), 0);
   }
 
   void how_slices_became_a_grid_is_remembered() {

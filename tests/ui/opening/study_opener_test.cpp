@@ -151,7 +151,7 @@ class StudyOpenerTest : public QObject {
         uid = QString::fromStdString(study()->origin.series_uid);
       }
     }
-    // Whoever opens something else fills nothing.
+    // Opening something else fills nothing.
     opened_->clear();
     opener_->open(text(folder_ / "gap"));
     QTRY_VERIFY_WITH_TIMEOUT(opener_->question() != nullptr, kPatience);
@@ -420,7 +420,7 @@ class StudyOpenerTest : public QObject {
       }
       QFAIL("no such button");
     };
-    // One line, until more is asked for.
+    // One line, until the user asks for more.
     report.resize(700, report.sizeHint().height());
     report.show();
     QVERIFY(!what->isVisible());

@@ -222,7 +222,7 @@ class InitialisePanelTest : public QObject {
       }
     }
   }
-  QPushButton* start_button() { return button<QPushButton>(*panel_, tr("Start")); }
+  QPushButton* start_button() { return button<QPushButton>(*panel_, tr("Place surface")); }
   void start() {
     QVERIFY(start_button()->isEnabled());
     QTest::mouseClick(start_button(), Qt::LeftButton);

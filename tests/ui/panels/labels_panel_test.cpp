@@ -94,7 +94,7 @@ class LabelsPanelTest : public QObject {
     const auto voxels = the_case_->state().surface.voxels_inside;
     the_case_->begin(3.0);
     QVERIFY(the_case_->state().surface.voxels_inside != voxels);
-    click(tr("Start again from label"));
+    click(tr("Place surface from label"));
     QCOMPARE(the_case_->state().surface.voxels_inside, voxels);
   }
 

@@ -6,6 +6,7 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QLineEdit>
+#include <QSettings>
 #include <QSignalSpy>
 #include <QSlider>
 #include <QStandardItemModel>
@@ -17,6 +18,7 @@
 #include "tests/ui/panels/panel_case.h"
 #include "ui/panels/curve_plot.h"
 #include "ui/panels/speed_plot.h"
+#include "ui/widgets/disclosure.h"
 
 namespace tidemark {
 
@@ -48,7 +50,10 @@ class LevelSetPanelTest : public QObject {
  private slots:
   void init() {
     the_case_ = std::make_unique<PanelCase>();
+    QSettings().remove("details");
     panel_ = shown<LevelSetPanel>(*the_case_, 900);
+    for (Disclosure* fold : panel_->findChildren<Disclosure*>()) fold->set_open(true);
+    QCoreApplication::processEvents();
   }
   void cleanup() {
     panel_.reset();
@@ -168,6 +173,86 @@ class LevelSetPanelTest : public QObject {
     QVERIFY(!the_case_->state().parameters.data_term);
   }
 
+  void details_are_folded_away_until_somebody_unfolds_them() {
+    const LevelSetPanel fresh;
+    const auto folds = fresh.findChildren<Disclosure*>();
+    QCOMPARE(folds.size(), 3);
+    for (const Disclosure* fold : folds) QVERIFY(!fold->is_open());
+    const auto is_folded = [](const LevelSetPanel& in, const QString& name) {
+      for (QWidget* widget : in.findChildren<QWidget*>()) {
+        if (widget->accessibleName() != name) continue;
+        for (const QWidget* at = widget; at != &in; at = at->parentWidget()) {
+          if (at->isHidden()) return true;
+        }
+        return false;
+      }
+      qFatal("there is no %s", qPrintable(name));
+    };
+    for (const char* name : {"Picture every", "Computed by", "Scheme", "α as in the paper",
+                             "Steps per second", "Resident pages", "Memory"})
+      QVERIFY2(is_folded(fresh, tr(name)), name);
+    for (const char* name : {"State of the evolution", "Target T", "Range ε", "Data weight α", "Step",
+                             "Volume", "Area", "Motion"})
+      QVERIFY2(!is_folded(fresh, tr(name)), name);
+
+    // By a click, and the next time, too.
+    auto shown_fresh = shown<LevelSetPanel>(*the_case_, 900);
+    auto* unfold = named<QToolButton>(*shown_fresh, tr("Details of the speed"));
+    QTest::mouseClick(unfold, Qt::LeftButton);
+    QVERIFY(!is_folded(*shown_fresh, tr("Scheme")));
+    const LevelSetPanel next;
+    QVERIFY(!is_folded(next, tr("Scheme")));
+    QVERIFY(is_folded(next, tr("Memory")));
+    QTest::mouseClick(unfold, Qt::LeftButton);
+    QVERIFY(is_folded(LevelSetPanel(), tr("Scheme")));
+  }
+
+  void the_papers_scheme_can_be_chosen_is_undone_and_recorded() {
+    the_case_->begin();
+    CaseProxy& proxy = *the_case_->proxy;
+    proxy.step(2);
+    the_case_->wait_until_idle();
+    const double large_step = the_case_->state().time_step;
+    auto* scheme = named<QComboBox>(*panel_, tr("Scheme"));
+    scheme->setFocus();
+    QTest::keyClick(scheme, Qt::Key_Down);
+    the_case_->wait_until_idle();
+    QVERIFY(the_case_->state().parameters.scheme == Scheme::paper);
+    QVERIFY(the_case_->state().time_step < large_step);
+    proxy.step(3);
+    type(tr("Rescaling w"), "0.5");
+    type(tr("Target gradient"), "1.5");
+    QCOMPARE(the_case_->state().parameters.rescale, std::optional(0.5));
+    QCOMPARE(the_case_->state().parameters.target_gradient, 1.5);
+    auto* by_band = button<QCheckBox>(*panel_, tr("w by the band's width"));
+    QVERIFY(!by_band->isChecked());
+
+    std::shared_ptr<const CaseProxy::Snapshot> snapshot;
+    proxy.take_snapshot({}, [&](const auto& taken) { snapshot = taken; });
+    the_case_->wait_until_idle();
+    QVERIFY(snapshot);
+    const auto text = snapshot->contents.recipe.to_text();
+    QCOMPARE(failure(text), QString());
+    const auto recipe = Recipe::parse(*text, "recipe");
+    QCOMPARE(failure(recipe), QString());
+    QCOMPARE(recipe->final_parameters(), the_case_->state().parameters);
+    QVERIFY(recipe->parameters.scheme == Scheme::split);  // at the start
+
+    QTest::mouseClick(by_band, Qt::LeftButton, {}, {8, by_band->height() / 2});
+    the_case_->wait_until_idle();
+    QVERIFY(!the_case_->state().parameters.rescale);
+    const double shown_weight = named<QDoubleSpinBox>(*panel_, tr("Rescaling w"))->value();
+    QVERIFY(std::abs(shown_weight - 0.75 / the_case_->state().band) < 0.001);
+    for (int entry = 0; entry < 6; ++entry) {
+      proxy.undo();
+      the_case_->wait_until_idle();
+      if (the_case_->state().parameters == the_case_->proxy->study().parameters) break;
+    }
+    QCOMPARE(the_case_->state().parameters, the_case_->proxy->study().parameters);
+    QCOMPARE(scheme->currentText(), tr("Split"));
+    QVERIFY(by_band->isChecked());
+  }
+
   void what_is_changed_elsewhere_shows() {
     Parameters parameters = the_case_->proxy->parameters();
     parameters.target = 42.0;
@@ -279,6 +364,15 @@ class LevelSetPanelTest : public QObject {
   }
 
  private:
+  void type(const QString& name, const char* text) {
+    auto* number = named<QDoubleSpinBox>(*panel_, name);
+    number->setFocus();
+    number->selectAll();
+    QTest::keyClicks(number, text);
+    QTest::keyClick(number, Qt::Key_Return);
+    the_case_->wait_until_idle();
+  }
+
   std::unique_ptr<PanelCase> the_case_;
   std::unique_ptr<LevelSetPanel> panel_;
 };

@@ -1,4 +1,4 @@
-// A session on a ball in a CT, for tests of panels.
+// A case on a ball in a CT, for tests of panels.
 #pragma once
 
 #include <QTest>
@@ -37,7 +37,7 @@ class PanelCase {
   Engine engine{false};
   std::unique_ptr<CaseProxy> proxy;
 
-  // Waits until all that was asked for is done, and the session knows. Not while it plays.
+  // Waits until all commands are done, and the proxy has the state. Not while it plays.
   void wait_until_idle();
   // A ball of that radius in the middle of the study.
   void begin(double radius_mm = 6.0);

@@ -1,4 +1,8 @@
 // Whose images they are stands in the corners of every view, until it is hidden.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 #include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 #include "ui/views/overlay.h"
@@ -16,7 +20,7 @@ std::shared_ptr<const LoadedStudy> ball_of(const std::string& patient, const std
   return study;
 }
 
-// What the engine without OpenGL cannot draw: the overlay alone.
+// The overlay alone, as the engine without OpenGL draws nothing else.
 std::unique_ptr<PictureView> view_of(CaseProxy& proxy, bool in_3d) {
   std::unique_ptr<PictureView> view;
   if (in_3d) {
@@ -62,6 +66,48 @@ class CornersTest : public QObject {
     painter.end();
     QVERIFY(differing_pixels(picture, empty, QRect(0, 0, 140, 200)) > 500);
     QCOMPARE(differing_pixels(picture, empty, QRect(142, 0, 158, 200)), 0);
+  }
+
+  // WCAG 2.1: the contrast of text to what it stands on.
+  void texts_are_read_on_the_brightest_tissue_data() {
+    QTest::addColumn<int>("what");
+    QTest::newRow("corner") << 0;
+    QTest::newRow("orientation") << 1;
+    QTest::newRow("scale bar") << 2;
+  }
+
+  void texts_are_read_on_the_brightest_tissue() {
+    QFETCH(int, what);
+    QImage picture(400, 300, QImage::Format_RGB32);
+    picture.fill(Qt::white);
+    QPainter painter(&picture);
+    painter.setRenderHint(QPainter::Antialiasing);
+    if (what == 0) paint_corner(painter, picture.size(), Qt::AlignLeft | Qt::AlignTop, {"Doe, John", "4711"});
+    if (what == 1) paint_orientation(painter, picture.size(), {1.0, 0.0, 0.0}, {0.0, -1.0, 0.0});
+    if (what == 2) paint_scale_bar(painter, picture.size(), 0.5);
+    painter.end();
+    // What lies around the lightest pixels of text, which are not quite white: the commonest colour there.
+    std::map<QRgb, int> around;
+    const QRgb text = qRgb(240, 240, 240);
+    for (int y = 3; y < picture.height() - 3; ++y) {
+      for (int x = 3; x < picture.width() - 3; ++x) {
+        if (picture.pixel(x, y) != text) continue;
+        for (int dy = -3; dy <= 3; ++dy) {
+          for (int dx = -3; dx <= 3; ++dx) ++around[picture.pixel(x + dx, y + dy)];
+        }
+      }
+    }
+    around.erase(text);
+    QVERIFY(!around.empty());
+    const QRgb ground = std::max_element(around.begin(), around.end(), [](const auto& a, const auto& b) {
+                          return a.second < b.second;
+                        })->first;
+    const auto luminance = [](QRgb colour) {
+      const double c = qGray(colour) / 255.0;
+      return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+    };
+    const double contrast = (luminance(text) + 0.05) / (luminance(ground) + 0.05);
+    QVERIFY2(contrast >= 4.5, qPrintable(QString::number(contrast)));
   }
 
   void a_low_view_has_room_for_the_name_alone() {

@@ -50,7 +50,7 @@ void open_sphere(Desktop& desktop) {
   desktop.wait_until_idle();
 }
 
-// What is on the screen, after Qt has put all widgets together.
+// The screen, after Qt has put all widgets together.
 QImage on_screen(PictureView& view) {
   const QWidget& window = *view.window();
   QTest::qWait(50);
@@ -219,7 +219,7 @@ void PictureSurfaceTest::a_case_is_closed_while_its_pictures_are_drawn() {
   CaseWindow* first = desktop.window().active_case();
   const PictureView* view = desktop.view<VolumeViewWidget>();
   QVERIFY(view);
-  // Held by nobody else any more, it dies on the engine's thread.
+  // After its last holder it is destroyed on the engine's thread.
   std::shared_ptr<const PictureTexture> held = view->feed().shown().texture;
   open_sphere(desktop);
   first->proxy().play();

@@ -1,0 +1,64 @@
+#include "engine/truth_overlap.h"
+
+namespace tidemark {
+namespace {
+
+// Calls visit(voxel offset of the row, row length, index of its first value in the page).
+template <class Visit>
+void for_each_row(const Geometry& geometry, const PageLayout& layout, std::int64_t page, Visit visit) {
+  const Index3 first = layout.first_voxel(page);
+  const Index3 valid = layout.valid_shape(page);
+  const Index3 shape = layout.page_shape();
+  for (std::int64_t z = 0; z < valid.z; ++z) {
+    for (std::int64_t y = 0; y < valid.y; ++y) {
+      visit(geometry.offset(first + Index3(0, y, z)), valid.x, shape.x * (y + shape.y * z));
+    }
+  }
+}
+
+}  // namespace
+
+void TruthOverlap::count_pages(const PageLayout& layout) {
+  if (layout_ == layout) return;
+  layout_ = layout;
+  in_page_.assign(static_cast<std::size_t>(layout.page_count()), 0);
+  in_truth_ = 0;
+  for (std::int64_t page = 0; page < layout.page_count(); ++page) {
+    std::int64_t& count = in_page_[static_cast<std::size_t>(page)];
+    for_each_row(truth_->geometry, layout, page, [&](std::int64_t offset, std::int64_t length, std::int64_t) {
+      for (std::int64_t i = 0; i < length; ++i)
+        count += truth_->voxels[static_cast<std::size_t>(offset + i)] != 0 ? 1 : 0;
+    });
+    in_truth_ += count;
+  }
+}
+
+double TruthOverlap::dice(const Field& phi) {
+  count_pages(phi.layout);
+  std::int64_t inside = 0;
+  std::int64_t common = 0;
+  for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
+    const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
+    if (entry == Field::kOutside) continue;
+    if (entry == Field::kInside) {
+      const Index3 valid = layout_.valid_shape(page);
+      inside += valid.x * valid.y * valid.z;
+      common += in_page_[static_cast<std::size_t>(page)];
+      continue;
+    }
+    const float* values = phi.pages.data() + entry * layout_.voxels_per_page();
+    for_each_row(phi.geometry, layout_, page,
+                 [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
+                   const std::uint8_t* truth = truth_->voxels.data() + offset;
+                   for (std::int64_t i = 0; i < length; ++i) {
+                     const std::int64_t is_inside = values[index + i] > 0.0F ? 1 : 0;
+                     inside += is_inside;
+                     common += truth[i] != 0 ? is_inside : 0;
+                   }
+                 });
+  }
+  const std::int64_t both = inside + in_truth_;
+  return both == 0 ? 1.0 : 2.0 * static_cast<double>(common) / static_cast<double>(both);
+}
+
+}  // namespace tidemark

@@ -1,0 +1,65 @@
+// The GIPL header (Guy's Image Processing Lab): 256 bytes, big endian, the magic number at its end.
+#include "core/checked.h"
+#include "imaging/guard/pixel_layout.h"
+
+namespace tidemark::files {
+namespace {
+
+constexpr std::size_t kHeaderSize = 256;
+
+std::uint32_t big_endian(const std::string& bytes, std::size_t offset, std::size_t count) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < count; ++i) value = value << 8 | static_cast<unsigned char>(bytes[offset + i]);
+  return value;
+}
+
+std::optional<int> bytes_of(std::uint32_t type) {
+  switch (type) {
+    case 7:
+    case 8:
+      return 1;
+    case 15:
+    case 16:
+      return 2;
+    case 31:
+    case 32:
+    case 64:
+      return 4;
+    case 65:
+      return 8;
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
+Result<PixelLayout> locate_gipl(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  const auto header = read_start(file, kHeaderSize);
+  if (!header) return tl::unexpected<Error>(header.error());
+  if (header->size() < kHeaderSize) {
+    return fail(ErrorKind::input, "{}: not a GIPL file: {} bytes are too few for its header", name,
+                header->size());
+  }
+  const std::uint32_t magic = big_endian(*header, 252, 4);
+  if (magic != 0xEFFFE9B0U && magic != 0x2AE389B8U) {
+    return fail(ErrorKind::input, "{}: not a GIPL file: its header has no magic number", name);
+  }
+  const std::uint32_t type = big_endian(*header, 8, 2);
+  const auto bytes = bytes_of(type);
+  if (!bytes) return fail(ErrorKind::input, "{}: image type {} is not supported", name, type);
+  const auto size = [&](std::size_t axis) { return big_endian(*header, 2 * axis, 2); };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (size(axis) == 0) return fail(ErrorKind::input, "{}: dim[{}] is 0", name, axis);
+  }
+  const std::int64_t voxels = std::int64_t{size(0)} * size(1) * size(2);  // below 2^48
+  if (size(3) > 1) return fail(ErrorKind::input, "{}: dim[3] is {}: not one volume", name, size(3));
+
+  PixelLayout layout{.file = file, .voxels = voxels, .bytes = voxels * *bytes, .oriented = false};
+  layout.coding = is_gzip(file) ? Coding::deflate : Coding::raw;
+  (layout.coding == Coding::deflate ? layout.prefix : layout.offset) = kHeaderSize;
+  return layout;
+}
+
+}  // namespace tidemark::files

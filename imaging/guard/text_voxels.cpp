@@ -1,0 +1,47 @@
+#include "imaging/guard/text_voxels.h"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+
+namespace tidemark::files {
+namespace {
+
+// Longer than any number that a program would write.
+constexpr std::size_t kLongestNumber = 64;
+
+bool is_number(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  return error == std::errc() && end == word.data() + word.size() && std::isfinite(number);
+}
+
+}  // namespace
+
+Status check_text(const PixelLayout& layout) {
+  std::ifstream stream(layout.file, std::ios::binary);
+  if (!stream.seekg(layout.offset)) {
+    return fail(ErrorKind::input, "{}: cannot be read", layout.file.string());
+  }
+  std::int64_t count = 0;
+  std::string word;
+  for (bool more = true; more;) {
+    const int c = stream.get();
+    more = c != std::ifstream::traits_type::eof();
+    const bool is_blank = !more || c == ' ' || (c >= '\t' && c <= '\r');
+    if (!is_blank && word.size() <= kLongestNumber) word.push_back(static_cast<char>(c));
+    if (!is_blank || word.empty()) continue;
+    if (!is_number(word)) {
+      return fail(ErrorKind::input, "{}: voxel {} is not a number", layout.file.string(), count);
+    }
+    ++count;
+    word.clear();
+  }
+  if (count == layout.voxels) return {};
+  return fail(ErrorKind::input, "{}: the header says {} voxels, the text has {}", layout.file.string(),
+              layout.voxels, count);
+}
+
+}  // namespace tidemark::files

@@ -1,0 +1,66 @@
+// The Dice against a known answer, taken page by page.
+#include "engine/truth_overlap.h"
+
+#include "tests/document/cases.h"
+#include "tests/support/test_program.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+class TruthOverlapTest : public QObject {
+  Q_OBJECT
+
+  // A ball of so many mm that is off the middle by so many mm along x.
+  static std::shared_ptr<const Mask> ball(const Geometry& geometry, double off_mm, double radius_mm) {
+    auto mask = std::make_shared<Mask>(Mask{geometry, {}});
+    const glm::dvec3 centre =
+        geometry.to_patient(0.5 * glm::dvec3(geometry.size - Index3(1))) + glm::dvec3(off_mm, 0.0, 0.0);
+    for (std::int64_t z = 0; z < geometry.size.z; ++z) {
+      for (std::int64_t y = 0; y < geometry.size.y; ++y) {
+        for (std::int64_t x = 0; x < geometry.size.x; ++x)
+          mask->voxels.push_back(glm::distance(geometry.to_patient({x, y, z}), centre) < radius_mm ? 1 : 0);
+      }
+    }
+    return mask;
+  }
+
+ private slots:
+  void it_is_the_dice_of_the_masks_data() {
+    QTest::addColumn<double>("off_mm");
+    QTest::addColumn<double>("radius_mm");
+    QTest::newRow("the same") << 0.0 << 12.0;
+    QTest::newRow("beside") << 5.0 << 9.0;
+    QTest::newRow("within") << 1.0 << 4.0;
+    QTest::newRow("apart") << 14.0 << 2.0;
+  }
+
+  // Sizes that are no multiples of a page, and a ball in whose middle there are pages without a surface.
+  void it_is_the_dice_of_the_masks() {
+    QFETCH(double, off_mm);
+    QFETCH(double, radius_mm);
+    const Geometry geometry{{43, 37, 45}, {1.0, 1.0, 1.0}, glm::dmat3(1.0), {3.0, -2.0, 7.0}};
+    const auto inside = ball(geometry, 0.0, 15.0);
+    std::vector<float> values;
+    for (const std::uint8_t voxel : inside->voxels) values.push_back(voxel != 0 ? 2.5F : -2.5F);
+    const Field phi = Field::from_dense(geometry, values, 2.5);
+    QVERIFY(std::count(phi.table.begin(), phi.table.end(), Field::kInside) > 0);
+    const auto truth = ball(geometry, off_mm, radius_mm);
+    TruthOverlap overlap(truth);
+    const double expected = dice(phi.mask(), *truth);
+    QCOMPARE(overlap.dice(phi), expected);
+    QCOMPARE(overlap.dice(phi), expected);  // with what it knows by now
+    QVERIFY(expected < 1.0 && expected > 0.0);
+    // Other pages.
+    QCOMPARE(overlap.dice(Field::from_dense(geometry, values, 2.5, {4, 8, 16})), expected);
+  }
+
+  void of_nothing_and_nothing_it_is_one() {
+    const Geometry geometry{{9, 9, 9}, {1.0, 1.0, 1.0}, glm::dmat3(1.0), {}};
+    TruthOverlap overlap(ball(geometry, 0.0, 0.0));
+    QCOMPARE(overlap.dice(Field::empty(geometry, 2.5)), 1.0);
+    QCOMPARE(TruthOverlap(ball(geometry, 0.0, 3.0)).dice(Field::empty(geometry, 2.5)), 0.0);
+  }
+};
+
+TIDEMARK_TEST(TruthOverlapTest)
+#include "truth_overlap_test.moc"

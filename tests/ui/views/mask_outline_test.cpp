@@ -1,0 +1,91 @@
+// The outline of a mask lies where the mask ends, in slices of every orientation.
+#include "ui/views/mask_outline.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "tests/support/test_program.h"
+
+using namespace tidemark;
+
+namespace {
+
+constexpr double kRadius = 11.0;
+
+const Geometry kGrid{{40, 36, 30}, {1.0, 1.0, 1.4}, glm::dmat3(1.0), {-8.0, 12.0, 5.0}};
+
+glm::dvec3 middle() {
+  return kGrid.to_patient(0.5 * glm::dvec3(kGrid.size - Index3(1)));
+}
+
+Mask ball() {
+  Mask mask{kGrid, {}};
+  for (std::int64_t z = 0; z < kGrid.size.z; ++z) {
+    for (std::int64_t y = 0; y < kGrid.size.y; ++y) {
+      for (std::int64_t x = 0; x < kGrid.size.x; ++x)
+        mask.voxels.push_back(glm::distance(kGrid.to_patient({x, y, z}), middle()) < kRadius ? 1 : 0);
+    }
+  }
+  return mask;
+}
+
+}  // namespace
+
+class MaskOutlineTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void it_is_a_circle_around_a_ball_data() {
+    QTest::addColumn<int>("kind");
+    QTest::newRow("axial") << 0;
+    QTest::newRow("coronal") << 1;
+    QTest::newRow("sagittal") << 2;
+    QTest::newRow("oblique") << 3;
+  }
+
+  void it_is_a_circle_around_a_ball() {
+    QFETCH(int, kind);
+    SliceOrientation orientation = kind == 1 ? kCoronal : kind == 2 ? kSagittal : kAxial;
+    if (kind == 3) {
+      orientation.right = glm::normalize(glm::dvec3(1.0, 0.4, 0.2));
+      orientation.up = glm::normalize(glm::cross(orientation.right, glm::dvec3(0.3, 1.0, -0.2)));
+    }
+    constexpr double kOff = 4.0;
+    const glm::dvec3 position = middle() + orientation.into() * kOff;
+    const QList<QLineF> lines = outline_in_slice(ball(), orientation, position);
+    QVERIFY2(lines.size() > 30, qPrintable(QString::number(lines.size())));
+    const QPointF centre(glm::dot(middle(), orientation.right), glm::dot(middle(), orientation.up));
+    const double radius = std::sqrt(kRadius * kRadius - kOff * kOff);
+    double length = 0.0;
+    for (const QLineF& line : lines) {
+      length += line.length();
+      const double from_centre = QLineF(centre, line.center()).length();
+      QVERIFY2(std::abs(from_centre - radius) < 1.2, qPrintable(QString::number(from_centre - radius)));
+    }
+    // Voxels make it longer than the circle, at most as much longer as an octagon's stairs.
+    QVERIFY2(length > 1.9 * M_PI * radius && length < 2.4 * M_PI * radius,
+             qPrintable(QString::number(length)));
+  }
+
+  // No end is loose, at the volume's border either.
+  void it_is_closed() {
+    Mask all{kGrid, std::vector<std::uint8_t>(static_cast<std::size_t>(kGrid.voxel_count()), 1)};
+    for (const Mask& mask : {ball(), all}) {
+      std::map<std::pair<long, long>, int> ends;
+      for (const QLineF& line : outline_in_slice(mask, kAxial, middle())) {
+        for (const QPointF& end : {line.p1(), line.p2()})
+          ++ends[{std::lround(end.x() * 1000.0), std::lround(end.y() * 1000.0)}];
+      }
+      QVERIFY(!ends.empty());
+      for (const auto& [at, count] : ends) QCOMPARE(count % 2, 0);
+    }
+  }
+
+  void beside_the_mask_there_is_none() {
+    QVERIFY(outline_in_slice(ball(), kAxial, middle() + kAxial.into() * (kRadius + 3.0)).isEmpty());
+  }
+};
+
+TIDEMARK_TEST(MaskOutlineTest)
+#include "mask_outline_test.moc"

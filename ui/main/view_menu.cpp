@@ -1,0 +1,80 @@
+#include "ui/main/view_menu.h"
+
+#include <QCoreApplication>
+#include <QMenu>
+
+#include "ui/look/icons.h"
+#include "ui/main/actions.h"
+#include "ui/panels/window_presets.h"
+#include "ui/views/picture_view.h"
+#include "ui/views/probe_drags.h"
+
+namespace tidemark {
+namespace {
+
+QString tr(const char* text) {
+  return QCoreApplication::translate("ViewMenu", text);
+}
+
+// The case may be gone before the menu is; its views are gone then, too.
+void add_place(QMenu& menu, PictureView& view, std::optional<glm::dvec3> place_mm) {
+  const auto add = [&](const char* picture, const QString& text, auto act) {
+    QAction* action = menu.addAction(icon(QString::fromLatin1(picture)), text);
+    action->setEnabled(place_mm.has_value());
+    if (!place_mm) return;
+    QObject::connect(action, &QAction::triggered, &view,
+                     [&proxy = view.proxy(), place = *place_mm, act] { act(proxy, place); });
+  };
+  add("tool-crosshair", tr("&Show this place in all views"), [](CaseProxy& proxy, glm::dvec3 place) {
+    proxy.display().change([&](DisplaySettings& settings) { settings.cursor_mm = place; });
+  });
+  add("tool-seed", tr("&Place a sphere here"), [](CaseProxy& proxy, glm::dvec3 place) {
+    proxy.paint({place, proxy.display().settings().brush_mm}, Brush::add, CaseProxy::new_gesture());
+  });
+  add("tool-probe", tr("Probe &T and ε here"), probe_speed_at);
+}
+
+void add_windows(QMenu& menu, PictureView& view) {
+  QMenu* windows = menu.addMenu(icon(u"tool-window"), tr("&Window and level"));
+  CaseProxy& proxy = view.proxy();
+  for (const WindowPreset& preset : window_presets(proxy.volume(), proxy.summary())) {
+    QObject::connect(windows->addAction(preset.name), &QAction::triggered, &view,
+                     [&proxy, window = preset.window] {
+                       proxy.display().change([&](DisplaySettings& settings) { settings.window = window; });
+                     });
+  }
+}
+
+void add_overlays(QMenu& menu, PictureView& view, const Actions& actions) {
+  QMenu* overlays = menu.addMenu(icon(u"eye"), tr("&Overlays"));
+  const auto add = [&](const QString& text, bool DisplaySettings::*setting) {
+    QAction* action = overlays->addAction(text);
+    action->setCheckable(true);
+    action->setChecked(view.proxy().display().settings().*setting);
+    QObject::connect(action, &QAction::triggered, &view, [&proxy = view.proxy(), setting](bool on) {
+      proxy.display().change([=](DisplaySettings& settings) { settings.*setting = on; });
+    });
+  };
+  add(tr("&Outline of the surface"), &DisplaySettings::outline);
+  add(tr("&Crosshair"), &DisplaySettings::crosshair);
+  if (view.proxy().study().truth) add(tr("Outline of the t&ruth"), &DisplaySettings::truth);
+  overlays->addAction(actions.patient_text);
+}
+
+}  // namespace
+
+QMenu* make_view_menu(PictureView& view, const Actions& actions, std::optional<glm::dvec3> place_mm) {
+  auto* menu = new QMenu(&view);
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  add_place(*menu, view, place_mm);
+  menu->addSeparator();
+  add_windows(*menu, view);
+  add_overlays(*menu, view, actions);
+  menu->addSeparator();
+  QObject::connect(menu->addAction(icon(u"maximise"), tr("&Large, or back")), &QAction::triggered, &view,
+                   &PictureView::maximise_wanted);
+  menu->addActions({actions.reset_view, actions.export_picture});
+  return menu;
+}
+
+}  // namespace tidemark

@@ -1,0 +1,121 @@
+#include "ui/panels/speed_details.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+
+#include "ui/look/theme.h"
+#include "ui/widgets/disclosure.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/number_text.h"
+#include "ui/widgets/slider_number.h"
+
+namespace tidemark {
+
+SpeedDetails::SpeedDetails(QWidget* parent) : CaseWidget(parent) {
+  auto* fold = new Disclosure(tr("Details of the speed"), QStringLiteral("speed"));
+  Form all(this);
+  all.wide(fold);
+  Form form(fold->content());
+  paper_alpha_ = form.figure(tr("α as in the paper"),
+                             tr("The paper does not divide the data term by ε. With this α its own equation "
+                                "balances the terms as here."));
+  add_terms(form);
+  add_scheme(form);
+}
+
+void SpeedDetails::add_terms(Form& form) {
+  auto* terms = new QWidget;
+  auto* row = new QHBoxLayout(terms);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(kSpace);
+  const auto add = [&](const QString& text, const QString& tip, bool Parameters::*term) {
+    auto* check = new QCheckBox(text);
+    check->setToolTip(tip);
+    check->setAccessibleName(tr("%1 term").arg(text));
+    row->addWidget(check);
+    connect(check, &QCheckBox::clicked, this, [this, term](bool on) {
+      change([=](Parameters& parameters) { parameters.*term = on; }, CaseProxy::new_gesture());
+    });
+    return check;
+  };
+  data_term_ = add(tr("Data"), tr("Moves the surface by the values of the source."), &Parameters::data_term);
+  curvature_term_ =
+      add(tr("Curvature"), tr("Smooths the surface by its mean curvature."), &Parameters::curvature_term);
+  rescaling_term_ = add(tr("Rescaling"),
+                        tr("Keeps the slope of φ near 1, so that the band around the surface stays as wide."),
+                        &Parameters::rescaling_term);
+  row->addStretch(1);
+  form.heading(tr("Terms"));
+  form.wide(terms);
+}
+
+void SpeedDetails::add_scheme(Form& form) {
+  form.heading(tr("Numerics"));
+  scheme_ = form.choice(tr("Scheme"),
+                        tr("How a step is computed. Split: data and smoothing have a gradient of their own "
+                           "each. Paper: one upwind gradient for both, as the paper writes it, in smaller "
+                           "steps."));
+  scheme_->addItem(tr("Split"), static_cast<int>(Scheme::split));
+  scheme_->addItem(tr("Paper"), static_cast<int>(Scheme::paper));
+  connect(scheme_, &QComboBox::activated, this, [this] {
+    const auto scheme = static_cast<Scheme>(scheme_->currentData().toInt());
+    change([=](Parameters& parameters) { parameters.scheme = scheme; }, CaseProxy::new_gesture());
+  });
+  rescale_ =
+      form.slider(tr("Rescaling w"), tr("How strongly the slope of φ is drawn to the target gradient."));
+  rescale_->set_decimals(3);
+  rescale_->set_step(0.01);
+  rescale_->set_range(0.0, 1.0, 0.0, 10.0);
+  connect(rescale_, &SliderNumber::edited, this, [this](double value, std::uint64_t gesture) {
+    change([value](Parameters& parameters) { parameters.rescale = value; }, gesture);
+  });
+  rescale_by_band_ =
+      form.check(tr("w by the band's width"),
+                 tr("0.75 / W for a band that reaches W voxels to either side of the surface."));
+  connect(rescale_by_band_, &QCheckBox::clicked, this, [this](bool on) {
+    const double now = rescaling_weight();
+    change(
+        [=](Parameters& parameters) { parameters.rescale = on ? std::nullopt : std::optional<double>(now); },
+        CaseProxy::new_gesture());
+  });
+  target_gradient_ =
+      form.slider(tr("Target gradient"), tr("The slope of φ that the rescaling term keeps. At 1 "
+                                            "φ is a distance in voxels."));
+  target_gradient_->set_decimals(2);
+  target_gradient_->set_step(0.05);
+  target_gradient_->set_range(0.2, 2.0, 0.05, 10.0);
+  connect(target_gradient_, &SliderNumber::edited, this, [this](double value, std::uint64_t gesture) {
+    change([value](Parameters& parameters) { parameters.target_gradient = value; }, gesture);
+  });
+}
+
+double SpeedDetails::rescaling_weight() const {
+  const double by_band = 0.75 / proxy()->state().band;  // 0 where phi is not clamped
+  return proxy()->parameters().rescale.value_or(by_band);
+}
+
+void SpeedDetails::refresh() {
+  const Parameters& parameters = proxy()->parameters();
+  paper_alpha_->setText(short_text(paper_alpha(parameters)));
+  data_term_->setChecked(parameters.data_term);
+  curvature_term_->setChecked(parameters.curvature_term);
+  rescaling_term_->setChecked(parameters.rescaling_term);
+  scheme_->setCurrentIndex(scheme_->findData(static_cast<int>(parameters.scheme)));
+  rescale_->set_value(rescaling_weight());
+  rescale_by_band_->setChecked(!parameters.rescale.has_value());
+  target_gradient_->set_value(parameters.target_gradient);
+  for (QWidget* number : {static_cast<QWidget*>(rescale_), static_cast<QWidget*>(rescale_by_band_),
+                          static_cast<QWidget*>(target_gradient_)})
+    number->setEnabled(parameters.rescaling_term);
+}
+
+void SpeedDetails::change(const std::function<void(Parameters&)>& apply, std::uint64_t gesture) {
+  if (!proxy()) return;
+  Parameters parameters = proxy()->parameters();
+  apply(parameters);
+  proxy()->set_parameters(parameters, gesture);
+}
+
+}  // namespace tidemark

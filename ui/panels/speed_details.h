@@ -1,0 +1,42 @@
+// What of the speed is seldom changed: its terms, how it is discretised, and the rescaling term's numbers
+// (paper sections 2.1 and 4.2).
+#pragma once
+
+#include <functional>
+
+#include "ui/panels/case_widget.h"
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+
+namespace tidemark {
+
+class Form;
+class SliderNumber;
+
+class SpeedDetails : public CaseWidget {
+  Q_OBJECT
+ public:
+  explicit SpeedDetails(QWidget* parent = nullptr);
+
+ protected:
+  void refresh() override;
+
+ private:
+  void add_terms(Form& form);
+  void add_scheme(Form& form);
+  void change(const std::function<void(Parameters&)>& apply, std::uint64_t gesture);
+  [[nodiscard]] double rescaling_weight() const;  // also where the band decides
+
+  QLabel* paper_alpha_;
+  QCheckBox* data_term_;
+  QCheckBox* curvature_term_;
+  QCheckBox* rescaling_term_;
+  QComboBox* scheme_;
+  SliderNumber* rescale_;
+  QCheckBox* rescale_by_band_;
+  SliderNumber* target_gradient_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,16 @@
+// The outline of a mask in a slice.
+#pragma once
+
+#include <QLineF>
+#include <QList>
+
+#include "core/volume.h"
+#include "renderer/camera.h"
+
+namespace tidemark {
+
+// Lines between the middles of neighbouring voxels that differ, in mm along the slice's right (x) and up (y)
+// from the patient's origin. `position_mm`: a point of the slice (LPS).
+QList<QLineF> outline_in_slice(const Mask& mask, const SliceOrientation& orientation, glm::dvec3 position_mm);
+
+}  // namespace tidemark

@@ -1,0 +1,132 @@
+#include "ui/views/next_step.h"
+
+#include <QEvent>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+
+namespace tidemark {
+namespace {
+
+constexpr int kPlaySide = 88;  // logical pixels
+constexpr int kHintWidth = 250;
+constexpr double kRadius = 8.0;
+
+// Views are dark in every theme.
+const QColor kBacking(0, 0, 0, 150);
+const QColor kOnDark(240, 240, 240);
+}  // namespace
+
+PlayButton::PlayButton(QWidget* parent) : QAbstractButton(parent) {
+  setText(tr("Play"));
+  setAccessibleName(tr("Play"));
+  setToolTip(tr("Lets the surface move: it grows where the speed map is orange."));
+  setFocusPolicy(Qt::StrongFocus);
+  setCursor(Qt::PointingHandCursor);
+  setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+}
+
+QSize PlayButton::sizeHint() const {
+  return {kPlaySide, kPlaySide};
+}
+
+void PlayButton::paintEvent(QPaintEvent* /*event*/) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QPointF middle = QRectF(rect()).center();
+  const double radius = kPlaySide / 2.0 - 4.0;
+  const bool hot = underMouse() || hasFocus();
+  painter.setPen(QPen(kOnDark, hot ? 4.0 : 2.0));
+  QColor fill = palette().color(QPalette::Highlight);
+  fill.setAlphaF(isDown() ? 1.0F : 0.85F);
+  painter.setBrush(fill);
+  painter.drawEllipse(middle, radius, radius);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(palette().color(QPalette::HighlightedText));
+  // A triangle about its centre of gravity.
+  const double side = 0.5 * radius;
+  painter.drawPolygon(QPolygonF({middle + QPointF(-0.7 * side, -side), middle + QPointF(-0.7 * side, side),
+                                 middle + QPointF(1.1 * side, 0.0)}));
+}
+
+void PlayButton::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) return click();
+  QAbstractButton::keyPressEvent(event);
+}
+
+bool PlayButton::event(QEvent* event) {
+  if (event->type() == QEvent::Enter || event->type() == QEvent::Leave) update();
+  return QAbstractButton::event(event);
+}
+
+NextStep::NextStep(CaseProxy& proxy, QWidget& view)
+    : QWidget(&view), proxy_(proxy), view_(view), hint_(new QWidget), play_(new PlayButton) {
+  auto* column = new QVBoxLayout(hint_);
+  column->setContentsMargins(kSpaceGroups, kSpaceGroups, kSpaceGroups, kSpaceGroups);
+  column->setSpacing(kSpace);
+  auto* text = new QLabel(tr("Place a surface: click in the tissue, in a slice. Or drag from its middle."));
+  text->setWordWrap(true);
+  text->setAlignment(Qt::AlignCenter);
+  QPalette colours = text->palette();
+  colours.setColor(QPalette::WindowText, kOnDark);
+  text->setPalette(colours);
+  auto* place = new QPushButton(icon(u"tool-seed"), tr("Sphere tool"));
+  place->setToolTip(tr("Takes the tool that places spheres, and shows the panel with other ways to begin."));
+  connect(place, &QPushButton::clicked, this, &NextStep::place_wanted);
+  column->addWidget(text);
+  column->addWidget(place, 0, Qt::AlignHCenter);
+  hint_->setFixedWidth(kHintWidth);
+  connect(play_, &PlayButton::clicked, this, [this] {
+    view_.setFocus();  // the button goes
+    proxy_.play();
+  });
+  auto* all = new QVBoxLayout(this);
+  all->setContentsMargins(0, 0, 0, 0);
+  all->addWidget(hint_);
+  all->addWidget(play_);
+  view_.installEventFilter(this);
+  connect(&proxy_, &CaseProxy::state_changed, this, &NextStep::follow);
+  connect(&proxy_.display(), &Display::changed, this, &NextStep::follow);
+  follow();
+}
+
+void NextStep::follow() {
+  const CaseState& state = proxy_.state();
+  const DisplaySettings& settings = proxy_.display().settings();
+  const bool draws = proxy_.engine().graphics() != Engine::Graphics::none;
+  const bool to_place = !state.begun && !settings.show_source;
+  const bool to_play = state.begun && !state.playing && state.step == 0;
+  const bool wanted = draws && !settings.clip_on && (to_place || to_play);
+  hint_->setVisible(to_place);
+  play_->setVisible(to_play);
+  if (wanted) move_to_middle();
+  setVisible(wanted);
+}
+
+void NextStep::move_to_middle() {
+  adjustSize();
+  QRect place(QPoint(), size());
+  place.moveCenter(view_.rect().center());
+  setGeometry(place);
+}
+
+bool NextStep::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize) move_to_middle();
+  return QWidget::eventFilter(watched, event);
+}
+
+void NextStep::paintEvent(QPaintEvent* /*event*/) {
+  if (hint_->isHidden()) return;
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(kBacking);
+  painter.drawRoundedRect(rect(), kRadius, kRadius);
+}
+
+}  // namespace tidemark
