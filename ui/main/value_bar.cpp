@@ -5,6 +5,7 @@
 
 #include "solver/voxel_values.h"
 #include "ui/panels/value_unit.h"
+#include "ui/widgets/number_text.h"
 
 namespace tidemark {
 
@@ -38,22 +39,22 @@ void ValueBar::follow() {
                             .arg(voxel.x)
                             .arg(voxel.y)
                             .arg(voxel.z)
-                            .arg(point->x, 0, 'f', 1)
-                            .arg(point->y, 0, 'f', 1)
-                            .arg(point->z, 0, 'f', 1);
+                            .arg(rounded(point->x, 1), 0, 'f', 1)
+                            .arg(rounded(point->y, 1), 0, 'f', 1)
+                            .arg(rounded(point->z, 1), 0, 'f', 1);
   const QString unit = volume.unit.empty() ? QString() : QLatin1Char(' ') + value_unit(volume);
   const double intensity = volume.value(voxel);
   QString values = tr("I %1%2   D %3")
-                       .arg(intensity, 0, 'g', 5)
+                       .arg(intensity + 0.0, 0, 'g', 5)
                        .arg(unit)
-                       .arg(data_speed(proxy_->parameters(), intensity), 0, 'f', 2);
+                       .arg(rounded(data_speed(proxy_->parameters(), intensity), 2), 0, 'f', 2);
   if (state.phi && state.begun) {
     const VoxelValues at = values_at(*state.phi, volume, proxy_->parameters(), voxel);
     const bool clamped = std::abs(at.phi) >= state.phi->band;
-    values += clamped ? tr("   φ %1").arg(at.phi, 0, 'f', 2)
+    values += clamped ? tr("   φ %1").arg(rounded(at.phi, 2), 0, 'f', 2)
                       : tr("   φ %1   κ %2   |∇φ| %3")
-                            .arg(at.phi, 0, 'f', 2)
-                            .arg(at.curvature, 0, 'f', 2)
+                            .arg(rounded(at.phi, 2), 0, 'f', 2)
+                            .arg(rounded(at.curvature, 2), 0, 'f', 2)
                             .arg(at.gradient, 0, 'f', 2);
   }
   setText(values + QStringLiteral("      ") + place);
