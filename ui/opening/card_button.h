@@ -31,6 +31,7 @@ class CardButton : public QAbstractButton {
   void paint_frame(QPainter& painter) const;
 
   QString sentence_;
+  bool hovered_ = false;
   bool emphasised_ = false;
   bool one_line_ = false;
 };
