@@ -145,9 +145,11 @@ fs::path StudyLoader::place_of(const Series& series) {
 QString StudyLoader::name_of(const Series& series) {
   const QString description = QString::fromStdString(series.description).trimmed();
   const bool is_file = series.transfer_syntaxes.empty();
-  // A series without a description lists its first file's name, which may be the patient's.
-  const bool is_described =
-      is_file || (!series.files.empty() && series.description != series.files.front().filename().string());
+  // A series without a description lists the name of one of its files, which may be the patient's.
+  const auto is_description = [&](const fs::path& file) {
+    return file.filename().string() == series.description;
+  };
+  const bool is_described = is_file || std::none_of(series.files.begin(), series.files.end(), is_description);
   if (is_described && !description.isEmpty()) return description;
   const QStringList known{QString::fromStdString(series.modality), QString::fromStdString(series.date)};
   const QString text = known.join(QLatin1Char(' ')).trimmed();

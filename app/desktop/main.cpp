@@ -2,7 +2,6 @@
 #include <QApplication>
 #include <QCommandLineParser>
 #include <QLocale>
-#include <QSettings>
 #include <QTextStream>
 #include <clocale>
 #include <cstdio>
@@ -14,7 +13,8 @@
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/main/main_window.h"
-#include "ui/main/saved_cases.h"
+#include "ui/main/session_reader.h"
+#include "ui/settings.h"
 
 namespace {
 
@@ -108,10 +108,10 @@ int main(int argc, char** argv) {
   }
   QGuiApplication::setDesktopFileName("tidemark");
   QGuiApplication::setWindowIcon(application_icon());
-  apply_theme(application, static_cast<Theme>(QSettings().value("theme", 0).toInt()));
+  apply_theme(application, settings::theme().get());
   MainWindow window(engine);
   window.show();
-  window.saved_cases().offer_rescued();
+  window.session_reader().offer_rescued();
   for (const QString& study : parser.positionalArguments()) window.open(study);
   if (parser.isSet(phantom)) window.open_phantom(parser.value(phantom));
   return QApplication::exec();

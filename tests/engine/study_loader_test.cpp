@@ -244,6 +244,10 @@ class StudyLoaderTest : public QObject {
     QCOMPARE(StudyLoader::name_of(series), QString("CT"));
     series.description = "Liver 3 mm";
     QCOMPARE(StudyLoader::name_of(series), QString("Liver 3 mm"));
+    // The file that named it is not the first one once slices are sorted.
+    series.description = "MUELLER_0007.dcm";
+    series.files = {"study/MUELLER_0001.dcm", "study/MUELLER_0007.dcm"};
+    QCOMPARE(StudyLoader::name_of(series), QString("CT"));
   }
 
   void a_series_lies_in_the_folder_that_holds_all_its_files() {

@@ -173,6 +173,10 @@ void apply_theme(QApplication& application, Theme theme) {
   application.setStyleSheet(style_sheet(palette));
 }
 
+QColor problem_colour(const QPalette& palette) {
+  return is_dark(palette) ? QColor(0xff, 0x7b, 0x72) : QColor(0xb4, 0x23, 0x18);
+}
+
 QColor case_colour(int number) {
   const int colours = static_cast<int>(std::size(kCases));
   return QColor::fromRgb(kCases[(number - 1 + colours) % colours]);

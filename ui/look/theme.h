@@ -19,6 +19,9 @@ QPalette light_palette();
 QPalette dark_palette();
 bool is_dark(const QPalette& palette);
 
+// Of a frame around what cannot be taken as it is; on fields it has a contrast of at least 4.5.
+QColor problem_colour(const QPalette& palette);
+
 // The colour of an open case's mark, by its number from 1 on; colours repeat after six. Colour-blind eyes
 // tell them apart too (Okabe and Ito, "Color Universal Design"), and none is the surface's yellow.
 QColor case_colour(int number);

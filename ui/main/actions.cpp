@@ -1,9 +1,8 @@
 #include "ui/main/actions.h"
 
-#include <QSettings>
-
 #include "engine/case_proxy.h"
 #include "ui/look/icons.h"
+#include "ui/settings.h"
 #include "ui/views/mouse_scheme.h"
 
 namespace tidemark {
@@ -11,8 +10,8 @@ namespace {
 
 constexpr const char* kOwnKey = "own_key";  // property: the key that the program gives
 
-QString settings_key(const QAction* action) {
-  return QStringLiteral("keys/") + action->objectName();
+Setting<QString> setting_of(const QAction* action) {
+  return settings::key(action->objectName());
 }
 
 // "Play (P)"
@@ -40,8 +39,8 @@ QAction* Actions::make(const char* name, const char* picture, const QString& tex
   action->setObjectName(QString::fromLatin1(name));
   action->setProperty(kOwnKey, key.toString());
   action->setProperty("tip", tip.isEmpty() ? QString(text).remove('&').remove(QStringLiteral("…")) : tip);
-  const QVariant chosen = QSettings().value(settings_key(action));
-  action->setShortcut(chosen.isValid() ? QKeySequence(chosen.toString()) : key);
+  const auto chosen = setting_of(action);
+  action->setShortcut(chosen.is_set() ? QKeySequence(chosen.get()) : key);
   show_key(action);
   all_.push_back(action);
   if (of_case) of_cases_.push_back(action);
@@ -50,10 +49,10 @@ QAction* Actions::make(const char* name, const char* picture, const QString& tex
 
 void Actions::set_key(QAction* action, const QKeySequence& key) {
   if (key.isEmpty()) {
-    QSettings().remove(settings_key(action));
+    setting_of(action).forget();
     action->setShortcut(QKeySequence(action->property(kOwnKey).toString()));
   } else {
-    QSettings().setValue(settings_key(action), key.toString());
+    setting_of(action).set(key.toString());
     action->setShortcut(key);
   }
   show_key(action);
@@ -62,11 +61,11 @@ void Actions::set_key(QAction* action, const QKeySequence& key) {
 void Actions::make_files() {
   open_folder = make("open-folder", "open-folder", tr("Open &folder…"), QKeySequence("Ctrl+O"), false,
                      tr("Open a folder with a DICOM study"));
-  open_file = make("open-file", "open-file", tr("Open f&ile…"), QKeySequence("Ctrl+Shift+O"), false,
+  open_file = make("open-file", "open-file", tr("Open fi&le…"), QKeySequence("Ctrl+Shift+O"), false,
                    tr("Open a DICOM file, NIfTI, NRRD, MetaImage or GIPL"));
-  open_session = make("open-session", "open-file", tr("Open &session…"), {}, false,
+  open_session = make("open-session", "open-file", tr("Open sess&ion…"), {}, false,
                       tr("Go on with a session that was saved"));
-  query_server = make("query-server", "server", tr("&Query a server…"), QKeySequence("Ctrl+Alt+O"), false,
+  query_server = make("query-server", "server", tr("Query a ser&ver…"), QKeySequence("Ctrl+Alt+O"), false,
                       tr("Find a series in a PACS and open it"));
   import_labels = make("import-labels", "label", tr("I&mport labels…"), QKeySequence("Ctrl+I"), true,
                        tr("Add labels from a DICOM segmentation, an RT structure set or a label map"));
@@ -200,7 +199,7 @@ void Actions::make_windows() {
       make("link", "link", tr("&Link cases"), QKeySequence("L"), false,
            tr("Cursor, slices and cameras of all cases move together, window and level within a modality"));
   link->setCheckable(true);
-  lock_step = make("lock-step", "lockstep", tr("Play in &lock-step"), QKeySequence("Ctrl+L"), false,
+  lock_step = make("lock-step", "lockstep", tr("&Play in lock-step"), QKeySequence("Ctrl+L"), false,
                    tr("All cases play and step together, always at the same step"));
   lock_step->setCheckable(true);
   first_steps = make("first-steps", "info", tr("&First steps and mouse"), QKeySequence("F1"), false);

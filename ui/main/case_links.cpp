@@ -1,6 +1,8 @@
 #include "ui/main/case_links.h"
 
 #include <QScopedValueRollback>
+#include <algorithm>
+#include <vector>
 
 namespace tidemark {
 
@@ -20,6 +22,20 @@ void CaseLinks::link(const QList<CaseWindow*>& windows) {
     follow(*windows_.first());
   }
   emit changed();
+}
+
+void CaseLinks::play_together(const QList<CaseWindow*>& windows, bool together) {
+  std::vector<CaseProxy*> proxies;
+  for (CaseWindow* window : windows) {
+    if (!together) window->proxy().leave_lock_step();
+    proxies.push_back(&window->proxy());
+  }
+  if (together) CaseProxy::play_in_lock_step(proxies);
+}
+
+bool CaseLinks::any_in_lock_step(const QList<CaseWindow*>& windows) {
+  const auto is_in = [](CaseWindow* window) { return window->proxy().in_lock_step(); };
+  return std::count_if(windows.begin(), windows.end(), is_in) > 1;
 }
 
 void CaseLinks::forget(CaseWindow* closed) {

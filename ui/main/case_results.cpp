@@ -2,7 +2,6 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QSettings>
 #include <QStatusBar>
 
 #include "imaging/pacs/configuration.h"
@@ -12,6 +11,7 @@
 #include "ui/opening/loading_view.h"
 #include "ui/results/send_result_dialog.h"
 #include "ui/results/write_result_dialog.h"
+#include "ui/settings.h"
 
 namespace tidemark {
 namespace {
@@ -77,7 +77,7 @@ void CaseResults::connect_jobs() {
 
 void CaseResults::ask_and_import(CaseWindow& window) {
   auto* dialog = new QFileDialog(
-      &window_, tr("Import labels"), QSettings().value("save/folder").toString(),
+      &window_, tr("Import labels"), settings::save_folder().get(),
       tr("Segmentations and label maps (*.dcm *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;"
          "All files (*)"));
   dialog->setAttribute(Qt::WA_DeleteOnClose);

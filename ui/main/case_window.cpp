@@ -6,13 +6,14 @@
 #include <QDockWidget>
 #include <QJsonDocument>
 #include <QJsonObject>
-#include <QSettings>
+#include <QSet>
 #include <algorithm>
 
 #include "engine/display_json.h"
 #include "renderer/camera.h"
 #include "ui/main/case_head.h"
 #include "ui/main/view_menu.h"
+#include "ui/settings.h"
 #include "ui/views/slice_view.h"
 #include "ui/views/view_bar.h"
 #include "ui/views/volume_view.h"
@@ -20,7 +21,8 @@
 namespace tidemark {
 namespace {
 
-constexpr const char* kKind = "view_kind";  // property of a dock
+constexpr const char* kKind = "view_kind";      // property of a dock
+constexpr const char* kNumber = "view_number";  // of its name, by which Qt finds it in a saved state
 constexpr int kStateVersion = 1;
 
 ViewKind kind_of(const QDockWidget* dock) {
@@ -49,6 +51,14 @@ DisplaySettings first_settings(const CaseProxy& proxy) {
   const glm::dvec3 extent = glm::dvec3(volume.geometry.size) * volume.geometry.spacing_mm;
   settings.brush_mm = 0.03 * std::max({extent.x, extent.y, extent.z});
   return settings;
+}
+
+// "Patient – series", without what is not known or not to be read.
+QString title_of(CaseProxy& proxy) {
+  const QString patient = QString::fromStdString(proxy.study().patient.name);
+  const bool is_phantom = !proxy.origin().phantom.empty();
+  if (patient.isEmpty() || is_phantom || !proxy.display().settings().patient_text) return proxy.name();
+  return QStringLiteral("%1 \u2013 %2").arg(patient, proxy.name());
 }
 
 }  // namespace
@@ -88,10 +98,10 @@ CaseWindow::CaseWindow(std::unique_ptr<CaseProxy> proxy, Actions& actions, QWidg
   setMenuWidget(head);
   head->set_case(this);
   connect(proxy_.get(), &CaseProxy::state_changed, this, &CaseWindow::follow_state);
+  connect(&proxy_->display(), &Display::changed, this, &CaseWindow::follow_state);
   follow_state();
   autosave_ = std::make_unique<CaseAutosave>(*proxy_, recovery_folder(), [this] { return view_state(); });
-  const int remembered = QSettings().value("layout", static_cast<int>(ViewLayout::paper)).toInt();
-  set_layout(static_cast<ViewLayout>(std::clamp(remembered, 0, static_cast<int>(ViewLayout::paper))));
+  set_layout(settings::layout().get());
 }
 
 CaseWindow::~CaseWindow() {
@@ -111,7 +121,7 @@ void CaseWindow::set_linked(bool linked) {
 }
 
 void CaseWindow::follow_state() {
-  setWindowTitle(proxy_->name() + QStringLiteral("[*]"));
+  setWindowTitle(title_of(*proxy_) + QStringLiteral("[*]"));
   setWindowModified(proxy_->state().modified);
 }
 
@@ -137,10 +147,11 @@ PictureView* CaseWindow::make_view(ViewKind kind) {
   return new VolumeViewWidget(*proxy_);
 }
 
-QDockWidget* CaseWindow::make_dock(ViewKind kind) {
+QDockWidget* CaseWindow::make_dock(ViewKind kind, int number) {
   PictureView* view = make_view(kind);
   auto* dock = new QDockWidget(view->title(), this);
-  dock->setObjectName(QStringLiteral("view-%1").arg(++docks_made_));
+  dock->setObjectName(QStringLiteral("view-%1").arg(number));
+  dock->setProperty(kNumber, number);
   dock->setProperty(kKind, static_cast<int>(kind));
   dock->setWidget(view);
   auto* bar = new ViewBar(*proxy_, view->title(), {actions_.play, actions_.step}, actions_.tools->actions());
@@ -190,7 +201,7 @@ PictureView* CaseWindow::add_view(ViewKind kind) {
 void CaseWindow::set_layout(ViewLayout layout) {
   layout_ = layout;
   before_maximised_.clear();
-  QSettings().setValue("layout", static_cast<int>(layout));
+  settings::layout().set(layout);
   for (QDockWidget* dock : docks_) {
     dock->setFloating(false);
     removeDockWidget(dock);
@@ -299,8 +310,14 @@ QByteArray CaseWindow::arrangement() const {
   QDataStream stream(&bytes, QIODevice::WriteOnly);
   stream.setVersion(QDataStream::Qt_6_4);
   QList<int> kinds;
-  for (const QDockWidget* dock : docks_) kinds << static_cast<int>(kind_of(dock));
-  stream << static_cast<int>(layout_) << kinds << saveState(kStateVersion);
+  QList<int> numbers;
+  for (const QDockWidget* dock : docks_) {
+    kinds << static_cast<int>(kind_of(dock));
+    numbers << dock->property(kNumber).toInt();
+  }
+  // One view that is large for a moment does not make the others go.
+  const QByteArray state = before_maximised_.isEmpty() ? saveState(kStateVersion) : before_maximised_;
+  stream << static_cast<int>(layout_) << kinds << state << numbers;
   return bytes;
 }
 
@@ -310,17 +327,29 @@ void CaseWindow::restore_arrangement(const QByteArray& arrangement) {
   int layout = -1;
   QList<int> kinds;
   QByteArray state;
+  QList<int> numbers;
   stream >> layout >> kinds >> state;
+  if (stream.atEnd()) {
+    for (int number = 1; number <= kinds.size(); ++number) numbers << number;  // as files had it at first
+  } else {
+    stream >> numbers;
+  }
   constexpr int kMostViews = 64;
   if (stream.status() != QDataStream::Ok || kinds.size() > kMostViews) return;
+  if (numbers.size() != kinds.size() || QSet<int>(numbers.begin(), numbers.end()).size() != kinds.size())
+    return;
   if (layout < 0 || layout > static_cast<int>(ViewLayout::paper)) return;
   for (const int kind : kinds) {
     if (kind < 0 || kind > static_cast<int>(ViewKind::volume)) return;
   }
   qDeleteAll(std::exchange(docks_, {}));
-  docks_made_ = 0;
+  before_maximised_.clear();
   layout_ = static_cast<ViewLayout>(layout);
-  for (const int kind : kinds) addDockWidget(Qt::LeftDockWidgetArea, make_dock(static_cast<ViewKind>(kind)));
+  docks_made_ = 0;
+  for (qsizetype i = 0; i < kinds.size(); ++i) {
+    docks_made_ = std::max(docks_made_, numbers[i]);
+    addDockWidget(Qt::LeftDockWidgetArea, make_dock(static_cast<ViewKind>(kinds[i]), numbers[i]));
+  }
   if (!restoreState(state, kStateVersion)) set_layout(layout_);
 }
 

@@ -74,7 +74,8 @@ class CaseWindow : public QMainWindow {
 
  private:
   PictureView* make_view(ViewKind kind);
-  QDockWidget* make_dock(ViewKind kind);
+  QDockWidget* make_dock(ViewKind kind) { return make_dock(kind, ++docks_made_); }
+  QDockWidget* make_dock(ViewKind kind, int number);
   QDockWidget* dock(ViewKind kind);  // one that is there, else a new one
   void toggle_maximised(QDockWidget* dock);
   void follow_state();

@@ -8,13 +8,11 @@
 #include <QFileInfo>
 #include <QKeyEvent>
 #include <QLabel>
-#include <QMdiArea>
 #include <QMdiSubWindow>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QSet>
-#include <QSettings>
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
@@ -24,7 +22,9 @@
 #include "ui/look/about_dialog.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
-#include "ui/main/case_head.h"
+#include "ui/main/case_area.h"
+#include "ui/main/case_exports.h"
+#include "ui/main/case_files.h"
 #include "ui/main/case_links.h"
 #include "ui/main/case_messages.h"
 #include "ui/main/case_results.h"
@@ -34,8 +34,10 @@
 #include "ui/main/menus.h"
 #include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
-#include "ui/main/saved_cases.h"
+#include "ui/main/session_reader.h"
+#include "ui/main/session_writer.h"
 #include "ui/main/value_bar.h"
+#include "ui/opening/ask_for_study.h"
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/load_report.h"
 #include "ui/opening/loading_view.h"
@@ -44,6 +46,7 @@
 #include "ui/opening/recent_studies.h"
 #include "ui/opening/start_page.h"
 #include "ui/opening/study_opener.h"
+#include "ui/settings.h"
 #include "ui/views/picture_surface.h"
 #include "ui/views/picture_view.h"
 
@@ -54,24 +57,28 @@ MainWindow::MainWindow(Engine& engine, QWidget* parent) : QMainWindow(parent), e
   setWindowIcon(application_icon());
   setAcceptDrops(true);
   if (engine.pictures() == Engine::Pictures::textures) expect_surfaces(*this);
-  resize(1280, 800);
+  resize(QSize(1280, 800).boundedTo(screen()->availableSize()));
   actions_ = new Actions(this);
   recent_ = new RecentStudies(this);
   opener_ = new StudyOpener(this);
   links_ = new CaseLinks(this);
-  saved_ = new SavedCases(*this);
+  files_ = new CaseFiles(*this);
+  exports_ = new CaseExports(*this, *files_);
+  session_reader_ = new SessionReader(*this);
+  session_writer_ = new SessionWriter(*this, *files_);
   make_centre();
   panels_ = new PanelDocks(*this, *actions_);
   make_menus(*this, *actions_, {recent_, panels_});
-  make_tool_bar();
+  make_tool_bar(*this, *actions_);
   make_status_bar();
   results_ = new CaseResults(*this);
   connect_files();
   connect_evolution();
   connect_views();
   connect_windows();
-  restoreGeometry(QSettings().value("main/geometry").toByteArray());
-  panels_->restore(QSettings().value("main/state").toByteArray());
+  connect_help();
+  restoreGeometry(settings::window_geometry().get());
+  panels_->restore(settings::window_state().get());
   follow_case();
 }
 
@@ -85,10 +92,7 @@ MainWindow::~MainWindow() {
 void MainWindow::make_centre() {
   centre_ = new QStackedWidget;
   auto* start = new StartPage(*recent_);
-  area_ = new QMdiArea;
-  area_->setTabsClosable(true);
-  area_->setTabsMovable(true);
-  area_->setDocumentMode(true);
+  area_ = new CaseArea;
   centre_->addWidget(start);
   centre_->addWidget(area_);
   new PreviewPage(*centre_, *opener_);
@@ -101,6 +105,7 @@ void MainWindow::make_centre() {
   layout->addWidget(centre_, 1);
   setCentralWidget(whole);
   connect(area_, &QMdiArea::subWindowActivated, this, &MainWindow::activate);
+  connect(area_, &CaseArea::case_closed, this, &MainWindow::follow_closing);
   connect(start, &StartPage::open_folder, this, &MainWindow::ask_for_folder);
   connect(start, &StartPage::open_file, this, &MainWindow::ask_for_file);
   connect(start, &StartPage::phantom_chosen, this, &MainWindow::open_phantom);
@@ -108,23 +113,6 @@ void MainWindow::make_centre() {
   connect(start, &StartPage::dropped, this, [this](const QStringList& paths) {
     for (const QString& path : paths) open(path);
   });
-}
-
-void MainWindow::make_tool_bar() {
-  QToolBar* bar = addToolBar(tr("Main tools"));
-  bar->setObjectName("tool-bar");
-  bar->setIconSize(QSize(kIcon, kIcon));
-  bar->addActions({actions_->open_folder, actions_->save});
-  bar->addSeparator();
-  bar->addActions({actions_->undo, actions_->redo});
-  bar->addSeparator();
-  bar->addActions({actions_->restart, actions_->step_back, actions_->play, actions_->step});
-  bar->addSeparator();
-  bar->addActions(actions_->tools->actions());
-  bar->addSeparator();
-  bar->addAction(actions_->clip);
-  bar->addSeparator();
-  bar->addActions(actions_->layouts->actions());
 }
 
 void MainWindow::make_status_bar() {
@@ -171,47 +159,47 @@ void MainWindow::connect_files() {
   connect(recent_, &RecentStudies::chosen, this, &MainWindow::open_recent);
   connect(actions_->open_folder, &QAction::triggered, this, &MainWindow::ask_for_folder);
   connect(actions_->open_file, &QAction::triggered, this, &MainWindow::ask_for_file);
-  connect(actions_->open_session, &QAction::triggered, saved_, &SavedCases::ask_and_open);
-  with_case(actions_->save, [this](CaseWindow& window) { saved_->save(window); });
-  with_case(actions_->save_as, [this](CaseWindow& window) { saved_->save_as(window); });
-  with_case(actions_->export_mask, [this](CaseWindow& window) { saved_->export_mask(window); });
-  with_case(actions_->export_mesh, [this](CaseWindow& window) { saved_->export_mesh(window); });
-  with_case(actions_->export_picture, [this](CaseWindow& window) { saved_->export_picture(window); });
-  with_case(actions_->export_statistics, [this](CaseWindow& window) { saved_->export_statistics(window); });
-  with_case(actions_->export_recipe, [this](CaseWindow& window) { saved_->export_recipe(window); });
+  connect(actions_->open_session, &QAction::triggered, session_reader_, &SessionReader::ask_and_open);
+  connect(session_reader_, &SessionReader::opened, this, &MainWindow::remember);
+  connect(session_writer_, &SessionWriter::saved, this, &MainWindow::remember);
+  with_case(actions_->save, [this](CaseWindow& window) { session_writer_->save(window); });
+  with_case(actions_->save_as, [this](CaseWindow& window) { session_writer_->save_as(window); });
+  with_case(actions_->export_mask, [this](CaseWindow& window) { exports_->export_mask(window); });
+  with_case(actions_->export_mesh, [this](CaseWindow& window) { exports_->export_mesh(window); });
+  with_case(actions_->export_picture, [this](CaseWindow& window) { exports_->export_picture(window); });
+  with_case(actions_->export_statistics, [this](CaseWindow& window) { exports_->export_statistics(window); });
+  with_case(actions_->export_recipe, [this](CaseWindow& window) { exports_->export_recipe(window); });
   // The MDI area knows of no active window while a panel or a dialog has the keyboard.
   with_case(actions_->close, [](CaseWindow& window) { window.parentWidget()->close(); });
   connect(actions_->quit, &QAction::triggered, this, &QWidget::close);
 }
 
 void MainWindow::ask_for_folder() {
-  const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a folder with a study"),
-                                                           QSettings().value("open/folder").toString());
-  if (folder.isEmpty()) return;
-  QSettings().setValue("open/folder", folder);
-  open(folder);
+  const QString folder = ask_for_study_folder(*this);
+  if (!folder.isEmpty()) open(folder);
 }
 
 void MainWindow::ask_for_file() {
-  const QString file = QFileDialog::getOpenFileName(
-      this, tr("Open an image file"), QSettings().value("open/folder").toString(),
-      tr("Images (*.dcm DICOMDIR *.zip *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;All files "
-         "(*)"));
-  if (file.isEmpty()) return;
-  QSettings().setValue("open/folder", QFileInfo(file).path());
-  open(file);
+  const QString file = ask_for_image_file(*this);
+  if (!file.isEmpty()) open(file);
 }
 
 void MainWindow::open(const QString& path) {
   if (path.endsWith(".tidemark")) {
-    saved_->open(path);
+    session_reader_->open(path);
   } else {
     opener_->open(path);
   }
 }
 
 void MainWindow::open_recent(const RecentStudy& study) {
+  if (study.uid.isEmpty()) return open(study.path);  // a session
   opener_->open_series(study.path, study.uid, study.policy);
+}
+
+// Its session, among the recent studies.
+void MainWindow::remember(CaseWindow& window) {
+  recent_->add({window.session_file, {}, window.proxy().name(), {}});
 }
 
 void MainWindow::open_phantom(const QString& kind) {
@@ -220,7 +208,8 @@ void MainWindow::open_phantom(const QString& kind) {
 
 CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study,
                                  const RestoredCase& restored) {
-  if (!study->origin.path.empty()) {
+  const bool from_session = restored.contents && !restored.rescued;  // the session file is remembered instead
+  if (!study->origin.path.empty() && !from_session) {
     const RecentStudy recent{QString::fromStdString(study->origin.path.string()),
                              QString::fromStdString(study->origin.series_uid), study->name,
                              study->origin.policy};
@@ -238,15 +227,9 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
   settle(kAboutOpening);
   window->set_number(free_number());
   new CaseMessages(*window, *messages_);  // its child
-  connect(window, &CaseWindow::close_wanted, saved_, &SavedCases::close);
+  connect(window, &CaseWindow::close_wanted, session_writer_, &SessionWriter::close);
   connect(window, &CaseWindow::place_panel_wanted, this, [this] { panels_->show("initialise"); });
-  QMdiSubWindow* child = area_->addSubWindow(window);
-  child->setAttribute(Qt::WA_DeleteOnClose);
-  // Its own menu has keys that ours have, too.
-  for (QAction* action : child->systemMenu()->actions()) action->setShortcut({});
-  connect(window, &QWidget::windowTitleChanged, child, &QWidget::setWindowTitle);
-  child->setWindowTitle(window->windowTitle());
-  child->setWindowIcon(case_mark(window->number()));
+  QMdiSubWindow* child = area_->add(window);
   // The event loop runs between making a case and showing it.
   const auto show = [this, child = QPointer(child), study, restored] {
     if (child) show_case(*child, *study, restored);
@@ -257,12 +240,7 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
 
 void MainWindow::show_case(QMdiSubWindow& child, const LoadedStudy& study, const RestoredCase& restored) {
   centre_->setCurrentWidget(area_);
-  if (area_->viewMode() == QMdiArea::TabbedView || area_->subWindowList().size() == 1) {
-    child.showMaximized();
-  } else {
-    child.show();
-    area_->tileSubWindows();
-  }
+  area_->show_child(child);
   auto& window = static_cast<CaseWindow&>(*child.widget());
   if (restored.contents) {
     panels_->show("level-set");  // it has begun: to be steered
@@ -290,11 +268,7 @@ CaseWindow* MainWindow::active_case() const {
 }
 
 QList<CaseWindow*> MainWindow::cases() const {
-  QList<CaseWindow*> cases;
-  for (QMdiSubWindow* child : area_->subWindowList()) {
-    if (auto* window = qobject_cast<CaseWindow*>(child->widget())) cases << window;
-  }
-  return cases;
+  return area_->cases();
 }
 
 int MainWindow::free_number() const {
@@ -368,39 +342,42 @@ void MainWindow::connect_views() {
         [](DisplaySettings& settings) { settings.patient_text = !settings.patient_text; });
   });
   connect(actions_->hide_interface, &QAction::toggled, panels_, &PanelDocks::set_hidden);
-  connect(actions_->full_screen, &QAction::toggled, this,
-          [this](bool full) { full ? showFullScreen() : showNormal(); });
-  connect(actions_->themes, &QActionGroup::triggered, this, [](QAction* chosen) {
-    QSettings().setValue("theme", chosen->data());
-    apply_theme(*qApp, static_cast<Theme>(chosen->data().toInt()));
+  connect(actions_->full_screen, &QAction::toggled, this, [this](bool full) {
+    // A window that was maximised is so again afterwards.
+    setWindowState(windowState().setFlag(Qt::WindowFullScreen, full));
   });
-  const int theme = QSettings().value("theme", 0).toInt();
+  connect(actions_->themes, &QActionGroup::triggered, this, [](QAction* chosen) {
+    const auto theme = static_cast<Theme>(chosen->data().toInt());
+    settings::theme().set(theme);
+    apply_theme(*qApp, theme);
+  });
+  const int theme = static_cast<int>(settings::theme().get());
   for (QAction* action : actions_->themes->actions()) action->setChecked(action->data().toInt() == theme);
 }
 
 void MainWindow::connect_windows() {
   connect(actions_->tile, &QAction::triggered, this, [this] {
     actions_->tabs->setChecked(false);
-    area_->tileSubWindows();
+    area_->tile();
   });
   connect(actions_->cascade, &QAction::triggered, this, [this] {
     actions_->tabs->setChecked(false);
-    area_->cascadeSubWindows();
+    area_->cascade();
   });
-  connect(actions_->tabs, &QAction::toggled, this,
-          [this](bool tabs) { area_->setViewMode(tabs ? QMdiArea::TabbedView : QMdiArea::SubWindowView); });
+  connect(actions_->tabs, &QAction::toggled, area_, &CaseArea::set_tabs);
   connect(actions_->link, &QAction::triggered, this,
           [this](bool linked) { links_->link(linked ? cases() : QList<CaseWindow*>{}); });
   connect(links_, &CaseLinks::changed, this, &MainWindow::follow_case);
-  connect(actions_->lock_step, &QAction::toggled, this, [this](bool together) {
-    if (!together) {
-      for (CaseWindow* window : cases()) window->proxy().leave_lock_step();
-      return;
-    }
-    std::vector<CaseProxy*> proxies;
-    for (CaseWindow* window : cases()) proxies.push_back(&window->proxy());
-    CaseProxy::play_in_lock_step(proxies);
-  });
+  connect(actions_->lock_step, &QAction::toggled, this,
+          [this](bool together) { links_->play_together(cases(), together); });
+}
+
+// One case alone is in no lock-step.
+void MainWindow::follow_closing() {
+  if (!links_->any_in_lock_step(cases())) actions_->lock_step->setChecked(false);
+}
+
+void MainWindow::connect_help() {
   connect(actions_->keys, &QAction::triggered, this, [this] { KeysDialog(*actions_, this).exec(); });
   connect(actions_->first_steps, &QAction::triggered, this, [this] { show_first_steps(this, *actions_); });
   connect(actions_->about, &QAction::triggered, this, [this] { AboutDialog(this).exec(); });
@@ -412,11 +389,11 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   area_->closeAllSubWindows();
   if (!area_->subWindowList().isEmpty()) {
     // The user keeps a case open, or saves one; closing is tried again after that.
-    quitting_ = saved_->closes_later();
+    quitting_ = session_writer_->closes_later();
     return event->ignore();
   }
-  QSettings().setValue("main/state", panels_->arrangement());
-  QSettings().setValue("main/geometry", saveGeometry());
+  settings::window_state().set(panels_->arrangement());
+  settings::window_geometry().set(saveGeometry());
   event->accept();
 }
 

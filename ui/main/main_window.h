@@ -8,19 +8,22 @@
 #include "ui/main/actions.h"
 #include "ui/main/case_window.h"
 
-class QMdiArea;
 class QMdiSubWindow;
 class QStackedWidget;
 
 namespace tidemark {
 
+class CaseArea;
+class CaseExports;
+class CaseFiles;
 class CaseLinks;
 class CaseResults;
 class LoadingView;
 class MessageBar;
 class PanelDocks;
 class RecentStudies;
-class SavedCases;
+class SessionReader;
+class SessionWriter;
 class StudyOpener;
 class ValueBar;
 struct LoadedStudy;
@@ -41,7 +44,10 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] QList<CaseWindow*> cases() const;
   [[nodiscard]] Actions& actions() { return *actions_; }
   [[nodiscard]] PanelDocks& panels() { return *panels_; }
-  [[nodiscard]] SavedCases& saved_cases() { return *saved_; }
+  [[nodiscard]] CaseFiles& files() { return *files_; }
+  [[nodiscard]] CaseExports& exports() { return *exports_; }
+  [[nodiscard]] SessionReader& session_reader() { return *session_reader_; }
+  [[nodiscard]] SessionWriter& session_writer() { return *session_writer_; }
   [[nodiscard]] CaseResults& results() { return *results_; }
   // The executor of new cases.
   void set_executor(ExecutorKind kind) { executor_ = kind; }
@@ -61,12 +67,12 @@ class MainWindow : public QMainWindow {
 
  private:
   void make_centre();
-  void make_tool_bar();
   void make_status_bar();
   void connect_files();
   void connect_evolution();
   void connect_views();
   void connect_windows();
+  void connect_help();
   void ask_for_folder();
   void ask_for_file();
   void open_recent(const RecentStudy& study);
@@ -74,6 +80,8 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] int free_number() const;
   void activate(QMdiSubWindow* window);
   void follow_case();
+  void follow_closing();
+  void remember(CaseWindow& window);
   // Calls `action` with the active case, if there is one.
   template <class Do>
   void with_case(QAction* action, Do act);
@@ -81,7 +89,7 @@ class MainWindow : public QMainWindow {
   Engine& engine_;
   Actions* actions_;
   ExecutorKind executor_ = ExecutorKind::automatic;
-  QMdiArea* area_ = nullptr;
+  CaseArea* area_ = nullptr;
   QStackedWidget* centre_ = nullptr;
   PanelDocks* panels_ = nullptr;
   CaseLinks* links_ = nullptr;
@@ -90,7 +98,10 @@ class MainWindow : public QMainWindow {
   LoadingView* loading_ = nullptr;
   MessageBar* messages_ = nullptr;
   ValueBar* values_ = nullptr;
-  SavedCases* saved_ = nullptr;
+  CaseFiles* files_ = nullptr;
+  CaseExports* exports_ = nullptr;
+  SessionReader* session_reader_ = nullptr;
+  SessionWriter* session_writer_ = nullptr;
   CaseResults* results_ = nullptr;
   QPointer<CaseWindow> active_;
   bool quitting_ = false;

@@ -1,8 +1,10 @@
 #include "ui/main/menus.h"
 
 #include <QMenuBar>
+#include <QToolBar>
 
 #include "ui/look/icons.h"
+#include "ui/look/theme.h"
 #include "ui/main/main_window.h"
 #include "ui/main/menu_bar_icon.h"
 #include "ui/main/panel_docks.h"
@@ -51,7 +53,7 @@ void make_view_menu(MainWindow& window, Actions& actions, PanelDocks& panels) {
   QMenu* docks = view->addMenu(MainWindow::tr("&Panels"));
   docks->addActions(panels.toggles());
   view->addActions({actions.hide_interface, actions.full_screen});
-  QMenu* theme = view->addMenu(MainWindow::tr("&Theme"));
+  QMenu* theme = view->addMenu(MainWindow::tr("The&me"));
   theme->addActions(actions.themes->actions());
 }
 
@@ -66,7 +68,7 @@ void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts) {
   edit->addAction(actions.keys);
   edit->addMenu(MainWindow::tr("&Mouse"))->addActions(actions.mouse_schemes->actions());
   make_view_menu(window, actions, *parts.panels);
-  QMenu* evolution = window.menuBar()->addMenu(MainWindow::tr("E&volution"));
+  QMenu* evolution = window.menuBar()->addMenu(MainWindow::tr("Ev&olution"));
   evolution->addActions({actions.play, actions.step, actions.step_back, actions.restart});
   QMenu* tools = window.menuBar()->addMenu(MainWindow::tr("&Tools"));
   tools->addActions(actions.tools->actions());
@@ -78,6 +80,23 @@ void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts) {
   windows->addActions({actions.link, actions.lock_step});
   QMenu* help = window.menuBar()->addMenu(MainWindow::tr("&Help"));
   help->addActions({actions.first_steps, actions.about});
+}
+
+void make_tool_bar(MainWindow& window, Actions& actions) {
+  QToolBar* bar = window.addToolBar(MainWindow::tr("Main tools"));
+  bar->setObjectName("tool-bar");
+  bar->setIconSize(QSize(kIcon, kIcon));
+  bar->addActions({actions.open_folder, actions.save});
+  bar->addSeparator();
+  bar->addActions({actions.undo, actions.redo});
+  bar->addSeparator();
+  bar->addActions({actions.restart, actions.step_back, actions.play, actions.step});
+  bar->addSeparator();
+  bar->addActions(actions.tools->actions());
+  bar->addSeparator();
+  bar->addAction(actions.clip);
+  bar->addSeparator();
+  bar->addActions(actions.layouts->actions());
 }
 
 }  // namespace tidemark

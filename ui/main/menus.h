@@ -13,6 +13,7 @@ struct MenuParts {
   RecentStudies* recent;
   PanelDocks* panels;
 };
+void make_tool_bar(MainWindow& window, Actions& actions);
 void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts);
 
 }  // namespace tidemark

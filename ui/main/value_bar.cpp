@@ -5,6 +5,7 @@
 
 #include "solver/voxel_values.h"
 #include "ui/panels/value_unit.h"
+#include "ui/widgets/number_text.h"
 
 namespace tidemark {
 
@@ -46,12 +47,12 @@ void ValueBar::follow() {
                             .arg(voxel.x)
                             .arg(voxel.y)
                             .arg(voxel.z)
-                            .arg(point->x, 0, 'f', 1)
-                            .arg(point->y, 0, 'f', 1)
-                            .arg(point->z, 0, 'f', 1);
+                            .arg(rounded(point->x, 1), 0, 'f', 1)
+                            .arg(rounded(point->y, 1), 0, 'f', 1)
+                            .arg(rounded(point->z, 1), 0, 'f', 1);
   const QString unit = volume.unit.empty() ? QString() : QLatin1Char(' ') + value_unit(volume);
   const double intensity = volume.value(voxel);
-  QString values = tr("I %1%2").arg(intensity, 0, 'g', 5).arg(unit);
+  QString values = tr("I %1%2").arg(intensity + 0.0, 0, 'g', 5).arg(unit);
   if (detailed_) values += details_at(voxel, intensity);
   setText(values + QStringLiteral("      ") + place);
 }
@@ -59,12 +60,12 @@ void ValueBar::follow() {
 QString ValueBar::details_at(Index3 voxel, double intensity) const {
   const CaseState& state = proxy_->state();
   const Parameters& parameters = proxy_->parameters();
-  QString values = tr("   D %1").arg(data_speed(parameters, intensity), 0, 'f', 2);
+  QString values = tr("   D %1").arg(rounded(data_speed(parameters, intensity), 2), 0, 'f', 2);
   if (!state.phi || !state.begun) return values;
   const VoxelValues at = values_at(*state.phi, proxy_->volume(), parameters, voxel);
-  values += tr("   φ %1").arg(at.phi, 0, 'f', 2);
+  values += tr("   φ %1").arg(rounded(at.phi, 2), 0, 'f', 2);
   const bool clamped = std::abs(at.phi) >= state.phi->band;
-  if (!clamped) values += tr("   κ %1   |∇φ| %2").arg(at.curvature, 0, 'f', 2).arg(at.gradient, 0, 'f', 2);
+  if (!clamped) values += tr("   κ %1   |∇φ| %2").arg(rounded(at.curvature, 2), 0, 'f', 2).arg(at.gradient, 0, 'f', 2);
   return values;
 }
 

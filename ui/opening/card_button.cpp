@@ -24,6 +24,7 @@ CardButton::CardButton(const QString& title, const QString& sentence, QWidget* p
   setAccessibleDescription(sentence);
   setFocusPolicy(Qt::StrongFocus);
   setCursor(Qt::PointingHandCursor);
+  setMouseTracking(true);
   QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   policy.setHeightForWidth(true);
   setSizePolicy(policy);
@@ -83,7 +84,7 @@ void CardButton::paint_frame(QPainter& painter) const {
     fill = mixed(fill, accent, 0.16);
     line = accent;
   }
-  if (isEnabled() && underMouse()) fill = mixed(fill, accent, 0.12);
+  if (isEnabled() && hovered_) fill = mixed(fill, accent, 0.12);
   if (isDown()) fill = mixed(fill, accent, 0.25);
   const double width = hasFocus() ? 2.0 : 1.0;
   painter.setPen(QPen(hasFocus() ? accent : line, width));
@@ -140,7 +141,23 @@ void CardButton::keyPressEvent(QKeyEvent* event) {
 }
 
 bool CardButton::event(QEvent* event) {
-  if (event->type() == QEvent::Enter || event->type() == QEvent::Leave) update();
+  // No Leave comes to a card whose page goes, or that a dialog covers, while the mouse is on it.
+  const bool before = hovered_;
+  switch (event->type()) {
+    case QEvent::Enter:
+    case QEvent::MouseMove:
+      hovered_ = true;
+      break;
+    case QEvent::Leave:
+    case QEvent::Hide:
+    case QEvent::WindowDeactivate:
+    case QEvent::WindowBlocked:
+      hovered_ = false;
+      break;
+    default:
+      break;
+  }
+  if (hovered_ != before) update();
   return QAbstractButton::event(event);
 }
 

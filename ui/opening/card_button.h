@@ -39,6 +39,7 @@ class CardButton : public QAbstractButton {
 
   QString sentence_;
   QPixmap picture_;
+  bool hovered_ = false;
   bool emphasised_ = false;
   bool one_line_ = false;
 };

@@ -1,7 +1,8 @@
 #include "ui/opening/grid_text.h"
 
 #include <QCoreApplication>
-#include <QLocale>
+
+#include "ui/widgets/number_text.h"
 
 namespace tidemark {
 
@@ -10,7 +11,7 @@ QString size_text(const Geometry& geometry) {
 }
 
 QString spacing_text(const Geometry& geometry) {
-  const auto number = [](double mm) { return QLocale().toString(mm, 'g', 3); };
+  const auto number = [](double mm) { return general_text(mm, 3); };
   const glm::dvec3& spacing = geometry.spacing_mm;
   return QStringLiteral("%1 × %2 × %3").arg(number(spacing.x), number(spacing.y), number(spacing.z));
 }

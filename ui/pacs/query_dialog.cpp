@@ -6,7 +6,6 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QLabel>
-#include <QSettings>
 #include <QStandardPaths>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "ui/pacs/query_form.h"
 #include "ui/pacs/server_choice.h"
 #include "ui/pacs/study_tree.h"
+#include "ui/settings.h"
 #include "ui/widgets/work_line.h"
 
 namespace tidemark {
@@ -22,7 +22,7 @@ namespace {
 
 QString usual_folder() {
   const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
-  return QSettings().value("pacs/folder", documents + "/Tidemark").toString();
+  return settings::retrieval_folder(documents + "/Tidemark").get();
 }
 
 }  // namespace
@@ -157,7 +157,7 @@ void QueryDialog::search() {
 void QueryDialog::retrieve() {
   const auto chosen = tree_->chosen();
   if (!chosen || servers_->server() == nullptr || client_.busy()) return;
-  QSettings().setValue("pacs/folder", folder_->text());
+  settings::retrieval_folder({}).set(folder_->text());
   // Named by the time, not by anything that says whose it is.
   const QString name = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd hh-mm-ss-zzz"));
   const RetrieveRequest request{chosen->study_uid.toStdString(), chosen->series_uid.toStdString(),

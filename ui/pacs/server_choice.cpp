@@ -2,18 +2,17 @@
 
 #include <QHBoxLayout>
 #include <QPushButton>
-#include <QSettings>
 #include <QSignalBlocker>
 #include <algorithm>
 #include <optional>
 
 #include "ui/look/icons.h"
 #include "ui/pacs/servers_dialog.h"
+#include "ui/settings.h"
 
 namespace tidemark {
 namespace {
 
-constexpr const char* kLastServer = "pacs/server";  // in the settings
 constexpr int kLeastLetters = 20;
 
 }  // namespace
@@ -48,7 +47,7 @@ void ServerChoice::read() {
     problem_ = tr("There is no server yet: name one with “Servers…”.");
   server_->clear();
   for (const PacsServer& one : configuration_.servers) server_->addItem(QString::fromStdString(one.name));
-  const QString wanted = before.isEmpty() ? QSettings().value(kLastServer).toString() : before;
+  const QString wanted = before.isEmpty() ? settings::server().get() : before;
   server_->setCurrentIndex(std::max(server_->findText(wanted), server_->count() > 0 ? 0 : -1));
 }
 
@@ -71,7 +70,7 @@ const PacsServer* ServerChoice::server() const {
 }
 
 void ServerChoice::remember() const {
-  QSettings().setValue(kLastServer, server_->currentText());
+  settings::server().set(server_->currentText());
 }
 
 }  // namespace tidemark

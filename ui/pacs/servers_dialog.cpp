@@ -4,6 +4,7 @@
 #include <QDialogButtonBox>
 #include <QFileDialog>
 #include <QToolButton>
+#include <cmath>
 #include <set>
 
 #include "ui/look/icons.h"
@@ -13,11 +14,15 @@
 namespace tidemark {
 namespace {
 
-QSpinBox* number(int low, int high) {
-  auto* box = new QSpinBox;
+NumberBox* whole_number(int low, int high) {
+  auto* box = new NumberBox;
+  box->setDecimals(0);
   box->setRange(low, high);
-  box->setGroupSeparatorShown(false);
   return box;
+}
+
+int entered(const NumberBox& box) {
+  return static_cast<int>(std::lround(box.value()));
 }
 
 std::string entered(const QLineEdit& line) {
@@ -101,7 +106,7 @@ QWidget* ServersDialog::make_entry() {
     return one;
   };
   const auto count = [&](const QString& label, int low, int high, const QString& tip) {
-    auto* one = number(low, high);
+    auto* one = whole_number(low, high);
     form.row(label, one, tip);
     return one;
   };
@@ -180,14 +185,14 @@ void ServersDialog::show_entry(int row) {
   const auto text = [](const auto& value) { return QString::fromStdString(std::string(value)); };
   name_->setText(text(server.name));
   host_->setText(text(server.host));
-  port_->setValue(server.port);
+  port_->show_value(server.port);
   ae_title_->setText(text(server.ae_title));
   own_ae_title_->setText(text(server.own_ae_title));
   const bool by_move = server.retrieve == PacsServer::Retrieve::move;
   retrieve_->setCurrentIndex(by_move ? 1 : 0);
-  move_port_->setValue(server.move_port);
+  move_port_->show_value(server.move_port);
   move_port_->setEnabled(by_move);
-  timeout_->setValue(server.timeout_seconds);
+  timeout_->show_value(server.timeout_seconds);
   const PacsTls tls = server.tls.value_or(PacsTls{});
   tls_->setChecked(server.tls.has_value());
   ca_->setText(text(tls.ca.string()));
@@ -201,12 +206,12 @@ void ServersDialog::keep_entry() {
   PacsServer& server = configuration_.servers[static_cast<std::size_t>(shown_)];
   server.name = entered(*name_);
   server.host = entered(*host_);
-  server.port = port_->value();
+  server.port = entered(*port_);
   server.ae_title = entered(*ae_title_);
   server.own_ae_title = entered(*own_ae_title_);
   server.retrieve = retrieve_->currentIndex() == 1 ? PacsServer::Retrieve::move : PacsServer::Retrieve::get;
-  server.move_port = move_port_->value();
-  server.timeout_seconds = timeout_->value();
+  server.move_port = entered(*move_port_);
+  server.timeout_seconds = entered(*timeout_);
   server.tls.reset();
   if (tls_->isChecked()) {
     server.tls = PacsTls{entered(*ca_), entered(*certificate_), entered(*key_), verify_->isChecked()};
@@ -249,6 +254,9 @@ void ServersDialog::say(const QString& message) {
 }
 
 void ServersDialog::accept() {
+  for (const NumberBox* box : {port_, move_port_, timeout_}) {
+    if (!box->problem().isEmpty()) return say(box->problem());
+  }
   keep_entry();
   std::set<std::string> names;
   for (std::size_t row = 0; row < configuration_.servers.size(); ++row) {

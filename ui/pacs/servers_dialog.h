@@ -9,11 +9,11 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QPushButton>
-#include <QSpinBox>
 #include <filesystem>
 
 #include "engine/pacs_client.h"
 #include "imaging/pacs/configuration.h"
+#include "ui/widgets/number_box.h"
 
 namespace tidemark {
 
@@ -47,12 +47,12 @@ class ServersDialog : public QDialog {
   QWidget* entry_ = nullptr;
   QLineEdit* name_;
   QLineEdit* host_;
-  QSpinBox* port_;
+  NumberBox* port_;
   QLineEdit* ae_title_;
   QLineEdit* own_ae_title_;
   QComboBox* retrieve_;
-  QSpinBox* move_port_;
-  QSpinBox* timeout_;
+  NumberBox* move_port_;
+  NumberBox* timeout_;
   QGroupBox* tls_;
   QLineEdit* ca_;
   QLineEdit* certificate_;

@@ -2,7 +2,6 @@
 
 #include <QCheckBox>
 #include <QLabel>
-#include <QLocale>
 
 #include "ui/panels/curve_plot.h"
 #include "ui/widgets/disclosure.h"
@@ -87,7 +86,7 @@ void EvolutionFigures::refresh() {
   pace_->setText(pace > 0.0 ? short_text(pace) : QStringLiteral("–"));
   pages_->setText(tr("%1, %2 at rest")
                       .arg(count_text(state.memory.resident_pages), count_text(state.memory.quiet_pages)));
-  bytes_->setText(QLocale().formattedDataSize(state.memory.state_bytes, 1, QLocale::DataSizeSIFormat));
+  bytes_->setText(number_locale().formattedDataSize(state.memory.state_bytes, 1, QLocale::DataSizeSIFormat));
 }
 
 }  // namespace tidemark

@@ -5,7 +5,6 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
-#include <QLocale>
 #include <QPushButton>
 #include <QTableView>
 #include <QToolButton>
@@ -15,6 +14,7 @@
 #include "ui/panels/labels_model.h"
 #include "ui/panels/meaning_picker.h"
 #include "ui/widgets/form.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
 
 namespace tidemark {
@@ -166,14 +166,12 @@ void LabelsPanel::show_acceptance() {
   const auto& acceptance = proxy()->state().acceptance;
   accepted_->setVisible(acceptance.has_value());
   if (!acceptance) return;
-  const QLocale locale;
   QStringList sentences{
-      tr("%1 took %2 voxels.")
-          .arg(QString::fromStdString(acceptance->label), locale.toString(qlonglong{acceptance->taken}))};
+      tr("%1 took %2 voxels.").arg(QString::fromStdString(acceptance->label), count_text(acceptance->taken))};
   if (acceptance->from_others > 0)
-    sentences << tr("%1 of them had another label.").arg(locale.toString(qlonglong{acceptance->from_others}));
+    sentences << tr("%1 of them had another label.").arg(count_text(acceptance->from_others));
   if (acceptance->left > 0)
-    sentences << tr("%1 voxels stayed with other labels.").arg(locale.toString(qlonglong{acceptance->left}));
+    sentences << tr("%1 voxels stayed with other labels.").arg(count_text(acceptance->left));
   accepted_->setText(sentences.join(u' '));
 }
 

@@ -6,6 +6,7 @@
 
 #include "engine/case_proxy.h"
 #include "ui/panels/value_unit.h"
+#include "ui/widgets/number_text.h"
 
 namespace tidemark {
 namespace {
@@ -18,7 +19,7 @@ QString text(const char* words) {
 struct Notation {
   QLocale locale;
   [[nodiscard]] QString number(double value, int decimals) const {
-    return locale.toString(value, 'f', decimals);
+    return locale.toString(rounded(value, decimals), 'f', decimals);
   }
   [[nodiscard]] QString count(std::int64_t value) const {
     return locale.toString(static_cast<qlonglong>(value));
@@ -122,7 +123,7 @@ std::string to_csv(CaseProxy& proxy) {
 
 QString to_text(CaseProxy& proxy) {
   const QString unit = value_unit(proxy.volume());
-  const Notation notation{QLocale()};
+  const Notation notation{number_locale()};
   QStringList lines;
   lines << QStringList{text(QT_TRANSLATE_NOOP("RegionTable", "Region")),
                        text(QT_TRANSLATE_NOOP("RegionTable", "Volume (ml)")),

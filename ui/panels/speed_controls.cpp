@@ -1,6 +1,8 @@
 #include "ui/panels/speed_controls.h"
 
-#include <QDoubleSpinBox>
+#include <QCheckBox>
+#include <QHBoxLayout>
+#include <QLabel>
 #include <QSignalBlocker>
 #include <cmath>
 
@@ -59,13 +61,16 @@ void SpeedControls::attach() {
   const QString unit = value_unit(proxy()->volume());
   const double span = std::max<double>(summary.high - summary.low, 1e-6);
   const double all = std::max<double>(summary.highest - summary.lowest, span);
-  const int decimals = decimals_for(span);
+  const int decimals = std::max(1, decimals_for(span));  // as in the bar over a view
+  const double step = std::pow(10.0, -decimals_for(span));
   tent_->set_source(summary, unit);
   target_->set_decimals(decimals);
+  target_->set_step(step);
   target_->set_range(summary.low, summary.high, summary.lowest - all, summary.highest + all);
   target_->set_unit(unit);
   const double smallest = std::max(kMinimumRange, std::pow(10.0, -decimals));
   range_->set_decimals(decimals);
+  range_->set_step(step);
   range_->set_range(std::max(smallest, span / 1000.0), span, smallest, 2.0 * all,
                     SliderNumber::Scale::logarithmic);
   range_->set_unit(unit);

@@ -5,20 +5,18 @@
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QMessageBox>
-#include <QRegularExpression>
-#include <QSettings>
 #include <algorithm>
 
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/results/file_name.h"
+#include "ui/settings.h"
 
 namespace tidemark {
 namespace {
 
-constexpr const char* kFolder = "save/folder";  // in the settings
-
 QString usual_folder() {
-  const QString folder = QSettings().value(kFolder).toString();
+  const QString folder = settings::save_folder().get();
   return QFileInfo::exists(folder) ? folder : QDir::homePath();
 }
 
@@ -104,15 +102,11 @@ QString WriteResultDialog::suffix() const {
   return kind_ == ResultFile::level_set ? QStringLiteral(".vdb") : QStringLiteral(".dcm");
 }
 
-// Named by the series, which does not tell the patient.
 QString WriteResultDialog::usual_file() const {
-  static const QRegularExpression kNotInNames(QStringLiteral("[^\\w .()+-]"),
-                                              QRegularExpression::UseUnicodePropertiesOption);
-  constexpr int kLongest = 60;
   const QString what = kind_ == ResultFile::segmentation    ? tr("segmentation")
                        : kind_ == ResultFile::structure_set ? tr("contours")
                                                             : tr("level set");
-  const QString name = proxy().name().left(kLongest).replace(kNotInNames, QStringLiteral("-")).simplified();
+  const QString name = file_name_of(proxy().study());
   return QDir(usual_folder()).filePath(QStringLiteral("%1 %2%3").arg(name, what, suffix()).trimmed());
 }
 
@@ -142,7 +136,7 @@ bool WriteResultDialog::confirm() {
 }
 
 void WriteResultDialog::begin(const Snapshot& snapshot) {
-  QSettings().setValue(kFolder, QFileInfo(file_->text()).absolutePath());
+  settings::save_folder().set(QFileInfo(file_->text()).absolutePath());
   jobs_.write([snapshot, kind = kind_, what = content(), source = proxy().study().dicom_files,
                file = path_of(file_->text())](const Progress& progress) {
     return write_kind(snapshot->contents, kind, what, source, file, progress);

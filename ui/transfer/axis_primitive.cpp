@@ -1,9 +1,10 @@
 #include "ui/transfer/axis_primitive.h"
 
 #include <QCoreApplication>
-#include <QLocale>
 #include <QStringList>
 #include <algorithm>
+
+#include "ui/widgets/number_text.h"
 
 namespace tidemark {
 namespace {
@@ -13,7 +14,7 @@ QString translated(const char* text) {
 }
 
 QString number(double value) {
-  return QLocale().toString(value, 'g', 4);
+  return general_text(value, 4);
 }
 
 QString describe_factor(const TransferFactor& factor, const QString& unit) {

@@ -14,10 +14,9 @@ using Kind = TransferFactor::Kind;
 
 constexpr double kFarthest = 1e9;
 
-QDoubleSpinBox* number_box(QWidget* parent) {
-  auto* box = new QDoubleSpinBox(parent);
+NumberBox* number_box(QWidget* parent) {
+  auto* box = new NumberBox(parent);
   box->setRange(-kFarthest, kFarthest);
-  box->setKeyboardTracking(false);
   // Its width is the layout's: nine digits would make every panel wide.
   box->setMinimumWidth(64);
   box->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -42,13 +41,13 @@ FactorEditor::FactorEditor(QWidget* parent)
   grid->addWidget(end_, 1, 1);
   setFocusProxy(kind_);
   connect(kind_, &QComboBox::activated, this, &FactorEditor::take_kind);
-  connect(start_, &QDoubleSpinBox::valueChanged, this, &FactorEditor::take_numbers);
-  connect(end_, &QDoubleSpinBox::valueChanged, this, &FactorEditor::take_numbers);
+  connect(start_, &NumberBox::valueChanged, this, &FactorEditor::take_numbers);
+  connect(end_, &NumberBox::valueChanged, this, &FactorEditor::take_numbers);
 }
 
 void FactorEditor::set_axis(const PrimitiveAxis& axis) {
   axis_ = axis;
-  for (QDoubleSpinBox* box : {start_, end_}) {
+  for (NumberBox* box : {start_, end_}) {
     const QSignalBlocker quiet(box);
     suit_decimals(*box, axis.high - axis.low);
   }
@@ -107,13 +106,13 @@ void FactorEditor::take_numbers() {
   emit edited(next);
 }
 
-void suit_decimals(QDoubleSpinBox& box, double extent) {
+void suit_decimals(NumberBox& box, double extent) {
   const int digits = static_cast<int>(std::floor(std::log10(std::max(extent, 1e-6))));
   box.setDecimals(std::clamp(3 - digits, 0, 9));
   box.setSingleStep(std::pow(10.0, digits - 2));
 }
 
-void show_number(QDoubleSpinBox& box, double value) {
+void show_number(NumberBox& box, double value) {
   const double shown = std::pow(10.0, -box.decimals()) * 0.51;
   if (std::abs(box.value() - value) < shown) return;
   const QSignalBlocker quiet(&box);

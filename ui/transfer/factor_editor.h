@@ -2,10 +2,10 @@
 #pragma once
 
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QWidget>
 
 #include "ui/transfer/axis_primitive.h"
+#include "ui/widgets/number_box.h"
 
 namespace tidemark {
 
@@ -18,8 +18,8 @@ class FactorEditor : public QWidget {
   void set_factor(const TransferFactor& factor);  // emits nothing
 
   [[nodiscard]] QComboBox* kind_box() const { return kind_; }
-  [[nodiscard]] QDoubleSpinBox* start_box() const { return start_; }
-  [[nodiscard]] QDoubleSpinBox* end_box() const { return end_; }
+  [[nodiscard]] NumberBox* start_box() const { return start_; }
+  [[nodiscard]] NumberBox* end_box() const { return end_; }
 
  signals:
   void edited(const tidemark::TransferFactor& factor);
@@ -32,13 +32,13 @@ class FactorEditor : public QWidget {
   PrimitiveAxis axis_;
   TransferFactor factor_;
   QComboBox* kind_;
-  QDoubleSpinBox* start_;
-  QDoubleSpinBox* end_;
+  NumberBox* start_;
+  NumberBox* end_;
 };
 
 // A box for numbers of about this size: as many decimals as make a thousandth of it.
-void suit_decimals(QDoubleSpinBox& box, double extent);
+void suit_decimals(NumberBox& box, double extent);
 // Shows a number that changed elsewhere; if it did not, text that is being typed stays.
-void show_number(QDoubleSpinBox& box, double value);
+void show_number(NumberBox& box, double value);
 
 }  // namespace tidemark

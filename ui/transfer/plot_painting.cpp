@@ -1,8 +1,9 @@
 #include "ui/transfer/plot_painting.h"
 
-#include <QLocale>
 #include <algorithm>
 #include <cmath>
+
+#include "ui/widgets/number_text.h"
 
 namespace tidemark {
 namespace {
@@ -16,7 +17,7 @@ double crisp(double pixel) {
 }
 
 QString tick_text(double value) {
-  return QLocale().toString(value, 'g', 6);
+  return general_text(value, 6);
 }
 
 // `text` in superscript digits.

@@ -10,7 +10,7 @@
 namespace tidemark {
 
 PrimitiveForm::PrimitiveForm(PrimitiveKind kind, int axes, QWidget* parent)
-    : QWidget(parent), opacity_(new QDoubleSpinBox(this)), colour_(new QPushButton(this)) {
+    : QWidget(parent), opacity_(new NumberBox(this)), colour_(new QPushButton(this)) {
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setColumnStretch(1, 1);
@@ -37,7 +37,6 @@ PrimitiveForm::PrimitiveForm(PrimitiveKind kind, int axes, QWidget* parent)
   opacity_->setRange(0.0, source ? 100.0 : 1.0);
   opacity_->setDecimals(4);
   opacity_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-  opacity_->setKeyboardTracking(false);
   guard_from_wheel(opacity_);
   opacity_->setMinimumWidth(64);
   opacity_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -48,7 +47,7 @@ PrimitiveForm::PrimitiveForm(PrimitiveKind kind, int axes, QWidget* parent)
   row->addWidget(colour_);
   grid->addWidget(name, axes, 0);
   grid->addLayout(row, axes, 1);
-  connect(opacity_, &QDoubleSpinBox::valueChanged, this, [this](double opacity) {
+  connect(opacity_, &NumberBox::valueChanged, this, [this](double opacity) {
     primitive_.opacity = opacity;
     emit edited(primitive_);
   });

@@ -22,7 +22,7 @@ class PrimitiveForm : public QWidget {
   void set_primitive(const std::optional<AxisPrimitive>& primitive);
 
   [[nodiscard]] FactorEditor* factor(int axis) const { return factors_[static_cast<std::size_t>(axis)]; }
-  [[nodiscard]] QDoubleSpinBox* opacity_box() const { return opacity_; }
+  [[nodiscard]] NumberBox* opacity_box() const { return opacity_; }
   [[nodiscard]] QPushButton* colour_button() const { return colour_; }
 
  signals:
@@ -35,7 +35,7 @@ class PrimitiveForm : public QWidget {
   AxisPrimitive primitive_;
   std::vector<QLabel*> names_;
   std::vector<FactorEditor*> factors_;
-  QDoubleSpinBox* opacity_;
+  NumberBox* opacity_;
   QPushButton* colour_;
   QPointer<QColorDialog> dialog_;
 };

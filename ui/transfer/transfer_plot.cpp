@@ -1,10 +1,10 @@
 #include "ui/transfer/transfer_plot.h"
 
-#include <QLocale>
 #include <QPainter>
 #include <algorithm>
 
 #include "ui/transfer/plot_painting.h"
+#include "ui/widgets/number_text.h"
 
 namespace tidemark {
 
@@ -93,7 +93,7 @@ QString TransferPlot::handle_text(const HandleKind& handle) const {
   if (!has(chosen_)) return {};
   const AxisPrimitive& primitive = primitives_[static_cast<std::size_t>(chosen_)];
   const auto number = [](double value, const QString& unit) {
-    const QString text = QLocale().toString(value, 'g', 4);
+    const QString text = general_text(value, 4);
     return unit.isEmpty() ? text : text + QChar(0x00A0) + unit;
   };
   QStringList parts;

@@ -1,21 +1,20 @@
 #include "ui/views/mouse_scheme.h"
 
-#include <QSettings>
+#include "ui/settings.h"
 
 namespace tidemark {
 namespace {
 
-constexpr const char* kSetting = "mouse/scheme";
 constexpr const char* kItkSnap = "itk-snap";
 
 }  // namespace
 
 MouseScheme mouse_scheme() {
-  return QSettings().value(kSetting).toString() == kItkSnap ? MouseScheme::itk_snap : MouseScheme::tidemark;
+  return settings::mouse_scheme().get() == kItkSnap ? MouseScheme::itk_snap : MouseScheme::tidemark;
 }
 
 void set_mouse_scheme(MouseScheme scheme) {
-  QSettings().setValue(kSetting, scheme == MouseScheme::itk_snap ? kItkSnap : "tidemark");
+  settings::mouse_scheme().set(scheme == MouseScheme::itk_snap ? kItkSnap : "tidemark");
 }
 
 }  // namespace tidemark

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ui/views/overlay.h"
+#include "ui/widgets/number_text.h"
 
 namespace tidemark {
 namespace {
@@ -62,9 +63,7 @@ void probe_speed_at(CaseProxy& proxy, glm::dvec3 place_mm) {
 QString SpeedProbeDrag::text() const {
   const ValueProbe::Spread values = probe().values();
   return tr("T %1   ε %2   (%3 voxels)")
-      .arg(values.mean, 0, 'f', 1)
-      .arg(values.deviation, 0, 'f', 1)
-      .arg(probe().count());
+      .arg(number_text(values.mean, 1), number_text(values.deviation, 1), count_text(probe().count()));
 }
 
 void TransferProbeDrag::set() {
@@ -97,10 +96,8 @@ QString TransferProbeDrag::text() const {
   const ValueProbe::Spread values = probe().values();
   const ValueProbe::Spread gradients = probe().gradients();
   return tr("value %1 ± %2   gradient %3 ± %4")
-      .arg(values.mean, 0, 'f', 1)
-      .arg(values.deviation, 0, 'f', 1)
-      .arg(gradients.mean, 0, 'f', 1)
-      .arg(gradients.deviation, 0, 'f', 1);
+      .arg(number_text(values.mean, 1), number_text(values.deviation, 1), number_text(gradients.mean, 1),
+           number_text(gradients.deviation, 1));
 }
 
 }  // namespace tidemark

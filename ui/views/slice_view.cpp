@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "ui/views/overlay.h"
+#include "ui/widgets/number_text.h"
 
 namespace tidemark {
 namespace {
@@ -218,7 +219,7 @@ void SliceViewWidget::paint_corners(QPainter& painter) const {
   QStringList lines;
   lines << tr("%1 / %2   %3 mm").arg(now.slice).arg(now.slices).arg(now.thickness_mm, 0, 'g', 3);
   if (content_ == SliceContent::source) {
-    lines << tr("W %1  L %2").arg(s.window.width, 0, 'f', 0).arg(s.window.centre, 0, 'f', 0);
+    lines << tr("W %1  L %2").arg(number_text(s.window.width, 0), number_text(s.window.centre, 0));
   }
   if (content_ == SliceContent::speed) lines << term_name(s.speed_term);
   lines << tr("Zoom %1 %").arg(100.0 * s.slice_zoom, 0, 'f', 0);

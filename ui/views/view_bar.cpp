@@ -7,7 +7,6 @@
 
 #include "ui/look/icons.h"
 #include "ui/widgets/elided_label.h"
-#include "ui/widgets/typed_number.h"
 
 namespace tidemark {
 namespace {
@@ -67,10 +66,10 @@ QToolButton* ViewBar::add_button(const char* picture, const QString& text) {
   return button;
 }
 
-QDoubleSpinBox* ViewBar::add_number(double Parameters::*parameter, const QString& label, const QString& name,
-                                    const QString& tip) {
+NumberBox* ViewBar::add_number(double Parameters::*parameter, const QString& label, const QString& name,
+                               const QString& tip) {
   auto* text = new QLabel(label);
-  auto* number = new QDoubleSpinBox;
+  auto* number = new NumberBox;
   text->setBuddy(number);
   number->setAccessibleName(name);
   number->setToolTip(tip);
@@ -78,7 +77,6 @@ QDoubleSpinBox* ViewBar::add_number(double Parameters::*parameter, const QString
   number->setButtonSymbols(QAbstractSpinBox::NoButtons);
   number->setAlignment(Qt::AlignRight);
   number->setFixedWidth(62);
-  number->setKeyboardTracking(false);
   const SourceSummary& summary = proxy_.summary();
   const double span = std::max<double>(summary.highest - summary.lowest, 1e-3);
   number->setRange(-1e7, 1e7);
@@ -87,7 +85,7 @@ QDoubleSpinBox* ViewBar::add_number(double Parameters::*parameter, const QString
   layout()->addWidget(text);
   layout()->addWidget(number);
   numbers_ << text << number;
-  connect(number, &QDoubleSpinBox::valueChanged, this,
+  connect(number, &NumberBox::valueChanged, this,
           [this, parameter](double value) { change(parameter, value); });
   return number;
 }
@@ -105,8 +103,8 @@ void ViewBar::change(double Parameters::*parameter, double value) {
 }
 
 void ViewBar::follow_state() {
-  show_unless_typed(*target_, proxy_.parameters().target);
-  show_unless_typed(*range_, proxy_.parameters().range);
+  target_->show_unless_typed(proxy_.parameters().target);
+  range_->show_unless_typed(proxy_.parameters().range);
 }
 
 void ViewBar::follow_tool() {

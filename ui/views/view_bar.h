@@ -1,12 +1,12 @@
 // The slim bar over a view: its name, the controls that steer the level set, and the window's buttons.
 #pragma once
 
-#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QToolButton>
 #include <QWidget>
 
 #include "engine/case_proxy.h"
+#include "ui/widgets/number_box.h"
 
 namespace tidemark {
 
@@ -31,8 +31,8 @@ class ViewBar : public QWidget {
 
  private:
   QToolButton* add_button(const char* picture, const QString& text);
-  QDoubleSpinBox* add_number(double Parameters::*parameter, const QString& label, const QString& name,
-                             const QString& tip);
+  NumberBox* add_number(double Parameters::*parameter, const QString& label, const QString& name,
+                        const QString& tip);
   void follow_state();
   void follow_tool();
   void change(double Parameters::*parameter, double value);
@@ -43,8 +43,8 @@ class ViewBar : public QWidget {
   QList<QAction*> tools_;
   QList<QWidget*> numbers_;    // hidden first when the bar is narrow
   QList<QWidget*> evolution_;  // and these next
-  QDoubleSpinBox* target_;
-  QDoubleSpinBox* range_;
+  NumberBox* target_;
+  NumberBox* range_;
 };
 
 }  // namespace tidemark

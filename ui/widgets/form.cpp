@@ -2,11 +2,11 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
 
 #include "ui/look/theme.h"
+#include "ui/widgets/number_box.h"
 #include "ui/widgets/slider_number.h"
 #include "ui/widgets/wheel_guard.h"
 

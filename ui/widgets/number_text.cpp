@@ -1,6 +1,5 @@
 #include "ui/widgets/number_text.h"
 
-#include <QLocale>
 #include <algorithm>
 #include <cmath>
 
@@ -13,25 +12,35 @@ int decimals_for(double span) {
 
 double rounded(double value, int decimals) {
   const double scale = std::pow(10.0, decimals);
-  return std::round(value * scale) / scale;
+  return std::round(value * scale) / scale + 0.0;  // -0 + 0 is 0
+}
+
+QLocale number_locale() {
+  QLocale locale;
+  locale.setNumberOptions(locale.numberOptions() | QLocale::OmitGroupSeparator);
+  return locale;
 }
 
 QString number_text(double value, int decimals, const QString& unit) {
-  const QString number = QLocale().toString(value, 'f', decimals);
+  const QString number = number_locale().toString(rounded(value, decimals), 'f', decimals);
   return unit.isEmpty() ? number : number + QChar(QChar::Nbsp) + unit;
 }
 
 QString count_text(qint64 count) {
-  return QLocale().toString(count);
+  return number_locale().toString(count);
+}
+
+QString general_text(double value, int significant) {
+  return number_locale().toString(value + 0.0, 'g', significant);
 }
 
 QString short_text(double value, int significant) {
   const double size = std::abs(value);
   if (size == 0.0) return QStringLiteral("0");
   const int before = size >= 1.0 ? static_cast<int>(std::floor(std::log10(size))) + 1 : 1;
-  if (size > 0.0 && size < 1e-3) return QLocale().toString(value, 'g', significant);
-  const int leading = size > 0.0 && size < 1.0 ? static_cast<int>(-std::floor(std::log10(size))) - 1 : 0;
-  return QLocale().toString(value, 'f', std::max(0, significant - before + leading + (size < 1.0 ? 1 : 0)));
+  if (size < 1e-3) return general_text(value, significant);
+  const int leading = size < 1.0 ? static_cast<int>(-std::floor(std::log10(size))) - 1 : 0;
+  return number_text(value, std::max(0, significant - before + leading + (size < 1.0 ? 1 : 0)));
 }
 
 }  // namespace tidemark

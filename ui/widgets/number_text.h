@@ -1,17 +1,22 @@
 // Numbers as text for people, and the digits that they need.
 #pragma once
 
+#include <QLocale>
 #include <QString>
 
 namespace tidemark {
 
 // Digits behind the point, so that a span has about a thousand steps: 0 for HU, 3 for shares of 1.
 int decimals_for(double span);
-double rounded(double value, int decimals);
+double rounded(double value, int decimals);  // never -0
 
+// The user's, except that digits are not grouped: what is read can be typed (NumberBox).
+QLocale number_locale();
 // In the user's language, with a space that does not break before the unit (none if it is empty).
 QString number_text(double value, int decimals, const QString& unit = {});
 QString count_text(qint64 count);
+// With at most that many significant digits, as short as it can be.
+QString general_text(double value, int significant);
 // With about that many significant digits, for places where the magnitude is not known.
 QString short_text(double value, int significant = 3);
 

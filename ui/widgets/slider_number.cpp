@@ -1,6 +1,5 @@
 #include "ui/widgets/slider_number.h"
 
-#include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QSignalBlocker>
 #include <QSlider>
@@ -9,8 +8,7 @@
 
 #include "engine/case_proxy.h"
 #include "ui/look/theme.h"
-#include "ui/widgets/number_text.h"
-#include "ui/widgets/typed_number.h"
+#include "ui/widgets/number_box.h"
 #include "ui/widgets/wheel_guard.h"
 
 namespace tidemark {
@@ -23,7 +21,7 @@ constexpr int kArrows = 26;             // of the spin box, and its edges
 }  // namespace
 
 SliderNumber::SliderNumber(QWidget* parent)
-    : QWidget(parent), slider_(new QSlider(Qt::Horizontal)), number_(new QDoubleSpinBox) {
+    : QWidget(parent), slider_(new QSlider(Qt::Horizontal)), number_(new NumberBox) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(kSpace);
@@ -33,7 +31,6 @@ SliderNumber::SliderNumber(QWidget* parent)
   slider_->setSingleStep(kPositions / 100);
   slider_->setPageStep(kPositions / 10);
   slider_->setMinimumWidth(48);
-  number_->setKeyboardTracking(false);
   number_->setAlignment(Qt::AlignRight);
   number_->setFixedWidth(number_->fontMetrics().horizontalAdvance(QStringLiteral("-0000.0 HU")) + kArrows);
   setFocusProxy(number_);
@@ -42,7 +39,7 @@ SliderNumber::SliderNumber(QWidget* parent)
   connect(slider_, &QSlider::sliderPressed, this, &SliderNumber::begin_gesture);
   connect(slider_, &QSlider::sliderReleased, this, [this] { gesture_ = 0; });
   connect(slider_, &QSlider::valueChanged, this, &SliderNumber::slider_moved);
-  connect(number_, &QDoubleSpinBox::valueChanged, this, &SliderNumber::number_changed);
+  connect(number_, &NumberBox::valueChanged, this, &SliderNumber::number_changed);
 }
 
 void SliderNumber::set_range(double low, double high, double least, double most, Scale scale) {
@@ -73,7 +70,7 @@ void SliderNumber::set_unit(const QString& unit) {
 
 void SliderNumber::set_value(double value) {
   if (slider_->isSliderDown()) return;  // by the mouse
-  show_unless_typed(*number_, value);
+  number_->show_unless_typed(value);
   show_in_slider(value);
 }
 

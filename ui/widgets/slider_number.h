@@ -5,10 +5,11 @@
 #include <QWidget>
 #include <cstdint>
 
-class QDoubleSpinBox;
 class QSlider;
 
 namespace tidemark {
+
+class NumberBox;
 
 // A slider and a spin box side by side, always of the same value.
 class SliderNumber : public QWidget {
@@ -31,7 +32,7 @@ class SliderNumber : public QWidget {
 
   void set_name(const QString& name, const QString& tip);  // for screen readers, and for the mouse
   [[nodiscard]] QSlider* slider() const { return slider_; }
-  [[nodiscard]] QDoubleSpinBox* number() const { return number_; }
+  [[nodiscard]] NumberBox* number() const { return number_; }
 
  signals:
   // By the user. One drag of the slider is one gesture (CaseProxy::new_gesture()), and so are keys that
@@ -47,7 +48,7 @@ class SliderNumber : public QWidget {
   [[nodiscard]] double value_at(int position) const;
 
   QSlider* slider_;
-  QDoubleSpinBox* number_;
+  NumberBox* number_;
   double low_ = 0.0;
   double high_ = 1.0;
   Scale scale_ = Scale::linear;

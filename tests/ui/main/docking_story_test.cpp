@@ -1,6 +1,7 @@
 // Views float, return, tab and move between windows, and show the same pictures afterwards.
 #include <QApplication>
 #include <QDockWidget>
+#include <QFile>
 #include <QMdiSubWindow>
 #include <QToolButton>
 
@@ -18,6 +19,8 @@ class DockingStoryTest : public QObject {
   void every_layout_shows_its_views();
   void a_view_is_maximised_by_a_double_click_and_back();
   void a_closed_view_comes_back();
+  void a_session_brings_back_all_views_data();
+  void a_session_brings_back_all_views();
   void a_panel_rests_behind_a_tab_and_keeps_its_size();
 
  private:
@@ -37,6 +40,53 @@ QList<QImage> DockingStoryTest::pictures(CaseWindow& window) {
   QList<QImage> pictures;
   for (PictureView* view : window.views()) pictures << view->grab_picture();
   return pictures;
+}
+
+void DockingStoryTest::a_session_brings_back_all_views_data() {
+  QTest::addColumn<QList<int>>("keys");
+  QTest::addColumn<bool>("maximised");
+  QTest::newRow("two by two") << QList<int>{Qt::Key_3} << false;
+  QTest::newRow("two by two, one of them large") << QList<int>{Qt::Key_3} << true;
+  QTest::newRow("one large, three small") << QList<int>{Qt::Key_2} << false;
+  QTest::newRow("after several layouts") << QList<int>{Qt::Key_2, Qt::Key_4, Qt::Key_1, Qt::Key_3} << true;
+}
+
+void DockingStoryTest::a_session_brings_back_all_views() {
+  QFETCH(QList<int>, keys);
+  QFETCH(bool, maximised);
+  Desktop desktop(ExecutorKind::host, {1000, 700});
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(10.0);
+  for (const int key : keys) {
+    desktop.press(static_cast<Qt::Key>(key), Qt::ControlModifier);
+    desktop.wait_until_idle();
+  }
+  const auto places = [&] {
+    QStringList places;
+    CaseWindow& window = *desktop.window().active_case();
+    for (PictureView* view : visible(window)) {
+      const QRect place = window.dock_of(view)->geometry();
+      places << QStringLiteral("%1: %2, %3").arg(view->title()).arg(place.x()).arg(place.y());
+    }
+    places.sort();
+    return places.join("; ");
+  };
+  const QString before = places();
+  QVERIFY(before.contains("Sagittal"));
+  if (maximised) {
+    auto* axial = desktop.view<SliceViewWidget>("Axial");
+    QTest::mouseDClick(axial, Qt::LeftButton, {}, axial->rect().center());
+    QVERIFY(Desktop::wait_for([&] { return visible(*desktop.window().active_case()).size() == 1; }));
+  }
+  const TemporaryFolder folder;
+  const QString file = QString::fromStdString((folder / "case.tidemark").string());
+  desktop.window().active_case()->session_file = file;
+  desktop.press(Qt::Key_S, Qt::ControlModifier);
+  QVERIFY(Desktop::wait_for([&] { return QFile::exists(file) && !desktop.state().modified; }));
+  desktop.press(Qt::Key_W, Qt::ControlModifier);
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().isEmpty(); }));
+  QVERIFY(desktop.open(file));
+  QCOMPARE(places(), before);
 }
 
 void DockingStoryTest::fifty_moves_change_no_picture_and_cost_no_context() {

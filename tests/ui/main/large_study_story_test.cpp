@@ -8,7 +8,8 @@
 #include "core/thread_pool.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
-#include "ui/main/saved_cases.h"
+#include "ui/main/case_exports.h"
+#include "ui/main/case_files.h"
 
 namespace tidemark::test {
 
@@ -128,11 +129,11 @@ void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
   desktop.wait_until_idle();
   QCOMPARE(desktop.state().label_statistics[0].voxels, desktop.state().surface.voxels_inside);
   bool written = false;
-  SavedCases& saved = desktop.window().saved_cases();
-  QObject::connect(&saved, &SavedCases::written, &saved, [&] { written = true; });
+  CaseExports& exports = desktop.window().exports();
+  QObject::connect(&desktop.window().files(), &CaseFiles::written, &exports, [&] { written = true; });
   const std::filesystem::path mask = folder_ / "mask.nii.gz";
   Desktop::in_an_event(
-      [&] { saved.write_mask(*desktop.window().active_case(), QString::fromStdString(mask.string())); });
+      [&] { exports.write_mask(*desktop.window().active_case(), QString::fromStdString(mask.string())); });
   QVERIFY(Desktop::wait_for([&] { return written; }, 60000));
   QVERIFY(std::filesystem::file_size(mask) > 0);
   Desktop::in_an_event([&] { desktop.proxy().restart(); });

@@ -2,14 +2,18 @@
 #include <QApplication>
 #include <QDialog>
 #include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QMap>
+#include <QMenuBar>
+#include <QRegularExpression>
 #include <QTextBrowser>
 #include <glm/geometric.hpp>
 
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
+#include "ui/main/case_exports.h"
 #include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
-#include "ui/main/saved_cases.h"
 
 namespace tidemark::test {
 
@@ -26,6 +30,10 @@ class MainWindowTest : public QObject {
   void a_failure_is_forgotten_once_it_has_succeeded();
   void a_phantom_has_one_name();
   void the_left_button_moves_the_crosshair_as_in_itk_snap_if_one_wants();
+  void full_screen_gives_back_a_maximised_window();
+  void no_menu_has_a_letter_twice();
+  void numbers_are_typed_with_either_separator_in_any_language();
+  void a_session_is_among_the_recent_studies();
 
  private:
   static bool is_in_front(Desktop& desktop, const char* panel);
@@ -188,7 +196,7 @@ void MainWindowTest::a_failure_is_forgotten_once_it_has_succeeded() {
 
   // Writing: what goes elsewhere or is another kind of file changes nothing.
   CaseWindow& window = *desktop.window().active_case();
-  SavedCases& saved = desktop.window().saved_cases();
+  CaseExports& saved = desktop.window().exports();
   saved.write_mask(window, inside("missing/mask.nrrd"));
   QVERIFY(told());
   const QString message = messages->text();
@@ -247,6 +255,113 @@ void MainWindowTest::the_left_button_moves_the_crosshair_as_in_itk_snap_if_one_w
   Desktop::drag(*axial, way);
   QVERIFY(settings().window != moved.window);
   QVERIFY(settings().cursor_mm == moved.cursor_mm);
+}
+
+void MainWindowTest::full_screen_gives_back_a_maximised_window() {
+  Desktop desktop(ExecutorKind::host);
+  MainWindow& window = desktop.window();
+  for (const bool maximised : {true, false}) {
+    maximised ? window.showMaximized() : window.showNormal();
+    QVERIFY(Desktop::wait_for([&] { return window.isMaximized() == maximised; }));
+    desktop.press(Qt::Key_F11);
+    QVERIFY(Desktop::wait_for([&] { return window.isFullScreen(); }));
+    desktop.press(Qt::Key_F11);
+    QVERIFY(Desktop::wait_for([&] { return !window.isFullScreen(); }));
+    QCOMPARE(window.isMaximized(), maximised);
+  }
+}
+
+void MainWindowTest::no_menu_has_a_letter_twice() {
+  Desktop desktop(ExecutorKind::host);
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(8.0);
+  QStringList doubles;
+  int menus = 0;
+  const std::function<void(const QString&, const QWidget&)> look = [&](const QString& name,
+                                                                       const QWidget& menu) {
+    ++menus;
+    QMap<QChar, QString> taken;
+    for (QAction* action : menu.actions()) {
+      const QString text = action->text();
+      if (action->menu()) look(text, *action->menu());
+      static const QRegularExpression kLetter("(?<!&)&([^&\\s])");
+      const auto match = kLetter.match(text);
+      if (!match.hasMatch()) continue;
+      const QChar letter = match.captured(1).front().toLower();
+      if (taken.contains(letter)) doubles << name + ": " + taken[letter] + ", " + text;
+      taken[letter] = text;
+    }
+  };
+  look("menu bar", *desktop.window().menuBar());
+  QVERIFY(menus > 10);
+  QCOMPARE(doubles.join("; "), QString());
+}
+
+void MainWindowTest::numbers_are_typed_with_either_separator_in_any_language() {
+  for (const char* language : {"de_DE", "en_US"}) {
+    QLocale::setDefault(QLocale(language));
+    Desktop desktop(ExecutorKind::host);
+    QVERIFY(desktop.open_phantom("tumour"));
+    desktop.begin(8.0);
+    desktop.window().panels().show("level-set");
+    const auto type = [&](const char* name, const char* text) {
+      for (auto* box : desktop.window().findChildren<QDoubleSpinBox*>()) {
+        if (box->accessibleName() != name || box->visibleRegion().isEmpty()) continue;
+        QTest::mouseDClick(box, Qt::LeftButton, {}, QPoint(box->width() / 3, box->height() / 2));
+        box->selectAll();
+        QTest::keyClicks(box, text);
+        QTest::keyClick(box, Qt::Key_Return);
+        desktop.wait_until_idle();
+        return true;
+      }
+      return false;
+    };
+    for (const char* range : {"97.5", "96,5"}) {
+      QVERIFY(type("Range ε", range));
+      QCOMPARE(desktop.state().parameters.range, QString(range).replace(',', '.').toDouble());
+    }
+    for (const char* alpha : {"0.25", "0,75"}) {
+      QVERIFY(type("Data weight α", alpha));
+      QCOMPARE(desktop.state().parameters.alpha, QString(alpha).replace(',', '.').toDouble());
+    }
+    QVERIFY(type("Range epsilon", "88.5"));  // in the bar over a view
+    QCOMPARE(desktop.state().parameters.range, 88.5);
+    QVERIFY(type("Range ε", "1.234,5"));
+    QCOMPARE(desktop.state().parameters.range, 88.5);
+    desktop.screenshot(QStringLiteral("refused-number-%1").arg(language));
+  }
+  QLocale::setDefault(QLocale::c());
+}
+
+void MainWindowTest::a_session_is_among_the_recent_studies() {
+  Desktop desktop(ExecutorKind::host);
+  const TemporaryFolder folder;
+  const QString file = QString::fromStdString((folder / "kept.tidemark").string());
+  const auto entries = [&] {
+    QList<QAction*> entries;
+    for (QMenu* menu : desktop.window().menuBar()->findChildren<QMenu*>()) {
+      if (!menu->title().contains("recent")) continue;
+      for (QAction* action : menu->actions()) {
+        if (action->toolTip() == file) entries << action;
+      }
+    }
+    return entries;
+  };
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(8.0);
+  QVERIFY(entries().isEmpty());
+  desktop.window().active_case()->session_file = file;
+  desktop.press(Qt::Key_S, Qt::ControlModifier);
+  QVERIFY(Desktop::wait_for([&] { return entries().size() == 1 && !desktop.state().modified; }));
+  QVERIFY(entries().front()->text().contains("kept.tidemark"));
+  desktop.press(Qt::Key_W, Qt::ControlModifier);
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().isEmpty(); }));
+  entries().front()->trigger();
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().active_case() != nullptr; }));
+  desktop.wait_until_idle();
+  QVERIFY(desktop.state().begun);
+  QCOMPARE(desktop.window().active_case()->session_file, file);
+  QCOMPARE(entries().size(), 1);
 }
 
 }  // namespace tidemark::test

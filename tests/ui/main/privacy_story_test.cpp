@@ -1,7 +1,11 @@
 // The patient is named on the screen, and nowhere else.
 #include <QAction>
+#include <QApplication>
 #include <QFile>
+#include <QFileDialog>
+#include <QFileInfo>
 #include <QSettings>
+#include <QTimer>
 #include <array>
 #include <fstream>
 #include <glm/geometric.hpp>
@@ -12,7 +16,9 @@
 #include "imaging/dicom/dicom.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
-#include "ui/main/saved_cases.h"
+#include "ui/main/case_exports.h"
+#include "ui/main/case_files.h"
+#include "ui/main/session_writer.h"
 
 namespace tidemark::test {
 namespace {
@@ -81,6 +87,8 @@ class PrivacyStoryTest : public QObject {
   void init();
   void cleanup() { desktop_.reset(); }
   void a_key_hides_who_the_patient_is();
+  void titles_name_the_patient_unless_that_is_hidden();
+  void names_of_files_do_not_name_the_patient();
   void the_patient_is_in_no_file_that_is_written();
 
  private:
@@ -130,7 +138,7 @@ void PrivacyStoryTest::a_key_hides_who_the_patient_is() {
   // Pictures for others have no name either way.
   const QString file = QString::fromStdString((written() / "slice.png").string());
   slice_->setFocus();
-  desktop_->window().saved_cases().write_picture(*window_, file);
+  desktop_->window().exports().write_picture(*window_, file);
   QVERIFY(Desktop::wait_for([&] { return QFile::exists(file); }));
   QVERIFY(is_shown());
   const QImage saved(file);
@@ -139,19 +147,54 @@ void PrivacyStoryTest::a_key_hides_who_the_patient_is() {
   QVERIFY(difference(saved, named) > 0.0);
 }
 
+void PrivacyStoryTest::titles_name_the_patient_unless_that_is_hidden() {
+  QCOMPARE(window_->windowTitle(), QStringLiteral("ZZYX, QVODIAN \u2013 Ball[*]"));
+  QVERIFY(tells_the_patient(desktop_->window().windowTitle().toStdString()));  // the case fills it
+  desktop_->press(Qt::Key_I);
+  QCOMPARE(window_->windowTitle(), QStringLiteral("Ball[*]"));
+  QVERIFY(!tells_the_patient(desktop_->window().windowTitle().toStdString()));
+  desktop_->press(Qt::Key_I);
+  QVERIFY(tells_the_patient(window_->windowTitle().toStdString()));
+}
+
+// What the dialog for a file offers, which is closed again.
+void PrivacyStoryTest::names_of_files_do_not_name_the_patient() {
+  QString offered;
+  QTimer user;
+  connect(&user, &QTimer::timeout, this, [&offered] {
+    auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+    if (!dialog) return;
+    offered = QFileInfo(dialog->selectedFiles().value(0)).fileName();
+    dialog->reject();
+  });
+  user.start(20);
+  for (const bool session : {false, true}) {
+    offered.clear();
+    if (session) {
+      desktop_->press(Qt::Key_S, Qt::ControlModifier | Qt::ShiftModifier);
+    } else {
+      desktop_->press(Qt::Key_P, Qt::ControlModifier);
+    }
+    QVERIFY(Desktop::wait_for([&] { return !offered.isEmpty(); }));
+    QVERIFY2(offered.startsWith("Ball"), qPrintable(offered));
+    QVERIFY2(!tells_the_patient(offered.toStdString()), qPrintable(offered));
+  }
+}
+
 // All that can be written, and a copy for the case of a crash.
 void PrivacyStoryTest::write_everything() {
-  SavedCases& files = desktop_->window().saved_cases();
+  CaseExports& files = desktop_->window().exports();
   QStringList done;
   QObject scope;
-  connect(&files, &SavedCases::written, &scope, [&](const QString& file) { done << file; });
+  connect(&desktop_->window().files(), &CaseFiles::written, &scope,
+          [&](const QString& file) { done << file; });
   const auto name = [&](const char* file) { return QString::fromStdString((written() / file).string()); };
   files.write_picture(*window_, name("picture.png"));
   files.write_mask(*window_, name("mask.nrrd"));
   files.write_labels(*window_, name("labels.nii"));
   files.write_surface(*window_, name("surface.ply"));
   window_->session_file = name("case.tidemark");
-  files.save(*window_);
+  desktop_->window().session_writer().save(*window_);
   files.write_statistics(*window_, name("figures.csv"));
   QVERIFY(Desktop::wait_for([&] { return done.size() == 6; }));
   bool copied = false;
@@ -169,8 +212,7 @@ void PrivacyStoryTest::the_patient_is_in_no_file_that_is_written() {
   const std::string json = json_of_session(written() / "case.tidemark");
   QVERIFY(json.find("patient_text") != std::string::npos);  // whether it is shown
   QVERIFY(!tells_the_patient(json));                        // with the recipe
-  QVERIFY(!tells_the_patient(window_->windowTitle().toStdString()));
-  QSettings settings;  // with the list of recent studies
+  QSettings settings;                                       // with the list of recent studies
   settings.sync();
   QVERIFY(QFile::exists(settings.fileName()));
   QVERIFY(!tells_the_patient(bytes_of(settings.fileName().toStdString())));

@@ -13,7 +13,7 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/message_bar.h"
-#include "ui/main/saved_cases.h"
+#include "ui/main/session_reader.h"
 
 namespace tidemark::test {
 
@@ -112,7 +112,7 @@ void RecoveryStoryTest::work_is_there_again_after_a_kill() {
     }
   });
   user.start(20);
-  desktop.window().saved_cases().offer_rescued();
+  desktop.window().session_reader().offer_rescued();
   QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 2; }));
   user.stop();
   QVERIFY2(offered.contains("Sphere") && offered.contains("Dumbbell"), qPrintable(offered));
@@ -203,7 +203,7 @@ void RecoveryStoryTest::nothing_is_offered_after_a_clean_end() {
     questions += box ? 1 : 0;
   });
   user.start(20);
-  desktop.window().saved_cases().offer_rescued();
+  desktop.window().session_reader().offer_rescued();
   QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
   QCoreApplication::processEvents();  // what the job delivered
   QCOMPARE(questions, 0);

@@ -5,7 +5,9 @@
 #include <QLabel>
 #include <QMenu>
 #include <QMenuBar>
+#include <QScreen>
 #include <QScrollArea>
+#include <QSettings>
 #include <QToolButton>
 #include <glm/geometric.hpp>
 
@@ -25,6 +27,7 @@ class ScaleStoryTest : public QObject {
   void texts_of_the_bars_fit();
   void panels_fit_into_their_column();
   void the_icon_of_a_case_is_whole();
+  void the_window_opens_within_the_screen();
 };
 
 void ScaleStoryTest::pictures_have_the_pixels_of_the_screen() {
@@ -169,6 +172,21 @@ void ScaleStoryTest::the_icon_of_a_case_is_whole() {
   // What is clipped on dense screens is its lower part; the first menu's text may begin within the place.
   QVERIFY2(std::abs(drawn.height() - 16 * scale) <= 2 * scale,
            qPrintable(QString("%1 x %2").arg(drawn.width()).arg(drawn.height())));
+}
+
+// A laptop's screen at 200 %: nobody has chosen a size yet.
+void ScaleStoryTest::the_window_opens_within_the_screen() {
+  const TemporaryFolder settings;
+  QSettings::setPath(QSettings::IniFormat, QSettings::UserScope,
+                     QString::fromStdString(settings.path().string()));
+  Engine engine;
+  MainWindow window(engine);
+  window.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&window));
+  const QSize room = window.screen()->availableSize();
+  const QSize needed = window.frameGeometry().size();
+  QVERIFY2(needed.width() <= room.width() && needed.height() <= room.height(),
+           qPrintable(QStringLiteral("%1 x %2").arg(needed.width()).arg(needed.height())));
 }
 
 }  // namespace tidemark::test

@@ -7,7 +7,8 @@
 #include "imaging/phantom/phantom.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
-#include "ui/main/saved_cases.h"
+#include "ui/main/case_exports.h"
+#include "ui/main/case_files.h"
 
 namespace tidemark::test {
 
@@ -133,14 +134,14 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   desktop.wait_until_idle();
   QCOMPARE(desktop.state().label_statistics[0].voxels, desktop.state().surface.voxels_inside);
   int written = 0;
-  SavedCases& saved = desktop.window().saved_cases();
-  QObject::connect(&saved, &SavedCases::written, &saved, [&] { ++written; });
+  CaseExports& exports = desktop.window().exports();
+  QObject::connect(&desktop.window().files(), &CaseFiles::written, &exports, [&] { ++written; });
   const QString mask_file = QString::fromStdString((folder / "mask.nii.gz").string());
-  saved.write_mask(*desktop.window().active_case(), mask_file);
-  saved.write_labels(*desktop.window().active_case(),
-                     QString::fromStdString((folder / "labels.nrrd").string()));
-  saved.write_surface(*desktop.window().active_case(),
-                      QString::fromStdString((folder / "surface.stl").string()));
+  exports.write_mask(*desktop.window().active_case(), mask_file);
+  exports.write_labels(*desktop.window().active_case(),
+                       QString::fromStdString((folder / "labels.nrrd").string()));
+  exports.write_surface(*desktop.window().active_case(),
+                        QString::fromStdString((folder / "surface.stl").string()));
   QVERIFY(Desktop::wait_for([&] { return written == 3; }));
   const auto mask = load_mask(folder / "mask.nii.gz");
   QVERIFY(mask);

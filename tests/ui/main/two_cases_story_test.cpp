@@ -1,6 +1,7 @@
 // Two cases side by side: panels, links and lock-step, on one engine with one context.
 #include <QApplication>
 #include <QDoubleSpinBox>
+#include <QMdiArea>
 #include <QMdiSubWindow>
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -22,6 +23,8 @@ class TwoCasesStoryTest : public QObject {
   void cases_in_lock_step_rest_at_the_same_step();
   void one_step_in_lock_step_is_one_of_each();
   void one_case_that_goes_back_stops_both();
+  void those_that_stay_get_the_room_of_one_that_is_closed();
+  void lock_step_ends_with_its_cases();
 
  private:
   // Side by side.
@@ -297,6 +300,42 @@ void TwoCasesStoryTest::one_case_that_goes_back_stops_both() {
   QVERIFY(Desktop::wait_for([&] { return one.state().step > then + 60 || one.state().converged; }));
   one.pause();
   QVERIFY(Desktop::wait_for([&] { return !one.state().playing; }));
+}
+
+void TwoCasesStoryTest::those_that_stay_get_the_room_of_one_that_is_closed() {
+  Desktop desktop(ExecutorKind::host, {1200, 760});
+  open_two(desktop, "sphere", "sphere");
+  QVERIFY(desktop.open_phantom("sphere"));
+  const QWidget* room = desktop.window().findChild<QMdiArea*>()->viewport();
+  const auto share = [&] {
+    double used = 0.0;
+    for (CaseWindow* window : desktop.window().cases()) {
+      const QRect place = window->parentWidget()->geometry().intersected(room->rect());
+      used += static_cast<double>(place.width()) * place.height();
+    }
+    return used / (static_cast<double>(room->width()) * room->height());
+  };
+  QVERIFY(share() > 0.98);
+  for (const int left : {2, 1}) {
+    desktop.press(Qt::Key_W, Qt::ControlModifier);
+    QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == left; }));
+    desktop.wait_until_idle();
+    QVERIFY2(share() > 0.98, qPrintable(QString::number(share())));
+    desktop.screenshot(QStringLiteral("closed-%1-left").arg(left));
+  }
+}
+
+void TwoCasesStoryTest::lock_step_ends_with_its_cases() {
+  Desktop desktop(ExecutorKind::host, {1200, 760});
+  open_two(desktop, "sphere", "sphere");
+  const QAction& together = *desktop.window().actions().lock_step;
+  desktop.press(Qt::Key_L, Qt::ControlModifier);
+  QVERIFY(together.isChecked());
+  desktop.press(Qt::Key_W, Qt::ControlModifier);
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 1; }));
+  desktop.wait_until_idle();
+  QVERIFY(!together.isChecked());
+  QVERIFY(!desktop.proxy().in_lock_step());
 }
 
 }  // namespace tidemark::test

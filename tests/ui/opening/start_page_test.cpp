@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <QDir>
+#include <QDialog>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileInfo>
@@ -40,6 +41,44 @@ class StartPageTest : public QObject {
   }
   void init() { QSettings().clear(); }
   void cleanup() { QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60))); }
+
+  void a_card_is_lit_only_while_the_mouse_is_on_it() {
+    RecentStudies recent;
+    StartPage page(recent);
+    page.resize(1000, 800);
+    page.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&page));
+    page.activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(&page));
+    auto* card = page.findChild<CardButton*>("open_folder");
+    const auto fill = [card] { return card->grab().toImage().pixelColor(card->width() - 8, 8); };
+    const auto enter = [&] {
+      QTest::mouseMove(&page, QPoint(2, 2));
+      QTest::mouseMove(card, card->rect().center());
+      QTest::mouseMove(card, card->rect().center() + QPoint(1, 0));
+    };
+    const QColor rest = fill();
+    enter();
+    QTRY_VERIFY(fill() != rest);
+    QTest::mouseMove(&page, QPoint(2, 2));
+    QTRY_COMPARE(fill(), rest);
+    // A dialog opens, which a card is for: no mouse leaves the card.
+    enter();
+    QTRY_VERIFY(fill() != rest);
+    QDialog dialog(&page);
+    dialog.open();
+    QVERIFY(QTest::qWaitForWindowActive(&dialog));
+    QTRY_COMPARE(fill(), rest);
+    dialog.close();
+    // The page goes, because a study is open, and comes back.
+    QVERIFY(QTest::qWaitForWindowActive(&page));
+    enter();
+    QTRY_VERIFY(fill() != rest);
+    page.hide();
+    page.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&page));
+    QCOMPARE(fill(), rest);
+  }
 
   void every_card_can_be_reached_and_pressed_by_keyboard() {
     RecentStudies recent;

@@ -48,7 +48,7 @@ class ServersDialogTest : public QObject {
     line(dialog, "Name")->setText("here");
     line(dialog, "Host")->setText("localhost");
     line(dialog, "AE title")->setText("STORESCP");
-    for (QSpinBox* box : dialog.findChildren<QSpinBox*>()) {
+    for (auto* box : dialog.findChildren<QDoubleSpinBox*>()) {
       if (box->accessibleName() == "Port") box->setValue(peer.server().port);
     }
     for (QPushButton* button : dialog.findChildren<QPushButton*>()) {
@@ -65,6 +65,25 @@ class ServersDialogTest : public QObject {
     QCOMPARE(read->servers[0].name, std::string("here"));
     QCOMPARE(read->servers[0].port, peer.server().port);
     QVERIFY(!read->servers[0].tls);
+  }
+
+  void a_port_that_is_no_number_is_not_kept_as_another() {
+    const TemporaryFolder folder;
+    ServersDialog dialog(folder / "pacs.json");
+    dialog.show();
+    line(dialog, "Name")->setText("here");
+    line(dialog, "Host")->setText("localhost");
+    line(dialog, "AE title")->setText("STORESCP");
+    for (auto* box : dialog.findChildren<QDoubleSpinBox*>()) {
+      if (box->accessibleName() != "Port") continue;
+      box->setFocus();
+      box->selectAll();
+      QTest::keyClicks(box, "11.112");
+    }
+    click_save(dialog);
+    QVERIFY(dialog.isVisible());
+    QVERIFY(says(dialog, "11.112 is no whole number"));
+    QVERIFY(!std::filesystem::exists(folder / "pacs.json"));
   }
 
   void what_makes_no_sense_is_said_and_not_kept() {

@@ -61,14 +61,14 @@ class LabelsPanelTest : public QObject {
     click(tr("Accept surface into label"));
     QCOMPARE(the_case_->state().label_statistics[0].voxels, all);
     QCOMPARE(the_case_->state().label_statistics[1].voxels, std::int64_t{0});
-    QVERIFY(says(QLocale().toString(qlonglong{all}) + " voxels stayed"));
+    QVERIFY(says(QString::number(all) + " voxels stayed"));
     auto* take_all = panel_->findChild<QCheckBox*>();
     QVERIFY(take_all && !take_all->isChecked());
     take_all->click();
     click(tr("Accept surface into label"));
     QCOMPARE(the_case_->state().label_statistics[0].voxels, std::int64_t{0});
     QCOMPARE(the_case_->state().label_statistics[1].voxels, all);
-    QVERIFY(says(QLocale().toString(qlonglong{all}) + " of them had another label"));
+    QVERIFY(says(QString::number(all) + " of them had another label"));
     the_case_->proxy->undo();
     the_case_->wait_until_idle();
     QVERIFY(!says("voxels"));

@@ -10,6 +10,7 @@
 
 #include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
+#include "ui/widgets/number_box.h"
 #include "ui/widgets/number_text.h"
 
 namespace tidemark {
@@ -113,7 +114,7 @@ class SliderNumberTest : public QObject {
     QCOMPARE(decimals_for(1.0), 3);
     QCOMPARE(decimals_for(0.0), 0);
     QLocale::setDefault(QLocale(QLocale::German));
-    QCOMPARE(number_text(1234.56, 1, "mm"), QStringLiteral("1.234,6") + QChar(QChar::Nbsp) + "mm");
+    QCOMPARE(number_text(1234.56, 1, "mm"), QStringLiteral("1234,6") + QChar(QChar::Nbsp) + "mm");
     QLocale::setDefault(QLocale::c());
     QCOMPARE(short_text(0.0123), QStringLiteral("0.0123"));
     QCOMPARE(short_text(12.345), QStringLiteral("12.3"));

@@ -35,7 +35,7 @@ class StatisticsPanelTest : public QObject {
     const CaseState& state = the_case_->state();
     QCOMPARE(figure(tr("Volume")),
              QLocale().toString(state.surface.volume_ml, 'f', 2) + QChar(QChar::Nbsp) + "ml");
-    QCOMPARE(figure(tr("Voxels")), QLocale().toString(qlonglong(state.surface.voxels_inside)));
+    QCOMPARE(figure(tr("Voxels")), QString::number(state.surface.voxels_inside));
     // Inside the ball all is 100 HU with noise of +-5.
     QVERIFY(std::abs(state.inside.mean - 100.0) < 1.0);
     QCOMPARE(figure(tr("Mean")), QLocale().toString(state.inside.mean, 'f', 1) + QChar(QChar::Nbsp) + "HU");

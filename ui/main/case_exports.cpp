@@ -1,0 +1,122 @@
+#include "ui/main/case_exports.h"
+
+#include <QMessageBox>
+#include <QPushButton>
+#include <algorithm>
+
+#include "core/atomic_file.h"
+#include "imaging/files/png_file.h"
+#include "imaging/files/volume_file.h"
+#include "imaging/surface/surface.h"
+#include "ui/main/case_files.h"
+#include "ui/main/main_window.h"
+#include "ui/panels/region_table.h"
+#include "ui/views/picture_view.h"
+
+namespace tidemark {
+namespace {
+
+Status write_label_file(const SessionContents& contents, const std::filesystem::path& file) {
+  Volume volume;
+  volume.geometry = contents.geometry;
+  std::vector<std::uint16_t> voxels(static_cast<std::size_t>(contents.geometry.voxel_count()));
+  if (contents.label_voxels)
+    std::copy(contents.label_voxels->begin(), contents.label_voxels->end(), voxels.begin());
+  volume.voxels = std::move(voxels);
+  return write_volume_file(volume, file);
+}
+
+}  // namespace
+
+CaseExports::CaseExports(MainWindow& window, CaseFiles& files)
+    : QObject(&window), window_(window), files_(files) {}
+
+CaseExports::Voxels CaseExports::ask_for_voxels(const CaseWindow& window) {
+  QMessageBox box(QMessageBox::Question, tr("Export"), tr("What is to be written?"), QMessageBox::Cancel,
+                  &window_);
+  QAbstractButton* surface = box.addButton(tr("Inside of the surface"), QMessageBox::AcceptRole);
+  QAbstractButton* labels = box.addButton(tr("All labels"), QMessageBox::AcceptRole);
+  const QPointer alive(&window);
+  box.exec();
+  if (alive && box.clickedButton() == surface) return Voxels::surface;
+  return alive && box.clickedButton() == labels ? Voxels::labels : Voxels::nothing;
+}
+
+void CaseExports::export_mask(CaseWindow& window) {
+  const bool has_labels = !window.proxy().state().labels.empty();
+  const Voxels voxels = has_labels ? ask_for_voxels(window) : Voxels::surface;
+  if (voxels == Voxels::nothing) return;
+  const QString file =
+      files_.ask_for_file(window, voxels == Voxels::labels ? tr("Export labels") : tr("Export mask"),
+                          tr("NIfTI (*.nii.gz *.nii);;NRRD (*.nrrd);;MetaImage (*.mha)"));
+  if (file.isEmpty()) return;
+  voxels == Voxels::labels ? write_labels(window, file) : write_mask(window, file);
+}
+
+void CaseExports::write_mask(CaseWindow& window, const QString& file) {
+  files_.write_contents(window, file, [path = path_of(file)](const SessionContents& contents) {
+    return write_mask_file(contents.phi->mask(), path);
+  });
+}
+
+void CaseExports::write_labels(CaseWindow& window, const QString& file) {
+  files_.write_contents(window, file, [path = path_of(file)](const SessionContents& contents) {
+    return write_label_file(contents, path);
+  });
+}
+
+void CaseExports::export_mesh(CaseWindow& window) {
+  const QString file = files_.ask_for_file(window, tr("Export the surface"),
+                                           tr("STL (*.stl);;PLY (*.ply);;Wavefront OBJ (*.obj)"));
+  if (!file.isEmpty()) write_surface(window, file);
+}
+
+void CaseExports::write_surface(CaseWindow& window, const QString& file) {
+  files_.write_contents(window, file, [path = path_of(file)](const SessionContents& contents) -> Status {
+    const auto mesh = extract_surface(contents.phi->to_volume());
+    if (!mesh) return tl::unexpected<Error>(mesh.error());
+    return write_mesh(*mesh, path);
+  });
+}
+
+void CaseExports::export_picture(CaseWindow& window) {
+  const QString file = files_.ask_for_file(window, tr("Export the picture"), tr("PNG (*.png)"));
+  if (!file.isEmpty()) write_picture(window, file);
+}
+
+void CaseExports::write_picture(CaseWindow& window, const QString& file) {
+  PictureView* view = window.active_view();
+  if (!view) return;
+  // Nothing that tells who the patient is.
+  Display& display = window.proxy().display();
+  const bool text = display.settings().patient_text;
+  display.change([](DisplaySettings& settings) { settings.patient_text = false; });
+  const QImage image = view->grab_picture().convertToFormat(QImage::Format_RGBA8888);
+  display.change([text](DisplaySettings& settings) { settings.patient_text = text; });
+  files_.write(window, file, [image, path = path_of(file)] {
+    return write_png_file(image.width(), image.height(),
+                          std::span(image.constBits(), static_cast<std::size_t>(image.sizeInBytes())), path);
+  });
+}
+
+void CaseExports::export_statistics(CaseWindow& window) {
+  const QString file = files_.ask_for_file(window, tr("Export statistics"), tr("Table (*.csv)"));
+  if (!file.isEmpty()) write_statistics(window, file);
+}
+
+void CaseExports::write_statistics(CaseWindow& window, const QString& file) {
+  files_.write(window, file,
+               [csv = to_csv(window.proxy()), path = path_of(file)] { return write_file(path, csv); });
+}
+
+void CaseExports::export_recipe(CaseWindow& window) {
+  const QString file = files_.ask_for_file(window, tr("Export the recipe"), tr("Recipe (*.json)"));
+  if (file.isEmpty()) return;
+  files_.write_contents(window, file, [path = path_of(file)](const SessionContents& contents) -> Status {
+    const auto text = contents.recipe.to_text();
+    if (!text) return tl::unexpected<Error>(text.error());
+    return write_file(path, *text);
+  });
+}
+
+}  // namespace tidemark

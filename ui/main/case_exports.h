@@ -1,0 +1,40 @@
+// What is exported of a case for other programs.
+#pragma once
+
+#include <QObject>
+
+#include "ui/main/case_window.h"
+
+namespace tidemark {
+
+class CaseFiles;
+class MainWindow;
+
+class CaseExports : public QObject {
+  Q_OBJECT
+ public:
+  CaseExports(MainWindow& window, CaseFiles& files);
+
+  // Ask where to.
+  void export_mask(CaseWindow& window);
+  void export_mesh(CaseWindow& window);
+  void export_picture(CaseWindow& window);
+  void export_statistics(CaseWindow& window);
+  void export_recipe(CaseWindow& window);
+
+  // The same without asking. The suffix says which format.
+  void write_mask(CaseWindow& window, const QString& file);
+  void write_labels(CaseWindow& window, const QString& file);
+  void write_surface(CaseWindow& window, const QString& file);
+  void write_picture(CaseWindow& window, const QString& file);
+  void write_statistics(CaseWindow& window, const QString& file);
+
+ private:
+  enum class Voxels { nothing, surface, labels };
+  Voxels ask_for_voxels(const CaseWindow& window);  // `nothing` when given up
+
+  MainWindow& window_;
+  CaseFiles& files_;
+};
+
+}  // namespace tidemark

@@ -1,0 +1,92 @@
+#include "ui/main/case_files.h"
+
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMessageBox>
+#include <QRegularExpression>
+#include <QStatusBar>
+
+#include "core/without_exceptions.h"
+#include "engine/background_job.h"
+#include "ui/main/main_window.h"
+#include "ui/results/file_name.h"
+#include "ui/settings.h"
+
+namespace tidemark {
+namespace {
+
+// A name that has none of the endings of a filter ("NIfTI (*.nii.gz *.nii)") gets the first: the suffix says
+// which format is written, and a name may have dots of its own.
+QString with_suffix(const QString& file, const QString& filter) {
+  static const QRegularExpression kEnding(QStringLiteral("\\*(\\.[\\w.]+)"));
+  QString first;
+  for (auto endings = kEnding.globalMatch(filter); endings.hasNext();) {
+    const QString ending = endings.next().captured(1);
+    if (file.endsWith(ending, Qt::CaseInsensitive)) return file;
+    if (first.isEmpty()) first = ending;
+  }
+  return file + first;
+}
+
+// For messages: the same case to a file of the same kind.
+QString about_writing(const CaseWindow& window, const QString& file) {
+  return QStringLiteral("%1 of %2").arg(QFileInfo(file).suffix()).arg(reinterpret_cast<quintptr>(&window));
+}
+
+}  // namespace
+
+std::filesystem::path path_of(const QString& file) {
+  return file.toStdU16String();
+}
+
+CaseFiles::CaseFiles(MainWindow& window) : QObject(&window), window_(window) {}
+
+CaseFiles::~CaseFiles() {
+  for (const auto& job : jobs_) job->abandon();
+}
+
+QString CaseFiles::ask_for_file(CaseWindow& window, const QString& title, const QString& suffixes) {
+  const QPointer alive(&window);
+  QFileDialog dialog(&window_, title, settings::save_folder().get(), suffixes);
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.selectFile(file_name_of(window.proxy().study()));
+  if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return {};
+  const QString named = dialog.selectedFiles().first();
+  const QString file = with_suffix(named, dialog.selectedNameFilter());
+  // The dialog has asked about the name as it was typed.
+  if (file != named && QFileInfo::exists(file) &&
+      QMessageBox::question(&window_, title, tr("%1 exists. Replace it?").arg(file),
+                            QMessageBox::Yes | QMessageBox::No, QMessageBox::No) != QMessageBox::Yes) {
+    return {};
+  }
+  if (!alive) return {};
+  settings::save_folder().set(QFileInfo(file).absolutePath());
+  return file;
+}
+
+void CaseFiles::write(const CaseWindow& window, const QString& file, Work work, std::function<void()> done) {
+  run(about_writing(window, file), file, std::move(work), std::move(done));
+}
+
+void CaseFiles::write_contents(CaseWindow& window, const QString& file,
+                               std::function<Status(const SessionContents&)> work) {
+  window.proxy().take_snapshot(window.view_state(), [this, about = about_writing(window, file), file,
+                                                     work = std::move(work)](const auto& snapshot) {
+    run(about, file, [snapshot, work] { return work(snapshot->contents); }, {});
+  });
+}
+
+void CaseFiles::run(const QString& about, const QString& file, Work work, std::function<void()> done) {
+  jobs_.push_back(BackgroundJob::start(this, [this, about, file, work = std::move(work), done](auto& job) {
+    const Status status = without_exceptions(work);
+    job.deliver([this, about, file, status, done] {
+      if (!status) return window_.tell(QString::fromStdString(status.error().message), about);
+      window_.settle(about);
+      window_.statusBar()->showMessage(tr("Wrote %1").arg(file), 8000);
+      if (done) done();
+      emit written(file);
+    });
+  }));
+}
+
+}  // namespace tidemark

@@ -1,0 +1,47 @@
+// Files of cases: where to, and writing them.
+#pragma once
+
+#include <QObject>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/result.h"
+#include "ui/main/case_window.h"
+
+namespace tidemark {
+
+class BackgroundJob;
+class MainWindow;
+
+// Files are written on threads of their own; how it went is said in the window.
+class CaseFiles : public QObject {
+  Q_OBJECT
+ public:
+  explicit CaseFiles(MainWindow& window);
+  ~CaseFiles() override;
+
+  // Empty when none is wanted, or the case was closed meanwhile. The suffixes are those of a file dialog; a
+  // name without any of them gets the first.
+  [[nodiscard]] QString ask_for_file(CaseWindow& window, const QString& title, const QString& suffixes);
+
+  using Work = std::function<Status()>;
+  void write(const CaseWindow& window, const QString& file, Work work, std::function<void()> done = {});
+  // From what the case is like now.
+  void write_contents(CaseWindow& window, const QString& file,
+                      std::function<Status(const SessionContents&)> work);
+
+ signals:
+  void written(const QString& file);
+
+ private:
+  void run(const QString& about, const QString& file, Work work, std::function<void()> done);
+
+  MainWindow& window_;
+  std::vector<std::shared_ptr<BackgroundJob>> jobs_;
+};
+
+std::filesystem::path path_of(const QString& file);
+
+}  // namespace tidemark

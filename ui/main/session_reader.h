@@ -1,0 +1,59 @@
+// Session files, and copies that a program left behind that died, opened as cases.
+#pragma once
+
+#include <QObject>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "document/autosave.h"
+#include "document/session_contents.h"
+#include "engine/study_loader.h"
+#include "ui/main/case_window.h"
+
+namespace tidemark {
+
+class BackgroundJob;
+class MainWindow;
+
+// Sessions that are opened together are opened one after the other.
+class SessionReader : public QObject {
+  Q_OBJECT
+ public:
+  explicit SessionReader(MainWindow& window);
+  ~SessionReader() override;
+
+  void ask_and_open();
+  void open(const QString& file);
+
+  // Tells of copies of cases that a program left behind that died, and opens them if the user wants.
+  void offer_rescued();
+
+ signals:
+  void opened(tidemark::CaseWindow& window);  // from its session_file
+
+ private:
+  // A session that waits for its volume.
+  struct Waiting {
+    std::shared_ptr<const SessionContents> contents;
+    QString file;
+    std::string rescued;  // the copy's case; empty: a file of the user's
+  };
+
+  void read(const QString& file, const std::string& rescued);
+  void read_next();
+  void refuse(const QString& problem, const std::vector<Recoverable>& copies);
+  void end_reading(const QString& problem = {});
+  void find_volume(std::shared_ptr<const SessionContents> contents);
+  void compare(const std::shared_ptr<const LoadedStudy>& study);
+  void restore(const std::shared_ptr<const LoadedStudy>& study, VolumeMatch found);
+  void offer(const std::vector<Recoverable>& copies, const QString& why);
+  void keep_rescued(CaseWindow& window, const std::string& copy);
+
+  MainWindow& window_;
+  StudyLoader loader_;
+  std::deque<Waiting> waiting_;  // the first is being read
+  std::vector<std::shared_ptr<BackgroundJob>> jobs_;
+};
+
+}  // namespace tidemark

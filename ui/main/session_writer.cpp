@@ -1,0 +1,64 @@
+#include "ui/main/session_writer.h"
+
+#include <QCloseEvent>
+#include <QMessageBox>
+
+#include "document/session_file.h"
+#include "ui/main/case_files.h"
+#include "ui/main/main_window.h"
+
+namespace tidemark {
+
+QString session_filter() {
+  return SessionWriter::tr("Tidemark session (*.tidemark)");
+}
+
+SessionWriter::SessionWriter(MainWindow& window, CaseFiles& files)
+    : QObject(&window), window_(window), files_(files) {}
+
+void SessionWriter::save(CaseWindow& window) {
+  window.session_file.isEmpty() ? save_as(window) : save_to(window, window.session_file);
+}
+
+void SessionWriter::save_as(CaseWindow& window) {
+  const QString file = ask_for_file(window);
+  if (!file.isEmpty()) save_to(window, file);
+}
+
+QString SessionWriter::ask_for_file(CaseWindow& window) {
+  return files_.ask_for_file(window, tr("Save the session"), session_filter());
+}
+
+void SessionWriter::save_to(CaseWindow& window, const QString& file, std::function<void()> done) {
+  window.proxy().take_snapshot(window.view_state(), [this, file, done,
+                                                     saving = QPointer(&window)](const auto& snapshot) {
+    if (!saving) return;
+    const auto work = [snapshot, path = path_of(file)] { return write_session(snapshot->contents, path); };
+    files_.write(*saving, file, work, [this, file, saving, snapshot, done] {
+      if (!saving) return;
+      saving->session_file = file;
+      saving->proxy().mark_saved(*snapshot);
+      emit saved(*saving);
+      if (done) done();
+    });
+  });
+}
+
+void SessionWriter::close(CaseWindow& window, QCloseEvent* event) {
+  if (!window.proxy().state().modified) return event->accept();
+  const auto answer = QMessageBox::question(
+      &window_, tr("Close"), tr("%1 has changes that are not in a session file.").arg(window.proxy().name()),
+      QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
+  event->setAccepted(answer == QMessageBox::Discard);
+  if (answer != QMessageBox::Save) return;
+  // It closes itself once the file is written.
+  const QString file = window.session_file.isEmpty() ? ask_for_file(window) : window.session_file;
+  if (file.isEmpty()) return;
+  ++closing_;
+  save_to(window, file, [this, closing = QPointer(&window)] {
+    --closing_;
+    if (closing) closing->close_saved();
+  });
+}
+
+}  // namespace tidemark

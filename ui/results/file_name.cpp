@@ -1,0 +1,38 @@
+#include "ui/results/file_name.h"
+
+#include <QRegularExpression>
+#include <QStringList>
+#include <algorithm>
+
+#include "engine/study_loader.h"
+
+namespace tidemark {
+namespace {
+
+// Whether a part of the patient's name or number is in it; initials say nothing.
+bool tells_the_patient(const QString& text, const Patient& patient) {
+  static const QRegularExpression kBetweenParts(QStringLiteral("[^\\w]+"),
+                                                QRegularExpression::UseUnicodePropertiesOption);
+  constexpr qsizetype kInitials = 2;
+  QStringList parts = QString::fromStdString(patient.name).split(kBetweenParts, Qt::SkipEmptyParts);
+  parts << QString::fromStdString(patient.id);
+  return std::any_of(parts.begin(), parts.end(), [&](const QString& part) {
+    return part.size() > kInitials && text.contains(part, Qt::CaseInsensitive);
+  });
+}
+
+}  // namespace
+
+QString file_name_of(const LoadedStudy& study) {
+  static const QRegularExpression kNotInNames(QStringLiteral("[^\\w .()+-]"),
+                                              QRegularExpression::UseUnicodePropertiesOption);
+  constexpr int kLongest = 60;
+  QString name = study.name;
+  const bool is_phantom = !study.origin.phantom.empty();
+  if (!is_phantom && tells_the_patient(name, study.patient)) {
+    name = QString::fromStdString(study.volume->modality + " " + study.date);
+  }
+  return name.left(kLongest).replace(kNotInNames, QStringLiteral("-")).simplified();
+}
+
+}  // namespace tidemark

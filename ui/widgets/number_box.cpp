@@ -1,0 +1,154 @@
+#include "ui/widgets/number_box.h"
+
+#include <QHelpEvent>
+#include <QLineEdit>
+#include <QPainter>
+#include <QSignalBlocker>
+#include <QToolTip>
+#include <cmath>
+#include <optional>
+
+#include "ui/look/theme.h"
+#include "ui/widgets/number_text.h"
+
+namespace tidemark {
+namespace {
+
+constexpr QChar kMinus(0x2212);
+constexpr QChar kArabicDecimalPoint(0x066B);
+
+bool is_point(QChar c) {
+  return c == u'.' || c == u',' || c == kArabicDecimalPoint;
+}
+
+// What other programs put between groups of digits.
+bool is_group_separator(QChar c) {
+  return c.isSpace() || c == u'\'' || c == u'’';
+}
+
+// The typed text as C writes numbers; nothing where it holds something that is no part of any number.
+std::optional<QString> in_ascii(const QString& typed) {
+  QString plain;
+  for (const QChar c : typed) {
+    if (c.digitValue() >= 0) {
+      plain += QChar(u'0' + c.digitValue());
+    } else if (is_point(c)) {
+      plain += u'.';
+    } else if (c == u'-' || c == kMinus) {
+      plain += u'-';
+    } else if (c == u'+' || is_group_separator(c)) {
+      plain += c;
+    } else {
+      return std::nullopt;
+    }
+  }
+  return plain;
+}
+
+}  // namespace
+
+NumberBox::NumberBox(QWidget* parent) : QDoubleSpinBox(parent) {
+  setKeyboardTracking(false);
+}
+
+void NumberBox::show_unless_typed(double value) {
+  if (hasFocus() && (cleanText() != textFromValue(this->value()) || !problem().isEmpty())) return;
+  const QSignalBlocker quiet(this);
+  setValue(value);
+}
+
+void NumberBox::show_value(double value) {
+  refused_.clear();
+  setValue(value);
+}
+
+QString NumberBox::typed_in(const QString& text) const {
+  QStringView typed(text);
+  if (typed.startsWith(prefix())) typed = typed.mid(prefix().size());
+  if (typed.endsWith(suffix())) typed.chop(suffix().size());
+  return typed.trimmed().toString();
+}
+
+// More digits behind it take a number away from zero only.
+bool NumberBox::can_become_larger_only(double value) const {
+  return (value >= 0.0 && value < minimum()) || (value <= 0.0 && value > maximum());
+}
+
+NumberBox::Typed NumberBox::read(const QString& typed) const {
+  const auto plain = in_ascii(typed);
+  if (!plain) return {Reading::no_number};
+  if (plain->isEmpty() || *plain == u"-" || *plain == u"+" || *plain == u"." || *plain == u"-.") return {};
+  bool is_number = false;
+  const double value = QLocale::c().toDouble(*plain, &is_number);
+  if (!is_number || !std::isfinite(value)) return {Reading::no_number};
+  if (value < minimum() || value > maximum()) return {Reading::out_of_range, value};
+  const double held = rounded(value, decimals());
+  if (std::abs(held - value) > 1e-6 * std::pow(10.0, -decimals())) return {Reading::too_fine, value};
+  return {Reading::number, held};
+}
+
+QString NumberBox::problem() const {
+  const QString typed = typed_in(lineEdit()->text());
+  const Typed now = read(typed);
+  const bool ended = typed == refused_;
+  switch (now.reading) {
+    case Reading::number:
+    case Reading::unfinished:
+      return {};
+    case Reading::no_number:
+      return tr("“%1” is no number. Digits are not grouped: 1234.5 or 1234,5").arg(typed);
+    case Reading::too_fine:
+      return decimals() == 0
+                 ? tr("%1 is no whole number").arg(typed)
+                 : tr("%1 has too many digits behind the point: %2 can be kept").arg(typed).arg(decimals());
+    case Reading::out_of_range:
+      if (!ended && can_become_larger_only(now.value)) return {};
+      return tr("%1 is not within %2 to %3")
+          .arg(typed, QDoubleSpinBox::textFromValue(minimum()), QDoubleSpinBox::textFromValue(maximum()));
+  }
+  return {};
+}
+
+QString NumberBox::textFromValue(double value) const {
+  // Whatever sets the value that was there anyway leaves alone what was refused.
+  const QString shown = typed_in(lineEdit()->text());
+  if (!refused_.isEmpty() && shown == refused_ && value == kept_ && read(shown).reading != Reading::number)
+    return shown;
+  return QDoubleSpinBox::textFromValue(rounded(value, decimals()));
+}
+
+double NumberBox::valueFromText(const QString& text) const {
+  const Typed typed = read(typed_in(text));
+  return typed.reading == Reading::number ? typed.value : value();
+}
+
+QValidator::State NumberBox::validate(QString& text, int& /*position*/) const {
+  const QString typed = typed_in(text);
+  if (!in_ascii(typed)) return QValidator::Invalid;  // a letter is not typed at all
+  return read(typed).reading == Reading::number ? QValidator::Acceptable : QValidator::Intermediate;
+}
+
+// Qt asks for it when what was typed to the end cannot be taken.
+void NumberBox::fixup(QString& text) const {
+  refused_ = typed_in(text);
+  kept_ = value();
+  if (read(refused_).reading == Reading::unfinished) refused_.clear();
+  if (!refused_.isEmpty() && isVisible())
+    QToolTip::showText(mapToGlobal(rect().bottomLeft()), problem(), const_cast<NumberBox*>(this));
+}
+
+bool NumberBox::event(QEvent* event) {
+  if (event->type() != QEvent::ToolTip || problem().isEmpty()) return QDoubleSpinBox::event(event);
+  QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(), problem(), this);
+  return true;
+}
+
+void NumberBox::paintEvent(QPaintEvent* event) {
+  QDoubleSpinBox::paintEvent(event);
+  if (problem().isEmpty()) return;
+  QPainter painter(this);
+  painter.setPen(QPen(problem_colour(palette()), 2.0));
+  painter.drawRect(rect().adjusted(1, 1, -1, -1));
+}
+
+}  // namespace tidemark
