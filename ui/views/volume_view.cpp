@@ -8,14 +8,14 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "ui/views/orientation_cube.h"
 #include "ui/views/overlay.h"
+#include "ui/views/volume_box.h"
 
 namespace tidemark {
 namespace {
 
 constexpr double kDegreesPerPixel = 0.4;
-constexpr double kLeastZoom = 0.2;
-constexpr double kMostZoom = 40.0;
 
 // Turns the camera around what it looks at.
 class RotateDrag : public Drag {
@@ -72,7 +72,10 @@ class CameraZoomDrag : public Drag {
 
 }  // namespace
 
-VolumeViewWidget::VolumeViewWidget(CaseProxy& proxy, QWidget* parent) : PictureView(proxy, parent) {
+VolumeViewWidget::VolumeViewWidget(CaseProxy& proxy, QWidget* parent)
+    : PictureView(proxy, parent),
+      follower_(
+          proxy, [this] { return isVisible() ? physical_size().aspect() : 0.0; }, this) {
   setAccessibleName(title());
 }
 
@@ -85,6 +88,7 @@ VolumeView VolumeViewWidget::view() const {
   view.surface_colour = s.surface_colour;
   view.colouring = s.colouring;
   view.region = s.region;
+  view.label_opacity = s.label_opacity;
   view.lighting.occlusion = s.occlusion;
   view.window = s.window;
   if (s.clip_on) view.clip = s.clip;
@@ -147,6 +151,11 @@ void VolumeViewWidget::pick_and_begin(const Pointer& pressed) {
     self->set_drag(self->PictureView::begin_drag(there));
   };
   proxy().pick(view(), physical_size(), pixel, answer);
+}
+
+void VolumeViewWidget::showEvent(QShowEvent* event) {
+  PictureView::showEvent(event);
+  follower_.follow();
 }
 
 void VolumeViewWidget::mouseMoveEvent(QMouseEvent* event) {
@@ -220,6 +229,8 @@ void VolumeViewWidget::keyPressEvent(QKeyEvent* event) {
 
 void VolumeViewWidget::paint_overlay(QPainter& painter) {
   const Camera& camera = settings().camera;
+  if (settings().volume_box) paint_volume_box(painter, proxy().volume().geometry, screen());
+  if (settings().orientation_cube) paint_orientation_cube(painter, size(), camera);
   paint_orientation(painter, size(), camera.right(), camera.up());
   paint_scale_bar(painter, size(), mm_per_pixel());
   paint_study(painter);
