@@ -9,6 +9,9 @@ namespace tidemark {
 // Which of what was segmented is meant.
 enum class ResultContent { all_labels, visible_labels, surface };
 
+// What the surface's segment is called.
+inline constexpr const char* kSurfaceSegment = "Surface";
+
 // The segments of a case as it was: its labels, without those that hold no voxel, or what is inside its
 // surface with phi. Fails (ErrorKind::usage) when there are none.
 Result<Segments> result_segments(const SessionContents& contents, ResultContent content);
