@@ -1,4 +1,4 @@
-// Included before everything that includes ITK, when the compiler is clang, which the fuzz targets need.
+// A header that clang reads before everything that includes ITK; the fuzz targets need clang.
 // Debian's ITK was configured for g++ alone, and the file below refuses every other compiler: clang passes
 // for g++ in it.
 #pragma GCC system_header

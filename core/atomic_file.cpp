@@ -38,7 +38,7 @@ fs::path folder_of(const fs::path& target) {
   return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
-// A folder that a new one can take the place of. Whoever works in the current one, or has a disk mounted
+// A folder that a new one can replace. A user who works in the current one, or has a disk mounted
 // there, would be left with the old one.
 Status require_replaceable(const fs::path& folder, const fs::path& target) {
   const auto refuse = [&](const char* why) {

@@ -1,4 +1,4 @@
-// Results appear whole or not at all.
+// Files and folders that appear whole or not at all.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace tidemark {
 
-// A file that is written beside its target and takes the target's name only when it is complete. Whoever
-// writes uses temporary_path(); commit() syncs it to disk and renames it. Without a commit, the destructor
+// A file that is written beside its target and takes the target's name only when it is complete. The caller
+// writes to temporary_path(); commit() syncs it to disk and renames it. Without a commit, the destructor
 // removes the temporary file and the target is left as it was.
 class AtomicFile {
  public:
@@ -38,8 +38,8 @@ class AtomicFile {
 
 // The same for a folder of files that belong together: it is filled under a temporary name beside its target,
 // and takes the target's place and permissions when all are there. An older folder and everything in it goes
-// away then. Until then it is locked: what a killed program was filling is known by its lock, which nobody
-// holds, and goes when the same target is next filled.
+// away then. Until then it is locked. The folder of a killed program is known by its lock, which nobody
+// holds, and is removed when the same target is next filled.
 class AtomicFolder {
  public:
   // Makes the folders above the target where they are missing. Fails (ErrorKind::write) when they cannot be

@@ -1,4 +1,4 @@
-// Sizes are 64 bits, and products of sizes are checked: a header cannot make us allocate a wrapped size.
+// Checked products of 64-bit sizes: a header cannot make us allocate a wrapped size.
 #pragma once
 
 #include <cstdint>

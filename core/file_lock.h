@@ -1,13 +1,13 @@
-// Who holds a file or a folder, across programs, and whose it is.
+// Locks on files and folders across programs, and the owner of a folder.
 #pragma once
 
 #include <filesystem>
 
 namespace tidemark {
 
-// The lock of a file or a folder, which one holder at a time has and which ends with the program that took
-// it, however that ends: what a killed program left is told from what a running one needs by it. It hinders
-// nobody from reading, writing or renaming. Links are not followed.
+// The lock of a file or a folder. One holder at a time has it, and it ends with the holder's program, however
+// that ends: it tells the files of killed programs from those of running ones. It does not keep others
+// from reading, writing or renaming. Links are not followed.
 class FileLock {
  public:
   enum class Missing { give_up, make };  // a file that is made is for its owner alone

@@ -9,8 +9,8 @@ namespace tidemark {
 // Asks the kernel to back the memory by large pages (2 MiB) where it can. Nothing but speed depends on it.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
-// `count` zeros. A vector of a CT touches fifty thousand pages of the usual size for the first time, and for
-// each the processor enters the kernel: that takes longer than to fill them.
+// `count` zeros. A vector of a CT touches fifty thousand pages of the usual size for the first time. The
+// processor enters the kernel for each, which takes longer than filling them.
 template <class Value>
 [[nodiscard]] std::vector<Value> make_large_vector(std::size_t count) {
   std::vector<Value> values;

@@ -1,4 +1,4 @@
-// How long work reports its progress and is asked to stop.
+// The progress of long work, and the request to stop it.
 #pragma once
 
 #include <functional>

@@ -9,7 +9,7 @@
 
 namespace tidemark {
 
-// Whose fault it is; the command line turns it into an exit code (exit_code()).
+// The kind of a failure; the command line turns it into an exit code (exit_code()).
 enum class ErrorKind {
   internal,    // a defect of ours
   usage,       // an argument makes no sense

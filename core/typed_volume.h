@@ -1,4 +1,4 @@
-// A volume's voxels by their type: Volume::value() would ask for it at each of a hundred million.
+// A volume's voxels by their type. Volume::value() would ask for the type at each of a hundred million.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ struct TypedVolume {
   double intercept;
 };
 
-// What work(typed) returns of the volume as a TypedVolume.
+// The result of work(typed), with the volume as a TypedVolume.
 template <class Work>
 auto with_type(const Volume& volume, const Work& work) {
   return std::visit([&](const auto& stored) { return work(TypedVolume(volume, stored)); }, volume.voxels);

@@ -32,7 +32,7 @@ struct Volume {
   std::string unit;                   // of its values: "HU", "SUVbw g/ml"; empty when they have none
   std::string description;            // of the series, for display
   std::optional<WindowLevel> window;  // the file's own first window
-  std::vector<std::string> changes;   // what reading found and changed, one sentence each
+  std::vector<std::string> changes;   // the findings and changes of reading, one sentence each
 
   [[nodiscard]] const char* scalar_name() const;  // "int16", "uint16" or "float"
   [[nodiscard]] float value(std::int64_t offset) const;

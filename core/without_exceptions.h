@@ -1,4 +1,4 @@
-// Where exceptions end that libraries, or the lack of memory, throw in work that has no file to blame.
+// The end of exceptions that libraries, or the lack of memory, throw in work that has no file to blame.
 #pragma once
 
 #include <exception>
@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-// work(), which returns a Result or a Status; what it throws becomes an error.
+// Calls work(), which returns a Result or a Status; an exception of it becomes an error.
 template <class Work>
 auto without_exceptions(const Work& work) -> decltype(work()) {
   try {

@@ -18,8 +18,8 @@ namespace tidemark {
 // May be used on another thread than its case's, by one thread at a time.
 class Autosave {
  public:
-  // Makes the folder, for its owner alone. Fails with ErrorKind::write, also when the case's copies are being
-  // written by another Autosave, and with ErrorKind::usage on an id that is not made of letters, digits and
+  // Makes the folder, for its owner alone. Fails with ErrorKind::write, also when another Autosave writes the
+  // case's copies, and with ErrorKind::usage on an id that is not made of letters, digits and
   // hyphens.
   static Result<Autosave> create(const std::filesystem::path& folder, const std::string& case_id);
   [[nodiscard]] static std::string new_case_id();
@@ -42,13 +42,13 @@ struct Recoverable {
   std::string case_id;
   std::uint64_t generation = 0;
   std::filesystem::path file;  // for load_session()
-  StudyOrigin study;           // what it is a copy of
+  StudyOrigin study;           // the origin of the copied case
 };
 // The newest valid copy of each case that was not closed cleanly and that no running program has open.
 std::vector<Recoverable> find_recoverable(const std::filesystem::path& folder);
-// Removes what was being written when a program was killed: temporary files of cases that no running program
-// has locked. A case is locked before its first file is made, and no two have the same id, so that none of
-// them can still be wanted. Files of other names stay.
+// Removes the half-written files of killed programs: temporary files of cases that no running program has
+// locked. A case is locked before its first file is made, and no two have the same id, so none of these files
+// can still be wanted. Files of other names stay.
 void sweep_unfinished(const std::filesystem::path& folder);
 // Removes all copies of a case, once they are recovered or not wanted.
 void discard(const std::filesystem::path& folder, const std::string& case_id);

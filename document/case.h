@@ -17,7 +17,7 @@ namespace tidemark {
 // Used on one thread at a time, as its level set.
 class Case {
  public:
-  // The origin's checksum is computed, beside everything else.
+  // Starts to compute the origin's checksum on another thread.
   static Result<std::unique_ptr<Case>> create(std::shared_ptr<const Volume> volume, StudyOrigin origin,
                                               const Parameters& parameters, ExecutorKind kind,
                                               const ExecutorOptions& options);
@@ -27,7 +27,7 @@ class Case {
   Case& operator=(const Case&) = delete;
 
   [[nodiscard]] const std::shared_ptr<const Volume>& volume() const { return volume_; }  // as loaded
-  // Waits for the checksum where that is still being computed.
+  // Waits for the checksum if it is not ready.
   [[nodiscard]] StudyOrigin origin() const;
   [[nodiscard]] LevelSet& level_set() { return *level_set_; }
   [[nodiscard]] const LevelSet& level_set() const { return *level_set_; }
@@ -36,11 +36,11 @@ class Case {
   [[nodiscard]] History& history() { return history_; }
   [[nodiscard]] const History& history() const { return history_; }
 
-  // The source that the level set sees: the volume smoothed by that many mm (0: as it is).
+  // The source that the level set sees: the volume smoothed by that many mm (0: not at all).
   Status smooth_source(double sigma_mm, const Progress& progress = {});
   [[nodiscard]] double smoothed_mm() const { return level_set_->smoothed_mm(); }
 
-  // Changes of labels that undo takes back, one entry each.
+  // Changes of labels; each is one entry of the history.
   Result<Acceptance> accept_surface(std::uint8_t label, Take take);
   Status begin_from_label(std::uint8_t label);
 
@@ -48,13 +48,13 @@ class Case {
   Status undo() { return history_.undo(); }
   Status redo() { return history_.redo(); }
 
-  // How the case is shown: JSON of whoever shows it, kept in session files.
+  // The display: JSON of the user interface, kept in session files.
   std::string view_state;
 
-  // Whether undo would lead to, or something has led to, another state than the one that was saved.
+  // Whether the state, or one that undo leads to, differs from the saved one.
   [[nodiscard]] bool changed_since_save() const { return history_.position() != saved_position_; }
   void mark_saved() { mark_saved(history_.position()); }
-  // What was saved was the state at that position of the history.
+  // The saved state is that position of the history.
   void mark_saved(std::uint64_t position) { saved_position_ = position; }
 
  private:
@@ -63,8 +63,8 @@ class Case {
   std::shared_ptr<const Volume> volume_;
   StudyOrigin origin_;
   std::stop_source checksum_stop_;
-  std::shared_future<std::string> checksum_;  // which origin_ has not got
-  History history_;                           // before what its entries speak of
+  std::shared_future<std::string> checksum_;  // not yet in origin_
+  History history_;                           // declared before the members that its entries refer to
   std::unique_ptr<LevelSet> level_set_;
   Labels labels_;
   std::uint64_t saved_position_ = 0;

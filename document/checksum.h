@@ -1,4 +1,4 @@
-// What tells one volume, or one file, from another.
+// Checksums that tell one volume, or one file, from another.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace tidemark {
 // Fails with ErrorKind::input.
 Result<std::string> sha256_of_file(const std::filesystem::path& file);
 
-// Of a volume's voxels, their scale and their geometry. Empty when it was told to stop before it was through.
+// Of a volume's voxels, their scale and their geometry. Empty when it was stopped before its end.
 [[nodiscard]] std::string checksum_of(const Volume& volume, const std::stop_token& stop = {});
 
 }  // namespace tidemark

@@ -1,4 +1,4 @@
-// How the surface has developed since the start.
+// The development of the surface since the start: volume, area and motion by step.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct CurvePoint {
   bool operator==(const CurvePoint&) const = default;
 };
 
-// Its points are made anew when one is added, which is seldom, so that whoever shows them can keep them.
+// A new point, which is seldom, makes a new list of points, so that a viewer can keep the one that it has.
 class Curve {
  public:
   using Points = std::vector<CurvePoint>;
@@ -28,9 +28,9 @@ class Curve {
 
   [[nodiscard]] const std::shared_ptr<const Points>& points() const { return points_; }
 
-  // A point behind the last one; nothing where the surface has not gone on. A long curve is thinned.
+  // Adds a point behind the last one, or nothing if no step was made. A long curve is thinned.
   void add(const CurvePoint& point);
-  // Takes away the points from this step on.
+  // Removes the points from this step on.
   void cut(std::int64_t step);
 
  private:

@@ -1,4 +1,4 @@
-// An executor with all that it was made from, so that it can be made anew and driven by a recipe.
+// An executor with all that it was made from, for making it anew and for driving it by a recipe.
 #pragma once
 
 #include <memory>
@@ -19,25 +19,25 @@ class ExecutorSetup {
   [[nodiscard]] Executor& executor() { return *executor_; }
   [[nodiscard]] const Executor& executor() const { return *executor_; }
   [[nodiscard]] const std::shared_ptr<const Volume>& volume() const { return volume_; }  // as loaded
-  [[nodiscard]] const std::shared_ptr<const Volume>& source() const { return source_; }  // as it is seen
+  [[nodiscard]] const std::shared_ptr<const Volume>& source() const { return source_; }  // perhaps smoothed
   [[nodiscard]] double smoothed_mm() const { return smoothed_mm_; }
   [[nodiscard]] ExecutorKind kind() const { return kind_; }  // as it was asked for
   [[nodiscard]] RecipeExecutor description() const;
 
-  // Each makes another executor; when it fails, everything is as it was. The first goes on from the same phi.
+  // Each makes another executor, or fails and changes nothing. The first goes on from the same phi.
   Status smooth_source(double sigma_mm);
   Status change_executor(ExecutorKind kind, const ExecutorOptions& options, const Field& phi);
 
-  // Begins as the recipe does, with the present parameters and source; an empty start: outside everywhere.
+  // The recipe's start with the present parameters and source; an empty start is outside everywhere.
   Status begin(const Recipe& recipe, const Progress& progress);
-  // phi is put back as it is: see ResumeEvent.
+  // Puts back the executor's own phi: see ResumeEvent.
   Status resume();
 
-  // Does what the recipe says from its `first_event` on until `last_step` steps have been computed, and the
-  // edits after the last of them. `step` have been computed. What it cost is added up in `total`.
+  // Carries out the recipe from its `first_event` on until `last_step` steps have been computed, with the
+  // edits after the last of them. `step` steps have been computed before. The cost is added to `total`.
   Status play(const Recipe& recipe, std::size_t first_event, std::int64_t step, std::int64_t last_step,
               const Progress& progress, AdvanceReport* total = nullptr);
-  // Does what one event says.
+  // Carries out one event.
   Status apply(const RecipeEvent& event);
 
  private:

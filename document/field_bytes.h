@@ -14,8 +14,8 @@ namespace tidemark {
 // The pages with every padding voxel set, so that equal fields give equal bytes.
 [[nodiscard]] std::vector<float> pages_for_file(const Field& phi);
 
-// Checks and puts together what was read. Fails (ErrorKind::input) when the table names pages that are not
-// there, or one twice, or when a value is not finite or beyond the band. `what` is for the message.
+// Checks the table and the values, and makes a field of them. Fails (ErrorKind::input) when the table names
+// missing pages, or one twice, or when a value is not finite or beyond the band. `what` is for the message.
 Result<Field> field_from_file(const Geometry& geometry, double band, Index3 page_shape,
                               std::vector<std::int32_t> table, std::vector<float> pages,
                               const std::string& what);

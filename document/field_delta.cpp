@@ -17,7 +17,7 @@ bool same_page(const Field& a, const Field& b, std::int64_t page) {
   if (one == nullptr || other == nullptr) {
     return one == other && a.table[static_cast<std::size_t>(page)] == b.table[static_cast<std::size_t>(page)];
   }
-  // By their bits: what is taken back must be the same to the last one.
+  // By their bits: undo must lead to the same field, to the last bit.
   return std::memcmp(one, other, static_cast<std::size_t>(a.layout.voxels_per_page()) * sizeof(float)) == 0;
 }
 

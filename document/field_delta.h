@@ -1,4 +1,4 @@
-// What differs between two level sets on one grid: the pages that are not the same, both ways.
+// The difference of two level sets on one grid: the pages that are not the same, both ways.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class FieldDelta {
   [[nodiscard]] bool empty() const { return pages_.empty(); }
   [[nodiscard]] std::int64_t bytes() const;
 
-  // The other field, from one of the two (its pages may have any shape).
+  // One field from the other (its pages may have any shape).
   [[nodiscard]] Field before(const Field& after) const { return replaced(after, before_); }
   [[nodiscard]] Field after(const Field& before) const { return replaced(before, after_); }
 

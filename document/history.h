@@ -1,4 +1,4 @@
-// What was done, in order, with the way back and forward again: one history for everything in a case.
+// The history of a case: its changes in order, with the way back and forward again.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ enum class ChangeKind {
   accept,
 };
 
-// What a change was, for people. The interface words it in the user's language, describe() in English.
+// A change in words. The interface words it in the user's language, describe() in English.
 struct ChangeDescription {
   ChangeKind kind = ChangeKind::start;
   std::int64_t steps = 0;  // of evolution and step_back
@@ -40,7 +40,7 @@ struct ChangeDescription {
 };
 [[nodiscard]] std::string describe(const ChangeDescription& change);  // "evolution, 120 steps"
 
-// A change that was made. When one of its functions fails, everything is as it was.
+// A change that was made. A function of it that fails changes nothing.
 class Change {
  public:
   virtual ~Change() = default;
@@ -49,7 +49,7 @@ class Change {
   [[nodiscard]] virtual std::int64_t bytes() const = 0;
 };
 
-// A change that still goes on: a stroke of the brush, a run of steps.
+// A change that is still open: a stroke of the brush, a run of steps.
 class OpenChange {
  public:
   [[nodiscard]] virtual ChangeDescription description() const = 0;
@@ -69,25 +69,25 @@ class History {
   void set_limit(std::int64_t bytes);
   [[nodiscard]] std::int64_t bytes() const;
 
-  // An entry for what was just done. What could be redone is forgotten.
+  // Adds an entry for a change that was just made. Drops the entries that could be redone.
   void add(ChangeDescription description, std::unique_ptr<Change> change);
 
-  // A change begins that goes on; its owner must have closed the one before. Forgets what could be redone.
+  // Opens a change; the one before must be closed. Drops the entries that could be redone.
   void open(OpenChange& change);
-  // Ends the change that goes on, if there is one.
+  // Closes the open change, if there is one.
   Status close();
 
-  // Both end the change that goes on. Fail (ErrorKind::usage) when there is nothing to undo or redo.
+  // Both close the open change. They fail (ErrorKind::usage) when there is nothing to undo or redo.
   Status undo();
   Status redo();
-  // What they would take back or do again.
+  // The changes that they would take back or make again.
   [[nodiscard]] std::optional<ChangeDescription> undo_description() const;
   [[nodiscard]] std::optional<ChangeDescription> redo_description() const;
 
-  // Names the present state: the same number after an undo as before the change. While a change goes on, a
+  // Names the present state: the same number after an undo as before the change. While a change is open, a
   // number that no state has.
   [[nodiscard]] std::uint64_t position() const;
-  // Grows by one with each change, undo and redo: how much was done, for whoever saves now and then.
+  // Grows by one with each change, undo and redo: how much was done since the last copy.
   [[nodiscard]] std::uint64_t edits() const { return edits_; }
 
  private:

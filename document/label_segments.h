@@ -17,7 +17,7 @@ namespace tidemark {
 
 // A new label for each segment, with its name, and its colour and meaning if it has them: one entry of the
 // history. Where segments overlap the later one has the voxel; voxels of locked labels stay. Fails
-// (ErrorKind::usage) when the grids differ or there would be more than 255 labels; then nothing was added.
+// (ErrorKind::usage), adding nothing, when the grids differ or there would be more than 255 labels.
 Status add_segments(Labels& labels, const Segments& segments);
 
 }  // namespace tidemark

@@ -1,4 +1,4 @@
-// Several labels over the volume: what was segmented so far.
+// The labels over a volume: what was segmented so far.
 #pragma once
 
 #include <array>
@@ -21,16 +21,16 @@ struct Label {
   std::array<std::uint8_t, 3> colour{255, 255, 0};
   bool visible = true;
   bool locked = false;                    // its voxels are not changed by others
-  std::optional<SegmentMeaning> meaning;  // nothing: what its name says
+  std::optional<SegmentMeaning> meaning;  // unset: as its name says
 
   [[nodiscard]] SegmentMeaning coded() const { return meaning ? *meaning : guess_segment_meaning(name); }
   bool operator==(const Label&) const = default;
 };
 
-// Whose voxels a label may take when it accepts a mask. Those of locked labels stay in either case.
+// The voxels that a label may take when it accepts a mask. Those of locked labels stay in either case.
 enum class Take { free_voxels, others_too };
 
-// What a label took when it accepted a mask, in voxels of the mask.
+// The outcome of accepting a mask, in voxels of the mask.
 struct Acceptance {
   std::string label;
   std::int64_t taken = 0;        // of all that it has now
@@ -40,7 +40,7 @@ struct Acceptance {
 
 class Labels {
  public:
-  // Changes become entries of the history, if there is one; it must not be used any more when this is gone.
+  // Changes become entries of `history`, if it is not null. It must not be used after the labels are gone.
   explicit Labels(const Geometry& geometry, History* history = nullptr)
       : geometry_(geometry), history_(history) {}
 
@@ -66,15 +66,15 @@ class Labels {
   Status replace(ChangeKind kind, const std::string& name, std::vector<Label> list,
                  std::vector<std::uint8_t> voxels);
 
-  // What was saved; not an entry of the history. Fails (ErrorKind::usage) when a voxel's label is not in the
-  // list, an id is there twice, or the number of voxels is neither 0 nor the grid's.
+  // Restores saved labels; not an entry of the history. Fails (ErrorKind::usage) when a voxel's label is not
+  // in the list, an id is there twice, or the number of voxels is neither 0 nor the grid's.
   Status assign(std::vector<Label> list, std::vector<std::uint8_t> voxels);
 
  private:
   friend class LabelsChange;
   [[nodiscard]] Status check(const std::vector<Label>& list, const std::vector<std::uint8_t>& voxels) const;
 
-  // Lets `edit` change the list, or the list and the voxels, and makes an entry of what has changed.
+  // Lets `edit` change the list, or the list and the voxels, and makes an entry of the difference.
   enum class Touches { list, voxels };
   Status change(ChangeKind kind, const std::string& name, Touches what, const std::function<void()>& edit);
 
@@ -85,7 +85,7 @@ class Labels {
   std::uint64_t revision_ = 0;
 };
 
-// What is inside a label or a surface.
+// Figures of the inside of a label or a surface.
 struct RegionStatistics {
   std::int64_t voxels = 0;
   double volume_ml = 0.0;

@@ -1,4 +1,4 @@
-// The level set of a case while it is steered: an executor, everything that was done to it, and the way back.
+// The level set of a case while it is steered: an executor, its recipe, and the way back.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ namespace tidemark {
 
 // Used on one thread at a time: that of the executor's graphics context, where it has one.
 //
-// phi is read back only when it has to be known: at the end of an entry of the history, for a checkpoint,
-// and before the first step after something was painted. Between these, `dirty_` says that known_ is not
-// phi any more.
+// phi is read back only where its value must be known: at the end of an entry of the history, for a
+// checkpoint, and before the first step after paint. Between these, `dirty_` means that phi has changed
+// since known_.
 class LevelSet final : private OpenChange {
  public:
-  // Everywhere outside at first, on the volume as it is. Fails as make_executor() does. `history` must
+  // Everywhere outside at first, on the unsmoothed volume. Fails as make_executor() does. `history` must
   // outlive it.
   static Result<std::unique_ptr<LevelSet>> create(std::shared_ptr<const Volume> volume,
                                                   const Parameters& parameters, ExecutorKind kind,
@@ -35,19 +35,19 @@ class LevelSet final : private OpenChange {
   [[nodiscard]] double smoothed_mm() const { return setup_.smoothed_mm(); }
   [[nodiscard]] std::int64_t step() const { return recipe_.steps; }  // since the start
   [[nodiscard]] bool begun() const { return recipe_.begun(); }       // there is a surface to steer
-  // Everything since the start. Which series its source comes from, the case knows.
+  // Everything since the start, but for the source's series, which the case adds.
   [[nodiscard]] const Recipe& recipe() const { return recipe_; }
 
-  // Each of these is an entry of the history that undo takes back. Edits with the same `gesture` (not 0: one
-  // drag of a slider, one stroke of a brush), with whatever was computed between them, are one entry. So is
-  // what is computed after the last of them until the next checkpoint.
+  // Each of these is an entry of the history. Edits with the same `gesture` (not 0: one drag of a slider, one
+  // stroke of a brush) and the steps between them are one entry. The steps after the last of them, up to
+  // the next checkpoint, belong to it too.
   Status begin(const Start& start, const Progress& progress = {});
   Status paint(const Sphere& sphere, Brush brush, std::uint64_t gesture = 0);
   Status set_parameters(const Parameters& parameters, std::uint64_t gesture = 0);
-  // What the level set sees: the volume smoothed by that many mm (0: as it is).
+  // The level set's source becomes the volume, smoothed by that many mm (0: not at all).
   Status smooth_source(double sigma_mm);
   // Steps, one after the other, are one entry until another edit or end_run(). When a memory budget ends the
-  // run, what was computed up to there counts.
+  // run, the steps up to there count.
   Result<AdvanceReport> advance(const Advance& run);
   Status end_run();
 
@@ -63,21 +63,21 @@ class LevelSet final : private OpenChange {
   // present parameters; of another kind, where none of the same can be had.
   Status rebuild(const ExecutorOptions& options, std::optional<ExecutorKind> kind = std::nullopt);
 
-  // phi for whoever saves or measures. Counts as a checkpoint for rebuild().
+  // phi for saving and measuring. Counts as a checkpoint for rebuild().
   Result<std::shared_ptr<const Field>> checkpoint();
 
-  // Goes on from what was saved: a recipe and the phi that it had led to. Not an entry of the history.
+  // Goes on from a saved recipe and the phi that it had led to. Not an entry of the history.
   Status resume_from(const Recipe& recipe, std::shared_ptr<const Field> phi, const Curve& curve = {});
 
-  // How the surface has developed since the start, by whoever measures it: undo and redo bring it back.
+  // The development of the surface since the start; the caller adds points, undo and redo bring them back.
   [[nodiscard]] const Curve& curve() const { return curve_; }
   void note(const CurvePoint& point);
 
  private:
   friend class LevelSetChange;
 
-  // phi, how it came about, phi before the first step (null: to be made from the recipe), and what was
-  // measured.
+  // phi, the recipe that led to it, phi before the first step (null: to be made from the recipe), and the
+  // measured curve.
   struct Point {
     Recipe recipe;
     std::shared_ptr<const Field> phi;
@@ -89,7 +89,7 @@ class LevelSet final : private OpenChange {
              recipe.parameters == other.recipe.parameters;
     }
   };
-  // An entry that goes on.
+  // An open entry.
   struct Open {
     ChangeKind kind = ChangeKind::evolution;
     std::uint64_t gesture = 0;
@@ -120,10 +120,10 @@ class LevelSet final : private OpenChange {
   Recipe recipe_;
   std::shared_ptr<const Field> start_;  // phi before the first step
   Curve curve_;
-  Point known_;           // the last that is known of phi
+  Point known_;           // the last phi that was read back
   bool dirty_ = false;    // phi has changed since
   Point in_place_;        // where phi was last put in place; the executor has run on since
-  bool resumed_ = false;  // it was, and the recipe does not say so yet
+  bool resumed_ = false;  // it was, and the recipe has no ResumeEvent yet
   std::optional<Open> open_;
 };
 

@@ -18,7 +18,7 @@ class LevelSetChange : public Change {
   [[nodiscard]] std::int64_t bytes() const override;
 
  private:
-  // What a recipe has beyond the events that both have.
+  // The part of a recipe beyond the events that both have.
   struct Side {
     Recipe recipe;  // its events: those that are not common
     std::shared_ptr<const Field> start;

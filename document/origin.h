@@ -1,4 +1,4 @@
-// Where a case's volume came from.
+// The origin of a case's volume.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-// So that it can be found again.
+// The facts by which the volume is found again.
 struct StudyOrigin {
   std::filesystem::path path;  // empty: made here (phantom)
   std::string series_uid;

@@ -1,4 +1,4 @@
-// Everything that was done to a level set since its start, by step number: what replays to the same voxels.
+// A recipe: everything done to a level set since its start, by step number. It replays to the same voxels.
 #pragma once
 
 #include <cstdint>
@@ -23,13 +23,13 @@ struct ParametersEvent {
   Parameters parameters;
   bool operator==(const ParametersEvent&) const = default;
 };
-// The volume as the level set sees it is from here on smoothed by that much; 0: as it is.
+// From here on the level set sees the volume smoothed by that much; 0: not at all.
 struct SmoothEvent {
   double sigma_mm = 0.0;
   bool operator==(const SmoothEvent&) const = default;
 };
-// phi was put back (undo, recovery). Executors then forget which pages are quiet, which shows in the last
-// bits of what follows.
+// phi was put back (undo, recovery). Executors then forget which pages are quiet, which changes the last bits
+// of the steps that follow.
 struct ResumeEvent {
   bool operator==(const ResumeEvent&) const = default;
 };
@@ -41,7 +41,7 @@ struct RecipeEvent {
   bool operator==(const RecipeEvent&) const = default;
 };
 
-// Which volume it was, so that another one is noticed.
+// The volume's facts, so that another one is noticed.
 struct RecipeSource {
   Index3 size{0};
   glm::dvec3 spacing_mm{1.0};
@@ -51,7 +51,7 @@ struct RecipeSource {
   bool operator==(const RecipeSource&) const = default;
 };
 
-// What computed it: the same bits come from the same executor with the same pages.
+// The executor: the same bits come from the same one with the same pages.
 struct RecipeExecutor {
   std::string name;  // as Executor::name()
   Index3 page_shape = kDefaultPageShape;
@@ -81,7 +81,7 @@ struct Recipe {
   [[nodiscard]] bool begun() const;  // there is a surface
   [[nodiscard]] const Parameters& final_parameters() const;
   [[nodiscard]] double final_smoothed_mm() const;
-  // What had been done when that many steps had been computed, the edits after the last of them included.
+  // The recipe up to that many steps, with the edits after the last of them.
   [[nodiscard]] Recipe up_to(std::int64_t step) const;
 };
 

@@ -11,7 +11,7 @@ namespace tidemark {
 [[nodiscard]] Json to_json(const Parameters& parameters);
 [[nodiscard]] Json to_json(const GridPolicy& policy);
 
-// What is wrong is noted in the field's document.
+// Errors are noted in the field's document.
 Recipe read_recipe(const JsonField& field);
 Geometry read_geometry(const JsonField& field);
 Parameters read_parameters(const JsonField& field);

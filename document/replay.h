@@ -1,4 +1,4 @@
-// Does again what a recipe says.
+// The replay of a recipe.
 #pragma once
 
 #include <optional>
@@ -24,11 +24,11 @@ struct Replay {
   std::shared_ptr<const Volume> source;  // as the level set saw it at the end
 };
 
-// What about the volume is not as it was when the recipe was made, one sentence each: a level set comes out
-// differently where the spacing is another (its smoothing is per voxel) or the voxels are.
+// The differences between the volume and the recipe's, one sentence each: another spacing (smoothing is per
+// voxel) or other voxels lead to another level set.
 std::vector<std::string> differences(const Recipe& recipe, const Volume& volume);
 
-// On the volume that it was made on, with the executor that it names: the same voxels as were seen.
+// On the recipe's own volume, with the executor that it names, the result is the same to the last bit.
 Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume,
                       const ReplayOptions& options, const Progress& progress = {});
 

@@ -1,4 +1,4 @@
-// What a case holds, in files for other systems; and label maps from them.
+// Result files for other systems, written from a case, and label maps read from them.
 #pragma once
 
 #include "document/session_contents.h"
@@ -6,13 +6,13 @@
 
 namespace tidemark {
 
-// Which of what was segmented is meant.
+// The choice of segments.
 enum class ResultContent { all_labels, visible_labels, surface };
 
-// What the surface's segment is called.
+// The name of the surface's segment.
 inline constexpr const char* kSurfaceSegment = "Surface";
 
-// The segments of a case as it was: its labels, without those that hold no voxel, or what is inside its
+// The segments of a snapshot of a case: its labels, without those that hold no voxel, or the inside of its
 // surface with phi. Fails (ErrorKind::usage) when there are none.
 Result<Segments> result_segments(const SessionContents& contents, ResultContent content);
 

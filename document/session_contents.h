@@ -1,4 +1,4 @@
-// What a session file holds of a case, as values: they can be written on any thread while the case goes on.
+// The contents of a session file as values, for writing on any thread while the case goes on.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace tidemark {
 
-// The volume's voxels are not part of it: they are found again by the origin, or made again (phantoms).
+// The volume's voxels are not part of it: the origin finds them again, or makes them again (phantoms).
 struct SessionContents {
   StudyOrigin origin;
   Geometry geometry;  // of the volume
@@ -21,10 +21,10 @@ struct SessionContents {
   std::string view_state;
 };
 
-// On the case's thread: what it is like now. A checkpoint of its level set.
+// The case's present contents, taken on its thread. A checkpoint of its level set.
 Result<SessionContents> snapshot_of(Case& document);
 
-// How a volume compares with the one that was saved.
+// The comparison of a volume with the saved one.
 enum class VolumeMatch {
   same,
   other_voxels,  // on the same grid: ask before going on with it

@@ -17,10 +17,10 @@ Status write_session(const SessionContents& contents, const std::filesystem::pat
 // Fails (ErrorKind::input) naming the file and what is wrong in it. The origin's path is the one that exists:
 // relative to the session file, else where it was when it was saved.
 Result<SessionContents> load_session(const std::filesystem::path& file);
-// What it is about, without reading the rest.
+// The origin alone, without reading the rest.
 Result<StudyOrigin> load_origin(const std::filesystem::path& file);
 
-// Ends what goes on, writes the case, and notes that it is saved.
+// Closes the open change, writes the case, and marks it as saved.
 Status save_session(Case& document, const std::filesystem::path& file);
 
 }  // namespace tidemark

@@ -1,4 +1,4 @@
-// How a level set begins, as data: what a recipe records and a user can do again.
+// The start of a level set as data: what a recipe records and a user can do again.
 #pragma once
 
 #include <memory>
@@ -26,7 +26,7 @@ struct FloodStart {
   bool operator==(const FloodStart&) const = default;
 };
 
-// A mask of which one knows where it comes from ("truth.nii.gz", "label Liver").
+// A mask with the name of where it comes from ("truth.nii.gz", "label Liver").
 struct MaskStart {
   std::shared_ptr<const Mask> mask;
   std::string origin;
@@ -49,7 +49,7 @@ struct Start {
   [[nodiscard]] std::string describe() const;
 };
 
-// Gives the executor its start; what it held before is lost. `source` is the volume as the solver sees it.
+// Gives the executor its start in place of its phi. `source` is the volume as the solver sees it.
 // Fails with ErrorKind::usage when a part is outside the volume or nothing is inside; phi is then as before.
 // phi as it then is.
 Result<Field> begin(Executor& executor, const Volume& source, const Start& start,

@@ -10,9 +10,9 @@
 
 namespace tidemark {
 
-// The thread of the user interface never waits for such work: whoever does not want its result any more
-// abandons it. The thread then ends when it next looks at its stop token, and what it says until then is not
-// heard. At the end of the program, QCoreApplication's destructor gives those that still run a few seconds.
+// The thread of the user interface never waits for such work: it abandons work whose result is no longer
+// wanted. The work's thread then ends when it next looks at its stop token, and its calls until then are
+// dropped. At the end of the program, QCoreApplication's destructor gives those that still run a few seconds.
 class BackgroundJob {
  public:
   using Work = std::function<void(BackgroundJob&)>;
@@ -20,7 +20,7 @@ class BackgroundJob {
   // Starts `work`, which must hold nothing that the receiver owns, and must not throw.
   static std::shared_ptr<BackgroundJob> start(QObject* receiver, Work work);
 
-  // Asks the work to stop, and still hears how it ended.
+  // Asks the work to stop; its last call is still delivered.
   void request_stop() { stop_.request_stop(); }
   // On the receiver's thread, at the latest in its destructor: asks the work to stop; no call is delivered
   // any more.

@@ -1,4 +1,4 @@
-// Copies of a case while it has changes that are in no file.
+// Copies of a case's unsaved changes.
 #pragma once
 
 #include <QObject>
@@ -30,7 +30,7 @@ class CaseAutosave : public QObject {
   ~CaseAutosave() override;
 
   void save_now();
-  // As soon as it is known what the case is like: a rescued one is in no file but the copy that it came from.
+  // Called with the case's first state: a rescued case is in no file but the copy that it came from.
   void save_soon() { soon_ = true; }
 
  signals:

@@ -1,4 +1,4 @@
-// What is measured on a case while it runs.
+// The measurements on a case while it runs.
 #pragma once
 
 #include <chrono>
@@ -18,7 +18,7 @@ class CaseMeter {
   void computed(const AdvanceReport& report, std::int64_t step);
   // After a change of phi that is not a step: nothing has converged.
   void edited();
-  // Something else has changed that figures depend on.
+  // After any other change on which figures depend.
   void adjusted() {
     converged_ = false;
     thorough_ = false;
@@ -30,8 +30,8 @@ class CaseMeter {
   // Whether figures of the surface are due: as often as a tenth of the time allows, but at most twenty
   // times a second and at least once.
   [[nodiscard]] bool due() const { return Clock::now() >= due_at_; }
-  // Takes those of the phi that `read_phi` gives, which takes time where it is on a GPU, and notes them on
-  // the level set's curve. `thoroughly`: also what is under the surface and the labels.
+  // Measures the phi that `read_phi` gives (slow where it is on a GPU), and adds the figures to the level
+  // set's curve. `thoroughly`: also the volume's values under the surface and the labels.
   using ReadPhi = std::function<Result<std::shared_ptr<const Field>>()>;
   Status measure(const ReadPhi& read_phi, Case& document, bool thoroughly);
   [[nodiscard]] bool thorough() const { return thorough_; }

@@ -25,7 +25,7 @@ class CasePainter {
   // The engine's thread. Without a device nothing is ever drawn.
   void use(std::shared_ptr<gpu::Device> device) { device_ = std::move(device); }
   [[nodiscard]] bool can_draw() const { return device_ != nullptr; }
-  // Lets go of everything on the GPU: it has been lost, or another executor has other pages.
+  // Drops everything on the GPU: the context was lost, or another executor has other pages.
   void forget();
 
   // phi, or something else that is seen, has changed: every view is out of date.
@@ -37,21 +37,21 @@ class CasePainter {
 
   [[nodiscard]] bool out_of_date(ViewSlot& slot) const;
   // Draws the next picture of a view and announces it. Returns whether a better one can follow. Fails
-  // (ErrorKind::cancelled) when told to stop, (ErrorKind::capability) when the context was lost.
+  // (ErrorKind::cancelled) when stopped, (ErrorKind::capability) when the context was lost.
   Result<bool> draw(ViewSlot& slot, Case& document, std::stop_token stop);
   Result<std::optional<Hit>> pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel, Case& document);
 
-  // phi as it is: read from the executor at most once until it changes.
+  // The current phi, read from the executor at most once until it changes.
   Result<std::shared_ptr<const Field>> phi(Case& document);
 
-  // Of phi, since the start: what a GL executor's pictures must not need.
+  // Read-backs of phi since the start: a GL executor's pictures need none.
   [[nodiscard]] std::int64_t pages_uploaded() const { return pages_uploaded_; }
   [[nodiscard]] std::int64_t phi_copies() const { return phi_copies_; }
-  // What pictures that are handed on as textures must not need.
+  // Read-backs of pictures since the start: pictures as textures need none.
   [[nodiscard]] std::int64_t pictures_read_back() const { return pictures_read_back_; }
 
  private:
-  // What pictures of one source are drawn by, and what it has seen of the case.
+  // The renderer of one source, with the revisions of the case that it has.
   struct Canvas {
     std::unique_ptr<Renderer> renderer;
     std::shared_ptr<const Volume> source;
@@ -69,7 +69,7 @@ class CasePainter {
   Status show_phi(Canvas& canvas, Case& document, bool with_pages);
   Result<bool> draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, Renderer& renderer, std::int64_t step,
                            const Progress& progress);
-  // Draws a picture as the views want it; says nothing of what it is.
+  // Draws a picture in the form that the views want; its description is not filled in.
   template <class View>
   Result<ShownPicture> paint(ViewSlot& slot, const View& view, PictureSize size, bool into_mean,
                              Renderer& renderer, const Progress& progress);

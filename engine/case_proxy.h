@@ -1,5 +1,5 @@
-// A case as widgets know it: what it was like after the last job, what it can be told to do, and how it is
-// shown.
+// A case as widgets know it: its state after the last job, its commands, and its display. The case itself
+// belongs to the engine's thread (case_runner.h).
 #pragma once
 
 #include <QObject>
@@ -87,19 +87,19 @@ class CaseProxy : public QObject {
   void accept_surface_as(const QString& name, Take take = Take::free_voxels);
   void begin_from_label(std::uint8_t label);
 
-  // What is seen at a pixel of a 3D view (from its top left, physical pixels); the answer comes later, or
-  // never when the case is closed before.
+  // The place that a pixel of a 3D view shows (from its top left, physical pixels); the answer comes later,
+  // or never when the case is closed before.
   void pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel,
             std::function<void(std::optional<Hit>)> answer);
 
-  // What the case is like now, for whoever writes it on another thread; the answer comes as pick()'s does.
-  // What goes on ends as an entry of the history.
+  // The case as it is now, for writing on another thread; the answer comes as pick()'s does. An open change
+  // ends as an entry of the history.
   struct Snapshot {
     SessionContents contents;
     std::uint64_t position = 0;  // for mark_saved()
   };
   void take_snapshot(std::string view_state, std::function<void(std::shared_ptr<const Snapshot>)> answer);
-  // A session file holds what the snapshot held.
+  // A session file holds the snapshot of that position.
   void mark_saved(const Snapshot& snapshot);
 
   // Plays cases together, always at the same step; in no group any more when there are none.

@@ -233,7 +233,7 @@ void CaseRunner::post_picture(const std::shared_ptr<ViewSlot>& slot, Priority pr
   });
 }
 
-// Whoever turns the camera or paints asks for the next picture before this one is there. The surface must
+// A user who turns the camera or paints asks for the next picture before this one is there. The surface must
 // move on all the same: while it plays, a view is drawn once between steps and then waits behind the next
 // ones.
 void CaseRunner::draw_in_turn(const std::shared_ptr<ViewSlot>& slot, Priority priority,

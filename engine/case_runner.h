@@ -1,4 +1,4 @@
-// A case on the engine's thread: commands are carried out, steps are computed, pictures drawn, figures taken.
+// A case on the engine's thread: commands, steps, pictures and figures.
 #pragma once
 
 #include <functional>
@@ -16,57 +16,57 @@ class LockStep;
 // Everything but post(), add_view() and view_changed() belongs to the engine's thread.
 class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
  public:
-  // Called on the session's thread through the weak_receiver.
+  // The proxy's callbacks, called on its thread through the weak_receiver.
   struct Receiver {
     std::shared_ptr<WeakReceiver> weak_receiver;
     std::function<void(CaseState)> state_arrived;
     std::function<void(QString)> failed;
     std::function<void(double, QString)> progressed;
   };
-  // Does something to the case. What it returns as an error is told to the user.
+  // An operation on the case. The user sees the error that it returns.
   using Command = std::function<Status(CaseRunner&, const Progress&)>;
 
   CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor,
              Receiver receiver, RestoredCase restored = {});
 
-  // Any thread. Before anything else is done, the command is; then all that shows the case is brought up to
-  // date.
+  // Any thread. The command comes before all other jobs of the case; pictures, figures and state are brought
+  // up to date after it.
   void post(Command command);
   void add_view(const std::shared_ptr<ViewSlot>& slot) { painter_.add(slot); }
   void view_changed(const std::shared_ptr<ViewSlot>& slot);
 
   // The first command: makes the document.
   Status open();
-  // The last one: lets go of everything that lives on the engine's thread.
+  // The last one: destroys everything that lives on the engine's thread.
   void close();
 
   [[nodiscard]] bool opened() const { return case_ != nullptr; }
   [[nodiscard]] Case& document() { return *case_; }
   [[nodiscard]] CasePainter& painter() { return painter_; }
-  // After a command that has changed phi, or else what is seen: hands its outcome on.
+  // After a command that has changed phi, or else the display: publishes its outcome.
   Status report_edit(Status outcome);
   Status report_change(Status outcome);
   Status accept_surface(std::uint8_t label, Take take);
 
   [[nodiscard]] bool playing() const { return playing_; }
-  // With all that it is in lock-step with: playing, and steps after which it rests.
+  // For all cases in lock-step with this one: playing, and single steps with a pause after them.
   void set_playing(bool playing);
   Status step(std::int64_t steps, const Progress& progress);
   void play_alone(bool playing);
   void set_steps_per_picture(std::int64_t steps) { steps_per_picture_ = steps; }
   void set_pause_at_convergence(bool pause) { pause_at_convergence_ = pause; }
   [[nodiscard]] std::int64_t steps_to_next_picture() const;
-  // Computes steps and takes note of what came of it; a level set that has converged stops playing, unless it
-  // is in lock-step: then all go on until all have converged.
+  // Computes steps and records their outcome. A level set that has converged stops playing; in lock-step all
+  // go on until all have converged.
   Status advance(std::int64_t steps, const Progress& progress);
   [[nodiscard]] bool may_rest() const { return pause_at_convergence_ && meter_.converged(); }
   Status change_executor(ExecutorKind kind);
   void join(std::weak_ptr<LockStep> group) { group_ = std::move(group); }
 
-  // A file holds what the case was like at that position of its history.
+  // A file holds the case at that position of its history.
   void mark_saved(std::uint64_t position);
 
-  // Brings all that shows the case up to date.
+  // Brings pictures, figures and state up to date.
   void show();
   void report_failure(const Error& error);
 
@@ -109,7 +109,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   std::optional<Acceptance> acceptance_;
   std::uint64_t acceptance_position_ = 0;  // in the history, right after it
 
-  // The newest state, until the session has taken it.
+  // The newest state, until the proxy has taken it.
   struct Post {
     std::mutex mutex;
     CaseState state;

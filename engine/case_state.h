@@ -1,4 +1,4 @@
-// What a case is like, for those who show it.
+// The state of a case, as values for those who show it.
 #pragma once
 
 #include <QString>
@@ -14,7 +14,7 @@
 
 namespace tidemark {
 
-// What a case was like after the engine's last job for it.
+// A case after the engine's last job for it.
 struct CaseState {
   Parameters parameters;
   std::int64_t step = 0;  // since the start
@@ -28,15 +28,15 @@ struct CaseState {
   double steps_per_second = 0.0;  // while it plays, in the last second: steps by time, pictures included
   double solver_steps_per_second = 0.0;  // in the solver's own time
   MemoryReport memory;
-  std::shared_ptr<const Field> phi;  // at most a second old while it plays, else as it is
+  std::shared_ptr<const Field> phi;  // at most a second old while it plays, else current
   Curve curve;                       // how it has developed since the start
   SurfaceStatistics surface;         // as of the last measurement
-  RegionStatistics inside;           // of the volume's values, under the surface; measured when it rests
+  RegionStatistics inside;           // of the volume's values, under the surface; measured while it is still
   std::vector<Label> labels;
   std::vector<RegionStatistics> label_statistics;                 // in the order of `labels`
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null while there are none
   std::optional<Acceptance> acceptance;                           // while it is the last change
-  QString undo_text;                                              // what undo would take back; empty: nothing
+  QString undo_text;                                              // which change undo takes back; empty: none
   QString redo_text;
   std::uint64_t edits = 0;  // how much was done: grows with each edit
   bool modified = false;    // something would be lost

@@ -1,4 +1,4 @@
-// What a change of a case was, in the user's language.
+// The description of a change of a case, in the user's language.
 #pragma once
 
 #include <QString>

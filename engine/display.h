@@ -1,4 +1,4 @@
-// How a case is shown, and with what the mouse works: one model that all its views and panels share.
+// The display of a case and its tools: one model that all its views and panels share.
 #pragma once
 
 #include <QObject>
@@ -13,11 +13,11 @@
 
 namespace tidemark {
 
-// What the left button does in a view.
+// The tool of the left button in a view.
 enum class Tool {
   window,          // window and level
   crosshair,       // moves the linked cursor
-  probe_speed,     // T and epsilon from what is dragged over (paper section 6.2)
+  probe_speed,     // T and epsilon from the values under a drag (paper section 6.2)
   probe_transfer,  // centre and width of the chosen Gaussian
   seed,            // spheres to start from: press for the centre, drag for the radius
   paint,           // adds; the right button erases
@@ -29,7 +29,7 @@ enum class Tool {
 struct DisplaySettings {
   // Slices.
   glm::dvec3 cursor_mm{0.0};        // the linked crosshair (LPS): every slice goes through it
-  glm::dvec3 slice_centre_mm{0.0};  // what is in the middle of the slices, seen along their normal
+  glm::dvec3 slice_centre_mm{0.0};  // the middle of the slices, seen along their normal
   double slice_zoom = 1.0;
   SliceOrientation oblique = kAxial;  // of oblique views
   WindowLevel window;
@@ -61,7 +61,7 @@ struct DisplaySettings {
   Tool tool = Tool::window;
   Tool last_tool = Tool::crosshair;  // Space goes back to it
   double brush_mm = 5.0;             // radius
-  int chosen_primitive = 0;          // of transfer.source: what probing sets
+  int chosen_primitive = 0;          // of transfer.source: probing sets it
   std::vector<Measurement> measurements;
 
   bool operator==(const DisplaySettings&) const = default;
@@ -89,16 +89,16 @@ class Display : public QObject {
   void set(DisplaySettings next);  // emits changed() unless nothing is different
   void choose_tool(Tool tool);     // remembers the one before
 
-  // Where the mouse is in the patient (LPS, mm), in whatever view: brushes and values follow it in all.
+  // The mouse's place in the patient (LPS, mm), from any view: brushes and values follow it in all views.
   [[nodiscard]] const std::optional<glm::dvec3>& pointer_mm() const { return pointer_mm_; }
   void set_pointer(std::optional<glm::dvec3> patient_mm);
-  // What is being drawn in one view is seen in all.
+  // The sphere that is drawn in one view is seen in all.
   [[nodiscard]] const std::optional<DrawnSphere>& drawn_sphere() const { return drawn_sphere_; }
   void set_drawn_sphere(std::optional<DrawnSphere> drawn);
 
  signals:
   void changed();
-  void pointer_moved();  // or what is being drawn has changed
+  void pointer_moved();  // or the sphere that is being drawn has changed
 
  private:
   DisplaySettings settings_;

@@ -1,4 +1,4 @@
-// How a case is shown, as text for session files.
+// The display of a case as JSON for session files.
 #pragma once
 
 #include <string>

@@ -133,7 +133,7 @@ bool Engine::idle() const {
   return !running_ && std::all_of(waiting_.begin(), waiting_.end(), nothing);
 }
 
-// What to do next; none when the engine closes. Edits are done even then: owners let go of their objects so.
+// The next job; none when the engine closes. Edits run even then: by them owners drop their objects.
 std::optional<Engine::Waiting> Engine::next(std::unique_lock<std::mutex>& lock) {
   for (;;) {
     for (std::size_t priority = 0; priority < (closing_ ? 1 : kPriorities); ++priority) {

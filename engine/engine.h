@@ -22,7 +22,7 @@
 
 namespace tidemark {
 
-// What is waiting is done in this order; jobs of the same priority in the order in which they came.
+// Waiting jobs run in this order; jobs of the same priority in the order in which they came.
 enum class Priority {
   edit,        // what a user did: always first, so that it is seen in the next picture
   picture,     // pictures to be seen now
@@ -38,8 +38,8 @@ class Engine : public QObject {
  public:
   enum class Graphics { hardware, software, none };
 
-  // Without OpenGL there is an engine all the same: it computes, but draws nothing; why, says
-  // graphics_problem(). `use_opengl` false asks for that.
+  // Without OpenGL the engine computes, but draws nothing, and graphics_problem() has the reason.
+  // `use_opengl` false asks for that.
   explicit Engine(bool use_opengl = true);
   ~Engine() override;
 
@@ -47,7 +47,7 @@ class Engine : public QObject {
   [[nodiscard]] const std::string& graphics_problem() const { return graphics_problem_; }
   [[nodiscard]] const gpu::Capabilities& capabilities() const { return capabilities_; }
   // How finished pictures reach the views: as textures that their contexts share, or read back. With a GPU
-  // the former; the environment's TIDEMARK_PICTURES=textures|images has the last word.
+  // the former; the environment's TIDEMARK_PICTURES=textures|images overrides the choice.
   enum class Pictures { textures, images };
   [[nodiscard]] Pictures pictures() const { return pictures_; }
   // For contexts that are to see the engine's textures; null without OpenGL.
@@ -64,8 +64,8 @@ class Engine : public QObject {
   void interrupt(Priority priority, const void* owner = nullptr);
   // Whether nothing waits and nothing runs.
   [[nodiscard]] bool idle() const;
-  // Shared with other threads, and yet let go on the engine's thread, whoever is the last to let go: for what
-  // holds objects of OpenGL.
+  // Shares an object with other threads, but destroys it on the engine's thread, whichever thread drops the
+  // last reference: for holders of OpenGL objects.
   template <class T>
   std::shared_ptr<T> share(std::unique_ptr<T> object) {
     return std::shared_ptr<T>(object.release(), [this](T* last) {
@@ -75,8 +75,8 @@ class Engine : public QObject {
 
   // On the engine's thread: the device, null without OpenGL.
   [[nodiscard]] const std::shared_ptr<gpu::Device>& device() const { return device_; }
-  // On the engine's thread, after the device was lost: a new context. What was made on the lost device must
-  // be let go by its owners. Fails (ErrorKind::capability) when there is no other context to be had.
+  // On the engine's thread, after the device was lost: makes a new context. Owners must drop their objects
+  // of the lost device. Fails (ErrorKind::capability) when no other context can be made.
   Status renew_graphics();
   // Contexts made since the start: 1, and one more for each that was lost.
   [[nodiscard]] int contexts_made() const { return contexts_made_; }

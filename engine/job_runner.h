@@ -1,4 +1,4 @@
-// Work for the user interface, which never waits: one piece at a time, on a thread of its own.
+// A runner of work beside the user interface: one piece at a time, on a thread of its own.
 #pragma once
 
 #include <QObject>
@@ -15,8 +15,8 @@ namespace tidemark {
 
 class BackgroundJob;
 
-// Lives on the thread of the user interface. Whoever asks for the next piece of work gives up the one before,
-// of which nothing is heard any more.
+// Lives on the thread of the user interface. The next piece of work gives up the one before, which then sends
+// no more signals.
 class JobRunner : public QObject {
   Q_OBJECT
  public:
@@ -34,8 +34,8 @@ class JobRunner : public QObject {
   // `steps` is the context under which the names of steps are translated: a literal.
   JobRunner(const char* steps, QObject* parent) : QObject(parent), steps_(steps) {}
 
-  // Calls work(progress), which returns a Result or a Status and must hold nothing of ours, on a thread, and
-  // deliver(value) here; or ends with failed() or, where it found itself stopped, cancelled().
+  // Calls work(progress) on a thread and deliver(value) here. The work returns a Result or a Status and must
+  // hold nothing of ours. It ends with failed() when it fails, and with cancelled() when it was stopped.
   template <class Work, class Deliver>
   void run(Work work, Deliver deliver) {
     start([this, work = std::move(work), deliver = std::move(deliver)](const Progress& progress) -> Ending {
@@ -53,8 +53,8 @@ class JobRunner : public QObject {
     });
   }
 
-  void give_up();      // nothing more is heard of what runs; emits cancelled() when something was given up
-  void ask_to_stop();  // and still hears how it ends
+  void give_up();      // drops the signals of the running work; emits cancelled() if there was any
+  void ask_to_stop();  // its end is still signalled
 
  private:
   using Ending = std::function<void()>;  // to be called here

@@ -17,12 +17,12 @@ class LockStep : public std::enable_shared_from_this<LockStep> {
  public:
   void add(const std::shared_ptr<CaseRunner>& runner);
 
-  // A turn of `runner`: computes as many steps as take it to where the group goes next, none when it is there
-  // already and others are not.
+  // A turn of `runner`: computes the steps up to the group's next goal, none when it is there already and
+  // others are not.
   Status advance(CaseRunner& runner, const Progress& progress);
-  // What one does, all do. Those that played rest at the same step.
+  // A command to one is a command to all. Cases that played pause at the same step.
   void set_playing(bool playing);
-  // Rests all that have begun, and takes each so many steps further.
+  // Pauses all that have begun, and takes each so many steps further.
   Status step(std::int64_t steps, const Progress& progress);
 
  private:

@@ -1,4 +1,4 @@
-// A PACS for the user interface, which never waits for it.
+// A client of a PACS that works beside the user interface.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ class PacsClient : public JobRunner {
   void find_studies(const PacsServer& server, const StudyQuery& query, const PacsLimits& limits);
   void find_series(const PacsServer& server, const SeriesQuery& query, const PacsLimits& limits);
   void retrieve(const PacsServer& server, const RetrieveRequest& request, const PacsLimits& limits);
-  // Has files written into a new folder that is nobody else's, sends them, and removes it.
+  // Has files written into a new folder that only the user can read, sends them, and removes the folder.
   using WriteFiles = std::function<Result<std::vector<std::filesystem::path>>(
       const std::filesystem::path& folder, const Progress& progress)>;
   void send(const PacsServer& server, WriteFiles write);

@@ -6,7 +6,7 @@
 
 namespace tidemark {
 
-// How a kind of phantom_kinds() is called and what it shows, in one sentence.
+// The name of a kind of phantom_kinds(), and one sentence on what it shows.
 struct PhantomText {
   QString title;
   QString sentence;

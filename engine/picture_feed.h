@@ -19,7 +19,7 @@ struct ViewSlot;
 
 using AnyView = std::variant<SliceView, VolumeView>;
 
-// What is on the screen: the picture, and of what it is.
+// A picture on the screen, with its description.
 struct ShownPicture {
   // One of the two, by Engine::pictures(); neither where there is no picture. May be smaller than the view
   // while something moves: to be shown enlarged.
@@ -32,8 +32,8 @@ struct ShownPicture {
   std::uint64_t number = 0;  // counts the pictures of this view
 };
 
-// Asks for pictures of a view, and hands on the newest. The picture follows the level set by itself: a view
-// is asked for again only when it is another one.
+// Asks for pictures of a view, and delivers the newest. The picture follows the level set by itself: a new
+// request is needed only when the view changes.
 class PictureFeed : public QObject {
   Q_OBJECT
  public:

@@ -1,4 +1,4 @@
-// Results out of a case, and labels into it, for the user interface, which never waits.
+// The writing of a case's results, and the import of labels, beside the user interface.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@ class ResultJobs : public JobRunner {
   // Segmentation nor a structure set ends with no_result().
   void read_labels(const std::filesystem::path& file, const Geometry& grid, bool only_results = false);
 
-  // Ends with cancelled(), unless the work was past stopping: what is written then is told.
+  // Ends with cancelled(), unless the work was past stopping; then it ends as if it had not been asked.
   void cancel() { ask_to_stop(); }
 
  signals:

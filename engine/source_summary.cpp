@@ -42,7 +42,7 @@ float gradient_magnitude(const TypedVolume<Stored>& volume, Index3 voxel) {
 }
 
 // What count(piece of the voxels, counts) adds up in `size` counters, on every thread in counters of its own.
-// Stops early when it is told to.
+// Stops early on request.
 template <class Stored, class Count>
 std::vector<std::int64_t> add_up(const std::vector<Stored>& voxels, std::size_t size, ThreadPool& pool,
                                  const Progress& progress, const Count& count) {

@@ -1,4 +1,4 @@
-// How often values occur in a volume.
+// The distribution of a volume's values: histograms and common range.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct SourceSummary {
 };
 // At a voxel, by central differences (to one side at the border), in units a mm.
 float gradient_magnitude(const Volume& volume, Index3 voxel);
-// The volume must not be empty. What is told to stop has counted only a part.
+// The volume must not be empty. A summary that was stopped has counted only a part.
 SourceSummary summarise(const Volume& volume, const Progress& progress = {});
 
 }  // namespace tidemark

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
     QT_TRANSLATE_NOOP("tidemark::LoadingStep", "making the phantom"),
 };
 
-// T and epsilon of a study that nobody has looked at yet.
+// The first T and epsilon of a study.
 Parameters suggest_parameters(const Volume& volume, const Progress& progress) {
   Parameters parameters;
   if (const auto suggestion = suggest_start(volume, {}, progress)) {

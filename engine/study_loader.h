@@ -1,4 +1,4 @@
-// Finds and loads studies without ever keeping the user interface waiting.
+// The search for studies and their loading, beside the user interface.
 #pragma once
 
 #include <QString>
@@ -19,7 +19,7 @@
 
 namespace tidemark {
 
-// Where a phantom can be started from; where there are both, the threshold is the quick way.
+// The start that suits a phantom; where there are both, the threshold is the quick way.
 struct PhantomStart {
   std::optional<std::array<double, 4>> seed;           // i, j, k (voxels), radius (mm)
   std::optional<std::pair<double, double>> threshold;  // low, high, in the volume's units
@@ -49,7 +49,7 @@ class StudyLoader : public JobRunner {
   void scan(const std::filesystem::path& path, const GridPolicy& policy = {});
   // End with loaded() or failed(). An empty uid: the only loadable series, or the one with the most voxels.
   void load(const std::filesystem::path& path, const std::string& uid, const GridPolicy& policy = {});
-  // The remarks are told with what loading changed.
+  // The remarks are shown with the changes that loading made.
   void load(const Series& series, const std::vector<std::string>& remarks = {});
   void make_phantom(const std::string& kind);  // of phantom_kinds()
 

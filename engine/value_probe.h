@@ -42,8 +42,8 @@ class ValueProbe {
   Sums gradient_;
 };
 
-// The range epsilon that a probe may set at least: a hundredth of the range of common values, so that one
-// even patch does not make the level set see nothing else.
+// The smallest epsilon that a probe may set: a hundredth of the range of common values. A smaller one, from
+// an even patch, would exclude everything else.
 double least_probed_range(double common_low, double common_high);
 
 }  // namespace tidemark

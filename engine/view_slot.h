@@ -1,4 +1,4 @@
-// A view between the user interface, which says what is to be seen, and the engine, which draws it.
+// The slot between a view, which asks for a picture, and the engine, which draws it.
 #pragma once
 
 #include <atomic>
@@ -22,7 +22,7 @@ struct ViewSlot {
   };
 
   std::shared_ptr<WeakReceiver> weak_receiver;
-  std::function<void()> take;  // what the weak_receiver is sent when there is a picture
+  std::function<void()> take;  // called through weak_receiver when there is a picture
 
   std::mutex mutex;                    // of the next three
   std::optional<Wish> wish;            // the newest; none before the first
@@ -30,7 +30,7 @@ struct ViewSlot {
   ShownPicture finished;               // what the engine drew last
   std::atomic<bool> waiting{false};    // a job to draw it is in the queue
   std::atomic<bool> refining{false};   // and one to draw it better
-  std::atomic<bool> announced{false};  // the user interface has been told of `finished`, and has not looked
+  std::atomic<bool> announced{false};  // the user interface knows of `finished`, and has not taken it
 
   // On the engine's thread alone.
   QualityControl quality;

@@ -18,7 +18,7 @@ Result<std::shared_ptr<PictureTexture>> ViewTextures::free_texture(PictureSize s
   std::erase_if(textures_, [&](const auto& texture) { return is_free(texture) && texture->size() != size; });
   for (const auto& texture : textures_) {
     if (!is_free(texture)) continue;
-    // The view has let go of it, but its GPU may still be reading.
+    // The view has dropped it, but its GPU may still be reading.
     TIDEMARK_TRY(texture->take_reader().wait());
     return texture;
   }

@@ -1,4 +1,4 @@
-// Pictures of a view that stay on the GPU, from the engine's context to the view's own.
+// The pictures of a view that stay on the GPU, from the engine's context to the view's own.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@ namespace tidemark {
 
 class Engine;
 
-// One texture. Who holds it may read it in a context that shares with the engine's: it is not drawn into.
+// One texture. Its holder may read it in a context that shares with the engine's; nobody draws into it then.
 class PictureTexture {
  public:
   PictureTexture(std::shared_ptr<gpu::Device> device, Canvas canvas)
@@ -25,8 +25,8 @@ class PictureTexture {
 
   [[nodiscard]] unsigned id() const { return canvas_.colour().id(); }
   [[nodiscard]] PictureSize size() const { return canvas_.size(); }
-  // The fence (GLsync) behind the reader's last command that reads it, inserted and flushed. What it comes
-  // instead of belongs to the reader again.
+  // The fence (GLsync) behind the reader's last command that reads it, inserted and flushed. The fence before
+  // it, which is returned, belongs to the reader again.
   [[nodiscard]] void* read_until(void* fence) const { return reader_.exchange(fence); }
 
  private:

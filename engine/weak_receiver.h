@@ -1,4 +1,4 @@
-// How other threads reach an object of the user interface that may be gone by then.
+// The way by which other threads reach an object of the user interface that may be gone by then.
 #pragma once
 
 #include <QMetaObject>

@@ -1,4 +1,4 @@
-// What the machine's OpenGL can do.
+// The capabilities of the machine's OpenGL.
 #pragma once
 
 #include <cstdint>

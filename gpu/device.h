@@ -54,7 +54,7 @@ class Device {
   [[nodiscard]] std::int64_t severe_messages() const { return severe_messages_; }
   // Where debug messages go: severe or not, and the text. By default they are only counted.
   void on_message(std::function<void(bool severe, const std::string& text)> sink) { sink_ = std::move(sink); }
-  // Sends a message of our own there: all that a compiler had to say.
+  // Sends a message of our own there: all messages of a compiler.
   void report_message(const std::string& text) const {
     if (sink_) sink_(false, text);
   }

@@ -11,7 +11,7 @@ namespace tidemark::gpu {
 
 enum class Primitive { points, lines, triangles };
 
-// What core contexts want bound while something is drawn; this one has no attributes.
+// The vertex array that core contexts need for a draw; this one has no attributes.
 class VertexArray {
  public:
   VertexArray() = default;
@@ -25,10 +25,10 @@ class VertexArray {
 // Draws with the program, the framebuffer and the vertex array in use; vertices are numbered from 0.
 void draw(Primitive primitive, std::int64_t vertices);
 
-// Compiles what such a draw needs, in this thread: on a processor that plays the GPU. Draws nothing.
+// Compiles such a draw's program in this thread, on a processor that plays the GPU. Draws nothing.
 void prepare_draw();
 
-// Fragments reach their texels as they are: no test, no blending, no dithering, lines and points one texel
+// Fragments reach their texels unchanged: no test, no blending, no dithering, lines and points one texel
 // wide.
 void begin_exact_drawing();
 

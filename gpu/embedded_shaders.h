@@ -1,4 +1,4 @@
-// The shader files as they were when the program was built. Private to this folder; the .cpp is generated.
+// The shader files as of the program's build. Private to this folder; the .cpp is generated.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Drawing into textures, and the vertex arrays that drawing needs.
+// Framebuffers over textures, and the vertex arrays that drawing needs.
 #pragma once
 
 #include <initializer_list>

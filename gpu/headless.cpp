@@ -8,7 +8,7 @@
 namespace tidemark::gpu {
 namespace {
 
-// epoxy ends the process when a library is missing; so it is asked for first, and kept open.
+// epoxy ends the process when a library is missing, so this opens the library first, and keeps it open.
 bool library_is_there(const char* name) {
   return ::dlopen(name, RTLD_LAZY | RTLD_GLOBAL) != nullptr;
 }

@@ -5,7 +5,7 @@
 namespace tidemark::gpu {
 namespace {
 
-constexpr int kUnit = 14;   // which nobody else draws from
+constexpr int kUnit = 14;   // no other draw uses it
 constexpr int kSlots = 10;  // as in render/sampler_slots.frag
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Keeps a processor that plays the GPU from compiling a program more than once.
+// The sampler slots, cleared so that a processor that plays the GPU compiles a program only once.
 #pragma once
 
 #include "gpu/draw.h"

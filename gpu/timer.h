@@ -1,4 +1,4 @@
-// How long the GPU takes, by its own clock.
+// A timer on the GPU's own clock.
 #pragma once
 
 #include "gpu/handles.h"

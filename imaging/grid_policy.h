@@ -1,4 +1,4 @@
-// What is done with a series whose slices make no regular grid as they lie.
+// The policy for a series whose slices make no regular grid.
 #pragma once
 
 namespace tidemark {

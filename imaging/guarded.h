@@ -1,4 +1,4 @@
-// Where exceptions end that libraries, or the lack of memory, throw while a file is read or written.
+// The end of exceptions that libraries, or the lack of memory, throw while a file is read or written.
 #pragma once
 
 #include <exception>

@@ -1,5 +1,5 @@
-// The one way in: a DICOM folder, a DICOM file, a DICOMDIR, a volume file or a zip archive of these, by its
-// path.
+// The one way into the program: a DICOM folder, a DICOM file, a DICOMDIR, a volume file or a zip archive of
+// these, by its path.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Whose images they are, for people to read.
+// The patient and the study, for people to read.
 #pragma once
 
 #include <string>

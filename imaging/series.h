@@ -1,4 +1,4 @@
-// What was found under a path, before any voxel is read.
+// The series found under a path, before any voxel is read.
 #pragma once
 
 #include <compare>

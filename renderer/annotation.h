@@ -1,4 +1,4 @@
-// What is written over pictures: where the patient's sides are, and how long a centimetre is.
+// The annotations over pictures: the patient's sides and a scale bar.
 #pragma once
 
 #include <string_view>
@@ -19,7 +19,7 @@ double scale_bar_mm(double longest_mm);
 // Writes at `at` (the upper left, in pixels) in letters of that height. Knows capital A F H L P R, digits,
 // '.', 'c', 'm' and the space, which is all there is to write; others leave a gap.
 void write_text(Picture& picture, glm::dvec2 at, double height, std::string_view text);
-// How wide that is, in pixels.
+// The width of that text, in pixels.
 double text_width(double height, std::string_view text);
 
 }  // namespace tidemark

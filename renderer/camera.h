@@ -1,4 +1,4 @@
-// Where a picture is taken from.
+// The camera: where a picture is taken from.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -22,7 +22,7 @@ struct Camera {
   double azimuth = 0.0;
   double elevation = 0.0;
   double zoom = 1.0;                                  // 1: the whole volume is in view from every side
-  std::optional<glm::dvec3> focus_mm = std::nullopt;  // what is in the middle; none: the volume's middle
+  std::optional<glm::dvec3> focus_mm = std::nullopt;  // the picture's middle; none: the volume's middle
 
   bool operator==(const Camera&) const = default;
 
@@ -39,7 +39,7 @@ struct Camera {
   [[nodiscard]] bool sees(const Box& box, const Geometry& geometry, double aspect) const;
 };
 
-// How a slice lies in the patient: unit vectors (LPS) to the right and up in its picture.
+// The orientation of a slice in the patient: unit vectors (LPS) to the right and up in its picture.
 struct SliceOrientation {
   glm::dvec3 right{1.0, 0.0, 0.0};
   glm::dvec3 up{0.0, -1.0, 0.0};
@@ -59,8 +59,8 @@ inline constexpr SliceOrientation kSagittal{{0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
 SliceOrientation oblique(glm::dvec3 normal);
 
 // From the view (x and y in -1..1) of a slice through `position_mm` to voxel coordinates. The slice fills the
-// view at zoom 1, and a pixel is a square in the patient whatever the spacing. `pan_mm` is what is in the
-// middle, to the right and up of the volume's middle.
+// view at zoom 1, and a pixel is a square in the patient whatever the spacing. `pan_mm` is the place of
+// the view's middle, to the right and up of the volume's middle.
 glm::dmat4 slice_from_view(const Geometry& geometry, const SliceOrientation& orientation,
                            glm::dvec3 position_mm, double zoom, glm::dvec2 pan_mm, double aspect);
 double slice_half_height_mm(const Geometry& geometry, const SliceOrientation& orientation, double zoom,
@@ -69,8 +69,8 @@ double slice_half_height_mm(const Geometry& geometry, const SliceOrientation& or
 // The middle of the volume, in the patient.
 glm::dvec3 middle_of(const Geometry& geometry);
 
-// What a direction in the patient (LPS) points to, as DICOM names it: L or R, P or A, H or F, and two or
-// three of them by their share when it is oblique.
+// The side of the patient to which a direction (LPS) points, as DICOM names it: L or R, P or A, H or F, and
+// two or three of them by their share when it is oblique.
 std::string orientation_letters(glm::dvec3 direction);
 
 }  // namespace tidemark

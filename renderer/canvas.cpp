@@ -50,7 +50,7 @@ Status Canvas::fill(gpu::Device& device, const Progress& progress, gpu::Blending
   gpu::prepare_draw();
   report_.prepare_seconds = whole.seconds();
   const auto [width, height] = size();
-  // From little on, as nobody knows how hard this picture is.
+  // Begins with little: the cost of this picture is not known.
   std::int64_t wanted_rows = kLeastRows;
   for (std::int64_t top = 0; top < height;) {
     const std::int64_t rows = std::min(wanted_rows, height - top);

@@ -1,4 +1,4 @@
-// Where pictures are drawn: a texture, filled in pieces so that nobody waits long for the GPU.
+// The canvas of a picture: a texture, filled in pieces so that nobody waits long for the GPU.
 #pragma once
 
 #include "core/progress.h"
@@ -9,31 +9,31 @@
 
 namespace tidemark {
 
-// What drawing a picture took.
+// The cost of drawing a picture.
 struct DrawReport {
-  double seconds = 0.0;          // all in all
+  double seconds = 0.0;          // in all
   double prepare_seconds = 0.0;  // of these, until the driver had compiled what it needs
   double longest_piece_seconds = 0.0;
   std::int64_t pieces = 0;
 };
 
-// On a processor that plays the GPU, contexts share one rasteriser, which works on one draw until that is
-// done: pieces are as small as it takes to keep each below kLongestPiece. A GPU gets the whole picture at
+// On a processor that plays the GPU, contexts share one rasteriser, which finishes one draw before the next:
+// pieces are small enough to take less than kLongestPiece each. A GPU gets the whole picture at
 // once.
 class Canvas {
  public:
   static constexpr double kLongestPiece = 0.020;  // seconds
 
   Canvas() = default;
-  // `filter`: for who reads its texture between texels.
+  // `filter`: for reading its texture between texels.
   static Result<Canvas> create(gpu::Device& device, PictureSize size, gpu::TexelFormat format,
                                gpu::Filter filter = gpu::Filter::nearest);
 
   [[nodiscard]] PictureSize size() const { return {colour_.width(), colour_.height()}; }
   [[nodiscard]] const gpu::Texture2D& colour() const { return colour_; }
 
-  // Draws a triangle over the picture with the program in use; what was there is lost unless it is blended
-  // with. Fails (ErrorKind::cancelled) between two pieces when it is told to stop.
+  // Draws a triangle over the picture with the program in use; without blending the old picture is lost.
+  // Fails (ErrorKind::cancelled) between two pieces on a request to stop.
   Status fill(gpu::Device& device, const Progress& progress, gpu::Blending blending = gpu::Blending::replace);
   // Waits for the GPU.
   Result<Picture> read() const;

@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-// What PictureMean (quality_control.h) is for pictures that are read back.
+// The counterpart of PictureMean (quality_control.h), which has pictures that are read back.
 class CanvasMean {
  public:
   static Result<CanvasMean> create(gpu::Device& device);

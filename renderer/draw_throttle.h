@@ -1,4 +1,4 @@
-// Keeps drawing from holding a processor that plays the GPU for long.
+// A throttle that keeps drawing from holding a processor that plays the GPU for long.
 #pragma once
 
 #include <functional>
@@ -14,22 +14,22 @@
 namespace tidemark {
 
 // On such a processor, contexts share one rasteriser: many small draws one after the other, as a picture from
-// slices needs, are waited for whenever about kWantedPiece of work is on its way, and large ones are cut. A
-// GPU is only fed.
+// slices needs, are waited for whenever about kWantedPiece of work is queued, and large ones are cut. On a
+// GPU nothing is waited for.
 class DrawThrottle {
  public:
   DrawThrottle(gpu::Device& device, const Progress& progress) : device_(device), progress_(progress) {}
 
-  // Draws a rectangle with `draw`, whole or in parts, with this program, which is in use. `weight`: how hard
-  // a fragment is beside other draws'. Fails (ErrorKind::cancelled) between two parts when it is told to
-  // stop.
+  // Draws a rectangle with `draw`, whole or in parts, with this program, which is in use. `weight`: the
+  // cost of a fragment, relative to other draws. Fails (ErrorKind::cancelled) between two parts on a request
+  // to stop.
   using Draw = std::function<void(const gpu::TexelRect&)>;
   Status rectangle(const gpu::Program& program, const gpu::TexelRect& rect, double weight, const Draw& draw);
   // The same for `count` things of so many fragments each.
   using DrawSome = std::function<void(std::int64_t first, std::int64_t count)>;
   Status things(const gpu::Program& program, std::int64_t count, std::int64_t fragments_each, double weight,
                 const DrawSome& draw);
-  // Waits for what is on its way. The GPU's own work between two draws is not counted.
+  // Waits for the queued work. The GPU's own work between two draws is not counted.
   Status wait();
 
   [[nodiscard]] const DrawReport& report() const { return report_; }

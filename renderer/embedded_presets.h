@@ -1,4 +1,4 @@
-// The presets as they were when the program was built. Private to this folder; the .cpp is generated.
+// The presets as of the program's build. Private to this folder; the .cpp is generated.
 #pragma once
 
 #include <span>

@@ -64,7 +64,7 @@ std::vector<PhiPicture::Change> PhiPicture::follow(const Field& phi) {
   std::vector<Change> changes;
   new_pages_.clear();
   const auto voxels = static_cast<std::size_t>(phi.layout.voxels_per_page());
-  // First what is freed, so that its room is taken again.
+  // Freed pages come first, so that their room is used again.
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
     const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
     if (entry >= 0) continue;

@@ -1,4 +1,4 @@
-// The level set as pictures are drawn from it: phi's packed pages and their page table on the GPU.
+// The level set for pictures: phi's packed pages and their page table on the GPU.
 #pragma once
 
 #include <optional>
@@ -27,8 +27,8 @@ class PhiPicture {
   // next call that succeeds.
   Status update(gpu::Device& device, const Field& phi, std::span<const std::int64_t> quiet);
 
-  // Looks at an executor's own memory from now on; to be called again after each run of steps. With `quiet`,
-  // what pages do is found out, too, for which the page table is read back. The view has the
+  // Draws from an executor's own memory from now on; to be called again after each run of steps. With `quiet`
+  // the page table is read back, so that pictures of pages are right. The view has the
   // layout and the band of create().
   Status look_at(gpu::Device& device, const PackedView& view,
                  const std::optional<std::vector<std::int64_t>>& quiet);

@@ -1,4 +1,4 @@
-// Coarse pictures in time while something moves, better and better ones when nothing does. Knows no OpenGL.
+// The choice of quality: coarse pictures while something moves, better ones afterwards. Knows no OpenGL.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-// One picture on the way to a finished one: smaller than the view when it has to be quick, to be shown
+// One picture on the way to a finished one: a quick one is smaller than the view, and is shown
 // enlarged.
 struct Pass {
   PictureSize size;
@@ -24,11 +24,11 @@ class QualityControl {
 
   explicit QualityControl(double budget_seconds = kInteractive) : budget_seconds_(budget_seconds) {}
 
-  // The view (camera, level set, anything) has changed: what comes next is drawn to the budget.
+  // The view (camera, level set, anything) has changed: the next picture keeps to the budget.
   void moved();
-  // What to draw now for a view of `full` physical pixels; none when the picture is finished.
+  // The next picture for a view of `full` physical pixels; none when the picture is finished.
   [[nodiscard]] std::optional<Pass> next(PictureSize full) const;
-  // That is drawn and took so long. When the view moved meanwhile, it does not count as a picture of the new
+  // That picture was drawn and took so long. If the view moved meanwhile, it does not count for the new
   // one.
   void drawn(const Pass& pass, double seconds);
 

@@ -21,7 +21,7 @@
 
 namespace tidemark {
 
-// What a ray meets first.
+// The first thing that a ray meets.
 struct Hit {
   enum class Kind { clip_plane = 1, surface, source };  // as in render/volume.frag
   Kind kind = Kind::surface;
@@ -42,23 +42,23 @@ class Renderer {
   // Shows phi from now on. `quiet`: virtual pages that are not computed at present. Fails (ErrorKind::usage)
   // unless phi has the layout and the grid of create().
   Status set_phi(const Field& phi, std::span<const std::int64_t> quiet = {});
-  // Draws from now on what an executor on this device keeps on the GPU (Executor::packed_view()); to be
-  // called again after each run of steps, and before any picture once the executor was told something. With
+  // Draws from now on from the GPU memory of an executor on this device (Executor::packed_view()); to be
+  // called again after each run of steps, and before any picture after another call to the executor. With
   // `quiet` (Executor::quiet_pages()) the page views are right, too. Fails (ErrorKind::usage) unless the
   // pages are those of create().
   Status look_at(const PackedView& view,
                  const std::optional<std::vector<std::int64_t>>& quiet = std::nullopt);
-  // What the speed's terms are computed from.
+  // The parameters of the speed map.
   void set_parameters(const Parameters& parameters);
   // A label for each voxel, 0 for none. Fails (ErrorKind::usage) when there are not as many as voxels.
   Status set_labels(std::span<const std::uint8_t> labels);
-  // Red, green, blue and opacity (0: hidden) of the labels from 0 on; at first all are seen, as
-  // label_colour() says. Fails (ErrorKind::usage) on more than kLabels.
+  // Red, green, blue and opacity (0: hidden) of the labels from 0 on; at first all are seen, with
+  // label_colour(). Fails (ErrorKind::usage) on more than kLabels.
   static constexpr std::size_t kLabels = LabelPicture::kLabels;
   using LabelColour = LabelPicture::Colour;
   Status set_label_colours(std::span<const LabelColour> colours);
 
-  // Fails (ErrorKind::cancelled) when told to stop, (ErrorKind::capability) when the context is lost.
+  // Fails (ErrorKind::cancelled) on a request to stop, (ErrorKind::capability) when the context is lost.
   Result<Picture> draw(const VolumeView& view, PictureSize size, const Progress& progress = {});
   Result<Picture> draw(const SliceView& view, PictureSize size, const Progress& progress = {});
 
@@ -66,8 +66,8 @@ class Renderer {
   Status draw_on(Canvas& canvas, const VolumeView& view, const Progress& progress = {});
   Status draw_on(Canvas& canvas, const SliceView& view, const Progress& progress = {});
 
-  // What is seen at a pixel (from the picture's top left); none when nothing is. The source is not met where
-  // it has no 3D texture.
+  // The first thing at a pixel (from the picture's top left); none when nothing is seen. Rays do not meet a
+  // source without a 3D texture.
   Result<std::optional<Hit>> pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel);
 
   [[nodiscard]] const DrawReport& last_draw() const { return report_; }
@@ -76,9 +76,9 @@ class Renderer {
 
  private:
   Renderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source);
-  // From those made already, or new. Of many, the one that was not used for longest is given back.
+  // An existing program, or a new one. Beyond a limit, the one unused for longest is deleted.
   Result<const gpu::Program*> find_program(const char* fragment, const gpu::Defines& variant);
-  // A program with what all programs look at set; the view's own uniforms are left.
+  // A program with the uniforms that all programs have; the view's own are not set.
   Result<const gpu::Program*> use_program(const char* fragment, const gpu::Defines& variant);
   Result<const gpu::Program*> use_volume_program(const char* fragment, const VolumeView& view,
                                                  PictureSize size, gpu::Defines variant);

@@ -1,4 +1,4 @@
-// How slices lie in a volume: the C++ side of resources/shaders/render/slice_axes.glsl.
+// The axis of slices in a volume: the C++ side of resources/shaders/render/slice_axes.glsl.
 #pragma once
 
 #include <fmt/format.h>

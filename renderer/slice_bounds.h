@@ -1,4 +1,4 @@
-// Where slices show anything, so that nothing is drawn elsewhere.
+// The bounds of what slices show; nothing is drawn elsewhere.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -29,9 +29,9 @@ class SliceBounds {
               const Geometry& geometry, std::span<const PhysicalPage> table, const PageContents& contents);
 
   [[nodiscard]] const SliceAxis& axis() const { return axis_; }
-  // The part of a slice that what shows beside it is interpolated from.
+  // The part of a slice from which visible places beside it are interpolated.
   [[nodiscard]] gpu::TexelRect voxels(std::int64_t slice) const;
-  // What shows between two slices, along a slice's own axes, in voxel coordinates; empty when nothing does.
+  // The visible part between two slices, along a slice's own axes, in voxel coordinates; perhaps empty.
   struct Across {
     glm::dvec2 low{0.0};
     glm::dvec2 high{0.0};

@@ -31,8 +31,8 @@ class SliceCaster {
   // The axis that is most along the view's direction: slices are cut across it.
   static SliceAxis axis_for(const VolumeView& view, const Geometry& geometry);
 
-  // With the program of render/slab.frag for that axis, whose uniforms of the view are set. What is drawn is
-  // in layers(), premultiplied. Fails (ErrorKind::cancelled) when it is told to stop.
+  // With the program of render/slab.frag for that axis, whose uniforms of the view are set. The picture is
+  // in layers(), premultiplied. Fails (ErrorKind::cancelled) on a request to stop.
   Status draw(gpu::Device& device, const gpu::Program& slab_program, const Scene& scene,
               const VolumeView& view, PictureSize size, const Units& units, const Progress& progress);
 

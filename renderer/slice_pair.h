@@ -16,7 +16,7 @@ class SlicePair {
 
   [[nodiscard]] bool holds(std::int64_t slice) const { return place(slice).slice == slice; }
   [[nodiscard]] const gpu::Texture2D& texture(std::int64_t slice) const { return place(slice).texture; }
-  // What is drawn from now on becomes this slice.
+  // The next draws make this slice.
   void begin(std::int64_t slice);
   void forget();
 

@@ -1,4 +1,4 @@
-// The source volume as pictures are drawn from it.
+// The source volume for pictures: its texture, and its opacity page by page.
 #pragma once
 
 #include <optional>
@@ -25,11 +25,11 @@ class SourcePicture {
   // Whether there is a texture. If not, pictures are made from slices (SourceStack, source_on_plane()).
   [[nodiscard]] bool has_volume() const { return has_volume_; }
 
-  // From now on the transfer function, for that region and that band, says what pages of the source show.
+  // Sets the transfer function, region and band from which page_opacities() are computed.
   void set_transfer_function(const Volume& source, const TransferFunction& function, Region region,
                              double band);
 
-  // The most that a page shows by that function: when it is outside throughout, inside throughout, mixed.
+  // The greatest opacity of each page by that function: outside throughout, inside throughout, mixed.
   [[nodiscard]] const std::vector<glm::vec4>& page_opacities() const { return page_opacities_; }
 
   // The uniforms of render/source.glsl, and page_opacity on the next unit.

@@ -13,8 +13,8 @@
 
 namespace tidemark {
 
-// Two slices are there at a time, of the source's values and its gradient; they are made from three slices as
-// they are stored, from differences over a voxel to each side.
+// Two slices are kept at a time, of the source's values and its gradient. They are made from three stored
+// slices, by differences over a voxel to each side.
 class SourceStack {
  public:
   SourceStack() = default;
@@ -47,7 +47,7 @@ class SourceStack {
   std::int64_t first_gathered_ = -1;
 };
 
-// How a volume's stored values are kept in textures, and how to get its values from those:
+// The texture format of a volume's stored values, and the way back to its values:
 // value = scale.x * texel + scale.y.
 struct StoredAs {
   gpu::TexelFormat format = gpu::TexelFormat::r32f;

@@ -1,4 +1,4 @@
-// Transfer functions: how values of the source, and places of the surface, show (paper section 6.2).
+// Transfer functions: the look of the source's values and of places on the surface (paper section 6.2).
 #pragma once
 
 #include <filesystem>
@@ -72,7 +72,7 @@ struct TransferFunction {
   // Fails (ErrorKind::input) and names the field.
   static Result<TransferFunction> parse(std::string_view json);
   static Result<TransferFunction> load(const std::filesystem::path& file);
-  // What parse() reads back as the same function, if all in it is as parse() allows it.
+  // JSON that parse() reads back as the same function, if it keeps to the limits of parse().
   [[nodiscard]] std::string to_json() const;
 };
 

@@ -1,4 +1,4 @@
-// A view as the uniforms of resources/shaders/render. The program is in use.
+// The uniforms of resources/shaders/render for a view. The program is in use.
 #pragma once
 
 #include "gpu/program.h"
@@ -6,8 +6,8 @@
 
 namespace tidemark {
 
-// What a view looks at: whether the source shows between surface and clip plane, and whether phi and values
-// of the source are needed for anything.
+// The needs of a view: whether the source shows between surface and clip plane, and whether phi and values
+// of the source are needed.
 bool shows_source(const VolumeView& view);
 bool needs_phi(const VolumeView& view);
 bool needs_source(const VolumeView& view);
@@ -20,7 +20,7 @@ struct VoxelPlane {
 };
 VoxelPlane clip_plane_in_voxels(const ClipPlane& plane, const Geometry& geometry);
 
-// What render/transfer.glsl is compiled with for this view.
+// The defines of render/transfer.glsl for this view.
 gpu::Defines shading_defines(const VolumeView& view);
 // render/transfer.glsl, lighting.glsl and shade.glsl.
 void set_shading(const gpu::Program& program, const VolumeView& view, const Geometry& geometry);

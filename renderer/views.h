@@ -1,4 +1,4 @@
-// What is to be seen in a picture, and how.
+// The views: what a picture shows, and how.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -42,12 +42,12 @@ enum class SpeedTerm { total, data, curvature, rescaling };
 enum class SurfaceColouring { plain, total_speed, data, curvature_term, rescaling, curvature, pages };
 enum class SliceContent { source, speed, pages };
 
-// How much work goes into a volume rendering.
+// The quality of a volume rendering.
 struct Quality {
   double step_voxels = 1.0;    // along a ray
   bool fast_gradient = false;  // lights the source from differences to one side
   int round = 0;  // pictures of other rounds have their rays and samples at other places, for taking means
-  bool skip_empty = true;  // false only to find out what skipping saves
+  bool skip_empty = true;  // false only to measure the gain
 
   bool operator==(const Quality&) const = default;
 };
@@ -55,8 +55,8 @@ struct Quality {
 // While something moves.
 inline constexpr Quality kMovingQuality{1.5, true, 0, true};
 
-// How the volume rendering is made: by a ray for each pixel, or from 2D slices that are reconstructed one
-// after the other (paper section 5), which needs no 3D texture of the source.
+// The mode of volume rendering: a ray for each pixel, or 2D slices that are reconstructed one after the
+// other (paper section 5), which needs no 3D texture of the source.
 enum class Mode { raycast, slices };
 
 struct VolumeView {
@@ -64,7 +64,7 @@ struct VolumeView {
   Camera camera;
   std::optional<TransferFunction> source;  // none: the surface alone
   bool surface = true;
-  glm::vec4 surface_colour{0.93F, 0.72F, 0.45F, 1.0F};  // and opacity, where `source` says nothing of it
+  glm::vec4 surface_colour{0.93F, 0.72F, 0.45F, 1.0F};  // and opacity, unless `source` colours it
   SurfaceColouring colouring = SurfaceColouring::plain;
   Region region = Region::everywhere;  // where the source shows
   double label_opacity = 0.0;          // of the labels' borders
@@ -81,7 +81,7 @@ struct SliceView {
   SliceOrientation orientation = kAxial;
   glm::dvec3 position_mm{0.0};  // a point of the slice (LPS)
   double zoom = 1.0;            // 1: the whole slice is seen
-  glm::dvec2 pan_mm{0.0};  // what is in the middle of the picture, to the right and up of the volume's middle
+  glm::dvec2 pan_mm{0.0};       // the picture's middle, right and up of the volume's middle
   SliceContent content = SliceContent::source;
   SpeedTerm term = SpeedTerm::data;  // of the speed map
   WindowLevel window;

@@ -1,4 +1,4 @@
-// When a surface counts as stopped: see kConvergedSpeed.
+// The measure of motion by which a surface counts as stopped: see kConvergedSpeed.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-// How often motion is measured in a window: every two steps, over both of them.
+// The measurements of motion in a window: one every two steps, over both of them.
 inline constexpr int kMotionSamples = kConvergenceWindow / 2;
 
 // Summed over samples in a window of steps and the voxels beside the surface (StepConstants::near): the

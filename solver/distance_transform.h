@@ -1,4 +1,4 @@
-// A mask becomes a level set by the exact distance to its boundary, not by smoothing a step.
+// The exact distance transform that makes a level set of a mask; smoothing a step would move the surface.
 #pragma once
 
 #include "core/volume.h"

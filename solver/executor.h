@@ -1,4 +1,4 @@
-// One level set, several ways to run it: the interface that all executors share.
+// The interface of all executors: one level set, several ways to run it.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class Device;
 }
 struct PackedView;
 
-// When a run of steps ends.
+// The end of a run of steps.
 struct Advance {
   std::int64_t steps = 1;        // at most
   bool until_converged = false;  // stop when the surface has stopped moving (see kConvergedSpeed)
@@ -34,10 +34,10 @@ struct Advance {
 // flips between two values does not count as motion.
 inline constexpr double kConvergedSpeed = 0.01;
 inline constexpr int kConvergenceWindow = 16;
-// A page may rest when phi changed by no more than this over such a window, beside the surface.
+// A page may become quiet when phi changed by no more than this over such a window, beside the surface.
 inline constexpr float kQuietChange = 1e-3F;
 
-// What a run of steps cost.
+// The cost of a run of steps.
 struct AdvanceReport {
   std::int64_t steps = 0;
   bool converged = false;
@@ -54,7 +54,7 @@ struct MemoryReport {
   std::int64_t quiet_pages = 0;  // resident, but not computed at present
   std::int64_t state_bytes = 0;  // phi, tables and lists as allocated
   std::int64_t peak_state_bytes = 0;
-  std::int64_t source_bytes = 0;  // what resident pages keep of the source
+  std::int64_t source_bytes = 0;  // the source beside resident pages
   Index3 page_shape{0};
 };
 

@@ -1,4 +1,4 @@
-// What executors have in common: the source, the equation's constants, and the frame of a run of steps.
+// The common base of executors: the source, the equation's constants, and the frame of a run of steps.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// The equation made ready to be computed: parameters and grid become the numbers that kernels use.
+// The equation made ready to be computed: parameters and grid as the numbers that kernels use.
 #pragma once
 
 #include <glm/vec3.hpp>

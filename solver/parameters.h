@@ -1,4 +1,4 @@
-// What the user steers: the parameters of the level-set equation (paper sections 2.1, 4.2 and 6.1).
+// The parameters of the level-set equation, which the user steers (paper sections 2.1, 4.2 and 6.1).
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What is measured on a level set.
+// The measurements on a level set.
 #pragma once
 
 #include "solver/field.h"

@@ -1,4 +1,4 @@
-// What the level set is like at one voxel: for values under a cursor.
+// The terms of the level set at one voxel, for values under a cursor.
 #pragma once
 
 #include "solver/field.h"
@@ -14,7 +14,7 @@ struct VoxelValues {
   double curvature = 0.0;  // kappa per smallest spacing, < 0 on a ball; 0 where phi is clamped
 };
 
-// `source` is what the level set sees; the voxel is inside of it.
+// `source` is the level set's source; the voxel must lie inside of it.
 VoxelValues values_at(const Field& phi, const Volume& source, const Parameters& parameters, Index3 voxel);
 // D(I) of one value (eq. 7).
 double data_speed(const Parameters& parameters, double intensity);

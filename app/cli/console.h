@@ -1,4 +1,4 @@
-// What the program says, and where.
+// The program's output: results, messages and progress, each on its stream.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Ctrl-C and termination as a request to stop.
+// The stop request that Ctrl-C and termination make.
 #pragma once
 
 #include <pthread.h>

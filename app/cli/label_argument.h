@@ -1,4 +1,4 @@
-// What DICOM results say about a segment: --label NAME[,MEANING[,RRGGBB]].
+// The argument --label NAME[,MEANING[,RRGGBB]]: a segment's name, meaning and colour in DICOM results.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -1,4 +1,4 @@
-// The files that a command writes: checked before the long work, and written all or none.
+// The output files of a command: checked before the long work, and written all or none.
 #pragma once
 
 #include <filesystem>

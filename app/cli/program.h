@@ -1,4 +1,4 @@
-// The headless program: reads the command line, runs one command, ends with the contract's exit code.
+// The headless program: its commands, and main() with the exit codes of the contract.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -1,4 +1,4 @@
-// A line on the terminal that shows how far the work has come.
+// A progress bar on the terminal.
 #pragma once
 
 #include <chrono>

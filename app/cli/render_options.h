@@ -1,4 +1,4 @@
-// What `tidemark-cli render` can be asked for.
+// The options of `tidemark-cli render`.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -1,4 +1,4 @@
-// What commands that run the level set write: masks, segments, surfaces, phi, figures, pictures, recipes.
+// The results of commands that run the level set: masks, segments, surfaces, phi, figures, pictures, recipes.
 #pragma once
 
 #include <CLI/App.hpp>

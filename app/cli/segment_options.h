@@ -1,4 +1,4 @@
-// What `tidemark-cli segment` can be asked for.
+// The options of `tidemark-cli segment`.
 #pragma once
 
 #include <CLI/App.hpp>

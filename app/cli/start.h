@@ -1,4 +1,4 @@
-// Where the level set starts: a mask, a threshold, a saved phi, seeds and erasers.
+// The start of a level set on the command line: a mask, a threshold, a saved phi, seeds and erasers.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -1,4 +1,4 @@
-// The study that a command works on, and what is done with slices that make no regular grid.
+// The study that a command works on, and the options for slices that make no regular grid.
 #pragma once
 
 #include <CLI/App.hpp>

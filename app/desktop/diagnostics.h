@@ -1,4 +1,4 @@
-// What a report of a problem has to say about the machine: the text of `tidemark --diagnostics`.
+// The text of `tidemark --diagnostics`: the facts about the machine that a report of a problem needs.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The peer: ITK's series reader with GDCM.
+// The peer of dicom_bench: ITK's series reader with GDCM.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The folders that are read.
+// The folders that dicom_bench reads.
 #pragma once
 
 #include <cstdint>

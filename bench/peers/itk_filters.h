@@ -1,5 +1,5 @@
-// ITK's two sparse-field solvers, set up for our equation; used by the benchmark and by the tests that hold
-// our result against ITK's.
+// ITK's two sparse-field solvers, set up for our equation, for the benchmark and for the tests that hold our
+// result against ITK's.
 //
 // ITK's phi is < 0 inside and its data speed is min(I - lower, upper - I), neither scaled nor clamped: the
 // thresholds are T -+ epsilon and the propagation weight is alpha / epsilon. Its curvature is the sum of the

@@ -1,7 +1,9 @@
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <itkVersion.h>
 #include <openvdb/version.h>
 
+#include <ctime>
 #include <fstream>
 #include <sstream>
 
@@ -49,6 +51,7 @@ void describe_machine(Report& report) {
       {{text("processor"), text(cpu_field("model name"))},
        {text("processors available"), number(available_processors())},
        {text("instruction sets it lacks"), text(lacking.empty() ? "none of SSE4, AVX2, AVX-512" : lacking)},
+       {text("date"), text(fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))))},
        {text("compiler"), text(__VERSION__)},
        {text("ITK"), text(itk::Version::GetITKVersion())},
        {text("OpenVDB"), text(openvdb::getLibraryVersionString())}});

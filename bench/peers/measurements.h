@@ -1,4 +1,4 @@
-// What is measured. Each adds its tables and its goals to the report.
+// The measurements of peers. Each adds its tables and its goals to the report.
 #pragma once
 
 #include <algorithm>

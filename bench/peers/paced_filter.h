@@ -1,4 +1,4 @@
-// Runs an ITK filter a few iterations at a time.
+// An ITK filter that runs a few iterations at a time.
 #pragma once
 
 #include <itkCommand.h>

@@ -34,6 +34,7 @@ struct Arguments {
   std::string which;  // empty: all
   std::string memory_of;
   bool json = false;
+  bool markdown = false;
   bool simd = false;
 };
 
@@ -73,13 +74,17 @@ int run(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--quick", settings.quick, "one short round, to see that everything works");
   app.add_flag("--simd", arguments.simd, "compare the results of the instruction sets instead");
-  app.add_flag("--json", arguments.json, "print JSON instead of tables");
+  CLI::Option* json = app.add_flag("--json", arguments.json, "print JSON instead of tables");
+  app.add_flag("--markdown", arguments.markdown, "print the tables as docs/performance.md has them")
+      ->excludes(json);
   app.add_option("--memory-of", arguments.memory_of)->group("");
   CLI11_PARSE(app, argc, argv);
   if (settings.quick) settings.rounds = 1;
   if (!arguments.memory_of.empty() && arguments.which.empty()) arguments.which = "tumour";
 
-  Report report(!arguments.json && arguments.memory_of.empty());
+  ReportStyle style = arguments.markdown ? ReportStyle::markdown : ReportStyle::text;
+  if (arguments.json || !arguments.memory_of.empty()) style = ReportStyle::none;
+  Report report(style);
   describe_machine(report);
   if (auto status = measure(arguments, report); !status) {
     fmt::print(stderr, "peers: {}\n", status.error().message);

@@ -1,4 +1,4 @@
-// What every contestant is given.
+// The problem that every contestant solves: source, parameters and start.
 #pragma once
 
 #include <memory>

@@ -29,17 +29,23 @@ Cell none() {
 void Report::table(const std::string& title, const std::vector<std::string>& columns,
                    const std::vector<std::vector<Cell>>& rows) {
   nlohmann::json& list = json_[title] = nlohmann::json::array();
+  for (const auto& row : rows) {
+    nlohmann::json object;
+    for (std::size_t c = 0; c < row.size(); ++c) object[columns[c]] = row[c].value;
+    list.push_back(std::move(object));
+  }
+  if (style_ == ReportStyle::text) print_text(title, columns, rows);
+  if (style_ == ReportStyle::markdown) print_markdown(title, columns, rows);
+  std::fflush(stdout);
+}
+
+void Report::print_text(const std::string& title, const std::vector<std::string>& columns,
+                        const std::vector<std::vector<Cell>>& rows) const {
   std::vector<std::size_t> widths;
   for (const std::string& column : columns) widths.push_back(column.size());
   for (const auto& row : rows) {
-    nlohmann::json object;
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      widths[c] = std::max(widths[c], row[c].text.size());
-      object[columns[c]] = row[c].value;
-    }
-    list.push_back(std::move(object));
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].text.size());
   }
-  if (!print_) return;
   fmt::print("\n{}\n", title);
   const auto print_row = [&](const auto& text_of) {
     for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -56,13 +62,26 @@ void Report::table(const std::string& title, const std::vector<std::string>& col
   for (const auto& row : rows) {
     print_row([&](std::size_t c) { return row[c].text; });
   }
-  std::fflush(stdout);
+}
+
+void Report::print_markdown(const std::string& title, const std::vector<std::string>& columns,
+                            const std::vector<std::vector<Cell>>& rows) const {
+  fmt::print("\n**{}**\n\n|", title);
+  for (const std::string& column : columns) fmt::print(" {} |", column);
+  fmt::print("\n|");
+  for (std::size_t c = 0; c < columns.size(); ++c) fmt::print("{}", c == 0 ? "---|" : "---:|");
+  fmt::print("\n");
+  for (const auto& row : rows) {
+    fmt::print("|");
+    for (const Cell& cell : row) fmt::print(" {} |", cell.text);
+    fmt::print("\n");
+  }
 }
 
 void Report::note(const std::string& line) {
   json_["notes"].push_back(line);
-  if (!print_) return;
-  fmt::print("  {}\n", line);
+  if (style_ == ReportStyle::text) fmt::print("  {}\n", line);
+  if (style_ == ReportStyle::markdown) fmt::print("\n{}\n", line);
   std::fflush(stdout);
 }
 

@@ -19,10 +19,12 @@ Cell text(std::string_view value);
 // Nothing to say here.
 Cell none();
 
+// How a report appears on standard output while it grows.
+enum class ReportStyle { none, text, markdown };
+
 class Report {
  public:
-  // print: tables go to standard output as they come.
-  explicit Report(bool print) : print_(print) {}
+  explicit Report(ReportStyle style) : style_(style) {}
 
   // A table; the columns' names are the keys in JSON. The first column is text, left-aligned.
   void table(const std::string& title, const std::vector<std::string>& columns,
@@ -40,8 +42,12 @@ class Report {
  private:
   void judge(const std::string& what, double measured, const char* relation, double goal, bool met,
              int decimals);
+  void print_text(const std::string& title, const std::vector<std::string>& columns,
+                  const std::vector<std::vector<Cell>>& rows) const;
+  void print_markdown(const std::string& title, const std::vector<std::string>& columns,
+                      const std::vector<std::vector<Cell>>& rows) const;
 
-  bool print_;
+  ReportStyle style_;
   nlohmann::json json_ = nlohmann::json::object();
   std::vector<std::vector<Cell>> goals_;
 };

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "imaging/dicom/decimal.h"
+#include "imaging/dicom/element_text.h"
 
 namespace tidemark {
 namespace {
@@ -44,15 +45,8 @@ std::string name_of(const DcmTagKey& key) {
 std::string AttributeReader::text(const DcmTagKey& key) const {
   DcmElement* element = nullptr;
   if (item_.findAndGetElement(key, element).bad() || element == nullptr) return {};
-  constexpr Uint32 kLongest = 1U << 20;
-  if (element->getLength() > kLongest) return {};
-  OFString value;
-  std::string result;
-  if (is_bytes(*element)) {
-    result = printable_text(*element);
-  } else if (element->getOFStringArray(value).good()) {
-    result = value.c_str();
-  }
+  if (element->getLength() > kLongestText) return {};
+  std::string result = is_bytes(*element) ? printable_text(*element) : element_text(*element);
   result.erase(result.find_last_not_of(' ') + 1);
   return result;
 }

@@ -1,5 +1,5 @@
-// DCMTK over bytes that were checked. By the file's name it would open it a second time, and find there what
-// somebody has put in its place meanwhile.
+// A stream for DCMTK over bytes that were checked. By its name DCMTK would open the file a second time, and
+// find there what somebody has put in its place meanwhile.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What tells a DICOM file from others.
+// The detection of DICOM files.
 #pragma once
 
 #include "imaging/dicom/byte_source.h"

@@ -1,4 +1,4 @@
-// What DCMTK needs before its first use in a process.
+// DCMTK's settings before its first use in a process.
 #pragma once
 
 #include "core/result.h"

@@ -1,4 +1,4 @@
-// What a compressed frame says of its own size, before a decoder takes memory for it.
+// A compressed frame's own size, read before a decoder takes memory for it.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// In which frames of which files the slices of a series are, and those files while they are needed.
+// The plan of a series' slices in frames of files, and those files while they are needed.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Where each frame of an image's pixel data lies.
+// The place of each frame in an image's pixel data.
 #pragma once
 
 #include <cstdint>

@@ -181,7 +181,7 @@ bool is_reconstruction(const AttributeReader& in) {
 std::vector<SliceHeader> read_frames(DcmItem& dataset, SliceHeader whole) {
   std::string problem;
   AttributeReader in(dataset, problem);
-  const std::string sop_class = in.text(DCM_SOPClassUID);
+  const std::string sop_class = in.name(DCM_SOPClassUID);
   const char* known = dcmFindNameOfUID(sop_class.c_str());
   const std::string name = known != nullptr ? known : "unknown SOP class " + sop_class;
   const bool has_groups = in.item().tagExists(DCM_PerFrameFunctionalGroupsSequence) ||

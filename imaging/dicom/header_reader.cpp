@@ -100,7 +100,7 @@ Status require_image(DcmFileFormat& loaded, const SliceHeader& header) {
                 name_of(DCM_SOPClassUID));
   }
   const char* known = dcmFindNameOfUID(sop_class.c_str());
-  const std::string what = known != nullptr ? known : sop_class.c_str();
+  const std::string what = known != nullptr ? known : std::string(sop_class.c_str()).substr(0, 80);
   if (!has_rows && !dcmIsImageStorageSOPClassUID(sop_class.c_str())) {
     return fail(ErrorKind::input, "{}: holds no image ({})", header.file.string(), what);
   }

@@ -1,4 +1,4 @@
-// From a DICOM file to a SliceHeader, and what stands before DCMTK for files of other kinds.
+// The reader from a DICOM file to a SliceHeader, and the refusal of files of other kinds before DCMTK.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Whether the pixel data of a DICOM file can be the frames that its Image Pixel module promises.
+// The check that a DICOM file's pixel data can be the frames that its Image Pixel module promises.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// What is checked of a DICOM file before DCMTK sees it. DCMTK recurses into sequences until the stack ends,
-// believes lengths, and inflates what it is given; nothing here does, and no type of DCMTK is used.
+// The check of a DICOM file before DCMTK sees it. DCMTK recurses into sequences until the stack ends,
+// believes lengths, and inflates any stream; nothing here does, and no type of DCMTK is used.
 //
 // Memory: a window of some kilobytes, whatever the file says. Limits: sequences 64 deep; a deflated dataset
 // of 64 MiB; elements for which DCMTK takes 64 MiB and as many bytes as the file has; compressed frames of

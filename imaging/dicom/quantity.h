@@ -1,4 +1,4 @@
-// What the values of images stand for, and in which unit.
+// The quantity that an image's values stand for, and its unit.
 #pragma once
 
 #include <optional>

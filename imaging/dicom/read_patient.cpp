@@ -10,16 +10,14 @@
 
 #include "imaging/dicom/character_sets.h"
 #include "imaging/dicom/date.h"
+#include "imaging/dicom/element_text.h"
 
 namespace tidemark {
 namespace {
 
 std::string text(DcmItem& dataset, const DcmTagKey& key, const std::string& delimiters = {}) {
-  OFString value;
-  OFString character_set;
-  if (dataset.findAndGetOFStringArray(key, value).bad()) return {};
-  dataset.findAndGetOFStringArray(DCM_SpecificCharacterSet, character_set);
-  return tidied(in_utf8(value.c_str(), character_set.c_str(), delimiters));
+  return tidied(
+      in_utf8(element_text(dataset, key), element_text(dataset, DCM_SpecificCharacterSet), delimiters));
 }
 
 // The first `count` parts of a text between delimiters; those that it does not have are empty.

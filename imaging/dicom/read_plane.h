@@ -1,5 +1,5 @@
-// What stands in a classic image itself, and of an enhanced one in the groups of its frames: where the slice
-// lies, and what its stored values mean.
+// The reader of a slice's place and of the meaning of its stored values, from a classic image itself and from
+// the groups of an enhanced image's frames.
 #pragma once
 
 #include "imaging/dicom/attribute_reader.h"

@@ -8,6 +8,7 @@
 
 #include "imaging/dicom/date.h"
 #include "imaging/dicom/decimal.h"
+#include "imaging/dicom/element_text.h"
 #include "imaging/dicom/quantity.h"
 #include "imaging/dicom/slice_header.h"
 
@@ -17,10 +18,8 @@ namespace {
 // Codes and numbers are ASCII; what is not would spoil a message.
 std::string text(DcmItem& item, const DcmTagKey& key) {
   constexpr std::size_t kLongest = 256;
-  OFString value;
-  if (item.findAndGetOFStringArray(key, value).bad()) return {};
-  std::string result(value.c_str(), std::min<std::size_t>(value.size(), kLongest));
-  result.erase(result.find_last_not_of(std::string_view(" \0", 2)) + 1);
+  std::string result = element_text(item, key).substr(0, kLongest);
+  result.erase(result.find_last_not_of(' ') + 1);
   std::replace_if(
       result.begin(), result.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
   return result;

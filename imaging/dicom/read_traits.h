@@ -1,4 +1,4 @@
-// What tells the volumes of one series apart, as files say it.
+// The attributes that tell the volumes of one series apart.
 #pragma once
 
 #include "imaging/dicom/attribute_reader.h"

@@ -1,4 +1,4 @@
-// From slices as they lie in the patient to a regular grid: which slices make which, and how.
+// The regular grid that slices make, as they lie in the patient: which slices, and how.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What counts as the same from slice to slice, but for rounding in files.
+// Equality from slice to slice, but for rounding in files.
 #pragma once
 
 #include "imaging/dicom/slice_header.h"

@@ -1,4 +1,4 @@
-// Which attribute tells the volumes at one place apart.
+// The search for the attribute that tells the volumes at one place apart.
 #pragma once
 
 #include <string>

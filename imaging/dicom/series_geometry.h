@@ -1,4 +1,4 @@
-// From the headers of a series' images to a volume's grid, or to the reason why there is none.
+// The grid of a volume from the headers of a series' images, or the reason why there is none.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// What a DICOM image says about one slice in it, without any DCMTK type: about a classic image, a frame of an
-// image of several frames, or a tile of a mosaic.
+// The header of one slice, without any DCMTK type: of a classic image, a frame of an image of several frames,
+// or a tile of a mosaic.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Where the slices of a stack lie: how far along their normal, how far to its side, and on which even scale.
-// Private to this folder.
+// The places of the slices of a stack: how far along their normal, how far to its side, and on which even
+// scale. Private to this folder.
 #pragma once
 
 #include <cstddef>

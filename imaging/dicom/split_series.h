@@ -1,5 +1,5 @@
-// One Series Instance UID may stand for several volumes: echoes, times, directions of diffusion, magnitude
-// and phase, stacks, or a localiser in three orientations.
+// The volumes of one series. One Series Instance UID may stand for echoes, times, directions of diffusion,
+// magnitude and phase, stacks, or a localiser in three orientations.
 #pragma once
 
 #include <string>

@@ -9,6 +9,7 @@ constexpr DicomTag kItem{0xfffe, 0xe000};
 constexpr DicomTag kItemEnd{0xfffe, 0xe00d};
 constexpr DicomTag kSequenceEnd{0xfffe, 0xe0dd};
 constexpr DicomTag kPixelData{0x7fe0, 0x0010};
+constexpr DicomTag kSpecificCharacterSet{0x0008, 0x0005};
 
 // What DCMTK takes for an element with its node in a list, rounded up.
 constexpr std::int64_t kBytesOfObject = 256;
@@ -254,9 +255,35 @@ bool TagWalk::step_element(bool has_fragments, const Visitor& visit) {
   }
   if (header.is("SQ")) return enter_sequence(header, false);
   if (is_unknown && header.tag != kPixelData && begins_as_item(header)) return enter_sequence(header, true);
+  if (header.tag == kSpecificCharacterSet && !check_character_sets(header)) return false;
   if (depth_ == 0) visit(header, reader_, nullptr);
   at_ = header.end();
   return true;
+}
+
+// DCMTK takes time with the square of the number of values, and looks for a converter for each.
+bool TagWalk::check_character_sets(const ElementHeader& header) {
+  constexpr std::uint32_t kLongestValue = 16 + 1;  // CS (PS3.5 6.2), and the backslash behind it
+  const auto refuse = [&](std::string_view why) { return fails(header.tag, header.begin, std::string(why)); };
+  if (header.length > kMostCharacterSets * kLongestValue) {
+    return refuse(
+        fmt::format("has {} bytes: more than {} character sets", header.length, kMostCharacterSets));
+  }
+  int values = 1;
+  for (std::uint32_t done = 0; done < header.length;) {
+    const auto count = std::min<std::size_t>(ByteReader::kMost, header.length - done);
+    const std::uint8_t* bytes = reader_.at(header.value + done, count);
+    if (bytes == nullptr) return refuse("cannot be read");
+    values += static_cast<int>(std::count(bytes, bytes + count, '\\'));
+    done += static_cast<std::uint32_t>(count);
+  }
+  if (values > kMostCharacterSets) {
+    return refuse(fmt::format("has {} values: more than {} character sets", values, kMostCharacterSets));
+  }
+  character_sets_ += values;
+  if (character_sets_ <= kMostCharacterSetsOfAll) return true;
+  return refuse(
+      fmt::format("is one of very many: more than {} character sets in one file", kMostCharacterSetsOfAll));
 }
 
 // PS3.5 A.4: an item with the offset table, items with fragments, a delimiter.

@@ -78,6 +78,10 @@ class TagWalk {
   // Sequences within sequences. Far above anything in use, and far below what a recursive parser's stack
   // holds.
   static constexpr int kDeepest = 64;
+  // Values of one SpecificCharacterSet (0008,0005): there are some twenty character sets (PS3.3 C.12.1.1.2).
+  static constexpr int kMostCharacterSets = 32;
+  // Values of all of them in a file, of which each item of a sequence may have its own.
+  static constexpr std::int64_t kMostCharacterSetsOfAll = 4096;
 
   // Called for each element of the dataset itself (not of its sequences), before its value is passed. The
   // reader may be moved within the value. Fragments are null unless the element has some.
@@ -107,6 +111,7 @@ class TagWalk {
   };
 
   bool read_header(std::int64_t at, std::int64_t end, ElementCoding coding, ElementHeader& header);
+  bool check_character_sets(const ElementHeader& header);
   bool check_length(const ElementHeader& header, std::int64_t end);
   bool check_meta(const ElementHeader& header);
   bool read_representation(const std::uint8_t* bytes, ElementHeader& header, bool& has_long_length);
@@ -125,6 +130,7 @@ class TagWalk {
   std::int64_t most_objects_;
   std::int64_t objects_ = 0;
   std::int64_t searches_ = 0;
+  std::int64_t character_sets_ = 0;  // in all items together
   std::int64_t at_ = 0;
   int depth_ = 0;
   std::array<Level, 2 * kDeepest + 1> levels_{};  // a dataset, then a sequence and an item by turns

@@ -1,4 +1,4 @@
-// How every DICOM file that is written comes to the disk.
+// The one writer of DICOM files.
 #pragma once
 
 #include <dcmtk/config/osconfig.h>

@@ -1,4 +1,4 @@
-// What reading and writing through ITK's image IO classes have in common. Private to this folder.
+// The use of ITK's image IO classes, common to reading and writing. Private to this folder.
 #pragma once
 
 #include <itkImageIOBase.h>

@@ -1,6 +1,6 @@
-// Where a volume file's voxels are, by its own header, read before ITK sees the file. The libraries behind
-// ITK take sizes at their word and do not all report a short file; what is checked here is checked once, for
-// every format, in the same words.
+// The place of a volume file's voxels by its own header, read before ITK sees the file. The libraries behind
+// ITK take sizes at their word and do not all report a short file. Every format is checked here, once and in
+// the same words.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// From ITK's view of a header to ours, checked. Private to this folder.
+// The conversion of ITK's view of a header to ours, checked. Private to this folder.
 #pragma once
 
 #include "core/geometry.h"

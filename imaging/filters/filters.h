@@ -1,4 +1,4 @@
-// What prepares a start: smoothing of the source, masks from values.
+// The filters that prepare a start: smoothing of the source, masks from values.
 #pragma once
 
 #include "core/progress.h"

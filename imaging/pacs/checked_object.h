@@ -1,4 +1,4 @@
-// The one place where a file that is to be sent, or has come, is looked into.
+// The one check of a file that is to be sent, or has come.
 #pragma once
 
 #include <filesystem>

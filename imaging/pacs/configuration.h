@@ -1,4 +1,4 @@
-// Which PACS servers there are, and how they are reached.
+// The configuration of PACS servers: which there are, and how they are reached.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Watches over one connection, so that no peer can keep us waiting or flood us.
+// A watch over one connection: no peer can keep us waiting or flood us.
 #pragma once
 
 #include <chrono>

@@ -6,6 +6,8 @@
 #include <functional>
 
 #include "core/without_exceptions.h"
+#include "imaging/dicom/character_sets.h"
+#include "imaging/dicom/element_text.h"
 #include "imaging/pacs/answer_text.h"
 #include "imaging/pacs/association.h"
 #include "imaging/pacs/services.h"
@@ -37,14 +39,13 @@ class Question {
 // An answer, in UTF-8 as far as its character sets are known.
 class Answer {
  public:
-  explicit Answer(DcmDataset& dataset) : dataset_(dataset) {
-    // Where that fails the texts stay as they are, and clean_text() keeps what is ASCII in them.
-    static_cast<void>(dataset_.convertToUTF8());
-  }
+  explicit Answer(DcmDataset& dataset)
+      : dataset_(dataset),
+        character_set_(element_text(dataset, DCM_SpecificCharacterSet).substr(0, kLongestCharacterSet)) {}
   [[nodiscard]] std::string text(const DcmTagKey& key) const {
-    OFString value;
-    if (dataset_.findAndGetOFStringArray(key, value).bad()) return {};
-    return clean_text(value.c_str());
+    const std::string value = element_text(dataset_, key).substr(0, kLongestRead);
+    if (character_set_.empty()) return clean_text(value);
+    return clean_text(in_utf8(value, character_set_, DcmTag(key).getEVR() == EVR_PN ? "^=\\" : "\\"));
   }
   [[nodiscard]] std::string uid(const DcmTagKey& key) const {
     std::string value = text(key);
@@ -52,7 +53,11 @@ class Answer {
   }
 
  private:
+  static constexpr std::size_t kLongestCharacterSet = 512;  // bytes: two dozen values
+  static constexpr std::size_t kLongestRead = 8192;         // of what clean_text() keeps 512
+
   DcmDataset& dataset_;
+  std::string character_set_;
 };
 
 Status check_key(const char* name, const std::string& value) {

@@ -1,4 +1,4 @@
-// From a host's name to its address.
+// The address of a host by its name.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Where a server's own calls are answered while a retrieval by move runs.
+// The receiver of a server's own calls while a retrieval by move runs.
 #pragma once
 
 #include <atomic>

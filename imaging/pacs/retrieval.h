@@ -1,4 +1,4 @@
-// What both ways of retrieving have in common.
+// The common part of both ways of retrieving.
 #pragma once
 
 #include <memory>

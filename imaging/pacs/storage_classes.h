@@ -1,4 +1,4 @@
-// What may be stored: the classes of objects that we take, and in which encodings.
+// The classes of objects that may be stored, and their encodings.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// From a description of a body to voxels.
+// The voxels of a described body.
 #pragma once
 
 #include <functional>

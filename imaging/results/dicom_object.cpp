@@ -37,14 +37,6 @@ Status save_object(std::unique_ptr<DcmDataset> dataset, E_TransferSyntax syntax,
   return write_dicom_file(whole, syntax, file);
 }
 
-std::string text_of(DcmItem& item, const DcmTagKey& key) {
-  OFString value;
-  if (item.findAndGetOFStringArray(key, value).bad()) return {};
-  std::string text(value.c_str());
-  text.erase(text.find_last_not_of(' ') + 1);
-  return text;
-}
-
 Status require_planes(const Geometry& geometry, const fs::path& file) {
   const auto refuse = [&](const char* why) {
     return fail(ErrorKind::capability, "{}: DICOM cannot say this grid: {}", file.string(), why);
@@ -64,7 +56,7 @@ std::optional<ResultForm> result_form_of(const fs::path& file) {
   // The SOP class is among the first attributes; the patient's come after it.
   const auto object = load_object(file, DCM_PatientName);
   if (!object) return std::nullopt;
-  const std::string sop_class = text_of(*(*object)->getDataset(), DCM_SOPClassUID);
+  const std::string sop_class = element_text(*(*object)->getDataset(), DCM_SOPClassUID);
   if (sop_class == UID_SegmentationStorage) return ResultForm::segmentation;
   if (sop_class == UID_RTStructureSetStorage) return ResultForm::structure_set;
   return std::nullopt;

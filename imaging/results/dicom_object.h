@@ -12,6 +12,7 @@
 
 #include "core/geometry.h"
 #include "core/result.h"
+#include "imaging/dicom/element_text.h"
 
 namespace tidemark {
 
@@ -23,9 +24,6 @@ Result<std::unique_ptr<DcmFileFormat>> load_object(const std::filesystem::path& 
 // Encodes the dataset and writes it as the whole of the file. Fails with ErrorKind::write.
 Status save_object(std::unique_ptr<DcmDataset> dataset, E_TransferSyntax syntax,
                    const std::filesystem::path& file);
-
-// An attribute's text without padding; empty when it is absent.
-std::string text_of(DcmItem& item, const DcmTagKey& key);
 
 // Remembers the first of many calls that failed.
 class FirstFailure {

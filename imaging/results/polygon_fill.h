@@ -1,4 +1,4 @@
-// Which voxels of a slice a polygon surrounds. Private to this folder.
+// The voxels of a slice that a polygon surrounds. Private to this folder.
 #pragma once
 
 #include <cstdint>

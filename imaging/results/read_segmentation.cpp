@@ -104,7 +104,7 @@ class SegmentationReader {
 
 // Finds the pixels, decoded, and checks that they hold what the header promises.
 Status SegmentationReader::find_pixels(DcmDataset& dataset) {
-  const auto frames = parse_integers(text_of(dataset, DCM_NumberOfFrames));
+  const auto frames = parse_integers(element_text(dataset, DCM_NumberOfFrames));
   if (!frames || frames->size() != 1 || frames->front() < 1) {
     return refuse("NumberOfFrames (0028,0008) is missing");
   }
@@ -137,8 +137,9 @@ Status SegmentationReader::load() {
   if (!object) return pass_on(object);
   object_ = std::move(*object);
   DcmDataset& dataset = *object_->getDataset();
-  if (text_of(dataset, DCM_SOPClassUID) != UID_SegmentationStorage) return refuse("is no DICOM segmentation");
-  const std::string type = text_of(dataset, DCM_SegmentationType);
+  if (element_text(dataset, DCM_SOPClassUID) != UID_SegmentationStorage)
+    return refuse("is no DICOM segmentation");
+  const std::string type = element_text(dataset, DCM_SegmentationType);
   is_binary_ = type == "BINARY";
   if (!is_binary_ && type != "FRACTIONAL") {
     return refuse(

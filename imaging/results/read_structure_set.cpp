@@ -192,7 +192,7 @@ Result<Segments> read(const fs::path& file, const Geometry& grid) {
   auto object = load_object(file);
   if (!object) return pass_on(object);
   DcmDataset& dataset = *(*object)->getDataset();
-  if (text_of(dataset, DCM_SOPClassUID) != UID_RTStructureSetStorage) {
+  if (element_text(dataset, DCM_SOPClassUID) != UID_RTStructureSetStorage) {
     return fail(ErrorKind::input, "{}: is no RT structure set", file.string());
   }
   DRTStructureSetIOD set;

@@ -1,5 +1,5 @@
-// What was segmented, as files that other systems accept, and back: DICOM Segmentation (SEG), RT Structure
-// Set, OpenVDB. Files are written through a temporary file: on failure the target is as it was before.
+// Segments as files that other systems accept, out and in: DICOM Segmentation (SEG), RT Structure Set,
+// OpenVDB. Files are written through a temporary file: on failure the target is as it was before.
 #pragma once
 
 #include <filesystem>

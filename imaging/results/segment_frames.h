@@ -1,4 +1,4 @@
-// Where the frames of a segmentation lie on a grid. Private to this folder.
+// The place of a segmentation's frames on a grid. Private to this folder.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What a region is, in codes that other systems understand.
+// The meaning of a region, in codes that other systems understand.
 #pragma once
 
 #include <span>

@@ -100,12 +100,12 @@ Result<SourceStudy> source_study(SourceFiles files, const Geometry& geometry) {
     DcmDataset& attributes = study.attributes();
     // What the source was stripped of, or never had, is new: a result needs it.
     const auto take = [&](const DcmTagKey& key, std::string& uid) {
-      if (const std::string its_own = text_of(attributes, key); !its_own.empty()) uid = its_own;
+      if (const std::string its_own = element_text(attributes, key); !its_own.empty()) uid = its_own;
       attributes.putAndInsertString(DcmTag(key), uid.c_str());
     };
     take(DCM_StudyInstanceUID, study.study_uid);
     take(DCM_FrameOfReferenceUID, study.frame_of_reference_uid);
-    study.series_uid = text_of(attributes, DCM_SeriesInstanceUID);
+    study.series_uid = element_text(attributes, DCM_SeriesInstanceUID);
     if (!study.series_uid.empty()) {
       TIDEMARK_TRY(read_images(files, geometry, study));
     }

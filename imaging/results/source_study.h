@@ -1,4 +1,4 @@
-// Whose patient and study a result belongs to, and which images it was made from. Private to this folder.
+// The patient and study of a result, and the images that it was made from. Private to this folder.
 #pragma once
 
 #include <memory>

@@ -89,17 +89,17 @@ void StructureSetWriter::identify() {
   DcmDataset& source = study_.attributes();
   const Timestamp now = Timestamp::now();
   failure_ << set_.setSpecificCharacterSet("ISO_IR 192");
-  failure_ << set_.setPatientName(of(text_of(source, DCM_PatientName)), OFFalse);
-  failure_ << set_.setPatientID(of(text_of(source, DCM_PatientID)), OFFalse);
-  failure_ << set_.setPatientBirthDate(of(text_of(source, DCM_PatientBirthDate)), OFFalse);
-  failure_ << set_.setPatientSex(of(text_of(source, DCM_PatientSex)), OFFalse);
+  failure_ << set_.setPatientName(of(element_text(source, DCM_PatientName)), OFFalse);
+  failure_ << set_.setPatientID(of(element_text(source, DCM_PatientID)), OFFalse);
+  failure_ << set_.setPatientBirthDate(of(element_text(source, DCM_PatientBirthDate)), OFFalse);
+  failure_ << set_.setPatientSex(of(element_text(source, DCM_PatientSex)), OFFalse);
   failure_ << set_.setStudyInstanceUID(of(study_.study_uid), OFFalse);
-  failure_ << set_.setStudyDate(of(text_of(source, DCM_StudyDate)), OFFalse);
-  failure_ << set_.setStudyTime(of(text_of(source, DCM_StudyTime)), OFFalse);
-  failure_ << set_.setStudyID(of(text_of(source, DCM_StudyID)), OFFalse);
-  failure_ << set_.setStudyDescription(of(text_of(source, DCM_StudyDescription)), OFFalse);
-  failure_ << set_.setAccessionNumber(of(text_of(source, DCM_AccessionNumber)), OFFalse);
-  failure_ << set_.setReferringPhysicianName(of(text_of(source, DCM_ReferringPhysicianName)), OFFalse);
+  failure_ << set_.setStudyDate(of(element_text(source, DCM_StudyDate)), OFFalse);
+  failure_ << set_.setStudyTime(of(element_text(source, DCM_StudyTime)), OFFalse);
+  failure_ << set_.setStudyID(of(element_text(source, DCM_StudyID)), OFFalse);
+  failure_ << set_.setStudyDescription(of(element_text(source, DCM_StudyDescription)), OFFalse);
+  failure_ << set_.setAccessionNumber(of(element_text(source, DCM_AccessionNumber)), OFFalse);
+  failure_ << set_.setReferringPhysicianName(of(element_text(source, DCM_ReferringPhysicianName)), OFFalse);
 
   failure_ << set_.setSOPInstanceUID(of(make_uid())) << set_.setSeriesInstanceUID(of(make_uid()));
   failure_ << set_.setModality("RTSTRUCT") << set_.setSeriesNumber("1001");

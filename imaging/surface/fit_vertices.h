@@ -1,4 +1,4 @@
-// Puts a mesh where phi says between the voxels. Private to this folder.
+// The fit of a mesh's vertices to the zero set of phi between the voxels. Private to this folder.
 #pragma once
 
 #include <array>

@@ -73,9 +73,9 @@ Status ComputeExecutor::compile() {
   gpu::Defines defines = layout_.defines();
   // Invocations that look after a page: on a software driver, one vector of them.
   defines.emplace_back("MAINTAINERS", software() ? "8" : "32");
-  for (const Kernel& kernel :
-       {Kernel{maintain_, "maintain"}, Kernel{judge_, "judge"}, Kernel{conclude_, "conclude"},
-        Kernel{rebuild_, "rebuild"}, Kernel{paint_, "paint"}}) {
+  for (const Kernel& kernel : {Kernel{maintain_, "maintain"}, Kernel{find_quiet_pages_, "find_quiet_pages"},
+                               Kernel{check_convergence_, "check_convergence"}, Kernel{rebuild_, "rebuild"},
+                               Kernel{paint_, "paint"}}) {
     auto program =
         gpu::Program::compute(*device_, fmt::format("solver/compute/{}.comp", kernel.path), defines);
     if (!program) return pass_on(program);
@@ -191,18 +191,18 @@ void ComputeExecutor::order_paging(int next, int step_in_window) {
 
 void ComputeExecutor::order_end_of_window(int now, bool judge) {
   if (judge) {
-    judge_.use();
-    set_layout(judge_);
-    judge_.set("quiet_change", static_cast<float>(kQuietChange));
-    judge_.set("skip_quiet_pages", options_.skip_quiet_pages ? 1 : 0);
+    find_quiet_pages_.use();
+    set_layout(find_quiet_pages_);
+    find_quiet_pages_.set("quiet_change", static_cast<float>(kQuietChange));
+    find_quiet_pages_.set("skip_quiet_pages", options_.skip_quiet_pages ? 1 : 0);
     gpu::dispatch(memory_.control(), 0);
     gpu::finish_writes();
   }
-  conclude_.use();
-  conclude_.set("judge_motion", judge ? 1 : 0);
-  conclude_.set("samples", static_cast<unsigned>(kMotionSamples));
-  conclude_.set("time_step", static_cast<float>(time_step()));
-  conclude_.set("converged_speed", static_cast<float>(kConvergedSpeed));
+  check_convergence_.use();
+  check_convergence_.set("judge_motion", judge ? 1 : 0);
+  check_convergence_.set("samples", static_cast<unsigned>(kMotionSamples));
+  check_convergence_.set("time_step", static_cast<float>(time_step()));
+  check_convergence_.set("converged_speed", static_cast<float>(kConvergedSpeed));
   gpu::dispatch(glm::ivec3(1));
   gpu::finish_writes();
   rebuild_.use();

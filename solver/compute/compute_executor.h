@@ -54,7 +54,7 @@ class ComputeExecutor final : public ExecutorBase {
   void order_end_of_window(int now, bool judge);
   Result<ComputeControl> run_steps(std::int64_t count, bool until_converged);
 
-  // Grants every request of phi as it is; G grows as it must.
+  // Grants every request of the present phi; G grows as needed.
   Status activate_pages();
   Status grow(std::int64_t more_pages);
   void order_sphere(const Sphere& sphere, Brush brush, bool only_count);
@@ -64,7 +64,7 @@ class ComputeExecutor final : public ExecutorBase {
   ExecutorOptions options_;
   PackedLayout layout_;
   SourceTexture source_texture_;
-  gpu::Program update_, measure_, maintain_, judge_, conclude_, rebuild_, paint_;
+  gpu::Program update_, measure_, maintain_, find_quiet_pages_, check_convergence_, rebuild_, paint_;
   PageMemory memory_;
   gpu::Readback readback_;
 

@@ -11,7 +11,7 @@
 
 namespace tidemark {
 
-// As the shaders lay it out (std430).
+// The layout of the shaders (std430).
 struct ComputeControl {
   std::uint32_t active_groups[4];  // dispatch arguments
   std::uint32_t active_count;

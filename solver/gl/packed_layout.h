@@ -1,4 +1,4 @@
-// Where a page's voxels lie in physical memory G, a 2D texture: the C++ side of
+// The place of a page's voxels in physical memory G, a 2D texture: the C++ side of
 // resources/shaders/solver/paging.glsl.
 #pragma once
 
@@ -37,7 +37,7 @@ class PackedLayout {
   void pack(const float* voxels, float* tile, std::int64_t row_length) const;
   void unpack(const float* tile, std::int64_t row_length, float* voxels) const;
 
-  // What paging.glsl is compiled with, and the uniforms that it reads.
+  // The defines and the uniforms of paging.glsl.
   [[nodiscard]] gpu::Defines defines() const;
   void set_uniforms(const gpu::Program& program) const;
 

@@ -6,7 +6,7 @@
 
 namespace tidemark {
 
-// What resources/shaders/solver/phi.glsl reads. Valid until the executor is next told to do anything.
+// The textures that resources/shaders/solver/phi.glsl reads. Valid until the next call to the executor.
 struct PackedView {
   PackedLayout layout;
   const gpu::Texture2D* phi = nullptr;

@@ -1,4 +1,4 @@
-// What the solver's shaders read: the equation's constants and the source volume.
+// The uniforms of the solver's shaders: the equation's constants and the source volume.
 #pragma once
 
 #include "core/volume.h"
@@ -10,7 +10,7 @@ namespace tidemark {
 
 // The uniforms of resources/shaders/solver/speed.
 void set_step_uniforms(const gpu::Program& program, const StepConstants<float>& constants);
-// Which variant of the update the model needs: PAPER_SCHEME, ANISOTROPIC.
+// The variant of the update that the model needs: PAPER_SCHEME, ANISOTROPIC.
 gpu::Defines step_defines(const Model& model);
 
 // The source as a 3D texture of its stored type; solver/source.glsl reads it.

@@ -1,4 +1,4 @@
-// The shape of a page, and where a voxel is found: the address translation of paper section 3.2.
+// The shape of a page and the address of a voxel: the address translation of paper section 3.2.
 #pragma once
 
 #include "core/geometry.h"
@@ -12,7 +12,7 @@ struct VirtualAddress {
 };
 
 // Maps the voxel space V of a volume to its virtual page space V_P. Sizes need not be multiples of the page:
-// the last pages of an axis then hold padding, which is nobody's voxel.
+// the last pages of an axis then hold padding, which belongs to no voxel.
 class PageLayout {
  public:
   PageLayout() = default;

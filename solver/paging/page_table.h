@@ -1,4 +1,4 @@
-// Which virtual pages are in physical memory, and where (paper sections 3.2 and 4.1).
+// The page table: which virtual pages are in physical memory, and where (paper sections 3.2 and 4.1).
 #pragma once
 
 #include <cstdint>
@@ -50,7 +50,7 @@ class PageTable {
   PhysicalPage allocate(std::int64_t page);
   // Gives a resident page back; it is static from then on.
   void release(std::int64_t page, bool inside);
-  // Says which static page stands for a page that is not resident.
+  // Sets the static page that stands for a page that is not resident.
   void set_static(std::int64_t page, bool inside);
 
   [[nodiscard]] std::int64_t bytes() const;

@@ -1,4 +1,4 @@
-// The stencil of one voxel, for those who are in no hurry.
+// The stencil of one voxel, gathered without regard to speed.
 
 #if defined(TIDEMARK_REFERENCE_GATHER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TIDEMARK_REFERENCE_GATHER_INL_H_
@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace tidemark::HWY_NAMESPACE {
 
-// `value` gives phi at a voxel; at the border of a volume of that size the index is clamped (Neumann).
+// `value` returns phi at a voxel; at the border of a volume of that size the index is clamped (Neumann).
 template <class Value>
 Stencil<double> gather(const Value& value, Index3 size, Index3 v) {
   const auto at = [&](int dx, int dy, int dz) {

@@ -1,4 +1,4 @@
-// The truth in tests: dense, in double precision, with plain loops over the whole volume.
+// The reference executor, the truth in tests: dense, in double precision, with plain loops over the volume.
 #pragma once
 
 #include <memory>

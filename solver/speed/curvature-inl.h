@@ -17,7 +17,7 @@ inline constexpr double kSmallestGradientSquared = 1e-3;
 // Nothing smaller than a third of a voxel has a curvature.
 inline constexpr double kLargestCurvature = 6.0;
 
-// kappa |grad phi|, what the curvature term adds to dphi/dt, by the direct form with second derivatives and
+// kappa |grad phi|, the curvature term's part of dphi/dt, by the direct form with second derivatives and
 // the central gradient g: tr(H) - (g . H g) / |g|^2. It is bounded by phi's second derivatives, and 0 where
 // phi is flat.
 template <class Real, class V>

@@ -15,10 +15,10 @@ namespace tidemark::HWY_NAMESPACE {
 // The product of phi with a neighbour of the other sign at which that neighbour counts in full.
 inline constexpr double kFullSignChange = 0.1;
 
-// How the two one-sided gradients share in |grad phi| here: at 1 the one from the side of the surface counts
-// alone; at 0, beside the surface, the mean of both stands in, which keeps the surface where it is to about a
-// tenth of a voxel. The one goes over into the other continuously as a neighbour changes sign: a switch would
-// leave voxels flipping between the two for ever, and the surface would never come to rest.
+// The share of the two one-sided gradients in |grad phi| here. At 1 the one from the surface's side counts
+// alone. At 0, beside the surface, their mean counts, which moves the surface by about a tenth of a
+// voxel. The transition is continuous as a neighbour changes sign: with a switch voxels would flip between
+// both for ever, and the surface would never stop.
 template <class Real, class V>
 HWY_INLINE V one_sidedness(const Differences<V>& d) {
   const V one = V(Real(1));

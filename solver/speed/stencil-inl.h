@@ -1,4 +1,4 @@
-// What the equation reads of phi around a voxel, and the differences that every speed term is made of.
+// The values of phi around a voxel that the equation reads, and the differences in every speed term.
 //
 // The headers of this folder are written once for any kind of number V: the reference computes with double,
 // the host executor with vectors of float, compiled anew for each instruction set. V has + - * and the
@@ -28,7 +28,7 @@ struct Stencil {
   V dx, dx_ym, dx_yp, dx_zm, dx_zp;
 };
 
-// What the terms of one voxel share. Lengths are in units of the smallest spacing.
+// The differences that the terms of one voxel share. Lengths are in units of the smallest spacing.
 template <class V>
 struct Differences {
   V phi;

@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace tidemark::HWY_NAMESPACE {
 
-// What a step multiplies with. The halves are of what is added to both upwind parts of the result.
+// The factors of a step. The halves belong to terms that are added to both upwind parts of the result.
 template <class V>
 struct UpdateConstants {
   V inverse_spacing[3];
@@ -40,11 +40,11 @@ HWY_INLINE UpdateConstants<V> update_constants(const StepConstants<Real>& k) {
   return constants;
 }
 
-// The new phi of a voxel; `data` as data_motion() gives it. kPaper: eq. 6 literally, with one upwind gradient
+// The new phi of a voxel; `data` is from data_motion(). kPaper: eq. 6 literally, with one upwind gradient
 // for the total speed.
 //
-// dphi/dt is linear in the upwind gradients. Their weights are put together first, which a processor does
-// while it draws the roots of the gradients. Both parts are treated alike, so that inside and outside are
+// dphi/dt is linear in the upwind gradients. Their weights are computed first, beside the roots of the
+// gradients, which take longest. Both parts are treated alike, so that inside and outside are
 // alike to the last bit.
 template <bool kPaper, class Real, class V>
 HWY_INLINE V updated_phi(const Differences<V>& d, V data, const UpdateConstants<V>& k) {

@@ -123,7 +123,7 @@ std::vector<PhysicalPage> StreamExecutor::resident_pages() const {
   return pages;
 }
 
-// Grants every request of phi as it is, after phi was replaced or painted; `asked` are the pages that may
+// Grants every request of the present phi, after it was replaced or painted; `asked` are the pages that may
 // have some.
 Status StreamExecutor::activate_pages(std::vector<PhysicalPage> asked) {
   needs_activation_ = true;

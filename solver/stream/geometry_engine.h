@@ -1,5 +1,5 @@
-// Pages as geometry (paper sections 3.3 and 3.4): what is drawn so that a fragment is born for each voxel,
-// with the addresses that it reads.
+// Pages as geometry (paper sections 3.3 and 3.4): drawing it makes a fragment for each voxel, with the
+// addresses that it reads.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace tidemark {
 
-// How pages are drawn. The first three are the nine substreams: inner texels, four edges, four corners; their
-// fragments find their neighbours' pages in the same places relative to their own.
+// The ways to draw pages. The first three are the nine substreams: inner texels, four edges, four corners;
+// their fragments find their neighbours' pages in the same places relative to their own.
 enum class Substream { interior, edges, corners, whole_page, blocks, page_point };
 
 // A list of pages in a form that the vertex stage reads: for each page the addresses of its own and of 18
@@ -41,7 +41,7 @@ class GeometryEngine {
   [[nodiscard]] std::int64_t bytes() const { return buffer_.bytes(); }
   [[nodiscard]] static std::int64_t bytes_for(std::int64_t pages);
 
-  // The vertex shader of a substream and what it is compiled with.
+  // The vertex shader of a substream and its defines.
   [[nodiscard]] static const char* vertex_shader(Substream substream);
   [[nodiscard]] gpu::Defines defines(Substream substream) const;
 

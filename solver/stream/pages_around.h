@@ -1,4 +1,4 @@
-// Walking over the pages around a page.
+// A walk over the pages around a page.
 #pragma once
 
 #include "core/geometry.h"

@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-// How a page moved in a window of steps, over its voxels beside the surface (StepConstants::near).
+// The motion of a page in a window of steps, over its voxels beside the surface (StepConstants::near).
 struct PageMotion {
   float change = 0.0F;          // the sum of the largest changes
   float squared_change = 0.0F;  // the sum of the squared changes

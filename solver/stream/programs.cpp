@@ -36,7 +36,7 @@ Result<RegionPasses> RegionPasses::create(gpu::Device& device, const GeometryEng
   for (const Wanted& wanted : {Wanted{passes.neighbours_, Substream::blocks, "neighbours", neighbours},
                                Wanted{passes.motion_blocks_, Substream::blocks, "motion_blocks", {}},
                                Wanted{passes.motion_pages_, Substream::page_point, "motion_pages", in_memory},
-                               Wanted{passes.code_, Substream::page_point, "code", {}},
+                               Wanted{passes.page_message_, Substream::page_point, "page_message", {}},
                                Wanted{passes.fill_, Substream::whole_page, "constant", in_memory},
                                Wanted{passes.fill_points_, Substream::page_point, "constant", in_memory},
                                Wanted{passes.copy_, Substream::whole_page, "copy", in_memory},
@@ -69,7 +69,7 @@ std::vector<std::pair<const char*, const gpu::Program*>> RegionPasses::programs(
           {"speeds", &speeds_},
           {"update", &update_},
           {"neighbours", &neighbours_},
-          {"code", &code_},
+          {"page_message", &page_message_},
           {"motion, blocks", &motion_blocks_},
           {"motion, pages", &motion_pages_}};
 }

@@ -210,12 +210,12 @@ void RegionPasses::encode(const GeometryEngine& geometry, const PhysicalMemory& 
   in_slice_.generate_mipmaps();
   slices_.generate_mipmaps();
   message_target_.bind();
-  use(code_, memory);
-  code_.set("quiet_change", quiet_change);
-  bind(code_, 1, in_slice_, "in_slice_buffer");
-  bind(code_, 2, slices_, "slices_buffer");
-  bind(code_, 3, memory.motion(), "motion_buffer");
-  geometry.draw(code_, Substream::page_point, region.first, region.count,
+  use(page_message_, memory);
+  page_message_.set("quiet_change", quiet_change);
+  bind(page_message_, 1, in_slice_, "in_slice_buffer");
+  bind(page_message_, 2, slices_, "slices_buffer");
+  bind(page_message_, 3, memory.motion(), "motion_buffer");
+  geometry.draw(page_message_, Substream::page_point, region.first, region.count,
                 {message_.width(), message_.height()});
 }
 

@@ -36,7 +36,7 @@ class RegionPasses {
   // One step of phi in all pages of the list: reads phi from buffer `now`, writes the other one.
   void step(const GeometryEngine& geometry, const PhysicalMemory& memory, const SourceTexture& source,
             const StepConstants<float>& constants, int now, bool measure_motion) const;
-  // What the pages of the list send, of phi in the given buffer. Waits for the GPU.
+  // The messages of the pages of the list, about phi in the given buffer. Waits for the GPU.
   Result<std::vector<PageMessage>> message(const GeometryEngine& geometry, const PhysicalMemory& memory,
                                            int buffer, float band, float quiet_change);
 
@@ -72,7 +72,7 @@ class RegionPasses {
   static Status make_pool(gpu::Device& device, std::int64_t pages, std::initializer_list<Pooled> textures);
   Status reserve_message(gpu::Device& device, std::int64_t pages);
 
-  // Uses a program, and tells it the sizes of texels.
+  // Uses a program, and sets its sizes of texels.
   void use(const gpu::Program& program, const PhysicalMemory& memory) const;
   void differentiate(const GeometryEngine& geometry, const PhysicalMemory& memory,
                      const StepConstants<float>& constants, int now, bool measure_motion,
@@ -92,7 +92,7 @@ class RegionPasses {
 
   std::int64_t largest_region_ = kLargestRegion;
   std::array<gpu::Program, 3> derivatives_;  // interior, edges, corners
-  gpu::Program speeds_, update_, motion_blocks_, motion_pages_, neighbours_, code_;
+  gpu::Program speeds_, update_, motion_blocks_, motion_pages_, neighbours_, page_message_;
   gpu::Program fill_, fill_points_, copy_, paint_;
 
   // Of the pools of a step and of the message, in pages.

@@ -45,7 +45,7 @@ class StreamExecutor final : public ExecutorBase {
                  const Parameters& parameters, const ExecutorOptions& options);
   Status start(std::int64_t largest_region);
 
-  // What is kept beside a physical page.
+  // The facts kept beside a physical page.
   struct PageInfo {
     std::int32_t near_voxels = 0;  // of a sleeping page, as last seen
     std::uint8_t constant_steps = 0;
@@ -76,7 +76,7 @@ class StreamExecutor final : public ExecutorBase {
   // Painting (edit.cpp).
   struct PaintPlan {
     std::vector<std::int64_t> to_draw;  // virtual pages, some of them to be made resident
-    std::vector<float> values;          // of each of these, what phi is combined with
+    std::vector<float> values;          // for each of these, the values that phi is combined with
     std::vector<std::int64_t> to_flip;  // not resident, and changing from all outside to inside or back
     std::int64_t to_allocate = 0;
   };

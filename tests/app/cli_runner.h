@@ -1,4 +1,4 @@
-// Runs the built tidemark-cli as a user would, and makes small inputs for it.
+// A runner of the built tidemark-cli, as a user runs it, and small inputs for it.
 #pragma once
 
 #include <QJsonObject>

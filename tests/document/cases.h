@@ -1,4 +1,4 @@
-// A small volume in which a level set has something to do, and what tests ask of it.
+// A small volume in which a level set has something to do, and common questions of tests to it.
 #pragma once
 
 #include <QTest>

@@ -1,4 +1,4 @@
-// A ball in a CT, for tests of what works on a study.
+// A ball in a CT, for tests that work on a study.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// How long the thread of the user interface was kept from its events.
+// The heartbeat of the user interface's thread: the longest time without its events.
 #pragma once
 
 #include <QElapsedTimer>

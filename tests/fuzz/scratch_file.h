@@ -1,4 +1,4 @@
-// A file that each input of a fuzz target is written to, for what reads files.
+// A file that holds each input of a fuzz target, for readers of files.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Executors as rows of data, and a scene for them: what all of them must do is written once.
+// Rows of executors for data-driven tests, and a scene for them: common duties are written once.
 #pragma once
 
 #include <QTest>

@@ -307,7 +307,7 @@ class StreamTest : public QObject {
 
   void no_fragment_shader_looks_a_page_up() {
     const std::regex sampler(R"(uniform\s+(?:highp\s+)?(\w*[sS]ampler\w*|SOURCE_SAMPLER)\s+(\w+))");
-    for (const char* name : {"derivatives", "speeds", "update", "neighbours", "code", "motion_blocks",
+    for (const char* name : {"derivatives", "speeds", "update", "neighbours", "page_message", "motion_blocks",
                              "motion_pages", "constant", "copy", "paint"}) {
       const auto source =
           good(gpu::assemble_shader(fmt::format("solver/stream/{}.frag", name), "330 core", {}));

@@ -1,4 +1,4 @@
-// The same run by host, compute and stream ends with the same mask.
+// The test that one run by host, compute and stream ends with the same mask.
 #pragma once
 
 #include <QTest>

@@ -1,4 +1,4 @@
-// What many tests need.
+// Helpers of many tests: temporary folders, texts of failures, the real studies.
 #pragma once
 
 #include <QTemporaryDir>

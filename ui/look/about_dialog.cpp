@@ -65,7 +65,7 @@ QLayout* heading() {
   return row;
 }
 
-// So loud that nobody misses it, without a colour that something else means.
+// Loud enough to be noticed, without a colour that has another meaning.
 QWidget* warning() {
   auto* sign = new QLabel;
   sign->setPixmap(icon(u"warning").pixmap(24, 24));

@@ -1,4 +1,4 @@
-// What this program is, what it must not be used for, and what it is made of.
+// The dialog About: the program, its intended use and its parts.
 #pragma once
 
 #include <QDialog>

@@ -37,7 +37,7 @@ QPixmap drawn(QSvgRenderer& drawing, const QSize& pixels) {
   return pixmap;
 }
 
-// Draws when it is asked, so that the next painting after a change of palette has the new colour.
+// Draws at each request, so that the next painting after a change of palette has the new colour.
 class DrawnIcon : public QIconEngine {
  public:
   DrawnIcon(QString name, std::shared_ptr<QSvgRenderer> drawing)

@@ -7,9 +7,9 @@
 
 namespace tidemark {
 
-// resources/icons/NAME.svg, in the colour that the application's palette has for text at the moment of
-// painting (enabled, disabled, selected), sharp at any size and scale. A null icon, and a warning, when there
-// is none of that name.
+// resources/icons/NAME.svg in the palette's text colour at the moment of painting (enabled, disabled,
+// selected), sharp at any size and scale. For an unknown name it returns a null icon and prints a
+// warning.
 QIcon icon(QStringView name);
 
 // All names that icon() knows, sorted.

@@ -9,7 +9,7 @@
 namespace tidemark {
 namespace {
 
-// Fusion's outline of what can be ticked is darker than what it stands on, and lost in the dark.
+// Fusion's outline of check boxes is darker than their background, and lost in the dark.
 void outline(const QStyleOption& option, bool is_round, QPainter& painter) {
   constexpr float kStrength = 0.45F;
   QColor colour = option.palette.color(QPalette::WindowText);
@@ -67,8 +67,8 @@ void Style::drawComplexControl(ComplexControl control, const QStyleOptionComplex
     QProxyStyle::drawComplexControl(control, option, painter, widget);
     return;
   }
-  // Fusion draws the buttons of inactive windows black. Those of active ones are white, so it is told that
-  // this one is, in a colour that does not say so.
+  // Fusion draws the buttons of inactive windows black. Those of active ones are white, so it draws
+  // this one as active, in the colour of inactive ones.
   QStyleOptionTitleBar shown = *title;
   shown.titleBarState |= State_Active;
   shown.state |= State_Active;

@@ -1,4 +1,4 @@
-// Fusion, with its few drawings that ignore the palette replaced: they are black, and lost in the dark theme.
+// The style: Fusion without its few drawings that ignore the palette and are lost in the dark theme.
 #pragma once
 
 #include <QProxyStyle>
@@ -13,7 +13,7 @@ class Style : public QProxyStyle {
   // Buttons in the titles of docks: our icons.
   QIcon standardIcon(StandardPixmap which, const QStyleOption* option = nullptr,
                      const QWidget* widget = nullptr) const override;
-  // A tab's cross, and the outlines of what can be ticked.
+  // The cross of tabs, and the outlines of check boxes.
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                      const QWidget* widget = nullptr) const override;
   // Titles of windows inside the main window.

@@ -164,7 +164,7 @@ bool is_dark(const QPalette& palette) {
 }
 
 void apply_theme(QApplication& application, Theme theme) {
-  // What the platform wants is known only before the first palette of ours.
+  // The platform's wish can be read only before the first palette of ours.
   static const bool system_is_dark = is_dark(QGuiApplication::palette());
   const bool dark = theme == Theme::dark || (theme == Theme::system && system_is_dark);
   const QPalette palette = dark ? dark_palette() : light_palette();

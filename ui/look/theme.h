@@ -7,14 +7,14 @@ class QApplication;
 
 namespace tidemark {
 
-// `system` is the one of light and dark that the platform's palette is nearer to when the program starts.
+// `system` is light or dark, whichever is nearer to the platform's palette at the program's start.
 enum class Theme { system, light, dark };
 
-// Also while the program runs: what is on the screen is painted anew.
+// May be called while the program runs; all widgets are painted anew.
 void apply_theme(QApplication& application, Theme theme);
 
-// Dark: greys without a tint, darker than what is looked at in an image. Light: for bright rooms and
-// projectors. Texts have a contrast of at least 4.5 to what they stand on, disabled ones at least 3.
+// Dark: greys without a tint, darker than the tissue in an image. Light: for bright rooms and projectors.
+// Texts have a contrast of at least 4.5 to their background, disabled ones at least 3.
 QPalette light_palette();
 QPalette dark_palette();
 bool is_dark(const QPalette& palette);

@@ -218,7 +218,7 @@ void Actions::follow(CaseProxy* proxy) {
   patient_text->setChecked(proxy && proxy->display().settings().patient_text);
   if (proxy) return tool(proxy->display().settings().tool)->setChecked(true);
   if (!tools->checkedAction()) return;
-  // An exclusive group lets go of none.
+  // An exclusive group keeps one action checked.
   tools->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);
   tools->checkedAction()->setChecked(false);
   tools->setExclusionPolicy(QActionGroup::ExclusionPolicy::Exclusive);

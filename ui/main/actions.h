@@ -1,4 +1,4 @@
-// Everything that menus, tool bars and keys can do, made once.
+// The actions of menus, tool bars and keys, each made once.
 #pragma once
 
 #include <QAction>
@@ -13,7 +13,7 @@ namespace tidemark {
 class CaseProxy;
 struct CaseState;
 
-// Names, pictures and keys; what they do is connected by those who can do it. Keys are kept in the settings
+// Names, pictures and keys. The objects that carry an action out connect to it. Keys are kept in the settings
 // and can be changed (KeysDialog).
 class Actions : public QObject {
   Q_OBJECT
@@ -72,9 +72,9 @@ class Actions : public QObject {
   QAction* about;
 
   [[nodiscard]] QAction* tool(Tool tool) const;
-  // Those whose keys can be changed.
+  // The actions whose keys can be changed.
   [[nodiscard]] const std::vector<QAction*>& all() const { return all_; }
-  // Shows what the active case can do now and what is chosen in it; null: there is none.
+  // Enables and checks the actions by the state of the active case; null: there is none.
   void follow(CaseProxy* proxy);
   void set_key(QAction* action, const QKeySequence& key);  // an empty one: its own again
 

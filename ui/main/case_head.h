@@ -1,4 +1,4 @@
-// The line that says whose case is seen or acted on: its mark, the patient and the series.
+// The line that names the case that is seen or acted on: its mark, the patient and the series.
 #pragma once
 
 #include <QIcon>

@@ -1,4 +1,4 @@
-// Cases that are looked at together: what moves in one moves in all.
+// Links between cases: a move in one is a move in all.
 #pragma once
 
 #include <QList>

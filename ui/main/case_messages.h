@@ -1,4 +1,4 @@
-// What fails in a case, told until something else has succeeded in it.
+// The messages of failures in a case, shown until something has succeeded in it.
 #pragma once
 
 #include <QObject>
@@ -16,7 +16,7 @@ class CaseMessages : public QObject {
   CaseMessages(CaseWindow& window, MessageBar& bar);
 
  private:
-  // What the case has done, as text: an entry of the history that is still open counts only by its own.
+  // The state of the case's history, as text. An open entry shows in the undo text alone.
   [[nodiscard]] QString done() const;
   void tell_failure(const QString& message);
   void follow();

@@ -100,7 +100,7 @@ void CaseResults::take_dropped(const QStringList& paths) {
   }
 }
 
-// Files that come together are read one after the other.
+// Files that are dropped together are read one after the other.
 void CaseResults::read(CaseWindow& window, const QString& file, bool only_results) {
   waiting_.push_back({&window, file, only_results});
   if (waiting_.size() == 1) read_next();

@@ -15,7 +15,7 @@ namespace tidemark {
 class LoadingView;
 class MainWindow;
 
-// Does what the window's actions for it ask for, on the active case.
+// Carries out the window's actions about results, on the active case.
 class CaseResults : public QObject {
   Q_OBJECT
  public:
@@ -23,8 +23,8 @@ class CaseResults : public QObject {
 
   void ask_and_import(CaseWindow& window);
   void import_labels(CaseWindow& window, const QString& file);
-  // DICOM segmentations and structure sets become labels of the active case; the window opens everything
-  // else, and without a case all.
+  // DICOM segmentations and structure sets become labels of the active case. The window opens everything
+  // else, and without a case everything.
   void take_dropped(const QStringList& paths);
 
  private:
@@ -37,7 +37,7 @@ class CaseResults : public QObject {
   template <class Dialog, class... Arguments>
   Dialog* new_dialog(CaseWindow& window, const QString& name, Arguments... arguments);
 
-  // A file that is read, or waits for it.
+  // A file that is being read, or waits to be.
   struct Reading {
     QPointer<CaseWindow> window;
     QString file;

@@ -30,13 +30,13 @@ PictureView* view_of(const QDockWidget* dock) {
   return qobject_cast<PictureView*>(dock->widget());
 }
 
-// What a new case is looked at like.
+// The display of a new case.
 DisplaySettings first_settings(const CaseProxy& proxy) {
   const Volume& volume = proxy.volume();
   DisplaySettings settings;
   settings.cursor_mm = settings.slice_centre_mm = middle_of(volume.geometry);
   if (const auto& start = proxy.study().start; start && start->seed) {
-    // Where a phantom wants to be started from.
+    // The start that suits the phantom.
     const auto& seed = *start->seed;
     settings.cursor_mm = volume.geometry.to_patient({seed[0], seed[1], seed[2]});
   }
@@ -95,7 +95,7 @@ CaseWindow::CaseWindow(std::unique_ptr<CaseProxy> proxy, Actions& actions, QWidg
 
 CaseWindow::~CaseWindow() {
   autosave_.reset();
-  // Views speak of the session to their end.
+  // Views use the proxy until they are destroyed.
   qDeleteAll(docks_);
 }
 
@@ -217,7 +217,7 @@ void CaseWindow::set_layout(ViewLayout layout) {
       break;
   }
   for (QDockWidget* dock : shown) dock->show();
-  // The others go: restoreState() would show them again wherever they had been.
+  // The others are deleted: restoreState() would show them again at their old places.
   const auto unused = std::stable_partition(docks_.begin(), docks_.end(),
                                             [&](QDockWidget* dock) { return shown.contains(dock); });
   qDeleteAll(unused, docks_.end());

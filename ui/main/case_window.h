@@ -21,8 +21,8 @@ enum class ViewLayout { single, one_three, two_two, paper };
 
 QString text_of(ViewKind kind);
 
-// Child of the MDI area. Views float, tab, close and come back; how they stand is remembered from one case to
-// the next.
+// Child of the MDI area. Views float, tab, close and come back; their arrangement is remembered from one case
+// to the next.
 class CaseWindow : public QMainWindow {
   Q_OBJECT
  public:
@@ -31,8 +31,8 @@ class CaseWindow : public QMainWindow {
 
   [[nodiscard]] CaseProxy& proxy() { return *proxy_; }
 
-  // What tells open cases apart: a number from 1 on, with a colour (CaseHead), and whether others follow this
-  // one.
+  // The mark of an open case: a number from 1 on, with a colour (CaseHead), and whether the case is linked to
+  // others.
   [[nodiscard]] int number() const { return number_; }
   void set_number(int number);
   [[nodiscard]] bool linked() const { return linked_; }
@@ -42,18 +42,18 @@ class CaseWindow : public QMainWindow {
   PictureView* add_view(ViewKind kind);
   void set_layout(ViewLayout layout);
   [[nodiscard]] ViewLayout view_layout() const { return layout_; }
-  // The one that was last clicked or has the keyboard; the first where there is none such. Null without
+  // The view that was last clicked or has the keyboard, else the first. Null without
   // views.
   [[nodiscard]] PictureView* active_view() const;
   [[nodiscard]] QList<PictureView*> views() const;
   [[nodiscard]] QDockWidget* dock_of(const PictureView* view) const;
   void reset_views();
 
-  // How everything is shown, for session files. Fails (ErrorKind::input) on settings that make no sense; they
-  // are then as before.
+  // The display and the arrangement of views, for session files. Fails (ErrorKind::input) on settings that
+  // make no sense, and then changes nothing.
   [[nodiscard]] std::string view_state() const;
   Status restore_view_state(const std::string& state);
-  // Closes without a question: what there is to lose was just saved.
+  // Closes without a question, as the case was just saved.
   void close_saved();
 
   [[nodiscard]] CaseAutosave& autosave() { return *autosave_; }
@@ -61,9 +61,9 @@ class CaseWindow : public QMainWindow {
   QString session_file;
 
  signals:
-  // The number, or whether it is linked.
+  // The number changed, or whether the case is linked.
   void mark_changed();
-  // The case may go: nothing would be lost, or the user does not mind.
+  // Whether the case may be closed: nothing would be lost, or the user agrees.
   void close_wanted(CaseWindow& window, QCloseEvent* event);
 
  protected:

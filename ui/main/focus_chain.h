@@ -7,8 +7,8 @@ class QWidget;
 
 namespace tidemark {
 
-// The first widget behind `from` in the focus chain of its window (before it, when not `forward`) that can be
-// reached by Tab and that `allowed` lets pass; null: there is none.
+// The first widget behind `from` in its window's focus chain (before it, when not `forward`) that Tab can
+// reach and for which `allowed` is true; null: there is none.
 [[nodiscard]] QWidget* next_in_focus_chain(const QWidget& from, bool forward,
                                            const std::function<bool(const QWidget&)>& allowed);
 

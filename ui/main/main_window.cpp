@@ -73,7 +73,7 @@ MainWindow::MainWindow(Engine& engine, QWidget* parent) : QMainWindow(parent), e
 }
 
 MainWindow::~MainWindow() {
-  // Its cases go after it, and what they still say would reach what is no main window any more.
+  // Its cases are destroyed after it; their signals would reach a main window that is no more.
   area_->disconnect(this);
   links_->disconnect(this);
   for (const auto& connection : active_connections_) disconnect(connection);
@@ -226,7 +226,7 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
   connect(window, &QWidget::windowTitleChanged, child, &QWidget::setWindowTitle);
   child->setWindowTitle(window->windowTitle());
   child->setWindowIcon(case_mark(window->number()));
-  // The user interface draws breath between making a case and showing it.
+  // The event loop runs between making a case and showing it.
   const auto show = [this, child = QPointer(child), study, restored] {
     if (child) show_case(*child, *study, restored);
   };
@@ -390,7 +390,7 @@ void MainWindow::connect_windows() {
 void MainWindow::closeEvent(QCloseEvent* event) {
   area_->closeAllSubWindows();
   if (!area_->subWindowList().isEmpty()) {
-    // The user wants to keep one, or has one saved, after which this is tried again.
+    // The user keeps a case open, or saves one; closing is tried again after that.
     quitting_ = saved_->closes_later();
     return event->ignore();
   }

@@ -43,9 +43,9 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] PanelDocks& panels() { return *panels_; }
   [[nodiscard]] SavedCases& saved_cases() { return *saved_; }
   [[nodiscard]] CaseResults& results() { return *results_; }
-  // With which executor cases begin.
+  // The executor of new cases.
   void set_executor(ExecutorKind kind) { executor_ = kind; }
-  // A sentence that stays until it is dismissed, the next one comes, or what it is about has succeeded.
+  // Shows a sentence until it is dismissed, the next one comes, or its subject has succeeded.
   void tell(const QString& message, const QString& about = {});
   void settle(const QString& about);
 
@@ -53,8 +53,8 @@ class MainWindow : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
-  // Qt asks for it at Tab, and when the control that has the keyboard is hidden or becomes grey. A case
-  // window that gets the keyboard becomes the active one, so that the other cases are passed over.
+  // Qt calls it at Tab, and when the control that has the keyboard is hidden or becomes grey. A case window
+  // that gets the keyboard becomes the active one, so it passes over the other cases.
   bool focusNextPrevChild(bool next) override;
 
  private:
@@ -72,7 +72,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] int free_number() const;
   void activate(QMdiSubWindow* window);
   void follow_case();
-  // A case as it is wanted by an action; nothing happens without one.
+  // Calls `action` with the active case, if there is one.
   template <class Do>
   void with_case(QAction* action, Do act);
 

@@ -11,7 +11,7 @@
 namespace tidemark {
 namespace {
 
-// Watches what is put on the menu bar, and paints in place of the label in its corner.
+// Watches the menu bar for new children, and paints in place of the label in its corner.
 class IconPainter : public QObject {
  public:
   explicit IconPainter(QMenuBar& bar) : QObject(&bar), bar_(bar) {}

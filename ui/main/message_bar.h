@@ -15,11 +15,11 @@ class MessageBar : public QFrame {
  public:
   explicit MessageBar(QWidget* parent = nullptr);
 
-  // `about`: what has failed, for settle(); empty: it stays until it is dismissed.
+  // `about`: the subject that failed, for settle(); empty: the message stays until it is dismissed.
   void show_text(const QString& text, const QString& about = {});
-  // It has succeeded now: a message that it failed goes.
+  // The subject has succeeded: removes the message of its failure.
   void settle(const QString& about);
-  // Takes the widget; it goes when it is dismissed or another message comes.
+  // Takes the widget over, until it is dismissed or another message comes.
   void show_widget(QWidget* widget);
   void dismiss();
   [[nodiscard]] QString text() const;

@@ -75,9 +75,9 @@ QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* pa
   dock->setMinimumWidth(kWidth);
   window_.addDockWidget(Qt::RightDockWidgetArea, dock);
   docks_ << dock;
-  // To Qt, a panel behind another tab is visible, too; ours are to rest there, without their docks growing
-  // smaller. In a turn of the event loop of its own, because each takes its time to show all that has
-  // changed; by then the dock's last word counts.
+  // Qt calls a panel behind another tab visible. Ours are hidden there, while their docks keep their size.
+  // Each is shown in a turn of the event loop of its own, because bringing it up to date takes time; the
+  // dock's latest state counts then.
   QSizePolicy policy = headed->sizePolicy();
   policy.setRetainSizeWhenHidden(true);
   headed->setSizePolicy(policy);
@@ -103,7 +103,7 @@ void PanelDocks::set_case(CaseWindow* window) {
   show_or_hide();
 }
 
-// Once there is a surface, what steers it comes to the front where the start was.
+// Once there is a surface, the panel that steers it comes to the front in place of Start.
 void PanelDocks::follow_start() {
   const bool began = !begun_ && proxy_->state().begun;
   begun_ = proxy_->state().begun;

@@ -26,7 +26,7 @@ class PanelDocks : public QObject {
   // The case on which all panels act. Null: no case is open, and no panels beside the start page.
   void set_case(CaseWindow* window);
   void set_hidden(bool hidden);  // as the user wants it
-  // How the window's docks and tool bars stand while panels show, for the settings.
+  // The arrangement of docks and tool bars while panels show, for the settings.
   [[nodiscard]] QByteArray arrangement() const;
   void restore(const QByteArray& arrangement);
   [[nodiscard]] QList<QAction*> toggles() const;  // one a panel: shows or hides it
@@ -44,10 +44,10 @@ class PanelDocks : public QObject {
   QList<QDockWidget*> docks_;
   QList<CaseWidget*> panels_;
   QList<CaseHead*> heads_;
-  bool unwanted_ = false;  // by the user
+  bool unwanted_ = false;  // the user has hidden them
   bool shown_ = true;
-  QByteArray arrangement_;  // while they do not show: as it was
-  QString front_;           // while they do not show: which is to come to the front
+  QByteArray arrangement_;  // from before they were hidden
+  QString front_;           // while they are hidden: the next to come to the front
   TransferFunctionEditor* transfer_ = nullptr;
 };
 

@@ -1,4 +1,4 @@
-// Asks what is to be done with copies of cases that were not saved.
+// The question after a crash: what to do with copies of cases that were not saved.
 #pragma once
 
 #include <QString>
@@ -12,7 +12,7 @@ namespace tidemark {
 
 enum class RescueAnswer { open, discard, later };
 
-// `why`: how they came to be there. The copies are listed by name, study and age.
+// `why`: the reason why there are copies. The copies are listed by name, study and age.
 RescueAnswer ask_about_copies(QWidget* parent, const QString& why, const std::vector<Recoverable>& copies);
 
 }  // namespace tidemark

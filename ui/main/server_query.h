@@ -1,11 +1,11 @@
-// From a PACS to a case.
+// The way from a PACS to a case.
 #pragma once
 
 namespace tidemark {
 
 class MainWindow;
 
-// Shows the window's one query dialog; what it brings is opened.
+// Shows the window's one query dialog, and opens the series that it brings.
 void query_server(MainWindow& window);
 
 }  // namespace tidemark

@@ -1,4 +1,4 @@
-// What is under the mouse: I, D, kappa, |grad phi|, phi and where that is.
+// The values under the mouse: I, D, kappa, |grad phi|, phi and where that is.
 #pragma once
 
 #include <QLabel>

@@ -11,7 +11,7 @@ class CardButton : public QAbstractButton {
  public:
   CardButton(const QString& title, const QString& sentence, QWidget* parent = nullptr);
 
-  // Stands out among its neighbours: what to try first.
+  // Makes it stand out among its neighbours, as the one to try first.
   void set_emphasised(bool emphasised);
   // The sentence stays on one line and loses its middle where it is too long (paths).
   void set_one_line(bool one_line);

@@ -1,4 +1,4 @@
-// What is dragged into the program: files and folders from outside, series from the browser.
+// The paths of dragged files and folders from outside, and of series from the browser.
 #pragma once
 
 #include <QMimeData>
@@ -13,7 +13,7 @@ inline constexpr char kSeriesMimeType[] = "application/x-tidemark-series";
 // The folders and files of this machine among the URLs; empty when there are none.
 QStringList dropped_paths(const QMimeData& data);
 
-// A series as it is dragged from the browser to a view.
+// A series that is dragged from the browser to a view.
 struct DraggedSeries {
   QString path;  // StudyLoader::place_of()
   QString uid;

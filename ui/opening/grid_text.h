@@ -1,4 +1,4 @@
-// How grids are written for people.
+// Grids as text for people.
 #pragma once
 
 #include <QString>

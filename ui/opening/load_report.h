@@ -1,5 +1,5 @@
-// What was found and changed when a study was loaded: a line, and all of it below when it is asked for. Not
-// modal; goes when it is dismissed.
+// The report of loading a study: one line of what was found and changed, and all of it on demand. Not modal;
+// the user dismisses it.
 #pragma once
 
 #include <QFrame>

@@ -1,4 +1,4 @@
-// How far the loading of a study is: what, a bar, and Cancel. Not modal.
+// The progress of loading a study: its name, a bar, and Cancel. Not modal.
 #pragma once
 
 #include <QFrame>

@@ -9,8 +9,8 @@ namespace tidemark {
 
 class StudyOpener;
 
-// A page of `pages` that takes the first page's place from when the opener has a picture until what it loads
-// is there or given up. Where another page is shown, that stays: whoever works on a case is not disturbed.
+// A page of `pages` with a picture of the study that is being loaded. It replaces the first page until the
+// study is there or given up; any other page stays, so that work on a case is not disturbed.
 class PreviewPage : public QWidget {
   Q_OBJECT
  public:

@@ -32,7 +32,7 @@ void write_study(const RecentStudy& study, QSettings& settings) {
   if (study.policy.gaps == GridPolicy::Gaps::fill) settings.setValue("gaps", kFill);
 }
 
-// A text that a menu shows as it is.
+// A text that a menu shows literally.
 QString menu_text(QString text) {
   return text.replace(QLatin1Char('&'), QStringLiteral("&&"));
 }

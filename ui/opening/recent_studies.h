@@ -33,7 +33,7 @@ class RecentStudies : public QObject {
   [[nodiscard]] const QList<RecentStudy>& list() const { return list_; }
   void add(const RecentStudy& study);
   void clear();
-  // Looks in the background which of them are still there, for a folder on a slow network takes its time.
+  // Looks in the background which of them still exist: a folder on a slow network takes its time.
   void check();
 
   // A submenu that follows the list: missing studies greyed, "Clear" at its end.

@@ -1,4 +1,4 @@
-// Choose one of the series that were found under a path.
+// The choice among the series that were found under a path.
 #pragma once
 
 #include <QDialog>

@@ -18,7 +18,7 @@ namespace tidemark {
 namespace {
 
 const QVariant kAlignment = QVariant::fromValue(Qt::Alignment(Qt::AlignLeft | Qt::AlignVCenter));
-constexpr int kIconPixels = 64;  // enough for every scale; whoever draws them says how large they are
+constexpr int kIconPixels = 64;  // enough for every scale; the painter chooses the size
 
 bool has_grid(const Series& series) {
   return series.geometry.voxel_count() > 0;

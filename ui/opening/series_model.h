@@ -12,8 +12,8 @@
 
 namespace tidemark {
 
-// Those that can be loaded first, the largest on top. A picture is made when its row is first painted. Rows
-// can be dragged (kSeriesMimeType).
+// Loadable series come first, the largest on top. A picture is made when its row is first painted. Rows can
+// be dragged (kSeriesMimeType).
 class SeriesModel : public QAbstractTableModel {
   Q_OBJECT
  public:

@@ -1,4 +1,4 @@
-// What is shown while no case is open: ways to open one.
+// The page while no case is open: ways to open one.
 #pragma once
 
 #include <QStringList>

@@ -88,7 +88,7 @@ void StudyOpener::next() {
   number_ = asked_ = 0;
   emit ended();
   if (problems_.isEmpty()) return;
-  // After what was opened is shown, so that what is told of that does not take the message's place.
+  // After the opened study is shown, so that its own report does not replace the message.
   const auto tell = [this, problems = std::exchange(problems_, {})] {
     emit failed(problems.join(QLatin1Char('\n')));
   };
@@ -135,7 +135,7 @@ void StudyOpener::load_as_wanted(const Series& series) {
   load(series);
 }
 
-// What makes slices up is not the default; moving them back is.
+// Making slices up is not the default; moving them back is.
 void StudyOpener::ask_for_policy(const Series& series) {
   const bool fills = series.fillable();
   question_ = new QMessageBox(QMessageBox::Question, fills ? tr("Irregular slices") : tr("Tilted slices"),

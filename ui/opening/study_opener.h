@@ -1,4 +1,4 @@
-// From a path to a study: looks what is there, asks which series where there are several, and loads it.
+// The way from a path to a study: search, choice among several series, loading.
 #pragma once
 
 #include <QMessageBox>
@@ -17,9 +17,9 @@
 
 namespace tidemark {
 
-// One study after the other, in the order in which they were asked for. While the user chooses a series, or
-// how its slices become a regular grid, those that were asked for before wait; whoever opens something else
-// chooses none.
+// Opens one study after the other, in the order of the requests. While the user chooses a series, or how its
+// slices become a regular grid, earlier requests wait. A new request during the choice gives the choice
+// up.
 class StudyOpener : public QObject {
   Q_OBJECT
  public:
@@ -30,11 +30,11 @@ class StudyOpener : public QObject {
     always,
   };
   void open(const QString& path, Ask ask = Ask::if_several);
-  // Without asking which, and of a tilt as the policy says; gaps are asked for unless it fills them.
+  // Does not ask which series, and follows the policy for a tilt. Asks about gaps unless it fills them.
   void open_series(const QString& path, const QString& uid, const GridPolicy& policy = {});
   void open_phantom(const QString& kind);
   void cancel();  // the one that is being opened, and those that wait
-  // Whether somebody looks at previewed(); at first, yes. For a volume file the whole of it is read once
+  // Whether previewed() is needed; at first, yes. A preview of a volume file reads the whole file once
   // more.
   void set_previews_wanted(bool wanted) { previews_wanted_ = wanted; }
 

@@ -1,4 +1,4 @@
-// Asks a PACS for studies, and brings a series from it.
+// The dialog that asks a PACS for studies and brings a series from it.
 #pragma once
 
 #include <QDialog>
@@ -15,19 +15,19 @@ class ServerChoice;
 class StudyTree;
 class WorkLine;
 
-// Not modal: what was brought can be looked at beside it.
+// Not modal: the series that it brought can be looked at beside it.
 class QueryDialog : public QDialog {
   Q_OBJECT
  public:
   // `servers` is the file of servers.
   explicit QueryDialog(std::filesystem::path servers, QWidget* parent = nullptr);
 
-  // Below which folder what comes is kept, each time in a new one.
+  // The folder for what is retrieved; each retrieval makes a new folder in it.
   void set_folder(const QString& folder);
 
  signals:
   void retrieved(const QString& folder);
-  void told(const QString& message);  // what did not come along
+  void told(const QString& message);  // about objects that did not arrive
 
  protected:
   void reject() override;  // gives up what runs

@@ -1,4 +1,4 @@
-// What is asked for in a query.
+// The fields of a query.
 #pragma once
 
 #include <QComboBox>

@@ -40,7 +40,7 @@ void ServerChoice::read() {
   const QString before = server_->currentText();
   auto found = read_pacs_configuration(file_);
   std::error_code error;
-  // Whoever has named no server yet has done nothing wrong.
+  // A user who has named no server yet has made no mistake.
   const bool is_wrong = !found && std::filesystem::exists(file_, error);
   problem_ = is_wrong ? QString::fromStdString(found.error().message) : QString();
   configuration_ = found ? std::move(*found) : PacsConfiguration();

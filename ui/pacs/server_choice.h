@@ -1,4 +1,4 @@
-// One of the servers that there are, and a way to name others.
+// The choice of a server, with a way to name others.
 #pragma once
 
 #include <QComboBox>

@@ -1,4 +1,4 @@
-// The servers that there are, to be looked at and changed.
+// The dialog of all servers, for looking at and changing them.
 #pragma once
 
 #include <QCheckBox>

@@ -27,7 +27,7 @@ void CaseWidget::follow() {
   if (proxy_ && isVisible()) refresh();
 }
 
-// The session is half gone: nothing of it may be used.
+// The proxy is half destroyed: nothing of it may be used.
 void CaseWidget::forget() {
   proxy_.clear();
   attach();

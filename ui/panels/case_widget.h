@@ -1,4 +1,4 @@
-// What all parts of the panels have in common: they show one case, the active one.
+// The common base of all parts of the panels: they show one case, the active one.
 #pragma once
 
 #include <QPointer>
@@ -14,14 +14,14 @@ class CaseWidget : public QWidget {
  public:
   explicit CaseWidget(QWidget* parent = nullptr) : QWidget(parent) {}
 
-  // Null: none is open. A session that dies is forgotten.
+  // Null: no case is open. A proxy that is destroyed is forgotten.
   void set_proxy(CaseProxy* proxy);
   [[nodiscard]] CaseProxy* proxy() const { return proxy_; }
 
  protected:
-  // Another session, or none any more; refresh() follows.
+  // Another case, or none any more; refresh() follows.
   virtual void attach() {}
-  // Something has changed. Called only with a session, and while nobody looks only when it is shown again.
+  // The case has changed. Called only with a case; a hidden widget is refreshed when it is shown again.
   virtual void refresh() = 0;
   void showEvent(QShowEvent* event) override;
 

@@ -1,4 +1,4 @@
-// The clip plane (paper section 6.2), by numbers: 3D views drag it.
+// The clip plane (paper section 6.2) by numbers; 3D views drag it.
 #pragma once
 
 #include "ui/panels/case_widget.h"
@@ -22,7 +22,7 @@ class ClipControls : public CaseWidget {
  private:
   QWidget* make_orientations();
   void add_effects(Form& form);
-  // Across that direction, through the crosshair, so that what is hidden is on the viewer's side.
+  // Lays the plane across that direction, through the crosshair, and hides the viewer's side.
   void lay_across(glm::dvec3 direction);
   void flip();
   [[nodiscard]] glm::dvec3 towards_viewer() const;

@@ -1,4 +1,4 @@
-// How the active case is shown.
+// The panel Display: how the active case is shown.
 #pragma once
 
 #include "ui/panels/panel.h"

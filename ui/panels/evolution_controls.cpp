@@ -134,7 +134,7 @@ void EvolutionControls::refresh() {
   steps_->setCurrentIndex(
       std::max(0, steps_->findData(QVariant::fromValue<qint64>(proxy()->steps_per_picture()))));
   pause_->setChecked(proxy()->pause_at_convergence());
-  // What computes is shown, not how it came to be chosen.
+  // The executor in use is shown, not "Automatic".
   executor_->setCurrentIndex(executor_->findData(state.executor));
 }
 

@@ -1,4 +1,4 @@
-// How the level set runs: buttons, steps per picture, when it pauses, on what it is computed.
+// The controls of the evolution: buttons, steps a picture, pause at convergence, executor.
 #pragma once
 
 #include <array>

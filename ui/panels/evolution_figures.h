@@ -1,4 +1,4 @@
-// What the evolution has come to: curves over its steps, and figures.
+// The figures of the evolution: curves over its steps, and numbers.
 #pragma once
 
 #include "ui/panels/case_widget.h"

@@ -1,4 +1,4 @@
-// Beginning with what lies in a file.
+// The start from a file.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ class FileStartMethod : public StartMethod {
   [[nodiscard]] QString title() const override;
   [[nodiscard]] QString sentence() const override;
   [[nodiscard]] bool can_start() const override;
-  // Reads the file away from the user interface, then begins in the session for which it was asked.
+  // Reads the file beside the user interface, then begins in the case of the request.
   void start() override;
 
  protected:

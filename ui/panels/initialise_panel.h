@@ -1,4 +1,4 @@
-// How the level set begins.
+// The panel Start: how the level set begins.
 #pragma once
 
 #include <vector>

@@ -28,7 +28,7 @@ void LabelsModel::show(const std::vector<Label>& labels, const std::vector<Regio
     endResetModel();
     return;
   }
-  // Of what is as it was nothing is said: the view would put back a name that is being typed.
+  // No signal for rows that did not change: the view would put back a name that is being typed.
   const int first_changed = labels == given_ ? volume : 0;
   if (labels != given_) labels_ = given_ = labels;
   statistics_ = statistics;

@@ -150,7 +150,7 @@ QString LabelsPanel::new_name() const {
   return tr("Label %1").arg(model_->rowCount() + 1);
 }
 
-// Into the chosen label; the first one is made on the way.
+// Accepts into the chosen label, or makes the first one.
 void LabelsPanel::accept_surface() {
   if (!proxy()) return;
   const Take take = take_all_->isChecked() ? Take::others_too : Take::free_voxels;

@@ -1,4 +1,4 @@
-// What was segmented so far.
+// The panel Labels: what was segmented so far.
 #pragma once
 
 #include "ui/panels/panel.h"
@@ -43,7 +43,7 @@ class LabelsPanel : public Panel {
   MeaningPicker* meaning_;
   QPushButton* accept_;
   QCheckBox* take_all_;
-  QLabel* accepted_;  // what the last acceptance took
+  QLabel* accepted_;  // the outcome of the last acceptance
   QPushButton* begin_;
   SliderNumber* opacity_;
   bool choose_new_ = false;  // a label was added here: it becomes the chosen one

@@ -1,4 +1,4 @@
-// Steers and watches the evolution.
+// The panel Level set, which steers and watches the evolution.
 #pragma once
 
 #include "ui/panels/evolution_controls.h"

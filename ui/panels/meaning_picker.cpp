@@ -101,7 +101,7 @@ void MeaningPicker::take_first_match() {
   pick(row);
 }
 
-// What was typed and is nothing that can be chosen goes.
+// Text that names no choice is removed.
 void MeaningPicker::focusOutEvent(QFocusEvent* event) {
   QComboBox::focusOutEvent(event);
   if (!completer()->popup()->isVisible()) setEditText(itemText(currentIndex()));

@@ -1,4 +1,4 @@
-// What a label is, to be chosen from a list or found by typing.
+// A picker of a label's meaning, from a list or by typing.
 #pragma once
 
 #include <QComboBox>
@@ -16,7 +16,7 @@ class MeaningPicker : public QComboBox {
   void show_label(const Label* label);  // null: there is none
 
  signals:
-  // Nothing: what the label's name says.
+  // Unset: the meaning of the label's name.
   void picked(const std::optional<tidemark::SegmentMeaning>& meaning);
 
  protected:

@@ -80,7 +80,7 @@ QWidget* PaintPanel::make_history() {
     *button = new QToolButton;
     (*button)->setIconSize({kIcon, kIcon});
     (*button)->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-    // Their texts say what is taken back, and must not make the panel wider.
+    // Their texts name the change, and must not make the panel wider.
     (*button)->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     (*button)->setFocusPolicy(Qt::StrongFocus);
     (*button)->hide();  // until it has an action

@@ -1,4 +1,4 @@
-// 3D paint and 3D eraser (paper section 6.2).
+// The panel Paint: 3D paint and 3D eraser (paper section 6.2).
 #pragma once
 
 #include "ui/panels/panel.h"

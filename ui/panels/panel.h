@@ -1,4 +1,4 @@
-// A dock's content.
+// A panel: the content of a dock.
 #pragma once
 
 #include <initializer_list>
@@ -11,7 +11,7 @@ class QVBoxLayout;
 
 namespace tidemark {
 
-// Parts below each other. Without a session they are grey, and a sentence says what is missing.
+// Parts below each other. Without a case they are grey, and a sentence says that a study is missing.
 class Panel : public CaseWidget {
   Q_OBJECT
  public:
@@ -20,7 +20,7 @@ class Panel : public CaseWidget {
 
  protected:
   void add(QWidget* part);
-  void add(CaseWidget* part);  // which gets the session, too
+  void add(CaseWidget* part);  // which gets the case, too
   void attach() override;
   void refresh() override {}
   [[nodiscard]] QWidget* content() const { return content_; }

@@ -76,7 +76,7 @@ std::vector<RegionRow> region_rows(const CaseState& state) {
   if (state.begun) {
     RegionRow row{text(QT_TRANSLATE_NOOP("RegionTable", "Surface")), state.surface.volume_ml,
                   state.surface.surface_mm2, state.surface.voxels_inside, std::nullopt};
-    // Values are measured when the surface rests; those of another surface would mislead.
+    // Values are measured when the surface is still; those of another surface would mislead.
     if (row.voxels > 0 && state.inside.voxels == row.voxels) row.values = state.inside;
     rows.push_back(std::move(row));
   }

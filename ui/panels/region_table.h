@@ -1,5 +1,5 @@
-// The figures of a case as a table, to be shown, copied and exported. Measurements that are not complete are
-// left out.
+// The figures of a case as a table for showing, copying and exporting. Measurements that are not complete
+// are left out.
 #pragma once
 
 #include <QString>

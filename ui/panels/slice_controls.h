@@ -1,4 +1,4 @@
-// How slices look.
+// The controls of slices.
 #pragma once
 
 #include "ui/panels/case_widget.h"

@@ -1,4 +1,4 @@
-// The source can be smoothed before the level set sees it.
+// The controls of the smoothing that the source gets before the level set sees it.
 #pragma once
 
 #include "ui/panels/case_widget.h"

@@ -1,4 +1,4 @@
-// What steers the surface: T, epsilon and alpha (paper section 6.1), and which terms take part.
+// The controls of the speed: T, epsilon and alpha (paper section 6.1), and the terms that take part.
 #pragma once
 
 #include <functional>

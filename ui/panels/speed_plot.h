@@ -1,4 +1,4 @@
-// The speed D(I) of the paper's eq. 7 (its Fig. 11) over the histogram of the source, to be dragged.
+// The speed D(I) of the paper's eq. 7 (its Fig. 11) over the histogram of the source, for dragging.
 #pragma once
 
 #include <QWidget>

@@ -1,4 +1,4 @@
-// One way in which a level set can begin.
+// One way to begin a level set.
 #pragma once
 
 #include "ui/panels/case_widget.h"
@@ -11,13 +11,13 @@ class StartMethod : public CaseWidget {
   using CaseWidget::CaseWidget;
 
   [[nodiscard]] virtual QString title() const = 0;
-  // What start() would do, in words.
+  // The effect of start(), in words.
   [[nodiscard]] virtual QString sentence() const = 0;
   [[nodiscard]] virtual bool can_start() const = 0;
   virtual void start() = 0;
 
  signals:
-  void changed();  // what the sentence says
+  void changed();  // the sentence
   void failed(const QString& message);
 };
 

@@ -1,4 +1,4 @@
-// The ways in which a level set can begin (paper section 6.1): drawn spheres, values, what is there already.
+// The ways to begin a level set (paper section 6.1): drawn spheres, values, what is there already.
 #pragma once
 
 #include "ui/panels/start_method.h"

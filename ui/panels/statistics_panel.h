@@ -1,4 +1,4 @@
-// Figures of the surface, the labels and what was measured, for reading and for reports.
+// The panel Statistics: figures of the surface, the labels and the measurements, for reading and for reports.
 #pragma once
 
 #include "ui/panels/panel.h"

@@ -1,4 +1,4 @@
-// How the 3D view looks: surface and source.
+// The controls of the 3D view: surface and source.
 #pragma once
 
 #include "ui/panels/case_widget.h"

@@ -1,4 +1,4 @@
-// Window and level: which values are black, and which white.
+// The controls of window and level: which values are black, and which white.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Which of what was segmented goes into a result.
+// The choice of segments that go into a result.
 #pragma once
 
 #include <QGroupBox>
@@ -14,14 +14,14 @@ class ResultChoice : public QGroupBox {
  public:
   explicit ResultChoice(QWidget* parent = nullptr);
 
-  // What there is to choose from now; what was chosen stays if it is still there.
+  // Sets the choices; the chosen one stays if it is among them.
   void show_state(const CaseState& state);
   [[nodiscard]] bool has_choice() const;
   [[nodiscard]] ResultContent content() const;
 
  private:
   QRadioButton* add(const QString& tip);
-  // Whether there is such a thing, also while the whole cannot be changed.
+  // Whether there is such a choice, also while the widget is disabled.
   [[nodiscard]] bool is_there(const QRadioButton* button) const { return button->isEnabledTo(this); }
 
   QRadioButton* all_;

@@ -1,4 +1,4 @@
-// What the dialogs have in common that make results for other systems.
+// The common base of the dialogs that make results for other systems.
 #pragma once
 
 #include <QDialog>
@@ -11,8 +11,8 @@
 
 namespace tidemark {
 
-// Not modal: the case can be worked on while its result is made, of what it was like at the click. Goes with
-// the case.
+// Not modal: the user can go on with the case while its result is made, which shows the case at the click. It
+// closes with the case.
 class ResultDialog : public QDialog {
   Q_OBJECT
  public:
@@ -23,7 +23,7 @@ class ResultDialog : public QDialog {
 
   // From the constructor: whether there is something to choose, where it goes, what that means, the button.
   void build(bool with_choice, QWidget* target, const QString& note, const QString& verb, const QString& tip);
-  // Whether all is there to begin.
+  // Whether all that is needed is filled in.
   [[nodiscard]] virtual bool ready() const { return true; }
   // Asked at the click: may go on?
   virtual bool confirm() { return true; }
@@ -50,7 +50,7 @@ class ResultDialog : public QDialog {
   bool waiting_ = false;  // for the snapshot
 };
 
-// What a DICOM result of this study belongs to, for users.
+// The patient and study to which a DICOM result will belong, in words.
 [[nodiscard]] QString source_note(const LoadedStudy& study);
 
 }  // namespace tidemark

@@ -1,4 +1,4 @@
-// Results sent to a server.
+// The dialog that sends results to a server.
 #pragma once
 
 #include <QCheckBox>

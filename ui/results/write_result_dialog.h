@@ -1,4 +1,4 @@
-// A result for other systems, written as a file; polygons as a file for each segment.
+// The dialog that writes a result for other systems as a file, polygons as a file for each segment.
 #pragma once
 
 #include <QLineEdit>

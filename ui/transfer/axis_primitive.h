@@ -1,4 +1,4 @@
-// What primitives of the source and of the surface have in common, for widgets that edit either.
+// The common form of primitives of the source and of the surface, for widgets that edit either.
 #pragma once
 
 #include <QColor>
@@ -14,7 +14,7 @@ namespace tidemark {
 struct PrimitiveAxis {
   QString name;      // "Value"
   QString unit;      // "HU"; empty: none is known
-  double low = 0.0;  // what a plot shows at least
+  double low = 0.0;  // the smallest extent of a plot
   double high = 1.0;
   QString greyed;  // why the axis has no effect now, a sentence; empty: it has
 };

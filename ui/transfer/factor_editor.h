@@ -38,7 +38,7 @@ class FactorEditor : public QWidget {
 
 // A box for numbers of about this size: as many decimals as make a thousandth of it.
 void suit_decimals(QDoubleSpinBox& box, double extent);
-// Shows a number that changed elsewhere; what is being typed stays if it did not.
+// Shows a number that changed elsewhere; if it did not, text that is being typed stays.
 void show_number(QDoubleSpinBox& box, double value);
 
 }  // namespace tidemark

@@ -1,4 +1,4 @@
-// How often values occur, and over it how opaque each primitive makes them.
+// A histogram of values, and over it how opaque each primitive makes them.
 #pragma once
 
 #include <cstdint>

@@ -72,7 +72,7 @@ std::optional<double> JointHistogramPlot::distance(const AxisPrimitive& primitiv
     const double v = (pointer.y() - reach.center().y()) / (reach.height() / 2.0 + kNear);
     if (u * u + v * v > 1.0) return std::nullopt;
   }
-  // Of those that lie on each other the smallest is meant: the others can be had beside it.
+  // Among overlapping ones the smallest is chosen: the others can be clicked beside it.
   const QRectF seen = reach.intersected(area());
   return seen.width() * seen.height();
 }
@@ -91,7 +91,7 @@ void JointHistogramPlot::paint_background(QPainter& painter) {
 void JointHistogramPlot::paint_primitive(QPainter& painter, const AxisPrimitive& primitive, int number,
                                          bool chosen) {
   const QRectF room = area();
-  // The product of both factors as it is, on a coarse grid that is smoothed.
+  // The product of both factors, on a coarse grid that is smoothed.
   constexpr int kCells = 96;
   std::array<double, kCells> along{};
   for (int column = 0; column < kCells; ++column) {

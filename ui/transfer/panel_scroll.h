@@ -1,4 +1,4 @@
-// What panels need that may be lower than what is in them.
+// The scroll area of panels that are lower than their content.
 #pragma once
 
 #include <QScrollArea>

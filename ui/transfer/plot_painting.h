@@ -1,4 +1,4 @@
-// What plots of transfer functions have in common to look at. Colours come from the palette.
+// The common look of plots of transfer functions. Colours come from the palette.
 #pragma once
 
 #include <QPainter>
@@ -22,8 +22,8 @@ PlotMargins plot_margins(const QFontMetrics& metrics, bool with_counts);
 // Labels of axes are a little smaller than other text.
 QFont axis_font(const QFont& font);
 
-// Ticks, their numbers and the title, below the area or at its left. A greyed axis is drawn as what is
-// disabled.
+// Ticks, their numbers and the title, below the area or at its left. A greyed axis has the colour of
+// disabled text.
 void draw_bottom_axis(QPainter& painter, const QRectF& area, const PlotAxis& axis, const QString& title,
                       const QColor& colour);
 void draw_left_axis(QPainter& painter, const QRectF& area, const PlotAxis& axis, const QString& title,
@@ -38,7 +38,7 @@ void draw_handle(QPainter& painter, QPointF at, HandleShape shape, HandleState s
                  const QPalette& palette);
 // A primitive's number in the list, so that it is not known by its colour alone.
 void draw_number(QPainter& painter, QPointF at, int number, bool chosen, const QPalette& palette);
-// What is being set, in a corner of the area.
+// The value that is being set, in a corner of the area.
 void draw_read_out(QPainter& painter, const QRectF& area, const QString& text, const QPalette& palette);
 
 }  // namespace tidemark

@@ -1,4 +1,4 @@
-// A small picture of what a transfer function makes of values.
+// A small picture of a transfer function's effect on values.
 #pragma once
 
 #include <QPalette>

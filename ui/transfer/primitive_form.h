@@ -18,7 +18,7 @@ class PrimitiveForm : public QWidget {
   PrimitiveForm(PrimitiveKind kind, int axes, QWidget* parent = nullptr);
 
   void set_axes(const std::vector<PrimitiveAxis>& axes);
-  // Emits nothing. None: there is nothing to edit.
+  // Emits nothing. Without a primitive the form is empty.
   void set_primitive(const std::optional<AxisPrimitive>& primitive);
 
   [[nodiscard]] FactorEditor* factor(int axis) const { return factors_[static_cast<std::size_t>(axis)]; }

@@ -13,7 +13,7 @@ struct FactorHandle {
   double at;
 };
 
-// The ends first: where handles lie on each other, the first is taken, and a centre can be had elsewhere.
+// The ends first: among overlapping handles the first is dragged, and a centre can be dragged elsewhere.
 std::vector<FactorHandle> end_handles(const TransferFactor& factor) {
   switch (factor.kind) {
     case Kind::gaussian:

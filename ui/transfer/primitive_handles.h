@@ -1,4 +1,4 @@
-// By what a primitive is taken hold of, and what moving it does. Geometry alone: nothing is painted here.
+// The handles of a primitive, and the effect of moving them. Geometry alone: nothing is painted here.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -8,8 +8,8 @@
 
 namespace tidemark {
 
-// What of a factor a handle moves. `below` and `above` are the two sides of a Gaussian: either sets its
-// width.
+// The part of a factor that a handle moves. `below` and `above` are the two sides of a Gaussian: either sets
+// its width.
 enum class Grip { none, whole, start, end, below, above };
 
 // In a plot whose axes are those of the first two factors, or the first factor's and opacity.

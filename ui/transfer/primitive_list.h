@@ -12,7 +12,7 @@ namespace tidemark {
 class PrimitiveList : public QWidget {
   Q_OBJECT
  public:
-  // `when_empty`: what it means that there are none, a sentence.
+  // `when_empty`: a sentence on what an empty list means.
   explicit PrimitiveList(const QString& when_empty, QWidget* parent = nullptr);
 
   void set_primitives(const std::vector<AxisPrimitive>& primitives, const std::vector<PrimitiveAxis>& axes,

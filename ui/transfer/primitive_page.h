@@ -1,4 +1,4 @@
-// All about the primitives of one list: plots of them, the list, and the numbers of the chosen one.
+// The page of one list of primitives: plots of them, the list, and the numbers of the chosen one.
 #pragma once
 
 #include <QButtonGroup>

@@ -16,7 +16,7 @@
 namespace tidemark {
 namespace {
 
-// As far as this editor shows it: a camera that moves is nothing to it.
+// Equality of what the editor shows; it does not depend on the camera.
 bool look_the_same(const DisplaySettings& a, const DisplaySettings& b) {
   return a.transfer == b.transfer && a.chosen_primitive == b.chosen_primitive && a.region == b.region &&
          a.clip_on == b.clip_on && a.show_source == b.show_source;
@@ -220,7 +220,7 @@ void TransferFunctionEditor::replace(const TransferFunction& function) {
   display_->change([&](DisplaySettings& s) {
     s.transfer = function;
     s.chosen_primitive = 0;
-    // Who chooses a function wants to see what it does.
+    // A user who chooses a function wants to see its effect.
     if (!function.source.empty()) s.show_source = true;
   });
 }

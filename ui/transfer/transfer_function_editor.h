@@ -1,4 +1,4 @@
-// Edits how the values of a case's volume and its surface show (paper section 6.2).
+// The editor of how the values of a case's volume and its surface show (paper section 6.2).
 #pragma once
 
 #include <QCheckBox>
@@ -22,18 +22,18 @@ class PrimitivePage;
 enum class PrimitiveKind;
 struct AxisPrimitive;
 
-// Everything is read from the display and written to it at once: there is nothing to apply. While nobody
-// looks, nothing is drawn either.
+// Everything is read from the display and written to it at once: there is nothing to apply. A hidden editor
+// draws nothing.
 class TransferFunctionEditor : public QWidget {
   Q_OBJECT
  public:
   explicit TransferFunctionEditor(QWidget* parent = nullptr);
 
-  // From now on edits this; null: nothing. `unit` is that of the volume's values ("HU"), empty when it has
+  // Sets the display to edit; null: none. `unit` is that of the volume's values ("HU"), empty when it has
   // none.
   void set_display(Display* display, const SourceSummary* summary, const QString& unit = {});
 
-  // A file in the presets' format. What is wrong is shown, and nothing is changed then.
+  // Loads a file in the presets' format. An error is shown, and changes nothing.
   void load(const std::filesystem::path& file);
   void save(const std::filesystem::path& file);
 
@@ -63,7 +63,7 @@ class TransferFunctionEditor : public QWidget {
   QPointer<Display> display_;
   SourceSummary summary_;
   QString unit_;
-  std::optional<DisplaySettings> shown_;  // what the widgets were last set to
+  std::optional<DisplaySettings> shown_;  // the settings that the widgets show
   bool new_volume_ = true;                // of which nothing is drawn yet
   int surface_chosen_ = 0;
 

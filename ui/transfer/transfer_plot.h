@@ -1,4 +1,4 @@
-// A plot on which primitives are chosen and dragged, by mouse and by keys.
+// A plot of primitives that mouse and keys choose and drag.
 #pragma once
 
 #include <QWidget>
@@ -9,8 +9,8 @@
 
 namespace tidemark {
 
-// Knows gestures; how a primitive looks and where its handles are is the matter of those who derive from it.
-// What is dragged is the primitive as it was shown last: changes that come from elsewhere during a drag stay.
+// Has the gestures; derived classes draw primitives and place their handles. A drag changes the primitive
+// that was shown last, so that changes from elsewhere during a drag stay.
 class TransferPlot : public QWidget {
   Q_OBJECT
  public:
@@ -40,12 +40,12 @@ class TransferPlot : public QWidget {
 
  protected:
   [[nodiscard]] virtual std::vector<Handle> handles_of(const AxisPrimitive& primitive) const = 0;
-  // How far the pointer is from what is painted of the primitive; none when too far to mean it.
+  // The distance of the pointer from the painted primitive; unset when it is too far for a choice.
   [[nodiscard]] virtual std::optional<double> distance(const AxisPrimitive& primitive,
                                                        QPointF pointer) const = 0;
   // Whether there is an axis at the right.
   [[nodiscard]] virtual bool shows_counts() const { return false; }
-  // What the second axis shows, given all primitives.
+  // The extent of the second axis, given all primitives.
   [[nodiscard]] virtual PlotAxis fitted_y() const = 0;
   virtual void paint_background(QPainter& painter) = 0;
   virtual void paint_primitive(QPainter& painter, const AxisPrimitive& primitive, int number,
@@ -102,7 +102,7 @@ class TransferPlot : public QWidget {
   PlotAxis y_axis_;
   std::vector<AxisPrimitive> primitives_;
   int chosen_ = 0;
-  std::optional<HandleKind> selected_;  // of the chosen primitive: what keys move
+  std::optional<HandleKind> selected_;  // of the chosen primitive; keys move it
   std::optional<HandleKind> hovered_;
   std::optional<Drag> drag_;
   std::optional<Pan> pan_;

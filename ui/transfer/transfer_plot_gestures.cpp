@@ -69,7 +69,7 @@ void TransferPlot::mousePressEvent(QMouseEvent* event) {
   } else if (const auto index = primitive_at(at)) {
     if (*index != chosen_) emit chosen(*index);
     if (!has(*index)) return;
-    // Anywhere on it the whole primitive is taken, but not by a click that only chooses.
+    // A drag from anywhere on it moves the whole primitive; a click only chooses it.
     for (const Handle& whole : handles_of(primitives_[static_cast<std::size_t>(*index)])) {
       if (whole.kind.x != Grip::whole && whole.kind.y != Grip::whole) continue;
       selected_ = whole.kind;
@@ -222,7 +222,7 @@ void TransferPlot::move_by_keys(QPointF direction, bool coarse) {
   const double y = pixel.y() + direction.y() * step * (y_axis_.to - y_axis_.from) / kFineSteps;
   const glm::dvec2 smallest{x_axis_.extent() / kSmallest, y_axis_.extent() / kSmallest};
   const glm::dvec2 to{x_axis_.value(x), std::clamp(y_axis_.value(y), y_axis_.low, y_axis_.high)};
-  // What does not go the handle's way leaves its other coordinates as they are, to the last digit.
+  // A move across the handle's direction leaves its other coordinates unchanged, to the last digit.
   const HandleKind kind{direction.x() != 0.0 ? handle.kind.x : Grip::none,
                         direction.y() != 0.0 ? handle.kind.y : Grip::none,
                         direction.y() != 0.0 && handle.kind.opacity};

@@ -15,7 +15,7 @@ constexpr double kArrowLength = 70.0;
 const QColor kColour(255, 214, 90);
 
 // Where the grips are: the middle of the cut, and the tip of an arrow along the normal that is never too
-// short to be taken hold of.
+// short to be dragged.
 glm::dvec3 middle_of_cut(const ClipPlane& plane, const Geometry& geometry) {
   const auto cut = cut_of_box(geometry, plane);
   glm::dvec3 middle(0.0);
@@ -104,7 +104,7 @@ ClipHandles::ClipHandles(const ClipPlane& plane, const VolumeScreen& screen, con
   const glm::dvec3 middle = middle_of_cut(plane, geometry);
   centre_ = screen.position_of(middle);
   tip_ = screen.position_of(middle + plane.normal * (kArrowLength * screen.mm_per_pixel()));
-  // An arrow that points at the viewer still has a tip to take hold of.
+  // An arrow that points at the viewer still has a tip that can be dragged.
   const QPointF way = tip_ - centre_;
   const double length = std::hypot(way.x(), way.y());
   constexpr double kShortest = 26.0;

@@ -1,5 +1,5 @@
-// The clip plane as it is taken hold of in the 3D view: its outline, a grip that moves it along its normal,
-// and one at the normal's tip that tilts it.
+// The handles of the clip plane in the 3D view: its outline, a grip that moves it along its normal, and one
+// at the normal's tip that tilts it.
 #pragma once
 
 #include <QPainter>

@@ -1,4 +1,4 @@
-// What a mouse button does between press and release.
+// The gesture of a mouse button between press and release.
 #pragma once
 
 #include <QPainter>
@@ -29,7 +29,7 @@ struct DragView {
   std::function<QPointF(glm::dvec3)> position_of;  // of a point of the patient
 };
 
-// One gesture. Made at the press, told of every move, gone after the release.
+// One gesture, from the press over every move to the release.
 class Drag {
  public:
   explicit Drag(DragView view) : view_(std::move(view)) {}
@@ -40,7 +40,7 @@ class Drag {
   virtual void move(const Pointer& pointer) = 0;
   virtual void release() {}
   virtual void paint(QPainter& /*painter*/) const {}         // over the view, while it lasts
-  [[nodiscard]] virtual QString text() const { return {}; }  // beside the mouse: what it has found so far
+  [[nodiscard]] virtual QString text() const { return {}; }  // beside the mouse: its result so far
 
  protected:
   [[nodiscard]] CaseProxy& proxy() const { return view_.proxy; }
@@ -51,7 +51,7 @@ class Drag {
   DragView view_;
 };
 
-// What the buttons do in any view (docs/user: mouse and keys). None where there is nothing to do, as for a
+// The gesture of a button in any view (docs/user-interface.md). None where there is nothing to do, as for a
 // tool that needs a point of the patient and has none.
 std::unique_ptr<Drag> tool_drag(Tool tool, DragView view, const Pointer& pressed);
 std::unique_ptr<Drag> window_drag(DragView view, const Pointer& pressed);

@@ -1,11 +1,11 @@
-// Spheres that add to the level set or take from it.
+// Drags of spheres that add to the level set or take from it.
 #pragma once
 
 #include "ui/views/drag.h"
 
 namespace tidemark {
 
-// From the centre outwards, seen in all views; painted when the button is let go.
+// From the centre outwards, seen in all views; painted at the release.
 class SphereDrag : public Drag {
  public:
   SphereDrag(DragView view, const Pointer& pressed, Brush brush);

@@ -1,4 +1,4 @@
-// Distances and angles.
+// Drags that measure distances and angles.
 #pragma once
 
 #include "ui/views/drag.h"

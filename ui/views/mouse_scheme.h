@@ -1,4 +1,4 @@
-// What the left button does in slices while no other tool than window and level is chosen.
+// The meaning of the left button in slices while no other tool than window and level is chosen.
 #pragma once
 
 namespace tidemark {

@@ -1,4 +1,4 @@
-// What is drawn over pictures: seen on bright and on dark ones.
+// The overlay of pictures: lines and text that are seen on bright and on dark ones.
 #pragma once
 
 #include <QPainter>
@@ -24,7 +24,7 @@ void paint_circle(QPainter& painter, QPointF centre, double radius, bool erases)
 
 // The letters of the patient's sides in the middle of the four edges.
 void paint_orientation(QPainter& painter, QSizeF size, glm::dvec3 right, glm::dvec3 up);
-// How long a round number of millimetres is.
+// A bar whose length is a round number of millimetres.
 void paint_scale_bar(QPainter& painter, QSizeF size, double mm_per_pixel);
 // With a gap in the middle.
 void paint_crosshair(QPainter& painter, QSizeF size, QPointF at);
@@ -35,7 +35,7 @@ QString text_of(const Measurement& measurement);
 
 // Lines in a corner, those at the top cut short where they would meet the ones of the other corner.
 void paint_corner(QPainter& painter, QSizeF size, Qt::Alignment corner, const QStringList& lines);
-// For the corners at the top: whose images they are, and which.
+// Texts of the corners at the top: patient and study, and series.
 QStringList patient_lines(const Patient& patient);
 QStringList series_lines(const LoadedStudy& study);
 

@@ -63,7 +63,7 @@ void PictureSurface::show_texture() {
   blitter_.blit(texture.id(), QOpenGLTextureBlitter::targetTransform(all, all),
                 QOpenGLTextureBlitter::OriginBottomLeft);
   blitter_.release();
-  // Behind it the engine may draw into the texture, once the feed has let go of it.
+  // Behind this fence the engine may draw into the texture, once the feed has dropped it.
   void* before = texture.read_until(gl.glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
   gl.glFlush();
   if (before) gl.glDeleteSync(static_cast<GLsync>(before));

@@ -1,4 +1,4 @@
-// Where a view's picture is a texture that the engine has drawn: the only place of the user interface that
+// The surface of a view whose picture is a texture of the engine's: the only place of the user interface that
 // knows OpenGL.
 #pragma once
 
@@ -38,8 +38,8 @@ class PictureSurface : public QOpenGLWidget {
   int times_initialised_ = 0;
 };
 
-// To be called before the window is shown in which there may be surfaces later: Qt makes a window anew, and
-// it flickers, when the first thing that is drawn by OpenGL comes into it.
+// To be called before a window is shown in which there may be surfaces later: Qt makes a shown window anew
+// when the first OpenGL widget comes into it, and it flickers.
 void expect_surfaces(QWidget& window);
 
 }  // namespace tidemark

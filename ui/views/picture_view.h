@@ -22,9 +22,9 @@ class PictureView : public QWidget {
   [[nodiscard]] const PictureFeed& feed() const { return feed_; }
   [[nodiscard]] virtual QString title() const = 0;
   [[nodiscard]] PictureSize physical_size() const;
-  // What is seen, with all that is drawn over it, in physical pixels.
+  // The picture with its overlay, in physical pixels.
   [[nodiscard]] QImage grab_picture();
-  // What shows pictures that are textures; null where they are images (Engine::pictures()).
+  // The widget for pictures that are textures; null where they are images (Engine::pictures()).
   [[nodiscard]] const PictureSurface* surface() const { return surface_; }
 
   // Of a point of the patient (LPS, mm), in logical pixels.
@@ -33,7 +33,7 @@ class PictureView : public QWidget {
   [[nodiscard]] virtual std::optional<glm::dvec3> patient_at(QPointF position) const = 0;
   [[nodiscard]] virtual double mm_per_pixel() const = 0;
 
-  // The cross-section of the brush, or of the sphere that is being drawn in whatever view, in logical pixels.
+  // The cross-section of the brush, or of the sphere that is being drawn in any view, in logical pixels.
   struct Ring {
     QPointF centre;
     double radius = 0.0;
@@ -57,15 +57,15 @@ class PictureView : public QWidget {
   // To be called instead of update().
   void paint_again();
   virtual void paint_overlay(QPainter& painter) = 0;
-  // The corners at the top: whose images they are, which, and what else is to be known of the view. A view
-  // that is low has room for the name and the note.
+  // The corners at the top: patient and study, series, and a note of the view. A low view has room for the
+  // name and the note only.
   void paint_study(QPainter& painter, const QString& note = {}) const;
   // Drags that are about the view itself; `first_choice`: the left button of a tool that has nothing to do
   // here.
   virtual std::unique_ptr<Drag> navigation_drag(const Pointer& pressed) = 0;
   virtual void scroll(int clicks) = 0;
   virtual void zoom(double factor, QPointF about) = 0;
-  // What the left or right button starts with the tool that is chosen.
+  // The gesture that the left or right button starts with the chosen tool.
   virtual std::unique_ptr<Drag> begin_drag(const Pointer& pressed);
   void set_drag(std::unique_ptr<Drag> drag);
   [[nodiscard]] bool dragging() const { return drag_ != nullptr; }

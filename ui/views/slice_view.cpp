@@ -163,7 +163,7 @@ void SliceViewWidget::scroll(int clicks) {
 }
 
 void SliceViewWidget::zoom(double factor, QPointF about) {
-  // What is under the mouse stays there.
+  // The point under the mouse stays there.
   const glm::dvec3 point = screen().patient_at(about);
   display().change([&](DisplaySettings& s) {
     const double zoom = std::clamp(s.slice_zoom * factor, kLeastZoom, kMostZoom);

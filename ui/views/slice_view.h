@@ -1,4 +1,4 @@
-// Slices, speed maps and pages in 2D.
+// Views in 2D: slices, speed maps and pages.
 #pragma once
 
 #include "ui/views/picture_view.h"

@@ -1,4 +1,4 @@
-// Where the pixels of views lie in the patient.
+// The geometry of views: where their pixels lie in the patient.
 #pragma once
 
 #include <QPointF>

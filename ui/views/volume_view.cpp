@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kDegreesPerPixel = 0.4;
 
-// Turns the camera around what it looks at.
+// Turns the camera around its focus.
 class RotateDrag : public Drag {
  public:
   RotateDrag(DragView view, const Pointer& pressed) : Drag(std::move(view)), from_(pressed.position) {
@@ -138,7 +138,7 @@ std::unique_ptr<Drag> VolumeViewWidget::begin_drag(const Pointer& pressed) {
   return PictureView::begin_drag(pressed);
 }
 
-// What is under the mouse has to be asked for. Where nothing is, the drag turns the camera.
+// The engine finds the point under the mouse. Where there is none, the drag turns the camera.
 void VolumeViewWidget::pick_and_begin(const Pointer& pressed) {
   const double ratio = devicePixelRatioF();
   const glm::dvec2 pixel(pressed.position.x() * ratio, pressed.position.y() * ratio);

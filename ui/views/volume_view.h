@@ -1,4 +1,4 @@
-// The 3D rendering.
+// The view in 3D.
 #pragma once
 
 #include "ui/views/camera_follower.h"

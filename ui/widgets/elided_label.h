@@ -5,7 +5,7 @@
 
 namespace tidemark {
 
-// text() is the whole; where only a part is seen, the tool tip tells the rest.
+// text() is the whole text; where only a part fits, the tool tip has all of it.
 class ElidedLabel : public QLabel {
  public:
   explicit ElidedLabel(const QString& text, QWidget* parent = nullptr);

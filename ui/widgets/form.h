@@ -28,7 +28,7 @@ class Form {
   // A number to be read, at the right.
   QLabel* figure(const QString& label, const QString& tip);
   SliderNumber* slider(const QString& label, const QString& tip);
-  // Words below the ends of the slider that was added last: what they stand for.
+  // Words below the ends of the slider that was added last.
   void ends_of(const SliderNumber& slider, const QString& low, const QString& high);
   QCheckBox* check(const QString& text, const QString& tip);
   QComboBox* choice(const QString& label, const QString& tip);

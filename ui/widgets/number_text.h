@@ -1,4 +1,4 @@
-// Numbers as people read them, and how many digits they need.
+// Numbers as text for people, and the digits that they need.
 #pragma once
 
 #include <QString>

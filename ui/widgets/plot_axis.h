@@ -1,4 +1,4 @@
-// From values to pixels and back.
+// An axis of a plot: from values to pixels and back.
 #pragma once
 
 #include <vector>

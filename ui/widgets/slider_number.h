@@ -29,7 +29,7 @@ class SliderNumber : public QWidget {
   void set_value(double value);  // without a signal; left alone while the user types
   [[nodiscard]] double value() const;
 
-  void set_name(const QString& name, const QString& tip);  // for those who hear it, and those who hover
+  void set_name(const QString& name, const QString& tip);  // for screen readers, and for the mouse
   [[nodiscard]] QSlider* slider() const { return slider_; }
   [[nodiscard]] QDoubleSpinBox* number() const { return number_; }
 

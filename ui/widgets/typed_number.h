@@ -5,8 +5,8 @@
 
 namespace tidemark {
 
-// Shows the value, without a signal, unless another one is just being typed: nothing is taken out of the
-// user's hands.
+// Shows the value, without a signal, unless the user is typing another one: digits that are being typed must
+// stay.
 void show_unless_typed(QDoubleSpinBox& box, double value);
 
 }  // namespace tidemark

@@ -1,4 +1,4 @@
-// The wheel scrolls a panel; it does not change what the pointer happens to pass over.
+// A guard against the wheel: it scrolls a panel, and does not change what the pointer happens to pass over.
 #pragma once
 
 class QWidget;

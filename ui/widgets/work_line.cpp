@@ -22,7 +22,7 @@ WorkLine::WorkLine(QWidget* parent)
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(kSpace);
-  // What is said last must not move what stands around it.
+  // The last message must not move the widgets around it.
   setMinimumHeight(std::max(cancel_->sizeHint().height(), 2 * fontMetrics().lineSpacing()));
   said_->setAccessibleName(tr("What is going on"));
   bar_->setTextVisible(false);

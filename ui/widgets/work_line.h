@@ -1,4 +1,4 @@
-// How far a piece of work is, a way to give it up, and how it ended.
+// A line about a piece of work: its progress, a way to give it up, and its end.
 #pragma once
 
 #include <QLabel>

@@ -1,4 +1,4 @@
-// What a piece of a ray adds to the picture, whoever found the piece: the surface where the ray crosses it, the
+// What a piece of a ray adds to the picture, however the piece was found: the surface where the ray crosses it, the
 // source on one side of the surface or on both, the picture on the clip plane.
 
 #include "render/transfer.glsl"

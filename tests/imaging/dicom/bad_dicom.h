@@ -1,4 +1,4 @@
-// What every test of bad DICOM files asks of each of them.
+// The one check that every test of bad DICOM files makes.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What dcm2niix makes of a folder of DICOM files, as another reader's word on the same series.
+// The volumes that dcm2niix makes of a folder of DICOM files: another reader's word on the same series.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What other readers found in the real studies (truth.json beside them), against what was loaded.
+// The findings of other readers on the real studies (truth.json beside them), against what was loaded.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// A peer that does what a test tells it to, however wrong.
+// A peer that follows a test's script, however wrong.
 #pragma once
 
 #include <atomic>

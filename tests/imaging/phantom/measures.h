@@ -1,4 +1,4 @@
-// What the tests of the phantoms measure on them.
+// Measures on phantoms.
 #pragma once
 
 #include <cstdint>
