@@ -10,7 +10,7 @@ namespace tidemark {
 namespace {
 
 Result<Segments> surface_segments(const SessionContents& contents) {
-  Segments segments = segments_of(contents.phi->mask(), "Surface");
+  Segments segments = segments_of(contents.phi->mask(), kSurfaceSegment);
   if (segments.list.front().slices.empty()) {
     return fail(ErrorKind::usage, "nothing is inside the surface");
   }

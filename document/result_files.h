@@ -9,6 +9,9 @@ namespace tidemark {
 // The choice of segments.
 enum class ResultContent { all_labels, visible_labels, surface };
 
+// The name of the surface's segment.
+inline constexpr const char* kSurfaceSegment = "Surface";
+
 // The segments of a snapshot of a case: its labels, without those that hold no voxel, or the inside of its
 // surface with phi. Fails (ErrorKind::usage) when there are none.
 Result<Segments> result_segments(const SessionContents& contents, ResultContent content);

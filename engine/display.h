@@ -53,6 +53,8 @@ struct DisplaySettings {
   TransferFunction transfer;  // of source and surface
   Region region = Region::everywhere;
   double occlusion = 0.0;
+  bool orientation_cube = true;
+  bool volume_box = true;  // the volume's edges
   bool clip_on = false;
   ClipPlane clip;
 

@@ -84,6 +84,8 @@ Json volume_json(const DisplaySettings& s) {
       {"show_source", s.show_source},
       {"region", static_cast<int>(s.region)},
       {"occlusion", s.occlusion},
+      {"orientation_cube", s.orientation_cube},
+      {"volume_box", s.volume_box},
       {"clip_on", s.clip_on},
       {"clip_normal", json_of(s.clip.normal)},
       {"clip_offset_mm", s.clip.offset_mm},
@@ -122,6 +124,8 @@ void read_volume(const JsonField& field, DisplaySettings& s) {
   }
   read_enum(field, "region", 4, s.region);
   read(field, "occlusion", 0.0, 1.0, s.occlusion);
+  read(field, "orientation_cube", s.orientation_cube);
+  read(field, "volume_box", s.volume_box);
   read(field, "clip_on", s.clip_on);
   read_unit(field, "clip_normal", s.clip.normal);
   read(field, "clip_offset_mm", -kFarthest, kFarthest, s.clip.offset_mm);

@@ -75,8 +75,15 @@ Camera Camera::on(const Box& box, const Geometry& geometry, double aspect) const
   camera.focus_mm = 0.5 * (box.low + box.high);
   camera.zoom = 1.0;
   const double needed = kMargin * std::max(half_extent(box, right()) / aspect, half_extent(box, up()));
-  camera.zoom = needed > 0.0 ? half_height_mm(geometry, aspect) / needed : 1.0;
+  camera.zoom = needed > 0.0 ? camera.half_height_mm(geometry, aspect) / needed : 1.0;
   return camera;
+}
+
+bool Camera::sees(const Box& box, const Geometry& geometry, double aspect) const {
+  const double half = half_height_mm(geometry, aspect);
+  const glm::dvec3 off = 0.5 * (box.low + box.high) - focus_mm.value_or(middle_of(geometry));
+  return std::abs(glm::dot(off, right())) + half_extent(box, right()) <= half * aspect &&
+         std::abs(glm::dot(off, up())) + half_extent(box, up()) <= half;
 }
 
 glm::dvec3 SliceOrientation::into() const {

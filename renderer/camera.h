@@ -35,6 +35,8 @@ struct Camera {
   [[nodiscard]] double half_height_mm(const Geometry& geometry, double aspect) const;
   // Looks from the same side at a box, so that it fills the picture.
   [[nodiscard]] Camera on(const Box& box, const Geometry& geometry, double aspect) const;
+  // Whether all of a box is in the picture.
+  [[nodiscard]] bool sees(const Box& box, const Geometry& geometry, double aspect) const;
 };
 
 // The orientation of a slice in the patient: unit vectors (LPS) to the right and up in its picture.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <glm/ext/matrix_transform.hpp>
 
-#include "core/label_colour.h"
 #include "renderer/source_plane.h"
 #include "renderer/uniforms.h"
 #include "solver/gl/step_uniforms.h"
@@ -14,18 +13,8 @@ namespace {
 // Texture units.
 constexpr int kPhiUnit = 0;
 constexpr int kSourceUnit = 3;
-constexpr int kLabelUnit = 5;
-constexpr int kFreeUnit = 6;         // and those behind it
-constexpr int kLabelColourUnit = 7;  // of slice views, which have no need of more free ones
-
-std::vector<Renderer::LabelColour> first_label_colours() {
-  std::vector<Renderer::LabelColour> colours(Renderer::kLabels);
-  for (std::size_t label = 1; label < colours.size(); ++label) {
-    const auto [red, green, blue] = label_colour(static_cast<std::uint8_t>(label));
-    colours[label] = {red, green, blue, 255};
-  }
-  return colours;
-}
+constexpr LabelPicture::Units kLabelUnits{5, 10, 11, 12};
+constexpr int kFreeUnit = 6;  // and the three behind it
 
 // The view moved by a part of a picture's pixels.
 glm::dmat4 moved_by(glm::dvec2 pixels, PictureSize size) {
@@ -81,15 +70,9 @@ Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> 
   auto phi = PhiPicture::create(gl, layout, default_band(renderer->source_->geometry));
   if (!phi) return pass_on(phi);
   renderer->phi_ = std::move(*phi);
-  const std::vector<std::uint8_t> none(1);
-  auto labels = gpu::Texture3D::create(gl, gpu::TexelFormat::r8ui, Index3(1), std::as_bytes(std::span(none)),
-                                       "no labels");
+  auto labels = LabelPicture::create(gl, layout);
   if (!labels) return pass_on(labels);
   renderer->labels_ = std::move(*labels);
-  auto colours = gpu::Texture2D::create(gl, gpu::TexelFormat::rgba8, kLabels, 1, "colours of labels");
-  if (!colours) return pass_on(colours);
-  renderer->label_colours_ = std::move(*colours);
-  TIDEMARK_TRY(renderer->set_label_colours(first_label_colours()));
   TIDEMARK_TRY(renderer->set_phi(
       Field::empty(renderer->source_->geometry, renderer->phi_.band(), layout.page_shape())));
   return renderer;
@@ -132,18 +115,13 @@ Status Renderer::set_labels(std::span<const std::uint8_t> labels) {
                 source_->geometry.voxel_count());
   }
   TIDEMARK_TRY(device_->make_current());
-  auto texture = gpu::Texture3D::create(*device_, gpu::TexelFormat::r8ui, source_->geometry.size,
-                                        std::as_bytes(labels), "labels");
-  if (!texture) return pass_on(texture);
-  labels_ = std::move(*texture);
-  has_labels_ = true;
-  return {};
+  return labels_.set_voxels(*device_, labels);
 }
 
 Status Renderer::set_label_colours(std::span<const LabelColour> colours) {
   if (colours.size() > kLabels) return fail(ErrorKind::usage, "there are more than {} labels", kLabels);
   TIDEMARK_TRY(device_->make_current());
-  label_colours_.upload({0, 0, static_cast<std::int64_t>(colours.size()), 1}, std::as_bytes(colours));
+  labels_.set_colours(colours);
   return {};
 }
 
@@ -178,8 +156,7 @@ Result<const gpu::Program*> Renderer::use_program(const char* fragment, const gp
   set_step_uniforms(program, constants_);
   phi_.set_uniforms(program, kPhiUnit);  // after the step's: the band is that of the phi shown
   source_picture_.set_uniforms(program, kSourceUnit);
-  labels_.bind(kLabelUnit);
-  program.set("labels", kLabelUnit);
+  labels_.set_uniforms(program, kLabelUnits);
   program.set("spacing", glm::vec3(source_->geometry.spacing_mm));
   return &program;
 }
@@ -196,13 +173,21 @@ VolumeView Renderer::resolved(const VolumeView& asked) {
   return view;
 }
 
+bool Renderer::shows_labels(const VolumeView& view) const {
+  return view.label_opacity > 0.0 && labels_.shows();
+}
+
 Result<const gpu::Program*> Renderer::use_volume_program(const char* fragment, const VolumeView& view,
                                                          PictureSize size, gpu::Defines variant) {
   const bool source = shows_source(view);
+  if (shows_labels(view)) {
+    TIDEMARK_TRY(labels_.prepare_borders(*device_));
+  }
   const auto with = [&](bool wanted, const char* name) {
     if (wanted) variant.emplace_back(name, "");
   };
   with(view.surface, "SURFACE");
+  with(shows_labels(view), "LABELS");
   with(source, "SOURCE");
   with(source && (view.region != Region::everywhere || view.source->source_needs_phi()), "REGION");
   with(source && view.source->source_needs_gradient(), "BY_GRADIENT");
@@ -230,6 +215,7 @@ Result<const gpu::Program*> Renderer::use_volume_program(const char* fragment, c
   program.set("show_clip_picture", view.clip && view.clip->picture ? 1 : 0);
   program.set("colouring", static_cast<int>(view.colouring));
   program.set("occlusion", static_cast<float>(view.lighting.occlusion));
+  program.set("label_opacity", static_cast<float>(view.label_opacity));
   program.set("background", view.background);
   return &program;
 }
@@ -270,7 +256,8 @@ Status Renderer::draw_from_slices(Canvas& canvas, const VolumeView& view, const 
   auto slab = use_volume_program("render/slab.frag", view, size, {axis.define()});
   if (!slab) return pass_on(slab);
   const std::vector<PhysicalPage> table = phi_.page_entries();
-  const SliceCaster::Scene scene{*source_, phi_, table, source_picture_.page_opacities()};
+  const SliceCaster::Scene scene{*source_, phi_, table, source_picture_.page_opacities(),
+                                 shows_labels(view) ? labels_.pages() : std::span<const std::int32_t>()};
   TIDEMARK_TRY(slice_caster_.draw(*device_, **slab, scene, view, size, {kPhiUnit, kFreeUnit}, progress));
   auto over = use_program("render/over_background.frag", {});
   if (!over) return pass_on(over);
@@ -310,9 +297,7 @@ Status Renderer::draw_on(Canvas& canvas, const SliceView& view, const Progress& 
   slice.set("nearest", view.nearest ? 1 : 0);
   slice.set("show_surface", view.surface ? 1 : 0);
   slice.set("line_pixels", static_cast<float>(view.line_pixels));
-  label_colours_.bind(kLabelColourUnit);
-  slice.set("label_colours", kLabelColourUnit);
-  slice.set("label_opacity", has_labels_ ? static_cast<float>(view.label_opacity) : 0.0F);
+  slice.set("label_opacity", labels_.has_voxels() ? static_cast<float>(view.label_opacity) : 0.0F);
   slice.set("background", view.background);
   return fill(canvas, progress);
 }

@@ -12,6 +12,7 @@
 #include "gpu/device.h"
 #include "gpu/sampler_slots.h"
 #include "renderer/canvas.h"
+#include "renderer/label_picture.h"
 #include "renderer/phi_picture.h"
 #include "renderer/slice_caster.h"
 #include "renderer/source_picture.h"
@@ -53,8 +54,8 @@ class Renderer {
   Status set_labels(std::span<const std::uint8_t> labels);
   // Red, green, blue and opacity (0: hidden) of the labels from 0 on; at first all are seen, with
   // label_colour(). Fails (ErrorKind::usage) on more than kLabels.
-  static constexpr std::size_t kLabels = 256;
-  using LabelColour = std::array<std::uint8_t, 4>;
+  static constexpr std::size_t kLabels = LabelPicture::kLabels;
+  using LabelColour = LabelPicture::Colour;
   Status set_label_colours(std::span<const LabelColour> colours);
 
   // Fails (ErrorKind::cancelled) on a request to stop, (ErrorKind::capability) when the context is lost.
@@ -82,6 +83,7 @@ class Renderer {
   Result<const gpu::Program*> use_volume_program(const char* fragment, const VolumeView& view,
                                                  PictureSize size, gpu::Defines variant);
   [[nodiscard]] VolumeView resolved(const VolumeView& asked);
+  [[nodiscard]] bool shows_labels(const VolumeView& view) const;
   template <class View>
   Result<Picture> draw_and_read(const View& view, PictureSize size, const Progress& progress);
   Status draw_from_slices(Canvas& canvas, const VolumeView& view, const Progress& progress);
@@ -94,9 +96,7 @@ class Renderer {
   StepConstants<float> constants_;
   SourcePicture source_picture_;
   PhiPicture phi_;
-  gpu::Texture3D labels_;
-  gpu::Texture2D label_colours_;
-  bool has_labels_ = false;
+  LabelPicture labels_;
   struct Made {
     gpu::Program program;
     std::int64_t used = 0;

@@ -29,13 +29,13 @@ SliceBounds::SliceBounds(const SliceAxis& axis, const PageLayout& pages)
 
 SliceBounds::SliceBounds(const SliceAxis& axis, const PageLayout& pages, const VolumeView& view,
                          const Geometry& geometry, std::span<const PhysicalPage> table,
-                         std::span<const glm::vec4> opacity)
+                         const PageContents& contents)
     : axis_(axis), pages_(pages), layers_(static_cast<std::size_t>(pages.pages()[axis.along])) {
   const bool by_source = shows_source(view);
   const auto source_shows = [&](std::int64_t number) {
     constexpr float kLeastOpacity = 1e-6F;  // as in render/events.glsl
     const PhysicalPage physical = table[static_cast<std::size_t>(number)];
-    const glm::vec4 most = opacity[static_cast<std::size_t>(number)];
+    const glm::vec4 most = contents.opacity[static_cast<std::size_t>(number)];
     return (physical == kOutsidePage ? most.x : physical == kInsidePage ? most.y : most.z) > kLeastOpacity;
   };
   const VoxelPlane plane = view.clip ? clip_plane_in_voxels(*view.clip, geometry) : VoxelPlane();
@@ -48,16 +48,18 @@ SliceBounds::SliceBounds(const SliceAxis& axis, const PageLayout& pages, const V
         glm::any(glm::equal(page, Index3(0))) || glm::any(glm::equal(page, pages.pages() - Index3(1)));
     bool surface = view.surface && (!is_static_page(physical) || (physical == kInsidePage && at_border));
     bool source = by_source && source_shows(number);
+    bool labels = !contents.labels.empty() && contents.labels[static_cast<std::size_t>(number)] != 0;
     bool picture = false;
     if (view.clip) {
       const glm::dvec3 middle = glm::dvec3(pages.first_voxel(number)) + half - 0.5;
       const double beyond = glm::dot(plane.normal, middle) - plane.offset;
       const double reach = glm::dot(glm::abs(plane.normal), half);
       surface &= beyond <= reach || !view.clip->clips_surface;
+      labels &= beyond <= reach || !view.clip->clips_surface;
       source &= beyond <= reach || !view.clip->clips_source;
       picture = view.clip->picture && std::abs(beyond) <= reach;
     }
-    if (!surface && !source && !picture) continue;
+    if (!surface && !source && !labels && !picture) continue;
     const std::int64_t u = page[axis.u()];
     const std::int64_t v = page[axis.v()];
     layers_[static_cast<std::size_t>(page[axis.along])].include({u, v, u, v});

@@ -18,12 +18,15 @@ class SliceBounds {
  public:
   // All of the volume.
   SliceBounds(const SliceAxis& axis, const PageLayout& pages);
-  // Resident pages when the view has a surface, pages where its source shows, and those that the clip plane's
-  // picture passes, less what the plane hides. `table`: the physical page of each virtual one; `opacity`: see
-  // SourcePicture::page_opacities().
+  // What else than phi shows in each page.
+  struct PageContents {
+    std::span<const glm::vec4> opacity;    // SourcePicture::page_opacities()
+    std::span<const std::int32_t> labels;  // LabelPicture::pages(); empty: none are shown
+  };
+  // Resident pages when the view has a surface, pages where its source or labels show, and those that the
+  // clip plane's picture passes, less what the plane hides. `table`: the physical page of each virtual one.
   SliceBounds(const SliceAxis& axis, const PageLayout& pages, const VolumeView& view,
-              const Geometry& geometry, std::span<const PhysicalPage> table,
-              std::span<const glm::vec4> opacity);
+              const Geometry& geometry, std::span<const PhysicalPage> table, const PageContents& contents);
 
   [[nodiscard]] const SliceAxis& axis() const { return axis_; }
   // The part of a slice from which visible places beside it are interpolated.

@@ -17,8 +17,9 @@ class SliceCaster {
   struct Scene {
     const Volume& source;
     const PhiPicture& phi;
-    std::span<const PhysicalPage> table;      // of phi's virtual pages
-    std::span<const glm::vec4> page_opacity;  // SourcePicture::page_opacities()
+    std::span<const PhysicalPage> table;        // of phi's virtual pages
+    std::span<const glm::vec4> page_opacity;    // SourcePicture::page_opacities()
+    std::span<const std::int32_t> page_labels;  // LabelPicture::pages(); empty: none are shown
   };
 
   // Texture units: three of phi's, and those from `free` on.

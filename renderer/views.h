@@ -67,6 +67,7 @@ struct VolumeView {
   glm::vec4 surface_colour{0.93F, 0.72F, 0.45F, 1.0F};  // and opacity, unless `source` colours it
   SurfaceColouring colouring = SurfaceColouring::plain;
   Region region = Region::everywhere;  // where the source shows
+  double label_opacity = 0.0;          // of the labels' borders
   std::optional<ClipPlane> clip;
   Lighting lighting;
   WindowLevel window;  // of the clip plane's picture

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "document/segment_meshes.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
@@ -12,12 +13,6 @@ namespace tidemark::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Wide enough for the surface to see its neighbours along the axis with the thickest voxels.
-double surface_band(const Geometry& geometry) {
-  const glm::dvec3 h = geometry.spacing_mm;
-  return std::max(2.5, 2.0 * std::max({h.x, h.y, h.z}) / std::min({h.x, h.y, h.z}));
-}
 
 bool holds_only_zero_and_one(const Volume& volume) {
   const std::int64_t count = volume.geometry.voxel_count();
@@ -154,8 +149,7 @@ Status Conversion::write_values(const fs::path& file) {
 Status Conversion::write_surface(const fs::path& file) {
   if (!mesh_) {
     const auto& phi = segments_.list.front().phi;
-    auto surface = extract_surface(
-        phi ? *phi : distance_transform(union_of(segments_), surface_band(geometry())).to_volume());
+    auto surface = phi ? extract_surface(*phi) : mesh_of(union_of(segments_));
     if (!surface) return pass_on(surface);
     mesh_ = std::move(*surface);
   }
@@ -173,6 +167,23 @@ Status Conversion::write(const fs::path& file, FileForm form, const Progress& pr
   }
   const double band = surface_band(geometry());
   return write_level_set(distance_transform(union_of(segments_), band).to_volume(), band, file);
+}
+
+Status Conversion::write_each(const fs::path& like, const Progress& progress, Outputs& outputs) {
+  TIDEMARK_TRY(require_segments());
+  std::vector<std::string> names;
+  for (const Segment& segment : segments_.list) names.push_back(segment.name);
+  each_ = mesh_files(names, like);
+  for (const fs::path& file : each_) {
+    TIDEMARK_TRY(outputs.announce("--out-each", file, {FileForm::mesh}));
+  }
+  for (std::size_t n = 0; n < each_.size(); ++n) {
+    if (progress.cancelled()) return cancelled_error();
+    const auto mesh = mesh_of(geometry(), segments_.list[n]);
+    if (!mesh) return tl::unexpected<Error>(mesh.error());
+    TIDEMARK_TRY(outputs.stage(each_[n], [&](const fs::path& name) { return write_mesh(*mesh, name); }));
+  }
+  return {};
 }
 
 Status Conversion::write_contours(const fs::path& file, const Progress& progress) {

@@ -36,6 +36,8 @@ class Conversion {
   [[nodiscard]] bool is_plain() const { return segments_.list.empty(); }
 
   Status write(const std::filesystem::path& file, FileForm form, const Progress& progress);
+  // A surface for each segment, in a file that Outputs gets a name of: see mesh_files().
+  Status write_each(const std::filesystem::path& like, const Progress& progress, Outputs& outputs);
   Status write_contours(const std::filesystem::path& file, const Progress& progress);
 
   [[nodiscard]] const Geometry& geometry() const { return segments_.geometry; }
@@ -43,6 +45,7 @@ class Conversion {
   [[nodiscard]] const std::vector<std::string>& changes() const { return segments_.changes; }
   [[nodiscard]] const char* scalar_name() const;
   [[nodiscard]] const std::optional<Mesh>& mesh() const { return mesh_; }  // if one was written
+  [[nodiscard]] const std::vector<std::filesystem::path>& each() const { return each_; }  // written so
   [[nodiscard]] bool has_source() const { return !source_files_.empty(); }
 
  private:
@@ -63,6 +66,7 @@ class Conversion {
   std::optional<Volume> volume_;                        // where the input is one
   Segments segments_;                                   // none in a plain volume
   std::optional<Mesh> mesh_;
+  std::vector<std::filesystem::path> each_;
 };
 
 }  // namespace tidemark::cli

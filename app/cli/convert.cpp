@@ -23,6 +23,7 @@ constexpr const char* kExamples =
     "  tidemark-cli convert study/ --out study.nii.gz                    a DICOM series to NIfTI\n"
     "  tidemark-cli convert brain.nrrd --out brain.mha --out brain.nii   several formats at once\n"
     "  tidemark-cli convert labels.nii.gz --mask --out surface.stl       all labels as one surface\n"
+    "  tidemark-cli convert labels.nii.gz --labels --out-each organs.stl a surface for each label\n"
     "  tidemark-cli convert labels.nii.gz --labels --source study/ --label Liver,liver --label Mass,tumour "
     "\\\n"
     "      --out seg.dcm --rtstruct contours.dcm                         for a PACS and a planning system\n"
@@ -32,15 +33,18 @@ struct ConvertOptions {
   ConversionOptions conversion;
   bool as_mask = false, as_labels = false, as_phi = false;
   std::vector<std::string> out;
-  std::string rtstruct;
+  std::string rtstruct, each;
 };
 
 Status check(const ConvertOptions& options, Outputs& outputs) {
   if (int{options.as_mask} + int{options.as_labels} + int{options.as_phi} > 1) {
     return fail(ErrorKind::usage, "only one of --mask, --labels and --phi can be given");
   }
-  if (options.out.empty() && options.rtstruct.empty()) {
-    return fail(ErrorKind::usage, "--out or --rtstruct is needed");
+  if (options.out.empty() && options.rtstruct.empty() && options.each.empty()) {
+    return fail(ErrorKind::usage, "--out, --out-each or --rtstruct is needed");
+  }
+  if (!options.each.empty() && !is_writable_mesh_file(options.each)) {
+    return fail(ErrorKind::usage, "--out-each {}: the name must end in one of .stl .ply .obj", options.each);
   }
   for (const std::string& file : options.out) {
     Status good = outputs.announce(
@@ -65,6 +69,9 @@ Status write_all(const ConvertOptions& options, Conversion& conversion, Outputs&
     };
     TIDEMARK_TRY(outputs.stage(file, write));
   }
+  if (!options.each.empty()) {
+    TIDEMARK_TRY(conversion.write_each(options.each, console.progress(), outputs));
+  }
   if (options.rtstruct.empty()) return {};
   return outputs.stage(options.rtstruct, [&](const std::filesystem::path& name) {
     return conversion.write_contours(name, console.progress());
@@ -82,6 +89,7 @@ void say(const ConvertOptions& options, const Conversion& conversion, Console& c
                 mesh_volume_ml(*mesh), mesh_area_mm2(*mesh));
   }
   for (const std::string& file : options.out) console.say("Wrote      {}", file);
+  for (const auto& file : conversion.each()) console.say("Wrote      {}", file.string());
   if (!options.rtstruct.empty()) console.say("Wrote      {}", options.rtstruct);
   const bool any_dicom = !options.rtstruct.empty() ||
                          std::any_of(options.out.begin(), options.out.end(), [](const std::string& file) {
@@ -99,6 +107,7 @@ Json to_json(const ConvertOptions& options, const Conversion& conversion) {
     object["segments"].push_back({{"name", segment.name}, {"voxels", segment.count()}});
   }
   object["out"] = options.out;
+  for (const auto& file : conversion.each()) object["out_each"].push_back(file.string());
   if (!options.rtstruct.empty()) object["rtstruct"] = options.rtstruct;
   return object;
 }
@@ -137,6 +146,11 @@ void add_options(CLI::App& command, ConvertOptions& options) {
           "segmentation (SEG);\n.vdb: an OpenVDB level set, < 0 inside, in patient mm (LPS);\nmay be "
           "repeated")
       ->allow_extra_args(false)
+      ->type_name("FILE");
+  command
+      .add_option("--out-each", options.each,
+                  ".stl .ply .obj: the surface of each segment in a file of its own, whose name ends in\nthe "
+                  "segment's: organs.stl gives organs-Liver.stl")
       ->type_name("FILE");
   command.add_option("--rtstruct", options.rtstruct, "The contours in each slice as RT structure set")
       ->type_name("FILE.dcm");

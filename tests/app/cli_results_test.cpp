@@ -23,6 +23,7 @@ class CliResultsTest : public QObject {
   void segment_writes_results_that_segment_starts_from();
   void a_volume_file_makes_an_anonymous_study_and_says_so();
   void labels_go_out_and_in_again();
+  void each_label_becomes_a_surface_in_a_file_of_its_own();
   void a_saved_level_set_becomes_what_others_read();
   void a_structure_set_needs_its_study();
   void wrong_usage_is_told_data();
@@ -124,6 +125,27 @@ void CliResultsTest::labels_go_out_and_in_again() {
   const Outcome mask = run_cli({"convert", path("seg.dcm"), "--mask", "--out", path("mask.nrrd")});
   QVERIFY2(mask.code == 0, mask.told());
   QCOMPARE(failure(load_mask(*folder_ / "mask.nrrd")), QString());
+}
+
+void CliResultsTest::each_label_becomes_a_surface_in_a_file_of_its_own() {
+  Volume labels = ball(Index3(24), 8.0);
+  auto& values = std::get<std::vector<std::int16_t>>(labels.voxels);
+  for (std::size_t v = 0; v < values.size(); ++v) values[v] = values[v] == 0 ? 0 : v % 24 < 12 ? 3 : 7;
+  QCOMPARE(failure(write_volume_file(labels, *folder_ / "labels.nii.gz")), QString());
+  const Outcome out = run_cli({"convert", path("labels.nii.gz"), "--labels", "--label", "Left", "--out-each",
+                               path("halves.ply"), "--json"});
+  QVERIFY2(out.code == 0, out.told());
+  const QJsonArray files = json_of(out.out)["out_each"].toArray();
+  QCOMPARE(files, QJsonArray({path("halves-Left.ply"), path("halves-Segment 7.ply")}));
+  const auto size = [&](const char* name) { return bytes_of(*folder_ / name).size(); };
+  QVERIFY(size("halves-Left.ply") > 10'000);
+  QVERIFY(std::abs(size("halves-Left.ply") - size("halves-Segment 7.ply")) < size("halves-Left.ply") / 2);
+  QVERIFY(!std::filesystem::exists(*folder_ / "halves.ply"));
+  const Outcome wrong = run_cli({"convert", path("labels.nii.gz"), "--labels", "--out-each", path("a.nii")});
+  QCOMPARE(wrong.code, 2);
+  QVERIFY2(wrong.err.contains("--out-each") && wrong.err.contains(".stl"), wrong.told());
+  const Outcome plain = run_cli({"convert", path("labels.nii.gz"), "--out-each", path("a.stl")});
+  QCOMPARE(plain.code, 2);
 }
 
 void CliResultsTest::a_saved_level_set_becomes_what_others_read() {

@@ -1,5 +1,6 @@
 // Pictures of phantoms against those that were looked at and found good. Drivers differ in the last digits,
-// and sometimes in more: only the one that the golden pictures were made with is held to them.
+// and sometimes in more: the one that the golden pictures were made with is held to them closely, another
+// processor that plays the GPU less so.
 //
 //   TIDEMARK_WRITE_GOLDEN=folder golden_test     writes the pictures there instead of comparing them
 #include <QImage>
@@ -68,6 +69,19 @@ Difference difference(const Picture& a, const Picture& b) {
   return result;
 }
 
+// What a driver's pictures may differ from the golden ones.
+struct Tolerance {
+  double mean;
+  double share_visible;
+
+  [[nodiscard]] bool allows(const Difference& found) const {
+    return found.mean < mean && found.share_visible < share_visible;
+  }
+};
+constexpr Tolerance kSameDriver{0.3, 0.005};
+// Rays end in other last digits there: a few cross the surface a step earlier, or miss a thin edge.
+constexpr Tolerance kOtherDriver{0.6, 0.02};
+
 Picture read_png(const std::filesystem::path& file) {
   const QImage image = QImage(QString::fromStdString(file.string())).convertToFormat(QImage::Format_RGBA8888);
   Picture picture{image.width(), image.height(), {}};
@@ -76,6 +90,10 @@ Picture read_png(const std::filesystem::path& file) {
                           image.constScanLine(y) + 4 * image.width());
   }
   return picture;
+}
+
+Picture read_golden(const std::string& name) {
+  return read_png(std::filesystem::path(TIDEMARK_GOLDEN_PICTURES) / (name + ".png"));
 }
 
 void write_png(const Picture& picture, const std::filesystem::path& file) {
@@ -306,20 +324,45 @@ class GoldenTest : public QObject {
       write_png(*picture, std::filesystem::path(folder.toStdString()) / file);
       return;
     }
-    const std::string driver = patient->painter->device().capabilities().version;
-    if (driver.find(kDriver) == std::string::npos || !patient->painter->device().capabilities().software) {
-      QSKIP(qPrintable(
-          QString("the golden pictures are those of %1, not of %2").arg(kDriver).arg(driver.c_str())));
+    const gpu::Capabilities& driver = patient->painter->device().capabilities();
+    if (!driver.software) {
+      QSKIP(qPrintable(QString("the golden pictures are those of %1 on a processor, not of %2")
+                           .arg(kDriver, driver.renderer.c_str())));
     }
-    const Picture expected = read_png(std::filesystem::path(TIDEMARK_GOLDEN_PICTURES) / file);
+    const bool same = driver.version.find(kDriver) != std::string::npos &&
+                      driver.renderer.find("llvmpipe") != std::string::npos;
+    const Picture expected = read_golden(name.toStdString());
     QVERIFY2(expected.width > 0, "there is no golden picture of that name");
     QCOMPARE(picture->width, expected.width);
     QCOMPARE(picture->height, expected.height);
     const Difference found = difference(*picture, expected);
-    QVERIFY2(found.mean < 0.3 && found.share_visible < 0.005,
-             qPrintable(QString("mean difference %1, %2 % of the pixels visibly different")
-                            .arg(found.mean)
-                            .arg(100.0 * found.share_visible)));
+    const QString text = QString("mean difference %1, %2 % of the pixels visibly different")
+                             .arg(found.mean)
+                             .arg(100.0 * found.share_visible);
+    if (!same) qInfo("%s, on %s", qPrintable(text), driver.renderer.c_str());
+    QVERIFY2((same ? kSameDriver : kOtherDriver).allows(found), qPrintable(text));
+  }
+
+  // What a user would call another picture is none that another driver makes.
+  void the_wider_tolerance_tells_pictures_apart_data() {
+    QTest::addColumn<QString>("other");
+    for (const auto& [one, other] : {std::pair{"surface", "surface-lit-from-above"},
+                                     {"surface", "surface-occlusion"},
+                                     {"surface", "surface-translucent"},
+                                     {"clip-both", "clip-source"},
+                                     {"region-inside", "region-tinted"},
+                                     {"teaching-data", "teaching-total"},
+                                     {"slice-axial", "slice-labels"},
+                                     {"speed-total", "speed-data"}}) {
+      QTest::newRow(one) << QString(other);
+    }
+  }
+  void the_wider_tolerance_tells_pictures_apart() {
+    QFETCH(QString, other);
+    const Difference found =
+        difference(read_golden(QTest::currentDataTag()), read_golden(other.toStdString()));
+    qInfo("%.2f, %.1f %%", found.mean, 100.0 * found.share_visible);
+    QVERIFY(!kOtherDriver.allows(found));
   }
 
  private:

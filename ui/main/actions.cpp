@@ -81,6 +81,8 @@ void Actions::make_files() {
                           tr("Write the level set itself, in mm of the patient"));
   export_mesh = make("export-mesh", nullptr, tr("&Surface as polygons…"), {}, true,
                      tr("Write the surface as STL, PLY or OBJ, in mm of the patient"));
+  export_label_meshes = make("export-label-meshes", nullptr, tr("La&bels as polygons…"), {}, true,
+                             tr("Write each label as STL, PLY or OBJ, a file each, in mm of the patient"));
   export_picture = make("export-picture", "camera", tr("&Picture of the view…"), QKeySequence("Ctrl+P"), true,
                         tr("Write the active view as PNG, without the patient's text"));
   export_statistics = make("export-statistics", "statistics", tr("Statist&ics…"), {}, true);
@@ -230,7 +232,7 @@ void Actions::follow_evolution(const CaseState& state) {
   play->setText(state.playing ? tr("&Pause") : tr("&Play"));
   for (QAction* action : {play, step, restart, export_mesh, export_recipe, export_level_set})
     action->setEnabled(state.begun);
-  for (QAction* action : {export_segmentation, export_structure_set, send_result})
+  for (QAction* action : {export_segmentation, export_structure_set, export_label_meshes, send_result})
     action->setEnabled(state.begun || !state.labels.empty());
   step_back->setEnabled(state.begun && state.step > 0);
   undo->setEnabled(!state.undo_text.isEmpty());

@@ -33,6 +33,7 @@ class Actions : public QObject {
   QAction* export_structure_set;
   QAction* export_level_set;
   QAction* export_mesh;
+  QAction* export_label_meshes;
   QAction* export_picture;
   QAction* export_statistics;
   QAction* export_recipe;

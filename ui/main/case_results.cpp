@@ -44,6 +44,7 @@ CaseResults::CaseResults(MainWindow& window)
   writes(actions.export_segmentation, ResultFile::segmentation);
   writes(actions.export_structure_set, ResultFile::structure_set);
   writes(actions.export_level_set, ResultFile::level_set);
+  writes(actions.export_label_meshes, ResultFile::meshes);
   with_case(actions.import_labels, [this](CaseWindow& into) { ask_and_import(into); });
   with_case(actions.send_result, [this, name = actions.send_result->objectName()](CaseWindow& of) {
     new_dialog<SendResultDialog>(of, name, pacs_configuration_file());

@@ -301,6 +301,10 @@ void CaseWindow::reset_views() {
     settings.window = first.window;
     settings.camera = first.camera;
   });
+  for (PictureView* view : views()) {
+    auto* volume_view = qobject_cast<VolumeViewWidget*>(view);
+    if (volume_view && volume_view->isVisible()) return volume_view->fit_camera();
+  }
 }
 
 // Session files.

@@ -29,7 +29,7 @@ void make_file_menu(MainWindow& window, Actions& actions, RecentStudies& recent)
   file->addActions({actions.import_labels, actions.save, actions.save_as});
   QMenu* exports = file->addMenu(icon(u"export"), MainWindow::tr("&Export"));
   exports->addActions({actions.export_mask, actions.export_segmentation, actions.export_structure_set,
-                       actions.export_mesh, actions.export_level_set});
+                       actions.export_mesh, actions.export_label_meshes, actions.export_level_set});
   exports->addSeparator();
   exports->addActions({actions.export_picture, actions.export_statistics, actions.export_recipe});
   file->addAction(actions.send_result);

@@ -28,6 +28,13 @@ SurfaceControls::SurfaceControls(QWidget* parent) : CaseWidget(parent) {
   });
   add_surface(form);
   add_source(form);
+  cube_ = form.check(tr("Orientation cube"), tr("Shows in a corner how the patient is turned."));
+  connect(cube_, &QCheckBox::clicked, this, [this](bool on) {
+    change_display([=](DisplaySettings& settings) { settings.orientation_cube = on; });
+  });
+  box_ = form.check(tr("Edges of the volume"), tr("Shows how far the study reaches."));
+  connect(box_, &QCheckBox::clicked, this,
+          [this](bool on) { change_display([=](DisplaySettings& settings) { settings.volume_box = on; }); });
 }
 
 void SurfaceControls::add_surface(Form& form) {
@@ -101,6 +108,8 @@ void SurfaceControls::refresh() {
   occlusion_->set_value(100.0 * settings.occlusion);
   source_->setChecked(settings.show_source);
   region_->setCurrentIndex(region_->findData(static_cast<int>(settings.region)));
+  cube_->setChecked(settings.orientation_cube);
+  box_->setChecked(settings.volume_box);
   colouring_->setEnabled(settings.surface);
   colour_->setEnabled(settings.surface && settings.colouring == SurfaceColouring::plain);
   opacity_->setEnabled(settings.surface);

@@ -32,6 +32,8 @@ class SurfaceControls : public CaseWidget {
   SliderNumber* occlusion_;
   QCheckBox* source_;
   QComboBox* region_;
+  QCheckBox* cube_;
+  QCheckBox* box_;
 };
 
 }  // namespace tidemark

@@ -7,6 +7,7 @@
 #include <QMessageBox>
 #include <algorithm>
 
+#include "document/segment_meshes.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/results/file_name.h"
@@ -30,10 +31,29 @@ QString title_of(ResultFile kind) {
       return WriteResultDialog::tr("Export a DICOM segmentation");
     case ResultFile::structure_set:
       return WriteResultDialog::tr("Export an RT structure set");
+    case ResultFile::meshes:
+      return WriteResultDialog::tr("Export labels as polygons");
     case ResultFile::level_set:
       break;
   }
   return WriteResultDialog::tr("Export the level set");
+}
+
+QString note_of(ResultFile kind, const LoadedStudy& study) {
+  switch (kind) {
+    case ResultFile::level_set:
+      return WriteResultDialog::tr(
+          "For programs that use OpenVDB: the distance to the surface near it, negative inside, in mm of the "
+          "patient (LPS).");
+    case ResultFile::meshes:
+      return WriteResultDialog::tr(
+          "A file for each label (STL, PLY or OBJ, in mm of the patient, LPS). Its name ends in the label's: "
+          "\"study-Liver.stl\".");
+    case ResultFile::segmentation:
+    case ResultFile::structure_set:
+      break;
+  }
+  return source_note(study);
 }
 
 // Files of the study are never written to.
@@ -54,6 +74,7 @@ Status write_kind(const SessionContents& contents, ResultFile kind, ResultConten
   }
   const auto segments = result_segments(contents, content);
   if (!segments) return tl::unexpected<Error>(segments.error());
+  if (kind == ResultFile::meshes) return write_meshes(*segments, file, progress);
   const auto form = kind == ResultFile::segmentation ? ResultForm::segmentation : ResultForm::structure_set;
   return write_result(*segments, form, source, file, progress);
 }
@@ -62,19 +83,16 @@ Status write_kind(const SessionContents& contents, ResultFile kind, ResultConten
 
 WriteResultDialog::WriteResultDialog(CaseWindow& window, ResultFile kind)
     : ResultDialog(window, title_of(kind)), kind_(kind), file_(new QLineEdit(this)) {
-  const QString note = kind == ResultFile::level_set ? tr("For programs that use OpenVDB: the distance to "
-                                                          "the surface near it, negative inside, in mm of "
-                                                          "the patient (LPS).")
-                                                     : source_note(proxy().study());
-  build(kind != ResultFile::level_set, make_target(), note, tr("&Write"),
+  build(kind != ResultFile::level_set, make_target(), note_of(kind, proxy().study()), tr("&Write"),
         tr("Writes what the case is like now"));
   connect(file_, &QLineEdit::textChanged, this, &WriteResultDialog::follow);
   connect(&jobs_, &ResultJobs::progressed, &work(), &WorkLine::set_progress);
   connect(&jobs_, &ResultJobs::failed, this, &WriteResultDialog::rest);
   connect(&jobs_, &ResultJobs::cancelled, this, [this] { rest(tr("Cancelled: nothing was written.")); });
   connect(&jobs_, &ResultJobs::written, this, [this] {
-    rest(tr("Wrote %1").arg(file_->text()));
-    emit written(file_->text());
+    const QString written_files = files().join(QStringLiteral(", "));
+    rest(tr("Wrote %1").arg(written_files));
+    emit written(written_files);
     accept();
   });
   file_->setText(usual_file());
@@ -98,22 +116,44 @@ QWidget* WriteResultDialog::make_target() {
   return target;
 }
 
-QString WriteResultDialog::suffix() const {
-  return kind_ == ResultFile::level_set ? QStringLiteral(".vdb") : QStringLiteral(".dcm");
+QStringList WriteResultDialog::suffixes() const {
+  if (kind_ == ResultFile::meshes)
+    return {QStringLiteral(".stl"), QStringLiteral(".ply"), QStringLiteral(".obj")};
+  return {kind_ == ResultFile::level_set ? QStringLiteral(".vdb") : QStringLiteral(".dcm")};
+}
+
+QStringList WriteResultDialog::files() const {
+  if (kind_ != ResultFile::meshes) return {file_->text()};
+  std::vector<std::string> names;
+  if (content() == ResultContent::surface)
+    names = {kSurfaceSegment};
+  else
+    for (const Label& label : proxy().state().labels) {
+      if (label.visible || content() == ResultContent::all_labels) names.push_back(label.name);
+    }
+  QStringList files;
+  for (const std::filesystem::path& file : mesh_files(names, path_of(file_->text()))) {
+    files << QString::fromStdU16String(file.u16string());
+  }
+  return files;
 }
 
 QString WriteResultDialog::usual_file() const {
   const QString what = kind_ == ResultFile::segmentation    ? tr("segmentation")
                        : kind_ == ResultFile::structure_set ? tr("contours")
+                       : kind_ == ResultFile::meshes        ? QString()
                                                             : tr("level set");
   const QString name = file_name_of(proxy().study());
-  return QDir(usual_folder()).filePath(QStringLiteral("%1 %2%3").arg(name, what, suffix()).trimmed());
+  return QDir(usual_folder())
+      .filePath(QStringLiteral("%1 %2").arg(name, what).trimmed() + suffixes().first());
 }
 
 void WriteResultDialog::choose() {
-  auto* dialog =
-      new QFileDialog(this, windowTitle(), QFileInfo(file_->text()).path(),
-                      kind_ == ResultFile::level_set ? tr("OpenVDB (*.vdb)") : tr("DICOM (*.dcm)"));
+  const QString filters = kind_ == ResultFile::level_set ? tr("OpenVDB (*.vdb)")
+                          : kind_ == ResultFile::meshes
+                              ? tr("STL (*.stl);;PLY (*.ply);;Wavefront OBJ (*.obj)")
+                              : tr("DICOM (*.dcm)");
+  auto* dialog = new QFileDialog(this, windowTitle(), QFileInfo(file_->text()).path(), filters);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setAcceptMode(QFileDialog::AcceptSave);
   dialog->setOption(QFileDialog::DontConfirmOverwrite);  // asked at the end
@@ -124,15 +164,24 @@ void WriteResultDialog::choose() {
 
 bool WriteResultDialog::confirm() {
   QString file = QDir(usual_folder()).absoluteFilePath(file_->text().trimmed());
-  if (!file.endsWith(suffix(), Qt::CaseInsensitive)) file += suffix();
+  const QStringList endings = suffixes();
+  const bool ends = std::any_of(endings.begin(), endings.end(), [&](const QString& ending) {
+    return file.endsWith(ending, Qt::CaseInsensitive);
+  });
+  if (!ends) file += endings.first();
   file_->setText(file);
   if (is_of_study(proxy().study(), path_of(file))) {
     rest(tr("%1 is a file of the study, which is never written to: choose another name.").arg(file));
     return false;
   }
-  return !QFileInfo::exists(file) ||
-         QMessageBox::question(this, windowTitle(), tr("%1 exists. Replace it?").arg(file),
-                               QMessageBox::Yes | QMessageBox::No, QMessageBox::No) == QMessageBox::Yes;
+  QStringList there = files();
+  there.removeIf([](const QString& one) { return !QFileInfo::exists(one); });
+  if (there.isEmpty()) return true;
+  const QString question =
+      there.size() == 1 ? tr("%1 exists. Replace it?").arg(there.first())
+                        : tr("%1 and %2 more exist. Replace them?").arg(there.first()).arg(there.size() - 1);
+  return QMessageBox::question(this, windowTitle(), question, QMessageBox::Yes | QMessageBox::No,
+                               QMessageBox::No) == QMessageBox::Yes;
 }
 
 void WriteResultDialog::begin(const Snapshot& snapshot) {

@@ -1,4 +1,4 @@
-// The dialog that writes a result for other systems as a file.
+// The dialog that writes a result for other systems as a file, polygons as a file for each segment.
 #pragma once
 
 #include <QLineEdit>
@@ -8,7 +8,7 @@
 
 namespace tidemark {
 
-enum class ResultFile { segmentation, structure_set, level_set };
+enum class ResultFile { segmentation, structure_set, level_set, meshes };
 
 class WriteResultDialog : public ResultDialog {
   Q_OBJECT
@@ -27,7 +27,8 @@ class WriteResultDialog : public ResultDialog {
  private:
   QWidget* make_target();
   void choose();
-  [[nodiscard]] QString suffix() const;
+  [[nodiscard]] QStringList suffixes() const;  // the usual one first
+  [[nodiscard]] QStringList files() const;     // that are written
   [[nodiscard]] QString usual_file() const;
 
   ResultFile kind_;

@@ -69,16 +69,20 @@ std::optional<glm::dvec3> VolumeScreen::on_plane(QPointF position, glm::dvec3 no
   return ray.origin_mm + ray.direction * ((offset_mm - glm::dot(ray.origin_mm, normal)) / slope);
 }
 
-std::vector<glm::dvec3> cut_of_box(const Geometry& geometry, const ClipPlane& plane) {
-  // The box's corners are half a voxel outside the outermost centres.
-  std::vector<glm::dvec3> corners;
-  for (int corner = 0; corner < 8; ++corner) {
+std::array<glm::dvec3, 8> corners_of_box(const Geometry& geometry) {
+  std::array<glm::dvec3, 8> corners;
+  for (std::size_t corner = 0; corner < corners.size(); ++corner) {
     glm::dvec3 voxel;
     for (int axis = 0; axis < 3; ++axis) {
-      voxel[axis] = (corner >> axis & 1) != 0 ? static_cast<double>(geometry.size[axis]) - 0.5 : -0.5;
+      voxel[axis] = (corner >> axis & 1U) != 0 ? static_cast<double>(geometry.size[axis]) - 0.5 : -0.5;
     }
-    corners.push_back(geometry.to_patient(voxel));
+    corners[corner] = geometry.to_patient(voxel);
   }
+  return corners;
+}
+
+std::vector<glm::dvec3> cut_of_box(const Geometry& geometry, const ClipPlane& plane) {
+  const std::array<glm::dvec3, 8> corners = corners_of_box(geometry);
   std::vector<glm::dvec3> points;
   for (int corner = 0; corner < 8; ++corner) {
     for (int axis = 0; axis < 3; ++axis) {

@@ -3,6 +3,7 @@
 
 #include <QPointF>
 #include <QSizeF>
+#include <array>
 #include <glm/mat4x4.hpp>
 #include <optional>
 #include <vector>
@@ -53,6 +54,10 @@ class VolumeScreen {
   QSizeF size_;
   double mm_per_pixel_ = 1.0;
 };
+
+// The corners of the volume's box (patient mm), by bits: 1 at the far side of i, 2 of j, 4 of k. They are
+// half a voxel outside the outermost centres.
+std::array<glm::dvec3, 8> corners_of_box(const Geometry& geometry);
 
 // The polygon in which a plane cuts the volume's box (patient mm), in order; empty when it does not.
 std::vector<glm::dvec3> cut_of_box(const Geometry& geometry, const ClipPlane& plane);

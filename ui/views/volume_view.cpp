@@ -9,14 +9,14 @@
 #include <glm/trigonometric.hpp>
 
 #include "ui/views/next_step.h"
+#include "ui/views/orientation_cube.h"
 #include "ui/views/overlay.h"
+#include "ui/views/volume_box.h"
 
 namespace tidemark {
 namespace {
 
 constexpr double kDegreesPerPixel = 0.4;
-constexpr double kLeastZoom = 0.2;
-constexpr double kMostZoom = 40.0;
 
 // Turns the camera around its focus.
 class RotateDrag : public Drag {
@@ -73,7 +73,10 @@ class CameraZoomDrag : public Drag {
 
 }  // namespace
 
-VolumeViewWidget::VolumeViewWidget(CaseProxy& proxy, QWidget* parent) : PictureView(proxy, parent) {
+VolumeViewWidget::VolumeViewWidget(CaseProxy& proxy, QWidget* parent)
+    : PictureView(proxy, parent),
+      follower_(
+          proxy, [this] { return isVisible() ? physical_size().aspect() : 0.0; }, this) {
   setAccessibleName(title());
   auto* next = new NextStep(proxy, *this);
   connect(next, &NextStep::place_wanted, this, &VolumeViewWidget::place_wanted);
@@ -88,6 +91,7 @@ VolumeView VolumeViewWidget::view() const {
   view.surface_colour = s.surface_colour;
   view.colouring = s.colouring;
   view.region = s.region;
+  view.label_opacity = s.label_opacity;
   view.lighting.occlusion = s.occlusion;
   view.window = s.window;
   if (s.clip_on) view.clip = s.clip;
@@ -161,6 +165,11 @@ void VolumeViewWidget::find_place(QPointF position, std::function<void(std::opti
   proxy().pick(view(), physical_size(), {position.x() * ratio, position.y() * ratio}, take);
 }
 
+void VolumeViewWidget::showEvent(QShowEvent* event) {
+  PictureView::showEvent(event);
+  follower_.follow();
+}
+
 void VolumeViewWidget::mouseMoveEvent(QMouseEvent* event) {
   PictureView::mouseMoveEvent(event);
   if (settings().clip_on) paint_again();  // the grip under the mouse
@@ -232,6 +241,8 @@ void VolumeViewWidget::keyPressEvent(QKeyEvent* event) {
 
 void VolumeViewWidget::paint_overlay(QPainter& painter) {
   const Camera& camera = settings().camera;
+  if (settings().volume_box) paint_volume_box(painter, proxy().volume().geometry, screen());
+  if (settings().orientation_cube) paint_orientation_cube(painter, size(), camera);
   paint_orientation(painter, size(), camera.right(), camera.up());
   paint_scale_bar(painter, size(), mm_per_pixel());
   paint_study(painter);

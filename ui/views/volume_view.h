@@ -1,6 +1,7 @@
 // The view in 3D.
 #pragma once
 
+#include "ui/views/camera_follower.h"
 #include "ui/views/clip_handles.h"
 #include "ui/views/picture_view.h"
 
@@ -19,6 +20,8 @@ class VolumeViewWidget : public PictureView {
   [[nodiscard]] double mm_per_pixel() const override { return screen().mm_per_pixel(); }
   [[nodiscard]] ClipHandles handles() const;
   [[nodiscard]] VolumeView view() const;
+  // The surface, or the volume without one, fills the view.
+  void fit_camera() { follower_.fit(); }
 
  signals:
   void place_wanted();  // the tool and the panel that place a surface
@@ -31,6 +34,7 @@ class VolumeViewWidget : public PictureView {
   std::unique_ptr<Drag> navigation_drag(const Pointer& pressed) override;
   void scroll(int clicks) override;
   void zoom(double factor, QPointF about) override;
+  void showEvent(QShowEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
@@ -39,6 +43,7 @@ class VolumeViewWidget : public PictureView {
   [[nodiscard]] VolumeScreen screen() const;
   void pick_and_begin(const Pointer& pressed);
 
+  CameraFollower follower_;
   // A drag that began on the surface goes on in the plane through that point that faces the viewer.
   std::optional<glm::dvec3> grip_mm_;
   std::uint64_t press_number_ = 0;

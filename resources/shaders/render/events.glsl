@@ -1,6 +1,10 @@
 // What happens to a ray on its way, whichever mode draws it: it meets the surface or the clip plane's picture, and the
 // clip plane hides a part of it. Needs solver/phi.glsl, render/shade.glsl and render/ray.glsl; with SPEED_COLOURS also
-// render/page_state.glsl and render/speed_terms.glsl.
+// render/page_state.glsl and render/speed_terms.glsl. With LABELS the labels show in it.
+
+#ifdef LABELS
+#include "render/labels.glsl"
+#endif
 
 uniform float pixel_mm;
 uniform bool clip_surface;
@@ -62,11 +66,38 @@ vec3 taught_colour(vec3 p) {
 }
 #endif
 
+#ifdef LABELS
+// A label that ends where the surface is colours the surface, as it does in slices; its own border, which is there to
+// half a voxel, is not drawn. `inward` is a voxel long.
+vec3 coloured_by_label(vec3 colour, vec3 p, vec3 inward) {
+  int label = label_between(p + 0.75 * inward);
+  bool ends = label != 0 && label_between(p - 0.75 * inward) != label;
+  return ends ? mix(colour, colour_of_label(label), label_opacity) : colour;
+}
+
+bool surface_is_at(vec3 p) {
+#ifdef SURFACE
+  vec3 slope = abs(phi_slope(p));
+  return surface_colour.a > 0.0 && abs(phi_between(p)) < max(0.75 * max(slope.x, max(slope.y, slope.z)), 0.5);
+#else
+  return false;
+#endif
+}
+
+// `slope`: of the label's share, in voxel coordinates.
+void add_label(int label, vec3 p, vec3 slope) {
+  add(lit(colour_of_label(label), slope / spacing, viewer, 1.0), surface_is_at(p) ? 0.0 : label_opacity);
+  pick(kPickedSurface, p);
+}
+#endif
+
 // `rise`: d phi / d voxel there.
 void add_surface(vec3 p, vec3 rise) {
   vec4 material = material_of_surface(p);
 #ifdef SPEED_COLOURS
   material.rgb = taught_colour(p);
+#elif defined(LABELS)
+  material.rgb = coloured_by_label(material.rgb, p, rise / max(length(rise), 1e-6));
 #endif
   vec3 slope = rise / spacing;
   float open = 1.0;
@@ -81,6 +112,10 @@ void add_surface(vec3 p, vec3 rise) {
 // The picture on the clip plane: the source in its window, the surface's cut as a line of constant width.
 void add_clip_picture(vec3 p, float phi, vec3 rise) {
   vec3 colour = windowed(source_between(p));
+#ifdef LABELS
+  int label = label_of(ivec3(floor(p + 0.5)));
+  if (label != 0) colour = mix(colour, colour_of_label(label), label_opacity);
+#endif
 #ifdef SURFACE
   vec3 normal = normalize(clip_plane.xyz / spacing);
   vec3 slope = rise / spacing;

@@ -72,6 +72,15 @@ void main() {
     add_surface(on_ray(begin), face_at(on_ray(begin)) * spacing);
   }
 #endif
+#ifdef LABELS
+  int label = label_between(on_ray(begin));
+  int label_before = label;
+  int label_met = 0;
+  vec2 label_border = vec2(kNever);  // between these places; the first one of the slab
+  if (begin < end && begin <= whole.x + 1e-3 && label != 0 && for_surface.x <= begin) {
+    add_label(label, on_ray(begin), face_at(on_ray(begin)) * spacing);
+  }
+#endif
   while (a.t < end) {
     float next = a.t + step_length;
     Sample b = sample_at(next > end - 0.01 * step_length ? end : next);
@@ -94,8 +103,27 @@ void main() {
       b.phi.x = back.phi.x;
     }
 #endif
+#ifdef LABELS
+    int label_b = label_between(on_ray(b.t));
+    if (label_b != label && label_border.x == kNever) {
+      label_border = vec2(a.t, b.t);
+      label_before = label;
+      label_met = label_b != 0 ? label_b : label;
+    }
+    label = label_b;
+#endif
     a = b;
   }
+#ifdef LABELS
+  for (int i = 0; i < 5; ++i) {
+    float middle = 0.5 * (label_border.x + label_border.y);
+    if (label_between(on_ray(middle)) == label_before) label_border.x = middle;
+    else label_border.y = middle;
+  }
+  if (label_border.y >= for_surface.x && label_border.y <= for_surface.y) {
+    add_label(label_met, on_ray(label_border.y), label_slope(label_met, on_ray(label_border.y)));
+  }
+#endif
 #ifdef SURFACE
   if (begin < end && end >= whole.y - 1e-3 && a.phi.x > 0.0 && for_surface.y >= end) {
     add_surface(on_ray(end), face_at(on_ray(end)) * spacing);

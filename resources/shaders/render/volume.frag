@@ -2,9 +2,9 @@
 // resident pages; pages in which neither surface nor source shows anything are crossed in one stride.
 //
 // Variants: SURFACE and SOURCE show them; REGION where phi says which part of the source shows; CLIP with a clip
-// plane; SPEED_COLOURS where a term of the speed colours the surface; OCCLUSION darkens its hollows; PICK says where a ray
-// first meets something instead of a colour; FAST_GRADIENT lights the source less well; NO_SKIP computes what is empty,
-// too.
+// plane; LABELS shows their borders; SPEED_COLOURS where a term of the speed colours the surface; OCCLUSION darkens its
+// hollows; PICK says where a ray first meets something instead of a colour; FAST_GRADIENT lights the source less well;
+// NO_SKIP computes what is empty, too.
 //
 // What a ray does is arranged in loops that end at an event: a processor that plays the GPU computes both sides of every
 // branch, so that what is done once for a surface must not stand where each step would pay for it.
@@ -65,7 +65,12 @@ struct Piece {
   float phi_a, phi_b;
 };
 
-#ifndef SOURCE
+#if !defined(SOURCE) && !defined(SURFACE)
+Piece march(float stop) {
+  t = max(t, stop);
+  return Piece(false, t, t, 0.0, 0.0);
+}
+#elif !defined(SOURCE)
 // Until `stop`, with the surface alone. Where phi is +-W the surface is some voxels away; elsewhere phi says how far, but
 // may be twice as steep as a distance.
 Piece march(float stop) {
@@ -218,6 +223,60 @@ Piece march(float stop) {
 }
 #endif
 
+#ifdef LABELS
+uniform isamplerBuffer page_labels;   // of each page of V_P: 0 where none shows, the label that it has throughout, or -1
+
+float label_t = 0.0;                  // how far labels have been looked at
+int label_there = 0;
+float label_border = kNever;          // where the next one begins or ends
+int label_met = 0;                    // and which
+bool label_on_face = false;           // of the volume
+
+// Finds the next border from label_t on, until `stop`.
+void find_label(float stop) {
+  int next = label_there;
+  float before = label_t;
+  while (label_t < stop && next == label_there) {
+    // Pages that have this label throughout.
+    bool varies = false;
+    while (label_t < stop && !varies) {
+      enter_page(label_t);
+      varies = texelFetch(page_labels, page_number(page)).r != label_there;
+#ifdef NO_SKIP
+      varies = true;
+#endif
+      if (!varies) label_t = page_end;
+    }
+    // Step by step in the others.
+    float leave = min(page_end, stop);
+    while (label_t < leave && next == label_there) {
+      before = label_t;
+      label_t = min(label_t + step_voxels, leave);
+      next = label_between(on_ray(label_t));
+    }
+  }
+  float after = label_t;
+  for (int i = 0; i < 5; ++i) {
+    float middle = 0.5 * (before + after);
+    bool is_next = label_between(on_ray(middle)) != label_there;
+    before = is_next ? before : middle;
+    after = is_next ? middle : after;
+  }
+  label_border = next != label_there ? after : kNever;
+  label_met = next != 0 ? next : label_there;
+  label_there = next;
+}
+#endif
+
+// Whether anything may be met on the ray from here on.
+bool goes_on(float end) {
+#ifdef LABELS
+  return t <= end || label_border < kNever;
+#else
+  return t <= end;
+#endif
+}
+
 void main() {
   vec2 whole = begin_ray(voxel_from_view, view_position, spacing);
   clip_ray(whole);
@@ -231,6 +290,17 @@ void main() {
 #ifdef SOURCE
   t = min(t, for_source.x);
   end = max(end, for_source.y);
+#endif
+#ifdef LABELS
+  t = min(t, for_surface.x);
+  end = max(end, for_surface.y);
+  label_t = for_surface.x;
+  label_there = label_between(on_ray(label_t));
+  // Where it meets the volume's border a label is closed.
+  label_on_face = label_there != 0 && label_t <= whole.x + 1e-3;
+  label_border = whole.x;
+  label_met = label_there;
+  if (!label_on_face) find_label(for_surface.y - 2e-3);
 #endif
 #ifdef CLIP
   if (cut < kNever) {
@@ -246,8 +316,11 @@ void main() {
   // Where the inside meets the volume's border the surface is closed.
   enters_inside = inside && t <= whole.x + 1e-3;
 #endif
-  for (int layer = 0; layer < kMostLayers && t <= end && whole.x < whole.y && result.a < 0.99; ++layer) {
+  for (int layer = 0; layer < kMostLayers && goes_on(end) && whole.x < whole.y && result.a < 0.99; ++layer) {
     float stop = cut < kNever ? cut : end;
+#ifdef LABELS
+    stop = min(stop, label_border);
+#endif
     Piece piece = Piece(false, t, t, 0.0, 0.0);
     bool enters = layer == 0 && enters_inside;
     if (!enters) piece = march(stop);
@@ -260,6 +333,15 @@ void main() {
       if (piece.found) inside = !inside;
     }
     piece.found = piece.found || enters;
+#endif
+#ifdef LABELS
+    if (!piece.found && label_border <= stop) {
+      vec3 p = on_ray(label_border);
+      add_label(label_met, p, label_on_face ? face_at(p) * spacing : label_slope(label_met, p));
+      label_on_face = false;
+      find_label(for_surface.y - 2e-3);
+      piece.found = true;
+    }
 #endif
 #ifdef CLIP
     if (!piece.found && cut < kNever && result.a < 0.99) {

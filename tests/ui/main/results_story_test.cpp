@@ -109,6 +109,7 @@ class ResultsStoryTest : public QObject {
   void cleanup() { desktop_.reset(); }
   void labels_go_out_as_dicom_and_come_back();
   void a_dropped_segmentation_becomes_labels_and_a_dropped_volume_a_study();
+  void labels_go_out_as_polygons();
   void the_surface_alone_is_a_result_too();
   void a_study_that_is_no_dicom_says_what_that_means();
   void a_file_of_the_study_is_never_written_to();
@@ -289,6 +290,44 @@ void ResultsStoryTest::a_dropped_segmentation_becomes_labels_and_a_dropped_volum
   drop(path("study.nrrd"));
   QVERIFY(Desktop::wait_for([&] { return desktop_->window().cases().size() == 2; }, kPatience));
   desktop_->wait_until_idle();
+}
+
+void ResultsStoryTest::labels_go_out_as_polygons() {
+  QAction* action = desktop_->window().actions().export_label_meshes;
+  QVERIFY(!action->isEnabled());
+  segment_both();
+  Label right = desktop_->state().labels[1];
+  right.visible = false;
+  desktop_->proxy().set_label(right);
+  desktop_->wait_until_idle();
+  const auto write = [&](const QString& what) {
+    action->trigger();
+    QPointer<WriteResultDialog> dialog = window_->findChild<WriteResultDialog*>();
+    QVERIFY(dialog && dialog->isVisible());
+    QVERIFY(is_explained(*dialog));
+    QVERIFY2(dialog->findChild<QLineEdit*>()->text().endsWith(".stl"),
+             qPrintable(dialog->findChild<QLineEdit*>()->text()));
+    for (QRadioButton* choice : dialog->findChildren<QRadioButton*>()) {
+      if (QString(choice->text()).remove('&').startsWith(what))
+        QTest::mouseClick(choice, Qt::LeftButton, {}, {10, choice->height() / 2});
+    }
+    dialog->findChild<QLineEdit*>()->setText(path("organs"));  // the usual ending is added
+    picture(*dialog, "write-" + action->objectName());
+    QTest::mouseClick(button(*dialog, "Write"), Qt::LeftButton);
+    QVERIFY(Desktop::wait_for([&] { return dialog.isNull(); }, kPatience));
+  };
+  const fs::path left_file = folder_ / "organs-Left one.stl";
+  const fs::path right_file = folder_ / "organs-Right one.stl";
+  write("Visible labels");
+  QVERIFY(fs::exists(left_file));
+  QVERIFY(!fs::exists(right_file));
+  const auto first = fs::last_write_time(left_file);
+  Desktop::answer(QMessageBox::Yes);  // the left one is there already
+  write("All labels");
+  QVERIFY(fs::exists(right_file));
+  QVERIFY(fs::last_write_time(left_file) > first);
+  QVERIFY(fs::file_size(left_file) > fs::file_size(right_file));  // the larger ball
+  QVERIFY(fs::file_size(right_file) > 10'000);
 }
 
 void ResultsStoryTest::the_surface_alone_is_a_result_too() {

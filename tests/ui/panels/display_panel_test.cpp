@@ -97,6 +97,11 @@ class DisplayPanelTest : public QObject {
     QVERIFY(settings().show_source);
     choose(tr("Where"), tr("Inside the surface"));
     QCOMPARE(settings().region, Region::inside);
+    QVERIFY(settings().orientation_cube && settings().volume_box);
+    click(tr("Orientation cube"));
+    QVERIFY(!settings().orientation_cube);
+    click(tr("Edges of the volume"));
+    QVERIFY(!settings().volume_box);
     click(tr("Surface"));
     QVERIFY(!settings().surface);
   }

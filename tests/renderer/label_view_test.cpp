@@ -1,0 +1,277 @@
+// Labels in 3D: where they show, in which colour, and what they leave alone.
+#include <QTest>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/label_colour.h"
+#include "tests/renderer/scenes.h"
+#include "tests/support/support.h"
+#include "tests/support/test_program.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+
+namespace {
+
+constexpr std::int64_t kSide = 200;                 // pixels
+constexpr double kRadius = 20.0;                    // of label 1
+constexpr double kInner = 8.0;                      // of label 2, inside it
+const Lighting kFlat{1.0, 0.0, 0.0, 1.0, {}, 0.0};  // colours as they are
+
+using Numbers = std::vector<std::uint8_t>;
+
+glm::dvec3 colour_of(std::uint8_t label) {
+  const auto [red, green, blue] = label_colour(label);
+  return {red, green, blue};
+}
+
+// A ball of label 1 around one of label 2.
+Numbers balls(const Geometry& geometry, double inner = kInner) {
+  const glm::dvec3 middle = middle_of(geometry);
+  const auto values = sample(geometry, [&](glm::dvec3 p) {
+    const double r = glm::length(p - middle);
+    return r < inner ? 2.0 : r < kRadius ? 1.0 : 0.0;
+  });
+  return {values.begin(), values.end()};
+}
+
+// A scene without a surface.
+Scene empty_scene(const Geometry& geometry) {
+  Scene scene = ball_scene(geometry, 1.0);
+  scene.phi = Field::empty(geometry, scene.phi.band);
+  return scene;
+}
+
+void label(Painter& painter, const Numbers& numbers, const std::vector<std::uint8_t>& hidden = {}) {
+  std::vector<Renderer::LabelColour> colours(Renderer::kLabels);
+  for (std::size_t i = 1; i < colours.size(); ++i) {
+    const auto [red, green, blue] = label_colour(static_cast<std::uint8_t>(i));
+    colours[i] = {red, green, blue, 255};
+  }
+  for (const std::uint8_t one : hidden) colours[one][3] = 0;
+  for (const Status& status :
+       {painter.renderer().set_labels(numbers), painter.renderer().set_label_colours(colours)}) {
+    if (!status) qFatal("%s", status.error().message.c_str());
+  }
+}
+
+VolumeView label_view(Mode mode, double opacity = 1.0) {
+  VolumeView view;
+  view.mode = mode;
+  view.label_opacity = opacity;
+  view.lighting = kFlat;
+  return view;
+}
+
+double off(glm::ivec3 found, glm::dvec3 expected) {
+  return glm::length(glm::dvec3(found) - expected);
+}
+
+// Of pixels that are not `expected` where the ball of that radius is, a voxel and a bit from its outline, or
+// that are not background around it.
+std::int64_t wrong_pixels(const Picture& picture, double radius_px, double voxel_px, glm::dvec3 expected,
+                          const VolumeView& view) {
+  const glm::dvec3 background = 255.0 * glm::dvec3(view.background);
+  std::int64_t wrong = 0;
+  for (std::int64_t y = 0; y < picture.height; ++y) {
+    for (std::int64_t x = 0; x < picture.width; ++x) {
+      const double r = std::hypot(static_cast<double>(x) - 0.5 * static_cast<double>(picture.width - 1),
+                                  static_cast<double>(y) - 0.5 * static_cast<double>(picture.height - 1));
+      if (std::abs(r - radius_px) < 1.2 * voxel_px) continue;
+      wrong += off(pixel(picture, x, y), r < radius_px ? expected : background) > 3.0 ? 1 : 0;
+    }
+  }
+  return wrong;
+}
+
+void add_modes() {
+  QTest::addColumn<int>("mode");
+  QTest::newRow("rays") << static_cast<int>(Mode::raycast);
+  QTest::newRow("slices") << static_cast<int>(Mode::slices);
+}
+
+}  // namespace
+
+class LabelViewTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_labels_silhouette_has_its_colour_data() { add_modes(); }
+  void a_labels_silhouette_has_its_colour() {
+    QFETCH(int, mode);
+    const Geometry geometry = grid({64, 60, 31}, {1.0, 1.0, 2.0});
+    Painter draw(empty_scene(geometry));
+    label(draw, balls(geometry));
+    VolumeView view = label_view(static_cast<Mode>(mode));
+    for (const auto& [azimuth, elevation] : {std::pair{0.0, 0.0}, {90.0, 0.0}, {0.0, 90.0}, {33.0, -20.0}}) {
+      view.camera.azimuth = azimuth;
+      view.camera.elevation = elevation;
+      const double mm_px = 0.5 * kSide / view.camera.half_height_mm(geometry, 1.0);
+      const Picture picture = draw(view, kSide, kSide);
+      // A voxel is 2 mm along the slices' normal.
+      const std::int64_t wrong = wrong_pixels(picture, kRadius * mm_px, 2.0 * mm_px, colour_of(1), view);
+      QVERIFY2(wrong == 0, qPrintable(QString("%1 at %2, %3").arg(wrong).arg(azimuth).arg(elevation)));
+    }
+  }
+
+  void a_hidden_label_shows_what_is_in_it_data() { add_modes(); }
+  void a_hidden_label_shows_what_is_in_it() {
+    QFETCH(int, mode);
+    const Geometry geometry = grid({64, 64, 64});
+    Painter draw(empty_scene(geometry));
+    const VolumeView view = label_view(static_cast<Mode>(mode));
+    const double mm_px = 0.5 * kSide / view.camera.half_height_mm(geometry, 1.0);
+    label(draw, balls(geometry), {1});
+    QCOMPARE(wrong_pixels(draw(view, kSide, kSide), kInner * mm_px, mm_px, colour_of(2), view), 0);
+    label(draw, balls(geometry), {2});
+    QCOMPARE(wrong_pixels(draw(view, kSide, kSide), kRadius * mm_px, mm_px, colour_of(1), view), 0);
+    label(draw, balls(geometry), {1, 2});
+    QCOMPARE(draw(view, kSide, kSide).pixels, draw(label_view(view.mode, 0.0), kSide, kSide).pixels);
+  }
+
+  // Into 1, into 2, out of 2 into 1, out of 1: half of the light is lost at each.
+  void borders_are_laid_one_behind_the_other_data() { add_modes(); }
+  void borders_are_laid_one_behind_the_other() {
+    QFETCH(int, mode);
+    const Geometry geometry = grid({64, 64, 64});
+    Painter draw(empty_scene(geometry));
+    label(draw, balls(geometry));
+    const VolumeView view = label_view(static_cast<Mode>(mode), 0.5);
+    const Picture picture = draw(view, kSide, kSide);
+    const glm::dvec3 background = 255.0 * glm::dvec3(view.background);
+    const glm::dvec3 expected =
+        colour_of(1) * (0.5 + 0.125 + 0.0625) + colour_of(2) * 0.25 + background * 0.0625;
+    QVERIFY2(off(pixel(picture, kSide / 2, kSide / 2), expected) < 4.0,
+             qPrintable(QString::number(off(pixel(picture, kSide / 2, kSide / 2), expected))));
+  }
+
+  void light_does_not_show_the_steps_of_voxels() {
+    const Geometry geometry = grid({64, 64, 64});
+    Painter draw(empty_scene(geometry));
+    label(draw, balls(geometry, 0.0));
+    VolumeView view = label_view(Mode::raycast);
+    view.lighting = {0.0, 1.0, 0.0, 1.0, {}, 0.0};  // the cosine
+    const Picture picture = draw(view, kSide, kSide);
+    const double side = 2.0 * view.camera.half_height_mm(geometry, 1.0) / kSide;
+    double sum = 0.0;
+    double found = 0.0;
+    for (std::int64_t y = 0; y < kSide; ++y) {
+      for (std::int64_t x = 0; x < kSide; ++x) {
+        const glm::dvec2 at = side * (glm::dvec2(x, y) - 0.5 * (kSide - 1.0)) / kRadius;
+        if (glm::length(at) > 0.85) continue;
+        const double cosine = std::sqrt(1.0 - glm::dot(at, at));
+        sum += std::abs(glm::length(glm::dvec3(pixel(picture, x, y))) / glm::length(colour_of(1)) - cosine);
+        ++found;
+      }
+    }
+    qInfo("light is off by %.3f in the mean", sum / found);
+    QVERIFY(sum / found < 0.03);
+  }
+
+  // Where a label is what the surface has been accepted into, neither shines through the other in patches.
+  void a_surface_has_the_colour_of_the_label_that_ends_there_data() { add_modes(); }
+  void a_surface_has_the_colour_of_the_label_that_ends_there() {
+    QFETCH(int, mode);
+    const Geometry geometry = grid({64, 64, 40}, {1.0, 1.0, 1.6});
+    const Scene scene = ball_scene(geometry, kRadius);
+    Painter draw(scene);
+    label(draw, scene.phi.mask().voxels);
+    VolumeView view = label_view(static_cast<Mode>(mode), 0.5);
+    view.camera.azimuth = 25.0;
+    view.camera.elevation = 15.0;
+    const double mm_px = 0.5 * kSide / view.camera.half_height_mm(geometry, 1.0);
+    const glm::dvec3 surface = 255.0 * glm::dvec3(view.surface_colour);
+    const Picture picture = draw(view, kSide, kSide);
+    std::int64_t wrong = 0;
+    std::int64_t all = 0;
+    for (std::int64_t y = 0; y < kSide; ++y) {
+      for (std::int64_t x = 0; x < kSide; ++x) {
+        const double r = std::hypot(static_cast<double>(x) - 99.5, static_cast<double>(y) - 99.5) / mm_px;
+        if (r > 0.95 * kRadius) continue;
+        ++all;
+        wrong += off(pixel(picture, x, y), 0.5 * (surface + colour_of(1))) > 4.0 ? 1 : 0;
+      }
+    }
+    qInfo("%lld of %lld pixels have another colour", static_cast<long long>(wrong),
+          static_cast<long long>(all));
+    QVERIFY(wrong * 50 < all);
+    // A label far inside of the surface leaves it as it is.
+    label(draw, balls(geometry), {1});
+    QVERIFY(off(pixel(draw(view, kSide, kSide), 100, 100), surface) < 4.0);
+  }
+
+  void the_clip_plane_cuts_labels_and_shows_them() {
+    const Geometry geometry = grid({64, 64, 64});
+    const Scene scene = empty_scene(geometry);
+    Painter draw(scene);
+    label(draw, balls(geometry));
+    VolumeView view = label_view(Mode::raycast);
+    view.window = {0.0, 100.0};
+    view.clip = ClipPlane{{0.0, -1.0, 0.0}, -scene.middle.y};  // hides the front half
+    // On the plane the ball in the middle is a disc.
+    for (const Mode mode : {Mode::raycast, Mode::slices}) {
+      view.mode = mode;
+      const Picture cut = draw(view, kSide, kSide);
+      const double mm_px = 0.5 * kSide / view.camera.half_height_mm(geometry, 1.0);
+      QVERIFY(off(pixel(cut, 100, 100), colour_of(2)) < 3.0);
+      QVERIFY(off(pixel(cut, 100 + std::lround(14.0 * mm_px), 100), colour_of(1)) < 3.0);
+    }
+    view.clip->picture = false;  // into the hollow half: the inner ball's border is behind
+    view.mode = Mode::raycast;
+    view.label_opacity = 0.5;
+    const glm::dvec3 expected = colour_of(1) * (0.5 + 0.25) + 255.0 * 0.25 * glm::dvec3(view.background);
+    QVERIFY(off(pixel(draw(view, kSide, kSide), 100, 100), expected) < 4.0);
+  }
+
+  void nothing_is_drawn_otherwise_without_labels() {
+    const Geometry geometry = grid({48, 48, 48});
+    Painter draw(ball_scene(geometry, 14.0));
+    VolumeView view = label_view(Mode::raycast);
+    view.source = transfer_function(
+        R"({"source": [{"value": {"ramp": [20, 100]}, "opacity": 0.05, "colour": [1, 0.8, 0.6]}]})");
+    const Picture with = draw(view, kSide, kSide);
+    view.label_opacity = 0.0;
+    QCOMPARE(with.pixels, draw(view, kSide, kSide).pixels);
+  }
+
+  void empty_pages_are_skipped_without_a_difference() {
+    const Geometry geometry = grid({64, 64, 64});
+    Painter draw(ball_scene(geometry, 12.0, {14.0, 0.0, 0.0}));
+    label(draw, balls(geometry));
+    VolumeView view = label_view(Mode::raycast, 0.5);
+    view.camera.azimuth = 35.0;
+    view.source = transfer_function(
+        R"({"source": [{"value": {"ramp": [20, 1000]}, "opacity": 0.05, "colour": [1, 0.8, 0.6]}]})");
+    view.quality.step_voxels = 0.05;  // so that it does not matter where a page's samples begin
+    const Picture skipped = draw(view, kSide, kSide);
+    view.quality.skip_empty = false;
+    const Picture whole = draw(view, kSide, kSide);
+    std::int64_t different = 0;
+    for (std::size_t i = 0; i < whole.pixels.size(); ++i) {
+      different += std::abs(int{whole.pixels[i]} - int{skipped.pixels[i]}) > 8 ? 1 : 0;
+    }
+    QVERIFY2(different < 40, qPrintable(QString::number(different)));
+  }
+
+  void picking_finds_a_label() {
+    const Geometry geometry = grid({64, 64, 64});
+    const Scene scene = empty_scene(geometry);
+    Painter draw(scene);
+    label(draw, balls(geometry));
+    const auto hit = draw.renderer().pick(label_view(Mode::raycast), {kSide, kSide}, {99.5, 99.5});
+    QVERIFY(hit && hit->has_value());
+    QVERIFY(glm::length((*hit)->patient_mm - (scene.middle - glm::dvec3(0.0, kRadius, 0.0))) < 1.0);
+  }
+
+  void labels_are_seen_through_a_surface_that_is_hidden() {
+    const Geometry geometry = grid({64, 64, 64});
+    Painter draw(ball_scene(geometry, kRadius));
+    label(draw, balls(geometry), {1});
+    VolumeView view = label_view(Mode::raycast);
+    view.surface = false;
+    QVERIFY(off(pixel(draw(view, kSide, kSide), 100, 100), colour_of(2)) < 3.0);
+  }
+};
+
+TIDEMARK_TEST(LabelViewTest)
+#include "label_view_test.moc"

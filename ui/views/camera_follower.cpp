@@ -1,0 +1,96 @@
+#include "ui/views/camera_follower.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "renderer/sheet.h"
+
+namespace tidemark {
+namespace {
+
+constexpr int kGlide = 350;  // ms
+// Around a surface that may grow: it fills the rest of the picture before the camera moves again.
+constexpr double kRoom = 1.3;
+// A seed stays in the context of its volume.
+constexpr double kNearest = 4.0;
+
+Camera between(const Camera& from, const Camera& to, double share, glm::dvec3 middle) {
+  Camera camera = to;
+  camera.zoom = from.zoom * std::pow(to.zoom / from.zoom, share);
+  camera.focus_mm = glm::mix(from.focus_mm.value_or(middle), to.focus_mm.value_or(middle), share);
+  return camera;
+}
+
+}  // namespace
+
+CameraFollower::CameraFollower(CaseProxy& proxy, std::function<double()> aspect, QObject* parent)
+    : QObject(parent), proxy_(proxy), aspect_(std::move(aspect)) {
+  glide_.setDuration(kGlide);
+  glide_.setEasingCurve(QEasingCurve::InOutQuad);
+  glide_.setStartValue(0.0);
+  glide_.setEndValue(1.0);
+  connect(&proxy, &CaseProxy::state_changed, this, &CameraFollower::follow);
+}
+
+void CameraFollower::fit() {
+  if (aspect_() <= 0.0) return;
+  glide_.stop();
+  Camera next = camera();
+  next.zoom = 1.0;
+  next.focus_mm.reset();
+  const bool shown = proxy_.state().begun && proxy_.display().settings().surface;
+  set(shown ? on_surface(next, 1.0) : next);
+}
+
+void CameraFollower::follow() {
+  const CaseState& state = proxy_.state();
+  const double aspect = aspect_();
+  if (aspect <= 0.0 || !state.begun || !state.phi) return;
+  const bool ends = state.converged && !converged_;
+  converged_ = state.converged;
+  if (state.phi == seen_ && !ends) return;
+  seen_ = state.phi;
+  if (!is_own() || seen_->resident_pages() == 0) return;
+  if (ends) return glide_to(on_surface(camera(), 1.0));
+  const bool first = !own_;
+  const bool moves = glide_.state() == QAbstractAnimation::Running;
+  const bool sees = camera().sees(box_around(*seen_), proxy_.volume().geometry, aspect);
+  if (!first && (moves || sees)) return;
+  Camera next = on_surface(camera(), kRoom);
+  next.zoom = std::min(next.zoom, kNearest);
+  first ? set(next) : glide_to(next);
+}
+
+// `room`: times the surface's own extent.
+Camera CameraFollower::on_surface(const Camera& from, double room) const {
+  const auto& phi = proxy_.state().phi;
+  if (!phi || phi->resident_pages() == 0) return from;
+  Camera next = from.on(box_around(*phi), proxy_.volume().geometry, aspect_());
+  next.zoom = std::clamp(next.zoom / room, kLeastZoom, kMostZoom);
+  return next;
+}
+
+bool CameraFollower::is_own() const {
+  const bool as_at_first = camera().zoom == 1.0 && !camera().focus_mm;
+  return as_at_first || camera() == own_;
+}
+
+void CameraFollower::set(const Camera& camera) {
+  own_ = camera;
+  proxy_.display().change([&](DisplaySettings& settings) { settings.camera = camera; });
+}
+
+void CameraFollower::glide_to(const Camera& to) {
+  glide_.stop();
+  glide_.disconnect(this);
+  const glm::dvec3 middle = middle_of(proxy_.volume().geometry);
+  connect(&glide_, &QVariantAnimation::valueChanged, this,
+          [this, from = camera(), to, middle](const QVariant& share) {
+            if (!is_own()) return glide_.stop();
+            set(between(from, to, share.toDouble(), middle));
+          });
+  glide_.start();
+}
+
+}  // namespace tidemark

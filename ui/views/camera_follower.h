@@ -1,0 +1,46 @@
+// The camera of a 3D view on the surface: brought there when the surface begins, kept there while it grows,
+// and near when it has converged.
+#pragma once
+
+#include <QObject>
+#include <QVariantAnimation>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "engine/case_proxy.h"
+
+namespace tidemark {
+
+inline constexpr double kLeastZoom = 0.2;
+inline constexpr double kMostZoom = 40.0;
+
+// Moves what the camera looks at and its distance, never the side from which it looks. A camera that somebody
+// else has moved is left alone, until fit() or until it is as it was at first.
+class CameraFollower : public QObject {
+  Q_OBJECT
+ public:
+  // `aspect`: of the view's picture; 0 while nobody sees it.
+  CameraFollower(CaseProxy& proxy, std::function<double()> aspect, QObject* parent);
+
+  // At once: the surface fills the picture, or the volume where no surface is shown.
+  void fit();
+  // Looks whether the surface is still in view.
+  void follow();
+
+ private:
+  [[nodiscard]] const Camera& camera() const { return proxy_.display().settings().camera; }
+  [[nodiscard]] bool is_own() const;
+  [[nodiscard]] Camera on_surface(const Camera& from, double room) const;
+  void set(const Camera& camera);
+  void glide_to(const Camera& camera);
+
+  CaseProxy& proxy_;
+  std::function<double()> aspect_;
+  std::shared_ptr<const Field> seen_;
+  bool converged_ = false;
+  std::optional<Camera> own_;  // as it was left here
+  QVariantAnimation glide_;
+};
+
+}  // namespace tidemark
