@@ -8,18 +8,19 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/geometry.h"
 #include "core/result.h"
 #include "imaging/dicom/element_text.h"
+#include "imaging/dicom/parsed_dicom.h"
 
 namespace tidemark {
 
-// The whole file, its text in UTF-8. `stop_at` ends the reading there (the pixel data, say). Fails with
-// ErrorKind::input.
-Result<std::unique_ptr<DcmFileFormat>> load_object(const std::filesystem::path& file,
-                                                   const DcmTagKey& stop_at = DCM_UndefinedTagKey);
+// The file, checked and parsed, its text in UTF-8. `stop_at` ends the reading there (the pixel data, say).
+// Fails with ErrorKind::input.
+Result<ParsedDicom> load_object(const std::filesystem::path& file, std::optional<DicomTag> stop_at = {});
 
 // Encodes the dataset and writes it as the whole of the file. Fails with ErrorKind::write.
 Status save_object(std::unique_ptr<DcmDataset> dataset, E_TransferSyntax syntax,
