@@ -27,6 +27,8 @@ class Producer : public DcmProducer {
     const std::size_t got = count > window_.size() ? source_.read(at_, bytes) : read_window(bytes);
     at_ += static_cast<std::int64_t>(got);
     if (got < count) {
+      // DCMTK takes the value for whole all the same.
+      std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(got), bytes.end(), std::uint8_t{0});
       end_ = at_;
       status_ = EC_InvalidStream;
     }
@@ -92,10 +94,13 @@ DcmInputStreamFactory* Stream::newFactory() const {
 
 }  // namespace
 
-std::string parse_dicom(ByteSource& bytes, const TransferSyntax& syntax, DcmFileFormat& loaded) {
+std::string parse_dicom(ByteSource& bytes, const TransferSyntax& syntax, DcmFileFormat& loaded,
+                        std::optional<DicomTag> stop_at) {
   Stream stream(bytes, 0);
   loaded.transferInit();
-  const OFCondition read = loaded.read(stream, DcmXfer(std::string(syntax.uid).c_str()).getXfer());
+  const OFCondition read = loaded.readUntilTag(
+      stream, DcmXfer(std::string(syntax.uid).c_str()).getXfer(), EGL_noChange, DCM_MaxReadLength,
+      stop_at ? DcmTagKey(stop_at->group, stop_at->element) : DCM_UndefinedTagKey);
   loaded.transferEnd();
   return read.good() ? std::string() : std::string(read.text());
 }

@@ -2,8 +2,10 @@
 // find there what somebody has put in its place meanwhile.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "imaging/dicom/tag_walk.h"
 #include "imaging/dicom/transfer_syntaxes.h"
 #include "imaging/guard/byte_source.h"
 
@@ -11,8 +13,9 @@ class DcmFileFormat;
 
 namespace tidemark {
 
-// Parses all bytes, in that transfer syntax. Long values are read on demand, so that the bytes must outlive
-// `loaded`. Returns the error in DCMTK's words; empty when there is none.
-[[nodiscard]] std::string parse_dicom(ByteSource& bytes, const TransferSyntax& syntax, DcmFileFormat& loaded);
+// Parses the bytes in that transfer syntax, all or those before the element `stop_at`. Long values are read on
+// demand, so that the bytes must outlive `loaded`. Returns the error in DCMTK's words; empty when there is none.
+[[nodiscard]] std::string parse_dicom(ByteSource& bytes, const TransferSyntax& syntax, DcmFileFormat& loaded,
+                                      std::optional<DicomTag> stop_at = {});
 
 }  // namespace tidemark

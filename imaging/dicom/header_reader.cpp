@@ -10,10 +10,10 @@
 
 #include "imaging/dicom/attribute_reader.h"
 #include "imaging/dicom/character_sets.h"
+#include "imaging/dicom/checked_dicom.h"
 #include "imaging/dicom/date.h"
 #include "imaging/dicom/dcmtk_stream.h"
 #include "imaging/dicom/decimal.h"
-#include "imaging/dicom/detect.h"
 #include "imaging/dicom/functional_groups.h"
 #include "imaging/dicom/mosaic.h"
 #include "imaging/dicom/read_patient.h"
@@ -116,14 +116,6 @@ bool is_lossy_syntax(E_TransferSyntax syntax) {
   return std::find(kLossy.begin(), kLossy.end(), syntax) != kLossy.end();
 }
 
-// One line without the file's name.
-std::string describe(const Preflight& checked) {
-  const auto& [tag, offset, what] = checked.reason;
-  const std::string element = tag == DicomTag{} ? "the dataset" : name_of(DcmTagKey(tag.group, tag.element));
-  const bool is_damaged = checked.verdict == Preflight::Verdict::damaged;
-  return fmt::format("{}{} {} (at byte {})", is_damaged ? "is damaged: " : "", element, what, offset);
-}
-
 // The header of a file that cannot be parsed.
 SliceHeader header_without_image(const fs::path& file, const Preflight& checked) {
   SliceHeader header;
@@ -196,34 +188,12 @@ Result<std::vector<SliceHeader>> read_slices(DcmFileFormat& loaded, const fs::pa
   return slices;
 }
 
-// A file to be read, and its preflight.
-struct CheckedFile {
-  FileBytes bytes;
-  Preflight checked;
-};
-
-Result<CheckedFile> check_file(const fs::path& file) {
-  auto bytes = FileBytes::open(file);
-  if (!bytes) return pass_on(bytes);
-  if (!begins_as_dicom(*bytes)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
-  Preflight checked = preflight_dicom(*bytes);
-  return CheckedFile{std::move(*bytes), std::move(checked)};
-}
-
 }  // namespace
 
-Result<const TransferSyntax*> syntax_to_parse(const fs::path& file) {
-  const auto read = check_file(file);
-  if (!read) return tl::unexpected<Error>(read.error());
-  const Preflight& checked = read->checked;
-  if (!checked.may_be_parsed()) return fail(ErrorKind::input, "{}: {}", file.string(), describe(checked));
-  return checked.syntax;
-}
-
 Result<ImageFile> open_image(const fs::path& file) {
-  auto read = check_file(file);
-  if (!read) return pass_on(read);
-  ImageFile image{{}, std::move(read->checked), std::move(read->bytes)};
+  auto opened = check_dicom(file);
+  if (!opened) return pass_on(opened);
+  ImageFile image{{}, std::move(opened->checked), std::move(opened->bytes)};
   if (!image.checked.may_be_parsed()) {
     // A damaged file that still names its series makes that series incomplete: it must not go unnoticed.
     image.slices.push_back(header_without_image(file, image.checked));
@@ -232,7 +202,7 @@ Result<ImageFile> open_image(const fs::path& file) {
   }
   DcmFileFormat loaded;
   // In the transfer syntax of the preflight, so that both read the same tags.
-  if (const auto problem = parse_dicom(image.bytes, *image.checked.syntax, loaded); !problem.empty()) {
+  if (const auto problem = parse_dicom(*image.bytes, *image.checked.syntax, loaded); !problem.empty()) {
     return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), problem);
   }
   auto slices = read_slices(loaded, file, image.checked);

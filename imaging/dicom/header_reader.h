@@ -1,7 +1,8 @@
-// The reader from a DICOM file to a SliceHeader, and the refusal of files of other kinds before DCMTK.
+// The reader from a DICOM file to a SliceHeader.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "core/result.h"
@@ -16,16 +17,12 @@ struct ImageFile {
   // Of each slice in it, by frame and tile; never empty. One alone with a problem when it cannot be used.
   std::vector<SliceHeader> slices;
   Preflight checked;
-  FileBytes bytes;
+  std::unique_ptr<FileBytes> bytes;
 };
 
 // Checks the file (preflight.h) and reads its header. Fails (ErrorKind::input) when the file is not a DICOM
 // image; an image that cannot be slices of a volume is returned with its problem.
 [[nodiscard]] Result<ImageFile> open_image(const std::filesystem::path& file);
 [[nodiscard]] Result<std::vector<SliceHeader>> read_slice_headers(const std::filesystem::path& file);
-
-// For files of other kinds: the transfer syntax as which DCMTK may parse the file. Fails (ErrorKind::input)
-// when it is no DICOM file, or the preflight refuses it.
-[[nodiscard]] Result<const TransferSyntax*> syntax_to_parse(const std::filesystem::path& file);
 
 }  // namespace tidemark

@@ -101,7 +101,7 @@ Status FrameReader::inflate(const Preflight& checked) {
 Status FrameReader::find_frames(ImageFile image) {
   slices_ = std::move(image.slices);
   syntax_ = image.checked.syntax;
-  bytes_ = std::make_unique<FileBytes>(std::move(image.bytes));
+  bytes_ = std::move(image.bytes);
   if (const SliceHeader& first = slices_.front(); !first.problem.empty()) {
     return fail(ErrorKind::input, "{}: {}", first.file.string(), first.problem);
   }

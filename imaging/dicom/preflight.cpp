@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include "imaging/dicom/pixel_extent.h"
 
@@ -48,7 +50,9 @@ const TransferSyntax* guess_syntax(ByteSource& bytes, std::int64_t begin) {
 
 class Check {
  public:
-  explicit Check(ByteSource& bytes) : bytes_(bytes), most_bytes_(64 * kMiB + bytes.size()) {}
+  // `most_bytes`: that a parser may take for the elements.
+  Check(ByteSource& bytes, std::int64_t most_bytes, TagWalk::Observer observe)
+      : bytes_(bytes), most_bytes_(most_bytes), observe_(std::move(observe)) {}
 
   Preflight run() {
     if (const auto dataset = read_meta()) {
@@ -127,18 +131,18 @@ class Check {
     const TransferSyntax& syntax = *result_.syntax;
     PixelExtent extent(syntax);
     TagWalk walk(bytes, most_bytes_);
-    const auto walked =
-        walk.walk_dataset(begin, {syntax.is_explicit, syntax.is_big_endian}, syntax.is_encapsulated(),
-                          [&](const ElementHeader& header, ByteReader& reader, const Fragments* fragments) {
-                            if (header.tag == kSeriesInstanceUid && result_.series_uid.empty()) {
-                              result_.series_uid = uid_of(header, reader);
-                            }
-                            extent.note(header, reader, fragments);
-                            if (header.tag == PixelExtent::kPixelData && !result_.pixels) {
-                              result_.pixels = header;
-                              if (fragments != nullptr) result_.fragments = *fragments;
-                            }
-                          });
+    const auto visit = [&](const ElementHeader& header, ByteReader& reader, const Fragments* fragments) {
+      if (header.tag == kSeriesInstanceUid && result_.series_uid.empty()) {
+        result_.series_uid = uid_of(header, reader);
+      }
+      extent.note(header, reader, fragments);
+      if (header.tag == PixelExtent::kPixelData && !result_.pixels) {
+        result_.pixels = header;
+        if (fragments != nullptr) result_.fragments = *fragments;
+      }
+    };
+    const auto walked = walk.walk_dataset(begin, {syntax.is_explicit, syntax.is_big_endian},
+                                          syntax.is_encapsulated(), visit, observe_);
     if (!walked) {
       conclude(Preflight::Verdict::damaged, walked.error());
     } else if (auto problem = extent.problem(bytes_.size()); !problem.empty()) {
@@ -149,6 +153,7 @@ class Check {
 
   ByteSource& bytes_;
   std::int64_t most_bytes_;
+  TagWalk::Observer observe_;
   std::int64_t syntax_offset_ = 0;
   Preflight result_;
 };
@@ -156,7 +161,11 @@ class Check {
 }  // namespace
 
 Preflight preflight_dicom(ByteSource& bytes) {
-  return Check(bytes).run();
+  return Check(bytes, 64 * kMiB + bytes.size(), {}).run();
+}
+
+Preflight walk_dicom(ByteSource& bytes, const TagWalk::Observer& observe) {
+  return Check(bytes, std::numeric_limits<std::int64_t>::max(), observe).run();
 }
 
 }  // namespace tidemark

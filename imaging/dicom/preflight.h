@@ -48,4 +48,8 @@ inline constexpr std::int64_t kLargestInflation = std::int64_t{64} << 20;
 
 [[nodiscard]] Preflight preflight_dicom(ByteSource& bytes);
 
+// The same of a file that nothing but the walk is going to read, through `observe`: any number of elements is
+// good, as no parser makes objects of them. When `observe` ends the walk the file counts as damaged.
+[[nodiscard]] Preflight walk_dicom(ByteSource& bytes, const TagWalk::Observer& observe);
+
 }  // namespace tidemark

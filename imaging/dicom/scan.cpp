@@ -111,17 +111,15 @@ Result<Catalogue> catalogue_of(const std::vector<fs::path>& files, const Progres
 
 // A file that a medium's directory names and that is missing may be a series' first or last slice.
 void warn_of_missing(Catalogue& catalogue, const fs::path& file, const MediaDirectory& directory) {
-  using Missing = std::vector<MediaDirectory::Missing>;
-  if (directory.missing.empty()) return;
+  if (directory.missing.count == 0) return;
   catalogue.skipped.push_back({file, fmt::format("refers to {} files that are not there: {}",
-                                                 directory.missing.size(), list_missing(directory.missing))});
-  std::map<std::string, Missing> of_series;
-  for (const auto& one : directory.missing) of_series[one.series_uid].push_back(one);
+                                                 directory.missing.count, list_missing(directory.missing))});
   for (Series& series : catalogue.series) {
-    const auto found = of_series.find(series.uid.substr(0, series.uid.find('#')));  // of all its parts
-    if (found == of_series.end()) continue;
+    const std::string uid = series.uid.substr(0, series.uid.find('#'));  // of all its parts
+    const auto found = directory.missing_of_series.find(uid);
+    if (found == directory.missing_of_series.end()) continue;
     series.warnings.push_back(fmt::format("{} names {} files of this series that are not there: {}",
-                                          file.filename().string(), found->second.size(),
+                                          file.filename().string(), found->second.count,
                                           list_missing(found->second)));
   }
 }
@@ -138,9 +136,11 @@ Result<Catalogue> scan_folder(const fs::path& folder, const Progress& progress) 
   auto catalogue = catalogue_of(*files, progress);
   if (!catalogue) return catalogue;
   for (const fs::path& file : media) {
-    const auto directory = read_media_directory(file);
+    const auto directory = read_media_directory(file, progress);
     if (directory) {
       warn_of_missing(*catalogue, file, *directory);
+    } else if (directory.error().kind == ErrorKind::cancelled) {
+      return tl::unexpected<Error>(directory.error());
     } else {
       catalogue->skipped.push_back({file, without_path(directory.error().message, file)});
     }
@@ -150,14 +150,14 @@ Result<Catalogue> scan_folder(const fs::path& folder, const Progress& progress) 
 
 // The files that a medium's directory names, and no others.
 Result<Catalogue> scan_medium(const fs::path& file, const Progress& progress) {
-  const auto directory = read_media_directory(file);
+  const auto directory = read_media_directory(file, progress);
   if (!directory) return tl::unexpected<Error>(directory.error());
-  if (directory->files.empty() && directory->missing.empty()) {
+  if (directory->files.empty() && directory->missing.count == 0) {
     return fail(ErrorKind::input, "{}: refers to no files", file.string());
   }
   if (directory->files.empty()) {
     return fail(ErrorKind::input, "{}: refers to {} files, none of which is there: {}", file.string(),
-                directory->missing.size(), list_missing(directory->missing));
+                directory->missing.count, list_missing(directory->missing));
   }
   auto catalogue = catalogue_of(directory->files, progress);
   if (catalogue) warn_of_missing(*catalogue, file, *directory);

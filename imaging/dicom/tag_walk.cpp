@@ -124,10 +124,11 @@ tl::expected<std::int64_t, TagDamage> TagWalk::walk_meta(std::int64_t begin, con
 }
 
 tl::expected<void, TagDamage> TagWalk::walk_dataset(std::int64_t begin, ElementCoding coding,
-                                                    bool has_fragments, const Visitor& visit) {
+                                                    bool has_fragments, const Visitor& visit,
+                                                    const Observer& observe) {
   at_ = begin;
   depth_ = 0;
-  levels_[0] = Level{.end = reader_.size(), .coding = coding};
+  levels_[0] = Level{.begin = begin, .end = reader_.size(), .coding = coding};
   while (true) {
     Level& level = top();
     if (at_ == level.end) {
@@ -139,7 +140,7 @@ tl::expected<void, TagDamage> TagWalk::walk_dataset(std::int64_t begin, ElementC
       --depth_;
       continue;
     }
-    if (!(level.is_sequence ? step_item() : step_element(has_fragments, visit))) {
+    if (!(level.is_sequence ? step_item() : step_element(has_fragments, visit, observe))) {
       return tl::unexpected(damage_);
     }
   }
@@ -168,6 +169,7 @@ bool TagWalk::enter(const Level& level, const ElementHeader& header) {
   }
   ++depth_;
   top() = level;
+  top().begin = header.value;
   at_ = header.value;
   return true;
 }
@@ -231,7 +233,12 @@ bool TagWalk::begins_as_item(const ElementHeader& header) {
   return tag == kItem || tag == kItemEnd || tag == kSequenceEnd;
 }
 
-bool TagWalk::step_element(bool has_fragments, const Visitor& visit) {
+bool TagWalk::show(const ElementHeader& header, const Observer& observe) {
+  if (!observe || observe(header, reader_, {top().tag, top().begin, depth_ / 2})) return true;
+  return fails(header.tag, header.begin, "is where reading was ended");
+}
+
+bool TagWalk::step_element(bool has_fragments, const Visitor& visit, const Observer& observe) {
   const Level level = top();
   ElementHeader header;
   if (!read_header(at_, level.end, level.coding, header)) return false;
@@ -246,13 +253,14 @@ bool TagWalk::step_element(bool has_fragments, const Visitor& visit) {
       if (depth_ == 0) visit(header, reader_, &fragments);
       return true;
     }
-    if (is_unknown || header.is("SQ")) return enter_sequence(header, is_unknown);
+    if (is_unknown || header.is("SQ")) return show(header, observe) && enter_sequence(header, is_unknown);
     return fails(header.tag, at_, "has no length, and is no sequence");
   }
   if (!check_length(header, level.end)) return false;
   if (header.tag == kPixelData && has_fragments && depth_ == 0) {
     return fails(header.tag, at_, "has a length, though the transfer syntax is one of compressed pixels");
   }
+  if (!show(header, observe)) return false;
   if (header.is("SQ")) return enter_sequence(header, false);
   if (is_unknown && header.tag != kPixelData && begins_as_item(header)) return enter_sequence(header, true);
   if (header.tag == kSpecificCharacterSet && !check_character_sets(header)) return false;

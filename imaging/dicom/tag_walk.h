@@ -66,6 +66,13 @@ struct Fragments {
   std::int64_t end = 0;    // offset of the delimiter
 };
 
+// The place of an element.
+struct TagPlace {
+  DicomTag sequence;      // in an item of this one; (0000,0000) in the dataset itself
+  std::int64_t item = 0;  // offset of what is in that item
+  int depth = 0;          // 0 in the dataset itself, 1 in an item of a sequence in it
+};
+
 // The damage, and its place.
 struct TagDamage {
   DicomTag tag;
@@ -87,6 +94,10 @@ class TagWalk {
   // reader may be moved within the value. Fragments are null unless the element has some.
   using Visitor = std::function<void(const ElementHeader&, ByteReader&, const Fragments*)>;
 
+  // Called for each element wherever it stands, and for each sequence before what is in it, but not for
+  // compressed pixels. False ends the walk, which then fails.
+  using Observer = std::function<bool(const ElementHeader&, ByteReader&, const TagPlace&)>;
+
   // `most_bytes`: how many bytes a parser that makes objects of the tags may take for them.
   TagWalk(ByteSource& source, std::int64_t most_bytes);
 
@@ -95,11 +106,12 @@ class TagWalk {
   tl::expected<std::int64_t, TagDamage> walk_meta(std::int64_t begin, const Visitor& visit);
   // From `begin` to the end of the source. `has_fragments`: whether PixelData is to be compressed.
   tl::expected<void, TagDamage> walk_dataset(std::int64_t begin, ElementCoding coding, bool has_fragments,
-                                             const Visitor& visit);
+                                             const Visitor& visit, const Observer& observe = {});
 
  private:
   // A dataset, an item, or a sequence, that has been entered and not left.
   struct Level {
+    std::int64_t begin = 0;
     std::int64_t end = 0;  // or the end of the level around it, when a delimiter ends it
     ElementCoding coding;
     DicomTag tag{};       // of the sequence
@@ -116,7 +128,8 @@ class TagWalk {
   bool check_meta(const ElementHeader& header);
   bool read_representation(const std::uint8_t* bytes, ElementHeader& header, bool& has_long_length);
   bool step_item();
-  bool step_element(bool has_fragments, const Visitor& visit);
+  bool step_element(bool has_fragments, const Visitor& visit, const Observer& observe);
+  bool show(const ElementHeader& header, const Observer& observe);
   bool step_delimiter(const ElementHeader& header);
   bool enter(const Level& level, const ElementHeader& header);
   bool enter_sequence(const ElementHeader& header, bool is_implicit);

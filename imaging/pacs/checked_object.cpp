@@ -4,8 +4,6 @@
 #include <dcmtk/dcmdata/dctk.h>
 
 #include "imaging/dicom/dicom_setup.h"
-#include "imaging/dicom/header_reader.h"
-#include "imaging/dicom/transfer_syntaxes.h"
 #include "imaging/guard/guarded.h"
 #include "imaging/pacs/storage_classes.h"
 
@@ -15,15 +13,10 @@ namespace {
 namespace fs = std::filesystem;
 
 // The attributes that are read come before it; whether those behind it are sound the preflight has seen.
-const DcmTagKey kAfterIdentity(0x0020, 0x0010);
+constexpr DicomTag kAfterIdentity{0x0020, 0x0010};
 
-Result<ObjectIdentity> identity_of(const fs::path& file, const TransferSyntax& syntax) {
-  DcmFileFormat loaded;
-  const OFCondition parsed =
-      loaded.loadFileUntilTag(file.c_str(), DcmXfer(std::string(syntax.uid).c_str()).getXfer(), EGL_noChange,
-                              DCM_MaxReadLength, ERM_autoDetect, kAfterIdentity);
-  if (parsed.bad()) return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
-  DcmDataset& dataset = *loaded.getDataset();
+Result<ObjectIdentity> identity_of(const ParsedDicom& object, const fs::path& file) {
+  DcmDataset& dataset = object.dataset();
   const auto text = [&](const DcmTagKey& key) {
     OFString value;
     return dataset.findAndGetOFString(key, value).good() ? std::string(value.c_str()) : std::string();
@@ -43,15 +36,27 @@ Result<ObjectIdentity> identity_of(const fs::path& file, const TransferSyntax& s
   return identity;
 }
 
+Result<CheckedObject> open_object(const fs::path& file, std::optional<DicomTag> stop_at) {
+  TIDEMARK_TRY(set_up_dicom());
+  auto parsed = ParsedDicom::open(file, stop_at);
+  if (!parsed) return pass_on(parsed);
+  auto identity = identity_of(*parsed, file);
+  if (!identity) return pass_on(identity);
+  return CheckedObject{std::move(*identity), std::move(*parsed)};
+}
+
 }  // namespace
 
 Result<ObjectIdentity> check_object(const fs::path& file) {
   return guarded(file, [&]() -> Result<ObjectIdentity> {
-    TIDEMARK_TRY(set_up_dicom());
-    const auto syntax = syntax_to_parse(file);
-    if (!syntax) return tl::unexpected<Error>(syntax.error());
-    return identity_of(file, **syntax);
+    auto object = open_object(file, kAfterIdentity);
+    if (!object) return pass_on(object);
+    return std::move(object->identity);
   });
+}
+
+Result<CheckedObject> load_checked_object(const fs::path& file) {
+  return guarded(file, [&] { return open_object(file, {}); });
 }
 
 }  // namespace tidemark

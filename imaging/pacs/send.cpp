@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <set>
-#include <system_error>
 #include <utility>
 
 #include "core/without_exceptions.h"
@@ -99,8 +98,9 @@ Result<std::uint16_t> send_object(Association& association, int context, const O
   return message.msg.CStoreRSP.DimseStatus;
 }
 
-// The reason why the object was not sent; empty when it was. Fails where the conversation cannot go on.
-Result<std::string> send_one(Association& association, const Outgoing& one) {
+// The reason why the object was not sent; empty when it was, and `bytes` has grown by its file's. Fails where
+// the conversation cannot go on.
+Result<std::string> send_one(Association& association, const Outgoing& one, std::int64_t& bytes) {
   const std::string& syntax = one.identity.transfer_syntax;
   const int context = context_for(association, one.identity);
   if (context == 0) {
@@ -108,12 +108,16 @@ Result<std::string> send_one(Association& association, const Outgoing& one) {
     return fmt::format("the server does not take it as it is encoded ({})",
                        name != nullptr ? name : syntax.c_str());
   }
-  DcmFileFormat loaded;
-  const OFCondition parsed = loaded.loadFile(one.file.c_str(), DcmXfer(syntax.c_str()).getXfer());
-  if (parsed.bad()) return fmt::format("it cannot be read whole: {}", parsed.text());
-  const auto status = send_object(association, context, one.identity, *loaded.getDataset());
+  // Of many files not all can stay open since they were looked into.
+  const auto object = load_checked_object(one.file);
+  if (!object) return without_path(object.error().message, one.file);
+  if (object->identity != one.identity) return std::string("it is not what it was a moment ago");
+  const auto status = send_object(association, context, one.identity, object->parsed.dataset());
   if (!status) return tl::unexpected<Error>(status.error());
-  if (*status == STATUS_Success || DICOM_WARNING_STATUS(*status)) return std::string();
+  if (*status == STATUS_Success || DICOM_WARNING_STATUS(*status)) {
+    bytes += object->parsed.bytes().size();
+    return std::string();
+  }
   return fmt::format("the server refuses it (status {:04X})", *status);
 }
 
@@ -132,13 +136,10 @@ Result<Sent> send_all(const PacsServer& server, const std::vector<fs::path>& fil
   std::size_t done = 0;
   for (const Outgoing& one : *outgoing) {
     if (progress.cancelled()) return cancelled_error();
-    auto reason = send_one(association, one);
+    auto reason = send_one(association, one, sent.bytes);
     if (!reason) return pass_on(reason);
     if (reason->empty()) {
-      std::error_code error;
-      const auto bytes = fs::file_size(one.file, error);
       ++sent.objects;
-      if (!error) sent.bytes += static_cast<std::int64_t>(bytes);
     } else {
       sent.unsent.push_back({one.file, std::move(*reason)});
     }

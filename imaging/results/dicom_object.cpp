@@ -4,8 +4,6 @@
 #include <glm/geometric.hpp>
 
 #include "imaging/dicom/dicom_setup.h"
-#include "imaging/dicom/header_reader.h"
-#include "imaging/dicom/transfer_syntaxes.h"
 #include "imaging/dicom/write_dicom_file.h"
 #include "imaging/results/results.h"
 
@@ -13,23 +11,18 @@ namespace tidemark {
 
 namespace fs = std::filesystem;
 
-Result<std::unique_ptr<DcmFileFormat>> load_object(const fs::path& file, const DcmTagKey& stop_at) {
+Result<ParsedDicom> load_object(const fs::path& file, std::optional<DicomTag> stop_at) {
   TIDEMARK_TRY(set_up_dicom());
-  const auto syntax = syntax_to_parse(file);
-  if (!syntax) return tl::unexpected<Error>(syntax.error());
-  auto loaded = std::make_unique<DcmFileFormat>();
-  const OFCondition parsed =
-      loaded->loadFileUntilTag(file.c_str(), DcmXfer(std::string((*syntax)->uid).c_str()).getXfer(),
-                               EGL_noChange, DCM_MaxReadLength, ERM_autoDetect, stop_at);
-  if (parsed.bad()) return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), parsed.text());
+  auto parsed = ParsedDicom::open(file, stop_at);
+  if (!parsed) return parsed;
   // Where the character set is missing or wrong the text is taken as Latin-1, which has a letter for each
   // byte.
-  DcmDataset& dataset = *loaded->getDataset();
+  DcmDataset& dataset = parsed->dataset();
   if (dataset.convertToUTF8().bad()) {
     dataset.putAndInsertString(DCM_SpecificCharacterSet, "ISO_IR 100");
     dataset.convertToUTF8();
   }
-  return loaded;
+  return parsed;
 }
 
 Status save_object(std::unique_ptr<DcmDataset> dataset, E_TransferSyntax syntax, const fs::path& file) {
@@ -54,9 +47,10 @@ Status require_planes(const Geometry& geometry, const fs::path& file) {
 
 std::optional<ResultForm> result_form_of(const fs::path& file) {
   // The SOP class is among the first attributes; the patient's come after it.
-  const auto object = load_object(file, DCM_PatientName);
+  constexpr DicomTag kPatientName{0x0010, 0x0010};
+  const auto object = load_object(file, kPatientName);
   if (!object) return std::nullopt;
-  const std::string sop_class = element_text(*(*object)->getDataset(), DCM_SOPClassUID);
+  const std::string sop_class = element_text(object->dataset(), DCM_SOPClassUID);
   if (sop_class == UID_SegmentationStorage) return ResultForm::segmentation;
   if (sop_class == UID_RTStructureSetStorage) return ResultForm::structure_set;
   return std::nullopt;

@@ -8,18 +8,32 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/geometry.h"
 #include "core/result.h"
 #include "imaging/dicom/element_text.h"
+#include "imaging/dicom/parsed_dicom.h"
 
 namespace tidemark {
 
-// The whole file, its text in UTF-8. `stop_at` ends the reading there (the pixel data, say). Fails with
-// ErrorKind::input.
-Result<std::unique_ptr<DcmFileFormat>> load_object(const std::filesystem::path& file,
-                                                   const DcmTagKey& stop_at = DCM_UndefinedTagKey);
+// The file, checked and parsed, its text in UTF-8. `stop_at` ends the reading there (the pixel data, say).
+// Fails with ErrorKind::input.
+Result<ParsedDicom> load_object(const std::filesystem::path& file, std::optional<DicomTag> stop_at = {});
+
+// Calls visit(item), which returns a Status, for each item of a sequence until one fails; for none where it
+// is absent. Asked for an item by its number, DCMTK would count from the first one each time.
+template <class Visit>
+Status for_each_item(DcmItem& parent, const DcmTagKey& key, const Visit& visit) {
+  DcmSequenceOfItems* sequence = nullptr;
+  if (parent.findAndGetSequence(key, sequence).bad() || sequence == nullptr) return {};
+  for (DcmObject* item = sequence->nextInContainer(nullptr); item != nullptr;
+       item = sequence->nextInContainer(item)) {
+    TIDEMARK_TRY(visit(*static_cast<DcmItem*>(item)));
+  }
+  return {};
+}
 
 // Encodes the dataset and writes it as the whole of the file. Fails with ErrorKind::write.
 Status save_object(std::unique_ptr<DcmDataset> dataset, E_TransferSyntax syntax,

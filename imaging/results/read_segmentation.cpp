@@ -89,7 +89,7 @@ class SegmentationReader {
   }
 
   fs::path file_;
-  std::unique_ptr<DcmFileFormat> object_;
+  std::optional<ParsedDicom> object_;
   std::unique_ptr<DcmSegmentation> document_;
   std::span<const Uint8> pixels_;  // of the object, all frames one after another
   Uint16 bits_ = 1;                // a pixel
@@ -136,7 +136,7 @@ Status SegmentationReader::load() {
   auto object = load_object(file_);
   if (!object) return pass_on(object);
   object_ = std::move(*object);
-  DcmDataset& dataset = *object_->getDataset();
+  DcmDataset& dataset = object_->dataset();
   if (element_text(dataset, DCM_SOPClassUID) != UID_SegmentationStorage)
     return refuse("is no DICOM segmentation");
   const std::string type = element_text(dataset, DCM_SegmentationType);

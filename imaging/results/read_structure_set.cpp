@@ -1,5 +1,5 @@
 #include <dcmtk/config/osconfig.h>
-#include <dcmtk/dcmrt/drtstrct.h>
+#include <dcmtk/dcmdata/dctk.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,13 @@
 #include <glm/vector_relational.hpp>
 #include <map>
 
+#include "imaging/dicom/character_sets.h"
 #include "imaging/dicom/decimal.h"
 #include "imaging/guard/guarded.h"
 #include "imaging/results/dicom_object.h"
 #include "imaging/results/polygon_fill.h"
 #include "imaging/results/results.h"
+#include "imaging/results/slice_budget.h"
 
 namespace tidemark {
 namespace {
@@ -23,26 +25,37 @@ constexpr double kTolerance =
     0.2;  // of the distance of slices: planning systems round to a tenth of a millimetre
 constexpr double kFarthest = 1e9;  // voxels
 
-// Calls visit(item) for each item until one fails. Asked for an item by its number, DCMTK would count from
-// the first one each time.
-template <class Sequence, class Visit>
-Status for_each_item(Sequence& sequence, const Visit& visit) {
-  typename Sequence::Item* item = nullptr;
-  for (sequence.gotoFirstItem(); sequence.getCurrentItem(item).good(); sequence.gotoNextItem()) {
-    TIDEMARK_TRY(visit(*item));
+// Planning systems write some thousand.
+constexpr std::ptrdiff_t kMostPoints = 1'000'000;  // of a contour
+constexpr std::size_t kMostRegions = 4096;
+
+// The text of ContourData, which may be longer than any other.
+Result<std::vector<double>> numbers_of(DcmItem& contour, const fs::path& file) {
+  DcmElement* element = nullptr;
+  char* text = nullptr;
+  Uint32 length = 0;
+  if (contour.findAndGetElement(DCM_ContourData, element).bad() || element->getLength() == 0) {
+    return std::vector<double>();
   }
-  return {};
+  const bool is_text = element->getString(text, length).good() && text != nullptr;
+  const std::string_view whole(is_text ? text : "", is_text ? length : 0);
+  if (std::count(whole.begin(), whole.end(), '\\') >= 3 * kMostPoints) {
+    return fail(ErrorKind::input, "{}: ContourData (3006,0050) has more than {} points", file.string(),
+                kMostPoints);
+  }
+  auto numbers = parse_decimals(whole);
+  element->compact();  // its text is in the file
+  if (!numbers || numbers->size() % 3 != 0) {
+    return fail(ErrorKind::input, "{}: ContourData (3006,0050) is not a list of points", file.string());
+  }
+  return std::move(*numbers);
 }
 
 // The points of a contour in the grid's voxels.
-Result<std::vector<glm::dvec3>> points_of(const DRTContourSequence::Item& contour, const Geometry& grid,
-                                          const fs::path& file) {
-  OFVector<Float64> numbers;  // as text, DCMTK would take time with the square of their number
-  const bool parsed = contour.getContourData(numbers).good();
-  const auto finite = [](Float64 number) { return std::isfinite(number); };
-  if (!parsed || numbers.size() % 3 != 0 || !std::all_of(numbers.begin(), numbers.end(), finite)) {
-    return fail(ErrorKind::input, "{}: ContourData (3006,0050) is not a list of points", file.string());
-  }
+Result<std::vector<glm::dvec3>> points_of(DcmItem& contour, const Geometry& grid, const fs::path& file) {
+  const auto read = numbers_of(contour, file);
+  if (!read) return tl::unexpected<Error>(read.error());
+  const std::vector<double>& numbers = *read;
   const glm::dmat3 rotation = glm::inverse(grid.direction);
   std::vector<glm::dvec3> points;
   points.reserve(numbers.size() / 3);
@@ -76,9 +89,10 @@ std::optional<int> plane_of(const std::vector<glm::dvec3>& points) {
 // One region of interest while it is filled. Slices are flipped in the plane of its contours.
 class RegionFiller {
  public:
-  RegionFiller(const Geometry& grid, const fs::path& file) : grid_(grid), file_(file) {}
+  RegionFiller(const Geometry& grid, const fs::path& file, SliceBudget& budget)
+      : grid_(grid), file_(file), budget_(budget) {}
 
-  Status add(const DRTContourSequence::Item& contour);
+  Status add(DcmItem& contour);
   void move_into(Segment& segment);
 
   [[nodiscard]] bool reaches_beyond() const { return reaches_beyond_; }
@@ -87,15 +101,15 @@ class RegionFiller {
  private:
   const Geometry& grid_;
   const fs::path& file_;
+  SliceBudget& budget_;
   int axis_ = 2;  // across the contours
   std::map<std::int64_t, std::vector<std::uint8_t>> planes_;
   bool reaches_beyond_ = false;
   int left_out_ = 0;  // points and open lines
 };
 
-Status RegionFiller::add(const DRTContourSequence::Item& contour) {
-  OFString type;
-  contour.getContourGeometricType(type);
+Status RegionFiller::add(DcmItem& contour) {
+  const std::string type = element_text(contour, DCM_ContourGeometricType);
   if (type != "CLOSED_PLANAR" && type != "CLOSEDPLANAR_XOR") {
     ++left_out_;
     return {};
@@ -123,7 +137,10 @@ Status RegionFiller::add(const DRTContourSequence::Item& contour) {
   polygon.reserve(points->size());
   for (const glm::dvec3& point : *points) polygon.emplace_back(point[i], point[j]);
   auto& slice = planes_[static_cast<std::int64_t>(plane)];
-  slice.resize(static_cast<std::size_t>(grid_.size[i] * grid_.size[j]));
+  if (slice.empty()) {
+    TIDEMARK_TRY(budget_.take(grid_.size[i] * grid_.size[j]));
+    slice.resize(static_cast<std::size_t>(grid_.size[i] * grid_.size[j]));
+  }
   reaches_beyond_ = flip_inside(polygon, grid_.size[i], grid_.size[j], slice) || reaches_beyond_;
   return {};
 }
@@ -152,10 +169,8 @@ void RegionFiller::move_into(Segment& segment) {
   });
 }
 
-std::optional<SegmentColour> colour_of(const DRTROIContourSequence::Item& contours) {
-  OFString text;
-  if (contours.getROIDisplayColor(text, -1).bad()) return std::nullopt;
-  const auto values = parse_integers(text.c_str());
+std::optional<SegmentColour> colour_of(DcmItem& region) {
+  const auto values = parse_integers(element_text(region, DCM_ROIDisplayColor));
   const auto fits = [](long long value) { return value >= 0 && value <= 255; };
   if (!values || values->size() != 3 || !std::all_of(values->begin(), values->end(), fits))
     return std::nullopt;
@@ -163,18 +178,20 @@ std::optional<SegmentColour> colour_of(const DRTROIContourSequence::Item& contou
                        static_cast<std::uint8_t>((*values)[2])};
 }
 
+// As it is written, cut to what a message can hold.
+std::string number_in(DcmItem& region, const DcmTagKey& key) {
+  constexpr std::size_t kLongest = 12;  // IS (PS3.5 6.2)
+  return element_text(region, key).substr(0, kLongest);
+}
+
 // The names that the structure set gives to the regions' numbers.
-std::map<std::string, std::string> read_names(DRTStructureSetIOD& set) {
+std::map<std::string, std::string> read_names(DcmDataset& dataset) {
   std::map<std::string, std::string> names;
-  static_cast<void>(for_each_item(set.getStructureSetROISequence(),
-                                  [&](const DRTStructureSetROISequence::Item& region) -> Status {
-                                    OFString number;
-                                    OFString name;
-                                    region.getROINumber(number);
-                                    region.getROIName(name);
-                                    if (!name.empty()) names.try_emplace(number.c_str(), name.c_str());
-                                    return {};
-                                  }));
+  static_cast<void>(for_each_item(dataset, DCM_StructureSetROISequence, [&](DcmItem& region) -> Status {
+    std::string name = tidied(element_text(region, DCM_ROIName));
+    if (!name.empty()) names.try_emplace(number_in(region, DCM_ROINumber), std::move(name));
+    return {};
+  }));
   return names;
 }
 
@@ -191,35 +208,31 @@ void say_what_is_missing(const RegionFiller& filler, const std::string& name, Se
 Result<Segments> read(const fs::path& file, const Geometry& grid) {
   auto object = load_object(file);
   if (!object) return pass_on(object);
-  DcmDataset& dataset = *(*object)->getDataset();
+  DcmDataset& dataset = object->dataset();
   if (element_text(dataset, DCM_SOPClassUID) != UID_RTStructureSetStorage) {
     return fail(ErrorKind::input, "{}: is no RT structure set", file.string());
   }
-  DRTStructureSetIOD set;
-  const OFCondition parsed = set.read(dataset);
-  if (parsed.bad()) {
-    return fail(ErrorKind::input, "{}: is no valid RT structure set: {}", file.string(), parsed.text());
-  }
-  const auto names = read_names(set);
+  const auto names = read_names(dataset);
   Segments segments{grid, {}, {}};
-  Status filled =
-      for_each_item(set.getROIContourSequence(), [&](DRTROIContourSequence::Item& region) -> Status {
-        RegionFiller filler(grid, file);
-        const Status added =
-            for_each_item(region.getContourSequence(),
-                          [&](const DRTContourSequence::Item& contour) { return filler.add(contour); });
-        if (!added) return added;
-        OFString number;
-        region.getReferencedROINumber(number);
-        const auto named = names.find(number.c_str());
-        Segment segment;
-        segment.name = named != names.end() ? named->second : fmt::format("Region {}", number.c_str());
-        segment.colour = colour_of(region);
-        say_what_is_missing(filler, segment.name, segments);
-        filler.move_into(segment);
-        segments.list.push_back(std::move(segment));
-        return {};
-      });
+  SliceBudget budget(file);
+  Status filled = for_each_item(dataset, DCM_ROIContourSequence, [&](DcmItem& region) -> Status {
+    if (segments.list.size() == kMostRegions) {
+      return fail(ErrorKind::input, "{}: ROIContourSequence (3006,0039) holds more than {} regions",
+                  file.string(), kMostRegions);
+    }
+    RegionFiller filler(grid, file, budget);
+    TIDEMARK_TRY(
+        for_each_item(region, DCM_ContourSequence, [&](DcmItem& contour) { return filler.add(contour); }));
+    const std::string number = number_in(region, DCM_ReferencedROINumber);
+    const auto named = names.find(number);
+    Segment segment;
+    segment.name = named != names.end() ? named->second : fmt::format("Region {}", number);
+    segment.colour = colour_of(region);
+    say_what_is_missing(filler, segment.name, segments);
+    filler.move_into(segment);
+    segments.list.push_back(std::move(segment));
+    return {};
+  });
   if (!filled) return pass_on(filled);
   if (segments.list.empty()) return fail(ErrorKind::input, "{}: it holds no contours", file.string());
   return segments;

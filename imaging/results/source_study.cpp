@@ -94,9 +94,10 @@ Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& stu
 Result<SourceStudy> source_study(SourceFiles files, const Geometry& geometry) {
   SourceStudy study = anonymous_study(geometry);
   if (!files.empty()) {
-    auto first = load_object(files.front(), DCM_PixelData);
+    constexpr DicomTag kPixelData{0x7fe0, 0x0010};
+    auto first = load_object(files.front(), kPixelData);
     if (!first) return pass_on(first);
-    study.first = std::move(*first);
+    study.first = first->take();
     DcmDataset& attributes = study.attributes();
     // UIDs that the source lacks are new: a result needs them.
     const auto take = [&](const DcmTagKey& key, std::string& uid) {

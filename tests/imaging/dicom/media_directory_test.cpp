@@ -1,7 +1,10 @@
 // Media with a DICOMDIR.
 #include <QElapsedTimer>
+#include <algorithm>
 #include <cctype>
+#include <stop_token>
 
+#include "imaging/dicom/media_directory.h"
 #include "imaging/load_study.h"
 #include "tests/imaging/dicom/bad_dicom.h"
 #include "tests/imaging/dicom/directory_bytes.h"
@@ -168,6 +171,82 @@ class MediaDirectoryTest : public QObject {
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.front().files.size(), std::size_t{1});
     QVERIFY2(timer.elapsed() < 10'000, qPrintable(QString::number(timer.elapsed())));
+  }
+
+  // Four megabytes each, of what takes long to read or much room to keep.
+  void a_hostile_directory_is_read_at_once_data() {
+    constexpr std::size_t kSize = 4'000'000;
+    const auto repeated = [](const std::string& record) {
+      std::string records;
+      records.reserve(kSize + record.size());
+      while (records.size() < kSize) records += record;
+      return records;
+    };
+    const auto name = [](const std::string& value) { return test::text(0x00041500, "CS", value); };
+    const std::string long_uid(60'000, '1');
+    const std::string series = test::directory_record("SERIES", test::text(0x0020000e, "UI", long_uid));
+    const std::string link = test::element(0x00041400, "UL", test::long_word(400)) +
+                             test::element(0x00041420, "UL", test::long_word(400));
+    QTest::addColumn<QByteArray>("records");
+    QTest::addColumn<qint64>("missing");
+    const auto add = [](const char* what, const std::string& records, std::size_t missing) {
+      QTest::newRow(what) << QByteArray::fromStdString(records) << static_cast<qint64>(missing);
+    };
+    const auto count = [&](const std::string& record) { return (kSize + record.size() - 1) / record.size(); };
+    const std::string backslashes = test::directory_record("IMAGE", name(std::string(60'000, '\\')));
+    add("names of very many components", repeated(backslashes), count(backslashes));
+    const std::string absent = test::item(name("IMAGES\\NO"));
+    add("a long series UID before very many missing files", series + repeated(absent), count(absent));
+    const std::string other = test::item(test::text(0x00041430, "CS", "SERIES") +
+                                         test::text(0x0020000e, "UI", "1.2") + name("IMAGES\\NO"));
+    add("very many series", repeated(other), count(other));
+    add("very many long series UIDs", repeated(series), 0);
+    const std::string circle = test::item(link + name(kAll[0]));
+    add("records that point at one record", repeated(circle), 0);
+    add("names within names",
+        repeated(test::item(test::element(0x00041220, "SQ", test::item(name("IMAGES\\NO"))))), 0);
+  }
+  void a_hostile_directory_is_read_at_once() {
+    QFETCH(QByteArray, records);
+    QFETCH(qint64, missing);
+    const Disc disc;
+    const std::string one = test::item(test::text(0x00041500, "CS", kAll[0]));
+    const std::string all = test::element(0x00041220, "SQ", one + records.toStdString());
+    test::write_bytes(disc.directory(), test::file(test::Dataset().put(0x00041220, all)));
+    QElapsedTimer timer;
+    timer.start();
+    const auto directory = read_media_directory(disc.directory());
+    QVERIFY2(timer.elapsed() < 2'000, qPrintable(QString::number(timer.elapsed())));
+    QCOMPARE(test::failure(directory), QString());
+    QCOMPARE(directory->files.size(), std::size_t{1});
+    QCOMPARE(qint64{directory->missing.count}, missing);
+    QVERIFY(list_missing(directory->missing).size() < 400);
+    for (const auto& [uid, of_series] : directory->missing_of_series) {
+      QVERIFY(uid.size() <= 64 && of_series.first_names.size() <= 3);
+    }
+  }
+
+  void reading_a_directory_says_how_far_it_is_and_can_be_stopped() {
+    const Disc disc;
+    std::string records;
+    const std::string record = test::item(test::text(0x00041500, "CS", kAll[0]));
+    for (int n = 0; n < 10'000; ++n) records += record;
+    const std::string all = test::element(0x00041220, "SQ", records);
+    test::write_bytes(disc.directory(), test::file(test::Dataset().put(0x00041220, all)));
+    std::stop_source stop;
+    std::vector<double> told;
+    const Progress progress{[&](double fraction, std::string_view) {
+                              told.push_back(fraction);
+                              if (fraction > 0.5) stop.request_stop();
+                            },
+                            stop.get_token()};
+    const auto directory = read_media_directory(disc.directory(), progress);
+    QVERIFY(!directory);
+    QCOMPARE(directory.error().kind, ErrorKind::cancelled);
+    QVERIFY(told.size() > 5 && std::is_sorted(told.begin(), told.end()));
+    QVERIFY(told.back() < 0.6);
+    QVERIFY(find_series(disc.directory(), progress).error().kind == ErrorKind::cancelled);
+    QVERIFY(find_series(disc.folder.path(), progress).error().kind == ErrorKind::cancelled);
   }
 
   void a_damaged_directory_does_not_hide_the_series_beside_it() {

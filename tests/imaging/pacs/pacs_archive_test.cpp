@@ -7,6 +7,7 @@
 #include "imaging/load_study.h"
 #include "imaging/pacs/services.h"
 #include "imaging/phantom/phantom.h"
+#include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/pacs/archives.h"
 #include "tests/imaging/pacs/encodings.h"
@@ -247,6 +248,41 @@ class PacsArchiveTest : public QObject {
     QCOMPARE(sent->unsent.size(), std::size_t{1});
     QCOMPARE(sent->unsent.front().file, files[1]);
     QVERIFY2(sent->unsent.front().reason.find("(7FE0,0010)") != std::string::npos,
+             sent->unsent.front().reason.c_str());
+  }
+
+  void a_file_that_is_replaced_after_it_was_looked_into_is_not_sent_unseen_data() {
+    QTest::addColumn<QByteArray>("second");
+    QTest::addColumn<QString>("reason");
+    Dataset other = Dataset::slice();
+    QTest::newRow("another image") << QByteArray::fromStdString(file(other))
+                                   << "it is not what it was a moment ago";
+    QTest::newRow("sequences without end")
+        << QByteArray::fromStdString(file(other.put(0x00081140, nested(100'000, "SQ", kExplicit, false))))
+        << "lies in more than 64 sequences";
+  }
+  void a_file_that_is_replaced_after_it_was_looked_into_is_not_sent_unseen() {
+    QFETCH(QByteArray, second);
+    QFETCH(QString, reason);
+    const StoringPeer peer({"+xa"});
+    const TemporaryFolder folder;
+    const auto files = write_series(sample_volume({4, 4, 3}), folder / "series");
+    // The first object that is sent says so, when all have been looked into.
+    bool is_replaced = false;
+    const Progress progress{
+        [&](double, std::string_view what) {
+          if (std::exchange(is_replaced, is_replaced || what == "sending objects") || !is_replaced) return;
+          write_bytes(folder / "other.dcm", second.toStdString());
+          std::filesystem::rename(folder / "other.dcm", files[2]);
+        },
+        {}};
+    const auto sent = send_files(peer.server(), files, progress);
+    QCOMPARE(failure(sent), QString());
+    QVERIFY(is_replaced);
+    QCOMPARE(sent->objects, 2);
+    QCOMPARE(sent->unsent.size(), std::size_t{1});
+    QCOMPARE(sent->unsent.front().file, files[2]);
+    QVERIFY2(QString::fromStdString(sent->unsent.front().reason).contains(reason),
              sent->unsent.front().reason.c_str());
   }
 

@@ -2,10 +2,13 @@
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 
+#include <sys/resource.h>
+
 #include <QJsonArray>
 #include <cmath>
 
 #include "imaging/results/contours.h"
+#include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/results/sample_results.h"
 #include "tests/support/support.h"
@@ -222,6 +225,30 @@ class StructureSetTest : public QObject {
     QCOMPARE(test::failure(read), QString());
     QVERIFY2(read->changes.front().find("1 points and open contours") != std::string::npos,
              read->changes.front().c_str());
+  }
+
+  // Each a few bytes in the file; a parser's own copy of one would be kilobytes.
+  void very_many_empty_contours_take_no_memory() {
+    using namespace tidemark::test;
+    const TemporaryFolder folder;
+    std::string contours;
+    for (int n = 0; n < 200'000; ++n) contours += item("", kImplicit);
+    const std::string region = item(element(0x30060040, "SQ", contours, kImplicit), kImplicit);
+    Dataset set(kImplicit);
+    set.put_text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.481.3").put_text(0x00080018, "UI", "2.25.1");
+    set.put(0x30060039, element(0x30060039, "SQ", region, kImplicit));
+    write_bytes(folder / "set.dcm", file(set));
+    const auto peak_mib = [] {
+      rusage usage{};
+      getrusage(RUSAGE_SELF, &usage);
+      return usage.ru_maxrss / 1024;
+    };
+    const long before = peak_mib();
+    const auto read = read_structure_set(folder / "set.dcm", sample_grid({21, 17, 6}, glm::dmat3(1.0)));
+    QCOMPARE(failure(read), QString());
+    QVERIFY2(read->changes.front().find("200000 points and open contours") != std::string::npos,
+             read->changes.front().c_str());
+    QVERIFY2(peak_mib() - before < 80, qPrintable(QString::number(peak_mib() - before)));
   }
 
   void damage_is_refused_by_name_data() {

@@ -1,0 +1,34 @@
+#include "imaging/dicom/checked_dicom.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include "imaging/dicom/attribute_reader.h"
+#include "imaging/dicom/detect.h"
+
+namespace tidemark {
+
+namespace fs = std::filesystem;
+
+Result<CheckedDicom> check_dicom(const fs::path& file) {
+  auto bytes = FileBytes::open(file);
+  if (!bytes) return pass_on(bytes);
+  if (!begins_as_dicom(*bytes)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
+  Preflight checked = preflight_dicom(*bytes);
+  return CheckedDicom{std::make_unique<FileBytes>(std::move(*bytes)), std::move(checked)};
+}
+
+Result<CheckedDicom> check_dicom_to_parse(const fs::path& file) {
+  auto opened = check_dicom(file);
+  if (!opened || opened->checked.may_be_parsed()) return opened;
+  return fail(ErrorKind::input, "{}: {}", file.string(), describe(opened->checked));
+}
+
+std::string describe(const Preflight& checked) {
+  const auto& [tag, offset, what] = checked.reason;
+  const std::string element = tag == DicomTag{} ? "the dataset" : name_of(DcmTagKey(tag.group, tag.element));
+  const bool is_damaged = checked.verdict == Preflight::Verdict::damaged;
+  return fmt::format("{}{} {} (at byte {})", is_damaged ? "is damaged: " : "", element, what, offset);
+}
+
+}  // namespace tidemark
