@@ -11,6 +11,7 @@
 class QMdiArea;
 class QMdiSubWindow;
 class QStackedWidget;
+class QToolButton;
 
 namespace tidemark {
 
@@ -90,6 +91,7 @@ class MainWindow : public QMainWindow {
   LoadingView* loading_ = nullptr;
   MessageBar* messages_ = nullptr;
   ValueBar* values_ = nullptr;
+  QToolButton* value_details_ = nullptr;
   SavedCases* saved_ = nullptr;
   CaseResults* results_ = nullptr;
   QPointer<CaseWindow> active_;
