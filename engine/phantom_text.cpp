@@ -24,7 +24,7 @@ constexpr Source kTexts[] = {
     {"tumour", QT_TRANSLATE_NOOP("tidemark::PhantomText", "Brain tumour"),
      QT_TRANSLATE_NOOP(
          "tidemark::PhantomText",
-         "A lobed tumour in a head: seed it, let the surface grow, and compare with the truth.")},
+         "A lobed tumour in a head: place a surface in it, let it grow, and compare with the truth.")},
     {"cortex", QT_TRANSLATE_NOOP("tidemark::PhantomText", "Folded sheet"),
      QT_TRANSLATE_NOOP("tidemark::PhantomText",
                        "A sheet as folded as the cortex: the largest surface for its volume.")},

@@ -118,16 +118,18 @@ void MainWindow::make_centre() {
 void MainWindow::make_status_bar() {
   values_ = new ValueBar;
   statusBar()->addWidget(values_, 1);
-  auto* details = new QToolButton;
-  details->setText(tr("Details"));
-  details->setAccessibleName(tr("Details of the values under the mouse"));
-  details->setToolTip(tr("Shows also the terms of the equation under the mouse: D, φ, κ and |∇φ|."));
-  details->setAutoRaise(true);
-  details->setCheckable(true);
-  connect(details, &QToolButton::toggled, values_, &ValueBar::set_detailed);
-  connect(details, &QToolButton::clicked, this, [](bool on) { QSettings().setValue("details/values", on); });
-  details->setChecked(QSettings().value("details/values", false).toBool());
-  statusBar()->addPermanentWidget(details);
+  value_details_ = new QToolButton;
+  value_details_->setText(tr("Details"));
+  value_details_->setAccessibleName(tr("Details of the values under the mouse"));
+  value_details_->setToolTip(tr("Shows also the terms of the equation under the mouse: D, φ, κ and |∇φ|."));
+  value_details_->setAutoRaise(true);
+  value_details_->setCheckable(true);
+  connect(value_details_, &QToolButton::toggled, values_, &ValueBar::set_detailed);
+  connect(value_details_, &QToolButton::clicked, this,
+          [](bool on) { QSettings().setValue("details/values", on); });
+  value_details_->setChecked(QSettings().value("details/values", false).toBool());
+  value_details_->hide();  // until there is a case
+  statusBar()->addPermanentWidget(value_details_);
   loading_ = new LoadingView(LoadingView::Shape::line);
   loading_->hide();
   statusBar()->addPermanentWidget(loading_);
@@ -294,6 +296,7 @@ void MainWindow::activate(QMdiSubWindow* child) {
   CaseProxy* proxy = active_ ? &active_->proxy() : nullptr;
   panels_->set_case(active_);
   values_->set_proxy(proxy);
+  value_details_->setVisible(proxy != nullptr);
   if (proxy) {
     active_connections_ << connect(proxy, &CaseProxy::state_changed, this, &MainWindow::follow_case)
                         << connect(&proxy->display(), &Display::changed, this, &MainWindow::follow_case);

@@ -10,6 +10,7 @@
 
 class QMdiSubWindow;
 class QStackedWidget;
+class QToolButton;
 
 namespace tidemark {
 
@@ -98,6 +99,7 @@ class MainWindow : public QMainWindow {
   LoadingView* loading_ = nullptr;
   MessageBar* messages_ = nullptr;
   ValueBar* values_ = nullptr;
+  QToolButton* value_details_ = nullptr;
   CaseFiles* files_ = nullptr;
   CaseExports* exports_ = nullptr;
   SessionReader* session_reader_ = nullptr;

@@ -42,10 +42,8 @@ void paint_line(QPainter& painter, const QPolygonF& line, const QColor& colour, 
   painter.drawPolyline(line);
 }
 
-void paint_lines(QPainter& painter, const QList<QLineF>& lines, const QColor& colour) {
-  painter.setPen(QPen(kRim, 3.5, Qt::SolidLine, Qt::RoundCap));
-  painter.drawLines(lines);
-  painter.setPen(QPen(colour, 2.0, Qt::SolidLine, Qt::RoundCap));
+void paint_fine_lines(QPainter& painter, const QList<QLineF>& lines, const QColor& colour) {
+  painter.setPen(QPen(colour, 1.2, Qt::SolidLine, Qt::RoundCap));
   painter.drawLines(lines);
 }
 

@@ -21,7 +21,8 @@ namespace tidemark {
 void paint_text(QPainter& painter, const QRectF& where, int flags, const QString& text);
 void paint_line(QPainter& painter, const QPolygonF& line, const QColor& colour = Qt::white,
                 double width = 1.5);
-void paint_lines(QPainter& painter, const QList<QLineF>& lines, const QColor& colour);
+// So fine that the surface's outline is still seen where both are the same.
+void paint_fine_lines(QPainter& painter, const QList<QLineF>& lines, const QColor& colour);
 // Of a known answer: apart from the surface's yellow, the speed map's colours and the first labels', also
 // for colour-blind eyes.
 inline constexpr QColor kTruthColour(190, 40, 255);

@@ -207,7 +207,7 @@ void SliceViewWidget::paint_truth(QPainter& painter, const SliceScreen& on_scree
   QList<QLineF> lines;
   lines.reserve(outline_->lines.size());
   for (const QLineF& line : outline_->lines) lines << QLineF(to_screen(line.p1()), to_screen(line.p2()));
-  paint_lines(painter, lines, kTruthColour);
+  paint_fine_lines(painter, lines, kTruthColour);
 }
 
 void SliceViewWidget::paint_corners(QPainter& painter) const {

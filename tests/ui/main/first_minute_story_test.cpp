@@ -79,6 +79,8 @@ void FirstMinuteStoryTest::a_card_a_click_and_play_lead_to_the_tumour() {
   click(*play);
   QVERIFY(Desktop::wait_for([&] { return desktop.state().playing && desktop.state().step > 5; }));
   QVERIFY(!play->isVisible());
+  const double early = desktop.state().dice.value_or(0.0);
+  QVERIFY(Desktop::wait_for([&] { return desktop.state().playing && *desktop.state().dice > early + 0.05; }));
   desktop.screenshot_at_once("first-3-playing");
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }, 240000));
   desktop.wait_until_idle();
@@ -88,6 +90,29 @@ void FirstMinuteStoryTest::a_card_a_click_and_play_lead_to_the_tumour() {
   QVERIFY2(std::abs(desktop.state().surface.volume_ml / 117.6 - 1.0) < 0.04,
            qPrintable(QString::number(desktop.state().surface.volume_ml)));
   QVERIFY(!play->isVisible());
+
+  // As the card promises: compared with the truth, whose outline can be seen.
+  QVERIFY(desktop.state().dice && *desktop.state().dice > 0.97);
+  const auto violet_pixels = [&] {
+    const QImage picture = axial->grab_picture();
+    int count = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        const QColor colour = picture.pixelColor(x, y);
+        const bool is_violet = colour.blue() > colour.green() + 60 && colour.red() > colour.green() + 30;
+        count += is_violet ? 1 : 0;
+      }
+    }
+    return count;
+  };
+  QCOMPARE(violet_pixels(), 0);
+  auto* truth = seen<QCheckBox>(desktop, "Show the truth");
+  QVERIFY(truth);
+  click(*truth, {8, truth->height() / 2});
+  desktop.wait_until_idle();
+  QVERIFY2(violet_pixels() > 100, qPrintable(QString::number(violet_pixels())));
+  desktop.screenshot("first-5-truth");
+  click(*truth, {8, truth->height() / 2});
 
   // From the start once more.
   desktop.press(Qt::Key_Home);
