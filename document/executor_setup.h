@@ -29,7 +29,8 @@ class ExecutorSetup {
   Status change_executor(ExecutorKind kind, const ExecutorOptions& options, const Field& phi);
 
   // Begins as the recipe does, with the present parameters and source; an empty start: outside everywhere.
-  Status begin(const Recipe& recipe, const Progress& progress);
+  // phi as it then is.
+  Result<Field> begin(const Recipe& recipe, const Progress& progress);
   // phi is put back as it is: see ResumeEvent.
   Status resume();
 

@@ -17,9 +17,9 @@ namespace tidemark {
 
 // Used on one thread at a time: that of the executor's graphics context, where it has one.
 //
-// phi is read back only when it has to be known: at the end of an entry of the history, for a checkpoint,
-// and before the first step after something was painted. Between these, `dirty_` says that known_ is not
-// phi any more.
+// phi is read back only when it has to be known: at the end of an entry of the history, for a checkpoint
+// (whoever measures or saves asks for one, while it plays too), and before the first step after something
+// was painted. Between these, `dirty_` says that known_ is not phi any more.
 class LevelSet final : private OpenChange {
  public:
   // Everywhere outside at first, on the volume as it is. Fails as make_executor() does. `history` must
@@ -35,6 +35,8 @@ class LevelSet final : private OpenChange {
   [[nodiscard]] double smoothed_mm() const { return setup_.smoothed_mm(); }
   [[nodiscard]] std::int64_t step() const { return recipe_.steps; }  // since the start
   [[nodiscard]] bool begun() const { return recipe_.begun(); }       // there is a surface to steer
+  // phi before the first step; null: a session was opened that goes on from later.
+  [[nodiscard]] const std::shared_ptr<const Field>& start() const { return start_; }
   // Everything since the start. Which series its source comes from, the case knows.
   [[nodiscard]] const Recipe& recipe() const { return recipe_; }
 

@@ -19,10 +19,8 @@ class CaseMeter {
   // After a change of phi that is not a step: nothing has converged.
   void edited();
   // Something else has changed that figures depend on.
-  void adjusted() {
-    converged_ = false;
-    thorough_ = false;
-  }
+  void adjusted();
+  void labels_changed() { thorough_ = false; }
 
   [[nodiscard]] double seconds_per_step() const { return seconds_per_step_; }
   [[nodiscard]] bool converged() const { return converged_; }
@@ -31,7 +29,7 @@ class CaseMeter {
   // times a second and at least once.
   [[nodiscard]] bool due() const { return Clock::now() >= due_at_; }
   // Takes those of the phi that `read_phi` gives, which takes time where it is on a GPU, and notes them on
-  // the level set's curve. `thoroughly`: also what is under the surface and the labels.
+  // the level set's curve. `thoroughly`: also what is under the surface and the labels, and beside it.
   using ReadPhi = std::function<Result<std::shared_ptr<const Field>>()>;
   Status measure(const ReadPhi& read_phi, Case& document, bool thoroughly);
   [[nodiscard]] bool thorough() const { return thorough_; }
@@ -50,6 +48,8 @@ class CaseMeter {
   double seconds_per_step_ = 0.0;
   std::optional<double> surface_speed_;  // once steps have been computed
   bool converged_ = false;
+  Outcome outcome_ = Outcome::unfinished;
+  std::optional<double> wider_range_;
   Clock::time_point due_at_;
   bool thorough_ = false;
   std::shared_ptr<const Field> phi_;

@@ -42,13 +42,12 @@ void ValueBar::follow() {
                             .arg(point->y, 0, 'f', 1)
                             .arg(point->z, 0, 'f', 1);
   const QString unit = volume.unit.empty() ? QString() : QLatin1Char(' ') + value_unit(volume);
-  const double intensity = volume.value(voxel);
-  QString values = tr("I %1%2   D %3")
-                       .arg(intensity, 0, 'g', 5)
-                       .arg(unit)
-                       .arg(data_speed(proxy_->parameters(), intensity), 0, 'f', 2);
+  const Volume& source = *proxy_->source();
+  QString values = tr("I %1%2").arg(volume.value(voxel), 0, 'g', 5).arg(unit);
+  if (state.smoothed_mm > 0.0) values += tr("   smoothed %1").arg(source.value(voxel), 0, 'g', 5);
+  values += tr("   D %1").arg(data_speed(proxy_->parameters(), source.value(voxel)), 0, 'f', 2);
   if (state.phi && state.begun) {
-    const VoxelValues at = values_at(*state.phi, volume, proxy_->parameters(), voxel);
+    const VoxelValues at = values_at(*state.phi, source, proxy_->parameters(), voxel);
     const bool clamped = std::abs(at.phi) >= state.phi->band;
     values += clamped ? tr("   φ %1").arg(at.phi, 0, 'f', 2)
                       : tr("   φ %1   κ %2   |∇φ| %3")

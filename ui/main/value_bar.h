@@ -1,4 +1,4 @@
-// What is under the mouse: I, D, kappa, |grad phi|, phi and where that is.
+// What is under the mouse: I, what D sees of it, D, kappa, |grad phi|, phi and where that is.
 #pragma once
 
 #include <QLabel>

@@ -56,7 +56,8 @@ void EvolutionFigures::refresh() {
   const CaseState& state = proxy()->state();
   show_curves();
   step_->setText(count_text(state.step));
-  const double pace = state.playing ? state.steps_per_second : state.solver_steps_per_second;
+  const double measured = state.playing ? state.steps_per_second : state.solver_steps_per_second;
+  const double pace = has_surface(state.outcome) ? measured : 0.0;
   pace_->setText(pace > 0.0 ? short_text(pace) : QStringLiteral("–"));
   pages_->setText(tr("%1, %2 at rest")
                       .arg(count_text(state.memory.resident_pages), count_text(state.memory.quiet_pages)));

@@ -20,8 +20,8 @@ double reach_mm(const Geometry& geometry) {
 
 }  // namespace
 
-ProbeDrag::ProbeDrag(DragView view, const Pointer& pressed)
-    : Drag(std::move(view)), probe_(proxy().volume()), last_mm_(*pressed.patient_mm) {
+ProbeDrag::ProbeDrag(DragView view, const Pointer& pressed, std::shared_ptr<const Volume> volume)
+    : Drag(std::move(view)), probe_(std::move(volume)), last_mm_(*pressed.patient_mm) {
   probe_.add(last_mm_, last_mm_, reach_mm(proxy().volume().geometry));
   way_mm_.push_back(last_mm_);
 }
@@ -40,6 +40,9 @@ void ProbeDrag::paint(QPainter& painter) const {
   paint_line(painter, line);
 }
 
+SpeedProbeDrag::SpeedProbeDrag(DragView view, const Pointer& pressed)
+    : ProbeDrag(view, pressed, view.proxy.source()) {}
+
 void SpeedProbeDrag::set() {
   const SourceSummary& summary = proxy().summary();
   const ValueProbe::Spread values = probe().values();
@@ -56,6 +59,9 @@ QString SpeedProbeDrag::text() const {
       .arg(values.deviation, 0, 'f', 1)
       .arg(probe().count());
 }
+
+TransferProbeDrag::TransferProbeDrag(DragView view, const Pointer& pressed)
+    : ProbeDrag(view, pressed, view.proxy.study().volume) {}
 
 void TransferProbeDrag::set() {
   const SourceSummary& summary = proxy().summary();
