@@ -114,6 +114,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
   AtomicFile file;
   file.target_ = target;
   file.temporary_ = std::move(*made);
+  file.unfinished_ = Unfinished(file.temporary_);
   return file;
 }
 
@@ -130,11 +131,14 @@ AtomicFile::~AtomicFile() {
 }
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})) {}
+    : target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      unfinished_(std::move(other.unfinished_)) {}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   std::swap(target_, other.target_);
   std::swap(temporary_, other.temporary_);
+  std::swap(unfinished_, other.unfinished_);
   return *this;
 }
 
@@ -168,6 +172,7 @@ Result<AtomicFolder> AtomicFolder::create(const fs::path& target) {
   AtomicFolder folder;
   folder.target_ = place;
   folder.temporary_ = std::move(*made);
+  folder.unfinished_ = Unfinished(folder.temporary_);
   folder.lock_ = std::move(lock);
   if (has_older) {
     const fs::perms older = fs::status(place, error).permissions();
@@ -184,6 +189,7 @@ AtomicFolder::~AtomicFolder() {
 AtomicFolder::AtomicFolder(AtomicFolder&& other) noexcept
     : target_(std::move(other.target_)),
       temporary_(std::exchange(other.temporary_, {})),
+      unfinished_(std::move(other.unfinished_)),
       lock_(std::move(other.lock_)) {}
 
 Status AtomicFolder::commit() {

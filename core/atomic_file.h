@@ -7,6 +7,7 @@
 
 #include "core/file_lock.h"
 #include "core/result.h"
+#include "core/unfinished.h"
 
 namespace tidemark {
 
@@ -34,6 +35,7 @@ class AtomicFile {
   AtomicFile() = default;
   std::filesystem::path target_;
   std::filesystem::path temporary_;  // empty when committed or moved from
+  Unfinished unfinished_;
 };
 
 // The same for a folder of files that belong together: it is filled under a temporary name beside its target,
@@ -60,7 +62,8 @@ class AtomicFolder {
   int exchange();  // returns 0 or errno
   std::filesystem::path target_;
   std::filesystem::path temporary_;  // empty when it has been renamed or moved from
-  FileLock lock_;                    // of the folder that was made
+  Unfinished unfinished_;
+  FileLock lock_;  // of the folder that was made
 };
 
 // Waits until what was written to a file, or the names in a folder, are on the disk. Fails

@@ -77,10 +77,11 @@ Status ExecutorSetup::change_executor(ExecutorKind kind, const ExecutorOptions& 
   return remake(source_, kind, options, phi);
 }
 
-Status ExecutorSetup::begin(const Recipe& recipe, const Progress& progress) {
-  if (recipe.start.empty()) return executor_->restore(Field::empty(source_->geometry, executor_->band()));
-  TIDEMARK_TRY(tidemark::begin(*executor_, *source_, recipe.start, progress));
-  return {};
+Result<Field> ExecutorSetup::begin(const Recipe& recipe, const Progress& progress) {
+  if (!recipe.start.empty()) return tidemark::begin(*executor_, *source_, recipe.start, progress);
+  Field nothing = Field::empty(source_->geometry, executor_->band());
+  TIDEMARK_TRY(executor_->restore(nothing));
+  return nothing;
 }
 
 Status ExecutorSetup::resume() {

@@ -28,8 +28,9 @@ class ExecutorSetup {
   Status smooth_source(double sigma_mm);
   Status change_executor(ExecutorKind kind, const ExecutorOptions& options, const Field& phi);
 
-  // The recipe's start with the present parameters and source; an empty start is outside everywhere.
-  Status begin(const Recipe& recipe, const Progress& progress);
+  // The recipe's start with the present parameters and source; an empty start is outside everywhere. Returns
+  // phi at the start.
+  Result<Field> begin(const Recipe& recipe, const Progress& progress);
   // Puts back the executor's own phi: see ResumeEvent.
   Status resume();
 

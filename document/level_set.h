@@ -18,8 +18,8 @@ namespace tidemark {
 // Used on one thread at a time: that of the executor's graphics context, where it has one.
 //
 // phi is read back only where its value must be known: at the end of an entry of the history, for a
-// checkpoint, and before the first step after paint. Between these, `dirty_` means that phi has changed
-// since known_.
+// checkpoint (measuring and saving ask for one, while it plays too), and before the first step after paint.
+// Between these, `dirty_` means that phi has changed since known_.
 class LevelSet final : private OpenChange {
  public:
   // Everywhere outside at first, on the unsmoothed volume. Fails as make_executor() does. `history` must
@@ -35,6 +35,8 @@ class LevelSet final : private OpenChange {
   [[nodiscard]] double smoothed_mm() const { return setup_.smoothed_mm(); }
   [[nodiscard]] std::int64_t step() const { return recipe_.steps; }  // since the start
   [[nodiscard]] bool begun() const { return recipe_.begun(); }       // there is a surface to steer
+  // phi before the first step; null: a session was opened that goes on from later.
+  [[nodiscard]] const std::shared_ptr<const Field>& start() const { return start_; }
   // Everything since the start, but for the source's series, which the case adds.
   [[nodiscard]] const Recipe& recipe() const { return recipe_; }
 

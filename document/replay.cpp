@@ -42,8 +42,10 @@ Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume
   auto setup =
       ExecutorSetup::create(std::move(volume), recipe.smoothed_mm, recipe.parameters, kind, executor_options);
   if (!setup) return pass_on(setup);
-  TIDEMARK_TRY(setup->begin(recipe, progress));
+  auto start = setup->begin(recipe, progress);
+  if (!start) return pass_on(start);
   Replay result;
+  result.start = std::move(*start);
   TIDEMARK_TRY(setup->play(recipe, 0, 0, recipe.steps, progress, &result.advance));
   auto phi = setup->executor().snapshot();
   if (!phi) return pass_on(phi);

@@ -16,6 +16,7 @@ struct ReplayOptions {
 
 struct Replay {
   Field phi;
+  Field start;  // before the first edit and step
   RecipeExecutor executor;
   AdvanceReport advance;
   MemoryReport memory;

@@ -5,6 +5,8 @@
 #include <mutex>
 #include <thread>
 
+#include "core/without_exceptions.h"
+
 namespace tidemark {
 namespace {
 
@@ -22,28 +24,48 @@ Running& running() {
   return all;
 }
 
+void begin_one() {
+  const std::lock_guard lock(running().mutex);
+  ++running().count;
+}
+
+void end_one() {
+  const std::lock_guard lock(running().mutex);
+  --running().count;
+  running().ended.notify_all();
+}
+
 void finish_at_exit() {
   BackgroundJob::finish_all(5s);
 }
 
 }  // namespace
 
-std::shared_ptr<BackgroundJob> BackgroundJob::start(QObject* receiver, Work work) {
+std::shared_ptr<BackgroundJob> BackgroundJob::start(QObject* receiver, Work work, CutOff cut_off) {
   static std::once_flag registered;
   std::call_once(registered, [] { qAddPostRoutine(finish_at_exit); });
   std::shared_ptr<BackgroundJob> job(new BackgroundJob(receiver));
-  {
-    const std::lock_guard lock(running().mutex);
-    ++running().count;
+  begin_one();
+  const auto tell = [cut_off = std::move(cut_off)](BackgroundJob& ended, const Error& error) {
+    if (cut_off) ended.deliver([cut_off, error] { cut_off(error); });
+  };
+  const Status started = without_exceptions([&]() -> Status {
+    std::thread([job, work = std::move(work), tell]() mutable {
+      const Status done = without_exceptions([&]() -> Status {
+        work(*job);
+        return {};
+      });
+      if (!done) tell(*job, done.error());
+      work = nullptr;  // with all that it holds, before the job counts as ended
+      job.reset();
+      end_one();
+    }).detach();
+    return {};
+  });
+  if (!started) {
+    end_one();
+    tell(*job, started.error());
   }
-  std::thread([job, work = std::move(work)]() mutable {
-    work(*job);
-    work = nullptr;  // with all that it holds, before the job counts as ended
-    job.reset();
-    const std::lock_guard lock(running().mutex);
-    --running().count;
-    running().ended.notify_all();
-  }).detach();
   return job;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <stop_token>
 
+#include "core/result.h"
 #include "engine/weak_receiver.h"
 
 namespace tidemark {
@@ -17,8 +18,11 @@ class BackgroundJob {
  public:
   using Work = std::function<void(BackgroundJob&)>;
 
-  // Starts `work`, which must hold nothing that the receiver owns, and must not throw.
-  static std::shared_ptr<BackgroundJob> start(QObject* receiver, Work work);
+  // Starts `work`, which must hold nothing that the receiver owns. What it throws ends it alone: `cut_off` is
+  // then called with the error, on the receiver's thread unless the job is abandoned by then. So it is where
+  // no thread can be had.
+  using CutOff = std::function<void(const Error&)>;
+  static std::shared_ptr<BackgroundJob> start(QObject* receiver, Work work, CutOff cut_off = {});
 
   // Asks the work to stop; its last call is still delivered.
   void request_stop() { stop_.request_stop(); }

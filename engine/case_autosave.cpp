@@ -73,18 +73,30 @@ void CaseAutosave::save_now() {
   soon_ = false;
   saved_edits_ = state.edits;
   saved_step_ = state.step;
-  proxy_.take_snapshot(view_state_(), [self = QPointer(this)](const auto& snapshot) {
+  const auto write = [self = QPointer(this)](const auto& snapshot) {
     if (!self) return;
-    self->job_ = BackgroundJob::start(self, [self, copies = self->copies_, snapshot](BackgroundJob& job) {
-      const Status status = copies->write(snapshot->contents);
-      job.deliver([self, status] {
-        self->writing_ = false;
-        if (status) return emit self->saved();
-        self->failed_ = true;
-        emit self->failed(QString::fromStdString(status.error().message));
-      });
-    });
-  });
+    self->job_ = BackgroundJob::start(
+        self,
+        [self, copies = self->copies_, snapshot](BackgroundJob& job) {
+          const Status status = copies->write(snapshot->contents);
+          job.deliver([self, status] { self->copied(status); });
+        },
+        [self](const Error& error) { self->copied(tl::unexpected<Error>(error)); });
+  };
+  // The case has said why. It may be better off with the next tick.
+  const auto gave_up = [self = QPointer(this)] {
+    if (!self) return;
+    self->writing_ = false;
+    self->saved_step_ = -1;
+  };
+  proxy_.take_snapshot(view_state_(), write, gave_up);
+}
+
+void CaseAutosave::copied(const Status& status) {
+  writing_ = false;
+  if (status) return emit saved();
+  failed_ = true;
+  emit failed(QString::fromStdString(status.error().message));
 }
 
 std::filesystem::path recovery_folder() {

@@ -40,6 +40,7 @@ class CaseAutosave : public QObject {
  private:
   struct Copies;
   void follow();
+  void copied(const Status& status);
 
   CaseProxy& proxy_;
   std::function<std::string()> view_state_;

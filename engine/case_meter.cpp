@@ -22,13 +22,20 @@ void CaseMeter::computed(const AdvanceReport& report, std::int64_t step) {
       seconds_per_step_ == 0.0 ? seconds : (1.0 - kSmoothing) * seconds_per_step_ + kSmoothing * seconds;
   surface_speed_ = report.surface_speed;
   converged_ = report.converged;
+  wider_range_.reset();
   laps_.push_back({Clock::now(), step});
   while (laps_.size() > 2 && laps_.back().at - laps_.front().at > kLapWindow) laps_.pop_front();
 }
 
 void CaseMeter::edited() {
   laps_.clear();
+  adjusted();
+}
+
+void CaseMeter::adjusted() {
   converged_ = false;
+  outcome_ = Outcome::unfinished;
+  wider_range_.reset();
   thorough_ = false;
 }
 
@@ -47,7 +54,16 @@ Status CaseMeter::measure(const ReadPhi& read_phi, Case& document, bool thorough
   const double last_speed = before.empty() ? 0.0 : before.back().surface_speed;
   level_set.note(
       {level_set.step(), surface_.volume_ml, surface_.surface_mm2, surface_speed_.value_or(last_speed)});
+  const EvolvedSurface evolved{*phi_,
+                               surface_.voxels_inside,
+                               level_set.step(),
+                               converged_,
+                               level_set.start().get(),
+                               *level_set.source(),
+                               level_set.parameters()};
+  outcome_ = outcome_of(evolved);
   if (thoroughly) {
+    wider_range_ = wider_range(evolved);
     inside_ = statistics_in(*document.volume(), phi_->mask());
     const auto all = statistics_by_label(*document.volume(), document.labels());
     labels_.clear();
@@ -59,6 +75,8 @@ Status CaseMeter::measure(const ReadPhi& read_phi, Case& document, bool thorough
 
 void CaseMeter::report(CaseState& state) const {
   state.converged = converged_;
+  state.outcome = outcome_;
+  state.wider_range = wider_range_;
   state.phi = phi_;
   state.surface = surface_;
   state.dice = dice_;

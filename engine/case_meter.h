@@ -24,10 +24,8 @@ class CaseMeter {
   // After a change of phi that is not a step: nothing has converged.
   void edited();
   // After any other change on which figures depend.
-  void adjusted() {
-    converged_ = false;
-    thorough_ = false;
-  }
+  void adjusted();
+  void labels_changed() { thorough_ = false; }
 
   [[nodiscard]] double seconds_per_step() const { return seconds_per_step_; }
   [[nodiscard]] bool converged() const { return converged_; }
@@ -36,7 +34,7 @@ class CaseMeter {
   // times a second and at least once.
   [[nodiscard]] bool due() const { return Clock::now() >= due_at_; }
   // Measures the phi that `read_phi` gives (slow where it is on a GPU), and adds the figures to the level
-  // set's curve. `thoroughly`: also the volume's values under the surface and the labels.
+  // set's curve. `thoroughly`: also the volume's values under the surface, beside it, and in the labels.
   using ReadPhi = std::function<Result<std::shared_ptr<const Field>>()>;
   Status measure(const ReadPhi& read_phi, Case& document, bool thoroughly);
   [[nodiscard]] bool thorough() const { return thorough_; }
@@ -55,6 +53,8 @@ class CaseMeter {
   double seconds_per_step_ = 0.0;
   std::optional<double> surface_speed_;  // once steps have been computed
   bool converged_ = false;
+  Outcome outcome_ = Outcome::unfinished;
+  std::optional<double> wider_range_;
   Clock::time_point due_at_;
   bool thorough_ = false;
   std::shared_ptr<const Field> phi_;

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <utility>
 
+#include "core/without_exceptions.h"
 #include "document/label_segments.h"
 #include "engine/case_runner.h"
 #include "engine/lock_step.h"
@@ -46,6 +47,7 @@ void CaseProxy::post(Command command) {
   runner_->post([this_edit = edits_sent_, command = std::move(command), done = edits_done_](
                     CaseRunner& runner, const Progress& progress) -> Status {
     *done = this_edit;
+    if (const Error* obstacle = runner.obstacle()) return tl::unexpected<Error>(*obstacle);
     if (!runner.opened() && this_edit > 1) return {};
     return command(runner, progress);
   });
@@ -156,25 +158,25 @@ void CaseProxy::add_label(const QString& name) {
   post([name = name.toStdString()](CaseRunner& runner, const Progress&) -> Status {
     const auto id = runner.document().labels().add(name);
     if (!id) return tl::unexpected<Error>(id.error());
-    return runner.report_change({});
+    return runner.report_labels({});
   });
 }
 
 void CaseProxy::set_label(const Label& label) {
   post([label](CaseRunner& runner, const Progress&) {
-    return runner.report_change(runner.document().labels().set(label));
+    return runner.report_labels(runner.document().labels().set(label));
   });
 }
 
 void CaseProxy::remove_label(std::uint8_t id) {
   post([id](CaseRunner& runner, const Progress&) {
-    return runner.report_change(runner.document().labels().remove(id));
+    return runner.report_labels(runner.document().labels().remove(id));
   });
 }
 
 void CaseProxy::import_labels(std::shared_ptr<const Segments> segments) {
   post([segments = std::move(segments)](CaseRunner& runner, const Progress&) {
-    return runner.report_change(add_segments(runner.document().labels(), *segments));
+    return runner.report_labels(add_segments(runner.document().labels(), *segments));
   });
 }
 
@@ -209,18 +211,25 @@ void CaseProxy::pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel,
 }
 
 void CaseProxy::take_snapshot(std::string view_state,
-                              std::function<void(std::shared_ptr<const Snapshot>)> answer) {
-  post([view_state = std::move(view_state), answer = std::move(answer), weak_receiver = weak_receiver_](
-           CaseRunner& runner, const Progress&) -> Status {
-    Case& document = runner.document();
-    document.view_state = view_state;
-    TIDEMARK_TRY(document.history().close());
-    auto contents = snapshot_of(document);
-    if (!contents) return pass_on(contents);
-    auto snapshot =
-        std::make_shared<const Snapshot>(Snapshot{std::move(*contents), document.history().position()});
-    weak_receiver->send([answer, snapshot] { answer(snapshot); });
-    return {};
+                              std::function<void(std::shared_ptr<const Snapshot>)> answer,
+                              std::function<void()> gave_up) {
+  using Taken = Result<std::shared_ptr<const Snapshot>>;
+  post([view_state = std::move(view_state), answer = std::move(answer), gave_up = std::move(gave_up),
+        weak_receiver = weak_receiver_](CaseRunner& runner, const Progress&) -> Status {
+    const Taken taken = without_exceptions([&]() -> Taken {
+      Case& document = runner.document();
+      document.view_state = view_state;
+      TIDEMARK_TRY(document.history().close());
+      auto contents = snapshot_of(document);
+      if (!contents) return pass_on(contents);
+      return std::make_shared<const Snapshot>(Snapshot{std::move(*contents), document.history().position()});
+    });
+    if (taken) {
+      weak_receiver->send([answer, snapshot = *taken] { answer(snapshot); });
+      return {};
+    }
+    if (gave_up) weak_receiver->send(gave_up);
+    return tl::unexpected<Error>(taken.error());
   });
 }
 

@@ -45,6 +45,10 @@ class CaseProxy : public QObject {
 
   [[nodiscard]] const CaseState& state() const { return state_; }
   [[nodiscard]] const Volume& volume() const { return *study_->volume; }
+  // What D sees: the volume, smoothed as CaseState says.
+  [[nodiscard]] const std::shared_ptr<const Volume>& source() const {
+    return state_.source ? state_.source : study_->volume;
+  }
   [[nodiscard]] const SourceSummary& summary() const { return study_->summary; }
   [[nodiscard]] const StudyOrigin& origin() const { return study_->origin; }
   [[nodiscard]] const LoadedStudy& study() const { return *study_; }
@@ -98,7 +102,9 @@ class CaseProxy : public QObject {
     SessionContents contents;
     std::uint64_t position = 0;  // for mark_saved()
   };
-  void take_snapshot(std::string view_state, std::function<void(std::shared_ptr<const Snapshot>)> answer);
+  // On a failure failed() says why, and `gave_up` is called instead of the answer.
+  void take_snapshot(std::string view_state, std::function<void(std::shared_ptr<const Snapshot>)> answer,
+                     std::function<void()> gave_up = {});
   // A session file holds the snapshot of that position.
   void mark_saved(const Snapshot& snapshot);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/without_exceptions.h"
 #include "engine/change_text.h"
 #include "engine/lock_step.h"
 
@@ -42,7 +43,8 @@ void CaseRunner::post(Command command) {
     if (auto status = command(*self, progress); !status) self->report_failure(status.error());
     if (self->case_) self->show();
   };
-  engine_.post(Priority::edit, this, std::move(job));
+  engine_.post(Priority::edit, this, std::move(job),
+               [self = shared_from_this()](const Error& error) { self->recover(error); });
 }
 
 void CaseRunner::show() {
@@ -100,6 +102,23 @@ Status CaseRunner::follow_graphics() {
   return status;
 }
 
+// What was computed or edited has been cut off in the middle, for lack of memory most likely: what the
+// executor holds now is not to be trusted.
+void CaseRunner::recover(const Error& error) {
+  playing_ = false;
+  report_failure(error);
+  if (!case_) return;
+  const Status back = without_exceptions([this] { return case_->level_set().rebuild(executor_options()); });
+  if (!back) {
+    obstacle_ = Error{back.error().kind,
+                      fmt::format("this case cannot go on and should be closed: {}", back.error().message)};
+    report_failure(*obstacle_);
+    return close();
+  }
+  phi_changed();
+  show();
+}
+
 void CaseRunner::report_failure(const Error& error) {
   if (error.kind == ErrorKind::cancelled) return;
   receiver_.weak_receiver->send(
@@ -122,12 +141,18 @@ Status CaseRunner::report_change(Status outcome) {
   return outcome;
 }
 
+Status CaseRunner::report_labels(Status outcome) {
+  painter_.look_changed();
+  meter_.labels_changed();
+  return outcome;
+}
+
 Status CaseRunner::accept_surface(std::uint8_t label, Take take) {
   auto accepted = case_->accept_surface(label, take);
-  if (!accepted) return report_change(pass_on(accepted));
+  if (!accepted) return report_labels(pass_on(accepted));
   acceptance_ = std::move(*accepted);
   acceptance_position_ = case_->history().position();
-  return report_change({});
+  return report_labels({});
 }
 
 // Playing.
@@ -163,8 +188,10 @@ std::int64_t CaseRunner::steps_to_next_picture() const {
 }
 
 void CaseRunner::post_steps() {
-  engine_.post(Priority::step, this,
-               [self = shared_from_this()](std::stop_token stop) { self->run_steps(std::move(stop)); });
+  engine_.post(
+      Priority::step, this,
+      [self = shared_from_this()](std::stop_token stop) { self->run_steps(std::move(stop)); },
+      [self = shared_from_this()](const Error& error) { self->recover(error); });
 }
 
 void CaseRunner::run_steps(std::stop_token stop) {
@@ -194,10 +221,12 @@ Status CaseRunner::advance(std::int64_t steps, const Progress& progress) {
   const auto report = level_set.advance(run);
   if (!report) return tl::unexpected<Error>(report.error());
   ++advances_;
+  const bool comes_to_rest = report->converged && !meter_.converged();
   meter_.computed(*report, level_set.step());
   painter_.phi_changed();
   if (report->converged && pauses) playing_ = false;
-  return meter_.due() ? measure(false) : Status{};
+  // What has become of it is known with the state that says that it rests.
+  return comes_to_rest || meter_.due() ? measure(false) : Status{};
 }
 
 Status CaseRunner::measure(bool thoroughly) {
@@ -229,10 +258,13 @@ void CaseRunner::post_picture(const std::shared_ptr<ViewSlot>& slot, Priority pr
   // A view waits once; a better picture of what has changed meanwhile is not wanted.
   auto& waiting = priority == Priority::refine ? slot->refining : slot->waiting;
   if (waiting.exchange(true)) return;
-  engine_.post(priority, this, [self = shared_from_this(), slot, &waiting, priority](std::stop_token stop) {
-    waiting = false;
-    self->draw_in_turn(slot, priority, std::move(stop));
-  });
+  engine_.post(
+      priority, this,
+      [self = shared_from_this(), slot, &waiting, priority](std::stop_token stop) {
+        waiting = false;
+        self->draw_in_turn(slot, priority, std::move(stop));
+      },
+      [self = shared_from_this()](const Error& error) { self->report_failure(error); });
 }
 
 // A user who turns the camera or paints asks for the next picture before this one is there. The surface must
@@ -267,12 +299,15 @@ void CaseRunner::draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token sto
 
 void CaseRunner::post_measurement() {
   if (playing_ || meter_.thorough() || std::exchange(measurement_waits_, true)) return;
-  engine_.post(Priority::background, this, [self = shared_from_this()](const std::stop_token&) {
-    self->measurement_waits_ = false;
-    if (!self->case_ || self->playing_) return;
-    if (auto status = self->measure(true); !status) return self->report_failure(status.error());
-    self->publish();
-  });
+  engine_.post(
+      Priority::background, this,
+      [self = shared_from_this()](const std::stop_token&) {
+        self->measurement_waits_ = false;
+        if (!self->case_ || self->playing_) return;
+        if (auto status = self->measure(true); !status) return self->report_failure(status.error());
+        self->publish();
+      },
+      [self = shared_from_this()](const Error& error) { self->report_failure(error); });
 }
 
 std::shared_ptr<const std::vector<std::uint8_t>> CaseRunner::label_voxels() {
@@ -297,6 +332,7 @@ void CaseRunner::publish() {
   state.time_step = level_set.executor().time_step();
   state.band = level_set.executor().band();
   state.smoothed_mm = case_->smoothed_mm();
+  state.source = level_set.source();
   state.executor = QString::fromUtf8(level_set.executor().name().data(),
                                      static_cast<qsizetype>(level_set.executor().name().size()));
   state.memory = level_set.executor().memory();

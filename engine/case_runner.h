@@ -41,11 +41,14 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void close();
 
   [[nodiscard]] bool opened() const { return case_ != nullptr; }
+  // Why the case cannot go on; null: it can.
+  [[nodiscard]] const Error* obstacle() const { return obstacle_ ? &*obstacle_ : nullptr; }
   [[nodiscard]] Case& document() { return *case_; }
   [[nodiscard]] CasePainter& painter() { return painter_; }
-  // After a command that has changed phi, or else the display: publishes its outcome.
+  // After a command that has changed phi, its other conditions, or labels: publishes the outcome.
   Status report_edit(Status outcome);
   Status report_change(Status outcome);
+  Status report_labels(Status outcome);
   Status accept_surface(std::uint8_t label, Take take);
 
   [[nodiscard]] bool playing() const { return playing_; }
@@ -74,6 +77,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void publish();
   void show_pictures();  // posts those that are out of date
   void phi_changed();
+  void recover(const Error& error);
   void post_steps();
   void run_steps(std::stop_token stop);
   void post_picture(const std::shared_ptr<ViewSlot>& slot, Priority priority);
@@ -93,6 +97,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   RestoredCase restored_;
 
   std::unique_ptr<Case> case_;
+  std::optional<Error> obstacle_;
   CasePainter painter_;
   CaseMeter meter_;
   int graphics_ = 0;  // Engine::contexts_made() when the executor was made

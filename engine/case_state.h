@@ -9,6 +9,7 @@
 
 #include "document/curve.h"
 #include "document/labels.h"
+#include "document/outcome.h"
 #include "solver/executor.h"
 #include "solver/statistics.h"
 
@@ -21,10 +22,13 @@ struct CaseState {
   bool begun = false;     // there is a surface
   bool playing = false;
   bool converged = false;
+  Outcome outcome = Outcome::unfinished;  // as of the last measurement
+  std::optional<double> wider_range;      // the epsilon to try: see wider_range(); measured when it rests
   double time_step = 0.0;
   double band = 2.5;
   double smoothed_mm = 0.0;
-  QString executor;               // "host", "compute", "stream"
+  std::shared_ptr<const Volume> source;  // as the level set sees it: smoothed by that much
+  QString executor;                      // "host", "compute", "stream"
   double steps_per_second = 0.0;  // while it plays, in the last second: steps by time, pictures included
   double solver_steps_per_second = 0.0;  // in the solver's own time
   MemoryReport memory;

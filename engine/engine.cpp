@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "core/without_exceptions.h"
+
 namespace tidemark {
 namespace {
 
@@ -100,10 +102,10 @@ void Engine::let_graphics_go() {
   if (context_) context_->doneCurrent();
 }
 
-void Engine::post(Priority priority, const void* owner, Job job) {
+void Engine::post(Priority priority, const void* owner, Job job, CutOff cut_off) {
   {
     const std::lock_guard lock(mutex_);
-    waiting_[static_cast<std::size_t>(priority)].push_back({owner, std::move(job)});
+    waiting_[static_cast<std::size_t>(priority)].push_back({owner, std::move(job), std::move(cut_off)});
   }
   changed_.notify_all();
 }
@@ -163,6 +165,20 @@ void Engine::forget_jobs(std::unique_lock<std::mutex>& lock) {
   }
 }
 
+// Nothing that is thrown gets further than this.
+void Engine::carry_out(const Waiting& waiting, const std::stop_token& stop) {
+  const Status done = without_exceptions([&]() -> Status {
+    waiting.job(stop);
+    return {};
+  });
+  if (done || !waiting.cut_off) return;
+  const Status told = without_exceptions([&]() -> Status {
+    waiting.cut_off(done.error());
+    return {};
+  });
+  if (!told) qWarning("A job of the engine: %s", told.error().message.c_str());
+}
+
 void Engine::run() {
   const Status made = make_context();
   std::unique_lock lock(mutex_);
@@ -176,7 +192,7 @@ void Engine::run() {
   while (auto waiting = next(lock)) {
     const std::stop_token stop = running_->stop.get_token();
     lock.unlock();
-    waiting->job(stop);
+    carry_out(*waiting, stop);
     waiting.reset();  // its objects are destroyed on this thread
     lock.lock();
     running_.reset();

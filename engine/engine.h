@@ -55,9 +55,11 @@ class Engine : public QObject {
 
   // A job takes a stop token, which asks it to end early when the engine closes or the job is cancelled. Jobs
   // of an `owner` (any address) that still wait are forgotten by cancel(owner), and the running one is asked
-  // to stop. Any thread may call these.
+  // to stop. What a job throws ends it alone: `cut_off` is then called with the error, on the engine's
+  // thread. Any thread may call these.
   using Job = std::function<void(std::stop_token)>;
-  void post(Priority priority, const void* owner, Job job);
+  using CutOff = std::function<void(const Error&)>;
+  void post(Priority priority, const void* owner, Job job, CutOff cut_off = {});
   void cancel(const void* owner);
   // Asks the running job to stop if it is less urgent than `priority` and belongs to `owner` (null:
   // anyone's).
@@ -85,6 +87,7 @@ class Engine : public QObject {
   struct Waiting {
     const void* owner;
     Job job;
+    CutOff cut_off;
   };
   struct Running {
     Priority priority;
@@ -96,6 +99,7 @@ class Engine : public QObject {
   Status make_context();
   void run();
   std::optional<Waiting> next(std::unique_lock<std::mutex>& lock);
+  static void carry_out(const Waiting& waiting, const std::stop_token& stop);
   void forget_jobs(std::unique_lock<std::mutex>& lock);
   void let_graphics_go();
 

@@ -56,14 +56,20 @@ JobRunner::~JobRunner() {
 
 void JobRunner::start(std::function<Ending(const Progress&)> work) {
   if (job_) job_->abandon();
-  job_ = BackgroundJob::start(this, [this, steps = steps_, work = std::move(work)](BackgroundJob& job) {
-    const Progress progress = progress_of(
-        job, steps, [this](double fraction, const QString& step) { emit progressed(fraction, step); });
-    job.deliver([this, ending = work(progress)] {
-      job_.reset();
-      ending();
-    });
-  });
+  job_ = BackgroundJob::start(
+      this,
+      [this, steps = steps_, work = std::move(work)](BackgroundJob& job) {
+        const Progress progress = progress_of(
+            job, steps, [this](double fraction, const QString& step) { emit progressed(fraction, step); });
+        job.deliver([this, ending = work(progress)] {
+          job_.reset();
+          ending();
+        });
+      },
+      [this](const Error& error) {
+        job_.reset();
+        end_by(error);
+      });
 }
 
 void JobRunner::end_by(const Error& error) {

@@ -39,12 +39,12 @@ class JobRunner : public QObject {
   template <class Work, class Deliver>
   void run(Work work, Deliver deliver) {
     start([this, work = std::move(work), deliver = std::move(deliver)](const Progress& progress) -> Ending {
-      using Outcome = std::invoke_result_t<const Work&, const Progress&>;
+      using Answer = std::invoke_result_t<const Work&, const Progress&>;
       const auto outcome =
-          std::make_shared<Outcome>(without_exceptions([&]() -> Outcome { return work(progress); }));
+          std::make_shared<Answer>(without_exceptions([&]() -> Answer { return work(progress); }));
       return [this, deliver, outcome] {
         if (!*outcome) return end_by(outcome->error());
-        if constexpr (std::is_void_v<typename Outcome::value_type>) {
+        if constexpr (std::is_void_v<typename Answer::value_type>) {
           deliver();
         } else {
           deliver(std::move(**outcome));

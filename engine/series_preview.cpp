@@ -52,24 +52,30 @@ void SeriesPreviews::forget() {
 }
 
 void SeriesPreviews::start() {
-  job_ = BackgroundJob::start(this, [this, waiting = waiting_](BackgroundJob& job) {
-    Progress progress;
-    progress.stop = job.stop();
-    while (!progress.cancelled()) {
-      std::unique_lock lock(waiting->mutex);
-      if (waiting->requests.empty()) break;
-      const Waiting::Request next = std::move(waiting->requests.front());
-      waiting->requests.pop_front();
-      lock.unlock();
-      const QImage picture = middle_slice_picture(next.series, next.pixels, progress);
-      job.deliver([this, key = next.key, picture] { emit made(key, picture); });
-    }
-    job.deliver([this] {
-      job_.reset();
-      const std::lock_guard lock(waiting_->mutex);
-      if (!waiting_->requests.empty()) start();  // asked for just when the thread went
-    });
-  });
+  job_ = BackgroundJob::start(
+      this,
+      [this, waiting = waiting_](BackgroundJob& job) {
+        Progress progress;
+        progress.stop = job.stop();
+        while (!progress.cancelled()) {
+          std::unique_lock lock(waiting->mutex);
+          if (waiting->requests.empty()) break;
+          const Waiting::Request next = std::move(waiting->requests.front());
+          waiting->requests.pop_front();
+          lock.unlock();
+          const QImage picture = middle_slice_picture(next.series, next.pixels, progress);
+          job.deliver([this, key = next.key, picture] { emit made(key, picture); });
+        }
+        job.deliver([this] { go_on(); });
+      },
+      [this](const Error&) { go_on(); });  // without the picture that could not be made
+}
+
+// Some may have been asked for just when the thread went.
+void SeriesPreviews::go_on() {
+  job_.reset();
+  const std::lock_guard lock(waiting_->mutex);
+  if (!waiting_->requests.empty()) start();
 }
 
 }  // namespace tidemark

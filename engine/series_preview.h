@@ -35,6 +35,7 @@ class SeriesPreviews : public QObject {
  private:
   struct Waiting;
   void start();
+  void go_on();
 
   std::shared_ptr<Waiting> waiting_;
   std::shared_ptr<BackgroundJob> job_;

@@ -3,8 +3,9 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <optional>
+#include <memory>
 #include <set>
+#include <utility>
 
 #include "core/volume.h"
 
@@ -13,7 +14,7 @@ namespace tidemark {
 // Each voxel counts once, however slowly the mouse goes.
 class ValueProbe {
  public:
-  explicit ValueProbe(const Volume& volume) : volume_(&volume) {}
+  explicit ValueProbe(std::shared_ptr<const Volume> volume) : volume_(std::move(volume)) {}
 
   // Adds the voxels within `radius_mm` of the way from `from` to `to` (LPS, mm).
   void add(glm::dvec3 from_mm, glm::dvec3 to_mm, double radius_mm);
@@ -36,7 +37,7 @@ class ValueProbe {
   void count_in(Sums& sums, double value) const;
   [[nodiscard]] Spread spread(const Sums& sums) const;
 
-  const Volume* volume_;
+  std::shared_ptr<const Volume> volume_;
   std::set<std::int64_t> seen_;
   Sums value_;
   Sums gradient_;

@@ -1,5 +1,6 @@
 #include "solver/executor.h"
 
+#include "core/machine_memory.h"
 #include "gpu/device.h"
 #include "solver/compute/compute_executor.h"
 #include "solver/host/host_executor.h"
@@ -22,6 +23,10 @@ std::shared_ptr<gpu::Device> hardware_device(const ExecutorOptions& options) {
 }
 
 }  // namespace
+
+std::int64_t default_memory_budget() {
+  return machine_memory() / 2;
+}
 
 std::optional<ExecutorKind> executor_named(std::string_view name) {
   if (name == "auto") return ExecutorKind::automatic;

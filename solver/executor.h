@@ -101,9 +101,13 @@ class Executor {
   [[nodiscard]] virtual double time_step() const = 0;  // of the next step, in units of time
 };
 
+// Half of the memory that this process may use (machine_memory()): the rest is for the study, pictures, the
+// history and other programs.
+std::int64_t default_memory_budget();
+
 struct ExecutorOptions {
-  int threads = 0;                                           // 0: all processors of this process
-  std::int64_t memory_budget_bytes = std::int64_t{8} << 30;  // for state and source beside the pages
+  int threads = 0;                                             // 0: all processors of this process
+  std::int64_t memory_budget_bytes = default_memory_budget();  // for state and source beside the pages
   bool skip_quiet_pages = true;
 
   // For executors on a GPU: the context to use (else each makes its own), messages of the driver, and the

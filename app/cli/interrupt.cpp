@@ -1,20 +1,37 @@
 #include "app/cli/interrupt.h"
 
 #include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <string_view>
+
+#include "core/result.h"
+#include "core/unfinished.h"
 
 namespace tidemark::cli {
 namespace {
 
 // Wakes the waiting thread so that it sees that it is done.
 constexpr int kWake = SIGUSR1;
+// For the program to end by itself. With what it takes to clean up, a signal ends it within a second.
+constexpr timespec kGrace{0, 700'000'000};
 
 sigset_t awaited_signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  sigaddset(&signals, kWake);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, kWake}) sigaddset(&signals, signal);
   return signals;
+}
+
+// Whoever holds locks of the C library, holds them still: nothing but system calls.
+[[noreturn]] void end_at_once() {
+  remove_unfinished();
+  constexpr std::string_view kClear = "\r\x1b[K";  // the progress bar
+  constexpr std::string_view kText = "tidemark-cli: error: interrupted\n";
+  if (::isatty(STDERR_FILENO) == 1) static_cast<void>(!::write(STDERR_FILENO, kClear.data(), kClear.size()));
+  static_cast<void>(!::write(STDERR_FILENO, kText.data(), kText.size()));
+  ::_exit(exit_code(ErrorKind::cancelled));
 }
 
 }  // namespace
@@ -24,12 +41,27 @@ Interrupt::Interrupt() {
   ::signal(SIGPIPE, SIG_IGN);
   const sigset_t signals = awaited_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  waiter_ = std::thread([this, signals] {
-    int received = 0;
-    while (!done_ && sigwait(&signals, &received) == 0) {
-      if (received != kWake) source_.request_stop();
-    }
-  });
+  waiter_ = std::thread([this] { wait_for_signals(); });
+}
+
+void Interrupt::wait_for_signals() {
+  const sigset_t signals = awaited_signals();
+  int received = 0;
+  do {
+    if (sigwait(&signals, &received) != 0) return;
+  } while (received == kWake && !done_);
+  if (done_) return;
+  source_.request_stop();
+  // Impatient users send it again: it ends no sooner and no later.
+  const sigset_t wake = [] {
+    sigset_t only;
+    sigemptyset(&only);
+    sigaddset(&only, kWake);
+    return only;
+  }();
+  while (!done_) {
+    if (sigtimedwait(&wake, nullptr, &kGrace) < 0 && errno == EAGAIN) end_at_once();
+  }
 }
 
 Interrupt::~Interrupt() {

@@ -1,4 +1,4 @@
-// The stop request that Ctrl-C and termination make.
+// The stop request that Ctrl-C, termination and a closed terminal make, and soon the end.
 #pragma once
 
 #include <pthread.h>
@@ -9,9 +9,11 @@
 
 namespace tidemark::cli {
 
-// While it lives, a thread of its own waits for SIGINT and SIGTERM, and then requests the stop; nothing runs
-// inside a signal handler. Also ignores SIGXFSZ and SIGPIPE, so that a full disk and a closed
-// pipe are failed writes rather than sudden death. Create it before any other thread.
+// While it lives, a thread of its own waits for SIGINT, SIGTERM and SIGHUP, and then requests the stop; nothing
+// runs inside a signal handler. A program that is in a library or waits for a file cannot stop by itself: the
+// thread removes unfinished files and ends the process, with the exit code of an interrupt. Also ignores
+// SIGXFSZ and SIGPIPE, so that a full disk and a closed pipe are failed writes rather than sudden death.
+// Create it before any other thread.
 class Interrupt {
  public:
   Interrupt();
@@ -22,6 +24,8 @@ class Interrupt {
   [[nodiscard]] std::stop_token stop_token() const { return source_.get_token(); }
 
  private:
+  void wait_for_signals();
+
   std::stop_source source_;
   std::atomic<bool> done_{false};
   std::thread waiter_;

@@ -40,8 +40,8 @@ Status check(const ReplayArguments& arguments, ResultWriter& writer) {
 }
 
 // The outcome of a replay, with the figures of segment.
-RunResults results_of(const Recipe& recipe, const Volume& volume, Replay replayed,
-                      const ReplayArguments& arguments) {
+RunResults results_of(const Recipe& recipe, const Volume& volume, const std::string& series_uid,
+                      Replay replayed, const ReplayArguments& arguments) {
   RunResults results;
   RunFigures& figures = results.figures;
   figures.executor = replayed.executor.name;
@@ -50,7 +50,7 @@ RunResults results_of(const Recipe& recipe, const Volume& volume, Replay replaye
   figures.modality = volume.modality;
   figures.unit = volume.unit;
   figures.description = volume.description;
-  figures.series_uid = arguments.study.series;
+  figures.series_uid = series_uid;
   figures.changes = volume.changes;
   figures.start = recipe.start.describe();
   figures.parameters = recipe.final_parameters();
@@ -60,6 +60,16 @@ RunResults results_of(const Recipe& recipe, const Volume& volume, Replay replaye
   figures.advance = replayed.advance;
   figures.memory = replayed.memory;
   figures.surface = measure(replayed.phi);
+  const Field* start = recipe.start.empty() ? nullptr : &replayed.start;  // else it was painted
+  const EvolvedSurface surface{replayed.phi,
+                               figures.surface.voxels_inside,
+                               recipe.steps,
+                               replayed.advance.converged,
+                               start,
+                               *replayed.source,
+                               figures.parameters};
+  figures.outcome = outcome_of(surface);
+  figures.wider_range = wider_range(surface);
   results.source = std::move(replayed.source);
   results.mask = replayed.phi.mask();
   results.phi = std::move(replayed.phi);
@@ -98,7 +108,7 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
     if (error.kind == ErrorKind::input) error.message = arguments.recipe + ": " + error.message;
     return tl::unexpected<Error>(std::move(error));
   }
-  RunResults results = results_of(*recipe, *volume, std::move(*replayed), arguments);
+  RunResults results = results_of(*recipe, *volume, study->series.uid, std::move(*replayed), arguments);
   results.dicom_files = dicom_files_of(study->series);
   if (writer.wants_recipe()) results.recipe.source.checksum = checksum_of(*volume);
   TIDEMARK_TRY(writer.write(results));

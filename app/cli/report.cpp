@@ -30,7 +30,51 @@ Json parameters_json(const RunFigures& figures) {
   return object;
 }
 
+const char* describe(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::converged:
+      return "converged: the surface has stopped moving";
+    case Outcome::vanished:
+      return "vanished: it has shrunk to nothing";
+    case Outcome::seeded_outside:
+      return "vanished: the start lies outside of what attracts";
+    case Outcome::filled_volume:
+      return "the volume is filled";
+    case Outcome::unfinished:
+      break;
+  }
+  return "not converged";
+}
+
+bool has_pace(const RunFigures& figures) {
+  return has_surface(figures.outcome) && figures.advance.steps > 0;
+}
+
+std::string describe_pace(const RunFigures& figures) {
+  if (!has_pace(figures)) return {};
+  return fmt::format(": {:.0f} steps/s, {:.0f} million voxel updates/s", steps_per_second(figures.advance),
+                     voxel_updates_per_second(figures.advance) / 1e6);
+}
+
 }  // namespace
+
+std::string advice_on(const RunFigures& figures) {
+  switch (figures.outcome) {
+    case Outcome::vanished:
+      return "the surface has vanished: it has shrunk to nothing (a larger start, --range or --alpha?)";
+    case Outcome::seeded_outside:
+      return fmt::format(
+          "the surface has vanished: no value where it began is within {:.6g} -+ {:.6g} (another start or "
+          "--target, a larger --range?)",
+          figures.parameters.target, figures.parameters.range);
+    case Outcome::filled_volume:
+      return "the surface has filled the volume (a smaller --range or --alpha?)";
+    case Outcome::converged:
+    case Outcome::unfinished:
+      break;
+  }
+  return {};
+}
 
 double steps_per_second(const AdvanceReport& report) {
   return per_second(report.steps, report.seconds);
@@ -61,11 +105,13 @@ Json to_json(const RunFigures& figures) {
   object["threads"] = figures.threads;
   object["steps"] = advance.steps;
   object["seconds"] = advance.seconds;
-  object["steps_per_second"] = steps_per_second(advance);
+  object["steps_per_second"] = has_pace(figures) ? Json(steps_per_second(advance)) : Json();
   object["voxel_updates"] = advance.voxel_updates;
-  object["voxel_updates_per_second"] = voxel_updates_per_second(advance);
+  object["voxel_updates_per_second"] = has_pace(figures) ? Json(voxel_updates_per_second(advance)) : Json();
   object["paging_seconds"] = advance.paging_seconds;
   object["converged"] = advance.converged;
+  object["outcome"] = name_of(figures.outcome);
+  object["wider_range"] = figures.wider_range ? Json(*figures.wider_range) : Json();
   object["surface_speed"] = advance.surface_speed;
   object["time_step"] = figures.time_step;
   object["volume_ml"] = figures.surface.volume_ml;
@@ -93,17 +139,19 @@ Json to_json(const RunFigures& figures) {
 
 void say(Console& console, const RunFigures& figures) {
   const AdvanceReport& advance = figures.advance;
-  console.say("Steps      {}{}", advance.steps,
-              advance.converged ? ", converged: the surface has stopped moving" : ", not converged");
-  console.say(
-      "Time       {:.3f} s in the solver ({}, {} threads): {:.0f} steps/s, {:.0f} million voxel updates/s",
-      advance.seconds, figures.executor, figures.threads, steps_per_second(advance),
-      voxel_updates_per_second(advance) / 1e6);
+  console.say("Steps      {}, {}", advance.steps, describe(figures.outcome));
+  console.say("Time       {:.3f} s in the solver ({}, {} threads){}", advance.seconds, figures.executor,
+              figures.threads, describe_pace(figures));
   console.say("Volume     {:.3f} ml, {} voxels", figures.surface.volume_ml, figures.surface.voxels_inside);
   console.say("Surface    {:.1f} mm^2", figures.surface.surface_mm2);
   console.say("Pages      {} (at most {}), {:.1f} MB of solver state", figures.memory.resident_pages,
               figures.memory.peak_resident_pages, static_cast<double>(figures.memory.state_bytes) / kMebi);
   if (figures.dice) console.say("Dice       {:.4f} against the truth", *figures.dice);
+  if (figures.wider_range) {
+    console.say(
+        "Hint       stopped inside of like tissue: its values vary more than --range {:.6g}; try {:.6g}",
+        figures.parameters.range, *figures.wider_range);
+  }
 }
 
 }  // namespace tidemark::cli

@@ -7,6 +7,7 @@
 
 #include "app/cli/console.h"
 #include "core/volume.h"
+#include "document/outcome.h"
 #include "solver/executor.h"
 #include "solver/statistics.h"
 
@@ -20,7 +21,7 @@ struct RunFigures {
   std::string modality;
   std::string unit;  // of the values
   std::string description;
-  std::string series_uid;            // empty when it was not asked for by UID
+  std::string series_uid;            // empty when the format has none
   std::vector<std::string> changes;  // found and changed by loading
   std::string start;
   Parameters parameters;
@@ -28,10 +29,15 @@ struct RunFigures {
   double band = 0.0;
   double time_step = 0.0;
   AdvanceReport advance;
+  Outcome outcome = Outcome::unfinished;
+  std::optional<double> wider_range;
   MemoryReport memory;
   SurfaceStatistics surface;
   std::optional<double> dice;
 };
+
+// What happened to a surface that is of no use, and what to try; empty: nothing of the kind.
+[[nodiscard]] std::string advice_on(const RunFigures& figures);
 
 [[nodiscard]] double steps_per_second(const AdvanceReport& report);
 [[nodiscard]] double voxel_updates_per_second(const AdvanceReport& report);

@@ -5,6 +5,7 @@
 #include "app/cli/program.h"
 #include "app/cli/segment_options.h"
 #include "document/checksum.h"
+#include "document/outcome.h"
 #include "imaging/filters/filters.h"
 #include "imaging/filters/suggest_start.h"
 #include "imaging/load_study.h"
@@ -92,7 +93,7 @@ Status Segmentation::load() {
   figures.modality = volume->modality;
   figures.unit = volume->unit;
   figures.description = volume->description;
-  figures.series_uid = options_.study.series;
+  figures.series_uid = study->series.uid;
   figures.changes = volume->changes;
   figures.smooth_mm = options_.smooth_mm;
   console_.say("Loaded     {}{}{}, {}", volume->modality, volume->modality.empty() ? "" : ": ",
@@ -191,7 +192,8 @@ Status Segmentation::evolve() {
   if (!start) return pass_on(start);
   recipe.start = std::move(*start);
   figures.start = recipe.start.describe();
-  TIDEMARK_TRY(begin(solver, *results_.source, recipe.start, console_.progress()));
+  const auto begun = begin(solver, *results_.source, recipe.start, console_.progress());
+  if (!begun) return tl::unexpected<Error>(begun.error());
   console_.say("Start      {}", figures.start);
   if (options_.step_limit() > 0) {
     Advance advance{options_.step_limit(), options_.until_converged(), console_.progress()};
@@ -213,20 +215,24 @@ Status Segmentation::evolve() {
   results_.mask = results_.phi.mask();
   figures.surface = measure(results_.phi);
   if (truth_) figures.dice = dice(results_.mask, *truth_);
+  const EvolvedSurface surface{results_.phi,
+                               figures.surface.voxels_inside,
+                               figures.advance.steps,
+                               figures.advance.converged,
+                               &*begun,
+                               *results_.source,
+                               figures.parameters};
+  figures.outcome = outcome_of(surface);
+  figures.wider_range = wider_range(surface);
   return {};
 }
 
 void Segmentation::say_warnings() {
-  const std::int64_t inside = results_.figures.surface.voxels_inside;
-  if (inside == 0) {
+  const RunFigures& figures = results_.figures;
+  if (const std::string advice = advice_on(figures); !advice.empty()) console_.warn(advice);
+  if (options_.until_converged() && !figures.advance.converged) {
     console_.warn(
-        "the surface has vanished: nothing is inside (is the target right? a larger range or alpha?)");
-  } else if (inside == results_.figures.geometry.voxel_count()) {
-    console_.warn("the surface has filled the whole volume (a smaller range or alpha?)");
-  }
-  if (options_.until_converged() && !results_.figures.advance.converged) {
-    console_.warn(fmt::format("the surface was still moving after {} steps (--max-steps)",
-                              results_.figures.advance.steps));
+        fmt::format("the surface was still moving after {} steps (--max-steps)", figures.advance.steps));
   }
 }
 

@@ -37,7 +37,8 @@ void add_solver_options(CLI::App& app, SolverOptions& options, const std::string
       ->type_name("auto|host|compute|stream");
   add_count(app, "--threads", options.threads, "Threads of the host executor (default: all processors)");
   add_count(app, "--memory-budget", options.memory_budget_mb,
-            "Most memory for the solver, in MB (default: 8192); a run that needs more ends with code 4");
+            "Most memory for the solver, in MB (default: half of what this process may use, by machine or\n"
+            "control group); a run that needs more ends with code 4");
   app.add_flag("--no-skip", options.no_skip, "Compute also the pages in which nothing moves any more");
 }
 

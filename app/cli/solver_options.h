@@ -15,7 +15,7 @@ namespace tidemark::cli {
 struct SolverOptions {
   std::optional<ExecutorKind> kind;              // unset: the command's default
   std::optional<std::int64_t> threads;           // unset: all processors
-  std::optional<std::int64_t> memory_budget_mb;  // unset: the executor's own limit
+  std::optional<std::int64_t> memory_budget_mb;  // unset: default_memory_budget()
   bool no_skip = false;
 
   [[nodiscard]] ExecutorOptions executor_options() const;

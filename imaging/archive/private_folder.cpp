@@ -28,10 +28,12 @@ bool is_being_made(const fs::path& folder) {
 }  // namespace
 
 PrivateFolder::PrivateFolder(fs::path folder, FileLock lock)
-    : folder_(std::move(folder)), lock_(std::move(lock)) {}
+    : folder_(std::move(folder)), unfinished_(folder_), lock_(std::move(lock)) {}
 
 PrivateFolder::PrivateFolder(PrivateFolder&& other) noexcept
-    : folder_(std::exchange(other.folder_, {})), lock_(std::move(other.lock_)) {}
+    : folder_(std::exchange(other.folder_, {})),
+      unfinished_(std::move(other.unfinished_)),
+      lock_(std::move(other.lock_)) {}
 
 PrivateFolder::~PrivateFolder() {
   std::error_code ignored;

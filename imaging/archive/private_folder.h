@@ -5,6 +5,7 @@
 
 #include "core/file_lock.h"
 #include "core/result.h"
+#include "core/unfinished.h"
 
 namespace tidemark {
 
@@ -24,6 +25,7 @@ class PrivateFolder {
  private:
   PrivateFolder(std::filesystem::path folder, FileLock lock);
   std::filesystem::path folder_;  // empty when moved from
+  Unfinished unfinished_;
   FileLock lock_;
 };
 

@@ -65,6 +65,7 @@ Result<ItkName> ItkName::create(Format format, const std::filesystem::path& file
                 file.string());
   }
   name.folder_ = pattern;
+  name.unfinished_ = Unfinished(name.folder_);
   name.path_ = name.folder_ / (std::string("volume") + *suffix);
   const auto absolute = std::filesystem::absolute(file, error);
   if (!error) std::filesystem::create_symlink(absolute, name.path_, error);
@@ -80,11 +81,14 @@ ItkName::~ItkName() {
 }
 
 ItkName::ItkName(ItkName&& other) noexcept
-    : path_(std::exchange(other.path_, {})), folder_(std::exchange(other.folder_, {})) {}
+    : path_(std::exchange(other.path_, {})),
+      folder_(std::exchange(other.folder_, {})),
+      unfinished_(std::move(other.unfinished_)) {}
 
 ItkName& ItkName::operator=(ItkName&& other) noexcept {
   std::swap(path_, other.path_);
   std::swap(folder_, other.folder_);
+  std::swap(unfinished_, other.unfinished_);
   return *this;
 }
 

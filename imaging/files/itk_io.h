@@ -7,6 +7,7 @@
 
 #include <filesystem>
 
+#include "core/unfinished.h"
 #include "imaging/guard/pixel_layout.h"
 
 namespace tidemark::files {
@@ -45,6 +46,7 @@ class ItkName {
   ItkName() = default;
   std::filesystem::path path_;
   std::filesystem::path folder_;  // empty when the file is read under its own name
+  Unfinished unfinished_;
 };
 
 // The text of an ITK exception, on one line, without the source locations that ITK puts first.

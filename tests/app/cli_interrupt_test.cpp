@@ -1,6 +1,13 @@
 // Ctrl-C and termination wind down without leaving anything behind.
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <QElapsedTimer>
+
+#include "core/atomic_file.h"
 #include "imaging/files/volume_file.h"
 #include "tests/app/cli_runner.h"
 #include "tests/support/support.h"
@@ -9,12 +16,32 @@
 using namespace tidemark;
 using namespace tidemark::test;
 
+namespace {
+
+// Whether the process has come so far, or has ended: before that, a signal has its own way.
+bool awaits_signals(pid_t id) {
+  const QByteArray state = bytes_of("/proc/" + std::to_string(id) + "/status");
+  const auto at = state.indexOf("SigBlk:");
+  if (at < 0) return true;
+  return (state.mid(at + 7, 20).trimmed().toULongLong(nullptr, 16) & (1ULL << (SIGTERM - 1))) != 0 ||
+         state.contains("State:\tZ");
+}
+
+}  // namespace
+
 class CliInterruptTest : public QObject {
   Q_OBJECT
 
  private slots:
   void an_interrupted_segmentation_writes_nothing_data();
   void an_interrupted_segmentation_writes_nothing();
+  void what_cannot_be_asked_to_stop_ends_within_a_second_data();
+  void what_cannot_be_asked_to_stop_ends_within_a_second();
+  void every_command_ends_within_a_second_data();
+  void every_command_ends_within_a_second();
+
+ private:
+  SphereStudy sphere_;
 };
 
 void CliInterruptTest::an_interrupted_segmentation_writes_nothing_data() {
@@ -22,6 +49,7 @@ void CliInterruptTest::an_interrupted_segmentation_writes_nothing_data() {
   QTest::addColumn<QString>("executor");
   QTest::newRow("SIGINT, host") << SIGINT << "host";
   QTest::newRow("SIGTERM, host") << SIGTERM << "host";
+  QTest::newRow("SIGHUP, host") << SIGHUP << "host";
   QTest::newRow("SIGINT, reference") << SIGINT << "reference";
 }
 
@@ -56,6 +84,89 @@ void CliInterruptTest::an_interrupted_segmentation_writes_nothing() {
   QCOMPARE(process.exitCode(), 130);
   QCOMPARE(process.readAllStandardError(), QByteArray("tidemark-cli: error: interrupted\n"));
   QCOMPARE(names_in(out), QStringList());
+}
+
+// Whoever writes to a pipe that is full and read by nobody waits for ever: no stop token reaches it there.
+void CliInterruptTest::what_cannot_be_asked_to_stop_ends_within_a_second_data() {
+  QTest::addColumn<int>("signal");
+  QTest::newRow("SIGINT") << SIGINT;
+  QTest::newRow("SIGTERM") << SIGTERM;
+  QTest::newRow("SIGHUP") << SIGHUP;
+}
+
+void CliInterruptTest::what_cannot_be_asked_to_stop_ends_within_a_second() {
+  QFETCH(int, signal);
+  TemporaryFolder folder;
+  std::filesystem::copy(sphere_ / "series", folder / "study");
+  const std::string name = "this-file-is-no-image-and-so-it-makes-a-line-of-what-the-program-says";
+  for (int i = 0; i < 1000; ++i) {
+    QVERIFY(write_file(folder / "study" / (name + std::to_string(i) + ".txt"), "no image"));
+  }
+  const auto pipe = folder / "pipe";
+  QCOMPARE(::mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = ::open(pipe.c_str(), O_RDWR | O_CLOEXEC);
+  QVERIFY(reader >= 0);
+  QProcess process;
+  process.setStandardOutputFile(text(pipe));
+  process.start(cli_program(), {"info", text(folder / "study")});
+  QVERIFY(process.waitForStarted());
+  int bytes = 0;
+  QTRY_VERIFY_WITH_TIMEOUT(::ioctl(reader, FIONREAD, &bytes) == 0 && bytes > 60'000, 60'000);
+  QVERIFY(!process.waitForFinished(200));
+  QElapsedTimer timer;
+  timer.start();
+  QCOMPARE(::kill(static_cast<pid_t>(process.processId()), signal), 0);
+  QVERIFY(process.waitForFinished(10'000));
+  const qint64 took = timer.elapsed();
+  ::close(reader);
+  QCOMPARE(process.exitStatus(), QProcess::NormalExit);
+  QCOMPARE(process.exitCode(), 130);
+  QCOMPARE(process.readAllStandardError(), QByteArray("tidemark-cli: error: interrupted\n"));
+  QVERIFY2(took < 1000, qPrintable(QString::number(took)));
+}
+
+void CliInterruptTest::every_command_ends_within_a_second_data() {
+  QTest::addColumn<QStringList>("arguments");
+  const auto row = [](const char* words) { QTest::newRow(words) << QString(words).split(' '); };
+  row("phantom cortex --out OUT/phantom");
+  row("info SERIES");
+  row("convert SERIES --out OUT/volume.nii.gz");
+  row("distance MASK --out OUT/distance.nii.gz");
+  row("render SERIES --phi PHI --fit --size 4000x3000 --out OUT/picture.png");
+  row("segment SERIES --target 800 --range 300 --alpha 0.8 --seed 32,32,32,8 --steps 90000000 --no-skip");
+  row("bench");
+}
+
+void CliInterruptTest::every_command_ends_within_a_second() {
+  QFETCH(QStringList, arguments);
+  TemporaryFolder folder;
+  const auto out = folder / "out";
+  std::filesystem::create_directory(out);
+  for (QString& word : arguments) {
+    word.replace("SERIES", text(sphere_ / "series"));
+    word.replace("MASK", text(sphere_ / "truth.nii.gz"));
+    word.replace("PHI", text(sphere_ / "truth.nii.gz"));
+    word.replace("OUT", text(out));
+  }
+  // At whatever it is doing then.
+  for (const int milliseconds : {0, 30, 150}) {
+    QProcess process;
+    process.start(cli_program(), arguments);
+    QVERIFY(process.waitForStarted());
+    const pid_t id = static_cast<pid_t>(process.processId());
+    while (!awaits_signals(id)) QTest::qSleep(1);
+    if (milliseconds > 0 && process.waitForFinished(milliseconds)) continue;
+    QElapsedTimer timer;
+    timer.start();
+    static_cast<void>(::kill(id, SIGTERM));
+    QVERIFY(process.waitForFinished(60'000));
+    const qint64 took = timer.elapsed();
+    QVERIFY2(took < 1000, qPrintable(QString::number(took)));
+    const QByteArray said = process.readAllStandardError();
+    QVERIFY2(process.exitStatus() == QProcess::NormalExit, said.constData());
+    QVERIFY2(process.exitCode() == 130 || process.exitCode() == 0, said.constData());
+    for (const QString& name : names_in(out)) QVERIFY2(!name.startsWith('.'), qPrintable(name));
+  }
 }
 
 TIDEMARK_TEST(CliInterruptTest)

@@ -17,6 +17,10 @@ class CliRunTest : public QObject {
  private slots:
   void a_sphere_phantom_is_found_segmented_and_measured();
   void stats_hold_what_the_contract_names();
+  void what_has_become_of_the_surface_is_said_data();
+  void what_has_become_of_the_surface_is_said();
+  void a_range_that_is_too_narrow_is_told();
+  void figures_name_the_series_that_was_found();
   void host_and_reference_agree();
   void each_term_can_be_switched_off();
   void thin_volumes_are_segmented_data();
@@ -99,6 +103,79 @@ void CliRunTest::stats_hold_what_the_contract_names() {
   QCOMPARE(stats["steps"].toInt(), 20);
   QVERIFY(stats["bytes_per_resident_voxel"].toDouble() <= 10.0);
   QVERIFY(stats["parameters"].toObject()["alpha_paper"].toDouble() > 0.0);
+}
+
+void CliRunTest::what_has_become_of_the_surface_is_said_data() {
+  QTest::addColumn<QStringList>("arguments");
+  QTest::addColumn<QString>("outcome");
+  QTest::addColumn<QString>("steps_line");
+  QTest::addColumn<QString>("warning");
+  QTest::newRow("converged") << QStringList{"--alpha", "0.8"} << "converged"
+                             << "stopped moving"
+                             << "";
+  QTest::newRow("unfinished") << QStringList{"--steps", "5"} << "unfinished"
+                              << "not converged"
+                              << "";
+  QTest::newRow("vanished") << QStringList{"--alpha", "0"} << "vanished"
+                            << "vanished"
+                            << "--alpha";
+  QTest::newRow("seeded outside") << QStringList{"--target", "5000"} << "seeded_outside"
+                                  << "outside of what"
+                                  << "no value where it began is within 5000";
+  QTest::newRow("filled") << QStringList{"--range", "9000"} << "filled_volume"
+                          << "filled"
+                          << "smaller --range";
+}
+
+void CliRunTest::what_has_become_of_the_surface_is_said() {
+  QFETCH(QStringList, arguments);
+  QFETCH(QString, outcome);
+  QFETCH(QString, steps_line);
+  QFETCH(QString, warning);
+  QStringList all = sphere_.arguments();
+  for (qsizetype i = 0; i < arguments.size(); i += 2) {
+    const auto at = all.indexOf(arguments[i]);
+    if (at >= 0) {
+      all[at + 1] = arguments[i + 1];
+    } else {
+      all += {arguments[i], arguments[i + 1]};
+    }
+  }
+  const Outcome told = run_cli(all);
+  QCOMPARE(told.code, 0);
+  QVERIFY2(told.out.contains(steps_line.toUtf8()), told.told());
+  QVERIFY2(told.err.contains(warning.toUtf8()) && told.err.isEmpty() == warning.isEmpty(), told.told());
+  const bool has_pace = outcome == "converged" || outcome == "unfinished";
+  QCOMPARE(told.out.contains("steps/s"), has_pace);
+  const QJsonObject stats = json_of(run_cli(all + QStringList{"--json"}).out);
+  QCOMPARE(stats["outcome"].toString(), outcome);
+  QCOMPARE(stats["converged"].toBool(), outcome != "unfinished");
+  QCOMPARE(stats["steps_per_second"].isNull(), !has_pace);
+  QCOMPARE(stats["voxel_updates_per_second"].isNull(), !has_pace);
+  QVERIFY(stats["wider_range"].isNull());
+}
+
+void CliRunTest::a_range_that_is_too_narrow_is_told() {
+  TemporaryFolder folder;
+  must_run({"phantom", "tumour", "--out", text(folder / "tumour")});
+  const QStringList narrow{"segment",  text(folder / "tumour" / "series"),
+                           "--target", "750",
+                           "--range",  "16.5",
+                           "--alpha",  "0.95",
+                           "--seed",   "162,114,99,9"};
+  const Outcome told = must_run(narrow);
+  QVERIFY2(told.out.contains("Hint ") && told.out.contains("--range 16.5; try "), told.told());
+  const double wider = json_of(must_run(narrow + QStringList{"--json"}).out)["wider_range"].toDouble();
+  QVERIFY2(wider > 30.0 && wider < 110.0, qPrintable(QString::number(wider)));
+}
+
+void CliRunTest::figures_name_the_series_that_was_found() {
+  const auto series = must_run({"info", text(sphere_ / "series"), "--json"});
+  const QString uid = json_of(series.out)["series"].toArray().first().toObject()["uid"].toString();
+  QVERIFY(!uid.isEmpty());
+  const QJsonObject stats =
+      json_of(must_run(sphere_.arguments() + QStringList{"--steps", "1", "--json"}).out);
+  QCOMPARE(stats["series_uid"].toString(), uid);
 }
 
 void CliRunTest::host_and_reference_agree() {

@@ -10,6 +10,7 @@
 #include "core/atomic_file.h"
 #include "core/checked.h"
 #include "core/geometry.h"
+#include "core/machine_memory.h"
 #include "core/thread_pool.h"
 #include "core/volume.h"
 #include "tests/support/support.h"
@@ -36,6 +37,44 @@ class CoreTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void the_lowest_limit_of_control_groups_counts() {
+    const TemporaryFolder folder;
+    const auto write = [&](const std::string& name, const std::string& text) {
+      std::filesystem::create_directories((folder / name).parent_path());
+      std::ofstream(folder / name) << text;
+    };
+    const auto limit = [&] { return control_group_limit(folder / "groups", folder / "root"); };
+    constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+    QCOMPARE(limit(), kNone);
+    write("groups", "0::/user/session\n");
+    write("root/user/session/memory.max", "max\n");
+    QCOMPARE(limit(), kNone);
+    write("root/user/memory.max", "3000\n");
+    QCOMPARE(limit(), std::int64_t{3000});
+    write("root/user/session/memory.max", "2000\n");
+    QCOMPARE(limit(), std::int64_t{2000});
+    // Version 1; the path is that of the host, and what is seen is the container's own group.
+    write("groups", "7:cpu,memory:/docker/abc\n6:pids:/docker/abc\n");
+    write("root/memory/memory.limit_in_bytes", "1000\n");
+    QCOMPARE(limit(), std::int64_t{1000});
+    QVERIFY(machine_memory() > 0);
+  }
+
+  void what_is_unfinished_is_removed_at_once() {
+    const TemporaryFolder folder;
+    auto file = AtomicFile::create(folder / "result.txt");
+    auto series = AtomicFolder::create(folder / "series");
+    auto done = AtomicFile::create(folder / "done.txt");
+    QVERIFY(file && series && done);
+    std::ofstream(series->temporary_path() / "slice.dcm") << "half";
+    QCOMPARE(failure(done->commit()), QString());
+    const AtomicFile moved = std::move(*file);
+    QCOMPARE(files_in(folder / "."), 3);
+    remove_unfinished();
+    QCOMPARE(files_in(folder / "."), 1);
+    QVERIFY(std::filesystem::exists(folder / "done.txt"));
+  }
+
   void a_product_of_sizes_that_overflows_is_refused() {
     QCOMPARE(checked_product(512, 512, 400).value(), std::int64_t{104857600});
     QVERIFY(!checked_product(std::int64_t{1} << 40, std::int64_t{1} << 30));

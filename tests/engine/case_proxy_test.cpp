@@ -4,6 +4,7 @@
 #include <QTest>
 #include <QTimer>
 #include <cmath>
+#include <new>
 
 #include "engine/case_runner.h"
 #include "engine/picture_feed.h"
@@ -79,6 +80,34 @@ class CaseProxyTest : public QObject {
     const double found_ml = fixture.proxy.state().surface.volume_ml;
     QVERIFY2(std::abs(found_ml - ball_ml) < 0.04 * ball_ml, qPrintable(QString::number(found_ml)));
     QCOMPARE(fixture.failures, QStringList());
+  }
+
+  void a_case_goes_on_after_an_edit_that_was_cut_off() {
+    Fixture fixture;
+    fixture.begin();
+    fixture.proxy.step(5);
+    fixture.wait_until_idle();
+    fixture.proxy.runner()->post([](CaseRunner& runner, const Progress&) -> Status {
+      static_cast<void>(runner.document().level_set().advance({.steps = 3}));
+      throw std::bad_alloc();
+    });
+    fixture.wait_until_idle();
+    QCOMPARE(fixture.failures, QStringList{"there is not enough memory"});
+    fixture.proxy.play();
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.proxy.state().converged, kPatience);
+    QCOMPARE(fixture.proxy.state().outcome, Outcome::converged);
+    QCOMPARE(fixture.failures.size(), 1);
+  }
+
+  void a_surface_that_vanished_is_called_so() {
+    Fixture fixture;
+    Parameters parameters = fixture.proxy.parameters();
+    parameters.target = 900.0;
+    fixture.proxy.set_parameters(parameters);
+    fixture.begin();
+    fixture.proxy.play();
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.proxy.state().converged, kPatience);
+    QCOMPARE(fixture.proxy.state().outcome, Outcome::seeded_outside);
   }
 
   void pictures_follow_the_surface_and_end_with_its_last_step_data() { add_executors(); }

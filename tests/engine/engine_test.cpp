@@ -3,6 +3,8 @@
 
 #include <QTest>
 #include <latch>
+#include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -57,6 +59,24 @@ class EngineTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void what_a_job_throws_ends_it_alone() {
+    Engine engine(false);
+    std::vector<Error> errors;
+    const auto note = [&errors](const Error& error) { errors.push_back(error); };
+    engine.post(
+        Priority::edit, this, [](const std::stop_token&) { throw std::bad_alloc(); }, note);
+    engine.post(
+        Priority::step, this, [](const std::stop_token&) { throw std::runtime_error("why"); }, note);
+    engine.post(Priority::step, this, [](const std::stop_token&) { throw std::bad_alloc(); });
+    bool done = false;
+    engine.post(Priority::background, this, [&done](const std::stop_token&) { done = true; });
+    wait_until_idle(engine);
+    QVERIFY(done);
+    QCOMPARE(errors.size(), std::size_t{2});
+    QVERIFY(errors[0].kind == ErrorKind::capability);
+    QCOMPARE(errors[1].message, std::string("why"));
+  }
+
   void jobs_are_done_by_priority_and_then_as_they_came() {
     Engine engine(false);
     Hold hold(engine);

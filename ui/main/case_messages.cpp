@@ -4,6 +4,7 @@
 #include "engine/case_proxy.h"
 #include "ui/main/case_window.h"
 #include "ui/main/message_bar.h"
+#include "ui/widgets/number_text.h"
 
 namespace tidemark {
 namespace {
@@ -11,6 +12,31 @@ namespace {
 // One case's failure is not settled by another's success.
 QString name_of(const CaseWindow& window) {
   return QStringLiteral("case %1").arg(reinterpret_cast<quintptr>(&window));
+}
+
+QString outcome_name_of(const CaseWindow& window) {
+  return QStringLiteral("surface of ") + name_of(window);
+}
+
+QString advice_on(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::vanished:
+      return CaseMessages::tr(
+          "The surface has vanished: it has shrunk to nothing. Try a larger start, a wider range ε or a "
+          "larger α, and restart.");
+    case Outcome::seeded_outside:
+      return CaseMessages::tr(
+          "The surface has vanished: no value where it began is within T ± ε. Probe T and ε over "
+          "the tissue, or draw another start, and restart.");
+    case Outcome::filled_volume:
+      return CaseMessages::tr(
+          "The surface has filled the volume: nothing has stopped it. Try a narrower range ε or a smaller "
+          "α, and restart.");
+    case Outcome::converged:
+    case Outcome::unfinished:
+      break;
+  }
+  return {};
 }
 
 }  // namespace
@@ -36,6 +62,32 @@ void CaseMessages::tell_failure(const QString& message) {
 
 void CaseMessages::follow() {
   if (done() != done_at_failure_) bar_.settle(name_of(window_));
+  tell_outcome();
+}
+
+void CaseMessages::tell_outcome() {
+  const CaseState& state = window_.proxy().state();
+  if (state.outcome == told_ && state.wider_range == offered_) return;
+  told_ = state.outcome;
+  offered_ = state.wider_range;
+  const QString about = outcome_name_of(window_);
+  if (const QString advice = advice_on(told_); !advice.isEmpty()) {
+    bar_.show_text(advice, about);
+  } else if (offered_) {
+    bar_.show_offer(tr("The surface has stopped inside of like tissue: its values vary more than T ± %1.")
+                        .arg(short_text(state.parameters.range)),
+                    about, tr("Widen the range to %1").arg(short_text(*offered_)),
+                    [this, range = *offered_] { widen(range); });
+  } else {
+    bar_.settle(about);
+  }
+}
+
+void CaseMessages::widen(double range) {
+  Parameters parameters = window_.proxy().parameters();
+  parameters.range = range;
+  window_.proxy().set_parameters(parameters);
+  window_.proxy().play();
 }
 
 }  // namespace tidemark

@@ -1,8 +1,11 @@
-// The messages of failures in a case, shown until something has succeeded in it.
+// The messages of a case: failures, until something has succeeded in it, and a surface that ended badly.
 #pragma once
 
 #include <QObject>
 #include <QString>
+#include <optional>
+
+#include "document/outcome.h"
 
 namespace tidemark {
 
@@ -20,10 +23,14 @@ class CaseMessages : public QObject {
   [[nodiscard]] QString done() const;
   void tell_failure(const QString& message);
   void follow();
+  void tell_outcome();
+  void widen(double range);
 
   CaseWindow& window_;
   MessageBar& bar_;
   QString done_at_failure_;
+  Outcome told_ = Outcome::unfinished;
+  std::optional<double> offered_;
 };
 
 }  // namespace tidemark

@@ -21,12 +21,19 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent) {
   text_ = new QLabel;
   text_->setWordWrap(true);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  offer_ = new QPushButton;
   auto* button = new QPushButton(tr("Dismiss"));
   row->addWidget(sign);
   row->addWidget(text_, 1);
+  row->addWidget(offer_);
   row->addWidget(button);
   column->addWidget(line_);
   connect(button, &QPushButton::clicked, this, &MessageBar::dismiss);
+  connect(offer_, &QPushButton::clicked, this, [this] {
+    const auto accepted = accepted_;
+    dismiss();
+    accepted();
+  });
   hide();
 }
 
@@ -38,8 +45,17 @@ void MessageBar::show_text(const QString& text, const QString& about) {
   dismiss();
   about_ = about;
   text_->setText(text);
+  offer_->hide();
   line_->show();
   show();
+}
+
+void MessageBar::show_offer(const QString& text, const QString& about, const QString& button,
+                            std::function<void()> accepted) {
+  show_text(text, about);
+  accepted_ = std::move(accepted);
+  offer_->setText(button);
+  offer_->show();
 }
 
 void MessageBar::settle(const QString& about) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <QFrame>
+#include <functional>
 
 class QLabel;
+class QPushButton;
 class QStackedLayout;
 
 namespace tidemark {
@@ -17,6 +19,9 @@ class MessageBar : public QFrame {
 
   // `about`: the subject that failed, for settle(); empty: the message stays until it is dismissed.
   void show_text(const QString& text, const QString& about = {});
+  // The same with a button that does something about it; the message goes then.
+  void show_offer(const QString& text, const QString& about, const QString& button,
+                  std::function<void()> accepted);
   // The subject has succeeded: removes the message of its failure.
   void settle(const QString& about);
   // Takes the widget over, until it is dismissed or another message comes.
@@ -27,6 +32,8 @@ class MessageBar : public QFrame {
  private:
   QWidget* line_;
   QLabel* text_;
+  QPushButton* offer_;
+  std::function<void()> accepted_;
   QWidget* shown_ = nullptr;
   QString about_;
 };

@@ -51,18 +51,22 @@ void ValueBar::follow() {
                             .arg(rounded(point->y, 1), 0, 'f', 1)
                             .arg(rounded(point->z, 1), 0, 'f', 1);
   const QString unit = volume.unit.empty() ? QString() : QLatin1Char(' ') + value_unit(volume);
-  const double intensity = volume.value(voxel);
-  QString values = tr("I %1%2").arg(intensity + 0.0, 0, 'g', 5).arg(unit);
-  if (detailed_) values += details_at(voxel, intensity);
+  const Volume& source = *proxy_->source();
+  QString values = tr("I %1%2").arg(volume.value(voxel) + 0.0, 0, 'g', 5).arg(unit);
+  if (proxy_->state().smoothed_mm > 0.0) {
+    values += tr("   smoothed %1").arg(source.value(voxel) + 0.0, 0, 'g', 5);
+  }
+  if (detailed_) values += details_at(voxel);
   setText(values + QStringLiteral("      ") + place);
 }
 
-QString ValueBar::details_at(Index3 voxel, double intensity) const {
+QString ValueBar::details_at(Index3 voxel) const {
+  const Volume& source = *proxy_->source();  // as D sees it
   const CaseState& state = proxy_->state();
   const Parameters& parameters = proxy_->parameters();
-  QString values = tr("   D %1").arg(rounded(data_speed(parameters, intensity), 2), 0, 'f', 2);
+  QString values = tr("   D %1").arg(rounded(data_speed(parameters, source.value(voxel)), 2), 0, 'f', 2);
   if (!state.phi || !state.begun) return values;
-  const VoxelValues at = values_at(*state.phi, proxy_->volume(), parameters, voxel);
+  const VoxelValues at = values_at(*state.phi, source, parameters, voxel);
   values += tr("   φ %1").arg(rounded(at.phi, 2), 0, 'f', 2);
   const bool clamped = std::abs(at.phi) >= state.phi->band;
   if (!clamped) values += tr("   κ %1   |∇φ| %2").arg(rounded(at.curvature, 2), 0, 'f', 2).arg(at.gradient, 0, 'f', 2);

@@ -1,4 +1,4 @@
-// What is under the mouse: the brightness and where that is; in detail also D, phi, kappa and |grad phi|.
+// The values under the mouse: brightness and place, in detail also D, phi, kappa and |grad phi|.
 #pragma once
 
 #include <QLabel>
@@ -17,7 +17,7 @@ class ValueBar : public QLabel {
 
  private:
   void follow();
-  [[nodiscard]] QString details_at(Index3 voxel, double intensity) const;
+  [[nodiscard]] QString details_at(Index3 voxel) const;
 
   QPointer<CaseProxy> proxy_;
   bool detailed_ = false;

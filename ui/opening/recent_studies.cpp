@@ -112,23 +112,26 @@ void RecentStudies::check() {
   if (job_) job_->abandon();
   QStringList paths;
   for (const RecentStudy& study : list_) paths.push_back(study.path);
-  job_ = BackgroundJob::start(this, [this, paths](BackgroundJob& job) {
-    QStringList missing;
-    for (const QString& path : paths) {
-      if (job.stop().stop_requested()) return;
-      if (!QFileInfo::exists(path)) missing.push_back(path);
-    }
-    job.deliver([this, missing] {
-      job_.reset();
-      bool different = false;
-      for (RecentStudy& study : list_) {
-        const bool is_missing = missing.contains(study.path);
-        different = different || study.missing != is_missing;
-        study.missing = is_missing;
-      }
-      if (different) emit changed();
-    });
-  });
+  job_ = BackgroundJob::start(
+      this,
+      [this, paths](BackgroundJob& job) {
+        QStringList missing;
+        for (const QString& path : paths) {
+          if (job.stop().stop_requested()) return;
+          if (!QFileInfo::exists(path)) missing.push_back(path);
+        }
+        job.deliver([this, missing] {
+          job_.reset();
+          bool different = false;
+          for (RecentStudy& study : list_) {
+            const bool is_missing = missing.contains(study.path);
+            different = different || study.missing != is_missing;
+            study.missing = is_missing;
+          }
+          if (different) emit changed();
+        });
+      },
+      [this](const Error&) { job_.reset(); });  // they are looked for again with the next menu
 }
 
 QMenu* RecentStudies::make_menu(QWidget* parent) {

@@ -41,6 +41,21 @@ QString obstacle(ExecutorKind kind, const Engine& engine) {
   return {};
 }
 
+QString text_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::converged:
+      return EvolutionControls::tr("converged");
+    case Outcome::vanished:
+    case Outcome::seeded_outside:
+      return EvolutionControls::tr("vanished");
+    case Outcome::filled_volume:
+      return EvolutionControls::tr("volume filled");
+    case Outcome::unfinished:
+      break;
+  }
+  return EvolutionControls::tr("paused");
+}
+
 QString title(ExecutorKind kind) {
   switch (kind) {
     case ExecutorKind::host:
@@ -135,10 +150,9 @@ void EvolutionControls::attach() {
 
 void EvolutionControls::refresh() {
   const CaseState& state = proxy()->state();
-  state_->setText(!state.begun      ? tr("no surface yet")
-                  : state.playing   ? tr("playing")
-                  : state.converged ? tr("converged")
-                                    : tr("paused"));
+  state_->setText(!state.begun    ? tr("no surface yet")
+                  : state.playing ? tr("playing")
+                                  : text_of(state.outcome));
   steps_->setCurrentIndex(
       std::max(0, steps_->findData(QVariant::fromValue<qint64>(proxy()->steps_per_picture()))));
   pause_->setChecked(proxy()->pause_at_convergence());

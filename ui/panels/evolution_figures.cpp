@@ -82,7 +82,8 @@ void EvolutionFigures::refresh() {
   step_->setText(count_text(state.step));
   dice_->setText(state.begun && state.dice ? number_text(*state.dice, 3) : QStringLiteral("–"));
   truth_->setChecked(proxy()->display().settings().truth);
-  const double pace = state.playing ? state.steps_per_second : state.solver_steps_per_second;
+  const double measured = state.playing ? state.steps_per_second : state.solver_steps_per_second;
+  const double pace = has_surface(state.outcome) ? measured : 0.0;
   pace_->setText(pace > 0.0 ? short_text(pace) : QStringLiteral("–"));
   pages_->setText(tr("%1, %2 at rest")
                       .arg(count_text(state.memory.resident_pages), count_text(state.memory.quiet_pages)));

@@ -80,10 +80,15 @@ void ResultDialog::start() {
   busy_ = waiting_ = true;
   work_->begin(tr("Looking at the case"));
   follow();
-  proxy().take_snapshot(window_.view_state(), [self = QPointer(this)](const Snapshot& snapshot) {
-    if (!self || !std::exchange(self->waiting_, false)) return;
-    self->begin(snapshot);
-  });
+  proxy().take_snapshot(
+      window_.view_state(),
+      [self = QPointer(this)](const Snapshot& snapshot) {
+        if (!self || !std::exchange(self->waiting_, false)) return;
+        self->begin(snapshot);
+      },
+      [self = QPointer(this)] {
+        if (self) self->rest(tr("The case could not be read"));
+      });
 }
 
 void ResultDialog::rest(const QString& said) {

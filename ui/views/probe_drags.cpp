@@ -29,8 +29,8 @@ void set_speed(CaseProxy& proxy, const ValueProbe::Spread& values, std::uint64_t
 
 }  // namespace
 
-ProbeDrag::ProbeDrag(DragView view, const Pointer& pressed)
-    : Drag(std::move(view)), probe_(proxy().volume()), last_mm_(*pressed.patient_mm) {
+ProbeDrag::ProbeDrag(DragView view, const Pointer& pressed, std::shared_ptr<const Volume> volume)
+    : Drag(std::move(view)), probe_(std::move(volume)), last_mm_(*pressed.patient_mm) {
   probe_.add(last_mm_, last_mm_, reach_mm(proxy().volume().geometry));
   way_mm_.push_back(last_mm_);
 }
@@ -49,13 +49,16 @@ void ProbeDrag::paint(QPainter& painter) const {
   paint_line(painter, line);
 }
 
+SpeedProbeDrag::SpeedProbeDrag(DragView view, const Pointer& pressed)
+    : ProbeDrag(view, pressed, view.proxy.source()) {}
+
 void SpeedProbeDrag::set() {
   set_speed(proxy(), probe().values(), gesture_);
 }
 
 void probe_speed_at(CaseProxy& proxy, glm::dvec3 place_mm) {
   constexpr double kVoxels = 3.0;
-  ValueProbe probe(proxy.volume());
+  ValueProbe probe(proxy.source());  // as D sees it
   probe.add(place_mm, place_mm, kVoxels * reach_mm(proxy.volume().geometry));
   if (probe.count() > 0) set_speed(proxy, probe.values(), CaseProxy::new_gesture());
 }
@@ -65,6 +68,9 @@ QString SpeedProbeDrag::text() const {
   return tr("T %1   ε %2   (%3 voxels)")
       .arg(number_text(values.mean, 1), number_text(values.deviation, 1), count_text(probe().count()));
 }
+
+TransferProbeDrag::TransferProbeDrag(DragView view, const Pointer& pressed)
+    : ProbeDrag(view, pressed, view.proxy.study().volume) {}
 
 void TransferProbeDrag::set() {
   const SourceSummary& summary = proxy().summary();

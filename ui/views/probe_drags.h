@@ -8,7 +8,8 @@ namespace tidemark {
 
 class ProbeDrag : public Drag {
  public:
-  ProbeDrag(DragView view, const Pointer& pressed);
+  // Of `volume` on the grid of the case.
+  ProbeDrag(DragView view, const Pointer& pressed, std::shared_ptr<const Volume> volume);
   void move(const Pointer& pointer) override;
   void paint(QPainter& painter) const override;
 
@@ -24,10 +25,10 @@ class ProbeDrag : public Drag {
   std::vector<glm::dvec3> way_mm_;
 };
 
-// T = mean, epsilon = standard deviation, at least least_probed_range().
+// T = mean, epsilon = standard deviation of what D sees, at least least_probed_range().
 class SpeedProbeDrag : public ProbeDrag {
  public:
-  using ProbeDrag::ProbeDrag;
+  SpeedProbeDrag(DragView view, const Pointer& pressed);
   [[nodiscard]] QString text() const override;
 
  private:
@@ -38,10 +39,10 @@ class SpeedProbeDrag : public ProbeDrag {
 // The same from the voxels around a place.
 void probe_speed_at(CaseProxy& proxy, glm::dvec3 place_mm);
 
-// Centre and width, in value and gradient, of the chosen primitive of the transfer function.
+// Centre and width, in value and gradient of the study, of the chosen primitive of the transfer function.
 class TransferProbeDrag : public ProbeDrag {
  public:
-  using ProbeDrag::ProbeDrag;
+  TransferProbeDrag(DragView view, const Pointer& pressed);
   [[nodiscard]] QString text() const override;
 
  private:

@@ -1,0 +1,125 @@
+#include "document/outcome.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "solver/model.h"
+#include "solver/voxel_values.h"
+
+namespace tidemark {
+namespace {
+
+constexpr std::int64_t kRemnant = 8;    // voxels: the grid shows curvature no less, which leaves it there
+constexpr double kFilled = 0.99;        // of all voxels: noise leaves islands
+constexpr double kLikeTissue = 0.15;    // of the voxels beside a surface that has stopped too early
+constexpr double kLeastWidening = 1.5;  // less would change nothing to speak of
+constexpr double kBeside = 0.6;         // of the band: 1.5 of 2.5 voxels
+
+// Calls visit(voxel, phi) for the voxels of those pages whose entry in the table is `wanted`.
+template <class Wanted, class Visit>
+void visit_pages(const Field& phi, const Wanted& wanted, const Visit& visit) {
+  for (std::size_t page = 0; page < phi.table.size(); ++page) {
+    if (!wanted(phi.table[page])) continue;
+    const auto number = static_cast<std::int64_t>(page);
+    const Index3 first = phi.layout.page_coordinates(number) * phi.layout.page_shape();
+    const Index3 size = phi.layout.valid_shape(number);
+    for (std::int64_t z = 0; z < size.z; ++z) {
+      for (std::int64_t y = 0; y < size.y; ++y) {
+        for (std::int64_t x = 0; x < size.x; ++x) {
+          const Index3 voxel = first + Index3(x, y, z);
+          visit(voxel, phi.at(voxel));
+        }
+      }
+    }
+  }
+}
+
+// Whether a value inside of what it began with draws the surface outwards.
+bool is_attracted(const EvolvedSurface& surface) {
+  bool any = false;
+  visit_pages(
+      *surface.start, [&](std::int32_t entry) { return !any && entry != Field::kOutside; },
+      [&](Index3 voxel, float phi) {
+        any = any || (phi > 0.0F && data_speed(surface.parameters, surface.source.value(voxel)) > 0.0);
+      });
+  return any;
+}
+
+// Of a voxel and its neighbours, as many as the volume has.
+double mean_around(const Volume& volume, Index3 voxel) {
+  const Index3 first = glm::max(voxel - Index3(1), Index3(0));
+  const Index3 last = glm::min(voxel + Index3(1), volume.geometry.size - Index3(1));
+  double sum = 0.0;
+  int count = 0;
+  for (std::int64_t z = first.z; z <= last.z; ++z) {
+    for (std::int64_t y = first.y; y <= last.y; ++y) {
+      for (std::int64_t x = first.x; x <= last.x; ++x, ++count) sum += volume.value({x, y, z});
+    }
+  }
+  return sum / count;
+}
+
+// For people to read and type: two digits.
+double rounded(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return std::ceil(value / unit) * unit;
+}
+
+}  // namespace
+
+std::string_view name_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::converged:
+      return "converged";
+    case Outcome::vanished:
+      return "vanished";
+    case Outcome::seeded_outside:
+      return "seeded_outside";
+    case Outcome::filled_volume:
+      return "filled_volume";
+    case Outcome::unfinished:
+      break;
+  }
+  return "unfinished";
+}
+
+bool has_surface(Outcome outcome) {
+  return outcome == Outcome::unfinished || outcome == Outcome::converged;
+}
+
+Outcome outcome_of(const EvolvedSurface& surface) {
+  if (surface.steps == 0) return Outcome::unfinished;
+  if (surface.voxels_inside == 0 || (surface.stopped && surface.voxels_inside < kRemnant)) {
+    const bool follows_data = surface.parameters.data_term && surface.parameters.alpha > 0.0;
+    const bool is_outside = follows_data && surface.start != nullptr && !is_attracted(surface);
+    return is_outside ? Outcome::seeded_outside : Outcome::vanished;
+  }
+  const auto voxels = static_cast<double>(surface.phi.geometry.voxel_count());
+  if (static_cast<double>(surface.voxels_inside) >= kFilled * voxels) return Outcome::filled_volume;
+  return surface.stopped ? Outcome::converged : Outcome::unfinished;
+}
+
+std::optional<double> wider_range(const EvolvedSurface& surface) {
+  const Parameters& parameters = surface.parameters;
+  if (outcome_of(surface) != Outcome::converged || !parameters.data_term) return std::nullopt;
+  const double band = std::min(surface.phi.band, default_band(surface.phi.geometry));
+  std::int64_t beside = 0;
+  std::int64_t alike = 0;
+  double squares = 0.0;
+  const auto look_at = [&](Index3 voxel, float phi) {
+    if (phi <= -band || phi > -kBeside * band) return;
+    ++beside;
+    if (std::abs(mean_around(surface.source, voxel) - parameters.target) >= parameters.range) return;
+    ++alike;
+    const double difference = surface.source.value(voxel) - parameters.target;
+    squares += difference * difference;
+  };
+  visit_pages(
+      surface.phi, [](std::int32_t entry) { return entry >= 0; }, look_at);
+  if (static_cast<double>(alike) <= kLikeTissue * static_cast<double>(beside)) return std::nullopt;
+  const double spread = std::sqrt(squares / static_cast<double>(alike));
+  return rounded(std::max(2.0 * spread, kLeastWidening * parameters.range));
+}
+
+}  // namespace tidemark
