@@ -8,11 +8,11 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <random>
 #include <utility>
 
 #include "core/atomic_file.h"
+#include "core/json/json.h"
 #include "core/json/json_field.h"
 #include "document/checksum.h"
 #include "document/session_file.h"
@@ -23,6 +23,7 @@ namespace {
 constexpr int kGenerations = 2;
 constexpr int kVersion = 1;
 constexpr const char* kSeal = ".sha256";
+constexpr std::size_t kLargestSeal = 4096;
 
 std::filesystem::path lock_file(const std::filesystem::path& folder, const std::string& case_id) {
   return folder / (case_id + ".lock");
@@ -63,8 +64,10 @@ bool is_locked(const std::filesystem::path& file) {
 // The generation of a copy that is whole.
 std::optional<std::uint64_t> valid_generation(const std::filesystem::path& session) {
   std::ifstream stream(seal_of(session), std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  const auto json = parse_json(text, session.string(), {.bytes = 4096, .depth = 2});
+  std::string text(kLargestSeal + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  const auto json = JsonDocument::parse(text, session.string(), {.bytes = kLargestSeal, .depth = 2});
   if (!json) return std::nullopt;
   const JsonField root = root_of(*json, session.string());
   const bool known = root.at("version").integer(0, 1 << 30) == kVersion;

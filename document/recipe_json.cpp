@@ -361,14 +361,17 @@ Recipe read_recipe(const JsonField& field) {
 
 Result<std::string> Recipe::to_text() const {
   std::string text = tidemark::to_json(*this).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-  if (text.size() <= kLargestFile) return text;
+  if (text.size() <= kLargestFile) {
+    TIDEMARK_TRY(JsonDocument::parse(text, "the recipe"));  // what could not be read again is not written
+    return text;
+  }
   return fail(ErrorKind::usage,
               "the recipe has {} MB, and files of at most {} MB are read again: its start is too large",
               text.size() >> 20U, kLargestFile >> 20U);
 }
 
 Result<Recipe> Recipe::parse(std::string_view text, const std::string& file) {
-  const auto json = parse_json(text, file, {.bytes = kLargestFile});
+  const auto json = JsonDocument::parse(text, file, {.bytes = kLargestFile});
   if (!json) return tl::unexpected<Error>(json.error());
   const JsonField root = root_of(*json, file);
   Recipe recipe = read_recipe(root);

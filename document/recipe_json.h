@@ -1,6 +1,7 @@
 // Recipes and their parts as JSON, for recipe files and session files.
 #pragma once
 
+#include "core/json/json.h"
 #include "core/json/json_field.h"
 #include "document/recipe.h"
 

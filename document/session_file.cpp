@@ -20,8 +20,16 @@ constexpr const char* kFormat = "tidemark session";
 constexpr std::size_t kLongestViewState = std::size_t{16} << 20;
 constexpr std::size_t kLongestName = 256;
 constexpr std::size_t kLongestDescription = std::size_t{1} << 20;
-// Starts from a saved phi are part of the recipe, and larger than its own file may be.
-constexpr JsonLimits kJsonLimits{.bytes = std::size_t{512} << 20, .depth = 32};
+// Some 170,000 strokes of a brush: 2 million values, in 16 MiB of places and 32 MiB of text.
+constexpr JsonLimits kJsonLimits{.bytes = std::size_t{32} << 20, .values = std::size_t{2} << 20};
+
+// A start from a saved phi is part of the recipe, and larger than its own file may be. It is deflated
+// already: as letters of 6 bits each it takes no more than 4/3 of what the archive holds of it.
+JsonLimits json_limits(std::size_t packed_bytes) {
+  JsonLimits limits = kJsonLimits;
+  limits.bytes += packed_bytes + packed_bytes / 2;
+  return limits;
+}
 
 Json code_json(const Code& code) {
   return {{"value", code.value}, {"scheme", code.scheme}, {"meaning", code.meaning}};
@@ -202,7 +210,8 @@ Status read_label_voxels(ZipReader& archive, SessionContents& contents, const st
 // A file of ours, of a version that can be read.
 struct OpenedSession {
   ZipReader archive;
-  Json json;
+  std::vector<std::byte> text;
+  JsonDocument json;
 };
 
 Result<OpenedSession> open_session(const std::filesystem::path& file) {
@@ -210,25 +219,31 @@ Result<OpenedSession> open_session(const std::filesystem::path& file) {
   auto archive = ZipReader::open(file, kNames);
   if (!archive) return pass_on(archive);
   const std::string name = file.string();
-  if (archive->size(kJson) > kJsonLimits.bytes) {
-    return fail(ErrorKind::input, "{}: {} is too large", name, kJson);
+  const JsonLimits limits = json_limits(archive->packed_size(kJson));
+  if (archive->size(kJson) > limits.bytes) {
+    return fail(ErrorKind::input, "{}: {} has {} bytes, more than {} are not read", name, kJson,
+                archive->size(kJson), limits.bytes);
   }
-  const auto text = archive->read(kJson, archive->size(kJson));
-  if (!text) return tl::unexpected<Error>(text.error());
-  auto json = parse_json({reinterpret_cast<const char*>(text->data()), text->size()}, name, kJsonLimits);
+  auto text = archive->read(kJson, archive->size(kJson));
+  if (!text) return pass_on(text);
+  auto json = JsonDocument::parse({reinterpret_cast<const char*>(text->data()), text->size()}, name, limits);
   if (!json) return pass_on(json);
   const JsonField root = root_of(*json, name);
   root.at("format").must_be(kFormat);
   const JsonField version = root.at("version");
   if (version.integer(0, 1 << 30) != kSessionVersion) version.wrong("this version cannot be read");
   if (!root.good()) return tl::unexpected<Error>(root.status().error());
-  return OpenedSession{std::move(*archive), std::move(*json)};
+  return OpenedSession{std::move(*archive), std::move(*text), std::move(*json)};
 }
 
 }  // namespace
 
 Status write_session(const SessionContents& contents, const std::filesystem::path& file) {
-  const std::string json = session_json(contents, file).dump(1, ' ', false, Json::error_handler_t::replace);
+  const std::string json = session_json(contents, file).dump(-1, ' ', false, Json::error_handler_t::replace);
+  // What could not be read again is not written.
+  if (const auto again = JsonDocument::parse(json, file.string(), json_limits(json.size())); !again) {
+    return fail(ErrorKind::write, "{}", again.error().message);
+  }
   const std::vector<float> pages = pages_for_file(*contents.phi);
   std::vector<ZipEntry> entries{{kJson, std::as_bytes(std::span(json))},
                                 {kTable, std::as_bytes(std::span(contents.phi->table))},

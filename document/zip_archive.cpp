@@ -25,10 +25,11 @@ std::string reason(int code) {
 Result<ZipReader> ZipReader::open(const std::filesystem::path& file,
                                   std::span<const std::string_view> names) {
   constexpr std::int64_t kMostEntries = 100;  // before their names are looked at
-  TIDEMARK_TRY(FileBytes::open(file));
+  auto opened = FileBytes::open(file);
+  if (!opened) return pass_on(opened);
   ZipReader reader;
   reader.file_ = file.string();
-  auto directory = ZipDirectory::read(file, kMostEntries);
+  auto directory = ZipDirectory::read(std::move(*opened), kMostEntries);
   if (!directory) {
     return fail(ErrorKind::input, "{}: is damaged, or was not written by Tidemark", reader.file_);
   }
@@ -49,6 +50,11 @@ bool ZipReader::has(std::string_view name) const {
 std::size_t ZipReader::size(std::string_view name) const {
   const auto found = entries_.find(name);
   return found == entries_.end() ? 0 : static_cast<std::size_t>(found->second->bytes);
+}
+
+std::size_t ZipReader::packed_size(std::string_view name) const {
+  const auto found = entries_.find(name);
+  return found == entries_.end() ? 0 : static_cast<std::size_t>(found->second->packed);
 }
 
 Result<std::vector<std::byte>> ZipReader::read(std::string_view name, std::size_t bytes) {

@@ -24,6 +24,7 @@ class ZipReader {
   [[nodiscard]] bool has(std::string_view name) const;
   // The entry's bytes as its header states them.
   [[nodiscard]] std::size_t size(std::string_view name) const;
+  [[nodiscard]] std::size_t packed_size(std::string_view name) const;  // within the archive
   // The whole entry, which must have exactly `bytes` bytes. No memory is taken for a size that so many
   // compressed bytes cannot hold.
   Result<std::vector<std::byte>> read(std::string_view name, std::size_t bytes);

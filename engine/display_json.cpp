@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/json/json.h"
 #include "core/json/json_field.h"
 
 namespace tidemark {
@@ -9,6 +10,7 @@ namespace {
 
 constexpr double kFarthest = 1e6;  // mm: nothing in a patient is as far away
 constexpr int kTools = 9;
+constexpr JsonLimits kLimits{.bytes = std::size_t{16} << 20, .values = std::size_t{1} << 20};
 
 Json json_of(glm::dvec3 v) {
   return {v.x, v.y, v.z};
@@ -174,7 +176,7 @@ std::string to_json(const DisplaySettings& s) {
 }
 
 Result<DisplaySettings> display_settings(const std::string& text, DisplaySettings s) {
-  const auto json = parse_json(text, "view state");
+  const auto json = JsonDocument::parse(text, "view state", kLimits);
   if (!json) return tl::unexpected<Error>(json.error());
   const JsonField root = root_of(*json, "view state");
   if (root.has("slices")) read_slices(root.at("slices"), s);

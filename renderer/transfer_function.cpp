@@ -3,72 +3,37 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
 #include <span>
-#include <tuple>
 #include <utility>
 
+#include "core/json/json.h"
+#include "core/json/json_field.h"
 #include "renderer/embedded_presets.h"
 
 namespace tidemark {
 namespace {
 
-using Json = nlohmann::json;
+constexpr JsonLimits kLimits{.bytes = std::size_t{1} << 20, .values = 10'000, .depth = 8};
 
-// [a, b], two finite numbers.
-Result<std::pair<double, double>> two_numbers(const Json& list, const std::string& where) {
-  const auto finite = [](const Json& n) { return n.is_number() && std::isfinite(n.get<double>()); };
-  if (!list.is_array() || list.size() != 2 || !finite(list[0]) || !finite(list[1])) {
-    return fail(ErrorKind::input, "{}: two numbers are needed", where);
-  }
-  return std::pair{list[0].get<double>(), list[1].get<double>()};
-}
-
-Result<TransferFactor> read_factor(const Json& primitive, const std::string& of, const char* axis) {
+TransferFactor read_factor(const JsonField& primitive, const char* axis) {
   TransferFactor factor;
-  if (!primitive.contains(axis)) return factor;
-  const std::string where = fmt::format("{}.{}", of, axis);
-  const Json& object = primitive[axis];
-  if (!object.is_object() || object.size() != 1) {
-    return fail(ErrorKind::input,
-                "{}: {{\"gaussian\": [centre, width]}} or {{\"ramp\": [start, end]}} is needed", where);
+  if (!primitive.has(axis)) return factor;
+  const JsonField field = primitive.at(axis);
+  field.only({"gaussian", "ramp"});
+  const bool is_gaussian = field.has("gaussian");
+  if (is_gaussian == field.has("ramp")) {
+    field.wrong("{\"gaussian\": [centre, width]} or {\"ramp\": [start, end]} is needed");
+    return factor;
   }
-  const std::string kind = object.begin().key();
-  if (kind != "gaussian" && kind != "ramp") {
-    return fail(ErrorKind::input, "{}: '{}' is neither gaussian nor ramp", where, kind);
-  }
-  const auto numbers = two_numbers(object.begin().value(), where + "." + kind);
-  if (!numbers) return tl::unexpected<Error>(numbers.error());
-  factor.kind = kind == "gaussian" ? TransferFactor::Kind::gaussian : TransferFactor::Kind::ramp;
-  std::tie(factor.start, factor.end) = *numbers;
-  if (kind == "gaussian" ? factor.end <= 0.0 : factor.end == factor.start) {
-    return fail(ErrorKind::input, "{}.{}: the {}", where, kind,
-                kind == "gaussian" ? "width must be above 0" : "end must be other than the start");
-  }
+  const JsonField numbers = field.at(is_gaussian ? "gaussian" : "ramp");
+  if (numbers.size(2) != 2) numbers.wrong("two numbers are needed");
+  if (!field.good()) return factor;
+  factor.kind = is_gaussian ? TransferFactor::Kind::gaussian : TransferFactor::Kind::ramp;
+  factor.start = numbers.at(std::size_t{0}).number();
+  factor.end = numbers.at(std::size_t{1}).number();
+  if (is_gaussian && factor.end <= 0.0) numbers.wrong("the width must be above 0");
+  if (!is_gaussian && factor.end == factor.start) numbers.wrong("the end must be other than the start");
   return factor;
-}
-
-// What primitives of both kinds have in common.
-template <class Primitive>
-Status read_material(const Json& object, const std::string& where, Primitive& result) {
-  const Json opacity = object.value("opacity", Json());
-  if (!opacity.is_number() || !std::isfinite(opacity.get<double>())) {
-    return fail(ErrorKind::input, "{}.opacity: a number is needed", where);
-  }
-  result.opacity = opacity.get<double>();
-  constexpr double kMostOpacity = 1e6;
-  if (result.opacity < 0.0 || result.opacity > kMostOpacity) {
-    return fail(ErrorKind::input, "{}.opacity: must be 0 to {}", where, kMostOpacity);
-  }
-  const Json colour = object.value("colour", Json::array());
-  if (!colour.is_array() || colour.size() != 3 ||
-      !std::all_of(colour.begin(), colour.end(), [](const Json& c) { return c.is_number(); })) {
-    return fail(ErrorKind::input, "{}.colour: three numbers from 0 to 1 are needed", where);
-  }
-  for (int c = 0; c < 3; ++c)
-    result.colour[c] = std::clamp(colour[static_cast<std::size_t>(c)].get<float>(), 0.0F, 1.0F);
-  return {};
 }
 
 template <class Primitive>
@@ -83,40 +48,29 @@ constexpr Axis<SurfacePrimitive> kSurfaceAxes[] = {{&SurfacePrimitive::intensity
                                                    {&SurfacePrimitive::distance, "distance"}};
 
 template <class Primitive>
-Result<Primitive> read_primitive(const Json& object, const std::string& where, Axes<Primitive> axes) {
-  if (!object.is_object()) return fail(ErrorKind::input, "{}: an object is needed", where);
-  for (const auto& item : object.items()) {
-    const std::string& key = item.key();
-    const bool known =
-        key == "opacity" || key == "colour" ||
-        std::any_of(axes.begin(), axes.end(), [&](const auto& axis) { return key == axis.second; });
-    if (!known) return fail(ErrorKind::input, "{}.{}: unknown", where, key);
-  }
+Primitive read_primitive(const JsonField& field, Axes<Primitive> axes) {
+  constexpr double kMostOpacity = 1e6;
+  std::vector<std::string_view> names{"opacity", "colour"};
+  for (const auto& [member, axis] : axes) names.emplace_back(axis);
+  field.only(names);
   Primitive result;
-  for (const auto& [member, axis] : axes) {
-    const auto factor = read_factor(object, where, axis);
-    if (!factor) return tl::unexpected<Error>(factor.error());
-    result.*member = *factor;
-  }
-  TIDEMARK_TRY(read_material(object, where, result));
+  for (const auto& [member, axis] : axes) result.*member = read_factor(field, axis);
+  result.opacity = field.at("opacity").number(0.0, kMostOpacity);
+  const glm::dvec3 colour = field.at("colour").vector();
+  for (int c = 0; c < 3; ++c) result.colour[c] = static_cast<float>(std::clamp(colour[c], 0.0, 1.0));
   return result;
 }
 
 template <class Primitive>
-Status read_list(const Json& document, const char* name, Axes<Primitive> axes,
-                 std::vector<Primitive>& result) {
-  const Json list = document.value(name, Json::array());
-  if (!list.is_array()) return fail(ErrorKind::input, "{}: a list is needed", name);
-  if (list.size() > TransferFunction::kMostPrimitives) {
-    return fail(ErrorKind::input, "{}: {} primitives are more than {}", name, list.size(),
-                TransferFunction::kMostPrimitives);
+std::vector<Primitive> read_list(const JsonField& document, const char* name, Axes<Primitive> axes) {
+  std::vector<Primitive> list;
+  if (!document.has(name)) return list;
+  const JsonField field = document.at(name);
+  const std::size_t count = field.size(TransferFunction::kMostPrimitives);
+  for (std::size_t i = 0; i < count && field.good(); ++i) {
+    list.push_back(read_primitive<Primitive>(field.at(i), axes));
   }
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    auto one = read_primitive<Primitive>(list[i], fmt::format("{}[{}]", name, i), axes);
-    if (!one) return pass_on(one);
-    result.push_back(*one);
-  }
-  return {};
+  return list;
 }
 
 // With their names in the order in which they are written.
@@ -197,28 +151,20 @@ double TransferFunction::most_opacity(double low, double high, double low_phi, d
   return opacity;
 }
 
-Result<TransferFunction> TransferFunction::parse(std::string_view json) {
-  const Json document = Json::parse(json, nullptr, false);
-  if (!document.is_object()) return fail(ErrorKind::input, "not a JSON object");
-  for (const auto& [key, value] : document.items()) {
-    if (key != "name" && key != "relative" && key != "source" && key != "surface") {
-      return fail(ErrorKind::input, "{}: unknown", key);
-    }
-  }
+Result<TransferFunction> TransferFunction::parse(std::string_view json, const std::string& file) {
+  const auto document = JsonDocument::parse(json, file, kLimits);
+  if (!document) return tl::unexpected<Error>(document.error());
+  const JsonField root = root_of(*document, file);
+  root.only({"name", "relative", "source", "surface"});
   TransferFunction function;
-  if (document.contains("name") && document["name"].is_string()) function.name = document["name"];
-  if (document.contains("relative")) {
-    if (!document["relative"].is_boolean())
-      return fail(ErrorKind::input, "relative: true or false is needed");
-    function.relative = document["relative"];
+  if (root.has("name")) function.name = root.at("name").text();
+  if (root.has("relative")) function.relative = root.at("relative").boolean();
+  function.source = read_list<SourcePrimitive>(root, "source", kSourceAxes);
+  function.surface = read_list<SurfacePrimitive>(root, "surface", kSurfaceAxes);
+  if (root.good() && function.source.empty() && function.surface.empty()) {
+    root.wrong("neither 'source' nor 'surface' has primitives");
   }
-  Status good = read_list<SourcePrimitive>(document, "source", kSourceAxes, function.source);
-  if (!good) return pass_on(good);
-  good = read_list<SurfacePrimitive>(document, "surface", kSurfaceAxes, function.surface);
-  if (!good) return pass_on(good);
-  if (function.source.empty() && function.surface.empty()) {
-    return fail(ErrorKind::input, "neither 'source' nor 'surface' has primitives");
-  }
+  if (!root.good()) return tl::unexpected<Error>(root.status().error());
   return function;
 }
 
@@ -227,10 +173,10 @@ Result<TransferFunction> TransferFunction::load(const std::filesystem::path& fil
   std::error_code ignored;
   if (!stream || !std::filesystem::is_regular_file(file, ignored))
     return fail(ErrorKind::input, "{}: cannot be read", file.string());
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
-  auto function = parse(text);
-  if (!function) return fail(function.error().kind, "{}: {}", file.string(), function.error().message);
-  return function;
+  std::string text(kLimits.bytes + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return parse(text, file.string());
 }
 
 std::string TransferFunction::to_json() const {

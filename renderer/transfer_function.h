@@ -70,7 +70,8 @@ struct TransferFunction {
   //   and "colour": [r, g, b] (0 to 1), and for each axis that matters {"gaussian": [centre, width]} or
   //   {"ramp": [start, end]}.
   // Fails (ErrorKind::input) and names the field.
-  static Result<TransferFunction> parse(std::string_view json);
+  // `file` is for messages.
+  static Result<TransferFunction> parse(std::string_view json, const std::string& file = "preset");
   static Result<TransferFunction> load(const std::filesystem::path& file);
   // JSON that parse() reads back as the same function, if it keeps to the limits of parse().
   [[nodiscard]] std::string to_json() const;

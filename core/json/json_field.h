@@ -4,21 +4,20 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/geometry.h"
+#include "core/json/json_document.h"
 #include "core/result.h"
 
 namespace tidemark {
 
-using Json = nlohmann::json;
-
 // The first thing that was wrong while a document was read.
 struct JsonProblems {
-  std::string file;  // for messages
+  std::string file;
   Status status;
 };
 
@@ -26,13 +25,14 @@ struct JsonProblems {
 // gives defaults: who reads asks once, at the end, whether all was well.
 class JsonField {
  public:
-  JsonField(const Json* value, std::string place, std::shared_ptr<JsonProblems> problems)
-      : value_(value), place_(std::move(place)), problems_(std::move(problems)) {}
+  // The whole document, which must outlive it and what comes of it. `file` is for messages; empty: none.
+  JsonField(const JsonDocument& document, const std::string& file);
 
   [[nodiscard]] bool has(const char* key) const;  // and it is not null
   [[nodiscard]] JsonField at(const char* key) const;
+  // Of a list. One after the other they are found at once.
   [[nodiscard]] JsonField at(std::size_t index) const;
-  [[nodiscard]] bool is_text() const { return value_ != nullptr && value_->is_string(); }
+  [[nodiscard]] bool is_text() const { return is(JsonDocument::Kind::text); }
   // Notes a problem where an object holds any other name: a misspelt field must not go unnoticed.
   void only(const std::vector<std::string_view>& names) const;
   // Of an array of at most so many.
@@ -56,19 +56,31 @@ class JsonField {
   [[nodiscard]] const Status& status() const { return problems_->status; }
 
  private:
-  const Json* value_;  // null: there is none
+  using Number = JsonDocument::Number;
+
+  JsonField(const JsonField& outer, std::string place)
+      : document_(outer.document_), place_(std::move(place)), problems_(outer.problems_) {}
+  [[nodiscard]] bool is(JsonDocument::Kind kind) const { return value_ && document_->kind(*value_) == kind; }
+  [[nodiscard]] std::optional<Number> member(std::string_view key) const;
+  // A problem, unless it is of that kind.
+  [[nodiscard]] bool must(JsonDocument::Kind kind, const char* otherwise) const;
+
+  // An entry of a list, and where it is.
+  struct Entry {
+    std::size_t index = 0;
+    Number value = 0;
+  };
+
+  const JsonDocument* document_;
+  std::optional<Number> value_ = {};  // nothing: there is none
   std::string place_;
   std::shared_ptr<JsonProblems> problems_;
+  mutable std::optional<Entry> last_ = {};  // that was asked for
 };
 
-struct JsonLimits {
-  std::size_t bytes = std::size_t{64} << 20;
-  int depth = 32;
-};
-// Fails (ErrorKind::input) naming `file` on text that is too large, too deep, or not JSON.
-Result<Json> parse_json(std::string_view text, const std::string& file, const JsonLimits& limits = {});
-
-// A document to read from. `json` must outlive it.
-JsonField root_of(const Json& json, const std::string& file);
+// A document to read from. It must outlive the field.
+inline JsonField root_of(const JsonDocument& document, const std::string& file) {
+  return {document, file};
+}
 
 }  // namespace tidemark

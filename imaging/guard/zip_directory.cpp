@@ -175,13 +175,18 @@ Status ZipDirectory::read_records(std::int64_t most_entries) {
   return {};
 }
 
+Result<ZipDirectory> ZipDirectory::read(FileBytes file, std::int64_t most_entries) {
+  ZipDirectory directory(std::move(file));
+  TIDEMARK_TRY(directory.read_records(most_entries));
+  return directory;
+}
+
 Result<ZipDirectory> ZipDirectory::read(const std::filesystem::path& file, std::int64_t most_entries) {
   auto opened = FileBytes::open(file);
   if (!opened) return pass_on(opened);
-  ZipDirectory directory(std::move(*opened));
-  const Status done = directory.read_records(most_entries);
-  if (!done) return fail(done.error().kind, "{}: {}", file.string(), done.error().message);
-  return directory;
+  auto directory = read(std::move(*opened), most_entries);
+  if (directory) return directory;
+  return fail(directory.error().kind, "{}: {}", file.string(), directory.error().message);
 }
 
 Status ZipDirectory::unpack(const ZipRecord& record, const Take& take) {

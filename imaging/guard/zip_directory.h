@@ -35,6 +35,8 @@ class ZipDirectory {
   // Fails (ErrorKind::input), naming the file, when it is damaged or has more entries. Takes memory for the
   // entries and for 64 MiB of directory at most.
   static Result<ZipDirectory> read(const std::filesystem::path& file, std::int64_t most_entries);
+  // The same, without naming the file.
+  static Result<ZipDirectory> read(FileBytes file, std::int64_t most_entries);
 
   // Their sizes are not negative, and their packed bytes no more than the file's.
   [[nodiscard]] const std::vector<ZipRecord>& records() const { return records_; }

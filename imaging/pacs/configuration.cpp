@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "core/atomic_file.h"
+#include "core/json/json.h"
 #include "core/json/json_field.h"
 
 namespace tidemark {
@@ -14,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr JsonLimits kLimits{std::size_t{1} << 20, 8};
+constexpr JsonLimits kLimits{.bytes = std::size_t{1} << 20, .depth = 8};
 constexpr std::size_t kMostServers = 100;
 constexpr std::int64_t kMebibyte = std::int64_t{1} << 20;
 
@@ -175,7 +176,7 @@ fs::path pacs_configuration_file() {
 Result<PacsConfiguration> read_pacs_configuration(const fs::path& file) {
   const auto text = text_of(file);
   if (!text) return tl::unexpected<Error>(text.error());
-  const auto json = parse_json(*text, file.string(), kLimits);
+  const auto json = JsonDocument::parse(*text, file.string(), kLimits);
   if (!json) return tl::unexpected<Error>(json.error());
   const JsonField root = root_of(*json, file.string());
   root.only({"servers", "limits"});

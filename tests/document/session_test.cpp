@@ -10,6 +10,7 @@
 #include "cases.h"
 #include "document/checksum.h"
 #include "document/session_file.h"
+#include "tests/support/child_process.h"
 #include "tests/support/test_program.h"
 
 using namespace tidemark;
@@ -239,6 +240,36 @@ class SessionTest : public QObject {
     expect_refusal(folder / "nowhere.tidemark", "cannot be read");
   }
 
+  // In 60 KB or less: what they inflate to is bounded by the size of the file and 64 MiB.
+  void a_small_session_takes_little_memory_data() {
+    QTest::addColumn<int>("bytes");
+    QTest::addColumn<QString>("says");
+    QTest::newRow("too long") << 60'000'000 << "session.json has 60000003 bytes";
+    QTest::newRow("too many values") << 30'000'000 << "more than 2097152 values";
+  }
+  void a_small_session_takes_little_memory() {
+    QFETCH(int, bytes);
+    QFETCH(QString, says);
+    const TemporaryFolder folder;
+    std::string list = "[";
+    while (list.size() < static_cast<std::size_t>(bytes)) list += "1,";
+    Entries entries;
+    entries["session.json"] = list + "1]";
+    write_entries(folder / "small.tidemark", entries);
+    list = {};
+    entries.clear();
+    QVERIFY(std::filesystem::file_size(folder / "small.tidemark") < 300'000);
+    const Ended ended = run_in_child(
+        [&]() -> Status {
+          const auto contents = load_session(folder / "small.tidemark");
+          if (!contents) return tl::unexpected<Error>(contents.error());
+          return {};
+        },
+        {.more_memory = std::int64_t{64} << 20});
+    QVERIFY(!ended.was_killed);
+    QVERIFY2(QString::fromStdString(ended.failure).contains(says), ended.failure.c_str());
+  }
+
   void a_session_with_changed_bytes_is_refused_or_read() {
     const TemporaryFolder folder;
     must(save_session(*labelled_case(), folder / "good.tidemark"));
@@ -295,7 +326,8 @@ class SessionTest : public QObject {
         {"an entry that climbs", [](Entries& e) { e["../phi.table"] = "1"; }, "entries that do not belong"},
         {"json cut", [](Entries& e) { e["session.json"].resize(99); }, "not JSON"},
         {"json empty", [](Entries& e) { e["session.json"].clear(); }, "not JSON"},
-        {"json deep", [](Entries& e) { e["session.json"] = std::string(99999, '['); }, "nested 99999 deep"},
+        {"json deep", [](Entries& e) { e["session.json"] = std::string(99999, '['); },
+         "nested more than 32 deep"},
         {"version", json([](Json& j) { j["version"] = 99; }), "version: this version"},
         {"format", json([](Json& j) { j["format"] = "tidemark recipe"; }), "format: "},
         {"recipe version", json([](Json& j) { j["recipe"]["version"] = 7; }), "recipe.version: "},
@@ -309,7 +341,7 @@ class SessionTest : public QObject {
         {"study path 0", json([](Json& j) { j["study"]["path"] = std::string("a\0b", 3); }),
          "study: names no path"},
         {"study path long", json([](Json& j) { j["study"]["path"] = std::string(5000, 'a'); }),
-         "study.path: 5000 bytes"},
+         "study.path: more than 4096 bytes"},
         {"grid size", json([](Json& j) { j["grid"]["size"][2] = -4; }), "grid.size[2]: -4"},
         {"grid huge", json([](Json& j) {
            j["grid"]["size"] = {1000000, 1000000, 1000000};
@@ -347,15 +379,15 @@ class SessionTest : public QObject {
          "labels[0].meaning.type"},
         {"label code",
          json([](Json& j) { j["labels"][0]["meaning"]["type"]["value"] = std::string(300, '1'); }),
-         "labels[0].meaning.type.value: 300"},
+         "labels[0].meaning.type.value: more than 256"},
         {"label name", json([](Json& j) { j["labels"][0]["name"] = std::string(300, 'n'); }),
-         "labels[0].name: 300"},
+         "labels[0].name: more than 256"},
         {"curve short", json([](Json& j) { j["curve"]["volume_ml"].erase(1); }), "curve.volume_ml: has not"},
         {"curve backwards", json([](Json& j) { j["curve"]["step"][0] = 40; }), "curve.step[1]: 30"},
         {"curve negative", json([](Json& j) { j["curve"]["surface_mm2"][1] = -1; }),
          "curve.surface_mm2[1]: -1"},
         {"curve long", json([](Json& j) { j["curve"]["step"] = std::vector<int>(5000, 1); }),
-         "curve.step: 5000"},
+         "curve.step: more than 2000"},
         {"view state", json([](Json& j) { j["view_state"] = 5; }), "view_state: not a text"},
     };
     return all;

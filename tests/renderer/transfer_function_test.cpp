@@ -101,19 +101,19 @@ class TransferFunctionTest : public QObject {
     const auto row = [](const char* name, const QString& text, const char* named) {
       QTest::newRow(name) << text << QString(named);
     };
-    row("no JSON", "{", "not a JSON object");
-    row("relative", R"({"relative": 1, "source": []})", "relative: true or false");
-    row("unknown list", R"({"surfaces": []})", "surfaces: unknown");
+    row("no JSON", "{", "not JSON");
+    row("relative", R"({"relative": 1, "source": []})", "relative: neither true nor false");
+    row("unknown list", R"({"surfaces": []})", "'surfaces' is no field");
     row("too opaque", R"({"source": [{"value": {"ramp": [5, 6]}, "opacity": 1e7}]})",
-        "source[0].opacity: must be 0 to");
+        "source[0].opacity: 10000000 is not within");
     row("nothing", "{}", "neither 'source' nor 'surface'");
-    row("no list", R"({"source": 3})", "source: a list");
-    row("no object", R"({"source": [3]})", "source[0]: an object");
-    row("unknown axis", R"({"source": [{"distance": {"ramp": [0, 1]}}]})", "source[0].distance: unknown");
+    row("no list", R"({"source": 3})", "source: not a list");
+    row("no object", R"({"source": [3]})", "source[0]: not an object");
+    row("unknown axis", R"({"source": [{"distance": {"ramp": [0, 1]}}]})", "source[0]: 'distance' is no field");
     row("unknown factor", R"({"source": [{"value": {"box": [1, 2]}}]})", "source[0].value: 'box'");
     row("two factors", R"({"source": [{"value": {"ramp": [1, 2], "gaussian": [1, 2]}}]})",
         "source[0].value:");
-    row("centre", R"({"source": [{"phi": {"gaussian": ["a", 1]}}]})", "source[0].phi.gaussian: two numbers");
+    row("centre", R"({"source": [{"phi": {"gaussian": ["a", 1]}}]})", "source[0].phi.gaussian[0]: not a number");
     row("one number", R"({"source": [{"value": {"gaussian": [1]}}]})",
         "source[0].value.gaussian: two numbers");
     row("width", R"({"source": [{"value": {"gaussian": [1, 0]}}]})", "source[0].value.gaussian: the width");
@@ -125,7 +125,7 @@ class TransferFunctionTest : public QObject {
         "source[0].colour");
     QString many = R"({"source": [)";
     for (int i = 0; i < 17; ++i) many += QString(i > 0 ? "," : "") + "{}";
-    row("too many", many + "]}", "17 primitives");
+    row("too many", many + "]}", "source: more than 16 entries");
   }
   void what_is_wrong_is_named() {
     QFETCH(QString, text);

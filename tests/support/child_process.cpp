@@ -11,9 +11,18 @@
 #include <QtGlobal>
 #include <array>
 #include <cerrno>
+#include <fstream>
 
 namespace tidemark::test {
 namespace {
+
+void limit_memory(std::int64_t more) {
+  std::int64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const auto bytes = static_cast<rlim_t>(pages * ::sysconf(_SC_PAGESIZE) + more);
+  const rlimit most{bytes, bytes};
+  if (pages == 0 || setrlimit(RLIMIT_AS, &most) != 0) ::_exit(2);
+}
 
 [[noreturn]] void work_as_child(const std::function<Status()>& work, const Disturbance& disturbance,
                                 int out) {
@@ -28,6 +37,7 @@ namespace {
     const rlimit most{bytes, bytes};
     setrlimit(RLIMIT_FSIZE, &most);
   }
+  if (disturbance.more_memory) limit_memory(*disturbance.more_memory);
   const Status done = work();
   const std::string& said = done ? std::string() : done.error().message;
   if (::write(out, said.data(), said.size()) < 0) ::_exit(2);

@@ -19,6 +19,8 @@ struct Disturbance {
   // SIGKILL when so many files and folders have come, gone, got another name or been closed in `watched`.
   int events = 0;
   std::filesystem::path watched{};
+  // So many bytes of memory may be taken in addition to what there is.
+  std::optional<std::int64_t> more_memory{};
 };
 
 struct Ended {

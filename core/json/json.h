@@ -1,0 +1,10 @@
+// JSON that is written. What is read is a JsonDocument.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+namespace tidemark {
+
+using Json = nlohmann::json;
+
+}  // namespace tidemark
