@@ -144,6 +144,7 @@ void ComputeExecutor::order_maintenance(bool count_step) {
   set_layout(maintain_);
   maintain_.set("band", static_cast<float>(band()));
   maintain_.set("quiet_change", static_cast<float>(kQuietChange));
+  maintain_.set("constant_steps_before_release", static_cast<unsigned>(kConstantStepsBeforeRelease));
   maintain_.set("count_step", count_step ? 1 : 0);
   memory_.field().phi(0).bind_image(0, true);
   memory_.field().phi(1).bind_image(1, true);

@@ -6,6 +6,8 @@
 #include <cstring>
 
 #include "core/stopwatch.h"
+#include "solver/host/page_code.h"
+#include "solver/paging/validate.h"
 
 namespace tidemark {
 namespace {
@@ -45,12 +47,23 @@ HostExecutor::HostExecutor(std::shared_ptr<const Volume> source, const Parameter
                            const ExecutorOptions& options, PageKernels kernels)
     : ExecutorBase(std::move(source), parameters),
       constants_(model_.constants<float>()),
-      options_(options),
       kernels_(std::move(kernels)),
-      threads_(std::make_unique<ThreadPool>(options.threads)) {
+      threads_(std::make_unique<ThreadPool>(options.threads)),
+      pages_(*source_, model_, *threads_, options.memory_budget_bytes),
+      quiet_(pages_, options.skip_quiet_pages),
+      edits_(*source_, model_, pages_, quiet_) {
   for (int member = 0; member < threads_->threads(); ++member) tiles_.push_back(std::make_unique<Tile>());
   updates_.resize(tiles_.size());
-  clear();
+}
+
+Status HostExecutor::restore(const Field& phi) {
+  begin_window();
+  return edits_.restore(phi);
+}
+
+Status HostExecutor::paint(const Sphere& sphere, Brush brush) {
+  begin_window();
+  return edits_.paint(sphere, brush);
 }
 
 Status HostExecutor::set_parameters(const Parameters& parameters) {
@@ -59,8 +72,8 @@ Status HostExecutor::set_parameters(const Parameters& parameters) {
   model_ = *model;
   constants_ = model_.constants<float>();
   begin_window();
-  wake_all();
-  refill_data_motion();
+  quiet_.wake_all();
+  pages_.refill_data_motion();
   return {};
 }
 
@@ -68,27 +81,28 @@ Status HostExecutor::set_parameters(const Parameters& parameters) {
 // returns the number of voxels computed.
 std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const PagePrefetch& ahead,
                                        Tile& tile) {
-  const PhysicalPage page = active_[index];
-  PageInfo& info = pool_.info(page);
-  const int next = 1 - current_;
+  const PhysicalPage page = quiet_.active()[index];
+  PagePool& pool = pages_.pool();
+  PageInfo& info = pool.info(page);
+  const int next = 1 - pages_.current();
   const Rows rows = whole_vectors(work.compute, kernels_.rows_per_vector);
   work.inside &= ~rows;
   work.outside &= ~rows;
 
   // Rows that stay constant are written only where the other buffer does not hold the constant yet.
-  float* phi = pool_.phi(next, page);
-  RowMasks& masks = pool_.masks(next, page);
+  float* phi = pool.phi(next, page);
+  RowMasks& masks = pool.masks(next, page);
   fill_rows(phi, work.inside & ~masks.inside, constants_.band);
   fill_rows(phi, work.outside & ~masks.outside, -constants_.band);
 
   PageResult result;
   if (rows != 0) {
     PageJob job;
-    job.pool = &pool_;
-    job.buffer = current_;
+    job.pool = &pool;
+    job.buffer = pages_.current();
     job.info = &info;
     job.tile = &tile;
-    job.data_motion = pool_.data_motion(page);
+    job.data_motion = pool.data_motion(page);
     job.next = phi;
     job.rows = rows;
     job.ahead = &ahead;
@@ -109,22 +123,26 @@ std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const Pa
   info.change += result.largest_change;
   info.squared_change += result.squared_change;
   info.near_voxels += result.near_voxels;
-  codes_[index] = page_code(page, next);
+  std::uint8_t code = pages_.requests(page, next);
+  if (info.change > kQuietChange && !info.woke_neighbours) code |= kMovedBit;
+  codes_[index] = code;
   return std::popcount(rows & ~info.padding) * std::int64_t{info.valid[0]};
 }
 
 // Updates the active pages [begin, end), at most kLongestPiece; returns the number of voxels computed.
 std::int64_t HostExecutor::update_piece(std::int64_t begin, std::int64_t end, int member) {
   // What is to do is found for all of them first: the masks that this waits for then come at the same time.
+  const std::vector<PhysicalPage>& active = quiet_.active();
+  const PagePool& pool = pages_.pool();
   RowWork work[kLongestPiece];
   for (std::int64_t i = begin; i < end; ++i) {
-    work[i - begin] = find_row_work(pool_, current_, pool_.info(active_[static_cast<std::size_t>(i)]));
+    work[i - begin] = find_row_work(pool, pages_.current(), pool.info(active[static_cast<std::size_t>(i)]));
   }
   constexpr std::int64_t kPrefetchAhead = 5;  // pages; from 2 to 12 it makes no difference (measured)
   // Asking for neighbours, too, makes a step 7 % longer while the surface is small, and 7 % shorter when it
   // has 6,600 pages, 40 MB of values (measured).
   constexpr std::int64_t kMostPagesInCache = 3000;
-  const auto count = static_cast<std::int64_t>(active_.size());
+  const std::int64_t count = std::ssize(active);
   // Not beyond the thread's own share, nor beyond a piece of another's: what lies there is being written.
   ThreadPool::Range reach = threads_->share(count, member);
   if (begin < reach.begin || end > reach.end) reach = {begin, end};
@@ -136,9 +154,9 @@ std::int64_t HostExecutor::update_piece(std::int64_t begin, std::int64_t end, in
     const std::int64_t then = i + stride * kPrefetchAhead;
     PagePrefetch ahead;
     if (then >= reach.begin && then < reach.end) {
-      const PhysicalPage page = active_[static_cast<std::size_t>(then)];
-      ahead.add_values(pool_, page);
-      if (count > kMostPagesInCache) ahead.add_neighbours(pool_, current_, page);
+      const PhysicalPage page = active[static_cast<std::size_t>(then)];
+      ahead.add_values(pool, page);
+      if (count > kMostPagesInCache) ahead.add_neighbours(pool, pages_.current(), page);
     }
     updates += update_page(static_cast<std::size_t>(i), work[i - begin], ahead, tile);
   }
@@ -150,7 +168,7 @@ void HostExecutor::step() {
   kernel_ = kernels_.kernels[model_.parameters().scheme == Scheme::paper ? 1 : 0]
                             [model_.spacing() == glm::dvec3(1.0) ? 0 : 1][motion ? 1 : 0];
   std::fill(updates_.begin(), updates_.end(), 0);
-  const auto count = static_cast<std::int64_t>(active_.size());
+  const std::int64_t count = std::ssize(quiet_.active());
   // Short enough that no thread waits for another's last piece for long.
   const std::int64_t grain = std::clamp<std::int64_t>(count / (8 * threads_->threads()), 1, kLongestPiece);
   threads_->for_each(
@@ -160,55 +178,60 @@ void HostExecutor::step() {
         updates_[static_cast<std::size_t>(member)] += update_piece(begin, end, member);
       },
       goes_back() ? ThreadPool::Direction::backward : ThreadPool::Direction::forward);
-  current_ = 1 - current_;
+  pages_.swap_buffers();
+}
+
+// After a step: grants the requests, frees pages that have become constant, wakes neighbours of pages that
+// move. Fails when the budget does not allow a page; what could be done is done then.
+Status HostExecutor::maintain() {
+  Status result;
+  for (std::size_t i = 0; i < codes_.size(); ++i) {
+    const std::uint8_t code = codes_[i];
+    if (code == 0) continue;
+    const PhysicalPage page = quiet_.active()[i];
+    if ((code & kRequestBits) != 0 && result) result = pages_.grant_requests(page, code);
+    if ((code & kMovedBit) != 0) quiet_.wake_around(page);
+    if ((code & kReleaseBit) != 0) pages_.release_if_surrounded(page);
+  }
+  pages_.fill_new_pages();
+  return result;
 }
 
 // What moved so far no longer counts.
 void HostExecutor::begin_window() {
   steps_in_window_ = 0;
-  for (const PhysicalPage page : active_) {
-    PageInfo& info = pool_.info(page);
-    if (!info.asleep) info.near_voxels = 0;
-    info.change = 0.0F;
-    info.squared_change = 0.0F;
-    info.woke_neighbours = false;
-  }
+  quiet_.begin_window();
 }
 
 // Ends the window of steps over which motion is summed up, when this step does: judges convergence and which
 // pages are quiet. Returns whether it did.
 bool HostExecutor::finish_window() {
   if (++steps_in_window_ < kConvergenceWindow) return false;
-  SurfaceMotion motion;
-  motion.add_resting(quiet_near_voxels_ * kMotionSamples);
-  for (const PhysicalPage page : active_) {
-    const PageInfo& info = pool_.info(page);
-    motion.add_page(static_cast<double>(info.squared_change), info.near_voxels);
-  }
-  surface_speed_ = motion.speed(model_.time_step());
-  judge_quiet_pages();
+  surface_speed_ = quiet_.motion().speed(model_.time_step());
+  quiet_.judge();
   begin_window();
   return true;
 }
 
 Result<AdvanceReport> HostExecutor::advance(const Advance& run) {
   steps_of_last_run_ = 0;
-  if (needs_activation_) {
-    TIDEMARK_TRY(activate_all());
+  if (pages_.needs_activation()) {
+    TIDEMARK_TRY(pages_.activate_all());
   }
   return run_steps(run, [this](AdvanceReport& report) -> Result<bool> {
     const Stopwatch list;
-    if (active_list_is_stale_) rebuild_active_list();
+    quiet_.refresh_active();
+    codes_.resize(quiet_.active().size());
     report.paging_seconds += list.seconds();
     step();
     for (const std::int64_t updates : updates_) report.voxel_updates += updates;
 
     const Stopwatch paging;
-    const Status domain = update_domain();
+    const Status maintained = maintain();
     const bool window_ended = finish_window();
     report.paging_seconds += paging.seconds();
-    if (!domain) {
-      return fail(domain.error().kind, "after {} steps: {}", report.steps, domain.error().message);
+    if (!maintained) {
+      return fail(maintained.error().kind, "after {} steps: {}", report.steps, maintained.error().message);
     }
     return window_ended;
   });
@@ -216,17 +239,21 @@ Result<AdvanceReport> HostExecutor::advance(const Advance& run) {
 
 MemoryReport HostExecutor::memory() const {
   MemoryReport report;
-  report.resident_pages = table_.resident();
-  report.peak_resident_pages = peak_resident_;
-  report.quiet_pages = quiet_pages_;
+  report.resident_pages = pages_.table().resident();
+  report.peak_resident_pages = pages_.peak();
+  report.quiet_pages = quiet_.count();
   report.state_bytes =
-      PagePool::state_bytes(table_.capacity()) + table_.bytes() +
-      static_cast<std::int64_t>(active_.capacity() * sizeof(PhysicalPage) + codes_.capacity() +
-                                listed_.capacity() * sizeof(std::int64_t));
+      pages_.state_bytes() + quiet_.state_bytes() + static_cast<std::int64_t>(codes_.capacity());
   report.peak_state_bytes = report.state_bytes;  // pages are kept for reuse, so memory never shrinks
-  report.source_bytes = PagePool::data_bytes(table_.capacity());
+  report.source_bytes = PagePool::data_bytes(pages_.table().capacity());
   report.page_shape = kDefaultPageShape;
   return report;
+}
+
+Status HostExecutor::validate() const {
+  TIDEMARK_TRY(pages_.validate());
+  TIDEMARK_TRY(quiet_.validate());
+  return tidemark::validate(pages_.copy());
 }
 
 }  // namespace tidemark

@@ -13,7 +13,7 @@ namespace tidemark {
 // What is kept beside the voxels of a physical page.
 struct PageInfo {
   // The physical pages around it, at (dx + 1) + 3 (dy + 1) + 9 (dz + 1); its own number in the middle.
-  PhysicalPage neighbours[27];
+  PhysicalPage neighbours[kNeighbours];
   Rows padding = 0;  // rows beyond the volume
 
   // Since the window began, over the voxels beside the surface (StepConstants::near): the sum of the

@@ -7,6 +7,8 @@
 
 #include <cstdint>
 
+#include "solver/paging/page_neighbours.h"
+
 namespace tidemark {
 
 inline constexpr int kPageSide = 8;
@@ -47,8 +49,10 @@ struct RowMasks {
   [[nodiscard]] bool all_outside() const { return outside == kAllRows; }
 };
 
-// The six faces of a page: -x, +x, -y, +y, -z, +z.
-inline constexpr int kFaces = 6;
+// The rows of a page that are beyond the volume, of which it has so many voxels along y and z.
+Rows padding_rows(int valid_y, int valid_z);
+// Of the values of a page.
+RowMasks masks_of(const float* page, int valid_x, Rows padding, float band);
 
 // Whether every voxel on a face is W (is_inside) or -W.
 constexpr bool face_is_constant(const RowMasks& masks, int face, bool is_inside) {

@@ -6,13 +6,6 @@
 namespace tidemark {
 namespace {
 
-constexpr int neighbour(int dx, int dy, int dz) {
-  return (dx + 1) + 3 * (dy + 1) + 9 * (dz + 1);
-}
-
-constexpr int kFaceNeighbours[] = {neighbour(-1, 0, 0), neighbour(1, 0, 0),  neighbour(0, -1, 0),
-                                   neighbour(0, 1, 0),  neighbour(0, 0, -1), neighbour(0, 0, 1)};
-
 // The local coordinates that an axis of a page's apron may use: -1..8, less at the volume's border.
 struct Span {
   int low;
@@ -25,11 +18,13 @@ struct Span {
 };
 
 Span y_span(const PageInfo& info) {
-  return {info.neighbours[neighbour(0, -1, 0)], info.neighbours[neighbour(0, 1, 0)], info.valid[1]};
+  return {info.neighbours[neighbour_number(0, -1, 0)], info.neighbours[neighbour_number(0, 1, 0)],
+          info.valid[1]};
 }
 
 Span z_span(const PageInfo& info) {
-  return {info.neighbours[neighbour(0, 0, -1)], info.neighbours[neighbour(0, 0, 1)], info.valid[2]};
+  return {info.neighbours[neighbour_number(0, 0, -1)], info.neighbours[neighbour_number(0, 0, 1)],
+          info.valid[2]};
 }
 
 // Which of the three pages along an axis a local coordinate in -1..8 is in.
@@ -125,7 +120,7 @@ void gather_short_row(const PageRow& from, int offset, int width, Tile& tile, in
 }  // namespace
 
 RowWork find_row_work(const PagePool& pool, int buffer, const PageInfo& info) {
-  const PhysicalPage* pages = info.neighbours + neighbour(0, 0, 0);
+  const PhysicalPage* pages = info.neighbours + kItself;
   const ConstantRows page = constant_slices(pool, buffer, pages);
   ConstantRows below{page.inside << 56U, page.outside << 56U};
   ConstantRows above{page.inside >> 56U, page.outside >> 56U};
@@ -139,8 +134,10 @@ RowWork find_row_work(const PagePool& pool, int buffer, const PageInfo& info) {
 }
 
 bool at_border(const PageInfo& info) {
-  return std::any_of(std::begin(kFaceNeighbours), std::end(kFaceNeighbours),
-                     [&](int n) { return info.neighbours[n] == kNoPage; });
+  for (int face = 0; face < kFaces; ++face) {
+    if (info.neighbours[face_neighbour(face)] == kNoPage) return true;
+  }
+  return false;
 }
 
 unsigned slices_read(Rows rows) {

@@ -52,7 +52,7 @@ struct PageRow {
 
 // The pages at (dy, dz) beside a page; null where the volume ends.
 inline PageRow page_row(const PagePool& pool, int buffer, const PageInfo& info, int dy, int dz) {
-  const PhysicalPage* pages = info.neighbours + 13 + 3 * dy + 9 * dz;
+  const PhysicalPage* pages = info.neighbours + neighbour_number(0, dy, dz);
   const auto values = [&](PhysicalPage page) { return page == kNoPage ? nullptr : pool.phi(buffer, page); };
   return {values(pages[-1]), values(pages[0]), values(pages[1])};
 }

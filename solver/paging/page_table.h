@@ -20,6 +20,10 @@ constexpr bool is_static_page(PhysicalPage page) {
   return page == kOutsidePage || page == kInsidePage;
 }
 
+// How many steps in a row a page must be constant before it is freed: a front that hovers at its edge would
+// otherwise allocate and free it all the time.
+inline constexpr int kConstantStepsBeforeRelease = 2;
+
 // The page table V_P -> G_P, the inverse page table G_P -> V_P and the free-page stack.
 class PageTable {
  public:

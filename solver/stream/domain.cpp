@@ -2,18 +2,12 @@
 // messages that the pages send.
 #include <algorithm>
 
+#include "solver/paging/page_neighbours.h"
 #include "solver/paging/validate.h"
 #include "solver/stream/stream_executor.h"
 
 namespace tidemark {
 namespace {
-
-constexpr int kFaces = 6;
-constexpr Index3 kFaceSteps[kFaces] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
-
-// How many steps in a row a page must be constant before it is freed: a front that hovers at its edge would
-// otherwise allocate and free it all the time.
-constexpr int kConstantStepsBeforeRelease = 2;
 
 // G grows by an eighth, so that little of it lies idle.
 std::int64_t with_reserve(std::int64_t pages) {

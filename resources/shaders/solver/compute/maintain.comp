@@ -13,9 +13,7 @@ uniform float band;
 uniform float quiet_change;
 uniform bool count_step;  // false when codes were only measured
 
-// How many maintenances in a row a page must be constant before it is given back: a front that hovers at its edge
-// would otherwise have it made and given back all the time.
-const uint kConstantStepsBeforeRelease = 2u;
+uniform uint constant_steps_before_release;
 
 shared int made[6];
 shared float made_of[6];  // the constant that a new page stands for
@@ -57,7 +55,7 @@ void give_back_if_constant(int page, uint code) {
   }
   uint steps = page_state[page].constant_steps + 1u;
   page_state[page].constant_steps = steps;
-  if (steps < kConstantStepsBeforeRelease) return;
+  if (steps < constant_steps_before_release) return;
   if (surroundings_are_constant(inverse_table[page], inside)) {
     make_free(page, inside ? kInsidePage : kOutsidePage);
   }

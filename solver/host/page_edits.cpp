@@ -1,0 +1,129 @@
+#include "solver/host/page_edits.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+
+namespace tidemark {
+namespace {
+
+using Values = std::array<float, kPageVoxels>;
+
+// A sphere on its way into phi.
+struct Stroke {
+  const Geometry& geometry;
+  Sphere sphere;
+  Brush brush;
+  glm::dvec3 centre;  // voxels
+  double unit_mm;     // the smallest spacing
+  float band;
+
+  // What phi becomes in a page.
+  void paint(Index3 page, const float* phi, Values& values) const {
+    const Index3 first = page * kDefaultPageShape;
+    for (int i = 0; i < kPageVoxels; ++i) {
+      const glm::dvec3 voxel(first + Index3(i % kPageSide, i / kPageSide % kPageSide, i / kPageRows));
+      const glm::dvec3 offset = (voxel - centre) * geometry.spacing_mm;
+      const double distance =
+          sphere.radius_mm - std::sqrt(offset.x * offset.x + offset.y * offset.y + offset.z * offset.z);
+      const float d = std::clamp(static_cast<float>(distance / unit_mm), -band, band);
+      values[static_cast<std::size_t>(i)] = brush == Brush::add ? std::max(phi[i], d) : std::min(phi[i], -d);
+    }
+  }
+
+  // Calls visit(coordinates) for each page that it may touch.
+  template <class Visit>
+  void for_each_page(Visit visit) const {
+    const glm::dvec3 reach = (sphere.radius_mm + static_cast<double>(band) * unit_mm) / geometry.spacing_mm;
+    const Index3 first = page_at(glm::floor(centre - reach));
+    const Index3 last = page_at(glm::ceil(centre + reach));
+    for (std::int64_t z = first.z; z <= last.z; ++z) {
+      for (std::int64_t y = first.y; y <= last.y; ++y) {
+        for (std::int64_t x = first.x; x <= last.x; ++x) visit(Index3(x, y, z));
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] Index3 page_at(glm::dvec3 voxel) const {
+    return Index3(glm::clamp(voxel, glm::dvec3(0), glm::dvec3(geometry.size - Index3(1)))) /
+           kDefaultPageShape;
+  }
+};
+
+bool all_equal(const Values& values, float value) {
+  return std::all_of(values.begin(), values.end(), [&](float v) { return v == value; });
+}
+
+}  // namespace
+
+Status PageEdits::restore(const Field& phi) {
+  TIDEMARK_TRY(phi.check_fits(source_.geometry, model_.band()));
+  if (phi.layout.page_shape() != kDefaultPageShape) {
+    return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band));
+  }
+  TIDEMARK_TRY(pages_.check_budget(phi.resident_pages() - pages_.table().resident()));
+
+  pages_.clear();
+  quiet_.clear();
+  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
+    if (phi.table[static_cast<std::size_t>(page)] != Field::kInside) continue;
+    pages_.set_static(phi.layout.page_coordinates(page), true);
+  }
+  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
+    if (phi.table[static_cast<std::size_t>(page)] < 0) continue;
+    TIDEMARK_TRY(pages_.make_resident(page));
+  }
+  pages_.fill_new_pages();
+  pages_.for_each([&](PhysicalPage page) {
+    const std::int32_t entry = phi.table[static_cast<std::size_t>(pages_.table().virtual_page(page))];
+    std::copy_n(phi.pages.data() + std::int64_t{entry} * kPageVoxels, kPageVoxels, pages_.phi(page));
+    pages_.refresh(page);
+  });
+  return pages_.activate_all();
+}
+
+Status PageEdits::paint(const Sphere& sphere, Brush brush) {
+  const Stroke stroke{source_.geometry,
+                      sphere,
+                      brush,
+                      source_.geometry.to_voxel(sphere.centre_mm),
+                      model_.smallest_spacing_mm(),
+                      static_cast<float>(model_.band())};
+  std::vector<std::int64_t> to_allocate;
+  std::vector<Index3> to_flip;  // pages that are not resident and change from all outside to inside or back
+  Values values;
+  stroke.for_each_page([&](Index3 coordinates) {
+    const PhysicalPage page = pages_.table().physical(coordinates);
+    if (!is_static_page(page)) return;
+    stroke.paint(coordinates, pages_.phi(page), values);
+    const float constant = *pages_.phi(page);
+    if (all_equal(values, constant)) return;
+    if (all_equal(values, -constant)) {
+      to_flip.push_back(coordinates);
+    } else {
+      to_allocate.push_back(pages_.table().layout().page_number(coordinates));
+    }
+  });
+  TIDEMARK_TRY(pages_.check_budget(static_cast<std::int64_t>(to_allocate.size())));
+
+  for (const Index3 coordinates : to_flip) pages_.set_static(coordinates, brush == Brush::add);
+  for (const std::int64_t virtual_page : to_allocate) {
+    TIDEMARK_TRY(pages_.make_resident(virtual_page));
+  }
+  pages_.fill_new_pages();
+  stroke.for_each_page([&](Index3 coordinates) {
+    const PhysicalPage page = pages_.table().physical(coordinates);
+    if (is_static_page(page)) return;
+    float* phi = pages_.phi(page);
+    stroke.paint(coordinates, phi, values);
+    if (std::equal(values.begin(), values.end(), phi)) return;
+    std::copy(values.begin(), values.end(), phi);
+    pages_.refresh(page);
+    quiet_.wake_around(page);
+  });
+  return pages_.activate_all();
+}
+
+}  // namespace tidemark

@@ -1,0 +1,257 @@
+#include "solver/host/resident_pages.h"
+
+#include "solver/host/data_motion.h"
+#include "solver/host/page_code.h"
+#include "solver/paging/page_neighbours.h"
+
+namespace tidemark {
+
+ResidentPages::ResidentPages(const Volume& source, const Model& model, ThreadPool& threads,
+                             std::int64_t memory_budget)
+    : source_(source), model_(model), threads_(threads), memory_budget_(memory_budget) {
+  clear();
+}
+
+// As many pages as the volume has or the budget allows.
+PhysicalPage ResidentPages::pool_capacity() const {
+  const std::int64_t page_bytes = PagePool::state_bytes(1) + PagePool::data_bytes(1);
+  const std::int64_t affordable = memory_budget_ / page_bytes + 1;
+  return static_cast<PhysicalPage>(std::min(affordable, table_.layout().page_count()) + kFirstPage);
+}
+
+float ResidentPages::constant(bool inside) const {
+  return static_cast<float>(inside ? model_.band() : -model_.band());
+}
+
+void ResidentPages::clear() {
+  table_ = PageTable(PageLayout(source_.geometry.size, kDefaultPageShape));
+  pool_ = PagePool(pool_capacity());
+  for (const PhysicalPage page : {kOutsidePage, kInsidePage}) {
+    const bool inside = page == kInsidePage;
+    for (const int buffer : {0, 1}) {
+      std::fill_n(pool_.phi(buffer, page), kPageVoxels, constant(inside));
+      pool_.masks(buffer, page) = RowMasks::constant(inside);
+    }
+  }
+  current_ = 0;
+  new_pages_.clear();
+  listed_.clear();
+  listed_in_order_ = 0;
+  needs_activation_ = false;
+}
+
+Field ResidentPages::copy() const {
+  Field field = Field::empty(source_.geometry, model_.band());
+  field.pages.reserve(static_cast<std::size_t>(table_.resident() * kPageVoxels));
+  for (std::int64_t page = 0; page < table_.layout().page_count(); ++page) {
+    const PhysicalPage physical = table_.physical(page);
+    std::int32_t& entry = field.table[static_cast<std::size_t>(page)];
+    if (physical == kInsidePage) {
+      entry = Field::kInside;
+    } else if (physical != kOutsidePage) {
+      entry = static_cast<std::int32_t>(field.resident_pages());
+      const float* values = phi(physical);
+      field.pages.insert(field.pages.end(), values, values + kPageVoxels);
+    }
+  }
+  return field;
+}
+
+Status ResidentPages::check_budget(std::int64_t more_pages) const {
+  const std::int64_t capacity =
+      std::max<std::int64_t>(table_.capacity(), table_.capacity() + more_pages - table_.free_count());
+  // The lists and tables that grow with the pages take at most this much more for each, their reserve
+  // included.
+  constexpr std::int64_t kListBytesPerPage = 64;
+  const std::int64_t bytes = PagePool::state_bytes(capacity) + PagePool::data_bytes(capacity) +
+                             table_.bytes() + capacity * kListBytesPerPage;
+  if (bytes <= memory_budget_) return {};
+  return fail(ErrorKind::capability, "the surface needs {} pages, {} MB, and the memory budget is {} MB",
+              capacity, bytes >> 20, memory_budget_ >> 20);
+}
+
+// Which of a page's voxels are inside the volume.
+void ResidentPages::describe(PhysicalPage page) {
+  PageInfo& info = pool_.info(page);
+  info = PageInfo();
+  const Index3 valid = table_.layout().valid_shape(table_.virtual_page(page));
+  for (int axis = 0; axis < 3; ++axis) info.valid[axis] = static_cast<std::uint8_t>(valid[axis]);
+  info.padding = padding_rows(info.valid[1], info.valid[2]);
+}
+
+// Tells the resident pages around `coordinates` which physical page is there now.
+void ResidentPages::tell_neighbours(Index3 coordinates, PhysicalPage page) {
+  for (int n = 0; n < kNeighbours; ++n) {
+    const PhysicalPage other = table_.physical(coordinates + neighbour_step(n));
+    if (other >= kFirstPage) pool_.info(other).neighbours[opposite_neighbour(n)] = page;
+  }
+}
+
+void ResidentPages::link_neighbours(PhysicalPage page) {
+  const Index3 coordinates = table_.layout().page_coordinates(table_.virtual_page(page));
+  for (int n = 0; n < kNeighbours; ++n) {
+    pool_.info(page).neighbours[n] = table_.physical(coordinates + neighbour_step(n));
+  }
+  tell_neighbours(coordinates, page);
+}
+
+std::uint8_t ResidentPages::requests(PhysicalPage page, int buffer) {
+  PageInfo& info = pool_.info(page);
+  const RowMasks& masks = pool_.masks(buffer, page);
+  std::uint8_t code = 0;
+  for (int face = 0; face < kFaces; ++face) {
+    const PhysicalPage across = info.neighbours[face_neighbour(face)];
+    if (is_static_page(across) && !face_is_constant(masks, face, across == kInsidePage)) {
+      code |= request_bit(face);
+    }
+  }
+  if (!masks.all_inside() && !masks.all_outside()) {
+    info.constant_steps = 0;
+  } else if (++info.constant_steps >= kConstantStepsBeforeRelease) {
+    info.constant_steps = kConstantStepsBeforeRelease;
+    code |= kReleaseBit;
+  }
+  return code;
+}
+
+Status ResidentPages::grant_requests(PhysicalPage page, std::uint8_t code) {
+  const Index3 coordinates = table_.layout().page_coordinates(table_.virtual_page(page));
+  for (int face = 0; face < kFaces; ++face) {
+    if ((code & request_bit(face)) == 0) continue;
+    const std::int64_t across = table_.layout().page_number(coordinates + kFaceSteps[face]);
+    if (!is_static_page(table_.physical(across))) continue;  // asked for by another page, too
+    if (auto made = make_resident(across); !made) {
+      needs_activation_ = true;
+      return pass_on(made);
+    }
+  }
+  return {};
+}
+
+Status ResidentPages::activate_all() {
+  needs_activation_ = false;
+  // Pages that are made resident on the way may ask for more.
+  Status result;
+  for (PhysicalPage page = kFirstPage; page < table_.capacity() && result; ++page) {
+    if (table_.virtual_page(page) < 0) continue;
+    result = grant_requests(page, requests(page, current_));
+  }
+  for (std::size_t i = 0; i < new_pages_.size() && result; ++i) {
+    result = grant_requests(new_pages_[i], requests(new_pages_[i], current_));
+  }
+  fill_new_pages();
+  return result;
+}
+
+Result<PhysicalPage> ResidentPages::make_resident(std::int64_t virtual_page) {
+  if (table_.free_count() == 0) {
+    TIDEMARK_TRY(check_budget(1));
+  }
+  const bool inside = table_.physical(virtual_page) == kInsidePage;
+  const PhysicalPage page = table_.allocate(virtual_page);
+  describe(page);
+  RowMasks masks = RowMasks::constant(inside);
+  masks.add_padding(pool_.info(page).padding);
+  pool_.masks(0, page) = pool_.masks(1, page) = masks;
+  link_neighbours(page);
+  new_pages_.push_back(page);
+  listed_.push_back(virtual_page);
+  peak_ = std::max(peak_, table_.resident());
+  return page;
+}
+
+void ResidentPages::fill_new_pages() {
+  threads_.for_each(static_cast<std::int64_t>(new_pages_.size()), 8,
+                    [&](std::int64_t begin, std::int64_t end, int) {
+                      for (std::int64_t i = begin; i < end; ++i) {
+                        const PhysicalPage page = new_pages_[static_cast<std::size_t>(i)];
+                        // A page without voxels that are W is all -W: constant pages have one kind of row.
+                        const bool inside = pool_.masks(0, page).all_inside();
+                        for (const int buffer : {0, 1}) {
+                          std::fill_n(pool_.phi(buffer, page), kPageVoxels, constant(inside));
+                        }
+                        fill_data(page);
+                      }
+                    });
+  new_pages_.clear();
+}
+
+void ResidentPages::fill_data(PhysicalPage page) {
+  const std::int64_t virtual_page = table_.virtual_page(page);
+  fill_data_motion(source_, model_.constants<double>(), table_.layout().first_voxel(virtual_page),
+                   table_.layout().valid_shape(virtual_page), pool_.data_motion(page));
+}
+
+void ResidentPages::refill_data_motion() {
+  std::vector<PhysicalPage> pages;
+  for_each([&](PhysicalPage page) { pages.push_back(page); });
+  threads_.for_each(static_cast<std::int64_t>(pages.size()), 8,
+                    [&](std::int64_t begin, std::int64_t end, int) {
+                      for (std::int64_t i = begin; i < end; ++i) {
+                        fill_data(pages[static_cast<std::size_t>(i)]);
+                      }
+                    });
+}
+
+// Whether everything that touches the faces of a constant page is the same constant.
+bool ResidentPages::surroundings_are_constant(PhysicalPage page, bool inside) const {
+  for (int face = 0; face < kFaces; ++face) {
+    const PhysicalPage across = pool_.info(page).neighbours[face_neighbour(face)];
+    if (across == kNoPage) continue;
+    if (!face_is_constant(pool_.masks(current_, across), opposite_face(face), inside)) return false;
+  }
+  return true;
+}
+
+void ResidentPages::release_if_surrounded(PhysicalPage page) {
+  const bool inside = pool_.masks(current_, page).all_inside();
+  if (!surroundings_are_constant(page, inside)) return;
+  const std::int64_t virtual_page = table_.virtual_page(page);
+  table_.release(virtual_page, inside);
+  tell_neighbours(table_.layout().page_coordinates(virtual_page), inside ? kInsidePage : kOutsidePage);
+}
+
+void ResidentPages::set_static(Index3 coordinates, bool inside) {
+  table_.set_static(table_.layout().page_number(coordinates), inside);
+  tell_neighbours(coordinates, inside ? kInsidePage : kOutsidePage);
+}
+
+void ResidentPages::refresh(PhysicalPage page) {
+  const PageInfo& info = pool_.info(page);
+  pool_.masks(0, page) = pool_.masks(1, page) =
+      masks_of(phi(page), info.valid[0], info.padding, constant(true));
+  std::copy_n(phi(page), kPageVoxels, pool_.phi(1 - current_, page));
+}
+
+// Only the new ones are sorted.
+void ResidentPages::put_in_order() {
+  const auto first_new = listed_.begin() + listed_in_order_;
+  if (first_new == listed_.end()) return;
+  std::sort(first_new, listed_.end());
+  std::inplace_merge(listed_.begin(), first_new, listed_.end());
+  // A page that was freed and made resident again is there twice.
+  listed_.erase(std::unique(listed_.begin(), listed_.end()), listed_.end());
+}
+
+std::int64_t ResidentPages::state_bytes() const {
+  return PagePool::state_bytes(table_.capacity()) + table_.bytes() +
+         static_cast<std::int64_t>(listed_.capacity() * sizeof(std::int64_t));
+}
+
+Status ResidentPages::validate() const {
+  TIDEMARK_TRY(table_.validate());
+  Status result;
+  for_each([&](PhysicalPage page) {
+    const Index3 coordinates = table_.layout().page_coordinates(table_.virtual_page(page));
+    for (int n = 0; n < kNeighbours && result; ++n) {
+      const PhysicalPage told = pool_.info(page).neighbours[n];
+      const PhysicalPage there = table_.physical(coordinates + neighbour_step(n));
+      if (told == there) continue;
+      result = fail(ErrorKind::internal, "page {}: neighbour {} is {} in the page, {} in the table", page, n,
+                    told, there);
+    }
+  });
+  return result;
+}
+
+}  // namespace tidemark

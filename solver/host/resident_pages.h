@@ -1,0 +1,105 @@
+// The pages of the host executor that are in memory: where they lie, what is around them, and when they come
+// and go (a page stays while it has a non-flat voxel, and the page across a face is needed as soon as the
+// face differs from it).
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "core/thread_pool.h"
+#include "solver/field.h"
+#include "solver/host/page_pool.h"
+#include "solver/model.h"
+
+namespace tidemark {
+
+class ResidentPages {
+ public:
+  // Everything is outside at first. What it is made from outlives it; it keeps to `model` as that changes.
+  ResidentPages(const Volume& source, const Model& model, ThreadPool& threads, std::int64_t memory_budget);
+  void clear();
+
+  [[nodiscard]] const PageTable& table() const { return table_; }
+  [[nodiscard]] PagePool& pool() { return pool_; }
+  [[nodiscard]] const PagePool& pool() const { return pool_; }
+
+  // The buffer of the pool that holds phi. A step writes the other one.
+  [[nodiscard]] int current() const { return current_; }
+  void swap_buffers() { current_ = 1 - current_; }
+  [[nodiscard]] float* phi(PhysicalPage page) const { return pool_.phi(current_, page); }
+  [[nodiscard]] Field copy() const;
+
+  // Fails (ErrorKind::capability) when so many more pages are above the memory budget.
+  [[nodiscard]] Status check_budget(std::int64_t more_pages) const;
+
+  // What a page asks for after a step that wrote `buffer`, as bits of page_code.h.
+  [[nodiscard]] std::uint8_t requests(PhysicalPage page, int buffer);
+  Status grant_requests(PhysicalPage page, std::uint8_t code);
+  // Grants the requests of every page, after phi was replaced or painted.
+  Status activate_all();
+  [[nodiscard]] bool needs_activation() const { return needs_activation_; }
+
+  // Makes a page resident with the constant that stood for it. Its voxels are written by fill_new_pages().
+  Result<PhysicalPage> make_resident(std::int64_t virtual_page);
+  void fill_new_pages();
+  // Gives a constant page back, if what touches it is the same constant.
+  void release_if_surrounded(PhysicalPage page);
+  // A page that is not resident becomes all inside or all outside.
+  void set_static(Index3 coordinates, bool inside);
+
+  // After the current buffer of a page was written to: the masks of both buffers, and the other buffer.
+  void refresh(PhysicalPage page);
+  // After the parameters changed.
+  void refill_data_motion();
+
+  template <class Visit>
+  void for_each(Visit visit) const {
+    for (PhysicalPage page = kFirstPage; page < table_.capacity(); ++page) {
+      if (table_.virtual_page(page) >= 0) visit(page);
+    }
+  }
+  // In the order of virtual pages.
+  template <class Visit>
+  void for_each_in_order(Visit visit) {
+    put_in_order();
+    std::erase_if(listed_, [&](std::int64_t virtual_page) {
+      const PhysicalPage page = table_.physical(virtual_page);
+      if (is_static_page(page)) return true;
+      visit(page);
+      return false;
+    });
+    listed_in_order_ = std::ssize(listed_);
+  }
+
+  [[nodiscard]] std::int64_t peak() const { return peak_; }
+  [[nodiscard]] std::int64_t state_bytes() const;
+  // The tables, and what each page knows of its neighbours.
+  [[nodiscard]] Status validate() const;
+
+ private:
+  [[nodiscard]] PhysicalPage pool_capacity() const;
+  [[nodiscard]] float constant(bool inside) const;
+  void describe(PhysicalPage page);
+  void link_neighbours(PhysicalPage page);
+  void tell_neighbours(Index3 coordinates, PhysicalPage page);
+  void fill_data(PhysicalPage page);
+  [[nodiscard]] bool surroundings_are_constant(PhysicalPage page, bool inside) const;
+  void put_in_order();
+
+  const Volume& source_;
+  const Model& model_;
+  ThreadPool& threads_;
+  std::int64_t memory_budget_;
+  PageTable table_;
+  PagePool pool_{kFirstPage};
+  int current_ = 0;
+  std::vector<PhysicalPage> new_pages_;  // not filled yet
+  // The virtual numbers of all resident pages, and of those freed since they were visited in order: first so
+  // many in order, then those made resident since.
+  std::vector<std::int64_t> listed_;
+  std::ptrdiff_t listed_in_order_ = 0;
+  bool needs_activation_ = false;  // the budget stopped an allocation
+  std::int64_t peak_ = 0;
+};
+
+}  // namespace tidemark
