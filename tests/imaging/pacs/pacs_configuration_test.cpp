@@ -68,7 +68,7 @@ class PacsConfigurationTest : public QObject {
     QTest::newRow("no object") << QByteArray("[]") << "not an object";
     QTest::newRow("no servers") << QByteArray("{}") << "servers: is missing";
     QTest::newRow("not a list") << QByteArray(R"({"servers": 1})") << "servers: not a list";
-    QTest::newRow("deep") << QByteArray(100'000, '[') << "nested 100000 deep";
+    QTest::newRow("deep") << QByteArray(100'000, '[') << "nested more than 8 deep";
     QTest::newRow("large") << QByteArray(2 << 20, ' ') << "bytes, more than 1048576 are not read";
     QTest::newRow("no host") << QByteArray(R"({"servers": [{"name": "a", "ae_title": "A"}]})")
                              << "servers[0].host: is missing";
@@ -85,7 +85,7 @@ class PacsConfigurationTest : public QObject {
     QTest::newRow("unknown retrieval")
         << server(R"(, "retrieve": "push")") << "servers[0].retrieve: 'push' is unknown";
     QTest::newRow("long title") << server(R"(, "own_ae_title": "12345678901234567")")
-                                << "own_ae_title: 17 bytes";
+                                << "own_ae_title: more than 16 bytes are not read";
     QTest::newRow("title with a backslash") << server(R"(, "own_ae_title": "A\\B")")
                                             << "servers[0]: own_ae_title: is not 1 to 16 ASCII characters";
     QTest::newRow("host with a blank")

@@ -77,7 +77,8 @@ void CameraStoryTest::a_camera_that_was_taken_stays() {
   desktop.begin(9.0);
   const Camera begun = desktop.proxy().display().settings().camera;
   const QPoint middle = view->rect().center();
-  Desktop::drag(static_cast<QWidget&>(*view), {middle, middle + QPoint(40, 10)});
+  const QPoint free(middle.x(), view->height() - 40);  // of the large Play
+  Desktop::drag(static_cast<QWidget&>(*view), {free, free + QPoint(40, 10)});
   const Camera turned = desktop.proxy().display().settings().camera;
   QVERIFY(turned.azimuth != begun.azimuth);
   // Nearer, so that the surface grows out of the picture.
@@ -96,8 +97,9 @@ void CameraStoryTest::reset_brings_the_surface_or_the_volume_into_view() {
   auto* view = desktop.view<VolumeViewWidget>();
   QVERIFY(view);
   const QPoint middle = view->rect().center();
-  Desktop::drag(static_cast<QWidget&>(*view), {middle, middle + QPoint(90, 30)});
-  Desktop::drag(static_cast<QWidget&>(*view), {middle, middle + QPoint(60, 50)}, Qt::MiddleButton);
+  const QPoint free(middle.x(), view->height() - 60);  // of the hint
+  Desktop::drag(static_cast<QWidget&>(*view), {free, free + QPoint(90, 30)});
+  Desktop::drag(static_cast<QWidget&>(*view), {free, free + QPoint(60, 50)}, Qt::MiddleButton);
   desktop.press(Qt::Key_R);
   const Camera of_volume = desktop.proxy().display().settings().camera;
   QCOMPARE(of_volume.zoom, 1.0);

@@ -338,14 +338,14 @@ void MainWindowTest::a_session_is_among_the_recent_studies() {
   const TemporaryFolder folder;
   const QString file = QString::fromStdString((folder / "kept.tidemark").string());
   const auto entries = [&] {
-    QList<QAction*> entries;
+    QList<QAction*> found;
     for (QMenu* menu : desktop.window().menuBar()->findChildren<QMenu*>()) {
       if (!menu->title().contains("recent")) continue;
       for (QAction* action : menu->actions()) {
-        if (action->toolTip() == file) entries << action;
+        if (action->toolTip() == file) found << action;
       }
     }
-    return entries;
+    return found;
   };
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(8.0);

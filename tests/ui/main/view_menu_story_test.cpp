@@ -50,7 +50,8 @@ void ViewMenuStoryTest::right_click(QWidget& widget, QPoint at) {
 }
 
 QMenu* ViewMenuStoryTest::menu() {
-  QTest::qWaitFor([] { return QApplication::activePopupWidget() != nullptr; }, 3000);
+  const bool opened = QTest::qWaitFor([] { return QApplication::activePopupWidget() != nullptr; }, 3000);
+  if (!opened) return nullptr;
   return qobject_cast<QMenu*>(QApplication::activePopupWidget());
 }
 

@@ -47,6 +47,7 @@ void open_sphere(Desktop& desktop) {
   Start start;
   start.seeds.push_back({geometry.to_patient(0.5 * glm::dvec3(geometry.size - Index3(1))), 12.0});
   desktop.proxy().begin(start);
+  desktop.proxy().step();  // the large Play leaves the view
   desktop.wait_until_idle();
 }
 
