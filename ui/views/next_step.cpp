@@ -83,6 +83,8 @@ NextStep::NextStep(CaseProxy& proxy, QWidget& view)
   hint_->setFixedWidth(kHintWidth);
   connect(play_, &PlayButton::clicked, this, [this] {
     view_.setFocus();  // the button goes
+    // A drag turns the 3D view from now on, and no click adds a sphere by accident.
+    if (proxy_.display().settings().tool == Tool::seed) proxy_.display().choose_tool(Tool::window);
     proxy_.play();
   });
   auto* all = new QVBoxLayout(this);

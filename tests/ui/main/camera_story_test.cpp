@@ -78,6 +78,7 @@ void CameraStoryTest::a_camera_that_was_taken_stays() {
   const Camera begun = desktop.proxy().display().settings().camera;
   const QPoint middle = view->rect().center();
   const QPoint free(middle.x(), view->height() - 40);  // of the large Play
+  desktop.press(Qt::Key_W);
   Desktop::drag(static_cast<QWidget&>(*view), {free, free + QPoint(40, 10)});
   const Camera turned = desktop.proxy().display().settings().camera;
   QVERIFY(turned.azimuth != begun.azimuth);
@@ -98,6 +99,7 @@ void CameraStoryTest::reset_brings_the_surface_or_the_volume_into_view() {
   QVERIFY(view);
   const QPoint middle = view->rect().center();
   const QPoint free(middle.x(), view->height() - 60);  // of the hint
+  desktop.press(Qt::Key_W);
   Desktop::drag(static_cast<QWidget&>(*view), {free, free + QPoint(90, 30)});
   Desktop::drag(static_cast<QWidget&>(*view), {free, free + QPoint(60, 50)}, Qt::MiddleButton);
   desktop.press(Qt::Key_R);
