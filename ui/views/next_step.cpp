@@ -106,19 +106,21 @@ void NextStep::follow() {
   const bool wanted = draws && !settings.clip_on && (to_place || to_play);
   hint_->setVisible(to_place);
   play_->setVisible(to_play);
-  if (wanted) move_to_middle();
+  if (wanted) move_into_view();
   setVisible(wanted);
 }
 
-void NextStep::move_to_middle() {
+void NextStep::move_into_view() {
   adjustSize();
+  // Play leaves the surface in the middle to be seen.
+  const double height = play_->isHidden() ? 0.5 : 0.75;
   QRect place(QPoint(), size());
-  place.moveCenter(view_.rect().center());
+  place.moveCenter({view_.width() / 2, static_cast<int>(height * view_.height())});
   setGeometry(place);
 }
 
 bool NextStep::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize) move_to_middle();
+  if (event->type() == QEvent::Resize) move_into_view();
   return QWidget::eventFilter(watched, event);
 }
 

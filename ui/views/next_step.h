@@ -37,7 +37,7 @@ class NextStep : public QWidget {
 
  private:
   void follow();
-  void move_to_middle();
+  void move_into_view();
 
   CaseProxy& proxy_;
   QWidget& view_;

@@ -77,7 +77,7 @@ void CameraStoryTest::a_camera_that_was_taken_stays() {
   desktop.begin(9.0);
   const Camera begun = desktop.proxy().display().settings().camera;
   const QPoint middle = view->rect().center();
-  const QPoint free(middle.x(), view->height() - 40);  // of the large Play
+  const QPoint free(middle.x(), 60);  // of the large Play
   desktop.press(Qt::Key_W);
   Desktop::drag(static_cast<QWidget&>(*view), {free, free + QPoint(40, 10)});
   const Camera turned = desktop.proxy().display().settings().camera;
@@ -98,7 +98,7 @@ void CameraStoryTest::reset_brings_the_surface_or_the_volume_into_view() {
   auto* view = desktop.view<VolumeViewWidget>();
   QVERIFY(view);
   const QPoint middle = view->rect().center();
-  const QPoint free(middle.x(), view->height() - 60);  // of the hint
+  const QPoint free(middle.x(), 60);  // of the hint
   desktop.press(Qt::Key_W);
   Desktop::drag(static_cast<QWidget&>(*view), {free, free + QPoint(90, 30)});
   Desktop::drag(static_cast<QWidget&>(*view), {free, free + QPoint(60, 50)}, Qt::MiddleButton);
