@@ -20,6 +20,8 @@ namespace fs = std::filesystem;
 constexpr std::int64_t kGiB = std::int64_t{1} << 30;
 // What is left free of the disk.
 constexpr std::int64_t kReserve = std::int64_t{256} << 20;
+// Archives within an archive; the others are counted.
+constexpr std::int64_t kMostNamed = 100;
 constexpr const char* kStep = "unpacking the archive";
 // Of folders within names: the standard's, and one that some programs write.
 constexpr const char* kSeparators = "/\\";
@@ -79,8 +81,10 @@ class Unpacker {
         return refuse(fmt::format("is encrypted ({}); unpack it and open the folder", shown(name)));
       }
       if (is_archive_name(name)) {
-        left_out.push_back(
-            {file_.string() + '/' + shown(name), "is an archive within the archive: unpack it first"});
+        if (++archives_within_ <= kMostNamed) {
+          left_out.push_back(
+              {file_.string() + '/' + shown(name), "is an archive within the archive: unpack it first"});
+        }
         continue;
       }
       if (!record.is_readable()) {
@@ -95,6 +99,10 @@ class Unpacker {
       }
       entries_.push_back(&record);
       total_ += record.bytes;
+    }
+    if (archives_within_ > kMostNamed) {
+      left_out.push_back(
+          {file_, fmt::format("holds {} more archives: unpack them first", archives_within_ - kMostNamed)});
     }
     return check_room();
   }
@@ -169,8 +177,9 @@ class Unpacker {
   fs::path folder_;
   std::optional<ZipDirectory> directory_;
   std::vector<const ZipRecord*> entries_;  // that are unpacked
-  std::int64_t total_ = 0;                 // bytes of all entries
-  std::int64_t done_ = 0;                  // bytes written
+  std::int64_t archives_within_ = 0;
+  std::int64_t total_ = 0;  // bytes of all entries
+  std::int64_t done_ = 0;   // bytes written
   std::map<std::string, fs::path> folders_;
 };
 

@@ -42,14 +42,20 @@ Result<std::vector<fs::path>> list_files(const fs::path& folder, bool recursive,
   return files;
 }
 
+// The files of one folder that look like DICOM, but nothing says to which series they belong.
+struct Damage {
+  SkippedFile first;
+  std::size_t others = 0;
+};
+
 struct Headers {
   std::vector<SliceHeader> slices;
   std::vector<SkippedFile> skipped;
-  // Skipped too: they look like DICOM, but nothing says to which series they belong.
-  std::vector<SkippedFile> damaged;
+  std::map<fs::path, Damage> damaged;  // of each folder; skipped too
 };
 
-Result<Headers> read_headers(const std::vector<fs::path>& files, const Progress& progress) {
+// A path takes half a kilobyte of memory: none is kept twice.
+Result<Headers> read_headers(std::vector<fs::path> files, const Progress& progress) {
   std::vector<std::optional<Result<std::vector<SliceHeader>>>> read(files.size());
   SharedProgress shared(progress, static_cast<std::int64_t>(files.size()), "reading headers");
   ThreadPool pool;
@@ -67,31 +73,34 @@ Result<Headers> read_headers(const std::vector<fs::path>& files, const Progress&
     Result<std::vector<SliceHeader>>& result = *read[i];
     if (result) {
       std::move(result->begin(), result->end(), std::back_inserter(headers.slices));
+      read[i].reset();
       continue;
     }
     std::string reason = without_path(result.error().message, files[i]);
     const bool is_damaged = result.error().kind == ErrorKind::capability ||
                             reason.starts_with("is damaged") || reason.starts_with("cannot be read") ||
                             (files[i].extension() == ".dcm" && !looks_like_dicom(files[i]));
-    if (is_damaged) headers.damaged.push_back({files[i], reason});
-    headers.skipped.push_back({files[i], std::move(reason)});
+    read[i].reset();
+    if (is_damaged) {
+      const auto [folder, is_first] = headers.damaged.try_emplace(files[i].parent_path());
+      if (is_first) folder->second.first = {files[i], reason};
+      if (!is_first) ++folder->second.others;
+    }
+    headers.skipped.push_back({std::move(files[i]), std::move(reason)});
   }
   return headers;
 }
 
 // A damaged file beside a series may have been its first or last slice, which no gap would show.
-void warn_of_damage(std::vector<Series>& series, const std::vector<SkippedFile>& damaged) {
-  std::map<fs::path, std::vector<const SkippedFile*>> damaged_in;
-  for (const SkippedFile& skipped : damaged) damaged_in[skipped.file.parent_path()].push_back(&skipped);
-  if (damaged_in.empty()) return;
+void warn_of_damage(std::vector<Series>& series, const std::map<fs::path, Damage>& damaged) {
+  if (damaged.empty()) return;
   for (Series& one : series) {
     std::set<fs::path> folders;
     for (const fs::path& file : one.files) folders.insert(file.parent_path());
     for (const fs::path& folder : folders) {
-      const auto beside = damaged_in.find(folder);
-      if (beside == damaged_in.end()) continue;
-      const SkippedFile& first = *beside->second.front();
-      const std::size_t others = beside->second.size() - 1;
+      const auto beside = damaged.find(folder);
+      if (beside == damaged.end()) continue;
+      const auto& [first, others] = beside->second;
       one.warnings.push_back(fmt::format(
           "{} lies in the same folder and {}{}: a slice may be missing", first.file.filename().string(),
           first.reason, others == 0 ? "" : fmt::format(" (and {} more cannot be read)", others)));
@@ -99,8 +108,8 @@ void warn_of_damage(std::vector<Series>& series, const std::vector<SkippedFile>&
   }
 }
 
-Result<Catalogue> catalogue_of(const std::vector<fs::path>& files, const Progress& progress) {
-  auto headers = read_headers(files, progress);
+Result<Catalogue> catalogue_of(std::vector<fs::path> files, const Progress& progress) {
+  auto headers = read_headers(std::move(files), progress);
   if (!headers) return pass_on(headers);
   Catalogue catalogue;
   catalogue.series = group_series(std::move(headers->slices));
@@ -133,7 +142,7 @@ Result<Catalogue> scan_folder(const fs::path& folder, const Progress& progress) 
       files->begin(), files->end(), [](const fs::path& file) { return !is_media_directory(file); });
   const std::vector<fs::path> media(directories, files->end());
   files->erase(directories, files->end());
-  auto catalogue = catalogue_of(*files, progress);
+  auto catalogue = catalogue_of(std::move(*files), progress);
   if (!catalogue) return catalogue;
   for (const fs::path& file : media) {
     const auto directory = read_media_directory(file, progress);
@@ -172,9 +181,9 @@ Result<Catalogue> scan_file(const fs::path& file, const Progress& progress) {
   SliceHeader placed = chosen->front();
   placed.file = folder / file.filename();  // as the listing names it
   const std::string key = series_key(placed);
-  const auto files = list_files(folder, false, progress);
-  if (!files) return tl::unexpected(files.error());
-  auto headers = read_headers(*files, progress);
+  auto files = list_files(folder, false, progress);
+  if (!files) return pass_on(files);
+  auto headers = read_headers(std::move(*files), progress);
   if (!headers) return pass_on(headers);
   std::erase_if(headers->slices, [&](const SliceHeader& s) { return series_key(s) != key; });
   if (headers->slices.empty()) return fail(ErrorKind::input, "{}: cannot be read", file.string());

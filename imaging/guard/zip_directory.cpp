@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <string_view>
 
 namespace tidemark {
@@ -17,6 +18,7 @@ constexpr std::uint32_t kEntryMark = 0x04034b50;
 constexpr std::uint32_t kElsewhere = 0xffffffff;  // the number itself has 64 bits and stands elsewhere
 constexpr std::int64_t kMostBytes = std::int64_t{64} << 20;  // of a directory
 constexpr std::size_t kPiece = std::size_t{1} << 16;
+constexpr std::int64_t kEntryHeader = 30;  // bytes before the entry's name
 
 auto damaged(std::string_view why) {
   return fail(ErrorKind::input, "is damaged: {}", why);
@@ -129,6 +131,23 @@ Result<std::vector<ZipRecord>> parse(std::span<const std::uint8_t> bytes, std::i
   return records;
 }
 
+// Where each entry has to end. How long its second header is only that header says: unpacking looks at it.
+Status bound_entries(std::vector<ZipRecord>& records, std::int64_t directory) {
+  std::vector<std::reference_wrapper<ZipRecord>> in_file(records.begin(), records.end());
+  std::sort(in_file.begin(), in_file.end(),
+            [](const ZipRecord& a, const ZipRecord& b) { return a.begin > b.begin; });
+  std::int64_t end = directory;
+  for (ZipRecord& record : in_file) {
+    record.end = end;
+    const std::int64_t least = kEntryHeader + static_cast<std::int64_t>(record.name.size());
+    if (record.begin > end || end - record.begin < least || end - record.begin - least < record.packed) {
+      return damaged("its entries overlap");
+    }
+    end = record.begin;
+  }
+  return {};
+}
+
 Status hand_out(ByteSource& bytes, const ZipDirectory::Take& take) {
   std::vector<std::uint8_t> piece(kPiece);
   std::int64_t at = 0;
@@ -171,6 +190,7 @@ Status ZipDirectory::read_records(std::int64_t most_entries) {
   if (!std::all_of(records->begin(), records->end(), is_within)) {
     return damaged("an entry reaches beyond its end");
   }
+  TIDEMARK_TRY(bound_entries(*records, extent->begin));
   records_ = std::move(*records);
   return {};
 }
@@ -190,13 +210,13 @@ Result<ZipDirectory> ZipDirectory::read(const std::filesystem::path& file, std::
 }
 
 Status ZipDirectory::unpack(const ZipRecord& record, const Take& take) {
-  std::array<std::uint8_t, 30> fixed{};
+  std::array<std::uint8_t, kEntryHeader> fixed{};
   if (file_.read(record.begin, fixed) != fixed.size() || Numbers(fixed).long_word(0) != kEntryMark) {
     return fail(ErrorKind::input, "is not where the directory says");
   }
-  const std::int64_t begin = record.begin + 30 + Numbers(fixed).word(26) + Numbers(fixed).word(28);
-  if (begin > file_.size() || record.packed > file_.size() - begin) {
-    return fail(ErrorKind::input, "reaches beyond the end of the archive");
+  const std::int64_t begin = record.begin + kEntryHeader + Numbers(fixed).word(26) + Numbers(fixed).word(28);
+  if (begin > record.end || record.packed > record.end - begin) {
+    return fail(ErrorKind::input, "reaches into the next entry");
   }
   std::int64_t bytes = 0;
   uLong checksum = crc32(0, nullptr, 0);

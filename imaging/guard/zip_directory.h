@@ -22,6 +22,7 @@ struct ZipRecord {
 
   std::string name;                // as it is in the file
   std::int64_t begin = 0;          // of the entry, which repeats its name before its bytes
+  std::int64_t end = 0;            // where the next entry begins, or the directory
   std::int64_t packed = 0;         // bytes in the archive
   std::int64_t bytes = 0;          // that they are unpacked to
   std::uint32_t checksum = 0;      // CRC-32 of those
@@ -32,8 +33,9 @@ struct ZipRecord {
 
 class ZipDirectory {
  public:
-  // Fails (ErrorKind::input), naming the file, when it is damaged or has more entries. Takes memory for the
-  // entries and for 64 MiB of directory at most.
+  // Fails (ErrorKind::input), naming the file, when it is damaged, has more entries, or has entries that
+  // overlap: each one costs bytes of its own. Takes memory for the entries and for 64 MiB of directory at
+  // most.
   static Result<ZipDirectory> read(const std::filesystem::path& file, std::int64_t most_entries);
   // The same, without naming the file.
   static Result<ZipDirectory> read(FileBytes file, std::int64_t most_entries);

@@ -1,29 +1,27 @@
 #include <dcmtk/config/osconfig.h>
-#include <dcmtk/dcmfg/fgpixmsr.h>
-#include <dcmtk/dcmfg/fgplanor.h>
-#include <dcmtk/dcmfg/fgplanpo.h>
-#include <dcmtk/dcmfg/fgseg.h>
+#include <dcmtk/dcmdata/dctk.h>
 #include <dcmtk/dcmiod/cielabutil.h>
-#include <dcmtk/dcmseg/segdoc.h>
-#include <dcmtk/dcmseg/segment.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <span>
+#include <optional>
 
-#include "core/checked.h"
 #include "imaging/dicom/decimal.h"
 #include "imaging/dicom/same_slices.h"
 #include "imaging/guard/guarded.h"
 #include "imaging/results/dicom_object.h"
 #include "imaging/results/results.h"
 #include "imaging/results/segment_frames.h"
+#include "imaging/results/segment_pixels.h"
+#include "imaging/results/slice_budget.h"
 
 namespace tidemark {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kMostSegments = 65'535;  // numbers of segments have 16 bits
 
 // Half of the largest fraction and more is inside.
 std::uint8_t least_inside(DcmItem& dataset, bool is_binary) {
@@ -33,21 +31,23 @@ std::uint8_t least_inside(DcmItem& dataset, bool is_binary) {
   return static_cast<std::uint8_t>(std::clamp((most + 1) / 2, 1, 255));
 }
 
-Code code_of(CodeSequenceMacro& macro) {
-  OFString value;
-  OFString scheme;
-  OFString meaning;
-  macro.getCodeValue(value);
-  macro.getCodingSchemeDesignator(scheme);
-  macro.getCodeMeaning(meaning);
-  return {value.c_str(), scheme.c_str(), meaning.c_str()};
+// The first code of a sequence; empty when there is none.
+Code code_of(DcmItem& segment, const DcmTagKey& sequence) {
+  DcmItem* code = nullptr;
+  if (segment.findAndGetSequenceItem(sequence, code).bad() || code == nullptr) return {};
+  return {element_text(*code, DCM_CodeValue), element_text(*code, DCM_CodingSchemeDesignator),
+          element_text(*code, DCM_CodeMeaning)};
 }
 
-std::optional<SegmentColour> colour_of(DcmSegment& segment) {
+std::optional<SegmentColour> colour_of(DcmItem& segment) {
   Uint16 l = 0;
   Uint16 a = 0;
   Uint16 b = 0;
-  if (segment.getRecommendedDisplayCIELabValue(l, a, b).bad()) return std::nullopt;
+  const DcmTagKey& key = DCM_RecommendedDisplayCIELabValue;
+  if (segment.findAndGetUint16(key, l, 0).bad() || segment.findAndGetUint16(key, a, 1).bad() ||
+      segment.findAndGetUint16(key, b, 2).bad()) {
+    return std::nullopt;
+  }
   double red = 0.0;
   double green = 0.0;
   double blue = 0.0;
@@ -58,31 +58,59 @@ std::optional<SegmentColour> colour_of(DcmSegment& segment) {
   return SegmentColour{byte(red), byte(green), byte(blue)};
 }
 
-// The frame's functional group of that kind, its own or the one of all frames; null when there is none.
-template <class Group>
-Group* group_of(FGInterface& groups, std::size_t frame, DcmFGTypes::E_FGType kind) {
-  OFBool is_its_own = OFFalse;
-  return dynamic_cast<Group*>(groups.get(static_cast<Uint32>(frame), kind, is_its_own));
+std::optional<std::vector<double>> decimals(DcmItem& item, const DcmTagKey& key, std::size_t count) {
+  auto values = parse_decimals(element_text(item, key));
+  return values && values->size() == count ? values : std::nullopt;
+}
+
+// What the functional groups say of a frame, as far as they do.
+struct FrameGroups {
+  std::optional<std::vector<double>> position_mm;
+  std::optional<std::vector<double>> orientation;  // along a row, along a column
+  std::optional<std::vector<double>> spacing_mm;   // between rows, between columns
+  std::optional<Uint16> segment;
+  std::optional<double> between_mm;
+  std::optional<double> thickness_mm;
+};
+
+// Those of one item, in the place of what is there: of all frames first, then of one.
+void read_groups(DcmItem& item, FrameGroups& groups) {
+  const auto with = [&](const DcmTagKey& sequence, const auto& read) {
+    DcmItem* group = nullptr;
+    if (item.findAndGetSequenceItem(sequence, group).good() && group != nullptr) read(*group);
+  };
+  with(DCM_PlanePositionSequence,
+       [&](DcmItem& group) { groups.position_mm = decimals(group, DCM_ImagePositionPatient, 3); });
+  with(DCM_PlaneOrientationSequence,
+       [&](DcmItem& group) { groups.orientation = decimals(group, DCM_ImageOrientationPatient, 6); });
+  with(DCM_PixelMeasuresSequence, [&](DcmItem& group) {
+    groups.spacing_mm = decimals(group, DCM_PixelSpacing, 2);
+    const auto between = decimals(group, DCM_SpacingBetweenSlices, 1);
+    const auto thickness = decimals(group, DCM_SliceThickness, 1);
+    groups.between_mm = between ? std::optional(between->front()) : std::nullopt;
+    groups.thickness_mm = thickness ? std::optional(thickness->front()) : std::nullopt;
+  });
+  with(DCM_SegmentIdentificationSequence, [&](DcmItem& group) {
+    Uint16 number = 0;
+    groups.segment = group.findAndGetUint16(DCM_ReferencedSegmentNumber, number).good()
+                         ? std::optional(number)
+                         : std::nullopt;
+  });
 }
 
 // One reading of one file.
 class SegmentationReader {
  public:
-  explicit SegmentationReader(const fs::path& file) : file_(file) {}
+  explicit SegmentationReader(const fs::path& file) : file_(file), budget_(file_) {}
   Result<Segments> read(const Geometry* grid);
 
  private:
   Status load();
   Status find_pixels(DcmDataset& dataset);
-  Status read_frames();
-  Result<SegmentFrame> read_frame(std::size_t index);
-  void read_segments(Segments& segments);
+  Status read_segments(DcmDataset& dataset);
+  Status read_frames(DcmDataset& dataset);
+  Result<SegmentFrame> read_frame(const FrameGroups& groups);
   Status fill(std::size_t index, Segments& segments);
-
-  // Of the n-th pixel of all frames. DCMTK 3.6.7 mixes up bits where frames do not end at whole bytes.
-  [[nodiscard]] bool is_inside(std::size_t n) const {
-    return bits_ == 1 ? (pixels_[n / 8] >> n % 8 & 1) != 0 : pixels_[n] >= least_inside_;
-  }
 
   [[nodiscard]] auto refuse(std::string_view why) const {
     return fail(ErrorKind::input, "{}: {}", file_.string(), why);
@@ -90,45 +118,33 @@ class SegmentationReader {
 
   fs::path file_;
   std::optional<ParsedDicom> object_;
-  std::unique_ptr<DcmSegmentation> document_;
-  std::span<const Uint8> pixels_;  // of the object, all frames one after another
-  Uint16 bits_ = 1;                // a pixel
-  std::int64_t rows_ = 0;
-  std::int64_t columns_ = 0;
+  SliceBudget budget_;
+  SegmentPixelFormat format_;
+  std::optional<SegmentPixels> pixels_;
   bool is_binary_ = true;
-  std::uint8_t least_inside_ = 1;  // of the values of fractional pixels
+  std::vector<Segment> list_;
   std::vector<SegmentFrame> frames_;
   std::optional<double> between_mm_;
   double thickness_mm_ = 0.0;
 };
 
-// Finds the pixels, decoded, and checks that they hold what the header promises.
 Status SegmentationReader::find_pixels(DcmDataset& dataset) {
   const auto frames = parse_integers(element_text(dataset, DCM_NumberOfFrames));
   if (!frames || frames->size() != 1 || frames->front() < 1) {
     return refuse("NumberOfFrames (0028,0008) is missing");
   }
-  dataset.findAndGetUint16(DCM_BitsAllocated, bits_);
-  if (bits_ != 1 && bits_ != 8)
-    return refuse(fmt::format("BitsAllocated (0028,0100) is {}, not 1 or 8", bits_));
-  if (dataset.chooseRepresentation(EXS_LittleEndianExplicit, nullptr).bad()) {
-    return refuse("its transfer syntax cannot be decoded");
-  }
-  const Uint8* bytes = nullptr;
-  const Uint16* words = nullptr;
-  unsigned long count = 0;
-  if (dataset.findAndGetUint8Array(DCM_PixelData, bytes, &count).bad() &&
-      dataset.findAndGetUint16Array(DCM_PixelData, words, &count).good()) {
-    bytes = reinterpret_cast<const Uint8*>(words);  // little endian, in files and here
-    count *= 2;
-  }
-  const auto needed = checked_product(frames->front(), rows_, columns_, bits_);
-  if (bytes == nullptr || !needed ||
-      *needed / 8 + (*needed % 8 != 0 ? 1 : 0) > static_cast<std::int64_t>(count)) {
-    return refuse(fmt::format("PixelData (7FE0,0010) holds less than {} frames of {} x {} pixels of {} bits",
-                              frames->front(), columns_, rows_, bits_));
-  }
-  pixels_ = {bytes, count};
+  Uint16 bits = 1;
+  dataset.findAndGetUint16(DCM_BitsAllocated, bits);
+  if (bits != 1 && bits != 8) return refuse(fmt::format("BitsAllocated (0028,0100) is {}, not 1 or 8", bits));
+  Uint16 rows = 0;
+  Uint16 columns = 0;
+  dataset.findAndGetUint16(DCM_Rows, rows);
+  dataset.findAndGetUint16(DCM_Columns, columns);
+  if (rows == 0 || columns == 0) return refuse("Rows (0028,0010) or Columns (0028,0011) are missing");
+  format_ = {frames->front(), rows, columns, bits, least_inside(dataset, is_binary_)};
+  auto pixels = SegmentPixels::open(*object_, format_, file_);
+  if (!pixels) return pass_on(pixels);
+  pixels_.emplace(std::move(*pixels));
   return {};
 }
 
@@ -145,90 +161,79 @@ Status SegmentationReader::load() {
     return refuse(
         fmt::format("SegmentationType (0062,0001) is '{}', not BINARY or FRACTIONAL", type.substr(0, 80)));
   }
-  Uint16 rows = 0;
-  Uint16 columns = 0;
-  dataset.findAndGetUint16(DCM_Rows, rows);
-  dataset.findAndGetUint16(DCM_Columns, columns);
-  if (rows == 0 || columns == 0) return refuse("Rows (0028,0010) or Columns (0028,0011) are missing");
-  rows_ = rows;
-  columns_ = columns;
-  least_inside_ = least_inside(dataset, is_binary_);
   TIDEMARK_TRY(find_pixels(dataset));
-  DcmSegmentation* document = nullptr;
-  const OFCondition loaded = DcmSegmentation::loadDataset(dataset, document);
-  document_.reset(document);
-  if (loaded.bad() || !document_) return refuse(fmt::format("is no valid segmentation: {}", loaded.text()));
-  return {};
+  TIDEMARK_TRY(read_segments(dataset));
+  return read_frames(dataset);
 }
 
-Result<SegmentFrame> SegmentationReader::read_frame(std::size_t index) {
-  FGInterface& groups = document_->getFunctionalGroups();
-  auto* position = group_of<FGPlanePosPatient>(groups, index, DcmFGTypes::EFG_PLANEPOSPATIENT);
-  auto* orientation = group_of<FGPlaneOrientationPatient>(groups, index, DcmFGTypes::EFG_PLANEORIENTPATIENT);
-  auto* measures = group_of<FGPixelMeasures>(groups, index, DcmFGTypes::EFG_PIXELMEASURES);
-  auto* segment = group_of<FGSegmentation>(groups, index, DcmFGTypes::EFG_SEGMENTATION);
-  const auto missing = [&](const char* what) { return refuse(fmt::format("frame {}: {}", index + 1, what)); };
-  if (position == nullptr || orientation == nullptr || measures == nullptr || segment == nullptr) {
-    return missing("its place, orientation, pixel measures or segment are missing");
+Status SegmentationReader::read_segments(DcmDataset& dataset) {
+  return for_each_item(dataset, DCM_SegmentSequence, [&](DcmItem& described) -> Status {
+    if (list_.size() == kMostSegments) {
+      return refuse(fmt::format("SegmentSequence (0062,0002) holds more than {} segments", kMostSegments));
+    }
+    Segment segment;
+    segment.name = element_text(described, DCM_SegmentLabel);
+    if (segment.name.empty()) segment.name = fmt::format("Segment {}", list_.size() + 1);
+    segment.colour = colour_of(described);
+    segment.meaning = {code_of(described, DCM_SegmentedPropertyCategoryCodeSequence),
+                       code_of(described, DCM_SegmentedPropertyTypeCodeSequence)};
+    list_.push_back(std::move(segment));
+    return {};
+  });
+}
+
+Result<SegmentFrame> SegmentationReader::read_frame(const FrameGroups& groups) {
+  const auto wrong = [&](const char* what) {
+    return refuse(fmt::format("frame {}: {}", frames_.size() + 1, what));
+  };
+  if (!groups.position_mm || !groups.orientation || !groups.spacing_mm || !groups.segment) {
+    return wrong("its place, orientation, pixel spacing or segment are missing or cannot be read");
   }
-  SegmentFrame frame;
-  frame.columns = columns_;
-  frame.rows = rows_;
-  glm::dvec3 row(0.0);
-  glm::dvec3 column(0.0);
-  glm::dvec3& corner = frame.position_mm;
-  Float64 between_rows = 0.0;
-  Float64 between_columns = 0.0;
-  if (position->getImagePositionPatient(corner.x, corner.y, corner.z).bad() ||
-      orientation->getImageOrientationPatient(row.x, row.y, row.z, column.x, column.y, column.z).bad() ||
-      measures->getPixelSpacing(between_rows, 0).bad() ||
-      measures->getPixelSpacing(between_columns, 1).bad() ||
-      segment->getReferencedSegmentNumber(frame.segment).bad()) {
-    return missing("its place, orientation, pixel spacing or segment cannot be read");
-  }
+  const auto& o = *groups.orientation;
+  const glm::dvec3 row(o[0], o[1], o[2]);
+  const glm::dvec3 column(o[3], o[4], o[5]);
+  const auto& p = *groups.position_mm;
+  const double between_rows = groups.spacing_mm->front();
+  const double between_columns = groups.spacing_mm->back();
+  SegmentFrame frame{*groups.segment, format_.columns, format_.rows, {p[0], p[1], p[2]}, {}, {}};
   const auto finite = [](const glm::dvec3& v) { return std::isfinite(glm::dot(v, v)); };
   const bool is_spaced = between_rows > 0.0 && between_columns > 0.0;
-  if (!finite(corner) || !is_orthonormal({row, column}) || !is_spaced ||
+  if (!finite(frame.position_mm) || !is_orthonormal({row, column}) || !is_spaced ||
       !finite({between_rows, between_columns, 0.0})) {
-    return missing("its place, orientation or pixel spacing makes no sense");
+    return wrong("its place, orientation or pixel spacing makes no sense");
   }
-  if (frame.segment < 1 || frame.segment > document_->getNumberOfSegments()) {
-    return missing("it belongs to a segment that is not described");
+  if (frame.segment < 1 || frame.segment > list_.size()) {
+    return wrong("it belongs to a segment that is not described");
   }
   frame.step_column_mm = between_columns * glm::normalize(row);
   frame.step_row_mm = between_rows * glm::normalize(column);
-  Float64 number = 0.0;
-  if (measures->getSpacingBetweenSlices(number).good() && std::isfinite(number)) between_mm_ = number;
-  if (measures->getSliceThickness(number).good() && std::isfinite(number)) thickness_mm_ = number;
+  if (groups.between_mm) between_mm_ = groups.between_mm;
+  if (groups.thickness_mm) thickness_mm_ = *groups.thickness_mm;
   return frame;
 }
 
-Status SegmentationReader::read_frames() {
-  for (std::size_t index = 0; index < document_->getNumberOfFrames(); ++index) {
-    auto frame = read_frame(index);
+// Text of all frames, which may be long, is read once.
+Status SegmentationReader::read_frames(DcmDataset& dataset) {
+  FrameGroups shared;
+  DcmItem* of_all = nullptr;
+  if (dataset.findAndGetSequenceItem(DCM_SharedFunctionalGroupsSequence, of_all).good() &&
+      of_all != nullptr) {
+    read_groups(*of_all, shared);
+  }
+  TIDEMARK_TRY(for_each_item(dataset, DCM_PerFrameFunctionalGroupsSequence, [&](DcmItem& of_one) -> Status {
+    FrameGroups groups = shared;
+    read_groups(of_one, groups);
+    auto frame = read_frame(groups);
     if (!frame) return pass_on(frame);
     frames_.push_back(*frame);
-  }
-  const auto held = static_cast<std::int64_t>(frames_.size()) * rows_ * columns_ * bits_;
-  if (frames_.empty() || held > 8 * static_cast<std::int64_t>(pixels_.size())) {
+    return {};
+  }));
+  if (frames_.empty()) return refuse("PerFrameFunctionalGroupsSequence (5200,9230) is missing");
+  if (static_cast<std::int64_t>(frames_.size()) > format_.frames) {
     return refuse(fmt::format("PixelData (7FE0,0010) holds less than the {} frames that are described",
                               frames_.size()));
   }
   return {};
-}
-
-void SegmentationReader::read_segments(Segments& segments) {
-  for (std::size_t number = 1; number <= document_->getNumberOfSegments(); ++number) {
-    DcmSegment& described = *document_->getSegment(number);
-    OFString name;
-    described.getSegmentLabel(name);
-    Segment segment;
-    segment.name = name.empty() ? fmt::format("Segment {}", number) : name.c_str();
-    segment.colour = colour_of(described);
-    segment.meaning = {code_of(described.getSegmentedPropertyCategoryCode()),
-                       code_of(described.getSegmentedPropertyTypeCode())};
-    segments.list.push_back(std::move(segment));
-  }
 }
 
 Status SegmentationReader::fill(std::size_t index, Segments& segments) {
@@ -236,15 +241,18 @@ Status SegmentationReader::fill(std::size_t index, Segments& segments) {
   const Geometry& grid = segments.geometry;
   const auto map = map_frame(frame, grid, file_.string());
   if (!map) return tl::unexpected<Error>(map.error());
+  TIDEMARK_TRY(pixels_->go_to(static_cast<std::int64_t>(index)));
   auto& slices = segments.list[frame.segment - 1U].slices;
-  for (std::int64_t r = 0; r < rows_; ++r) {
-    for (std::int64_t c = 0; c < columns_; ++c) {
-      if (!is_inside(static_cast<std::size_t>((static_cast<std::int64_t>(index) * rows_ + r) * columns_ + c)))
-        continue;
+  for (std::int64_t r = 0; r < format_.rows; ++r) {
+    for (std::int64_t c = 0; c < format_.columns; ++c) {
+      if (!pixels_->is_inside(r, c)) continue;
       const Index3 voxel = map->first + c * map->column + r * map->row;
       if (!grid.contains(voxel)) return refuse("it reaches beyond the volume");
       auto& slice = slices[voxel.z];
-      if (slice.empty()) slice.resize(static_cast<std::size_t>(grid.size.x * grid.size.y));
+      if (slice.empty()) {
+        TIDEMARK_TRY(budget_.take(grid.size.x * grid.size.y));
+        slice.resize(static_cast<std::size_t>(grid.size.x * grid.size.y));
+      }
       slice[static_cast<std::size_t>(voxel.x + grid.size.x * voxel.y)] = 1;
     }
   }
@@ -253,7 +261,6 @@ Status SegmentationReader::fill(std::size_t index, Segments& segments) {
 
 Result<Segments> SegmentationReader::read(const Geometry* grid) {
   TIDEMARK_TRY(load());
-  TIDEMARK_TRY(read_frames());
   Segments segments;
   if (grid != nullptr) {
     segments.geometry = *grid;
@@ -262,7 +269,7 @@ Result<Segments> SegmentationReader::read(const Geometry* grid) {
     if (!own) return pass_on(own);
     segments.geometry = *own;
   }
-  read_segments(segments);
+  segments.list = std::move(list_);
   for (std::size_t index = 0; index < frames_.size(); ++index) {
     TIDEMARK_TRY(fill(index, segments));
   }

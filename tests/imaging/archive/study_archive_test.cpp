@@ -1,6 +1,7 @@
 // Studies in zip archives: what is unpacked, how long it stays, and archives that mean harm.
 #include <zip.h>
 
+#include <QElapsedTimer>
 #include <algorithm>
 #include <cctype>
 #include <chrono>
@@ -16,6 +17,7 @@
 #include "imaging/load_study.h"
 #include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/imaging/dicom/series_files.h"
+#include "tests/support/child_process.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
@@ -76,6 +78,35 @@ std::string with(std::string archive, const char* mark, std::size_t at, const st
 }
 constexpr const char* kRecord = "PK\x01\x02";
 constexpr const char* kEnd = "PK\x05\x06";
+
+std::string little(std::uint64_t number, int bytes) {
+  std::string text;
+  for (; bytes > 0; --bytes, number >>= 8U) text += static_cast<char>(number & 0xffU);
+  return text;
+}
+
+// What the two headers of an uncompressed entry "a" share.
+std::string header_of(std::uint64_t packed, std::uint64_t extra) {
+  return std::string("\x14\0\0\0\0\0\0\0\0\0", 10) + little(0, 4) + little(packed, 4) + little(packed, 4) +
+         little(1, 2) + little(extra, 2);
+}
+
+// Of an entry "a" that begins there.
+std::string record_of(std::uint64_t begin, std::uint64_t packed) {
+  return std::string("PK\1\2\x14\0", 6) + header_of(packed, 0) + little(0, 10) + little(begin, 4) + "a";
+}
+
+std::string entry_of(std::uint64_t packed, std::uint64_t extra = 0) {
+  return "PK\3\4" + header_of(packed, extra) + "a";
+}
+
+// An archive of those entries and records. The number of records is what 16 bits leave of it.
+std::string archive_of(const std::string& entries, const std::vector<std::string>& records) {
+  std::string bytes = entries;
+  for (const std::string& record : records) bytes += record;
+  return bytes + std::string("PK\5\6\0\0\0\0", 8) + little(records.size(), 2) + little(records.size(), 2) +
+         little(bytes.size() - entries.size(), 4) + little(entries.size(), 4) + little(0, 2);
+}
 
 // The end of a 64-bit directory that states a trillion entries.
 std::string trillion_entries() {
@@ -204,6 +235,8 @@ class StudyArchiveTest : public QObject {
     write_archive(file, {{"a.txt", "hello"}});
     const std::string text = contents(file);
     row("no study", text, "holds no DICOM series or volume file");
+    write_archive(file, {{"a.txt", "hello"}, {"b.txt", "hello"}});
+    const std::string two = contents(file);
     const auto size = [&](const std::string& bytes) { return with(text, kRecord, 24, bytes); };
     row("two gigabytes in a few bytes", size("\xff\xff\xff\x7f"), "times its size");
     row("an entry that is longer than it says", size(std::string("\4\0\0\0", 4)), "holds more than it says");
@@ -213,7 +246,19 @@ class StudyArchiveTest : public QObject {
     row("an entry larger than the archive", with(text, kRecord, 20, "\xff\xff\xff\x7f"), "beyond its end");
     row("an entry of 64 bits that are nowhere", with(text, kRecord, 20, "\xff\xff\xff\xff"),
         "beyond its end");
-    row("an entry elsewhere", with(text, kRecord, 42, "\1"), "is not where the directory says");
+    row("an entry that is none", with(two, "hello", 5, "QK"), "is not where the directory says");
+    row("an entry within the one before it", with(text, kRecord, 42, "\1"), "its entries overlap");
+    row("one entry for two records", archive_of(entry_of(0), {record_of(0, 0), record_of(0, 0)}),
+        "its entries overlap");
+    row("an entry that holds the next one's header",
+        archive_of(entry_of(31) + entry_of(0), {record_of(0, 31), record_of(31, 0)}), "its entries overlap");
+    row("records in another order than the entries, which overlap",
+        archive_of(entry_of(31) + entry_of(0), {record_of(31, 0), record_of(0, 31)}), "its entries overlap");
+    row("an entry that holds the directory", archive_of(entry_of(40), {record_of(0, 40)}),
+        "its entries overlap");
+    row("an entry whose own header reaches into the next one",
+        archive_of(entry_of(4, 4) + "1234" + entry_of(0), {record_of(0, 4), record_of(35, 0)}),
+        "reaches into the next entry");
     row("an entry of bzip2", with(text, kRecord, 10, "\x0c"), "is not read (a.txt, method 12)");
     row("an entry of deflate that is none", with(text, kRecord, 10, "\x08"), "is damaged: a.txt");
     row("a longer name than there is", with(text, kRecord, 28, "\xff\xff"), "its directory is cut off");
@@ -235,6 +280,50 @@ class StudyArchiveTest : public QObject {
              qPrintable(message));
     QVERIFY2(message.contains(why), qPrintable(message));
     QVERIFY2(!message.contains('\n') && !message.contains("tidemark-study-"), qPrintable(message));
+  }
+
+  void many_entries_in_few_bytes_are_refused_at_once_data() {
+    QTest::addColumn<int>("records");
+    QTest::addColumn<QString>("why");
+    QTest::newRow("as many as there may be") << 65'535 << "its entries overlap";
+    QTest::newRow("more than there may be") << 180'000 << "has more than 65535 entries";
+  }
+
+  void many_entries_in_few_bytes_are_refused_at_once() {
+    QFETCH(int, records);
+    QFETCH(QString, why);
+    const test::TemporaryFolder folder;
+    const std::string bytes =
+        archive_of(entry_of(0), std::vector<std::string>(static_cast<std::size_t>(records), record_of(0, 0)));
+    test::write_bytes(folder / "study.zip", bytes);
+    QElapsedTimer timer;
+    timer.start();
+    const auto ended = test::run_in_child(
+        [&]() -> Status {
+          const auto found = find_series(folder / "study.zip");
+          return found ? Status() : tl::unexpected<Error>(found.error());
+        },
+        {.more_memory = static_cast<std::int64_t>(bytes.size()) + (std::int64_t{64} << 20)});
+    QVERIFY2(ended.failure.find(why.toStdString()) != std::string::npos, ended.failure.c_str());
+    QVERIFY2(timer.elapsed() < 1000, qPrintable(QString::number(timer.elapsed()) + " ms"));
+  }
+
+  void thousands_of_small_files_are_a_study() {
+    const test::TemporaryFolder folder;
+    std::vector<Entry> entries = entries_of(sample_);
+    constexpr std::size_t kOthers = 5000;
+    for (std::size_t i = 0; i < kOthers; ++i) entries.push_back({fmt::format("notes/{}.txt", i), "x"});
+    for (std::size_t i = 0; i < 200; ++i) entries.push_back({fmt::format("more/{}.zip", i), "PK"});
+    write_archive(folder / "study.zip", entries);
+    const auto found = find_series(folder / "study.zip");
+    QCOMPARE(test::failure(found), QString());
+    QCOMPARE(found->series.size(), std::size_t{1});
+    const auto volume = load_series(found->series.front());
+    QCOMPARE(test::failure(volume), QString());
+    QVERIFY(volume->voxels == sample_.voxels);
+    // The archives are named as far as someone might read on.
+    QCOMPARE(found->skipped.size(), kOthers + 101);
+    QVERIFY(holds(found->skipped.back().reason, "holds 100 more archives"));
   }
 
   void an_error_of_a_file_names_the_archive() {
