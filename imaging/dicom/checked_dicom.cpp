@@ -13,8 +13,12 @@ namespace fs = std::filesystem;
 Result<CheckedDicom> check_dicom(const fs::path& file) {
   auto bytes = FileBytes::open(file);
   if (!bytes) return pass_on(bytes);
-  if (!begins_as_dicom(*bytes)) return fail(ErrorKind::input, "{}: is not a DICOM file", file.string());
-  Preflight checked = preflight_dicom(*bytes);
+  Preflight checked;
+  if (begins_as_dicom(*bytes)) {
+    checked = preflight_dicom(*bytes);
+  } else {
+    checked.verdict = Preflight::Verdict::not_dicom;
+  }
   return CheckedDicom{std::make_unique<FileBytes>(std::move(*bytes)), std::move(checked)};
 }
 
@@ -25,6 +29,7 @@ Result<CheckedDicom> check_dicom_to_parse(const fs::path& file) {
 }
 
 std::string describe(const Preflight& checked) {
+  if (checked.verdict == Preflight::Verdict::not_dicom) return "is not a DICOM file";
   const auto& [tag, offset, what] = checked.reason;
   const std::string element = tag == DicomTag{} ? "the dataset" : name_of(DcmTagKey(tag.group, tag.element));
   const bool is_damaged = checked.verdict == Preflight::Verdict::damaged;

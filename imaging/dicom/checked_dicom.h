@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/result.h"
-#include "imaging/guard/byte_source.h"
 #include "imaging/dicom/preflight.h"
+#include "imaging/guard/byte_source.h"
 
 namespace tidemark {
 
@@ -18,7 +18,7 @@ struct CheckedDicom {
 };
 
 // Opens the file and checks it; what is wrong with it is in `checked`. Fails (ErrorKind::input), naming the
-// file, when it cannot be read, or does not begin as DICOM does.
+// file, when it cannot be read.
 [[nodiscard]] Result<CheckedDicom> check_dicom(const std::filesystem::path& file);
 
 // The same, and fails (ErrorKind::input) also when the file must not be parsed.

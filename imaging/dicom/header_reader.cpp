@@ -28,6 +28,11 @@ namespace fs = std::filesystem;
 // The most frames of an enhanced image, which has a place for each; more are damage.
 constexpr std::int64_t kMostFrames = 65535;
 
+template <class T>
+tl::unexpected<Refusal> refused(ImageResult<T>& failed) {
+  return tl::unexpected<Refusal>(std::move(failed.error()));
+}
+
 std::int64_t read_number_of_frames(AttributeReader& in) {
   const std::string frames = in.text(DCM_NumberOfFrames);
   if (frames.empty()) return 1;
@@ -89,7 +94,7 @@ void read_padding(const AttributeReader& in, SliceHeader& header) {
 
 // Of a file without pixel data: whether it is an image that has lost them (and belongs to a series, which is
 // then incomplete), or why it is something else.
-Status require_image(DcmFileFormat& loaded, const SliceHeader& header) {
+ImageResult<void> require_image(DcmFileFormat& loaded, const SliceHeader& header) {
   OFString sop_class;
   if (loaded.getDataset()->findAndGetOFString(DCM_SOPClassUID, sop_class).bad()) {
     loaded.getMetaInfo()->findAndGetOFString(DCM_MediaStorageSOPClassUID, sop_class);
@@ -102,7 +107,9 @@ Status require_image(DcmFileFormat& loaded, const SliceHeader& header) {
   const char* known = dcmFindNameOfUID(sop_class.c_str());
   const std::string what = known != nullptr ? known : std::string(sop_class.c_str()).substr(0, 80);
   if (!has_rows && !dcmIsImageStorageSOPClassUID(sop_class.c_str())) {
-    return fail(ErrorKind::input, "{}: holds no image ({})", header.file.string(), what);
+    return tl::unexpected<Refusal>(
+        {{ErrorKind::input, fmt::format("{}: holds no image ({})", header.file.string(), what)},
+         Refusal::Kind::no_slice});
   }
   if (!has_rows && header.series_uid.empty()) {
     return fail(ErrorKind::input, "{}: is damaged: {} without an image", header.file.string(), what);
@@ -127,7 +134,8 @@ SliceHeader header_without_image(const fs::path& file, const Preflight& checked)
 }
 
 // The dataset's own attributes, which hold for all its frames.
-Result<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file, const TransferSyntax& syntax) {
+ImageResult<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file,
+                                    const TransferSyntax& syntax) {
   DcmDataset& dataset = *loaded.getDataset();
   SliceHeader header;
   header.file = file;
@@ -144,7 +152,7 @@ Result<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file, cons
 
   DcmElement* element = nullptr;
   if (dataset.findAndGetElement(DCM_PixelData, element).bad() || element == nullptr) {
-    TIDEMARK_TRY(require_image(loaded, header));
+    if (auto image = require_image(loaded, header); !image) return refused(image);
     in.report(fmt::format("{} is missing", name_of(DCM_PixelData)));
   }
   check_kind(in);
@@ -166,10 +174,10 @@ Result<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file, cons
 }
 
 // A header for each slice; one with the problem of the file where there is any.
-Result<std::vector<SliceHeader>> read_slices(DcmFileFormat& loaded, const fs::path& file,
-                                             const Preflight& checked) {
+ImageResult<std::vector<SliceHeader>> read_slices(DcmFileFormat& loaded, const fs::path& file,
+                                                  const Preflight& checked) {
   auto whole = read_whole(loaded, file, *checked.syntax);
-  if (!whole) return pass_on(whole);
+  if (!whole) return refused(whole);
   std::vector<SliceHeader> slices;
   DcmDataset& dataset = *loaded.getDataset();
   if (!whole->problem.empty()) {
@@ -188,9 +196,15 @@ Result<std::vector<SliceHeader>> read_slices(DcmFileFormat& loaded, const fs::pa
   return slices;
 }
 
+// Of a file that may not be parsed.
+Refusal::Kind kind_of(Preflight::Verdict verdict) {
+  if (verdict == Preflight::Verdict::not_dicom) return Refusal::Kind::not_dicom;
+  return verdict == Preflight::Verdict::damaged ? Refusal::Kind::damaged : Refusal::Kind::no_slice;
+}
+
 }  // namespace
 
-Result<ImageFile> open_image(const fs::path& file) {
+ImageResult<ImageFile> open_image(const fs::path& file) {
   auto opened = check_dicom(file);
   if (!opened) return pass_on(opened);
   ImageFile image{{}, std::move(opened->checked), std::move(opened->bytes)};
@@ -198,7 +212,9 @@ Result<ImageFile> open_image(const fs::path& file) {
     // A damaged file that still names its series makes that series incomplete: it must not go unnoticed.
     image.slices.push_back(header_without_image(file, image.checked));
     if (!image.checked.series_uid.empty()) return image;
-    return fail(ErrorKind::input, "{}: {}", file.string(), image.slices.front().problem);
+    return tl::unexpected<Refusal>(
+        {{ErrorKind::input, fmt::format("{}: {}", file.string(), image.slices.front().problem)},
+         kind_of(image.checked.verdict)});
   }
   DcmFileFormat loaded;
   // In the transfer syntax of the preflight, so that both read the same tags.
@@ -206,14 +222,14 @@ Result<ImageFile> open_image(const fs::path& file) {
     return fail(ErrorKind::input, "{}: is damaged: {}", file.string(), problem);
   }
   auto slices = read_slices(loaded, file, image.checked);
-  if (!slices) return pass_on(slices);
+  if (!slices) return refused(slices);
   image.slices = std::move(*slices);
   return image;
 }
 
-Result<std::vector<SliceHeader>> read_slice_headers(const fs::path& file) {
+ImageResult<std::vector<SliceHeader>> read_slice_headers(const fs::path& file) {
   auto image = open_image(file);
-  if (!image) return pass_on(image);
+  if (!image) return refused(image);
   return std::move(image->slices);
 }
 

@@ -124,7 +124,7 @@ Result<FrameReader> FrameReader::open(const fs::path& file) {
   return guarded(file, [&]() -> Result<FrameReader> {
     TIDEMARK_TRY(set_up_dicom());
     auto image = open_image(file);
-    if (!image) return pass_on(image);
+    if (!image) return tl::unexpected<Error>(std::move(image.error()));
     FrameReader reader;
     TIDEMARK_TRY(reader.find_frames(std::move(*image)));
     return reader;

@@ -24,6 +24,7 @@ struct Preflight {
     bad_pixels,      // may be parsed, but PixelData cannot be what the header promises
     unknown_syntax,  // must not be parsed: the transfer syntax is none that is read
     damaged,         // must not be parsed
+    not_dicom,       // the same: it does not begin as DICOM does (check_dicom())
   };
   Verdict verdict = Verdict::good;
   TagDamage reason;  // unless good; the tag (0000,0000) stands for the dataset itself

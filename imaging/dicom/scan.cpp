@@ -54,9 +54,14 @@ struct Headers {
   std::map<fs::path, Damage> damaged;  // of each folder; skipped too
 };
 
+// A damaged file, or one with the name of a DICOM file and other bytes in it.
+bool may_be_lost_slices(const fs::path& file, Refusal::Kind kind) {
+  return kind == Refusal::Kind::damaged || (kind == Refusal::Kind::not_dicom && file.extension() == ".dcm");
+}
+
 // A path takes half a kilobyte of memory: none is kept twice.
 Result<Headers> read_headers(std::vector<fs::path> files, const Progress& progress) {
-  std::vector<std::optional<Result<std::vector<SliceHeader>>>> read(files.size());
+  std::vector<std::optional<ImageResult<std::vector<SliceHeader>>>> read(files.size());
   SharedProgress shared(progress, static_cast<std::int64_t>(files.size()), "reading headers");
   ThreadPool pool;
   pool.for_each(static_cast<std::int64_t>(files.size()), 4, [&](std::int64_t begin, std::int64_t end, int) {
@@ -70,16 +75,14 @@ Result<Headers> read_headers(std::vector<fs::path> files, const Progress& progre
 
   Headers headers;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    Result<std::vector<SliceHeader>>& result = *read[i];
+    ImageResult<std::vector<SliceHeader>>& result = *read[i];
     if (result) {
       std::move(result->begin(), result->end(), std::back_inserter(headers.slices));
       read[i].reset();
       continue;
     }
     std::string reason = without_path(result.error().message, files[i]);
-    const bool is_damaged = result.error().kind == ErrorKind::capability ||
-                            reason.starts_with("is damaged") || reason.starts_with("cannot be read") ||
-                            (files[i].extension() == ".dcm" && !looks_like_dicom(files[i]));
+    const bool is_damaged = may_be_lost_slices(files[i], result.error().file_kind);
     read[i].reset();
     if (is_damaged) {
       const auto [folder, is_first] = headers.damaged.try_emplace(files[i].parent_path());
@@ -176,7 +179,7 @@ Result<Catalogue> scan_medium(const fs::path& file, const Progress& progress) {
 // One slice stands for its series: the images of the same series in the same folder.
 Result<Catalogue> scan_file(const fs::path& file, const Progress& progress) {
   const auto chosen = read_slice_headers(file);
-  if (!chosen) return tl::unexpected(chosen.error());
+  if (!chosen) return tl::unexpected<Error>(chosen.error());
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
   SliceHeader placed = chosen->front();
   placed.file = folder / file.filename();  // as the listing names it

@@ -74,28 +74,32 @@ openvdb::FloatGrid::Ptr grid_of(const Volume& phi, double band) {
   return grid;
 }
 
+tl::unexpected<Error> cannot_write(const fs::path& file, ErrorKind kind, std::string_view why) {
+  return fail(kind, "{}: cannot write: {}", file.string(), why);
+}
+
 // OpenVDB does not report a file that could not be written to its end, so it is read again.
-Status verify(const fs::path& file, const openvdb::FloatGrid& written) {
+bool is_whole(const fs::path& file, const openvdb::FloatGrid& written) {
   try {
     openvdb::io::File in(file.string());
     in.open(false);  // all of it, at once
     const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(in.readGrid(written.getName()));
-    if (grid && grid->activeVoxelCount() == written.activeVoxelCount()) return {};
+    return grid && grid->activeVoxelCount() == written.activeVoxelCount();
   } catch (const openvdb::Exception&) {
-    // It is not whole.
+    return false;
   }
-  return fail(ErrorKind::write, "the file is not whole (is the disk full?)");
 }
 
 Status write(const Volume& phi, double band, const fs::path& file) {
   const auto* values = std::get_if<std::vector<float>>(&phi.voxels);
   if (values == nullptr || static_cast<std::int64_t>(values->size()) != phi.geometry.voxel_count()) {
-    return fail(ErrorKind::internal, "phi must be a float volume with a value for every voxel");
+    return cannot_write(file, ErrorKind::internal, "phi must be a float volume with a value for every voxel");
   }
   TIDEMARK_TRY(require_finite(phi, file.string()));
   for (int axis = 0; axis < 3; ++axis) {
     if (phi.geometry.size[axis] > std::numeric_limits<int>::max() - 2) {
-      return fail(ErrorKind::capability, "{} voxels along an axis are too many", phi.geometry.size[axis]);
+      return cannot_write(file, ErrorKind::capability,
+                          fmt::format("{} voxels along an axis are too many", phi.geometry.size[axis]));
     }
   }
   openvdb::initialize();
@@ -107,26 +111,21 @@ Status write(const Volume& phi, double band, const fs::path& file) {
   out.setCompression(openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK);
   out.write({grid});
   out.close();
-  TIDEMARK_TRY(verify(target->temporary_path(), *grid));
+  if (!is_whole(target->temporary_path(), *grid)) {
+    return cannot_write(file, ErrorKind::write, "the file is not whole (is the disk full?)");
+  }
   return target->commit();
 }
 
 }  // namespace
 
 Status write_level_set(const Volume& phi, double band, const fs::path& file) {
-  const auto named = [&](ErrorKind kind, std::string_view why) {
-    return fail(kind, "{}: cannot write: {}", file.string(), why);
-  };
   try {
-    Status written = write(phi, band, file);
-    if (!written && written.error().message.find(file.string()) == std::string::npos) {
-      return named(written.error().kind, written.error().message);
-    }
-    return written;
+    return write(phi, band, file);
   } catch (const std::bad_alloc&) {
-    return named(ErrorKind::capability, "there is not enough memory");
+    return cannot_write(file, ErrorKind::capability, "there is not enough memory");
   } catch (const std::exception& error) {
-    return named(ErrorKind::write, error.what());
+    return cannot_write(file, ErrorKind::write, error.what());
   }
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "imaging/dicom/dicom.h"
+#include "imaging/dicom/header_reader.h"
 #include "imaging/dicom/pixels.h"
 #include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/imaging/dicom/series_files.h"
@@ -196,6 +197,28 @@ class DicomDamageTest : public QObject {
     QVERIFY(!looks_like_dicom(notes));
     QVERIFY(!looks_like_dicom(folder / "empty.dcm"));
     QVERIFY(looks_like_dicom(folder / "preamble"));
+  }
+
+  // Whether slices may be lost with it: what the reader knows, not what its message says.
+  void a_refused_file_is_damaged_or_something_else() {
+    using test::Dataset;
+    const test::TemporaryFolder folder;
+    const auto kind = [&](const std::string& bytes) {
+      write_bytes(folder / "file", bytes);
+      const auto read = read_slice_headers(folder / "file");
+      return read ? std::nullopt : std::optional(read.error().file_kind);
+    };
+    using Kind = Refusal::Kind;
+    QVERIFY(kind(test::file(Dataset::slice())) == std::nullopt);
+    QVERIFY(kind("Not an image.\n") == Kind::not_dicom);
+    QVERIFY(kind(test::preamble()) == Kind::damaged);
+    QVERIFY(kind(test::preamble() + std::string(500, '\x42')) == Kind::damaged);
+    Dataset report;
+    report.put_text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.88.11");
+    QVERIFY(kind(test::file(report)) == Kind::no_slice);
+    fs::remove(folder / "file");
+    const auto missing = read_slice_headers(folder / "file");
+    QVERIFY(!missing && missing.error().file_kind == Kind::damaged);
   }
 
   // As old archives keep it: the dataset alone, with neither preamble nor meta header.
