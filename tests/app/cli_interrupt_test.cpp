@@ -41,6 +41,8 @@ class CliInterruptTest : public QObject {
   void every_command_ends_within_a_second();
 
  private:
+  [[nodiscard]] QString endless_recipe(const TemporaryFolder& folder) const;
+
   SphereStudy sphere_;
 };
 
@@ -133,6 +135,21 @@ void CliInterruptTest::every_command_ends_within_a_second_data() {
   row("convert SERIES --out OUT/volume.nii.gz");
   row("distance MASK --out OUT/distance.nii.gz");
   row("bench");
+  const QStringList endless = QString("--steps 900000000 --no-skip").split(' ');
+  QTest::newRow("segment") << sphere_.arguments() + endless + QStringList{"--out", "OUT/mask.nii.gz"};
+  row("replay RECIPE SERIES --no-skip --threads 1 --out OUT/mask.nii.gz");
+  row("render SERIES --size 2048x2048 --view 3d --preset ct-bone --out OUT/picture.png");
+}
+
+// What segments the sphere with steps for hours.
+QString CliInterruptTest::endless_recipe(const TemporaryFolder& folder) const {
+  const auto file = folder / "recipe.json";
+  must_run(sphere_.arguments() + QStringList{"--steps", "3", "--recipe", text(file)});
+  const QByteArray recipe = bytes_of(file);
+  QByteArray endless = recipe;
+  endless.replace("\"steps\": 3", "\"steps\": 900000000");
+  if (endless == recipe || !write_file(file, endless.toStdString())) qFatal("there is no recipe");
+  return text(file);
 }
 
 void CliInterruptTest::every_command_ends_within_a_second() {
@@ -143,11 +160,11 @@ void CliInterruptTest::every_command_ends_within_a_second() {
   for (QString& word : arguments) {
     word.replace("SERIES", text(sphere_ / "series"));
     word.replace("MASK", text(sphere_ / "truth.nii.gz"));
-    word.replace("PHI", text(sphere_ / "truth.nii.gz"));
     word.replace("OUT", text(out));
+    if (word == "RECIPE") word = endless_recipe(folder);
   }
   // At whatever it is doing then.
-  for (const int milliseconds : {0, 30, 150}) {
+  for (const int milliseconds : {0, 30, 150, 1000}) {
     QProcess process;
     process.start(cli_program(), arguments);
     QVERIFY(process.waitForStarted());
