@@ -53,7 +53,7 @@ std::int64_t read_number_of_frames(AttributeReader& in) {
 void check_kind(AttributeReader& in) {
   const std::string sop_class = in.text(DCM_SOPClassUID);
   if (sop_class == UID_SegmentationStorage) {
-    in.report("holds segments (SegmentationStorage), which are read as a result");
+    in.report("is a DICOM segmentation, which can be imported as labels");
   } else if (sop_class == UID_ParametricMapStorage) {
     in.report("holds a parametric map (ParametricMapStorage), not an image");
   }
@@ -106,6 +106,10 @@ ImageResult<void> require_image(DcmFileFormat& loaded, const SliceHeader& header
   }
   const char* known = dcmFindNameOfUID(sop_class.c_str());
   const std::string what = known != nullptr ? known : std::string(sop_class.c_str()).substr(0, 80);
+  if (sop_class == UID_RTStructureSetStorage) {
+    return fail(ErrorKind::input, "{}: is a structure set, which can be imported as labels",
+                header.file.string());
+  }
   if (!has_rows && !dcmIsImageStorageSOPClassUID(sop_class.c_str())) {
     return tl::unexpected<Refusal>(
         {{ErrorKind::input, fmt::format("{}: holds no image ({})", header.file.string(), what)},

@@ -249,10 +249,14 @@ void MainWindow::show_case(QMdiSubWindow& child, const LoadedStudy& study, const
     const Status shown = window.restore_view_state(restored.contents->view_state);
     if (!shown) tell(tr("How it was shown is lost: %1").arg(QString::fromStdString(shown.error().message)));
   }
-  if (study.volume->changes.empty()) return;
-  auto* report = new LoadReport(study);
+  const auto results = opener_->results_beside(study);
+  if (study.volume->changes.empty() && results.empty()) return;
+  auto* report = new LoadReport(study, results);
   messages_->show_widget(report);
   connect(report, &LoadReport::dismissed, messages_, &MessageBar::dismiss);
+  connect(report, &LoadReport::import_wanted, &window, [this, &window](const QStringList& files) {
+    for (const QString& file : files) results_->import_labels(window, file);
+  });
 }
 
 void MainWindow::tell(const QString& message, const QString& about) {

@@ -7,6 +7,7 @@
 #include <QScrollArea>
 #include <algorithm>
 
+#include "imaging/results/results.h"
 #include "ui/look/theme.h"
 #include "ui/opening/grid_text.h"
 #include "ui/widgets/elided_label.h"
@@ -41,22 +42,36 @@ QString summary(const Volume& volume) {
   return LoadReport::tr("%1; %2 changes: %3, …").arg(grid).arg(changes.size()).arg(first);
 }
 
+QString html_list(const QString& items) {
+  return QStringLiteral("<ul style='margin:2px 0 0 -22px'>%1</ul>").arg(items);
+}
+
+QString form_text(ResultForm form) {
+  return form == ResultForm::segmentation ? LoadReport::tr("a DICOM segmentation")
+                                          : LoadReport::tr("a structure set");
+}
+
+QString result_text(const FoundResult& result) {
+  return LoadReport::tr("%1 is %2")
+      .arg(QString::fromStdString(result.file.filename().string()), form_text(result.form));
+}
+
 }  // namespace
 
-LoadReport::LoadReport(const LoadedStudy& study, QWidget* parent)
+LoadReport::LoadReport(const LoadedStudy& study, const std::vector<FoundResult>& results, QWidget* parent)
     : QFrame(parent), details_button_(new QPushButton(tr("Details"))) {
   setAccessibleName(tr("Report of loading"));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(kSpace, kSpaceTight, kSpace, kSpaceTight);
   column->setSpacing(kSpaceTight);
-  column->addWidget(make_line(study));
-  QWidget* details = make_details(study.volume->changes);
+  column->addWidget(make_line(study, results));
+  QWidget* details = make_details(study.volume->changes, results);
   column->addWidget(details);
   details->hide();
   connect(details_button_, &QPushButton::toggled, details, &QWidget::setVisible);
 }
 
-QWidget* LoadReport::make_line(const LoadedStudy& study) {
+QWidget* LoadReport::make_line(const LoadedStudy& study, const std::vector<FoundResult>& results) {
   auto* line = new QWidget;
   auto* row = new QHBoxLayout(line);
   row->setContentsMargins(0, 0, 0, 0);
@@ -68,6 +83,7 @@ QWidget* LoadReport::make_line(const LoadedStudy& study) {
   title->setFont(bold);
   row->addWidget(title);
   row->addWidget(new ElidedLabel(summary(*study.volume)), 1);
+  if (!results.empty()) row->addWidget(make_offer(results));
   details_button_->setCheckable(true);
   details_button_->setToolTip(tr("Shows or hides all that was found and changed when the study was read"));
   row->addWidget(details_button_);
@@ -78,14 +94,46 @@ QWidget* LoadReport::make_line(const LoadedStudy& study) {
   return line;
 }
 
-QWidget* LoadReport::make_details(const std::vector<std::string>& changes) {
+// Goes when it is accepted: importing twice would double the labels.
+QWidget* LoadReport::make_offer(const std::vector<FoundResult>& results) {
+  auto* offer = new QWidget;
+  auto* row = new QHBoxLayout(offer);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(kSpace);
+  auto* what = new QLabel(results.size() == 1
+                              ? tr("Beside it: %1").arg(form_text(results.front().form))
+                              : tr("Beside it: %1 segmentations or structure sets").arg(results.size()));
+  what->setTextFormat(Qt::PlainText);
+  row->addWidget(what);
+  QStringList files;
+  QStringList lines{tr("Adds what these files hold as new labels:")};
+  for (const FoundResult& result : results) {
+    files << QString::fromStdString(result.file.string());
+    lines << result_text(result);
+  }
+  auto* accept = new QPushButton(tr("Import labels"));
+  accept->setToolTip(lines.join(QLatin1Char('\n')));
+  connect(accept, &QPushButton::clicked, this, [this, offer, files] {
+    offer->hide();
+    emit import_wanted(files);
+  });
+  row->addWidget(accept);
+  return offer;
+}
+
+QWidget* LoadReport::make_details(const std::vector<std::string>& changes,
+                                  const std::vector<FoundResult>& results) {
   QString text;
   for (const std::string& change : changes) {
     text += QStringLiteral("<li>%1</li>").arg(QString::fromStdString(change).toHtmlEscaped());
   }
   text = changes.empty() ? tr("Nothing was changed or missing.")
-                         : tr("Found and changed when it was read:") +
-                               QStringLiteral("<ul style='margin:2px 0 0 -22px'>%1</ul>").arg(text);
+                         : tr("Found and changed when it was read:") + html_list(text);
+  QString beside;
+  for (const FoundResult& result : results) {
+    beside += QStringLiteral("<li>%1</li>").arg(result_text(result).toHtmlEscaped());
+  }
+  if (!beside.isEmpty()) text += QStringLiteral("<div>%1</div>").arg(tr("Beside it:")) + html_list(beside);
   auto* what = new QLabel(text);
   what->setObjectName("what");
   what->setTextFormat(Qt::RichText);

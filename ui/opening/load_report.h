@@ -3,7 +3,9 @@
 #pragma once
 
 #include <QFrame>
+#include <QStringList>
 
+#include "engine/result_finder.h"
 #include "engine/study_loader.h"
 
 class QPushButton;
@@ -13,17 +15,21 @@ namespace tidemark {
 class LoadReport : public QFrame {
   Q_OBJECT
  public:
-  explicit LoadReport(const LoadedStudy& study, QWidget* parent = nullptr);
+  // The results lie beside the study, and are offered for import.
+  explicit LoadReport(const LoadedStudy& study, const std::vector<FoundResult>& results = {},
+                      QWidget* parent = nullptr);
 
  signals:
   void dismissed();
+  void import_wanted(const QStringList& files);  // of the results
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
-  QWidget* make_line(const LoadedStudy& study);
-  QWidget* make_details(const std::vector<std::string>& changes);
+  QWidget* make_line(const LoadedStudy& study, const std::vector<FoundResult>& results);
+  QWidget* make_offer(const std::vector<FoundResult>& results);
+  QWidget* make_details(const std::vector<std::string>& changes, const std::vector<FoundResult>& results);
   void dismiss();
 
   QPushButton* details_button_;

@@ -41,8 +41,8 @@ QString item_list(const QString& title, const std::vector<std::string>& items) {
 
 QString skipped_text(std::size_t count) {
   if (count == 0) return {};
-  return count == 1 ? SeriesBrowser::tr("1 other file is no image that can be read.")
-                    : SeriesBrowser::tr("%1 other files are no images that can be read.").arg(count);
+  return count == 1 ? SeriesBrowser::tr("1 other file is no scan.")
+                    : SeriesBrowser::tr("%1 other files are no scans.").arg(count);
 }
 
 QString skipped_list(const std::vector<SkippedFile>& skipped) {

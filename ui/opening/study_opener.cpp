@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "imaging/load_study.h"
 #include "ui/opening/phantom_menu.h"
 
 namespace tidemark {
@@ -34,9 +33,18 @@ StudyOpener::StudyOpener(QWidget* window) : QObject(window), window_(window) {
     next();
   });
   connect(&loader_, &StudyLoader::loaded, this, [this](const std::shared_ptr<const LoadedStudy>& study) {
+    last_opened_ = study;
+    beside_last_opened_ = std::exchange(results_, {});
     emit opened(study);
     next();
   });
+  connect(&finder_, &ResultFinder::cancelled, this, &StudyOpener::next);
+  const auto load_with = [this](const std::vector<FoundResult>& results) {
+    results_ = results;
+    loader_.load(to_load_.series, to_load_.remarks);
+  };
+  connect(&finder_, &ResultFinder::found, this, load_with);
+  connect(&finder_, &ResultFinder::failed, this, [load_with] { load_with({}); });
   connect(&previews_, &SeriesPreviews::made, this, [this](int, const QImage& picture) {
     if (!picture.isNull()) emit previewed(picture);
   });
@@ -66,7 +74,12 @@ void StudyOpener::open_phantom(const QString& kind) {
 void StudyOpener::cancel() {
   waiting_.clear();
   close_questions();
+  finder_.cancel();
   loader_.cancel();
+}
+
+std::vector<FoundResult> StudyOpener::results_beside(const LoadedStudy& study) const {
+  return last_opened_.lock().get() == &study ? beside_last_opened_ : std::vector<FoundResult>();
 }
 
 void StudyOpener::add(const QString& what, std::function<void()> start) {
@@ -78,6 +91,7 @@ void StudyOpener::add(const QString& what, std::function<void()> start) {
 
 void StudyOpener::next() {
   previews_.forget();
+  results_.clear();
   if (!waiting_.empty()) {
     const Request request = std::move(waiting_.front());
     waiting_.pop_front();
@@ -100,6 +114,7 @@ void StudyOpener::begin(const QString& what) {
 }
 
 void StudyOpener::look_at(const std::shared_ptr<const Catalogue>& catalogue) {
+  catalogue_ = catalogue;
   if (uid_) return load_by_uid(*catalogue);
   const auto& all = catalogue->series;
   const auto can_be_chosen = [](const Series& series) { return series.loadable || series.fillable(); };
@@ -118,7 +133,8 @@ void StudyOpener::look_at(const std::shared_ptr<const Catalogue>& catalogue) {
 void StudyOpener::load(const Series& series, const std::vector<std::string>& remarks) {
   begin(StudyLoader::name_of(series));
   if (previews_wanted_) previews_.request(0, series, kPreviewPixels);
-  loader_.load(series, remarks);
+  to_load_ = {series, remarks};
+  finder_.look(series, std::exchange(catalogue_, nullptr));
 }
 
 void StudyOpener::load_by_uid(const Catalogue& catalogue) {

@@ -11,8 +11,10 @@
 #include <functional>
 #include <optional>
 
+#include "engine/result_finder.h"
 #include "engine/series_preview.h"
 #include "engine/study_loader.h"
+#include "imaging/load_study.h"
 #include "ui/opening/series_browser.h"
 
 namespace tidemark {
@@ -41,6 +43,8 @@ class StudyOpener : public QObject {
   // Null while there is nothing to choose from, and nothing to ask.
   [[nodiscard]] SeriesBrowser* browser() const { return browser_; }
   [[nodiscard]] QMessageBox* question() const { return question_; }
+  // What was found beside the study; none where it is not the one that was opened last.
+  [[nodiscard]] std::vector<FoundResult> results_beside(const LoadedStudy& study) const;
 
  signals:
   void began(const QString& what);                        // for LoadingView::begin(): "head_t1 (2 of 3)"
@@ -67,15 +71,21 @@ class StudyOpener : public QObject {
 
   QWidget* window_;
   StudyLoader loader_;
+  ResultFinder finder_;
   SeriesPreviews previews_;
   bool previews_wanted_ = true;
   QPointer<SeriesBrowser> browser_;
   QPointer<QMessageBox> question_;
   std::deque<Request> waiting_;
-  int number_ = 0;        // of the request that is worked on, from 1; 0: none is
-  int asked_ = 0;         // requests since there was none
-  QStringList problems_;  // of these
-  QString path_;          // of the request
+  int number_ = 0;                              // of the request that is worked on, from 1; 0: none is
+  int asked_ = 0;                               // requests since there was none
+  QStringList problems_;                        // of these
+  QString path_;                                // of the request
+  std::shared_ptr<const Catalogue> catalogue_;  // found there
+  ChosenSeries to_load_;                        // of these, when results were looked for
+  std::vector<FoundResult> results_;            // of the request
+  std::weak_ptr<const LoadedStudy> last_opened_;
+  std::vector<FoundResult> beside_last_opened_;
   std::optional<QString> uid_;
   Ask ask_ = Ask::if_several;
 };

@@ -49,7 +49,7 @@ std::vector<BadDicom> group_rows() {
        file(enhanced(2).put(kPixels, element(kPixels, "OW", std::string(24, 'x')))),
        "holds 24 bytes where 2 frames of 4 x 3 pixels"},
       {"segments", file(enhanced(2).put_text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.66.4")),
-       "SegmentationStorage"},
+       "is a DICOM segmentation"},
       {"ultrasound",
        file(enhanced(2)
                 .put_text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.3.1")

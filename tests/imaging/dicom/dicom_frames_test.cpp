@@ -339,7 +339,7 @@ class DicomFramesTest : public QObject {
     refused(enhanced, {"PerFrameFunctionalGroupsSequence (5200,9230) has 2 items for 3 frames"});
     enhanced = {};
     enhanced.sop_class = UID_SegmentationStorage;
-    refused(enhanced, {"holds segments (SegmentationStorage)"});
+    refused(enhanced, {"is a DICOM segmentation"});
     enhanced.sop_class = UID_ParametricMapStorage;
     refused(enhanced, {"parametric map"});
   }

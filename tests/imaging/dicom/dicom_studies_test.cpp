@@ -180,7 +180,7 @@ class DicomStudiesTest : public QObject {
         {"ExplVR_BigEnd.dcm", "SamplesPerPixel (0028,0002) is 3"},
         {"examples_jpeg2k.dcm", "SamplesPerPixel (0028,0002) is 3"},
         {"examples_palette.dcm", "PALETTE COLOR"},
-        {"liver_1frame.dcm", "holds segments (SegmentationStorage)"},
+        {"liver_1frame.dcm", "is a DICOM segmentation"},
         {"rtdose.dcm", "15 frames"},
         {"rtdose_expb.dcm", "15 frames"},
         {"rtdose_rle.dcm", "15 frames"}};

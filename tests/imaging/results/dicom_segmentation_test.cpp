@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "imaging/dicom/dicom.h"
 #include "imaging/results/segment_frames.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/results/sample_results.h"
@@ -38,6 +39,10 @@ class DicomSegmentationTest : public QObject {
     const auto file = folder / "seg.dcm";
     QCOMPARE(test::failure(write_segmentation(written, series.files, file)), QString());
     QVERIFY(result_form_of(file) == ResultForm::segmentation);
+    const auto found = scan_dicom(file);
+    QCOMPARE(test::failure(found), QString());
+    QCOMPARE(found->series.front().reason,
+             std::string("seg.dcm: is a DICOM segmentation, which can be imported as labels"));
     const auto read = read_segmentation(file, &series.geometry);
     QCOMPARE(test::failure(read), QString());
     verify_same(*read, written);

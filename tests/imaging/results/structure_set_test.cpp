@@ -7,6 +7,7 @@
 #include <QJsonArray>
 #include <cmath>
 
+#include "imaging/dicom/dicom.h"
 #include "imaging/results/contours.h"
 #include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/imaging/dicom/series_files.h"
@@ -50,6 +51,8 @@ class StructureSetTest : public QObject {
     const auto file = folder / "set.dcm";
     QCOMPARE(test::failure(write_structure_set(written, series.files, file)), QString());
     QVERIFY(result_form_of(file) == ResultForm::structure_set);
+    QCOMPARE(scan_dicom(file).error().message,
+             file.string() + ": is a structure set, which can be imported as labels");
     const auto read = read_result(file, &series.geometry);
     QCOMPARE(test::failure(read), QString());
     QVERIFY(read->changes.empty());

@@ -7,6 +7,7 @@
 #include <QMimeData>
 #include <QPushButton>
 #include <QToolButton>
+#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "imaging/dicom/dicom.h"
@@ -19,6 +20,7 @@
 #include "tests/ui/main/desktop.h"
 #include "ui/look/theme.h"
 #include "ui/main/panel_docks.h"
+#include "ui/opening/load_report.h"
 #include "ui/panels/labels_model.h"
 #include "ui/panels/meaning_picker.h"
 #include "ui/results/send_result_dialog.h"
@@ -109,6 +111,7 @@ class ResultsStoryTest : public QObject {
   void cleanup() { desktop_.reset(); }
   void labels_go_out_as_dicom_and_come_back();
   void a_dropped_segmentation_becomes_labels_and_a_dropped_volume_a_study();
+  void what_lies_beside_a_study_is_named_and_imported_by_a_click();
   void labels_go_out_as_polygons();
   void the_surface_alone_is_a_result_too();
   void a_study_that_is_no_dicom_says_what_that_means();
@@ -120,6 +123,7 @@ class ResultsStoryTest : public QObject {
   [[nodiscard]] QString path(const char* name) const {
     return QString::fromStdString((folder_ / name).string());
   }
+  [[nodiscard]] Segments block(const char* name);  // in two slices of the study
   [[nodiscard]] const Geometry& grid() { return desktop_->proxy().volume().geometry; }
   [[nodiscard]] std::vector<std::uint8_t> voxels() { return *desktop_->state().label_voxels; }
   void begin(glm::dvec3 middle);
@@ -290,6 +294,61 @@ void ResultsStoryTest::a_dropped_segmentation_becomes_labels_and_a_dropped_volum
   drop(path("study.nrrd"));
   QVERIFY(Desktop::wait_for([&] { return desktop_->window().cases().size() == 2; }, kPatience));
   desktop_->wait_until_idle();
+}
+
+Segments ResultsStoryTest::block(const char* name) {
+  Segments segments;
+  segments.geometry = grid();
+  Segment segment;
+  segment.name = name;
+  segment.colour = SegmentColour{10, 200, 40};
+  for (const std::int64_t k : {3, 4}) {
+    auto& slice = segment.slices[k];
+    slice.resize(static_cast<std::size_t>(grid().size.x * grid().size.y));
+    for (std::int64_t j = 10; j < 20; ++j) {
+      std::fill_n(slice.begin() + j * grid().size.x + 10, 10, std::uint8_t{1});
+    }
+  }
+  segments.list.push_back(segment);
+  return segments;
+}
+
+void ResultsStoryTest::what_lies_beside_a_study_is_named_and_imported_by_a_click() {
+  const fs::path root = folder_ / "patients";
+  fs::create_directories(root / "one" / "results");
+  fs::create_directories(root / "other" / "results");
+  write_study(root / "one" / "images");
+  const auto& source = desktop_->proxy().study().dicom_files;
+  for (const char* whose : {"one", "other"}) {
+    const fs::path file = root / whose / "results" / "labels.dcm";
+    QCOMPARE(failure(write_segmentation(block("Spleen"), source, file)), QString());
+  }
+  const fs::path contours = root / "one" / "images" / "contours.dcm";
+  QCOMPARE(failure(write_structure_set(block("Liver"), source, contours)), QString());
+  std::ofstream(root / "one" / "notes.txt") << "no image";
+
+  window_ = desktop_->open(path("patients"));
+  QVERIFY(window_);
+  QCOMPARE(desktop_->window().cases().size(), 2);
+  QVERIFY(Desktop::wait_for([&] { return desktop_->window().findChild<LoadReport*>() != nullptr; }));
+  auto& report = *desktop_->window().findChild<LoadReport*>();
+  QVERIFY(says(report, "Beside it: 2 segmentations or structure sets"));
+  QTest::mouseClick(button(report, "Details"), Qt::LeftButton);
+  QVERIFY(says(report, "contours.dcm is a structure set"));
+  QVERIFY(says(report, "labels.dcm is a DICOM segmentation"));
+  QVERIFY(!says(report, "notes.txt"));
+  desktop_->wait_until_idle();
+  picture(desktop_->window(), "results-beside-a-study");
+
+  QPushButton* accept = button(report, "Import labels");
+  QTest::mouseClick(accept, Qt::LeftButton);
+  QVERIFY(Desktop::wait_for([&] { return desktop_->state().labels.size() == 2; }, kPatience));
+  desktop_->wait_until_idle();
+  QCOMPARE(desktop_->state().labels[0].name, std::string("Liver"));
+  QCOMPARE(desktop_->state().labels[1].name, std::string("Spleen"));
+  QCOMPARE(desktop_->state().label_statistics[1].voxels, std::int64_t{200});
+  QVERIFY(!accept->isVisible());  // a second time would double them
+  desktop_->screenshot("results-beside-imported");
 }
 
 void ResultsStoryTest::labels_go_out_as_polygons() {

@@ -1,0 +1,34 @@
+// The search for segmentations and structure sets among the files of a study, beside the user interface.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "engine/job_runner.h"
+#include "imaging/series.h"
+
+namespace tidemark {
+
+enum class ResultForm;
+
+struct FoundResult {
+  std::filesystem::path file;
+  ResultForm form;
+};
+
+class ResultFinder : public JobRunner {
+  Q_OBJECT
+ public:
+  explicit ResultFinder(QObject* parent = nullptr);
+
+  // Ends with found(). Looks at what was found with the series: all of its archive, else what lies in its
+  // folder, in folders within it or in those next to it. Reads the beginnings of these files.
+  void look(const Series& series, std::shared_ptr<const Catalogue> found_with);
+  void cancel() { give_up(); }
+
+ signals:
+  void found(const std::vector<tidemark::FoundResult>& results);
+};
+
+}  // namespace tidemark
