@@ -65,7 +65,7 @@ const std::vector<Study> kStudies{
      0,
      {"is a single image", "SamplesPerPixel (0028,0002) is 3", "JPEG 2000 stream of 3722445056 x 1024",
       "ImageOrientationPatient (0020,0037) is missing", "holds 8320 bytes",
-      "NumberOfFrames (0028,0008) is '1A'", "PALETTE COLOR", "holds segments"}},
+      "NumberOfFrames (0028,0008) is '1A'", "PALETTE COLOR", "is a DICOM segmentation"}},
     {"d20_monochrome1", "one CR image, small values white", 0, {"is a single image"}},
     {"d21_sarcoma_mr_rtstruct", "MR leg, Philips, with a structure set and a mask (NIfTI)", 2, {}},
     {"v01_head_mr_brain_skull", "MR head and labels (NIfTI, NRRD)", 4, {}},
