@@ -30,6 +30,11 @@ const Field& with_pages(const Field& field, const PageLayout& layout, std::optio
 
 }  // namespace
 
+std::int64_t memory_of(const Field& field) {
+  return static_cast<std::int64_t>(field.pages.size() * sizeof(float) +
+                                   field.table.size() * sizeof(std::int32_t));
+}
+
 void FieldDelta::keep(const Field& field, std::int64_t page, Side& side) {
   const std::int64_t voxels = field.layout.voxels_per_page();
   const float* values = page_values(field, page);

@@ -8,6 +8,9 @@
 
 namespace tidemark {
 
+// Bytes that a field holds, for the budget of the history.
+[[nodiscard]] std::int64_t memory_of(const Field& field);
+
 class FieldDelta {
  public:
   // The fields must have the same grid and band. Their pages may differ in shape; the delta has the second's.

@@ -26,11 +26,6 @@ ChangeKind kind_of_change(const Parameters& before, const Parameters& after) {
   return changed == after ? ChangeKind::smoothing : ChangeKind::parameters;
 }
 
-std::int64_t field_bytes(const Field& field) {
-  return static_cast<std::int64_t>(field.pages.size() * sizeof(float) +
-                                   field.table.size() * sizeof(std::int32_t));
-}
-
 }  // namespace
 
 Result<std::unique_ptr<LevelSet>> LevelSet::create(std::shared_ptr<const Volume> volume,
@@ -60,8 +55,8 @@ ChangeDescription LevelSet::description() const {
 }
 
 std::int64_t LevelSet::bytes() const {
-  std::int64_t sum = field_bytes(*open_->before.phi);
-  if (open_->last_edit) sum += field_bytes(*open_->last_edit->phi);
+  std::int64_t sum = memory_of(*open_->before.phi);
+  if (open_->last_edit) sum += memory_of(*open_->last_edit->phi);
   return sum;
 }
 

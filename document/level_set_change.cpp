@@ -12,17 +12,12 @@ Recipe without_events(const Recipe& recipe, std::size_t common) {
   return rest;
 }
 
-std::int64_t field_bytes(const Field& field) {
-  return static_cast<std::int64_t>(field.pages.size() * sizeof(float) +
-                                   field.table.size() * sizeof(std::int32_t));
-}
-
 std::int64_t start_bytes(const Start& start) {
   std::int64_t bytes = 0;
   if (const auto* mask = std::get_if<MaskStart>(&start.from)) {
     bytes = static_cast<std::int64_t>(mask->mask->voxels.size());
   } else if (const auto* phi = std::get_if<FieldStart>(&start.from)) {
-    bytes = field_bytes(*phi->phi);
+    bytes = memory_of(*phi->phi);
   }
   return bytes + static_cast<std::int64_t>((start.seeds.size() + start.erasers.size()) * sizeof(Sphere));
 }
@@ -50,7 +45,7 @@ std::int64_t LevelSetChange::bytes() const {
     // Entries of one start share it; it counts where it was made, and where it is left.
     for (const Side* side : {&before_, &after_}) {
       sum += start_bytes(side->recipe.start);
-      if (side->start != nullptr) sum += field_bytes(*side->start);
+      if (side->start != nullptr) sum += memory_of(*side->start);
     }
   }
   return sum;

@@ -9,6 +9,7 @@
 #include "core/stopwatch.h"
 #include "solver/convergence.h"
 #include "solver/gl/packed_view.h"
+#include "solver/paging/reserve.h"
 #include "solver/paging/validate.h"
 
 namespace tidemark {
@@ -16,11 +17,6 @@ namespace {
 
 // Runs of steps, and pieces of a step, take about this long.
 constexpr double kSecondsPerRun = 0.008;
-
-// G grows by an eighth, so that little of it lies idle.
-std::int64_t with_reserve(std::int64_t pages) {
-  return pages + std::max<std::int64_t>(pages / 8, 8);
-}
 
 // "F(0) F(1) ... ", for a macro that applies another one.
 std::string repeated(std::int64_t count) {
@@ -290,7 +286,7 @@ Status ComputeExecutor::activate_pages() {
     note_memory(memory_.read_control());
     TIDEMARK_TRY(device_->check("making pages resident"));
     if (control_.starved == 0) break;
-    TIDEMARK_TRY(grow(with_reserve(memory_.capacity()) - memory_.capacity()));
+    TIDEMARK_TRY(grow(reserve_of(memory_.capacity(), 8)));
   }
   needs_activation_ = false;
   return {};

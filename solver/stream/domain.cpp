@@ -3,19 +3,11 @@
 #include <algorithm>
 
 #include "solver/paging/page_neighbours.h"
+#include "solver/paging/reserve.h"
 #include "solver/paging/validate.h"
 #include "solver/stream/stream_executor.h"
 
 namespace tidemark {
-namespace {
-
-// G grows by an eighth, so that little of it lies idle.
-std::int64_t with_reserve(std::int64_t pages) {
-  return pages + std::max<std::int64_t>(pages / 8, 16);
-}
-
-}  // namespace
-
 // Of G, the tables and the geometry; the intermediate buffers are pooled and come on top.
 std::int64_t StreamExecutor::state_bytes(std::int64_t capacity) const {
   const auto beside = static_cast<std::int64_t>(sizeof(PageInfo) + sizeof(PhysicalPage));
@@ -30,7 +22,7 @@ Status StreamExecutor::make_room(std::int64_t more_pages) {
   const auto bytes = [&](std::int64_t capacity) {
     return state_bytes(capacity) + state_bytes(memory_.capacity());
   };
-  std::int64_t capacity = layout_.whole_rows(with_reserve(needed));
+  std::int64_t capacity = layout_.whole_rows(needed + reserve_of(needed, 16));
   if (bytes(capacity) > options_.memory_budget_bytes || capacity > layout_.largest_capacity()) {
     capacity = layout_.whole_rows(needed);
   }
