@@ -71,8 +71,10 @@ void FirstMinuteStoryTest::a_card_a_click_and_play_lead_to_the_tumour() {
   QVERIFY(play->width() >= 80 && play->height() >= 80);
   auto* volume = desktop.view<VolumeViewWidget>();
   QVERIFY(volume);
-  const QPoint middle = play->mapTo(volume, play->rect().center());
-  QVERIFY((middle - volume->rect().center()).manhattanLength() <= 4);
+  const QRect place(play->mapTo(volume, QPoint()), play->size());
+  QVERIFY(std::abs(place.center().x() - volume->rect().center().x()) <= 4);
+  QVERIFY(volume->rect().contains(place));
+  QVERIFY(!place.contains(volume->rect().center()));  // where the surface is
   const double placed_ml = desktop.state().surface.volume_ml;
   desktop.screenshot("first-2-placed");
 
