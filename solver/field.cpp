@@ -2,24 +2,9 @@
 
 #include <algorithm>
 
+#include "solver/paging/page_rows.h"
+
 namespace tidemark {
-namespace {
-
-// Calls visit(voxel offset of the row, row length, index of its first value in the page) for each row of
-// voxels that the page holds.
-template <class Visit>
-void for_each_row(const Geometry& geometry, const PageLayout& layout, std::int64_t page, Visit visit) {
-  const Index3 first = layout.first_voxel(page);
-  const Index3 valid = layout.valid_shape(page);
-  const Index3 shape = layout.page_shape();
-  for (std::int64_t z = 0; z < valid.z; ++z) {
-    for (std::int64_t y = 0; y < valid.y; ++y) {
-      visit(geometry.offset(first + Index3(0, y, z)), valid.x, shape.x * (y + shape.y * z));
-    }
-  }
-}
-
-}  // namespace
 
 float Field::at(Index3 voxel) const {
   const VirtualAddress address = layout.translate(voxel);
