@@ -9,11 +9,11 @@
 
 namespace tidemark::cli {
 
-// While it lives, a thread of its own waits for SIGINT, SIGTERM and SIGHUP, and then requests the stop; nothing
-// runs inside a signal handler. A program that is in a library or waits for a file cannot stop by itself: the
-// thread removes unfinished files and ends the process, with the exit code of an interrupt. Also ignores
-// SIGXFSZ and SIGPIPE, so that a full disk and a closed pipe are failed writes rather than sudden death.
-// Create it before any other thread.
+// While it lives, a thread of its own waits for SIGINT, SIGTERM and SIGHUP, and then requests the stop;
+// nothing runs inside a signal handler. A program that is in a library or waits for a file cannot stop by
+// itself: the thread removes unfinished files and ends the process, with the exit code of an interrupt. Also
+// ignores SIGXFSZ and SIGPIPE, so that a full disk and a closed pipe are failed writes rather than sudden
+// death. Create it before any other thread.
 class Interrupt {
  public:
   Interrupt();

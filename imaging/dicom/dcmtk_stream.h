@@ -13,8 +13,9 @@ class DcmFileFormat;
 
 namespace tidemark {
 
-// Parses the bytes in that transfer syntax, all or those before the element `stop_at`. Long values are read on
-// demand, so that the bytes must outlive `loaded`. Returns the error in DCMTK's words; empty when there is none.
+// Parses the bytes in that transfer syntax, all or those before the element `stop_at`. Long values are read
+// on demand, so that the bytes must outlive `loaded`. Returns the error in DCMTK's words; empty when there is
+// none.
 [[nodiscard]] std::string parse_dicom(ByteSource& bytes, const TransferSyntax& syntax, DcmFileFormat& loaded,
                                       std::optional<DicomTag> stop_at = {});
 

@@ -26,7 +26,7 @@ struct Phantom {
   double alpha = 0.5;
   std::optional<std::array<double, 4>> seed;                // i, j, k (voxels), radius (mm)
   std::optional<std::pair<double, double>> init_threshold;  // low, high, in the volume's units
-  double noise_percent = 0.0;  // standard deviation, % of the brightest tissue
+  double noise_percent = 0.0;                               // standard deviation, % of the brightest tissue
   std::uint64_t random_seed = 1;
 };
 

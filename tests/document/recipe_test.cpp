@@ -193,7 +193,7 @@ class RecipeTest : public QObject {
     text_row("truncated", good.substr(0, good.size() / 2), "not JSON");
     text_row("garbage after", good + "x", "not JSON");
     text_row("NaN", "{\"steps\": NaN}", "not JSON");
-        text_row("a list", "[]", "not an object");
+    text_row("a list", "[]", "not an object");
     text_row("deep", std::string(40, '[') + std::string(40, ']'), "nested more than 32 deep");
     text_row("very deep", std::string(2'000'000, '['), "deep");
     text_row("other bytes", std::string("\xff\xfe\x00{", 4), "not JSON");

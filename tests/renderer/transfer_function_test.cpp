@@ -109,11 +109,13 @@ class TransferFunctionTest : public QObject {
     row("nothing", "{}", "neither 'source' nor 'surface'");
     row("no list", R"({"source": 3})", "source: not a list");
     row("no object", R"({"source": [3]})", "source[0]: not an object");
-    row("unknown axis", R"({"source": [{"distance": {"ramp": [0, 1]}}]})", "source[0]: 'distance' is no field");
+    row("unknown axis", R"({"source": [{"distance": {"ramp": [0, 1]}}]})",
+        "source[0]: 'distance' is no field");
     row("unknown factor", R"({"source": [{"value": {"box": [1, 2]}}]})", "source[0].value: 'box'");
     row("two factors", R"({"source": [{"value": {"ramp": [1, 2], "gaussian": [1, 2]}}]})",
         "source[0].value:");
-    row("centre", R"({"source": [{"phi": {"gaussian": ["a", 1]}}]})", "source[0].phi.gaussian[0]: not a number");
+    row("centre", R"({"source": [{"phi": {"gaussian": ["a", 1]}}]})",
+        "source[0].phi.gaussian[0]: not a number");
     row("one number", R"({"source": [{"value": {"gaussian": [1]}}]})",
         "source[0].value.gaussian: two numbers");
     row("width", R"({"source": [{"value": {"gaussian": [1, 0]}}]})", "source[0].value.gaussian: the width");

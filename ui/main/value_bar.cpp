@@ -69,7 +69,8 @@ QString ValueBar::details_at(Index3 voxel) const {
   const VoxelValues at = values_at(*state.phi, source, parameters, voxel);
   values += tr("   φ %1").arg(rounded(at.phi, 2), 0, 'f', 2);
   const bool clamped = std::abs(at.phi) >= state.phi->band;
-  if (!clamped) values += tr("   κ %1   |∇φ| %2").arg(rounded(at.curvature, 2), 0, 'f', 2).arg(at.gradient, 0, 'f', 2);
+  if (!clamped)
+    values += tr("   κ %1   |∇φ| %2").arg(rounded(at.curvature, 2), 0, 'f', 2).arg(at.gradient, 0, 'f', 2);
   return values;
 }
 

@@ -3,8 +3,8 @@
 
 #include <sys/stat.h>
 
-#include <QDir>
 #include <QDialog>
+#include <QDir>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileInfo>

@@ -316,8 +316,7 @@ class LevelSetPanelTest : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(the_case_->state().converged, 60000);
     the_case_->wait_until_idle();
     QVERIFY(button<QLabel>(*panel_, tr("converged")));
-    QCOMPARE(named<QLabel>(*panel_, tr("Step"))->text(),
-             QString::number(the_case_->state().step));
+    QCOMPARE(named<QLabel>(*panel_, tr("Step"))->text(), QString::number(the_case_->state().step));
     auto* volume = named<CurvePlot>(*panel_, tr("Volume"));
     QVERIFY(volume->points().size() > 1);
     QCOMPARE(volume->points().back().y(), the_case_->state().surface.volume_ml);
