@@ -17,7 +17,7 @@
 #include "document/checksum.h"
 #include "document/session_file.h"
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 constexpr int kGenerations = 2;
@@ -165,4 +165,4 @@ void discard(const std::filesystem::path& folder, const std::string& case_id) {
   std::filesystem::remove(lock_file(folder, case_id), ignored);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -13,7 +13,7 @@
 #include "core/file_lock.h"
 #include "document/session_contents.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 // May be used on another thread than its case's, by one thread at a time.
 class Autosave {
@@ -53,4 +53,4 @@ void sweep_unfinished(const std::filesystem::path& folder);
 // Removes all copies of a case, once they are recovered or not wanted.
 void discard(const std::filesystem::path& folder, const std::string& case_id);
 
-}  // namespace tidemark
+}  // namespace tidemark::document

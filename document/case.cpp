@@ -4,7 +4,7 @@
 
 #include "document/checksum.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 Case::Case(std::shared_ptr<const Volume> volume, StudyOrigin origin)
     : volume_(std::move(volume)), origin_(std::move(origin)), labels_(volume_->geometry, &history_) {
@@ -18,8 +18,8 @@ Case::~Case() {
 }
 
 Result<std::unique_ptr<Case>> Case::create(std::shared_ptr<const Volume> volume, StudyOrigin origin,
-                                           const Parameters& parameters, ExecutorKind kind,
-                                           const ExecutorOptions& options) {
+                                           const solver::Parameters& parameters, solver::ExecutorKind kind,
+                                           const solver::ExecutorOptions& options) {
   std::unique_ptr<Case> made(new Case(std::move(volume), std::move(origin)));
   auto level_set = LevelSet::create(made->volume_, parameters, kind, options, made->history_);
   if (!level_set) return pass_on(level_set);
@@ -56,4 +56,4 @@ Status Case::begin_from_label(std::uint8_t label) {
   return level_set_->begin(start);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -12,15 +12,15 @@
 #include "document/level_set.h"
 #include "document/origin.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 // Used on one thread at a time, as its level set.
 class Case {
  public:
   // Starts to compute the origin's checksum on another thread.
   static Result<std::unique_ptr<Case>> create(std::shared_ptr<const Volume> volume, StudyOrigin origin,
-                                              const Parameters& parameters, ExecutorKind kind,
-                                              const ExecutorOptions& options);
+                                              const solver::Parameters& parameters, solver::ExecutorKind kind,
+                                              const solver::ExecutorOptions& options);
 
   ~Case();
   Case(const Case&) = delete;
@@ -70,4 +70,4 @@ class Case {
   std::uint64_t saved_position_ = 0;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 static_assert(std::endian::native == std::endian::little,
@@ -86,4 +86,4 @@ std::string checksum_of(const Volume& volume, const std::stop_token& stop) {
   return sum.finish();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

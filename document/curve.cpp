@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 // Every other point, the newest included.
@@ -31,4 +31,4 @@ void Curve::cut(std::int64_t step) {
   points_ = std::make_shared<const Points>(points_->begin(), end);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-namespace tidemark {
+namespace tidemark::document {
 
 struct CurvePoint {
   std::int64_t step = 0;
@@ -37,4 +37,4 @@ class Curve {
   std::shared_ptr<const Points> points_ = std::make_shared<const Points>();
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -6,7 +6,7 @@
 
 #include "imaging/filters/filters.h"
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 Result<std::shared_ptr<const Volume>> smoothed(const std::shared_ptr<const Volume>& volume, double sigma_mm) {
@@ -14,12 +14,12 @@ Result<std::shared_ptr<const Volume>> smoothed(const std::shared_ptr<const Volum
   if (!std::isfinite(sigma_mm) || sigma_mm < 0.0) {
     return fail(ErrorKind::usage, "a volume cannot be smoothed by {} mm", sigma_mm);
   }
-  auto source = smooth(*volume, sigma_mm);
+  auto source = imaging::smooth(*volume, sigma_mm);
   if (!source) return pass_on(source);
   return std::make_shared<const Volume>(std::move(*source));
 }
 
-void add(const AdvanceReport& run, AdvanceReport& total) {
+void add(const solver::AdvanceReport& run, solver::AdvanceReport& total) {
   total.steps += run.steps;
   total.converged = run.converged;
   total.seconds += run.seconds;
@@ -31,12 +31,12 @@ void add(const AdvanceReport& run, AdvanceReport& total) {
 }  // namespace
 
 Result<ExecutorSetup> ExecutorSetup::create(std::shared_ptr<const Volume> volume, double smoothed_mm,
-                                            const Parameters& parameters, ExecutorKind kind,
-                                            const ExecutorOptions& options) {
+                                            const solver::Parameters& parameters, solver::ExecutorKind kind,
+                                            const solver::ExecutorOptions& options) {
   ExecutorSetup setup;
   auto source = smoothed(volume, smoothed_mm);
   if (!source) return pass_on(source);
-  auto executor = make_executor(kind, *source, parameters, options);
+  auto executor = solver::make_executor(kind, *source, parameters, options);
   if (!executor) return pass_on(executor);
   setup.volume_ = std::move(volume);
   setup.source_ = std::move(*source);
@@ -51,9 +51,9 @@ RecipeExecutor ExecutorSetup::description() const {
   return {std::string(executor_->name()), executor_->memory().page_shape, options_.skip_quiet_pages};
 }
 
-Status ExecutorSetup::remake(std::shared_ptr<const Volume> source, ExecutorKind kind,
-                             const ExecutorOptions& options, const Field& phi) {
-  auto made = make_executor(kind, source, executor_->parameters(), options);
+Status ExecutorSetup::remake(std::shared_ptr<const Volume> source, solver::ExecutorKind kind,
+                             const solver::ExecutorOptions& options, const solver::Field& phi) {
+  auto made = solver::make_executor(kind, source, executor_->parameters(), options);
   if (!made) return pass_on(made);
   TIDEMARK_TRY((*made)->restore(phi));
   source_ = std::move(source);
@@ -73,13 +73,14 @@ Status ExecutorSetup::smooth_source(double sigma_mm) {
   return {};
 }
 
-Status ExecutorSetup::change_executor(ExecutorKind kind, const ExecutorOptions& options, const Field& phi) {
+Status ExecutorSetup::change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options,
+                                      const solver::Field& phi) {
   return remake(source_, kind, options, phi);
 }
 
-Result<Field> ExecutorSetup::begin(const Recipe& recipe, const Progress& progress) {
-  if (!recipe.start.empty()) return tidemark::begin(*executor_, *source_, recipe.start, progress);
-  Field nothing = Field::empty(source_->geometry, executor_->band());
+Result<solver::Field> ExecutorSetup::begin(const Recipe& recipe, const Progress& progress) {
+  if (!recipe.start.empty()) return tidemark::document::begin(*executor_, *source_, recipe.start, progress);
+  solver::Field nothing = solver::Field::empty(source_->geometry, executor_->band());
   TIDEMARK_TRY(executor_->restore(nothing));
   return nothing;
 }
@@ -103,12 +104,12 @@ Status ExecutorSetup::apply(const RecipeEvent& event) {
 }
 
 Status ExecutorSetup::play(const Recipe& recipe, std::size_t first_event, std::int64_t step,
-                           std::int64_t last_step, const Progress& progress, AdvanceReport* total) {
+                           std::int64_t last_step, const Progress& progress, solver::AdvanceReport* total) {
   const std::int64_t first_step = step;
   const auto advance_to = [&](std::int64_t target) -> Status {
     while (step < target) {
       if (progress.cancelled()) return cancelled_error();
-      Advance run{target - step, false, {nullptr, progress.stop}};
+      solver::Advance run{target - step, false, {nullptr, progress.stop}};
       run.progress.report = [&](double fraction, std::string_view what) {
         const double done =
             static_cast<double>(step - first_step) + fraction * static_cast<double>(run.steps);
@@ -130,4 +131,4 @@ Status ExecutorSetup::play(const Recipe& recipe, std::size_t first_event, std::i
   return advance_to(last_step);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -7,51 +7,52 @@
 #include "document/recipe.h"
 #include "solver/executor.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 class ExecutorSetup {
  public:
   // phi is outside everywhere. Fails as make_executor() and smooth() do.
   static Result<ExecutorSetup> create(std::shared_ptr<const Volume> volume, double smoothed_mm,
-                                      const Parameters& parameters, ExecutorKind kind,
-                                      const ExecutorOptions& options);
+                                      const solver::Parameters& parameters, solver::ExecutorKind kind,
+                                      const solver::ExecutorOptions& options);
 
-  [[nodiscard]] Executor& executor() { return *executor_; }
-  [[nodiscard]] const Executor& executor() const { return *executor_; }
+  [[nodiscard]] solver::Executor& executor() { return *executor_; }
+  [[nodiscard]] const solver::Executor& executor() const { return *executor_; }
   [[nodiscard]] const std::shared_ptr<const Volume>& volume() const { return volume_; }  // as loaded
   [[nodiscard]] const std::shared_ptr<const Volume>& source() const { return source_; }  // perhaps smoothed
   [[nodiscard]] double smoothed_mm() const { return smoothed_mm_; }
-  [[nodiscard]] ExecutorKind kind() const { return kind_; }  // as it was asked for
+  [[nodiscard]] solver::ExecutorKind kind() const { return kind_; }  // as it was asked for
   [[nodiscard]] RecipeExecutor description() const;
 
   // Each makes another executor, or fails and changes nothing. The first goes on from the same phi.
   Status smooth_source(double sigma_mm);
-  Status change_executor(ExecutorKind kind, const ExecutorOptions& options, const Field& phi);
+  Status change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options,
+                         const solver::Field& phi);
 
   // The recipe's start with the present parameters and source; an empty start is outside everywhere. Returns
   // phi at the start.
-  Result<Field> begin(const Recipe& recipe, const Progress& progress);
+  Result<solver::Field> begin(const Recipe& recipe, const Progress& progress);
   // Puts back the executor's own phi: see ResumeEvent.
   Status resume();
 
   // Carries out the recipe from its `first_event` on until `last_step` steps have been computed, with the
   // edits after the last of them. `step` steps have been computed before. The cost is added to `total`.
   Status play(const Recipe& recipe, std::size_t first_event, std::int64_t step, std::int64_t last_step,
-              const Progress& progress, AdvanceReport* total = nullptr);
+              const Progress& progress, solver::AdvanceReport* total = nullptr);
   // Carries out one event.
   Status apply(const RecipeEvent& event);
 
  private:
   ExecutorSetup() = default;
-  Status remake(std::shared_ptr<const Volume> source, ExecutorKind kind, const ExecutorOptions& options,
-                const Field& phi);
+  Status remake(std::shared_ptr<const Volume> source, solver::ExecutorKind kind,
+                const solver::ExecutorOptions& options, const solver::Field& phi);
 
   std::shared_ptr<const Volume> volume_;
   std::shared_ptr<const Volume> source_;
   double smoothed_mm_ = 0.0;
-  ExecutorKind kind_ = ExecutorKind::automatic;
-  ExecutorOptions options_;
-  std::unique_ptr<Executor> executor_;
+  solver::ExecutorKind kind_ = solver::ExecutorKind::automatic;
+  solver::ExecutorOptions options_;
+  std::unique_ptr<solver::Executor> executor_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
-namespace tidemark {
+namespace tidemark::document {
 
 bool is_page_shape(Index3 shape) {
   return shape == Index3(8, 8, 8) || shape == Index3(16, 16, 1) || shape == Index3(4, 4, 4);
 }
 
-std::vector<float> pages_for_file(const Field& phi) {
+std::vector<float> pages_for_file(const solver::Field& phi) {
   std::vector<float> pages = phi.pages;
   const Index3 shape = phi.layout.page_shape();
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
@@ -26,17 +26,17 @@ std::vector<float> pages_for_file(const Field& phi) {
   return pages;
 }
 
-Result<Field> field_from_file(const Geometry& geometry, double band, Index3 page_shape,
-                              std::vector<std::int32_t> table, std::vector<float> pages,
-                              const std::string& what) {
-  Field phi = Field::empty(geometry, band, page_shape);
+Result<solver::Field> field_from_file(const Geometry& geometry, double band, Index3 page_shape,
+                                      std::vector<std::int32_t> table, std::vector<float> pages,
+                                      const std::string& what) {
+  solver::Field phi = solver::Field::empty(geometry, band, page_shape);
   const auto voxels = static_cast<std::size_t>(phi.layout.voxels_per_page());
   if (table.size() != phi.table.size() || pages.size() % voxels != 0) {
     return fail(ErrorKind::input, "{}: the page table or the pages have the wrong size", what);
   }
   std::vector<bool> named(pages.size() / voxels, false);
   for (const std::int32_t entry : table) {
-    if (entry == Field::kInside || entry == Field::kOutside) continue;
+    if (entry == solver::Field::kInside || entry == solver::Field::kOutside) continue;
     if (entry < 0 || static_cast<std::size_t>(entry) >= named.size() ||
         named[static_cast<std::size_t>(entry)]) {
       return fail(ErrorKind::input, "{}: the page table names page {}, which is not there or named twice",
@@ -59,4 +59,4 @@ Result<Field> field_from_file(const Geometry& geometry, double band, Index3 page
   return phi;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

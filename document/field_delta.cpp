@@ -3,15 +3,15 @@
 #include <cstring>
 #include <optional>
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
-const float* page_values(const Field& field, std::int64_t page) {
+const float* page_values(const solver::Field& field, std::int64_t page) {
   const std::int32_t entry = field.table[static_cast<std::size_t>(page)];
   return entry < 0 ? nullptr : field.pages.data() + entry * field.layout.voxels_per_page();
 }
 
-bool same_page(const Field& a, const Field& b, std::int64_t page) {
+bool same_page(const solver::Field& a, const solver::Field& b, std::int64_t page) {
   const float* one = page_values(a, page);
   const float* other = page_values(b, page);
   if (one == nullptr || other == nullptr) {
@@ -22,20 +22,21 @@ bool same_page(const Field& a, const Field& b, std::int64_t page) {
 }
 
 // The field with pages of another shape, where it has not got it already.
-const Field& with_pages(const Field& field, const PageLayout& layout, std::optional<Field>& made) {
+const solver::Field& with_pages(const solver::Field& field, const solver::PageLayout& layout,
+                                std::optional<solver::Field>& made) {
   if (field.layout == layout) return field;
-  made = Field::from_dense(field.geometry, field.dense(), field.band, layout.page_shape());
+  made = solver::Field::from_dense(field.geometry, field.dense(), field.band, layout.page_shape());
   return *made;
 }
 
 }  // namespace
 
-std::int64_t memory_of(const Field& field) {
+std::int64_t memory_of(const solver::Field& field) {
   return static_cast<std::int64_t>(field.pages.size() * sizeof(float) +
                                    field.table.size() * sizeof(std::int32_t));
 }
 
-void FieldDelta::keep(const Field& field, std::int64_t page, Side& side) {
+void FieldDelta::keep(const solver::Field& field, std::int64_t page, Side& side) {
   const std::int64_t voxels = field.layout.voxels_per_page();
   const float* values = page_values(field, page);
   if (values == nullptr) {
@@ -46,9 +47,9 @@ void FieldDelta::keep(const Field& field, std::int64_t page, Side& side) {
   side.values.insert(side.values.end(), values, values + voxels);
 }
 
-FieldDelta::FieldDelta(const Field& before, const Field& after) : layout_(after.layout) {
-  std::optional<Field> made;
-  const Field& from = with_pages(before, layout_, made);
+FieldDelta::FieldDelta(const solver::Field& before, const solver::Field& after) : layout_(after.layout) {
+  std::optional<solver::Field> made;
+  const solver::Field& from = with_pages(before, layout_, made);
   for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
     if (same_page(from, after, page)) continue;
     pages_.push_back(page);
@@ -63,11 +64,11 @@ std::int64_t FieldDelta::bytes() const {
   return static_cast<std::int64_t>(entries + (before_.values.size() + after_.values.size()) * sizeof(float));
 }
 
-Field FieldDelta::replaced(const Field& field, const Side& side) const {
-  std::optional<Field> made;
-  const Field& from = with_pages(field, layout_, made);
+solver::Field FieldDelta::replaced(const solver::Field& field, const Side& side) const {
+  std::optional<solver::Field> made;
+  const solver::Field& from = with_pages(field, layout_, made);
   const std::int64_t voxels = layout_.voxels_per_page();
-  Field result = Field::empty(from.geometry, from.band, layout_.page_shape());
+  solver::Field result = solver::Field::empty(from.geometry, from.band, layout_.page_shape());
   result.pages.reserve(from.pages.size());
   std::size_t next = 0;  // of the changed pages
   for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
@@ -86,4 +87,4 @@ Field FieldDelta::replaced(const Field& field, const Side& side) const {
   return result;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

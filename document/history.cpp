@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace tidemark {
+namespace tidemark::document {
 
 std::string describe(const ChangeDescription& change) {
   const char* const plural = change.steps == 1 ? "" : "s";
@@ -119,4 +119,4 @@ std::uint64_t History::position() const {
   return done_.empty() ? base_id_ : done_.back().id;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -9,7 +9,7 @@
 
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 enum class ChangeKind {
   start,
@@ -107,4 +107,4 @@ class History {
   std::int64_t limit_ = kDefaultLimit;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -5,7 +5,7 @@
 
 #include "core/label_colour.h"
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 constexpr std::size_t kLongestName = 64;  // bytes, as other systems have it (DICOM's LO)
@@ -20,16 +20,16 @@ std::string shortened(std::string text) {
   return text;
 }
 
-bool makes_sense(const Code& code) {
+bool makes_sense(const imaging::Code& code) {
   constexpr std::size_t kLongestValue = 16;  // of a DICOM SH
   return !code.value.empty() && code.value.size() <= kLongestValue && !code.scheme.empty() &&
          code.scheme.size() <= kLongestValue && !code.meaning.empty() && code.meaning.size() <= kLongestName;
 }
 
 // Files without a better meaning have "tissue"; the name may then have more.
-std::optional<SegmentMeaning> meaning_in(const Segment& segment) {
-  const SegmentMeaning& meaning = segment.meaning;
-  if (meaning == SegmentMeaning() || !makes_sense(meaning.category) || !makes_sense(meaning.type)) {
+std::optional<imaging::SegmentMeaning> meaning_in(const imaging::Segment& segment) {
+  const imaging::SegmentMeaning& meaning = segment.meaning;
+  if (meaning == imaging::SegmentMeaning() || !makes_sense(meaning.category) || !makes_sense(meaning.type)) {
     return std::nullopt;
   }
   return meaning;
@@ -53,8 +53,8 @@ struct Taken {
   }
 };
 
-void give_voxels(const Segment& segment, std::uint8_t id, const Geometry& geometry, const Taken& taken,
-                 std::vector<std::uint8_t>& voxels) {
+void give_voxels(const imaging::Segment& segment, std::uint8_t id, const Geometry& geometry,
+                 const Taken& taken, std::vector<std::uint8_t>& voxels) {
   for (const auto& [k, slice] : segment.slices) {
     const auto first = static_cast<std::size_t>(geometry.offset({0, 0, k}));
     for (std::size_t i = 0; i < slice.size(); ++i) {
@@ -66,25 +66,25 @@ void give_voxels(const Segment& segment, std::uint8_t id, const Geometry& geomet
 
 }  // namespace
 
-Segments segments_of(const Geometry& geometry, std::span<const Label> labels,
-                     std::span<const std::uint8_t> voxels) {
-  Segments segments{geometry, {}, {}};
+imaging::Segments segments_of(const Geometry& geometry, std::span<const Label> labels,
+                              std::span<const std::uint8_t> voxels) {
+  imaging::Segments segments{geometry, {}, {}};
   for (const Label& label : labels) {
-    Segment segment;
+    imaging::Segment segment;
     segment.name = label.name;
     segment.colour = label.colour;
     segment.meaning = label.coded();
-    segment.slices = slices_of(geometry, voxels, label.id);
+    segment.slices = imaging::slices_of(geometry, voxels, label.id);
     segments.list.push_back(std::move(segment));
   }
   return segments;
 }
 
-Segments segments_of(const Labels& labels) {
+imaging::Segments segments_of(const Labels& labels) {
   return segments_of(labels.geometry(), labels.list(), labels.voxels());
 }
 
-Status add_segments(Labels& labels, const Segments& segments) {
+Status add_segments(Labels& labels, const imaging::Segments& segments) {
   if (segments.geometry.size != labels.geometry().size) {
     return fail(ErrorKind::usage, "the segments and the labels have different grids");
   }
@@ -97,7 +97,7 @@ Status add_segments(Labels& labels, const Segments& segments) {
   voxels.resize(static_cast<std::size_t>(labels.geometry().voxel_count()));
   Taken taken(list);
   std::string names;
-  for (const Segment& segment : segments.list) {
+  for (const imaging::Segment& segment : segments.list) {
     Label label;
     label.id = taken.next();
     label.name = shortened(segment.name);
@@ -110,4 +110,4 @@ Status add_segments(Labels& labels, const Segments& segments) {
   return labels.replace(ChangeKind::import_labels, names, std::move(list), std::move(voxels));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -7,17 +7,17 @@
 #include "document/labels.h"
 #include "imaging/results/segments.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 // A segment for each label, in their order, with name, colour and meaning; labels without voxels are empty
 // segments. `voxels` holds a label id for each voxel of the grid, or nothing.
-[[nodiscard]] Segments segments_of(const Geometry& geometry, std::span<const Label> labels,
-                                   std::span<const std::uint8_t> voxels);
-[[nodiscard]] Segments segments_of(const Labels& labels);
+[[nodiscard]] imaging::Segments segments_of(const Geometry& geometry, std::span<const Label> labels,
+                                            std::span<const std::uint8_t> voxels);
+[[nodiscard]] imaging::Segments segments_of(const Labels& labels);
 
 // A new label for each segment, with its name, and its colour and meaning if it has them: one entry of the
 // history. Where segments overlap the later one has the voxel; voxels of locked labels stay. Fails
 // (ErrorKind::usage), adding nothing, when the grids differ or there would be more than 255 labels.
-Status add_segments(Labels& labels, const Segments& segments);
+Status add_segments(Labels& labels, const imaging::Segments& segments);
 
-}  // namespace tidemark
+}  // namespace tidemark::document

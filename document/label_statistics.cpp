@@ -3,7 +3,7 @@
 
 #include "document/labels.h"
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 // Sums of one region. The shift keeps the squares small where all values are far from 0 (Welford's update
@@ -63,4 +63,4 @@ std::vector<RegionStatistics> statistics_by_label(const Volume& volume, const La
   return statistics;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -5,7 +5,7 @@
 
 #include "core/label_colour.h"
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 // A run of voxels that had one label and have another one now.
@@ -212,4 +212,4 @@ Status Labels::assign(std::vector<Label> list, std::vector<std::uint8_t> voxels)
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

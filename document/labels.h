@@ -13,17 +13,19 @@
 #include "document/history.h"
 #include "imaging/results/segment_meaning.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 struct Label {
   std::uint8_t id = 1;  // 1 to 255; 0 is no label
   std::string name;
   std::array<std::uint8_t, 3> colour{255, 255, 0};
   bool visible = true;
-  bool locked = false;                    // its voxels are not changed by others
-  std::optional<SegmentMeaning> meaning;  // unset: as its name says
+  bool locked = false;                             // its voxels are not changed by others
+  std::optional<imaging::SegmentMeaning> meaning;  // unset: as its name says
 
-  [[nodiscard]] SegmentMeaning coded() const { return meaning ? *meaning : guess_segment_meaning(name); }
+  [[nodiscard]] imaging::SegmentMeaning coded() const {
+    return meaning ? *meaning : imaging::guess_segment_meaning(name);
+  }
   bool operator==(const Label&) const = default;
 };
 
@@ -96,4 +98,4 @@ RegionStatistics statistics_in(const Volume& volume, const Mask& mask);
 // Of all labels at once, by id (256 entries).
 std::vector<RegionStatistics> statistics_by_label(const Volume& volume, const Labels& labels);
 
-}  // namespace tidemark
+}  // namespace tidemark::document

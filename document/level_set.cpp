@@ -5,7 +5,7 @@
 
 #include "document/level_set_change.h"
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 bool moves_phi(ChangeKind kind) {
@@ -14,8 +14,8 @@ bool moves_phi(ChangeKind kind) {
 }
 
 // Which of the parameters was changed.
-ChangeKind kind_of_change(const Parameters& before, const Parameters& after) {
-  Parameters changed = before;
+ChangeKind kind_of_change(const solver::Parameters& before, const solver::Parameters& after) {
+  solver::Parameters changed = before;
   changed.target = after.target;
   if (changed == after) return ChangeKind::target;
   changed = before;
@@ -29,22 +29,23 @@ ChangeKind kind_of_change(const Parameters& before, const Parameters& after) {
 }  // namespace
 
 Result<std::unique_ptr<LevelSet>> LevelSet::create(std::shared_ptr<const Volume> volume,
-                                                   const Parameters& parameters, ExecutorKind kind,
-                                                   const ExecutorOptions& options, History& history) {
+                                                   const solver::Parameters& parameters,
+                                                   solver::ExecutorKind kind,
+                                                   const solver::ExecutorOptions& options, History& history) {
   auto setup = ExecutorSetup::create(std::move(volume), 0.0, parameters, kind, options);
   if (!setup) return pass_on(setup);
   return std::unique_ptr<LevelSet>(new LevelSet(std::move(*setup), parameters, history));
 }
 
-LevelSet::LevelSet(ExecutorSetup setup, const Parameters& parameters, History& history)
+LevelSet::LevelSet(ExecutorSetup setup, const solver::Parameters& parameters, History& history)
     : setup_(std::move(setup)), history_(history) {
   const Geometry& geometry = setup_.volume()->geometry;
   recipe_.source.size = geometry.size;
   recipe_.source.spacing_mm = geometry.spacing_mm;
   recipe_.executor = setup_.description();
   recipe_.parameters = parameters;
-  start_ =
-      std::make_shared<const Field>(Field::empty(geometry, executor().band(), recipe_.executor.page_shape));
+  start_ = std::make_shared<const solver::Field>(
+      solver::Field::empty(geometry, executor().band(), recipe_.executor.page_shape));
   put_in_place({recipe_, start_, start_});
 }
 
@@ -123,14 +124,14 @@ Status LevelSet::read_back_phi() {
   }
   auto phi = executor().snapshot();
   if (!phi) return pass_on(phi);
-  auto shared = std::make_shared<const Field>(std::move(*phi));
+  auto shared = std::make_shared<const solver::Field>(std::move(*phi));
   if (step() == 0) start_ = shared;
   known_ = {recipe_, std::move(shared), start_, curve_};
   dirty_ = false;
   return {};
 }
 
-Result<std::shared_ptr<const Field>> LevelSet::checkpoint() {
+Result<std::shared_ptr<const solver::Field>> LevelSet::checkpoint() {
   TIDEMARK_TRY(read_back_phi());
   if (open_ && open_->gesture != 0 && !open_->last_edit) {
     const std::vector<RecipeEvent>& events = recipe_.events;
@@ -142,13 +143,13 @@ Result<std::shared_ptr<const Field>> LevelSet::checkpoint() {
 
 Status LevelSet::begin(const Start& start, const Progress& progress) {
   TIDEMARK_TRY(history_.close());
-  auto phi = tidemark::begin(executor(), *source(), start, progress);
+  auto phi = tidemark::document::begin(executor(), *source(), start, progress);
   if (!phi) {
     TIDEMARK_TRY(go_to(known_));
     return pass_on(phi);
   }
   const Point before = known_;
-  Point point{{}, std::make_shared<const Field>(std::move(*phi)), nullptr};
+  Point point{{}, std::make_shared<const solver::Field>(std::move(*phi)), nullptr};
   point.recipe.source = recipe_.source;
   point.recipe.executor = setup_.description();
   point.recipe.smoothed_mm = smoothed_mm();
@@ -160,17 +161,17 @@ Status LevelSet::begin(const Start& start, const Progress& progress) {
   return {};
 }
 
-Status LevelSet::paint(const Sphere& sphere, Brush brush, std::uint64_t gesture) {
+Status LevelSet::paint(const solver::Sphere& sphere, solver::Brush brush, std::uint64_t gesture) {
   TIDEMARK_TRY(end_other_change(gesture));
   TIDEMARK_TRY(executor().paint(sphere, brush));
-  begin_change(brush == Brush::add ? ChangeKind::paint : ChangeKind::erase, gesture, known_);
+  begin_change(brush == solver::Brush::add ? ChangeKind::paint : ChangeKind::erase, gesture, known_);
   record({step(), PaintEvent{sphere, brush}});
   curve_.cut(step());
   dirty_ = true;
   return gesture == 0 ? history_.close() : Status();
 }
 
-Status LevelSet::set_parameters(const Parameters& parameters, std::uint64_t gesture) {
+Status LevelSet::set_parameters(const solver::Parameters& parameters, std::uint64_t gesture) {
   TIDEMARK_TRY(end_other_change(gesture));
   if (parameters == this->parameters()) return {};
   TIDEMARK_TRY(executor().set_parameters(parameters));
@@ -199,7 +200,7 @@ Status LevelSet::smooth_source(double sigma_mm) {
   return {};
 }
 
-Result<AdvanceReport> LevelSet::advance(const Advance& run) {
+Result<solver::AdvanceReport> LevelSet::advance(const solver::Advance& run) {
   if (!begun()) return fail(ErrorKind::usage, "there is no surface yet: a start is needed");
   if (step() == 0 && dirty_) {
     TIDEMARK_TRY(read_back_phi());  // restart() comes back to it
@@ -226,7 +227,7 @@ void LevelSet::put_in_place(Point point) {
 
 // Puts the point's phi, parameters and smoothing into the executor.
 Status LevelSet::hand_over(const Point& point) {
-  const Parameters& wanted = point.recipe.final_parameters();
+  const solver::Parameters& wanted = point.recipe.final_parameters();
   if (const double sigma_mm = point.recipe.final_smoothed_mm(); sigma_mm != smoothed_mm()) {
     TIDEMARK_TRY(setup_.smooth_source(sigma_mm));
   }
@@ -250,7 +251,8 @@ Status LevelSet::go_to(Point point) {
   return gone;
 }
 
-Status LevelSet::resume_from(const Recipe& recipe, std::shared_ptr<const Field> phi, const Curve& curve) {
+Status LevelSet::resume_from(const Recipe& recipe, std::shared_ptr<const solver::Field> phi,
+                             const Curve& curve) {
   TIDEMARK_TRY(history_.close());
   return go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr, curve});
 }
@@ -318,17 +320,17 @@ Status LevelSet::restart() {
   TIDEMARK_TRY(history_.close());
   if (step() == 0) return {};
   const Point before = known_;
-  const Parameters present = parameters();
+  const solver::Parameters present = parameters();
   const double smoothed = smoothed_mm();
   if (start_ == nullptr) {
     // It was saved later than its start: what lies between is made again.
     Status prepared = prepare_start();
-    auto phi = prepared ? executor().snapshot() : Result<Field>(pass_on(prepared));
+    auto phi = prepared ? executor().snapshot() : Result<solver::Field>(pass_on(prepared));
     if (!phi) {
       TIDEMARK_TRY(go_to(before));
       return pass_on(phi);
     }
-    start_ = std::make_shared<const Field>(std::move(*phi));
+    start_ = std::make_shared<const solver::Field>(std::move(*phi));
   }
   Point point{recipe_.up_to(0), start_, start_};
   std::erase_if(point.recipe.events,
@@ -340,7 +342,7 @@ Status LevelSet::restart() {
   return {};
 }
 
-Status LevelSet::change_executor(ExecutorKind kind, const ExecutorOptions& options) {
+Status LevelSet::change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options) {
   TIDEMARK_TRY(history_.close());
   TIDEMARK_TRY(setup_.change_executor(kind, options, *known_.phi));
   recipe_.executor = setup_.description();
@@ -350,11 +352,11 @@ Status LevelSet::change_executor(ExecutorKind kind, const ExecutorOptions& optio
   return {};
 }
 
-Status LevelSet::rebuild(const ExecutorOptions& options, std::optional<ExecutorKind> kind) {
+Status LevelSet::rebuild(const solver::ExecutorOptions& options, std::optional<solver::ExecutorKind> kind) {
   const Status rebuilt = setup_.change_executor(kind.value_or(setup_.kind()), options, *known_.phi);
   if (!rebuilt) return rebuilt;
   if (open_) open_->last_edit.reset();
-  const Parameters present = parameters();
+  const solver::Parameters present = parameters();
   TIDEMARK_TRY(go_to(known_));
   if (present == parameters()) return {};
   if (!open_) return set_parameters(present);
@@ -368,4 +370,4 @@ Status LevelSet::rebuild(const ExecutorOptions& options, std::optional<ExecutorK
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -13,7 +13,7 @@
 #include "document/start.h"
 #include "solver/executor.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 // Used on one thread at a time: that of the executor's graphics context, where it has one.
 //
@@ -25,18 +25,19 @@ class LevelSet final : private OpenChange {
   // Everywhere outside at first, on the unsmoothed volume. Fails as make_executor() does. `history` must
   // outlive it.
   static Result<std::unique_ptr<LevelSet>> create(std::shared_ptr<const Volume> volume,
-                                                  const Parameters& parameters, ExecutorKind kind,
-                                                  const ExecutorOptions& options, History& history);
+                                                  const solver::Parameters& parameters,
+                                                  solver::ExecutorKind kind,
+                                                  const solver::ExecutorOptions& options, History& history);
 
-  [[nodiscard]] const Executor& executor() const { return setup_.executor(); }
-  [[nodiscard]] Executor& executor() { return setup_.executor(); }
-  [[nodiscard]] const Parameters& parameters() const { return executor().parameters(); }
+  [[nodiscard]] const solver::Executor& executor() const { return setup_.executor(); }
+  [[nodiscard]] solver::Executor& executor() { return setup_.executor(); }
+  [[nodiscard]] const solver::Parameters& parameters() const { return executor().parameters(); }
   [[nodiscard]] const std::shared_ptr<const Volume>& source() const { return setup_.source(); }
   [[nodiscard]] double smoothed_mm() const { return setup_.smoothed_mm(); }
   [[nodiscard]] std::int64_t step() const { return recipe_.steps; }  // since the start
   [[nodiscard]] bool begun() const { return recipe_.begun(); }       // there is a surface to steer
   // phi before the first step; null: a session was opened that goes on from later.
-  [[nodiscard]] const std::shared_ptr<const Field>& start() const { return start_; }
+  [[nodiscard]] const std::shared_ptr<const solver::Field>& start() const { return start_; }
   // Everything since the start, but for the source's series, which the case adds.
   [[nodiscard]] const Recipe& recipe() const { return recipe_; }
 
@@ -44,13 +45,13 @@ class LevelSet final : private OpenChange {
   // stroke of a brush) and the steps between them are one entry. The steps after the last of them, up to
   // the next checkpoint, belong to it too.
   Status begin(const Start& start, const Progress& progress = {});
-  Status paint(const Sphere& sphere, Brush brush, std::uint64_t gesture = 0);
-  Status set_parameters(const Parameters& parameters, std::uint64_t gesture = 0);
+  Status paint(const solver::Sphere& sphere, solver::Brush brush, std::uint64_t gesture = 0);
+  Status set_parameters(const solver::Parameters& parameters, std::uint64_t gesture = 0);
   // The level set's source becomes the volume, smoothed by that many mm (0: not at all).
   Status smooth_source(double sigma_mm);
   // Steps, one after the other, are one entry until another edit or end_run(). When a memory budget ends the
   // run, the steps up to there count.
-  Result<AdvanceReport> advance(const Advance& run);
+  Result<solver::AdvanceReport> advance(const solver::Advance& run);
   Status end_run();
 
   // Back to where the level set was `steps` steps ago, by computing again from where phi was last put in
@@ -60,16 +61,17 @@ class LevelSet final : private OpenChange {
   Status restart();
 
   // Goes on with another executor from the same phi.
-  Status change_executor(ExecutorKind kind, const ExecutorOptions& options);
+  Status change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options);
   // After the graphics context was lost: a new executor on options.device, from the last checkpoint, with the
   // present parameters; of another kind, where none of the same can be had.
-  Status rebuild(const ExecutorOptions& options, std::optional<ExecutorKind> kind = std::nullopt);
+  Status rebuild(const solver::ExecutorOptions& options,
+                 std::optional<solver::ExecutorKind> kind = std::nullopt);
 
   // phi for saving and measuring. Counts as a checkpoint for rebuild().
-  Result<std::shared_ptr<const Field>> checkpoint();
+  Result<std::shared_ptr<const solver::Field>> checkpoint();
 
   // Goes on from a saved recipe and the phi that it had led to. Not an entry of the history.
-  Status resume_from(const Recipe& recipe, std::shared_ptr<const Field> phi, const Curve& curve = {});
+  Status resume_from(const Recipe& recipe, std::shared_ptr<const solver::Field> phi, const Curve& curve = {});
 
   // The development of the surface since the start; the caller adds points, undo and redo bring them back.
   [[nodiscard]] const Curve& curve() const { return curve_; }
@@ -82,8 +84,8 @@ class LevelSet final : private OpenChange {
   // measured curve.
   struct Point {
     Recipe recipe;
-    std::shared_ptr<const Field> phi;
-    std::shared_ptr<const Field> start;
+    std::shared_ptr<const solver::Field> phi;
+    std::shared_ptr<const solver::Field> start;
     Curve curve{};
 
     [[nodiscard]] bool same_as(const Point& other) const {
@@ -100,7 +102,7 @@ class LevelSet final : private OpenChange {
         last_edit;  // a checkpoint after the last edit of the gesture: there it can be divided
   };
 
-  LevelSet(ExecutorSetup setup, const Parameters& parameters, History& history);
+  LevelSet(ExecutorSetup setup, const solver::Parameters& parameters, History& history);
 
   ChangeDescription description() const override;
   std::int64_t bytes() const override;
@@ -120,7 +122,7 @@ class LevelSet final : private OpenChange {
   ExecutorSetup setup_;
   History& history_;
   Recipe recipe_;
-  std::shared_ptr<const Field> start_;  // phi before the first step
+  std::shared_ptr<const solver::Field> start_;  // phi before the first step
   Curve curve_;
   Point known_;           // the last phi that was read back
   bool dirty_ = false;    // phi has changed since
@@ -129,4 +131,4 @@ class LevelSet final : private OpenChange {
   std::optional<Open> open_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::document

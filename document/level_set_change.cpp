@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 Recipe without_events(const Recipe& recipe, std::size_t common) {
@@ -19,7 +19,8 @@ std::int64_t start_bytes(const Start& start) {
   } else if (const auto* phi = std::get_if<FieldStart>(&start.from)) {
     bytes = memory_of(*phi->phi);
   }
-  return bytes + static_cast<std::int64_t>((start.seeds.size() + start.erasers.size()) * sizeof(Sphere));
+  return bytes +
+         static_cast<std::int64_t>((start.seeds.size() + start.erasers.size()) * sizeof(solver::Sphere));
 }
 
 }  // namespace
@@ -51,12 +52,13 @@ std::int64_t LevelSetChange::bytes() const {
   return sum;
 }
 
-Status LevelSetChange::go(const Side& side, Field phi) {
-  LevelSet::Point point{side.recipe, std::make_shared<const Field>(std::move(phi)), side.start, side.curve};
+Status LevelSetChange::go(const Side& side, solver::Field phi) {
+  LevelSet::Point point{side.recipe, std::make_shared<const solver::Field>(std::move(phi)), side.start,
+                        side.curve};
   const auto& present = level_set_.recipe_.events;
   point.recipe.events.insert(point.recipe.events.begin(), present.begin(),
                              present.begin() + static_cast<std::ptrdiff_t>(common_events_));
   return level_set_.go_to(std::move(point));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

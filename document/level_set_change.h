@@ -7,7 +7,7 @@
 #include "document/field_delta.h"
 #include "document/level_set.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 class LevelSetChange : public Change {
  public:
@@ -21,10 +21,10 @@ class LevelSetChange : public Change {
   // The part of a recipe beyond the events that both have.
   struct Side {
     Recipe recipe;  // its events: those that are not common
-    std::shared_ptr<const Field> start;
+    std::shared_ptr<const solver::Field> start;
     Curve curve;
   };
-  Status go(const Side& side, Field phi);
+  Status go(const Side& side, solver::Field phi);
 
   LevelSet& level_set_;
   FieldDelta delta_;
@@ -33,4 +33,4 @@ class LevelSetChange : public Change {
   Side after_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::document

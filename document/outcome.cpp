@@ -7,7 +7,7 @@
 #include "solver/model.h"
 #include "solver/voxel_values.h"
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 constexpr std::int64_t kRemnant = 8;    // voxels: the grid shows curvature no less, which leaves it there
@@ -18,7 +18,7 @@ constexpr double kBeside = 0.6;         // of the band: 1.5 of 2.5 voxels
 
 // Calls visit(voxel, phi) for the voxels of those pages whose entry in the table is `wanted`.
 template <class Wanted, class Visit>
-void visit_pages(const Field& phi, const Wanted& wanted, const Visit& visit) {
+void visit_pages(const solver::Field& phi, const Wanted& wanted, const Visit& visit) {
   for (std::size_t page = 0; page < phi.table.size(); ++page) {
     if (!wanted(phi.table[page])) continue;
     const auto number = static_cast<std::int64_t>(page);
@@ -39,9 +39,10 @@ void visit_pages(const Field& phi, const Wanted& wanted, const Visit& visit) {
 bool is_attracted(const EvolvedSurface& surface) {
   bool any = false;
   visit_pages(
-      *surface.start, [&](std::int32_t entry) { return !any && entry != Field::kOutside; },
+      *surface.start, [&](std::int32_t entry) { return !any && entry != solver::Field::kOutside; },
       [&](Index3 voxel, float phi) {
-        any = any || (phi > 0.0F && data_speed(surface.parameters, surface.source.value(voxel)) > 0.0);
+        any =
+            any || (phi > 0.0F && solver::data_speed(surface.parameters, surface.source.value(voxel)) > 0.0);
       });
   return any;
 }
@@ -101,9 +102,9 @@ Outcome outcome_of(const EvolvedSurface& surface) {
 }
 
 std::optional<double> wider_range(const EvolvedSurface& surface) {
-  const Parameters& parameters = surface.parameters;
+  const solver::Parameters& parameters = surface.parameters;
   if (outcome_of(surface) != Outcome::converged || !parameters.data_term) return std::nullopt;
-  const double band = std::min(surface.phi.band, default_band(surface.phi.geometry));
+  const double band = std::min(surface.phi.band, solver::default_band(surface.phi.geometry));
   std::int64_t beside = 0;
   std::int64_t alike = 0;
   double squares = 0.0;
@@ -122,4 +123,4 @@ std::optional<double> wider_range(const EvolvedSurface& surface) {
   return rounded(std::max(2.0 * spread, kLeastWidening * parameters.range));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

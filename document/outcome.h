@@ -8,7 +8,7 @@
 #include "solver/field.h"
 #include "solver/parameters.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 enum class Outcome {
   unfinished,      // it moves, or no step was computed
@@ -25,13 +25,13 @@ bool has_surface(Outcome outcome);
 
 // A level set of which steps have been computed.
 struct EvolvedSurface {
-  const Field& phi;
+  const solver::Field& phi;
   std::int64_t voxels_inside = 0;
   std::int64_t steps = 0;
-  bool stopped = false;          // AdvanceReport::converged
-  const Field* start = nullptr;  // before the first step; null: not known
-  const Volume& source;          // as the level set sees it
-  const Parameters& parameters;  // the present ones
+  bool stopped = false;                  // AdvanceReport::converged
+  const solver::Field* start = nullptr;  // before the first step; null: not known
+  const Volume& source;                  // as the level set sees it
+  const solver::Parameters& parameters;  // the present ones
 };
 Outcome outcome_of(const EvolvedSurface& surface);
 
@@ -44,4 +44,4 @@ Outcome outcome_of(const EvolvedSurface& surface);
 // such voxels.
 std::optional<double> wider_range(const EvolvedSurface& surface);
 
-}  // namespace tidemark
+}  // namespace tidemark::document

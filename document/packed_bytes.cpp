@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -74,4 +74,4 @@ std::optional<std::vector<std::byte>> unpack_bytes(std::string_view text, std::s
   return bytes;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

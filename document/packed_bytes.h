@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-namespace tidemark {
+namespace tidemark::document {
 
 [[nodiscard]] std::string pack_bytes(std::span<const std::byte> bytes);
 // Nothing unless the text holds exactly `size` bytes. Takes no more memory than the text can hold: deflate
 // makes at most 1032 bytes of one.
 [[nodiscard]] std::optional<std::vector<std::byte>> unpack_bytes(std::string_view text, std::size_t size);
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 template <class Event>
@@ -37,11 +37,11 @@ Result<Recipe> Recipe::load(const std::filesystem::path& file) {
 bool Recipe::begun() const {
   return !start.empty() || std::any_of(events.begin(), events.end(), [](const RecipeEvent& event) {
     const auto* paint = std::get_if<PaintEvent>(&event.what);
-    return paint != nullptr && paint->brush == Brush::add;
+    return paint != nullptr && paint->brush == solver::Brush::add;
   });
 }
 
-const Parameters& Recipe::final_parameters() const {
+const solver::Parameters& Recipe::final_parameters() const {
   const auto* event = last_event<ParametersEvent>(events);
   return event != nullptr ? event->parameters : parameters;
 }
@@ -58,4 +58,4 @@ Recipe Recipe::up_to(std::int64_t step) const {
   return earlier;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -12,15 +12,15 @@
 #include "imaging/grid_policy.h"
 #include "solver/parameters.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 struct PaintEvent {
-  Sphere sphere;
-  Brush brush = Brush::add;
+  solver::Sphere sphere;
+  solver::Brush brush = solver::Brush::add;
   bool operator==(const PaintEvent&) const = default;
 };
 struct ParametersEvent {
-  Parameters parameters;
+  solver::Parameters parameters;
   bool operator==(const ParametersEvent&) const = default;
 };
 // From here on the level set sees the volume smoothed by that much; 0: not at all.
@@ -46,15 +46,15 @@ struct RecipeSource {
   Index3 size{0};
   glm::dvec3 spacing_mm{1.0};
   std::string series_uid;
-  std::string checksum;  // see checksum.h; empty: unknown
-  GridPolicy policy;     // by which the slices of the series were made a grid
+  std::string checksum;        // see checksum.h; empty: unknown
+  imaging::GridPolicy policy;  // by which the slices of the series were made a grid
   bool operator==(const RecipeSource&) const = default;
 };
 
 // The executor: the same bits come from the same one with the same pages.
 struct RecipeExecutor {
   std::string name;  // as Executor::name()
-  Index3 page_shape = kDefaultPageShape;
+  Index3 page_shape = solver::kDefaultPageShape;
   bool skip_quiet_pages = true;
   bool operator==(const RecipeExecutor&) const = default;
 };
@@ -67,7 +67,7 @@ struct Recipe {
   RecipeExecutor executor;
   double smoothed_mm = 0.0;  // at the start
   Start start;
-  Parameters parameters;  // at the start
+  solver::Parameters parameters;  // at the start
   std::vector<RecipeEvent> events;
   std::int64_t steps = 0;  // in all
 
@@ -79,10 +79,10 @@ struct Recipe {
   static Result<Recipe> load(const std::filesystem::path& file);
 
   [[nodiscard]] bool begun() const;  // there is a surface
-  [[nodiscard]] const Parameters& final_parameters() const;
+  [[nodiscard]] const solver::Parameters& final_parameters() const;
   [[nodiscard]] double final_smoothed_mm() const;
   // The recipe up to that many steps, with the edits after the last of them.
   [[nodiscard]] Recipe up_to(std::int64_t step) const;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -10,7 +10,7 @@
 #include "document/field_bytes.h"
 #include "document/packed_bytes.h"
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 constexpr std::int64_t kLongestAxis = 1 << 20;
@@ -28,25 +28,25 @@ Json index_json(const Index3& v) {
   return {v.x, v.y, v.z};
 }
 
-Json to_json(const Sphere& sphere) {
+Json to_json(const solver::Sphere& sphere) {
   return {{"centre_mm", vector_json(sphere.centre_mm)}, {"radius_mm", sphere.radius_mm}};
 }
 
-Json to_json(const std::vector<Sphere>& spheres) {
+Json to_json(const std::vector<solver::Sphere>& spheres) {
   Json list = Json::array();
-  for (const Sphere& sphere : spheres) list.push_back(to_json(sphere));
+  for (const solver::Sphere& sphere : spheres) list.push_back(to_json(sphere));
   return list;
 }
 
-Sphere read_sphere(const JsonField& field) {
-  Sphere sphere;
+solver::Sphere read_sphere(const JsonField& field) {
+  solver::Sphere sphere;
   sphere.centre_mm = field.at("centre_mm").vector(-kFarthest_mm, kFarthest_mm);
   sphere.radius_mm = field.at("radius_mm").number(std::numeric_limits<double>::min(), kFarthest_mm);
   return sphere;
 }
 
-std::vector<Sphere> read_spheres(const JsonField& field) {
-  std::vector<Sphere> spheres;
+std::vector<solver::Sphere> read_spheres(const JsonField& field) {
+  std::vector<solver::Sphere> spheres;
   const std::size_t count = field.size(kMostSpheres);
   for (std::size_t i = 0; i < count && field.good(); ++i) spheres.push_back(read_sphere(field.at(i)));
   return spheres;
@@ -97,8 +97,8 @@ std::vector<Number> read_numbers(const JsonField& field, std::size_t count) {
   return numbers;
 }
 
-Json to_json(const Field& phi) {
-  return {{"grid", tidemark::to_json(phi.geometry)},
+Json to_json(const solver::Field& phi) {
+  return {{"grid", tidemark::document::to_json(phi.geometry)},
           {"band", phi.band},
           {"page_shape", index_json(phi.layout.page_shape())},
           {"resident_pages", phi.resident_pages()},
@@ -106,13 +106,13 @@ Json to_json(const Field& phi) {
           {"pages", packed_numbers(pages_for_file(phi))}};
 }
 
-std::shared_ptr<const Field> read_field(const JsonField& field) {
+std::shared_ptr<const solver::Field> read_field(const JsonField& field) {
   const Geometry geometry = read_geometry(field.at("grid"));
   const double band = field.at("band").number(2.0, 1e6);
   const Index3 shape = field.at("page_shape").index(1, 64);
   if (field.good() && !is_page_shape(shape)) field.at("page_shape").wrong("no pages have that shape");
   if (!field.good()) return nullptr;
-  const PageLayout layout(geometry.size, shape);
+  const solver::PageLayout layout(geometry.size, shape);
   const auto resident = field.at("resident_pages").integer(0, layout.page_count());
   auto table = read_numbers<std::int32_t>(field.at("table"), static_cast<std::size_t>(layout.page_count()));
   auto pages =
@@ -123,7 +123,7 @@ std::shared_ptr<const Field> read_field(const JsonField& field) {
     field.wrong(phi.error().message);
     return nullptr;
   }
-  return std::make_shared<const Field>(std::move(*phi));
+  return std::make_shared<const solver::Field>(std::move(*phi));
 }
 
 struct FromJson {
@@ -137,7 +137,7 @@ struct FromJson {
   Json operator()(const MaskStart& start) const {
     return {{"kind", "mask"},
             {"origin", start.origin},
-            {"grid", tidemark::to_json(start.mask->geometry)},
+            {"grid", tidemark::document::to_json(start.mask->geometry)},
             {"bits", packed_mask(*start.mask)}};
   }
   Json operator()(const FieldStart& start) const {
@@ -186,9 +186,9 @@ Start read_start(const JsonField& field) {
 Json to_json(const RecipeEvent& event) {
   Json json{{"step", event.step}};
   if (const auto* paint = std::get_if<PaintEvent>(&event.what)) {
-    json[paint->brush == Brush::add ? "add" : "erase"] = to_json(paint->sphere);
+    json[paint->brush == solver::Brush::add ? "add" : "erase"] = to_json(paint->sphere);
   } else if (const auto* change = std::get_if<ParametersEvent>(&event.what)) {
-    json["parameters"] = tidemark::to_json(change->parameters);
+    json["parameters"] = tidemark::document::to_json(change->parameters);
   } else if (const auto* smoothing = std::get_if<SmoothEvent>(&event.what)) {
     json["smoothed_mm"] = smoothing->sigma_mm;
   } else {
@@ -201,9 +201,9 @@ RecipeEvent read_event(const JsonField& field, std::int64_t first_step, std::int
   RecipeEvent event;
   event.step = field.at("step").integer(first_step, last_step);
   if (field.has("add")) {
-    event.what = PaintEvent{read_sphere(field.at("add")), Brush::add};
+    event.what = PaintEvent{read_sphere(field.at("add")), solver::Brush::add};
   } else if (field.has("erase")) {
-    event.what = PaintEvent{read_sphere(field.at("erase")), Brush::erase};
+    event.what = PaintEvent{read_sphere(field.at("erase")), solver::Brush::erase};
   } else if (field.has("parameters")) {
     event.what = ParametersEvent{read_parameters(field.at("parameters"))};
   } else if (field.has("smoothed_mm")) {
@@ -251,7 +251,7 @@ Geometry read_geometry(const JsonField& field) {
   return field.good() ? geometry : Geometry();
 }
 
-Json to_json(const Parameters& parameters) {
+Json to_json(const solver::Parameters& parameters) {
   Json json;
   json["target"] = parameters.target;
   json["range"] = parameters.range;
@@ -260,8 +260,8 @@ Json to_json(const Parameters& parameters) {
     json["band"] = std::isinf(*parameters.band) ? Json("infinite") : Json(*parameters.band);
   if (parameters.rescale) json["rescale"] = *parameters.rescale;
   json["target_gradient"] = parameters.target_gradient;
-  json["scheme"] = parameters.scheme == Scheme::split ? "split" : "paper";
-  json["data"] = parameters.data_form == DataForm::clamped ? "clamped" : "raw";
+  json["scheme"] = parameters.scheme == solver::Scheme::split ? "split" : "paper";
+  json["data"] = parameters.data_form == solver::DataForm::clamped ? "clamped" : "raw";
   json["data_term"] = parameters.data_term;
   json["curvature_term"] = parameters.curvature_term;
   json["rescaling_term"] = parameters.rescaling_term;
@@ -269,8 +269,8 @@ Json to_json(const Parameters& parameters) {
   return json;
 }
 
-Parameters read_parameters(const JsonField& field) {
-  Parameters parameters;
+solver::Parameters read_parameters(const JsonField& field) {
+  solver::Parameters parameters;
   parameters.target = field.at("target").number();
   parameters.range = field.at("range").number();
   parameters.alpha = field.at("alpha").number();
@@ -282,8 +282,10 @@ Parameters read_parameters(const JsonField& field) {
   }
   parameters.rescale = read_optional(field, "rescale");
   parameters.target_gradient = field.at("target_gradient").number();
-  parameters.scheme = field.at("scheme").word({"split", "paper"}) == 0 ? Scheme::split : Scheme::paper;
-  parameters.data_form = field.at("data").word({"clamped", "raw"}) == 0 ? DataForm::clamped : DataForm::raw;
+  parameters.scheme =
+      field.at("scheme").word({"split", "paper"}) == 0 ? solver::Scheme::split : solver::Scheme::paper;
+  parameters.data_form =
+      field.at("data").word({"clamped", "raw"}) == 0 ? solver::DataForm::clamped : solver::DataForm::raw;
   parameters.data_term = field.at("data_term").boolean();
   parameters.curvature_term = field.at("curvature_term").boolean();
   parameters.rescaling_term = field.at("rescaling_term").boolean();
@@ -293,15 +295,15 @@ Parameters read_parameters(const JsonField& field) {
   return parameters;
 }
 
-Json to_json(const GridPolicy& policy) {
-  return {{"tilt", policy.tilt == GridPolicy::Tilt::keep ? "keep" : "correct"},
-          {"gaps", policy.gaps == GridPolicy::Gaps::fill ? "fill" : "refuse"}};
+Json to_json(const imaging::GridPolicy& policy) {
+  return {{"tilt", policy.tilt == imaging::GridPolicy::Tilt::keep ? "keep" : "correct"},
+          {"gaps", policy.gaps == imaging::GridPolicy::Gaps::fill ? "fill" : "refuse"}};
 }
 
-GridPolicy read_policy(const JsonField& field) {
-  GridPolicy policy;
-  if (field.at("tilt").word({"correct", "keep"}) == 1) policy.tilt = GridPolicy::Tilt::keep;
-  if (field.at("gaps").word({"refuse", "fill"}) == 1) policy.gaps = GridPolicy::Gaps::fill;
+imaging::GridPolicy read_policy(const JsonField& field) {
+  imaging::GridPolicy policy;
+  if (field.at("tilt").word({"correct", "keep"}) == 1) policy.tilt = imaging::GridPolicy::Tilt::keep;
+  if (field.at("gaps").word({"refuse", "fill"}) == 1) policy.gaps = imaging::GridPolicy::Gaps::fill;
   return policy;
 }
 
@@ -360,7 +362,8 @@ Recipe read_recipe(const JsonField& field) {
 }
 
 Result<std::string> Recipe::to_text() const {
-  std::string text = tidemark::to_json(*this).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  std::string text =
+      tidemark::document::to_json(*this).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
   if (text.size() <= kLargestFile) {
     TIDEMARK_TRY(JsonDocument::parse(text, "the recipe"));  // what could not be read again is not written
     return text;
@@ -379,4 +382,4 @@ Result<Recipe> Recipe::parse(std::string_view text, const std::string& file) {
   return recipe;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

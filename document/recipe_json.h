@@ -5,17 +5,17 @@
 #include "core/json/json_field.h"
 #include "document/recipe.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 [[nodiscard]] Json to_json(const Recipe& recipe);
 [[nodiscard]] Json to_json(const Geometry& geometry);
-[[nodiscard]] Json to_json(const Parameters& parameters);
-[[nodiscard]] Json to_json(const GridPolicy& policy);
+[[nodiscard]] Json to_json(const solver::Parameters& parameters);
+[[nodiscard]] Json to_json(const imaging::GridPolicy& policy);
 
 // Errors are noted in the field's document.
 Recipe read_recipe(const JsonField& field);
 Geometry read_geometry(const JsonField& field);
-Parameters read_parameters(const JsonField& field);
-GridPolicy read_policy(const JsonField& field);
+solver::Parameters read_parameters(const JsonField& field);
+imaging::GridPolicy read_policy(const JsonField& field);
 
-}  // namespace tidemark
+}  // namespace tidemark::document

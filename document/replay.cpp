@@ -7,7 +7,7 @@
 #include "document/checksum.h"
 #include "document/executor_setup.h"
 
-namespace tidemark {
+namespace tidemark::document {
 std::vector<std::string> differences(const Recipe& recipe, const Volume& volume) {
   std::vector<std::string> found;
   const glm::dvec3 then = recipe.source.spacing_mm;
@@ -34,9 +34,10 @@ std::vector<std::string> differences(const Recipe& recipe, const Volume& volume)
 
 Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume,
                       const ReplayOptions& options, const Progress& progress) {
-  const ExecutorKind recorded = executor_named(recipe.executor.name).value_or(ExecutorKind::host);
-  const ExecutorKind kind = options.executor.value_or(recorded);
-  ExecutorOptions executor_options = options.options;
+  const solver::ExecutorKind recorded =
+      solver::executor_named(recipe.executor.name).value_or(solver::ExecutorKind::host);
+  const solver::ExecutorKind kind = options.executor.value_or(recorded);
+  solver::ExecutorOptions executor_options = options.options;
   executor_options.skip_quiet_pages = executor_options.skip_quiet_pages && recipe.executor.skip_quiet_pages;
   if (kind == recorded) executor_options.page_shape = recipe.executor.page_shape;
   auto setup =
@@ -58,4 +59,4 @@ Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume
   return result;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -7,19 +7,19 @@
 
 #include "document/recipe.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 struct ReplayOptions {
-  std::optional<ExecutorKind> executor;  // unset: the one that the recipe names
-  ExecutorOptions options;               // the pages' shape is the recipe's where the executor is
+  std::optional<solver::ExecutorKind> executor;  // unset: the one that the recipe names
+  solver::ExecutorOptions options;               // the pages' shape is the recipe's where the executor is
 };
 
 struct Replay {
-  Field phi;
-  Field start;  // before the first edit and step
+  solver::Field phi;
+  solver::Field start;  // before the first edit and step
   RecipeExecutor executor;
-  AdvanceReport advance;
-  MemoryReport memory;
+  solver::AdvanceReport advance;
+  solver::MemoryReport memory;
   double band = 0.0;
   double time_step = 0.0;
   std::shared_ptr<const Volume> source;  // as the level set saw it at the end
@@ -33,4 +33,4 @@ std::vector<std::string> differences(const Recipe& recipe, const Volume& volume)
 Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume,
                       const ReplayOptions& options, const Progress& progress = {});
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -6,11 +6,11 @@
 #include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
-Result<Segments> surface_segments(const SessionContents& contents) {
-  Segments segments = segments_of(contents.phi->mask(), kSurfaceSegment);
+Result<imaging::Segments> surface_segments(const SessionContents& contents) {
+  imaging::Segments segments = imaging::segments_of(contents.phi->mask(), kSurfaceSegment);
   if (segments.list.front().slices.empty()) {
     return fail(ErrorKind::usage, "nothing is inside the surface");
   }
@@ -20,7 +20,7 @@ Result<Segments> surface_segments(const SessionContents& contents) {
 
 }  // namespace
 
-Result<Segments> result_segments(const SessionContents& contents, ResultContent content) {
+Result<imaging::Segments> result_segments(const SessionContents& contents, ResultContent content) {
   if (content == ResultContent::surface) return surface_segments(contents);
   std::vector<Label> wanted = contents.labels;
   if (content == ResultContent::visible_labels) {
@@ -28,29 +28,30 @@ Result<Segments> result_segments(const SessionContents& contents, ResultContent 
   }
   std::span<const std::uint8_t> voxels;
   if (contents.label_voxels) voxels = *contents.label_voxels;
-  Segments segments = segments_of(contents.geometry, wanted, voxels);
-  std::erase_if(segments.list, [](const Segment& segment) { return segment.slices.empty(); });
+  imaging::Segments segments = segments_of(contents.geometry, wanted, voxels);
+  std::erase_if(segments.list, [](const imaging::Segment& segment) { return segment.slices.empty(); });
   if (segments.list.empty()) return fail(ErrorKind::usage, "no voxel has one of these labels");
   return segments;
 }
 
-Status write_result(const Segments& segments, ResultForm form, SourceFiles source,
+Status write_result(const imaging::Segments& segments, imaging::ResultForm form, imaging::SourceFiles source,
                     const std::filesystem::path& file, const Progress& progress) {
-  return form == ResultForm::segmentation ? write_segmentation(segments, source, file, progress)
-                                          : write_structure_set(segments, source, file, progress);
+  return form == imaging::ResultForm::segmentation
+             ? imaging::write_segmentation(segments, source, file, progress)
+             : imaging::write_structure_set(segments, source, file, progress);
 }
 
-Result<Segments> read_labels(const std::filesystem::path& file, const Geometry& grid,
-                             const Progress& progress) {
+Result<imaging::Segments> read_labels(const std::filesystem::path& file, const Geometry& grid,
+                                      const Progress& progress) {
   progress(0.0, "reading labels");
-  if (result_form_of(file)) return read_result(file, &grid);
-  const auto volume = load_volume(file, {}, progress);
+  if (imaging::result_form_of(file)) return imaging::read_result(file, &grid);
+  const auto volume = imaging::load_volume(file, {}, progress);
   if (!volume) return tl::unexpected<Error>(volume.error());
-  const auto values = onto_grid(*volume, grid, file.string());
+  const auto values = imaging::onto_grid(*volume, grid, file.string());
   if (!values) return tl::unexpected<Error>(values.error());
-  auto segments = segments_of_numbers(grid, *values, file.string());
+  auto segments = imaging::segments_of_numbers(grid, *values, file.string());
   if (segments) segments->changes = volume->changes;
   return segments;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -4,7 +4,7 @@
 #include "document/session_contents.h"
 #include "imaging/results/results.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 // The choice of segments.
 enum class ResultContent { all_labels, visible_labels, surface };
@@ -14,16 +14,16 @@ inline constexpr const char* kSurfaceSegment = "Surface";
 
 // The segments of a snapshot of a case: its labels, without those that hold no voxel, or the inside of its
 // surface with phi. Fails (ErrorKind::usage) when there are none.
-Result<Segments> result_segments(const SessionContents& contents, ResultContent content);
+Result<imaging::Segments> result_segments(const SessionContents& contents, ResultContent content);
 
 // As DICOM Segmentation or RT Structure Set; `source` as for write_segmentation(). Fails as both do.
-Status write_result(const Segments& segments, ResultForm form, SourceFiles source,
+Status write_result(const imaging::Segments& segments, imaging::ResultForm form, imaging::SourceFiles source,
                     const std::filesystem::path& file, const Progress& progress = {});
 
 // The labels in a file, on that grid: the segments of a DICOM Segmentation or RT Structure Set, or the
 // numbers of a volume file, whose axes may be in another order or run the other way. Fails (ErrorKind::input)
 // naming the file and why it does not fit.
-Result<Segments> read_labels(const std::filesystem::path& file, const Geometry& grid,
-                             const Progress& progress = {});
+Result<imaging::Segments> read_labels(const std::filesystem::path& file, const Geometry& grid,
+                                      const Progress& progress = {});
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -8,7 +8,7 @@
 #include "core/atomic_file.h"
 #include "solver/distance_transform.h"
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 // The part of a mask that holds all of its voxels, with `reach` voxels around them: a small region in a large
@@ -61,16 +61,16 @@ double surface_band(const Geometry& geometry) {
   return std::max(2.5, 2.0 * std::max({h.x, h.y, h.z}) / std::min({h.x, h.y, h.z}));
 }
 
-Result<Mesh> mesh_of(const Mask& mask) {
+Result<imaging::Mesh> mesh_of(const Mask& mask) {
   const double band = surface_band(mask.geometry);
   const glm::dvec3 h = mask.geometry.spacing_mm;
   const glm::dvec3 reach = glm::ceil(band * std::min({h.x, h.y, h.z}) / h) + 2.0;
-  return extract_surface(distance_transform(part_of(mask, Index3(reach)), band).to_volume());
+  return imaging::extract_surface(solver::distance_transform(part_of(mask, Index3(reach)), band).to_volume());
 }
 
-Result<Mesh> mesh_of(const Geometry& geometry, const Segment& segment) {
-  if (segment.phi) return extract_surface(*segment.phi);
-  return mesh_of(union_of({geometry, {segment}, {}}));
+Result<imaging::Mesh> mesh_of(const Geometry& geometry, const imaging::Segment& segment) {
+  if (segment.phi) return imaging::extract_surface(*segment.phi);
+  return mesh_of(imaging::union_of({geometry, {segment}, {}}));
 }
 
 std::vector<std::filesystem::path> mesh_files(const std::vector<std::string>& segment_names,
@@ -86,9 +86,10 @@ std::vector<std::filesystem::path> mesh_files(const std::vector<std::string>& se
   return files;
 }
 
-Status write_meshes(const Segments& segments, const std::filesystem::path& like, const Progress& progress) {
+Status write_meshes(const imaging::Segments& segments, const std::filesystem::path& like,
+                    const Progress& progress) {
   std::vector<std::string> names;
-  for (const Segment& segment : segments.list) names.push_back(segment.name);
+  for (const imaging::Segment& segment : segments.list) names.push_back(segment.name);
   const std::vector<std::filesystem::path> files = mesh_files(names, like);
   std::vector<AtomicFile> staged;
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -98,11 +99,11 @@ Status write_meshes(const Segments& segments, const std::filesystem::path& like,
     if (!mesh) return tl::unexpected<Error>(mesh.error());
     auto file = AtomicFile::create(files[i]);
     if (!file) return pass_on(file);
-    TIDEMARK_TRY(write_mesh(*mesh, file->temporary_path()));
+    TIDEMARK_TRY(imaging::write_mesh(*mesh, file->temporary_path()));
     staged.push_back(std::move(*file));
   }
   for (AtomicFile& file : staged) TIDEMARK_TRY(file.commit());
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -8,16 +8,16 @@
 #include "imaging/results/segments.h"
 #include "imaging/surface/surface.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 // How wide a level set of a mask must be for its surface to see its neighbours along the axis with the
 // thickest voxels. In smallest voxels.
 [[nodiscard]] double surface_band(const Geometry& geometry);
 
 // The surface of a mask. Fails as extract_surface() does.
-Result<Mesh> mesh_of(const Mask& mask);
+Result<imaging::Mesh> mesh_of(const Mask& mask);
 // Between the voxels where the segment has a level set.
-Result<Mesh> mesh_of(const Geometry& geometry, const Segment& segment);
+Result<imaging::Mesh> mesh_of(const Geometry& geometry, const imaging::Segment& segment);
 
 // The names of such files, in the order of the segments: for "organs.stl" and a segment "Left kidney" it is
 // "organs-Left kidney.stl". What a file's name must not hold is left out; of two equal names the second one
@@ -27,7 +27,7 @@ Result<Mesh> mesh_of(const Geometry& geometry, const Segment& segment);
 
 // Writes them, all or none. Fails (ErrorKind::write) as write_mesh() does, (ErrorKind::cancelled) when told
 // to stop.
-Status write_meshes(const Segments& segments, const std::filesystem::path& like,
+Status write_meshes(const imaging::Segments& segments, const std::filesystem::path& like,
                     const Progress& progress = {});
 
-}  // namespace tidemark
+}  // namespace tidemark::document

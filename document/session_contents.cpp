@@ -5,7 +5,7 @@
 
 #include "document/checksum.h"
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 bool fits_grid(const Geometry& a, const Geometry& b) {
@@ -43,8 +43,8 @@ VolumeMatch match(const SessionContents& contents, const Volume& volume) {
 }
 
 Result<std::unique_ptr<Case>> restore_case(const SessionContents& contents,
-                                           std::shared_ptr<const Volume> volume, ExecutorKind kind,
-                                           const ExecutorOptions& options) {
+                                           std::shared_ptr<const Volume> volume, solver::ExecutorKind kind,
+                                           const solver::ExecutorOptions& options) {
   if (!fits_grid(contents.geometry, volume->geometry)) {
     const Index3 then = contents.geometry.size;
     const Index3 now = volume->geometry.size;
@@ -66,4 +66,4 @@ Result<std::unique_ptr<Case>> restore_case(const SessionContents& contents,
   return made;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -7,14 +7,14 @@
 
 #include "document/case.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 // The volume's voxels are not part of it: the origin finds them again, or makes them again (phantoms).
 struct SessionContents {
   StudyOrigin origin;
   Geometry geometry;  // of the volume
   Recipe recipe;      // with it, parameters, step number and smoothing
-  std::shared_ptr<const Field> phi;
+  std::shared_ptr<const solver::Field> phi;
   std::vector<Label> labels;
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null: no voxel has a label
   Curve curve;
@@ -34,7 +34,7 @@ VolumeMatch match(const SessionContents& contents, const Volume& volume);
 
 // A case as it was saved, with an empty history. Fails (ErrorKind::input) when the volume has another grid.
 Result<std::unique_ptr<Case>> restore_case(const SessionContents& contents,
-                                           std::shared_ptr<const Volume> volume, ExecutorKind kind,
-                                           const ExecutorOptions& options);
+                                           std::shared_ptr<const Volume> volume, solver::ExecutorKind kind,
+                                           const solver::ExecutorOptions& options);
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -9,7 +9,7 @@
 #include "document/recipe_json.h"
 #include "document/zip_archive.h"
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 constexpr std::string_view kJson = "session.json";
@@ -31,11 +31,11 @@ JsonLimits json_limits(std::size_t packed_bytes) {
   return limits;
 }
 
-Json code_json(const Code& code) {
+Json code_json(const imaging::Code& code) {
   return {{"value", code.value}, {"scheme", code.scheme}, {"meaning", code.meaning}};
 }
 
-Code read_code(const JsonField& field) {
+imaging::Code read_code(const JsonField& field) {
   return {field.at("value").text(kLongestName), field.at("scheme").text(kLongestName),
           field.at("meaning").text(kLongestName)};
 }
@@ -72,7 +72,8 @@ std::vector<Label> read_labels(const JsonField& field) {
     label.locked = one.at("locked").boolean();
     if (one.has("meaning")) {
       const JsonField meaning = one.at("meaning");
-      label.meaning = SegmentMeaning{read_code(meaning.at("category")), read_code(meaning.at("type"))};
+      label.meaning =
+          imaging::SegmentMeaning{read_code(meaning.at("category")), read_code(meaning.at("type"))};
     }
     labels.push_back(std::move(label));
   }
@@ -173,13 +174,13 @@ Result<std::vector<Number>> read_numbers(ZipReader& archive, std::string_view na
   return numbers;
 }
 
-Result<std::shared_ptr<const Field>> read_phi(ZipReader& archive, const JsonField& field,
-                                              const Geometry& geometry, const std::string& file) {
+Result<std::shared_ptr<const solver::Field>> read_phi(ZipReader& archive, const JsonField& field,
+                                                      const Geometry& geometry, const std::string& file) {
   const double band = field.at("band").number(2.0, 1e6);
   const Index3 shape = field.at("page_shape").index(1, 64);
   if (!is_page_shape(shape)) field.at("page_shape").wrong("no pages have that shape");
   if (!field.good()) return tl::unexpected<Error>(field.status().error());
-  const PageLayout layout(geometry.size, shape);
+  const solver::PageLayout layout(geometry.size, shape);
   const std::int64_t resident = field.at("resident_pages").integer(0, layout.page_count());
   if (!field.good()) return tl::unexpected<Error>(field.status().error());
   auto table = read_numbers<std::int32_t>(archive, kTable, layout.page_count());
@@ -188,7 +189,7 @@ Result<std::shared_ptr<const Field>> read_phi(ZipReader& archive, const JsonFiel
   if (!pages) return pass_on(pages);
   auto phi = field_from_file(geometry, band, shape, std::move(*table), std::move(*pages), file + ": phi");
   if (!phi) return pass_on(phi);
-  return std::make_shared<const Field>(std::move(*phi));
+  return std::make_shared<const solver::Field>(std::move(*phi));
 }
 
 Status read_label_voxels(ZipReader& archive, SessionContents& contents, const std::string& file) {
@@ -298,4 +299,4 @@ Status save_session(Case& document, const std::filesystem::path& file) {
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

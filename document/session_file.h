@@ -8,7 +8,7 @@
 
 #include "document/session_contents.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 inline constexpr int kSessionVersion = 1;
 
@@ -23,4 +23,4 @@ Result<StudyOrigin> load_origin(const std::filesystem::path& file);
 // Closes the open change, writes the case, and marks it as saved.
 Status save_session(Case& document, const std::filesystem::path& file);
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -6,7 +6,7 @@
 #include "imaging/filters/filters.h"
 #include "solver/distance_transform.h"
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 constexpr double kGridTolerance = 0.1;  // of the smallest spacing: files round their numbers
@@ -40,7 +40,7 @@ Status check_grid(const Geometry& part, const Geometry& grid, const char* what) 
               what, part.size.x, part.size.y, part.size.z, grid.size.x, grid.size.y, grid.size.z);
 }
 
-Status check_sphere(const Sphere& sphere, const Geometry& grid, const char* what) {
+Status check_sphere(const solver::Sphere& sphere, const Geometry& grid, const char* what) {
   const glm::dvec3 voxel = grid.to_voxel(sphere.centre_mm);
   bool inside = sphere.radius_mm > 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -54,10 +54,10 @@ Status check_sphere(const Sphere& sphere, const Geometry& grid, const char* what
 }
 
 Status check_spheres(const Start& start, const Geometry& grid) {
-  for (const Sphere& sphere : start.seeds) {
+  for (const solver::Sphere& sphere : start.seeds) {
     TIDEMARK_TRY(check_sphere(sphere, grid, "a seed"));
   }
-  for (const Sphere& sphere : start.erasers) {
+  for (const solver::Sphere& sphere : start.erasers) {
     TIDEMARK_TRY(check_sphere(sphere, grid, "an eraser"));
   }
   return {};
@@ -65,43 +65,45 @@ Status check_spheres(const Start& start, const Geometry& grid) {
 
 // The first part as phi.
 struct FirstPart {
-  const Executor& executor;
+  const solver::Executor& executor;
   const Volume& source;
 
-  [[nodiscard]] Field from_mask(const Mask& mask) const {
-    return distance_transform(mask, executor.band(), executor.memory().page_shape);
+  [[nodiscard]] solver::Field from_mask(const Mask& mask) const {
+    return solver::distance_transform(mask, executor.band(), executor.memory().page_shape);
   }
-  Result<Field> operator()(std::monostate) const { return Field::empty(source.geometry, executor.band()); }
-  Result<Field> operator()(const ThresholdStart& start) const {
-    return from_mask(threshold(source, start.low, start.high));
+  Result<solver::Field> operator()(std::monostate) const {
+    return solver::Field::empty(source.geometry, executor.band());
   }
-  Result<Field> operator()(const FloodStart& start) const {
-    auto mask = flood_fill(source, start.voxel, start.low, start.high);
+  Result<solver::Field> operator()(const ThresholdStart& start) const {
+    return from_mask(imaging::threshold(source, start.low, start.high));
+  }
+  Result<solver::Field> operator()(const FloodStart& start) const {
+    auto mask = imaging::flood_fill(source, start.voxel, start.low, start.high);
     if (!mask) return pass_on(mask);
     return from_mask(*mask);
   }
-  Result<Field> operator()(const MaskStart& start) const {
+  Result<solver::Field> operator()(const MaskStart& start) const {
     TIDEMARK_TRY(check_grid(start.mask->geometry, source.geometry, "mask"));
     return from_mask(*start.mask);
   }
-  Result<Field> operator()(const FieldStart& start) const {
+  Result<solver::Field> operator()(const FieldStart& start) const {
     TIDEMARK_TRY(check_grid(start.phi->geometry, source.geometry, "phi"));
     if (start.phi->check_fits(source.geometry, executor.band())) return *start.phi;
-    return Field::from_dense(source.geometry, start.phi->dense(), executor.band());  // another band
+    return solver::Field::from_dense(source.geometry, start.phi->dense(), executor.band());  // another band
   }
 };
 
-Result<Field> begin_unguarded(Executor& executor, const Volume& source, const Start& start,
-                              const Progress& progress) {
+Result<solver::Field> begin_unguarded(solver::Executor& executor, const Volume& source, const Start& start,
+                                      const Progress& progress) {
   auto first = std::visit(FirstPart{executor, source}, start.from);
   if (!first) return first;
   if (progress.cancelled()) return cancelled_error();
   TIDEMARK_TRY(executor.restore(*first));
-  for (const Sphere& sphere : start.seeds) {
-    TIDEMARK_TRY(executor.paint(sphere, Brush::add));
+  for (const solver::Sphere& sphere : start.seeds) {
+    TIDEMARK_TRY(executor.paint(sphere, solver::Brush::add));
   }
-  for (const Sphere& sphere : start.erasers) {
-    TIDEMARK_TRY(executor.paint(sphere, Brush::erase));
+  for (const solver::Sphere& sphere : start.erasers) {
+    TIDEMARK_TRY(executor.paint(sphere, solver::Brush::erase));
   }
   if (progress.cancelled()) return cancelled_error();
   auto phi = executor.snapshot();
@@ -121,7 +123,8 @@ std::string Start::describe() const {
   return text.empty() ? "nothing" : text;
 }
 
-Result<Field> begin(Executor& executor, const Volume& source, const Start& start, const Progress& progress) {
+Result<solver::Field> begin(solver::Executor& executor, const Volume& source, const Start& start,
+                            const Progress& progress) {
   TIDEMARK_TRY(check_spheres(start, source.geometry));
   const auto before = executor.snapshot();
   if (!before) return tl::unexpected<Error>(before.error());
@@ -132,4 +135,4 @@ Result<Field> begin(Executor& executor, const Volume& source, const Start& start
   return phi;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

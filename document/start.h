@@ -9,7 +9,7 @@
 #include "core/progress.h"
 #include "solver/executor.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 // Voxels with low <= value <= high, in the source's units.
 struct ThresholdStart {
@@ -34,15 +34,15 @@ struct MaskStart {
 
 // A level set that was saved.
 struct FieldStart {
-  std::shared_ptr<const Field> phi;
+  std::shared_ptr<const solver::Field> phi;
   std::string origin;
 };
 
 // The first part, then seeds are added, then erasers are taken away.
 struct Start {
   std::variant<std::monostate, ThresholdStart, FloodStart, MaskStart, FieldStart> from;
-  std::vector<Sphere> seeds;
-  std::vector<Sphere> erasers;
+  std::vector<solver::Sphere> seeds;
+  std::vector<solver::Sphere> erasers;
 
   [[nodiscard]] bool empty() const { return std::holds_alternative<std::monostate>(from) && seeds.empty(); }
   // One line for people: "2 seeds, 1 eraser", "mask truth.nii.gz, 1 seed".
@@ -52,7 +52,7 @@ struct Start {
 // Gives the executor its start in place of its phi. `source` is the volume as the solver sees it.
 // Fails with ErrorKind::usage when a part is outside the volume or nothing is inside; phi is then as before.
 // phi as it then is.
-Result<Field> begin(Executor& executor, const Volume& source, const Start& start,
-                    const Progress& progress = {});
+Result<solver::Field> begin(solver::Executor& executor, const Volume& source, const Start& start,
+                            const Progress& progress = {});
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-namespace tidemark {
+namespace tidemark::document {
 namespace {
 
 // Deflate makes at most so many bytes of one.
@@ -25,16 +25,16 @@ std::string reason(int code) {
 Result<ZipReader> ZipReader::open(const std::filesystem::path& file,
                                   std::span<const std::string_view> names) {
   constexpr std::int64_t kMostEntries = 100;  // before their names are looked at
-  auto opened = FileBytes::open(file);
+  auto opened = imaging::FileBytes::open(file);
   if (!opened) return pass_on(opened);
   ZipReader reader;
   reader.file_ = file.string();
-  auto directory = ZipDirectory::read(std::move(*opened), kMostEntries);
+  auto directory = imaging::ZipDirectory::read(std::move(*opened), kMostEntries);
   if (!directory) {
     return fail(ErrorKind::input, "{}: is damaged, or was not written by Tidemark", reader.file_);
   }
-  reader.directory_ = std::make_unique<ZipDirectory>(std::move(*directory));
-  for (const ZipRecord& record : reader.directory_->records()) {
+  reader.directory_ = std::make_unique<imaging::ZipDirectory>(std::move(*directory));
+  for (const imaging::ZipRecord& record : reader.directory_->records()) {
     const bool is_known = std::find(names.begin(), names.end(), record.name) != names.end();
     if (!is_known || !reader.entries_.try_emplace(record.name, &record).second) {
       return fail(ErrorKind::input, "{}: holds entries that do not belong into it", reader.file_);
@@ -60,7 +60,7 @@ std::size_t ZipReader::packed_size(std::string_view name) const {
 Result<std::vector<std::byte>> ZipReader::read(std::string_view name, std::size_t bytes) {
   const auto found = entries_.find(name);
   if (found == entries_.end()) return fail(ErrorKind::input, "{}: {} is missing", file_, name);
-  const ZipRecord& record = *found->second;
+  const imaging::ZipRecord& record = *found->second;
   if (static_cast<std::size_t>(record.bytes) != bytes) {
     return fail(ErrorKind::input, "{}: {} has {} bytes instead of {}", file_, name, record.bytes, bytes);
   }
@@ -102,4 +102,4 @@ Status write_zip(const std::filesystem::path& file, std::span<const ZipEntry> en
   return fail(ErrorKind::write, "cannot write: {}", why);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -13,7 +13,7 @@
 #include "core/result.h"
 #include "imaging/guard/zip_directory.h"
 
-namespace tidemark {
+namespace tidemark::document {
 
 class ZipReader {
  public:
@@ -31,8 +31,8 @@ class ZipReader {
 
  private:
   std::string file_;
-  std::unique_ptr<ZipDirectory> directory_;
-  std::map<std::string, const ZipRecord*, std::less<>> entries_;
+  std::unique_ptr<imaging::ZipDirectory> directory_;
+  std::map<std::string, const imaging::ZipRecord*, std::less<>> entries_;
 };
 
 // Writes an archive. The bytes must live until it has returned. Fails (ErrorKind::write) without naming the
@@ -43,4 +43,4 @@ struct ZipEntry {
 };
 Status write_zip(const std::filesystem::path& file, std::span<const ZipEntry> entries);
 
-}  // namespace tidemark
+}  // namespace tidemark::document

@@ -7,7 +7,7 @@
 
 #include "core/without_exceptions.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 namespace {
 
 using namespace std::chrono_literals;
@@ -74,4 +74,4 @@ bool BackgroundJob::finish_all(std::chrono::milliseconds limit) {
   return running().ended.wait_for(lock, limit, [] { return running().count == 0; });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -9,7 +9,7 @@
 #include "core/result.h"
 #include "engine/weak_receiver.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 // The thread of the user interface never waits for such work: it abandons work whose result is no longer
 // wanted. The work's thread then ends when it next looks at its stop token, and its calls until then are
@@ -47,4 +47,4 @@ class BackgroundJob {
   std::shared_ptr<WeakReceiver> weak_receiver_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

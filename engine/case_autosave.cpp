@@ -6,21 +6,21 @@
 
 #include "engine/background_job.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 // Shared with the thread that writes; made when there is something to write.
 struct CaseAutosave::Copies {
   std::mutex mutex;
   std::filesystem::path folder;
-  std::string id = Autosave::new_case_id();
-  std::optional<Autosave> files;
+  std::string id = document::Autosave::new_case_id();
+  std::optional<document::Autosave> files;
   bool closed = false;
 
-  Status write(const SessionContents& contents) {
+  Status write(const document::SessionContents& contents) {
     const std::lock_guard lock(mutex);
     if (closed) return {};
     if (!files) {
-      auto made = Autosave::create(folder, id);
+      auto made = document::Autosave::create(folder, id);
       if (!made) return pass_on(made);
       files.emplace(std::move(*made));
     }
@@ -105,4 +105,4 @@ std::filesystem::path recovery_folder() {
          "recovery";
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -12,7 +12,7 @@
 #include "document/autosave.h"
 #include "engine/case_proxy.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 class BackgroundJob;
 
@@ -58,4 +58,4 @@ class CaseAutosave : public QObject {
 // Where copies are, for all cases of this user.
 std::filesystem::path recovery_folder();
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

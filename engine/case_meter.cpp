@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tidemark {
+namespace tidemark::engine {
 namespace {
 
 constexpr auto kLapWindow = std::chrono::seconds(1);
@@ -14,7 +14,7 @@ constexpr double kSmoothing = 0.3;  // weight of the newest run in the mean time
 
 }  // namespace
 
-void CaseMeter::computed(const AdvanceReport& report, std::int64_t step) {
+void CaseMeter::computed(const solver::AdvanceReport& report, std::int64_t step) {
   thorough_ = false;
   if (report.steps == 0) return;
   const double seconds = report.seconds / static_cast<double>(report.steps);
@@ -34,40 +34,40 @@ void CaseMeter::edited() {
 
 void CaseMeter::adjusted() {
   converged_ = false;
-  outcome_ = Outcome::unfinished;
+  outcome_ = document::Outcome::unfinished;
   wider_range_.reset();
   thorough_ = false;
 }
 
-Status CaseMeter::measure(const ReadPhi& read_phi, Case& document, bool thoroughly) {
+Status CaseMeter::measure(const ReadPhi& read_phi, document::Case& document, bool thoroughly) {
   const auto began = Clock::now();
   const auto phi = read_phi();
   if (!phi) return tl::unexpected<Error>(phi.error());
   phi_ = *phi;
-  surface_ = tidemark::measure(*phi_);
+  surface_ = tidemark::solver::measure(*phi_);
   if (overlap_) dice_ = overlap_->dice(*phi_);
   const auto ended = Clock::now();
   due_at_ = ended + std::clamp<Clock::duration>(kRest * (ended - began), kShortestRest, kLongestRest);
   // A case that was read from a file has not moved since its last point.
-  LevelSet& level_set = document.level_set();
-  const Curve::Points& before = *level_set.curve().points();
+  document::LevelSet& level_set = document.level_set();
+  const document::Curve::Points& before = *level_set.curve().points();
   const double last_speed = before.empty() ? 0.0 : before.back().surface_speed;
   level_set.note(
       {level_set.step(), surface_.volume_ml, surface_.surface_mm2, surface_speed_.value_or(last_speed)});
-  const EvolvedSurface evolved{*phi_,
-                               surface_.voxels_inside,
-                               level_set.step(),
-                               converged_,
-                               level_set.start().get(),
-                               *level_set.source(),
-                               level_set.parameters()};
-  outcome_ = outcome_of(evolved);
+  const document::EvolvedSurface evolved{*phi_,
+                                         surface_.voxels_inside,
+                                         level_set.step(),
+                                         converged_,
+                                         level_set.start().get(),
+                                         *level_set.source(),
+                                         level_set.parameters()};
+  outcome_ = document::outcome_of(evolved);
   if (thoroughly) {
     wider_range_ = wider_range(evolved);
-    inside_ = statistics_in(*document.volume(), phi_->mask());
-    const auto all = statistics_by_label(*document.volume(), document.labels());
+    inside_ = document::statistics_in(*document.volume(), phi_->mask());
+    const auto all = document::statistics_by_label(*document.volume(), document.labels());
     labels_.clear();
-    for (const Label& label : document.labels().list()) labels_.push_back(all[label.id]);
+    for (const document::Label& label : document.labels().list()) labels_.push_back(all[label.id]);
   }
   thorough_ = thoroughly;
   return {};
@@ -93,4 +93,4 @@ void CaseMeter::report(CaseState& state) const {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

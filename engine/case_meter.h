@@ -11,7 +11,7 @@
 #include "engine/case_state.h"
 #include "engine/truth_overlap.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 class CaseMeter {
  public:
@@ -20,7 +20,7 @@ class CaseMeter {
     if (truth) overlap_.emplace(std::move(truth));
   }
   // After a run of steps.
-  void computed(const AdvanceReport& report, std::int64_t step);
+  void computed(const solver::AdvanceReport& report, std::int64_t step);
   // After a change of phi that is not a step: nothing has converged.
   void edited();
   // After any other change on which figures depend.
@@ -35,8 +35,8 @@ class CaseMeter {
   [[nodiscard]] bool due() const { return Clock::now() >= due_at_; }
   // Measures the phi that `read_phi` gives (slow where it is on a GPU), and adds the figures to the level
   // set's curve. `thoroughly`: also the volume's values under the surface, beside it, and in the labels.
-  using ReadPhi = std::function<Result<std::shared_ptr<const Field>>()>;
-  Status measure(const ReadPhi& read_phi, Case& document, bool thoroughly);
+  using ReadPhi = std::function<Result<std::shared_ptr<const solver::Field>>()>;
+  Status measure(const ReadPhi& read_phi, document::Case& document, bool thoroughly);
   [[nodiscard]] bool thorough() const { return thorough_; }
 
   // Fills in the measured figures.
@@ -53,16 +53,16 @@ class CaseMeter {
   double seconds_per_step_ = 0.0;
   std::optional<double> surface_speed_;  // once steps have been computed
   bool converged_ = false;
-  Outcome outcome_ = Outcome::unfinished;
+  document::Outcome outcome_ = document::Outcome::unfinished;
   std::optional<double> wider_range_;
   Clock::time_point due_at_;
   bool thorough_ = false;
-  std::shared_ptr<const Field> phi_;
-  SurfaceStatistics surface_;
-  RegionStatistics inside_;
-  std::vector<RegionStatistics> labels_;
+  std::shared_ptr<const solver::Field> phi_;
+  solver::SurfaceStatistics surface_;
+  document::RegionStatistics inside_;
+  std::vector<document::RegionStatistics> labels_;
   std::optional<TruthOverlap> overlap_;  // where there is a truth
   std::optional<double> dice_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

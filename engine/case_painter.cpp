@@ -5,27 +5,29 @@
 
 #include "solver/gl/packed_view.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 namespace {
 
 constexpr QImage::Format kImageFormat = QImage::Format_RGB32;  // what Qt paints without a conversion
 
-QImage to_image(const Picture& picture) {
+QImage to_image(const renderer::Picture& picture) {
   const QImage view(picture.pixels.data(), static_cast<int>(picture.width), static_cast<int>(picture.height),
                     static_cast<qsizetype>(picture.width) * 4, QImage::Format_RGBX8888);
   return view.convertToFormat(kImageFormat);
 }
 
 bool shows_pages(const AnyView& view) {
-  if (const auto* slice = std::get_if<SliceView>(&view)) return slice->content == SliceContent::pages;
-  return std::get<VolumeView>(view).colouring == SurfaceColouring::pages;
+  if (const auto* slice = std::get_if<renderer::SliceView>(&view))
+    return slice->content == renderer::SliceContent::pages;
+  return std::get<renderer::VolumeView>(view).colouring == renderer::SurfaceColouring::pages;
 }
 
 // Whether the view shows the level set's source, not the volume as loaded.
 bool shows_speed(const AnyView& view) {
-  if (const auto* slice = std::get_if<SliceView>(&view)) return slice->content == SliceContent::speed;
-  const SurfaceColouring colouring = std::get<VolumeView>(view).colouring;
-  return colouring != SurfaceColouring::plain && colouring != SurfaceColouring::pages;
+  if (const auto* slice = std::get_if<renderer::SliceView>(&view))
+    return slice->content == renderer::SliceContent::speed;
+  const renderer::SurfaceColouring colouring = std::get<renderer::VolumeView>(view).colouring;
+  return colouring != renderer::SurfaceColouring::plain && colouring != renderer::SurfaceColouring::pages;
 }
 
 }  // namespace
@@ -65,7 +67,7 @@ void CasePainter::withdraw(ViewSlot& slot) {
   announce(slot);
 }
 
-Result<std::shared_ptr<const Field>> CasePainter::phi(Case& document) {
+Result<std::shared_ptr<const solver::Field>> CasePainter::phi(document::Case& document) {
   if (!phi_) {
     auto phi = document.level_set().checkpoint();
     if (!phi) return phi;
@@ -80,15 +82,15 @@ bool CasePainter::out_of_date(ViewSlot& slot) const {
          (slot.wish_is_new || slot.drawn_phi != phi_revision_ || slot.drawn_look != look_revision_);
 }
 
-Status CasePainter::show_phi(Canvas& canvas, Case& document, bool with_pages) {
-  Executor& executor = document.level_set().executor();
+Status CasePainter::show_phi(Canvas& canvas, document::Case& document, bool with_pages) {
+  solver::Executor& executor = document.level_set().executor();
   std::optional<std::vector<std::int64_t>> quiet;
   if (with_pages) {
     auto pages = executor.quiet_pages();
     if (!pages) return pass_on(pages);
     quiet = std::move(*pages);
   }
-  PackedView view;
+  solver::PackedView view;
   if (executor.packed_view(view)) return canvas.renderer->look_at(view, quiet);
   const auto field = phi(document);
   if (!field) return tl::unexpected<Error>(field.error());
@@ -98,14 +100,14 @@ Status CasePainter::show_phi(Canvas& canvas, Case& document, bool with_pages) {
   return status;
 }
 
-Status CasePainter::show_labels(Canvas& canvas, const Labels& labels) {
+Status CasePainter::show_labels(Canvas& canvas, const document::Labels& labels) {
   if (canvas.labels != labels.revision() && !labels.voxels().empty()) {
     TIDEMARK_TRY(canvas.renderer->set_labels(labels.voxels()));
     canvas.labels = labels.revision();
   }
   if (canvas.label_list == labels.list()) return {};
-  std::vector<Renderer::LabelColour> colours(Renderer::kLabels);
-  for (const Label& label : labels.list()) {
+  std::vector<renderer::Renderer::LabelColour> colours(renderer::Renderer::kLabels);
+  for (const document::Label& label : labels.list()) {
     const std::uint8_t opacity = label.visible ? 255 : 0;
     colours[label.id] = {label.colour[0], label.colour[1], label.colour[2], opacity};
   }
@@ -114,13 +116,13 @@ Status CasePainter::show_labels(Canvas& canvas, const Labels& labels) {
   return {};
 }
 
-Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>& source, Case& document,
-                            bool with_pages) {
-  LevelSet& level_set = document.level_set();
+Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>& source,
+                            document::Case& document, bool with_pages) {
+  document::LevelSet& level_set = document.level_set();
   if (canvas.renderer && canvas.source != source) canvas = {};
   if (!canvas.renderer) {
-    const PageLayout layout(source->geometry.size, level_set.executor().memory().page_shape);
-    auto renderer = Renderer::create(device_, source, layout);
+    const solver::PageLayout layout(source->geometry.size, level_set.executor().memory().page_shape);
+    auto renderer = renderer::Renderer::create(device_, source, layout);
     if (!renderer) return pass_on(renderer);
     canvas.renderer = std::move(*renderer);
     canvas.source = source;
@@ -138,7 +140,7 @@ Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>&
   return {};
 }
 
-Result<Renderer*> CasePainter::renderer_for(const AnyView& view, Case& document) {
+Result<renderer::Renderer*> CasePainter::renderer_for(const AnyView& view, document::Case& document) {
   const auto& solved = document.level_set().source();
   const bool another = solved != document.volume() && shows_speed(view);
   Canvas& canvas = another ? solved_ : shown_;
@@ -146,7 +148,7 @@ Result<Renderer*> CasePainter::renderer_for(const AnyView& view, Case& document)
   return canvas.renderer.get();
 }
 
-Result<bool> CasePainter::draw(ViewSlot& slot, Case& document, std::stop_token stop) {
+Result<bool> CasePainter::draw(ViewSlot& slot, document::Case& document, std::stop_token stop) {
   std::optional<ViewSlot::Wish> wish;
   bool is_new = false;
   {
@@ -166,19 +168,21 @@ Result<bool> CasePainter::draw(ViewSlot& slot, Case& document, std::stop_token s
   slot.drawn_look = look_revision_;
   const std::int64_t step = document.level_set().step();
   const Progress progress{nullptr, std::move(stop)};
-  if (std::holds_alternative<VolumeView>(wish->view))
+  if (std::holds_alternative<renderer::VolumeView>(wish->view))
     return draw_volume(slot, *wish, **renderer, step, progress);
-  auto shown = paint(slot, std::get<SliceView>(wish->view), wish->size, false, **renderer, progress);
+  auto shown =
+      paint(slot, std::get<renderer::SliceView>(wish->view), wish->size, false, **renderer, progress);
   if (!shown) return pass_on(shown);
   deliver(slot, *wish, std::move(*shown), step, true);
   return false;
 }
 
-Result<bool> CasePainter::draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, Renderer& renderer,
-                                      std::int64_t step, const Progress& progress) {
+Result<bool> CasePainter::draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish,
+                                      renderer::Renderer& renderer, std::int64_t step,
+                                      const Progress& progress) {
   const auto pass = slot.quality.next(wish.size);
   if (!pass) return false;
-  VolumeView view = std::get<VolumeView>(wish.view);
+  renderer::VolumeView view = std::get<renderer::VolumeView>(wish.view);
   view.quality = pass->quality;
   const auto begin = std::chrono::steady_clock::now();
   auto shown = paint(slot, view, pass->size, !pass->moving, renderer, progress);
@@ -190,8 +194,9 @@ Result<bool> CasePainter::draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish
 }
 
 template <class View>
-Result<ShownPicture> CasePainter::paint(ViewSlot& slot, const View& view, PictureSize size, bool into_mean,
-                                        Renderer& renderer, const Progress& progress) {
+Result<ShownPicture> CasePainter::paint(ViewSlot& slot, const View& view, renderer::PictureSize size,
+                                        bool into_mean, renderer::Renderer& renderer,
+                                        const Progress& progress) {
   ShownPicture shown;
   if (engine_.pictures() == Engine::Pictures::textures) {
     if (!slot.textures) {
@@ -233,12 +238,13 @@ void CasePainter::announce(ViewSlot& slot) {
   if (!slot.announced.exchange(true)) slot.weak_receiver->send(slot.take);
 }
 
-Result<std::optional<Hit>> CasePainter::pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel,
-                                             Case& document) {
-  if (!can_draw()) return std::optional<Hit>();
+Result<std::optional<renderer::Hit>> CasePainter::pick(const renderer::VolumeView& view,
+                                                       renderer::PictureSize size, glm::dvec2 pixel,
+                                                       document::Case& document) {
+  if (!can_draw()) return std::optional<renderer::Hit>();
   const auto renderer = renderer_for(view, document);
   if (!renderer) return tl::unexpected<Error>(renderer.error());
   return (*renderer)->pick(view, size, pixel);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -11,7 +11,7 @@
 #include "engine/view_slot.h"
 #include "renderer/renderer.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 class CasePainter {
  public:
@@ -38,11 +38,12 @@ class CasePainter {
   [[nodiscard]] bool out_of_date(ViewSlot& slot) const;
   // Draws the next picture of a view and announces it. Returns whether a better one can follow. Fails
   // (ErrorKind::cancelled) when stopped, (ErrorKind::capability) when the context was lost.
-  Result<bool> draw(ViewSlot& slot, Case& document, std::stop_token stop);
-  Result<std::optional<Hit>> pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel, Case& document);
+  Result<bool> draw(ViewSlot& slot, document::Case& document, std::stop_token stop);
+  Result<std::optional<renderer::Hit>> pick(const renderer::VolumeView& view, renderer::PictureSize size,
+                                            glm::dvec2 pixel, document::Case& document);
 
   // The current phi, read from the executor at most once until it changes.
-  Result<std::shared_ptr<const Field>> phi(Case& document);
+  Result<std::shared_ptr<const solver::Field>> phi(document::Case& document);
 
   // Read-backs of phi since the start: a GL executor's pictures need none.
   [[nodiscard]] std::int64_t pages_uploaded() const { return pages_uploaded_; }
@@ -53,26 +54,26 @@ class CasePainter {
  private:
   // The renderer of one source, with the revisions of the case that it has.
   struct Canvas {
-    std::unique_ptr<Renderer> renderer;
+    std::unique_ptr<renderer::Renderer> renderer;
     std::shared_ptr<const Volume> source;
     std::int64_t phi = -1;
     std::int64_t pages = -1;   // revision of phi with which the pages' state was shown
     std::uint64_t labels = 0;  // revision
-    std::vector<Label> label_list;
-    std::optional<Parameters> parameters;
+    std::vector<document::Label> label_list;
+    std::optional<solver::Parameters> parameters;
   };
 
-  Result<Renderer*> renderer_for(const AnyView& view, Case& document);
-  Status prepare(Canvas& canvas, const std::shared_ptr<const Volume>& source, Case& document,
+  Result<renderer::Renderer*> renderer_for(const AnyView& view, document::Case& document);
+  Status prepare(Canvas& canvas, const std::shared_ptr<const Volume>& source, document::Case& document,
                  bool with_pages);
-  static Status show_labels(Canvas& canvas, const Labels& labels);
-  Status show_phi(Canvas& canvas, Case& document, bool with_pages);
-  Result<bool> draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, Renderer& renderer, std::int64_t step,
-                           const Progress& progress);
+  static Status show_labels(Canvas& canvas, const document::Labels& labels);
+  Status show_phi(Canvas& canvas, document::Case& document, bool with_pages);
+  Result<bool> draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, renderer::Renderer& renderer,
+                           std::int64_t step, const Progress& progress);
   // Draws a picture in the form that the views want; its description is not filled in.
   template <class View>
-  Result<ShownPicture> paint(ViewSlot& slot, const View& view, PictureSize size, bool into_mean,
-                             Renderer& renderer, const Progress& progress);
+  Result<ShownPicture> paint(ViewSlot& slot, const View& view, renderer::PictureSize size, bool into_mean,
+                             renderer::Renderer& renderer, const Progress& progress);
   static void withdraw(ViewSlot& slot);
   void deliver(ViewSlot& slot, const ViewSlot::Wish& wish, ShownPicture shown, std::int64_t step,
                bool finished);
@@ -82,7 +83,7 @@ class CasePainter {
   std::shared_ptr<gpu::Device> device_;
   Canvas shown_;   // the volume as it was loaded
   Canvas solved_;  // the level set's source, where that is another one
-  std::shared_ptr<const Field> phi_;
+  std::shared_ptr<const solver::Field> phi_;
   std::int64_t phi_revision_ = 0;
   std::uint64_t look_revision_ = 1;
   std::int64_t pages_uploaded_ = 0;
@@ -93,4 +94,4 @@ class CasePainter {
   std::vector<std::weak_ptr<ViewSlot>> views_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

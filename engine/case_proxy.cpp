@@ -8,9 +8,9 @@
 #include "engine/case_runner.h"
 #include "engine/lock_step.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
-CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor,
+CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, solver::ExecutorKind executor,
                      RestoredCase restored)
     : engine_(engine),
       study_(std::move(study)),
@@ -108,7 +108,7 @@ void CaseProxy::set_pause_at_convergence(bool pause) {
   });
 }
 
-void CaseProxy::set_parameters(const Parameters& parameters, std::uint64_t gesture) {
+void CaseProxy::set_parameters(const solver::Parameters& parameters, std::uint64_t gesture) {
   if (parameters == wanted_parameters_) return;
   wanted_parameters_ = parameters;
   post([parameters, gesture](CaseRunner& runner, const Progress&) {
@@ -117,14 +117,14 @@ void CaseProxy::set_parameters(const Parameters& parameters, std::uint64_t gestu
   emit state_changed();  // every view and panel shows the wish at once
 }
 
-void CaseProxy::begin(const Start& start) {
+void CaseProxy::begin(const document::Start& start) {
   post([start](CaseRunner& runner, const Progress& progress) {
     runner.set_playing(false);
     return runner.report_edit(runner.document().level_set().begin(start, progress));
   });
 }
 
-void CaseProxy::paint(const Sphere& sphere, Brush brush, std::uint64_t gesture) {
+void CaseProxy::paint(const solver::Sphere& sphere, solver::Brush brush, std::uint64_t gesture) {
   post([sphere, brush, gesture](CaseRunner& runner, const Progress&) {
     return runner.report_edit(runner.document().level_set().paint(sphere, brush, gesture));
   });
@@ -136,7 +136,7 @@ void CaseProxy::smooth_source(double sigma_mm) {
   });
 }
 
-void CaseProxy::change_executor(ExecutorKind kind) {
+void CaseProxy::change_executor(solver::ExecutorKind kind) {
   post([kind](CaseRunner& runner, const Progress&) { return runner.change_executor(kind); });
 }
 
@@ -162,7 +162,7 @@ void CaseProxy::add_label(const QString& name) {
   });
 }
 
-void CaseProxy::set_label(const Label& label) {
+void CaseProxy::set_label(const document::Label& label) {
   post([label](CaseRunner& runner, const Progress&) {
     return runner.report_labels(runner.document().labels().set(label));
   });
@@ -174,17 +174,17 @@ void CaseProxy::remove_label(std::uint8_t id) {
   });
 }
 
-void CaseProxy::import_labels(std::shared_ptr<const Segments> segments) {
+void CaseProxy::import_labels(std::shared_ptr<const imaging::Segments> segments) {
   post([segments = std::move(segments)](CaseRunner& runner, const Progress&) {
-    return runner.report_labels(add_segments(runner.document().labels(), *segments));
+    return runner.report_labels(document::add_segments(runner.document().labels(), *segments));
   });
 }
 
-void CaseProxy::accept_surface(std::uint8_t label, Take take) {
+void CaseProxy::accept_surface(std::uint8_t label, document::Take take) {
   post([=](CaseRunner& runner, const Progress&) { return runner.accept_surface(label, take); });
 }
 
-void CaseProxy::accept_surface_as(const QString& name, Take take) {
+void CaseProxy::accept_surface_as(const QString& name, document::Take take) {
   post([name = name.toStdString(), take](CaseRunner& runner, const Progress&) -> Status {
     const auto id = runner.document().labels().add(name);
     if (!id) return tl::unexpected<Error>(id.error());
@@ -199,8 +199,8 @@ void CaseProxy::begin_from_label(std::uint8_t label) {
   });
 }
 
-void CaseProxy::pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel,
-                     std::function<void(std::optional<Hit>)> answer) {
+void CaseProxy::pick(const renderer::VolumeView& view, renderer::PictureSize size, glm::dvec2 pixel,
+                     std::function<void(std::optional<renderer::Hit>)> answer) {
   post([view, size, pixel, answer = std::move(answer), weak_receiver = weak_receiver_](
            CaseRunner& runner, const Progress&) -> Status {
     const auto hit = runner.painter().pick(view, size, pixel, runner.document());
@@ -217,10 +217,10 @@ void CaseProxy::take_snapshot(std::string view_state,
   post([view_state = std::move(view_state), answer = std::move(answer), gave_up = std::move(gave_up),
         weak_receiver = weak_receiver_](CaseRunner& runner, const Progress&) -> Status {
     const Taken taken = without_exceptions([&]() -> Taken {
-      Case& document = runner.document();
+      document::Case& document = runner.document();
       document.view_state = view_state;
       TIDEMARK_TRY(document.history().close());
-      auto contents = snapshot_of(document);
+      auto contents = document::snapshot_of(document);
       if (!contents) return pass_on(contents);
       return std::make_shared<const Snapshot>(Snapshot{std::move(*contents), document.history().position()});
     });
@@ -260,4 +260,4 @@ void CaseProxy::leave_lock_step() {
   });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -21,16 +21,19 @@
 #include "solver/executor.h"
 #include "solver/statistics.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
+struct Segments;
+}
+
+namespace tidemark::engine {
 
 class CaseRunner;
 class LockStep;
 class WeakReceiver;
-struct Segments;
 
 // A case as a session file had it. One that was rescued is in no file that the user knows.
 struct RestoredCase {
-  std::shared_ptr<const SessionContents> contents;
+  std::shared_ptr<const document::SessionContents> contents;
   bool rescued = false;
 };
 
@@ -39,7 +42,7 @@ struct RestoredCase {
 class CaseProxy : public QObject {
   Q_OBJECT
  public:
-  CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor,
+  CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, solver::ExecutorKind executor,
             RestoredCase restored = {});
   ~CaseProxy() override;  // cancels what is running
 
@@ -50,13 +53,13 @@ class CaseProxy : public QObject {
     return state_.source ? state_.source : study_->volume;
   }
   [[nodiscard]] const SourceSummary& summary() const { return study_->summary; }
-  [[nodiscard]] const StudyOrigin& origin() const { return study_->origin; }
+  [[nodiscard]] const document::StudyOrigin& origin() const { return study_->origin; }
   [[nodiscard]] const LoadedStudy& study() const { return *study_; }
   [[nodiscard]] const QString& name() const { return study_->name; }
   [[nodiscard]] Display& display() { return display_; }
   [[nodiscard]] Engine& engine() { return engine_; }
   // The parameters as last set here, before the engine has taken them: what sliders show.
-  [[nodiscard]] const Parameters& parameters() const { return wanted_parameters_; }
+  [[nodiscard]] const solver::Parameters& parameters() const { return wanted_parameters_; }
 
   // The evolution.
   void play();
@@ -73,33 +76,33 @@ class CaseProxy : public QObject {
 
   // Edits. One gesture (a drag, a stroke) is one entry of the history; 0: an edit of its own.
   [[nodiscard]] static std::uint64_t new_gesture();
-  void set_parameters(const Parameters& parameters, std::uint64_t gesture = 0);
-  void begin(const Start& start);
-  void paint(const Sphere& sphere, Brush brush, std::uint64_t gesture);
+  void set_parameters(const solver::Parameters& parameters, std::uint64_t gesture = 0);
+  void begin(const document::Start& start);
+  void paint(const solver::Sphere& sphere, solver::Brush brush, std::uint64_t gesture);
   void smooth_source(double sigma_mm);  // the level set's source; 0: the volume itself
-  void change_executor(ExecutorKind kind);
+  void change_executor(solver::ExecutorKind kind);
   void undo();
   void redo();
 
   // Labels.
   void add_label(const QString& name);
-  void set_label(const Label& label);
+  void set_label(const document::Label& label);
   void remove_label(std::uint8_t id);
-  void import_labels(std::shared_ptr<const Segments> segments);  // as new labels
+  void import_labels(std::shared_ptr<const imaging::Segments> segments);  // as new labels
   // The surface's inside becomes the label, or a new one; CaseState::acceptance has the outcome.
-  void accept_surface(std::uint8_t label, Take take = Take::free_voxels);
-  void accept_surface_as(const QString& name, Take take = Take::free_voxels);
+  void accept_surface(std::uint8_t label, document::Take take = document::Take::free_voxels);
+  void accept_surface_as(const QString& name, document::Take take = document::Take::free_voxels);
   void begin_from_label(std::uint8_t label);
 
   // The place that a pixel of a 3D view shows (from its top left, physical pixels); the answer comes later,
   // or never when the case is closed before.
-  void pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel,
-            std::function<void(std::optional<Hit>)> answer);
+  void pick(const renderer::VolumeView& view, renderer::PictureSize size, glm::dvec2 pixel,
+            std::function<void(std::optional<renderer::Hit>)> answer);
 
   // The case as it is now, for writing on another thread; the answer comes as pick()'s does. An open change
   // ends as an entry of the history.
   struct Snapshot {
-    SessionContents contents;
+    document::SessionContents contents;
     std::uint64_t position = 0;  // for mark_saved()
   };
   // On a failure failed() says why, and `gave_up` is called instead of the answer.
@@ -135,11 +138,11 @@ class CaseProxy : public QObject {
   std::shared_ptr<CaseRunner> runner_;
   std::shared_ptr<LockStep> lock_step_;
   CaseState state_;
-  Parameters wanted_parameters_;
+  solver::Parameters wanted_parameters_;
   std::int64_t steps_per_picture_ = 0;
   bool pause_at_convergence_ = true;
   std::uint64_t edits_sent_ = 0;
   std::shared_ptr<std::atomic<std::uint64_t>> edits_done_ = std::make_shared<std::atomic<std::uint64_t>>(0);
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

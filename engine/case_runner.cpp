@@ -8,7 +8,7 @@
 #include "engine/change_text.h"
 #include "engine/lock_step.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 namespace {
 
 constexpr double kChunkSeconds = 0.016;  // of steps between two pictures
@@ -16,8 +16,8 @@ constexpr std::int64_t kMostSteps = 50;  // between two pictures: it should be s
 
 }  // namespace
 
-CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor,
-                       Receiver receiver, RestoredCase restored)
+CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study,
+                       solver::ExecutorKind executor, Receiver receiver, RestoredCase restored)
     : engine_(engine),
       study_(std::move(study)),
       executor_kind_(executor),
@@ -56,10 +56,10 @@ void CaseRunner::show() {
 Status CaseRunner::open() {
   painter_.use(engine_.device());
   graphics_ = engine_.contexts_made();
-  auto made = restored_.contents
-                  ? restore_case(*restored_.contents, study_->volume, executor_kind_, executor_options())
-                  : Case::create(study_->volume, study_->origin, study_->parameters, executor_kind_,
-                                 executor_options());
+  auto made = restored_.contents ? document::restore_case(*restored_.contents, study_->volume, executor_kind_,
+                                                          executor_options())
+                                 : document::Case::create(study_->volume, study_->origin, study_->parameters,
+                                                          executor_kind_, executor_options());
   if (!made) return pass_on(made);
   case_ = std::move(*made);
   return {};
@@ -77,8 +77,8 @@ void CaseRunner::close() {
   case_.reset();
 }
 
-ExecutorOptions CaseRunner::executor_options() const {
-  ExecutorOptions options;
+solver::ExecutorOptions CaseRunner::executor_options() const {
+  solver::ExecutorOptions options;
   options.device = engine_.device();
   return options;
 }
@@ -147,7 +147,7 @@ Status CaseRunner::report_labels(Status outcome) {
   return outcome;
 }
 
-Status CaseRunner::accept_surface(std::uint8_t label, Take take) {
+Status CaseRunner::accept_surface(std::uint8_t label, document::Take take) {
   auto accepted = case_->accept_surface(label, take);
   if (!accepted) return report_labels(pass_on(accepted));
   acceptance_ = std::move(*accepted);
@@ -214,9 +214,9 @@ void CaseRunner::run_steps(std::stop_token stop) {
 }
 
 Status CaseRunner::advance(std::int64_t steps, const Progress& progress) {
-  LevelSet& level_set = case_->level_set();
+  document::LevelSet& level_set = case_->level_set();
   const bool pauses = pause_at_convergence_ && group_.expired();
-  Advance run{steps, pauses, progress};
+  solver::Advance run{steps, pauses, progress};
   run.progress.report = nullptr;
   const auto report = level_set.advance(run);
   if (!report) return tl::unexpected<Error>(report.error());
@@ -233,7 +233,7 @@ Status CaseRunner::measure(bool thoroughly) {
   return meter_.measure([this] { return painter_.phi(*case_); }, *case_, thoroughly);
 }
 
-Status CaseRunner::change_executor(ExecutorKind kind) {
+Status CaseRunner::change_executor(solver::ExecutorKind kind) {
   executor_kind_ = kind;
   painter_.forget();
   auto status = case_->level_set().change_executor(kind, executor_options());
@@ -311,7 +311,7 @@ void CaseRunner::post_measurement() {
 }
 
 std::shared_ptr<const std::vector<std::uint8_t>> CaseRunner::label_voxels() {
-  const Labels& labels = case_->labels();
+  const document::Labels& labels = case_->labels();
   if (labels.voxels().empty()) return nullptr;
   if (!label_voxels_ || label_revision_ != labels.revision()) {
     label_voxels_ =
@@ -323,7 +323,7 @@ std::shared_ptr<const std::vector<std::uint8_t>> CaseRunner::label_voxels() {
 
 void CaseRunner::publish() {
   if (!case_) return;
-  LevelSet& level_set = case_->level_set();
+  document::LevelSet& level_set = case_->level_set();
   CaseState state;
   state.parameters = level_set.parameters();
   state.step = level_set.step();
@@ -362,4 +362,4 @@ void CaseRunner::publish() {
   });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -9,7 +9,7 @@
 #include "engine/case_proxy.h"
 #include "engine/weak_receiver.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 class LockStep;
 
@@ -26,7 +26,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   // An operation on the case. The user sees the error that it returns.
   using Command = std::function<Status(CaseRunner&, const Progress&)>;
 
-  CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study, ExecutorKind executor,
+  CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study, solver::ExecutorKind executor,
              Receiver receiver, RestoredCase restored = {});
 
   // Any thread. The command comes before all other jobs of the case; pictures, figures and state are brought
@@ -43,13 +43,13 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   [[nodiscard]] bool opened() const { return case_ != nullptr; }
   // Why the case cannot go on; null: it can.
   [[nodiscard]] const Error* obstacle() const { return obstacle_ ? &*obstacle_ : nullptr; }
-  [[nodiscard]] Case& document() { return *case_; }
+  [[nodiscard]] document::Case& document() { return *case_; }
   [[nodiscard]] CasePainter& painter() { return painter_; }
   // After a command that has changed phi, its other conditions, or labels: publishes the outcome.
   Status report_edit(Status outcome);
   Status report_change(Status outcome);
   Status report_labels(Status outcome);
-  Status accept_surface(std::uint8_t label, Take take);
+  Status accept_surface(std::uint8_t label, document::Take take);
 
   [[nodiscard]] bool playing() const { return playing_; }
   // For all cases in lock-step with this one: playing, and single steps with a pause after them.
@@ -63,7 +63,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   // go on until all have converged.
   Status advance(std::int64_t steps, const Progress& progress);
   [[nodiscard]] bool may_rest() const { return pause_at_convergence_ && meter_.converged(); }
-  Status change_executor(ExecutorKind kind);
+  Status change_executor(solver::ExecutorKind kind);
   void join(std::weak_ptr<LockStep> group) { group_ = std::move(group); }
 
   // A file holds the case at that position of its history.
@@ -88,15 +88,15 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void end_run();
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels();
   Status follow_graphics();
-  [[nodiscard]] ExecutorOptions executor_options() const;
+  [[nodiscard]] solver::ExecutorOptions executor_options() const;
 
   Engine& engine_;
   std::shared_ptr<const LoadedStudy> study_;
-  ExecutorKind executor_kind_;
+  solver::ExecutorKind executor_kind_;
   Receiver receiver_;
   RestoredCase restored_;
 
-  std::unique_ptr<Case> case_;
+  std::unique_ptr<document::Case> case_;
   std::optional<Error> obstacle_;
   CasePainter painter_;
   CaseMeter meter_;
@@ -111,7 +111,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
 
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels_;  // as of label_revision_
   std::uint64_t label_revision_ = 0;
-  std::optional<Acceptance> acceptance_;
+  std::optional<document::Acceptance> acceptance_;
   std::uint64_t acceptance_position_ = 0;  // in the history, right after it
 
   // The newest state, until the proxy has taken it.
@@ -123,4 +123,4 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   std::shared_ptr<Post> post_ = std::make_shared<Post>();
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -13,17 +13,17 @@
 #include "solver/executor.h"
 #include "solver/statistics.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 // A case after the engine's last job for it.
 struct CaseState {
-  Parameters parameters;
+  solver::Parameters parameters;
   std::int64_t step = 0;  // since the start
   bool begun = false;     // there is a surface
   bool playing = false;
   bool converged = false;
-  Outcome outcome = Outcome::unfinished;  // as of the last measurement
-  std::optional<double> wider_range;      // the epsilon to try: see wider_range(); measured when it rests
+  document::Outcome outcome = document::Outcome::unfinished;  // as of the last measurement
+  std::optional<double> wider_range;  // the epsilon to try: see wider_range(); measured when it rests
   double time_step = 0.0;
   double band = 2.5;
   double smoothed_mm = 0.0;
@@ -31,16 +31,16 @@ struct CaseState {
   QString executor;                      // "host", "compute", "stream"
   double steps_per_second = 0.0;  // while it plays, in the last second: steps by time, pictures included
   double solver_steps_per_second = 0.0;  // in the solver's own time
-  MemoryReport memory;
-  std::shared_ptr<const Field> phi;  // at most a second old while it plays, else current
-  Curve curve;                       // how it has developed since the start
-  SurfaceStatistics surface;         // as of the last measurement
-  std::optional<double> dice;        // against the phantom's truth, as of the last measurement
-  RegionStatistics inside;           // of the volume's values, under the surface; measured when it rests
-  std::vector<Label> labels;
-  std::vector<RegionStatistics> label_statistics;                 // in the order of `labels`
+  solver::MemoryReport memory;
+  std::shared_ptr<const solver::Field> phi;  // at most a second old while it plays, else current
+  document::Curve curve;                     // how it has developed since the start
+  solver::SurfaceStatistics surface;         // as of the last measurement
+  std::optional<double> dice;                // against the phantom's truth, as of the last measurement
+  document::RegionStatistics inside;  // of the volume's values, under the surface; measured when it rests
+  std::vector<document::Label> labels;
+  std::vector<document::RegionStatistics> label_statistics;       // in the order of `labels`
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null while there are none
-  std::optional<Acceptance> acceptance;                           // while it is the last change
+  std::optional<document::Acceptance> acceptance;                 // while it is the last change
   QString undo_text;                                              // which change undo takes back; empty: none
   QString redo_text;
   std::uint64_t edits = 0;  // how much was done: grows with each edit
@@ -48,4 +48,4 @@ struct CaseState {
   QString start_text;       // how it began
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

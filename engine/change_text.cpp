@@ -2,46 +2,46 @@
 
 #include <QCoreApplication>
 
-namespace tidemark {
+namespace tidemark::engine {
 
-QString change_text(const ChangeDescription& change) {
+QString change_text(const document::ChangeDescription& change) {
   const auto tr = [](const char* text) { return QCoreApplication::translate("Change", text); };
   const QString name = QString::fromStdString(change.name);
   switch (change.kind) {
-    case ChangeKind::start:
+    case document::ChangeKind::start:
       return tr("placing the surface");
-    case ChangeKind::paint:
+    case document::ChangeKind::paint:
       return tr("paint");
-    case ChangeKind::erase:
+    case document::ChangeKind::erase:
       return tr("erase");
-    case ChangeKind::target:
+    case document::ChangeKind::target:
       return tr("change of T");
-    case ChangeKind::range:
+    case document::ChangeKind::range:
       return tr("change of ε");
-    case ChangeKind::smoothing:
+    case document::ChangeKind::smoothing:
       return tr("change of α");
-    case ChangeKind::parameters:
+    case document::ChangeKind::parameters:
       return tr("change of parameters");
-    case ChangeKind::evolution:
+    case document::ChangeKind::evolution:
       return tr("evolution, %1 steps").arg(change.steps);
-    case ChangeKind::step_back:
+    case document::ChangeKind::step_back:
       return tr("%1 steps back").arg(change.steps);
-    case ChangeKind::restart:
+    case document::ChangeKind::restart:
       return tr("restart");
-    case ChangeKind::source:
+    case document::ChangeKind::source:
       return tr("smoothing of the source");
-    case ChangeKind::new_label:
+    case document::ChangeKind::new_label:
       return tr("new label %1").arg(name);
-    case ChangeKind::label_settings:
+    case document::ChangeKind::label_settings:
       return tr("settings of label %1").arg(name);
-    case ChangeKind::remove_label:
+    case document::ChangeKind::remove_label:
       return tr("removal of label %1").arg(name);
-    case ChangeKind::import_labels:
+    case document::ChangeKind::import_labels:
       return tr("import of %1").arg(name);
-    case ChangeKind::accept:
+    case document::ChangeKind::accept:
       return tr("accept into %1").arg(name);
   }
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

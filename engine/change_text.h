@@ -5,8 +5,8 @@
 
 #include "document/history.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
-QString change_text(const ChangeDescription& change);
+QString change_text(const document::ChangeDescription& change);
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

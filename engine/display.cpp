@@ -1,6 +1,6 @@
 #include "engine/display.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 void Display::set(DisplaySettings next) {
   if (next == settings_) return;
@@ -28,4 +28,4 @@ void Display::set_drawn_sphere(std::optional<DrawnSphere> drawn) {
   emit pointer_moved();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

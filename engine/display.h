@@ -11,7 +11,7 @@
 #include "renderer/views.h"
 #include "solver/sphere.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 // The tool of the left button in a view.
 enum class Tool {
@@ -31,32 +31,32 @@ struct DisplaySettings {
   glm::dvec3 cursor_mm{0.0};        // the linked crosshair (LPS): every slice goes through it
   glm::dvec3 slice_centre_mm{0.0};  // the middle of the slices, seen along their normal
   double slice_zoom = 1.0;
-  SliceOrientation oblique = kAxial;  // of oblique views
+  renderer::SliceOrientation oblique = renderer::kAxial;  // of oblique views
   WindowLevel window;
   bool nearest = false;
   bool outline = true;
   double line_pixels = 2.0;
   double label_opacity = 0.4;
   bool crosshair = true;
-  bool truth = false;                      // the outline of a phantom's known answer
-  SpeedTerm speed_term = SpeedTerm::data;  // of the speed map
-  bool radiological = true;                // the patient's right on the left of the screen
-  bool patient_text = true;                // names and dates in the corners
+  bool truth = false;                                          // the outline of a phantom's known answer
+  renderer::SpeedTerm speed_term = renderer::SpeedTerm::data;  // of the speed map
+  bool radiological = true;  // the patient's right on the left of the screen
+  bool patient_text = true;  // names and dates in the corners
 
   // 3D.
-  Camera camera;
-  Mode mode = Mode::raycast;
+  renderer::Camera camera;
+  renderer::Mode mode = renderer::Mode::raycast;
   bool surface = true;
   glm::vec4 surface_colour{0.93F, 0.72F, 0.45F, 1.0F};
-  SurfaceColouring colouring = SurfaceColouring::plain;
+  renderer::SurfaceColouring colouring = renderer::SurfaceColouring::plain;
   bool show_source = false;
-  TransferFunction transfer;  // of source and surface
-  Region region = Region::everywhere;
+  renderer::TransferFunction transfer;  // of source and surface
+  renderer::Region region = renderer::Region::everywhere;
   double occlusion = 0.0;
   bool orientation_cube = true;
   bool volume_box = true;  // the volume's edges
   bool clip_on = false;
-  ClipPlane clip;
+  renderer::ClipPlane clip;
 
   // The mouse.
   Tool tool = Tool::window;
@@ -70,7 +70,7 @@ struct DisplaySettings {
 
 // A sphere that adds to the level set or takes from it, before it does.
 struct DrawnSphere {
-  Sphere sphere;
+  solver::Sphere sphere;
   bool erases = false;
 
   bool operator==(const DrawnSphere&) const = default;
@@ -107,4 +107,4 @@ class Display : public QObject {
   std::optional<DrawnSphere> drawn_sphere_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

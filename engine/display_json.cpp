@@ -5,7 +5,7 @@
 #include "core/json/json.h"
 #include "core/json/json_field.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 namespace {
 
 constexpr double kFarthest = 1e6;  // mm: nothing in a patient is as far away
@@ -117,7 +117,7 @@ void read_volume(const JsonField& field, DisplaySettings& s) {
   read(field, "show_source", s.show_source);
   s.transfer = {};
   if (field.has("transfer")) {
-    auto transfer = TransferFunction::parse(field.at("transfer").text(std::size_t{1} << 20U));
+    auto transfer = renderer::TransferFunction::parse(field.at("transfer").text(std::size_t{1} << 20U));
     if (transfer) {
       s.transfer = std::move(*transfer);
     } else {
@@ -190,4 +190,4 @@ Result<DisplaySettings> display_settings(const std::string& text, DisplaySetting
   return s;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

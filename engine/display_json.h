@@ -6,11 +6,11 @@
 #include "core/result.h"
 #include "engine/display.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 [[nodiscard]] std::string to_json(const DisplaySettings& settings);
 // Fields that are missing keep the values of `settings`. Fails (ErrorKind::input) naming one that makes no
 // sense.
 Result<DisplaySettings> display_settings(const std::string& json, DisplaySettings settings);
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

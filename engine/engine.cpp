@@ -7,7 +7,7 @@
 
 #include "core/without_exceptions.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 namespace {
 
 // Newest first: compute needs 4.5, everything else 3.3.
@@ -204,4 +204,4 @@ void Engine::run() {
   if (context_) context_->moveToThread(QCoreApplication::instance()->thread());
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -20,7 +20,7 @@
 #include "core/result.h"
 #include "gpu/device.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 // Waiting jobs run in this order; jobs of the same priority in the order in which they came.
 enum class Priority {
@@ -122,4 +122,4 @@ class Engine : public QObject {
   std::unique_ptr<QThread> thread_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -7,7 +7,7 @@
 
 #include "engine/background_job.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 namespace {
 
 // What work says on its way: the last word counts, and at most one is waiting to be heard.
@@ -88,4 +88,4 @@ void JobRunner::ask_to_stop() {
   if (job_) job_->request_stop();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -11,7 +11,7 @@
 #include "core/progress.h"
 #include "core/without_exceptions.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 class BackgroundJob;
 
@@ -65,4 +65,4 @@ class JobRunner : public QObject {
   std::shared_ptr<BackgroundJob> job_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -6,7 +6,7 @@
 
 #include "engine/case_runner.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 namespace {
 
 std::int64_t step_of(CaseRunner& runner) {
@@ -87,4 +87,4 @@ void LockStep::complete_leap(const Members& all) const {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

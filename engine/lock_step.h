@@ -7,7 +7,7 @@
 
 #include "core/progress.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 class CaseRunner;
 
@@ -34,4 +34,4 @@ class LockStep : public std::enable_shared_from_this<LockStep> {
   std::int64_t leap_ = 0;  // steps by which the first of them last went ahead
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

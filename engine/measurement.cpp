@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-namespace tidemark {
+namespace tidemark::engine {
 
 double Measurement::value() const {
   if (!complete()) return 0.0;
@@ -14,4 +14,4 @@ double Measurement::value() const {
   return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-namespace tidemark {
+namespace tidemark::engine {
 
 struct Measurement {
   enum class Kind { distance, angle };
@@ -17,4 +17,4 @@ struct Measurement {
   bool operator==(const Measurement&) const = default;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -3,7 +3,7 @@
 #include <QCoreApplication>
 #include <algorithm>
 
-namespace tidemark {
+namespace tidemark::engine {
 namespace {
 
 struct Source {
@@ -46,4 +46,4 @@ PhantomText phantom_text(std::string_view kind) {
           QCoreApplication::translate("tidemark::PhantomText", found->sentence)};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -4,7 +4,7 @@
 #include <QString>
 #include <string_view>
 
-namespace tidemark {
+namespace tidemark::engine {
 
 // The name of a kind of phantom_kinds(), and one sentence on what it shows.
 struct PhantomText {
@@ -13,4 +13,4 @@ struct PhantomText {
 };
 PhantomText phantom_text(std::string_view kind);
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

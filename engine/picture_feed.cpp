@@ -4,7 +4,7 @@
 #include "engine/case_runner.h"
 #include "engine/view_slot.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 PictureFeed::PictureFeed(CaseProxy& proxy, QObject* parent)
     : QObject(parent), runner_(proxy.runner()), slot_(std::make_shared<ViewSlot>()) {
@@ -17,7 +17,7 @@ PictureFeed::~PictureFeed() {
   slot_->weak_receiver->close();
 }
 
-void PictureFeed::request(const AnyView& view, PictureSize size) {
+void PictureFeed::request(const AnyView& view, renderer::PictureSize size) {
   {
     const std::lock_guard lock(slot_->mutex);
     ViewSlot::Wish wish{view, size};
@@ -37,4 +37,4 @@ void PictureFeed::take() {
   emit arrived();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

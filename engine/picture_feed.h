@@ -10,14 +10,14 @@
 #include "renderer/picture.h"
 #include "renderer/views.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 class CaseRunner;
 class CaseProxy;
 class PictureTexture;
 struct ViewSlot;
 
-using AnyView = std::variant<SliceView, VolumeView>;
+using AnyView = std::variant<renderer::SliceView, renderer::VolumeView>;
 
 // A picture on the screen, with its description.
 struct ShownPicture {
@@ -26,10 +26,10 @@ struct ShownPicture {
   QImage image;
   std::shared_ptr<const PictureTexture> texture;
   AnyView view;
-  PictureSize size;          // of the view, in physical pixels
-  std::int64_t step = 0;     // of the level set
-  bool finished = false;     // no better one will come
-  std::uint64_t number = 0;  // counts the pictures of this view
+  renderer::PictureSize size;  // of the view, in physical pixels
+  std::int64_t step = 0;       // of the level set
+  bool finished = false;       // no better one will come
+  std::uint64_t number = 0;    // counts the pictures of this view
 };
 
 // Asks for pictures of a view, and delivers the newest. The picture follows the level set by itself: a new
@@ -41,7 +41,7 @@ class PictureFeed : public QObject {
   ~PictureFeed() override;
 
   // `size` in physical pixels. The newest request wins; one that is like the last asks for nothing.
-  void request(const AnyView& view, PictureSize size);
+  void request(const AnyView& view, renderer::PictureSize size);
   [[nodiscard]] const ShownPicture& shown() const { return shown_; }
 
  signals:
@@ -55,4 +55,4 @@ class PictureFeed : public QObject {
   ShownPicture shown_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

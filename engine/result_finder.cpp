@@ -6,13 +6,13 @@
 #include "imaging/dicom/dicom.h"
 #include "imaging/results/results.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<ResultForm> form_of(const fs::path& file) {
-  return looks_like_dicom(file) ? result_form_of(file) : std::nullopt;
+std::optional<imaging::ResultForm> form_of(const fs::path& file) {
+  return imaging::looks_like_dicom(file) ? imaging::result_form_of(file) : std::nullopt;
 }
 
 bool lies_below(const fs::path& file, const fs::path& folder) {
@@ -20,11 +20,12 @@ bool lies_below(const fs::path& file, const fs::path& folder) {
 }
 
 // Whether the series has results for files; its first one shows it.
-bool holds_results(const Series& series) {
+bool holds_results(const imaging::Series& series) {
   return !series.loadable && !series.files.empty() && form_of(series.files.front());
 }
 
-Result<std::vector<FoundResult>> find_results(const Series& series, const Catalogue& found_with,
+Result<std::vector<FoundResult>> find_results(const imaging::Series& series,
+                                              const imaging::Catalogue& found_with,
                                               const Progress& progress) {
   const fs::path around = series.archive ? fs::path() : StudyLoader::place_of(series).parent_path();
   std::vector<FoundResult> results;
@@ -32,11 +33,11 @@ Result<std::vector<FoundResult>> find_results(const Series& series, const Catalo
     if (progress.cancelled() || !lies_below(file, around)) return;
     if (const auto form = form_of(file)) results.push_back({file, *form});
   };
-  for (const Series& one : found_with.series) {
+  for (const imaging::Series& one : found_with.series) {
     if (!holds_results(one)) continue;
     for (const fs::path& file : one.files) look_at(file);
   }
-  for (const SkippedFile& skipped : found_with.skipped) look_at(skipped.file);
+  for (const imaging::SkippedFile& skipped : found_with.skipped) look_at(skipped.file);
   std::sort(results.begin(), results.end(),
             [](const FoundResult& a, const FoundResult& b) { return a.file < b.file; });
   if (progress.cancelled()) return cancelled_error();
@@ -47,10 +48,10 @@ Result<std::vector<FoundResult>> find_results(const Series& series, const Catalo
 
 ResultFinder::ResultFinder(QObject* parent) : JobRunner("tidemark::LoadingStep", parent) {}
 
-void ResultFinder::look(const Series& series, std::shared_ptr<const Catalogue> found_with) {
+void ResultFinder::look(const imaging::Series& series, std::shared_ptr<const imaging::Catalogue> found_with) {
   run([series, found_with = std::move(found_with)](
           const Progress& progress) { return find_results(series, *found_with, progress); },
       [this](const std::vector<FoundResult>& results) { emit found(results); });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -8,13 +8,15 @@
 #include "engine/job_runner.h"
 #include "imaging/series.h"
 
-namespace tidemark {
-
+namespace tidemark::imaging {
 enum class ResultForm;
+}
+
+namespace tidemark::engine {
 
 struct FoundResult {
   std::filesystem::path file;
-  ResultForm form;
+  imaging::ResultForm form;
 };
 
 class ResultFinder : public JobRunner {
@@ -24,11 +26,11 @@ class ResultFinder : public JobRunner {
 
   // Ends with found(). Looks at what was found with the series: all of its archive, else what lies in its
   // folder, in folders within it or in those next to it. Reads the beginnings of these files.
-  void look(const Series& series, std::shared_ptr<const Catalogue> found_with);
+  void look(const imaging::Series& series, std::shared_ptr<const imaging::Catalogue> found_with);
   void cancel() { give_up(); }
 
  signals:
-  void found(const std::vector<tidemark::FoundResult>& results);
+  void found(const std::vector<tidemark::engine::FoundResult>& results);
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

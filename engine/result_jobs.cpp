@@ -4,7 +4,7 @@
 
 #include "document/result_files.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 namespace {
 
 // Steps as the folders below name them, for translators.
@@ -25,14 +25,14 @@ void ResultJobs::write(std::function<Status(const Progress&)> work) {
 }
 
 void ResultJobs::read_labels(const std::filesystem::path& file, const Geometry& grid, bool only_results) {
-  using Found = std::shared_ptr<const Segments>;  // null: no result
+  using Found = std::shared_ptr<const imaging::Segments>;  // null: no result
   run(
       [=](const Progress& progress) -> Result<Found> {
-        if (only_results && !result_form_of(file)) return Found();
-        auto segments = tidemark::read_labels(file, grid, progress);
+        if (only_results && !imaging::result_form_of(file)) return Found();
+        auto segments = tidemark::document::read_labels(file, grid, progress);
         if (!segments) return pass_on(segments);
         if (progress.cancelled()) return cancelled_error();
-        return std::make_shared<const Segments>(std::move(*segments));
+        return std::make_shared<const imaging::Segments>(std::move(*segments));
       },
       [this](const Found& found) {
         if (!found) return emit no_result();
@@ -40,4 +40,4 @@ void ResultJobs::read_labels(const std::filesystem::path& file, const Geometry& 
       });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

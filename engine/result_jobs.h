@@ -8,9 +8,11 @@
 #include "core/geometry.h"
 #include "engine/job_runner.h"
 
-namespace tidemark {
-
+namespace tidemark::imaging {
 struct Segments;
+}
+
+namespace tidemark::engine {
 
 class ResultJobs : public JobRunner {
   Q_OBJECT
@@ -28,8 +30,8 @@ class ResultJobs : public JobRunner {
 
  signals:
   void written();
-  void labels_read(std::shared_ptr<const tidemark::Segments> segments);
+  void labels_read(std::shared_ptr<const tidemark::imaging::Segments> segments);
   void no_result();
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -8,25 +8,25 @@
 #include "imaging/load_study.h"
 #include "renderer/sheet.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 namespace {
 
 constexpr std::int64_t kMostFileVoxels = 64'000'000;  // of volume files, which are read whole
 
 }  // namespace
 
-QImage middle_slice_picture(const Series& series, int pixels, const Progress& progress) {
+QImage middle_slice_picture(const imaging::Series& series, int pixels, const Progress& progress) {
   const bool is_file = series.transfer_syntaxes.empty();
   if (!series.loadable || (is_file && series.geometry.voxel_count() > kMostFileVoxels)) return {};
-  const auto slice = load_slice(series, series.geometry.size.z / 2, progress);
+  const auto slice = imaging::load_slice(series, series.geometry.size.z / 2, progress);
   if (!slice) return {};
-  return picture_of_slice(*slice, window_of(*slice), pixels);
+  return picture_of_slice(*slice, renderer::window_of(*slice), pixels);
 }
 
 struct SeriesPreviews::Waiting {
   struct Request {
     int key;
-    Series series;
+    imaging::Series series;
     int pixels;
   };
   std::mutex mutex;
@@ -39,7 +39,7 @@ SeriesPreviews::~SeriesPreviews() {
   if (job_) job_->abandon();
 }
 
-void SeriesPreviews::request(int key, const Series& series, int pixels) {
+void SeriesPreviews::request(int key, const imaging::Series& series, int pixels) {
   const std::lock_guard lock(waiting_->mutex);
   waiting_->requests.push_back({key, series, pixels});
   if (!job_) start();
@@ -78,4 +78,4 @@ void SeriesPreviews::go_on() {
   if (!waiting_->requests.empty()) start();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

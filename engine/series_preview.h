@@ -8,7 +8,7 @@
 #include "core/progress.h"
 #include "imaging/series.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 class BackgroundJob;
 
@@ -16,7 +16,7 @@ class BackgroundJob;
 // range of common values. Axial, coronal and sagittal slices lie as radiologists look at them; pixels are
 // square in mm. Null when the slice cannot be read, or the volume file is so large that reading it takes
 // long.
-QImage middle_slice_picture(const Series& series, int pixels, const Progress& progress = {});
+QImage middle_slice_picture(const imaging::Series& series, int pixels, const Progress& progress = {});
 
 // Makes such pictures one after the other in the background, in the order in which they were asked for.
 class SeriesPreviews : public QObject {
@@ -26,7 +26,7 @@ class SeriesPreviews : public QObject {
   ~SeriesPreviews() override;  // gives up what runs, and waits for nothing
 
   // Ends with made(key, ...).
-  void request(int key, const Series& series, int pixels);
+  void request(int key, const imaging::Series& series, int pixels);
   void forget();  // all that are not made yet
 
  signals:
@@ -41,4 +41,4 @@ class SeriesPreviews : public QObject {
   std::shared_ptr<BackgroundJob> job_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -12,7 +12,7 @@
 #include "core/typed_volume.h"
 #include "renderer/sheet.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 namespace {
 
 constexpr std::int64_t kPiece = 1'000'000;    // voxels between two looks whether to stop
@@ -146,7 +146,7 @@ SourceSummary summarise(const Volume& volume, const Progress& progress) {
   ThreadPool pool;
   SourceSummary summary;
   std::tie(summary.low, summary.high) = volume.common_range();
-  summary.window = window_of(volume);
+  summary.window = renderer::window_of(volume);
   summary.values.assign(SourceSummary::kBins, 0);
   summary.value_gradient.assign(std::size_t{SourceSummary::kBins} * SourceSummary::kBins, 0);
   with_type(volume, [&](const auto& typed) {
@@ -161,4 +161,4 @@ SourceSummary summarise(const Volume& volume, const Progress& progress) {
   return summary;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -7,7 +7,7 @@
 #include "core/progress.h"
 #include "core/volume.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 // For panels and the transfer function editor; measured once when a study is opened.
 struct SourceSummary {
@@ -27,4 +27,4 @@ float gradient_magnitude(const Volume& volume, Index3 voxel);
 // The volume must not be empty. A summary that was stopped has counted only a part.
 SourceSummary summarise(const Volume& volume, const Progress& progress = {});
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

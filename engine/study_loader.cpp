@@ -10,7 +10,7 @@
 #include "imaging/load_study.h"
 #include "imaging/phantom/phantom.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
 };
 
 // The first T and epsilon of a study.
-Parameters suggest_parameters(const Volume& volume, const Progress& progress) {
-  Parameters parameters;
-  if (const auto suggestion = suggest_start(volume, {}, progress)) {
+solver::Parameters suggest_parameters(const Volume& volume, const Progress& progress) {
+  solver::Parameters parameters;
+  if (const auto suggestion = imaging::suggest_start(volume, {}, progress)) {
     parameters.target = suggestion->target;
     parameters.range = suggestion->range;
     parameters.alpha = suggestion->alpha;
@@ -39,16 +39,16 @@ Parameters suggest_parameters(const Volume& volume, const Progress& progress) {
   return parameters;
 }
 
-Result<LoadedStudy> load_study(const ChosenSeries& chosen, const Progress& progress) {
-  const Series& series = chosen.series;
-  auto volume = load_series(chosen, progress);
+Result<LoadedStudy> load_study(const imaging::ChosenSeries& chosen, const Progress& progress) {
+  const imaging::Series& series = chosen.series;
+  auto volume = imaging::load_series(chosen, progress);
   if (!volume) return pass_on(volume);
   LoadedStudy study;
   study.volume = std::make_shared<const Volume>(std::move(*volume));
   study.origin.path = StudyLoader::place_of(series);
   study.origin.series_uid = series.uid;
   study.origin.policy = series.policy;
-  study.dicom_files = dicom_files_of(series);
+  study.dicom_files = imaging::dicom_files_of(series);
   study.name = StudyLoader::name_of(series);
   study.patient = series.patient;
   study.date = series.date;
@@ -63,27 +63,28 @@ Result<LoadedStudy> load_study(const ChosenSeries& chosen, const Progress& progr
 }
 
 // What there is to choose from. A single series that cannot be loaded is no choice: its reason is the answer.
-Result<Catalogue> find_choice(const fs::path& path, const GridPolicy& policy, const Progress& progress) {
+Result<imaging::Catalogue> find_choice(const fs::path& path, const imaging::GridPolicy& policy,
+                                       const Progress& progress) {
   auto catalogue = find_series(path, progress, policy);
   if (!catalogue || catalogue->series.size() != 1) return catalogue;
-  const Series& only = catalogue->series.front();
+  const imaging::Series& only = catalogue->series.front();
   if (only.loadable || only.fillable()) return catalogue;
-  return fail(ErrorKind::input, "{}", reason_under(path, only));
+  return fail(ErrorKind::input, "{}", imaging::reason_under(path, only));
 }
 
 // The series to load of what lies under the path.
-Result<LoadedStudy> find_and_load(const fs::path& path, const std::string& uid, const GridPolicy& policy,
-                                  const Progress& progress) {
+Result<LoadedStudy> find_and_load(const fs::path& path, const std::string& uid,
+                                  const imaging::GridPolicy& policy, const Progress& progress) {
   const auto catalogue = find_series(path, progress, policy);
   if (!catalogue) return tl::unexpected<Error>(catalogue.error());
-  const auto chosen = choose_series(*catalogue, uid, path);
+  const auto chosen = imaging::choose_series(*catalogue, uid, path);
   if (!chosen) return tl::unexpected<Error>(chosen.error());
   return load_study(*chosen, progress);
 }
 
 Result<LoadedStudy> make_phantom_study(const std::string& kind, const Progress& progress) {
   progress(0.0, "making the phantom");
-  auto phantom = tidemark::make_phantom(kind, {}, progress);
+  auto phantom = tidemark::imaging::make_phantom(kind, {}, progress);
   if (!phantom) return pass_on(phantom);
   LoadedStudy study;
   study.origin.phantom = phantom->kind;
@@ -106,17 +107,19 @@ Result<LoadedStudy> make_phantom_study(const std::string& kind, const Progress& 
 
 StudyLoader::StudyLoader(QObject* parent) : JobRunner("tidemark::LoadingStep", parent) {}
 
-void StudyLoader::scan(const fs::path& path, const GridPolicy& policy) {
+void StudyLoader::scan(const fs::path& path, const imaging::GridPolicy& policy) {
   run([path, policy](const Progress& progress) { return find_choice(path, policy, progress); },
-      [this](Catalogue&& catalogue) { emit found(std::make_shared<const Catalogue>(std::move(catalogue))); });
+      [this](imaging::Catalogue&& catalogue) {
+        emit found(std::make_shared<const imaging::Catalogue>(std::move(catalogue)));
+      });
 }
 
-void StudyLoader::load(const fs::path& path, const std::string& uid, const GridPolicy& policy) {
+void StudyLoader::load(const fs::path& path, const std::string& uid, const imaging::GridPolicy& policy) {
   run([path, uid, policy](const Progress& progress) { return find_and_load(path, uid, policy, progress); },
       [this](LoadedStudy&& study) { emit loaded(std::make_shared<const LoadedStudy>(std::move(study))); });
 }
 
-void StudyLoader::load(const Series& series, const std::vector<std::string>& remarks) {
+void StudyLoader::load(const imaging::Series& series, const std::vector<std::string>& remarks) {
   run(
       [series, remarks](const Progress& progress) {
         return load_study({series, remarks}, progress);
@@ -129,7 +132,7 @@ void StudyLoader::make_phantom(const std::string& kind) {
       [this](LoadedStudy&& study) { emit loaded(std::make_shared<const LoadedStudy>(std::move(study))); });
 }
 
-fs::path StudyLoader::place_of(const Series& series) {
+fs::path StudyLoader::place_of(const imaging::Series& series) {
   if (series.files.empty()) return {};
   if (series.archive) return series.archive->file();
   if (series.transfer_syntaxes.empty()) return series.files.front();  // a volume file
@@ -142,7 +145,7 @@ fs::path StudyLoader::place_of(const Series& series) {
   return folder;
 }
 
-QString StudyLoader::name_of(const Series& series) {
+QString StudyLoader::name_of(const imaging::Series& series) {
   const QString description = QString::fromStdString(series.description).trimmed();
   const bool is_file = series.transfer_syntaxes.empty();
   // A series without a description lists the name of one of its files, which may be the patient's.
@@ -156,4 +159,4 @@ QString StudyLoader::name_of(const Series& series) {
   return text.isEmpty() ? tr("Series without a description") : text;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -17,7 +17,7 @@
 #include "imaging/series.h"
 #include "solver/parameters.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 // The start that suits a phantom; where there are both, the threshold is the quick way.
 struct PhantomStart {
@@ -28,16 +28,17 @@ struct PhantomStart {
 // All that a case begins with.
 struct LoadedStudy {
   std::shared_ptr<const Volume> volume;
-  StudyOrigin origin;
+  document::StudyOrigin origin;
   std::vector<std::filesystem::path> dicom_files;  // in slice order: results refer to them; empty: not DICOM
   SourceSummary summary;
   QString name;  // for titles; never the patient's
-  Patient patient;
-  std::string date;       // of the study: "2004-07-31"; empty when unknown
-  Parameters parameters;  // that suit some even, bright tissue in the middle, or the phantom
+  imaging::Patient patient;
+  std::string date;               // of the study: "2004-07-31"; empty when unknown
+  solver::Parameters parameters;  // that suit some even, bright tissue in the middle, or the phantom
   std::optional<PhantomStart> start;
-  std::shared_ptr<const Mask> truth;            // of a phantom, on the volume's grid; null: not known
-  std::shared_ptr<const StudyArchive> archive;  // keeps the files of a series that lies in an archive
+  std::shared_ptr<const Mask> truth;  // of a phantom, on the volume's grid; null: not known
+  std::shared_ptr<const imaging::StudyArchive>
+      archive;  // keeps the files of a series that lies in an archive
 };
 
 class StudyLoader : public JobRunner {
@@ -47,24 +48,25 @@ class StudyLoader : public JobRunner {
 
   // Ends with found(), or with failed() where nothing can be loaded or the only series cannot, not even with
   // its gaps filled.
-  void scan(const std::filesystem::path& path, const GridPolicy& policy = {});
+  void scan(const std::filesystem::path& path, const imaging::GridPolicy& policy = {});
   // End with loaded() or failed(). An empty uid: the only loadable series, or the one with the most voxels.
-  void load(const std::filesystem::path& path, const std::string& uid, const GridPolicy& policy = {});
+  void load(const std::filesystem::path& path, const std::string& uid,
+            const imaging::GridPolicy& policy = {});
   // The remarks are shown with the changes that loading made.
-  void load(const Series& series, const std::vector<std::string>& remarks = {});
+  void load(const imaging::Series& series, const std::vector<std::string>& remarks = {});
   void make_phantom(const std::string& kind);  // of phantom_kinds()
 
   void cancel() { give_up(); }
 
   // The folder or file under which a series is found again: the one folder that holds all its files, or its
   // archive.
-  [[nodiscard]] static std::filesystem::path place_of(const Series& series);
+  [[nodiscard]] static std::filesystem::path place_of(const imaging::Series& series);
   // The name of a series in titles: its description, else modality and date.
-  [[nodiscard]] static QString name_of(const Series& series);
+  [[nodiscard]] static QString name_of(const imaging::Series& series);
 
  signals:
-  void found(std::shared_ptr<const tidemark::Catalogue> catalogue);
-  void loaded(std::shared_ptr<const tidemark::LoadedStudy> study);
+  void found(std::shared_ptr<const tidemark::imaging::Catalogue> catalogue);
+  void loaded(std::shared_ptr<const tidemark::engine::LoadedStudy> study);
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

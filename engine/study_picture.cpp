@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tidemark {
+namespace tidemark::engine {
 namespace {
 
 QImage grey_picture(const Volume& slice, const WindowLevel& window) {
@@ -76,4 +76,4 @@ QImage picture_of_volume(const Volume& volume, const WindowLevel& window, std::i
   return picture_of_slice(slice, window, pixels);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

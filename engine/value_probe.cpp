@@ -8,7 +8,7 @@
 #include "engine/source_summary.h"
 #include "solver/parameters.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 void ValueProbe::add(glm::dvec3 from_mm, glm::dvec3 to_mm, double radius_mm) {
   const Geometry& geometry = volume_->geometry;
@@ -50,7 +50,7 @@ ValueProbe::Spread ValueProbe::spread(const Sums& sums) const {
 }
 
 double least_probed_range(double common_low, double common_high) {
-  return std::max(0.01 * (common_high - common_low), kMinimumRange);
+  return std::max(0.01 * (common_high - common_low), solver::kMinimumRange);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -9,7 +9,7 @@
 
 #include "core/volume.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 // Each voxel counts once, however slowly the mouse goes.
 class ValueProbe {
@@ -47,4 +47,4 @@ class ValueProbe {
 // an even patch, would exclude everything else.
 double least_probed_range(double common_low, double common_high);
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

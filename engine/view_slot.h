@@ -12,12 +12,12 @@
 #include "engine/weak_receiver.h"
 #include "renderer/quality_control.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 struct ViewSlot {
   struct Wish {
     AnyView view;
-    PictureSize size;
+    renderer::PictureSize size;
     bool operator==(const Wish&) const = default;
   };
 
@@ -33,8 +33,8 @@ struct ViewSlot {
   std::atomic<bool> announced{false};  // the user interface knows of `finished`, and has not taken it
 
   // On the engine's thread alone.
-  QualityControl quality;
-  PictureMean mean;                        // of pictures that are read back
+  renderer::QualityControl quality;
+  renderer::PictureMean mean;              // of pictures that are read back
   std::shared_ptr<ViewTextures> textures;  // of those that are not, when first needed
   std::int64_t drawn_phi = -1;             // revision of phi that was last drawn
   std::uint64_t drawn_look = 0;            // revision of labels and parameters
@@ -42,4 +42,4 @@ struct ViewSlot {
   std::uint64_t pictures = 0;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

@@ -10,21 +10,21 @@
 #include "renderer/canvas_mean.h"
 #include "renderer/renderer.h"
 
-namespace tidemark {
+namespace tidemark::engine {
 
 class Engine;
 
 // One texture. Its holder may read it in a context that shares with the engine's; nobody draws into it then.
 class PictureTexture {
  public:
-  PictureTexture(std::shared_ptr<gpu::Device> device, Canvas canvas)
+  PictureTexture(std::shared_ptr<gpu::Device> device, renderer::Canvas canvas)
       : device_(std::move(device)), canvas_(std::move(canvas)) {}
   PictureTexture(const PictureTexture&) = delete;
   PictureTexture& operator=(const PictureTexture&) = delete;
   ~PictureTexture() { (void)take_reader(); }
 
   [[nodiscard]] unsigned id() const { return canvas_.colour().id(); }
-  [[nodiscard]] PictureSize size() const { return canvas_.size(); }
+  [[nodiscard]] renderer::PictureSize size() const { return canvas_.size(); }
   // The fence (GLsync) behind the reader's last command that reads it, inserted and flushed. The fence before
   // it, which is returned, belongs to the reader again.
   [[nodiscard]] void* read_until(void* fence) const { return reader_.exchange(fence); }
@@ -34,7 +34,7 @@ class PictureTexture {
   gpu::Fence take_reader() { return gpu::Fence::adopt(*device_, reader_.exchange(nullptr)); }
 
   std::shared_ptr<gpu::Device> device_;  // outlives the canvas, also when the engine has lost it
-  Canvas canvas_;
+  renderer::Canvas canvas_;
   mutable std::atomic<void*> reader_{nullptr};
 };
 
@@ -47,11 +47,12 @@ class ViewTextures {
   void clear_mean() { mean_.clear(); }
   // Draws a picture, or `into_mean` the mean of it and those since clear_mean(), and waits until it is there.
   template <class View>
-  Result<std::shared_ptr<const PictureTexture>> draw(Renderer& renderer, const View& view, PictureSize size,
-                                                     bool into_mean, const Progress& progress) {
+  Result<std::shared_ptr<const PictureTexture>> draw(renderer::Renderer& renderer, const View& view,
+                                                     renderer::PictureSize size, bool into_mean,
+                                                     const Progress& progress) {
     auto texture = free_texture(size);
     if (!texture) return pass_on(texture);
-    Canvas& canvas = (*texture)->canvas_;
+    renderer::Canvas& canvas = (*texture)->canvas_;
     TIDEMARK_TRY(renderer.draw_on(canvas, view, progress));
     if (into_mean) {
       TIDEMARK_TRY(mean_.replace_by_mean(*device_, canvas));
@@ -61,14 +62,14 @@ class ViewTextures {
   }
 
  private:
-  ViewTextures(Engine& engine, std::shared_ptr<gpu::Device> device, CanvasMean mean)
+  ViewTextures(Engine& engine, std::shared_ptr<gpu::Device> device, renderer::CanvasMean mean)
       : engine_(engine), device_(std::move(device)), mean_(std::move(mean)) {}
-  Result<std::shared_ptr<PictureTexture>> free_texture(PictureSize size);
+  Result<std::shared_ptr<PictureTexture>> free_texture(renderer::PictureSize size);
 
   Engine& engine_;
   std::shared_ptr<gpu::Device> device_;
-  CanvasMean mean_;
+  renderer::CanvasMean mean_;
   std::vector<std::shared_ptr<PictureTexture>> textures_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

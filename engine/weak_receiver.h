@@ -8,7 +8,7 @@
 #include <mutex>
 #include <utility>
 
-namespace tidemark {
+namespace tidemark::engine {
 
 // Made with the object on its thread; other threads keep it alive.
 class WeakReceiver : public std::enable_shared_from_this<WeakReceiver> {
@@ -43,4 +43,4 @@ class WeakReceiver : public std::enable_shared_from_this<WeakReceiver> {
   QObject* receiver_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::engine

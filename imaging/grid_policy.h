@@ -1,7 +1,7 @@
 // The policy for a series whose slices make no regular grid.
 #pragma once
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 struct GridPolicy {
   // Slices that move sideways as they advance (gantry tilt): moved back within their planes, or taken as if
@@ -16,4 +16,4 @@ struct GridPolicy {
   bool operator==(const GridPolicy&) const = default;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -15,7 +15,7 @@
 #include "imaging/files/volume_file.h"
 #include "imaging/guard/guarded.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -304,4 +304,4 @@ Result<Mask> load_mask(const fs::path& path, const Progress& progress) {
   });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

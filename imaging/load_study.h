@@ -10,7 +10,7 @@
 #include "core/volume.h"
 #include "imaging/series.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Lists the series under `path` (a folder is searched recursively). Fails (ErrorKind::input) when the path
 // does not exist or holds nothing that looks like an image; a series that cannot be loaded is listed with
@@ -67,4 +67,4 @@ Result<Volume> load_slice(const Series& series, std::int64_t k, const Progress& 
 // Loads a mask: every voxel that is not 0 is inside.
 Result<Mask> load_mask(const std::filesystem::path& path, const Progress& progress = {});
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

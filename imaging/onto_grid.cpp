@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr double kTolerance = 0.1;  // of the smallest spacing: files round their numbers
@@ -114,4 +114,4 @@ Result<std::vector<float>> onto_grid(const Volume& volume, const Geometry& grid,
   return result;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

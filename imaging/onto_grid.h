@@ -8,7 +8,7 @@
 #include "core/result.h"
 #include "core/volume.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // The mask, or a volume's values, in the voxel order of `grid`. Both grids must have the same voxels; their
 // axes may be permuted or run the other way, as they often do between programs. Fails (ErrorKind::input)
@@ -16,4 +16,4 @@ namespace tidemark {
 Result<Mask> onto_grid(Mask mask, const Geometry& grid, const std::string& what);
 Result<std::vector<float>> onto_grid(const Volume& volume, const Geometry& grid, const std::string& what);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

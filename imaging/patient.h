@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // In UTF-8; absent attributes stay empty. Views show it in their corners, cases and panels at their
 // heads, and the list of series shows the name. It goes nowhere else: no log, title, statistics, recipe or
@@ -17,4 +17,4 @@ struct Patient {
   bool operator==(const Patient&) const = default;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -12,7 +12,7 @@
 #include "imaging/dicom/regular_grid.h"
 #include "imaging/patient.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 class StudyArchive;
 
@@ -65,4 +65,4 @@ struct Catalogue {
   std::vector<SkippedFile> skipped;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

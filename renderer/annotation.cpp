@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-namespace tidemark {
+namespace tidemark::renderer {
 namespace {
 
 struct Stroke {
@@ -173,4 +173,4 @@ void annotate(Picture& picture, glm::dvec3 right, glm::dvec3 up, double mm_per_p
              0.8 * letter, text);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -6,7 +6,7 @@
 #include "renderer/camera.h"
 #include "renderer/picture.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // Letters (orientation_letters()) at the four edges, and a scale bar with its length at the lower right;
 // white on a dark rim, so that they are seen on any picture. `right` and `up`: unit vectors in the patient
@@ -22,4 +22,4 @@ void write_text(Picture& picture, glm::dvec2 at, double height, std::string_view
 // The width of that text, in pixels.
 double text_width(double height, std::string_view text);
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

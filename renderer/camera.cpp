@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-namespace tidemark {
+namespace tidemark::renderer {
 namespace {
 
 // Maps view coordinates to the patient's (mm) by the view's axes, each half as long as the view is, and then
@@ -135,4 +135,4 @@ std::string orientation_letters(glm::dvec3 direction) {
   return letters;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

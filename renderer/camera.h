@@ -8,7 +8,7 @@
 
 #include "core/geometry.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // A box in the patient (LPS, mm).
 struct Box {
@@ -73,4 +73,4 @@ glm::dvec3 middle_of(const Geometry& geometry);
 // two or three of them by their share when it is oblique.
 std::string orientation_letters(glm::dvec3 direction);
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -5,7 +5,7 @@
 
 #include "core/stopwatch.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 namespace {
 
 // The rasteriser's threads take squares of 64 pixels; two of them side by side keep two processors busy.
@@ -88,4 +88,4 @@ Result<Picture> Canvas::read() const {
   return picture;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

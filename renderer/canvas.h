@@ -7,7 +7,7 @@
 #include "gpu/texture.h"
 #include "renderer/picture.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // The cost of drawing a picture.
 struct DrawReport {
@@ -46,4 +46,4 @@ class Canvas {
   DrawReport report_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -1,6 +1,6 @@
 #include "renderer/canvas_mean.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 Result<CanvasMean> CanvasMean::create(gpu::Device& device) {
   auto weighted = gpu::Program::render(device, "render/full_view.vert", "", "render/weighted.frag", {});
@@ -34,4 +34,4 @@ Status CanvasMean::replace_by_mean(gpu::Device& device, Canvas& picture) {
   return picture.fill(device, {});
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

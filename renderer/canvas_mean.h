@@ -6,7 +6,7 @@
 #include "gpu/program.h"
 #include "renderer/canvas.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // The counterpart of PictureMean (quality_control.h), which has pictures that are read back.
 class CanvasMean {
@@ -25,4 +25,4 @@ class CanvasMean {
   int count_ = 0;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -4,7 +4,7 @@
 
 #include "gpu/device.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 namespace {
 
 // Leaves room for work that is harder than the measured one.
@@ -76,4 +76,4 @@ Status DrawThrottle::rectangle(const gpu::Program& program, const gpu::TexelRect
   });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

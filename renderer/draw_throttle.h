@@ -11,7 +11,7 @@
 #include "gpu/texture.h"
 #include "renderer/canvas.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // On such a processor, contexts share one rasteriser: many small draws one after the other, as a picture from
 // slices needs, are waited for whenever about kWantedPiece of work is queued, and large ones are cut. On a
@@ -48,4 +48,4 @@ class DrawThrottle {
   DrawReport report_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 struct EmbeddedPreset {
   std::string_view name;
@@ -13,4 +13,4 @@ struct EmbeddedPreset {
 
 std::span<const EmbeddedPreset> embedded_presets();
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

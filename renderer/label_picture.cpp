@@ -8,7 +8,7 @@
 #include "core/thread_pool.h"
 #include "renderer/label_share.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 namespace {
 
 std::vector<LabelPicture::Colour> first_colours() {
@@ -28,7 +28,7 @@ std::int32_t only_label(const std::bitset<LabelPicture::kLabels>& set) {
 
 }  // namespace
 
-Result<LabelPicture> LabelPicture::create(gpu::Device& device, const PageLayout& layout) {
+Result<LabelPicture> LabelPicture::create(gpu::Device& device, const solver::PageLayout& layout) {
   LabelPicture picture;
   picture.layout_ = layout;
   const std::vector<std::uint8_t> none(1);
@@ -142,4 +142,4 @@ void LabelPicture::set_uniforms(const gpu::Program& program, const Units& units)
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

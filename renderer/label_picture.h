@@ -11,7 +11,7 @@
 #include "gpu/texture.h"
 #include "solver/paging/page_layout.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // A label for each voxel, the labels' colours, and what each page of V_P shows of them, so that rays and
 // slices skip pages without a label's border.
@@ -23,7 +23,7 @@ class LabelPicture {
 
   LabelPicture() = default;
   // At first no voxel has a label, and all labels are seen in their first colours (core/label_colour.h).
-  static Result<LabelPicture> create(gpu::Device& device, const PageLayout& layout);
+  static Result<LabelPicture> create(gpu::Device& device, const solver::PageLayout& layout);
 
   // In voxel order. Fails (ErrorKind::capability) when memory is short.
   Status set_voxels(gpu::Device& device, std::span<const std::uint8_t> voxels);
@@ -51,7 +51,7 @@ class LabelPicture {
   using LabelSet = std::bitset<kLabels>;
   void update_pages();
 
-  PageLayout layout_;
+  solver::PageLayout layout_;
   std::vector<std::uint8_t> labels_;  // by voxel, until their borders are known
   gpu::Texture3D voxels_;
   gpu::Texture3D shares_;
@@ -64,4 +64,4 @@ class LabelPicture {
   bool shows_ = false;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -5,7 +5,7 @@
 
 #include "core/thread_pool.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 namespace {
 
 constexpr std::int64_t kReach = 2;
@@ -19,7 +19,7 @@ struct Tile {
   Index3 size;
   std::vector<std::uint8_t> labels;
 
-  Tile(const PageLayout& layout, std::span<const std::uint8_t> all, std::int64_t page)
+  Tile(const solver::PageLayout& layout, std::span<const std::uint8_t> all, std::int64_t page)
       : size(layout.valid_shape(page) + Index3(2 * kReach)) {
     const Index3 first = layout.first_voxel(page) - Index3(kReach);
     const Index3 last = layout.volume_size() - Index3(1);
@@ -55,7 +55,7 @@ struct Tile {
 
 }  // namespace
 
-std::vector<std::uint8_t> label_shares(const PageLayout& layout, std::span<const std::uint8_t> labels,
+std::vector<std::uint8_t> label_shares(const solver::PageLayout& layout, std::span<const std::uint8_t> labels,
                                        const std::vector<std::int64_t>& mixed) {
   std::vector<std::uint8_t> shares(labels.size(), 255);
   const Index3 volume = layout.volume_size();
@@ -77,4 +77,4 @@ std::vector<std::uint8_t> label_shares(const PageLayout& layout, std::span<const
   return shares;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -6,11 +6,11 @@
 
 #include "gpu/framebuffer.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 namespace {
 
 // Llvmpipe compiles anew for textures whose height is a power of two: G never has such a one, while it grows.
-std::int64_t without_power_of_two(const PackedLayout& layout, std::int64_t capacity) {
+std::int64_t without_power_of_two(const solver::PackedLayout& layout, std::int64_t capacity) {
   while (std::has_single_bit(static_cast<std::uint64_t>(layout.texture_size(capacity).y))) {
     capacity += layout.pages_per_row();
   }
@@ -31,17 +31,17 @@ Result<PhiPicture::Array> PhiPicture::Array::create(gpu::Device& device, std::in
   return array;
 }
 
-Result<PhiPicture> PhiPicture::create(gpu::Device& device, const PageLayout& layout, double band) {
+Result<PhiPicture> PhiPicture::create(gpu::Device& device, const solver::PageLayout& layout, double band) {
   PhiPicture picture;
-  const PackedLayout packed(layout, device.capabilities().largest_texture);
-  auto field = PackedField::create(device, packed, without_power_of_two(packed, kFirstPage),
-                                   static_cast<float>(band), 1);
+  const solver::PackedLayout packed(layout, device.capabilities().largest_texture);
+  auto field = solver::PackedField::create(device, packed, without_power_of_two(packed, solver::kFirstPage),
+                                           static_cast<float>(band), 1);
   if (!field) return pass_on(field);
   picture.field_ = std::move(*field);
-  picture.table_ = PageTable(layout);
+  picture.table_ = solver::PageTable(layout);
   picture.shown_.band = band;
   picture.shown_.layout = layout;
-  picture.shown_.table.assign(static_cast<std::size_t>(layout.page_count()), Field::kOutside);
+  picture.shown_.table.assign(static_cast<std::size_t>(layout.page_count()), solver::Field::kOutside);
   auto table = Array::create(device, layout.page_count(), gpu::TexelFormat::r32i, "page table");
   if (!table) return pass_on(table);
   picture.page_table_ = std::move(*table);
@@ -60,7 +60,7 @@ Result<PhiPicture> PhiPicture::create(gpu::Device& device, const PageLayout& lay
 }
 
 // Makes the page table that of `phi`, and finds the pages that differ from what was shown.
-std::vector<PhiPicture::Change> PhiPicture::follow(const Field& phi) {
+std::vector<PhiPicture::Change> PhiPicture::follow(const solver::Field& phi) {
   std::vector<Change> changes;
   new_pages_.clear();
   const auto voxels = static_cast<std::size_t>(phi.layout.voxels_per_page());
@@ -68,18 +68,18 @@ std::vector<PhiPicture::Change> PhiPicture::follow(const Field& phi) {
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
     const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
     if (entry >= 0) continue;
-    if (is_static_page(table_.physical(page))) {
-      table_.set_static(page, entry == Field::kInside);
+    if (solver::is_static_page(table_.physical(page))) {
+      table_.set_static(page, entry == solver::Field::kInside);
     } else {
-      table_.release(page, entry == Field::kInside);
+      table_.release(page, entry == solver::Field::kInside);
     }
   }
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
     const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
     if (entry < 0) continue;
     const float* values = phi.pages.data() + static_cast<std::size_t>(entry) * voxels;
-    PhysicalPage physical = table_.physical(page);
-    if (is_static_page(physical)) {
+    solver::PhysicalPage physical = table_.physical(page);
+    if (solver::is_static_page(physical)) {
       physical = table_.allocate(page);
       new_pages_.push_back(page);
     } else if (!shown_.pages.empty()) {
@@ -91,7 +91,8 @@ std::vector<PhiPicture::Change> PhiPicture::follow(const Field& phi) {
   return changes;
 }
 
-Status PhiPicture::update(gpu::Device& device, const Field& phi, std::span<const std::int64_t> quiet) {
+Status PhiPicture::update(gpu::Device& device, const solver::Field& phi,
+                          std::span<const std::int64_t> quiet) {
   const std::vector<Change> changes = follow(phi);
   // Until everything is up there, nothing counts as shown.
   shown_.pages.clear();
@@ -111,7 +112,7 @@ Status PhiPicture::update(gpu::Device& device, const Field& phi, std::span<const
   return device.check("sending phi to the pictures");
 }
 
-Status PhiPicture::upload(gpu::Device& device, const Field& phi, std::span<const Change> changes) {
+Status PhiPicture::upload(gpu::Device& device, const solver::Field& phi, std::span<const Change> changes) {
   const std::int64_t voxels = phi.layout.voxels_per_page();
   const auto count = static_cast<std::int64_t>(changes.size());
   std::vector<float> tiles(static_cast<std::size_t>(count * voxels));
@@ -163,13 +164,14 @@ void PhiPicture::upload_flags(std::span<const std::int64_t> quiet, std::int64_t 
   page_flags_.buffer.upload_values<std::int32_t>(0, flags);
 }
 
-Status PhiPicture::look_at(gpu::Device& device, const PackedView& view,
+Status PhiPicture::look_at(gpu::Device& device, const solver::PackedView& view,
                            const std::optional<std::vector<std::int64_t>>& quiet) {
   // Executors give their buffer a new place when it grows.
   auto table =
       gpu::BufferTexture::create(device, *view.page_table, gpu::TexelFormat::r32i, "executor's page table");
   if (!table) return pass_on(table);
-  std::vector<PhysicalPage> before = viewed_ ? std::move(viewed_->entries) : std::vector<PhysicalPage>();
+  std::vector<solver::PhysicalPage> before =
+      viewed_ ? std::move(viewed_->entries) : std::vector<solver::PhysicalPage>();
   viewed_ = Viewed{view, std::move(*table), {}};
   pages_uploaded_ = 0;
   if (!quiet) {
@@ -180,17 +182,18 @@ Status PhiPicture::look_at(gpu::Device& device, const PackedView& view,
   new_pages_.clear();
   std::int64_t resident = 0;
   for (std::size_t page = 0; page < viewed_->entries.size(); ++page) {
-    if (is_static_page(viewed_->entries[page])) continue;
+    if (solver::is_static_page(viewed_->entries[page])) continue;
     ++resident;
-    if (before.empty() || is_static_page(before[page])) new_pages_.push_back(static_cast<std::int64_t>(page));
+    if (before.empty() || solver::is_static_page(before[page]))
+      new_pages_.push_back(static_cast<std::int64_t>(page));
   }
   upload_flags(*quiet, resident);
   return device.check("looking at the executor's pages");
 }
 
-std::vector<PhysicalPage> PhiPicture::page_entries() const {
+std::vector<solver::PhysicalPage> PhiPicture::page_entries() const {
   if (!viewed_) return table_.entries();
-  return viewed_->view.page_table->download_values<PhysicalPage>(0, layout().layout().page_count());
+  return viewed_->view.page_table->download_values<solver::PhysicalPage>(0, layout().layout().page_count());
 }
 
 void PhiPicture::set_uniforms(const gpu::Program& program, int unit) const {
@@ -206,4 +209,4 @@ void PhiPicture::set_uniforms(const gpu::Program& program, int unit) const {
   program.set("band", static_cast<float>(shown_.band));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // 8 bits each of red, green, blue and opacity (255), rows from the top.
 struct Picture {
@@ -21,4 +21,4 @@ struct PictureSize {
   [[nodiscard]] double aspect() const { return static_cast<double>(width) / static_cast<double>(height); }
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

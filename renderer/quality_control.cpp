@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 void QualityControl::moved() {
   still_pictures_ = -1;
@@ -58,4 +58,4 @@ Picture PictureMean::mean() const {
   return picture;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -6,7 +6,7 @@
 #include "renderer/picture.h"
 #include "renderer/views.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // One picture on the way to a finished one: a quick one is smaller than the view, and is shown
 // enlarged.
@@ -53,4 +53,4 @@ class PictureMean {
   std::vector<std::uint32_t> sums_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -7,7 +7,7 @@
 #include "renderer/uniforms.h"
 #include "solver/gl/step_uniforms.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 namespace {
 
 // Texture units.
@@ -49,11 +49,12 @@ gpu::Defines variant_of(const SliceView& view, bool source_by_plane) {
 Renderer::Renderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source)
     : device_(std::move(device)),
       source_(std::move(source)),
-      constants_(Model(*source_, Parameters()).constants<float>()) {}
+      constants_(solver::Model(*source_, solver::Parameters()).constants<float>()) {}
 
 Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> device,
                                                    std::shared_ptr<const Volume> source,
-                                                   const PageLayout& layout, std::int64_t largest_volume) {
+                                                   const solver::PageLayout& layout,
+                                                   std::int64_t largest_volume) {
   if (layout.volume_size() != source->geometry.size) {
     return fail(ErrorKind::usage, "the pages are not those of the volume");
   }
@@ -67,18 +68,18 @@ Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> 
   auto source_picture = SourcePicture::create(gl, *renderer->source_, layout, largest);
   if (!source_picture) return pass_on(source_picture);
   renderer->source_picture_ = std::move(*source_picture);
-  auto phi = PhiPicture::create(gl, layout, default_band(renderer->source_->geometry));
+  auto phi = PhiPicture::create(gl, layout, solver::default_band(renderer->source_->geometry));
   if (!phi) return pass_on(phi);
   renderer->phi_ = std::move(*phi);
   auto labels = LabelPicture::create(gl, layout);
   if (!labels) return pass_on(labels);
   renderer->labels_ = std::move(*labels);
   TIDEMARK_TRY(renderer->set_phi(
-      Field::empty(renderer->source_->geometry, renderer->phi_.band(), layout.page_shape())));
+      solver::Field::empty(renderer->source_->geometry, renderer->phi_.band(), layout.page_shape())));
   return renderer;
 }
 
-Status Renderer::set_phi(const Field& phi, std::span<const std::int64_t> quiet) {
+Status Renderer::set_phi(const solver::Field& phi, std::span<const std::int64_t> quiet) {
   if (phi.geometry.size != source_->geometry.size || phi.layout != phi_.layout().layout()) {
     return fail(ErrorKind::usage, "phi and the volume differ in size or in pages");
   }
@@ -92,7 +93,8 @@ Status Renderer::set_phi(const Field& phi, std::span<const std::int64_t> quiet) 
   return phi_.update(*device_, phi, quiet);
 }
 
-Status Renderer::look_at(const PackedView& view, const std::optional<std::vector<std::int64_t>>& quiet) {
+Status Renderer::look_at(const solver::PackedView& view,
+                         const std::optional<std::vector<std::int64_t>>& quiet) {
   if (view.layout.layout() != phi_.layout().layout()) {
     return fail(ErrorKind::usage, "pictures and executor differ in pages");
   }
@@ -105,8 +107,8 @@ Status Renderer::look_at(const PackedView& view, const std::optional<std::vector
   return phi_.look_at(*device_, view, quiet);
 }
 
-void Renderer::set_parameters(const Parameters& parameters) {
-  constants_ = Model(*source_, parameters).constants<float>();
+void Renderer::set_parameters(const solver::Parameters& parameters) {
+  constants_ = solver::Model(*source_, parameters).constants<float>();
 }
 
 Status Renderer::set_labels(std::span<const std::uint8_t> labels) {
@@ -153,7 +155,7 @@ Result<const gpu::Program*> Renderer::use_program(const char* fragment, const gp
   const gpu::Program& program = **found;
   slots_.clear();
   program.use();
-  set_step_uniforms(program, constants_);
+  solver::set_step_uniforms(program, constants_);
   phi_.set_uniforms(program, kPhiUnit);  // after the step's: the band is that of the phi shown
   source_picture_.set_uniforms(program, kSourceUnit);
   labels_.set_uniforms(program, kLabelUnits);
@@ -255,7 +257,7 @@ Status Renderer::draw_from_slices(Canvas& canvas, const VolumeView& view, const 
   const SliceAxis axis = SliceCaster::axis_for(view, source_->geometry);
   auto slab = use_volume_program("render/slab.frag", view, size, {axis.define()});
   if (!slab) return pass_on(slab);
-  const std::vector<PhysicalPage> table = phi_.page_entries();
+  const std::vector<solver::PhysicalPage> table = phi_.page_entries();
   const SliceCaster::Scene scene{*source_, phi_, table, source_picture_.page_opacities(),
                                  shows_labels(view) ? labels_.pages() : std::span<const std::int32_t>()};
   TIDEMARK_TRY(slice_caster_.draw(*device_, **slab, scene, view, size, {kPhiUnit, kFreeUnit}, progress));
@@ -337,4 +339,4 @@ Status Renderer::fill(Canvas& canvas, const Progress& progress) {
   return status;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -19,7 +19,7 @@
 #include "renderer/views.h"
 #include "solver/model.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // The first thing that a ray meets.
 struct Hit {
@@ -36,20 +36,20 @@ class Renderer {
   // slices. Fails (ErrorKind::capability) where the driver lacks what is needed.
   static Result<std::unique_ptr<Renderer>> create(std::shared_ptr<gpu::Device> device,
                                                   std::shared_ptr<const Volume> source,
-                                                  const PageLayout& layout,
+                                                  const solver::PageLayout& layout,
                                                   std::int64_t largest_volume = 1 << 30);
 
   // Shows phi from now on. `quiet`: virtual pages that are not computed at present. Fails (ErrorKind::usage)
   // unless phi has the layout and the grid of create().
-  Status set_phi(const Field& phi, std::span<const std::int64_t> quiet = {});
+  Status set_phi(const solver::Field& phi, std::span<const std::int64_t> quiet = {});
   // Draws from now on from the GPU memory of an executor on this device (Executor::packed_view()); to be
   // called again after each run of steps, and before any picture after another call to the executor. With
   // `quiet` (Executor::quiet_pages()) the page views are right, too. Fails (ErrorKind::usage) unless the
   // pages are those of create().
-  Status look_at(const PackedView& view,
+  Status look_at(const solver::PackedView& view,
                  const std::optional<std::vector<std::int64_t>>& quiet = std::nullopt);
   // The parameters of the speed map.
-  void set_parameters(const Parameters& parameters);
+  void set_parameters(const solver::Parameters& parameters);
   // A label for each voxel, 0 for none. Fails (ErrorKind::usage) when there are not as many as voxels.
   Status set_labels(std::span<const std::uint8_t> labels);
   // Red, green, blue and opacity (0: hidden) of the labels from 0 on; at first all are seen, with
@@ -93,7 +93,7 @@ class Renderer {
   std::shared_ptr<const Volume> source_;
   gpu::SamplerSlots slots_;
   std::optional<std::pair<float, float>> common_range_;  // of the source, once it is needed
-  StepConstants<float> constants_;
+  solver::StepConstants<float> constants_;
   SourcePicture source_picture_;
   PhiPicture phi_;
   LabelPicture labels_;
@@ -109,4 +109,4 @@ class Renderer {
   DrawReport report_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

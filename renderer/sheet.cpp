@@ -6,7 +6,7 @@
 #include "renderer/annotation.h"
 #include "renderer/quality_control.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 namespace {
 
 void copy_into(Picture& whole, const Picture& part, std::int64_t left, std::int64_t top) {
@@ -114,7 +114,7 @@ glm::dvec3 middle_of(const Mask& mask) {
   return mask.geometry.to_patient(glm::floor(middle + 0.5));
 }
 
-Box box_around(const Field& phi) {
+Box box_around(const solver::Field& phi) {
   glm::dvec3 low(0.0);
   glm::dvec3 high(phi.geometry.size - Index3(1));
   if (phi.resident_pages() > 0) {
@@ -143,4 +143,4 @@ WindowLevel window_of(const Volume& source) {
           high > low ? static_cast<double>(high) - static_cast<double>(low) : 1.0};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -3,7 +3,7 @@
 
 #include "renderer/renderer.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 struct SheetView {
   glm::dvec3 position_mm{0.0};  // the slices go through it (LPS)
@@ -31,9 +31,9 @@ Result<Picture> draw_annotated(Renderer& renderer, const VolumeView& view, Pictu
 // The voxel in the middle of the inside (LPS, mm), and the box around the pages that hold the surface; of the
 // volume when there is no surface.
 glm::dvec3 middle_of(const Mask& mask);
-Box box_around(const Field& phi);
+Box box_around(const solver::Field& phi);
 
 // The file's own window, or one over the values that are common.
 WindowLevel window_of(const Volume& source);
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

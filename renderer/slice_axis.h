@@ -6,7 +6,7 @@
 #include "gpu/program.h"
 #include "gpu/texture.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // Slices across an axis of the volume; `u` and `v` are a slice's own axes.
 struct SliceAxis {
@@ -25,4 +25,4 @@ struct SliceAxis {
   }
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

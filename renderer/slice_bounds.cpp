@@ -7,7 +7,7 @@
 
 #include "renderer/uniforms.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 void SliceBounds::Rect::include(const Rect& other) {
   if (other.empty()) return;
@@ -21,32 +21,35 @@ void SliceBounds::Rect::include(const Rect& other) {
   high_v = std::max(high_v, other.high_v);
 }
 
-SliceBounds::SliceBounds(const SliceAxis& axis, const PageLayout& pages)
+SliceBounds::SliceBounds(const SliceAxis& axis, const solver::PageLayout& pages)
     : axis_(axis),
       pages_(pages),
       layers_(static_cast<std::size_t>(pages.pages()[axis.along]),
               Rect{0, 0, pages.pages()[axis.u()] - 1, pages.pages()[axis.v()] - 1}) {}
 
-SliceBounds::SliceBounds(const SliceAxis& axis, const PageLayout& pages, const VolumeView& view,
-                         const Geometry& geometry, std::span<const PhysicalPage> table,
+SliceBounds::SliceBounds(const SliceAxis& axis, const solver::PageLayout& pages, const VolumeView& view,
+                         const Geometry& geometry, std::span<const solver::PhysicalPage> table,
                          const PageContents& contents)
     : axis_(axis), pages_(pages), layers_(static_cast<std::size_t>(pages.pages()[axis.along])) {
   const bool by_source = shows_source(view);
   const auto source_shows = [&](std::int64_t number) {
     constexpr float kLeastOpacity = 1e-6F;  // as in render/events.glsl
-    const PhysicalPage physical = table[static_cast<std::size_t>(number)];
+    const solver::PhysicalPage physical = table[static_cast<std::size_t>(number)];
     const glm::vec4 most = contents.opacity[static_cast<std::size_t>(number)];
-    return (physical == kOutsidePage ? most.x : physical == kInsidePage ? most.y : most.z) > kLeastOpacity;
+    return (physical == solver::kOutsidePage  ? most.x
+            : physical == solver::kInsidePage ? most.y
+                                              : most.z) > kLeastOpacity;
   };
   const VoxelPlane plane = view.clip ? clip_plane_in_voxels(*view.clip, geometry) : VoxelPlane();
   const glm::dvec3 half = 0.5 * glm::dvec3(pages.page_shape());
   for (std::int64_t number = 0; number < pages.page_count(); ++number) {
     const Index3 page = pages.page_coordinates(number);
-    const PhysicalPage physical = table[static_cast<std::size_t>(number)];
+    const solver::PhysicalPage physical = table[static_cast<std::size_t>(number)];
     // Where the inside meets the volume's border the surface is closed.
     const bool at_border =
         glm::any(glm::equal(page, Index3(0))) || glm::any(glm::equal(page, pages.pages() - Index3(1)));
-    bool surface = view.surface && (!is_static_page(physical) || (physical == kInsidePage && at_border));
+    bool surface =
+        view.surface && (!solver::is_static_page(physical) || (physical == solver::kInsidePage && at_border));
     bool source = by_source && source_shows(number);
     bool labels = !contents.labels.empty() && contents.labels[static_cast<std::size_t>(number)] != 0;
     bool picture = false;
@@ -119,4 +122,4 @@ gpu::TexelRect SliceBounds::pixels(const Across& across, double plane_a, double 
           static_cast<std::int64_t>(high.x - low.x), static_cast<std::int64_t>(high.y - low.y)};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -11,13 +11,13 @@
 #include "solver/paging/page_layout.h"
 #include "solver/paging/page_table.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // The parts of a volume's layers of pages in which a picture has something to show.
 class SliceBounds {
  public:
   // All of the volume.
-  SliceBounds(const SliceAxis& axis, const PageLayout& pages);
+  SliceBounds(const SliceAxis& axis, const solver::PageLayout& pages);
   // What else than phi shows in each page.
   struct PageContents {
     std::span<const glm::vec4> opacity;    // SourcePicture::page_opacities()
@@ -25,8 +25,9 @@ class SliceBounds {
   };
   // Resident pages when the view has a surface, pages where its source or labels show, and those that the
   // clip plane's picture passes, less what the plane hides. `table`: the physical page of each virtual one.
-  SliceBounds(const SliceAxis& axis, const PageLayout& pages, const VolumeView& view,
-              const Geometry& geometry, std::span<const PhysicalPage> table, const PageContents& contents);
+  SliceBounds(const SliceAxis& axis, const solver::PageLayout& pages, const VolumeView& view,
+              const Geometry& geometry, std::span<const solver::PhysicalPage> table,
+              const PageContents& contents);
 
   [[nodiscard]] const SliceAxis& axis() const { return axis_; }
   // The part of a slice from which visible places beside it are interpolated.
@@ -53,8 +54,8 @@ class SliceBounds {
   }
 
   SliceAxis axis_;
-  PageLayout pages_;
+  solver::PageLayout pages_;
   std::vector<Rect> layers_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

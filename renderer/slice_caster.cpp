@@ -8,7 +8,7 @@
 #include "core/stopwatch.h"
 #include "renderer/uniforms.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 namespace {
 
 // From the viewer into the volume, along its axes.
@@ -17,7 +17,7 @@ glm::dvec3 direction_in_voxels(const VolumeView& view, const Geometry& geometry)
 }
 
 SliceBounds bounds_of(const SliceAxis& axis, const SliceCaster::Scene& scene, const VolumeView& view) {
-  const PageLayout& pages = scene.phi.layout().layout();
+  const solver::PageLayout& pages = scene.phi.layout().layout();
   if (!view.quality.skip_empty) return {axis, pages};
   return {axis, pages, view, scene.source.geometry, scene.table, {scene.page_opacity, scene.page_labels}};
 }
@@ -176,4 +176,4 @@ Status SliceCaster::draw_slab(const gpu::Program& slab_program, const Slab& slab
   });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -10,16 +10,16 @@
 #include "renderer/source_stack.h"
 #include "renderer/views.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 class SliceCaster {
  public:
   struct Scene {
     const Volume& source;
     const PhiPicture& phi;
-    std::span<const PhysicalPage> table;        // of phi's virtual pages
-    std::span<const glm::vec4> page_opacity;    // SourcePicture::page_opacities()
-    std::span<const std::int32_t> page_labels;  // LabelPicture::pages(); empty: none are shown
+    std::span<const solver::PhysicalPage> table;  // of phi's virtual pages
+    std::span<const glm::vec4> page_opacity;      // SourcePicture::page_opacities()
+    std::span<const std::int32_t> page_labels;    // LabelPicture::pages(); empty: none are shown
   };
 
   // Texture units: three of phi's, and those from `free` on.
@@ -60,4 +60,4 @@ class SliceCaster {
   DrawReport report_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -1,6 +1,6 @@
 #include "renderer/slice_pair.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 Result<SlicePair> SlicePair::create(gpu::Device& device, const SliceAxis& axis, std::string_view label) {
   SlicePair pair;
@@ -27,4 +27,4 @@ void SlicePair::forget() {
   for (Place& place : places_) place.slice = -1;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -6,7 +6,7 @@
 #include "gpu/framebuffer.h"
 #include "renderer/slice_axis.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // Four values a voxel, filtered by the hardware. Slice i takes the place of slice i - 2 or i + 2.
 class SlicePair {
@@ -33,4 +33,4 @@ class SlicePair {
   std::array<Place, 2> places_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -1,8 +1,8 @@
 #include "renderer/slice_stack.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
-Result<SliceStack> SliceStack::create(gpu::Device& device, const PackedLayout& layout,
+Result<SliceStack> SliceStack::create(gpu::Device& device, const solver::PackedLayout& layout,
                                       const SliceAxis& axis) {
   SliceStack stack;
   stack.axis_ = axis;
@@ -27,7 +27,7 @@ Result<SliceStack> SliceStack::create(gpu::Device& device, const PackedLayout& l
   return stack;
 }
 
-void SliceStack::begin(std::span<const PhysicalPage> table) {
+void SliceStack::begin(std::span<const solver::PhysicalPage> table) {
   pair_.forget();
   std::vector<std::int32_t> list;
   layer_begins_.clear();
@@ -39,7 +39,7 @@ void SliceStack::begin(std::span<const PhysicalPage> table) {
     for (page[axis_.v()] = 0; page[axis_.v()] < grid[axis_.v()]; ++page[axis_.v()]) {
       for (page[axis_.u()] = 0; page[axis_.u()] < grid[axis_.u()]; ++page[axis_.u()]) {
         const std::int64_t number = pages_.page_number(page);
-        if (table[static_cast<std::size_t>(number)] == kOutsidePage) continue;
+        if (table[static_cast<std::size_t>(number)] == solver::kOutsidePage) continue;
         list.push_back(static_cast<std::int32_t>(number));
       }
     }
@@ -71,4 +71,4 @@ Status SliceStack::reconstruct(const PhiPicture& phi, std::int64_t slice, int ph
   return throttle.things(program_, layer_begins_[layer + 1] - layer_begins_[layer], fragments, kWeight, draw);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

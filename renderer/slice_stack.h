@@ -10,16 +10,17 @@
 #include "renderer/phi_picture.h"
 #include "renderer/slice_pair.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // Only pages that a slice passes and that are not outside are drawn; two slices are there at a time.
 class SliceStack {
  public:
   SliceStack() = default;
-  static Result<SliceStack> create(gpu::Device& device, const PackedLayout& layout, const SliceAxis& axis);
+  static Result<SliceStack> create(gpu::Device& device, const solver::PackedLayout& layout,
+                                   const SliceAxis& axis);
 
   // Begins a picture. `table`: the physical page of each virtual one.
-  void begin(std::span<const PhysicalPage> table);
+  void begin(std::span<const solver::PhysicalPage> table);
   // Makes sure that a slice is there. Units: three of phi's, one of the list of pages.
   Status reconstruct(const PhiPicture& phi, std::int64_t slice, int phi_unit, int list_unit,
                      DrawThrottle& throttle);
@@ -28,7 +29,7 @@ class SliceStack {
 
  private:
   SliceAxis axis_;
-  PageLayout pages_;
+  solver::PageLayout pages_;
   SlicePair pair_;
   gpu::Program program_;
   gpu::VertexArray vertices_;
@@ -37,4 +38,4 @@ class SliceStack {
   std::vector<std::int64_t> layer_begins_;  // in the list; one more than layers
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

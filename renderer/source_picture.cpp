@@ -7,12 +7,12 @@
 #include "core/typed_volume.h"
 #include "renderer/source_stack.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 namespace {
 
 // Least and greatest value in each page and one voxel around it: what filtering reaches from inside the page.
 template <class Stored>
-std::vector<glm::vec2> page_ranges(const TypedVolume<Stored>& source, const PageLayout& layout) {
+std::vector<glm::vec2> page_ranges(const TypedVolume<Stored>& source, const solver::PageLayout& layout) {
   ThreadPool pool;
   std::vector<glm::vec2> ranges(static_cast<std::size_t>(layout.page_count()));
   const auto measure = [&](std::int64_t page) -> glm::vec2 {
@@ -43,7 +43,7 @@ std::vector<glm::vec2> page_ranges(const TypedVolume<Stored>& source, const Page
 }  // namespace
 
 Result<SourcePicture> SourcePicture::create(gpu::Device& device, const Volume& source,
-                                            const PageLayout& layout, std::int64_t largest) {
+                                            const solver::PageLayout& layout, std::int64_t largest) {
   SourcePicture picture;
   picture.layout_ = layout;
   picture.unit_ = 1.0F / glm::vec3(source.geometry.size);
@@ -109,4 +109,4 @@ void SourcePicture::set_uniforms(const gpu::Program& program, int unit) const {
   program.set("page_opacity", unit + 1);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

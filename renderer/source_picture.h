@@ -10,7 +10,7 @@
 #include "renderer/views.h"
 #include "solver/paging/page_layout.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // The source as a texture that the hardware filters, and how opaque it is at most in each page of V_P, so
 // that rays and slices skip pages that show nothing.
@@ -19,8 +19,8 @@ class SourcePicture {
   SourcePicture() = default;
   // Volumes with more than `largest` voxels along an axis get no texture. Fails (ErrorKind::capability) when
   // memory is short.
-  static Result<SourcePicture> create(gpu::Device& device, const Volume& source, const PageLayout& layout,
-                                      std::int64_t largest);
+  static Result<SourcePicture> create(gpu::Device& device, const Volume& source,
+                                      const solver::PageLayout& layout, std::int64_t largest);
 
   // Whether there is a texture. If not, pictures are made from slices (SourceStack, source_on_plane()).
   [[nodiscard]] bool has_volume() const { return has_volume_; }
@@ -38,7 +38,7 @@ class SourcePicture {
  private:
   gpu::Texture3D texture_;
   bool has_volume_ = false;
-  PageLayout layout_;
+  solver::PageLayout layout_;
   std::vector<glm::vec2> ranges_;  // of the values in each page; empty until a transfer function needs them
   std::vector<glm::vec4> page_opacities_;
   gpu::Buffer opacity_buffer_;
@@ -54,4 +54,4 @@ class SourcePicture {
   glm::vec2 scale_{1.0F, 0.0F};
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -5,7 +5,7 @@
 
 #include "core/thread_pool.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 namespace {
 
 // Trilinear; values at the border continue beyond the volume.
@@ -47,4 +47,4 @@ std::vector<float> source_on_plane(const Volume& source, const glm::dmat4& voxel
   return values;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

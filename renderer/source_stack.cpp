@@ -4,7 +4,7 @@
 #include <cstring>
 #include <variant>
 
-namespace tidemark {
+namespace tidemark::renderer {
 namespace {
 
 // A line of the processor's cache holds some 32 values along i: slices across i are gathered so many at once.
@@ -116,4 +116,4 @@ Status SourceStack::prepare(const Volume& source, std::int64_t slice, const gpu:
   });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

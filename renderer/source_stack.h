@@ -11,7 +11,7 @@
 #include "renderer/draw_throttle.h"
 #include "renderer/slice_pair.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // Two slices are kept at a time, of the source's values and its gradient. They are made from three stored
 // slices, by differences over a voxel to each side.
@@ -55,4 +55,4 @@ struct StoredAs {
 };
 StoredAs stored_as(const Volume& source);
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -10,7 +10,7 @@
 #include "core/json/json_field.h"
 #include "renderer/embedded_presets.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 namespace {
 
 constexpr JsonLimits kLimits{.bytes = std::size_t{1} << 20, .values = 10'000, .depth = 8};
@@ -202,4 +202,4 @@ Result<TransferFunction> preset(std::string_view name) {
               fmt::join(preset_names(), ", "));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

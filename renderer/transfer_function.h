@@ -9,7 +9,7 @@
 
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // A factor of a primitive's opacity, along one axis.
 struct TransferFactor {
@@ -81,4 +81,4 @@ struct TransferFunction {
 std::vector<std::string> preset_names();
 Result<TransferFunction> preset(std::string_view name);
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-namespace tidemark {
+namespace tidemark::renderer {
 namespace {
 
 // Of one axis, for all primitives.
@@ -108,4 +108,4 @@ void set_shading(const gpu::Program& program, const VolumeView& view, const Geom
   program.set("light_fixed", glm::vec3(from));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

@@ -4,7 +4,7 @@
 #include "gpu/program.h"
 #include "renderer/views.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // The needs of a view: whether the source shows between surface and clip plane, and whether phi and values
 // of the source are needed.
@@ -25,4 +25,4 @@ gpu::Defines shading_defines(const VolumeView& view);
 // render/transfer.glsl, lighting.glsl and shade.glsl.
 void set_shading(const gpu::Program& program, const VolumeView& view, const Geometry& geometry);
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

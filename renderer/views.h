@@ -10,7 +10,7 @@
 #include "renderer/camera.h"
 #include "renderer/transfer_function.h"
 
-namespace tidemark {
+namespace tidemark::renderer {
 
 // Everything in the patient where normal . p > offset is hidden, and the plane shows the source and, in
 // yellow, the surface's cut. LPS, mm; the normal has length 1.
@@ -94,4 +94,4 @@ struct SliceView {
   bool operator==(const SliceView&) const = default;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::renderer

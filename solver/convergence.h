@@ -7,7 +7,7 @@
 
 #include "solver/executor.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // The measurements of motion in a window: one every two steps, over both of them.
 inline constexpr int kMotionSamples = kConvergenceWindow / 2;
@@ -39,4 +39,4 @@ class SurfaceMotion {
   std::int64_t voxels_ = 0;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -7,7 +7,7 @@
 
 #include "core/thread_pool.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 // The squared distance is separable: from a voxel's centre to the nearest of some boxes it is the least sum
@@ -110,4 +110,4 @@ Field distance_transform(const Mask& mask, double band, Index3 page_shape) {
   return Field::from_dense(mask.geometry, phi, band, page_shape);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

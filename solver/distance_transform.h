@@ -4,11 +4,11 @@
 #include "core/volume.h"
 #include "solver/field.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // The clamped signed distance, in units of the smallest spacing, from voxel centres to the mask's boundary,
 // which is made of the faces between voxels inside and outside: next to a flat face phi is half a voxel.
 // Exact inside the band, for any spacing. > 0 inside. band = W must be finite.
 Field distance_transform(const Mask& mask, double band, Index3 page_shape = kDefaultPageShape);
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

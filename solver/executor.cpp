@@ -7,7 +7,7 @@
 #include "solver/reference/reference_executor.h"
 #include "solver/stream/stream_executor.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 // A context on a real GPU, if this machine has one: where the processor plays the GPU, host is far faster.
@@ -61,4 +61,4 @@ Result<std::unique_ptr<Executor>> make_executor(ExecutorKind kind, std::shared_p
   return HostExecutor::create(std::move(source), parameters, options);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -13,11 +13,12 @@
 #include "solver/parameters.h"
 #include "solver/sphere.h"
 
-namespace tidemark {
-
-namespace gpu {
+namespace tidemark::gpu {
 class Device;
 }
+
+namespace tidemark::solver {
+
 struct PackedView;
 
 // The end of a run of steps.
@@ -129,4 +130,4 @@ Result<std::unique_ptr<Executor>> make_executor(ExecutorKind kind, std::shared_p
                                                 const Parameters& parameters,
                                                 const ExecutorOptions& options = {});
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

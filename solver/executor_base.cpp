@@ -2,7 +2,7 @@
 
 #include "core/stopwatch.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 ExecutorBase::ExecutorBase(std::shared_ptr<const Volume> source, const Parameters& parameters)
     : source_(std::move(source)), model_(*source_, parameters) {}
@@ -39,4 +39,4 @@ Result<AdvanceReport> ExecutorBase::run_steps(const Advance& run,
   return report;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -6,7 +6,7 @@
 #include "solver/executor.h"
 #include "solver/model.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 class ExecutorBase : public Executor {
  public:
@@ -36,4 +36,4 @@ class ExecutorBase : public Executor {
   std::int64_t steps_of_last_run_ = 0;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

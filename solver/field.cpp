@@ -4,7 +4,7 @@
 
 #include "solver/paging/page_rows.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 float Field::at(Index3 voxel) const {
   const VirtualAddress address = layout.translate(voxel);
@@ -109,4 +109,4 @@ Field Field::from_dense(const Geometry& geometry, std::span<const float> values,
   return field;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

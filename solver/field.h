@@ -8,7 +8,7 @@
 #include "core/volume.h"
 #include "solver/paging/page_layout.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // phi > 0 inside, in units of the smallest voxel spacing, clamped to [-band, band].
 struct Field {
@@ -39,4 +39,4 @@ struct Field {
                           Index3 page_shape = kDefaultPageShape);
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -6,7 +6,7 @@
 #include <glm/gtx/component_wise.hpp>
 #include <limits>
 
-namespace tidemark {
+namespace tidemark::solver {
 
 double default_band(const Geometry& geometry) {
   return std::max(2.5, 2.0 * glm::compMax(geometry.spacing_mm) / glm::compMin(geometry.spacing_mm));
@@ -67,4 +67,4 @@ StepConstants<Real> Model::constants() const {
 template StepConstants<float> Model::constants<float>() const;
 template StepConstants<double> Model::constants<double>() const;
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

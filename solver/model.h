@@ -6,7 +6,7 @@
 #include "core/volume.h"
 #include "solver/parameters.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // Lengths are in units of the smallest voxel spacing, source values in the source's units. `Real` is double
 // in the reference and float elsewhere.
@@ -56,4 +56,4 @@ class Model {
 // max(2.5, 2 h_max / h_min): thick slices would stop the surface in a narrower band.
 double default_band(const Geometry& geometry);
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

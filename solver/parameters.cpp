@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace tidemark {
+namespace tidemark::solver {
 
 Status check(const Parameters& p) {
   if (!std::isfinite(p.target)) return fail(ErrorKind::usage, "target T must be a number");
@@ -32,4 +32,4 @@ double paper_alpha(const Parameters& p) {
   return p.alpha == 0.0 ? 0.0 : p.alpha / (p.alpha + (1.0 - p.alpha) * p.range);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

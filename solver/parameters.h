@@ -5,7 +5,7 @@
 
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // How eq. 6 is discretised.
 enum class Scheme {
@@ -56,4 +56,4 @@ Status check(const Parameters& parameters);
 // alpha_paper = alpha / (alpha + (1 - alpha) epsilon).
 double paper_alpha(const Parameters& parameters);
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

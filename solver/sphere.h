@@ -5,7 +5,7 @@
 
 #include "core/geometry.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 struct Sphere {
   glm::dvec3 centre_mm{0.0};  // patient LPS
@@ -21,4 +21,4 @@ inline Sphere sphere_at_voxel(const Geometry& geometry, glm::dvec3 voxel, double
   return {geometry.to_patient(voxel), radius_mm};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 // The values of phi at the corners of a cell: corner (x, y, z) is element x + 2 y + 4 z.
@@ -225,4 +225,4 @@ SurfaceStatistics measure(const Field& phi) {
   return result;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -3,7 +3,7 @@
 
 #include "solver/field.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 struct SurfaceStatistics {
   std::int64_t voxels_inside = 0;  // phi > 0
@@ -13,4 +13,4 @@ struct SurfaceStatistics {
 
 SurfaceStatistics measure(const Field& phi);
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -4,7 +4,7 @@
 #include "solver/field.h"
 #include "solver/parameters.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 struct VoxelValues {
   double intensity = 0.0;  // I, in the source's units
@@ -19,4 +19,4 @@ VoxelValues values_at(const Field& phi, const Volume& source, const Parameters& 
 // D(I) of one value (eq. 7).
 double data_speed(const Parameters& parameters, double intensity);
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

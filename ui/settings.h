@@ -6,7 +6,7 @@
 #include <QSettings>
 #include <QString>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 enum class Theme;
 enum class ViewLayout;
@@ -83,4 +83,4 @@ inline Setting<QString> server() {  // by name; the one used last
 }
 
 }  // namespace settings
-}  // namespace tidemark
+}  // namespace tidemark::ui

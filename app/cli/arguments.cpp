@@ -100,7 +100,7 @@ CLI::Option* add_spheres(CLI::App& app, const std::string& name, SphereUnits uni
       ->type_name(in_voxels ? "I,J,K,R" : "X,Y,Z,R");
 }
 
-Result<Sphere> SphereArgument::resolve(const Geometry& geometry) const {
+Result<solver::Sphere> SphereArgument::resolve(const Geometry& geometry) const {
   const glm::dvec3 voxel = in_voxels ? centre : geometry.to_voxel(centre);
   const glm::dvec3 size(geometry.size);
   for (int axis = 0; axis < 3; ++axis) {
@@ -110,7 +110,7 @@ Result<Sphere> SphereArgument::resolve(const Geometry& geometry) const {
         "{}: the centre, voxel ({:.6g}, {:.6g}, {:.6g}), is outside the volume of {} x {} x {} voxels",
         option, voxel.x, voxel.y, voxel.z, geometry.size.x, geometry.size.y, geometry.size.z);
   }
-  return Sphere{in_voxels ? geometry.to_patient(centre) : centre, radius_mm};
+  return solver::Sphere{in_voxels ? geometry.to_patient(centre) : centre, radius_mm};
 }
 
 }  // namespace tidemark::cli

@@ -54,7 +54,7 @@ struct SphereArgument {
 
   // The sphere in the patient. Fails (ErrorKind::usage) naming the option and the volume's size when the
   // centre is outside the volume.
-  [[nodiscard]] Result<Sphere> resolve(const Geometry& geometry) const;
+  [[nodiscard]] Result<solver::Sphere> resolve(const Geometry& geometry) const;
 };
 
 enum class SphereUnits { voxels, millimetres };

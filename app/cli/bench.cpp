@@ -43,9 +43,9 @@ struct BenchOptions {
 // A case of the benchmark, with its start.
 struct Case {
   std::shared_ptr<const Volume> volume;
-  Parameters parameters;
+  solver::Parameters parameters;
   std::array<double, 4> seed{};  // i, j, k, radius in mm; used without a start
-  std::optional<Field> start;
+  std::optional<solver::Field> start;
 };
 
 // A bright ball with a soft edge that fills most of a cube of `size` voxels of 1 mm.
@@ -77,7 +77,7 @@ Case make_ball(std::int64_t size) {
 
 Result<Case> make_case(const BenchOptions& options, Console& console) {
   if (options.kind == "sphere") return make_ball(options.size.value_or(kDefaultSize));
-  auto phantom = make_phantom(options.kind, {}, console.progress());
+  auto phantom = imaging::make_phantom(options.kind, {}, console.progress());
   if (!phantom) return pass_on(phantom);
   if (!phantom->seed && !phantom->init_threshold)
     return fail(ErrorKind::internal, "the phantom {} has no start", options.kind);
@@ -89,8 +89,8 @@ Result<Case> make_case(const BenchOptions& options, Console& console) {
   if (phantom->init_threshold) {
     // The whole surface is there from the first step; a seed would take a thousand to reach it.
     const auto& [low, high] = *phantom->init_threshold;
-    result.start =
-        distance_transform(threshold(*result.volume, low, high), default_band(result.volume->geometry));
+    result.start = solver::distance_transform(imaging::threshold(*result.volume, low, high),
+                                              solver::default_band(result.volume->geometry));
   } else {
     result.seed = *phantom->seed;
   }
@@ -115,8 +115,8 @@ Status check(const BenchOptions& options) {
 
 struct Stage {
   std::string name;
-  AdvanceReport report;
-  MemoryReport memory;
+  solver::AdvanceReport report;
+  solver::MemoryReport memory;
 
   [[nodiscard]] double paging_share() const {
     return report.seconds > 0.0 ? report.paging_seconds / report.seconds : 0.0;
@@ -140,17 +140,17 @@ Json to_json(const Stage& stage) {
 constexpr std::string_view kConverged = "converged";
 
 // A surface that has stopped moving still has pages that fall asleep one after the other.
-Status let_rest(Executor& solver) {
+Status let_rest(solver::Executor& solver) {
   constexpr std::int64_t kSteps = 100;
   for (std::int64_t done = 0; done < 20 * kSteps; done += kSteps) {
-    const MemoryReport memory = solver.memory();
+    const solver::MemoryReport memory = solver.memory();
     if (memory.quiet_pages == memory.resident_pages) break;
     TIDEMARK_TRY(solver.advance({.steps = kSteps}));
   }
   return {};
 }
 
-Result<std::vector<Stage>> measure_stages(Executor& solver, std::int64_t steps, Console& console) {
+Result<std::vector<Stage>> measure_stages(solver::Executor& solver, std::int64_t steps, Console& console) {
   struct Plan {
     std::string_view name;
     std::int64_t steps;
@@ -165,7 +165,7 @@ Result<std::vector<Stage>> measure_stages(Executor& solver, std::int64_t steps, 
     if (plan.name == kConverged) {
       TIDEMARK_TRY(let_rest(solver));
     }
-    const auto report = solver.advance(Advance{plan.steps, plan.until_converged, console.progress()});
+    const auto report = solver.advance(solver::Advance{plan.steps, plan.until_converged, console.progress()});
     if (!report) return tl::unexpected<Error>(report.error());
     if (console.interrupted()) return cancelled_error();
     stages.push_back({std::string(plan.name), *report, solver.memory()});
@@ -184,10 +184,11 @@ void say_stages(Console& console, const std::vector<Stage>& stages) {
   }
 }
 
-Status begin(Executor& solver, const Case& benchmark) {
+Status begin(solver::Executor& solver, const Case& benchmark) {
   if (benchmark.start) return solver.restore(*benchmark.start);
   const auto& [i, j, k, radius_mm] = benchmark.seed;
-  return solver.paint(sphere_at_voxel(benchmark.volume->geometry, {i, j, k}, radius_mm), Brush::add);
+  return solver.paint(solver::sphere_at_voxel(benchmark.volume->geometry, {i, j, k}, radius_mm),
+                      solver::Brush::add);
 }
 
 Status run(Program& program, const BenchOptions& options) {
@@ -196,17 +197,17 @@ Status run(Program& program, const BenchOptions& options) {
   const auto benchmark = make_case(options, console);
   if (!benchmark) return tl::unexpected<Error>(benchmark.error());
   if (console.interrupted()) return cancelled_error();
-  ExecutorOptions executor_options = options.solver.executor_options();
+  solver::ExecutorOptions executor_options = options.solver.executor_options();
   executor_options.time_paging = true;
-  auto executor = make_executor(options.solver.kind.value_or(ExecutorKind::automatic), benchmark->volume,
-                                benchmark->parameters, executor_options);
+  auto executor = solver::make_executor(options.solver.kind.value_or(solver::ExecutorKind::automatic),
+                                        benchmark->volume, benchmark->parameters, executor_options);
   if (!executor) return pass_on(executor);
-  Executor& solver = **executor;
+  solver::Executor& solver = **executor;
   TIDEMARK_TRY(begin(solver, *benchmark));
   const auto stages = measure_stages(solver, options.steps.value_or(kDefaultSteps), console);
   if (!stages) return tl::unexpected<Error>(stages.error());
 
-  const MemoryReport memory = solver.memory();
+  const solver::MemoryReport memory = solver.memory();
   const double active = 1.0 / std::max(1e-12, steps_per_second((*stages)[2].report));
   const double converged = 1.0 / std::max(1e-12, steps_per_second(stages->back().report));
   const Index3 size = benchmark->volume->geometry.size;

@@ -37,7 +37,7 @@ Volume::Voxels as_stored(std::vector<float> values) {
 Result<Conversion> Conversion::load(ConversionOptions options, const Progress& progress) {
   Conversion conversion(std::move(options));
   TIDEMARK_TRY(conversion.load_source(progress));
-  const bool is_result = result_form_of(conversion.options_.study.path).has_value();
+  const bool is_result = imaging::result_form_of(conversion.options_.study.path).has_value();
   TIDEMARK_TRY(is_result ? conversion.load_result(progress) : conversion.load_volume(progress));
   const std::size_t given = conversion.options_.labels.size();
   if (given > conversion.segments_.list.size()) {
@@ -55,7 +55,7 @@ Status Conversion::load_source(const Progress& progress) {
   const auto chosen = find_study(source, progress);
   if (!chosen) return tl::unexpected<Error>(chosen.error());
   grid_ = chosen->series.geometry;
-  source_files_ = dicom_files_of(chosen->series);
+  source_files_ = imaging::dicom_files_of(chosen->series);
   source_archive_ = chosen->series.archive;
   return {};
 }
@@ -65,7 +65,7 @@ Status Conversion::load_result(const Progress& progress) {
     return fail(ErrorKind::usage, "{}: holds segments, not a level set", options_.study.path);
   }
   if (progress.cancelled()) return cancelled_error();
-  auto segments = read_result(options_.study.path, grid_ ? &*grid_ : nullptr);
+  auto segments = imaging::read_result(options_.study.path, grid_ ? &*grid_ : nullptr);
   if (!segments) return pass_on(segments);
   segments_ = std::move(*segments);
   return {};
@@ -78,7 +78,7 @@ Status Conversion::load_volume(const Progress& progress) {
   if (!loaded) return pass_on(loaded);
   Volume& volume = loaded->volume;
   if (grid_) {
-    auto values = onto_grid(volume, *grid_, input.path);
+    auto values = imaging::onto_grid(volume, *grid_, input.path);
     if (!values) return pass_on(values);
     volume.geometry = *grid_;
     volume.voxels = as_stored(std::move(*values));
@@ -98,7 +98,7 @@ Status Conversion::split() {
   if (options_.kind == InputKind::volume && !is_mask) return {};
   std::vector<float> values = volume_->values();
   if (options_.kind == InputKind::labels) {
-    auto labels = segments_of_numbers(segments_.geometry, values, options_.study.path);
+    auto labels = imaging::segments_of_numbers(segments_.geometry, values, options_.study.path);
     if (!labels) return pass_on(labels);
     segments_.list = std::move(labels->list);
     return {};
@@ -107,9 +107,9 @@ Status Conversion::split() {
   const bool is_phi = options_.kind == InputKind::level_set;
   std::transform(values.begin(), values.end(), inside.begin(),
                  [&](float value) { return std::uint8_t(is_phi ? value > 0.0F : value != 0.0F); });
-  Segment segment;
+  imaging::Segment segment;
   segment.name = "Segment";
-  segment.slices = slices_of(segments_.geometry, inside);
+  segment.slices = imaging::slices_of(segments_.geometry, inside);
   if (is_phi) {
     auto phi = std::make_shared<Volume>();
     phi->geometry = segments_.geometry;
@@ -135,60 +135,63 @@ Status Conversion::require_segments() const {
 
 // The volume itself, or its inside: 1, or the number of the segment.
 Status Conversion::write_values(const fs::path& file) {
-  if (volume_ && options_.kind != InputKind::mask) return write_volume_file(*volume_, file);
-  if (options_.kind == InputKind::mask) return write_mask_file(union_of(segments_), file);
-  auto map = label_map_of(segments_);
+  if (volume_ && options_.kind != InputKind::mask) return imaging::write_volume_file(*volume_, file);
+  if (options_.kind == InputKind::mask) return imaging::write_mask_file(imaging::union_of(segments_), file);
+  auto map = imaging::label_map_of(segments_);
   if (!map) return pass_on(map);
   if (map->overlaps > 0) {
     segments_.changes.push_back(
         fmt::format("{} voxels are in several segments and have the number of the last one", map->overlaps));
   }
-  return write_mask_file({geometry(), std::move(map->voxels)}, file);
+  return imaging::write_mask_file({geometry(), std::move(map->voxels)}, file);
 }
 
 Status Conversion::write_surface(const fs::path& file) {
   if (!mesh_) {
     const auto& phi = segments_.list.front().phi;
-    auto surface = phi ? extract_surface(*phi) : mesh_of(union_of(segments_));
+    auto surface = phi ? imaging::extract_surface(*phi) : document::mesh_of(imaging::union_of(segments_));
     if (!surface) return pass_on(surface);
     mesh_ = std::move(*surface);
   }
-  return write_mesh(*mesh_, file);
+  return imaging::write_mesh(*mesh_, file);
 }
 
 Status Conversion::write(const fs::path& file, FileForm form, const Progress& progress) {
   if (form == FileForm::volume) return write_values(file);
   TIDEMARK_TRY(require_segments());
   if (form == FileForm::mesh) return write_surface(file);
-  if (form == FileForm::segmentation) return write_segmentation(segments_, source_files_, file, progress);
+  if (form == FileForm::segmentation)
+    return imaging::write_segmentation(segments_, source_files_, file, progress);
   if (const auto& phi = segments_.list.front().phi) {
     const auto [low, high] = phi->range();
-    return write_level_set(*phi, std::max(std::abs(low), std::abs(high)), file);
+    return imaging::write_level_set(*phi, std::max(std::abs(low), std::abs(high)), file);
   }
-  const double band = surface_band(geometry());
-  return write_level_set(distance_transform(union_of(segments_), band).to_volume(), band, file);
+  const double band = document::surface_band(geometry());
+  return imaging::write_level_set(solver::distance_transform(imaging::union_of(segments_), band).to_volume(),
+                                  band, file);
 }
 
 Status Conversion::write_each(const fs::path& like, const Progress& progress, Outputs& outputs) {
   TIDEMARK_TRY(require_segments());
   std::vector<std::string> names;
-  for (const Segment& segment : segments_.list) names.push_back(segment.name);
-  each_ = mesh_files(names, like);
+  for (const imaging::Segment& segment : segments_.list) names.push_back(segment.name);
+  each_ = document::mesh_files(names, like);
   for (const fs::path& file : each_) {
     TIDEMARK_TRY(outputs.announce("--out-each", file, {FileForm::mesh}));
   }
   for (std::size_t n = 0; n < each_.size(); ++n) {
     if (progress.cancelled()) return cancelled_error();
-    const auto mesh = mesh_of(geometry(), segments_.list[n]);
+    const auto mesh = document::mesh_of(geometry(), segments_.list[n]);
     if (!mesh) return tl::unexpected<Error>(mesh.error());
-    TIDEMARK_TRY(outputs.stage(each_[n], [&](const fs::path& name) { return write_mesh(*mesh, name); }));
+    TIDEMARK_TRY(
+        outputs.stage(each_[n], [&](const fs::path& name) { return imaging::write_mesh(*mesh, name); }));
   }
   return {};
 }
 
 Status Conversion::write_contours(const fs::path& file, const Progress& progress) {
   TIDEMARK_TRY(require_segments());
-  return write_structure_set(segments_, source_files_, file, progress);
+  return imaging::write_structure_set(segments_, source_files_, file, progress);
 }
 
 }  // namespace tidemark::cli

@@ -41,10 +41,10 @@ class Conversion {
   Status write_contours(const std::filesystem::path& file, const Progress& progress);
 
   [[nodiscard]] const Geometry& geometry() const { return segments_.geometry; }
-  [[nodiscard]] const Segments& segments() const { return segments_; }
+  [[nodiscard]] const imaging::Segments& segments() const { return segments_; }
   [[nodiscard]] const std::vector<std::string>& changes() const { return segments_.changes; }
   [[nodiscard]] const char* scalar_name() const;
-  [[nodiscard]] const std::optional<Mesh>& mesh() const { return mesh_; }  // if one was written
+  [[nodiscard]] const std::optional<imaging::Mesh>& mesh() const { return mesh_; }  // if one was written
   [[nodiscard]] const std::vector<std::filesystem::path>& each() const { return each_; }  // written so
   [[nodiscard]] bool has_source() const { return !source_files_.empty(); }
 
@@ -62,10 +62,10 @@ class Conversion {
   ConversionOptions options_;
   std::optional<Geometry> grid_;  // the source's
   std::vector<std::filesystem::path> source_files_;
-  std::shared_ptr<const StudyArchive> source_archive_;  // in which they lie, if they do
-  std::optional<Volume> volume_;                        // where the input is one
-  Segments segments_;                                   // none in a plain volume
-  std::optional<Mesh> mesh_;
+  std::shared_ptr<const imaging::StudyArchive> source_archive_;  // in which they lie, if they do
+  std::optional<Volume> volume_;                                 // where the input is one
+  imaging::Segments segments_;                                   // none in a plain volume
+  std::optional<imaging::Mesh> mesh_;
   std::vector<std::filesystem::path> each_;
 };
 

@@ -43,7 +43,7 @@ Status check(const ConvertOptions& options, Outputs& outputs) {
   if (options.out.empty() && options.rtstruct.empty() && options.each.empty()) {
     return fail(ErrorKind::usage, "--out, --out-each or --rtstruct is needed");
   }
-  if (!options.each.empty() && !is_writable_mesh_file(options.each)) {
+  if (!options.each.empty() && !imaging::is_writable_mesh_file(options.each)) {
     return fail(ErrorKind::usage, "--out-each {}: the name must end in one of .stl .ply .obj", options.each);
   }
   for (const std::string& file : options.out) {
@@ -80,13 +80,13 @@ Status write_all(const ConvertOptions& options, Conversion& conversion, Outputs&
 
 void say(const ConvertOptions& options, const Conversion& conversion, Console& console) {
   for (const std::string& change : conversion.changes()) console.say("Changed    {}", change);
-  for (const Segment& segment : conversion.segments().list) {
+  for (const imaging::Segment& segment : conversion.segments().list) {
     console.say("Segment    {}: {} voxels, {:.3f} ml", segment.name, segment.count(),
                 static_cast<double>(segment.count()) * conversion.geometry().voxel_volume_ml());
   }
   if (const auto& mesh = conversion.mesh()) {
     console.say("Surface    {} triangles, {:.3f} ml, {:.1f} mm^2", mesh->triangles.size(),
-                mesh_volume_ml(*mesh), mesh_area_mm2(*mesh));
+                imaging::mesh_volume_ml(*mesh), imaging::mesh_area_mm2(*mesh));
   }
   for (const std::string& file : options.out) console.say("Wrote      {}", file);
   for (const auto& file : conversion.each()) console.say("Wrote      {}", file.string());
@@ -103,7 +103,7 @@ Json to_json(const ConvertOptions& options, const Conversion& conversion) {
   object["scalar"] = conversion.scalar_name();
   object["changes"] = conversion.changes();
   object["segments"] = Json::array();
-  for (const Segment& segment : conversion.segments().list) {
+  for (const imaging::Segment& segment : conversion.segments().list) {
     object["segments"].push_back({{"name", segment.name}, {"voxels", segment.count()}});
   }
   object["out"] = options.out;

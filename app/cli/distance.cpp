@@ -34,8 +34,8 @@ struct DistanceOptions {
 };
 
 // The equation with nothing but its rescaling term.
-Parameters rescaling_alone(const std::optional<double>& band) {
-  Parameters parameters;
+solver::Parameters rescaling_alone(const std::optional<double>& band) {
+  solver::Parameters parameters;
   parameters.alpha = 1.0;
   parameters.band = band;
   parameters.data_term = false;
@@ -64,7 +64,7 @@ Status check(const DistanceOptions& options, Outputs& outputs) {
   return outputs.spare(options.mask);
 }
 
-Json to_json(const Executor& solver, const AdvanceReport& report, const Geometry& geometry) {
+Json to_json(const solver::Executor& solver, const solver::AdvanceReport& report, const Geometry& geometry) {
   Json object;
   object["executor"] = solver.name();
   object["steps"] = report.steps;
@@ -77,7 +77,7 @@ Json to_json(const Executor& solver, const AdvanceReport& report, const Geometry
 }
 
 // phi in units of the smallest spacing becomes mm.
-Volume in_millimetres(const Field& phi) {
+Volume in_millimetres(const solver::Field& phi) {
   Volume volume = phi.to_volume();
   const auto scale = static_cast<float>(smallest_spacing(phi.geometry));
   for (float& value : std::get<std::vector<float>>(volume.voxels)) value *= scale;
@@ -88,17 +88,17 @@ Status run(Program& program, const DistanceOptions& options) {
   Console& console = program.console;
   Outputs outputs;
   TIDEMARK_TRY(check(options, outputs));
-  const auto loaded = load_any_mask(options.mask, nullptr, console.progress());
+  const auto loaded = imaging::load_any_mask(options.mask, nullptr, console.progress());
   if (!loaded) return tl::unexpected<Error>(loaded.error());
   const Mask& mask = loaded->mask;
   if (console.interrupted()) return cancelled_error();
-  auto executor =
-      make_executor(options.solver.kind.value_or(ExecutorKind::automatic), empty_source(mask.geometry),
-                    rescaling_alone(options.band), options.solver.executor_options());
+  auto executor = solver::make_executor(options.solver.kind.value_or(solver::ExecutorKind::automatic),
+                                        empty_source(mask.geometry), rescaling_alone(options.band),
+                                        options.solver.executor_options());
   if (!executor) return pass_on(executor);
-  Executor& solver = **executor;
-  TIDEMARK_TRY(solver.restore(distance_transform(mask, solver.band())));
-  const auto report = solver.advance(Advance{kMostSteps, true, console.progress()});
+  solver::Executor& solver = **executor;
+  TIDEMARK_TRY(solver.restore(solver::distance_transform(mask, solver.band())));
+  const auto report = solver.advance(solver::Advance{kMostSteps, true, console.progress()});
   if (!report) return tl::unexpected<Error>(report.error());
   if (console.interrupted()) return cancelled_error();
 
@@ -106,7 +106,9 @@ Status run(Program& program, const DistanceOptions& options) {
   if (!phi) return pass_on(phi);
   const Volume distance = in_millimetres(*phi);
   for (const std::string& file : options.out) {
-    const auto write = [&](const std::filesystem::path& name) { return write_volume_file(distance, name); };
+    const auto write = [&](const std::filesystem::path& name) {
+      return imaging::write_volume_file(distance, name);
+    };
     TIDEMARK_TRY(outputs.stage(file, write));
     if (console.interrupted()) return cancelled_error();
   }

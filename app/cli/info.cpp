@@ -26,7 +26,7 @@ Json triple(const glm::dvec3& v) {
   return Json::array({v.x, v.y, v.z});
 }
 
-Json to_json(const Series& series) {
+Json to_json(const imaging::Series& series) {
   const Geometry& grid = series.geometry;
   const bool known = grid.voxel_count() > 0;
   Json direction = Json::array();  // the unit vector of the i axis, then of j, then of k
@@ -55,12 +55,12 @@ Json to_json(const Series& series) {
   return object;
 }
 
-Json to_json(const Catalogue& catalogue) {
+Json to_json(const imaging::Catalogue& catalogue) {
   Json object;
   object["series"] = Json::array();
   object["skipped"] = Json::array();
-  for (const Series& series : catalogue.series) object["series"].push_back(to_json(series));
-  for (const SkippedFile& skipped : catalogue.skipped) {
+  for (const imaging::Series& series : catalogue.series) object["series"].push_back(to_json(series));
+  for (const imaging::SkippedFile& skipped : catalogue.skipped) {
     object["skipped"].push_back({{"file", skipped.file.string()}, {"reason", skipped.reason}});
   }
   return object;
@@ -89,7 +89,7 @@ void say_geometry(Console& console, const Geometry& grid) {
               grid.origin_mm.z);
 }
 
-void say_series(Console& console, const Series& series) {
+void say_series(Console& console, const imaging::Series& series) {
   console.say("{}{}{}", series.modality, series.modality.empty() ? "" : "  ", series.description);
   console.say("  uid         {}", series.uid);
   if (!series.date.empty()) console.say("  date        {}", series.date);
@@ -107,12 +107,12 @@ void say_series(Console& console, const Series& series) {
   for (const std::string& warning : series.warnings) console.say("  warning     {}", warning);
 }
 
-void say_catalogue(Console& console, const Catalogue& catalogue) {
-  for (const Series& series : catalogue.series) {
+void say_catalogue(Console& console, const imaging::Catalogue& catalogue) {
+  for (const imaging::Series& series : catalogue.series) {
     say_series(console, series);
     console.say("");
   }
-  for (const SkippedFile& skipped : catalogue.skipped) {
+  for (const imaging::SkippedFile& skipped : catalogue.skipped) {
     console.say("skipped {}: {}", skipped.file.string(), skipped.reason);
   }
   console.say("{} series, {} files skipped", catalogue.series.size(), catalogue.skipped.size());
@@ -120,7 +120,7 @@ void say_catalogue(Console& console, const Catalogue& catalogue) {
 
 Status run(Program& program, const StudyInput& study) {
   Console& console = program.console;
-  auto catalogue = find_series(study.path, console.progress(), study.policy());
+  auto catalogue = imaging::find_series(study.path, console.progress(), study.policy());
   if (!catalogue) return pass_on(catalogue);
   if (console.interrupted()) return cancelled_error();
   if (console.json()) {

@@ -5,12 +5,13 @@
 namespace tidemark::cli {
 namespace {
 
-std::optional<SegmentColour> parse_colour(std::string_view text) {
+std::optional<imaging::SegmentColour> parse_colour(std::string_view text) {
   unsigned rgb = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), rgb, 16);
   if (text.size() != 6 || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return SegmentColour{static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 0xff),
-                       static_cast<std::uint8_t>(rgb & 0xff)};
+  return imaging::SegmentColour{static_cast<std::uint8_t>(rgb >> 16),
+                                static_cast<std::uint8_t>(rgb >> 8 & 0xff),
+                                static_cast<std::uint8_t>(rgb & 0xff)};
 }
 
 // The text up to the next comma, which is removed.
@@ -24,7 +25,7 @@ std::string_view next_part(std::string_view& text) {
 std::string help(const char* which) {
   std::string words;
   std::size_t line = 0;
-  for (const NamedMeaning& named : segment_meanings()) {
+  for (const imaging::NamedMeaning& named : imaging::segment_meanings()) {
     words += words.empty() ? "" : line > 85 ? "\n" : " ";
     if (line > 85) line = 0;
     words += named.word;
@@ -47,12 +48,12 @@ constexpr const char* kType = "NAME[,MEANING[,RRGGBB]]";
 
 }  // namespace
 
-void LabelArgument::apply(Segment& segment) const {
+void LabelArgument::apply(imaging::Segment& segment) const {
   if (!name.empty()) segment.name = name;
   if (meaning) {
     segment.meaning = *meaning;
-  } else if (segment.meaning == SegmentMeaning()) {
-    segment.meaning = guess_segment_meaning(name);
+  } else if (segment.meaning == imaging::SegmentMeaning()) {
+    segment.meaning = imaging::guess_segment_meaning(name);
   }
   if (colour) segment.colour = colour;
 }
@@ -62,7 +63,7 @@ Result<LabelArgument> parse_label(std::string_view text) {
   LabelArgument label;
   label.name = next_part(rest);
   if (const std::string_view word = next_part(rest); !word.empty()) {
-    auto meaning = find_segment_meaning(word);
+    auto meaning = imaging::find_segment_meaning(word);
     if (!meaning) return pass_on(meaning);
     label.meaning = std::move(*meaning);
   }

@@ -14,10 +14,10 @@ namespace tidemark::cli {
 // Parts that were not given leave the segment's own.
 struct LabelArgument {
   std::string name;
-  std::optional<SegmentMeaning> meaning;
-  std::optional<SegmentColour> colour;
+  std::optional<imaging::SegmentMeaning> meaning;
+  std::optional<imaging::SegmentColour> colour;
 
-  void apply(Segment& segment) const;
+  void apply(imaging::Segment& segment) const;
 };
 
 // Fails with ErrorKind::usage naming the part that makes no sense.

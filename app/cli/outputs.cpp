@@ -23,9 +23,9 @@ std::string lower_suffix(const std::filesystem::path& file) {
 bool has_form(const std::filesystem::path& file, FileForm form) {
   switch (form) {
     case FileForm::volume:
-      return is_writable_volume_file(file);
+      return imaging::is_writable_volume_file(file);
     case FileForm::mesh:
-      return is_writable_mesh_file(file);
+      return imaging::is_writable_mesh_file(file);
     case FileForm::recipe:
       return lower_suffix(file) == ".json";
     case FileForm::segmentation:

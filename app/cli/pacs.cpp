@@ -25,8 +25,8 @@ constexpr const char* kExamples =
 Status run_echo(Program& program, const ServerChoice& choice) {
   const auto chosen = choice.choose();
   if (!chosen) return tl::unexpected<Error>(chosen.error());
-  const PacsServer& server = chosen->server;
-  const auto seconds = pacs_echo(server, program.console.progress());
+  const imaging::PacsServer& server = chosen->server;
+  const auto seconds = imaging::pacs_echo(server, program.console.progress());
   if (!seconds) return tl::unexpected<Error>(seconds.error());
   program.console.say("{} ({}:{}, {}) answers in {:.0f} ms", server.name, server.host, server.port,
                       server.ae_title, *seconds * 1000.0);
@@ -43,8 +43,8 @@ Status run_echo(Program& program, const ServerChoice& choice) {
 }  // namespace
 
 Result<ServerChoice::Chosen> ServerChoice::choose() const {
-  const auto configuration =
-      read_pacs_configuration(file.empty() ? pacs_configuration_file() : std::filesystem::path(file));
+  const auto configuration = imaging::read_pacs_configuration(
+      file.empty() ? imaging::pacs_configuration_file() : std::filesystem::path(file));
   if (!configuration) return tl::unexpected<Error>(configuration.error());
   auto chosen = configuration->server(server);
   if (!chosen) return pass_on(chosen);

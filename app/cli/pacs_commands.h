@@ -15,8 +15,8 @@ struct ServerChoice {
   std::string file;  // empty: pacs_configuration_file()
 
   struct Chosen {
-    PacsServer server;
-    PacsLimits limits;
+    imaging::PacsServer server;
+    imaging::PacsLimits limits;
   };
   [[nodiscard]] Result<Chosen> choose() const;
 };

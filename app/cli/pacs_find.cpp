@@ -17,7 +17,7 @@ constexpr const char* kExamples =
 
 struct FindOptions {
   ServerChoice choice;
-  StudyQuery studies;
+  imaging::StudyQuery studies;
   std::string study;
 };
 
@@ -26,7 +26,7 @@ Json json_or_null(const std::optional<Number>& number) {
   return number ? Json(*number) : Json();
 }
 
-Json to_json(const PacsStudy& study) {
+Json to_json(const imaging::PacsStudy& study) {
   Json object;
   object["uid"] = study.uid;
   object["patient_name"] = study.patient_name;
@@ -40,7 +40,7 @@ Json to_json(const PacsStudy& study) {
   return object;
 }
 
-Json to_json(const PacsSeries& series) {
+Json to_json(const imaging::PacsSeries& series) {
   Json object;
   object["uid"] = series.uid;
   object["study_uid"] = series.study_uid;
@@ -57,17 +57,17 @@ std::string count_text(const std::optional<std::int64_t>& count) {
   return count ? fmt::format("{}", *count) : "an unknown number";
 }
 
-void say(Console& console, const PacsStudy& study) {
+void say(Console& console, const imaging::PacsStudy& study) {
   std::string modalities;
   for (const std::string& one : study.modalities) modalities += (modalities.empty() ? "" : ", ") + one;
   console.say("{}  {}", study.date.empty() ? "no date   " : study.date, study.description);
-  console.say("  patient     {} ({})", readable_name(study.patient_name), study.patient_id);
+  console.say("  patient     {} ({})", imaging::readable_name(study.patient_name), study.patient_id);
   console.say("  modalities  {}", modalities);
   console.say("  holds       {} objects in {} series", count_text(study.objects), count_text(study.series));
   console.say("  uid         {}", study.uid);
 }
 
-void say(Console& console, const PacsSeries& series) {
+void say(Console& console, const imaging::PacsSeries& series) {
   console.say("{}  {}", series.modality, series.description);
   console.say("  number      {}", series.number);
   if (!series.body_part.empty()) console.say("  body part   {}", series.body_part);
@@ -76,7 +76,7 @@ void say(Console& console, const PacsSeries& series) {
 }
 
 template <class Entry>
-Status report(Console& console, const char* key, const Result<Found<Entry>>& found) {
+Status report(Console& console, const char* key, const Result<imaging::Found<Entry>>& found) {
   if (!found) return tl::unexpected<Error>(found.error());
   Json object;
   object[key] = Json::array();
@@ -98,14 +98,14 @@ Status run(Program& program, const FindOptions& options) {
   const auto chosen = options.choice.choose();
   if (!chosen) return tl::unexpected<Error>(chosen.error());
   Console& console = program.console;
-  const StudyQuery& query = options.studies;
+  const imaging::StudyQuery& query = options.studies;
   if (options.study.empty()) {
     return report(console, "studies",
-                  find_studies(chosen->server, query, chosen->limits, console.progress()));
+                  imaging::find_studies(chosen->server, query, chosen->limits, console.progress()));
   }
-  const SeriesQuery in_study{options.study, query.modality, query.description};
+  const imaging::SeriesQuery in_study{options.study, query.modality, query.description};
   return report(console, "series",
-                find_pacs_series(chosen->server, in_study, chosen->limits, console.progress()));
+                imaging::find_pacs_series(chosen->server, in_study, chosen->limits, console.progress()));
 }
 
 }  // namespace
@@ -115,7 +115,7 @@ void add_pacs_find(CLI::App& pacs, Program& program) {
   CLI::App& command = add_command(pacs, program, {"find", kSummary, kDescription, kExamples},
                                   [&program, options] { return run(program, *options); });
   add_server_choice(command, options->choice);
-  StudyQuery& query = options->studies;
+  imaging::StudyQuery& query = options->studies;
   CLI::Option* name =
       command.add_option("--patient-name", query.patient_name, "As DICOM writes it: Family^Given");
   CLI::Option* id = command.add_option("--patient-id", query.patient_id, "The patient's number");

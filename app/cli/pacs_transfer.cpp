@@ -35,7 +35,7 @@ constexpr const char* kSendExamples =
 
 struct GetOptions {
   ServerChoice choice;
-  RetrieveRequest request;
+  imaging::RetrieveRequest request;
 };
 
 struct SendOptions {
@@ -47,7 +47,8 @@ Status run_get(Program& program, const GetOptions& options) {
   const auto chosen = options.choice.choose();
   if (!chosen) return tl::unexpected<Error>(chosen.error());
   Console& console = program.console;
-  const auto retrieved = retrieve(chosen->server, options.request, chosen->limits, console.progress());
+  const auto retrieved =
+      imaging::retrieve(chosen->server, options.request, chosen->limits, console.progress());
   if (!retrieved) return tl::unexpected<Error>(retrieved.error());
   const std::string folder = options.request.folder.string();
   console.say("Wrote      {}: {} objects, {:.1f} MB", folder, retrieved->files.size(),
@@ -81,7 +82,7 @@ Result<std::vector<fs::path>> files_of(const std::vector<std::string>& paths) {
     fs::recursive_directory_iterator entries(path, error);
     for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
       std::error_code ignored;
-      if (entries->is_regular_file(ignored) && looks_like_dicom(entries->path()))
+      if (entries->is_regular_file(ignored) && imaging::looks_like_dicom(entries->path()))
         inside.push_back(entries->path());
     }
     if (error) return fail(ErrorKind::input, "{}: cannot be listed: {}", path.string(), error.message());
@@ -98,14 +99,14 @@ Status run_send(Program& program, const SendOptions& options) {
   const auto files = files_of(options.paths);
   if (!files) return tl::unexpected<Error>(files.error());
   Console& console = program.console;
-  const auto sent = send_files(chosen->server, *files, console.progress());
+  const auto sent = imaging::send_files(chosen->server, *files, console.progress());
   if (!sent) return tl::unexpected<Error>(sent.error());
   console.say("Sent       {} objects, {:.1f} MB", sent->objects, static_cast<double>(sent->bytes) / 1e6);
   Json object;
   object["objects"] = sent->objects;
   object["bytes"] = sent->bytes;
   object["unsent"] = Json::array();
-  for (const Unsent& one : sent->unsent) {
+  for (const imaging::Unsent& one : sent->unsent) {
     console.warn(fmt::format("{}: was not sent: {}", one.file.string(), one.reason));
     object["unsent"].push_back({{"file", one.file.string()}, {"reason", one.reason}});
   }

@@ -31,11 +31,12 @@ struct PhantomArguments {
 
 std::string kinds() {
   std::string text;
-  for (const std::string_view kind : phantom_kinds()) text += (text.empty() ? "" : ", ") + std::string(kind);
+  for (const std::string_view kind : imaging::phantom_kinds())
+    text += (text.empty() ? "" : ", ") + std::string(kind);
   return text;
 }
 
-Json to_json(const Phantom& phantom, const std::filesystem::path& folder) {
+Json to_json(const imaging::Phantom& phantom, const std::filesystem::path& folder) {
   Json object;
   object["kind"] = phantom.kind;
   object["series"] = (folder / "series").string();
@@ -54,7 +55,7 @@ Json to_json(const Phantom& phantom, const std::filesystem::path& folder) {
 }
 
 // The command line that segments it.
-std::string next_command(const Phantom& phantom, const std::filesystem::path& folder) {
+std::string next_command(const imaging::Phantom& phantom, const std::filesystem::path& folder) {
   std::string start;
   if (phantom.seed) {
     const auto& seed = *phantom.seed;
@@ -69,14 +70,14 @@ std::string next_command(const Phantom& phantom, const std::filesystem::path& fo
 }
 
 // Writes the study; when that fails, everything new is removed again.
-Status write_or_clean_up(const Phantom& phantom, const std::filesystem::path& folder,
+Status write_or_clean_up(const imaging::Phantom& phantom, const std::filesystem::path& folder,
                          const Progress& progress) {
   std::vector<std::filesystem::path> fresh;
   std::error_code ignored;
   for (const auto& path : {folder / "series", folder / "truth.nii.gz", folder / "phantom.json"}) {
     if (!std::filesystem::exists(path, ignored)) fresh.push_back(path);
   }
-  Status written = write_phantom(phantom, folder, progress);
+  Status written = imaging::write_phantom(phantom, folder, progress);
   if (written && progress.cancelled()) written = cancelled_error();
   if (!written) {
     for (const auto& path : fresh) std::filesystem::remove_all(path, ignored);
@@ -87,13 +88,13 @@ Status write_or_clean_up(const Phantom& phantom, const std::filesystem::path& fo
 
 Status run(Program& program, const PhantomArguments& arguments) {
   Console& console = program.console;
-  PhantomOptions options;
+  imaging::PhantomOptions options;
   options.noise_percent = arguments.noise.value_or(options.noise_percent);
   if (arguments.noise && (*arguments.noise < 0.0 || *arguments.noise > 100.0)) {
     return fail(ErrorKind::usage, "--noise {}: must be 0 to 100 %", *arguments.noise);
   }
   if (arguments.random_seed) options.random_seed = static_cast<std::uint64_t>(*arguments.random_seed);
-  const auto phantom = make_phantom(arguments.kind, options, console.progress());
+  const auto phantom = imaging::make_phantom(arguments.kind, options, console.progress());
   if (!phantom) return tl::unexpected<Error>(phantom.error());
   if (console.interrupted()) return cancelled_error();
   const std::filesystem::path folder = arguments.out;

@@ -38,38 +38,39 @@ constexpr const char* kExamples =
     "  tidemark-cli render study/ --mask liver.nii.gz --preset ct-angio --roi inside --out vessels.png\n"
     "  tidemark-cli render study/ --mask liver.nii.gz --view sheet --size 1200x800 --out sheet.png\n";
 // phi of the mask or the saved phi; outside everywhere without either.
-Result<Field> surface_of(const RenderOptions& options, const Volume& source, Console& console) {
-  const double band = default_band(source.geometry);
+Result<solver::Field> surface_of(const RenderOptions& options, const Volume& source, Console& console) {
+  const double band = solver::default_band(source.geometry);
   if (!options.mask.empty()) {
-    const auto loaded = load_any_mask(options.mask, &source.geometry, console.progress());
+    const auto loaded = imaging::load_any_mask(options.mask, &source.geometry, console.progress());
     if (!loaded) return tl::unexpected<Error>(loaded.error());
     for (const std::string& change : loaded->changes) console.warn(options.mask + ": " + change);
-    return distance_transform(loaded->mask, band);
+    return solver::distance_transform(loaded->mask, band);
   }
   if (!options.phi.empty()) {
-    const auto phi = load_volume(options.phi, {}, console.progress());
+    const auto phi = imaging::load_volume(options.phi, {}, console.progress());
     if (!phi) return tl::unexpected<Error>(phi.error());
-    auto values = onto_grid(*phi, source.geometry, options.phi);
+    auto values = imaging::onto_grid(*phi, source.geometry, options.phi);
     if (!values) return pass_on(values);
     const auto [low, high] = phi->range();
     if (low > 0.0F || high <= 0.0F)
       return fail(ErrorKind::input, "{}: phi has one sign: there is no surface", options.phi);
     // Distances beyond the band add nothing to a picture, and would make pages of the whole volume.
-    return Field::from_dense(source.geometry, *values,
-                             std::min(band, static_cast<double>(std::max(-low, high))));
+    return solver::Field::from_dense(source.geometry, *values,
+                                     std::min(band, static_cast<double>(std::max(-low, high))));
   }
-  return Field::empty(source.geometry, band);
+  return solver::Field::empty(source.geometry, band);
 }
 WindowLevel window_of(const RenderOptions& options, const Volume& source) {
   if (options.window) return {(*options.window)[0], (*options.window)[1]};
-  return tidemark::window_of(source);
+  return tidemark::renderer::window_of(source);
 }
 // Fills in the facts of the study: its middle and its common values.
-void place(Views& views, const RenderOptions& options, const Volume& source, const Field& phi,
+void place(Views& views, const RenderOptions& options, const Volume& source, const solver::Field& phi,
            double aspect) {
   views.volume.window = views.slice.window = window_of(options, source);
-  if (options.fit) views.volume.camera = views.volume.camera.on(box_around(phi), source.geometry, aspect);
-  views.slice.position_mm = middle_of(phi.mask());
+  if (options.fit)
+    views.volume.camera = views.volume.camera.on(renderer::box_around(phi), source.geometry, aspect);
+  views.slice.position_mm = renderer::middle_of(phi.mask());
   if (options.at) {
     views.slice.position_mm =
         source.geometry.to_patient({(*options.at)[0], (*options.at)[1], (*options.at)[2]});
@@ -78,9 +79,9 @@ void place(Views& views, const RenderOptions& options, const Volume& source, con
 // Labels are numbered anew from 1 in the order of their values, so that any numbering gets colours.
 Result<std::vector<std::uint8_t>> load_labels(const std::string& file, const Geometry& grid,
                                               Console& console) {
-  const auto volume = load_volume(file, {}, console.progress());
+  const auto volume = imaging::load_volume(file, {}, console.progress());
   if (!volume) return tl::unexpected<Error>(volume.error());
-  const auto values = onto_grid(*volume, grid, file);
+  const auto values = imaging::onto_grid(*volume, grid, file);
   if (!values) return tl::unexpected<Error>(values.error());
   std::map<float, std::uint8_t> numbers;
   for (const float value : *values) {
@@ -97,27 +98,27 @@ Result<std::vector<std::uint8_t>> load_labels(const std::string& file, const Geo
   return labels;
 }
 // The 3D view of a sheet is two or three of its three columns wide, and one of its two rows high.
-double volume_aspect(const RenderOptions& options, PictureSize size) {
+double volume_aspect(const RenderOptions& options, renderer::PictureSize size) {
   return options.view == "sheet" ? size.aspect() * (has_speed(options) ? 4.0 / 3.0 : 2.0) : size.aspect();
 }
 
-Result<Picture> draw(Renderer& renderer, const RenderOptions& options, const Views& views,
-                     const Progress& progress) {
-  const PictureSize size = views.size;
+Result<renderer::Picture> draw(renderer::Renderer& renderer, const RenderOptions& options, const Views& views,
+                               const Progress& progress) {
+  const renderer::PictureSize size = views.size;
   if (options.view == "sheet") {
-    const SheetView sheet{views.slice.position_mm, views.slice.window, has_speed(options), views.slice.term,
-                          views.volume};
-    return draw_sheet(renderer, sheet, size, progress);
+    const renderer::SheetView sheet{views.slice.position_mm, views.slice.window, has_speed(options),
+                                    views.slice.term, views.volume};
+    return renderer::draw_sheet(renderer, sheet, size, progress);
   }
   if (options.view == "3d") {
-    return options.annotate ? draw_annotated(renderer, views.volume, size, progress)
-                            : draw_still(renderer, views.volume, size, progress);
+    return options.annotate ? renderer::draw_annotated(renderer, views.volume, size, progress)
+                            : renderer::draw_still(renderer, views.volume, size, progress);
   }
-  return options.annotate ? draw_annotated(renderer, views.slice, size, progress)
+  return options.annotate ? renderer::draw_annotated(renderer, views.slice, size, progress)
                           : renderer.draw(views.slice, size, progress);
 }
 
-bool is_even(const Picture& picture) {
+bool is_even(const renderer::Picture& picture) {
   const auto& pixels = picture.pixels;
   return std::equal(pixels.begin() + 4, pixels.end(), pixels.begin());
 }
@@ -137,7 +138,7 @@ Status run(Program& program, const RenderOptions& options) {
 
   auto device = gpu::Device::create_headless({gpu::GlVersion::gl33, false});
   if (!device) return pass_on(device);
-  auto renderer = Renderer::create(*device, source, phi->layout);
+  auto renderer = renderer::Renderer::create(*device, source, phi->layout);
   if (!renderer) return pass_on(renderer);
   TIDEMARK_TRY((*renderer)->set_phi(*phi));
   (*renderer)->set_parameters(views->parameters);
@@ -151,7 +152,7 @@ Status run(Program& program, const RenderOptions& options) {
   if (!picture) return tl::unexpected<Error>(picture.error());
   if (is_even(*picture)) console.warn("the picture shows nothing but its background");
   const auto write = [&](const std::filesystem::path& name) {
-    return write_png_file(picture->width, picture->height, picture->pixels, name);
+    return imaging::write_png_file(picture->width, picture->height, picture->pixels, name);
   };
   TIDEMARK_TRY(outputs.stage(options.out, write));
   TIDEMARK_TRY(outputs.commit());

@@ -16,24 +16,25 @@ constexpr std::int64_t kLargestPicture = 8192;
 template <class Value>
 using Words = std::initializer_list<std::pair<const char*, Value>>;
 
-const Words<Region> kRegions{{"off", Region::everywhere},
-                             {"inside", Region::inside},
-                             {"outside", Region::outside},
-                             {"tinted", Region::tinted}};
-const Words<SpeedTerm> kTerms{{"data", SpeedTerm::data},
-                              {"curvature", SpeedTerm::curvature},
-                              {"rescaling", SpeedTerm::rescaling},
-                              {"total", SpeedTerm::total}};
-const Words<SurfaceColouring> kColourings{{"plain", SurfaceColouring::plain},
-                                          {"data", SurfaceColouring::data},
-                                          {"curvature-term", SurfaceColouring::curvature_term},
-                                          {"rescaling", SurfaceColouring::rescaling},
-                                          {"total", SurfaceColouring::total_speed},
-                                          {"curvature", SurfaceColouring::curvature},
-                                          {"pages", SurfaceColouring::pages}};
+const Words<renderer::Region> kRegions{{"off", renderer::Region::everywhere},
+                                       {"inside", renderer::Region::inside},
+                                       {"outside", renderer::Region::outside},
+                                       {"tinted", renderer::Region::tinted}};
+const Words<renderer::SpeedTerm> kTerms{{"data", renderer::SpeedTerm::data},
+                                        {"curvature", renderer::SpeedTerm::curvature},
+                                        {"rescaling", renderer::SpeedTerm::rescaling},
+                                        {"total", renderer::SpeedTerm::total}};
+const Words<renderer::SurfaceColouring> kColourings{
+    {"plain", renderer::SurfaceColouring::plain},
+    {"data", renderer::SurfaceColouring::data},
+    {"curvature-term", renderer::SurfaceColouring::curvature_term},
+    {"rescaling", renderer::SurfaceColouring::rescaling},
+    {"total", renderer::SurfaceColouring::total_speed},
+    {"curvature", renderer::SurfaceColouring::curvature},
+    {"pages", renderer::SurfaceColouring::pages}};
 const Words<int> kViews{{"3d", 0},      {"axial", 1}, {"coronal", 2}, {"sagittal", 3},
                         {"oblique", 4}, {"speed", 5}, {"pages", 6},   {"sheet", 7}};
-const Words<Mode> kModes{{"raycast", Mode::raycast}, {"slices", Mode::slices}};
+const Words<renderer::Mode> kModes{{"raycast", renderer::Mode::raycast}, {"slices", renderer::Mode::slices}};
 const Words<int> kClipped{{"both", 0}, {"source", 1}, {"surface", 2}};
 
 template <class Value>
@@ -50,25 +51,25 @@ Result<Value> meaning(const char* option, const std::string& text, const Words<V
   }
   return fail(ErrorKind::usage, "{} '{}' is unknown; use {}", option, text, joined(words, ", "));
 }
-Result<PictureSize> parse_size(const std::string& text) {
+Result<renderer::PictureSize> parse_size(const std::string& text) {
   const std::size_t cross = text.find('x');
   if (cross != std::string::npos) {
     const auto width = parse_count(text.substr(0, cross));
     const auto height = parse_count(text.substr(cross + 1));
     if (width && height && *width >= 16 && *height >= 16 && *width <= kLargestPicture &&
         *height <= kLargestPicture) {
-      return PictureSize{*width, *height};
+      return renderer::PictureSize{*width, *height};
     }
   }
   return fail(ErrorKind::usage, "--size {}: WIDTHxHEIGHT is needed, each from 16 to {} pixels", text,
               kLargestPicture);
 }
 
-Result<Camera> parse_camera(const std::string& text) {
+Result<renderer::Camera> parse_camera(const std::string& text) {
   for (const std::size_t count : {2U, 3U}) {
     const auto numbers = parse_numbers(text, count);
     if (!numbers) continue;
-    Camera camera;
+    renderer::Camera camera;
     camera.azimuth = (*numbers)[0];
     camera.elevation = (*numbers)[1];
     if (count == 3) camera.zoom = (*numbers)[2];
@@ -81,14 +82,14 @@ Result<Camera> parse_camera(const std::string& text) {
   }
   return fail(ErrorKind::usage, "--camera {}: AZIMUTH,ELEVATION[,ZOOM] is needed, in degrees", text);
 }
-Result<ClipPlane> clip_plane(const RenderOptions& options) {
+Result<renderer::ClipPlane> clip_plane(const RenderOptions& options) {
   const std::vector<double>& c = *options.clip;
   const glm::dvec3 normal(c[0], c[1], c[2]);
   const double length = glm::length(normal);
   if (length <= 0.0) return fail(ErrorKind::usage, "--clip: the plane needs a normal");
   const auto clipped = meaning("--clipped", options.clipped, kClipped);
   if (!clipped) return tl::unexpected<Error>(clipped.error());
-  ClipPlane plane;
+  renderer::ClipPlane plane;
   plane.normal = normal / length;
   plane.offset_mm = c[3] / length;
   plane.clips_source = *clipped != 2;
@@ -96,9 +97,9 @@ Result<ClipPlane> clip_plane(const RenderOptions& options) {
   return plane;
 }
 
-Result<TransferFunction> transfer_function(const RenderOptions& options) {
-  auto function =
-      options.preset.empty() ? TransferFunction::load(options.transfer_function) : preset(options.preset);
+Result<renderer::TransferFunction> transfer_function(const RenderOptions& options) {
+  auto function = options.preset.empty() ? renderer::TransferFunction::load(options.transfer_function)
+                                         : renderer::preset(options.preset);
   if (function && function->source_needs_phi() && !has_surface(options)) {
     return fail(ErrorKind::usage, "'{}' looks at the surface: give --mask or --phi", function->name);
   }
@@ -106,8 +107,8 @@ Result<TransferFunction> transfer_function(const RenderOptions& options) {
 }
 
 // The checks that need no volume.
-Result<VolumeView> volume_view(const RenderOptions& options) {
-  VolumeView view;
+Result<renderer::VolumeView> volume_view(const RenderOptions& options) {
+  renderer::VolumeView view;
   const auto mode = meaning("--mode", options.mode, kModes);
   if (!mode) return tl::unexpected<Error>(mode.error());
   view.mode = *mode;
@@ -137,19 +138,19 @@ Result<VolumeView> volume_view(const RenderOptions& options) {
   return view;
 }
 
-Result<SliceView> slice_view(const RenderOptions& options) {
-  SliceView view;
-  if (options.view == "coronal") view.orientation = kCoronal;
-  if (options.view == "sagittal") view.orientation = kSagittal;
+Result<renderer::SliceView> slice_view(const RenderOptions& options) {
+  renderer::SliceView view;
+  if (options.view == "coronal") view.orientation = renderer::kCoronal;
+  if (options.view == "sagittal") view.orientation = renderer::kSagittal;
   if (options.view == "oblique") {
     const std::vector<double>& n = *options.normal;
     if (glm::length(glm::dvec3(n[0], n[1], n[2])) <= 0.0) {
       return fail(ErrorKind::usage, "--normal: must not be 0");
     }
-    view.orientation = oblique({n[0], n[1], n[2]});
+    view.orientation = renderer::oblique({n[0], n[1], n[2]});
   }
-  if (options.view == "speed") view.content = SliceContent::speed;
-  if (options.view == "pages") view.content = SliceContent::pages;
+  if (options.view == "speed") view.content = renderer::SliceContent::speed;
+  if (options.view == "pages") view.content = renderer::SliceContent::pages;
   const auto term = meaning("--term", options.term, kTerms);
   if (!term) return tl::unexpected<Error>(term.error());
   view.term = *term;
@@ -209,11 +210,11 @@ Result<Views> views_of(const RenderOptions& options) {
   if (!volume) return tl::unexpected<Error>(volume.error());
   const auto slice = slice_view(options);
   if (!slice) return tl::unexpected<Error>(slice.error());
-  Parameters parameters;
+  solver::Parameters parameters;
   if (options.target) parameters.target = *options.target;
   if (options.range) parameters.range = *options.range;
   if (options.alpha) parameters.alpha = *options.alpha;
-  TIDEMARK_TRY(tidemark::check(parameters));
+  TIDEMARK_TRY(tidemark::solver::check(parameters));
   return Views{*size, *volume, *slice, parameters};
 }
 
@@ -225,7 +226,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_option("--labels", options.labels, "Labels, shown as colours on slices");
   command.add_option("--view", options.view, "What is drawn (default: 3d)")->type_name(joined(kViews, "|"));
   command.add_option("--preset", options.preset,
-                     "Volume rendering: " + fmt::format("{}", fmt::join(preset_names(), ", ")));
+                     "Volume rendering: " + fmt::format("{}", fmt::join(renderer::preset_names(), ", ")));
   command.add_option("--tf", options.transfer_function,
                      "Volume rendering: a transfer function of your own, as JSON");
   command.add_option("--roi", options.region, "Where the volume rendering shows: off is everywhere")

@@ -46,10 +46,10 @@ struct RenderOptions {
 // The views of the options, but for the facts that only the study knows: its middle, and its common
 // values.
 struct Views {
-  PictureSize size;
-  VolumeView volume;
-  SliceView slice;
-  Parameters parameters;
+  renderer::PictureSize size;
+  renderer::VolumeView volume;
+  renderer::SliceView slice;
+  solver::Parameters parameters;
 };
 
 bool has_surface(const RenderOptions& options);

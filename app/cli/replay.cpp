@@ -40,8 +40,8 @@ Status check(const ReplayArguments& arguments, ResultWriter& writer) {
 }
 
 // The outcome of a replay, with the figures of segment.
-RunResults results_of(const Recipe& recipe, const Volume& volume, const std::string& series_uid,
-                      Replay replayed, const ReplayArguments& arguments) {
+RunResults results_of(const document::Recipe& recipe, const Volume& volume, const std::string& series_uid,
+                      document::Replay replayed, const ReplayArguments& arguments) {
   RunResults results;
   RunFigures& figures = results.figures;
   figures.executor = replayed.executor.name;
@@ -59,16 +59,16 @@ RunResults results_of(const Recipe& recipe, const Volume& volume, const std::str
   figures.time_step = replayed.time_step;
   figures.advance = replayed.advance;
   figures.memory = replayed.memory;
-  figures.surface = measure(replayed.phi);
-  const Field* start = recipe.start.empty() ? nullptr : &replayed.start;  // else it was painted
-  const EvolvedSurface surface{replayed.phi,
-                               figures.surface.voxels_inside,
-                               recipe.steps,
-                               replayed.advance.converged,
-                               start,
-                               *replayed.source,
-                               figures.parameters};
-  figures.outcome = outcome_of(surface);
+  figures.surface = solver::measure(replayed.phi);
+  const solver::Field* start = recipe.start.empty() ? nullptr : &replayed.start;  // else it was painted
+  const document::EvolvedSurface surface{replayed.phi,
+                                         figures.surface.voxels_inside,
+                                         recipe.steps,
+                                         replayed.advance.converged,
+                                         start,
+                                         *replayed.source,
+                                         figures.parameters};
+  figures.outcome = document::outcome_of(surface);
   figures.wider_range = wider_range(surface);
   results.source = std::move(replayed.source);
   results.mask = replayed.phi.mask();
@@ -88,19 +88,19 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
   Console& console = program.console;
   ResultWriter writer(arguments.results, console);
   TIDEMARK_TRY(check(arguments, writer));
-  const auto recipe = Recipe::load(arguments.recipe);
+  const auto recipe = document::Recipe::load(arguments.recipe);
   if (!recipe) return tl::unexpected<Error>(recipe.error());
   auto study = load_study(arguments.study, console.progress(), recipe->source.policy);
   if (!study) return pass_on(study);
   const auto volume = std::make_shared<const Volume>(std::move(study->volume));
-  for (const std::string& difference : differences(*recipe, *volume)) console.warn(difference);
+  for (const std::string& difference : document::differences(*recipe, *volume)) console.warn(difference);
   console.say("Recipe     {}; {} edits, {} steps", recipe->start.describe(), recipe->events.size(),
               recipe->steps);
 
-  ReplayOptions options;
+  document::ReplayOptions options;
   options.executor = arguments.solver.kind;
   options.options = arguments.solver.executor_options();
-  auto replayed = replay(*recipe, volume, options, console.progress());
+  auto replayed = document::replay(*recipe, volume, options, console.progress());
   if (!replayed) {
     // Arguments of ours were in order: what does not fit is the recipe.
     Error error = replayed.error();
@@ -109,8 +109,8 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
     return tl::unexpected<Error>(std::move(error));
   }
   RunResults results = results_of(*recipe, *volume, study->series.uid, std::move(*replayed), arguments);
-  results.dicom_files = dicom_files_of(study->series);
-  if (writer.wants_recipe()) results.recipe.source.checksum = checksum_of(*volume);
+  results.dicom_files = imaging::dicom_files_of(study->series);
+  if (writer.wants_recipe()) results.recipe.source.checksum = document::checksum_of(*volume);
   TIDEMARK_TRY(writer.write(results));
   console.result(to_json(results.figures));
   return {};

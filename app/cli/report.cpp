@@ -12,17 +12,17 @@ double per_second(std::int64_t count, double seconds) {
 }
 
 Json parameters_json(const RunFigures& figures) {
-  const Parameters& parameters = figures.parameters;
+  const solver::Parameters& parameters = figures.parameters;
   Json object;
   object["target"] = parameters.target;
   object["range"] = parameters.range;
   object["alpha"] = parameters.alpha;
-  object["alpha_paper"] = paper_alpha(parameters);
+  object["alpha_paper"] = solver::paper_alpha(parameters);
   object["band"] = figures.band;
   object["rescale"] = parameters.rescale.value_or(0.75 / figures.band);
   object["target_gradient"] = parameters.target_gradient;
-  object["scheme"] = parameters.scheme == Scheme::split ? "split" : "paper";
-  object["data"] = parameters.data_form == DataForm::clamped ? "clamped" : "raw";
+  object["scheme"] = parameters.scheme == solver::Scheme::split ? "split" : "paper";
+  object["data"] = parameters.data_form == solver::DataForm::clamped ? "clamped" : "raw";
   object["data_term"] = parameters.data_term;
   object["curvature_term"] = parameters.curvature_term;
   object["rescaling_term"] = parameters.rescaling_term;
@@ -30,17 +30,17 @@ Json parameters_json(const RunFigures& figures) {
   return object;
 }
 
-const char* describe(Outcome outcome) {
+const char* describe(document::Outcome outcome) {
   switch (outcome) {
-    case Outcome::converged:
+    case document::Outcome::converged:
       return "converged: the surface has stopped moving";
-    case Outcome::vanished:
+    case document::Outcome::vanished:
       return "vanished: it has shrunk to nothing";
-    case Outcome::seeded_outside:
+    case document::Outcome::seeded_outside:
       return "vanished: the start lies outside of what attracts";
-    case Outcome::filled_volume:
+    case document::Outcome::filled_volume:
       return "the volume is filled";
-    case Outcome::unfinished:
+    case document::Outcome::unfinished:
       break;
   }
   return "not converged";
@@ -60,31 +60,31 @@ std::string describe_pace(const RunFigures& figures) {
 
 std::string advice_on(const RunFigures& figures) {
   switch (figures.outcome) {
-    case Outcome::vanished:
+    case document::Outcome::vanished:
       return "the surface has vanished: it has shrunk to nothing (a larger start, --range or --alpha?)";
-    case Outcome::seeded_outside:
+    case document::Outcome::seeded_outside:
       return fmt::format(
           "the surface has vanished: no value where it began is within {:.6g} -+ {:.6g} (another start or "
           "--target, a larger --range?)",
           figures.parameters.target, figures.parameters.range);
-    case Outcome::filled_volume:
+    case document::Outcome::filled_volume:
       return "the surface has filled the volume (a smaller --range or --alpha?)";
-    case Outcome::converged:
-    case Outcome::unfinished:
+    case document::Outcome::converged:
+    case document::Outcome::unfinished:
       break;
   }
   return {};
 }
 
-double steps_per_second(const AdvanceReport& report) {
+double steps_per_second(const solver::AdvanceReport& report) {
   return per_second(report.steps, report.seconds);
 }
 
-double voxel_updates_per_second(const AdvanceReport& report) {
+double voxel_updates_per_second(const solver::AdvanceReport& report) {
   return per_second(report.voxel_updates, report.seconds);
 }
 
-double bytes_per_resident_voxel(const MemoryReport& memory) {
+double bytes_per_resident_voxel(const solver::MemoryReport& memory) {
   const std::int64_t voxels =
       memory.peak_resident_pages * memory.page_shape.x * memory.page_shape.y * memory.page_shape.z;
   return voxels > 0 ? static_cast<double>(memory.peak_state_bytes) / static_cast<double>(voxels) : 0.0;
@@ -98,8 +98,8 @@ Json grid_json(const Geometry& geometry) {
 }
 
 Json to_json(const RunFigures& figures) {
-  const AdvanceReport& advance = figures.advance;
-  const MemoryReport& memory = figures.memory;
+  const solver::AdvanceReport& advance = figures.advance;
+  const solver::MemoryReport& memory = figures.memory;
   Json object;
   object["executor"] = figures.executor;
   object["threads"] = figures.threads;
@@ -110,7 +110,7 @@ Json to_json(const RunFigures& figures) {
   object["voxel_updates_per_second"] = has_pace(figures) ? Json(voxel_updates_per_second(advance)) : Json();
   object["paging_seconds"] = advance.paging_seconds;
   object["converged"] = advance.converged;
-  object["outcome"] = name_of(figures.outcome);
+  object["outcome"] = document::name_of(figures.outcome);
   object["wider_range"] = figures.wider_range ? Json(*figures.wider_range) : Json();
   object["surface_speed"] = advance.surface_speed;
   object["time_step"] = figures.time_step;
@@ -138,7 +138,7 @@ Json to_json(const RunFigures& figures) {
 }
 
 void say(Console& console, const RunFigures& figures) {
-  const AdvanceReport& advance = figures.advance;
+  const solver::AdvanceReport& advance = figures.advance;
   console.say("Steps      {}, {}", advance.steps, describe(figures.outcome));
   console.say("Time       {:.3f} s in the solver ({}, {} threads){}", advance.seconds, figures.executor,
               figures.threads, describe_pace(figures));

@@ -24,26 +24,26 @@ struct RunFigures {
   std::string series_uid;            // empty when the format has none
   std::vector<std::string> changes;  // found and changed by loading
   std::string start;
-  Parameters parameters;
+  solver::Parameters parameters;
   std::optional<double> smooth_mm;
   double band = 0.0;
   double time_step = 0.0;
-  AdvanceReport advance;
-  Outcome outcome = Outcome::unfinished;
+  solver::AdvanceReport advance;
+  document::Outcome outcome = document::Outcome::unfinished;
   std::optional<double> wider_range;
-  MemoryReport memory;
-  SurfaceStatistics surface;
+  solver::MemoryReport memory;
+  solver::SurfaceStatistics surface;
   std::optional<double> dice;
 };
 
 // What happened to a surface that is of no use, and what to try; empty: nothing of the kind.
 [[nodiscard]] std::string advice_on(const RunFigures& figures);
 
-[[nodiscard]] double steps_per_second(const AdvanceReport& report);
-[[nodiscard]] double voxel_updates_per_second(const AdvanceReport& report);
+[[nodiscard]] double steps_per_second(const solver::AdvanceReport& report);
+[[nodiscard]] double voxel_updates_per_second(const solver::AdvanceReport& report);
 
 // Bytes of solver state, at their most, by voxel of the pages that were resident then.
-[[nodiscard]] double bytes_per_resident_voxel(const MemoryReport& memory);
+[[nodiscard]] double bytes_per_resident_voxel(const solver::MemoryReport& memory);
 
 // The object of --stats; its keys are a contract (they may grow in number).
 [[nodiscard]] Json to_json(const RunFigures& figures);

@@ -80,27 +80,29 @@ Status ResultWriter::stage_text(const std::string& file, const std::string& text
   return outputs_.stage(file, [&](const std::filesystem::path& name) { return write_file(name, text); });
 }
 
-Status ResultWriter::stage_dicom(const std::string& file, ResultForm form, const RunResults& results) {
-  Segments segments = segments_of(results.mask, "Segment");
+Status ResultWriter::stage_dicom(const std::string& file, imaging::ResultForm form,
+                                 const RunResults& results) {
+  imaging::Segments segments = imaging::segments_of(results.mask, "Segment");
   segments.list.front().phi = std::make_shared<const Volume>(results.phi.to_volume());
   options_.label.apply(segments.list.front());
   return outputs_.stage(file, [&](const std::filesystem::path& name) {
-    return form == ResultForm::segmentation
-               ? write_segmentation(segments, results.dicom_files, name, console_.progress())
-               : write_structure_set(segments, results.dicom_files, name, console_.progress());
+    return form == imaging::ResultForm::segmentation
+               ? imaging::write_segmentation(segments, results.dicom_files, name, console_.progress())
+               : imaging::write_structure_set(segments, results.dicom_files, name, console_.progress());
   });
 }
 
 Status ResultWriter::stage_phi(const RunResults& results) {
   const Volume phi = results.phi.to_volume();
   return outputs_.stage(options_.out_phi, [&](const std::filesystem::path& name) {
-    return form_of(options_.out_phi) == FileForm::level_set ? write_level_set(phi, results.phi.band, name)
-                                                            : write_volume_file(phi, name);
+    return form_of(options_.out_phi) == FileForm::level_set
+               ? imaging::write_level_set(phi, results.phi.band, name)
+               : imaging::write_volume_file(phi, name);
   });
 }
 
 Status ResultWriter::stage_out(const RunResults& results) {
-  std::optional<Mesh> mesh;
+  std::optional<imaging::Mesh> mesh;
   for (const std::string& file : options_.out) {
     if (console_.interrupted()) return cancelled_error();
     const FileForm form = form_of(file);
@@ -111,16 +113,17 @@ Status ResultWriter::stage_out(const RunResults& results) {
       continue;
     }
     if (form == FileForm::segmentation) {
-      TIDEMARK_TRY(stage_dicom(file, ResultForm::segmentation, results));
+      TIDEMARK_TRY(stage_dicom(file, imaging::ResultForm::segmentation, results));
       continue;
     }
     if (form == FileForm::mesh && !mesh) {
-      auto surface = extract_surface(results.phi.to_volume());
+      auto surface = imaging::extract_surface(results.phi.to_volume());
       if (!surface) return pass_on(surface);
       mesh = std::move(*surface);
     }
     const auto write_one = [&](const std::filesystem::path& name) {
-      return form == FileForm::mesh ? write_mesh(*mesh, name) : write_mask_file(results.mask, name);
+      return form == FileForm::mesh ? imaging::write_mesh(*mesh, name)
+                                    : imaging::write_mask_file(results.mask, name);
     };
     TIDEMARK_TRY(outputs_.stage(file, write_one));
   }
@@ -133,13 +136,13 @@ Status ResultWriter::stage(const RunResults& results) {
     TIDEMARK_TRY(stage_phi(results));
   }
   if (!options_.rtstruct.empty()) {
-    TIDEMARK_TRY(stage_dicom(options_.rtstruct, ResultForm::structure_set, results));
+    TIDEMARK_TRY(stage_dicom(options_.rtstruct, imaging::ResultForm::structure_set, results));
   }
   if (!options_.picture.empty()) {
     const auto picture = draw(results);
     if (!picture) return tl::unexpected<Error>(picture.error());
     const auto write_picture = [&](const std::filesystem::path& name) {
-      return write_png_file(picture->width, picture->height, picture->pixels, name);
+      return imaging::write_png_file(picture->width, picture->height, picture->pixels, name);
     };
     TIDEMARK_TRY(outputs_.stage(options_.picture, write_picture));
   }
@@ -154,21 +157,21 @@ Status ResultWriter::stage(const RunResults& results) {
 }
 
 // The slices go through the middle of the segmented region, and the camera looks at it.
-Result<Picture> ResultWriter::draw(const RunResults& results) {
-  auto renderer = Renderer::create(device_, results.source, results.phi.layout);
+Result<renderer::Picture> ResultWriter::draw(const RunResults& results) {
+  auto renderer = renderer::Renderer::create(device_, results.source, results.phi.layout);
   if (!renderer) return pass_on(renderer);
   TIDEMARK_TRY((*renderer)->set_phi(results.phi));
   (*renderer)->set_parameters(results.figures.parameters);
-  constexpr PictureSize kSize{1200, 800};
-  SheetView view;
-  view.position_mm = middle_of(results.mask);
-  view.window = window_of(*results.source);
+  constexpr renderer::PictureSize kSize{1200, 800};
+  renderer::SheetView view;
+  view.position_mm = renderer::middle_of(results.mask);
+  view.window = renderer::window_of(*results.source);
   view.speed = true;
   view.volume.camera.azimuth = 30.0;
   view.volume.camera.elevation = 20.0;
-  view.volume.camera =
-      view.volume.camera.on(box_around(results.phi), results.source->geometry, kSize.aspect() * 4.0 / 3.0);
-  return draw_sheet(**renderer, view, kSize, console_.progress());
+  view.volume.camera = view.volume.camera.on(renderer::box_around(results.phi), results.source->geometry,
+                                             kSize.aspect() * 4.0 / 3.0);
+  return renderer::draw_sheet(**renderer, view, kSize, console_.progress());
 }
 
 Status ResultWriter::write(const RunResults& results) {

@@ -18,6 +18,8 @@ namespace tidemark::gpu {
 class Device;
 }
 
+namespace tidemark::gpu {}
+
 namespace tidemark::cli {
 
 struct ResultOptions {
@@ -31,11 +33,11 @@ void add_result_options(CLI::App& app, ResultOptions& options);
 struct RunResults {
   std::shared_ptr<const Volume> source;            // as the solver saw it
   std::vector<std::filesystem::path> dicom_files;  // that it was read from, in slice order; empty: not DICOM
-  std::shared_ptr<const StudyArchive> archive;     // in which they lie, if they do
-  Field phi;
+  std::shared_ptr<const imaging::StudyArchive> archive;  // in which they lie, if they do
+  solver::Field phi;
   Mask mask;
   RunFigures figures;
-  Recipe recipe;
+  document::Recipe recipe;
 };
 
 class ResultWriter {
@@ -53,10 +55,10 @@ class ResultWriter {
  private:
   Status stage(const RunResults& results);
   Status stage_out(const RunResults& results);
-  Status stage_dicom(const std::string& file, ResultForm form, const RunResults& results);
+  Status stage_dicom(const std::string& file, imaging::ResultForm form, const RunResults& results);
   Status stage_phi(const RunResults& results);
   Status stage_text(const std::string& file, const std::string& text);
-  Result<Picture> draw(const RunResults& results);
+  Result<renderer::Picture> draw(const RunResults& results);
 
   ResultOptions options_;
   Console& console_;

@@ -84,7 +84,7 @@ Status Segmentation::run() {
 Status Segmentation::load() {
   auto study = load_study(options_.study, console_.progress());
   if (!study) return pass_on(study);
-  results_.dicom_files = dicom_files_of(study->series);
+  results_.dicom_files = imaging::dicom_files_of(study->series);
   results_.archive = study->series.archive;
   Result<Volume> volume = std::move(study->volume);
   TIDEMARK_TRY(check_inside(options_.start, volume->geometry));
@@ -99,14 +99,14 @@ Status Segmentation::load() {
   console_.say("Loaded     {}{}{}, {}", volume->modality, volume->modality.empty() ? "" : ": ",
                count_of(volume->geometry), volume->scalar_name());
   for (const std::string& change : volume->changes) console_.say("           {}", change);
-  Recipe& recipe = results_.recipe;
+  document::Recipe& recipe = results_.recipe;
   recipe.source = {
       volume->geometry.size, volume->geometry.spacing_mm, options_.study.series, {}, study->series.policy};
-  if (writer_.wants_recipe()) recipe.source.checksum = checksum_of(*volume);
+  if (writer_.wants_recipe()) recipe.source.checksum = document::checksum_of(*volume);
   recipe.smoothed_mm = options_.smooth_mm.value_or(0.0);
   if (options_.smooth_mm) {
     console_.log("smoothing by {} mm", *options_.smooth_mm);
-    volume = smooth(*volume, *options_.smooth_mm);
+    volume = imaging::smooth(*volume, *options_.smooth_mm);
     if (!volume) return pass_on(volume);
   }
   results_.source = std::make_shared<const Volume>(std::move(*volume));
@@ -115,8 +115,8 @@ Status Segmentation::load() {
 
 Status Segmentation::load_truth() {
   if (!options_.truth) return {};
-  if (result_form_of(*options_.truth)) return load_true_segments();
-  auto labels = load_volume(*options_.truth, {}, console_.progress());
+  if (imaging::result_form_of(*options_.truth)) return load_true_segments();
+  auto labels = imaging::load_volume(*options_.truth, {}, console_.progress());
   if (!labels) return pass_on(labels);
   Mask mask{labels->geometry,
             std::vector<std::uint8_t>(static_cast<std::size_t>(labels->geometry.voxel_count()))};
@@ -126,7 +126,7 @@ Status Segmentation::load_truth() {
         options_.truth_label ? value == static_cast<float>(*options_.truth_label) : value != 0.0F;
     mask.voxels[static_cast<std::size_t>(offset)] = inside ? 1 : 0;
   }
-  auto aligned = onto_grid(std::move(mask), results_.source->geometry, *options_.truth);
+  auto aligned = imaging::onto_grid(std::move(mask), results_.source->geometry, *options_.truth);
   if (!aligned) return pass_on(aligned);
   truth_ = std::move(*aligned);
   return {};
@@ -134,7 +134,7 @@ Status Segmentation::load_truth() {
 
 // Of a DICOM segmentation or structure set: all segments, or the one of that number.
 Status Segmentation::load_true_segments() {
-  auto segments = read_result(*options_.truth, &results_.source->geometry);
+  auto segments = imaging::read_result(*options_.truth, &results_.source->geometry);
   if (!segments) return pass_on(segments);
   if (options_.truth_label) {
     const auto count = static_cast<std::int64_t>(segments->list.size());
@@ -144,7 +144,7 @@ Status Segmentation::load_true_segments() {
     }
     segments->list = {segments->list[static_cast<std::size_t>(*options_.truth_label - 1)]};
   }
-  truth_ = union_of(*segments);
+  truth_ = imaging::union_of(*segments);
   return {};
 }
 
@@ -160,7 +160,7 @@ Status Segmentation::suggest() {
     const glm::dvec3 voxel = results_.source->geometry.to_voxel(sphere->centre_mm);
     looked_at = glm::clamp(Index3(glm::round(voxel)), Index3(0), results_.source->geometry.size - Index3(1));
   }
-  const auto found = suggest_start(*results_.source, looked_at, console_.progress());
+  const auto found = imaging::suggest_start(*results_.source, looked_at, console_.progress());
   if (console_.interrupted()) return cancelled_error();
   if (!found) return fail(found.error().kind, "--auto-start: {}", found.error().message);
   if (needs_seed) {
@@ -182,21 +182,22 @@ Status Segmentation::suggest() {
 
 Status Segmentation::evolve() {
   RunFigures& figures = results_.figures;
-  Recipe& recipe = results_.recipe;
+  document::Recipe& recipe = results_.recipe;
   figures.parameters = recipe.parameters = options_.parameters();
-  auto executor = make_executor(options_.solver.kind.value_or(ExecutorKind::automatic), results_.source,
-                                figures.parameters, options_.solver.executor_options());
+  auto executor =
+      solver::make_executor(options_.solver.kind.value_or(solver::ExecutorKind::automatic), results_.source,
+                            figures.parameters, options_.solver.executor_options());
   if (!executor) return pass_on(executor);
-  Executor& solver = **executor;
+  solver::Executor& solver = **executor;
   auto start = make_start(options_.start, results_.source->geometry, solver.band(), console_);
   if (!start) return pass_on(start);
   recipe.start = std::move(*start);
   figures.start = recipe.start.describe();
-  const auto begun = begin(solver, *results_.source, recipe.start, console_.progress());
+  const auto begun = document::begin(solver, *results_.source, recipe.start, console_.progress());
   if (!begun) return tl::unexpected<Error>(begun.error());
   console_.say("Start      {}", figures.start);
   if (options_.step_limit() > 0) {
-    Advance advance{options_.step_limit(), options_.until_converged(), console_.progress()};
+    solver::Advance advance{options_.step_limit(), options_.until_converged(), console_.progress()};
     auto report = solver.advance(advance);
     if (!report) return pass_on(report);
     figures.advance = *report;
@@ -213,16 +214,16 @@ Status Segmentation::evolve() {
   if (!phi) return pass_on(phi);
   results_.phi = std::move(*phi);
   results_.mask = results_.phi.mask();
-  figures.surface = measure(results_.phi);
+  figures.surface = solver::measure(results_.phi);
   if (truth_) figures.dice = dice(results_.mask, *truth_);
-  const EvolvedSurface surface{results_.phi,
-                               figures.surface.voxels_inside,
-                               figures.advance.steps,
-                               figures.advance.converged,
-                               &*begun,
-                               *results_.source,
-                               figures.parameters};
-  figures.outcome = outcome_of(surface);
+  const document::EvolvedSurface surface{results_.phi,
+                                         figures.surface.voxels_inside,
+                                         figures.advance.steps,
+                                         figures.advance.converged,
+                                         &*begun,
+                                         *results_.source,
+                                         figures.parameters};
+  figures.outcome = document::outcome_of(surface);
   figures.wider_range = wider_range(surface);
   return {};
 }

@@ -22,10 +22,12 @@ void add_equation_options(CLI::App& app, SegmentOptions& options) {
          "W: half-width of the computed band in smallest voxel spacings, >= 2\n(default: the larger of 2.5 "
          "and twice the "
          "largest spacing by the smallest)");
-  add_choice<Scheme>(app, "--scheme", options.scheme, {{"split", Scheme::split}, {"paper", Scheme::paper}},
-                     "split (default): each speed term has its own gradient; paper: one for their sum");
-  add_choice<DataForm>(
-      app, "--data", options.data_form, {{"clamped", DataForm::clamped}, {"raw", DataForm::raw}},
+  add_choice<solver::Scheme>(
+      app, "--scheme", options.scheme, {{"split", solver::Scheme::split}, {"paper", solver::Scheme::paper}},
+      "split (default): each speed term has its own gradient; paper: one for their sum");
+  add_choice<solver::DataForm>(
+      app, "--data", options.data_form,
+      {{"clamped", solver::DataForm::clamped}, {"raw", solver::DataForm::raw}},
       "clamped (default): the data term is max(-1, 1 - |I-T|/epsilon); raw: epsilon - |I-T|");
   app.add_flag("--no-data", options.no_data, "Without the data term");
   app.add_flag("--no-curvature", options.no_curvature, "Without the curvature term");
@@ -92,8 +94,8 @@ std::int64_t SegmentOptions::step_limit() const {
   return steps.value_or(max_steps.value_or(kDefaultMostSteps));
 }
 
-Parameters SegmentOptions::parameters() const {
-  Parameters parameters;
+solver::Parameters SegmentOptions::parameters() const {
+  solver::Parameters parameters;
   parameters.target = *target;
   parameters.range = *range;
   parameters.alpha = *alpha;

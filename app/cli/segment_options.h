@@ -20,8 +20,8 @@ struct SegmentOptions {
   std::optional<double> target, range, alpha;  // all needed, unless auto_start
   std::optional<double> smooth_mm;
   std::optional<double> rescale, band;
-  Scheme scheme = Scheme::split;
-  DataForm data_form = DataForm::clamped;
+  solver::Scheme scheme = solver::Scheme::split;
+  solver::DataForm data_form = solver::DataForm::clamped;
   bool no_data = false, no_curvature = false, no_rescaling = false;
   StartOptions start;
   bool auto_start = false;
@@ -35,7 +35,7 @@ struct SegmentOptions {
   [[nodiscard]] bool until_converged() const { return !steps; }
   [[nodiscard]] std::int64_t step_limit() const;
   // With target, range and alpha filled in.
-  [[nodiscard]] Parameters parameters() const;
+  [[nodiscard]] solver::Parameters parameters() const;
 };
 
 void add_segment_options(CLI::App& app, SegmentOptions& options);

@@ -12,15 +12,15 @@ constexpr std::int64_t kMostThreads = 1024;
 constexpr std::int64_t kLargestBudget = std::int64_t{1} << 30;  // MB, so that bytes fit 64 bits
 
 // The slow reference of the tests is not in the help.
-ExecutorKind executor_kind(const std::string& name) {
-  if (const auto kind = executor_named(name)) return *kind;
+solver::ExecutorKind executor_kind(const std::string& name) {
+  if (const auto kind = solver::executor_named(name)) return *kind;
   throw CLI::ValidationError("--executor", "'" + name + "' is unknown; use auto, host, compute or stream");
 }
 
 }  // namespace
 
-ExecutorOptions SolverOptions::executor_options() const {
-  ExecutorOptions options;
+solver::ExecutorOptions SolverOptions::executor_options() const {
+  solver::ExecutorOptions options;
   options.threads = static_cast<int>(threads.value_or(0));
   if (memory_budget_mb) options.memory_budget_bytes = *memory_budget_mb * kMebibyte;
   options.skip_quiet_pages = !no_skip;

@@ -13,12 +13,12 @@
 namespace tidemark::cli {
 
 struct SolverOptions {
-  std::optional<ExecutorKind> kind;              // unset: the command's default
+  std::optional<solver::ExecutorKind> kind;      // unset: the command's default
   std::optional<std::int64_t> threads;           // unset: all processors
   std::optional<std::int64_t> memory_budget_mb;  // unset: default_memory_budget()
   bool no_skip = false;
 
-  [[nodiscard]] ExecutorOptions executor_options() const;
+  [[nodiscard]] solver::ExecutorOptions executor_options() const;
 };
 
 // --executor, --threads, --memory-budget and --no-skip; `otherwise` names the executor without --executor.

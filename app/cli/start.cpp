@@ -14,25 +14,28 @@ Index3 flood_seed(const std::vector<double>& flood) {
   return {std::llround(flood[0]), std::llround(flood[1]), std::llround(flood[2])};
 }
 
-Result<MaskStart> read_mask(const std::string& file, const Geometry& grid, Console& console) {
-  auto loaded = load_any_mask(file, &grid, console.progress());
+Result<document::MaskStart> read_mask(const std::string& file, const Geometry& grid, Console& console) {
+  auto loaded = imaging::load_any_mask(file, &grid, console.progress());
   if (!loaded) return pass_on(loaded);
   for (const std::string& change : loaded->changes) console.warn(file + ": " + change);
-  return MaskStart{std::make_shared<const Mask>(std::move(loaded->mask)),
-                   std::filesystem::path(file).filename().string()};
+  return document::MaskStart{std::make_shared<const Mask>(std::move(loaded->mask)),
+                             std::filesystem::path(file).filename().string()};
 }
 
-Result<FieldStart> read_phi(const std::string& file, const Geometry& grid, double band, Console& console) {
-  const auto volume = load_volume(file, {}, console.progress());
+Result<document::FieldStart> read_phi(const std::string& file, const Geometry& grid, double band,
+                                      Console& console) {
+  const auto volume = imaging::load_volume(file, {}, console.progress());
   if (!volume) return tl::unexpected<Error>(volume.error());
-  auto values = onto_grid(*volume, grid, file);
+  auto values = imaging::onto_grid(*volume, grid, file);
   if (!values) return pass_on(values);
-  return FieldStart{std::make_shared<const Field>(Field::from_dense(grid, *values, band)),
-                    std::filesystem::path(file).filename().string()};
+  return document::FieldStart{
+      std::make_shared<const solver::Field>(solver::Field::from_dense(grid, *values, band)),
+      std::filesystem::path(file).filename().string()};
 }
 
-Result<std::vector<Sphere>> resolve(const std::vector<SphereArgument>& arguments, const Geometry& grid) {
-  std::vector<Sphere> spheres;
+Result<std::vector<solver::Sphere>> resolve(const std::vector<SphereArgument>& arguments,
+                                            const Geometry& grid) {
+  std::vector<solver::Sphere> spheres;
   for (const SphereArgument& argument : arguments) {
     const auto sphere = argument.resolve(grid);
     if (!sphere) return tl::unexpected<Error>(sphere.error());
@@ -113,11 +116,13 @@ Status check_inside(const StartOptions& options, const Geometry& geometry) {
   return {};
 }
 
-Result<Start> make_start(const StartOptions& options, const Geometry& grid, double band, Console& console) {
-  Start start;
-  if (options.threshold) start.from = ThresholdStart{(*options.threshold)[0], (*options.threshold)[1]};
+Result<document::Start> make_start(const StartOptions& options, const Geometry& grid, double band,
+                                   Console& console) {
+  document::Start start;
+  if (options.threshold)
+    start.from = document::ThresholdStart{(*options.threshold)[0], (*options.threshold)[1]};
   if (options.flood) {
-    start.from = FloodStart{flood_seed(*options.flood), (*options.flood)[3], (*options.flood)[4]};
+    start.from = document::FloodStart{flood_seed(*options.flood), (*options.flood)[3], (*options.flood)[4]};
   }
   if (options.mask) {
     auto mask = read_mask(*options.mask, grid, console);

@@ -35,6 +35,7 @@ Status check_inside(const StartOptions& options, const Geometry& geometry);
 
 // The start with its files read. `grid` and `band` are those of the level set. Fails with ErrorKind::input
 // when a file cannot be read or lies on another grid.
-Result<Start> make_start(const StartOptions& options, const Geometry& grid, double band, Console& console);
+Result<document::Start> make_start(const StartOptions& options, const Geometry& grid, double band,
+                                   Console& console);
 
 }  // namespace tidemark::cli

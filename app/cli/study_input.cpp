@@ -4,7 +4,7 @@
 
 namespace tidemark::cli {
 
-GridPolicy StudyInput::policy(const GridPolicy& otherwise) const {
+imaging::GridPolicy StudyInput::policy(const imaging::GridPolicy& otherwise) const {
   return {tilt.value_or(otherwise.tilt), gaps.value_or(otherwise.gaps)};
 }
 
@@ -26,8 +26,8 @@ void add_series_options(CLI::App& app, StudyInput& study, const std::string& hol
 }
 
 void add_grid_options(CLI::App& app, StudyInput& study) {
-  using Tilt = GridPolicy::Tilt;
-  using Gaps = GridPolicy::Gaps;
+  using Tilt = imaging::GridPolicy::Tilt;
+  using Gaps = imaging::GridPolicy::Gaps;
   const char* const kGroup = "Slices";
   add_choice<std::optional<Tilt>>(
       app, "--tilt", study.tilt, {{"correct", Tilt::correct}, {"keep", Tilt::keep}},
@@ -40,24 +40,24 @@ void add_grid_options(CLI::App& app, StudyInput& study) {
       ->group(kGroup);
 }
 
-Result<ChosenSeries> find_study(const StudyInput& study, const Progress& progress,
-                                const GridPolicy& otherwise) {
-  const auto catalogue = find_series(study.path, progress, study.policy(otherwise));
+Result<imaging::ChosenSeries> find_study(const StudyInput& study, const Progress& progress,
+                                         const imaging::GridPolicy& otherwise) {
+  const auto catalogue = imaging::find_series(study.path, progress, study.policy(otherwise));
   if (!catalogue) return tl::unexpected<Error>(catalogue.error());
-  auto chosen = choose_series(*catalogue, study.series, study.path);
-  if (!chosen && find_fillable(*catalogue, study.series) != nullptr) {
+  auto chosen = imaging::choose_series(*catalogue, study.series, study.path);
+  if (!chosen && imaging::find_fillable(*catalogue, study.series) != nullptr) {
     chosen.error().message += "; --gaps fill interpolates";
   }
   return chosen;
 }
 
-Result<LoadedSeries> load_study(const StudyInput& study, const Progress& progress,
-                                const GridPolicy& otherwise) {
+Result<imaging::LoadedSeries> load_study(const StudyInput& study, const Progress& progress,
+                                         const imaging::GridPolicy& otherwise) {
   auto chosen = find_study(study, progress, otherwise);
   if (!chosen) return pass_on(chosen);
-  auto volume = load_series(*chosen, progress);
+  auto volume = imaging::load_series(*chosen, progress);
   if (!volume) return pass_on(volume);
-  return LoadedSeries{std::move(chosen->series), std::move(*volume)};
+  return imaging::LoadedSeries{std::move(chosen->series), std::move(*volume)};
 }
 
 }  // namespace tidemark::cli

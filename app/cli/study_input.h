@@ -13,11 +13,11 @@ namespace tidemark::cli {
 struct StudyInput {
   std::string path;
   std::string series;  // UID, when there are several
-  std::optional<GridPolicy::Tilt> tilt;
-  std::optional<GridPolicy::Gaps> gaps;
+  std::optional<imaging::GridPolicy::Tilt> tilt;
+  std::optional<imaging::GridPolicy::Gaps> gaps;
 
   // The given options, else the defaults.
-  [[nodiscard]] GridPolicy policy(const GridPolicy& otherwise = {}) const;
+  [[nodiscard]] imaging::GridPolicy policy(const imaging::GridPolicy& otherwise = {}) const;
 };
 
 // INPUT and the options of add_series_options().
@@ -29,9 +29,9 @@ void add_grid_options(CLI::App& app, StudyInput& study);
 
 // The series that load_study() takes, before any voxel is read. Where filling gaps would make one loadable,
 // the error names the option.
-Result<ChosenSeries> find_study(const StudyInput& study, const Progress& progress,
-                                const GridPolicy& otherwise = {});
-Result<LoadedSeries> load_study(const StudyInput& study, const Progress& progress,
-                                const GridPolicy& otherwise = {});
+Result<imaging::ChosenSeries> find_study(const StudyInput& study, const Progress& progress,
+                                         const imaging::GridPolicy& otherwise = {});
+Result<imaging::LoadedSeries> load_study(const StudyInput& study, const Progress& progress,
+                                         const imaging::GridPolicy& otherwise = {});
 
 }  // namespace tidemark::cli

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <thread>
 
-namespace tidemark {
+namespace tidemark::desktop {
 namespace {
 
 // The rest of the first line of `path` that begins with `key`, without quotation marks; "" when there is
@@ -84,4 +84,4 @@ std::string text(const Diagnostics& d) {
   return all;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::desktop

@@ -7,7 +7,7 @@
 
 #include "gpu/capabilities.h"
 
-namespace tidemark {
+namespace tidemark::desktop {
 
 // Holds nothing about patients, users or files, so that it can be sent to anyone unchanged.
 struct Diagnostics {
@@ -36,4 +36,4 @@ void describe_machine(Diagnostics& diagnostics);
 // One "name: value" a line, in English whatever the locale.
 std::string text(const Diagnostics& diagnostics);
 
-}  // namespace tidemark
+}  // namespace tidemark::desktop

@@ -20,33 +20,33 @@ namespace {
 
 using namespace tidemark;
 
-std::string describe(Engine::Graphics graphics) {
+std::string describe(engine::Engine::Graphics graphics) {
   switch (graphics) {
-    case Engine::Graphics::hardware:
+    case engine::Engine::Graphics::hardware:
       return "hardware";
-    case Engine::Graphics::software:
+    case engine::Engine::Graphics::software:
       return "software";
-    case Engine::Graphics::none:
+    case engine::Engine::Graphics::none:
       return "none";
   }
   return {};
 }
 
-void print_diagnostics(const Engine& engine) {
-  Diagnostics diagnostics;
+void print_diagnostics(const engine::Engine& engine) {
+  desktop::Diagnostics diagnostics;
   diagnostics.version = TIDEMARK_VERSION;
   diagnostics.qt_version = qVersion();
   diagnostics.qt_platform = QGuiApplication::platformName().toStdString();
   diagnostics.locale = QLocale::system().name().toStdString();
   diagnostics.graphics = describe(engine.graphics());
   diagnostics.graphics_problem = engine.graphics_problem();
-  if (engine.graphics() != Engine::Graphics::none) diagnostics.opengl = engine.capabilities();
+  if (engine.graphics() != engine::Engine::Graphics::none) diagnostics.opengl = engine.capabilities();
   const bool compute =
-      engine.graphics() == Engine::Graphics::hardware && engine.capabilities().at_least(4, 5);
+      engine.graphics() == engine::Engine::Graphics::hardware && engine.capabilities().at_least(4, 5);
   diagnostics.automatic_executor = compute ? "compute" : "host";
-  if (const auto kernels = select_page_kernels("")) diagnostics.instruction_set = kernels->name;
-  describe_machine(diagnostics);
-  QTextStream(stdout) << QString::fromStdString(text(diagnostics));
+  if (const auto kernels = solver::select_page_kernels("")) diagnostics.instruction_set = kernels->name;
+  desktop::describe_machine(diagnostics);
+  QTextStream(stdout) << QString::fromStdString(desktop::text(diagnostics));
 }
 
 // Without a display Qt would end the program with a message about its installation. What needs no window
@@ -101,15 +101,15 @@ int main(int argc, char** argv) {
   parser.addOptions({diagnostics, phantom, without_opengl});
   parser.process(application);
 
-  Engine engine(!parser.isSet(without_opengl));
+  engine::Engine engine(!parser.isSet(without_opengl));
   if (parser.isSet(diagnostics)) {
     print_diagnostics(engine);
     return 0;
   }
   QGuiApplication::setDesktopFileName("tidemark");
-  QGuiApplication::setWindowIcon(application_icon());
-  apply_theme(application, settings::theme().get());
-  MainWindow window(engine);
+  QGuiApplication::setWindowIcon(ui::application_icon());
+  ui::apply_theme(application, ui::settings::theme().get());
+  ui::MainWindow window(engine);
   window.show();
   window.session_reader().offer_rescued();
   for (const QString& study : parser.positionalArguments()) window.open(study);

@@ -56,29 +56,30 @@ bool wait_for(Condition condition, int milliseconds) {
   return condition();
 }
 
-void begin(CaseProxy& proxy) {
-  Start start;
+void begin(engine::CaseProxy& proxy) {
+  document::Start start;
   if (const auto& from = proxy.study().start; from && from->seed) {
     const auto& seed = *from->seed;
-    start.seeds.push_back(sphere_at_voxel(proxy.volume().geometry, {seed[0], seed[1], seed[2]}, seed[3]));
+    start.seeds.push_back(
+        solver::sphere_at_voxel(proxy.volume().geometry, {seed[0], seed[1], seed[2]}, seed[3]));
   } else if (from && from->threshold) {
-    start.from = ThresholdStart{from->threshold->first, from->threshold->second};
+    start.from = document::ThresholdStart{from->threshold->first, from->threshold->second};
   }
   proxy.set_pause_at_convergence(false);
   proxy.begin(start);
 }
 
-void measure_rates(CaseWindow& window, double seconds) {
-  CaseProxy& proxy = window.proxy();
+void measure_rates(ui::CaseWindow& window, double seconds) {
+  engine::CaseProxy& proxy = window.proxy();
   std::vector<std::uint64_t> before;
-  for (PictureView* view : window.views()) before.push_back(view->feed().shown().number);
+  for (ui::PictureView* view : window.views()) before.push_back(view->feed().shown().number);
   const std::int64_t step = proxy.state().step;
   QElapsedTimer since;
   since.start();
   wait(static_cast<int>(seconds * 1000.0));
   const double passed = static_cast<double>(since.nsecsElapsed()) / 1e9;
   std::size_t index = 0;
-  for (PictureView* view : window.views()) {
+  for (ui::PictureView* view : window.views()) {
     const auto pictures = static_cast<double>(view->feed().shown().number - before[index++]);
     std::printf("  %-20s %4d x %4d  %5.1f pictures/s\n", qPrintable(view->title()), view->width(),
                 view->height(), pictures / passed);
@@ -88,21 +89,22 @@ void measure_rates(CaseWindow& window, double seconds) {
 }
 
 // From a change of the view to the first picture of it.
-void measure_latency(CaseWindow& window) {
-  for (PictureView* view : window.views()) {
+void measure_latency(ui::CaseWindow& window) {
+  for (ui::PictureView* view : window.views()) {
     std::vector<double> times;
     for (int turn = 0; turn < 20; ++turn) {
       QElapsedTimer since;
       since.start();
-      window.proxy().display().change([](DisplaySettings& settings) {
+      window.proxy().display().change([](engine::DisplaySettings& settings) {
         settings.cursor_mm.z += 1.0;
         settings.camera.azimuth += 3.0;
       });
-      const DisplaySettings wanted = window.proxy().display().settings();
+      const engine::DisplaySettings wanted = window.proxy().display().settings();
       const auto shown = [&] {
-        const AnyView& now = view->feed().shown().view;
-        if (const auto* slice = std::get_if<SliceView>(&now)) return slice->position_mm == wanted.cursor_mm;
-        return std::get<VolumeView>(now).camera == wanted.camera;
+        const engine::AnyView& now = view->feed().shown().view;
+        if (const auto* slice = std::get_if<renderer::SliceView>(&now))
+          return slice->position_mm == wanted.cursor_mm;
+        return std::get<renderer::VolumeView>(now).camera == wanted.camera;
       };
       if (wait_for(shown, 5000)) times.push_back(static_cast<double>(since.nsecsElapsed()) / 1e6);
     }
@@ -113,13 +115,13 @@ void measure_latency(CaseWindow& window) {
   }
 }
 
-int measure_opening(MainWindow& window, const QString& path) {
+int measure_opening(ui::MainWindow& window, const QString& path) {
   wait(500);  // until the window is there
   QElapsedTimer since;
   const auto passed = [&] { return static_cast<double>(since.nsecsElapsed()) / 1e9; };
   double previewed = 0.0;
   QObject scope;
-  QObject::connect(window.findChild<PreviewPage*>(), &PreviewPage::painted, &scope, [&] {
+  QObject::connect(window.findChild<ui::PreviewPage*>(), &ui::PreviewPage::painted, &scope, [&] {
     if (previewed == 0.0) previewed = passed();
   });
   since.start();
@@ -128,7 +130,7 @@ int measure_opening(MainWindow& window, const QString& path) {
   std::printf("%s:\n", qPrintable(path));
   if (previewed > 0.0) std::printf("  middle slice          after %5.2f s\n", previewed);
   std::printf("  loaded                after %5.2f s\n", passed());
-  for (PictureView* view : window.active_case()->views()) {
+  for (ui::PictureView* view : window.active_case()->views()) {
     if (!wait_for([&] { return view->feed().shown().number > 0; }, 60000)) return 1;
     std::printf("  %-20s  after %5.2f s\n", qPrintable(view->title()), passed());
   }
@@ -153,10 +155,10 @@ int main(int argc, char** argv) {
                      {"seconds", "how long rates are measured", "s", "5"}});
   parser.process(application);
 
-  apply_theme(application, Theme::light);
-  Engine engine;
-  MainWindow window(engine);
-  const auto executor = executor_named(parser.value("executor").toStdString());
+  ui::apply_theme(application, ui::Theme::light);
+  engine::Engine engine;
+  ui::MainWindow window(engine);
+  const auto executor = solver::executor_named(parser.value("executor").toStdString());
   if (!executor) qFatal("--executor is host, compute, stream or auto");
   window.set_executor(*executor);
   window.resize(1280, 800);
@@ -164,7 +166,7 @@ int main(int argc, char** argv) {
   if (parser.isSet("open")) return measure_opening(window, parser.value("open"));
   window.open_phantom(parser.value("phantom"));
   if (!wait_for([&] { return window.active_case() != nullptr; }, 60000)) return 1;
-  CaseProxy& proxy = window.active_case()->proxy();
+  engine::CaseProxy& proxy = window.active_case()->proxy();
   begin(proxy);
   if (!wait_for([&] { return proxy.state().begun; }, 60000)) return 1;
   wait(500);

@@ -39,7 +39,7 @@ int measure(const std::string& what, const fs::path& folder) {
   std::int64_t sum = 0;
   if (what == kItk) sum = bench::read_with_itk(folder);
   if (what == kTidemark) {
-    const auto volume = load_volume(folder);
+    const auto volume = imaging::load_volume(folder);
     if (!volume) throw std::runtime_error(volume.error().message);
     const auto& voxels = std::get<std::vector<std::int16_t>>(volume->voxels);
     sum = std::accumulate(voxels.begin(), voxels.end(), std::int64_t{0});
@@ -53,7 +53,7 @@ int measure(const std::string& what, const fs::path& folder) {
       silence = std::max(silence, watch.seconds());
       watch.restart();
     };
-    const auto found = find_series(folder, progress);
+    const auto found = imaging::find_series(folder, progress);
     if (!found) throw std::runtime_error(found.error().message);
     fmt::print("{} series, {:.0f} ms at most without progress\n", found->series.size(), 1e3 * silence);
     return 0;

@@ -23,11 +23,11 @@ Volume volume_of(Index3 size) {
 }
 
 void write(const Volume& volume, const char* description, const fs::path& folder) {
-  DicomSeriesHeader header;
+  imaging::DicomSeriesHeader header;
   header.modality = "CT";
   header.series_description = description;
   header.window = {40.0, 400.0};
-  if (Status written = write_dicom_series(volume, header, folder); !written) {
+  if (Status written = imaging::write_dicom_series(volume, header, folder); !written) {
     throw std::runtime_error(written.error().message);
   }
 }

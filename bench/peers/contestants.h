@@ -37,7 +37,7 @@ class Contestant {
   // The voxels inside. ITK's filters end with it: no step can follow.
   virtual Mask finish() = 0;
   // What is resident; null where nothing of the kind exists.
-  [[nodiscard]] virtual const Executor* executor() const { return nullptr; }
+  [[nodiscard]] virtual const solver::Executor* executor() const { return nullptr; }
 };
 
 // A run from the start to where the contestant's own criterion stops it.

@@ -9,7 +9,7 @@
 #include "solver/speed/update-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tidemark::HWY_NAMESPACE {
+namespace tidemark::solver::HWY_NAMESPACE {
 
 // The formulas are the solver's own; only where the values come from differs.
 HWY_INLINE Stencil<Lanes> load_dense(const float* at, std::int64_t row, std::int64_t slice) {
@@ -54,17 +54,17 @@ void step_dense(const bench::DenseStep& step, Index3 begin, Index3 end) {
   }
 }
 
-}  // namespace tidemark::HWY_NAMESPACE
+}  // namespace tidemark::solver::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tidemark {
+namespace tidemark::solver {
 
 HWY_EXPORT(step_dense);
 
-void bench::step_dense(const DenseStep& step, Index3 begin, Index3 end) {
-  HWY_DYNAMIC_DISPATCH(tidemark::step_dense)(step, begin, end);
-}
+}  // namespace tidemark::solver
 
-}  // namespace tidemark
+void tidemark::bench::step_dense(const DenseStep& step, Index3 begin, Index3 end) {
+  HWY_DYNAMIC_DISPATCH(tidemark::solver::step_dense)(step, begin, end);
+}
 #endif  // HWY_ONCE

@@ -18,7 +18,7 @@ struct DenseStep {
   std::int64_t row = 0;
   std::int64_t slice = 0;
   std::int64_t length = 0;  // voxels of a row; up to kDenseMargin - 1 more are written
-  const StepConstants<float>* constants = nullptr;
+  const solver::StepConstants<float>* constants = nullptr;
 };
 inline constexpr std::int64_t kDenseMargin = 16;
 

@@ -27,7 +27,7 @@ class DenseStencil final : public Contestant {
     copy_in(problem.values, data_);
     const auto constants = model_.constants<double>();
     std::transform(data_.begin(), data_.end(), data_.begin(), [&](float value) {
-      return static_cast<float>(HWY_NAMESPACE::data_motion(double{value}, constants));
+      return static_cast<float>(solver::HWY_NAMESPACE::data_motion(double{value}, constants));
     });
     copy_in(start_distance(problem, model_.band()), phi_[0]);
     repeat_border(phi_[0]);
@@ -114,8 +114,8 @@ class DenseStencil final : public Contestant {
   }
 
   Geometry geometry_;
-  Model model_;
-  StepConstants<float> constants_;
+  solver::Model model_;
+  solver::StepConstants<float> constants_;
   ThreadPool pool_;
   std::int64_t row_ = 0;
   std::int64_t slice_ = 0;

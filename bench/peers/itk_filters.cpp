@@ -40,7 +40,7 @@ ItkImage::Pointer wrap(const Geometry& geometry, const std::vector<float>& value
 }
 
 ItkThresholdFilter::Pointer make_threshold_filter(const Problem& problem) {
-  const Parameters& parameters = problem.parameters;
+  const solver::Parameters& parameters = problem.parameters;
   auto filter = ItkThresholdFilter::New();
   filter->SetInput(start_image(problem));
   filter->SetFeatureImage(wrap(problem.source->geometry, problem.values));
@@ -54,7 +54,7 @@ ItkThresholdFilter::Pointer make_threshold_filter(const Problem& problem) {
 }
 
 ItkParallelFilter::Pointer make_parallel_filter(const Problem& problem, int threads) {
-  const Parameters& parameters = problem.parameters;
+  const solver::Parameters& parameters = problem.parameters;
   auto function = SpeedFunction::New();
   SpeedFunction::RadiusType radius;
   radius.Fill(1);

@@ -69,7 +69,7 @@ Status measure_memory(const Problem& problem, const Settings& settings, Report& 
   auto ours = tidemark_host(true).make(problem);
   if (!ours) return tl::unexpected<Error>(ours.error());
   TIDEMARK_TRY((*ours)->advance(steps_of(problem)));
-  const MemoryReport memory = (*ours)->executor()->memory();
+  const solver::MemoryReport memory = (*ours)->executor()->memory();
   const Index3 shape = memory.page_shape;
   const auto resident = static_cast<double>(memory.peak_resident_pages * shape.x * shape.y * shape.z);
   const auto bytes = static_cast<double>(memory.peak_state_bytes);

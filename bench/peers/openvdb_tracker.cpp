@@ -32,9 +32,9 @@ class OpenVdbTracker final : public Contestant {
  public:
   explicit OpenVdbTracker(const Problem& problem)
       : problem_(problem), threads_(tbb::global_control::max_allowed_parallelism, kThreads) {
-    Parameters unscaled = problem.parameters;
+    solver::Parameters unscaled = problem.parameters;
     unscaled.rescaling_term = false;
-    const Model model(*problem.source, unscaled);
+    const solver::Model model(*problem.source, unscaled);
     constants_ = model.constants<float>();
 
     std::vector<float> start = start_distance(problem, kHalfWidth);
@@ -130,7 +130,7 @@ class OpenVdbTracker final : public Contestant {
 
   const Problem& problem_;
   tbb::global_control threads_;
-  StepConstants<float> constants_{};
+  solver::StepConstants<float> constants_{};
   FloatGrid::Ptr grid_;
   std::unique_ptr<Tracker> tracker_;
 };

@@ -9,7 +9,7 @@
 namespace tidemark::bench {
 namespace {
 
-std::vector<float> sphere_distance(const Geometry& geometry, const Sphere& sphere, double band) {
+std::vector<float> sphere_distance(const Geometry& geometry, const solver::Sphere& sphere, double band) {
   std::vector<float> distance(static_cast<std::size_t>(geometry.voxel_count()), static_cast<float>(-band));
   const glm::dvec3 centre = geometry.to_voxel(sphere.centre_mm);
   const double radius = sphere.radius_mm / geometry.spacing_mm.x;
@@ -31,8 +31,8 @@ std::vector<float> sphere_distance(const Geometry& geometry, const Sphere& spher
 
 }  // namespace
 
-Result<Problem> make_problem(std::string_view phantom_kind, const PhantomOptions& options) {
-  auto phantom = make_phantom(phantom_kind, options);
+Result<Problem> make_problem(std::string_view phantom_kind, const imaging::PhantomOptions& options) {
+  auto phantom = imaging::make_phantom(phantom_kind, options);
   if (!phantom) return pass_on(phantom);
   Problem problem;
   problem.name = phantom_kind;
@@ -44,10 +44,10 @@ Result<Problem> make_problem(std::string_view phantom_kind, const PhantomOptions
   // A threshold comes first: it starts with the whole surface, which a seed takes a thousand steps to reach.
   if (phantom->init_threshold) {
     problem.start =
-        threshold(phantom->volume, phantom->init_threshold->first, phantom->init_threshold->second);
+        imaging::threshold(phantom->volume, phantom->init_threshold->first, phantom->init_threshold->second);
   } else if (phantom->seed) {
     const auto& [i, j, k, radius_mm] = *phantom->seed;
-    problem.seed = sphere_at_voxel(geometry, {i, j, k}, radius_mm);
+    problem.seed = solver::sphere_at_voxel(geometry, {i, j, k}, radius_mm);
   } else {
     return fail(ErrorKind::internal, "the phantom {} has no start", phantom_kind);
   }
@@ -58,7 +58,7 @@ Result<Problem> make_problem(std::string_view phantom_kind, const PhantomOptions
 
 std::vector<float> start_distance(const Problem& problem, double band) {
   if (problem.seed) return sphere_distance(problem.source->geometry, *problem.seed, band);
-  return distance_transform(*problem.start, band).dense();
+  return solver::distance_transform(*problem.start, band).dense();
 }
 
 }  // namespace tidemark::bench

@@ -20,13 +20,13 @@ struct Problem {
   std::shared_ptr<const Volume> source;
   std::vector<float> values;  // the source in voxel order, rescaled, for peers that want floats
   Mask truth;
-  Parameters parameters;
-  std::optional<Sphere> seed;
+  solver::Parameters parameters;
+  std::optional<solver::Sphere> seed;
   std::optional<Mask> start;
 };
 
 // The phantom of that kind with its own parameters and start.
-Result<Problem> make_problem(std::string_view phantom_kind, const PhantomOptions& options = {});
+Result<Problem> make_problem(std::string_view phantom_kind, const imaging::PhantomOptions& options = {});
 
 // The start as a signed distance in voxels, > 0 inside, clamped to +-band; in voxel order.
 std::vector<float> start_distance(const Problem& problem, double band);

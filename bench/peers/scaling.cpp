@@ -30,26 +30,26 @@ Volume distance_volume() {
 
 struct Point {
   double radius = 0.0;
-  std::unique_ptr<Executor> executor;
+  std::unique_ptr<solver::Executor> executor;
   double resident_voxels = 0.0;
   double bytes = 0.0;
   std::vector<double> step_seconds;
 };
 
 Result<Point> make_point(const std::shared_ptr<const Volume>& source, double radius) {
-  Parameters parameters;
+  solver::Parameters parameters;
   parameters.target = radius - kRange;
   parameters.range = kRange;
   parameters.alpha = 0.5;
-  ExecutorOptions options;
+  solver::ExecutorOptions options;
   options.threads = kThreads;
   options.skip_quiet_pages = false;
-  auto executor = make_executor(ExecutorKind::host, source, parameters, options);
+  auto executor = solver::make_executor(solver::ExecutorKind::host, source, parameters, options);
   if (!executor) return pass_on(executor);
   const glm::dvec3 centre(0.5 * static_cast<double>(kSide - 1));
-  TIDEMARK_TRY((*executor)->paint({centre, radius}, Brush::add));
+  TIDEMARK_TRY((*executor)->paint({centre, radius}, solver::Brush::add));
   TIDEMARK_TRY((*executor)->advance({.steps = 20}));
-  const MemoryReport memory = (*executor)->memory();
+  const solver::MemoryReport memory = (*executor)->memory();
   Point point;
   point.radius = radius;
   point.resident_voxels = static_cast<double>(memory.resident_pages) * 512.0;

@@ -69,8 +69,8 @@ Status run_round(const Problem& problem, Entry& entry) {
       if (!cost) return pass_on(cost);
       add(costs[stage], *cost);
       done = window.end;
-      if (const Executor* executor = (*contestant)->executor(); executor != nullptr) {
-        const MemoryReport memory = executor->memory();
+      if (const solver::Executor* executor = (*contestant)->executor(); executor != nullptr) {
+        const solver::MemoryReport memory = executor->memory();
         const Index3 shape = memory.page_shape;
         resident[stage] = static_cast<double>(memory.resident_pages * shape.x * shape.y * shape.z);
       }

@@ -8,22 +8,23 @@
 namespace tidemark::bench {
 namespace {
 
-Result<std::unique_ptr<Executor>> start_executor(const Problem& problem, bool skip_quiet_pages) {
-  ExecutorOptions options;
+Result<std::unique_ptr<solver::Executor>> start_executor(const Problem& problem, bool skip_quiet_pages) {
+  solver::ExecutorOptions options;
   options.threads = kThreads;
   options.skip_quiet_pages = skip_quiet_pages;
-  auto executor = make_executor(ExecutorKind::host, problem.source, problem.parameters, options);
+  auto executor =
+      solver::make_executor(solver::ExecutorKind::host, problem.source, problem.parameters, options);
   if (!executor) return executor;
-  const Status started = problem.seed
-                             ? (*executor)->paint(*problem.seed, Brush::add)
-                             : (*executor)->restore(distance_transform(*problem.start, (*executor)->band()));
+  const Status started =
+      problem.seed ? (*executor)->paint(*problem.seed, solver::Brush::add)
+                   : (*executor)->restore(solver::distance_transform(*problem.start, (*executor)->band()));
   if (!started) return tl::unexpected<Error>(started.error());
   return executor;
 }
 
 class TidemarkHost final : public Contestant {
  public:
-  explicit TidemarkHost(std::unique_ptr<Executor> executor) : executor_(std::move(executor)) {}
+  explicit TidemarkHost(std::unique_ptr<solver::Executor> executor) : executor_(std::move(executor)) {}
 
   Result<Cost> advance(std::int64_t steps) override {
     auto report = executor_->advance({.steps = steps});
@@ -31,10 +32,10 @@ class TidemarkHost final : public Contestant {
     return Cost{report->steps, report->seconds, report->voxel_updates, report->paging_seconds};
   }
   Mask finish() override { return executor_->snapshot().value().mask(); }
-  [[nodiscard]] const Executor* executor() const override { return executor_.get(); }
+  [[nodiscard]] const solver::Executor* executor() const override { return executor_.get(); }
 
  private:
-  std::unique_ptr<Executor> executor_;
+  std::unique_ptr<solver::Executor> executor_;
 };
 
 Result<Convergence> converge(const Problem& problem, bool skip_quiet_pages) {

@@ -43,93 +43,96 @@ struct Study {
     const bool compute = options.executor == "compute";
     device =
         expect(gpu::Device::create_headless({compute ? gpu::GlVersion::gl45 : gpu::GlVersion::gl33, false}));
-    Phantom phantom = expect(make_phantom(options.kind));
+    imaging::Phantom phantom = expect(imaging::make_phantom(options.kind));
     parameters.target = phantom.target;
     parameters.range = phantom.range;
     parameters.alpha = phantom.alpha;
     source = std::make_shared<const Volume>(std::move(phantom.volume));
-    ExecutorOptions executor_options;
+    solver::ExecutorOptions executor_options;
     executor_options.device = device;
-    const ExecutorKind kind = executor_named(options.executor).value_or(ExecutorKind::host);
-    executor = expect(make_executor(kind, source, parameters, executor_options));
+    const solver::ExecutorKind kind =
+        solver::executor_named(options.executor).value_or(solver::ExecutorKind::host);
+    executor = expect(solver::make_executor(kind, source, parameters, executor_options));
     if (phantom.seed) {
       const auto& s = *phantom.seed;
-      expect_done(executor->paint({source->geometry.to_patient({s[0], s[1], s[2]}), s[3]}, Brush::add));
+      expect_done(
+          executor->paint({source->geometry.to_patient({s[0], s[1], s[2]}), s[3]}, solver::Brush::add));
     }
   }
 
   std::shared_ptr<gpu::Device> device;
-  Parameters parameters;
+  solver::Parameters parameters;
   std::shared_ptr<const Volume> source;
-  std::unique_ptr<Executor> executor;
+  std::unique_ptr<solver::Executor> executor;
 };
 
 class Bench {
  public:
   Bench(const Options& options, Study& study) : options_(options), study_(study) {
     device_ = study.device;
-    renderer_ = expect(Renderer::create(device_, study.source, study.executor->snapshot()->layout));
+    renderer_ = expect(renderer::Renderer::create(device_, study.source, study.executor->snapshot()->layout));
     renderer_->set_parameters(study.parameters);
   }
 
   // Medians over rounds in which the contestants take turns.
   void stills() {
-    const Field phi = expect(study_.executor->snapshot());
+    const solver::Field phi = expect(study_.executor->snapshot());
     expect_done(renderer_->set_phi(phi));
     struct Contestant {
       std::string name;
-      std::variant<SliceView, VolumeView> view;
+      std::variant<renderer::SliceView, renderer::VolumeView> view;
       std::int64_t side;
       std::vector<double> seconds;
       double preparing = 0.0;
       double longest_piece = 0.0;
     };
     std::vector<Contestant> contestants;
-    const auto enter = [&](const std::string& name, VolumeView view) {
+    const auto enter = [&](const std::string& name, renderer::VolumeView view) {
       view.camera.azimuth = 30.0;
       view.camera.elevation = 20.0;
-      view.window = window_of(*study_.source);
+      view.window = renderer::window_of(*study_.source);
       contestants.push_back({name + ", still", view, options_.side, {}});
       const bool skip_empty = view.quality.skip_empty;
-      view.quality = kMovingQuality;
+      view.quality = renderer::kMovingQuality;
       view.quality.skip_empty = skip_empty;
       contestants.push_back({name + ", moving", view, options_.side / 2, {}});
     };
-    VolumeView surface;
+    renderer::VolumeView surface;
     enter("surface", surface);
-    VolumeView by_slices = surface;
-    by_slices.mode = Mode::slices;
+    renderer::VolumeView by_slices = surface;
+    by_slices.mode = renderer::Mode::slices;
     enter("surface, slices", by_slices);
-    VolumeView near = surface;
-    near.camera = surface.camera.on(box_around(phi), study_.source->geometry, 1.0);
+    renderer::VolumeView near = surface;
+    near.camera = surface.camera.on(renderer::box_around(phi), study_.source->geometry, 1.0);
     enter("surface, fills the picture", near);
-    VolumeView whole = surface;
+    renderer::VolumeView whole = surface;
     whole.quality.skip_empty = false;
     enter("surface, nothing skipped", whole);
-    VolumeView volume = surface;
+    renderer::VolumeView volume = surface;
     volume.source = volume_function();
     enter("surface and source", volume);
     by_slices = volume;
-    by_slices.mode = Mode::slices;
+    by_slices.mode = renderer::Mode::slices;
     enter("surface and source, slices", by_slices);
-    volume.region = Region::inside;
+    volume.region = renderer::Region::inside;
     volume.surface = false;
     enter("source inside the surface", volume);
-    volume.region = Region::everywhere;
-    volume.clip = ClipPlane{{0.0, -1.0, 0.0}, -middle_of(study_.source->geometry).y};
+    volume.region = renderer::Region::everywhere;
+    volume.clip = renderer::ClipPlane{{0.0, -1.0, 0.0}, -renderer::middle_of(study_.source->geometry).y};
     enter("source with clip plane", volume);
-    SliceView slice;
-    slice.window = window_of(*study_.source);
-    slice.position_mm = middle_of(study_.source->geometry);
-    const auto enter_slice = [&](const std::string& name, SliceContent content, SpeedTerm term) {
+    renderer::SliceView slice;
+    slice.window = renderer::window_of(*study_.source);
+    slice.position_mm = renderer::middle_of(study_.source->geometry);
+    const auto enter_slice = [&](const std::string& name, renderer::SliceContent content,
+                                 renderer::SpeedTerm term) {
       slice.content = content;
       slice.term = term;
       contestants.push_back({name, slice, options_.side, {}});
     };
-    enter_slice("slice", SliceContent::source, SpeedTerm::total);
-    enter_slice("slice, speed", SliceContent::speed, SpeedTerm::total);
-    enter_slice("slice, data term", SliceContent::speed, SpeedTerm::data);
-    enter_slice("slice, pages", SliceContent::pages, SpeedTerm::total);
+    enter_slice("slice", renderer::SliceContent::source, renderer::SpeedTerm::total);
+    enter_slice("slice, speed", renderer::SliceContent::speed, renderer::SpeedTerm::total);
+    enter_slice("slice, data term", renderer::SliceContent::speed, renderer::SpeedTerm::data);
+    enter_slice("slice, pages", renderer::SliceContent::pages, renderer::SpeedTerm::total);
 
     for (int round = -1; round < options_.rounds; ++round) {  // the first one compiles
       for (Contestant& c : contestants) {
@@ -155,20 +158,20 @@ class Bench {
   void turning() {
     constexpr int kPictures = 60;
     fmt::print("\n{:42} {:>10} {:>12}\n", "turning, within the budget", "pixels", "pictures/s");
-    VolumeView volume;
+    renderer::VolumeView volume;
     volume.source = volume_function();
-    VolumeView inside = volume;
+    renderer::VolumeView inside = volume;
     inside.surface = false;
-    inside.region = Region::inside;
-    for (auto [name, view] : {std::pair{"surface", VolumeView()},
+    inside.region = renderer::Region::inside;
+    for (auto [name, view] : {std::pair{"surface", renderer::VolumeView()},
                               {"surface and source", volume},
                               {"source inside the surface", inside}}) {
-      QualityControl control;
-      PictureSize size;
+      renderer::QualityControl control;
+      renderer::PictureSize size;
       double seconds = 0.0;
       for (int i = -10; i < kPictures; ++i) {  // the first ones compile, and measure a pixel's cost
         control.moved();
-        const Pass pass = *control.next({options_.side, options_.side});
+        const renderer::Pass pass = *control.next({options_.side, options_.side});
         view.camera.azimuth = 3.0 * i;
         view.quality = pass.quality;
         const Stopwatch watch;
@@ -186,8 +189,8 @@ class Bench {
   void evolving() {
     constexpr int kPictures = 40;
     constexpr std::int64_t kStepsPerPicture = 5;
-    VolumeView view;
-    view.quality = kMovingQuality;
+    renderer::VolumeView view;
+    view.quality = renderer::kMovingQuality;
     double solving = 0.0;
     double sending = 0.0;
     double drawing = 0.0;
@@ -198,7 +201,7 @@ class Bench {
       expect(study_.executor->advance({kStepsPerPicture}));
       solving += watch.seconds();
       watch.restart();
-      PackedView view_of_executor;
+      solver::PackedView view_of_executor;
       if (study_.executor->packed_view(view_of_executor)) {
         expect_done(renderer_->look_at(view_of_executor));
       } else {
@@ -224,11 +227,11 @@ class Bench {
 
  private:
   // Brighter than half of what there is.
-  [[nodiscard]] TransferFunction volume_function() const {
+  [[nodiscard]] renderer::TransferFunction volume_function() const {
     const auto [low, high] = study_.source->range();
-    TransferFunction function;
-    SourcePrimitive bright;
-    bright.value = {TransferFactor::Kind::ramp, 0.5 * (low + high), static_cast<double>(high)};
+    renderer::TransferFunction function;
+    renderer::SourcePrimitive bright;
+    bright.value = {renderer::TransferFactor::Kind::ramp, 0.5 * (low + high), static_cast<double>(high)};
     bright.opacity = 0.2;
     function.source.push_back(bright);
     return function;
@@ -237,7 +240,7 @@ class Bench {
   Options options_;
   Study& study_;
   std::shared_ptr<gpu::Device> device_;
-  std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<renderer::Renderer> renderer_;
 };
 
 void run(const Options& options) {

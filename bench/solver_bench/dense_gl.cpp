@@ -9,12 +9,12 @@
 
 namespace tidemark::bench {
 
-Result<DenseRun> run_dense_gl(const Volume& source, const Parameters& parameters, const Field& phi,
-                              std::int64_t steps) {
+Result<DenseRun> run_dense_gl(const Volume& source, const solver::Parameters& parameters,
+                              const solver::Field& phi, std::int64_t steps) {
   auto device = gpu::Device::create_headless({});
   if (!device) return pass_on(device);
-  const Model model(source, parameters);
-  auto program = gpu::Program::compute(**device, "bench/dense.comp", step_defines(model));
+  const solver::Model model(source, parameters);
+  auto program = gpu::Program::compute(**device, "bench/dense.comp", solver::step_defines(model));
   if (!program) return pass_on(program);
   const std::int64_t bytes = source.geometry.voxel_count() * 4;
   if (bytes > (*device)->capabilities().largest_storage_buffer) {
@@ -31,7 +31,7 @@ Result<DenseRun> run_dense_gl(const Volume& source, const Parameters& parameters
   buffers[2].upload_values<float>(0, source.values());
   buffers[2].bind_storage(2);
   program->use();
-  set_step_uniforms(*program, model.constants<float>());
+  solver::set_step_uniforms(*program, model.constants<float>());
   const glm::ivec3 size(source.geometry.size);
   program->set("volume_size", size);
   const auto run = [&](std::int64_t count) {

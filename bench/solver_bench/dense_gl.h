@@ -16,7 +16,7 @@ struct DenseRun {
 
 // Computes `steps` steps from `phi` on a context of its own. Fails (ErrorKind::capability) without OpenGL 4.5
 // or where the volume does not fit a buffer.
-Result<DenseRun> run_dense_gl(const Volume& source, const Parameters& parameters, const Field& phi,
-                              std::int64_t steps);
+Result<DenseRun> run_dense_gl(const Volume& source, const solver::Parameters& parameters,
+                              const solver::Field& phi, std::int64_t steps);
 
 }  // namespace tidemark::bench

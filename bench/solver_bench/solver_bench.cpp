@@ -61,50 +61,51 @@ Volume blobs(std::int64_t size, ThreadPool& pool) {
   return volume;
 }
 
-Parameters parameters() {
-  Parameters parameters;
+solver::Parameters parameters() {
+  solver::Parameters parameters;
   parameters.target = 750.0;
   parameters.range = 140.0;
   parameters.alpha = 0.5;
   return parameters;
 }
 
-void print_run(const std::string& stage, const AdvanceReport& run, const Executor& executor) {
-  const MemoryReport memory = executor.memory();
+void print_run(const std::string& stage, const solver::AdvanceReport& run, const solver::Executor& executor) {
+  const solver::MemoryReport memory = executor.memory();
   fmt::print("  {:<16} {:>7} {:>12.0f} {:>13.1f} {:>9.1f} {:>9} {:>9}\n", stage, run.steps,
              static_cast<double>(run.steps) / run.seconds,
              static_cast<double>(run.voxel_updates) / run.seconds / 1e6,
              100.0 * run.paging_seconds / run.seconds, memory.resident_pages, memory.quiet_pages);
 }
 
-Result<ExecutorKind> kind_of(const std::string& name) {
-  if (const auto kind = executor_named(name)) return *kind;
+Result<solver::ExecutorKind> kind_of(const std::string& name) {
+  if (const auto kind = solver::executor_named(name)) return *kind;
   return fail(ErrorKind::usage, "the executor '{}' is unknown; use host, compute, stream or dense", name);
 }
 
 // Voxels that are not clamped: those that a band no wider than need be would hold.
-std::int64_t needed_voxels(const Field& phi) {
+std::int64_t needed_voxels(const solver::Field& phi) {
   const auto limit = static_cast<float>(phi.band);
   const std::vector<float> values = phi.dense();
   return std::count_if(values.begin(), values.end(), [limit](float v) { return std::abs(v) < limit; });
 }
 
 // phi when `settings.steps` steps are done.
-Result<Field> measure_executor(const std::shared_ptr<const Volume>& source, const Settings& settings,
-                               const std::string& name) {
+Result<solver::Field> measure_executor(const std::shared_ptr<const Volume>& source, const Settings& settings,
+                                       const std::string& name) {
   const auto kind = kind_of(name);
   if (!kind) return tl::unexpected<Error>(kind.error());
-  ExecutorOptions options;
+  solver::ExecutorOptions options;
   options.threads = settings.threads;
   options.skip_quiet_pages = !settings.all_pages;
   options.time_paging = settings.time_paging;
   options.memory_budget_bytes = std::int64_t{64} << 30;
   if (settings.page_side == 16) options.page_shape = {16, 16, 1};
-  auto executor = make_executor(*kind, source, parameters(), options);
+  auto executor = solver::make_executor(*kind, source, parameters(), options);
   if (!executor) return tl::unexpected<Error>(executor.error());
   const double unit = static_cast<double>(settings.size) / 256.0;
-  const Sphere seed = sphere_at_voxel(source->geometry, glm::dvec3(128.0 * unit), 10.0 * unit);
-  TIDEMARK_TRY((*executor)->paint(seed, Brush::add));
+  const solver::Sphere seed =
+      solver::sphere_at_voxel(source->geometry, glm::dvec3(128.0 * unit), 10.0 * unit);
+  TIDEMARK_TRY((*executor)->paint(seed, solver::Brush::add));
   TIDEMARK_TRY((*executor)->advance({}));  // compiles kernels
 
   fmt::print("{}\n  {:<16} {:>7} {:>12} {:>13} {:>9} {:>9} {:>9}\n", name, "stage", "steps", "steps/s",
@@ -117,7 +118,7 @@ Result<Field> measure_executor(const std::shared_ptr<const Volume>& source, cons
   }
   auto phi = (*executor)->snapshot();
   if (!phi) return pass_on(phi);
-  const MemoryReport memory = (*executor)->memory();
+  const solver::MemoryReport memory = (*executor)->memory();
   const Index3 shape = memory.page_shape;
   const auto resident = static_cast<double>(memory.peak_resident_pages * shape.x * shape.y * shape.z);
   auto rest = (*executor)->advance({.steps = 20 * settings.steps});
@@ -125,7 +126,7 @@ Result<Field> measure_executor(const std::shared_ptr<const Volume>& source, cons
   auto converged = (*executor)->advance({.steps = settings.steps});
   if (!converged) return tl::unexpected<Error>(converged.error());
   print_run("at rest", *converged, **executor);
-  const SurfaceStatistics surface = measure(*phi);
+  const solver::SurfaceStatistics surface = solver::measure(*phi);
   fmt::print("  processed/needed voxels {:.2f}\n", static_cast<double>(phi->resident_pages()) *
                                                        static_cast<double>(phi->layout.voxels_per_page()) /
                                                        static_cast<double>(needed_voxels(*phi)));
@@ -147,22 +148,23 @@ Status measure_spheres(const std::shared_ptr<const Volume>& source, const Settin
              "us/step", "state bytes", "processed/needed");
   std::vector<glm::dvec3> points;  // resident voxels, seconds a step, bytes
   for (const double part : {0.08, 0.16, 0.24, 0.32, 0.4}) {
-    ExecutorOptions options;
+    solver::ExecutorOptions options;
     options.threads = settings.threads;
     options.skip_quiet_pages = false;
     options.memory_budget_bytes = std::int64_t{64} << 30;
     if (settings.page_side == 16) options.page_shape = {16, 16, 1};
-    auto executor = make_executor(*kind, source, parameters(), options);
+    auto executor = solver::make_executor(*kind, source, parameters(), options);
     if (!executor) return tl::unexpected<Error>(executor.error());
     const double radius = part * static_cast<double>(settings.size);
-    const Sphere ball = sphere_at_voxel(source->geometry, 0.5 * glm::dvec3(source->geometry.size), radius);
-    TIDEMARK_TRY((*executor)->paint(ball, Brush::add));
+    const solver::Sphere ball =
+        solver::sphere_at_voxel(source->geometry, 0.5 * glm::dvec3(source->geometry.size), radius);
+    TIDEMARK_TRY((*executor)->paint(ball, solver::Brush::add));
     TIDEMARK_TRY((*executor)->advance({.steps = 2}));
     const auto run = (*executor)->advance({.steps = std::max<std::int64_t>(settings.steps / 10, 1)});
     if (!run) return tl::unexpected<Error>(run.error());
     const auto phi = (*executor)->snapshot();
     if (!phi) return tl::unexpected<Error>(phi.error());
-    const MemoryReport memory = (*executor)->memory();
+    const solver::MemoryReport memory = (*executor)->memory();
     const auto resident = static_cast<double>(memory.resident_pages * memory.page_shape.x *
                                               memory.page_shape.y * memory.page_shape.z);
     points.emplace_back(resident, run->seconds / static_cast<double>(run->steps), memory.state_bytes);
@@ -186,7 +188,7 @@ Status measure_spheres(const std::shared_ptr<const Volume>& source, const Settin
 }
 
 Status measure_dense(const std::shared_ptr<const Volume>& source, const Settings& settings) {
-  const Field start = Field::empty(source->geometry, default_band(source->geometry));
+  const solver::Field start = solver::Field::empty(source->geometry, solver::default_band(source->geometry));
   const std::int64_t steps = std::clamp<std::int64_t>(settings.steps / 20, 3, 100);
   const auto run = bench::run_dense_gl(*source, parameters(), start, steps);
   if (!run) return tl::unexpected<Error>(run.error());

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -71,4 +71,4 @@ void sweep_private_folders(const fs::path& parent) {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,7 +7,7 @@
 #include "core/result.h"
 #include "core/unfinished.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Made where the system keeps temporary files, for its owner alone, and removed with the object. While it is
 // there it is locked: what a program leaves that was killed is found by its lock, which nobody holds.
@@ -32,4 +32,4 @@ class PrivateFolder {
 // Removes this user's private folders below `parent` that no running program holds.
 void sweep_private_folders(const std::filesystem::path& parent);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

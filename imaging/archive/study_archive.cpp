@@ -12,7 +12,7 @@
 
 #include "imaging/guard/zip_directory.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -213,4 +213,4 @@ std::string StudyArchive::name_archive_in(std::string message) const {
   return message;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

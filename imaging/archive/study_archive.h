@@ -10,7 +10,7 @@
 #include "imaging/archive/private_folder.h"
 #include "imaging/series.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // By its first bytes.
 [[nodiscard]] bool is_zip_archive(const std::filesystem::path& file);
@@ -45,4 +45,4 @@ class StudyArchive {
   std::vector<SkippedFile> left_out_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

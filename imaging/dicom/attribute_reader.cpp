@@ -9,7 +9,7 @@
 #include "imaging/dicom/decimal.h"
 #include "imaging/dicom/element_text.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // Without a known representation, like private elements of implicit coding.
@@ -94,4 +94,4 @@ DcmItem* AttributeReader::first_item(const DcmTagKey& sequence) const {
   return item_.findAndGetSequenceItem(sequence, item, 0).good() ? item : nullptr;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -9,7 +9,7 @@
 class DcmItem;
 class DcmTagKey;
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // "PixelSpacing (0028,0030)", as messages name an attribute.
 [[nodiscard]] std::string name_of(const DcmTagKey& key);
@@ -51,4 +51,4 @@ class AttributeReader {
   std::string& problem_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr char kEscape = '\x1b';
@@ -126,4 +126,4 @@ std::string tidied(std::string_view text) {
   return result;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // UTF-8 of `text`, which is in `character_set` (0008,0005). `delimiters`: characters after which the default
 // character set holds again (PS3.5 6.1.2.5.3), "^=" in names of persons. Bytes that are no characters become
@@ -15,4 +15,4 @@ namespace tidemark {
 // UTF-8 without blanks and padding around it, in one line, of a length that can be shown.
 [[nodiscard]] std::string tidied(std::string_view text);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

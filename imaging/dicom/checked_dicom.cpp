@@ -6,7 +6,7 @@
 #include "imaging/dicom/attribute_reader.h"
 #include "imaging/dicom/detect.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 namespace fs = std::filesystem;
 
@@ -36,4 +36,4 @@ std::string describe(const Preflight& checked) {
   return fmt::format("{}{} {} (at byte {})", is_damaged ? "is damaged: " : "", element, what, offset);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -10,7 +10,7 @@
 #include "imaging/dicom/preflight.h"
 #include "imaging/guard/byte_source.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 struct CheckedDicom {
   std::unique_ptr<FileBytes> bytes;  // stays where it is when this is moved: parsed datasets refer to it
@@ -27,4 +27,4 @@ struct CheckedDicom {
 // Why the verdict is not good: one line without the file's name, "is damaged: ... (at byte 1234)".
 [[nodiscard]] std::string describe(const Preflight& checked);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -5,7 +5,7 @@
 
 #include "imaging/dicom/decimal.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // All numbers are 32 bits, little endian.
@@ -84,4 +84,4 @@ std::vector<double> csa_numbers(std::span<const std::uint8_t> header, std::strin
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 std::optional<std::chrono::year_month_day> day_of(std::string_view iso) {
@@ -45,4 +45,4 @@ std::string age_between(const std::string& birth, const std::string& study) {
   return fmt::format("{}D", (std::chrono::sys_days(*seen) - std::chrono::sys_days(*born)).count());
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // "20040731", or "2004.07.31" of files older than DICOM 3 (PS3.5 6.2), as "2004-07-31"; empty when it is
 // none. A date's digits are checked, not the calendar.
@@ -13,4 +13,4 @@ namespace tidemark {
 // is not in the calendar, or the age is beyond any person's.
 [[nodiscard]] std::string age_between(const std::string& birth, const std::string& study);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

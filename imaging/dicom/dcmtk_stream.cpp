@@ -8,7 +8,7 @@
 #include <array>
 #include <cstring>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // Reads from `at` on, through a window: most headers fit into it. A file that has become shorter than it said
@@ -105,4 +105,4 @@ std::string parse_dicom(ByteSource& bytes, const TransferSyntax& syntax, DcmFile
   return read.good() ? std::string() : std::string(read.text());
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

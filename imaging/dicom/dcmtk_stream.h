@@ -11,7 +11,7 @@
 
 class DcmFileFormat;
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Parses the bytes in that transfer syntax, all or those before the element `stop_at`. Long values are read
 // on demand, so that the bytes must outlive `loaded`. Returns the error in DCMTK's words; empty when there is
@@ -19,4 +19,4 @@ namespace tidemark {
 [[nodiscard]] std::string parse_dicom(ByteSource& bytes, const TransferSyntax& syntax, DcmFileFormat& loaded,
                                       std::optional<DicomTag> stop_at = {});
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 std::string_view trimmed(std::string_view text) {
@@ -56,4 +56,4 @@ std::optional<std::vector<long long>> parse_integers(std::string_view text) {
   return parse_all<long long>(text);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

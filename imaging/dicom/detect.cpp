@@ -7,7 +7,7 @@
 
 #include "imaging/dicom/dicom.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // Whether a data element with a tag of group 0002 or 0008 stands at the start, as in files that were stored
@@ -45,4 +45,4 @@ bool looks_like_dicom(const std::filesystem::path& file) {
   return bytes && begins_as_dicom(*bytes);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -8,7 +8,7 @@
 #include "core/volume.h"
 #include "imaging/series.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Whether the file starts as DICOM does ("DICM" at byte 128, or a plausible first tag of a file without
 // preamble). Reads at most 256 bytes.
@@ -38,4 +38,4 @@ struct DicomSeriesHeader {
 Status write_dicom_series(const Volume& volume, const DicomSeriesHeader& header,
                           const std::filesystem::path& folder, const Progress& progress = {});
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

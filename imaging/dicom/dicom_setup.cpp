@@ -12,7 +12,7 @@
 
 #include "imaging/dicom/j2k_codec.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 void set_up_once() {
@@ -39,4 +39,4 @@ Status set_up_dicom() {
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,7 +7,7 @@
 #include <ctime>
 #include <random>
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 std::string make_uid() {
   __extension__ using Number = unsigned __int128;
@@ -57,4 +57,4 @@ Timestamp Timestamp::now() {
           fmt::format("{:02}{:02}{:02}", utc.tm_hour, utc.tm_min, utc.tm_sec)};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

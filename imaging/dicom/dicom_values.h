@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // A UID from a random 128-bit number (DICOM PS3.5 B.2: "2.25." and a UUID as a decimal number).
 [[nodiscard]] std::string make_uid();
@@ -33,4 +33,4 @@ struct Timestamp {
   static Timestamp now();
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

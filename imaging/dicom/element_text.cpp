@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 bool has_one_value(const DcmElement& element) {
@@ -62,4 +62,4 @@ std::string element_text(DcmItem& item, const DcmTagKey& key) {
   return element_text(*element);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

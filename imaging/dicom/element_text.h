@@ -9,7 +9,7 @@ class DcmElement;
 class DcmItem;
 class DcmTagKey;
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // No attribute that is read as text is longer; of the longest (a vector that says of 65,535 frames which
 // slice each is) half as much is in use.
@@ -23,4 +23,4 @@ inline constexpr std::size_t kLongestText = std::size_t{1} << 20;
 // Of the item's own element with that tag; empty when there is none.
 [[nodiscard]] std::string element_text(DcmItem& item, const DcmTagKey& key);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 using Fragments = std::vector<std::vector<std::uint8_t>>;
@@ -114,4 +114,4 @@ std::string decode_words(const Fragments& fragments, const TransferSyntax& synta
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

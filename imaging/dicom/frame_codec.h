@@ -9,7 +9,7 @@
 #include "imaging/dicom/slice_header.h"
 #include "imaging/dicom/transfer_syntaxes.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // One frame's fragments, decoded to words of BitsAllocated bits, the lower 16 first of those of 32. The error
 // is one line about PixelData.
@@ -23,4 +23,4 @@ namespace tidemark {
                                        const TransferSyntax& syntax, const SliceHeader& header,
                                        std::span<std::uint16_t> target);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

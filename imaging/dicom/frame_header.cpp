@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // Markers or boxes in front of the one that is looked for.
@@ -116,4 +116,4 @@ std::string frame_problem(FrameCoding coding, const std::optional<FrameSize>& si
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

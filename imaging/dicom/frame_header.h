@@ -8,7 +8,7 @@
 #include "imaging/dicom/transfer_syntaxes.h"
 #include "imaging/guard/byte_source.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 struct FrameSize {
   std::int64_t columns = 0;
@@ -28,4 +28,4 @@ struct FrameSize {
 [[nodiscard]] std::string frame_problem(FrameCoding coding, const std::optional<FrameSize>& size,
                                         const FrameSize& expected);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -3,7 +3,7 @@
 #include <map>
 #include <utility>
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 FramePlan::FramePlan(const Series& series) : series_(series), files_(series.files.size()) {
   std::map<std::filesystem::path, std::size_t> file_index;
@@ -38,4 +38,4 @@ void FramePlan::is_done(const FrameWork& work) {
   if (--file.frames_left <= 0) file.reader.reset();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

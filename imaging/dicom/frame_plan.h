@@ -9,7 +9,7 @@
 #include "imaging/dicom/pixels.h"
 #include "imaging/series.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // A frame that is decoded once, and the slices that are in it: one, or the tiles of a mosaic.
 struct FrameWork {
@@ -42,4 +42,4 @@ class FramePlan {
   std::vector<File> files_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

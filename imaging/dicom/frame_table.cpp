@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr ElementCoding kItems{false, false};
@@ -90,4 +90,4 @@ std::span<const FramePiece> FrameTable::frame(std::int64_t index) const {
   return std::span(pieces_).subspan(first_.at(frame), first_.at(frame + 1) - first_.at(frame));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -9,7 +9,7 @@
 #include "imaging/dicom/tag_walk.h"
 #include "imaging/dicom/transfer_syntaxes.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 struct FramePiece {
   std::int64_t offset = 0;
@@ -34,4 +34,4 @@ class FrameTable {
   std::vector<std::size_t> first_;  // piece of each frame
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

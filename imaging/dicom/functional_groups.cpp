@@ -11,7 +11,7 @@
 #include "imaging/dicom/read_plane.h"
 #include "imaging/dicom/read_traits.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // One item of shared or per-frame groups, and the header that they change. A group that is absent changes
@@ -201,4 +201,4 @@ std::vector<SliceHeader> read_frames(DcmItem& dataset, SliceHeader whole) {
   return refuse(std::move(whole), problem);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

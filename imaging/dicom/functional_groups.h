@@ -8,11 +8,11 @@
 
 class DcmItem;
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // The headers of all frames of the image with that dataset, made from the dataset's own attributes (`whole`).
 // A single header with a problem where the common attributes or those of a frame make no sense, or the places
 // of the frames are missing.
 [[nodiscard]] std::vector<SliceHeader> read_frames(DcmItem& dataset, SliceHeader whole);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

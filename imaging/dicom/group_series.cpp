@@ -8,7 +8,7 @@
 #include "imaging/dicom/series_geometry.h"
 #include "imaging/dicom/split_series.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 using Group = std::vector<SliceHeader>;
@@ -108,4 +108,4 @@ std::vector<Series> group_series(std::vector<SliceHeader> slices) {
   return result;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -20,7 +20,7 @@
 #include "imaging/dicom/read_plane.h"
 #include "imaging/dicom/read_traits.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -237,4 +237,4 @@ ImageResult<std::vector<SliceHeader>> read_slice_headers(const fs::path& file) {
   return std::move(image->slices);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -11,7 +11,7 @@
 #include "imaging/dicom/slice_header.h"
 #include "imaging/guard/byte_source.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // An image file whose header is read; its pixels are still on the disk.
 struct ImageFile {
@@ -41,4 +41,4 @@ using ImageResult = tl::expected<T, Refusal>;
 [[nodiscard]] ImageResult<ImageFile> open_image(const std::filesystem::path& file);
 [[nodiscard]] ImageResult<std::vector<SliceHeader>> read_slice_headers(const std::filesystem::path& file);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -13,7 +13,7 @@
 #include "imaging/dicom/j2k_stream.h"
 #include "imaging/dicom/transfer_syntaxes.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 class J2kParameter : public DcmCodecParameter {
@@ -171,4 +171,4 @@ void register_j2k_decoder() {
   DcmCodecList::registerCodec(&decoder, nullptr, &parameter);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // ISO 15444-1 table A.2; CAP is ISO 15444-15's.
@@ -96,4 +96,4 @@ Status require_part_one(std::span<const std::uint8_t> bytes) {
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

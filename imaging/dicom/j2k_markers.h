@@ -6,7 +6,7 @@
 
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Refuses (ErrorKind::input, without naming a file) codestreams of high-throughput code blocks (ISO
 // 15444-15), and those whose markers cannot be followed: OpenJPEG 2.5.0 decodes such blocks, but one that is
@@ -14,4 +14,4 @@ namespace tidemark {
 // with some.
 [[nodiscard]] Status require_part_one(std::span<const std::uint8_t> bytes);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -8,7 +8,7 @@
 
 #include "imaging/dicom/j2k_markers.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 struct Input {
@@ -132,4 +132,4 @@ Result<J2kImage> decode_j2k(std::span<const std::uint8_t> bytes, std::int64_t co
   return result;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

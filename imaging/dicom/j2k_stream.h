@@ -7,7 +7,7 @@
 
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // One component, row after row.
 struct J2kImage {
@@ -24,4 +24,4 @@ struct J2kImage {
 [[nodiscard]] Result<J2kImage> decode_j2k(std::span<const std::uint8_t> bytes, std::int64_t columns,
                                           std::int64_t rows);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -17,7 +17,7 @@
 #include "imaging/dicom/resample_slices.h"
 #include "imaging/dicom/shared_progress.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr double kAir = -1024.0;  // HU, the smallest value of most scanners
@@ -285,4 +285,4 @@ Result<Volume> load_dicom(const Series& series, const Progress& progress) {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

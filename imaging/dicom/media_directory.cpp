@@ -11,7 +11,7 @@
 #include "imaging/dicom/detect.h"
 #include "imaging/dicom/dicom_setup.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -233,4 +233,4 @@ std::string list_missing(const MissingFiles& missing) {
   return text;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

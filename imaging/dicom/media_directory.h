@@ -10,7 +10,7 @@
 #include "core/progress.h"
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Files that a directory names and that are not there.
 struct MissingFiles {
@@ -40,4 +40,4 @@ struct MediaDirectory {
 // "a, b and 7 more"
 [[nodiscard]] std::string list_missing(const MissingFiles& missing);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

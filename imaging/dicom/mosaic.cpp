@@ -12,7 +12,7 @@
 #include "imaging/dicom/csa_header.h"
 #include "imaging/dicom/read_traits.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // The most slices of a mosaic; a file could claim that each of its pixels is one.
@@ -149,4 +149,4 @@ std::vector<SliceHeader> read_tiles(DcmItem& dataset, SliceHeader whole) {
   return slices;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,7 +7,7 @@
 
 class DcmItem;
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 [[nodiscard]] bool is_mosaic(DcmItem& dataset);
 
@@ -15,4 +15,4 @@ namespace tidemark {
 // the number of slices, their direction or their distance is not known.
 [[nodiscard]] std::vector<SliceHeader> read_tiles(DcmItem& dataset, SliceHeader whole);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

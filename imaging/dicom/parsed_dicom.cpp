@@ -7,7 +7,7 @@
 
 #include "imaging/dicom/dcmtk_stream.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 namespace fs = std::filesystem;
 
@@ -45,4 +45,4 @@ std::unique_ptr<DcmFileFormat> ParsedDicom::take() {
   return std::move(format_);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -11,7 +11,7 @@
 class DcmDataset;
 class DcmFileFormat;
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 class ParsedDicom {
  public:
@@ -40,4 +40,4 @@ class ParsedDicom {
   std::unique_ptr<DcmFileFormat> format_;  // refers to what is opened
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -5,7 +5,7 @@
 
 #include "core/checked.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr DicomTag kSamplesPerPixel{0x0028, 0x0002};
@@ -141,4 +141,4 @@ std::string PixelExtent::problem(std::int64_t file_size) const {
   return syntax_.is_encapsulated() ? compressed_problem(file_size) : native_problem();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

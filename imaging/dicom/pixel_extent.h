@@ -10,7 +10,7 @@
 #include "imaging/dicom/frame_header.h"
 #include "imaging/dicom/tag_walk.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 class PixelExtent {
  public:
@@ -49,4 +49,4 @@ class PixelExtent {
   TableProblem table_problem_ = TableProblem::none;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

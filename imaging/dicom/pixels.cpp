@@ -9,7 +9,7 @@
 #include "imaging/dicom/frame_header.h"
 #include "imaging/guard/guarded.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -252,4 +252,4 @@ Result<DecodedFrame> decode_frame(const fs::path& file, std::int64_t frame) {
   return DecodedFrame{*reader->slice(frame, 0), std::move(*pixels)};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

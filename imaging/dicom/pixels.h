@@ -11,7 +11,7 @@
 #include "imaging/dicom/frame_table.h"
 #include "imaging/dicom/header_reader.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 struct FramePixels {
   std::vector<std::int32_t> stored;  // before rescale, i (along a row) fastest
@@ -69,4 +69,4 @@ struct DecodedFrame {
 };
 [[nodiscard]] Result<DecodedFrame> decode_frame(const std::filesystem::path& file, std::int64_t frame = 0);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -8,7 +8,7 @@
 
 #include "imaging/dicom/pixel_extent.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr std::int64_t kMiB = std::int64_t{1} << 20;
@@ -168,4 +168,4 @@ Preflight walk_dicom(ByteSource& bytes, const TagWalk::Observer& observe) {
   return Check(bytes, std::numeric_limits<std::int64_t>::max(), observe).run();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -16,7 +16,7 @@
 #include "imaging/dicom/tag_walk.h"
 #include "imaging/dicom/transfer_syntaxes.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 struct Preflight {
   enum class Verdict {
@@ -53,4 +53,4 @@ inline constexpr std::int64_t kLargestInflation = std::int64_t{64} << 20;
 // good, as no parser makes objects of them. When `observe` ends the walk the file counts as damaged.
 [[nodiscard]] Preflight walk_dicom(ByteSource& bytes, const TagWalk::Observer& observe);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

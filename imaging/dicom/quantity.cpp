@@ -8,7 +8,7 @@
 
 #include "imaging/dicom/slice_header.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 using Slices = std::vector<SliceHeader>;
@@ -171,4 +171,4 @@ std::optional<std::string> state_quantity(const Slices& slices, Series& series) 
   return std::nullopt;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -9,7 +9,7 @@
 
 class DcmItem;
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 struct SliceHeader;
 
@@ -55,4 +55,4 @@ void apply_mapping(SliceHeader& header);
 [[nodiscard]] std::optional<std::string> state_quantity(const std::vector<SliceHeader>& slices,
                                                         Series& series);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -12,7 +12,7 @@
 #include "imaging/dicom/date.h"
 #include "imaging/dicom/element_text.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 std::string text(DcmItem& dataset, const DcmTagKey& key, const std::string& delimiters = {}) {
@@ -75,4 +75,4 @@ Patient read_patient(DcmItem& dataset, const std::string& study_date) {
   return {name(dataset), text(dataset, DCM_PatientID), sex(dataset), age(dataset, study_date)};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,10 +7,10 @@
 
 class DcmItem;
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // `study_date`: iso_date() of it; the age follows from it and the date of birth where the file does not say
 // it.
 [[nodiscard]] Patient read_patient(DcmItem& dataset, const std::string& study_date);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

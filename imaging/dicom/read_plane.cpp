@@ -4,7 +4,7 @@
 #include <dcmtk/dcmdata/dctk.h>
 #include <fmt/format.h>
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 void read_position(AttributeReader& in, SliceHeader& header) {
   if (const auto p = in.decimals(DCM_ImagePositionPatient, 3)) {
@@ -39,4 +39,4 @@ void read_window(const AttributeReader& in, SliceHeader& header) {
   if (centre && width && *width > 0.0) header.window = WindowLevel{*centre, *width};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

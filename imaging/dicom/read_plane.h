@@ -5,7 +5,7 @@
 #include "imaging/dicom/attribute_reader.h"
 #include "imaging/dicom/slice_header.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Absent attributes change nothing; present ones must be numbers (PS3.3 C.7.6.2).
 void read_position(AttributeReader& in, SliceHeader& header);
@@ -18,4 +18,4 @@ void read_rescale(AttributeReader& in, SliceHeader& header);
 // VOI LUT (PS3.3 C.11.2). A window that makes no sense counts as none.
 void read_window(const AttributeReader& in, SliceHeader& header);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

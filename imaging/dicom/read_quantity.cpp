@@ -12,7 +12,7 @@
 #include "imaging/dicom/quantity.h"
 #include "imaging/dicom/slice_header.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // Codes and numbers are ASCII; other characters would spoil a message.
@@ -169,4 +169,4 @@ void read_quantity(DcmItem& dataset, SliceHeader& header) {
       dataset.tagExists(DcmTagKey(kPhilips, 0x100e));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

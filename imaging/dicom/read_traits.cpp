@@ -8,7 +8,7 @@
 
 #include "imaging/dicom/decimal.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 void take(std::optional<double> value, std::optional<double>& into) {
@@ -68,4 +68,4 @@ void read_traits(const AttributeReader& in, SliceTraits& traits) {
   take(in.number(DCM_InstanceNumber), traits.instance);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

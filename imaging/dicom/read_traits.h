@@ -4,7 +4,7 @@
 #include "imaging/dicom/attribute_reader.h"
 #include "imaging/dicom/slice_header.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Of a classic image, or of the attributes that a converted image has kept of one. Absent attributes change
 // nothing.
@@ -16,4 +16,4 @@ void read_traits(const AttributeReader& in, SliceTraits& traits);
 // A date and a time, or both in one, as a number that orders them.
 [[nodiscard]] std::optional<double> moment(const std::string& date, const std::string& time);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

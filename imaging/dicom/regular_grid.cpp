@@ -9,7 +9,7 @@
 
 #include "imaging/dicom/slice_places.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // Gantries are tilted by at most 30 degrees; beyond this slices have little to do with each other.
@@ -257,4 +257,4 @@ GridPlan plan_regular_grid(const ImageStack& stack, const GridPolicy& policy) {
   return GridPlanner(stack, policy).plan();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -10,7 +10,7 @@
 #include "core/geometry.h"
 #include "imaging/grid_policy.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Parallel slices of one size, in the order of their places along the normal, no two at one place.
 struct ImageStack {
@@ -48,4 +48,4 @@ struct GridPlan {
 // one, from the first slice on. No grid has more than four times the voxels of its slices.
 [[nodiscard]] GridPlan plan_regular_grid(const ImageStack& stack, const GridPolicy& policy);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

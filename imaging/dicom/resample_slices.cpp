@@ -8,7 +8,7 @@
 
 #include "core/thread_pool.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // Each thread keeps two slices: all of them together a quarter of the volume at most.
@@ -215,4 +215,4 @@ template bool resample_slices(const SliceResampling<std::int16_t>&, std::vector<
 template bool resample_slices(const SliceResampling<std::uint16_t>&, std::vector<std::uint16_t>&);
 template bool resample_slices(const SliceResampling<float>&, std::vector<float>&);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -9,7 +9,7 @@
 #include "core/geometry.h"
 #include "imaging/dicom/regular_grid.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 template <class Voxel>
 struct SliceResampling {
@@ -27,4 +27,4 @@ struct SliceResampling {
 template <class Voxel>
 bool resample_slices(const SliceResampling<Voxel>& work, std::vector<Voxel>& voxels);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // The largest difference of orientation and pixel spacing from slice to slice.
@@ -46,4 +46,4 @@ bool is_orthonormal(const std::array<glm::dvec3, 2>& orientation) {
          std::abs(glm::dot(row, column)) <= kOrthonormality;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

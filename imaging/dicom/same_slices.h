@@ -3,7 +3,7 @@
 
 #include "imaging/dicom/slice_header.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // The most kinds of images in one volume; beyond that kinds are not compared.
 inline constexpr std::size_t kMostKinds = 256;
@@ -20,4 +20,4 @@ inline constexpr std::size_t kMostKinds = 256;
 // Whether row and column are two perpendicular unit vectors.
 [[nodiscard]] bool is_orthonormal(const std::array<glm::dvec3, 2>& orientation);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

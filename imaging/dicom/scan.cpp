@@ -18,7 +18,7 @@
 #include "imaging/dicom/shared_progress.h"
 #include "imaging/guard/guarded.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -227,4 +227,4 @@ Result<Catalogue> scan_dicom(const fs::path& path, const Progress& progress) {
   });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

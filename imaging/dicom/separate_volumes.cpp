@@ -14,7 +14,7 @@
 
 #include "imaging/dicom/same_slices.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // The value of an attribute for a slice: numbers, or text. Keys have the order of the listed volumes.
@@ -245,4 +245,4 @@ std::vector<LabelledSlices> separate_volumes(const SliceRefs& slices) {
   return separate(slices, 0);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -6,7 +6,7 @@
 
 #include "imaging/dicom/slice_header.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 using SliceRefs = std::vector<const SliceHeader*>;
 
@@ -22,4 +22,4 @@ struct LabelledSlices {
 // "echo 2" and "time 1 of 3" as "echo 2, time 1 of 3"; either may be empty.
 [[nodiscard]] std::string join_labels(const std::string& a, const std::string& b);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

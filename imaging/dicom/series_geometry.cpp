@@ -8,7 +8,7 @@
 
 #include "imaging/dicom/same_slices.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 using Slices = std::vector<SliceHeader>;
@@ -299,4 +299,4 @@ void set_grid(Series& series, const GridPolicy& policy) {
   series.warnings.insert(series.warnings.end(), series.grid.warnings.begin(), series.grid.warnings.end());
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,7 +7,7 @@
 #include "imaging/dicom/slice_header.h"
 #include "imaging/series.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Sorts the images of one series along their normal and checks that they make a stack: same size, pixel
 // spacing and orientation, one image a position (DICOM PS3.3 C.7.6.2.1.1); of which a regular grid is made by
@@ -28,4 +28,4 @@ void set_grid(Series& series, const GridPolicy& policy);
 // become one series a folder.
 [[nodiscard]] std::vector<Series> group_series(std::vector<SliceHeader> slices);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,7 +7,7 @@
 
 #include "core/progress.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Counts finished pieces and reports them one call at a time.
 class SharedProgress {
@@ -29,4 +29,4 @@ class SharedProgress {
   std::int64_t done_ = 0;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -14,7 +14,7 @@
 #include "imaging/dicom/quantity.h"
 #include "imaging/patient.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // The attributes that may tell the volumes of one series apart. Unset where the file lacks them.
 struct SliceTraits {
@@ -78,4 +78,4 @@ struct SliceHeader {
   SliceTraits traits;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // A distance that occurs in more than this share of all steps is a usual one.
@@ -119,4 +119,4 @@ SliceScale scale_of(const SlicePlaces& places) {
   return scale;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Whether a distance (mm) is the wanted one but for rounding in files.
 [[nodiscard]] bool is_distance(double distance, double wanted);
@@ -50,4 +50,4 @@ struct SliceScale {
 // is usual.
 SliceScale scale_of(const SlicePlaces& places);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

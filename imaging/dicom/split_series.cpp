@@ -14,7 +14,7 @@
 #include "imaging/dicom/same_slices.h"
 #include "imaging/dicom/separate_volumes.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 bool has_place(const SliceHeader& slice) {
@@ -217,4 +217,4 @@ std::vector<SeriesPart> split_series(std::vector<SliceHeader> slices) {
   return parts;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,7 +7,7 @@
 
 #include "imaging/dicom/slice_header.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 struct SeriesPart {
   std::vector<SliceHeader> slices;
@@ -26,4 +26,4 @@ struct SeriesPart {
 // when one of its images cannot be used or is alone and may be a slice that was damaged.
 [[nodiscard]] std::vector<SeriesPart> split_series(std::vector<SliceHeader> slices);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr DicomTag kItem{0xfffe, 0xe000};
@@ -333,4 +333,4 @@ bool TagWalk::pass_fragments(const ElementHeader& header, Fragments& fragments) 
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

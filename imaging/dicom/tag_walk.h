@@ -14,7 +14,7 @@
 
 #include "imaging/guard/byte_source.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 struct DicomTag {
   std::uint16_t group = 0;
@@ -150,4 +150,4 @@ class TagWalk {
   TagDamage damage_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr TransferSyntax native(std::string_view uid, std::string_view name, bool is_explicit, bool is_big,
@@ -60,4 +60,4 @@ const TransferSyntax* find_transfer_syntax(std::string_view uid) {
   return found != std::end(kSyntaxes) ? found : nullptr;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // The compression of pixels in fragments.
 enum class FrameCoding { native, rle, jpeg, jpeg_ls, jpeg_2000 };
@@ -27,4 +27,4 @@ inline constexpr std::string_view kImplicitLittleEndian = "1.2.840.10008.1.2";
 inline constexpr std::string_view kExplicitLittleEndian = "1.2.840.10008.1.2.1";
 inline constexpr std::string_view kExplicitBigEndian = "1.2.840.10008.1.2.2";
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -8,7 +8,7 @@
 
 #include "core/atomic_file.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Encoded in memory, because DCMTK does not report a file that could not be written to its end.
 Status write_dicom_file(DcmFileFormat& object, E_TransferSyntax syntax, const std::filesystem::path& file) {
@@ -32,4 +32,4 @@ Status write_dicom_file(DcmFileFormat& object, E_TransferSyntax syntax, const st
   return write_file(file, bytes);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

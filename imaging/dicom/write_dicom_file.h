@@ -8,9 +8,9 @@
 
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Encodes it and writes it whole or not at all. Fails with ErrorKind::write.
 Status write_dicom_file(DcmFileFormat& object, E_TransferSyntax syntax, const std::filesystem::path& file);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

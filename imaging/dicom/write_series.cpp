@@ -17,7 +17,7 @@
 #include "imaging/dicom/write_dicom_file.h"
 #include "imaging/guard/guarded.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -248,4 +248,4 @@ Status write_dicom_series(const Volume& volume, const DicomSeriesHeader& header,
   return guarded_writing(folder, [&] { return write_all(volume, header, folder, progress); });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

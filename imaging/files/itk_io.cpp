@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 namespace {
 
 constexpr const char* kSuffixes[] = {".nii", ".nii.gz", ".nrrd", ".mha", ".gipl", ".gipl.gz"};
@@ -109,4 +109,4 @@ std::string one_line(const std::exception& exception) {
   return text;
 }
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

@@ -10,7 +10,7 @@
 #include "core/unfinished.h"
 #include "imaging/guard/pixel_layout.h"
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 
 // While one lives, this thread parses and prints numbers with '.', and ITK prints no warnings.
 class ItkScope {
@@ -52,4 +52,4 @@ class ItkName {
 // The text of an ITK exception, on one line, without the source locations that ITK puts first.
 std::string one_line(const std::exception& exception);
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 namespace {
 
 template <class T>
@@ -103,4 +103,4 @@ Result<Volume::Voxels> read_nifti_voxels(const PixelLayout& layout) {
   }
 }
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

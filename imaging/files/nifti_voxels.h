@@ -4,7 +4,7 @@
 #include "core/volume.h"
 #include "imaging/guard/pixel_layout.h"
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 
 // The type of read_nifti_voxels(): "int16", "uint16" or "float"; `converted` when a type other than float
 // became float for its range, and its name.
@@ -18,4 +18,4 @@ NiftiType nifti_type(const NiftiVoxels& voxels);
 // Throws std::bad_alloc. layout.nifti must be set.
 Result<Volume::Voxels> read_nifti_voxels(const PixelLayout& layout);
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

@@ -6,7 +6,7 @@
 
 #include "core/atomic_file.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 Status write_png_file(std::int64_t width, std::int64_t height, std::span<const std::uint8_t> pixels,
                       const std::filesystem::path& file) {
@@ -31,4 +31,4 @@ Status write_png_file(std::int64_t width, std::int64_t height, std::span<const s
   return write_file(file, bytes);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

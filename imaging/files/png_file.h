@@ -7,11 +7,11 @@
 
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // `pixels`: red, green, blue and opacity, 8 bits each, rows from the top. The file appears whole or not at
 // all. Fails with ErrorKind::write.
 Status write_png_file(std::int64_t width, std::int64_t height, std::span<const std::uint8_t> pixels,
                       const std::filesystem::path& file);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,7 +7,7 @@
 #include "imaging/files/volume_file.h"
 #include "imaging/files/volume_header.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 using files::VolumeHeader;
@@ -125,4 +125,4 @@ Result<Volume> read_volume_file(const std::filesystem::path& file, const Progres
   return volume;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,7 +7,7 @@
 #include "core/volume.h"
 #include "imaging/series.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // By suffix, case ignored: .nii .nii.gz .nrrd .nhdr .mha .mhd .gipl .gipl.gz (reading);
 // .nii .nii.gz .nrrd .mha (writing).
@@ -26,4 +26,4 @@ Result<Volume> read_volume_file(const std::filesystem::path& file, const Progres
 Status write_volume_file(const Volume& volume, const std::filesystem::path& file);
 Status write_mask_file(const Mask& mask, const std::filesystem::path& file);  // as uint8, 0 and 1
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,7 +7,7 @@
 #include "core/checked.h"
 #include "imaging/files/nifti_voxels.h"
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 namespace {
 
 // Sines of angles and errors of length up to this are taken for rounding in the header.
@@ -154,4 +154,4 @@ Result<VolumeHeader> check_header(const std::filesystem::path& file) {
   return header;
 }
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

@@ -4,7 +4,7 @@
 #include "core/geometry.h"
 #include "imaging/files/itk_io.h"
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 
 struct VolumeHeader {
   itk::ImageIOBase::Pointer io;  // ready to read the voxels
@@ -22,4 +22,4 @@ struct VolumeHeader {
 // naming the file and the field.
 Result<VolumeHeader> check_header(const std::filesystem::path& file);
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

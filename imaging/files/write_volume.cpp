@@ -8,7 +8,7 @@
 #include "imaging/files/volume_file.h"
 #include "imaging/files/volume_header.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr std::int64_t kLongestNiftiAxis = std::numeric_limits<std::int16_t>::max();
@@ -147,4 +147,4 @@ Status write_mask_file(const Mask& mask, const std::filesystem::path& file) {
   return write_vector(file, mask.geometry, kComponent<std::uint8_t>, mask.voxels);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -4,7 +4,7 @@
 #include "core/progress.h"
 #include "core/volume.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Gaussian smoothing with standard deviation sigma_mm > 0 along every axis; the result is a float volume on
 // the same grid (ITK's recursive Gaussian).
@@ -24,4 +24,4 @@ struct Components {
 };
 Components connected_components(const Mask& mask);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

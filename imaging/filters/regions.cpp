@@ -5,7 +5,7 @@
 #include "core/typed_volume.h"
 #include "imaging/filters/filters.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr std::uint8_t kOutside = 0;
@@ -111,4 +111,4 @@ Components connected_components(const Mask& mask) {
   return components;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // weights[d] for offsets +-d, together 1. Offsets beyond `farthest` act on the line's end values only, so
@@ -48,4 +48,4 @@ void convolve_axis(std::vector<float>& values, Index3 size, int axis, double sig
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,7 +7,7 @@
 #include "imaging/filters/filters.h"
 #include "imaging/filters/separable_gaussian.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 using FloatImage = itk::Image<float, 3>;
@@ -77,4 +77,4 @@ Result<Volume> smooth(const Volume& volume, double sigma_mm) {
   return result;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -11,7 +11,7 @@
 #include "core/thread_pool.h"
 #include "core/typed_volume.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr int kBins = 1024;
@@ -233,4 +233,4 @@ Result<SuggestedStart> suggest_start(const Volume& volume, std::optional<Index3>
   return with_type(volume, [&](const auto& typed) { return suggest(volume, typed, seed, progress); });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

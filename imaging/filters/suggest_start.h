@@ -6,7 +6,7 @@
 #include "core/progress.h"
 #include "core/volume.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // The values that a user would find with the mouse.
 struct SuggestedStart {
@@ -28,4 +28,4 @@ struct SuggestedStart {
 Result<SuggestedStart> suggest_start(const Volume& volume, std::optional<Index3> seed = {},
                                      const Progress& progress = {});
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 std::size_t MemoryBytes::read(std::int64_t offset, std::span<std::uint8_t> room) {
   if (offset < 0 || offset >= size()) return 0;
@@ -136,4 +136,4 @@ const std::uint8_t* ByteReader::at(std::int64_t offset, std::size_t count) {
   return window_.data() + (offset - begin_);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

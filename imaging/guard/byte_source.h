@@ -10,7 +10,7 @@
 
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 class ByteSource {
  public:
@@ -112,4 +112,4 @@ class ByteReader {
   std::array<std::uint8_t, 4096> window_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

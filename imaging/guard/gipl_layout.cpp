@@ -2,7 +2,7 @@
 #include "core/checked.h"
 #include "imaging/guard/pixel_layout.h"
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 namespace {
 
 constexpr std::size_t kHeaderSize = 256;
@@ -62,4 +62,4 @@ Result<PixelLayout> locate_gipl(const std::filesystem::path& file) {
   return layout;
 }
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

@@ -8,7 +8,7 @@
 
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Runs `work`, which returns a Result or a Status; an exception of it becomes an error that names the path.
 template <class Work>
@@ -41,4 +41,4 @@ inline std::string without_path(std::string reason, const std::filesystem::path&
   return reason;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -4,7 +4,7 @@
 #include "imaging/guard/pixel_layout.h"
 #include "imaging/guard/text_header.h"
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 namespace {
 
 std::optional<int> bytes_of(const std::string& type) {
@@ -115,4 +115,4 @@ Result<PixelLayout> locate_meta(const std::filesystem::path& file) {
   return layout;
 }
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

@@ -9,7 +9,7 @@
 #include "core/checked.h"
 #include "imaging/guard/pixel_layout.h"
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 namespace {
 
 constexpr std::size_t kHeaderSize = 348;
@@ -234,4 +234,4 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
   return layout;
 }
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

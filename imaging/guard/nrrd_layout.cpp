@@ -3,7 +3,7 @@
 #include "imaging/guard/pixel_layout.h"
 #include "imaging/guard/text_header.h"
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 namespace {
 
 // Bytes of a voxel by NRRD's type names; nothing for "block" and unknown ones.
@@ -120,4 +120,4 @@ Result<PixelLayout> locate_nrrd(const std::filesystem::path& file) {
   return layout;
 }
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

@@ -10,7 +10,7 @@
 
 #include "imaging/guard/text_voxels.h"
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 namespace {
 
 constexpr std::int64_t kBestDeflateRatio = 1032;
@@ -209,4 +209,4 @@ Result<std::filesystem::path> detached_file(const std::filesystem::path& header,
   return header.parent_path() / path;
 }
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

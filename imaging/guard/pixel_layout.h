@@ -12,7 +12,7 @@
 
 #include "core/result.h"
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 
 enum class Format { nifti, nrrd, meta, gipl };
 enum class Coding { raw, deflate, text };
@@ -87,4 +87,4 @@ std::optional<std::vector<std::int64_t>> whole_numbers(const std::string& text);
 // and paths out of the header's folder are refused.
 Result<std::filesystem::path> detached_file(const std::filesystem::path& header, const std::string& name);
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string_view>
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 namespace {
 
 constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
@@ -163,4 +163,4 @@ Status require_finite_fields(const TextHeader& header, const std::filesystem::pa
   return {};
 }
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

@@ -5,7 +5,7 @@
 
 #include "imaging/guard/pixel_layout.h"
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 
 // Both fail (ErrorKind::input) when the file is not of that format or its header does not end within 1 MiB.
 // "name: value" up to an empty line; names in lower case.
@@ -19,4 +19,4 @@ Result<TextHeader> read_meta_header(const std::filesystem::path& file);
 Status require_finite_fields(const TextHeader& header, const std::filesystem::path& file,
                              std::initializer_list<const char*> names);
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

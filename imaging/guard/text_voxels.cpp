@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string_view>
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 namespace {
 
 // Longer than any number that a program would write.
@@ -44,4 +44,4 @@ Status check_text(const PixelLayout& layout) {
               layout.voxels, count);
 }
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

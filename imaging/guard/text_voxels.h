@@ -3,9 +3,9 @@
 
 #include "imaging/guard/pixel_layout.h"
 
-namespace tidemark::files {
+namespace tidemark::imaging::files {
 
 // As check_stream(). The MetaImage library silently reads missing numbers and other text as 0.
 Status check_text(const PixelLayout& layout);
 
-}  // namespace tidemark::files
+}  // namespace tidemark::imaging::files

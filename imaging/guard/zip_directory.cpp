@@ -7,7 +7,7 @@
 #include <functional>
 #include <string_view>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr std::uint32_t kEndMark = 0x06054b50;
@@ -238,4 +238,4 @@ Status ZipDirectory::unpack(const ZipRecord& record, const Take& take) {
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

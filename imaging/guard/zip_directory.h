@@ -14,7 +14,7 @@
 #include "core/result.h"
 #include "imaging/guard/byte_source.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 struct ZipRecord {
   static constexpr std::uint16_t kStored = 0;
@@ -56,4 +56,4 @@ class ZipDirectory {
   std::vector<ZipRecord> records_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

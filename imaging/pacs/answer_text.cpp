@@ -5,7 +5,7 @@
 
 #include "imaging/pacs/services.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr std::size_t kLongestText = 512;
@@ -111,4 +111,4 @@ std::string readable_name(const std::string& dicom_name) {
   return readable;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // On one line, without blanks around it, at most 512 bytes of whole UTF-8 characters; what is not UTF-8
 // becomes question marks.
@@ -25,4 +25,4 @@ namespace tidemark {
 // A whole number >= 0; nothing when it is none.
 [[nodiscard]] std::optional<std::int64_t> count_of(std::string_view text);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -16,7 +16,7 @@
 #include "imaging/pacs/name_resolution.h"
 #include "imaging/pacs/transport.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr long kLongestPdu = 131072;  // DCMTK's largest
@@ -237,4 +237,4 @@ Error Association::error(const OFCondition& condition, std::string_view doing) c
   return {ErrorKind::input, fmt::format("{}: {}: {}", watch_->peer(), doing, why)};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

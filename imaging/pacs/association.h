@@ -19,7 +19,7 @@ struct T_ASC_Association;
 struct T_ASC_Network;
 struct T_DIMSE_Message;
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Before the first use of DCMTK's network in the process: time-outs are ours, names are not asked for, logs
 // are off.
@@ -91,4 +91,4 @@ class Association {
   bool ended_ = false;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

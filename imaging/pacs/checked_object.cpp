@@ -7,7 +7,7 @@
 #include "imaging/guard/guarded.h"
 #include "imaging/pacs/storage_classes.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,4 +59,4 @@ Result<CheckedObject> load_checked_object(const fs::path& file) {
   return guarded(file, [&] { return open_object(file, {}); });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

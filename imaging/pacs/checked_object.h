@@ -7,7 +7,7 @@
 #include "core/result.h"
 #include "imaging/dicom/parsed_dicom.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // The identity of a DICOM file, by its own attributes.
 struct ObjectIdentity {
@@ -32,4 +32,4 @@ Result<ObjectIdentity> check_object(const std::filesystem::path& file);
 // The same, with the whole object, which comes from the bytes that were checked. Fails likewise.
 Result<CheckedObject> load_checked_object(const std::filesystem::path& file);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -10,7 +10,7 @@
 #include "core/json/json.h"
 #include "core/json/json_field.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -204,4 +204,4 @@ Status write_pacs_configuration(const PacsConfiguration& configuration, const fs
   return write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

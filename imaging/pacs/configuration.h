@@ -9,7 +9,7 @@
 
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Encryption, with files in PEM.
 struct PacsTls {
@@ -73,4 +73,4 @@ Status write_pacs_configuration(const PacsConfiguration& configuration, const st
 // Whether a conversation can be tried at all. Fails (ErrorKind::input) naming the field.
 Status check_pacs_server(const PacsServer& server);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

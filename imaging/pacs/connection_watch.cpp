@@ -6,7 +6,7 @@
 
 #include "core/progress.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 using namespace std::chrono_literals;
@@ -127,4 +127,4 @@ Status ConnectionWatch::trouble() const {
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -12,7 +12,7 @@
 
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // DCMTK reads and writes with calls that block. While such a call waits, a thread of the watch looks at the
 // clock: in every `patience` of waiting the peer must have sent or taken 64 KiB, or completed a message.
@@ -80,4 +80,4 @@ class ConnectionWatch {
   std::jthread watcher_;  // last: it uses the others
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,7 +7,7 @@
 #include "imaging/pacs/association.h"
 #include "imaging/pacs/services.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 Result<double> echo(const PacsServer& server, const Progress& progress) {
@@ -44,4 +44,4 @@ Result<double> pacs_echo(const PacsServer& server, const Progress& progress) {
   return without_exceptions([&] { return echo(server, progress); });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -13,7 +13,7 @@
 #include "imaging/pacs/services.h"
 #include "imaging/pacs/storage_classes.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr std::size_t kLongestKey = 64;  // characters (DICOM PS3.5 6.2, LO)
@@ -221,4 +221,4 @@ Result<Found<PacsSeries>> find_pacs_series(const PacsServer& server, const Serie
   });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -14,7 +14,7 @@
 #include "core/progress.h"
 #include "core/without_exceptions.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 Result<std::string> ask_system(const std::string& host) {
@@ -59,4 +59,4 @@ Result<std::string> resolve_host(const std::string& host, std::chrono::milliseco
   return fail(ErrorKind::input, "the host {} is not known: no answer to the question for its address", host);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

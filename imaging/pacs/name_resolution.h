@@ -7,11 +7,11 @@
 
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // The first IPv4 address of a host, as text. The system's resolver cannot be interrupted, so it runs on a
 // thread of its own, which is abandoned when `stop` or `patience` comes first.
 Result<std::string> resolve_host(const std::string& host, std::chrono::milliseconds patience,
                                  const std::stop_token& stop);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

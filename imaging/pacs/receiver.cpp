@@ -14,7 +14,7 @@
 #include "imaging/pacs/storage_request.h"
 #include "imaging/pacs/transport.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 using namespace std::chrono_literals;
@@ -178,4 +178,4 @@ Status Receiver::trouble() {
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

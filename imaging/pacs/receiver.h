@@ -13,7 +13,7 @@
 #include "imaging/pacs/association.h"
 #include "imaging/pacs/retrieval_folder.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Listens on a server's move_port, for calls to our AE title alone, and takes objects into the
 // retrieval_folder. Up to four calls at once; each conversation has a thread and a watch of its own.
@@ -54,4 +54,4 @@ class Receiver {
   std::jthread listener_;                    // last: it uses the others
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

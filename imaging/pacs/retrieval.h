@@ -6,7 +6,7 @@
 #include "imaging/pacs/association.h"
 #include "imaging/pacs/retrieval_folder.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // A server's counts of the objects that it sends.
 struct SubOperations {
@@ -52,4 +52,4 @@ Result<std::int64_t> retrieve_by_move(const PacsServer& server, const RetrieveRe
                                       const PacsLimits& limits, RetrievalFolder& retrieval_folder,
                                       const std::stop_token& stop);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,7 +7,7 @@
 #include "imaging/guard/guarded.h"
 #include "imaging/pacs/checked_object.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -151,4 +151,4 @@ Result<Retrieved> RetrievalFolder::keep(std::int64_t missing) {
   return retrieved_;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -16,7 +16,7 @@
 #include "imaging/pacs/connection_watch.h"
 #include "imaging/pacs/services.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Objects are collected beside the folder under a temporary name, and are in it when all have come: a program
 // that is killed before leaves no series that lacks slices. Their names are counted, 000001.dcm, and
@@ -71,4 +71,4 @@ class RetrievalFolder {
   Retrieved retrieved_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -9,7 +9,7 @@
 #include "imaging/pacs/services.h"
 #include "imaging/pacs/storage_classes.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // The UIDs of all objects that failed may come along.
@@ -107,4 +107,4 @@ Result<Retrieved> retrieve(const PacsServer& server, const RetrieveRequest& requ
   return without_exceptions([&] { return retrieve_into_folder(server, request, limits, progress); });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -6,7 +6,7 @@
 #include "imaging/pacs/storage_classes.h"
 #include "imaging/pacs/storage_request.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 Result<std::int64_t> retrieve_by_get(const PacsServer& server, const RetrieveRequest& request,
                                      const PacsLimits& limits, RetrievalFolder& retrieval_folder,
                                      const std::stop_token& stop) {
@@ -49,4 +49,4 @@ Result<std::int64_t> retrieve_by_get(const PacsServer& server, const RetrieveReq
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -5,7 +5,7 @@
 #include "imaging/pacs/receiver.h"
 #include "imaging/pacs/retrieval.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 Result<std::int64_t> move(Association& association, const Proposal& proposal, const PacsServer& server,
@@ -51,4 +51,4 @@ Result<std::int64_t> retrieve_by_move(const PacsServer& server, const RetrieveRe
   return move(**opened, proposal, server, request, retrieval_folder, **receiver);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

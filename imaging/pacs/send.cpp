@@ -13,7 +13,7 @@
 #include "imaging/pacs/checked_object.h"
 #include "imaging/pacs/services.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -157,4 +157,4 @@ Result<Sent> send_files(const PacsServer& server, const std::vector<fs::path>& f
   return without_exceptions([&] { return send_all(server, files, progress); });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

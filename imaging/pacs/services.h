@@ -15,7 +15,7 @@
 #include "core/result.h"
 #include "imaging/pacs/configuration.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Whether the server is there and knows us (C-ECHO). Returns the seconds that its answer took.
 Result<double> pacs_echo(const PacsServer& server, const Progress& progress = {});
@@ -100,4 +100,4 @@ struct Sent {
 Result<Sent> send_files(const PacsServer& server, const std::vector<std::filesystem::path>& files,
                         const Progress& progress = {});
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // Whose pixels may come compressed.
@@ -78,4 +78,4 @@ bool is_uid(const std::string& text) {
          std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

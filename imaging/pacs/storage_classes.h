@@ -6,7 +6,7 @@
 
 #include "imaging/pacs/association.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Classes of objects that are of use here: slices and volumes, and segmentations of them.
 [[nodiscard]] const std::vector<std::string>& storage_classes();
@@ -21,4 +21,4 @@ namespace tidemark {
 // Digits and dots, at most 64 (DICOM PS3.5 9.1).
 [[nodiscard]] bool is_uid(const std::string& text);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

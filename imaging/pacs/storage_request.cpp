@@ -9,7 +9,7 @@
 
 #include "imaging/pacs/storage_classes.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // Checks an object piece by piece as it comes. DCMTK has no way to stop: the connection is shut.
@@ -86,4 +86,4 @@ Status answer_storage_request(Association& association, int context, const T_DIM
                  taken ? STATUS_Success : STATUS_STORE_Error_DataSetDoesNotMatchSOPClass);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -12,7 +12,7 @@
 
 #include <utility>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr auto kProfile = TSP_Profile_BCP195;
@@ -186,4 +186,4 @@ Result<std::unique_ptr<DcmTransportLayer>> make_transport(const std::optional<Pa
   return transport;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

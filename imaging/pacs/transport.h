@@ -11,7 +11,7 @@
 
 class DcmTransportLayer;
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 enum class TransportRole { caller, called };
 
@@ -22,4 +22,4 @@ Result<std::unique_ptr<DcmTransportLayer>> make_transport(
     const std::optional<PacsTls>& tls, TransportRole role, const std::string& host,
     std::function<std::shared_ptr<ConnectionWatch>()> next_watch);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

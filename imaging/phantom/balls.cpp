@@ -3,7 +3,7 @@
 #include "imaging/phantom/noise.h"
 #include "imaging/phantom/scene.h"
 
-namespace tidemark::phantom {
+namespace tidemark::imaging::phantom {
 namespace {
 
 constexpr double kDark = 200.0;
@@ -85,4 +85,4 @@ Result<Phantom> make_bridge(const PhantomOptions& options, ThreadPool& pool, con
   return phantom;
 }
 
-}  // namespace tidemark::phantom
+}  // namespace tidemark::imaging::phantom

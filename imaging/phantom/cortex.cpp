@@ -3,7 +3,7 @@
 #include "imaging/phantom/kinds.h"
 #include "imaging/phantom/scene.h"
 
-namespace tidemark::phantom {
+namespace tidemark::imaging::phantom {
 namespace {
 
 // A voxel in the middle of the sheet: of its first stretch on the way out to the back (+y).
@@ -60,4 +60,4 @@ Result<Phantom> make_cortex(const PhantomOptions& options, ThreadPool& pool, con
   return phantom;
 }
 
-}  // namespace tidemark::phantom
+}  // namespace tidemark::imaging::phantom

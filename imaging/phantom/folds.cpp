@@ -5,7 +5,7 @@
 
 #include "imaging/phantom/shapes.h"
 
-namespace tidemark::phantom {
+namespace tidemark::imaging::phantom {
 namespace {
 
 constexpr double kTwoPi = 6.283185307179586;
@@ -43,4 +43,4 @@ double Folds::distance(double height_mm, const glm::dvec3& foot_mm, const glm::d
   return round_union(above_valleys, ridge, shape_.fillet_mm);
 }
 
-}  // namespace tidemark::phantom
+}  // namespace tidemark::imaging::phantom

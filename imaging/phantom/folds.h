@@ -6,7 +6,7 @@
 
 #include "imaging/phantom/noise.h"
 
-namespace tidemark::phantom {
+namespace tidemark::imaging::phantom {
 
 // Ridges and valleys with walls at right angles to a smooth envelope. Where they run is decided by the sign
 // of a random field on the envelope, so that they branch and wind.
@@ -32,4 +32,4 @@ class Folds {
   RandomWaves field_;
 };
 
-}  // namespace tidemark::phantom
+}  // namespace tidemark::imaging::phantom

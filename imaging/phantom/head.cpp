@@ -3,7 +3,7 @@
 #include "imaging/phantom/kinds.h"
 #include "imaging/phantom/scene.h"
 
-namespace tidemark::phantom {
+namespace tidemark::imaging::phantom {
 namespace {
 
 constexpr double kNothing = 10.0, kBone = 80.0, kWater = 230.0, kMuscle = 430.0, kGrey = 600.0;
@@ -185,4 +185,4 @@ Result<Phantom> make_head(const PhantomOptions& options, ThreadPool& pool, const
   return phantom;
 }
 
-}  // namespace tidemark::phantom
+}  // namespace tidemark::imaging::phantom

@@ -6,7 +6,7 @@
 #include "imaging/phantom/noise.h"
 #include "imaging/phantom/scene.h"
 
-namespace tidemark::phantom {
+namespace tidemark::imaging::phantom {
 namespace {
 
 constexpr double kPlasm = 500.0, kMembrane = 620.0;
@@ -118,4 +118,4 @@ Result<Phantom> make_junction(const PhantomOptions& options, ThreadPool& pool, c
   return phantom;
 }
 
-}  // namespace tidemark::phantom
+}  // namespace tidemark::imaging::phantom

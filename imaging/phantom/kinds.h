@@ -4,7 +4,7 @@
 #include "core/thread_pool.h"
 #include "imaging/phantom/phantom.h"
 
-namespace tidemark::phantom {
+namespace tidemark::imaging::phantom {
 
 using Builder = Result<Phantom> (*)(const PhantomOptions&, ThreadPool&, const Progress&);
 
@@ -24,4 +24,4 @@ Result<Phantom> make_on(ThreadPool& pool, std::string_view kind, const PhantomOp
 // The ground truth of a kind, in one sentence.
 std::string_view truth_of(std::string_view kind);
 
-}  // namespace tidemark::phantom
+}  // namespace tidemark::imaging::phantom

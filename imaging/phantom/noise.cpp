@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace tidemark::phantom {
+namespace tidemark::imaging::phantom {
 namespace {
 
 // The finalizer of SplitMix64 (Steele, Lea, Flood 2014): a bijection in which every input bit reaches every
@@ -88,4 +88,4 @@ double RandomWaves::value(const glm::dvec3& p_mm) const {
   return amplitude_ * sum;
 }
 
-}  // namespace tidemark::phantom
+}  // namespace tidemark::imaging::phantom

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-namespace tidemark::phantom {
+namespace tidemark::imaging::phantom {
 
 // A hash of (seed, index) with all 64 bits well mixed: random access, so that threads need no shared state.
 [[nodiscard]] std::uint64_t hash(std::uint64_t seed, std::uint64_t index);
@@ -46,4 +46,4 @@ class RandomWaves {
   double amplitude_;
 };
 
-}  // namespace tidemark::phantom
+}  // namespace tidemark::imaging::phantom

@@ -6,7 +6,7 @@
 #include "imaging/phantom/noise.h"
 #include "imaging/phantom/scene.h"
 
-namespace tidemark::phantom {
+namespace tidemark::imaging::phantom {
 namespace {
 
 // Hounsfield units.
@@ -158,4 +158,4 @@ Result<Phantom> make_organ(const PhantomOptions& options, ThreadPool& pool, cons
   return phantom;
 }
 
-}  // namespace tidemark::phantom
+}  // namespace tidemark::imaging::phantom

@@ -5,7 +5,7 @@
 
 #include "imaging/phantom/kinds.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace phantom {
 namespace {
 
@@ -70,4 +70,4 @@ Result<Phantom> make_phantom(std::string_view kind, const PhantomOptions& option
   return phantom::make_on(pool, kind, options, progress);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -13,7 +13,7 @@
 #include "core/progress.h"
 #include "core/volume.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // A volume, its ground truth, and a start and parameters that suit it. Where there are both a threshold and
 // a seed to start from, the threshold is the quick way and the seed the long one.
@@ -47,4 +47,4 @@ Result<Phantom> make_phantom(std::string_view kind, const PhantomOptions& option
 Status write_phantom(const Phantom& phantom, const std::filesystem::path& folder,
                      const Progress& progress = {});
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -5,7 +5,7 @@
 
 #include "imaging/phantom/noise.h"
 
-namespace tidemark::phantom {
+namespace tidemark::imaging::phantom {
 namespace {
 
 std::int16_t to_stored(double value) {
@@ -93,4 +93,4 @@ std::array<double, 4> seed_at(const Geometry& geometry, const glm::dvec3& p_mm, 
   return {std::floor(voxel.x + 0.5), std::floor(voxel.y + 0.5), std::floor(voxel.z + 0.5), radius_mm};
 }
 
-}  // namespace tidemark::phantom
+}  // namespace tidemark::imaging::phantom

@@ -10,7 +10,7 @@
 #include "imaging/phantom/phantom.h"
 #include "imaging/phantom/shapes.h"
 
-namespace tidemark::phantom {
+namespace tidemark::imaging::phantom {
 
 // Of folds, lobes and textures: the body stays the same, the caller's random seed makes the noise.
 inline constexpr std::uint64_t kShapeSeed = 1;
@@ -43,4 +43,4 @@ Result<Phantom> scan(const Scene& scene, const PhantomOptions& options, ThreadPo
 [[nodiscard]] std::array<double, 4> seed_at(const Geometry& geometry, const glm::dvec3& p_mm,
                                             double radius_mm);
 
-}  // namespace tidemark::phantom
+}  // namespace tidemark::imaging::phantom

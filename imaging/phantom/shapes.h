@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-namespace tidemark::phantom {
+namespace tidemark::imaging::phantom {
 
 inline double ball(const glm::dvec3& p, const glm::dvec3& centre, double radius) {
   return glm::length(p - centre) - radius;
@@ -72,4 +72,4 @@ class Mixture {
   double wanted_ = 0.0;  // the share that belongs to the ground truth
 };
 
-}  // namespace tidemark::phantom
+}  // namespace tidemark::imaging::phantom

@@ -3,7 +3,7 @@
 #include "imaging/phantom/noise.h"
 #include "imaging/phantom/scene.h"
 
-namespace tidemark::phantom {
+namespace tidemark::imaging::phantom {
 namespace {
 
 // Four lobes that have grown into each other, with an uneven surface. At least 1 mm a mm, so that what is
@@ -59,4 +59,4 @@ Result<Phantom> make_tumour(const PhantomOptions& options, ThreadPool& pool, con
   return phantom;
 }
 
-}  // namespace tidemark::phantom
+}  // namespace tidemark::imaging::phantom

@@ -8,7 +8,7 @@
 #include "imaging/phantom/kinds.h"
 #include "imaging/phantom/phantom.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // "tumour" -> "Phantom^Tumour", as DICOM writes family and given name.
@@ -60,4 +60,4 @@ Status write_phantom(const Phantom& phantom, const std::filesystem::path& folder
   return write_file(folder / "phantom.json", description(phantom).dump(2) + "\n");
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

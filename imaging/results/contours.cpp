@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // Contours keep this far from voxel centres (in voxels), so that rounded coordinates leave every centre on
@@ -180,4 +180,4 @@ std::vector<Contour> trace_contours(std::int64_t columns, std::int64_t rows,
   return join_holes(trace_loops(slice, std::move(links), order));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

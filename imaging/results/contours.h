@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // In voxel coordinates (i, j), whole numbers at voxel centres; the last point joins the first.
 using Contour = std::vector<glm::dvec2>;
@@ -26,4 +26,4 @@ std::vector<Contour> trace_contours(std::int64_t columns, std::int64_t rows,
 // In voxels; holes of a contour taken off.
 double signed_area(const Contour& contour);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

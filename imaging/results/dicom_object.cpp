@@ -7,7 +7,7 @@
 #include "imaging/dicom/write_dicom_file.h"
 #include "imaging/results/results.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 namespace fs = std::filesystem;
 
@@ -56,4 +56,4 @@ std::optional<ResultForm> result_form_of(const fs::path& file) {
   return std::nullopt;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -16,7 +16,7 @@
 #include "imaging/dicom/element_text.h"
 #include "imaging/dicom/parsed_dicom.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // The file, checked and parsed, its text in UTF-8. `stop_at` ends the reading there (the pixel data, say).
 // Fails with ErrorKind::input.
@@ -62,4 +62,4 @@ constexpr std::array<std::uint8_t, 3> kDefaultColour{255, 255, 0};
 // directions. Fails with ErrorKind::capability.
 Status require_planes(const Geometry& geometry, const std::filesystem::path& file);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // The first voxel whose centre is at or after `at`, within [0, count].
@@ -53,4 +53,4 @@ bool flip_inside(std::span<const glm::dvec2> polygon, std::int64_t columns, std:
   return beyond;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

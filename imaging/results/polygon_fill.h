@@ -7,7 +7,7 @@
 
 #include "imaging/results/contours.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Turns round (0 to 1, 1 to 0) every voxel of the slice whose centre the polygon surrounds an odd number of
 // times. `slice` holds columns * rows voxels, i fastest. What lies beyond the slice is left out; returns
@@ -16,4 +16,4 @@ namespace tidemark {
 bool flip_inside(std::span<const glm::dvec2> polygon, std::int64_t columns, std::int64_t rows,
                  std::vector<std::uint8_t>& slice);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

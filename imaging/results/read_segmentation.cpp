@@ -16,7 +16,7 @@
 #include "imaging/results/segment_pixels.h"
 #include "imaging/results/slice_budget.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -285,4 +285,4 @@ Result<Segments> read_segmentation(const fs::path& file, const Geometry* grid) {
   return guarded(file, [&] { return SegmentationReader(file).read(grid); });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

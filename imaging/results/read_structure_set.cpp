@@ -16,7 +16,7 @@
 #include "imaging/results/results.h"
 #include "imaging/results/slice_budget.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -244,4 +244,4 @@ Result<Segments> read_structure_set(const fs::path& file, const Geometry& grid) 
   return guarded(file, [&] { return read(file, grid); });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -3,7 +3,7 @@
 #include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 Result<Segments> read_result(const std::filesystem::path& file, const Geometry* grid) {
   const auto form = result_form_of(file);
@@ -30,4 +30,4 @@ Result<LoadedMask> load_any_mask(const std::filesystem::path& file, const Geomet
   return LoadedMask{std::move(*mask), {}};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

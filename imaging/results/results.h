@@ -9,7 +9,7 @@
 #include "core/progress.h"
 #include "imaging/results/segments.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 enum class ResultForm { segmentation, structure_set };
 
@@ -61,4 +61,4 @@ Result<LoadedMask> load_any_mask(const std::filesystem::path& file, const Geomet
 // active. Where the volume's border is inside, voxels one beyond it close the surface.
 Status write_level_set(const Volume& phi, double band, const std::filesystem::path& file);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

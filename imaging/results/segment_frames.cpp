@@ -7,7 +7,7 @@
 
 #include "core/checked.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 constexpr double kTolerance = 0.1;  // of a voxel: files round their numbers
@@ -125,4 +125,4 @@ Result<Geometry> grid_of_frames(const std::vector<SegmentFrame>& frames, std::op
   return grid;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

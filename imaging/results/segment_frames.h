@@ -9,7 +9,7 @@
 #include "core/geometry.h"
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // A plane of pixels in the patient; column c and row r lie at position + c * step_column + r * step_row.
 struct SegmentFrame {
@@ -38,4 +38,4 @@ Result<FrameMap> map_frame(const SegmentFrame& frame, const Geometry& grid, cons
 Result<Geometry> grid_of_frames(const std::vector<SegmentFrame>& frames, std::optional<double> between_mm,
                                 double thickness_mm, const std::string& what);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

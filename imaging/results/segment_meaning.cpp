@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 std::vector<NamedMeaning> make_meanings() {
@@ -133,4 +133,4 @@ Result<SegmentMeaning> find_segment_meaning(std::string_view word) {
   return fail(ErrorKind::usage, "'{}' is none of the meanings {}", word, words);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

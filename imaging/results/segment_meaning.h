@@ -7,7 +7,7 @@
 
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // A coded concept (DICOM PS3.3 8.8): {"10200004", "SCT", "Liver"}.
 struct Code {
@@ -41,4 +41,4 @@ struct NamedMeaning {
 // its place); tissue where the name has none.
 [[nodiscard]] SegmentMeaning guess_segment_meaning(std::string_view name);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

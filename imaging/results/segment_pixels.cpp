@@ -9,7 +9,7 @@
 #include "imaging/dicom/frame_codec.h"
 #include "imaging/dicom/frame_header.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 namespace fs = std::filesystem;
 
@@ -99,4 +99,4 @@ Status SegmentPixels::go_to(std::int64_t frame) {
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -10,7 +10,7 @@
 #include "imaging/dicom/frame_table.h"
 #include "imaging/dicom/parsed_dicom.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 struct SegmentPixelFormat {
   std::int64_t frames = 0;
@@ -52,4 +52,4 @@ class SegmentPixels {
   std::int64_t first_ = 0;               // its first pixel in these
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

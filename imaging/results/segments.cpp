@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // Calls visit(offset in voxel order) for every voxel inside.
@@ -105,4 +105,4 @@ Result<LabelMap> label_map_of(const Segments& segments) {
   return map;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -13,7 +13,7 @@
 #include "core/volume.h"
 #include "imaging/results/segment_meaning.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 using SegmentColour = std::array<std::uint8_t, 3>;  // sRGB
 
@@ -58,4 +58,4 @@ struct LabelMap {
 // Fails (ErrorKind::capability) when there are more than 255 segments.
 [[nodiscard]] Result<LabelMap> label_map_of(const Segments& segments);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -7,7 +7,7 @@
 
 #include "core/result.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 class SliceBudget {
  public:
@@ -29,4 +29,4 @@ class SliceBudget {
   std::int64_t taken_ = 0;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

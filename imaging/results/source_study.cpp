@@ -7,7 +7,7 @@
 #include "imaging/dicom/dicom_values.h"
 #include "imaging/dicom/header_reader.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -116,4 +116,4 @@ Result<SourceStudy> source_study(SourceFiles files, const Geometry& geometry) {
   return study;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

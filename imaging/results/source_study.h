@@ -9,7 +9,7 @@
 #include "imaging/results/dicom_object.h"
 #include "imaging/results/results.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 struct SourceImage {
   std::string sop_class_uid;
@@ -40,4 +40,4 @@ struct SourceStudy {
 // are new. Fails (ErrorKind::input) when a file cannot be read, or lies beside its slice of the grid.
 Result<SourceStudy> source_study(SourceFiles files, const Geometry& geometry);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

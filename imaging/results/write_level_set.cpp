@@ -9,7 +9,7 @@
 #include "core/atomic_file.h"
 #include "imaging/results/results.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -129,4 +129,4 @@ Status write_level_set(const Volume& phi, double band, const fs::path& file) {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

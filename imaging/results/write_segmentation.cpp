@@ -18,7 +18,7 @@
 #include "imaging/results/results.h"
 #include "imaging/results/source_study.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -261,4 +261,4 @@ Status write_segmentation(const Segments& segments, SourceFiles source, const fs
   });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -11,7 +11,7 @@
 #include "imaging/results/results.h"
 #include "imaging/results/source_study.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
@@ -225,4 +225,4 @@ Status write_structure_set(const Segments& segments, SourceFiles source, const f
   });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -10,7 +10,7 @@
 #include "imaging/surface/surface.h"
 #include "imaging/surface/surface_grid.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 using Quads = std::vector<openvdb::Vec4I>;
@@ -79,4 +79,4 @@ Result<Mesh> extract_surface(const Volume& phi) {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // Below this slope (1 is that of a distance) a step along the gradient says nothing.
@@ -192,4 +192,4 @@ void fit_vertices(const Geometry& geometry, const std::vector<float>& phi,
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -8,7 +8,7 @@
 
 #include "core/geometry.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 // Dual vertices are means of points on their cell's edges and lie inside every bulge; the flat triangles
 // between them do so once more. On a ball of radius 10 voxels the two take 1.1 % of its volume, with slices
@@ -20,4 +20,4 @@ void fit_vertices(const Geometry& geometry, const std::vector<float>& phi,
                   const std::vector<std::array<std::uint32_t, 3>>& triangles,
                   std::vector<glm::dvec3>& vertices);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -3,7 +3,7 @@
 
 #include "imaging/surface/surface.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 double mesh_volume_ml(const Mesh& mesh) {
   if (mesh.vertices.empty()) return 0.0;
@@ -45,4 +45,4 @@ bool is_closed_and_oriented(const Mesh& mesh) {
   return forward == backward;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -11,7 +11,7 @@
 #include "core/progress.h"
 #include "core/volume.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 
 struct Mesh {
   std::vector<glm::vec3> vertices;                      // patient LPS, mm
@@ -35,4 +35,4 @@ Result<Mesh> extract_surface(const Volume& phi);
 bool is_writable_mesh_file(const std::filesystem::path& file);
 Status write_mesh(const Mesh& mesh, const std::filesystem::path& file);
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

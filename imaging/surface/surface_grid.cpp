@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 // phi continued by one voxel beyond the border: where the border is inside, with the opposite sign, so that
@@ -77,4 +77,4 @@ openvdb::FloatGrid::Ptr surface_grid(const Geometry& geometry, const std::vector
   return grid;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

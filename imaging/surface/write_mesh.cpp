@@ -8,7 +8,7 @@
 #include "core/atomic_file.h"
 #include "imaging/surface/surface.h"
 
-namespace tidemark {
+namespace tidemark::imaging {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "STL and PLY are written in memory order");
@@ -95,4 +95,4 @@ Status write_mesh(const Mesh& mesh, const std::filesystem::path& file) {
   return write_file(file, suffix == ".stl" ? stl(mesh) : suffix == ".ply" ? ply(mesh) : obj(mesh));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::imaging

@@ -12,7 +12,7 @@
 #include "solver/paging/reserve.h"
 #include "solver/paging/validate.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 // Runs of steps, and pieces of a step, take about this long.
@@ -370,7 +370,7 @@ Status ComputeExecutor::validate() const {
   TIDEMARK_TRY(memory_.validate());
   auto phi = snapshot();
   if (!phi) return pass_on(phi);
-  return tidemark::validate(*phi);
+  return tidemark::solver::validate(*phi);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -9,7 +9,7 @@
 #include "solver/executor_base.h"
 #include "solver/gl/step_uniforms.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // A step is two dispatches: update (new phi, and a code of what each page needs) and maintain (grants it).
 // After every window of steps three more find out which pages are quiet. The processor hands over runs of
@@ -80,4 +80,4 @@ class ComputeExecutor final : public ExecutorBase {
   std::int64_t peak_bytes_ = 0;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -3,7 +3,7 @@
 
 #include "solver/compute/compute_executor.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 Status ComputeExecutor::restore(const Field& phi) {
   TIDEMARK_TRY(phi.check_fits(source_->geometry, band()));
@@ -89,4 +89,4 @@ Status ComputeExecutor::paint(const Sphere& sphere, Brush brush) {
   return activate_pages();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

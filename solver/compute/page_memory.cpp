@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 // The free list is a ring, and its indices run on past 2^32: its length must divide that.
@@ -193,4 +193,4 @@ Status PageMemory::validate() const {
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -9,7 +9,7 @@
 #include "solver/field.h"
 #include "solver/gl/packed_field.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // The layout of the shaders (std430).
 struct ComputeControl {
@@ -91,4 +91,4 @@ class PageMemory {
   gpu::Buffer control_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

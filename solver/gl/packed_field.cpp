@@ -2,7 +2,7 @@
 
 #include "gpu/framebuffer.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 Result<std::vector<gpu::Texture2D>> PackedField::make_textures(gpu::Device& device,
                                                                const PackedLayout& layout,
@@ -95,4 +95,4 @@ Result<std::vector<float>> PackedField::download(int buffer) const {
   return pages;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -7,7 +7,7 @@
 #include "gpu/texture.h"
 #include "solver/gl/packed_layout.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // Textures of R32F: two where a step reads phi from one and writes it to the other, one for pictures.
 // Physical pages 0 and 1 hold the constants that stand for everything that is not resident, -W and W.
@@ -46,4 +46,4 @@ class PackedField {
   std::vector<gpu::Texture2D> phi_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

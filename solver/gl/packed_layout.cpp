@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tidemark {
+namespace tidemark::solver {
 
 PackedLayout::PackedLayout(const PageLayout& layout, std::int64_t largest_texture)
     : layout_(layout), largest_texture_(largest_texture) {
@@ -70,4 +70,4 @@ void PackedLayout::set_uniforms(const gpu::Program& program) const {
   program.set("page_grid", glm::ivec3(layout_.pages()));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -9,7 +9,7 @@
 #include "solver/paging/page_layout.h"
 #include "solver/paging/page_table.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // The slices of a page lie side by side in a tile of texels, in rows as nearly square as can be: 32 x 16 for
 // (8,8,8), 16 x 16 for (16,16,1). Tiles follow each other in rows; G grows by whole rows of tiles.
@@ -49,4 +49,4 @@ class PackedLayout {
   std::int64_t pages_per_row_ = 1;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

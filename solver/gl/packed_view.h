@@ -4,7 +4,7 @@
 #include "gpu/buffer.h"
 #include "solver/gl/packed_layout.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // The textures that resources/shaders/solver/phi.glsl reads. Valid until the next call to the executor.
 struct PackedView {
@@ -15,4 +15,4 @@ struct PackedView {
   float band = 0.0F;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -2,7 +2,7 @@
 
 #include <variant>
 
-namespace tidemark {
+namespace tidemark::solver {
 
 void set_step_uniforms(const gpu::Program& program, const StepConstants<float>& k) {
   program.set("inverse_spacing", glm::vec3(k.inverse_spacing[0], k.inverse_spacing[1], k.inverse_spacing[2]));
@@ -60,4 +60,4 @@ void SourceTexture::set_uniforms(const gpu::Program& program, int unit) const {
   program.set("source_intercept", intercept_);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

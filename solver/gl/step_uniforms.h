@@ -6,7 +6,7 @@
 #include "gpu/texture.h"
 #include "solver/model.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // The uniforms of resources/shaders/solver/speed.
 void set_step_uniforms(const gpu::Program& program, const StepConstants<float>& constants);
@@ -30,4 +30,4 @@ class SourceTexture {
   float intercept_ = 0.0F;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

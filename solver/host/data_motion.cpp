@@ -7,7 +7,7 @@
 // After the standard headers: defines functions of these names.
 #include "solver/speed/data-inl.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 void fill_data_motion(const Volume& source, const StepConstants<double>& constants, Index3 first,
                       Index3 valid, float* motion) {
@@ -28,4 +28,4 @@ void fill_data_motion(const Volume& source, const StepConstants<double>& constan
       source.voxels);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -9,7 +9,7 @@
 #include "solver/host/page_code.h"
 #include "solver/paging/validate.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 // Pages that a thread takes at a time.
@@ -253,7 +253,7 @@ MemoryReport HostExecutor::memory() const {
 Status HostExecutor::validate() const {
   TIDEMARK_TRY(pages_.validate());
   TIDEMARK_TRY(quiet_.validate());
-  return tidemark::validate(pages_.copy());
+  return tidemark::solver::validate(pages_.copy());
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -11,7 +11,7 @@
 #include "solver/host/quiet_pages.h"
 #include "solver/host/resident_pages.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // A step reads phi from one buffer and writes it to the other (Jacobi), so its result does not depend on the
 // order of pages: the same bits for any number of threads. Between steps pages are allocated and freed from
@@ -64,4 +64,4 @@ class HostExecutor final : public ExecutorBase {
   std::vector<std::uint8_t> codes_;  // what each active page asks for after a step
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace tidemark {
+namespace tidemark::solver {
 
 inline constexpr std::uint8_t kRequestBits = 0x3f;  // one a face: the page across it is needed
 inline constexpr std::uint8_t kReleaseBit = 0x40;   // has been constant for a while
@@ -13,4 +13,4 @@ constexpr std::uint8_t request_bit(int face) {
   return static_cast<std::uint8_t>(1U << static_cast<unsigned>(face));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 using Values = std::array<float, kPageVoxels>;
@@ -126,4 +126,4 @@ Status PageEdits::paint(const Sphere& sphere, Brush brush) {
   return pages_.activate_all();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -5,7 +5,7 @@
 #include "solver/host/quiet_pages.h"
 #include "solver/host/resident_pages.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 class PageEdits {
  public:
@@ -24,4 +24,4 @@ class PageEdits {
   QuietPages& quiet_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

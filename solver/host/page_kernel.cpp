@@ -13,7 +13,7 @@
 #include "solver/speed/update-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tidemark::HWY_NAMESPACE {
+namespace tidemark::solver::HWY_NAMESPACE {
 namespace {
 
 #if HWY_TARGET <= HWY_AVX2  // vectors of at least a row
@@ -279,11 +279,11 @@ PageKernels page_kernels() {
   return kernels;
 }
 
-}  // namespace tidemark::HWY_NAMESPACE
+}  // namespace tidemark::solver::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 HWY_EXPORT(page_kernels);
@@ -324,5 +324,5 @@ Result<PageKernels> select_page_kernels(std::string_view name) {
   return fail(ErrorKind::usage, "unknown instruction set '{}': sse4, avx2 or avx512", name);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver
 #endif  // HWY_ONCE

@@ -10,7 +10,7 @@
 #include "solver/host/tile.h"
 #include "solver/model.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 struct PageJob {
   const PagePool* pool = nullptr;
@@ -46,4 +46,4 @@ struct PageKernels {
 // (ErrorKind::usage) on another name.
 Result<PageKernels> select_page_kernels(std::string_view name);
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

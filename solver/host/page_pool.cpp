@@ -1,6 +1,6 @@
 #include "solver/host/page_pool.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 PagePool::PagePool(PhysicalPage capacity)
     : values_(index(capacity) * kFloatsPerPage),
@@ -16,4 +16,4 @@ std::int64_t PagePool::data_bytes(std::int64_t pages) {
   return pages * static_cast<std::int64_t>(kPageVoxels * sizeof(float));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

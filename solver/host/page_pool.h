@@ -8,7 +8,7 @@
 #include "solver/host/row_masks.h"
 #include "solver/paging/page_table.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // What is kept beside the voxels of a physical page.
 struct PageInfo {
@@ -69,4 +69,4 @@ class PagePool {
   ReservedArray<PageInfo> infos_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -1,6 +1,6 @@
 #include "solver/host/page_prefetch.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 void PagePrefetch::add_values(const PagePool& pool, PhysicalPage page) {
   const float* values = pool.all_values(page);
@@ -25,4 +25,4 @@ void PagePrefetch::add_neighbours(const PagePool& pool, int buffer, PhysicalPage
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -5,7 +5,7 @@
 
 #include "solver/host/page_pool.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // A list of cache lines. They are brought into the second-level cache: the first would be too small.
 class PagePrefetch {
@@ -55,4 +55,4 @@ class PagePrefetch {
   int count_ = 0;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

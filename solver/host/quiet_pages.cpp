@@ -4,7 +4,7 @@
 
 #include "solver/paging/page_neighbours.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 // Whether a neighbour shares a face or an edge, or is the page itself.
@@ -160,4 +160,4 @@ Status QuietPages::validate() const {
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

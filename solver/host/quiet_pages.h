@@ -10,7 +10,7 @@
 #include "solver/convergence.h"
 #include "solver/host/resident_pages.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 class QuietPages {
  public:
@@ -58,4 +58,4 @@ class QuietPages {
   std::int64_t near_voxels_ = 0;  // in quiet pages, as last seen
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

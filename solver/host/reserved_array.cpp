@@ -6,7 +6,7 @@
 
 #include "core/large_pages.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 void* reserve_address_space(std::size_t bytes) {
   void* address =
@@ -21,4 +21,4 @@ void release_address_space(void* address, std::size_t bytes) {
   ::munmap(address, bytes);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

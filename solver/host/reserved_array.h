@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <memory>
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // Room for `capacity` values in the address space alone: memory is taken, zeroed, when it is first touched.
 // Nothing ever moves, so growing copies nothing and addresses stay good. T must be usable when it is all
@@ -31,4 +31,4 @@ class ReservedArray {
   std::unique_ptr<T[], Release> values_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

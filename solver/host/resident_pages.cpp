@@ -4,7 +4,7 @@
 #include "solver/host/page_code.h"
 #include "solver/paging/page_neighbours.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 ResidentPages::ResidentPages(const Volume& source, const Model& model, ThreadPool& threads,
                              std::int64_t memory_budget)
@@ -254,4 +254,4 @@ Status ResidentPages::validate() const {
   return result;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -11,7 +11,7 @@
 #include "solver/host/page_pool.h"
 #include "solver/model.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 class ResidentPages {
  public:
@@ -102,4 +102,4 @@ class ResidentPages {
   std::int64_t peak_ = 0;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

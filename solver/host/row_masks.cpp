@@ -1,6 +1,6 @@
 #include "solver/host/row_masks.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 Rows padding_rows(int valid_y, int valid_z) {
   Rows padding = 0;
@@ -35,4 +35,4 @@ RowMasks masks_of(const float* page, int valid_x, Rows padding, float band) {
   return masks;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -9,7 +9,7 @@
 
 #include "solver/paging/page_neighbours.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 inline constexpr int kPageSide = 8;
 inline constexpr int kPageRows = kPageSide * kPageSide;
@@ -65,4 +65,4 @@ constexpr bool face_is_constant(const RowMasks& masks, int face, bool is_inside)
   return (constant & kFaceRows[face]) == kFaceRows[face];
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 // The local coordinates that an axis of a page's apron may use: -1..8, less at the volume's border.
@@ -168,4 +168,4 @@ void gather(const PagePool& pool, int buffer, const PageInfo& info, unsigned sli
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

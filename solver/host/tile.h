@@ -6,7 +6,7 @@
 #include "solver/host/page_pool.h"
 #include "solver/host/row_masks.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // phi at (x, y, z), x in 0..7, y and z in -1..8, is centre[row(y, z) + x]; dx holds phi(x + 1) - phi(x - 1)
 // at the same place, but not at the edges of the apron, which nobody reads. `left` and `right` hold the
@@ -67,4 +67,4 @@ unsigned slices_read(Rows rows);
 // pages inside the volume by themselves where a vector is as long as a row.
 void gather(const PagePool& pool, int buffer, const PageInfo& info, unsigned slices, Tile& tile);
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -2,7 +2,7 @@
 
 #include <glm/common.hpp>
 
-namespace tidemark {
+namespace tidemark::solver {
 
 PageLayout::PageLayout(Index3 volume_size, Index3 page_shape)
     : volume_size_(volume_size),
@@ -36,4 +36,4 @@ Index3 PageLayout::valid_shape(std::int64_t page) const {
   return glm::min(page_shape_, volume_size_ - first_voxel(page));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -3,7 +3,7 @@
 
 #include "core/geometry.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // A virtual page number, and a voxel's position inside its page (i fastest).
 struct VirtualAddress {
@@ -44,4 +44,4 @@ class PageLayout {
 
 inline constexpr Index3 kDefaultPageShape{8, 8, 8};
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

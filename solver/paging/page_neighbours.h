@@ -3,7 +3,7 @@
 
 #include "core/geometry.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // -x, +x, -y, +y, -z, +z. Shaders have the same order (resources/shaders/solver/compute/page_memory.glsl).
 inline constexpr int kFaces = 6;
@@ -31,4 +31,4 @@ constexpr int face_neighbour(int face) {
   return kItself + (face % 2 == 0 ? -1 : 1) * kSteps[face / 2];
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

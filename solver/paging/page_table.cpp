@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-namespace tidemark {
+namespace tidemark::solver {
 
 PageTable::PageTable(const PageLayout& layout)
     : layout_(layout),
@@ -73,4 +73,4 @@ Status PageTable::validate() const {
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

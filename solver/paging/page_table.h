@@ -7,7 +7,7 @@
 #include "core/result.h"
 #include "solver/paging/page_layout.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // The number of a physical page. Two pages are static: everything that is not resident maps to one of them.
 using PhysicalPage = std::int32_t;
@@ -74,4 +74,4 @@ class PageTable {
   std::int64_t changes_ = 0;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 // The voxel just across a face of the voxel, or the voxel itself at the volume's border.
@@ -69,4 +69,4 @@ Status validate(const Field& phi) {
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

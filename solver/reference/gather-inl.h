@@ -13,7 +13,7 @@
 #include "solver/speed/stencil-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tidemark::HWY_NAMESPACE {
+namespace tidemark::solver::HWY_NAMESPACE {
 
 // `value` returns phi at a voxel; at the border of a volume of that size the index is clamped (Neumann).
 template <class Value>
@@ -44,7 +44,7 @@ Stencil<double> gather(const Value& value, Index3 size, Index3 v) {
   return s;
 }
 
-}  // namespace tidemark::HWY_NAMESPACE
+}  // namespace tidemark::solver::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per-target include guard

@@ -7,7 +7,7 @@
 #include "solver/reference/gather-inl.h"
 #include "solver/speed/update-inl.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 using HWY_NAMESPACE::Stencil;
@@ -147,4 +147,4 @@ Status ReferenceExecutor::validate() const {
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -7,7 +7,7 @@
 #include "solver/convergence.h"
 #include "solver/executor_base.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 class ReferenceExecutor final : public ExecutorBase {
  public:
@@ -48,4 +48,4 @@ class ReferenceExecutor final : public ExecutorBase {
   std::vector<PageMotion> motion_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -6,7 +6,7 @@
 #include "solver/reference/gather-inl.h"
 #include "solver/speed/curvature-inl.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 double data_speed(const Parameters& parameters, double intensity) {
   const double distance = std::abs(intensity - parameters.target);
@@ -33,4 +33,4 @@ VoxelValues values_at(const Field& phi, const Volume& source, const Parameters& 
   return values;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

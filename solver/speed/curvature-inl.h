@@ -10,7 +10,7 @@
 #include "solver/speed/stencil-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tidemark::HWY_NAMESPACE {
+namespace tidemark::solver::HWY_NAMESPACE {
 
 // |grad phi|^2 below this is treated as this, so that kappa stays finite where phi has an extremum.
 inline constexpr double kSmallestGradientSquared = 1e-3;
@@ -52,7 +52,7 @@ HWY_INLINE V curvature(const Differences<V>& d) {
   return max(min(kappa, limit), V(Real(-kLargestCurvature)));
 }
 
-}  // namespace tidemark::HWY_NAMESPACE
+}  // namespace tidemark::solver::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per-target include guard

@@ -11,7 +11,7 @@
 #include "solver/speed/numbers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tidemark::HWY_NAMESPACE {
+namespace tidemark::solver::HWY_NAMESPACE {
 
 // D at source value `source`: 1 (clamped form) or epsilon (raw form) at T, 0 at T -+ epsilon.
 template <class V, class Real>
@@ -26,7 +26,7 @@ HWY_INLINE V data_motion(V source, const StepConstants<Real>& k) {
   return V(k.time_step) * V(k.data_weight) * data_speed(source, k);
 }
 
-}  // namespace tidemark::HWY_NAMESPACE
+}  // namespace tidemark::solver::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per-target include guard

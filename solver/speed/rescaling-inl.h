@@ -10,7 +10,7 @@
 #include "solver/speed/stencil-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tidemark::HWY_NAMESPACE {
+namespace tidemark::solver::HWY_NAMESPACE {
 
 // The product of phi with a neighbour of the other sign at which that neighbour counts in full.
 inline constexpr double kFullSignChange = 0.1;
@@ -25,7 +25,7 @@ HWY_INLINE V one_sidedness(const Differences<V>& d) {
   return max(min(mul_add(d.lowest_product, V(Real(1.0 / kFullSignChange)), one), one), V(Real(0)));
 }
 
-}  // namespace tidemark::HWY_NAMESPACE
+}  // namespace tidemark::solver::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per-target include guard

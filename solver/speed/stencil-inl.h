@@ -16,7 +16,7 @@
 #include "solver/speed/numbers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tidemark::HWY_NAMESPACE {
+namespace tidemark::solver::HWY_NAMESPACE {
 
 // phi at a voxel (c), at its face neighbours (xm: x - 1, xp: x + 1) and at those of its edge neighbours that
 // have its x. The others are read as differences phi(x + 1) - phi(x - 1): here (dx) and at face neighbours.
@@ -103,7 +103,7 @@ HWY_INLINE Differences<V> differences(const Stencil<V>& s, const V (&inverse)[3]
   return d;
 }
 
-}  // namespace tidemark::HWY_NAMESPACE
+}  // namespace tidemark::solver::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per-target include guard

@@ -13,7 +13,7 @@
 #include "solver/speed/stencil-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tidemark::HWY_NAMESPACE {
+namespace tidemark::solver::HWY_NAMESPACE {
 
 // The factors of a step. The halves belong to terms that are added to both upwind parts of the result.
 template <class V>
@@ -61,7 +61,7 @@ HWY_INLINE V updated_phi(const Differences<V>& d, V data, const UpdateConstants<
   return clamp(phi, k.band);
 }
 
-}  // namespace tidemark::HWY_NAMESPACE
+}  // namespace tidemark::solver::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per-target include guard

@@ -7,7 +7,7 @@
 #include "solver/paging/validate.h"
 #include "solver/stream/stream_executor.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 // Of G, the tables and the geometry; the intermediate buffers are pooled and come on top.
 std::int64_t StreamExecutor::state_bytes(std::int64_t capacity) const {
   const auto beside = static_cast<std::int64_t>(sizeof(PageInfo) + sizeof(PhysicalPage));
@@ -173,7 +173,7 @@ Status StreamExecutor::validate() const {
   TIDEMARK_TRY(validate_sleeping_pages());
   auto phi = snapshot();
   if (!phi) return pass_on(phi);
-  return tidemark::validate(*phi);
+  return tidemark::solver::validate(*phi);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

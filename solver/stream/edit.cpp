@@ -6,7 +6,7 @@
 #include "solver/stream/pages_around.h"
 #include "solver/stream/stream_executor.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 // The pages that a sphere changes, and how.
@@ -205,4 +205,4 @@ Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
   return rebuild_active_list();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

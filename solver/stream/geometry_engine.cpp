@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 // As resources/shaders/solver/stream/page_records.glsl reads it.
@@ -128,4 +128,4 @@ gpu::Defines GeometryEngine::defines(Substream substream) const {
   return defines;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -11,7 +11,7 @@
 #include "gpu/texture.h"
 #include "solver/gl/packed_layout.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // The ways to draw pages. The first three are the nine substreams: inner texels, four edges, four corners;
 // their fragments find their neighbours' pages in the same places relative to their own.
@@ -58,4 +58,4 @@ class GeometryEngine {
   std::int64_t voxels_ = 0;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

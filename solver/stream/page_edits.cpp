@@ -3,7 +3,7 @@
 
 #include "solver/stream/region_passes.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 constexpr std::int64_t kPageSide = 16;
@@ -60,4 +60,4 @@ Status RegionPasses::paint(gpu::Device& device, const GeometryEngine& geometry, 
   return device.check("painting");
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace tidemark {
+namespace tidemark::solver {
 
 struct PageMessage {
   std::uint8_t code = 0;
@@ -21,4 +21,4 @@ struct PageMessage {
   [[nodiscard]] bool is_inside() const { return !is_mixed() && (code & 0x80U) != 0; }
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -3,7 +3,7 @@
 
 #include "core/geometry.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // Calls visit(coordinates) for a page and those around it, `reach` pages far along each axis, until it
 // returns false.
@@ -19,4 +19,4 @@ bool all_within(Index3 reach, Index3 page, Visit visit) {
   return true;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -2,7 +2,7 @@
 
 #include "gpu/draw.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 std::int64_t PhysicalMemory::bytes_for(const PackedLayout& layout, std::int64_t capacity) {
   constexpr std::int64_t kPhiBytes = 2 * 4;
@@ -66,4 +66,4 @@ Result<std::vector<PageMotion>> PhysicalMemory::read_motion() const {
   return pages;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -6,7 +6,7 @@
 #include "gpu/framebuffer.h"
 #include "solver/gl/packed_field.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // The motion of a page in a window of steps, over its voxels beside the surface (StepConstants::near).
 struct PageMotion {
@@ -57,4 +57,4 @@ class PhysicalMemory {
   gpu::Framebuffer motion_target_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

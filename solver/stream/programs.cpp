@@ -1,7 +1,7 @@
 // The programs of the stream executor's passes.
 #include "solver/stream/region_passes.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 struct Wanted {
@@ -74,4 +74,4 @@ std::vector<std::pair<const char*, const gpu::Program*>> RegionPasses::programs(
           {"motion, pages", &motion_pages_}};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -11,7 +11,7 @@
 #include "solver/stream/pages_around.h"
 #include "solver/stream/stream_executor.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 void StreamExecutor::wake(PhysicalPage page) {
   if (!info(page).asleep) return;
@@ -121,4 +121,4 @@ Status StreamExecutor::rebuild_active_list() {
   return {};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 constexpr Substream kSubstreams[] = {Substream::interior, Substream::edges, Substream::corners};
@@ -74,12 +74,12 @@ Status RegionPasses::reserve(gpu::Device& device, std::int64_t pages) {
   using gpu::TexelFormat;
   capacity_ = 0;
   TIDEMARK_TRY(make_pool(device, capacity,
-                         {{upwind_, TexelFormat::rgba32f, 1, false, "upwind gradients"},
-                          {central_, TexelFormat::rgba32f, 1, false, "central differences"},
-                          {second_, TexelFormat::rgba32f, 1, false, "second differences"},
-                          {mixed_, TexelFormat::rgba32f, 1, false, "mixed differences"},
-                          {speed_terms_, TexelFormat::rgba32f, 1, false, "speed terms"},
-                          {blocks_, TexelFormat::rgba32f, 4, false, "motion of blocks"}}));
+                         {{upwind_, gpu::TexelFormat::rgba32f, 1, false, "upwind gradients"},
+                          {central_, gpu::TexelFormat::rgba32f, 1, false, "central differences"},
+                          {second_, gpu::TexelFormat::rgba32f, 1, false, "second differences"},
+                          {mixed_, gpu::TexelFormat::rgba32f, 1, false, "mixed differences"},
+                          {speed_terms_, gpu::TexelFormat::rgba32f, 1, false, "speed terms"},
+                          {blocks_, gpu::TexelFormat::rgba32f, 4, false, "motion of blocks"}}));
   auto differences =
       gpu::Framebuffer::create(device, {&upwind_, &central_, &second_, &mixed_}, "differences");
   auto speeds = gpu::Framebuffer::create(device, {&speed_terms_}, "speed terms");
@@ -98,7 +98,7 @@ Status RegionPasses::reserve_message(gpu::Device& device, std::int64_t pages) {
   using gpu::TexelFormat;
   const std::int64_t message_rows = whole_rows(std::max<std::int64_t>(pages, 1)) / kPlacesPerRow;
   if (message_.height() < message_rows) {
-    auto message = gpu::Texture2D::create(device, TexelFormat::r8, kPlacesPerRow,
+    auto message = gpu::Texture2D::create(device, gpu::TexelFormat::r8, kPlacesPerRow,
                                           message_rows + message_rows / 4, "message");
     if (!message) return pass_on(message);
     auto target = gpu::Framebuffer::create(device, {&*message}, "message");
@@ -110,8 +110,8 @@ Status RegionPasses::reserve_message(gpu::Device& device, std::int64_t pages) {
   if (capacity == message_capacity_) return {};
   message_capacity_ = 0;
   TIDEMARK_TRY(make_pool(device, capacity,
-                         {{in_slice_, TexelFormat::rgba16f, 4, true, "neighbours in the slice"},
-                          {slices_, TexelFormat::rgba16f, 4, true, "neighbours across slices"}}));
+                         {{in_slice_, gpu::TexelFormat::rgba16f, 4, true, "neighbours in the slice"},
+                          {slices_, gpu::TexelFormat::rgba16f, 4, true, "neighbours across slices"}}));
   auto neighbours = gpu::Framebuffer::create(device, {&in_slice_, &slices_}, "neighbour information");
   if (!neighbours) return pass_on(neighbours);
   neighbours_target_ = std::move(*neighbours);
@@ -229,4 +229,4 @@ Result<std::vector<PageMessage>> RegionPasses::read_message(std::int64_t pages) 
   return message;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -11,7 +11,7 @@
 #include "solver/stream/page_message.h"
 #include "solver/stream/physical_memory.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 class RegionPasses {
  public:
@@ -102,4 +102,4 @@ class RegionPasses {
   gpu::Framebuffer differences_target_, speeds_target_, blocks_target_, neighbours_target_, message_target_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -3,7 +3,7 @@
 #include "core/stopwatch.h"
 #include "solver/gl/packed_view.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 namespace {
 
 constexpr Index3 kPageShape{16, 16, 1};  // the paper's
@@ -133,4 +133,4 @@ bool StreamExecutor::packed_view(PackedView& view) {
   return true;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

@@ -13,7 +13,7 @@
 #include "solver/stream/physical_memory.h"
 #include "solver/stream/region_passes.h"
 
-namespace tidemark {
+namespace tidemark::solver {
 
 // Its pages are the paper's, (16,16,1). A step draws the pages of the active list; then their messages are
 // read, and the processor allocates and frees pages before the next step.
@@ -123,4 +123,4 @@ class StreamExecutor final : public ExecutorBase {
   std::int64_t viewed_changes_ = -1;  // of the table, when it did
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::solver

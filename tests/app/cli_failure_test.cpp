@@ -93,7 +93,7 @@ void CliFailureTest::a_text_file_is_unreadable_input() {
 void CliFailureTest::a_truncated_file_is_unreadable_input() {
   for (const char* name : {"ball.nii", "ball.mha", "ball.nrrd", "ball.nii.gz"}) {
     const auto file = *folder_ / name;
-    QCOMPARE(failure(write_volume_file(ball(Index3(24), 8.0), file)), QString());
+    QCOMPARE(failure(imaging::write_volume_file(ball(Index3(24), 8.0), file)), QString());
     std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
     expect_refusal(file, name);
   }
@@ -101,7 +101,7 @@ void CliFailureTest::a_truncated_file_is_unreadable_input() {
 
 void CliFailureTest::a_missing_slice_is_told_by_info_and_refused_by_segment() {
   const auto series = *folder_ / "series";
-  QCOMPARE(failure(write_dicom_series(ball(Index3(24), 8.0), {}, series)), QString());
+  QCOMPARE(failure(imaging::write_dicom_series(ball(Index3(24), 8.0), {}, series)), QString());
   const QStringList files = names_in(series);
   QCOMPARE(files.size(), 24);
   std::filesystem::remove(series / files[10].toStdString());
@@ -119,7 +119,7 @@ void CliFailureTest::voxels_that_are_not_numbers_are_refused() {
   values[5] = 123456.0F;  // the NaN is put into the file by hand
   volume.voxels = values;
   const auto file = *folder_ / "nan.nii";
-  QCOMPARE(failure(write_volume_file(volume, file)), QString());
+  QCOMPARE(failure(imaging::write_volume_file(volume, file)), QString());
   QByteArray bytes = bytes_of(file);
   const float marker = 123456.0F;
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -135,7 +135,7 @@ void CliFailureTest::voxels_that_are_not_numbers_are_refused() {
 
 void CliFailureTest::an_unknown_series_is_refused() {
   const auto series = *folder_ / "series";
-  QCOMPARE(failure(write_dicom_series(ball(Index3(8), 3.0), {}, series)), QString());
+  QCOMPARE(failure(imaging::write_dicom_series(ball(Index3(8), 3.0), {}, series)), QString());
   const Outcome outcome = run_cli(segment(series) + QStringList{"--series", "1.2.3"});
   QVERIFY2(outcome.failed_in_one_line(3), outcome.told());
   QVERIFY2(outcome.err.contains("1.2.3"), outcome.told());
@@ -144,8 +144,8 @@ void CliFailureTest::an_unknown_series_is_refused() {
 void CliFailureTest::a_mask_on_another_grid_is_refused_with_both_sizes() {
   const auto file = *folder_ / "ball.nrrd";
   const auto mask = *folder_ / "mask.nrrd";
-  QCOMPARE(failure(write_volume_file(ball(Index3(24), 8.0), file)), QString());
-  QCOMPARE(failure(write_mask_file(ball_mask(ball(Index3(20), 8.0)), mask)), QString());
+  QCOMPARE(failure(imaging::write_volume_file(ball(Index3(24), 8.0), file)), QString());
+  QCOMPARE(failure(imaging::write_mask_file(ball_mask(ball(Index3(20), 8.0)), mask)), QString());
   for (const char* option : {"--init", "--init-phi", "--truth"}) {
     const Outcome outcome = run_cli(segment(file) + QStringList{option, text(mask)});
     QVERIFY2(outcome.failed_in_one_line(3), outcome.told());
@@ -156,7 +156,7 @@ void CliFailureTest::a_mask_on_another_grid_is_refused_with_both_sizes() {
 
 void CliFailureTest::a_folder_that_does_not_exist_cannot_be_written_to() {
   const auto file = *folder_ / "ball.nrrd";
-  QCOMPARE(failure(write_volume_file(ball(Index3(24), 8.0), file)), QString());
+  QCOMPARE(failure(imaging::write_volume_file(ball(Index3(24), 8.0), file)), QString());
   for (const char* option : {"--out", "--out-phi"}) {
     const Outcome outcome =
         run_cli(QStringList{"segment", text(file), option, text(*folder_ / "no/such/m.nrrd")} +
@@ -168,7 +168,7 @@ void CliFailureTest::a_folder_that_does_not_exist_cannot_be_written_to() {
 
 void CliFailureTest::a_file_is_no_folder_to_write_to() {
   const auto file = *folder_ / "ball.nrrd";
-  QCOMPARE(failure(write_volume_file(ball(Index3(24), 8.0), file)), QString());
+  QCOMPARE(failure(imaging::write_volume_file(ball(Index3(24), 8.0), file)), QString());
   const Outcome convert = run_cli({"convert", text(file), "--out", text(file / "m.nii")});
   QVERIFY2(convert.failed_in_one_line(5), convert.told());
   const Outcome phantom = run_cli({"phantom", "sphere", "--out", text(file / "phantom")});
@@ -185,7 +185,7 @@ void CliFailureTest::a_full_disk_leaves_nothing_behind_data() {
 void CliFailureTest::a_full_disk_leaves_nothing_behind() {
   QFETCH(QString, name);
   const auto file = *folder_ / "ball.nrrd";
-  QCOMPARE(failure(write_volume_file(ball(Index3(24), 8.0), file)), QString());
+  QCOMPARE(failure(imaging::write_volume_file(ball(Index3(24), 8.0), file)), QString());
   RunOptions full;
   full.largest_file = 64;
   const auto target = out_ / name.toStdString();
@@ -200,7 +200,7 @@ void CliFailureTest::a_full_disk_leaves_nothing_behind() {
 
 void CliFailureTest::a_full_disk_keeps_the_older_result() {
   const auto file = *folder_ / "ball.nrrd";
-  QCOMPARE(failure(write_volume_file(ball(Index3(24), 8.0), file)), QString());
+  QCOMPARE(failure(imaging::write_volume_file(ball(Index3(24), 8.0), file)), QString());
   const Outcome first = run_cli(segment(file));
   QVERIFY2(first.code == 0, first.told());
   const QStringList names = names_in(out_);
@@ -234,7 +234,7 @@ void CliFailureTest::a_closed_standard_output_is_a_failed_write() {
 
 void CliFailureTest::a_small_memory_budget_ends_with_4() {
   const auto file = *folder_ / "ball.nrrd";
-  QCOMPARE(failure(write_volume_file(ball(Index3(96), 40.0), file)), QString());
+  QCOMPARE(failure(imaging::write_volume_file(ball(Index3(96), 40.0), file)), QString());
   const Outcome outcome =
       run_cli({"segment", text(file), "--target", "1000", "--range", "500", "--alpha", "0.8", "--seed",
                "48,48,48,30", "--steps", "50", "--memory-budget", "1", "--out", text(out_ / "m.nrrd")});

@@ -50,11 +50,11 @@ void CliFilesTest::info_lists_what_the_contract_names() {
 void CliFilesTest::distance_is_signed_and_in_millimetres() {
   Volume volume = ball(Index3(32), 9.5);
   volume.geometry.spacing_mm = glm::dvec3(2.0);
-  QCOMPARE(failure(write_mask_file(ball_mask(volume), folder_ / "ball.nii.gz")), QString());
+  QCOMPARE(failure(imaging::write_mask_file(ball_mask(volume), folder_ / "ball.nii.gz")), QString());
   const Outcome outcome = must_run({"distance", text(folder_ / "ball.nii.gz"), "--band", "4", "--out",
                                     text(folder_ / "distance.nrrd"), "--json"});
   QCOMPARE(json_of(outcome.out)["band_mm"].toDouble(), 8.0);
-  const auto distance = read_volume_file(folder_ / "distance.nrrd");
+  const auto distance = imaging::read_volume_file(folder_ / "distance.nrrd");
   QCOMPARE(failure(distance), QString());
   const glm::dvec3 middle(15.5);
   double worst = 0.0;
@@ -70,11 +70,11 @@ void CliFilesTest::formats_keep_values_and_geometry() {
   Volume volume = ball(Index3(9, 10, 11), 3.0);
   volume.geometry.spacing_mm = {0.5, 0.75, 2.0};
   volume.geometry.origin_mm = {-12.5, 30.25, 7.0};
-  QCOMPARE(failure(write_dicom_series(volume, {}, folder_ / "oblong")), QString());
+  QCOMPARE(failure(imaging::write_dicom_series(volume, {}, folder_ / "oblong")), QString());
   QString from = text(folder_ / "oblong");
   for (const char* name : {"a.nii.gz", "b.nrrd", "c.mha", "d.nii"}) {
     QCOMPARE(must_run({"convert", from, "--out", text(folder_ / name)}).code, 0);
-    const auto read = read_volume_file(folder_ / name);
+    const auto read = imaging::read_volume_file(folder_ / name);
     QCOMPARE(failure(read), QString());
     QVERIFY(same_grid(read->geometry, volume.geometry, 1e-3));
     QCOMPARE(read->values(), volume.values());
@@ -96,7 +96,7 @@ void CliFilesTest::pictures_are_drawn_from_masks_and_fields() {
   const TemporaryFolder folder;
   const Volume volume = ball(Index3(32), 10.0);
   const auto file = folder / "ball.nrrd";
-  QCOMPARE(failure(write_volume_file(volume, file)), QString());
+  QCOMPARE(failure(imaging::write_volume_file(volume, file)), QString());
   must_run(QStringList{"segment", text(file)} + ball_arguments(Index3(32)) +
            QStringList{"--out", text(folder / "mask.nrrd"), "--out-phi", text(folder / "phi.nrrd"),
                        "--picture", text(folder / "sheet-of-segment.png")});

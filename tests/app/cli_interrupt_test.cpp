@@ -61,7 +61,7 @@ void CliInterruptTest::an_interrupted_segmentation_writes_nothing() {
   TemporaryFolder folder;
   const auto out = folder / "out";
   std::filesystem::create_directory(out);
-  QCOMPARE(failure(write_volume_file(ball(Index3(48), 16.0), folder / "ball.nrrd")), QString());
+  QCOMPARE(failure(imaging::write_volume_file(ball(Index3(48), 16.0), folder / "ball.nrrd")), QString());
   QProcess process;
   const QStringList arguments{"segment",
                               text(folder / "ball.nrrd"),

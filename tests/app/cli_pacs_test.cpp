@@ -20,12 +20,12 @@ class CliPacsTest : public QObject {
   Q_OBJECT
 
   // The file of servers, for one server.
-  static QString servers(const TemporaryFolder& folder, const PacsServer& server) {
-    PacsConfiguration configuration;
+  static QString servers(const TemporaryFolder& folder, const imaging::PacsServer& server) {
+    imaging::PacsConfiguration configuration;
     configuration.servers.push_back(server);
     configuration.limits.free_bytes = 1 << 20;
     const auto file = folder / "pacs.json";
-    if (!write_pacs_configuration(configuration, file)) qFatal("cannot write the file of servers");
+    if (!imaging::write_pacs_configuration(configuration, file)) qFatal("cannot write the file of servers");
     return text(file);
   }
 
@@ -121,9 +121,10 @@ class CliPacsTest : public QObject {
     const Outcome none = run_cli({"pacs", "echo", "peer"}, options);
     QVERIFY2(none.failed_in_one_line(3) && none.err.contains("tidemark/pacs.json: no such file"),
              none.told());
-    PacsConfiguration configuration;
+    imaging::PacsConfiguration configuration;
     configuration.servers.push_back(ScriptedPeer([](PeerEnd&) {}).server());
-    QCOMPARE(failure(write_pacs_configuration(configuration, folder / "tidemark/pacs.json")), QString());
+    QCOMPARE(failure(imaging::write_pacs_configuration(configuration, folder / "tidemark/pacs.json")),
+             QString());
     const Outcome refused = run_cli({"pacs", "echo", "peer"}, options);
     QVERIFY2(refused.failed_in_one_line(3) && refused.err.contains("Connection refused"), refused.told());
   }
@@ -158,7 +159,7 @@ class CliPacsTest : public QObject {
       is_waiting = true;
       end.say_nothing();
     });
-    PacsServer server = peer.server();
+    imaging::PacsServer server = peer.server();
     server.timeout_seconds = 600;
     const TemporaryFolder folder;
     QProcess process;

@@ -24,8 +24,9 @@ class CliRecipeTest : public QObject {
 
  private slots:
   void initTestCase() {
-    QCOMPARE(failure(write_volume_file(ball(Index3(30), 9.0), folder_ / "ball.nrrd")), QString());
-    QCOMPARE(failure(write_mask_file(ball_mask(ball(Index3(30), 5.0)), folder_ / "small.nii.gz")), QString());
+    QCOMPARE(failure(imaging::write_volume_file(ball(Index3(30), 9.0), folder_ / "ball.nrrd")), QString());
+    QCOMPARE(failure(imaging::write_mask_file(ball_mask(ball(Index3(30), 5.0)), folder_ / "small.nii.gz")),
+             QString());
   }
 
   void a_replay_writes_the_same_files_data() {
@@ -87,7 +88,7 @@ class CliRecipeTest : public QObject {
     const QString recipe = make_recipe({});
     Volume other = ball(Index3(30), 9.0);
     other.geometry.spacing_mm = {1.0, 1.0, 1.5};
-    QCOMPARE(failure(write_volume_file(other, folder_ / "other.nrrd")), QString());
+    QCOMPARE(failure(imaging::write_volume_file(other, folder_ / "other.nrrd")), QString());
     const Outcome replay =
         run_cli({"replay", recipe, text(folder_ / "other.nrrd"), "--out", text(folder_ / "o.nrrd")});
     QCOMPARE(replay.code, 0);
@@ -105,8 +106,8 @@ class CliRecipeTest : public QObject {
                    .code,
                0);
     }
-    const auto host = load_mask(folder_ / "host.nrrd");
-    const auto stream = load_mask(folder_ / "stream.nrrd");
+    const auto host = imaging::load_mask(folder_ / "host.nrrd");
+    const auto stream = imaging::load_mask(folder_ / "stream.nrrd");
     QVERIFY(host && stream);
     QVERIFY(host->count() > 500);
     QVERIFY(dice(*host, *stream) > 0.999);

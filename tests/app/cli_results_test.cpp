@@ -49,7 +49,7 @@ void CliResultsTest::init() {
 
 Volume CliResultsTest::write_series() const {
   Volume volume = ball(Index3(24), 8.0);
-  const Status written = write_dicom_series(volume, {}, *folder_ / "series");
+  const Status written = imaging::write_dicom_series(volume, {}, *folder_ / "series");
   if (!written) qFatal("%s", written.error().message.c_str());
   return volume;
 }
@@ -66,44 +66,44 @@ void CliResultsTest::segment_writes_results_that_segment_starts_from() {
   for (const char* name : {"seg.dcm", "mask.nrrd", "set.dcm", "phi.vdb"}) {
     QVERIFY2(first.out.contains("Wrote      " + path(name).toUtf8()), first.told());
   }
-  const auto mask = load_mask(*folder_ / "mask.nrrd");
+  const auto mask = imaging::load_mask(*folder_ / "mask.nrrd");
   QCOMPARE(failure(mask), QString());
   QVERIFY(mask->count() > 1000);
   for (const char* name : {"seg.dcm", "set.dcm"}) {
-    const auto read = read_result(*folder_ / name, &mask->geometry);
+    const auto read = imaging::read_result(*folder_ / name, &mask->geometry);
     QCOMPARE(failure(read), QString());
     QCOMPARE(read->list.size(), std::size_t{1});
     QCOMPARE(read->list[0].name, std::string("Ball"));
-    QVERIFY(read->list[0].colour == SegmentColour({255, 128, 0}));
-    QVERIFY(union_of(*read).voxels == mask->voxels);
+    QVERIFY(read->list[0].colour == imaging::SegmentColour({255, 128, 0}));
+    QVERIFY(imaging::union_of(*read).voxels == mask->voxels);
 
     const Outcome again = run_cli(QStringList{
         "segment", path("series"), "--target", "1000", "--range", "500", "--alpha", "0.8", "--init",
         path(name), "--steps", "0", "--truth", path("mask.nrrd"), "--json", "--out", path("again.nrrd")});
     QVERIFY2(again.code == 0, again.told());
-    const auto same = load_mask(*folder_ / "again.nrrd");
+    const auto same = imaging::load_mask(*folder_ / "again.nrrd");
     QCOMPARE(failure(same), QString());
     QVERIFY(same->voxels == mask->voxels);
   }
-  const auto seg = read_segmentation(*folder_ / "seg.dcm");
+  const auto seg = imaging::read_segmentation(*folder_ / "seg.dcm");
   QCOMPARE(seg->list[0].meaning.type.meaning, std::string("Neoplasm"));
 }
 
 void CliResultsTest::a_volume_file_makes_an_anonymous_study_and_says_so() {
-  QCOMPARE(failure(write_volume_file(ball(Index3(24), 8.0), *folder_ / "ball.nrrd")), QString());
+  QCOMPARE(failure(imaging::write_volume_file(ball(Index3(24), 8.0), *folder_ / "ball.nrrd")), QString());
   const Outcome outcome =
       run_cli(QStringList{"segment", path("ball.nrrd"), "--steps", "5", "--out", path("seg.dcm")} +
               ball_arguments(Index3(24)));
   QVERIFY2(outcome.code == 0, outcome.told());
   QVERIFY2(outcome.out.contains("anonymous patient"), outcome.told());
-  QVERIFY(result_form_of(*folder_ / "seg.dcm") == ResultForm::segmentation);
+  QVERIFY(imaging::result_form_of(*folder_ / "seg.dcm") == imaging::ResultForm::segmentation);
 }
 
 void CliResultsTest::labels_go_out_and_in_again() {
   Volume labels = write_series();
   auto& values = std::get<std::vector<std::int16_t>>(labels.voxels);
   for (std::size_t v = 0; v < values.size(); ++v) values[v] = values[v] == 0 ? 0 : v % 24 < 12 ? 3 : 7;
-  QCOMPARE(failure(write_volume_file(labels, *folder_ / "labels.nii.gz")), QString());
+  QCOMPARE(failure(imaging::write_volume_file(labels, *folder_ / "labels.nii.gz")), QString());
   const Outcome out = run_cli({"convert", path("labels.nii.gz"), "--labels", "--source", path("series"),
                                "--label", "Left,liver", "--label", "Right,,0000ff", "--out", path("seg.dcm"),
                                "--rtstruct", path("set.dcm"), "--out", path("both.stl"), "--json"});
@@ -115,7 +115,7 @@ void CliResultsTest::labels_go_out_and_in_again() {
     const Outcome in =
         run_cli({"convert", path(name), "--source", path("series"), "--out", path("back.nrrd"), "--json"});
     QVERIFY2(in.code == 0, in.told());
-    const auto back = load_volume(*folder_ / "back.nrrd");
+    const auto back = imaging::load_volume(*folder_ / "back.nrrd");
     QCOMPARE(failure(back), QString());
     for (std::int64_t v = 0; v < back->geometry.voxel_count(); ++v) {
       const float was = labels.value(v);
@@ -124,14 +124,14 @@ void CliResultsTest::labels_go_out_and_in_again() {
   }
   const Outcome mask = run_cli({"convert", path("seg.dcm"), "--mask", "--out", path("mask.nrrd")});
   QVERIFY2(mask.code == 0, mask.told());
-  QCOMPARE(failure(load_mask(*folder_ / "mask.nrrd")), QString());
+  QCOMPARE(failure(imaging::load_mask(*folder_ / "mask.nrrd")), QString());
 }
 
 void CliResultsTest::each_label_becomes_a_surface_in_a_file_of_its_own() {
   Volume labels = ball(Index3(24), 8.0);
   auto& values = std::get<std::vector<std::int16_t>>(labels.voxels);
   for (std::size_t v = 0; v < values.size(); ++v) values[v] = values[v] == 0 ? 0 : v % 24 < 12 ? 3 : 7;
-  QCOMPARE(failure(write_volume_file(labels, *folder_ / "labels.nii.gz")), QString());
+  QCOMPARE(failure(imaging::write_volume_file(labels, *folder_ / "labels.nii.gz")), QString());
   const Outcome out = run_cli({"convert", path("labels.nii.gz"), "--labels", "--label", "Left", "--out-each",
                                path("halves.ply"), "--json"});
   QVERIFY2(out.code == 0, out.told());
@@ -159,11 +159,11 @@ void CliResultsTest::a_saved_level_set_becomes_what_others_read() {
       run_cli({"convert", path("phi.nrrd"), "--phi", "--source", path("series"), "--out", path("phi.vdb"),
                "--out", path("seg.dcm"), "--rtstruct", path("two.dcm"), "--out", path("ball.stl")});
   QVERIFY2(outcome.code == 0, outcome.told());
-  const auto mask = load_mask(*folder_ / "mask.nrrd");
+  const auto mask = imaging::load_mask(*folder_ / "mask.nrrd");
   for (const char* name : {"seg.dcm", "one.dcm", "two.dcm"}) {
-    const auto read = read_result(*folder_ / name, &mask->geometry);
+    const auto read = imaging::read_result(*folder_ / name, &mask->geometry);
     QCOMPARE(failure(read), QString());
-    QVERIFY(union_of(*read).voxels == mask->voxels);
+    QVERIFY(imaging::union_of(*read).voxels == mask->voxels);
   }
   QVERIFY(bytes_of(*folder_ / "phi.vdb").size() > 1000);
 }
@@ -196,7 +196,8 @@ void CliResultsTest::wrong_usage_is_told_data() {
 void CliResultsTest::wrong_usage_is_told() {
   QFETCH(QStringList, options);
   QFETCH(QByteArray, names);
-  QCOMPARE(failure(write_mask_file(ball_mask(ball(Index3(8), 3.0)), *folder_ / "mask.nrrd")), QString());
+  QCOMPARE(failure(imaging::write_mask_file(ball_mask(ball(Index3(8), 3.0)), *folder_ / "mask.nrrd")),
+           QString());
   RunOptions here;
   here.folder = text(folder_->path());
   const Outcome outcome = run_cli(QStringList{"convert", "mask.nrrd"} + options, here);
@@ -212,7 +213,8 @@ void CliResultsTest::a_full_disk_keeps_the_older_results_data() {
 
 void CliResultsTest::a_full_disk_keeps_the_older_results() {
   QFETCH(qint64, room);
-  QCOMPARE(failure(write_mask_file(ball_mask(ball(Index3(64), 20.0)), *folder_ / "mask.nii.gz")), QString());
+  QCOMPARE(failure(imaging::write_mask_file(ball_mask(ball(Index3(64), 20.0)), *folder_ / "mask.nii.gz")),
+           QString());
   const auto out = *folder_ / "out";
   std::filesystem::create_directory(out);
   for (const QStringList& what : {QStringList{"--out", text(out / "r.dcm")},
@@ -236,7 +238,7 @@ void CliResultsTest::a_full_disk_keeps_the_older_results() {
 
 void CliResultsTest::a_kill_leaves_the_old_file_or_the_new_one() {
   Mask mask = ball_mask(ball(Index3(128), 50.0));
-  QCOMPARE(failure(write_mask_file(mask, *folder_ / "mask.nii.gz")), QString());
+  QCOMPARE(failure(imaging::write_mask_file(mask, *folder_ / "mask.nii.gz")), QString());
   const QStringList command{"convert",       path("mask.nii.gz"), "--out",
                             path("seg.dcm"), "--rtstruct",        path("set.dcm")};
   const Outcome first = run_cli(command);
@@ -256,9 +258,9 @@ void CliResultsTest::a_kill_leaves_the_old_file_or_the_new_one() {
     for (auto& [name, before] : {std::pair<const char*, QByteArray&>{"seg.dcm", seg}, {"set.dcm", set}}) {
       const QByteArray now = bytes_of(*folder_ / name);
       if (now == before) continue;
-      const auto read = read_result(*folder_ / name, &mask.geometry);
+      const auto read = imaging::read_result(*folder_ / name, &mask.geometry);
       QCOMPARE(failure(read), QString());
-      QVERIFY(union_of(*read).voxels == mask.voxels);
+      QVERIFY(imaging::union_of(*read).voxels == mask.voxels);
       before = now;
     }
   }

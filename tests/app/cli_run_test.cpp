@@ -50,11 +50,11 @@ void CliRunTest::a_sphere_phantom_is_found_segmented_and_measured() {
   QVERIFY(stats["converged"].toBool());
   QVERIFY2(stats["dice"].toDouble() > 0.97, outcome.told());
 
-  const auto truth = read_volume_file(sphere_ / "truth.nii.gz");
+  const auto truth = imaging::read_volume_file(sphere_ / "truth.nii.gz");
   const auto series = must_run({"info", text(sphere_ / "series"), "--json"});
   const QJsonObject found = json_of(series.out)["series"].toArray().first().toObject();
   for (const QString& name : names.mid(0, 4)) {
-    const auto mask = read_volume_file(folder_ / name.toStdString());
+    const auto mask = imaging::read_volume_file(folder_ / name.toStdString());
     QCOMPARE(failure(mask), QString());
     QVERIFY(same_grid(mask->geometry, truth->geometry, 1e-3));
     QCOMPARE(mask->geometry.size.x, found["size"].toArray()[0].toInt());
@@ -218,8 +218,8 @@ void CliRunTest::thin_volumes_are_segmented() {
   Index3 size(20);
   size[axis] = length;
   const Volume volume = ball(size, 7.0);
-  QCOMPARE(failure(write_volume_file(volume, folder_ / "thin.nrrd")), QString());
-  QCOMPARE(failure(write_mask_file(ball_mask(volume), folder_ / "thin_truth.nrrd")), QString());
+  QCOMPARE(failure(imaging::write_volume_file(volume, folder_ / "thin.nrrd")), QString());
+  QCOMPARE(failure(imaging::write_mask_file(ball_mask(volume), folder_ / "thin_truth.nrrd")), QString());
   const Outcome outcome = must_run(QStringList{"segment", text(folder_ / "thin.nrrd"), "--steps", "60",
                                                "--truth", text(folder_ / "thin_truth.nrrd"), "--out",
                                                text(folder_ / "thin_mask.nii.gz"), "--json"} +
@@ -229,7 +229,7 @@ void CliRunTest::thin_volumes_are_segmented() {
 
 void CliRunTest::a_series_of_two_slices_is_segmented() {
   const Volume volume = ball(Index3(32, 32, 2), 9.0);
-  QCOMPARE(failure(write_dicom_series(volume, {}, folder_ / "two")), QString());
+  QCOMPARE(failure(imaging::write_dicom_series(volume, {}, folder_ / "two")), QString());
   const Outcome outcome =
       must_run(QStringList{"segment", text(folder_ / "two"), "--steps", "60", "--out",
                            text(folder_ / "two.nrrd"), "--out", text(folder_ / "two.stl"), "--json"} +

@@ -75,8 +75,8 @@ void CliStartTest::a_mask_with_other_axes_is_matched_by_its_geometry() {
       }
     }
   }
-  QCOMPARE(failure(write_volume_file(volume, folder_ / "box.nrrd")), QString());
-  QCOMPARE(failure(write_mask_file(stored, folder_ / "stored.nrrd")), QString());
+  QCOMPARE(failure(imaging::write_volume_file(volume, folder_ / "box.nrrd")), QString());
+  QCOMPARE(failure(imaging::write_mask_file(stored, folder_ / "stored.nrrd")), QString());
   const Outcome outcome = must_run({"segment", text(folder_ / "box.nrrd"), "--target", "1000", "--range",
                                     "500", "--alpha", "1", "--init-threshold", "1000,1000", "--steps", "0",
                                     "--truth", text(folder_ / "stored.nrrd"), "--json"});

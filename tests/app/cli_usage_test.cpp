@@ -36,7 +36,7 @@ class CliUsageTest : public QObject {
 
 void CliUsageTest::initTestCase() {
   volume_ = text(folder_ / "ball.nrrd");
-  QCOMPARE(failure(write_volume_file(ball(Index3(24), 8.0), folder_ / "ball.nrrd")), QString());
+  QCOMPARE(failure(imaging::write_volume_file(ball(Index3(24), 8.0), folder_ / "ball.nrrd")), QString());
 }
 
 void CliUsageTest::help_names_units_and_an_example_data() {
@@ -202,7 +202,7 @@ void CliUsageTest::negative_coordinates_are_numbers_not_options() {
   Volume shifted = ball(Index3(24), 8.0);
   shifted.geometry.origin_mm = {-30.0, -30.0, -30.0};
   const auto file = folder_ / "shifted.nrrd";
-  QCOMPARE(failure(write_volume_file(shifted, file)), QString());
+  QCOMPARE(failure(imaging::write_volume_file(shifted, file)), QString());
   const QStringList segment{"segment", text(file), "--target", "1000", "--range", "500",
                             "--alpha", "0.8",      "--steps",  "1",    "--json"};
   const Outcome apart = run_cli(segment + QStringList{"--seed-mm", "-18,-18,-18,4"});

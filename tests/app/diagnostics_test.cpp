@@ -16,8 +16,8 @@ bool has(const std::string& all, const std::string& part) {
   return all.find(part) != std::string::npos;
 }
 
-Diagnostics example() {
-  Diagnostics d;
+desktop::Diagnostics example() {
+  desktop::Diagnostics d;
   d.version = "1.2.3";
   d.qt_version = "6.4.2";
   d.qt_platform = "xcb";
@@ -41,7 +41,7 @@ class DiagnosticsTest : public QObject {
   Q_OBJECT
  private slots:
   void versions_driver_and_limits_are_named() {
-    const std::string all = text(example());
+    const std::string all = desktop::text(example());
     for (const char* part :
          {"1.2.3", "6.4.2", "xcb", "de_DE", "software", "Mesa", "llvmpipe", "4.5 (Core Profile)",
           "2048 voxels", "compute shaders:    yes", "host", "avx2"}) {
@@ -50,11 +50,11 @@ class DiagnosticsTest : public QObject {
   }
 
   void without_opengl_the_reason_is_given_and_no_limits() {
-    Diagnostics d = example();
+    desktop::Diagnostics d = example();
     d.graphics = "none";
     d.graphics_problem = "no libGL";
     d.opengl.reset();
-    const std::string all = text(d);
+    const std::string all = desktop::text(d);
     QVERIFY(has(all, "none\n"));
     QVERIFY(has(all, "no libGL\n"));
     QVERIFY(!has(all, "opengl"));
@@ -62,20 +62,20 @@ class DiagnosticsTest : public QObject {
   }
 
   void an_opengl_before_compute_shaders_says_so() {
-    Diagnostics d = example();
+    desktop::Diagnostics d = example();
     d.opengl->minor = 1;
-    QVERIFY(has(text(d), "compute shaders:    no"));
+    QVERIFY(has(desktop::text(d), "compute shaders:    no"));
   }
 
   void the_machine_is_described_without_its_name_or_its_users() {
-    Diagnostics d = example();
-    describe_machine(d);
+    desktop::Diagnostics d = example();
+    desktop::describe_machine(d);
     QVERIFY(d.processors >= 1);
     QVERIFY(d.memory_bytes > d.free_memory_bytes);
     QVERIFY(d.free_memory_bytes > 0);
     QVERIFY(!d.system.empty());
     QVERIFY(!d.architecture.empty());
-    const QString all = QString::fromStdString(text(d));
+    const QString all = QString::fromStdString(desktop::text(d));
     const QStringList words = all.split(QRegularExpression(QStringLiteral("[\\s,]+")));
     QVERIFY(!words.contains(QSysInfo::machineHostName()));
     QVERIFY(!words.contains(qEnvironmentVariable("USER", QStringLiteral("root"))));
@@ -83,7 +83,7 @@ class DiagnosticsTest : public QObject {
   }
 
   void what_is_not_known_is_said_to_be_unknown() {
-    const std::string all = text({});
+    const std::string all = desktop::text({});
     QVERIFY(has(all, "memory:             unknown"));
     QVERIFY(has(all, "processors:         unknown"));
   }

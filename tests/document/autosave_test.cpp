@@ -14,24 +14,25 @@ using namespace tidemark::test;
 
 namespace {
 
-std::unique_ptr<Case> phantom_case() {
-  StudyOrigin origin;
+std::unique_ptr<document::Case> phantom_case() {
+  document::StudyOrigin origin;
   origin.phantom = "lumpy";
   origin.name = "Lümp <one>";
   origin.date = "2004-07-31";
-  auto made = Case::create(lumpy_volume(), origin, lumpy_parameters(), ExecutorKind::host, {});
+  auto made =
+      document::Case::create(lumpy_volume(), origin, lumpy_parameters(), solver::ExecutorKind::host, {});
   if (!made || !(*made)->level_set().begin(seed_in(*(*made)->volume()))) qFatal("no case");
   return std::move(*made);
 }
 
 // Runs on and writes the next generation.
-void go_on(Case& document, Autosave& autosave) {
+void go_on(document::Case& document, document::Autosave& autosave) {
   run(document.level_set(), 10);
-  QCOMPARE(failure(autosave.write(snapshot_of(document).value())), QString());
+  QCOMPARE(failure(autosave.write(document::snapshot_of(document).value())), QString());
 }
 
-std::int64_t steps_in(const Recoverable& copy) {
-  const auto contents = load_session(copy.file);
+std::int64_t steps_in(const document::Recoverable& copy) {
+  const auto contents = document::load_session(copy.file);
   return contents ? contents->recipe.steps : -1;
 }
 
@@ -55,29 +56,29 @@ class AutosaveTest : public QObject {
   void what_a_crash_leaves_is_found() {
     const TemporaryFolder folder;
     const auto document = phantom_case();
-    const std::string id = Autosave::new_case_id();
+    const std::string id = document::Autosave::new_case_id();
     {
-      auto autosave = Autosave::create(folder / "recovery", id).value();
-      QVERIFY(find_recoverable(folder / "recovery").empty());
+      auto autosave = document::Autosave::create(folder / "recovery", id).value();
+      QVERIFY(document::find_recoverable(folder / "recovery").empty());
       for (int i = 0; i < 3; ++i) go_on(*document, autosave);
-      QVERIFY(find_recoverable(folder / "recovery").empty());  // it is still running
+      QVERIFY(document::find_recoverable(folder / "recovery").empty());  // it is still running
       struct stat found {};
       QCOMPARE(::stat((folder / "recovery").c_str(), &found), 0);
       QCOMPARE(found.st_mode & 0777U, 0700U);
     }  // without finish()
-    const auto copies = find_recoverable(folder / "recovery");
+    const auto copies = document::find_recoverable(folder / "recovery");
     QCOMPARE(copies.size(), std::size_t{1});
     QCOMPARE(copies[0].case_id, id);
     QCOMPARE(copies[0].generation, std::uint64_t{3});
     QCOMPARE(copies[0].study.name, std::string("Lümp <one>"));
     QCOMPARE(copies[0].study.date, std::string("2004-07-31"));
-    const auto contents = load_session(copies[0].file);
+    const auto contents = document::load_session(copies[0].file);
     QCOMPARE(failure(contents), QString());
-    const auto restored = restore_case(*contents, lumpy_volume(), ExecutorKind::host, {});
+    const auto restored = document::restore_case(*contents, lumpy_volume(), solver::ExecutorKind::host, {});
     QCOMPARE(failure(restored), QString());
     QVERIFY(values_of((*restored)->level_set()) == values_of(document->level_set()));
-    discard(folder / "recovery", id);
-    QVERIFY(find_recoverable(folder / "recovery").empty());
+    document::discard(folder / "recovery", id);
+    QVERIFY(document::find_recoverable(folder / "recovery").empty());
     QVERIFY(std::filesystem::is_empty(folder / "recovery"));
   }
 
@@ -94,10 +95,11 @@ class AutosaveTest : public QObject {
     QFETCH(int, damage);
     const TemporaryFolder folder;
     const auto document = phantom_case();
-    auto autosave = std::make_unique<Autosave>(Autosave::create(folder.path(), "case-1").value());
+    auto autosave =
+        std::make_unique<document::Autosave>(document::Autosave::create(folder.path(), "case-1").value());
     for (int i = 0; i < 4; ++i) go_on(*document, *autosave);
     autosave.reset();
-    const Recoverable newest = find_recoverable(folder.path()).at(0);
+    const document::Recoverable newest = document::find_recoverable(folder.path()).at(0);
     QCOMPARE(steps_in(newest), std::int64_t{40});
     const std::filesystem::path seal = newest.file.string() + ".sha256";
     if (damage <= 1) spoil(newest.file, damage == 0);
@@ -105,21 +107,22 @@ class AutosaveTest : public QObject {
     if (damage == 3) spoil(seal, true);
     if (damage == 4) {
       run(document->level_set(), 10);
-      QCOMPARE(failure(write_session(snapshot_of(*document).value(), newest.file)), QString());
+      QCOMPARE(failure(document::write_session(document::snapshot_of(*document).value(), newest.file)),
+               QString());
     }
     if (damage == 5) std::filesystem::remove(newest.file);
-    const auto copies = find_recoverable(folder.path());
+    const auto copies = document::find_recoverable(folder.path());
     QCOMPARE(copies.size(), std::size_t{1});
     QCOMPARE(copies[0].generation, std::uint64_t{3});
     QCOMPARE(steps_in(copies[0]), std::int64_t{30});
     spoil(copies[0].file, true);
-    QVERIFY(find_recoverable(folder.path()).empty());
+    QVERIFY(document::find_recoverable(folder.path()).empty());
   }
 
   void a_clean_end_leaves_nothing() {
     const TemporaryFolder folder;
     const auto document = phantom_case();
-    auto autosave = Autosave::create(folder.path(), "case-1").value();
+    auto autosave = document::Autosave::create(folder.path(), "case-1").value();
     go_on(*document, autosave);
     go_on(*document, autosave);
     autosave.finish();
@@ -130,24 +133,24 @@ class AutosaveTest : public QObject {
     const TemporaryFolder folder;
     const auto document = phantom_case();
     for (const char* id : {"a", "b", "c"}) {
-      auto autosave = Autosave::create(folder.path(), id).value();
+      auto autosave = document::Autosave::create(folder.path(), id).value();
       go_on(*document, autosave);
     }
-    const auto running = Autosave::create(folder.path(), "b").value();
-    QCOMPARE(Autosave::create(folder.path(), "b").error().kind, ErrorKind::write);
-    const auto copies = find_recoverable(folder.path());
+    const auto running = document::Autosave::create(folder.path(), "b").value();
+    QCOMPARE(document::Autosave::create(folder.path(), "b").error().kind, ErrorKind::write);
+    const auto copies = document::find_recoverable(folder.path());
     QCOMPARE(copies.size(), std::size_t{2});
-    for (const Recoverable& copy : copies) QVERIFY(copy.case_id != "b");
+    for (const document::Recoverable& copy : copies) QVERIFY(copy.case_id != "b");
   }
 
   void what_a_killed_program_was_writing_is_swept() {
     const TemporaryFolder folder;
     const auto document = phantom_case();
     {
-      auto dead = Autosave::create(folder.path(), "dead").value();
+      auto dead = document::Autosave::create(folder.path(), "dead").value();
       go_on(*document, dead);
     }
-    auto alive = Autosave::create(folder.path(), "alive").value();
+    auto alive = document::Autosave::create(folder.path(), "alive").value();
     go_on(*document, alive);
     const auto touch = [&](const std::string& name) {
       QFile file(QString::fromStdString((folder / name).string()));
@@ -163,21 +166,22 @@ class AutosaveTest : public QObject {
     for (const std::string& name : unwanted) touch(name);
     for (const std::string& name : wanted) touch(name);
     std::filesystem::create_directory(folder / ".tidemark-f0F0f0-dead.folder");
-    sweep_unfinished(folder.path());
+    document::sweep_unfinished(folder.path());
     for (const std::string& name : unwanted) QVERIFY2(!std::filesystem::exists(folder / name), name.c_str());
     for (const std::string& name : wanted) QVERIFY2(std::filesystem::exists(folder / name), name.c_str());
     QVERIFY(std::filesystem::exists(folder / ".tidemark-f0F0f0-dead.folder"));
-    QCOMPARE(find_recoverable(folder.path()).size(), std::size_t{1});  // what is whole is still offered
+    QCOMPARE(document::find_recoverable(folder.path()).size(),
+             std::size_t{1});  // what is whole is still offered
     go_on(*document, alive);
-    sweep_unfinished(folder / "none");
+    document::sweep_unfinished(folder / "none");
   }
 
   void copies_are_written_on_another_thread_while_the_case_goes_on() {
     const TemporaryFolder folder;
     const auto document = phantom_case();
-    auto autosave = Autosave::create(folder.path(), "case-1").value();
+    auto autosave = document::Autosave::create(folder.path(), "case-1").value();
     run(document->level_set(), 10);
-    const SessionContents contents = snapshot_of(*document).value();
+    const document::SessionContents contents = document::snapshot_of(*document).value();
     const std::vector<float> then = values_of(document->level_set());
     Status written;
     std::jthread writer([&] { written = autosave.write(contents); });
@@ -185,7 +189,7 @@ class AutosaveTest : public QObject {
     QCOMPARE(failure(document->undo()), QString());
     writer.join();
     QCOMPARE(failure(written), QString());
-    const auto read = load_session(folder / "case-1.1.tidemark");
+    const auto read = document::load_session(folder / "case-1.1.tidemark");
     QCOMPARE(failure(read), QString());
     QVERIFY(read->phi->dense() == then);
   }
@@ -194,13 +198,13 @@ class AutosaveTest : public QObject {
     const TemporaryFolder folder;
     QFile file(QString::fromStdString((folder / "file").string()));
     QVERIFY(file.open(QIODevice::WriteOnly));
-    QCOMPARE(Autosave::create(folder / "file", "a").error().kind, ErrorKind::write);
+    QCOMPARE(document::Autosave::create(folder / "file", "a").error().kind, ErrorKind::write);
     std::filesystem::create_directory(folder / "real");
     std::filesystem::create_directory_symlink(folder / "real", folder / "link");
-    QCOMPARE(Autosave::create(folder / "link", "a").error().kind, ErrorKind::write);
-    QCOMPARE(Autosave::create(folder.path(), "../a").error().kind, ErrorKind::usage);
-    QCOMPARE(Autosave::create(folder.path(), "").error().kind, ErrorKind::usage);
-    QVERIFY(find_recoverable(folder / "none").empty());
+    QCOMPARE(document::Autosave::create(folder / "link", "a").error().kind, ErrorKind::write);
+    QCOMPARE(document::Autosave::create(folder.path(), "../a").error().kind, ErrorKind::usage);
+    QCOMPARE(document::Autosave::create(folder.path(), "").error().kind, ErrorKind::usage);
+    QVERIFY(document::find_recoverable(folder / "none").empty());
   }
 };
 

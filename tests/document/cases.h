@@ -35,8 +35,8 @@ inline std::shared_ptr<const Volume> lumpy_volume(Index3 size = {37, 34, 29},
   return volume;
 }
 
-inline Parameters lumpy_parameters() {
-  Parameters parameters;
+inline solver::Parameters lumpy_parameters() {
+  solver::Parameters parameters;
   parameters.target = 850.0;
   parameters.range = 250.0;
   parameters.alpha = 0.7;
@@ -44,28 +44,29 @@ inline Parameters lumpy_parameters() {
 }
 
 // A ball of so many mm, that far from the volume's middle.
-inline Sphere ball_at(const Volume& volume, glm::dvec3 off_centre, double radius_mm) {
+inline solver::Sphere ball_at(const Volume& volume, glm::dvec3 off_centre, double radius_mm) {
   const Geometry& geometry = volume.geometry;
   return {geometry.to_patient(0.5 * glm::dvec3(geometry.size - Index3(1))) + off_centre, radius_mm};
 }
 
-inline Start seed_in(const Volume& volume) {
-  Start start;
+inline document::Start seed_in(const Volume& volume) {
+  document::Start start;
   start.seeds = {ball_at(volume, {1.3, -0.7, 0.4}, 5.0)};
   return start;
 }
 
-inline std::unique_ptr<Case> make_case(std::shared_ptr<const Volume> volume,
-                                       ExecutorKind kind = ExecutorKind::host, ExecutorOptions options = {}) {
+inline std::unique_ptr<document::Case> make_case(std::shared_ptr<const Volume> volume,
+                                                 solver::ExecutorKind kind = solver::ExecutorKind::host,
+                                                 solver::ExecutorOptions options = {}) {
   if (options.threads == 0) options.threads = 1;
-  auto made = Case::create(std::move(volume), {}, lumpy_parameters(), kind, options);
+  auto made = document::Case::create(std::move(volume), {}, lumpy_parameters(), kind, options);
   if (!made) qFatal("%s", made.error().message.c_str());
   return std::move(*made);
 }
 
 // One that has begun.
-inline std::unique_ptr<Case> begun_case(ExecutorKind kind = ExecutorKind::host,
-                                        const ExecutorOptions& options = {}) {
+inline std::unique_ptr<document::Case> begun_case(solver::ExecutorKind kind = solver::ExecutorKind::host,
+                                                  const solver::ExecutorOptions& options = {}) {
   auto made = make_case(lumpy_volume(), kind, options);
   if (const Status begun = made->level_set().begin(seed_in(*made->volume())); !begun) {
     qFatal("%s", begun.error().message.c_str());
@@ -73,11 +74,11 @@ inline std::unique_ptr<Case> begun_case(ExecutorKind kind = ExecutorKind::host,
   return made;
 }
 
-inline std::vector<float> values_of(const LevelSet& level_set) {
+inline std::vector<float> values_of(const document::LevelSet& level_set) {
   return level_set.executor().snapshot().value().dense();
 }
 
-inline void run(LevelSet& level_set, std::int64_t steps) {
+inline void run(document::LevelSet& level_set, std::int64_t steps) {
   const auto report = level_set.advance({.steps = steps});
   if (!report) qFatal("%s", report.error().message.c_str());
   QCOMPARE(report->steps, steps);
@@ -86,13 +87,13 @@ inline void run(LevelSet& level_set, std::int64_t steps) {
 // A level set's values, for comparisons.
 struct Seen {
   std::vector<float> phi;
-  Parameters parameters;
+  solver::Parameters parameters;
   std::int64_t step = 0;
   std::size_t events = 0;
   bool begun = false;
   double smoothed_mm = 0.0;
 
-  explicit Seen(const LevelSet& level_set)
+  explicit Seen(const document::LevelSet& level_set)
       : phi(values_of(level_set)),
         parameters(level_set.parameters()),
         step(level_set.step()),
@@ -103,12 +104,12 @@ struct Seen {
 };
 
 // What undo would take back; empty: nothing.
-inline std::string undo_text(Case& document) {
+inline std::string undo_text(document::Case& document) {
   const auto description = document.history().undo_description();
-  return description ? describe(*description) : std::string();
+  return description ? document::describe(*description) : std::string();
 }
 
-inline Parameters with_target(Parameters parameters, double target) {
+inline solver::Parameters with_target(solver::Parameters parameters, double target) {
   parameters.target = target;
   return parameters;
 }
@@ -116,14 +117,14 @@ inline Parameters with_target(Parameters parameters, double target) {
 // The executors, one a row. On OpenGL each test makes its own context.
 inline void add_executors() {
   QTest::addColumn<int>("kind");
-  QTest::newRow("host") << int(ExecutorKind::host);
-  QTest::newRow("compute") << int(ExecutorKind::compute);
-  QTest::newRow("stream") << int(ExecutorKind::stream);
+  QTest::newRow("host") << int(solver::ExecutorKind::host);
+  QTest::newRow("compute") << int(solver::ExecutorKind::compute);
+  QTest::newRow("stream") << int(solver::ExecutorKind::stream);
 }
 
-inline ExecutorKind this_executor() {
+inline solver::ExecutorKind this_executor() {
   QFETCH(int, kind);
-  return static_cast<ExecutorKind>(kind);
+  return static_cast<solver::ExecutorKind>(kind);
 }
 
 }  // namespace tidemark::test

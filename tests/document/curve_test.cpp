@@ -8,15 +8,15 @@ using namespace tidemark;
 
 namespace {
 
-Curve curve_of(const std::vector<std::int64_t>& steps) {
-  Curve curve;
+document::Curve curve_of(const std::vector<std::int64_t>& steps) {
+  document::Curve curve;
   for (const std::int64_t step : steps) curve.add({step, 1.0, 2.0, 3.0});
   return curve;
 }
 
-std::vector<std::int64_t> steps(const Curve::Points& points) {
+std::vector<std::int64_t> steps(const document::Curve::Points& points) {
   std::vector<std::int64_t> steps;
-  for (const CurvePoint& point : points) steps.push_back(point.step);
+  for (const document::CurvePoint& point : points) steps.push_back(point.step);
   return steps;
 }
 
@@ -27,7 +27,7 @@ class CurveTest : public QObject {
 
  private slots:
   void whoever_has_the_points_keeps_them() {
-    Curve curve = curve_of({0});
+    document::Curve curve = curve_of({0});
     const auto first = curve.points();
     curve.add({0, 9.0, 9.0, 9.0});  // nothing has moved
     QCOMPARE(curve.points().get(), first.get());
@@ -37,7 +37,7 @@ class CurveTest : public QObject {
   }
 
   void a_step_back_takes_the_points_from_there_on() {
-    Curve curve = curve_of({0, 10, 20, 30});
+    document::Curve curve = curve_of({0, 10, 20, 30});
     const auto all = curve.points();
     curve.cut(40);
     QCOMPARE(curve.points().get(), all.get());
@@ -48,7 +48,7 @@ class CurveTest : public QObject {
   }
 
   void a_long_curve_is_thinned_and_keeps_its_newest_point() {
-    Curve curve;
+    document::Curve curve;
     for (std::int64_t step = 0; step <= 2001; ++step) curve.add({step, 0.0, 0.0, 0.0});
     QVERIFY(curve.points()->size() > 900 && curve.points()->size() < 1100);
     QCOMPARE(curve.points()->back().step, std::int64_t{2001});

@@ -11,13 +11,13 @@ class GestureTest : public QObject {
  private slots:
   void a_gesture_with_its_steps_is_one_entry() {
     const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     run(level_set, 10);
     QCOMPARE(failure(level_set.end_run()), QString());
     const Seen before(level_set);
     for (int i = 0; i < 4; ++i) {
-      const Sphere dab = ball_at(*document->volume(), {5.0 + i, 0, 0}, 3.0);
-      QCOMPARE(failure(level_set.paint(dab, Brush::add, 17)), QString());
+      const solver::Sphere dab = ball_at(*document->volume(), {5.0 + i, 0, 0}, 3.0);
+      QCOMPARE(failure(level_set.paint(dab, solver::Brush::add, 17)), QString());
       run(level_set, 2);
     }
     QCOMPARE(undo_text(*document), std::string("paint"));
@@ -31,8 +31,8 @@ class GestureTest : public QObject {
 
   void steps_after_a_gesture_become_a_run_of_their_own_with_the_next_checkpoint() {
     const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
-    Parameters parameters = level_set.parameters();
+    document::LevelSet& level_set = document->level_set();
+    solver::Parameters parameters = level_set.parameters();
     for (int i = 1; i <= 3; ++i) {
       QCOMPARE(failure(level_set.set_parameters(with_target(parameters, 850.0 + i), 5)), QString());
       run(level_set, 4);
@@ -54,8 +54,8 @@ class GestureTest : public QObject {
 
   void another_gesture_is_another_entry() {
     const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
-    const Parameters parameters = level_set.parameters();
+    document::LevelSet& level_set = document->level_set();
+    const solver::Parameters parameters = level_set.parameters();
     for (const std::uint64_t gesture : {1, 1, 2, 0, 0}) {
       const double target = level_set.parameters().target + 1.0;
       QCOMPARE(failure(level_set.set_parameters(with_target(parameters, target), gesture)), QString());

@@ -9,11 +9,11 @@ using namespace tidemark::test;
 
 namespace {
 
-using Edit = std::function<Status(Case&)>;
+using Edit = std::function<Status(document::Case&)>;
 
-std::vector<std::int64_t> measured_steps(const LevelSet& level_set) {
+std::vector<std::int64_t> measured_steps(const document::LevelSet& level_set) {
   std::vector<std::int64_t> steps;
-  for (const CurvePoint& point : *level_set.curve().points()) steps.push_back(point.step);
+  for (const document::CurvePoint& point : *level_set.curve().points()) steps.push_back(point.step);
   return steps;
 }
 
@@ -42,36 +42,37 @@ class HistoryTest : public QObject {
     QFETCH(int, kind);
     QFETCH(QString, text);
     const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     run(level_set, 20);
-    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), Brush::add)), QString());
+    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), solver::Brush::add)),
+             QString());
     run(level_set, 9);
     QCOMPARE(failure(level_set.end_run()), QString());
-    Parameters changed = level_set.parameters();
+    solver::Parameters changed = level_set.parameters();
     if (kind == 3 || kind == 6) changed.target += 40.0;
     if (kind == 4 || kind == 6) changed.range += 40.0;
     if (kind == 5) changed.alpha = 0.4;
-    const Sphere sphere = ball_at(*document->volume(), {-5, 4, 0}, 5.0);
+    const solver::Sphere sphere = ball_at(*document->volume(), {-5, 4, 0}, 5.0);
     const std::vector<Edit> edits{
-        [](Case& c) {
-          Start start;
-          start.from = ThresholdStart{900.0, 1100.0};
+        [](document::Case& c) {
+          document::Start start;
+          start.from = document::ThresholdStart{900.0, 1100.0};
           return c.level_set().begin(start);
         },
-        [&](Case& c) { return c.level_set().paint(sphere, Brush::add); },
-        [&](Case& c) { return c.level_set().paint(sphere, Brush::erase); },
-        [&](Case& c) { return c.level_set().set_parameters(changed); },
-        [&](Case& c) { return c.level_set().set_parameters(changed); },
-        [&](Case& c) { return c.level_set().set_parameters(changed); },
-        [&](Case& c) { return c.level_set().set_parameters(changed); },
-        [](Case& c) {
+        [&](document::Case& c) { return c.level_set().paint(sphere, solver::Brush::add); },
+        [&](document::Case& c) { return c.level_set().paint(sphere, solver::Brush::erase); },
+        [&](document::Case& c) { return c.level_set().set_parameters(changed); },
+        [&](document::Case& c) { return c.level_set().set_parameters(changed); },
+        [&](document::Case& c) { return c.level_set().set_parameters(changed); },
+        [&](document::Case& c) { return c.level_set().set_parameters(changed); },
+        [](document::Case& c) {
           run(c.level_set(), 20);
           run(c.level_set(), 3);
           return Status();
         },
-        [](Case& c) { return c.level_set().step_back(5); },
-        [](Case& c) { return c.level_set().restart(); },
-        [](Case& c) { return c.smooth_source(1.0); },
+        [](document::Case& c) { return c.level_set().step_back(5); },
+        [](document::Case& c) { return c.level_set().restart(); },
+        [](document::Case& c) { return c.smooth_source(1.0); },
     };
     const Seen before(level_set);
     QCOMPARE(failure(edits[static_cast<std::size_t>(kind)](*document)), QString());
@@ -91,7 +92,7 @@ class HistoryTest : public QObject {
   void the_curve_goes_back_and_forth_with_the_surface() {
     using Steps = std::vector<std::int64_t>;
     const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     const auto note = [&] { level_set.note({level_set.step(), 1.0, 2.0, 3.0}); };
     note();
     for (int i = 0; i < 2; ++i) {
@@ -110,7 +111,8 @@ class HistoryTest : public QObject {
     QCOMPARE(measured_steps(level_set), (Steps{0, 10}));
     taken_back();
     // What is measured anew at the same step.
-    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), Brush::add)), QString());
+    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), solver::Brush::add)),
+             QString());
     QCOMPARE(measured_steps(level_set), (Steps{0, 10}));
     taken_back();
     // Another run from the start does not mix with the first.
@@ -125,7 +127,7 @@ class HistoryTest : public QObject {
 
   void what_changes_nothing_is_no_entry() {
     const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     QCOMPARE(failure(level_set.set_parameters(level_set.parameters())), QString());
     QCOMPARE(failure(level_set.step_back(3)), QString());
     QCOMPARE(failure(level_set.restart()), QString());
@@ -142,19 +144,19 @@ class HistoryTest : public QObject {
 
   void a_start_that_fails_leaves_everything_as_it_was() {
     const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     run(level_set, 7);
     QCOMPARE(failure(level_set.end_run()), QString());
     const Seen before(level_set);
-    Start nothing;
-    nothing.from = ThresholdStart{5000.0, 6000.0};
+    document::Start nothing;
+    nothing.from = document::ThresholdStart{5000.0, 6000.0};
     QCOMPARE(level_set.begin(nothing).error().kind, ErrorKind::usage);
-    Start outside;
+    document::Start outside;
     outside.seeds = {ball_at(*document->volume(), {500, 0, 0}, 5.0)};
     QCOMPARE(level_set.begin(outside).error().kind, ErrorKind::usage);
-    Start other_grid;
+    document::Start other_grid;
     Mask mask{lumpy_volume({10, 10, 10})->geometry, std::vector<std::uint8_t>(1000, 1)};
-    other_grid.from = MaskStart{std::make_shared<const Mask>(mask), "small"};
+    other_grid.from = document::MaskStart{std::make_shared<const Mask>(mask), "small"};
     QCOMPARE(level_set.begin(other_grid).error().kind, ErrorKind::usage);
     QVERIFY(Seen(level_set) == before);
     QCOMPARE(undo_text(*document), std::string("evolution, 7 steps"));
@@ -162,26 +164,27 @@ class HistoryTest : public QObject {
 
   void what_finds_no_room_leaves_everything_as_it_was() {
     const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     run(level_set, 40);
     QCOMPARE(failure(level_set.restart()), QString());
     QCOMPARE(failure(document->smooth_source(0.5)), QString());
     QCOMPARE(failure(level_set.set_parameters(with_target(level_set.parameters(), 800.0))), QString());
     const Seen before(level_set);
     const std::string text = undo_text(*document);
-    ExecutorOptions tight;
+    solver::ExecutorOptions tight;
     tight.threads = 1;
-    const MemoryReport memory = level_set.executor().memory();
+    const solver::MemoryReport memory = level_set.executor().memory();
     tight.memory_budget_bytes = (memory.state_bytes + memory.source_bytes) * 5 / 4;
-    QCOMPARE(failure(level_set.change_executor(ExecutorKind::host, tight)), QString());
+    QCOMPARE(failure(level_set.change_executor(solver::ExecutorKind::host, tight)), QString());
     // A point with other parameters, another source, and a surface everywhere.
-    Recipe recipe = level_set.recipe();
+    document::Recipe recipe = level_set.recipe();
     recipe.parameters.target = 900.0;
     recipe.events.clear();
     const Geometry& geometry = document->volume()->geometry;
     const std::vector<float> values(static_cast<std::size_t>(geometry.voxel_count()), 0.5F);
     const double band = level_set.executor().band();
-    const auto everywhere = std::make_shared<const Field>(Field::from_dense(geometry, values, band));
+    const auto everywhere =
+        std::make_shared<const solver::Field>(solver::Field::from_dense(geometry, values, band));
     QCOMPARE(level_set.resume_from(recipe, everywhere).error().kind, ErrorKind::capability);
     QVERIFY(Seen(level_set) == before);
     QCOMPARE(undo_text(*document), text);
@@ -191,22 +194,22 @@ class HistoryTest : public QObject {
     QTest::addColumn<int>("kind");
     QTest::addColumn<int>("seed");
     for (int seed = 1; seed <= 6; ++seed) {
-      QTest::addRow("host, %d", seed) << int(ExecutorKind::host) << seed;
+      QTest::addRow("host, %d", seed) << int(solver::ExecutorKind::host) << seed;
     }
-    QTest::newRow("compute") << int(ExecutorKind::compute) << 7;
-    QTest::newRow("stream") << int(ExecutorKind::stream) << 8;
+    QTest::newRow("compute") << int(solver::ExecutorKind::compute) << 7;
+    QTest::newRow("stream") << int(solver::ExecutorKind::stream) << 8;
   }
   void random_edits_undo_and_redo_follow_a_model() {
     QFETCH(int, seed);
     const auto document = begun_case(this_executor());
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     std::mt19937 random(static_cast<unsigned>(seed));
     const auto number = [&](int low, int high) {
       return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
     };
     std::vector<Seen> states{Seen(level_set)};  // the model: what was seen at each end of an entry
     std::size_t at = 0;
-    const int rounds = this_executor() == ExecutorKind::host ? 60 : 16;
+    const int rounds = this_executor() == solver::ExecutorKind::host ? 60 : 16;
     for (int round = 0; round < rounds; ++round) {
       const int action = number(0, 9);
       if (action <= 2 && at > 0) {
@@ -217,7 +220,7 @@ class HistoryTest : public QObject {
         ++at;
       } else {
         const glm::dvec3 place(number(-9, 9), number(-9, 9), number(-7, 7));
-        const Brush brush = number(0, 2) == 0 ? Brush::erase : Brush::add;
+        const solver::Brush brush = number(0, 2) == 0 ? solver::Brush::erase : solver::Brush::add;
         Status done;
         if (action == 5) {
           done = level_set.set_parameters(with_target(level_set.parameters(), number(700, 990) + 0.5));
@@ -241,7 +244,7 @@ class HistoryTest : public QObject {
 
   void memory_stays_below_the_limit_and_the_oldest_goes_first() {
     const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     constexpr std::int64_t kLimit = 900'000;
     document->history().set_limit(kLimit);
     std::vector<Seen> states{Seen(level_set)};
@@ -263,7 +266,7 @@ class HistoryTest : public QObject {
 
   void whether_something_would_be_lost_is_known() {
     const auto document = make_case(lumpy_volume());
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     QVERIFY(!document->changed_since_save());
     QCOMPARE(failure(level_set.begin(seed_in(*document->volume()))), QString());
     QVERIFY(document->changed_since_save());

@@ -34,28 +34,29 @@ class LabelsTest : public QObject {
 
  private slots:
   void labels_become_segments_and_come_back() {
-    Labels labels(small_grid());
+    document::Labels labels(small_grid());
     const std::uint8_t liver = labels.add("Liver").value();
     const std::uint8_t tumour = labels.add("Tumour").value();
     QCOMPARE(failure(labels.accept(box(labels.geometry(), {0, 0, 0}, {5, 5, 5}), liver)), QString());
-    QCOMPARE(failure(labels.accept(box(labels.geometry(), {4, 0, 0}, {9, 5, 5}), tumour, Take::others_too)),
+    QCOMPARE(failure(labels.accept(box(labels.geometry(), {4, 0, 0}, {9, 5, 5}), tumour,
+                                   document::Take::others_too)),
              QString());
-    Label chosen = *labels.find(tumour);
-    chosen.meaning = find_segment_meaning("cyst").value();
+    document::Label chosen = *labels.find(tumour);
+    chosen.meaning = imaging::find_segment_meaning("cyst").value();
     QCOMPARE(failure(labels.set(chosen)), QString());
-    const Segments segments = segments_of(labels);
+    const imaging::Segments segments = document::segments_of(labels);
     QCOMPARE(segments.list.size(), std::size_t{2});
-    QVERIFY(segments.list[0].meaning == find_segment_meaning("liver").value());  // as its name says
+    QVERIFY(segments.list[0].meaning == imaging::find_segment_meaning("liver").value());  // as its name says
     QVERIFY(segments.list[1].meaning == chosen.meaning);
     QCOMPARE(segments.list[1].count(), labels.mask(tumour).count());
 
-    Labels read(small_grid());
+    document::Labels read(small_grid());
     const std::uint8_t bone = read.add("Bone").value();
     QCOMPARE(failure(read.accept(box(read.geometry(), {0, 0, 0}, {0, 0, 0}), bone)), QString());
-    Label locked = *read.find(bone);
+    document::Label locked = *read.find(bone);
     locked.locked = true;
     QCOMPARE(failure(read.set(locked)), QString());
-    QCOMPARE(failure(add_segments(read, segments)), QString());
+    QCOMPARE(failure(document::add_segments(read, segments)), QString());
     QCOMPARE(read.list().size(), std::size_t{3});
     QCOMPARE(read.list()[1].name, std::string("Liver"));
     QVERIFY(read.list()[2].colour == labels.find(tumour)->colour);
@@ -65,24 +66,25 @@ class LabelsTest : public QObject {
 
     Geometry larger = small_grid();
     larger.size.x += 1;
-    Labels elsewhere(larger);
-    QCOMPARE(add_segments(elsewhere, segments).error().kind, ErrorKind::usage);
+    document::Labels elsewhere(larger);
+    QCOMPARE(document::add_segments(elsewhere, segments).error().kind, ErrorKind::usage);
     QVERIFY(elsewhere.list().empty());
   }
 
   void an_import_is_one_entry_of_the_history() {
-    History history;
-    Labels labels(small_grid(), &history);
+    document::History history;
+    document::Labels labels(small_grid(), &history);
     const std::uint8_t bone = labels.add("Bone").value();
     QCOMPARE(failure(labels.accept(box(labels.geometry(), {0, 0, 0}, {3, 3, 3}), bone)), QString());
     const std::vector<std::uint8_t> before(labels.voxels().begin(), labels.voxels().end());
-    Segments two = segments_of(box(labels.geometry(), {2, 2, 2}, {5, 5, 5}), "Left kidney");
-    two.list.push_back(segments_of(box(labels.geometry(), {5, 5, 5}, {7, 7, 7}), "Cyst").list.front());
-    QCOMPARE(failure(add_segments(labels, two)), QString());
+    imaging::Segments two = imaging::segments_of(box(labels.geometry(), {2, 2, 2}, {5, 5, 5}), "Left kidney");
+    two.list.push_back(
+        imaging::segments_of(box(labels.geometry(), {5, 5, 5}, {7, 7, 7}), "Cyst").list.front());
+    QCOMPARE(failure(document::add_segments(labels, two)), QString());
     QCOMPARE(labels.list().size(), std::size_t{3});
     QCOMPARE(labels.mask(2).count(), std::int64_t{63});  // the later one has what both hold
     const std::vector<std::uint8_t> after(labels.voxels().begin(), labels.voxels().end());
-    QCOMPARE(describe(*history.undo_description()), std::string("import of Left kidney, Cyst"));
+    QCOMPARE(document::describe(*history.undo_description()), std::string("import of Left kidney, Cyst"));
     QCOMPARE(failure(history.undo()), QString());
     QCOMPARE(labels.list().size(), std::size_t{1});
     QVERIFY(std::ranges::equal(labels.voxels(), before));
@@ -93,52 +95,53 @@ class LabelsTest : public QObject {
 
   // They come out of files of others, and go into session files and files for others.
   void names_and_codes_that_nobody_could_write_again_are_cut_or_left_out() {
-    Labels labels(small_grid());
-    Segments segments = segments_of(box(labels.geometry(), {2, 2, 2}, {5, 5, 5}), std::string(63, 'x') + "ä");
+    document::Labels labels(small_grid());
+    imaging::Segments segments =
+        imaging::segments_of(box(labels.geometry(), {2, 2, 2}, {5, 5, 5}), std::string(63, 'x') + "ä");
     segments.list.front().meaning.type = {std::string(300, '1'), "SCT", "Liver"};
-    QCOMPARE(failure(add_segments(labels, segments)), QString());
+    QCOMPARE(failure(document::add_segments(labels, segments)), QString());
     QCOMPARE(labels.list().front().name, std::string(63, 'x'));
     QVERIFY(!labels.list().front().meaning);
   }
 
   void voxels_of_locked_labels_stay() {
-    Labels labels(small_grid());
+    document::Labels labels(small_grid());
     const std::uint8_t liver = labels.add("Liver").value();
     const std::uint8_t tumour = labels.add("Tumour").value();
     const Mask left = box(labels.geometry(), {0, 0, 0}, {5, 5, 5});
     const Mask right = box(labels.geometry(), {4, 0, 0}, {9, 5, 5});
     QCOMPARE(failure(labels.accept(left, liver)), QString());
     QCOMPARE(labels.mask(liver).count(), std::int64_t{216});
-    Label locked = *labels.find(liver);
+    document::Label locked = *labels.find(liver);
     locked.locked = true;
     QCOMPARE(failure(labels.set(locked)), QString());
-    QCOMPARE(failure(labels.accept(right, tumour, Take::others_too)), QString());
+    QCOMPARE(failure(labels.accept(right, tumour, document::Take::others_too)), QString());
     QCOMPARE(labels.mask(liver).count(), std::int64_t{216});
     QCOMPARE(labels.mask(tumour).count(), std::int64_t{144});
     QCOMPARE(labels.accept(right, liver).error().kind, ErrorKind::usage);
     QCOMPARE(labels.remove(liver).error().kind, ErrorKind::usage);
     locked.locked = false;
     QCOMPARE(failure(labels.set(locked)), QString());
-    QCOMPARE(failure(labels.accept(right, tumour, Take::others_too)), QString());
+    QCOMPARE(failure(labels.accept(right, tumour, document::Take::others_too)), QString());
     QCOMPARE(labels.mask(liver).count(), std::int64_t{144});
     QCOMPARE(labels.mask(tumour).count(), std::int64_t{216});
   }
 
   void a_label_takes_free_voxels_unless_it_is_to_take_all() {
-    Labels labels(small_grid());
+    document::Labels labels(small_grid());
     const std::uint8_t liver = labels.add("Liver").value();
     const std::uint8_t tumour = labels.add("Tumour").value();
     QCOMPARE(labels.accept(box(labels.geometry(), {0, 0, 0}, {5, 5, 5}), liver).value().taken,
              std::int64_t{216});
     const Mask right = box(labels.geometry(), {4, 0, 0}, {9, 5, 5});
-    const Acceptance careful = labels.accept(right, tumour).value();
+    const document::Acceptance careful = labels.accept(right, tumour).value();
     QCOMPARE(labels.mask(liver).count(), std::int64_t{216});
     QCOMPARE(labels.mask(tumour).count(), std::int64_t{144});
     QCOMPARE(careful.label, std::string("Tumour"));
     QCOMPARE(careful.taken, std::int64_t{144});
     QCOMPARE(careful.from_others, std::int64_t{0});
     QCOMPARE(careful.left, std::int64_t{72});
-    const Acceptance all = labels.accept(right, tumour, Take::others_too).value();
+    const document::Acceptance all = labels.accept(right, tumour, document::Take::others_too).value();
     QCOMPARE(labels.mask(liver).count(), std::int64_t{144});
     QCOMPARE(all.taken, std::int64_t{216});
     QCOMPARE(all.from_others, std::int64_t{72});
@@ -146,19 +149,19 @@ class LabelsTest : public QObject {
   }
 
   void accepting_replaces_or_adds() {
-    Labels labels(small_grid());
+    document::Labels labels(small_grid());
     const std::uint8_t id = labels.add("one").value();
     QCOMPARE(failure(labels.accept(box(labels.geometry(), {0, 0, 0}, {1, 1, 1}), id)), QString());
-    QCOMPARE(
-        failure(labels.accept(box(labels.geometry(), {2, 0, 0}, {3, 1, 1}), id, Take::free_voxels, false)),
-        QString());
+    QCOMPARE(failure(labels.accept(box(labels.geometry(), {2, 0, 0}, {3, 1, 1}), id,
+                                   document::Take::free_voxels, false)),
+             QString());
     QCOMPARE(labels.mask(id).count(), std::int64_t{16});
     QCOMPARE(failure(labels.accept(box(labels.geometry(), {2, 0, 0}, {3, 1, 1}), id)), QString());
     QCOMPARE(labels.mask(id).count(), std::int64_t{8});
   }
 
   void what_cannot_be_done_is_refused() {
-    Labels labels(small_grid());
+    document::Labels labels(small_grid());
     const Mask mask = box(labels.geometry(), {0, 0, 0}, {1, 1, 1});
     QCOMPARE(labels.accept(mask, 3).error().kind, ErrorKind::usage);
     QCOMPARE(labels.remove(3).error().kind, ErrorKind::usage);
@@ -172,7 +175,7 @@ class LabelsTest : public QObject {
   }
 
   void there_is_room_for_255_with_colours_of_their_own() {
-    Labels labels(small_grid());
+    document::Labels labels(small_grid());
     std::set<std::array<std::uint8_t, 3>> colours;
     for (int i = 1; i <= 255; ++i) {
       const std::uint8_t id = labels.add(std::to_string(i)).value();
@@ -186,11 +189,11 @@ class LabelsTest : public QObject {
   }
 
   void random_changes_are_taken_back_one_by_one() {
-    History history;
-    Labels labels(small_grid(), &history);
+    document::History history;
+    document::Labels labels(small_grid(), &history);
     std::mt19937 random(3);
     struct SeenLabels {
-      std::vector<Label> list;
+      std::vector<document::Label> list;
       std::vector<std::uint8_t> masks;  // of label 1 and 2
     };
     const auto seen = [&] {
@@ -209,12 +212,13 @@ class LabelsTest : public QObject {
       } else if (random() % 8 == 0) {
         done = labels.remove(id);
       } else if (random() % 6 == 0) {
-        Label other = *labels.find(id);
+        document::Label other = *labels.find(id);
         other.name += "'";
         other.visible = !other.visible;
         done = labels.set(other);
       } else {
-        const Take take = random() % 2 == 0 ? Take::free_voxels : Take::others_too;
+        const document::Take take =
+            random() % 2 == 0 ? document::Take::free_voxels : document::Take::others_too;
         auto accepted =
             labels.accept(box(labels.geometry(), first, first + Index3(2)), id, take, random() % 2 == 0);
         done = accepted ? Status() : pass_on(accepted);
@@ -238,7 +242,7 @@ class LabelsTest : public QObject {
     auto volume = *lumpy_volume({12, 11, 10});
     volume.slope = -2.0;
     volume.intercept = 500.0;
-    Labels labels(volume.geometry);
+    document::Labels labels(volume.geometry);
     const std::uint8_t id = labels.add("one").value();
     const Mask mask = box(volume.geometry, {2, 3, 4}, {6, 7, 8});
     QCOMPARE(failure(labels.accept(mask, id)), QString());
@@ -252,9 +256,9 @@ class LabelsTest : public QObject {
     }
     const double mean = sum / 125.0;
     const double deviation = std::sqrt(squares / 125.0 - mean * mean);
-    const std::vector<RegionStatistics> all = statistics_by_label(volume, labels);
+    const std::vector<document::RegionStatistics> all = document::statistics_by_label(volume, labels);
     QCOMPARE(all.size(), std::size_t{256});
-    for (const RegionStatistics& found : {statistics_in(volume, mask), all[id]}) {
+    for (const document::RegionStatistics& found : {document::statistics_in(volume, mask), all[id]}) {
       QCOMPARE(found.voxels, std::int64_t{125});
       QVERIFY(std::abs(found.volume_ml - 125.0 * 1.3 / 1000.0) < 1e-12);
       QVERIFY(std::abs(found.mean - mean) < 1e-6 * std::abs(mean));
@@ -268,9 +272,9 @@ class LabelsTest : public QObject {
     run(document->level_set(), 12);
     const Mask surface = document->level_set().executor().snapshot().value().mask();
     const std::uint8_t id = document->labels().add("Liver").value();
-    QCOMPARE(failure(document->accept_surface(id, Take::free_voxels)), QString());
+    QCOMPARE(failure(document->accept_surface(id, document::Take::free_voxels)), QString());
     QVERIFY(document->labels().mask(id).voxels == surface.voxels);
-    QCOMPARE(describe(*document->history().undo_description()), std::string("accept into Liver"));
+    QCOMPARE(document::describe(*document->history().undo_description()), std::string("accept into Liver"));
     QCOMPARE(failure(document->undo()), QString());
     QCOMPARE(document->labels().mask(id).count(), std::int64_t{0});
     QCOMPARE(failure(document->redo()), QString());

@@ -12,12 +12,13 @@ class OtherExecutorTest : public QObject {
  private slots:
   void entries_outlive_a_change_of_executor() {
     const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     const Seen start(level_set);
     run(level_set, 10);
-    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), Brush::add)), QString());
+    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), solver::Brush::add)),
+             QString());
     const Seen painted(level_set);
-    QCOMPARE(failure(level_set.change_executor(ExecutorKind::stream, {})), QString());
+    QCOMPARE(failure(level_set.change_executor(solver::ExecutorKind::stream, {})), QString());
     QCOMPARE(level_set.executor().name(), std::string_view("stream"));
     QVERIFY(Seen(level_set) == painted);
     QCOMPARE(failure(document->undo()), QString());
@@ -29,29 +30,29 @@ class OtherExecutorTest : public QObject {
   }
 
   void a_lost_gpu_gives_way_to_the_processor() {
-    ExecutorOptions options;
+    solver::ExecutorOptions options;
     options.device = gpu::Device::create_headless({gpu::GlVersion::gl45, false}).value();
-    const auto document = begun_case(ExecutorKind::compute, options);
-    LevelSet& level_set = document->level_set();
+    const auto document = begun_case(solver::ExecutorKind::compute, options);
+    document::LevelSet& level_set = document->level_set();
     const Seen start(level_set);
     run(level_set, 6);
     options.device->lose_at_check(1);
     QVERIFY(!level_set.advance({.steps = 5}));
-    QCOMPARE(failure(level_set.rebuild({}, ExecutorKind::host)), QString());
+    QCOMPARE(failure(level_set.rebuild({}, solver::ExecutorKind::host)), QString());
     QCOMPARE(level_set.executor().name(), std::string_view("host"));
     QVERIFY(Seen(level_set) == start);
   }
 
   void a_lost_context_costs_what_came_after_the_last_checkpoint_data() {
     QTest::addColumn<int>("kind");
-    QTest::newRow("compute") << int(ExecutorKind::compute);
-    QTest::newRow("stream") << int(ExecutorKind::stream);
+    QTest::newRow("compute") << int(solver::ExecutorKind::compute);
+    QTest::newRow("stream") << int(solver::ExecutorKind::stream);
   }
   void a_lost_context_costs_what_came_after_the_last_checkpoint() {
-    ExecutorOptions options;
+    solver::ExecutorOptions options;
     options.device = gpu::Device::create_headless({gpu::GlVersion::gl45, false}).value();
     const auto document = begun_case(this_executor(), options);
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     run(level_set, 6);
     QVERIFY(level_set.checkpoint());
     run(level_set, 4);

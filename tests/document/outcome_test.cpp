@@ -14,15 +14,15 @@ using namespace tidemark::test;
 namespace {
 
 struct Ended {
-  Outcome outcome = Outcome::unfinished;
+  document::Outcome outcome = document::Outcome::unfinished;
   std::optional<double> wider_range;
-  SurfaceStatistics surface;
+  solver::SurfaceStatistics surface;
 };
 
 // From a ball of `radius_mm` around `voxel`, or from `start`, for at most so many steps.
-Ended run(const std::shared_ptr<const Volume>& source, const Parameters& parameters, const Start& start,
-          std::int64_t steps = 4000) {
-  auto executor = make_executor(ExecutorKind::host, source, parameters);
+Ended run(const std::shared_ptr<const Volume>& source, const solver::Parameters& parameters,
+          const document::Start& start, std::int64_t steps = 4000) {
+  auto executor = solver::make_executor(solver::ExecutorKind::host, source, parameters);
   if (!executor) qFatal("%s", executor.error().message.c_str());
   const auto begun = begin(**executor, *source, start);
   if (!begun) qFatal("%s", begun.error().message.c_str());
@@ -30,16 +30,16 @@ Ended run(const std::shared_ptr<const Volume>& source, const Parameters& paramet
   const auto phi = (*executor)->snapshot();
   if (!report || !phi) qFatal("no run");
   Ended ended;
-  ended.surface = measure(*phi);
-  const EvolvedSurface evolved{
+  ended.surface = solver::measure(*phi);
+  const document::EvolvedSurface evolved{
       *phi, ended.surface.voxels_inside, report->steps, report->converged, &*begun, *source, parameters};
-  ended.outcome = outcome_of(evolved);
-  ended.wider_range = wider_range(evolved);
+  ended.outcome = document::outcome_of(evolved);
+  ended.wider_range = document::wider_range(evolved);
   return ended;
 }
 
-Start ball_of(const Volume& volume, glm::dvec3 voxel, double radius_mm) {
-  Start start;
+document::Start ball_of(const Volume& volume, glm::dvec3 voxel, double radius_mm) {
+  document::Start start;
   start.seeds.push_back({volume.geometry.to_patient(voxel), radius_mm});
   return start;
 }
@@ -56,8 +56,8 @@ std::shared_ptr<const Volume> halves() {
   return volume;
 }
 
-Parameters attracting(double target, double range, double alpha = 0.8) {
-  Parameters parameters;
+solver::Parameters attracting(double target, double range, double alpha = 0.8) {
+  solver::Parameters parameters;
   parameters.target = target;
   parameters.range = range;
   parameters.alpha = alpha;
@@ -66,17 +66,17 @@ Parameters attracting(double target, double range, double alpha = 0.8) {
 
 struct PhantomRun {
   std::shared_ptr<const Volume> volume;
-  Parameters parameters;
-  Start start;
+  solver::Parameters parameters;
+  document::Start start;
 };
 
 PhantomRun phantom_run(std::string_view kind) {
-  Phantom phantom = *make_phantom(kind);
+  imaging::Phantom phantom = *imaging::make_phantom(kind);
   PhantomRun run;
   run.parameters = attracting(phantom.target, phantom.range, phantom.alpha);
   run.volume = std::make_shared<const Volume>(std::move(phantom.volume));
   if (phantom.init_threshold) {
-    run.start.from = ThresholdStart{phantom.init_threshold->first, phantom.init_threshold->second};
+    run.start.from = document::ThresholdStart{phantom.init_threshold->first, phantom.init_threshold->second};
   } else {
     const auto& seed = *phantom.seed;
     run.start = ball_of(*run.volume, {seed[0], seed[1], seed[2]}, seed[3]);
@@ -115,9 +115,9 @@ class OutcomeTest : public QObject {
     const auto volume = halves();
     const Ended ended =
         run(volume, attracting(target, range, alpha), ball_of(*volume, {x, 20, 20}, 5.0), steps);
-    const std::string_view found = name_of(ended.outcome);
+    const std::string_view found = document::name_of(ended.outcome);
     QCOMPARE(QString::fromUtf8(found.data(), static_cast<qsizetype>(found.size())), name);
-    QCOMPARE(has_surface(ended.outcome), name == "converged" || name == "unfinished");
+    QCOMPARE(document::has_surface(ended.outcome), name == "converged" || name == "unfinished");
     QVERIFY(!ended.wider_range);
   }
 
@@ -131,7 +131,7 @@ class OutcomeTest : public QObject {
   void the_right_parameters_are_not_widened() {
     const PhantomRun phantom = phantom_run(QTest::currentDataTag());
     const Ended ended = run(phantom.volume, phantom.parameters, phantom.start);
-    QCOMPARE(ended.outcome, Outcome::converged);
+    QCOMPARE(ended.outcome, document::Outcome::converged);
     QVERIFY(!ended.wider_range);
   }
 
@@ -147,14 +147,14 @@ class OutcomeTest : public QObject {
     phantom.parameters.range = range;
     phantom.parameters.alpha = 0.95;
     const Ended narrow = run(phantom.volume, phantom.parameters, phantom.start);
-    QCOMPARE(narrow.outcome, Outcome::converged);
+    QCOMPARE(narrow.outcome, document::Outcome::converged);
     QVERIFY2(narrow.surface.volume_ml < 70.0, qPrintable(QString::number(narrow.surface.volume_ml)));
     QVERIFY(narrow.wider_range);
     QVERIFY2(*narrow.wider_range > 30.0 && *narrow.wider_range < 110.0,
              qPrintable(QString::number(*narrow.wider_range)));
     phantom.parameters.range = *narrow.wider_range;
     const Ended wide = run(phantom.volume, phantom.parameters, phantom.start);
-    QCOMPARE(wide.outcome, Outcome::converged);
+    QCOMPARE(wide.outcome, document::Outcome::converged);
     QVERIFY(!wide.wider_range);
     // The truth is 117.6 ml.
     QVERIFY2(std::abs(wide.surface.volume_ml - 117.6) < 8.0,

@@ -16,22 +16,22 @@ using Json = nlohmann::json;
 namespace {
 
 // Everything that can be in one.
-std::unique_ptr<Case> eventful_case(ExecutorKind kind) {
+std::unique_ptr<document::Case> eventful_case(solver::ExecutorKind kind) {
   auto document = begun_case(kind);
-  LevelSet& level_set = document->level_set();
+  document::LevelSet& level_set = document->level_set();
   const Volume& volume = *document->volume();
   const auto must = [](const Status& status) {
     if (!status) qFatal("%s", status.error().message.c_str());
   };
-  Parameters parameters = level_set.parameters();
-  must(level_set.paint(ball_at(volume, {4, 0, 0}, 4.0), Brush::add));
+  solver::Parameters parameters = level_set.parameters();
+  must(level_set.paint(ball_at(volume, {4, 0, 0}, 4.0), solver::Brush::add));
   run(level_set, 25);
   parameters.target += 37.25;
   must(level_set.set_parameters(parameters, 4));
   run(level_set, 3);
   parameters.alpha = 0.55;
   must(level_set.set_parameters(parameters, 4));
-  must(level_set.paint(ball_at(volume, {0, 7, 0}, 4.0), Brush::erase));
+  must(level_set.paint(ball_at(volume, {0, 7, 0}, 4.0), solver::Brush::erase));
   run(level_set, 20);
   must(document->undo());
   must(document->undo());
@@ -43,16 +43,16 @@ std::unique_ptr<Case> eventful_case(ExecutorKind kind) {
   return document;
 }
 
-Recipe again(const Recipe& recipe) {
+document::Recipe again(const document::Recipe& recipe) {
   const auto text = recipe.to_text();
   if (!text) qFatal("%s", text.error().message.c_str());
-  auto parsed = Recipe::parse(*text, "again.json");
+  auto parsed = document::Recipe::parse(*text, "again.json");
   if (!parsed) qFatal("%s", parsed.error().message.c_str());
   return *parsed;
 }
 
-std::vector<float> replayed(const Recipe& recipe, const std::shared_ptr<const Volume>& volume) {
-  const auto result = replay(recipe, volume, {});
+std::vector<float> replayed(const document::Recipe& recipe, const std::shared_ptr<const Volume>& volume) {
+  const auto result = document::replay(recipe, volume, {});
   if (!result) qFatal("%s", result.error().message.c_str());
   return result->phi.dense();
 }
@@ -62,14 +62,14 @@ Json good_json() {
   static const Json json = [] {
     const auto document = begun_case();
     run(document->level_set(), 4);
-    Start start = seed_in(*document->volume());
+    document::Start start = seed_in(*document->volume());
     Mask mask = document->level_set().executor().snapshot()->mask();
-    start.from = MaskStart{std::make_shared<const Mask>(std::move(mask)), "before"};
+    start.from = document::MaskStart{std::make_shared<const Mask>(std::move(mask)), "before"};
     start.erasers = {ball_at(*document->volume(), {3, 3, 3}, 1.0)};
     if (!document->level_set().begin(start)) qFatal("a start that should work");
     run(document->level_set(), 6);
-    const Sphere sphere = ball_at(*document->volume(), {3, 0, 3}, 2.0);
-    if (!document->level_set().paint(sphere, Brush::add)) qFatal("paint that should work");
+    const solver::Sphere sphere = ball_at(*document->volume(), {3, 0, 3}, 2.0);
+    if (!document->level_set().paint(sphere, solver::Brush::add)) qFatal("paint that should work");
     return Json::parse(document->level_set().recipe().to_text().value());
   }();
   return json;
@@ -84,8 +84,8 @@ class RecipeTest : public QObject {
   void a_replay_gives_the_same_bits_data() { add_executors(); }
   void a_replay_gives_the_same_bits() {
     const auto document = eventful_case(this_executor());
-    const Recipe written = snapshot_of(*document)->recipe;
-    const Recipe recipe = again(written);
+    const document::Recipe written = document::snapshot_of(*document)->recipe;
+    const document::Recipe recipe = again(written);
     QVERIFY(recipe.events == written.events);
     QVERIFY(recipe.source == written.source);
     QVERIFY(recipe.executor == written.executor);
@@ -95,14 +95,15 @@ class RecipeTest : public QObject {
 
   void putting_phi_back_is_part_of_what_happened() {
     const auto document = make_case(lumpy_volume({61, 50, 47}, glm::dvec3(1.0)));
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     QCOMPARE(failure(level_set.begin(seed_in(*document->volume()))), QString());
     for (int i = 0; i < 100 && level_set.executor().memory().quiet_pages == 0; ++i) run(level_set, 40);
     QVERIFY(level_set.executor().memory().quiet_pages > 0);
-    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {4, 0, 0}, 4.0), Brush::erase)), QString());
+    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {4, 0, 0}, 4.0), solver::Brush::erase)),
+             QString());
     QCOMPARE(failure(document->undo()), QString());
     run(level_set, 100);
-    Recipe recipe = again(level_set.recipe());
+    document::Recipe recipe = again(level_set.recipe());
     QVERIFY(replayed(recipe, document->volume()) == values_of(level_set));
     QCOMPARE(recipe.events.size(), std::size_t{1});
     recipe.events.clear();
@@ -117,39 +118,39 @@ class RecipeTest : public QObject {
   void any_start_comes_back() {
     QFETCH(int, start);
     const auto document = make_case(lumpy_volume());
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     const Volume& volume = *document->volume();
-    Start wanted;
-    Mask mask = threshold(volume, 900.0, 1e4);
+    document::Start wanted;
+    Mask mask = imaging::threshold(volume, 900.0, 1e4);
     if (start == 0) wanted.seeds = {ball_at(volume, {0, 0, 0}, 6.0), ball_at(volume, {6, 0, 0}, 3.0)};
     if (start == 0) wanted.erasers = {ball_at(volume, {0, 5, 0}, 2.0)};
-    if (start == 1) wanted.from = ThresholdStart{910.5, 1200.0};
-    if (start == 2) wanted.from = FloodStart{volume.geometry.size / std::int64_t{2}, 850.0, 2000.0};
-    if (start == 3) wanted.from = MaskStart{std::make_shared<const Mask>(mask), "mask.nii"};
+    if (start == 1) wanted.from = document::ThresholdStart{910.5, 1200.0};
+    if (start == 2) wanted.from = document::FloodStart{volume.geometry.size / std::int64_t{2}, 850.0, 2000.0};
+    if (start == 3) wanted.from = document::MaskStart{std::make_shared<const Mask>(mask), "mask.nii"};
     if (start == 4) {
-      const auto other = begun_case(ExecutorKind::stream);  // with other pages
+      const auto other = begun_case(solver::ExecutorKind::stream);  // with other pages
       run(other->level_set(), 5);
-      wanted.from = FieldStart{other->level_set().checkpoint().value(), "phi.nrrd"};
+      wanted.from = document::FieldStart{other->level_set().checkpoint().value(), "phi.nrrd"};
     }
     if (start == 5) {
-      QCOMPARE(failure(level_set.paint(ball_at(volume, {0, 0, 0}, 6.0), Brush::add)), QString());
+      QCOMPARE(failure(level_set.paint(ball_at(volume, {0, 0, 0}, 6.0), solver::Brush::add)), QString());
     } else {
       QCOMPARE(failure(level_set.begin(wanted)), QString());
     }
     run(level_set, 10);
-    const Recipe recipe = again(level_set.recipe());
+    const document::Recipe recipe = again(level_set.recipe());
     QCOMPARE(recipe.start.describe(), level_set.recipe().start.describe());
     QVERIFY(replayed(recipe, document->volume()) == values_of(level_set));
   }
 
   void every_parameter_comes_back() {
-    Recipe recipe = begun_case()->level_set().recipe();
-    Parameters& parameters = recipe.parameters;
+    document::Recipe recipe = begun_case()->level_set().recipe();
+    solver::Parameters& parameters = recipe.parameters;
     parameters.band = std::numeric_limits<double>::infinity();
     parameters.rescale = 0.1 + 0.2;
     parameters.target_gradient = 0.97;
-    parameters.scheme = Scheme::paper;
-    parameters.data_form = DataForm::raw;
+    parameters.scheme = solver::Scheme::paper;
+    parameters.data_form = solver::DataForm::raw;
     parameters.data_term = parameters.curvature_term = parameters.rescaling_term = false;
     parameters.time_step_factor = 0.5;
     QVERIFY(again(recipe).parameters == parameters);
@@ -159,7 +160,7 @@ class RecipeTest : public QObject {
   }
 
   void another_volume_is_noticed() {
-    const Recipe recipe = snapshot_of(*begun_case())->recipe;
+    const document::Recipe recipe = document::snapshot_of(*begun_case())->recipe;
     Volume other = *lumpy_volume();
     QVERIFY(differences(recipe, other).empty());
     std::get<std::vector<std::int16_t>>(other.voxels)[1000] += 1;
@@ -171,8 +172,8 @@ class RecipeTest : public QObject {
   }
 
   void a_mask_of_another_grid_is_refused() {
-    const Recipe recipe = Recipe::parse(good_json().dump(), "r.json").value();
-    const auto result = replay(recipe, lumpy_volume({20, 20, 20}), {});
+    const document::Recipe recipe = document::Recipe::parse(good_json().dump(), "r.json").value();
+    const auto result = document::replay(recipe, lumpy_volume({20, 20, 20}), {});
     QVERIFY(!result);
     QCOMPARE(result.error().kind, ErrorKind::usage);
   }
@@ -322,8 +323,8 @@ class RecipeTest : public QObject {
   void a_bad_recipe_is_refused_with_its_field() {
     QFETCH(QByteArray, text);
     QFETCH(QString, says);
-    QVERIFY(Recipe::parse(good_json().dump(), "bad.json"));
-    const auto recipe = Recipe::parse(text.toStdString(), "bad.json");
+    QVERIFY(document::Recipe::parse(good_json().dump(), "bad.json"));
+    const auto recipe = document::Recipe::parse(text.toStdString(), "bad.json");
     QVERIFY(!recipe);
     QCOMPARE(recipe.error().kind, ErrorKind::input);
     const QString message = QString::fromStdString(recipe.error().message);
@@ -339,10 +340,10 @@ class RecipeTest : public QObject {
       QVERIFY(sparse.open(QIODevice::WriteOnly));
       QVERIFY(sparse.resize(qint64{1} << 32));
     }
-    const auto recipe = Recipe::load(file);
+    const auto recipe = document::Recipe::load(file);
     QVERIFY(!recipe);
     QVERIFY(recipe.error().message.find("4294967296 bytes") != std::string::npos);
-    QCOMPARE(Recipe::load(folder / "none.json").error().kind, ErrorKind::input);
+    QCOMPARE(document::Recipe::load(folder / "none.json").error().kind, ErrorKind::input);
   }
 };
 

@@ -76,14 +76,15 @@ class SegmentMeshesTest : public QObject {
   void a_part_of_the_grid_has_the_surface_of_the_whole() {
     QFETCH(glm::dvec3, voxel);
     const Mask mask = ball_at(oblique_grid(), voxel, 6.0);
-    const auto part = mesh_of(mask);
-    const auto whole = extract_surface(distance_transform(mask, surface_band(mask.geometry)).to_volume());
+    const auto part = document::mesh_of(mask);
+    const auto whole = imaging::extract_surface(
+        solver::distance_transform(mask, document::surface_band(mask.geometry)).to_volume());
     QCOMPARE(failure(part), QString());
     QCOMPARE(failure(whole), QString());
-    QVERIFY(is_closed_and_oriented(*part));
+    QVERIFY(imaging::is_closed_and_oriented(*part));
     QCOMPARE(part->triangles.size(), whole->triangles.size());
-    QVERIFY(std::abs(mesh_volume_ml(*part) - mesh_volume_ml(*whole)) < 1e-5);
-    QVERIFY(std::abs(mesh_area_mm2(*part) - mesh_area_mm2(*whole)) < 1e-2);
+    QVERIFY(std::abs(imaging::mesh_volume_ml(*part) - imaging::mesh_volume_ml(*whole)) < 1e-5);
+    QVERIFY(std::abs(imaging::mesh_area_mm2(*part) - imaging::mesh_area_mm2(*whole)) < 1e-2);
     glm::dvec3 of_part(0.0);
     glm::dvec3 of_whole(0.0);
     for (const glm::vec3& v : part->vertices) of_part += v;
@@ -92,7 +93,8 @@ class SegmentMeshesTest : public QObject {
   }
 
   void files_are_named_after_their_segments() {
-    const auto files = mesh_files({"Left kidney", "a/b", "", "Left kidney", "Čéška"}, "out/organs.stl");
+    const auto files =
+        document::mesh_files({"Left kidney", "a/b", "", "Left kidney", "Čéška"}, "out/organs.stl");
     const char* const expected[] = {"out/organs-Left kidney.stl", "out/organs-a_b.stl",
                                     "out/organs-unnamed.stl", "out/organs-Left kidney 2.stl",
                                     "out/organs-Čéška.stl"};
@@ -105,9 +107,9 @@ class SegmentMeshesTest : public QObject {
     const Geometry geometry = oblique_grid();
     const Mask one = ball_at(geometry, {12.0, 15.0, 10.0}, 6.0);
     const Mask two = ball_at(geometry, {30.0, 12.0, 8.0}, 4.0);
-    Segments segments = segments_of(one, "One");
-    segments.list.push_back(segments_of(two, "Two").list.front());
-    QCOMPARE(failure(write_meshes(segments, folder / "organs.stl")), QString());
+    imaging::Segments segments = imaging::segments_of(one, "One");
+    segments.list.push_back(imaging::segments_of(two, "Two").list.front());
+    QCOMPARE(failure(document::write_meshes(segments, folder / "organs.stl")), QString());
     for (const auto& [file, mask] : {std::pair("organs-One.stl", &one), {"organs-Two.stl", &two}}) {
       const double share = stl_volume_ml(folder / file) / volume_ml(*mask);
       // Corners of voxels are cut off: the more, the smaller the ball.
@@ -118,15 +120,17 @@ class SegmentMeshesTest : public QObject {
 
   void nothing_is_written_unless_all_is() {
     const TemporaryFolder folder;
-    Segments segments = segments_of(ball_at(oblique_grid(), {12.0, 15.0, 10.0}, 6.0), "One");
+    imaging::Segments segments =
+        imaging::segments_of(ball_at(oblique_grid(), {12.0, 15.0, 10.0}, 6.0), "One");
     segments.list.push_back(segments.list.front());
     segments.list.back().name = "Two";
     fs::create_directory(folder / "organs-Two.stl");  // in the way
-    QVERIFY(!failure(write_meshes(segments, folder / "organs.stl")).isEmpty());
+    QVERIFY(!failure(document::write_meshes(segments, folder / "organs.stl")).isEmpty());
     QVERIFY(!fs::exists(folder / "organs-One.stl"));
     std::stop_source stop;
     stop.request_stop();
-    const Status stopped = write_meshes(segments, folder / "others.stl", {nullptr, stop.get_token()});
+    const Status stopped =
+        document::write_meshes(segments, folder / "others.stl", {nullptr, stop.get_token()});
     QVERIFY(!stopped && stopped.error().kind == ErrorKind::cancelled);
     QVERIFY(!fs::exists(folder / "others-One.stl"));
   }

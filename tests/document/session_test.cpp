@@ -60,28 +60,29 @@ void must(const Status& status) {
   if (!status) qFatal("%s", status.error().message.c_str());
 }
 
-std::unique_ptr<Case> labelled_case(ExecutorKind kind = ExecutorKind::host) {
-  ExecutorOptions options;
+std::unique_ptr<document::Case> labelled_case(solver::ExecutorKind kind = solver::ExecutorKind::host) {
+  solver::ExecutorOptions options;
   options.threads = 1;
-  StudyOrigin origin;
+  document::StudyOrigin origin;
   origin.phantom = "lumpy";
   origin.series_uid = "1.2.3";
-  origin.policy = {GridPolicy::Tilt::keep, GridPolicy::Gaps::fill};
-  auto document = std::move(Case::create(lumpy_volume(), origin, lumpy_parameters(), kind, options).value());
-  LevelSet& level_set = document->level_set();
+  origin.policy = {imaging::GridPolicy::Tilt::keep, imaging::GridPolicy::Gaps::fill};
+  auto document =
+      std::move(document::Case::create(lumpy_volume(), origin, lumpy_parameters(), kind, options).value());
+  document::LevelSet& level_set = document->level_set();
   must(level_set.begin(seed_in(*document->volume())));
   level_set.note({0, 1.5, 300.0, 0.25});
   run(level_set, 12);
   const auto accepted =
-      document->accept_surface(document->labels().add("Lümp, \"one\"").value(), Take::free_voxels);
+      document->accept_surface(document->labels().add("Lümp, \"one\"").value(), document::Take::free_voxels);
   if (!accepted) qFatal("%s", accepted.error().message.c_str());
-  Label label = document->labels().list()[0];
+  document::Label label = document->labels().list()[0];
   label.locked = true;
   label.colour = {1, 2, 3};
-  label.meaning = find_segment_meaning("tumour").value();
+  label.meaning = imaging::find_segment_meaning("tumour").value();
   must(document->labels().set(label));
   document->labels().add("empty").value();
-  must(level_set.paint(ball_at(*document->volume(), {5, 0, 0}, 4.0), Brush::add));
+  must(level_set.paint(ball_at(*document->volume(), {5, 0, 0}, 4.0), solver::Brush::add));
   run(level_set, 9);
   must(document->smooth_source(0.7));
   run(level_set, 9);
@@ -101,21 +102,21 @@ class SessionTest : public QObject {
     const TemporaryFolder folder;
     const auto document = labelled_case(this_executor());
     QVERIFY(document->changed_since_save());
-    QCOMPARE(failure(save_session(*document, folder / "one.tidemark")), QString());
+    QCOMPARE(failure(document::save_session(*document, folder / "one.tidemark")), QString());
     QVERIFY(!document->changed_since_save());
-    const auto contents = load_session(folder / "one.tidemark");
+    const auto contents = document::load_session(folder / "one.tidemark");
     QCOMPARE(failure(contents), QString());
     QCOMPARE(contents->origin, document->origin());
-    QCOMPARE(contents->origin.checksum, checksum_of(*document->volume()));
+    QCOMPARE(contents->origin.checksum, document::checksum_of(*document->volume()));
     QCOMPARE(contents->recipe.source.checksum, contents->origin.checksum);
     QVERIFY(contents->recipe.source.policy == document->origin().policy);
-    QVERIFY(match(*contents, *document->volume()) == VolumeMatch::same);
-    ExecutorOptions options;
+    QVERIFY(document::match(*contents, *document->volume()) == document::VolumeMatch::same);
+    solver::ExecutorOptions options;
     options.threads = 1;
-    const auto restored = restore_case(*contents, document->volume(), this_executor(), options);
+    const auto restored = document::restore_case(*contents, document->volume(), this_executor(), options);
     QCOMPARE(failure(restored), QString());
-    LevelSet& before = document->level_set();
-    LevelSet& after = (*restored)->level_set();
+    document::LevelSet& before = document->level_set();
+    document::LevelSet& after = (*restored)->level_set();
     QVERIFY(values_of(after) == values_of(before));
     QCOMPARE(after.step(), std::int64_t{30});
     QVERIFY(after.parameters() == before.parameters());
@@ -140,28 +141,30 @@ class SessionTest : public QObject {
 
   void a_session_from_before_there_were_curves_is_read() {
     const TemporaryFolder folder;
-    must(save_session(*labelled_case(), folder / "new.tidemark"));
+    must(document::save_session(*labelled_case(), folder / "new.tidemark"));
     Entries entries = entries_of(folder / "new.tidemark");
     Json json = Json::parse(entries["session.json"]);
     json.erase("curve");
     entries["session.json"] = json.dump();
     write_entries(folder / "old.tidemark", entries);
-    const auto contents = load_session(folder / "old.tidemark");
+    const auto contents = document::load_session(folder / "old.tidemark");
     QCOMPARE(failure(contents), QString());
     QVERIFY(contents->curve.points()->empty());
   }
 
   void a_case_without_a_surface_comes_back() {
     const TemporaryFolder folder;
-    StudyOrigin origin;
+    document::StudyOrigin origin;
     origin.path = folder / "study.nii";
     write_bytes(origin.path, "study");
-    const auto document =
-        std::move(Case::create(lumpy_volume(), origin, lumpy_parameters(), ExecutorKind::host, {}).value());
-    QCOMPARE(failure(save_session(*document, folder / "one.tidemark")), QString());
-    const auto contents = load_session(folder / "one.tidemark");
+    const auto document = std::move(
+        document::Case::create(lumpy_volume(), origin, lumpy_parameters(), solver::ExecutorKind::host, {})
+            .value());
+    QCOMPARE(failure(document::save_session(*document, folder / "one.tidemark")), QString());
+    const auto contents = document::load_session(folder / "one.tidemark");
     QCOMPARE(failure(contents), QString());
-    const auto restored = restore_case(*contents, document->volume(), ExecutorKind::host, {});
+    const auto restored =
+        document::restore_case(*contents, document->volume(), solver::ExecutorKind::host, {});
     QCOMPARE(failure(restored), QString());
     QVERIFY(!(*restored)->level_set().begun());
   }
@@ -169,35 +172,37 @@ class SessionTest : public QObject {
   void the_study_is_found_again_when_both_have_moved() {
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder / "a/sessions");
-    StudyOrigin origin;
+    document::StudyOrigin origin;
     origin.path = folder / "a/study.nii";
     write_bytes(origin.path, "study");
-    const auto document =
-        std::move(Case::create(lumpy_volume(), origin, lumpy_parameters(), ExecutorKind::host, {}).value());
-    QCOMPARE(failure(save_session(*document, folder / "a/sessions/one.tidemark")), QString());
-    QCOMPARE(load_session(folder / "a/sessions/one.tidemark")->origin.path, folder / "a/study.nii");
+    const auto document = std::move(
+        document::Case::create(lumpy_volume(), origin, lumpy_parameters(), solver::ExecutorKind::host, {})
+            .value());
+    QCOMPARE(failure(document::save_session(*document, folder / "a/sessions/one.tidemark")), QString());
+    QCOMPARE(document::load_session(folder / "a/sessions/one.tidemark")->origin.path, folder / "a/study.nii");
     std::filesystem::rename(folder / "a", folder / "b");
-    QCOMPARE(load_session(folder / "b/sessions/one.tidemark")->origin.path, folder / "b/study.nii");
+    QCOMPARE(document::load_session(folder / "b/sessions/one.tidemark")->origin.path, folder / "b/study.nii");
     std::filesystem::rename(folder / "b/sessions", folder / "elsewhere");
-    QCOMPARE(load_session(folder / "elsewhere/one.tidemark")->origin.path, folder / "a/study.nii");
+    QCOMPARE(document::load_session(folder / "elsewhere/one.tidemark")->origin.path, folder / "a/study.nii");
   }
 
   void another_volume_is_noticed() {
     const auto document = labelled_case();
-    const auto contents = snapshot_of(*document).value();
+    const auto contents = document::snapshot_of(*document).value();
     Volume other = *document->volume();
     std::get<std::vector<std::int16_t>>(other.voxels)[77] += 1;
-    QVERIFY(match(contents, other) == VolumeMatch::other_voxels);
+    QVERIFY(document::match(contents, other) == document::VolumeMatch::other_voxels);
     const auto shared = std::make_shared<const Volume>(other);
-    QVERIFY(restore_case(contents, shared, ExecutorKind::host, {}));
+    QVERIFY(document::restore_case(contents, shared, solver::ExecutorKind::host, {}));
     const auto small = lumpy_volume({20, 20, 20});
-    QVERIFY(match(contents, *small) == VolumeMatch::other_grid);
-    QCOMPARE(restore_case(contents, small, ExecutorKind::host, {}).error().kind, ErrorKind::input);
+    QVERIFY(document::match(contents, *small) == document::VolumeMatch::other_grid);
+    QCOMPARE(document::restore_case(contents, small, solver::ExecutorKind::host, {}).error().kind,
+             ErrorKind::input);
   }
 
   void a_session_that_cannot_be_written_leaves_the_old_one() {
     const auto document = labelled_case();
-    QCOMPARE(save_session(*document, "/nowhere/one.tidemark").error().kind, ErrorKind::write);
+    QCOMPARE(document::save_session(*document, "/nowhere/one.tidemark").error().kind, ErrorKind::write);
     QVERIFY(document->changed_since_save());
   }
 
@@ -214,7 +219,7 @@ class SessionTest : public QObject {
     const TemporaryFolder folder;
     static const Entries good = [] {
       const TemporaryFolder other;
-      must(save_session(*labelled_case(), other / "good.tidemark"));
+      must(document::save_session(*labelled_case(), other / "good.tidemark"));
       return entries_of(other / "good.tidemark");
     }();
     Entries entries = good;
@@ -225,7 +230,7 @@ class SessionTest : public QObject {
 
   void a_session_cut_anywhere_is_refused() {
     const TemporaryFolder folder;
-    must(save_session(*labelled_case(), folder / "good.tidemark"));
+    must(document::save_session(*labelled_case(), folder / "good.tidemark"));
     const QByteArray good = bytes_of(folder / "good.tidemark");
     for (qsizetype length = 0; length < good.size(); length += 1 + good.size() / 40) {
       write_bytes(folder / "cut.tidemark", good.left(length));
@@ -261,7 +266,7 @@ class SessionTest : public QObject {
     QVERIFY(std::filesystem::file_size(folder / "small.tidemark") < 300'000);
     const Ended ended = run_in_child(
         [&]() -> Status {
-          const auto contents = load_session(folder / "small.tidemark");
+          const auto contents = document::load_session(folder / "small.tidemark");
           if (!contents) return tl::unexpected<Error>(contents.error());
           return {};
         },
@@ -272,7 +277,7 @@ class SessionTest : public QObject {
 
   void a_session_with_changed_bytes_is_refused_or_read() {
     const TemporaryFolder folder;
-    must(save_session(*labelled_case(), folder / "good.tidemark"));
+    must(document::save_session(*labelled_case(), folder / "good.tidemark"));
     const QByteArray good = bytes_of(folder / "good.tidemark");
     int refused = 0;
     for (int i = 0; i < 60; ++i) {
@@ -280,7 +285,7 @@ class SessionTest : public QObject {
       const qsizetype at = i * (good.size() / 60);
       bad[at] = static_cast<char>(bad[at] ^ 0x55);
       write_bytes(folder / "bad.tidemark", bad);
-      if (const auto contents = load_session(folder / "bad.tidemark"); !contents) {
+      if (const auto contents = document::load_session(folder / "bad.tidemark"); !contents) {
         QCOMPARE(contents.error().kind, ErrorKind::input);
         ++refused;
       }
@@ -296,7 +301,7 @@ class SessionTest : public QObject {
   };
 
   static void expect_refusal(const std::filesystem::path& file, const QString& says) {
-    const auto contents = load_session(file);
+    const auto contents = document::load_session(file);
     QVERIFY(!contents);
     QCOMPARE(contents.error().kind, ErrorKind::input);
     const QString message = QString::fromStdString(contents.error().message);

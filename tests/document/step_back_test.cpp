@@ -12,7 +12,7 @@ class StepBackTest : public QObject {
   void steps_back_lead_to_what_was_seen_data() { add_executors(); }
   void steps_back_lead_to_what_was_seen() {
     const auto document = begun_case(this_executor());
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     std::vector<Seen> seen;
     const auto note = [&] { seen.emplace_back(level_set); };
     note();
@@ -22,7 +22,7 @@ class StepBackTest : public QObject {
         QCOMPARE(failure(level_set.set_parameters(with_target(level_set.parameters(), 800.0))), QString());
       }
       if (step == 30) {
-        QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), Brush::erase)),
+        QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), solver::Brush::erase)),
                  QString());
       }
       note();
@@ -44,9 +44,10 @@ class StepBackTest : public QObject {
 
   void steps_back_cross_what_was_restored() {
     const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     run(level_set, 20);
-    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), Brush::add)), QString());
+    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), solver::Brush::add)),
+             QString());
     QCOMPARE(failure(document->undo()), QString());  // phi is put back at step 20
     run(level_set, 5);
     const Seen at_25(level_set);
@@ -65,7 +66,7 @@ class StepBackTest : public QObject {
 
   void a_cancelled_step_back_changes_nothing() {
     const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
+    document::LevelSet& level_set = document->level_set();
     run(level_set, 30);
     QCOMPARE(failure(level_set.end_run()), QString());
     const Seen before(level_set);
@@ -78,8 +79,8 @@ class StepBackTest : public QObject {
 
   void restart_keeps_the_parameters_and_what_was_painted_before_the_first_step() {
     const auto document = begun_case();
-    LevelSet& level_set = document->level_set();
-    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), Brush::add, 3)),
+    document::LevelSet& level_set = document->level_set();
+    QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), solver::Brush::add, 3)),
              QString());
     const std::vector<float> start = values_of(level_set);
     run(level_set, 12);

@@ -39,11 +39,11 @@ struct Contents {
   Volume volume;
   Mask mask;
   Volume phi;
-  Mesh mesh;
+  imaging::Mesh mesh;
   std::vector<std::uint8_t> pixels;
-  SessionContents session;
-  PacsConfiguration servers;
-  Phantom phantom;
+  document::SessionContents session;
+  imaging::PacsConfiguration servers;
+  imaging::Phantom phantom;
 };
 
 // Noise, which no format makes short.
@@ -68,10 +68,10 @@ Contents make_contents(unsigned version) {
   }
   made.pixels.resize(std::size_t{4} * 40 * 30);
   for (auto& byte : made.pixels) byte = static_cast<std::uint8_t>(random());
-  made.session = snapshot_of(*test::begun_case()).value();
+  made.session = document::snapshot_of(*test::begun_case()).value();
   made.session.origin.phantom = "tumour";
   made.session.view_state = fmt::format("version {}", version);
-  PacsServer server;
+  imaging::PacsServer server;
   server.name = fmt::format("Server {}", version);
   server.host = "pacs.example";
   server.ae_title = "ARCHIVE";
@@ -92,33 +92,38 @@ struct Writer {
 // Whatever the programs write comes from one of these. Text (recipes, statistics, presets of transfer
 // functions, descriptions of phantoms) all goes through write_file().
 const std::vector<Writer>& writers() {
-  const auto volume = [](const Contents& of, const fs::path& to) { return write_volume_file(of.volume, to); };
-  const auto mesh = [](const Contents& of, const fs::path& to) { return write_mesh(of.mesh, to); };
-  const auto segments = [](const Contents& of) { return segments_of(of.mask, "Segment"); };
+  const auto volume = [](const Contents& of, const fs::path& to) {
+    return imaging::write_volume_file(of.volume, to);
+  };
+  const auto mesh = [](const Contents& of, const fs::path& to) { return imaging::write_mesh(of.mesh, to); };
+  const auto segments = [](const Contents& of) { return imaging::segments_of(of.mask, "Segment"); };
   static const std::vector<Writer> all{
       {"volume.nii", volume},
       {"volume.nii.gz", volume},
       {"volume.nrrd", volume},
       {"volume.mha", volume},
-      {"mask.nii.gz", [](const auto& of, const auto& to) { return write_mask_file(of.mask, to); }},
+      {"mask.nii.gz", [](const auto& of, const auto& to) { return imaging::write_mask_file(of.mask, to); }},
       {"surface.stl", mesh},
       {"surface.ply", mesh},
       {"surface.obj", mesh},
       {"segmentation.dcm",
-       [=](const auto& of, const auto& to) { return write_segmentation(segments(of), {}, to); }},
+       [=](const auto& of, const auto& to) { return imaging::write_segmentation(segments(of), {}, to); }},
       {"contours.dcm",
-       [=](const auto& of, const auto& to) { return write_structure_set(segments(of), {}, to); }},
-      {"phi.vdb", [](const auto& of, const auto& to) { return write_level_set(of.phi, 4.0, to); }},
-      {"picture.png", [](const auto& of, const auto& to) { return write_png_file(40, 30, of.pixels, to); }},
-      {"case.tidemark", [](const auto& of, const auto& to) { return write_session(of.session, to); }},
+       [=](const auto& of, const auto& to) { return imaging::write_structure_set(segments(of), {}, to); }},
+      {"phi.vdb", [](const auto& of, const auto& to) { return imaging::write_level_set(of.phi, 4.0, to); }},
+      {"picture.png",
+       [](const auto& of, const auto& to) { return imaging::write_png_file(40, 30, of.pixels, to); }},
+      {"case.tidemark",
+       [](const auto& of, const auto& to) { return document::write_session(of.session, to); }},
       {"recipe.json",
        [](const auto& of, const auto& to) {
          return write_file(to, of.session.view_state + of.session.recipe.to_text().value());
        }},
       {"servers.json",
-       [](const auto& of, const auto& to) { return write_pacs_configuration(of.servers, to); }},
-      {"series", [](const auto& of, const auto& to) { return write_dicom_series(of.volume, {}, to); }},
-      {"phantom", [](const auto& of, const auto& to) { return write_phantom(of.phantom, to); }},
+       [](const auto& of, const auto& to) { return imaging::write_pacs_configuration(of.servers, to); }},
+      {"series",
+       [](const auto& of, const auto& to) { return imaging::write_dicom_series(of.volume, {}, to); }},
+      {"phantom", [](const auto& of, const auto& to) { return imaging::write_phantom(of.phantom, to); }},
   };
   return all;
 }
@@ -180,17 +185,17 @@ class WholeFilesTest : public QObject {
   Status read_newer(const fs::path& part) const {
     const auto differs = [&] { return fail(ErrorKind::input, "{}: is another one", part.string()); };
     if (fs::is_directory(part)) {
-      auto volume = load_volume(part);
+      auto volume = imaging::load_volume(part);
       if (!volume) return pass_on(volume);
       return volume->voxels == newer_.volume.voxels ? Status() : differs();
     }
     if (part.extension() == ".dcm") {
-      auto segments = read_result(part, &newer_.mask.geometry);
+      auto segments = imaging::read_result(part, &newer_.mask.geometry);
       if (!segments) return pass_on(segments);
-      return union_of(*segments).voxels == newer_.mask.voxels ? Status() : differs();
+      return imaging::union_of(*segments).voxels == newer_.mask.voxels ? Status() : differs();
     }
     if (part.extension() != ".tidemark") return differs();
-    auto session = load_session(part);
+    auto session = document::load_session(part);
     if (!session) return pass_on(session);
     return session->view_state == newer_.session.view_state ? Status() : differs();
   }
@@ -279,7 +284,7 @@ class WholeFilesTest : public QObject {
  private slots:
   void initTestCase() {
     // Else each child would read DCMTK's dictionary.
-    QVERIFY(!result_form_of("nothing"));
+    QVERIFY(!imaging::result_form_of("nothing"));
     // Where it costs nothing that every file is synced.
     if (::access("/dev/shm", W_OK) == 0) qputenv("TMPDIR", "/dev/shm");
     // On one processor this process takes a child's place as soon as there is an event.

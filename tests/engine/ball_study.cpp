@@ -7,14 +7,14 @@
 
 namespace tidemark::test {
 
-std::shared_ptr<const LoadedStudy> ball_study() {
+std::shared_ptr<const engine::LoadedStudy> ball_study() {
   auto volume = std::make_shared<Volume>();
   volume->geometry.size = {48, 44, 24};
   volume->geometry.spacing_mm = {1.0, 1.0, 2.0};
   volume->modality = "CT";
   volume->unit = "HU";
   volume->window = WindowLevel{50.0, 300.0};
-  const glm::dvec3 middle = middle_of(volume->geometry);
+  const glm::dvec3 middle = renderer::middle_of(volume->geometry);
   std::mt19937 noise(1);
   std::vector<std::int16_t> voxels;
   for (std::int64_t offset = 0; offset < volume->geometry.voxel_count(); ++offset) {
@@ -25,8 +25,8 @@ std::shared_ptr<const LoadedStudy> ball_study() {
     voxels.push_back(static_cast<std::int16_t>((away <= kBallRadius ? 100 : 0) + deviation));
   }
   volume->voxels = std::move(voxels);
-  auto study = std::make_shared<LoadedStudy>();
-  study->summary = summarise(*volume);
+  auto study = std::make_shared<engine::LoadedStudy>();
+  study->summary = engine::summarise(*volume);
   study->volume = std::move(volume);
   study->name = QStringLiteral("Ball");
   study->parameters.target = 100.0;

@@ -10,12 +10,12 @@ using namespace tidemark::test;
 class CaseMeterTest : public QObject {
   Q_OBJECT
 
-  std::unique_ptr<Case> case_;
+  std::unique_ptr<document::Case> case_;
 
-  Status measure(CaseMeter& meter) {
+  Status measure(engine::CaseMeter& meter) {
     return meter.measure([this] { return case_->level_set().checkpoint(); }, *case_, false);
   }
-  void forty_steps(CaseMeter& meter) {
+  void forty_steps(engine::CaseMeter& meter) {
     const auto report = case_->level_set().advance({.steps = 40});
     QCOMPARE(failure(report), QString());
     meter.computed(*report, case_->level_set().step());
@@ -25,13 +25,13 @@ class CaseMeterTest : public QObject {
   void init() { case_ = begun_case(); }
 
   void what_is_measured_is_noted_on_the_curve() {
-    CaseMeter meter;
+    engine::CaseMeter meter;
     QVERIFY(meter.due());
     QCOMPARE(failure(measure(meter)), QString());
     QVERIFY(!meter.due());
     forty_steps(meter);
     QCOMPARE(failure(measure(meter)), QString());
-    const Curve::Points& points = *case_->level_set().curve().points();
+    const document::Curve::Points& points = *case_->level_set().curve().points();
     QCOMPARE(points.size(), std::size_t{2});
     QCOMPARE(points[0].surface_speed, 0.0);
     QVERIFY(points[1].surface_speed > 0.0);
@@ -42,7 +42,7 @@ class CaseMeterTest : public QObject {
 
   void a_case_from_a_file_has_its_last_speed_until_it_moves() {
     case_->level_set().note({-1, 1.0, 2.0, 0.5});
-    CaseMeter meter;
+    engine::CaseMeter meter;
     QCOMPARE(failure(measure(meter)), QString());
     QCOMPARE(case_->level_set().curve().points()->back().step, std::int64_t{0});
     QCOMPARE(case_->level_set().curve().points()->back().surface_speed, 0.5);
@@ -52,8 +52,8 @@ class CaseMeterTest : public QObject {
   }
 
   void phi_that_cannot_be_read_is_an_error() {
-    CaseMeter meter;
-    const auto lost = []() -> Result<std::shared_ptr<const Field>> {
+    engine::CaseMeter meter;
+    const auto lost = []() -> Result<std::shared_ptr<const solver::Field>> {
       return fail(ErrorKind::capability, "lost");
     };
     QCOMPARE(failure(meter.measure(lost, *case_, false)), QString("lost"));

@@ -15,19 +15,19 @@ namespace tidemark::test {
 namespace {
 
 constexpr int kPatience = 60000;  // ms
-constexpr PictureSize kSmall{96, 80};
+constexpr renderer::PictureSize kSmall{96, 80};
 
 class Fixture {
  public:
-  explicit Fixture(ExecutorKind executor = ExecutorKind::host, bool use_opengl = true)
+  explicit Fixture(solver::ExecutorKind executor = solver::ExecutorKind::host, bool use_opengl = true)
       : engine(use_opengl), proxy(engine, ball_study(), executor) {
-    QObject::connect(&proxy, &CaseProxy::failed, [this](const QString& why) { failures += why; });
+    QObject::connect(&proxy, &engine::CaseProxy::failed, [this](const QString& why) { failures += why; });
     wait_until_idle();
   }
 
-  [[nodiscard]] glm::dvec3 middle() const { return middle_of(proxy.volume().geometry); }
+  [[nodiscard]] glm::dvec3 middle() const { return renderer::middle_of(proxy.volume().geometry); }
   void begin(double radius_mm = 4.0) {
-    Start start;
+    document::Start start;
     start.seeds.push_back({middle(), radius_mm});
     proxy.begin(start);
     wait_until_idle();
@@ -36,22 +36,22 @@ class Fixture {
     static_cast<void>(QTest::qWaitFor([this] { return engine.idle(); }, kPatience));
     QCoreApplication::processEvents();
   }
-  [[nodiscard]] SliceView slice(SliceContent content) const {
-    SliceView view;
+  [[nodiscard]] renderer::SliceView slice(renderer::SliceContent content) const {
+    renderer::SliceView view;
     view.content = content;
-    view.term = SpeedTerm::total;
+    view.term = renderer::SpeedTerm::total;
     view.position_mm = middle();
     view.window = {50.0, 300.0};
     return view;
   }
 
-  Engine engine;
-  CaseProxy proxy;
+  engine::Engine engine;
+  engine::CaseProxy proxy;
   QStringList failures;
 };
 
-ExecutorKind executor_of_row() {
-  return *executor_named(QTest::currentDataTag());
+solver::ExecutorKind executor_of_row() {
+  return *solver::executor_named(QTest::currentDataTag());
 }
 
 void add_executors() {
@@ -87,7 +87,7 @@ class CaseProxyTest : public QObject {
     fixture.begin();
     fixture.proxy.step(5);
     fixture.wait_until_idle();
-    fixture.proxy.runner()->post([](CaseRunner& runner, const Progress&) -> Status {
+    fixture.proxy.runner()->post([](engine::CaseRunner& runner, const Progress&) -> Status {
       static_cast<void>(runner.document().level_set().advance({.steps = 3}));
       throw std::bad_alloc();
     });
@@ -95,27 +95,27 @@ class CaseProxyTest : public QObject {
     QCOMPARE(fixture.failures, QStringList{"there is not enough memory"});
     fixture.proxy.play();
     QTRY_VERIFY_WITH_TIMEOUT(fixture.proxy.state().converged, kPatience);
-    QCOMPARE(fixture.proxy.state().outcome, Outcome::converged);
+    QCOMPARE(fixture.proxy.state().outcome, document::Outcome::converged);
     QCOMPARE(fixture.failures.size(), 1);
   }
 
   void a_surface_that_vanished_is_called_so() {
     Fixture fixture;
-    Parameters parameters = fixture.proxy.parameters();
+    solver::Parameters parameters = fixture.proxy.parameters();
     parameters.target = 900.0;
     fixture.proxy.set_parameters(parameters);
     fixture.begin();
     fixture.proxy.play();
     QTRY_VERIFY_WITH_TIMEOUT(fixture.proxy.state().converged, kPatience);
-    QCOMPARE(fixture.proxy.state().outcome, Outcome::seeded_outside);
+    QCOMPARE(fixture.proxy.state().outcome, document::Outcome::seeded_outside);
   }
 
   void pictures_follow_the_surface_and_end_with_its_last_step_data() { add_executors(); }
   void pictures_follow_the_surface_and_end_with_its_last_step() {
     Fixture fixture(executor_of_row());
     fixture.begin();
-    PictureFeed feed(fixture.proxy);
-    const AnyView view = fixture.slice(SliceContent::source);
+    engine::PictureFeed feed(fixture.proxy);
+    const engine::AnyView view = fixture.slice(renderer::SliceContent::source);
     feed.request(view, kSmall);
     QTRY_VERIFY_WITH_TIMEOUT(feed.shown().number > 0, kPatience);
     QVERIFY(feed.shown().view == view);
@@ -130,7 +130,7 @@ class CaseProxyTest : public QObject {
     QCOMPARE(feed.shown().step, fixture.proxy.state().step);
     // An executor on the GPU has its pages drawn where they are.
     const bool copied = fixture.proxy.runner()->painter().phi_copies() > copies;
-    QCOMPARE(copied, executor_of_row() == ExecutorKind::host);
+    QCOMPARE(copied, executor_of_row() == solver::ExecutorKind::host);
   }
 
   // A drag asks for the next picture before the last one is there.
@@ -142,19 +142,19 @@ class CaseProxyTest : public QObject {
     const QString what = QTest::currentDataTag();
     Fixture fixture;
     fixture.begin();
-    PictureFeed volume(fixture.proxy);
-    PictureFeed slice(fixture.proxy);
-    VolumeView view;
-    Parameters parameters = fixture.proxy.parameters();
-    const std::uint64_t gesture = CaseProxy::new_gesture();
+    engine::PictureFeed volume(fixture.proxy);
+    engine::PictureFeed slice(fixture.proxy);
+    renderer::VolumeView view;
+    solver::Parameters parameters = fixture.proxy.parameters();
+    const std::uint64_t gesture = engine::CaseProxy::new_gesture();
     int moves = 0;
     const auto move = [&] {
       ++moves;
       if (what == "camera") {
         view.camera.azimuth += 1.0;
       } else if (what == "paint") {
-        fixture.proxy.paint({fixture.middle() + glm::dvec3(0.1 * (moves % 50), 0.0, 0.0), 3.0}, Brush::add,
-                            gesture);
+        fixture.proxy.paint({fixture.middle() + glm::dvec3(0.1 * (moves % 50), 0.0, 0.0), 3.0},
+                            solver::Brush::add, gesture);
       } else {
         parameters.target = 100.0 + 0.1 * (moves % 50);
         fixture.proxy.set_parameters(parameters, gesture);
@@ -162,7 +162,7 @@ class CaseProxyTest : public QObject {
       volume.request(view, {256, 256});
     };
     volume.request(view, {256, 256});
-    slice.request(fixture.slice(SliceContent::speed), kSmall);
+    slice.request(fixture.slice(renderer::SliceContent::speed), kSmall);
     QTRY_VERIFY_WITH_TIMEOUT(volume.shown().number > 0 && slice.shown().number > 0, kPatience);
     fixture.proxy.set_pause_at_convergence(false);
     fixture.proxy.set_steps_per_picture(1);
@@ -184,15 +184,15 @@ class CaseProxyTest : public QObject {
     QVERIFY(slices >= 15);
     fixture.proxy.pause();
     fixture.wait_until_idle();
-    QCOMPARE(volume.shown().view, AnyView(view));
+    QCOMPARE(volume.shown().view, engine::AnyView(view));
     QCOMPARE(volume.shown().step, fixture.proxy.state().step);
   }
 
   void without_opengl_there_are_steps_and_no_pictures() {
-    Fixture fixture(ExecutorKind::host, false);
+    Fixture fixture(solver::ExecutorKind::host, false);
     fixture.begin();
-    PictureFeed feed(fixture.proxy);
-    feed.request(fixture.slice(SliceContent::source), kSmall);
+    engine::PictureFeed feed(fixture.proxy);
+    feed.request(fixture.slice(renderer::SliceContent::source), kSmall);
     fixture.proxy.step(5);
     fixture.wait_until_idle();
     QCOMPARE(fixture.proxy.state().step, 5);
@@ -206,8 +206,8 @@ class CaseProxyTest : public QObject {
     fixture.proxy.step(10);
     fixture.wait_until_idle();
     const double before = fixture.proxy.state().surface.volume_ml;
-    fixture.proxy.paint({fixture.middle() + glm::dvec3(6.0, 0.0, 0.0), 5.0}, Brush::add,
-                        CaseProxy::new_gesture());
+    fixture.proxy.paint({fixture.middle() + glm::dvec3(6.0, 0.0, 0.0), 5.0}, solver::Brush::add,
+                        engine::CaseProxy::new_gesture());
     fixture.wait_until_idle();
     const double painted = fixture.proxy.state().surface.volume_ml;
     QVERIFY(painted > 1.2 * before);
@@ -224,8 +224,8 @@ class CaseProxyTest : public QObject {
   void what_cannot_be_done_is_told_and_changes_nothing() {
     Fixture fixture;
     fixture.begin();
-    const CaseState before = fixture.proxy.state();
-    Start outside;
+    const engine::CaseState before = fixture.proxy.state();
+    document::Start outside;
     outside.seeds.push_back({fixture.middle() + glm::dvec3(1000.0, 0.0, 0.0), 3.0});
     fixture.proxy.begin(outside);
     fixture.wait_until_idle();
@@ -237,16 +237,16 @@ class CaseProxyTest : public QObject {
 
   void cases_in_lock_step_stand_at_the_same_step() {
     Fixture fixture;
-    CaseProxy other(fixture.engine, ball_study(), ExecutorKind::host);
-    Parameters smooth = other.parameters();
+    engine::CaseProxy other(fixture.engine, ball_study(), solver::ExecutorKind::host);
+    solver::Parameters smooth = other.parameters();
     smooth.alpha = 0.2;
     other.set_parameters(smooth);
     fixture.begin();
-    Start start;
+    document::Start start;
     start.seeds.push_back({fixture.middle(), 4.0});
     other.begin(start);
     fixture.wait_until_idle();
-    CaseProxy::play_in_lock_step({&fixture.proxy, &other});
+    engine::CaseProxy::play_in_lock_step({&fixture.proxy, &other});
     fixture.proxy.set_pause_at_convergence(false);
     other.set_pause_at_convergence(false);
     fixture.proxy.play();
@@ -255,17 +255,17 @@ class CaseProxyTest : public QObject {
     fixture.wait_until_idle();
     QVERIFY(!other.state().playing);
     QCOMPARE(other.state().step, fixture.proxy.state().step);
-    CaseProxy::play_in_lock_step({});
+    engine::CaseProxy::play_in_lock_step({});
   }
 
   void a_session_that_goes_cancels_what_runs() {
-    Engine engine(false);
-    auto proxy = std::make_unique<CaseProxy>(engine, ball_study(), ExecutorKind::host);
-    proxy->begin({{}, {{middle_of(proxy->volume().geometry), 4.0}}, {}});
+    engine::Engine engine(false);
+    auto proxy = std::make_unique<engine::CaseProxy>(engine, ball_study(), solver::ExecutorKind::host);
+    proxy->begin({{}, {{renderer::middle_of(proxy->volume().geometry), 4.0}}, {}});
     proxy->set_pause_at_convergence(false);
     proxy->play();
     QTRY_VERIFY_WITH_TIMEOUT(proxy->state().playing && proxy->state().step > 0, kPatience);
-    const std::weak_ptr<CaseRunner> runner = proxy->runner();
+    const std::weak_ptr<engine::CaseRunner> runner = proxy->runner();
     proxy.reset();
     QTRY_VERIFY_WITH_TIMEOUT(engine.idle(), kPatience);
     QVERIFY(runner.expired());

@@ -16,7 +16,8 @@ namespace {
 // Holds the engine's thread until it is released, so that jobs wait behind it.
 class Hold {
  public:
-  explicit Hold(Engine& engine, Priority priority = Priority::edit, const void* owner = nullptr) {
+  explicit Hold(engine::Engine& engine, engine::Priority priority = engine::Priority::edit,
+                const void* owner = nullptr) {
     engine.post(priority, owner, [state = state_](const std::stop_token& stop) {
       state->begun.count_down();
       state->released.wait();
@@ -49,7 +50,7 @@ struct Mortal {
   ~Mortal() { died_on = QThread::currentThread(); }
 };
 
-void wait_until_idle(const Engine& engine) {
+void wait_until_idle(const engine::Engine& engine) {
   QTRY_VERIFY_WITH_TIMEOUT(engine.idle(), 10000);
 }
 
@@ -60,16 +61,16 @@ class EngineTest : public QObject {
 
  private slots:
   void what_a_job_throws_ends_it_alone() {
-    Engine engine(false);
+    engine::Engine engine(false);
     std::vector<Error> errors;
     const auto note = [&errors](const Error& error) { errors.push_back(error); };
     engine.post(
-        Priority::edit, this, [](const std::stop_token&) { throw std::bad_alloc(); }, note);
+        engine::Priority::edit, this, [](const std::stop_token&) { throw std::bad_alloc(); }, note);
     engine.post(
-        Priority::step, this, [](const std::stop_token&) { throw std::runtime_error("why"); }, note);
-    engine.post(Priority::step, this, [](const std::stop_token&) { throw std::bad_alloc(); });
+        engine::Priority::step, this, [](const std::stop_token&) { throw std::runtime_error("why"); }, note);
+    engine.post(engine::Priority::step, this, [](const std::stop_token&) { throw std::bad_alloc(); });
     bool done = false;
-    engine.post(Priority::background, this, [&done](const std::stop_token&) { done = true; });
+    engine.post(engine::Priority::background, this, [&done](const std::stop_token&) { done = true; });
     wait_until_idle(engine);
     QVERIFY(done);
     QCOMPARE(errors.size(), std::size_t{2});
@@ -78,33 +79,33 @@ class EngineTest : public QObject {
   }
 
   void jobs_are_done_by_priority_and_then_as_they_came() {
-    Engine engine(false);
+    engine::Engine engine(false);
     Hold hold(engine);
     std::string done;  // written by the engine's thread alone, read when it is idle
-    const auto post = [&](Priority priority, char name) {
+    const auto post = [&](engine::Priority priority, char name) {
       engine.post(priority, this, [&done, name](const std::stop_token&) { done += name; });
     };
-    post(Priority::background, 'g');
-    post(Priority::refine, 'f');
-    post(Priority::step, 'e');
-    post(Priority::picture, 'c');
-    post(Priority::edit, 'a');
-    post(Priority::edit, 'b');
-    post(Priority::picture, 'd');
+    post(engine::Priority::background, 'g');
+    post(engine::Priority::refine, 'f');
+    post(engine::Priority::step, 'e');
+    post(engine::Priority::picture, 'c');
+    post(engine::Priority::edit, 'a');
+    post(engine::Priority::edit, 'b');
+    post(engine::Priority::picture, 'd');
     QVERIFY(!hold.release());
     wait_until_idle(engine);
     QCOMPARE(done, std::string("abcdefg"));
   }
 
   void jobs_of_an_owner_are_forgotten_and_the_running_one_is_told() {
-    Engine engine(false);
+    engine::Engine engine(false);
     const int one = 0;
     const int other = 0;
-    Hold hold(engine, Priority::step, &one);
+    Hold hold(engine, engine::Priority::step, &one);
     std::string done;
     const auto freed = std::make_shared<int>();
-    engine.post(Priority::edit, &one, [&done, freed](const std::stop_token&) { done += "one"; });
-    engine.post(Priority::edit, &other, [&done](const std::stop_token&) { done += "other"; });
+    engine.post(engine::Priority::edit, &one, [&done, freed](const std::stop_token&) { done += "one"; });
+    engine.post(engine::Priority::edit, &other, [&done](const std::stop_token&) { done += "other"; });
     QCOMPARE(freed.use_count(), 2L);
     engine.cancel(&one);
     QCOMPARE(freed.use_count(), 1L);
@@ -114,29 +115,29 @@ class EngineTest : public QObject {
   }
 
   void only_what_is_less_urgent_and_of_that_owner_is_interrupted() {
-    Engine engine(false);
+    engine::Engine engine(false);
     const int one = 0;
     const int other = 0;
-    const auto told = [&](Priority running, Priority asks, const void* whose) {
+    const auto told = [&](engine::Priority running, engine::Priority asks, const void* whose) {
       Hold hold(engine, running, &one);
       engine.interrupt(asks, whose);
       return hold.release();
     };
-    QVERIFY(told(Priority::refine, Priority::step, &one));
-    QVERIFY(told(Priority::refine, Priority::step, nullptr));
-    QVERIFY(!told(Priority::refine, Priority::step, &other));
-    QVERIFY(!told(Priority::step, Priority::step, &one));
-    QVERIFY(!told(Priority::picture, Priority::step, &one));
+    QVERIFY(told(engine::Priority::refine, engine::Priority::step, &one));
+    QVERIFY(told(engine::Priority::refine, engine::Priority::step, nullptr));
+    QVERIFY(!told(engine::Priority::refine, engine::Priority::step, &other));
+    QVERIFY(!told(engine::Priority::step, engine::Priority::step, &one));
+    QVERIFY(!told(engine::Priority::picture, engine::Priority::step, &one));
   }
 
   void an_engine_that_closes_does_its_edits_and_forgets_the_rest() {
-    auto engine = std::make_unique<Engine>(false);
+    auto engine = std::make_unique<engine::Engine>(false);
     std::string done;
     const auto freed = std::make_shared<int>();
-    engine->post(Priority::edit, this, [&, engine = engine.get()](const std::stop_token& first) {
+    engine->post(engine::Priority::edit, this, [&, engine = engine.get()](const std::stop_token& first) {
       // These wait behind this one when the engine closes.
-      engine->post(Priority::step, this, [&done, freed](const std::stop_token&) { done += "step"; });
-      engine->post(Priority::edit, this, [&done](const std::stop_token& stop) {
+      engine->post(engine::Priority::step, this, [&done, freed](const std::stop_token&) { done += "step"; });
+      engine->post(engine::Priority::edit, this, [&done](const std::stop_token& stop) {
         done += stop.stop_requested() ? "edit, told to stop" : "edit";
       });
       while (!first.stop_requested()) QThread::yieldCurrentThread();
@@ -148,11 +149,11 @@ class EngineTest : public QObject {
 
   void what_jobs_hold_may_post_as_it_dies() {
     QThread* died_on = nullptr;
-    auto engine = std::make_unique<Engine>(false);
+    auto engine = std::make_unique<engine::Engine>(false);
     {
       Hold hold(*engine);
       auto shared = engine->share(std::make_unique<Mortal>(died_on));
-      engine->post(Priority::background, this, [shared](const std::stop_token&) {});
+      engine->post(engine::Priority::background, this, [shared](const std::stop_token&) {});
       shared.reset();
       engine->cancel(this);  // here its last holder drops it
       hold.release();
@@ -163,7 +164,7 @@ class EngineTest : public QObject {
     // And while the engine closes.
     died_on = nullptr;
     Hold hold(*engine);
-    engine->post(Priority::background, this,
+    engine->post(engine::Priority::background, this,
                  [shared = engine->share(std::make_unique<Mortal>(died_on))](const std::stop_token&) {});
     hold.release();
     engine.reset();
@@ -172,14 +173,14 @@ class EngineTest : public QObject {
   }
 
   void without_opengl_it_computes_all_the_same() {
-    Engine engine(false);
-    QCOMPARE(engine.graphics(), Engine::Graphics::none);
-    QCOMPARE(engine.pictures(), Engine::Pictures::images);
+    engine::Engine engine(false);
+    QCOMPARE(engine.graphics(), engine::Engine::Graphics::none);
+    QCOMPARE(engine.pictures(), engine::Engine::Pictures::images);
     QVERIFY(!engine.graphics_problem().empty());
     QCOMPARE(engine.contexts_made(), 0);
     bool has_device = true;
     Status renewed;
-    engine.post(Priority::edit, this, [&](const std::stop_token&) {
+    engine.post(engine::Priority::edit, this, [&](const std::stop_token&) {
       has_device = engine.device() != nullptr;
       renewed = engine.renew_graphics();
     });
@@ -190,14 +191,14 @@ class EngineTest : public QObject {
   }
 
   void the_context_belongs_to_its_thread_and_can_be_made_anew() {
-    Engine engine;
-    QVERIFY2(engine.graphics() != Engine::Graphics::none, engine.graphics_problem().c_str());
+    engine::Engine engine;
+    QVERIFY2(engine.graphics() != engine::Engine::Graphics::none, engine.graphics_problem().c_str());
     QCOMPARE(engine.contexts_made(), 1);
     QVERIFY(engine.context() != nullptr);
     QVERIFY(engine.context()->thread() != QThread::currentThread());
     std::weak_ptr<gpu::Device> first;
     bool current = false;
-    engine.post(Priority::edit, this, [&](const std::stop_token&) {
+    engine.post(engine::Priority::edit, this, [&](const std::stop_token&) {
       first = engine.device();
       current = QOpenGLContext::currentContext() == engine.context();
     });
@@ -205,7 +206,8 @@ class EngineTest : public QObject {
     QVERIFY(current);
     QVERIFY(!first.expired());
     Status renewed;
-    engine.post(Priority::edit, this, [&](const std::stop_token&) { renewed = engine.renew_graphics(); });
+    engine.post(engine::Priority::edit, this,
+                [&](const std::stop_token&) { renewed = engine.renew_graphics(); });
     wait_until_idle(engine);
     QVERIFY(renewed);
     QCOMPARE(engine.contexts_made(), 2);
@@ -222,9 +224,9 @@ class EngineTest : public QObject {
     QFETCH(QByteArray, wanted);
     QFETCH(bool, textures);
     qputenv("TIDEMARK_PICTURES", wanted);
-    const Engine engine;
+    const engine::Engine engine;
     qunsetenv("TIDEMARK_PICTURES");
-    QCOMPARE(engine.pictures() == Engine::Pictures::textures, textures);
+    QCOMPARE(engine.pictures() == engine::Engine::Pictures::textures, textures);
   }
 };
 

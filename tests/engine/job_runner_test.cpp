@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kPatience = 60'000;  // ms
 
-class Runner : public JobRunner {
+class Runner : public engine::JobRunner {
  public:
   Runner() : JobRunner("tidemark::NoSteps", nullptr) {}
 
@@ -47,11 +47,11 @@ class JobRunnerTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void cleanup() { QVERIFY(BackgroundJob::finish_all(60s)); }
+  void cleanup() { QVERIFY(engine::BackgroundJob::finish_all(60s)); }
 
   void values_and_errors_come_to_the_thread_that_asked() {
     Runner runner;
-    QSignalSpy failed(&runner, &JobRunner::failed);
+    QSignalSpy failed(&runner, &engine::JobRunner::failed);
     runner.number([](const Progress&) -> Result<int> { return 7; });
     QVERIFY(runner.busy());
     QTRY_COMPARE_WITH_TIMEOUT(runner.numbers, QList<int>{7}, kPatience);
@@ -66,7 +66,7 @@ class JobRunnerTest : public QObject {
 
   void what_work_throws_is_a_failure() {
     Runner runner;
-    QSignalSpy failed(&runner, &JobRunner::failed);
+    QSignalSpy failed(&runner, &engine::JobRunner::failed);
     runner.number([](const Progress&) -> Result<int> { throw std::bad_alloc(); });
     QTRY_COMPARE_WITH_TIMEOUT(failed.size(), 1, kPatience);
     QCOMPARE(failed[0][0].toString(), QString("there is not enough memory"));
@@ -78,8 +78,8 @@ class JobRunnerTest : public QObject {
 
   void of_what_was_given_up_nothing_is_heard() {
     Runner runner;
-    QSignalSpy cancelled(&runner, &JobRunner::cancelled);
-    QSignalSpy failed(&runner, &JobRunner::failed);
+    QSignalSpy cancelled(&runner, &engine::JobRunner::cancelled);
+    QSignalSpy failed(&runner, &engine::JobRunner::failed);
     runner.nothing(until_stopped);
     runner.number([](const Progress&) -> Result<int> { return 1; });  // in its place
     QTRY_COMPARE_WITH_TIMEOUT(runner.numbers, QList<int>{1}, kPatience);
@@ -88,7 +88,7 @@ class JobRunnerTest : public QObject {
     QVERIFY(!runner.busy());
     QCOMPARE(cancelled.size(), 1);
     runner.give_up();  // there is nothing to give up
-    QVERIFY(BackgroundJob::finish_all(60s));
+    QVERIFY(engine::BackgroundJob::finish_all(60s));
     QCoreApplication::processEvents();
     QCOMPARE(cancelled.size(), 1);
     QCOMPARE(failed.size(), 0);
@@ -97,7 +97,7 @@ class JobRunnerTest : public QObject {
 
   void what_is_asked_to_stop_says_how_it_ended() {
     Runner runner;
-    QSignalSpy cancelled(&runner, &JobRunner::cancelled);
+    QSignalSpy cancelled(&runner, &engine::JobRunner::cancelled);
     runner.ask_to_stop();  // nobody is there
     runner.nothing(until_stopped);
     runner.ask_to_stop();
@@ -118,7 +118,7 @@ class JobRunnerTest : public QObject {
 
   void of_many_steps_the_last_is_heard_in_words_for_people() {
     Runner runner;
-    QSignalSpy progressed(&runner, &JobRunner::progressed);
+    QSignalSpy progressed(&runner, &engine::JobRunner::progressed);
     std::binary_semaphore said{0};
     runner.nothing([&said](const Progress& progress) -> Status {
       for (int step = 0; step <= 1000; ++step) progress(step / 1000.0, "step " + std::to_string(step));
@@ -137,7 +137,7 @@ class JobRunnerTest : public QObject {
       Runner runner;
       runner.nothing(until_stopped);
     }
-    QVERIFY(BackgroundJob::finish_all(60s));
+    QVERIFY(engine::BackgroundJob::finish_all(60s));
     QCoreApplication::processEvents();
   }
 };

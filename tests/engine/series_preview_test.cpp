@@ -89,10 +89,10 @@ class SeriesPreviewTest : public QObject {
     std::copy_n(voxels.begin() + through * 1600, 1600, voxels.begin() + 20 * 1600);
 
     const test::TemporaryFolder folder;
-    QCOMPARE(test::failure(write_volume_file(volume, folder / "block.nrrd")), QString());
-    const auto catalogue = find_series(folder / "block.nrrd");
+    QCOMPARE(test::failure(imaging::write_volume_file(volume, folder / "block.nrrd")), QString());
+    const auto catalogue = imaging::find_series(folder / "block.nrrd");
     QCOMPARE(test::failure(catalogue), QString());
-    const QImage picture = middle_slice_picture(catalogue->series.front(), 40);
+    const QImage picture = engine::middle_slice_picture(catalogue->series.front(), 40);
     QCOMPARE(picture.size(), QSize(40, 40));
     const QPointF place = bright_place(picture);
     const bool right = normal != 0;  // sagittal: the back is on the right, so that the block is left
@@ -104,18 +104,18 @@ class SeriesPreviewTest : public QObject {
     Volume volume = block(glm::dmat3(1.0));
     volume.geometry.spacing_mm = {1.0, 0.5, 2.0};
     const test::TemporaryFolder folder;
-    QCOMPARE(test::failure(write_dicom_series(volume, {}, folder / "series")), QString());
-    const auto catalogue = find_series(folder / "series");
+    QCOMPARE(test::failure(imaging::write_dicom_series(volume, {}, folder / "series")), QString());
+    const auto catalogue = imaging::find_series(folder / "series");
     QCOMPARE(test::failure(catalogue), QString());
-    const Series& series = catalogue->series.front();
+    const imaging::Series& series = catalogue->series.front();
     const auto middle = static_cast<std::size_t>(series.geometry.size.z / 2);
     for (std::size_t k = 0; k < series.files.size(); ++k) {
       if (k != middle) fs::remove(series.files[k]);
     }
-    SeriesPreviews previews;
-    QSignalSpy made(&previews, &SeriesPreviews::made);
+    engine::SeriesPreviews previews;
+    QSignalSpy made(&previews, &engine::SeriesPreviews::made);
     previews.request(7, series, 96);
-    previews.request(3, Series{}, 96);
+    previews.request(3, imaging::Series{}, 96);
     previews.request(5, series, 48);
     QTRY_COMPARE_WITH_TIMEOUT(made.size(), 3, 60'000);
     QCOMPARE(made[0][0].toInt(), 7);
@@ -127,15 +127,15 @@ class SeriesPreviewTest : public QObject {
   }
 
   void what_is_forgotten_is_not_made_and_the_next_is() {
-    Series nothing;
-    SeriesPreviews previews;
-    QSignalSpy made(&previews, &SeriesPreviews::made);
+    imaging::Series nothing;
+    engine::SeriesPreviews previews;
+    QSignalSpy made(&previews, &engine::SeriesPreviews::made);
     for (int key = 0; key < 100; ++key) previews.request(key, nothing, 16);
     previews.forget();
     previews.request(1000, nothing, 16);
     QTRY_COMPARE_WITH_TIMEOUT(made.size(), 1, 60'000);
     QCOMPARE(made[0][0].toInt(), 1000);
-    QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
+    QVERIFY(engine::BackgroundJob::finish_all(std::chrono::seconds(60)));
     QCoreApplication::processEvents();
     QCOMPARE(made.size(), 1);
   }

@@ -51,13 +51,14 @@ class SourceSummaryTest : public QObject {
 
   // As Volume::value() would have it, one voxel after the other.
   static void verify_counts(const Volume& volume) {
-    const SourceSummary summary = summarise(volume);
+    const engine::SourceSummary summary = engine::summarise(volume);
     QCOMPARE(std::pair(summary.lowest, summary.highest), volume.range());
     QCOMPARE(std::pair(summary.low, summary.high), volume.common_range());
-    std::vector<std::int64_t> expected(SourceSummary::kBins);
+    std::vector<std::int64_t> expected(engine::SourceSummary::kBins);
     for (const float value : volume.values()) {
       const float share = (value - summary.lowest) / (summary.highest - summary.lowest);
-      ++expected[static_cast<std::size_t>(std::min(static_cast<int>(share * SourceSummary::kBins), 255))];
+      ++expected[static_cast<std::size_t>(
+          std::min(static_cast<int>(share * engine::SourceSummary::kBins), 255))];
     }
     QCOMPARE(summary.values, expected);
     QCOMPARE(sum(summary.value_gradient), volume.geometry.voxel_count());
@@ -83,9 +84,9 @@ class SourceSummaryTest : public QObject {
     for (const double slope : {1.0, -0.5}) {
       const Volume volume = ramp(slope);
       for (const Index3 voxel : {Index3(0, 0, 0), Index3(7, 8, 3), Index3(19, 19, 7)}) {
-        QVERIFY(std::abs(gradient_magnitude(volume, voxel) - 5.0F) < 1e-5F);
+        QVERIFY(std::abs(engine::gradient_magnitude(volume, voxel) - 5.0F) < 1e-5F);
       }
-      QVERIFY(std::abs(summarise(volume).steepest - 5.0F) < 1e-5F);
+      QVERIFY(std::abs(engine::summarise(volume).steepest - 5.0F) < 1e-5F);
     }
   }
 
@@ -93,7 +94,7 @@ class SourceSummaryTest : public QObject {
     Volume volume;
     volume.geometry.size = {4, 4, 4};
     volume.voxels = std::vector<std::uint16_t>(64, 7);
-    const SourceSummary summary = summarise(volume);
+    const engine::SourceSummary summary = engine::summarise(volume);
     QCOMPARE(summary.values.front(), std::int64_t{64});
     QCOMPARE(summary.lowest, 7.0F);
     QCOMPARE(summary.highest, 7.0F);
@@ -102,10 +103,10 @@ class SourceSummaryTest : public QObject {
 
   void the_files_own_window_comes_first() {
     Volume volume = noise<std::int16_t>({20, 20, 20}, 0, 1000);
-    const WindowLevel common = summarise(volume).window;
+    const WindowLevel common = engine::summarise(volume).window;
     QVERIFY(std::abs(common.centre - 500.0) < 20.0 && std::abs(common.width - 1000.0) < 30.0);
     volume.window = WindowLevel{40.0, 400.0};
-    QCOMPARE(summarise(volume).window, (WindowLevel{40.0, 400.0}));
+    QCOMPARE(engine::summarise(volume).window, (WindowLevel{40.0, 400.0}));
   }
 
   void it_stops_when_it_is_told_to() {
@@ -113,7 +114,7 @@ class SourceSummaryTest : public QObject {
     stop.request_stop();
     for (const Volume& volume :
          {noise<std::int16_t>({20, 20, 20}, 0, 9), noise<float>({20, 20, 20}, 0.0F, 9.0F)}) {
-      const SourceSummary summary = summarise(volume, {nullptr, stop.get_token()});
+      const engine::SourceSummary summary = engine::summarise(volume, {nullptr, stop.get_token()});
       QCOMPARE(sum(summary.values), std::int64_t{0});
       QCOMPARE(sum(summary.value_gradient), std::int64_t{0});
     }
@@ -122,7 +123,7 @@ class SourceSummaryTest : public QObject {
   // More of one value than a float counts to.
   void a_large_study_is_counted_to_the_last_voxel() {
     const Volume volume = noise<std::int16_t>({512, 512, 100}, 7, 7);
-    const SourceSummary summary = summarise(volume);
+    const engine::SourceSummary summary = engine::summarise(volume);
     QCOMPARE(summary.values.front(), std::int64_t{512} * 512 * 100);
   }
 };

@@ -19,24 +19,24 @@ constexpr int kPatience = 120'000;  // ms; under a sanitizer everything takes lo
 
 // The outcome of whatever the loader is doing: a study, or the message of what went wrong.
 struct Outcome {
-  std::shared_ptr<const LoadedStudy> study;
-  std::shared_ptr<const Catalogue> catalogue;
+  std::shared_ptr<const engine::LoadedStudy> study;
+  std::shared_ptr<const imaging::Catalogue> catalogue;
   QString message;
 };
 
-Outcome wait_for(StudyLoader& loader) {
+Outcome wait_for(engine::StudyLoader& loader) {
   Outcome outcome;
   QObject scope;
   bool done = false;
-  QObject::connect(&loader, &StudyLoader::loaded, &scope, [&](const auto& study) {
+  QObject::connect(&loader, &engine::StudyLoader::loaded, &scope, [&](const auto& study) {
     outcome.study = study;
     done = true;
   });
-  QObject::connect(&loader, &StudyLoader::found, &scope, [&](const auto& catalogue) {
+  QObject::connect(&loader, &engine::StudyLoader::found, &scope, [&](const auto& catalogue) {
     outcome.catalogue = catalogue;
     done = true;
   });
-  QObject::connect(&loader, &StudyLoader::failed, &scope, [&](const QString& message) {
+  QObject::connect(&loader, &engine::StudyLoader::failed, &scope, [&](const QString& message) {
     outcome.message = message;
     done = true;
   });
@@ -50,21 +50,21 @@ class StudyLoaderTest : public QObject {
   Q_OBJECT
 
   test::TemporaryFolder folder_;
-  Phantom sphere_;
+  imaging::Phantom sphere_;
 
  private slots:
   void initTestCase() {
-    auto phantom = make_phantom("sphere");
+    auto phantom = imaging::make_phantom("sphere");
     QCOMPARE(test::failure(phantom), QString());
     sphere_ = std::move(*phantom);
-    QCOMPARE(test::failure(write_phantom(sphere_, folder_.path())), QString());
+    QCOMPARE(test::failure(imaging::write_phantom(sphere_, folder_.path())), QString());
   }
 
   // What one test started does not run into the next.
-  void cleanup() { QVERIFY(BackgroundJob::finish_all(60s)); }
+  void cleanup() { QVERIFY(engine::BackgroundJob::finish_all(60s)); }
 
   void a_folder_is_scanned() {
-    StudyLoader loader;
+    engine::StudyLoader loader;
     loader.scan(folder_.path());
     QVERIFY(loader.busy());
     const Outcome outcome = wait_for(loader);
@@ -74,12 +74,12 @@ class StudyLoaderTest : public QObject {
   }
 
   void a_series_becomes_a_study() {
-    StudyLoader loader;
-    QSignalSpy progress(&loader, &StudyLoader::progressed);
+    engine::StudyLoader loader;
+    QSignalSpy progress(&loader, &engine::StudyLoader::progressed);
     loader.load(folder_ / "series", {});
     const Outcome outcome = wait_for(loader);
     QCOMPARE(outcome.message, QString());
-    const LoadedStudy& study = *outcome.study;
+    const engine::LoadedStudy& study = *outcome.study;
     QCOMPARE(study.volume->values(), sphere_.volume.values());
     QCOMPARE(study.origin.path, folder_ / "series");
     QVERIFY(!study.origin.series_uid.empty());
@@ -90,7 +90,7 @@ class StudyLoaderTest : public QObject {
     // Otsu's bright class is the ball.
     QVERIFY2(std::abs(study.parameters.target - sphere_.target) < sphere_.range,
              qPrintable(QString::number(study.parameters.target)));
-    QCOMPARE(test::failure(check(study.parameters)), QString());
+    QCOMPARE(test::failure(solver::check(study.parameters)), QString());
     QVERIFY(!progress.isEmpty());
     for (const auto& said : progress) {
       QVERIFY(said[0].toDouble() >= 0.0 && said[0].toDouble() <= 1.0);
@@ -99,10 +99,10 @@ class StudyLoaderTest : public QObject {
   }
 
   void a_series_that_was_found_is_found_again_at_its_origin() {
-    StudyLoader loader;
+    engine::StudyLoader loader;
     loader.scan(folder_.path());
     const auto catalogue = wait_for(loader).catalogue;
-    for (const Series& series : catalogue->series) {
+    for (const imaging::Series& series : catalogue->series) {
       loader.load(series);
       const Outcome first = wait_for(loader);
       QCOMPARE(first.message, QString());
@@ -114,11 +114,11 @@ class StudyLoaderTest : public QObject {
   }
 
   void a_phantom_brings_its_parameters_and_its_start() {
-    StudyLoader loader;
+    engine::StudyLoader loader;
     loader.make_phantom("sphere");
     const Outcome outcome = wait_for(loader);
     QCOMPARE(outcome.message, QString());
-    const LoadedStudy& study = *outcome.study;
+    const engine::LoadedStudy& study = *outcome.study;
     QCOMPARE(study.volume->values(), sphere_.volume.values());
     QCOMPARE(study.origin.phantom, std::string("sphere"));
     QVERIFY(study.origin.path.empty());
@@ -131,7 +131,7 @@ class StudyLoaderTest : public QObject {
 
   void what_cannot_be_opened_is_said() {
     const test::TemporaryFolder empty;
-    StudyLoader loader;
+    engine::StudyLoader loader;
     loader.scan(empty.path());
     QVERIFY(wait_for(loader).message.contains("holds no DICOM series or volume file"));
     loader.load(empty / "nowhere", {});
@@ -144,9 +144,9 @@ class StudyLoaderTest : public QObject {
   void a_damaged_slice_is_named() {
     const test::TemporaryFolder damaged;
     fs::copy(folder_ / "series", damaged / "series");
-    StudyLoader loader;
+    engine::StudyLoader loader;
     loader.scan(damaged.path());
-    const Series series = wait_for(loader).catalogue->series.front();
+    const imaging::Series series = wait_for(loader).catalogue->series.front();
     const fs::path slice = series.files.at(40);
     fs::resize_file(slice, fs::file_size(slice) / 2);
     for (const bool listed_before : {true, false}) {
@@ -165,7 +165,7 @@ class StudyLoaderTest : public QObject {
     fs::copy(folder_ / "series", damaged / "series");
     const fs::path slice = *fs::directory_iterator(damaged / "series");
     fs::resize_file(slice, fs::file_size(slice) / 2);
-    StudyLoader loader;
+    engine::StudyLoader loader;
     loader.scan(slice);
     const Outcome outcome = wait_for(loader);
     QVERIFY(!outcome.catalogue);
@@ -174,11 +174,11 @@ class StudyLoaderTest : public QObject {
   }
 
   void nothing_is_heard_of_a_load_that_was_cancelled() {
-    StudyLoader loader;
-    QSignalSpy cancelled(&loader, &StudyLoader::cancelled);
-    QSignalSpy loaded(&loader, &StudyLoader::loaded);
-    QSignalSpy failed(&loader, &StudyLoader::failed);
-    QSignalSpy progress(&loader, &StudyLoader::progressed);
+    engine::StudyLoader loader;
+    QSignalSpy cancelled(&loader, &engine::StudyLoader::cancelled);
+    QSignalSpy loaded(&loader, &engine::StudyLoader::loaded);
+    QSignalSpy failed(&loader, &engine::StudyLoader::failed);
+    QSignalSpy progress(&loader, &engine::StudyLoader::progressed);
     loader.cancel();
     QCOMPARE(cancelled.size(), 0);  // nothing to give up
     loader.load(folder_ / "series", {});
@@ -186,7 +186,7 @@ class StudyLoaderTest : public QObject {
     loader.cancel();
     QVERIFY(!loader.busy());
     QCOMPARE(cancelled.size(), 1);
-    QVERIFY(BackgroundJob::finish_all(60s));
+    QVERIFY(engine::BackgroundJob::finish_all(60s));
     QCoreApplication::processEvents();
     QCOMPARE(loaded.size() + failed.size(), 0);
     loader.load(folder_ / "series", {});
@@ -194,14 +194,14 @@ class StudyLoaderTest : public QObject {
   }
 
   void the_next_request_takes_the_place_of_the_one_before() {
-    StudyLoader loader;
-    QSignalSpy loaded(&loader, &StudyLoader::loaded);
+    engine::StudyLoader loader;
+    QSignalSpy loaded(&loader, &engine::StudyLoader::loaded);
     loader.load(folder_ / "series", {});
     loader.load(folder_ / "truth.nii.gz", {});
     const Outcome outcome = wait_for(loader);
     QCOMPARE(outcome.message, QString());
     QCOMPARE(outcome.study->name, QString("truth.nii.gz"));
-    QVERIFY(BackgroundJob::finish_all(60s));
+    QVERIFY(engine::BackgroundJob::finish_all(60s));
     QCoreApplication::processEvents();
     QCOMPARE(loaded.size(), 1);
   }
@@ -209,18 +209,18 @@ class StudyLoaderTest : public QObject {
   void a_loader_can_go_while_it_works() {
     test::Heartbeat heartbeat;
     for (int round = 0; round < 20; ++round) {
-      auto loader = std::make_unique<StudyLoader>();
+      auto loader = std::make_unique<engine::StudyLoader>();
       loader->load(folder_ / "series", {});
       QTest::qWait(round);
     }
     qInfo("destroying loaders at work: the largest gap of a 5 ms timer was %.1f ms",
           heartbeat.largest_gap_ms());
-    QVERIFY(BackgroundJob::finish_all(60s));
+    QVERIFY(engine::BackgroundJob::finish_all(60s));
     QCoreApplication::processEvents();
   }
 
   void the_user_interface_stays_alive_meanwhile() {
-    StudyLoader loader;
+    engine::StudyLoader loader;
     test::Heartbeat making;
     loader.make_phantom("tumour");
     QCOMPARE(wait_for(loader).message, QString());
@@ -233,35 +233,35 @@ class StudyLoaderTest : public QObject {
   }
 
   void names_are_never_the_patients() {
-    Series series;
+    imaging::Series series;
     series.transfer_syntaxes = {"1.2.840.10008.1.2"};
     series.files = {"/data/DOE_JOHN/DOE_JOHN_1.dcm"};
     series.description = "DOE_JOHN_1.dcm";  // what a series without a description is listed under
     series.modality = "CT";
     series.date = "2004-07-31";
-    QCOMPARE(StudyLoader::name_of(series), QString("CT 2004-07-31"));
+    QCOMPARE(engine::StudyLoader::name_of(series), QString("CT 2004-07-31"));
     series.date.clear();
-    QCOMPARE(StudyLoader::name_of(series), QString("CT"));
+    QCOMPARE(engine::StudyLoader::name_of(series), QString("CT"));
     series.description = "Liver 3 mm";
-    QCOMPARE(StudyLoader::name_of(series), QString("Liver 3 mm"));
+    QCOMPARE(engine::StudyLoader::name_of(series), QString("Liver 3 mm"));
     // The file that named it is not the first one once slices are sorted.
     series.description = "MUELLER_0007.dcm";
     series.files = {"study/MUELLER_0001.dcm", "study/MUELLER_0007.dcm"};
-    QCOMPARE(StudyLoader::name_of(series), QString("CT"));
+    QCOMPARE(engine::StudyLoader::name_of(series), QString("CT"));
   }
 
   void a_series_lies_in_the_folder_that_holds_all_its_files() {
-    Series series;
+    imaging::Series series;
     series.transfer_syntaxes = {"1.2.840.10008.1.2"};
     series.files = {"/data/a/1.dcm", "/data/a/2.dcm"};
-    QCOMPARE(StudyLoader::place_of(series), fs::path("/data/a"));
+    QCOMPARE(engine::StudyLoader::place_of(series), fs::path("/data/a"));
     series.files.push_back("/data/b/c/3.dcm");
-    QCOMPARE(StudyLoader::place_of(series), fs::path("/data"));
+    QCOMPARE(engine::StudyLoader::place_of(series), fs::path("/data"));
     series.files.push_back("/data/ab.dcm");
-    QCOMPARE(StudyLoader::place_of(series), fs::path("/data"));
+    QCOMPARE(engine::StudyLoader::place_of(series), fs::path("/data"));
     series.transfer_syntaxes.clear();
     series.files = {"/data/brain.nii"};
-    QCOMPARE(StudyLoader::place_of(series), fs::path("/data/brain.nii"));
+    QCOMPARE(engine::StudyLoader::place_of(series), fs::path("/data/brain.nii"));
   }
 };
 

@@ -24,9 +24,9 @@ class StudyLoadingTest : public QObject {
   void a_study_is_loaded_without_stopping_the_user_interface() {
     QFETCH(QString, folder);
     QFETCH(qlonglong, voxels);
-    StudyLoader loader;
-    QSignalSpy loaded(&loader, &StudyLoader::loaded);
-    QSignalSpy failed(&loader, &StudyLoader::failed);
+    engine::StudyLoader loader;
+    QSignalSpy loaded(&loader, &engine::StudyLoader::loaded);
+    QSignalSpy failed(&loader, &engine::StudyLoader::failed);
     QElapsedTimer clock;
     clock.start();
     Heartbeat heartbeat;
@@ -35,25 +35,25 @@ class StudyLoadingTest : public QObject {
     qInfo("loaded in %lld ms; the largest gap of a 5 ms timer was %.1f ms", clock.elapsed(),
           heartbeat.largest_gap_ms());
     QVERIFY2(failed.isEmpty(), failed.isEmpty() ? "" : qPrintable(failed[0][0].toString()));
-    const auto study = loaded[0][0].value<std::shared_ptr<const LoadedStudy>>();
+    const auto study = loaded[0][0].value<std::shared_ptr<const engine::LoadedStudy>>();
     QCOMPARE(qlonglong{study->volume->geometry.voxel_count()}, voxels);
     QVERIFY(!study->name.isEmpty());
-    QCOMPARE(failure(check(study->parameters)), QString());
+    QCOMPARE(failure(solver::check(study->parameters)), QString());
     QVERIFY(study->parameters.target > study->summary.lowest);
     QVERIFY(study->parameters.target < study->summary.highest);
   }
 
   void every_loadable_series_has_a_picture() {
-    StudyLoader loader;
-    QSignalSpy found(&loader, &StudyLoader::found);
+    engine::StudyLoader loader;
+    QSignalSpy found(&loader, &engine::StudyLoader::found);
     Heartbeat heartbeat;
     loader.scan(studies_folder());
     QTRY_VERIFY_WITH_TIMEOUT(!found.isEmpty(), 60'000);
-    const auto catalogue = found[0][0].value<std::shared_ptr<const Catalogue>>();
-    SeriesPreviews previews;
-    QSignalSpy made(&previews, &SeriesPreviews::made);
+    const auto catalogue = found[0][0].value<std::shared_ptr<const imaging::Catalogue>>();
+    engine::SeriesPreviews previews;
+    QSignalSpy made(&previews, &engine::SeriesPreviews::made);
     int asked = 0;
-    for (const Series& series : catalogue->series) {
+    for (const imaging::Series& series : catalogue->series) {
       if (series.loadable) previews.request(asked++, series, 128);
     }
     QVERIFY(asked > 20);

@@ -42,23 +42,23 @@ class TruthOverlapTest : public QObject {
     const auto inside = ball(geometry, 0.0, 15.0);
     std::vector<float> values;
     for (const std::uint8_t voxel : inside->voxels) values.push_back(voxel != 0 ? 2.5F : -2.5F);
-    const Field phi = Field::from_dense(geometry, values, 2.5);
-    QVERIFY(std::count(phi.table.begin(), phi.table.end(), Field::kInside) > 0);
+    const solver::Field phi = solver::Field::from_dense(geometry, values, 2.5);
+    QVERIFY(std::count(phi.table.begin(), phi.table.end(), solver::Field::kInside) > 0);
     const auto truth = ball(geometry, off_mm, radius_mm);
-    TruthOverlap overlap(truth);
+    engine::TruthOverlap overlap(truth);
     const double expected = dice(phi.mask(), *truth);
     QCOMPARE(overlap.dice(phi), expected);
     QCOMPARE(overlap.dice(phi), expected);  // with what it knows by now
     QVERIFY(expected < 1.0 && expected > 0.0);
     // Other pages.
-    QCOMPARE(overlap.dice(Field::from_dense(geometry, values, 2.5, {4, 8, 16})), expected);
+    QCOMPARE(overlap.dice(solver::Field::from_dense(geometry, values, 2.5, {4, 8, 16})), expected);
   }
 
   void of_nothing_and_nothing_it_is_one() {
     const Geometry geometry{{9, 9, 9}, {1.0, 1.0, 1.0}, glm::dmat3(1.0), {}};
-    TruthOverlap overlap(ball(geometry, 0.0, 0.0));
-    QCOMPARE(overlap.dice(Field::empty(geometry, 2.5)), 1.0);
-    QCOMPARE(TruthOverlap(ball(geometry, 0.0, 3.0)).dice(Field::empty(geometry, 2.5)), 0.0);
+    engine::TruthOverlap overlap(ball(geometry, 0.0, 0.0));
+    QCOMPARE(overlap.dice(solver::Field::empty(geometry, 2.5)), 1.0);
+    QCOMPARE(engine::TruthOverlap(ball(geometry, 0.0, 3.0)).dice(solver::Field::empty(geometry, 2.5)), 0.0);
   }
 };
 

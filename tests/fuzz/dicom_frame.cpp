@@ -9,7 +9,7 @@
 
 // DCMTK reads its data dictionary once, which takes longer than an input may.
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  static_cast<void>(tidemark::decode_frame({}));
+  static_cast<void>(tidemark::imaging::decode_frame({}));
   return 0;
 }
 
@@ -28,7 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
   dataset.put_number(0x00280100, bits).put_number(0x00280101, bits).put_number(0x00280102, bits - 1);
   dataset.put(kPixels, encapsulated(frame));
   const std::string whole = file(kSyntaxes[bytes[0] % kSyntaxes.size()], dataset.bytes());
-  const auto slice = tidemark::decode_frame(
+  const auto slice = tidemark::imaging::decode_frame(
       scratch.write("slice.dcm", reinterpret_cast<const std::uint8_t*>(whole.data()), whole.size()));
   if (slice && slice->pixels.stored.size() != std::size_t{bytes[1]} * bytes[2]) std::abort();
   return 0;

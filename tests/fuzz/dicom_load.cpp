@@ -8,14 +8,14 @@
 
 // DCMTK reads its data dictionary once, which takes longer than an input may.
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  static_cast<void>(tidemark::decode_frame({}));
+  static_cast<void>(tidemark::imaging::decode_frame({}));
   return 0;
 }
 
 // What can be decoded can be read into place. Values are not compared: of a damaged stream the decoder leaves
 // some as they were.
-static void check_words(const tidemark::FrameReader& image, std::int64_t frame,
-                        const tidemark::FramePixels& pixels) {
+static void check_words(const tidemark::imaging::FrameReader& image, std::int64_t frame,
+                        const tidemark::imaging::FramePixels& pixels) {
   std::vector<std::uint16_t> words(pixels.stored.size());
   for (const bool is_signed : {false, true}) {
     if (image.has_words(is_signed) && !image.read_words(frame, words)) std::abort();
@@ -24,7 +24,7 @@ static void check_words(const tidemark::FrameReader& image, std::int64_t frame,
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
   static tidemark::fuzz::ScratchFile scratch;
-  const auto image = tidemark::FrameReader::open(scratch.write("slice.dcm", bytes, count));
+  const auto image = tidemark::imaging::FrameReader::open(scratch.write("slice.dcm", bytes, count));
   if (!image) return 0;
   constexpr std::int64_t kFrames = 4;
   for (std::int64_t f = 0; f < std::min(kFrames, image->frames()); ++f) {

@@ -9,7 +9,7 @@
 
 // DCMTK reads its data dictionary once, which takes longer than an input may.
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  static_cast<void>(tidemark::decode_frame({}));
+  static_cast<void>(tidemark::imaging::decode_frame({}));
   return 0;
 }
 
@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
   static tidemark::fuzz::ScratchFile scratch;
   static const auto image = scratch.write("IMAGES/IM1", nullptr, 0);
   const auto file = scratch.write("DICOMDIR", bytes, count);
-  const auto directory = tidemark::read_media_directory(file);
+  const auto directory = tidemark::imaging::read_media_directory(file);
   if (!directory) return 0;
   // Nothing else is there, and what is there is named once.
   const auto& files = directory->files;
@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
   if (named(image) > 1 || named(file) > 1) std::abort();
   if (static_cast<std::size_t>(named(image) + named(file)) != files.size()) std::abort();
   // Names come into messages of one line.
-  const std::string text = tidemark::list_missing(directory->missing);
+  const std::string text = tidemark::imaging::list_missing(directory->missing);
   const auto is_printable = [](char c) { return c >= 0x20 && c <= 0x7e; };
   if (text.size() > 400 || !std::all_of(text.begin(), text.end(), is_printable)) std::abort();
   return 0;

@@ -15,12 +15,12 @@ using namespace tidemark;
 const Geometry kVolume{{7, 5, 4}};
 
 // Every segment is of voxels of the grid, and what comes of all together fits it.
-void check(const Segments& segments) {
+void check(const imaging::Segments& segments) {
   const Geometry& grid = segments.geometry;
   const glm::dvec3 last = grid.to_patient(grid.size);
   if (!std::isfinite(last.x + last.y + last.z)) std::abort();
   const auto area = static_cast<std::size_t>(grid.size.x * grid.size.y);
-  for (const Segment& segment : segments.list) {
+  for (const imaging::Segment& segment : segments.list) {
     for (const auto& [k, slice] : segment.slices) {
       if (k < 0 || k >= grid.size.z || slice.size() != area) std::abort();
     }
@@ -28,8 +28,8 @@ void check(const Segments& segments) {
   // A grid from one end of a patient to the other, which is allowed, is more memory than an input may take.
   constexpr std::int64_t kMostVoxels = std::int64_t{16} << 20;
   if (grid.voxel_count() > kMostVoxels) return;
-  const Mask mask = union_of(segments);
-  const auto map = label_map_of(segments);
+  const Mask mask = imaging::union_of(segments);
+  const auto map = imaging::label_map_of(segments);
   if (map && map->voxels.size() != mask.voxels.size()) std::abort();
 }
 
@@ -37,14 +37,14 @@ void check(const Segments& segments) {
 
 // DCMTK reads its data dictionary once, which takes longer than an input may.
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  static_cast<void>(decode_frame({}));
+  static_cast<void>(imaging::decode_frame({}));
   return 0;
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
   static fuzz::ScratchFile scratch;
   const auto file = scratch.write("result.dcm", bytes, count);
-  if (const auto segments = read_result(file, &kVolume)) check(*segments);
-  if (const auto segments = read_result(file, nullptr)) check(*segments);
+  if (const auto segments = imaging::read_result(file, &kVolume)) check(*segments);
+  if (const auto segments = imaging::read_result(file, nullptr)) check(*segments);
   return 0;
 }

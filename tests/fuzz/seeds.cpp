@@ -81,14 +81,15 @@ void write_dicom_of_several_slices() {
 
 // The first fragment of a file's pixels.
 std::string frame_of(const std::string& bytes) {
-  MemoryBytes source({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-  TagWalk walk(source, std::int64_t{1} << 20);
+  imaging::MemoryBytes source({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  imaging::TagWalk walk(source, std::int64_t{1} << 20);
   std::string frame;
-  const auto ignore = [](const ElementHeader&, ByteReader&, const Fragments*) {};
+  const auto ignore = [](const imaging::ElementHeader&, imaging::ByteReader&, const imaging::Fragments*) {};
   const auto dataset = walk.walk_meta(132, ignore);
   if (!dataset) qFatal("%s", dataset.error().what.c_str());
   const auto walked = walk.walk_dataset(
-      *dataset, {}, true, [&](const ElementHeader&, ByteReader&, const Fragments* fragments) {
+      *dataset, {}, true,
+      [&](const imaging::ElementHeader&, imaging::ByteReader&, const imaging::Fragments* fragments) {
         if (fragments == nullptr) return;
         frame = bytes.substr(static_cast<std::size_t>(fragments->first), fragments->first_bytes);
       });
@@ -158,13 +159,13 @@ void write_media_directories() {
 void write_archives() {
   const std::string text(3000, 'x');
   const auto bytes = std::as_bytes(std::span(text));
-  const std::array<ZipEntry, 5> entries{{{"document/1/slice.dcm", bytes.first(300)},
-                                         {"document/1/", bytes.first(0)},
-                                         {"..\\..\\a:b\n.dcm", bytes},
-                                         {"/etc/passwd", bytes.first(1)},
-                                         {"more.ZIP", bytes.first(20)}}};
+  const std::array<document::ZipEntry, 5> entries{{{"document/1/slice.dcm", bytes.first(300)},
+                                                   {"document/1/", bytes.first(0)},
+                                                   {"..\\..\\a:b\n.dcm", bytes},
+                                                   {"/etc/passwd", bytes.first(1)},
+                                                   {"more.ZIP", bytes.first(20)}}};
   const test::TemporaryFolder folder;
-  if (const auto written = write_zip(folder / "a.zip", entries); !written) {
+  if (const auto written = document::write_zip(folder / "a.zip", entries); !written) {
     qFatal("%s", written.error().message.c_str());
   }
   const std::string whole = test::contents(folder / "a.zip");
@@ -200,7 +201,7 @@ void write_volumes() {
   const Volume volume = test::counting_volume<std::int16_t>(test::awkward_grid({3, 2, 2}), -3);
   for (const std::string suffix : {"nrrd", "mha"}) {
     const test::TemporaryFolder folder;
-    if (const auto written = write_volume_file(volume, folder / ("v." + suffix)); !written) {
+    if (const auto written = imaging::write_volume_file(volume, folder / ("v." + suffix)); !written) {
       qFatal("%s", written.error().message.c_str());
     }
     write("volume_files", suffix, test::contents(folder / ("v." + suffix)));
@@ -230,8 +231,8 @@ void write_volumes() {
 }
 
 // Two boxes that overlap, one of them with a hole.
-Segments boxes() {
-  Segments segments{{{7, 5, 4}}, {}, {}};
+imaging::Segments boxes() {
+  imaging::Segments segments{{{7, 5, 4}}, {}, {}};
   const Index3 size = segments.geometry.size;
   for (const bool is_hollow : {false, true}) {
     std::vector<std::uint8_t> voxels(static_cast<std::size_t>(segments.geometry.voxel_count()));
@@ -243,9 +244,9 @@ Segments boxes() {
         }
       }
     }
-    Segment segment;
+    imaging::Segment segment;
     segment.name = is_hollow ? "hollow" : "box";
-    segment.slices = slices_of(segments.geometry, voxels);
+    segment.slices = imaging::slices_of(segments.geometry, voxels);
     segments.list.push_back(std::move(segment));
   }
   return segments;
@@ -253,9 +254,9 @@ Segments boxes() {
 
 // As fractions of 255, a byte each.
 void make_fractional(DcmDataset& dataset) {
-  const Segments segments = boxes();
+  const imaging::Segments segments = boxes();
   std::vector<Uint8> bytes;
-  for (const Segment& segment : segments.list) {
+  for (const imaging::Segment& segment : segments.list) {
     for (const auto& [k, slice] : segment.slices) {
       for (const std::uint8_t inside : slice) bytes.push_back(inside != 0 ? 200 : 60);
     }
@@ -276,7 +277,7 @@ void write_results() {
   const auto must = [](const Status& done) {
     if (!done) qFatal("%s", done.error().message.c_str());
   };
-  must(write_structure_set(boxes(), {}, file));
+  must(imaging::write_structure_set(boxes(), {}, file));
   write("result_files", "structure-set", test::contents(file));
   test::edit(file, [](DcmDataset& dataset) {
     DcmItem* region = nullptr;
@@ -286,7 +287,7 @@ void write_results() {
     contour->putAndInsertString(DCM_ContourData, "2\\-3\\0\\2\\9.5\\3\\2\\1\\1e2");
   });
   write("result_files", "sagittal-beyond", test::contents(file));
-  must(write_segmentation(boxes(), {}, file));
+  must(imaging::write_segmentation(boxes(), {}, file));
   write("result_files", "segmentation", test::contents(file));
   test::set_text(file, 0x0062, 0x0001, "FRACTIONAL");
   write("result_files", "bits-for-bytes", test::contents(file));
@@ -301,28 +302,28 @@ void write_results() {
 
 void write_studies() {
   const auto document = test::make_case(test::lumpy_volume({9, 8, 9}));
-  Start start;
+  document::Start start;
   start.seeds = {test::ball_at(*document->volume(), {0.3, -0.2, 0.4}, 2.0)};
   if (const auto begun = document->level_set().begin(start); !begun)
     qFatal("%s", begun.error().message.c_str());
   test::run(document->level_set(), 3);
   const auto painted =
-      document->level_set().paint(test::ball_at(*document->volume(), {1, 0, 1}, 1.0), Brush::add);
+      document->level_set().paint(test::ball_at(*document->volume(), {1, 0, 1}, 1.0), solver::Brush::add);
   if (!painted) qFatal("%s", painted.error().message.c_str());
-  Label label = *document->labels().find(document->labels().add("Left").value());
-  label.meaning = find_segment_meaning("kidney").value();
+  document::Label label = *document->labels().find(document->labels().add("Left").value());
+  label.meaning = imaging::find_segment_meaning("kidney").value();
   if (const auto set = document->labels().set(label); !set) qFatal("%s", set.error().message.c_str());
 
-  auto contents = snapshot_of(*document).value();
+  auto contents = document::snapshot_of(*document).value();
   write("study_files", "recipe.json", contents.recipe.to_text().value());
   contents.origin.phantom = "tumour";
   const test::TemporaryFolder folder;
-  if (const auto saved = write_session(contents, folder / "case"); !saved) {
+  if (const auto saved = document::write_session(contents, folder / "case"); !saved) {
     qFatal("%s", saved.error().message.c_str());
   }
   write("study_files", "session.tidemark", test::contents(folder / "case"));
-  for (const std::string& name : preset_names())
-    write("transfer_preset", name, preset(name).value().to_json());
+  for (const std::string& name : renderer::preset_names())
+    write("transfer_preset", name, renderer::preset(name).value().to_json());
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
   progress.report = [&](double, std::string_view) {
     if (++reports == kMostReports) stop.request_stop();
   };
-  const auto archive = StudyArchive::unpack(file, progress);
+  const auto archive = imaging::StudyArchive::unpack(file, progress);
   if (!archive) return 0;
   const auto is_harmless = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||

@@ -13,17 +13,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
   static fuzz::ScratchFile scratch;
   const std::string_view text(reinterpret_cast<const char*>(bytes), count);
   if (text.starts_with("PK")) {
-    static_cast<void>(load_session(scratch.write("case.tidemark", bytes, count)));
+    static_cast<void>(document::load_session(scratch.write("case.tidemark", bytes, count)));
     return 0;
   }
   // A recipe that was read can be written, and is read again.
-  if (const auto recipe = Recipe::parse(text, "recipe.json")) {
+  if (const auto recipe = document::Recipe::parse(text, "recipe.json")) {
     const auto again = recipe->to_text();
-    if (!again || !Recipe::parse(*again, "recipe.json")) std::abort();
+    if (!again || !document::Recipe::parse(*again, "recipe.json")) std::abort();
   }
-  const ZipEntry entry{"session.json", std::as_bytes(std::span(bytes, count))};
+  const document::ZipEntry entry{"session.json", std::as_bytes(std::span(bytes, count))};
   const auto file = scratch.write("case.tidemark", bytes, 0);
-  if (!write_zip(file, {&entry, 1})) std::abort();
-  static_cast<void>(load_session(file));
+  if (!document::write_zip(file, {&entry, 1})) std::abort();
+  static_cast<void>(document::load_session(file));
   return 0;
 }

@@ -5,10 +5,10 @@
 #include "renderer/transfer_function.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
-  using tidemark::TransferFunction;
-  const auto function = TransferFunction::parse({reinterpret_cast<const char*>(bytes), count});
+  using tidemark::renderer::TransferFunction;
+  const auto function = renderer::TransferFunction::parse({reinterpret_cast<const char*>(bytes), count});
   if (!function) return 0;
-  const auto again = TransferFunction::parse(function->to_json());
+  const auto again = renderer::TransferFunction::parse(function->to_json());
   if (!again || !(*again == *function)) std::abort();
   return 0;
 }

@@ -13,8 +13,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
                            : text.find('=') < std::size_t{64} ? "v.mha"
                                                               : "v.gipl";
   const auto file = scratch.write(name, bytes, count);
-  const auto series = tidemark::scan_volume_file(file);
-  const auto volume = tidemark::read_volume_file(file);
+  const auto series = tidemark::imaging::scan_volume_file(file);
+  const auto volume = tidemark::imaging::read_volume_file(file);
   if (volume && !(series && series->loadable)) std::abort();
   return 0;
 }

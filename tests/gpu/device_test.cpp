@@ -13,8 +13,8 @@ using namespace tidemark::gpu;
 
 namespace {
 
-std::shared_ptr<Device> make_device(GlVersion version = GlVersion::gl45) {
-  auto device = Device::create_headless({version, true});
+std::shared_ptr<gpu::Device> make_device(gpu::GlVersion version = gpu::GlVersion::gl45) {
+  auto device = gpu::Device::create_headless({version, true});
   if (!device) qFatal("%s", device.error().message.c_str());
   return *device;
 }
@@ -27,7 +27,7 @@ class DeviceTest : public QObject {
  private slots:
   void capabilities_are_known_and_printable() {
     const auto device = make_device();
-    const Capabilities& capabilities = device->capabilities();
+    const gpu::Capabilities& capabilities = device->capabilities();
     QVERIFY(capabilities.at_least(4, 5));
     QVERIFY(!capabilities.renderer.empty());
     QVERIFY(capabilities.largest_texture >= 16384);
@@ -36,7 +36,7 @@ class DeviceTest : public QObject {
   }
 
   void an_older_context_can_be_had() {
-    const auto device = make_device(GlVersion::gl33);
+    const auto device = make_device(gpu::GlVersion::gl33);
     QVERIFY(device->capabilities().at_least(3, 3));
     QVERIFY(device->make_current());
   }
@@ -45,9 +45,9 @@ class DeviceTest : public QObject {
     const auto one = make_device();
     const auto other = make_device();
     QVERIFY(one->make_current());
-    auto a = Buffer::create(*one, 4, "a");
+    auto a = gpu::Buffer::create(*one, 4, "a");
     QVERIFY(other->make_current());
-    auto b = Buffer::create(*other, 4, "b");
+    auto b = gpu::Buffer::create(*other, 4, "b");
     QVERIFY(a && b);
     const std::int32_t value = 7;
     QVERIFY(one->make_current());
@@ -61,11 +61,11 @@ class DeviceTest : public QObject {
     const auto device = make_device();
     std::vector<float> values(12 * 5);
     std::iota(values.begin(), values.end(), 1.0F);
-    auto texture = Texture2D::create(*device, TexelFormat::r32f, 16, 8, "test");
+    auto texture = gpu::Texture2D::create(*device, gpu::TexelFormat::r32f, 16, 8, "test");
     QVERIFY(texture);
     texture->upload({2, 1, 12, 5}, std::as_bytes(std::span(values)));
-    auto larger = Texture2D::create(*device, TexelFormat::r32f, 32, 32, "larger");
-    auto source = Framebuffer::create(*device, {&*texture}, "copy");
+    auto larger = gpu::Texture2D::create(*device, gpu::TexelFormat::r32f, 32, 32, "larger");
+    auto source = gpu::Framebuffer::create(*device, {&*texture}, "copy");
     QVERIFY(larger && source);
     source->copy_to({2, 1, 12, 5}, *larger, 20, 27);
     std::vector<float> read(values.size());
@@ -76,8 +76,8 @@ class DeviceTest : public QObject {
 
   void readback_arrives_later() {
     const auto device = make_device();
-    auto buffer = Buffer::create(*device, 64, "numbers");
-    auto readback = Readback::create(*device, 16, "on its way");
+    auto buffer = gpu::Buffer::create(*device, 64, "numbers");
+    auto readback = gpu::Readback::create(*device, 16, "on its way");
     QVERIFY(buffer && readback);
     std::vector<std::int32_t> numbers(16);
     std::iota(numbers.begin(), numbers.end(), 0);
@@ -92,12 +92,12 @@ class DeviceTest : public QObject {
   void handles_are_counted_and_move() {
     const auto device = make_device();
     {
-      auto first = Buffer::create(*device, 4, "first");
+      auto first = gpu::Buffer::create(*device, 4, "first");
       QVERIFY(first);
       QCOMPARE(device->handles(), std::int64_t{1});
-      Buffer second = std::move(*first);
+      gpu::Buffer second = std::move(*first);
       QCOMPARE(device->handles(), std::int64_t{1});
-      second = Buffer();
+      second = gpu::Buffer();
       QCOMPARE(device->handles(), std::int64_t{0});
     }
     QCOMPARE(device->handles(), std::int64_t{0});
@@ -105,7 +105,7 @@ class DeviceTest : public QObject {
 
   void a_shader_that_does_not_compile_says_where() {
     const auto device = make_device();
-    const auto program = Program::compute(*device, "solver/compute/update.comp", {});
+    const auto program = gpu::Program::compute(*device, "solver/compute/update.comp", {});
     QVERIFY(!program);
     QCOMPARE(program.error().kind, ErrorKind::internal);
     QVERIFY2(program.error().message.find(".glsl:") != std::string::npos, program.error().message.c_str());
@@ -114,18 +114,18 @@ class DeviceTest : public QObject {
   void what_is_too_large_is_refused() {
     const auto device = make_device();
     const std::int64_t limit = device->capabilities().largest_texture;
-    const auto texture = Texture2D::create(*device, TexelFormat::r32f, limit + 1, 4, "too wide");
+    const auto texture = gpu::Texture2D::create(*device, gpu::TexelFormat::r32f, limit + 1, 4, "too wide");
     QVERIFY(!texture);
     QCOMPARE(texture.error().kind, ErrorKind::capability);
     const Index3 size(device->capabilities().largest_volume_texture + 1, 1, 1);
-    QCOMPARE(Texture3D::create(*device, TexelFormat::r8, size, {}, "too long").error().kind,
+    QCOMPARE(gpu::Texture3D::create(*device, gpu::TexelFormat::r8, size, {}, "too long").error().kind,
              ErrorKind::capability);
   }
 
   void a_lost_context_stays_lost_and_nothing_is_deleted_in_it() {
     const auto device = make_device();
     {
-      auto buffer = Buffer::create(*device, 4, "goes with its context");
+      auto buffer = gpu::Buffer::create(*device, 4, "goes with its context");
       QVERIFY(buffer);
       device->lose_at_check(2);
       QVERIFY(device->check("the first"));
@@ -134,16 +134,16 @@ class DeviceTest : public QObject {
       QCOMPARE(lost.error().kind, ErrorKind::capability);
       QVERIFY(lost.error().message.find("the second") != std::string::npos);
       QVERIFY(device->lost());
-      QVERIFY(!Buffer::create(*device, 4, "too late"));
+      QVERIFY(!gpu::Buffer::create(*device, 4, "too late"));
     }
     QCOMPARE(device->handles(), std::int64_t{0});
   }
 
   void the_gpus_clock_runs() {
     const auto device = make_device();
-    const Timer timer = Timer::create(*device);
+    const gpu::Timer timer = gpu::Timer::create(*device);
     timer.begin();
-    auto texture = Texture2D::create(*device, TexelFormat::rgba32f, 64, 64, "work", true);
+    auto texture = gpu::Texture2D::create(*device, gpu::TexelFormat::rgba32f, 64, 64, "work", true);
     QVERIFY(texture);
     texture->generate_mipmaps();
     timer.end();

@@ -12,7 +12,7 @@ using namespace tidemark::gpu;
 
 namespace {
 
-ShaderReader reader(std::map<std::string, std::string> files) {
+gpu::ShaderReader reader(std::map<std::string, std::string> files) {
   return [files = std::move(files)](std::string_view path) -> Result<std::string> {
     const auto found = files.find(std::string(path));
     if (found == files.end()) return fail(ErrorKind::internal, "{}: no such shader", path);
@@ -33,7 +33,8 @@ class ShaderSourceTest : public QObject {
 
  private slots:
   void files_are_included_once_and_lines_are_marked() {
-    const auto source = assemble_shader("main.comp", "450 core", {{"N", "8"}, {"FLAG", ""}}, reader(kFiles));
+    const auto source =
+        gpu::assemble_shader("main.comp", "450 core", {{"N", "8"}, {"FLAG", ""}}, reader(kFiles));
     QVERIFY(source);
     QCOMPARE(source->text,
              std::string("#version 450 core\n#define N 8\n#define FLAG \n"
@@ -45,32 +46,32 @@ class ShaderSourceTest : public QObject {
   void a_missing_file_is_named_with_the_line_that_wants_it() {
     auto files = kFiles;
     files["b.glsl"] = "int b;\n#include \"c.glsl\"\n";
-    const auto source = assemble_shader("main.comp", "330 core", {}, reader(files));
+    const auto source = gpu::assemble_shader("main.comp", "330 core", {}, reader(files));
     QVERIFY(!source);
     QCOMPARE(source.error().message, std::string("main.comp:2: b.glsl:2: c.glsl: no such shader"));
   }
 
   void messages_of_all_drivers_name_file_and_line() {
-    const ShaderSource source{"", {"main.comp", "a.glsl"}};
-    QCOMPARE(name_files("1:12(3): error: `x' undeclared", source),
+    const gpu::ShaderSource source{"", {"main.comp", "a.glsl"}};
+    QCOMPARE(gpu::name_files("1:12(3): error: `x' undeclared", source),
              std::string("a.glsl:12: error: `x' undeclared\n"));
-    QCOMPARE(name_files("0(7) : error C1008: undefined variable", source),
+    QCOMPARE(gpu::name_files("0(7) : error C1008: undefined variable", source),
              std::string("main.comp:7: error C1008: undefined variable\n"));
-    QCOMPARE(name_files("ERROR: 1:4: 'y' : undeclared identifier\nWARNING: 0:2: z", source),
+    QCOMPARE(gpu::name_files("ERROR: 1:4: 'y' : undeclared identifier\nWARNING: 0:2: z", source),
              std::string("a.glsl:4: 'y' : undeclared identifier\nmain.comp:2: z\n"));
-    QCOMPARE(name_files("9:1(1): error: no such file\nplain words", source),
+    QCOMPARE(gpu::name_files("9:1(1): error: no such file\nplain words", source),
              std::string("9:1(1): error: no such file\nplain words\n"));
   }
 
   void shaders_are_embedded_and_can_be_read_from_disk() {
-    const auto embedded = read_shader("solver/paging.glsl");
+    const auto embedded = gpu::read_shader("solver/paging.glsl");
     QVERIFY(embedded && embedded->find("page_origin") != std::string::npos);
-    QVERIFY(!read_shader("solver/none.glsl"));
+    QVERIFY(!gpu::read_shader("solver/none.glsl"));
     const QTemporaryDir folder;
     std::ofstream((folder.path() + "/own.glsl").toStdString()) << "int own;\n";
     qputenv("TIDEMARK_SHADERS", folder.path().toUtf8());
-    const auto own = read_shader("own.glsl");
-    const auto missing = read_shader("solver/paging.glsl");
+    const auto own = gpu::read_shader("own.glsl");
+    const auto missing = gpu::read_shader("solver/paging.glsl");
     qunsetenv("TIDEMARK_SHADERS");
     QVERIFY(own);
     QCOMPARE(*own, std::string("int own;\n"));

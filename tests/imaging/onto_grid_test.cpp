@@ -65,12 +65,12 @@ class OntoGridTest : public QObject {
       for (unsigned flips = 0; flips < 8; ++flips) {
         const Volume stored = volume_on(
             stored_otherwise(grid, axes, {(flips & 1U) != 0, (flips & 2U) != 0, (flips & 4U) != 0}));
-        const auto values = onto_grid(stored, grid, "phi.nrrd");
+        const auto values = imaging::onto_grid(stored, grid, "phi.nrrd");
         QCOMPARE(test::failure(values), QString());
         QCOMPARE(*values, expected);
         Mask mask{stored.geometry, {}};
         for (const float value : stored.values()) mask.voxels.push_back(value > middle ? 1 : 0);
-        const auto inside = onto_grid(std::move(mask), grid, "mask.nrrd");
+        const auto inside = imaging::onto_grid(std::move(mask), grid, "mask.nrrd");
         QCOMPARE(test::failure(inside), QString());
         QCOMPARE(inside->geometry, grid);
         for (std::size_t v = 0; v < expected.size(); ++v) {
@@ -84,7 +84,7 @@ class OntoGridTest : public QObject {
     Geometry rounded = study_grid();
     rounded.origin_mm.x += 0.01;
     rounded.spacing_mm.z = 3.001;
-    QVERIFY(onto_grid(volume_on(rounded), study_grid(), "phi.nrrd").has_value());
+    QVERIFY(imaging::onto_grid(volume_on(rounded), study_grid(), "phi.nrrd").has_value());
   }
 
   void other_voxels_are_refused_by_the_files_name_data() {
@@ -102,7 +102,7 @@ class OntoGridTest : public QObject {
     Geometry other = study_grid();
     other.origin_mm.z += shift_mm;
     if (larger) ++other.size.x;
-    const auto refused = onto_grid(volume_on(other), study_grid(), "phi.nrrd");
+    const auto refused = imaging::onto_grid(volume_on(other), study_grid(), "phi.nrrd");
     QVERIFY(!refused);
     QCOMPARE(refused.error().kind, ErrorKind::input);
     const QString message = QString::fromStdString(refused.error().message);

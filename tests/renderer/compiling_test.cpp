@@ -28,22 +28,22 @@ std::int64_t bytes_of_compiled_code() {
   return bytes;
 }
 
-std::vector<VolumeView> views() {
-  VolumeView surface;
-  VolumeView source;
+std::vector<renderer::VolumeView> views() {
+  renderer::VolumeView surface;
+  renderer::VolumeView source;
   source.source = transfer_function(
       R"({"source": [{"value": {"ramp": [100, 1000]}, "colour": [1, 1, 1], "opacity": 0.2}]})");
-  VolumeView inside = source;
+  renderer::VolumeView inside = source;
   inside.surface = false;
-  inside.region = Region::inside;
-  VolumeView coloured_by_speed = surface;
-  coloured_by_speed.colouring = SurfaceColouring::total_speed;
-  VolumeView clipped = surface;
-  clipped.clip = ClipPlane{};
-  std::vector<VolumeView> all{surface, source, inside, coloured_by_speed, clipped};
+  inside.region = renderer::Region::inside;
+  renderer::VolumeView coloured_by_speed = surface;
+  coloured_by_speed.colouring = renderer::SurfaceColouring::total_speed;
+  renderer::VolumeView clipped = surface;
+  clipped.clip = renderer::ClipPlane{};
+  std::vector<renderer::VolumeView> all{surface, source, inside, coloured_by_speed, clipped};
   for (std::size_t i = 0, rays = all.size(); i < rays; ++i) {
     all.push_back(all[i]);
-    all.back().mode = Mode::slices;
+    all.back().mode = renderer::Mode::slices;
   }
   return all;
 }
@@ -57,14 +57,14 @@ class CompilingTest : public QObject {
   void views_in_another_order_compile_nothing_more() {
     Painter draw(ball_scene(grid({48, 48, 48}), 15.0));
     if (!draw.device().capabilities().software) QSKIP("a GPU's driver compiles elsewhere");
-    const std::vector<VolumeView> all = views();
-    for (const VolumeView& view : all) draw(view, 96, 72);
-    draw(SliceView(), 96, 72);
+    const std::vector<renderer::VolumeView> all = views();
+    for (const renderer::VolumeView& view : all) draw(view, 96, 72);
+    draw(renderer::SliceView(), 96, 72);
     const std::int64_t before = bytes_of_compiled_code();
     QVERIFY(before > 0);
     for (auto view = all.rbegin(); view != all.rend(); ++view) {
       draw(*view, 96, 72);
-      draw(SliceView(), 96, 72);
+      draw(renderer::SliceView(), 96, 72);
     }
     // Of the same kind: llvmpipe tells textures apart whose sides are powers of two.
     for (std::size_t i = 0; i < all.size(); ++i) draw(all[3 * i % all.size()], 80, 48);
@@ -74,8 +74,8 @@ class CompilingTest : public QObject {
   void what_is_compiled_is_no_piece_of_the_picture() {
     Painter draw(ball_scene(grid({48, 48, 48}), 15.0));
     if (!draw.device().capabilities().software) QSKIP("a GPU's driver compiles elsewhere");
-    draw(VolumeView(), 96, 72);
-    const DrawReport report = draw.renderer().last_draw();
+    draw(renderer::VolumeView(), 96, 72);
+    const renderer::DrawReport report = draw.renderer().last_draw();
     QVERIFY(report.prepare_seconds > 0.0);
     QVERIFY(report.seconds >= report.prepare_seconds + report.longest_piece_seconds);
   }

@@ -22,7 +22,7 @@ using namespace tidemark::test;
 
 namespace {
 
-constexpr PictureSize kSize{128, 128};
+constexpr renderer::PictureSize kSize{128, 128};
 // The driver of the golden pictures (Debian 12).
 constexpr const char* kDriver = "Mesa 22.3";
 
@@ -39,7 +39,7 @@ glm::dvec3 to_lab(glm::dvec3 rgb) {
 }
 
 // The mean over a pixel and its eight neighbours, as an eye at some distance sees it.
-glm::dvec3 seen_at(const Picture& picture, std::int64_t x, std::int64_t y) {
+glm::dvec3 seen_at(const renderer::Picture& picture, std::int64_t x, std::int64_t y) {
   glm::dvec3 sum(0.0);
   double found = 0.0;
   for (std::int64_t v = std::max<std::int64_t>(y - 1, 0); v <= std::min(y + 1, picture.height - 1); ++v) {
@@ -56,7 +56,7 @@ struct Difference {
   double share_visible = 0.0;  // of pixels that differ by more than 5
 };
 
-Difference difference(const Picture& a, const Picture& b) {
+Difference difference(const renderer::Picture& a, const renderer::Picture& b) {
   Difference result;
   const double pixels = static_cast<double>(a.width * a.height);
   for (std::int64_t y = 0; y < a.height; ++y) {
@@ -82,9 +82,9 @@ constexpr Tolerance kSameDriver{0.3, 0.005};
 // Rays end in other last digits there: a few cross the surface a step earlier, or miss a thin edge.
 constexpr Tolerance kOtherDriver{0.6, 0.02};
 
-Picture read_png(const std::filesystem::path& file) {
+renderer::Picture read_png(const std::filesystem::path& file) {
   const QImage image = QImage(QString::fromStdString(file.string())).convertToFormat(QImage::Format_RGBA8888);
-  Picture picture{image.width(), image.height(), {}};
+  renderer::Picture picture{image.width(), image.height(), {}};
   for (int y = 0; y < image.height(); ++y) {
     picture.pixels.insert(picture.pixels.end(), image.constScanLine(y),
                           image.constScanLine(y) + 4 * image.width());
@@ -92,11 +92,11 @@ Picture read_png(const std::filesystem::path& file) {
   return picture;
 }
 
-Picture read_golden(const std::string& name) {
+renderer::Picture read_golden(const std::string& name) {
   return read_png(std::filesystem::path(TIDEMARK_GOLDEN_PICTURES) / (name + ".png"));
 }
 
-void write_png(const Picture& picture, const std::filesystem::path& file) {
+void write_png(const renderer::Picture& picture, const std::filesystem::path& file) {
   const QImage image(picture.pixels.data(), static_cast<int>(picture.width), static_cast<int>(picture.height),
                      QImage::Format_RGBA8888);
   if (!image.convertToFormat(QImage::Format_RGB888).save(QString::fromStdString(file.string()))) {
@@ -107,53 +107,53 @@ void write_png(const Picture& picture, const std::filesystem::path& file) {
 // A phantom with the distance to its truth as the level set.
 struct Patient {
   explicit Patient(const char* kind) {
-    auto phantom = make_phantom(kind);
+    auto phantom = imaging::make_phantom(kind);
     if (!phantom) qFatal("%s", phantom.error().message.c_str());
-    scene.phi = distance_transform(phantom->truth, default_band(phantom->truth.geometry));
-    scene.middle = middle_of(phantom->truth);
+    scene.phi = solver::distance_transform(phantom->truth, solver::default_band(phantom->truth.geometry));
+    scene.middle = renderer::middle_of(phantom->truth);
     scene.source = std::make_shared<const Volume>(std::move(phantom->volume));
     parameters.target = phantom->target;
     parameters.range = phantom->range;
     parameters.alpha = phantom->alpha;
-    window = window_of(*scene.source);
+    window = renderer::window_of(*scene.source);
     labels = phantom->truth.voxels;
     painter = std::make_unique<Painter>(scene);
     painter->renderer().set_parameters(parameters);
   }
 
   Scene scene;
-  Parameters parameters;
+  solver::Parameters parameters;
   WindowLevel window;
   std::vector<std::uint8_t> labels;
   std::unique_ptr<Painter> painter;
 };
 
-using Draw = std::function<Result<Picture>(Patient&)>;
+using Draw = std::function<Result<renderer::Picture>(Patient&)>;
 
 struct Golden {
   const char* patient;
   Draw draw;
 };
 
-VolumeView from_the_left(const Patient& patient) {
-  VolumeView view;
+renderer::VolumeView from_the_left(const Patient& patient) {
+  renderer::VolumeView view;
   view.camera.azimuth = 35.0;
   view.camera.elevation = 20.0;
   view.window = patient.window;
   return view;
 }
 
-Draw volume(const std::function<void(VolumeView&, const Patient&)>& change) {
+Draw volume(const std::function<void(renderer::VolumeView&, const Patient&)>& change) {
   return [change](Patient& patient) {
-    VolumeView view = from_the_left(patient);
+    renderer::VolumeView view = from_the_left(patient);
     change(view, patient);
     return patient.painter->renderer().draw(view, kSize);
   };
 }
 
-Draw slice(const std::function<void(SliceView&, Patient&)>& change) {
+Draw slice(const std::function<void(renderer::SliceView&, Patient&)>& change) {
   return [change](Patient& patient) {
-    SliceView view;
+    renderer::SliceView view;
     view.position_mm = patient.scene.middle;
     view.window = patient.window;
     view.label_opacity = 0.0;
@@ -162,44 +162,47 @@ Draw slice(const std::function<void(SliceView&, Patient&)>& change) {
   };
 }
 
-void add_presets(std::map<std::string, Golden>& all, const std::string& suffix, Mode mode) {
-  for (const std::string& name : preset_names()) {
+void add_presets(std::map<std::string, Golden>& all, const std::string& suffix, renderer::Mode mode) {
+  for (const std::string& name : renderer::preset_names()) {
     const char* patient = name.starts_with("mr-") ? "head" : "organ";
-    all["preset-" + name + suffix] = {patient, volume([name, mode](VolumeView& view, const Patient& p) {
+    all["preset-" + name + suffix] = {patient,
+                                      volume([name, mode](renderer::VolumeView& view, const Patient& p) {
                                         view.mode = mode;
-                                        view.source = *preset(name);
+                                        view.source = *renderer::preset(name);
                                         view.surface = !view.source->surface.empty();
                                         if (view.surface) {
-                                          view.clip = ClipPlane{{0.0, 0.0, 1.0}, p.scene.middle.z};
+                                          view.clip = renderer::ClipPlane{{0.0, 0.0, 1.0}, p.scene.middle.z};
                                         }
                                       })};
   }
 }
 
-void add_surfaces(std::map<std::string, Golden>& all, const std::string& suffix, Mode mode) {
-  const auto add = [&](const char* name, const std::function<void(VolumeView&, const Patient&)>& change) {
-    all[name + suffix] = {"organ", volume([change, mode](VolumeView& view, const Patient& patient) {
+void add_surfaces(std::map<std::string, Golden>& all, const std::string& suffix, renderer::Mode mode) {
+  const auto add = [&](const char* name,
+                       const std::function<void(renderer::VolumeView&, const Patient&)>& change) {
+    all[name + suffix] = {"organ", volume([change, mode](renderer::VolumeView& view, const Patient& patient) {
                             view.mode = mode;
-                            view.camera = view.camera.on(box_around(patient.scene.phi),
+                            view.camera = view.camera.on(renderer::box_around(patient.scene.phi),
                                                          patient.scene.source->geometry, 1.0);
                             change(view, patient);
                           })};
   };
-  add("surface", [](VolumeView&, const Patient&) {});
-  add("surface-translucent", [](VolumeView& view, const Patient&) { view.surface_colour.a = 0.3F; });
-  add("surface-lit-from-above", [](VolumeView& view, const Patient&) {
+  add("surface", [](renderer::VolumeView&, const Patient&) {});
+  add("surface-translucent",
+      [](renderer::VolumeView& view, const Patient&) { view.surface_colour.a = 0.3F; });
+  add("surface-lit-from-above", [](renderer::VolumeView& view, const Patient&) {
     view.lighting.from = {0.0, 0.0, 1.0};
   });
-  add("surface-and-bone", [](VolumeView& view, const Patient&) {
+  add("surface-and-bone", [](renderer::VolumeView& view, const Patient&) {
     view.camera.focus_mm.reset();
     view.camera.zoom = 1.0;
-    view.source = *preset("ct-bone");
+    view.source = *renderer::preset("ct-bone");
   });
-  for (const auto& [name, region] : {std::pair{"region-inside", Region::inside},
-                                     {"region-outside", Region::outside},
-                                     {"region-tinted", Region::tinted}}) {
-    add(name, [region = region](VolumeView& view, const Patient&) {
-      view.source = *preset("ct-soft-tissue");
+  for (const auto& [name, region] : {std::pair{"region-inside", renderer::Region::inside},
+                                     {"region-outside", renderer::Region::outside},
+                                     {"region-tinted", renderer::Region::tinted}}) {
+    add(name, [region = region](renderer::VolumeView& view, const Patient&) {
+      view.source = *renderer::preset("ct-soft-tissue");
       view.surface = false;
       view.region = region;
       view.camera.zoom *= 0.6;
@@ -207,10 +210,10 @@ void add_surfaces(std::map<std::string, Golden>& all, const std::string& suffix,
   }
   for (const auto& [name, source, surface] :
        {std::tuple{"clip-both", true, true}, {"clip-source", true, false}, {"clip-surface", false, true}}) {
-    add(name, [source = source, surface = surface](VolumeView& view, const Patient& patient) {
+    add(name, [source = source, surface = surface](renderer::VolumeView& view, const Patient& patient) {
       view.camera.zoom *= 0.6;
-      view.source = *preset("ct-bone");
-      view.clip = ClipPlane{{0.0, -1.0, 0.0}, -patient.scene.middle.y};
+      view.source = *renderer::preset("ct-bone");
+      view.clip = renderer::ClipPlane{{0.0, -1.0, 0.0}, -patient.scene.middle.y};
       view.clip->clips_source = source;
       view.clip->clips_surface = surface;
     });
@@ -218,78 +221,81 @@ void add_surfaces(std::map<std::string, Golden>& all, const std::string& suffix,
 }
 
 void add_teaching(std::map<std::string, Golden>& all) {
-  for (const auto& [name, colouring] : {std::pair{"total", SurfaceColouring::total_speed},
-                                        {"data", SurfaceColouring::data},
-                                        {"curvature-term", SurfaceColouring::curvature_term},
-                                        {"rescaling", SurfaceColouring::rescaling},
-                                        {"curvature", SurfaceColouring::curvature},
-                                        {"pages", SurfaceColouring::pages}}) {
+  for (const auto& [name, colouring] : {std::pair{"total", renderer::SurfaceColouring::total_speed},
+                                        {"data", renderer::SurfaceColouring::data},
+                                        {"curvature-term", renderer::SurfaceColouring::curvature_term},
+                                        {"rescaling", renderer::SurfaceColouring::rescaling},
+                                        {"curvature", renderer::SurfaceColouring::curvature},
+                                        {"pages", renderer::SurfaceColouring::pages}}) {
     all[std::string("teaching-") + name] = {
-        "organ", volume([colouring = colouring](VolumeView& view, const Patient& p) {
-          view.camera = view.camera.on(box_around(p.scene.phi), p.scene.source->geometry, 1.0);
+        "organ", volume([colouring = colouring](renderer::VolumeView& view, const Patient& p) {
+          view.camera = view.camera.on(renderer::box_around(p.scene.phi), p.scene.source->geometry, 1.0);
           view.colouring = colouring;
         })};
   }
-  all["surface-occlusion"] = {"organ", volume([](VolumeView& view, const Patient& p) {
-                                view.camera =
-                                    view.camera.on(box_around(p.scene.phi), p.scene.source->geometry, 1.0);
+  all["surface-occlusion"] = {"organ", volume([](renderer::VolumeView& view, const Patient& p) {
+                                view.camera = view.camera.on(renderer::box_around(p.scene.phi),
+                                                             p.scene.source->geometry, 1.0);
                                 view.lighting.occlusion = 1.0;
                               })};
-  all["moving"] = {"head", volume([](VolumeView& view, const Patient&) {
-                     view.quality = kMovingQuality;
-                     view.source = *preset("mr-head");
+  all["moving"] = {"head", volume([](renderer::VolumeView& view, const Patient&) {
+                     view.quality = renderer::kMovingQuality;
+                     view.source = *renderer::preset("mr-head");
                    })};
 }
 
 void add_slices(std::map<std::string, Golden>& all) {
-  for (const auto& [name, orientation] : {std::pair{"axial", kAxial},
-                                          {"coronal", kCoronal},
-                                          {"sagittal", kSagittal},
-                                          {"oblique", oblique({1.0, 0.6, 0.8})}}) {
+  for (const auto& [name, orientation] : {std::pair{"axial", renderer::kAxial},
+                                          {"coronal", renderer::kCoronal},
+                                          {"sagittal", renderer::kSagittal},
+                                          {"oblique", renderer::oblique({1.0, 0.6, 0.8})}}) {
     all[std::string("slice-") + name] = {
-        "organ",
-        slice([orientation = orientation](SliceView& view, Patient&) { view.orientation = orientation; })};
+        "organ", slice([orientation = orientation](renderer::SliceView& view, Patient&) {
+          view.orientation = orientation;
+        })};
   }
-  all["slice-nearest"] = {"head", slice([](SliceView& view, Patient&) {
+  all["slice-nearest"] = {"head", slice([](renderer::SliceView& view, Patient&) {
                             view.nearest = true;
                             view.zoom = 6.0;
                           })};
-  all["slice-labels"] = {"organ", slice([](SliceView& view, Patient& patient) {
+  all["slice-labels"] = {"organ", slice([](renderer::SliceView& view, Patient& patient) {
                            if (const Status set = patient.painter->renderer().set_labels(patient.labels);
                                !set) {
                              qFatal("%s", set.error().message.c_str());
                            }
                            view.label_opacity = 0.5;
                          })};
-  for (const auto& [name, term] : {std::pair{"total", SpeedTerm::total},
-                                   {"data", SpeedTerm::data},
-                                   {"curvature", SpeedTerm::curvature},
-                                   {"rescaling", SpeedTerm::rescaling}}) {
-    all[std::string("speed-") + name] = {"organ", slice([term = term](SliceView& view, Patient&) {
-                                           view.content = SliceContent::speed;
+  for (const auto& [name, term] : {std::pair{"total", renderer::SpeedTerm::total},
+                                   {"data", renderer::SpeedTerm::data},
+                                   {"curvature", renderer::SpeedTerm::curvature},
+                                   {"rescaling", renderer::SpeedTerm::rescaling}}) {
+    all[std::string("speed-") + name] = {"organ", slice([term = term](renderer::SliceView& view, Patient&) {
+                                           view.content = renderer::SliceContent::speed;
                                            view.surface = false;
                                            view.zoom = 2.0;
                                            view.term = term;
                                          })};
   }
-  all["pages"] = {"organ", slice([](SliceView& view, Patient&) { view.content = SliceContent::pages; })};
+  all["pages"] = {"organ", slice([](renderer::SliceView& view, Patient&) {
+                    view.content = renderer::SliceContent::pages;
+                  })};
   all["sheet"] = {"head", [](Patient& patient) {
-                    SheetView view;
+                    renderer::SheetView view;
                     view.position_mm = patient.scene.middle;
                     view.window = patient.window;
                     view.speed = true;
                     view.volume = from_the_left(patient);
-                    return draw_sheet(patient.painter->renderer(), view, {384, 256});
+                    return renderer::draw_sheet(patient.painter->renderer(), view, {384, 256});
                   }};
 }
 
 const std::map<std::string, Golden>& golden_pictures() {
   static const std::map<std::string, Golden> kAll = [] {
     std::map<std::string, Golden> all;
-    add_presets(all, "", Mode::raycast);
-    add_presets(all, "-by-slices", Mode::slices);
-    add_surfaces(all, "", Mode::raycast);
-    add_surfaces(all, "-by-slices", Mode::slices);
+    add_presets(all, "", renderer::Mode::raycast);
+    add_presets(all, "-by-slices", renderer::Mode::slices);
+    add_surfaces(all, "", renderer::Mode::raycast);
+    add_surfaces(all, "-by-slices", renderer::Mode::slices);
     add_teaching(all);
     add_slices(all);
     return all;
@@ -331,7 +337,7 @@ class GoldenTest : public QObject {
     }
     const bool same = driver.version.find(kDriver) != std::string::npos &&
                       driver.renderer.find("llvmpipe") != std::string::npos;
-    const Picture expected = read_golden(name.toStdString());
+    const renderer::Picture expected = read_golden(name.toStdString());
     QVERIFY2(expected.width > 0, "there is no golden picture of that name");
     QCOMPARE(picture->width, expected.width);
     QCOMPARE(picture->height, expected.height);

@@ -13,10 +13,10 @@ using namespace tidemark::test;
 
 namespace {
 
-constexpr std::int64_t kSide = 200;                 // pixels
-constexpr double kRadius = 20.0;                    // of label 1
-constexpr double kInner = 8.0;                      // of label 2, inside it
-const Lighting kFlat{1.0, 0.0, 0.0, 1.0, {}, 0.0};  // colours as they are
+constexpr std::int64_t kSide = 200;                           // pixels
+constexpr double kRadius = 20.0;                              // of label 1
+constexpr double kInner = 8.0;                                // of label 2, inside it
+const renderer::Lighting kFlat{1.0, 0.0, 0.0, 1.0, {}, 0.0};  // colours as they are
 
 using Numbers = std::vector<std::uint8_t>;
 
@@ -27,7 +27,7 @@ glm::dvec3 colour_of(std::uint8_t label) {
 
 // A ball of label 1 around one of label 2.
 Numbers balls(const Geometry& geometry, double inner = kInner) {
-  const glm::dvec3 middle = middle_of(geometry);
+  const glm::dvec3 middle = renderer::middle_of(geometry);
   const auto values = sample(geometry, [&](glm::dvec3 p) {
     const double r = glm::length(p - middle);
     return r < inner ? 2.0 : r < kRadius ? 1.0 : 0.0;
@@ -38,12 +38,12 @@ Numbers balls(const Geometry& geometry, double inner = kInner) {
 // A scene without a surface.
 Scene empty_scene(const Geometry& geometry) {
   Scene scene = ball_scene(geometry, 1.0);
-  scene.phi = Field::empty(geometry, scene.phi.band);
+  scene.phi = solver::Field::empty(geometry, scene.phi.band);
   return scene;
 }
 
 void label(Painter& painter, const Numbers& numbers, const std::vector<std::uint8_t>& hidden = {}) {
-  std::vector<Renderer::LabelColour> colours(Renderer::kLabels);
+  std::vector<renderer::Renderer::LabelColour> colours(renderer::Renderer::kLabels);
   for (std::size_t i = 1; i < colours.size(); ++i) {
     const auto [red, green, blue] = label_colour(static_cast<std::uint8_t>(i));
     colours[i] = {red, green, blue, 255};
@@ -55,8 +55,8 @@ void label(Painter& painter, const Numbers& numbers, const std::vector<std::uint
   }
 }
 
-VolumeView label_view(Mode mode, double opacity = 1.0) {
-  VolumeView view;
+renderer::VolumeView label_view(renderer::Mode mode, double opacity = 1.0) {
+  renderer::VolumeView view;
   view.mode = mode;
   view.label_opacity = opacity;
   view.lighting = kFlat;
@@ -69,8 +69,8 @@ double off(glm::ivec3 found, glm::dvec3 expected) {
 
 // Of pixels that are not `expected` where the ball of that radius is, a voxel and a bit from its outline, or
 // that are not background around it.
-std::int64_t wrong_pixels(const Picture& picture, double radius_px, double voxel_px, glm::dvec3 expected,
-                          const VolumeView& view) {
+std::int64_t wrong_pixels(const renderer::Picture& picture, double radius_px, double voxel_px,
+                          glm::dvec3 expected, const renderer::VolumeView& view) {
   const glm::dvec3 background = 255.0 * glm::dvec3(view.background);
   std::int64_t wrong = 0;
   for (std::int64_t y = 0; y < picture.height; ++y) {
@@ -86,8 +86,8 @@ std::int64_t wrong_pixels(const Picture& picture, double radius_px, double voxel
 
 void add_modes() {
   QTest::addColumn<int>("mode");
-  QTest::newRow("rays") << static_cast<int>(Mode::raycast);
-  QTest::newRow("slices") << static_cast<int>(Mode::slices);
+  QTest::newRow("rays") << static_cast<int>(renderer::Mode::raycast);
+  QTest::newRow("slices") << static_cast<int>(renderer::Mode::slices);
 }
 
 }  // namespace
@@ -102,12 +102,12 @@ class LabelViewTest : public QObject {
     const Geometry geometry = grid({64, 60, 31}, {1.0, 1.0, 2.0});
     Painter draw(empty_scene(geometry));
     label(draw, balls(geometry));
-    VolumeView view = label_view(static_cast<Mode>(mode));
+    renderer::VolumeView view = label_view(static_cast<renderer::Mode>(mode));
     for (const auto& [azimuth, elevation] : {std::pair{0.0, 0.0}, {90.0, 0.0}, {0.0, 90.0}, {33.0, -20.0}}) {
       view.camera.azimuth = azimuth;
       view.camera.elevation = elevation;
       const double mm_px = 0.5 * kSide / view.camera.half_height_mm(geometry, 1.0);
-      const Picture picture = draw(view, kSide, kSide);
+      const renderer::Picture picture = draw(view, kSide, kSide);
       // A voxel is 2 mm along the slices' normal.
       const std::int64_t wrong = wrong_pixels(picture, kRadius * mm_px, 2.0 * mm_px, colour_of(1), view);
       QVERIFY2(wrong == 0, qPrintable(QString("%1 at %2, %3").arg(wrong).arg(azimuth).arg(elevation)));
@@ -119,7 +119,7 @@ class LabelViewTest : public QObject {
     QFETCH(int, mode);
     const Geometry geometry = grid({64, 64, 64});
     Painter draw(empty_scene(geometry));
-    const VolumeView view = label_view(static_cast<Mode>(mode));
+    const renderer::VolumeView view = label_view(static_cast<renderer::Mode>(mode));
     const double mm_px = 0.5 * kSide / view.camera.half_height_mm(geometry, 1.0);
     label(draw, balls(geometry), {1});
     QCOMPARE(wrong_pixels(draw(view, kSide, kSide), kInner * mm_px, mm_px, colour_of(2), view), 0);
@@ -136,8 +136,8 @@ class LabelViewTest : public QObject {
     const Geometry geometry = grid({64, 64, 64});
     Painter draw(empty_scene(geometry));
     label(draw, balls(geometry));
-    const VolumeView view = label_view(static_cast<Mode>(mode), 0.5);
-    const Picture picture = draw(view, kSide, kSide);
+    const renderer::VolumeView view = label_view(static_cast<renderer::Mode>(mode), 0.5);
+    const renderer::Picture picture = draw(view, kSide, kSide);
     const glm::dvec3 background = 255.0 * glm::dvec3(view.background);
     const glm::dvec3 expected =
         colour_of(1) * (0.5 + 0.125 + 0.0625) + colour_of(2) * 0.25 + background * 0.0625;
@@ -149,9 +149,9 @@ class LabelViewTest : public QObject {
     const Geometry geometry = grid({64, 64, 64});
     Painter draw(empty_scene(geometry));
     label(draw, balls(geometry, 0.0));
-    VolumeView view = label_view(Mode::raycast);
+    renderer::VolumeView view = label_view(renderer::Mode::raycast);
     view.lighting = {0.0, 1.0, 0.0, 1.0, {}, 0.0};  // the cosine
-    const Picture picture = draw(view, kSide, kSide);
+    const renderer::Picture picture = draw(view, kSide, kSide);
     const double side = 2.0 * view.camera.half_height_mm(geometry, 1.0) / kSide;
     double sum = 0.0;
     double found = 0.0;
@@ -176,12 +176,12 @@ class LabelViewTest : public QObject {
     const Scene scene = ball_scene(geometry, kRadius);
     Painter draw(scene);
     label(draw, scene.phi.mask().voxels);
-    VolumeView view = label_view(static_cast<Mode>(mode), 0.5);
+    renderer::VolumeView view = label_view(static_cast<renderer::Mode>(mode), 0.5);
     view.camera.azimuth = 25.0;
     view.camera.elevation = 15.0;
     const double mm_px = 0.5 * kSide / view.camera.half_height_mm(geometry, 1.0);
     const glm::dvec3 surface = 255.0 * glm::dvec3(view.surface_colour);
-    const Picture picture = draw(view, kSide, kSide);
+    const renderer::Picture picture = draw(view, kSide, kSide);
     std::int64_t wrong = 0;
     std::int64_t all = 0;
     for (std::int64_t y = 0; y < kSide; ++y) {
@@ -205,19 +205,19 @@ class LabelViewTest : public QObject {
     const Scene scene = empty_scene(geometry);
     Painter draw(scene);
     label(draw, balls(geometry));
-    VolumeView view = label_view(Mode::raycast);
+    renderer::VolumeView view = label_view(renderer::Mode::raycast);
     view.window = {0.0, 100.0};
-    view.clip = ClipPlane{{0.0, -1.0, 0.0}, -scene.middle.y};  // hides the front half
+    view.clip = renderer::ClipPlane{{0.0, -1.0, 0.0}, -scene.middle.y};  // hides the front half
     // On the plane the ball in the middle is a disc.
-    for (const Mode mode : {Mode::raycast, Mode::slices}) {
+    for (const renderer::Mode mode : {renderer::Mode::raycast, renderer::Mode::slices}) {
       view.mode = mode;
-      const Picture cut = draw(view, kSide, kSide);
+      const renderer::Picture cut = draw(view, kSide, kSide);
       const double mm_px = 0.5 * kSide / view.camera.half_height_mm(geometry, 1.0);
       QVERIFY(off(pixel(cut, 100, 100), colour_of(2)) < 3.0);
       QVERIFY(off(pixel(cut, 100 + std::lround(14.0 * mm_px), 100), colour_of(1)) < 3.0);
     }
     view.clip->picture = false;  // into the hollow half: the inner ball's border is behind
-    view.mode = Mode::raycast;
+    view.mode = renderer::Mode::raycast;
     view.label_opacity = 0.5;
     const glm::dvec3 expected = colour_of(1) * (0.5 + 0.25) + 255.0 * 0.25 * glm::dvec3(view.background);
     QVERIFY(off(pixel(draw(view, kSide, kSide), 100, 100), expected) < 4.0);
@@ -226,10 +226,10 @@ class LabelViewTest : public QObject {
   void nothing_is_drawn_otherwise_without_labels() {
     const Geometry geometry = grid({48, 48, 48});
     Painter draw(ball_scene(geometry, 14.0));
-    VolumeView view = label_view(Mode::raycast);
+    renderer::VolumeView view = label_view(renderer::Mode::raycast);
     view.source = transfer_function(
         R"({"source": [{"value": {"ramp": [20, 100]}, "opacity": 0.05, "colour": [1, 0.8, 0.6]}]})");
-    const Picture with = draw(view, kSide, kSide);
+    const renderer::Picture with = draw(view, kSide, kSide);
     view.label_opacity = 0.0;
     QCOMPARE(with.pixels, draw(view, kSide, kSide).pixels);
   }
@@ -238,14 +238,14 @@ class LabelViewTest : public QObject {
     const Geometry geometry = grid({64, 64, 64});
     Painter draw(ball_scene(geometry, 12.0, {14.0, 0.0, 0.0}));
     label(draw, balls(geometry));
-    VolumeView view = label_view(Mode::raycast, 0.5);
+    renderer::VolumeView view = label_view(renderer::Mode::raycast, 0.5);
     view.camera.azimuth = 35.0;
     view.source = transfer_function(
         R"({"source": [{"value": {"ramp": [20, 1000]}, "opacity": 0.05, "colour": [1, 0.8, 0.6]}]})");
     view.quality.step_voxels = 0.05;  // so that it does not matter where a page's samples begin
-    const Picture skipped = draw(view, kSide, kSide);
+    const renderer::Picture skipped = draw(view, kSide, kSide);
     view.quality.skip_empty = false;
-    const Picture whole = draw(view, kSide, kSide);
+    const renderer::Picture whole = draw(view, kSide, kSide);
     std::int64_t different = 0;
     for (std::size_t i = 0; i < whole.pixels.size(); ++i) {
       different += std::abs(int{whole.pixels[i]} - int{skipped.pixels[i]}) > 8 ? 1 : 0;
@@ -258,7 +258,7 @@ class LabelViewTest : public QObject {
     const Scene scene = empty_scene(geometry);
     Painter draw(scene);
     label(draw, balls(geometry));
-    const auto hit = draw.renderer().pick(label_view(Mode::raycast), {kSide, kSide}, {99.5, 99.5});
+    const auto hit = draw.renderer().pick(label_view(renderer::Mode::raycast), {kSide, kSide}, {99.5, 99.5});
     QVERIFY(hit && hit->has_value());
     QVERIFY(glm::length((*hit)->patient_mm - (scene.middle - glm::dvec3(0.0, kRadius, 0.0))) < 1.0);
   }
@@ -267,7 +267,7 @@ class LabelViewTest : public QObject {
     const Geometry geometry = grid({64, 64, 64});
     Painter draw(ball_scene(geometry, kRadius));
     label(draw, balls(geometry), {1});
-    VolumeView view = label_view(Mode::raycast);
+    renderer::VolumeView view = label_view(renderer::Mode::raycast);
     view.surface = false;
     QVERIFY(off(pixel(draw(view, kSide, kSide), 100, 100), colour_of(2)) < 3.0);
   }

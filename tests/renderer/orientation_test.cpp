@@ -19,7 +19,7 @@ Volume marked_volume(const glm::dmat3& direction, glm::dvec3 marker) {
   Geometry geometry = grid({40, 40, 20}, {1.0, 1.0, 2.0});
   geometry.direction = direction;
   geometry.origin_mm = {-13.0, 7.0, 120.0};
-  const glm::dvec3 middle = middle_of(geometry);
+  const glm::dvec3 middle = renderer::middle_of(geometry);
   Volume volume;
   volume.geometry = geometry;
   const auto values =
@@ -76,35 +76,37 @@ class OrientationTest : public QObject {
                              {{0, 0, -1}, "F"}}) {
       const TemporaryFolder folder;
       write_series(marked_volume(direction, 12.0 * side.towards), folder.path());
-      auto loaded = load_volume(folder.path(), {}, {});
+      auto loaded = imaging::load_volume(folder.path(), {}, {});
       QCOMPARE(failure(loaded), QString());
       Scene scene;
       scene.source = std::make_shared<const Volume>(std::move(*loaded));
-      scene.phi = Field::empty(scene.source->geometry, 2.5);
-      scene.middle = middle_of(scene.source->geometry);
+      scene.phi = solver::Field::empty(scene.source->geometry, 2.5);
+      scene.middle = renderer::middle_of(scene.source->geometry);
       Painter draw(scene);
-      for (const SliceOrientation& slice : {kAxial, kCoronal, kSagittal, oblique(direction[2])}) {
+      for (const renderer::SliceOrientation& slice :
+           {renderer::kAxial, renderer::kCoronal, renderer::kSagittal, renderer::oblique(direction[2])}) {
         // The slice shows the marker off its middle only where the side lies in its plane.
-        SliceView view;
+        renderer::SliceView view;
         view.orientation = slice;
         view.position_mm = scene.middle + 12.0 * side.towards;
         view.window = {500.0, 800.0};
         view.surface = false;
         const glm::dvec2 at = middle_of_pixels(draw(view, 120, 120), is_marker);
         const glm::dvec2 expected(glm::dot(side.towards, slice.right), glm::dot(side.towards, slice.up));
-        const double half = slice_half_height_mm(scene.source->geometry, slice, 1.0, 1.0);
+        const double half = renderer::slice_half_height_mm(scene.source->geometry, slice, 1.0, 1.0);
         QVERIFY2(glm::length(at - 12.0 / half * expected) < 0.05, side.letter);
         // What is written at that edge says so.
         if (std::abs(expected.x) > 0.9) {
-          QCOMPARE(orientation_letters(expected.x > 0.0 ? slice.right : -slice.right).substr(0, 1),
+          QCOMPARE(renderer::orientation_letters(expected.x > 0.0 ? slice.right : -slice.right).substr(0, 1),
                    side.letter);
         }
         if (std::abs(expected.y) > 0.9) {
-          QCOMPARE(orientation_letters(expected.y > 0.0 ? slice.up : -slice.up).substr(0, 1), side.letter);
+          QCOMPARE(renderer::orientation_letters(expected.y > 0.0 ? slice.up : -slice.up).substr(0, 1),
+                   side.letter);
         }
       }
       // In 3D, from the front.
-      VolumeView volume;
+      renderer::VolumeView volume;
       volume.surface = false;
       volume.source = transfer_function(
           R"({"source": [{"value": {"ramp": [400, 600]}, "opacity": 10, "colour": [1, 1, 1]}]})");
@@ -118,38 +120,38 @@ class OrientationTest : public QObject {
   }
 
   void slices_are_seen_as_radiologists_see_them() {
-    QCOMPARE(orientation_letters(-kAxial.right), std::string("R"));
-    QCOMPARE(orientation_letters(kAxial.up), std::string("A"));
-    QCOMPARE(orientation_letters(-kCoronal.right), std::string("R"));
-    QCOMPARE(orientation_letters(kCoronal.up), std::string("H"));
-    QCOMPARE(orientation_letters(-kSagittal.right), std::string("A"));
-    QCOMPARE(orientation_letters(kSagittal.up), std::string("H"));
-    const Camera front;
-    QCOMPARE(orientation_letters(-front.right()), std::string("R"));
-    Camera left;
+    QCOMPARE(renderer::orientation_letters(-renderer::kAxial.right), std::string("R"));
+    QCOMPARE(renderer::orientation_letters(renderer::kAxial.up), std::string("A"));
+    QCOMPARE(renderer::orientation_letters(-renderer::kCoronal.right), std::string("R"));
+    QCOMPARE(renderer::orientation_letters(renderer::kCoronal.up), std::string("H"));
+    QCOMPARE(renderer::orientation_letters(-renderer::kSagittal.right), std::string("A"));
+    QCOMPARE(renderer::orientation_letters(renderer::kSagittal.up), std::string("H"));
+    const renderer::Camera front;
+    QCOMPARE(renderer::orientation_letters(-front.right()), std::string("R"));
+    renderer::Camera left;
     left.azimuth = 90.0;
-    QCOMPARE(orientation_letters(left.right()), std::string("P"));
-    Camera above;
+    QCOMPARE(renderer::orientation_letters(left.right()), std::string("P"));
+    renderer::Camera above;
     above.elevation = 90.0;
-    QCOMPARE(orientation_letters(above.up()), std::string("P"));
+    QCOMPARE(renderer::orientation_letters(above.up()), std::string("P"));
   }
 
   void oblique_directions_have_letters_by_their_share() {
-    QCOMPARE(orientation_letters({0.9, 0.4, 0.05}), std::string("LP"));
-    QCOMPARE(orientation_letters({-0.3, 0.5, -0.8}), std::string("FPR"));
-    QCOMPARE(orientation_letters({0.02, -1.0, 0.1}), std::string("A"));
+    QCOMPARE(renderer::orientation_letters({0.9, 0.4, 0.05}), std::string("LP"));
+    QCOMPARE(renderer::orientation_letters({-0.3, 0.5, -0.8}), std::string("FPR"));
+    QCOMPARE(renderer::orientation_letters({0.02, -1.0, 0.1}), std::string("A"));
   }
 
   void a_scale_bar_is_a_round_length() {
-    QCOMPARE(scale_bar_mm(99.0), 50.0);
-    QCOMPARE(scale_bar_mm(49.0), 20.0);
-    QCOMPARE(scale_bar_mm(10.0), 10.0);
-    QCOMPARE(scale_bar_mm(0.7), 0.5);
+    QCOMPARE(renderer::scale_bar_mm(99.0), 50.0);
+    QCOMPARE(renderer::scale_bar_mm(49.0), 20.0);
+    QCOMPARE(renderer::scale_bar_mm(10.0), 10.0);
+    QCOMPARE(renderer::scale_bar_mm(0.7), 0.5);
   }
 
   void letters_and_bar_are_drawn_at_the_edges() {
-    Picture picture{200, 160, std::vector<std::uint8_t>(200 * 160 * 4, 0)};
-    annotate(picture, kAxial.right, kAxial.up, 0.5);
+    renderer::Picture picture{200, 160, std::vector<std::uint8_t>(200 * 160 * 4, 0)};
+    renderer::annotate(picture, renderer::kAxial.right, renderer::kAxial.up, 0.5);
     // The bar: 20 mm in 40 pixels.
     std::int64_t longest = 0;
     for (std::int64_t y = 140; y < 160; ++y) {

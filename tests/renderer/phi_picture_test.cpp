@@ -12,9 +12,9 @@ using namespace tidemark::test;
 
 namespace {
 
-Field ball(const Geometry& geometry, double radius, glm::dvec3 middle, Index3 page_shape) {
-  const double band = default_band(geometry);
-  return Field::from_dense(
+solver::Field ball(const Geometry& geometry, double radius, glm::dvec3 middle, Index3 page_shape) {
+  const double band = solver::default_band(geometry);
+  return solver::Field::from_dense(
       geometry,
       sample(geometry,
              [&](glm::dvec3 p) { return std::clamp(radius - glm::length(p - middle), -band, band); }),
@@ -22,15 +22,15 @@ Field ball(const Geometry& geometry, double radius, glm::dvec3 middle, Index3 pa
 }
 
 // phi as the shaders find it, read back from physical memory through the page table.
-std::vector<float> read_back(const PhiPicture& picture) {
-  const PageLayout& layout = picture.table().layout();
+std::vector<float> read_back(const renderer::PhiPicture& picture) {
+  const solver::PageLayout& layout = picture.table().layout();
   const std::vector<float> pages = *picture.field().download(0);
   std::vector<float> values;
   for (std::int64_t z = 0; z < layout.volume_size().z; ++z) {
     for (std::int64_t y = 0; y < layout.volume_size().y; ++y) {
       for (std::int64_t x = 0; x < layout.volume_size().x; ++x) {
-        const VirtualAddress at = layout.translate({x, y, z});
-        const PhysicalPage physical = picture.table().physical(at.page);
+        const solver::VirtualAddress at = layout.translate({x, y, z});
+        const solver::PhysicalPage physical = picture.table().physical(at.page);
         values.push_back(pages[static_cast<std::size_t>(physical * layout.voxels_per_page() + at.offset)]);
       }
     }
@@ -60,17 +60,18 @@ class PhiPictureTest : public QObject {
     const Index3 shape(x, y, z);
     auto device = gpu::Device::create_headless({gpu::GlVersion::gl33, true});
     QCOMPARE(failure(device), QString());
-    auto picture = PhiPicture::create(**device, PageLayout(geometry.size, shape), default_band(geometry));
+    auto picture = renderer::PhiPicture::create(**device, solver::PageLayout(geometry.size, shape),
+                                                solver::default_band(geometry));
     QCOMPARE(failure(picture), QString());
     // A ball that grows, shrinks to nothing, comes back elsewhere, fills everything.
     const glm::dvec3 middle(20.0, 18.0, 14.0);
-    std::vector<Field> fields;
+    std::vector<solver::Field> fields;
     for (const double radius : {4.0, 9.0, 12.0, 5.0, -50.0})
       fields.push_back(ball(geometry, radius, middle, shape));
     fields.push_back(ball(geometry, 6.0, {30.0, 10.0, 20.0}, shape));
     fields.push_back(ball(geometry, 500.0, middle, shape));
     fields.push_back(ball(geometry, 10.0, middle, shape));
-    for (const Field& phi : fields) {
+    for (const solver::Field& phi : fields) {
       QCOMPARE(failure(picture->update(**device, phi, {})), QString());
       QVERIFY(read_back(*picture) == phi.dense());
       QCOMPARE(failure(picture->table().validate()), QString());
@@ -86,7 +87,7 @@ class PhiPictureTest : public QObject {
     QCOMPARE(draw.renderer().pages_uploaded(), scene.phi.resident_pages());
     QCOMPARE(failure(draw.renderer().set_phi(scene.phi)), QString());
     QCOMPARE(draw.renderer().pages_uploaded(), 0);
-    Field touched = scene.phi;
+    solver::Field touched = scene.phi;
     touched.pages[5] += 0.25F;
     QCOMPARE(failure(draw.renderer().set_phi(touched)), QString());
     QCOMPARE(draw.renderer().pages_uploaded(), 1);
@@ -95,8 +96,8 @@ class PhiPictureTest : public QObject {
   // An executor's memory on the GPU is drawn like a copy of it, also after the memory has grown.
   void an_executors_own_memory_gives_the_same_picture_data() {
     QTest::addColumn<int>("kind");
-    QTest::newRow("compute") << static_cast<int>(ExecutorKind::compute);
-    QTest::newRow("stream") << static_cast<int>(ExecutorKind::stream);
+    QTest::newRow("compute") << static_cast<int>(solver::ExecutorKind::compute);
+    QTest::newRow("stream") << static_cast<int>(solver::ExecutorKind::stream);
   }
   void an_executors_own_memory_gives_the_same_picture() {
     QFETCH(int, kind);
@@ -104,32 +105,33 @@ class PhiPictureTest : public QObject {
     const Scene scene = ball_scene(geometry, 22.0);
     auto device = gpu::Device::create_headless({gpu::GlVersion::gl45, true});
     QCOMPARE(failure(device), QString());
-    Parameters parameters;
+    solver::Parameters parameters;
     parameters.target = 100.0;
     parameters.range = 50.0;
-    ExecutorOptions options;
+    solver::ExecutorOptions options;
     options.device = *device;
-    auto executor = make_executor(static_cast<ExecutorKind>(kind), scene.source, parameters, options);
+    auto executor =
+        solver::make_executor(static_cast<solver::ExecutorKind>(kind), scene.source, parameters, options);
     QCOMPARE(failure(executor), QString());
-    QCOMPARE(failure((*executor)->paint({scene.middle, 5.0}, Brush::add)), QString());
-    const PageLayout layout = (*executor)->snapshot()->layout;
-    auto of_copy = Renderer::create(*device, scene.source, layout);
-    auto of_memory = Renderer::create(*device, scene.source, layout);
+    QCOMPARE(failure((*executor)->paint({scene.middle, 5.0}, solver::Brush::add)), QString());
+    const solver::PageLayout layout = (*executor)->snapshot()->layout;
+    auto of_copy = renderer::Renderer::create(*device, scene.source, layout);
+    auto of_memory = renderer::Renderer::create(*device, scene.source, layout);
     QCOMPARE(failure(of_copy), QString());
     QCOMPARE(failure(of_memory), QString());
-    SliceView pages;
-    pages.content = SliceContent::pages;
+    renderer::SliceView pages;
+    pages.content = renderer::SliceContent::pages;
     pages.position_mm = scene.middle;
     for (int run = 0; run < 4; ++run) {
       QCOMPARE(failure((*executor)->advance({20})), QString());
-      PackedView view;
+      solver::PackedView view;
       QVERIFY((*executor)->packed_view(view));
       const auto quiet = (*executor)->quiet_pages();
       QCOMPARE(failure((*of_memory)->look_at(view, *quiet)), QString());
       const auto phi = (*executor)->snapshot();
       QCOMPARE(failure((*of_copy)->set_phi(*phi, *quiet)), QString());
-      QVERIFY((*of_memory)->draw(VolumeView(), {96, 96})->pixels ==
-              (*of_copy)->draw(VolumeView(), {96, 96})->pixels);
+      QVERIFY((*of_memory)->draw(renderer::VolumeView(), {96, 96})->pixels ==
+              (*of_copy)->draw(renderer::VolumeView(), {96, 96})->pixels);
       QVERIFY((*of_memory)->draw(pages, {96, 96})->pixels == (*of_copy)->draw(pages, {96, 96})->pixels);
     }
     QCOMPARE((*device)->severe_messages(), 0);
@@ -137,15 +139,15 @@ class PhiPictureTest : public QObject {
 
   void phi_of_another_grid_is_refused() {
     Painter draw(ball_scene(grid({32, 32, 32}), 8.0));
-    const Field other = Field::empty(grid({32, 32, 31}), 2.5);
+    const solver::Field other = solver::Field::empty(grid({32, 32, 31}), 2.5);
     QCOMPARE(draw.renderer().set_phi(other).error().kind, ErrorKind::usage);
-    const Field pages = Field::empty(grid({32, 32, 32}), 2.5, {16, 16, 1});
+    const solver::Field pages = solver::Field::empty(grid({32, 32, 32}), 2.5, {16, 16, 1});
     QCOMPARE(draw.renderer().set_phi(pages).error().kind, ErrorKind::usage);
   }
 
   void pictures_are_drawn_in_pieces_where_the_processor_is_the_gpu() {
     Painter draw(ball_scene(grid({64, 64, 64}), 20.0));
-    draw(VolumeView(), 512, 512);
+    draw(renderer::VolumeView(), 512, 512);
     const bool software = draw.device().capabilities().software;
     QVERIFY(software ? draw.renderer().last_draw().pieces > 8 : draw.renderer().last_draw().pieces == 1);
     // Between two of them it can be stopped.
@@ -153,7 +155,7 @@ class PhiPictureTest : public QObject {
     stop.request_stop();
     Progress progress;
     progress.stop = stop.get_token();
-    const auto picture = draw.renderer().draw(VolumeView(), {512, 512}, progress);
+    const auto picture = draw.renderer().draw(renderer::VolumeView(), {512, 512}, progress);
     if (software) QVERIFY(!picture && picture.error().kind == ErrorKind::cancelled);
   }
 
@@ -162,20 +164,20 @@ class PhiPictureTest : public QObject {
     const Scene scene = ball_scene(grid({44, 40, 37}, {1.0, 1.0, 1.6}), 15.0);
     Painter software(scene);
     Painter hardware(scene, reporting_device(true));
-    VolumeView volume;
+    renderer::VolumeView volume;
     volume.camera.azimuth = 20.0;
     volume.source = transfer_function(
         R"({"source": [{"value": {"ramp": [0, 100]}, "opacity": 0.03, "colour": [1, 0.8, 0.5]}]})");
     volume.surface_colour.a = 0.5F;
-    volume.clip = ClipPlane{{0.0, 0.0, 1.0}, 35.0};
-    VolumeView slices = volume;
-    slices.mode = Mode::slices;
-    SliceView speed;
-    speed.content = SliceContent::speed;
-    speed.term = SpeedTerm::total;
+    volume.clip = renderer::ClipPlane{{0.0, 0.0, 1.0}, 35.0};
+    renderer::VolumeView slices = volume;
+    slices.mode = renderer::Mode::slices;
+    renderer::SliceView speed;
+    speed.content = renderer::SliceContent::speed;
+    speed.term = renderer::SpeedTerm::total;
     const auto compare = [&](const auto& view) {
-      const Picture expected = software(view, 160, 120);
-      const Picture found = hardware(view, 160, 120);
+      const renderer::Picture expected = software(view, 160, 120);
+      const renderer::Picture found = hardware(view, 160, 120);
       int most = 0;
       for (std::size_t i = 0; i < expected.pixels.size(); ++i) {
         most = std::max(most, std::abs(int(expected.pixels[i]) - int(found.pixels[i])));
@@ -191,7 +193,7 @@ class PhiPictureTest : public QObject {
   void a_lost_context_is_reported() {
     Painter draw(ball_scene(grid({32, 32, 32}), 8.0));
     draw.device().lose_at_check(1);
-    const auto picture = draw.renderer().draw(VolumeView(), {64, 64});
+    const auto picture = draw.renderer().draw(renderer::VolumeView(), {64, 64});
     QVERIFY(!picture && picture.error().kind == ErrorKind::capability);
   }
 };

@@ -14,7 +14,7 @@ using namespace tidemark::test;
 
 namespace {
 
-Mask above(const Field& phi, float least) {
+Mask above(const solver::Field& phi, float least) {
   const std::vector<float> values = phi.dense();
   Mask mask{phi.geometry, std::vector<std::uint8_t>(values.size())};
   std::transform(values.begin(), values.end(), mask.voxels.begin(),
@@ -25,8 +25,8 @@ Mask above(const Field& phi, float least) {
 // The liver with its vessels: closed over what is narrower than twice `voxels`.
 Mask closed(const Mask& mask, double voxels) {
   const auto reach = static_cast<float>(voxels);
-  const Mask larger = above(distance_transform(mask, voxels + 1.0), -reach);
-  return above(distance_transform(larger, voxels + 1.0), reach);
+  const Mask larger = above(solver::distance_transform(mask, voxels + 1.0), -reach);
+  return above(solver::distance_transform(larger, voxels + 1.0), reach);
 }
 
 }  // namespace
@@ -36,24 +36,24 @@ class RegionOfInterestTest : public QObject {
 
  private slots:
   void the_level_set_cuts_the_vessels_of_the_liver_out() {
-    auto phantom = make_phantom("organ");
+    auto phantom = imaging::make_phantom("organ");
     QCOMPARE(failure(phantom), QString());
     Scene scene;
     const Mask liver = closed(phantom->truth, 8.0);
-    scene.phi = distance_transform(liver, default_band(liver.geometry));
+    scene.phi = solver::distance_transform(liver, solver::default_band(liver.geometry));
     scene.source = std::make_shared<const Volume>(std::move(phantom->volume));
-    scene.middle = middle_of(liver);
+    scene.middle = renderer::middle_of(liver);
     Painter draw(scene);
 
-    VolumeView surface;
-    const Picture silhouette = draw(surface, 256, 256);
-    VolumeView view;
+    renderer::VolumeView surface;
+    const renderer::Picture silhouette = draw(surface, 256, 256);
+    renderer::VolumeView view;
     view.surface = false;
     view.source = transfer_function(
         R"({"source": [{"value": {"ramp": [150, 190]}, "opacity": 1, "colour": [0.85, 0.15, 0.12]}]})");
-    const Picture everything = draw(view, 256, 256);
-    view.region = Region::inside;
-    const Picture inside = draw(view, 256, 256);
+    const renderer::Picture everything = draw(view, 256, 256);
+    view.region = renderer::Region::inside;
+    const renderer::Picture inside = draw(view, 256, 256);
 
     const glm::ivec3 background = pixel(inside, 0, 0);
     const auto is_vessel = [](glm::ivec3 c) { return c.r > 100 && c.r > c.g + 50; };

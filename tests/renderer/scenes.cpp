@@ -29,9 +29,9 @@ namespace {
 Scene scene_of(const Geometry& geometry, double radius, const std::function<double(glm::dvec3)>& source,
                Index3 page_shape) {
   Scene scene;
-  scene.middle = middle_of(geometry);
+  scene.middle = renderer::middle_of(geometry);
   const double unit = std::min({geometry.spacing_mm.x, geometry.spacing_mm.y, geometry.spacing_mm.z});
-  const double band = default_band(geometry);
+  const double band = solver::default_band(geometry);
   auto volume = std::make_shared<Volume>();
   volume->geometry = geometry;
   volume->voxels = sample(geometry, source);
@@ -39,14 +39,14 @@ Scene scene_of(const Geometry& geometry, double radius, const std::function<doub
   const auto values = sample(geometry, [&](glm::dvec3 p) {
     return std::clamp((radius - glm::length(p - scene.middle)) / unit, -band, band);
   });
-  scene.phi = Field::from_dense(geometry, values, band, page_shape);
+  scene.phi = solver::Field::from_dense(geometry, values, band, page_shape);
   return scene;
 }
 
 }  // namespace
 
 Scene ball_scene(const Geometry& geometry, double radius, glm::dvec3 marker, Index3 page_shape) {
-  const glm::dvec3 middle = middle_of(geometry);
+  const glm::dvec3 middle = renderer::middle_of(geometry);
   const auto source = [&](glm::dvec3 p) {
     if (glm::length(p - middle - marker) < 4.0) return 1000.0;
     return glm::length(p - middle) < radius ? 100.0 : 0.0;
@@ -55,7 +55,7 @@ Scene ball_scene(const Geometry& geometry, double radius, glm::dvec3 marker, Ind
 }
 
 Scene ball_scene(const Geometry& geometry, double radius, const std::function<double(glm::dvec3)>& source) {
-  return scene_of(geometry, radius, source, kDefaultPageShape);
+  return scene_of(geometry, radius, source, solver::kDefaultPageShape);
 }
 
 std::shared_ptr<gpu::Device> reporting_device(bool as_gpu) {
@@ -69,30 +69,31 @@ std::shared_ptr<gpu::Device> reporting_device(bool as_gpu) {
 
 Painter::Painter(const Scene& scene, std::shared_ptr<gpu::Device> device)
     : middle_(scene.middle), device_(std::move(device)) {
-  auto renderer = Renderer::create(device_, scene.source, scene.phi.layout);
+  auto renderer = renderer::Renderer::create(device_, scene.source, scene.phi.layout);
   if (!renderer) qFatal("%s", renderer.error().message.c_str());
   renderer_ = std::move(*renderer);
   if (const Status shown = renderer_->set_phi(scene.phi); !shown) qFatal("%s", shown.error().message.c_str());
-  Parameters parameters;
+  solver::Parameters parameters;
   parameters.target = 100.0;
   parameters.range = 50.0;
   renderer_->set_parameters(parameters);
 }
 
-Picture Painter::operator()(const VolumeView& view, std::int64_t width, std::int64_t height) {
+renderer::Picture Painter::operator()(const renderer::VolumeView& view, std::int64_t width,
+                                      std::int64_t height) {
   auto picture = renderer_->draw(view, {width, height});
   if (!picture) qFatal("%s", picture.error().message.c_str());
   return *picture;
 }
 
-Picture Painter::operator()(SliceView view, std::int64_t width, std::int64_t height) {
+renderer::Picture Painter::operator()(renderer::SliceView view, std::int64_t width, std::int64_t height) {
   if (view.position_mm == glm::dvec3(0.0)) view.position_mm = middle_;
   auto picture = renderer_->draw(view, {width, height});
   if (!picture) qFatal("%s", picture.error().message.c_str());
   return *picture;
 }
 
-glm::ivec3 pixel(const Picture& picture, std::int64_t x, std::int64_t y) {
+glm::ivec3 pixel(const renderer::Picture& picture, std::int64_t x, std::int64_t y) {
   const std::uint8_t* p = picture.pixels.data() + 4 * (x + picture.width * y);
   return {p[0], p[1], p[2]};
 }
@@ -109,7 +110,7 @@ bool is_marker(glm::ivec3 colour) {
   return colour.r > 250 && colour.g > 250 && colour.b > 250;
 }
 
-std::int64_t count(const Picture& picture, const PixelTest& test) {
+std::int64_t count(const renderer::Picture& picture, const PixelTest& test) {
   std::int64_t found = 0;
   for (std::int64_t y = 0; y < picture.height; ++y) {
     for (std::int64_t x = 0; x < picture.width; ++x) found += test(pixel(picture, x, y)) ? 1 : 0;
@@ -117,7 +118,7 @@ std::int64_t count(const Picture& picture, const PixelTest& test) {
   return found;
 }
 
-glm::dvec2 middle_of_pixels(const Picture& picture, const PixelTest& test) {
+glm::dvec2 middle_of_pixels(const renderer::Picture& picture, const PixelTest& test) {
   glm::dvec2 sum(0.0);
   double found = 0.0;
   for (std::int64_t y = 0; y < picture.height; ++y) {
@@ -131,8 +132,8 @@ glm::dvec2 middle_of_pixels(const Picture& picture, const PixelTest& test) {
   return sum / found;
 }
 
-TransferFunction transfer_function(const char* json) {
-  auto function = TransferFunction::parse(json);
+renderer::TransferFunction transfer_function(const char* json) {
+  auto function = renderer::TransferFunction::parse(json);
   if (!function) qFatal("%s", function.error().message.c_str());
   return *function;
 }

@@ -16,14 +16,14 @@ std::vector<float> sample(const Geometry& geometry, const std::function<double(g
 
 struct Scene {
   std::shared_ptr<const Volume> source;
-  Field phi;
+  solver::Field phi;
   glm::dvec3 middle{0.0};
 };
 
 // A ball of `radius` mm in the middle, phi its distance in smallest voxels. The source is 100 in it, and 1000
 // in a small ball at `marker` from the middle (mm, LPS).
 Scene ball_scene(const Geometry& geometry, double radius, glm::dvec3 marker = glm::dvec3(1e6),
-                 Index3 page_shape = kDefaultPageShape);
+                 Index3 page_shape = solver::kDefaultPageShape);
 // The same with a source of one's own.
 Scene ball_scene(const Geometry& geometry, double radius, const std::function<double(glm::dvec3)>& source);
 
@@ -35,30 +35,30 @@ class Painter {
  public:
   explicit Painter(const Scene& scene, std::shared_ptr<gpu::Device> device = reporting_device());
 
-  Picture operator()(const VolumeView& view, std::int64_t width, std::int64_t height);
+  renderer::Picture operator()(const renderer::VolumeView& view, std::int64_t width, std::int64_t height);
   // A view without a position goes through the middle. T is 100, epsilon 50.
-  Picture operator()(SliceView view, std::int64_t width, std::int64_t height);
-  Renderer& renderer() { return *renderer_; }
+  renderer::Picture operator()(renderer::SliceView view, std::int64_t width, std::int64_t height);
+  renderer::Renderer& renderer() { return *renderer_; }
   gpu::Device& device() { return *device_; }
 
  private:
   glm::dvec3 middle_;
   std::shared_ptr<gpu::Device> device_;  // outlives what is drawn with it
-  std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<renderer::Renderer> renderer_;
 };
 
-glm::ivec3 pixel(const Picture& picture, std::int64_t x, std::int64_t y);
+glm::ivec3 pixel(const renderer::Picture& picture, std::int64_t x, std::int64_t y);
 
 using PixelTest = std::function<bool(glm::ivec3)>;
 bool is_yellow(glm::ivec3 colour);
 bool is_surface(glm::ivec3 colour);  // anything but the background of a volume view
 bool is_marker(glm::ivec3 colour);   // white
 
-std::int64_t count(const Picture& picture, const PixelTest& test);
+std::int64_t count(const renderer::Picture& picture, const PixelTest& test);
 // The middle of the pixels that pass, in -1..1 from left to right and from the bottom up.
-glm::dvec2 middle_of_pixels(const Picture& picture, const PixelTest& test);
+glm::dvec2 middle_of_pixels(const renderer::Picture& picture, const PixelTest& test);
 
 // A transfer function from JSON; ends the test program when it is wrong.
-TransferFunction transfer_function(const char* json);
+renderer::TransferFunction transfer_function(const char* json);
 
 }  // namespace tidemark::test

@@ -14,13 +14,13 @@ using namespace tidemark::test;
 
 namespace {
 
-constexpr PictureSize kSize{144, 128};
+constexpr renderer::PictureSize kSize{144, 128};
 constexpr std::int64_t kTooSmall = 16;  // a limit of 3D textures that no test's volume keeps
 
 // A function of the place as seen from the volume's middle.
 std::vector<float> sample_around_middle(const Geometry& geometry,
                                         const std::function<double(glm::dvec3)>& function) {
-  return sample(geometry, [&](glm::dvec3 p) { return function(p - middle_of(geometry)); });
+  return sample(geometry, [&](glm::dvec3 p) { return function(p - renderer::middle_of(geometry)); });
 }
 
 template <class Scalar>
@@ -38,8 +38,8 @@ double two_balls(glm::dvec3 p) {
                   5.0 - glm::length(p - glm::dvec3(-9.0, 6.0, 8.0)));
 }
 
-Scene scene(const Geometry& geometry, Index3 page_shape = kDefaultPageShape, Stored kind = Stored::int16,
-            const Distance& distance = two_balls) {
+Scene scene(const Geometry& geometry, Index3 page_shape = solver::kDefaultPageShape,
+            Stored kind = Stored::int16, const Distance& distance = two_balls) {
   const auto values = sample_around_middle(geometry, [](glm::dvec3 p) {
     const auto hill = [&](glm::dvec3 middle, double width) {
       return std::exp(-glm::dot(p - middle, p - middle) / (width * width));
@@ -54,10 +54,10 @@ Scene scene(const Geometry& geometry, Index3 page_shape = kDefaultPageShape, Sto
   volume->slope = 0.5;
   volume->intercept = -50.0;
   const double unit = std::min({geometry.spacing_mm.x, geometry.spacing_mm.y, geometry.spacing_mm.z});
-  const double band = default_band(geometry);
+  const double band = solver::default_band(geometry);
   const auto phi = sample_around_middle(
       geometry, [&](glm::dvec3 p) { return std::clamp(distance(p) / unit, -band, band); });
-  return {volume, Field::from_dense(geometry, phi, band, page_shape), middle_of(geometry)};
+  return {volume, solver::Field::from_dense(geometry, phi, band, page_shape), renderer::middle_of(geometry)};
 }
 
 std::shared_ptr<gpu::Device> device() {
@@ -65,21 +65,21 @@ std::shared_ptr<gpu::Device> device() {
   return made;
 }
 
-std::unique_ptr<Renderer> renderer_of(const Scene& scene, std::int64_t largest_volume = 4096) {
-  auto renderer = Renderer::create(device(), scene.source, scene.phi.layout, largest_volume);
+std::unique_ptr<renderer::Renderer> renderer_of(const Scene& scene, std::int64_t largest_volume = 4096) {
+  auto renderer = renderer::Renderer::create(device(), scene.source, scene.phi.layout, largest_volume);
   if (!renderer) qFatal("%s", renderer.error().message.c_str());
   if (Status shown = (*renderer)->set_phi(scene.phi); !shown) qFatal("%s", shown.error().message.c_str());
   return std::move(*renderer);
 }
 
 template <class View>
-Picture draw(Renderer& renderer, const View& view, PictureSize size = kSize) {
+renderer::Picture draw(renderer::Renderer& renderer, const View& view, renderer::PictureSize size = kSize) {
   auto picture = renderer.draw(view, size);
   if (!picture) qFatal("%s", picture.error().message.c_str());
   return std::move(*picture);
 }
 
-Picture draw_by(Mode mode, Renderer& renderer, VolumeView view) {
+renderer::Picture draw_by(renderer::Mode mode, renderer::Renderer& renderer, renderer::VolumeView view) {
   view.mode = mode;
   return draw(renderer, view);
 }
@@ -92,7 +92,7 @@ struct Difference {
   int most = 0;
 };
 
-Difference difference(const Picture& a, const Picture& b) {
+Difference difference(const renderer::Picture& a, const renderer::Picture& b) {
   Difference result;
   std::vector<int> pixels;
   for (std::size_t i = 0; i < a.pixels.size(); i += 4) {
@@ -116,7 +116,7 @@ QByteArray words(const Difference& d) {
 }
 
 // How many pixels are not the background.
-std::int64_t shown(const Picture& picture, glm::vec3 background) {
+std::int64_t shown(const renderer::Picture& picture, glm::vec3 background) {
   std::int64_t count = 0;
   for (std::size_t i = 0; i < picture.pixels.size(); i += 4) {
     bool differs = false;
@@ -133,35 +133,37 @@ const std::vector<std::pair<double, double>> kEverySide{{0.0, 0.0},   {180.0, 0.
                                                         {270.0, 0.0}, {0.0, 90.0},   {0.0, -90.0},
                                                         {33.0, 20.0}, {145.0, -55.0}};
 
-TransferFunction hills() {
-  TransferFunction function;
-  SourcePrimitive bright;
-  bright.value = {TransferFactor::Kind::ramp, 100.0, 400.0};
+renderer::TransferFunction hills() {
+  renderer::TransferFunction function;
+  renderer::SourcePrimitive bright;
+  bright.value = {renderer::TransferFactor::Kind::ramp, 100.0, 400.0};
   bright.opacity = 0.15;
   bright.colour = {0.9F, 0.5F, 0.3F};
-  SourcePrimitive shell = bright;
-  shell.value = {TransferFactor::Kind::gaussian, 150.0, 20.0};
+  renderer::SourcePrimitive shell = bright;
+  shell.value = {renderer::TransferFactor::Kind::gaussian, 150.0, 20.0};
   shell.opacity = 0.1;
   shell.colour = {0.3F, 0.6F, 0.9F};
   function.source = {bright, shell};
   return function;
 }
 
-VolumeView view_of(const QString& what) {
-  VolumeView view;
+renderer::VolumeView view_of(const QString& what) {
+  renderer::VolumeView view;
   view.window = {200.0, 500.0};
   if (what.contains("translucent")) view.surface_colour.a = 0.4F;
   if (what.contains("source")) view.source = hills();
-  if (what.contains("gradient")) view.source->source[0].gradient = {TransferFactor::Kind::ramp, 0.0, 30.0};
+  if (what.contains("gradient"))
+    view.source->source[0].gradient = {renderer::TransferFactor::Kind::ramp, 0.0, 30.0};
   if (what.contains("alone")) view.surface = false;
-  if (what.contains("inside")) view.region = Region::inside;
-  if (what.contains("clip")) view.clip = ClipPlane{glm::normalize(glm::dvec3(0.4, -0.8, 0.3)), 0.0};
+  if (what.contains("inside")) view.region = renderer::Region::inside;
+  if (what.contains("clip")) view.clip = renderer::ClipPlane{glm::normalize(glm::dvec3(0.4, -0.8, 0.3)), 0.0};
   if (what.contains("primitives")) {
-    view.source->surface = {{{TransferFactor::Kind::ramp, 50.0, 400.0}, {}, 0.9, {0.2F, 0.9F, 0.4F}}};
+    view.source->surface = {
+        {{renderer::TransferFactor::Kind::ramp, 50.0, 400.0}, {}, 0.9, {0.2F, 0.9F, 0.4F}}};
   }
   if (what.contains("occlusion")) view.lighting.occlusion = 0.8;
-  if (what.contains("curvature")) view.colouring = SurfaceColouring::curvature;
-  if (what.contains("speed")) view.colouring = SurfaceColouring::total_speed;
+  if (what.contains("curvature")) view.colouring = renderer::SurfaceColouring::curvature;
+  if (what.contains("speed")) view.colouring = renderer::SurfaceColouring::total_speed;
   return view;
 }
 
@@ -185,7 +187,7 @@ class SliceStackTest : public QObject {
     QFETCH(QString, what);
     static const auto renderer = renderer_of(scene(grid({50, 41, 37})));
     for (const auto& [azimuth, elevation] : kEverySide) {
-      VolumeView view = view_of(what);
+      renderer::VolumeView view = view_of(what);
       view.camera = {azimuth, elevation};
       compare(*renderer, view, what);
     }
@@ -207,7 +209,7 @@ class SliceStackTest : public QObject {
     const auto renderer = renderer_of(scene(geometry, shape));
     const QString what = "surface and source inside";
     for (const auto& [azimuth, elevation] : kEverySide) {
-      VolumeView view = view_of(what);
+      renderer::VolumeView view = view_of(what);
       view.camera = {azimuth, elevation};
       compare(*renderer, view, what);
     }
@@ -216,12 +218,12 @@ class SliceStackTest : public QObject {
   void a_balls_silhouette_has_its_size_from_every_side() {
     const Geometry geometry = grid({48, 48, 48});
     const auto ball = [](glm::dvec3 p) { return 15.0 - glm::length(p); };
-    const auto renderer = renderer_of(scene(geometry, kDefaultPageShape, Stored::int16, ball));
+    const auto renderer = renderer_of(scene(geometry, solver::kDefaultPageShape, Stored::int16, ball));
     for (const auto& [azimuth, elevation] : kEverySide) {
-      VolumeView view;
-      view.mode = Mode::slices;
+      renderer::VolumeView view;
+      view.mode = renderer::Mode::slices;
       view.camera = {azimuth, elevation};
-      const PictureSize size{256, 256};
+      const renderer::PictureSize size{256, 256};
       const double side = 2.0 * view.camera.half_height_mm(geometry, 1.0) / 256.0;
       const double area =
           static_cast<double>(shown(draw(*renderer, view, size), view.background)) * side * side;
@@ -232,12 +234,12 @@ class SliceStackTest : public QObject {
 
   void every_kind_of_stored_value_shows_the_same() {
     for (const Stored kind : {Stored::int16, Stored::uint16, Stored::real}) {
-      const auto renderer = renderer_of(scene(grid({50, 41, 37}), kDefaultPageShape, kind));
+      const auto renderer = renderer_of(scene(grid({50, 41, 37}), solver::kDefaultPageShape, kind));
       for (const auto& [azimuth, elevation] : {std::pair{0.0, 0.0}, {90.0, 0.0}, {0.0, 90.0}}) {
-        VolumeView view = view_of("alone: source");
+        renderer::VolumeView view = view_of("alone: source");
         view.camera = {azimuth, elevation};
-        const Difference d =
-            difference(draw_by(Mode::raycast, *renderer, view), draw_by(Mode::slices, *renderer, view));
+        const Difference d = difference(draw_by(renderer::Mode::raycast, *renderer, view),
+                                        draw_by(renderer::Mode::slices, *renderer, view));
         QVERIFY2(d.mean < 0.15 && d.of_99_percent <= 2, words(d));
       }
     }
@@ -247,11 +249,11 @@ class SliceStackTest : public QObject {
     const Scene both = scene(grid({50, 41, 37}));
     const auto whole = renderer_of(both);
     const auto beyond = renderer_of(both, kTooSmall);
-    VolumeView view = view_of("surface and source, clip plane");
+    renderer::VolumeView view = view_of("surface and source, clip plane");
     view.camera = {33.0, 20.0};
-    const Picture picture = draw_by(Mode::raycast, *beyond, view);
+    const renderer::Picture picture = draw_by(renderer::Mode::raycast, *beyond, view);
     QVERIFY(shown(picture, view.background) > 2000);
-    QCOMPARE(picture.pixels, draw_by(Mode::slices, *whole, view).pixels);
+    QCOMPARE(picture.pixels, draw_by(renderer::Mode::slices, *whole, view).pixels);
     // What is met first is the same, as long as it is not the source.
     view = view_of("surface");
     const glm::dvec2 middle = 0.5 * glm::dvec2(kSize.width, kSize.height);
@@ -265,14 +267,16 @@ class SliceStackTest : public QObject {
     const Scene both = scene(grid({50, 41, 37}, {1.0, 1.0, 1.3}));
     const auto whole = renderer_of(both);
     const auto beyond = renderer_of(both, kTooSmall);
-    for (const SliceOrientation& orientation : {kAxial, kCoronal, kSagittal, oblique({0.5, 0.4, 0.7})}) {
-      for (const SliceContent content : {SliceContent::source, SliceContent::speed, SliceContent::pages}) {
+    for (const renderer::SliceOrientation& orientation :
+         {renderer::kAxial, renderer::kCoronal, renderer::kSagittal, renderer::oblique({0.5, 0.4, 0.7})}) {
+      for (const renderer::SliceContent content :
+           {renderer::SliceContent::source, renderer::SliceContent::speed, renderer::SliceContent::pages}) {
         for (const bool nearest : {false, true}) {
-          SliceView view;
+          renderer::SliceView view;
           view.orientation = orientation;
           view.content = content;
           view.nearest = nearest;
-          view.position_mm = middle_of(both.source->geometry) + glm::dvec3(0.3, 0.2, 0.4);
+          view.position_mm = renderer::middle_of(both.source->geometry) + glm::dvec3(0.3, 0.2, 0.4);
           view.window = {200.0, 400.0};
           const Difference d = difference(draw(*whole, view), draw(*beyond, view));
           QVERIFY2(d.mean < 0.15 && d.of_99_percent <= 2, words(d));
@@ -283,9 +287,9 @@ class SliceStackTest : public QObject {
 
   void a_picture_that_is_stopped_does_no_harm_to_the_next() {
     const auto renderer = renderer_of(scene(grid({50, 41, 37})));
-    VolumeView view = view_of("surface and source");
-    view.mode = Mode::slices;
-    const Picture expected = draw(*renderer, view);
+    renderer::VolumeView view = view_of("surface and source");
+    view.mode = renderer::Mode::slices;
+    const renderer::Picture expected = draw(*renderer, view);
     std::stop_source stop;
     Progress progress;
     progress.stop = stop.get_token();
@@ -299,9 +303,9 @@ class SliceStackTest : public QObject {
 
  private:
   // Nearly every pixel is the same; on outlines, where one of the two just misses the surface, a few are not.
-  static void compare(Renderer& renderer, const VolumeView& view, const QString& what) {
-    const Picture rays = draw_by(Mode::raycast, renderer, view);
-    const Difference d = difference(rays, draw_by(Mode::slices, renderer, view));
+  static void compare(renderer::Renderer& renderer, const renderer::VolumeView& view, const QString& what) {
+    const renderer::Picture rays = draw_by(renderer::Mode::raycast, renderer, view);
+    const Difference d = difference(rays, draw_by(renderer::Mode::slices, renderer, view));
     const QByteArray from =
         QString("%1 from %2, %3: ").arg(what).arg(view.camera.azimuth).arg(view.camera.elevation).toUtf8();
     QVERIFY2(shown(rays, view.background) > 500, from);

@@ -14,7 +14,7 @@ using namespace tidemark::test;
 namespace {
 
 // How far the middle of the yellow line is from a circle around the picture's middle, at worst; pixels.
-double distance_from_circle(const Picture& picture, double radius_pixels) {
+double distance_from_circle(const renderer::Picture& picture, double radius_pixels) {
   const glm::dvec2 middle(0.5 * static_cast<double>(picture.width - 1),
                           0.5 * static_cast<double>(picture.height - 1));
   double worst = 0.0;
@@ -46,13 +46,14 @@ class SliceViewTest : public QObject {
     const Scene scene = ball_scene(geometry, 20.0);
     Painter draw(scene);
     for (const double depth : {0.0, 7.3}) {
-      for (const SliceOrientation& orientation : {kAxial, kCoronal, kSagittal, oblique({1.0, 2.0, -1.5})}) {
-        SliceView view;
+      for (const renderer::SliceOrientation& orientation :
+           {renderer::kAxial, renderer::kCoronal, renderer::kSagittal, renderer::oblique({1.0, 2.0, -1.5})}) {
+        renderer::SliceView view;
         view.orientation = orientation;
         view.position_mm = scene.middle + depth * orientation.into();
         view.window = {50.0, 1000.0};
-        const Picture picture = draw(view, 512, 512);
-        const double side = 2.0 * slice_half_height_mm(geometry, orientation, 1.0, 1.0) / 512.0;
+        const renderer::Picture picture = draw(view, 512, 512);
+        const double side = 2.0 * renderer::slice_half_height_mm(geometry, orientation, 1.0, 1.0) / 512.0;
         const double worst = side * distance_from_circle(picture, std::sqrt(400.0 - depth * depth) / side);
         QVERIFY2(worst < 0.25, qPrintable(QString::number(worst)));
       }
@@ -62,12 +63,13 @@ class SliceViewTest : public QObject {
   void thick_slices_look_right() {
     const Geometry geometry = grid({60, 60, 16}, {0.5, 0.5, 2.0});
     Painter draw(ball_scene(geometry, 10.0));
-    for (const SliceOrientation& orientation : {kAxial, kCoronal, kSagittal}) {
-      SliceView view;
+    for (const renderer::SliceOrientation& orientation :
+         {renderer::kAxial, renderer::kCoronal, renderer::kSagittal}) {
+      renderer::SliceView view;
       view.orientation = orientation;
       view.window = {50.0, 400.0};
-      const Picture picture = draw(view, 320, 320);
-      const double side = 2.0 * slice_half_height_mm(geometry, orientation, 1.0, 1.0) / 320.0;
+      const renderer::Picture picture = draw(view, 320, 320);
+      const double side = 2.0 * renderer::slice_half_height_mm(geometry, orientation, 1.0, 1.0) / 320.0;
       const double worst = side * distance_from_circle(picture, 10.0 / side);
       QVERIFY2(worst < 0.25, qPrintable(QString::number(worst)));
     }
@@ -77,12 +79,12 @@ class SliceViewTest : public QObject {
     const Geometry geometry = grid({64, 64, 64});
     Painter draw(ball_scene(geometry, 20.0));
     for (const double zoom : {0.5, 1.0, 1.4}) {
-      SliceView view;
+      renderer::SliceView view;
       view.zoom = zoom;
       view.line_pixels = 3.0;
       view.window = {50.0, 1000.0};
-      const Picture picture = draw(view, 400, 400);
-      const double side = 2.0 * slice_half_height_mm(geometry, kAxial, zoom, 1.0) / 400.0;
+      const renderer::Picture picture = draw(view, 400, 400);
+      const double side = 2.0 * renderer::slice_half_height_mm(geometry, renderer::kAxial, zoom, 1.0) / 400.0;
       const double width =
           static_cast<double>(count(picture, is_yellow)) / (2.0 * std::numbers::pi * 20.0 / side);
       QVERIFY2(std::abs(width - 3.0) < 0.8, qPrintable(QString::number(width)));
@@ -94,10 +96,10 @@ class SliceViewTest : public QObject {
     const Geometry geometry = grid({32, 32, 2}, {1.0, 1.0, 4.0});
     Scene scene = ball_scene(geometry, 4.0);
     const double band = scene.phi.band;
-    scene.phi = Field::from_dense(
+    scene.phi = solver::Field::from_dense(
         geometry, sample(geometry, [&](glm::dvec3 p) { return p.z > 2.0 ? 0.5 : -0.5; }), band);
     Painter draw(scene);
-    SliceView view;
+    renderer::SliceView view;
     view.window = {50.0, 1000.0};
     QCOMPARE(count(draw(view, 128, 128), is_yellow), 0);
   }
@@ -106,7 +108,7 @@ class SliceViewTest : public QObject {
     const Geometry geometry = grid({8, 8, 8});
     Painter draw(ball_scene(geometry, 1.0,
                             [](glm::dvec3 p) { return std::fmod(p.x + p.y, 2.0) < 0.5 ? 0.0 : 100.0; }));
-    SliceView view;
+    renderer::SliceView view;
     view.surface = false;
     view.window = {50.0, 100.0};
     view.nearest = true;
@@ -119,7 +121,7 @@ class SliceViewTest : public QObject {
   void a_slice_can_be_moved_and_enlarged() {
     const Geometry geometry = grid({64, 64, 64});
     Painter draw(ball_scene(geometry, 1.0, {10.0, -5.0, 0.0}));
-    SliceView view;
+    renderer::SliceView view;
     view.surface = false;
     view.window = {500.0, 800.0};
     view.zoom = 2.0;
@@ -129,10 +131,10 @@ class SliceViewTest : public QObject {
 
   void the_speed_map_tells_growing_from_shrinking() {
     Painter draw(ball_scene(grid({40, 40, 40}), 10.0));
-    SliceView view;
-    view.content = SliceContent::speed;
+    renderer::SliceView view;
+    view.content = renderer::SliceContent::speed;
     view.surface = false;
-    const Picture picture = draw(view, 120, 120);
+    const renderer::Picture picture = draw(view, 120, 120);
     const glm::ivec3 grows = pixel(picture, 60, 60);
     QVERIFY(grows.r > grows.b + 80);
     // Shrinking is blue, and hatched: two shades of it.
@@ -150,27 +152,27 @@ class SliceViewTest : public QObject {
     const Geometry geometry = grid({40, 40, 40});
     const Scene scene = ball_scene(geometry, 10.0);
     Painter draw(scene);
-    SliceView view;
-    view.content = SliceContent::speed;
+    renderer::SliceView view;
+    view.content = renderer::SliceContent::speed;
     view.surface = false;
     view.window = {50.0, 100.0};
-    const double side = 2.0 * slice_half_height_mm(geometry, kAxial, 1.0, 1.0) / 160.0;
+    const double side = 2.0 * renderer::slice_half_height_mm(geometry, renderer::kAxial, 1.0, 1.0) / 160.0;
     // Just inside the surface, along 17 degrees, where no axis is.
-    const auto near = [&](SpeedTerm term) {
+    const auto near = [&](renderer::SpeedTerm term) {
       view.term = term;
-      const Picture picture = draw(view, 160, 160);
+      const renderer::Picture picture = draw(view, 160, 160);
       return pixel(picture, std::lround(79.5 + 9.0 / side * std::cos(0.3)),
                    std::lround(79.5 + 9.0 / side * std::sin(0.3)));
     };
-    QVERIFY(near(SpeedTerm::data).r > near(SpeedTerm::data).b + 80);
-    QVERIFY(near(SpeedTerm::curvature).b > near(SpeedTerm::curvature).r + 10);
-    const glm::ivec3 rescaling = near(SpeedTerm::rescaling);
+    QVERIFY(near(renderer::SpeedTerm::data).r > near(renderer::SpeedTerm::data).b + 80);
+    QVERIFY(near(renderer::SpeedTerm::curvature).b > near(renderer::SpeedTerm::curvature).r + 10);
+    const glm::ivec3 rescaling = near(renderer::SpeedTerm::rescaling);
     QVERIFY(std::abs(rescaling.r - rescaling.b) < 40);
     // alpha = 0.5: half the data term and half of kappa = -2 / 9.
-    const glm::ivec3 total = near(SpeedTerm::total);
-    QVERIFY(total.r > total.b + 20 && total.b > near(SpeedTerm::data).b);
+    const glm::ivec3 total = near(renderer::SpeedTerm::total);
+    QVERIFY(total.r > total.b + 20 && total.b > near(renderer::SpeedTerm::data).b);
     // Away from the surface the other terms have no value.
-    view.term = SpeedTerm::total;
+    view.term = renderer::SpeedTerm::total;
     const glm::ivec3 far = pixel(draw(view, 160, 160), 8, 8);
     QVERIFY(far.r == far.g && far.g == far.b);
   }
@@ -184,11 +186,11 @@ class SliceViewTest : public QObject {
     const std::vector<std::uint8_t> labels(values.begin(), values.end());
     QCOMPARE(draw.renderer().set_labels(std::span(labels).first(10)).error().kind, ErrorKind::usage);
     QCOMPARE(failure(draw.renderer().set_labels(labels)), QString());
-    SliceView view;
+    renderer::SliceView view;
     view.surface = false;
     view.window = {50.0, 100.0};
     view.label_opacity = 1.0;
-    const Picture picture = draw(view, 128, 128);
+    const renderer::Picture picture = draw(view, 128, 128);
     QCOMPARE(pixel(picture, 20, 64), glm::ivec3(0));
     const glm::ivec3 first = pixel(picture, 100, 20);
     const glm::ivec3 second = pixel(picture, 100, 100);
@@ -204,12 +206,12 @@ class SliceViewTest : public QObject {
     const Geometry geometry = grid({64, 64, 64});
     const Scene scene = ball_scene(geometry, 20.0);
     Painter draw(scene);
-    SliceView view;
-    view.content = SliceContent::pages;
+    renderer::SliceView view;
+    view.content = renderer::SliceContent::pages;
     view.surface = false;
     view.window = {5000.0, 100.0};  // the source is black
     const auto at = [&](double left_mm) {
-      const Picture picture = draw(view, 256, 256);
+      const renderer::Picture picture = draw(view, 256, 256);
       return pixel(picture, std::lround(127.5 + 4.0 * left_mm), 120);
     };
     const glm::ivec3 inside = at(0.0);
@@ -219,12 +221,12 @@ class SliceViewTest : public QObject {
     const glm::ivec3 resident = at(20.0);
     QVERIFY(resident.b > resident.r + 30);
     // The page at the surface falls asleep, and then is one that has just come.
-    const PageLayout& layout = scene.phi.layout;
+    const solver::PageLayout& layout = scene.phi.layout;
     const std::int64_t page = layout.translate({51, 29, 32}).page;
     QCOMPARE(failure(draw.renderer().set_phi(scene.phi, std::vector{page})), QString());
     const glm::ivec3 quiet = at(20.0);
     QVERIFY(quiet.g > quiet.b + 10);
-    Field without = scene.phi;
+    solver::Field without = scene.phi;
     const double band = without.band;
     auto values = without.dense();
     for (std::int64_t z = 0; z < 64; ++z) {
@@ -236,7 +238,7 @@ class SliceViewTest : public QObject {
         }
       }
     }
-    without = Field::from_dense(geometry, values, band);
+    without = solver::Field::from_dense(geometry, values, band);
     QCOMPARE(failure(draw.renderer().set_phi(without)), QString());
     QCOMPARE(failure(draw.renderer().set_phi(scene.phi)), QString());
     const glm::ivec3 fresh = at(20.0);

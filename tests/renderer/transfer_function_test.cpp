@@ -13,31 +13,33 @@ class TransferFunctionTest : public QObject {
 
  private slots:
   void every_preset_can_be_used() {
-    const std::vector<std::string> names = preset_names();
+    const std::vector<std::string> names = renderer::preset_names();
     QVERIFY(names.size() >= 6);
     for (const std::string& name : names) {
-      const auto function = preset(name);
+      const auto function = renderer::preset(name);
       QVERIFY2(function.has_value(), name.c_str());
       QVERIFY(!function->name.empty());
       QVERIFY(!function->source.empty() || !function->surface.empty());
     }
-    const auto unknown = preset("ct-none");
+    const auto unknown = renderer::preset("ct-none");
     QCOMPARE(unknown.error().kind, ErrorKind::usage);
     QVERIFY(unknown.error().message.find("ct-bone") != std::string::npos);
   }
 
   void primitives_are_read() {
-    const auto function = TransferFunction::parse(
+    const auto function = renderer::TransferFunction::parse(
         R"({"name": "x", "source": [
           {"value": {"gaussian": [40, 10]}, "phi": {"ramp": [0, 1]}, "opacity": 0.5, "colour": [1, 0.5, 0]},
           {"value": {"ramp": [300, 200]}, "gradient": {"gaussian": [5, 1]}, "opacity": 1, "colour": [0, 0, 2]}],
         "surface": [{"distance": {"ramp": [20, 0]}, "opacity": 0.7, "colour": [0.1, 0.2, 0.3]}]})");
     QCOMPARE(failure(function), QString());
     QCOMPARE(function->source.size(), std::size_t{2});
-    QVERIFY((function->source[0].value == TransferFactor{TransferFactor::Kind::gaussian, 40.0, 10.0}));
-    QVERIFY((function->source[0].phi == TransferFactor{TransferFactor::Kind::ramp, 0.0, 1.0}));
-    QVERIFY(function->source[0].gradient.kind == TransferFactor::Kind::everything);
-    QVERIFY(function->source[1].value.kind == TransferFactor::Kind::ramp);
+    QVERIFY((function->source[0].value ==
+             renderer::TransferFactor{renderer::TransferFactor::Kind::gaussian, 40.0, 10.0}));
+    QVERIFY((function->source[0].phi ==
+             renderer::TransferFactor{renderer::TransferFactor::Kind::ramp, 0.0, 1.0}));
+    QVERIFY(function->source[0].gradient.kind == renderer::TransferFactor::Kind::everything);
+    QVERIFY(function->source[1].value.kind == renderer::TransferFactor::Kind::ramp);
     QCOMPARE(function->source[1].colour.b, 1.0F);
     QVERIFY(function->source_needs_gradient() && function->source_needs_phi());
     QCOMPARE(function->surface.size(), std::size_t{1});
@@ -46,37 +48,39 @@ class TransferFunctionTest : public QObject {
   }
 
   void what_is_written_is_read_as_the_same_function() {
-    for (const std::string& name : preset_names()) {
-      const TransferFunction function = preset(name).value();
-      const auto again = TransferFunction::parse(function.to_json());
+    for (const std::string& name : renderer::preset_names()) {
+      const renderer::TransferFunction function = renderer::preset(name).value();
+      const auto again = renderer::TransferFunction::parse(function.to_json());
       QCOMPARE(failure(again), QString());
       QVERIFY2(*again == function, name.c_str());
     }
-    TransferFunction odd = preset("ct-angio").value();
+    renderer::TransferFunction odd = renderer::preset("ct-angio").value();
     odd.name = "a \"name\"\nin two lines, µ";
     odd.source[0].value.start = 1.0 / 3.0;
-    odd.source[0].phi = {TransferFactor::Kind::gaussian, -1e-12, 1e12};
+    odd.source[0].phi = {renderer::TransferFactor::Kind::gaussian, -1e-12, 1e12};
     odd.source[0].colour = {0.1F, 1.0F / 3.0F, 0.0F};
-    const auto again = TransferFunction::parse(odd.to_json());
+    const auto again = renderer::TransferFunction::parse(odd.to_json());
     QCOMPARE(failure(again), QString());
     QVERIFY(*again == odd);
     QVERIFY(odd.to_json().find("\"colour\":[0.1,") != std::string::npos);
   }
 
   void relative_values_are_shares_of_the_common_range() {
-    const auto function = TransferFunction::parse(
+    const auto function = renderer::TransferFunction::parse(
         R"({"relative": true, "source": [{"value": {"gaussian": [0.5, 0.1]}, "gradient": {"ramp": [0, 0.25]},
             "phi": {"ramp": [-1, 1]}, "opacity": 1, "colour": [1, 1, 1]}]})");
     QCOMPARE(failure(function), QString());
-    const TransferFunction own = function->for_range(-100.0, 300.0);
-    QVERIFY((own.source[0].value == TransferFactor{TransferFactor::Kind::gaussian, 100.0, 40.0}));
-    QVERIFY((own.source[0].gradient == TransferFactor{TransferFactor::Kind::ramp, 0.0, 100.0}));
+    const renderer::TransferFunction own = function->for_range(-100.0, 300.0);
+    QVERIFY((own.source[0].value ==
+             renderer::TransferFactor{renderer::TransferFactor::Kind::gaussian, 100.0, 40.0}));
+    QVERIFY((own.source[0].gradient ==
+             renderer::TransferFactor{renderer::TransferFactor::Kind::ramp, 0.0, 100.0}));
     QVERIFY(own.source[0].phi == function->source[0].phi);
     QVERIFY(own.for_range(0.0, 1.0) == own);
   }
 
   void nothing_in_a_range_is_more_opaque_than_its_bound() {
-    const auto function = TransferFunction::parse(
+    const auto function = renderer::TransferFunction::parse(
         R"({"source": [{"value": {"gaussian": [40, 10]}, "opacity": 0.5, "colour": [1, 1, 1]},
                        {"value": {"ramp": [60, 20]}, "phi": {"ramp": [-1, 1]}, "opacity": 0.3, "colour": [1, 1, 1]}]})");
     QCOMPARE(failure(function), QString());
@@ -86,7 +90,7 @@ class TransferFunctionTest : public QObject {
           const double most = function->most_opacity(low, high, phi, phi);
           for (double value = low; value <= high; value += 0.5) {
             double opacity = 0.0;
-            for (const SourcePrimitive& p : function->source)
+            for (const renderer::SourcePrimitive& p : function->source)
               opacity += p.opacity * p.value.at(value) * p.phi.at(phi);
             QVERIFY(opacity <= most + 1e-12);
           }
@@ -132,7 +136,7 @@ class TransferFunctionTest : public QObject {
   void what_is_wrong_is_named() {
     QFETCH(QString, text);
     QFETCH(QString, named);
-    const auto function = TransferFunction::parse(text.toStdString());
+    const auto function = renderer::TransferFunction::parse(text.toStdString());
     QVERIFY(!function);
     QCOMPARE(function.error().kind, ErrorKind::input);
     QVERIFY2(QString::fromStdString(function.error().message).contains(named),

@@ -13,7 +13,7 @@ using namespace tidemark::test;
 namespace {
 
 // A pixel's side in mm.
-double pixel_mm(const VolumeView& view, const Geometry& geometry, std::int64_t height) {
+double pixel_mm(const renderer::VolumeView& view, const Geometry& geometry, std::int64_t height) {
   return 2.0 * view.camera.half_height_mm(geometry, 1.0) / static_cast<double>(height);
 }
 
@@ -26,11 +26,11 @@ class VolumeViewTest : public QObject {
   void a_balls_silhouette_is_right_within_half_a_pixel_from_every_side() {
     const Geometry geometry = grid({64, 64, 64});
     Painter draw(ball_scene(geometry, 20.0));
-    VolumeView view;
+    renderer::VolumeView view;
     for (const auto& [azimuth, elevation] : {std::pair{0.0, 0.0}, {90.0, 0.0}, {0.0, 90.0}, {33.0, -20.0}}) {
       view.camera.azimuth = azimuth;
       view.camera.elevation = elevation;
-      const Picture picture = draw(view, 256, 256);
+      const renderer::Picture picture = draw(view, 256, 256);
       const double radius = 20.0 / pixel_mm(view, geometry, 256);
       for (std::int64_t y = 0; y < 256; ++y) {
         for (std::int64_t x = 0; x < 256; ++x) {
@@ -47,7 +47,7 @@ class VolumeViewTest : public QObject {
     // With diffuse light alone the brightness is the cosine between normal and light.
     const Geometry geometry = grid({64, 64, 64});
     Painter draw(ball_scene(geometry, 20.0));
-    VolumeView view;
+    renderer::VolumeView view;
     view.surface_colour = {1.0F, 1.0F, 1.0F, 1.0F};
     view.lighting.ambient = 0.0;
     view.lighting.diffuse = 1.0;
@@ -55,7 +55,7 @@ class VolumeViewTest : public QObject {
     view.lighting.from = glm::normalize(glm::dvec3(0.3, -1.0, 0.4));
     for (const double azimuth : {0.0, 40.0}) {
       view.camera.azimuth = azimuth;
-      const Picture picture = draw(view, 256, 256);
+      const renderer::Picture picture = draw(view, 256, 256);
       const double side = pixel_mm(view, geometry, 256);
       const glm::dvec3 into = glm::cross(view.camera.up(), view.camera.right());
       double worst = 0.0;
@@ -87,10 +87,10 @@ class VolumeViewTest : public QObject {
     std::vector<std::uint8_t> expected;
     for (const Index3 shape : {Index3(8, 8, 8), Index3(16, 16, 1), Index3(4, 4, 4)}) {
       Painter draw(ball_scene(geometry, 14.0, glm::dvec3(1e6), shape));
-      VolumeView view;
+      renderer::VolumeView view;
       view.camera.azimuth = 25.0;
       view.camera.elevation = 30.0;
-      const Picture picture = draw(view, 128, 128);
+      const renderer::Picture picture = draw(view, 128, 128);
       if (expected.empty()) expected = picture.pixels;
       std::int64_t different = 0;
       for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -109,7 +109,7 @@ class VolumeViewTest : public QObject {
   void a_picture_from_pages_is_that_from_a_dense_copy() {
     QFETCH(QString, what);
     const Geometry geometry = grid({48, 40, 44}, {1.0, 1.1, 1.4});
-    VolumeView view;
+    renderer::VolumeView view;
     view.camera.azimuth = 35.0;
     view.camera.elevation = 15.0;
     view.window = {50.0, 200.0};
@@ -120,16 +120,16 @@ class VolumeViewTest : public QObject {
           R"({"source": [{"value": {"ramp": [20, 100]}, "opacity": 0.05, "colour": [1, 0.8, 0.6]}]})");
       view.surface = false;
     }
-    if (what == "region") view.region = Region::inside;
-    if (what == "clip plane") view.clip = ClipPlane{{0.0, -1.0, 0.0}, -20.0};
+    if (what == "region") view.region = renderer::Region::inside;
+    if (what == "clip plane") view.clip = renderer::ClipPlane{{0.0, -1.0, 0.0}, -20.0};
     const auto smooth = [&](glm::dvec3 p) {
-      return 100.0 * std::exp(-glm::length(p - middle_of(geometry)) / 15.0);
+      return 100.0 * std::exp(-glm::length(p - renderer::middle_of(geometry)) / 15.0);
     };
     Scene packed = ball_scene(geometry, 14.0, smooth);
     Scene dense = packed;
-    dense.phi = Field::from_dense(geometry, packed.phi.dense(), packed.phi.band, geometry.size);
-    const Picture expected = Painter(dense)(view, 160, 160);
-    const Picture picture = Painter(packed)(view, 160, 160);
+    dense.phi = solver::Field::from_dense(geometry, packed.phi.dense(), packed.phi.band, geometry.size);
+    const renderer::Picture expected = Painter(dense)(view, 160, 160);
+    const renderer::Picture picture = Painter(packed)(view, 160, 160);
     int most = 0;
     double sum = 0.0;
     std::int64_t beyond = 0;
@@ -148,15 +148,15 @@ class VolumeViewTest : public QObject {
     const Geometry geometry = grid({64, 64, 64});
     const Scene scene = ball_scene(geometry, 20.0);
     Painter draw(scene);
-    VolumeView view;
-    view.clip = ClipPlane{{0.0, -1.0, 0.0}, -scene.middle.y};  // hides the front half
+    renderer::VolumeView view;
+    view.clip = renderer::ClipPlane{{0.0, -1.0, 0.0}, -scene.middle.y};  // hides the front half
     view.window = {50.0, 200.0};
-    const Picture cut = draw(view, 200, 200);
+    const renderer::Picture cut = draw(view, 200, 200);
     const glm::ivec3 centre = pixel(cut, 100, 100);  // the source's 100 in its window
     QVERIFY(std::abs(centre.r - centre.g) < 3 && std::abs(centre.r - 191) < 6);
     // From behind, the plane is hidden by what is left.
     view.camera.azimuth = 180.0;
-    const Picture back = draw(view, 200, 200);
+    const renderer::Picture back = draw(view, 200, 200);
     QVERIFY(pixel(back, 100, 100).r > pixel(back, 100, 100).b + 20);
   }
 
@@ -165,10 +165,10 @@ class VolumeViewTest : public QObject {
     const Scene scene = ball_scene(geometry, 20.0);
     Painter draw(scene);
     for (const double depth : {0.0, 8.0}) {
-      VolumeView view;
-      view.clip = ClipPlane{{0.0, -1.0, 0.0}, -scene.middle.y - depth};
+      renderer::VolumeView view;
+      view.clip = renderer::ClipPlane{{0.0, -1.0, 0.0}, -scene.middle.y - depth};
       view.window = {50.0, 1000.0};
-      const Picture picture = draw(view, 512, 512);
+      const renderer::Picture picture = draw(view, 512, 512);
       const double side = pixel_mm(view, geometry, 512);
       const double radius = std::sqrt(400.0 - depth * depth);
       // The line's middle along rays from the middle of the picture.
@@ -193,11 +193,11 @@ class VolumeViewTest : public QObject {
     const Geometry geometry = grid({64, 64, 64});
     const Scene scene = ball_scene(geometry, 20.0);
     Painter draw(scene);
-    VolumeView view;
-    view.clip = ClipPlane{{0.0, -1.0, 0.0}, -scene.middle.y};
+    renderer::VolumeView view;
+    view.clip = renderer::ClipPlane{{0.0, -1.0, 0.0}, -scene.middle.y};
     view.clip->picture = false;
     view.clip->clips_surface = false;  // the whole ball stands in front
-    const VolumeView plain;
+    const renderer::VolumeView plain;
     QCOMPARE(draw(view, 100, 100).pixels, draw(plain, 100, 100).pixels);
     view.clip->clips_surface = true;  // its hollow half, seen from inside: lit otherwise
     QVERIFY(draw(view, 100, 100).pixels != draw(plain, 100, 100).pixels);
@@ -208,14 +208,14 @@ class VolumeViewTest : public QObject {
     geometry.origin_mm = {-10.0, 20.0, 300.0};
     const Scene scene = ball_scene(geometry, 20.0);
     Painter draw(scene);
-    VolumeView view;
-    const PictureSize size{200, 160};
+    renderer::VolumeView view;
+    const renderer::PictureSize size{200, 160};
     const double side = 2.0 * view.camera.half_height_mm(geometry, size.aspect()) / 160.0;
     const glm::dvec2 offset(30.0, -20.0);  // pixels from the middle, to the right and up
     const glm::dvec2 at(99.5 + offset.x, 79.5 + 20.0);
     auto hit = draw.renderer().pick(view, size, at);
     QCOMPARE(failure(hit), QString());
-    QVERIFY(hit->has_value() && (*hit)->kind == Hit::Kind::surface);
+    QVERIFY(hit->has_value() && (*hit)->kind == renderer::Hit::Kind::surface);
     // From the front: x is left, z is up, and the ball's front is at the least y.
     const glm::dvec3 from_middle((offset.x) * side, 0.0, offset.y * side);
     const double depth = std::sqrt(400.0 - glm::dot(from_middle, from_middle));
@@ -224,9 +224,9 @@ class VolumeViewTest : public QObject {
              qPrintable(QString::number(glm::length((*hit)->patient_mm - expected))));
     QVERIFY(glm::length(geometry.to_patient((*hit)->voxel) - (*hit)->patient_mm) < 1e-6);
 
-    view.clip = ClipPlane{{0.0, -1.0, 0.0}, -scene.middle.y};
+    view.clip = renderer::ClipPlane{{0.0, -1.0, 0.0}, -scene.middle.y};
     hit = draw.renderer().pick(view, size, at);
-    QVERIFY(hit && hit->has_value() && (*hit)->kind == Hit::Kind::clip_plane);
+    QVERIFY(hit && hit->has_value() && (*hit)->kind == renderer::Hit::Kind::clip_plane);
     QVERIFY(glm::length((*hit)->patient_mm - (scene.middle + from_middle)) < 0.01);
 
     view.clip.reset();
@@ -239,19 +239,19 @@ class VolumeViewTest : public QObject {
     // apart.
     const Geometry geometry = grid({48, 48, 48});
     Painter draw(ball_scene(geometry, 12.0));
-    VolumeView view;
+    renderer::VolumeView view;
     view.lighting = {1.0, 0.0, 0.0, 1.0, {}, 0.0};  // the colours as they are
-    const auto middle = [&](SurfaceColouring colouring) {
+    const auto middle = [&](renderer::SurfaceColouring colouring) {
       view.colouring = colouring;
       return pixel(draw(view, 64, 64), 32, 32);
     };
-    const glm::ivec3 bending = middle(SurfaceColouring::curvature);
+    const glm::ivec3 bending = middle(renderer::SurfaceColouring::curvature);
     QVERIFY(bending.b > bending.r + 20);  // kappa < 0 on a ball
-    const glm::ivec3 term = middle(SurfaceColouring::curvature_term);
+    const glm::ivec3 term = middle(renderer::SurfaceColouring::curvature_term);
     QVERIFY(term.b > term.r);
-    const glm::ivec3 rescaling = middle(SurfaceColouring::rescaling);
+    const glm::ivec3 rescaling = middle(renderer::SurfaceColouring::rescaling);
     QVERIFY(std::abs(rescaling.r - rescaling.b) < 30);  // a distance already
-    const glm::ivec3 pages = middle(SurfaceColouring::pages);
+    const glm::ivec3 pages = middle(renderer::SurfaceColouring::pages);
     QVERIFY(pages.b > pages.r + 60);  // resident, not quiet
   }
 
@@ -261,17 +261,17 @@ class VolumeViewTest : public QObject {
     Scene scene = ball_scene(geometry, 5.0);
     const glm::dvec3 front(31.5, -0.5, 31.5);
     const double band = scene.phi.band;
-    scene.phi = Field::from_dense(
+    scene.phi = solver::Field::from_dense(
         geometry,
         sample(geometry,
                [&](glm::dvec3 p) { return std::clamp(20.0 - glm::length(p - front), -band, band); }),
         band);
     Painter draw(scene);
-    VolumeView view;
+    renderer::VolumeView view;
     view.lighting.specular = 0.0;
-    for (const Mode mode : {Mode::raycast, Mode::slices}) {
+    for (const renderer::Mode mode : {renderer::Mode::raycast, renderer::Mode::slices}) {
       view.mode = mode;
-      const Picture picture = draw(view, 128, 128);
+      const renderer::Picture picture = draw(view, 128, 128);
       const double side = pixel_mm(view, geometry, 128);
       // A disc, as bright everywhere as what faces the viewer is.
       const double area = static_cast<double>(count(picture, is_surface)) * side * side;
@@ -283,13 +283,13 @@ class VolumeViewTest : public QObject {
       }
     }
     const auto hit = draw.renderer().pick(view, {128, 128}, {64.0, 64.0});
-    QVERIFY(hit && hit->has_value() && (*hit)->kind == Hit::Kind::surface);
+    QVERIFY(hit && hit->has_value() && (*hit)->kind == renderer::Hit::Kind::surface);
     QVERIFY(std::abs((*hit)->voxel.y + 0.5) < 0.01);
     // All inside: a box.
     std::vector<float> ones(static_cast<std::size_t>(geometry.voxel_count()), static_cast<float>(band));
-    scene.phi = Field::from_dense(geometry, ones, band);
+    scene.phi = solver::Field::from_dense(geometry, ones, band);
     Painter box(scene);
-    for (const Mode mode : {Mode::raycast, Mode::slices}) {
+    for (const renderer::Mode mode : {renderer::Mode::raycast, renderer::Mode::slices}) {
       view.mode = mode;
       QVERIFY(is_surface(pixel(box(view, 64, 64), 32, 32)));
     }
@@ -305,12 +305,12 @@ class VolumeViewTest : public QObject {
       const double lower = 11.0 - glm::length(p - scene.middle + offset);
       return std::clamp(std::max(upper, lower), -scene.phi.band, scene.phi.band);
     });
-    scene.phi = Field::from_dense(geometry, values, scene.phi.band);
+    scene.phi = solver::Field::from_dense(geometry, values, scene.phi.band);
     Painter draw(scene);
-    VolumeView view;
-    const Picture without = draw(view, 128, 128);
+    renderer::VolumeView view;
+    const renderer::Picture without = draw(view, 128, 128);
     view.lighting.occlusion = 1.0;
-    const Picture with = draw(view, 128, 128);
+    const renderer::Picture with = draw(view, 128, 128);
     const auto darker = [&](std::int64_t y) { return pixel(without, 64, y).r - pixel(with, 64, y).r; };
     QVERIFY2(darker(64) > darker(49) + 15, qPrintable(QString("%1 %2").arg(darker(64)).arg(darker(49))));
   }

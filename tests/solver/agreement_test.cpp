@@ -19,24 +19,24 @@ struct Evolution {
     const double r = glm::distance(p, centre_of(geometry));
     return 100.0 - 6.0 * std::max(0.0, r - 12.0 - 2.0 * std::sin(p.x / 3.0)) + 5.0 * std::sin(p.y * 7.0);
   });
-  Parameters parameters = [] {
-    Parameters p;
+  solver::Parameters parameters = [] {
+    solver::Parameters p;
     p.target = 100.0;
     p.range = 25.0;
     p.alpha = 0.6;
     return p;
   }();
 
-  std::unique_ptr<Executor> start(ExecutorKind kind, int threads) const {
-    ExecutorOptions options;
+  std::unique_ptr<solver::Executor> start(solver::ExecutorKind kind, int threads) const {
+    solver::ExecutorOptions options;
     options.threads = threads;
     auto level_set = executor(kind, source, parameters, options);
-    if (!level_set->paint({centre_of(geometry), 5.0}, Brush::add)) qFatal("paint failed");
+    if (!level_set->paint({centre_of(geometry), 5.0}, solver::Brush::add)) qFatal("paint failed");
     return level_set;
   }
 };
 
-bool same_bits(const Field& a, const Field& b) {
+bool same_bits(const solver::Field& a, const solver::Field& b) {
   return a.table == b.table && a.pages == b.pages;
 }
 
@@ -49,10 +49,10 @@ class AgreementTest : public QObject {
   void each_step_is_the_references_step_data() { add_rows_with_host(); }
   void each_step_is_the_references_step() {  // T5
     const Setting setting = this_row();
-    ExecutorOptions options = setting.options();
+    solver::ExecutorOptions options = setting.options();
     options.skip_quiet_pages = false;
     // An executor on OpenGL takes as long to make as many steps do: there each has more of the parameters.
-    const bool is_host = setting.kind == ExecutorKind::host;
+    const bool is_host = setting.kind == solver::ExecutorKind::host;
     const int problems = is_host ? 40 : 8;
     const int draws = is_host ? 2 : 8;
     std::mt19937 random(7);
@@ -61,10 +61,10 @@ class AgreementTest : public QObject {
       RandomProblem problem = random_problem(random);
       const Geometry& geometry = problem.source->geometry;
       const auto tested = executor(setting.kind, problem.source, problem.parameters, options);
-      ReferenceExecutor reference(problem.source, problem.parameters);
+      solver::ReferenceExecutor reference(problem.source, problem.parameters);
       seed(*tested, geometry, random);
       for (int draw = 0; draw < draws; ++draw) {
-        for (Executor* level_set : {tested.get(), static_cast<Executor*>(&reference)}) {
+        for (solver::Executor* level_set : {tested.get(), static_cast<solver::Executor*>(&reference)}) {
           QCOMPARE(failure(level_set->set_parameters(problem.parameters)), QString());
         }
         for (int step = 0; step < (is_host ? 8 : 2); ++step) {
@@ -72,7 +72,7 @@ class AgreementTest : public QObject {
           QCOMPARE(failure(reference.restore(tested->snapshot().value())), QString());
           run(*tested, 1);
           QVERIFY(reference.advance({}));
-          const Field phi = tested->snapshot().value();
+          const solver::Field phi = tested->snapshot().value();
           worst = std::max(worst, largest_difference(phi.dense(), reference.values()));
           QVERIFY2(worst <= 1e-5, qPrintable(QString("problem %1: %2").arg(i).arg(worst)));
           QVERIFY(resident_pages_cover_what_is_not_flat(phi, reference.values()));
@@ -90,14 +90,14 @@ class AgreementTest : public QObject {
     const Setting setting = this_row();
     std::mt19937 random(11);
     const auto uniform = [&] { return 2.0 * (random() / 4294967296.0) - 1.0; };
-    const int problems = setting.kind == ExecutorKind::host ? 40 : 5;
+    const int problems = setting.kind == solver::ExecutorKind::host ? 40 : 5;
     double worst = 0.0;
     for (int i = 0; i < problems; ++i) {
       RandomProblem problem = random_problem(random);
       const auto tested = setting.make(problem.source, problem.parameters);
-      ReferenceExecutor reference(problem.source, problem.parameters);
+      solver::ReferenceExecutor reference(problem.source, problem.parameters);
       for (int draw = 0; draw < 2; ++draw) {
-        for (Executor* level_set : {tested.get(), static_cast<Executor*>(&reference)}) {
+        for (solver::Executor* level_set : {tested.get(), static_cast<solver::Executor*>(&reference)}) {
           QCOMPARE(failure(level_set->set_parameters(problem.parameters)), QString());
         }
         set_phi(*tested, problem.source->geometry,
@@ -112,13 +112,13 @@ class AgreementTest : public QObject {
     }
     qInfo("T5: largest difference of a step from noise %.1e of the band in %d settings", worst, 2 * problems);
     // Shaders compute the data term in single precision, too, which shows where phi is this steep.
-    QVERIFY(worst <= (setting.kind == ExecutorKind::host ? 1e-5 : 2e-5));
+    QVERIFY(worst <= (setting.kind == solver::ExecutorKind::host ? 1e-5 : 2e-5));
   }
 
   void free_runs_end_in_the_same_mask() {  // T5
     const Evolution evolution;
-    const auto host = evolution.start(ExecutorKind::host, 2);
-    const auto reference = evolution.start(ExecutorKind::reference, 1);
+    const auto host = evolution.start(solver::ExecutorKind::host, 2);
+    const auto reference = evolution.start(solver::ExecutorKind::reference, 1);
     run(*host, 500);
     run(*reference, 500);
     const double overlap = dice(host->snapshot().value().mask(), reference->snapshot().value().mask());
@@ -129,16 +129,16 @@ class AgreementTest : public QObject {
 
   void the_bits_do_not_depend_on_threads_or_chunks() {
     const Evolution evolution;
-    const auto expected = evolution.start(ExecutorKind::host, 1);
+    const auto expected = evolution.start(solver::ExecutorKind::host, 1);
     run(*expected, 210);
-    const Field phi = expected->snapshot().value();
+    const solver::Field phi = expected->snapshot().value();
     for (const int threads : {2, 5}) {
-      const auto other = evolution.start(ExecutorKind::host, threads);
+      const auto other = evolution.start(solver::ExecutorKind::host, threads);
       run(*other, 210);
       QVERIFY(same_bits(phi, other->snapshot().value()));
     }
     for (const int chunk : {1, 7, 30}) {
-      const auto other = evolution.start(ExecutorKind::host, 2);
+      const auto other = evolution.start(solver::ExecutorKind::host, 2);
       for (int done = 0; done < 210; done += chunk) run(*other, chunk);
       QVERIFY(same_bits(phi, other->snapshot().value()));
     }
@@ -150,14 +150,15 @@ class AgreementTest : public QObject {
     std::vector<std::string> names;
     for (const char* name : {"sse4", "avx2", "avx512"}) {
       qputenv("TIDEMARK_SIMD", name);
-      const auto made = make_executor(ExecutorKind::host, evolution.source, evolution.parameters);
+      const auto made =
+          solver::make_executor(solver::ExecutorKind::host, evolution.source, evolution.parameters);
       if (!made) {
         // This processor lacks it: the reason says so, and nothing else may fail.
         QCOMPARE(made.error().kind, ErrorKind::capability);
         qWarning("%s", made.error().message.c_str());
         continue;
       }
-      QVERIFY((*made)->paint({centre_of(evolution.geometry), 5.0}, Brush::add));
+      QVERIFY((*made)->paint({centre_of(evolution.geometry), 5.0}, solver::Brush::add));
       run(**made, 300);
       masks.push_back((*made)->snapshot().value().mask());
       names.emplace_back(name);
@@ -174,7 +175,8 @@ class AgreementTest : public QObject {
   void an_unknown_instruction_set_is_a_usage_error() {
     qputenv("TIDEMARK_SIMD", "mmx");
     const Evolution evolution;
-    const auto made = make_executor(ExecutorKind::host, evolution.source, evolution.parameters);
+    const auto made =
+        solver::make_executor(solver::ExecutorKind::host, evolution.source, evolution.parameters);
     qunsetenv("TIDEMARK_SIMD");
     QVERIFY(!made);
     QCOMPARE(made.error().kind, ErrorKind::usage);
@@ -182,11 +184,11 @@ class AgreementTest : public QObject {
 
   void a_saved_level_set_resumes_to_the_same_voxels() {
     const Evolution evolution;
-    const auto unbroken = evolution.start(ExecutorKind::host, 2);
+    const auto unbroken = evolution.start(solver::ExecutorKind::host, 2);
     run(*unbroken, 60);
-    const Field saved =
-        Field::from_dense(evolution.geometry, unbroken->snapshot().value().dense(), unbroken->band());
-    const auto resumed = executor(ExecutorKind::host, evolution.source, evolution.parameters);
+    const solver::Field saved =
+        solver::Field::from_dense(evolution.geometry, unbroken->snapshot().value().dense(), unbroken->band());
+    const auto resumed = executor(solver::ExecutorKind::host, evolution.source, evolution.parameters);
     QCOMPARE(failure(resumed->restore(saved)), QString());
     run(*unbroken, 60);
     run(*resumed, 60);

@@ -41,7 +41,7 @@ struct CreepingFront {
   }
 
   Geometry geometry = grid({64, 40, 40});
-  Parameters parameters;
+  solver::Parameters parameters;
 };
 
 }  // namespace
@@ -55,20 +55,21 @@ class ConvergenceTest : public QObject {
     const Setting setting = this_row();
     const Scene scene = lumpy_scene({40, 37, 29});
     const auto level_set = setting.make(scene.source, scene.parameters);
-    QCOMPARE(failure(level_set->paint(scene.seed, Brush::add)), QString());
+    QCOMPARE(failure(level_set->paint(scene.seed, solver::Brush::add)), QString());
     QVERIFY(run(*level_set, 2000, true).converged);
-    const Field at_rest = level_set->snapshot().value();
-    const Sphere nowhere{centre_of(scene.geometry) - glm::dvec3(15.0), 1.0};
-    const std::function<Status()> changes[] = {[&] { return level_set->set_parameters(scene.parameters); },
-                                               [&] { return level_set->paint(nowhere, Brush::erase); },
-                                               [&] { return level_set->restore(at_rest); }};
+    const solver::Field at_rest = level_set->snapshot().value();
+    const solver::Sphere nowhere{centre_of(scene.geometry) - glm::dvec3(15.0), 1.0};
+    const std::function<Status()> changes[] = {
+        [&] { return level_set->set_parameters(scene.parameters); },
+        [&] { return level_set->paint(nowhere, solver::Brush::erase); },
+        [&] { return level_set->restore(at_rest); }};
     for (const auto& change : changes) {
       // In the middle of a window at rest: what rested before the change says nothing about what comes.
       run(*level_set, 7);
       QCOMPARE(failure(change()), QString());
-      const AdvanceReport report = run(*level_set, 100, true);
+      const solver::AdvanceReport report = run(*level_set, 100, true);
       QVERIFY(report.converged);
-      QCOMPARE(report.steps, std::int64_t{kConvergenceWindow});
+      QCOMPARE(report.steps, std::int64_t{solver::kConvergenceWindow});
     }
   }
 
@@ -78,14 +79,14 @@ class ConvergenceTest : public QObject {
     const Geometry geometry = grid({32, 32, 32});
     const glm::dvec3 centre = centre_of(geometry);
     const auto source = volume_of(geometry, [&](glm::dvec3 p) { return glm::distance(p, centre); });
-    Parameters parameters;
+    solver::Parameters parameters;
     parameters.target = 5.0;
     parameters.range = 4.0;
     parameters.alpha = 0.9;
     const auto level_set = setting.make(source, parameters);
-    QCOMPARE(failure(level_set->paint({centre, 8.0}, Brush::add)), QString());
+    QCOMPARE(failure(level_set->paint({centre, 8.0}, solver::Brush::add)), QString());
     QVERIFY(run(*level_set, 2000, true).converged);
-    run(*level_set, kConvergenceWindow - 1);
+    run(*level_set, solver::kConvergenceWindow - 1);
     const double before = mean_radius(level_set->snapshot().value(), centre);
     // The surface now has D = 0.02 to go on: twice the speed that counts as none.
     parameters.target += 0.1;
@@ -101,7 +102,7 @@ class ConvergenceTest : public QObject {
     const CreepingFront scene;
     const auto level_set = setting.make(scene.source(), scene.parameters);
     set_phi(*level_set, scene.geometry, CreepingFront::start);
-    run(*level_set, 4 * kConvergenceWindow);
+    run(*level_set, 4 * solver::kConvergenceWindow);
     const auto tip = [&] {
       double furthest = 0.0;
       for_each_crossing(level_set->snapshot().value(),
@@ -109,10 +110,10 @@ class ConvergenceTest : public QObject {
       return furthest;
     };
     const double before = tip();
-    const AdvanceReport report = run(*level_set, 4 * kConvergenceWindow, true);
+    const solver::AdvanceReport report = run(*level_set, 4 * solver::kConvergenceWindow, true);
     qInfo("the tip goes from %.2f to %.2f, the surface's speed is %.4f", before, tip(), report.surface_speed);
     QVERIFY(!report.converged);
-    QCOMPARE(report.steps, std::int64_t{4 * kConvergenceWindow});
+    QCOMPARE(report.steps, std::int64_t{4 * solver::kConvergenceWindow});
     QVERIFY(tip() > before + 1.0);
   }
 
@@ -120,15 +121,15 @@ class ConvergenceTest : public QObject {
   void all_executors_stop_at_the_same_step() {
     const Setting setting = this_row();
     const Scene scene = lumpy_scene({40, 37, 29});
-    ExecutorOptions options = setting.options();
+    solver::ExecutorOptions options = setting.options();
     options.skip_quiet_pages = false;  // the reference has none
     const auto tested = executor(setting.kind, scene.source, scene.parameters, options);
     const auto reference =
-        Setting{ExecutorKind::reference, setting.page_shape}.make(scene.source, scene.parameters);
-    AdvanceReport reports[2];
+        Setting{solver::ExecutorKind::reference, setting.page_shape}.make(scene.source, scene.parameters);
+    solver::AdvanceReport reports[2];
     int i = 0;
-    for (Executor* level_set : {tested.get(), reference.get()}) {
-      QCOMPARE(failure(level_set->paint(scene.seed, Brush::add)), QString());
+    for (solver::Executor* level_set : {tested.get(), reference.get()}) {
+      QCOMPARE(failure(level_set->paint(scene.seed, solver::Brush::add)), QString());
       reports[i++] = run(*level_set, 2000, true);
     }
     QVERIFY(reports[0].converged && reports[1].converged);

@@ -15,8 +15,8 @@ struct TwoHalves {
   Geometry geometry = grid({48, 40, 32});
   std::shared_ptr<const Volume> source =
       volume_of(geometry, [](glm::dvec3 p) { return p.x < kBorder ? 100.0 : 0.0; });
-  Parameters parameters = [] {
-    Parameters p;
+  solver::Parameters parameters = [] {
+    solver::Parameters p;
     p.target = 100.0;
     p.range = 20.0;
     p.alpha = 1.0;
@@ -24,7 +24,7 @@ struct TwoHalves {
   }();
 
   // Calls visit(voxel) for each within the sphere.
-  void for_each_voxel(const Sphere& sphere, const std::function<void(Index3)>& visit) const {
+  void for_each_voxel(const solver::Sphere& sphere, const std::function<void(Index3)>& visit) const {
     for (std::int64_t i = 0; i < geometry.voxel_count(); ++i) {
       const Index3 v(i % 48, i / 48 % 40, i / (48 * 40));
       if (glm::distance(geometry.to_patient(v), sphere.centre_mm) < sphere.radius_mm) visit(v);
@@ -44,14 +44,14 @@ class EditingTest : public QObject {
     const TwoHalves scene;
     const auto level_set = setting.make(scene.source, scene.parameters);
     // Half of it lies where D is -1, and goes back from its rim while it is erased.
-    QCOMPARE(failure(level_set->paint({{23.5, 19.5, 15.5}, 13.0}, Brush::add)), QString());
-    const Sphere erased{{24.5, 19.5, 15.5}, 6.0};
+    QCOMPARE(failure(level_set->paint({{23.5, 19.5, 15.5}, 13.0}, solver::Brush::add)), QString());
+    const solver::Sphere erased{{24.5, 19.5, 15.5}, 6.0};
     run(*level_set, 7);
     int there = 0;
-    Field phi = level_set->snapshot().value();
+    solver::Field phi = level_set->snapshot().value();
     scene.for_each_voxel(erased, [&](Index3 v) { there += phi.at(v) > 0.0F ? 1 : 0; });
     QVERIFY(there > 700);
-    QCOMPARE(failure(level_set->paint(erased, Brush::erase)), QString());
+    QCOMPARE(failure(level_set->paint(erased, solver::Brush::erase)), QString());
     for (const int steps : {0, 1, 2, 5, 12, 30}) {
       run(*level_set, steps);
       phi = level_set->snapshot().value();
@@ -80,12 +80,13 @@ class EditingTest : public QObject {
     const Setting setting = this_row();
     const TwoHalves scene;
     const auto level_set = setting.make(scene.source, scene.parameters);
-    QCOMPARE(failure(level_set->paint({{6.0, 6.0, 6.0}, 4.0}, Brush::add)), QString());
+    QCOMPARE(failure(level_set->paint({{6.0, 6.0, 6.0}, 4.0}, solver::Brush::add)), QString());
     run(*level_set, 9);
-    const Sphere added[] = {{{12.0, 28.0, 20.0}, 4.0}, {{38.0, 20.0, 14.0}, 4.0}};
-    for (const Sphere& sphere : added) QCOMPARE(failure(level_set->paint(sphere, Brush::add)), QString());
-    const auto inside = [&](const Sphere& sphere) {
-      const Field phi = level_set->snapshot().value();
+    const solver::Sphere added[] = {{{12.0, 28.0, 20.0}, 4.0}, {{38.0, 20.0, 14.0}, 4.0}};
+    for (const solver::Sphere& sphere : added)
+      QCOMPARE(failure(level_set->paint(sphere, solver::Brush::add)), QString());
+    const auto inside = [&](const solver::Sphere& sphere) {
+      const solver::Field phi = level_set->snapshot().value();
       int count = 0;
       int all = 0;
       scene.for_each_voxel(sphere, [&](Index3 v) {
@@ -94,9 +95,9 @@ class EditingTest : public QObject {
       });
       return std::pair(count, all);
     };
-    for (const Sphere& sphere : added) QCOMPARE(inside(sphere).first, inside(sphere).second);
+    for (const solver::Sphere& sphere : added) QCOMPARE(inside(sphere).first, inside(sphere).second);
     run(*level_set, 20);
-    const Sphere larger{added[0].centre_mm, 7.0};
+    const solver::Sphere larger{added[0].centre_mm, 7.0};
     QCOMPARE(inside(larger).first, inside(larger).second);
     QCOMPARE(inside(added[1]).first, 0);
     QCOMPARE(failure(level_set->validate()), QString());

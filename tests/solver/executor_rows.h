@@ -22,17 +22,17 @@ inline std::shared_ptr<gpu::Device> shared_device() {
 }
 
 struct Setting {
-  ExecutorKind kind;
+  solver::ExecutorKind kind;
   Index3 page_shape;
 
-  [[nodiscard]] ExecutorOptions options() const {
-    ExecutorOptions options;
-    if (kind != ExecutorKind::host) options.device = shared_device();
+  [[nodiscard]] solver::ExecutorOptions options() const {
+    solver::ExecutorOptions options;
+    if (kind != solver::ExecutorKind::host) options.device = shared_device();
     options.page_shape = page_shape;
     return options;
   }
-  [[nodiscard]] std::unique_ptr<Executor> make(std::shared_ptr<const Volume> source,
-                                               const Parameters& parameters) const {
+  [[nodiscard]] std::unique_ptr<solver::Executor> make(std::shared_ptr<const Volume> source,
+                                                       const solver::Parameters& parameters) const {
     return executor(kind, std::move(source), parameters, options());
   }
 };
@@ -41,34 +41,34 @@ struct Setting {
 inline void add_rows() {
   QTest::addColumn<int>("kind");
   QTest::addColumn<int>("layout");
-  QTest::newRow("compute, 8 x 8 x 8") << int(ExecutorKind::compute) << 0;
-  QTest::newRow("compute, 16 x 16 x 1") << int(ExecutorKind::compute) << 1;
-  QTest::newRow("stream") << int(ExecutorKind::stream) << 1;
+  QTest::newRow("compute, 8 x 8 x 8") << int(solver::ExecutorKind::compute) << 0;
+  QTest::newRow("compute, 16 x 16 x 1") << int(solver::ExecutorKind::compute) << 1;
+  QTest::newRow("stream") << int(solver::ExecutorKind::stream) << 1;
 }
 
 inline void add_rows_with_host() {
   add_rows();
-  QTest::newRow("host") << int(ExecutorKind::host) << 0;
+  QTest::newRow("host") << int(solver::ExecutorKind::host) << 0;
 }
 
 inline void add_all_rows() {
   add_rows_with_host();
-  QTest::newRow("reference") << int(ExecutorKind::reference) << 0;
+  QTest::newRow("reference") << int(solver::ExecutorKind::reference) << 0;
 }
 
 inline Setting this_row() {
   QFETCH(int, kind);
   QFETCH(int, layout);
   constexpr Index3 kShapes[] = {{8, 8, 8}, {16, 16, 1}, {4, 4, 4}};
-  return {static_cast<ExecutorKind>(kind), kShapes[layout]};
+  return {static_cast<solver::ExecutorKind>(kind), kShapes[layout]};
 }
 
 // A lumpy source, a start and parameters under which everything is in motion.
 struct Scene {
   Geometry geometry;
   std::shared_ptr<const Volume> source;
-  Parameters parameters;
-  Sphere seed;
+  solver::Parameters parameters;
+  solver::Sphere seed;
 };
 
 inline Scene lumpy_scene(Index3 size, glm::dvec3 spacing = glm::dvec3(1.0)) {

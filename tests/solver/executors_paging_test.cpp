@@ -14,9 +14,9 @@ using namespace tidemark::test;
 namespace {
 
 // phi in voxel order as a shader finds it: by the page table, in the texture of packed pages.
-std::vector<float> seen_through(const PackedView& view) {
-  const PageLayout& pages = view.layout.layout();
-  const auto table = view.page_table->download_values<PhysicalPage>(0, pages.page_count());
+std::vector<float> seen_through(const solver::PackedView& view) {
+  const solver::PageLayout& pages = view.layout.layout();
+  const auto table = view.page_table->download_values<solver::PhysicalPage>(0, pages.page_count());
   const std::int64_t width = view.phi->width();
   std::vector<float> texels(static_cast<std::size_t>(width * view.phi->height()));
   if (!view.phi->download({0, 0, width, view.phi->height()}, std::as_writable_bytes(std::span(texels)))) {
@@ -52,18 +52,18 @@ class ExecutorsPagingTest : public QObject {
     const Setting setting = this_row();
     const Geometry geometry = grid({90, 70, 50});
     const auto source = volume_of(geometry, [](glm::dvec3 p) { return 100.0 + 40.0 * std::sin(p.x / 4.0); });
-    Parameters parameters;
+    solver::Parameters parameters;
     parameters.target = 100.0;
     parameters.range = 30.0;
     const auto level_set = setting.make(source, parameters);
-    const auto host = executor(ExecutorKind::host, source, parameters);
+    const auto host = executor(solver::ExecutorKind::host, source, parameters);
     std::mt19937 random(5);
     for (int edit = 0; edit < 60; ++edit) {
       const glm::dvec3 voxel{random() % 90, random() % 70, random() % 50};
-      const Sphere sphere = sphere_at_voxel(geometry, voxel, 1.0 + random() % 14);
-      const Brush brush = random() % 3 == 0 ? Brush::erase : Brush::add;
+      const solver::Sphere sphere = solver::sphere_at_voxel(geometry, voxel, 1.0 + random() % 14);
+      const solver::Brush brush = random() % 3 == 0 ? solver::Brush::erase : solver::Brush::add;
       const std::int64_t steps = random() % 4;
-      for (Executor* each : {level_set.get(), host.get()}) {
+      for (solver::Executor* each : {level_set.get(), host.get()}) {
         QCOMPARE(failure(each->paint(sphere, brush)), QString());
         run(*each, steps);
       }
@@ -72,12 +72,12 @@ class ExecutorsPagingTest : public QObject {
     QVERIFY(dice(level_set->snapshot().value().mask(), host->snapshot().value().mask()) >= 0.999);
     QVERIFY(level_set->memory().peak_resident_pages > 200);
     // Erasing everything gives every page back.
-    QVERIFY(level_set->paint(sphere_at_voxel(geometry, {45, 35, 25}, 100.0), Brush::erase));
+    QVERIFY(level_set->paint(solver::sphere_at_voxel(geometry, {45, 35, 25}, 100.0), solver::Brush::erase));
     run(*level_set, 8);
     QCOMPARE(level_set->memory().resident_pages, std::int64_t{0});
     QCOMPARE(failure(level_set->validate()), QString());
     // And filling everything leaves nothing to compute.
-    QVERIFY(level_set->paint(sphere_at_voxel(geometry, {45, 35, 25}, 100.0), Brush::add));
+    QVERIFY(level_set->paint(solver::sphere_at_voxel(geometry, {45, 35, 25}, 100.0), solver::Brush::add));
     QCOMPARE(level_set->snapshot().value().mask().count(), geometry.voxel_count());
     QCOMPARE(failure(level_set->validate()), QString());
   }
@@ -87,13 +87,13 @@ class ExecutorsPagingTest : public QObject {
     const Setting setting = this_row();
     const Geometry geometry = grid({30, 26, 22}, {0.7, 0.9, 1.8});
     const auto source = zero_volume(geometry);
-    const auto tested = setting.make(source, Parameters());
-    const auto reference = executor(ExecutorKind::reference, source, Parameters());
+    const auto tested = setting.make(source, solver::Parameters());
+    const auto reference = executor(solver::ExecutorKind::reference, source, solver::Parameters());
     std::mt19937 random(11);
     for (int edit = 0; edit < 20; ++edit) {
       const glm::dvec3 voxel{random() % 30, random() % 26, random() % 22};
-      const Sphere sphere = sphere_at_voxel(geometry, voxel, 1.0 + random() % 8);
-      const Brush brush = edit % 3 == 2 ? Brush::erase : Brush::add;
+      const solver::Sphere sphere = solver::sphere_at_voxel(geometry, voxel, 1.0 + random() % 8);
+      const solver::Brush brush = edit % 3 == 2 ? solver::Brush::erase : solver::Brush::add;
       QVERIFY(tested->paint(sphere, brush));
       QVERIFY(reference->paint(sphere, brush));
     }
@@ -110,11 +110,11 @@ class ExecutorsPagingTest : public QObject {
         const Geometry geometry = grid(size);
         const auto source =
             volume_of(geometry, [](glm::dvec3 p) { return 10.0 * std::sin(p.x + p.y * 2 + p.z); });
-        Parameters parameters;
+        solver::Parameters parameters;
         parameters.range = 5.0;
         const auto tested = setting.make(source, parameters);
-        const auto reference = executor(ExecutorKind::reference, source, parameters);
-        QVERIFY(tested->paint({centre_of(geometry), 4.0}, Brush::add));
+        const auto reference = executor(solver::ExecutorKind::reference, source, parameters);
+        QVERIFY(tested->paint({centre_of(geometry), 4.0}, solver::Brush::add));
         for (int step = 0; step < 4; ++step) {
           QVERIFY(reference->restore(tested->snapshot().value()));
           QVERIFY(run(*tested, 1).voxel_updates <= geometry.voxel_count());
@@ -131,15 +131,15 @@ class ExecutorsPagingTest : public QObject {
     const Setting setting = this_row();
     const Geometry geometry = grid({96, 96, 96});
     const auto source = zero_volume(geometry);
-    Parameters parameters;
+    solver::Parameters parameters;
     parameters.alpha = 1.0;
-    ExecutorOptions small = setting.options();
+    solver::ExecutorOptions small = setting.options();
     small.memory_budget_bytes = 5 << 20;
     const auto limited = executor(setting.kind, source, parameters, small);
     const auto unlimited = setting.make(source, parameters);
-    const Sphere sphere{centre_of(geometry), 6.0};
-    QCOMPARE(failure(limited->paint(sphere, Brush::add)), QString());
-    QVERIFY(unlimited->paint(sphere, Brush::add));
+    const solver::Sphere sphere{centre_of(geometry), 6.0};
+    QCOMPARE(failure(limited->paint(sphere, solver::Brush::add)), QString());
+    QVERIFY(unlimited->paint(sphere, solver::Brush::add));
     int steps = 0;
     for (;; ++steps) {
       QVERIFY(steps < 500);
@@ -155,7 +155,7 @@ class ExecutorsPagingTest : public QObject {
     QVERIFY(limited->snapshot().value().dense() == unlimited->snapshot().value().dense());
     QVERIFY(limited->memory().state_bytes + limited->memory().source_bytes <= small.memory_budget_bytes);
     // It goes on when the surface needs less.
-    QCOMPARE(failure(limited->paint({centre_of(geometry), 100.0}, Brush::erase)), QString());
+    QCOMPARE(failure(limited->paint({centre_of(geometry), 100.0}, solver::Brush::erase)), QString());
     run(*limited, 5);
     QCOMPARE(limited->memory().resident_pages, std::int64_t{0});
   }
@@ -164,9 +164,9 @@ class ExecutorsPagingTest : public QObject {
   void memory_follows_the_surface() {
     const Setting setting = this_row();
     const Geometry geometry = grid({128, 128, 128});
-    const auto level_set = setting.make(zero_volume(geometry), Parameters());
+    const auto level_set = setting.make(zero_volume(geometry), solver::Parameters());
     set_phi(*level_set, geometry, [&](glm::dvec3 p) { return 45.0 - glm::distance(p, centre_of(geometry)); });
-    const MemoryReport memory = level_set->memory();
+    const solver::MemoryReport memory = level_set->memory();
     const auto voxels = static_cast<double>(memory.resident_pages * memory.page_shape.x *
                                             memory.page_shape.y * memory.page_shape.z);
     QVERIFY(memory.resident_pages > 300);
@@ -182,13 +182,13 @@ class ExecutorsPagingTest : public QObject {
       return 100.0 - 2.0 * glm::distance(p, centre_of(scene.geometry));
     });
     const auto level_set = setting.make(scene.source, scene.parameters);
-    QCOMPARE(failure(level_set->paint(scene.seed, Brush::add)), QString());
+    QCOMPARE(failure(level_set->paint(scene.seed, solver::Brush::add)), QString());
     QVERIFY(level_set->quiet_pages().value().empty());
     for (int i = 0; i < 40 && level_set->memory().quiet_pages < level_set->memory().resident_pages; ++i) {
       run(*level_set, 100);
     }
     const std::vector<std::int64_t> at_rest = level_set->quiet_pages().value();
-    const Field phi = level_set->snapshot().value();
+    const solver::Field phi = level_set->snapshot().value();
     QVERIFY(at_rest.size() > 20);
     QCOMPARE(static_cast<std::int64_t>(at_rest.size()), phi.resident_pages());
     QCOMPARE(static_cast<std::int64_t>(at_rest.size()), level_set->memory().quiet_pages);
@@ -197,7 +197,8 @@ class ExecutorsPagingTest : public QObject {
     // A dent in the surface, on the low side of x.
     Index3 voxel(0, 20, 17);
     while (phi.at(voxel) <= 0.0F) ++voxel.x;
-    QCOMPARE(failure(level_set->paint({scene.geometry.to_patient(voxel), 3.0}, Brush::erase)), QString());
+    QCOMPARE(failure(level_set->paint({scene.geometry.to_patient(voxel), 3.0}, solver::Brush::erase)),
+             QString());
     const std::vector<std::int64_t> quiet = level_set->quiet_pages().value();
     QVERIFY(!quiet.empty() && quiet.size() < at_rest.size());
     for (const Index3 step : {Index3(-3, 0, 0), Index3(3, 0, 0), Index3(0, -3, 0), Index3(0, 3, 0),
@@ -212,21 +213,21 @@ class ExecutorsPagingTest : public QObject {
     const Setting setting = this_row();
     const Scene scene = lumpy_scene({45, 40, 35});
     const auto level_set = setting.make(scene.source, scene.parameters);
-    QCOMPARE(failure(level_set->paint(scene.seed, Brush::add)), QString());
+    QCOMPARE(failure(level_set->paint(scene.seed, solver::Brush::add)), QString());
     std::vector<std::int64_t> quiet;
     for (int i = 0; i < 200 && quiet.empty(); ++i) {
-      run(*level_set, kConvergenceWindow);
+      run(*level_set, solver::kConvergenceWindow);
       quiet = level_set->quiet_pages().value();
     }
     QVERIFY(!quiet.empty());
-    const Field phi = level_set->snapshot().value();
+    const solver::Field phi = level_set->snapshot().value();
     const Index3 voxel = phi.layout.first_voxel(quiet.front());
-    const Brush other = phi.at(voxel) > 0.0F ? Brush::erase : Brush::add;
+    const solver::Brush other = phi.at(voxel) > 0.0F ? solver::Brush::erase : solver::Brush::add;
     QCOMPARE(failure(level_set->paint({scene.geometry.to_patient(voxel), 2.0}, other)), QString());
     const std::vector<std::int64_t> still = level_set->quiet_pages().value();
     QVERIFY(std::find(still.begin(), still.end(), quiet.front()) == still.end());
     run(*level_set, 2);
-    QVERIFY((level_set->snapshot().value().at(voxel) > 0.0F) == (other == Brush::add));
+    QVERIFY((level_set->snapshot().value().at(voxel) > 0.0F) == (other == solver::Brush::add));
     QCOMPARE(failure(level_set->validate()), QString());
   }
 
@@ -235,13 +236,13 @@ class ExecutorsPagingTest : public QObject {
     const Setting setting = this_row();
     const Scene scene = lumpy_scene({61, 50, 47});
     const auto level_set = setting.make(scene.source, scene.parameters);
-    PackedView view;
+    solver::PackedView view;
     const auto shows_the_level_set = [&] {
       return level_set->packed_view(view) && view.band == static_cast<float>(level_set->band()) &&
              seen_through(view) == level_set->snapshot().value().dense();
     };
     QVERIFY(shows_the_level_set());
-    QCOMPARE(failure(level_set->paint(scene.seed, Brush::add)), QString());
+    QCOMPARE(failure(level_set->paint(scene.seed, solver::Brush::add)), QString());
     QVERIFY(shows_the_level_set());
     const std::int64_t bytes = level_set->memory().state_bytes;
     for (const std::int64_t steps : {1, 2, 40, 41, 60}) {
@@ -249,16 +250,16 @@ class ExecutorsPagingTest : public QObject {
       QVERIFY(shows_the_level_set());
     }
     QVERIFY(level_set->memory().state_bytes > bytes);  // it has grown
-    QCOMPARE(failure(level_set->paint({scene.seed.centre_mm, 100.0}, Brush::add)), QString());
+    QCOMPARE(failure(level_set->paint({scene.seed.centre_mm, 100.0}, solver::Brush::add)), QString());
     QVERIFY(shows_the_level_set());
-    QCOMPARE(failure(level_set->restore(Field::empty(scene.geometry, level_set->band()))), QString());
+    QCOMPARE(failure(level_set->restore(solver::Field::empty(scene.geometry, level_set->band()))), QString());
     QVERIFY(shows_the_level_set());
   }
 
   void on_the_processor_there_is_nothing_to_draw_from() {
     const Scene scene = lumpy_scene({20, 20, 20});
-    PackedView view;
-    for (const ExecutorKind kind : {ExecutorKind::host, ExecutorKind::reference}) {
+    solver::PackedView view;
+    for (const solver::ExecutorKind kind : {solver::ExecutorKind::host, solver::ExecutorKind::reference}) {
       QVERIFY(!executor(kind, scene.source, scene.parameters)->packed_view(view));
     }
   }

@@ -13,18 +13,18 @@ class ExecutorsTest : public QObject {
  private slots:
   void it_agrees_with_the_reference_data() {
     add_rows();
-    QTest::newRow("compute, 4 x 4 x 4") << int(ExecutorKind::compute) << 2;  // nothing is hard-wired
+    QTest::newRow("compute, 4 x 4 x 4") << int(solver::ExecutorKind::compute) << 2;  // nothing is hard-wired
   }
   void it_agrees_with_the_reference() {  // T5, and anisotropy
     const Setting setting = this_row();
     for (const glm::dvec3 spacing : {glm::dvec3(1.0), glm::dvec3(0.7, 0.9, 2.1)}) {
-      for (const Scheme scheme : {Scheme::split, Scheme::paper}) {
+      for (const solver::Scheme scheme : {solver::Scheme::split, solver::Scheme::paper}) {
         Scene scene = lumpy_scene({40, 37, 29}, spacing);
         scene.parameters.scheme = scheme;
         const auto tested = setting.make(scene.source, scene.parameters);
-        const auto reference = executor(ExecutorKind::reference, scene.source, scene.parameters);
-        for (Executor* level_set : {tested.get(), reference.get()}) {
-          QCOMPARE(failure(level_set->paint(scene.seed, Brush::add)), QString());
+        const auto reference = executor(solver::ExecutorKind::reference, scene.source, scene.parameters);
+        for (solver::Executor* level_set : {tested.get(), reference.get()}) {
+          QCOMPARE(failure(level_set->paint(scene.seed, solver::Brush::add)), QString());
         }
         // Rounding grows with the steps; each step begins where the tested one stands.
         for (int step = 0; step < 25; ++step) {
@@ -44,9 +44,10 @@ class ExecutorsTest : public QObject {
       std::vector<float> results[2];
       for (const int shared : {0, 1}) {
         qputenv("TIDEMARK_APRON", shared != 0 ? "shared" : "columns");
-        const auto tested = Setting{ExecutorKind::compute, shape}.make(scene.source, scene.parameters);
+        const auto tested =
+            Setting{solver::ExecutorKind::compute, shape}.make(scene.source, scene.parameters);
         qunsetenv("TIDEMARK_APRON");
-        QCOMPARE(failure(tested->paint(scene.seed, Brush::add)), QString());
+        QCOMPARE(failure(tested->paint(scene.seed, solver::Brush::add)), QString());
         run(*tested, 30);
         results[shared] = tested->snapshot().value().dense();
       }
@@ -59,17 +60,18 @@ class ExecutorsTest : public QObject {
     const Setting setting = this_row();
     const Scene scene = lumpy_scene({61, 50, 47});
     const auto tested = setting.make(scene.source, scene.parameters);
-    const auto host = executor(ExecutorKind::host, scene.source, scene.parameters);
-    for (Executor* level_set : {tested.get(), host.get()}) {
-      QCOMPARE(failure(level_set->paint(scene.seed, Brush::add)), QString());
+    const auto host = executor(solver::ExecutorKind::host, scene.source, scene.parameters);
+    for (solver::Executor* level_set : {tested.get(), host.get()}) {
+      QCOMPARE(failure(level_set->paint(scene.seed, solver::Brush::add)), QString());
       run(*level_set, 60);
-      Parameters other = scene.parameters;
+      solver::Parameters other = scene.parameters;
       other.target = 70.0;
       other.alpha = 0.5;
       QCOMPARE(failure(level_set->set_parameters(other)), QString());
       run(*level_set, 40);
-      QCOMPARE(failure(level_set->paint({scene.seed.centre_mm + glm::dvec3(9, 0, 0), 6.0}, Brush::erase)),
-               QString());
+      QCOMPARE(
+          failure(level_set->paint({scene.seed.centre_mm + glm::dvec3(9, 0, 0), 6.0}, solver::Brush::erase)),
+          QString());
       run(*level_set, 40);
     }
     QVERIFY(largest_difference(*tested, *host) < 1e-3);
@@ -84,11 +86,11 @@ class ExecutorsTest : public QObject {
     const Setting setting = this_row();
     const Scene scene = lumpy_scene({61, 50, 47});
     const auto tested = setting.make(scene.source, scene.parameters);
-    const auto host = executor(ExecutorKind::host, scene.source, scene.parameters);
-    AdvanceReport reports[2];
+    const auto host = executor(solver::ExecutorKind::host, scene.source, scene.parameters);
+    solver::AdvanceReport reports[2];
     int i = 0;
-    for (Executor* level_set : {tested.get(), host.get()}) {
-      QCOMPARE(failure(level_set->paint(scene.seed, Brush::add)), QString());
+    for (solver::Executor* level_set : {tested.get(), host.get()}) {
+      QCOMPARE(failure(level_set->paint(scene.seed, solver::Brush::add)), QString());
       reports[i] = run(*level_set, 2000, true);
       QVERIFY(reports[i].converged);
       ++i;
@@ -97,7 +99,7 @@ class ExecutorsTest : public QObject {
     QVERIFY(std::abs(reports[0].surface_speed - reports[1].surface_speed) < 1e-4);
     QVERIFY(reports[0].voxel_updates > 0);
     run(*tested, 4000);
-    const MemoryReport memory = tested->memory();
+    const solver::MemoryReport memory = tested->memory();
     QVERIFY(memory.resident_pages > 20);
     QCOMPARE(memory.quiet_pages, memory.resident_pages);
     QCOMPARE(run(*tested, 50).voxel_updates, std::int64_t{0});
@@ -106,7 +108,7 @@ class ExecutorsTest : public QObject {
     QCOMPARE(tested->memory().quiet_pages, std::int64_t{0});
     run(*tested, 4000);
     QCOMPARE(run(*tested, 50).voxel_updates, std::int64_t{0});
-    QCOMPARE(failure(tested->paint({scene.seed.centre_mm, 3.0}, Brush::erase)), QString());
+    QCOMPARE(failure(tested->paint({scene.seed.centre_mm, 3.0}, solver::Brush::erase)), QString());
     QVERIFY(run(*tested, 5).voxel_updates > 0);
     QCOMPARE(failure(tested->validate()), QString());
   }
@@ -118,7 +120,7 @@ class ExecutorsTest : public QObject {
     std::vector<float> expected;
     for (const int chunk : {84, 1, 7, 30}) {
       const auto tested = setting.make(scene.source, scene.parameters);
-      QCOMPARE(failure(tested->paint(scene.seed, Brush::add)), QString());
+      QCOMPARE(failure(tested->paint(scene.seed, solver::Brush::add)), QString());
       for (int done = 0; done < 84; done += chunk) run(*tested, std::min(chunk, 84 - done));
       const std::vector<float> phi = tested->snapshot().value().dense();
       if (expected.empty()) expected = phi;
@@ -131,9 +133,9 @@ class ExecutorsTest : public QObject {
     const Setting setting = this_row();
     const Scene scene = lumpy_scene({40, 40, 40});
     const auto tested = setting.make(scene.source, scene.parameters);
-    QCOMPARE(failure(tested->paint(scene.seed, Brush::add)), QString());
+    QCOMPARE(failure(tested->paint(scene.seed, solver::Brush::add)), QString());
     run(*tested, 5);
-    const Field start = tested->snapshot().value();
+    const solver::Field start = tested->snapshot().value();
     run(*tested, 30);
     const std::vector<float> expected = tested->snapshot().value().dense();
     const std::int64_t n = 40;
@@ -150,9 +152,9 @@ class ExecutorsTest : public QObject {
       auto source = std::make_shared<Volume>(*scene.source);
       source->voxels = mirrored(scene.source->values());
       const auto other = setting.make(source, scene.parameters);
-      QCOMPARE(
-          failure(other->restore(Field::from_dense(scene.geometry, mirrored(start.dense()), start.band))),
-          QString());
+      QCOMPARE(failure(other->restore(
+                   solver::Field::from_dense(scene.geometry, mirrored(start.dense()), start.band))),
+               QString());
       run(*other, 30);
       QVERIFY(mirrored(other->snapshot().value().dense()) == expected);
     }
@@ -163,9 +165,9 @@ class ExecutorsTest : public QObject {
     const Setting setting = this_row();
     const Scene scene = lumpy_scene({45, 40, 35});
     const auto unbroken = setting.make(scene.source, scene.parameters);
-    QCOMPARE(failure(unbroken->paint(scene.seed, Brush::add)), QString());
+    QCOMPARE(failure(unbroken->paint(scene.seed, solver::Brush::add)), QString());
     run(*unbroken, 30);
-    const Field saved = unbroken->snapshot().value();
+    const solver::Field saved = unbroken->snapshot().value();
     const auto resumed = setting.make(scene.source, scene.parameters);
     QCOMPARE(failure(resumed->restore(saved)), QString());
     run(*unbroken, 30);
@@ -179,9 +181,9 @@ class ExecutorsTest : public QObject {
     const Setting setting = this_row();
     const Scene scene = lumpy_scene({40, 37, 29});
     const auto unbroken = setting.make(scene.source, scene.parameters);
-    QVERIFY(unbroken->paint(scene.seed, Brush::add));
+    QVERIFY(unbroken->paint(scene.seed, solver::Brush::add));
     run(*unbroken, 24);
-    const Field checkpoint = unbroken->snapshot().value();
+    const solver::Field checkpoint = unbroken->snapshot().value();
     QVERIFY(unbroken->restore(checkpoint));
     run(*unbroken, 24);
     const std::vector<float> expected = unbroken->snapshot().value().dense();
@@ -190,12 +192,12 @@ class ExecutorsTest : public QObject {
     for (int at = 1; at < 200; ++at) {
       auto device = gpu::Device::create_headless({gpu::GlVersion::gl45, false});
       QVERIFY(device);
-      ExecutorOptions options = setting.options();
+      solver::ExecutorOptions options = setting.options();
       options.device = *device;
       (*device)->lose_at_check(at);
       // Set-up, restoring, steps and reading back may each be the stage at which it happens.
-      const auto attempt = [&]() -> Result<Field> {
-        auto made = make_executor(setting.kind, scene.source, scene.parameters, options);
+      const auto attempt = [&]() -> Result<solver::Field> {
+        auto made = solver::make_executor(setting.kind, scene.source, scene.parameters, options);
         if (!made) return pass_on(made);
         TIDEMARK_TRY((*made)->restore(checkpoint));
         auto report = (*made)->advance({.steps = 24});

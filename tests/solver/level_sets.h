@@ -54,21 +54,25 @@ inline std::shared_ptr<const Volume> zero_volume(const Geometry& geometry) {
   return volume_of(geometry, [](glm::dvec3) { return 0.0; });
 }
 
-inline std::unique_ptr<Executor> executor(ExecutorKind kind, std::shared_ptr<const Volume> source,
-                                          const Parameters& parameters, const ExecutorOptions& options = {}) {
-  auto made = make_executor(kind, std::move(source), parameters, options);
+inline std::unique_ptr<solver::Executor> executor(solver::ExecutorKind kind,
+                                                  std::shared_ptr<const Volume> source,
+                                                  const solver::Parameters& parameters,
+                                                  const solver::ExecutorOptions& options = {}) {
+  auto made = solver::make_executor(kind, std::move(source), parameters, options);
   if (!made) qFatal("%s", made.error().message.c_str());
   return std::move(*made);
 }
 
 // Replaces phi by a function's values (in units of the smallest spacing), clamped to the band.
-inline void set_phi(Executor& level_set, const Geometry& geometry, const Function& phi) {
-  const auto status = level_set.restore(Field::from_dense(geometry, sample(geometry, phi), level_set.band()));
+inline void set_phi(solver::Executor& level_set, const Geometry& geometry, const Function& phi) {
+  const auto status =
+      level_set.restore(solver::Field::from_dense(geometry, sample(geometry, phi), level_set.band()));
   if (!status) qFatal("%s", status.error().message.c_str());
 }
 
-inline AdvanceReport run(Executor& level_set, std::int64_t steps, bool until_converged = false) {
-  Advance request;
+inline solver::AdvanceReport run(solver::Executor& level_set, std::int64_t steps,
+                                 bool until_converged = false) {
+  solver::Advance request;
   request.steps = steps;
   request.until_converged = until_converged;
   auto report = level_set.advance(request);
@@ -83,12 +87,12 @@ inline double largest_difference(const auto& a, const auto& b) {
   }
   return largest;
 }
-inline double largest_difference(const Executor& a, const Executor& b) {
+inline double largest_difference(const solver::Executor& a, const solver::Executor& b) {
   return largest_difference(a.snapshot().value().dense(), b.snapshot().value().dense());
 }
 
 // Calls visit(point in mm) for each crossing of phi = 0 along a grid line, by linear interpolation.
-inline void for_each_crossing(const Field& phi, const std::function<void(glm::dvec3)>& visit) {
+inline void for_each_crossing(const solver::Field& phi, const std::function<void(glm::dvec3)>& visit) {
   const Geometry& g = phi.geometry;
   for (std::int64_t z = 0; z < g.size.z; ++z) {
     for (std::int64_t y = 0; y < g.size.y; ++y) {
@@ -110,7 +114,7 @@ inline void for_each_crossing(const Field& phi, const std::function<void(glm::dv
 }
 
 // The mean distance of the surface's crossings from a point, in mm.
-inline double mean_radius(const Field& phi, glm::dvec3 centre) {
+inline double mean_radius(const solver::Field& phi, glm::dvec3 centre) {
   double sum = 0.0;
   int count = 0;
   for_each_crossing(phi, [&](glm::dvec3 point) {
@@ -122,7 +126,7 @@ inline double mean_radius(const Field& phi, glm::dvec3 centre) {
 
 // The volume inside phi = 0 in voxels of the smallest spacing cubed, at sub-voxel precision (a linear ramp
 // of one spacing stands for each voxel's share).
-inline double smooth_volume(const Field& phi) {
+inline double smooth_volume(const solver::Field& phi) {
   double sum = 0.0;
   for (const float value : phi.dense()) sum += std::clamp(0.5 + static_cast<double>(value), 0.0, 1.0);
   return sum;

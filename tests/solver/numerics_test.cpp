@@ -15,7 +15,7 @@ using namespace tidemark::test;
 
 namespace {
 
-HWY_NAMESPACE::Stencil<double> stencil_of(const Function& phi, glm::dvec3 p) {
+solver::HWY_NAMESPACE::Stencil<double> stencil_of(const Function& phi, glm::dvec3 p) {
   const auto at = [&](int x, int y, int z) { return phi(p + glm::dvec3(x, y, z)); };
   const auto dx = [&](int y, int z) { return at(1, y, z) - at(-1, y, z); };
   return {at(0, 0, 0), at(-1, 0, 0),  at(1, 0, 0),  at(0, -1, 0), at(0, 1, 0), at(0, 0, -1),
@@ -25,8 +25,8 @@ HWY_NAMESPACE::Stencil<double> stencil_of(const Function& phi, glm::dvec3 p) {
 
 double kappa(const Function& phi, glm::dvec3 p) {
   const double inverse_spacing[3] = {1.0, 1.0, 1.0};
-  return HWY_NAMESPACE::curvature<double>(
-      HWY_NAMESPACE::differences<false, double>(stencil_of(phi, p), inverse_spacing));
+  return solver::HWY_NAMESPACE::curvature<double>(
+      solver::HWY_NAMESPACE::differences<false, double>(stencil_of(phi, p), inverse_spacing));
 }
 
 // The largest relative error of kappa at points of the surface, off the axes.
@@ -64,12 +64,13 @@ std::vector<float> transformed(const std::vector<float>& values, const Geometry&
 }
 
 std::vector<float> evolved(const Geometry& geometry, const std::vector<float>& source,
-                           const std::vector<float>& phi, const Parameters& parameters, int steps) {
+                           const std::vector<float>& phi, const solver::Parameters& parameters, int steps) {
   auto volume = std::make_shared<Volume>();
   volume->geometry = geometry;
   volume->voxels = source;
-  const auto level_set = executor(ExecutorKind::host, volume, parameters);
-  if (!level_set->restore(Field::from_dense(geometry, phi, level_set->band()))) qFatal("restore failed");
+  const auto level_set = executor(solver::ExecutorKind::host, volume, parameters);
+  if (!level_set->restore(solver::Field::from_dense(geometry, phi, level_set->band())))
+    qFatal("restore failed");
   run(*level_set, steps);
   return level_set->snapshot().value().dense();
 }
@@ -88,15 +89,15 @@ class NumericsTest : public QObject {
       return 12.0 - p.x + 0.05 * (parity % 2 == 0 ? 1.0 : -1.0);
     };
     const auto roughness = [&](double factor) {
-      Parameters parameters;
+      solver::Parameters parameters;
       parameters.alpha = 0.0;
       parameters.rescaling_term = false;
       parameters.band = std::numeric_limits<double>::infinity();
       parameters.time_step_factor = factor;
-      const auto level_set = executor(ExecutorKind::host, zero_volume(geometry), parameters);
+      const auto level_set = executor(solver::ExecutorKind::host, zero_volume(geometry), parameters);
       set_phi(*level_set, geometry, ripple);
       run(*level_set, 200);
-      const Field phi = level_set->snapshot().value();
+      const solver::Field phi = level_set->snapshot().value();
       double worst = 0.0;
       for (std::int64_t y = 4; y < 20; ++y) {
         worst = std::max(worst, std::abs(static_cast<double>(phi.at({12, y, 12}) - phi.at({12, y + 1, 12}))));
@@ -118,12 +119,12 @@ class NumericsTest : public QObject {
     for (int trial = 0; trial < 32; ++trial) {
       const Geometry geometry = grid({24, 24, 20}, {1.0, uniform(1.0, 2.0), uniform(1.0, 4.0)});
       const auto source = volume_of(geometry, [&](glm::dvec3) { return uniform(-100, 100); });
-      Parameters parameters;
+      solver::Parameters parameters;
       parameters.alpha = trial % 8 == 0 ? 0.0 : uniform(0, 1);
       parameters.range = uniform(10, 80);
-      parameters.scheme = trial % 4 == 3 ? Scheme::paper : Scheme::split;
-      const auto level_set = executor(ExecutorKind::host, source, parameters);
-      QVERIFY(level_set->paint({centre_of(geometry), 8.0}, Brush::add));
+      parameters.scheme = trial % 4 == 3 ? solver::Scheme::paper : solver::Scheme::split;
+      const auto level_set = executor(solver::ExecutorKind::host, source, parameters);
+      QVERIFY(level_set->paint({centre_of(geometry), 8.0}, solver::Brush::add));
       // Unstable runs flip voxels to and fro by much of the band in every step.
       run(*level_set, 300);
       const std::vector<float> before = level_set->snapshot().value().dense();
@@ -182,7 +183,7 @@ class NumericsTest : public QObject {
     const auto phi = sample(geometry, [&](glm::dvec3 p) {
       return std::clamp(8.0 - glm::distance(p, glm::dvec3(10, 12, 13)) + std::sin(p.x), -2.5, 2.5);
     });
-    Parameters parameters;
+    solver::Parameters parameters;
     parameters.range = 40.0;
     parameters.alpha = 0.6;
     const auto one = evolved(geometry, source, phi, parameters, 1);
@@ -217,11 +218,11 @@ class NumericsTest : public QObject {
     auto phi = sample(geometry, [&](glm::dvec3 p) {
       return std::clamp(8.0 - glm::distance(p, glm::dvec3(10, 12, 13)) + std::sin(p.x), -2.5, 2.5);
     });
-    Parameters parameters;
+    solver::Parameters parameters;
     parameters.target = 0.0;
     parameters.range = 4.0;
     parameters.alpha = 0.5;
-    parameters.data_form = DataForm::raw;
+    parameters.data_form = solver::DataForm::raw;
     auto result = evolved(geometry, source, phi, parameters, 30);
     for (float& value : phi) value = -value;
     const auto mirrored = evolved(geometry, opposite, phi, parameters, 30);
@@ -232,9 +233,9 @@ class NumericsTest : public QObject {
   void a_plane_keeps_its_speed_along_a_coarse_axis() {  // T11
     for (const double spacing : {3.0, 6.0, 7.5}) {
       const Geometry geometry = grid({9, 9, 24}, {1.0, 1.0, spacing});
-      Parameters parameters;
+      solver::Parameters parameters;
       parameters.alpha = 0.1;
-      const auto level_set = executor(ExecutorKind::host, zero_volume(geometry), parameters);
+      const auto level_set = executor(solver::ExecutorKind::host, zero_volume(geometry), parameters);
       const double start = 8.3 * spacing;
       set_phi(*level_set, geometry, [&](glm::dvec3 p) { return start - p.z; });
       const double way = 6.0 * spacing;  // at speed 0.1
@@ -254,7 +255,7 @@ class NumericsTest : public QObject {
       const glm::dvec3 d = p - centre;
       return std::sqrt(d.x * d.x + d.y * d.y * 1.3 + d.z * d.z * 0.8);
     };
-    Parameters parameters;
+    solver::Parameters parameters;
     parameters.target = 14.0;
     parameters.range = 5.0;
     parameters.alpha = 0.6;
@@ -262,18 +263,18 @@ class NumericsTest : public QObject {
       const auto slices = static_cast<std::int64_t>(std::round(size_mm / spacing));
       Geometry geometry = grid({60, 60, slices}, {1.0, 1.0, spacing});
       geometry.origin_mm.z = 0.5 * (spacing - 1.0);
-      const auto level_set = executor(ExecutorKind::host, volume_of(geometry, source), parameters);
-      if (!level_set->paint({centre, 12.0}, Brush::add)) qFatal("paint failed");
+      const auto level_set = executor(solver::ExecutorKind::host, volume_of(geometry, source), parameters);
+      if (!level_set->paint({centre, 12.0}, solver::Brush::add)) qFatal("paint failed");
       run(*level_set, 4000, true);
       if (!level_set->validate()) qFatal("validate failed");
       return level_set->snapshot().value();
     };
-    const Field isotropic = converge(1.0);
+    const solver::Field isotropic = converge(1.0);
     const double exact_volume = smooth_volume(isotropic);
     std::vector<glm::dvec3> surface;
     for_each_crossing(isotropic, [&](glm::dvec3 p) { surface.push_back(p); });
     for (const double spacing : {3.0, 6.0, 7.5}) {
-      const Field phi = converge(spacing);
+      const solver::Field phi = converge(spacing);
       double worst = 0.0;
       // To the nearest point, not by phi, which says no distance beyond its band.
       for_each_crossing(phi, [&](glm::dvec3 p) {
@@ -294,26 +295,26 @@ class NumericsTest : public QObject {
     const Geometry geometry = grid({56, 56, 56});
     const glm::dvec3 centre = centre_of(geometry);
     const auto source = volume_of(geometry, [&](glm::dvec3 p) { return glm::distance(p, centre); });
-    Parameters parameters;
+    solver::Parameters parameters;
     parameters.target = 14.0;
     parameters.range = 4.0;
     parameters.alpha = 0.4;
     double radius[2];
     for (const bool skip : {false, true}) {
-      ExecutorOptions options;
+      solver::ExecutorOptions options;
       options.skip_quiet_pages = skip;
-      const auto level_set = executor(ExecutorKind::host, source, parameters, options);
-      QVERIFY(level_set->paint({centre, 13.0}, Brush::add));
-      const AdvanceReport active = run(*level_set, 20);
+      const auto level_set = executor(solver::ExecutorKind::host, source, parameters, options);
+      QVERIFY(level_set->paint({centre, 13.0}, solver::Brush::add));
+      const solver::AdvanceReport active = run(*level_set, 20);
       run(*level_set, 3000);
       radius[skip ? 1 : 0] = mean_radius(level_set->snapshot().value(), centre);
-      const AdvanceReport rest = run(*level_set, 20);
+      const solver::AdvanceReport rest = run(*level_set, 20);
       if (skip) {
         qInfo("at rest %lld voxel updates in 20 steps, %lld while it moved",
               static_cast<long long>(rest.voxel_updates), static_cast<long long>(active.voxel_updates));
         QVERIFY(static_cast<double>(rest.voxel_updates) < 0.02 * static_cast<double>(active.voxel_updates));
         // New parameters wake everything.
-        Parameters wider = parameters;
+        solver::Parameters wider = parameters;
         wider.target = 16.0;
         QVERIFY(level_set->set_parameters(wider));
         run(*level_set, 1500, true);
@@ -329,26 +330,26 @@ class NumericsTest : public QObject {
 
   void parameters_that_make_no_sense_are_refused_by_name() {
     const auto refused = [](auto change, const char* name) {
-      Parameters parameters;
+      solver::Parameters parameters;
       change(parameters);
-      const auto status = check(parameters);
+      const auto status = solver::check(parameters);
       return !status && status.error().kind == ErrorKind::usage &&
              status.error().message.find(name) != std::string::npos;
     };
-    QVERIFY(refused([](Parameters& p) { p.range = 0.0; }, "epsilon"));
-    QVERIFY(refused([](Parameters& p) { p.range = std::nan(""); }, "epsilon"));
-    QVERIFY(refused([](Parameters& p) { p.alpha = 1.5; }, "alpha"));
-    QVERIFY(refused([](Parameters& p) { p.band = 1.0; }, "band"));
-    QVERIFY(refused([](Parameters& p) { p.rescale = -1.0; }, "rescale"));
-    QVERIFY(refused([](Parameters& p) { p.target = std::nan(""); }, "target"));
-    QCOMPARE(failure(check(Parameters())), QString());
+    QVERIFY(refused([](solver::Parameters& p) { p.range = 0.0; }, "epsilon"));
+    QVERIFY(refused([](solver::Parameters& p) { p.range = std::nan(""); }, "epsilon"));
+    QVERIFY(refused([](solver::Parameters& p) { p.alpha = 1.5; }, "alpha"));
+    QVERIFY(refused([](solver::Parameters& p) { p.band = 1.0; }, "band"));
+    QVERIFY(refused([](solver::Parameters& p) { p.rescale = -1.0; }, "rescale"));
+    QVERIFY(refused([](solver::Parameters& p) { p.target = std::nan(""); }, "target"));
+    QCOMPARE(failure(solver::check(solver::Parameters())), QString());
   }
 
   void alpha_converts_to_the_papers() {
-    Parameters parameters;
+    solver::Parameters parameters;
     parameters.alpha = 0.5;
     parameters.range = 100.0;
-    QVERIFY(std::abs(paper_alpha(parameters) - 0.5 / 50.5) < 1e-12);
+    QVERIFY(std::abs(solver::paper_alpha(parameters) - 0.5 / 50.5) < 1e-12);
   }
 };
 

@@ -23,7 +23,7 @@ class PagingTest : public QObject {
   void every_voxel_has_an_address_of_its_own() {
     for (const Index3 shape : kShapes) {
       for (const Index3 size : {Index3(1, 7, 61), Index3(17, 16, 5), Index3(8, 8, 8), Index3(175, 1, 3)}) {
-        const PageLayout layout(size, shape);
+        const solver::PageLayout layout(size, shape);
         std::vector<bool> seen(static_cast<std::size_t>(layout.page_count() * layout.voxels_per_page()));
         std::int64_t valid_voxels = 0;
         for (std::int64_t page = 0; page < layout.page_count(); ++page) {
@@ -35,7 +35,7 @@ class PagingTest : public QObject {
         for (std::int64_t z = 0; z < size.z; ++z) {
           for (std::int64_t y = 0; y < size.y; ++y) {
             for (std::int64_t x = 0; x < size.x; ++x) {
-              const VirtualAddress address = layout.translate({x, y, z});
+              const solver::VirtualAddress address = layout.translate({x, y, z});
               const auto index =
                   static_cast<std::size_t>(address.page * layout.voxels_per_page() + address.offset);
               QVERIFY(!seen[index]);
@@ -51,8 +51,8 @@ class PagingTest : public QObject {
 
   void tables_stay_consistent_while_pages_come_and_go() {  // T6
     for (const Index3 shape : kShapes) {
-      const PageLayout layout({40, 33, 20}, shape);
-      PageTable table(layout);
+      const solver::PageLayout layout({40, 33, 20}, shape);
+      solver::PageTable table(layout);
       std::mt19937 random(3);
       std::vector<bool> resident(static_cast<std::size_t>(layout.page_count()));
       for (int change = 0; change < 3000; ++change) {
@@ -61,8 +61,8 @@ class PagingTest : public QObject {
         if (resident[index]) {
           table.release(page, random() % 2 == 0);
         } else {
-          const PhysicalPage physical = table.allocate(page);
-          QVERIFY(physical >= kFirstPage);
+          const solver::PhysicalPage physical = table.allocate(page);
+          QVERIFY(physical >= solver::kFirstPage);
           QCOMPARE(table.virtual_page(physical), page);
         }
         resident[index] = !resident[index];
@@ -87,7 +87,7 @@ class PagingTest : public QObject {
       return std::clamp(7.0 - glm::distance(p, centre_of(geometry)), -2.5, 2.5);
     });
     for (const Index3 shape : kShapes) {
-      const Field field = Field::from_dense(geometry, values, 2.5, shape);
+      const solver::Field field = solver::Field::from_dense(geometry, values, 2.5, shape);
       QCOMPARE(field.dense(), values);
       QVERIFY(field.resident_pages() > 0);
       QVERIFY(field.resident_pages() < field.layout.page_count());
@@ -101,18 +101,19 @@ class PagingTest : public QObject {
     const auto values = sample(geometry, [&](glm::dvec3 p) {
       return std::clamp(9.0 - glm::distance(p, centre_of(geometry)), -2.5, 2.5);
     });
-    const auto level_set = executor(ExecutorKind::host, zero_volume(geometry), Parameters());
-    QVERIFY(level_set->restore(Field::from_dense(geometry, values, 2.5)));
-    const Field field = level_set->snapshot().value();
+    const auto level_set = executor(solver::ExecutorKind::host, zero_volume(geometry), solver::Parameters());
+    QVERIFY(level_set->restore(solver::Field::from_dense(geometry, values, 2.5)));
+    const solver::Field field = level_set->snapshot().value();
     QCOMPARE(failure(validate(field)), QString());
-    Field broken = field;
+    solver::Field broken = field;
     broken.pages[100] = std::numeric_limits<float>::quiet_NaN();
     QVERIFY(!validate(broken));
     broken = field;
     broken.pages[100] = 2.6F;
     QVERIFY(!validate(broken));
     broken = field;  // a resident page dropped although its neighbours are not flat
-    broken.table[static_cast<std::size_t>(field.layout.translate({16, 16, 8}).page)] = Field::kOutside;
+    broken.table[static_cast<std::size_t>(field.layout.translate({16, 16, 8}).page)] =
+        solver::Field::kOutside;
     QVERIFY(!validate(broken));
   }
 };

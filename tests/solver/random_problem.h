@@ -13,14 +13,14 @@ inline double uniform_number(std::mt19937& random, double low, double high) {
 }
 
 // T, epsilon and alpha, both schemes, both forms of the data term, and now and then without a term.
-inline Parameters random_parameters(std::mt19937& random) {
+inline solver::Parameters random_parameters(std::mt19937& random) {
   const auto uniform = [&](double low, double high) { return uniform_number(random, low, high); };
-  Parameters p;
+  solver::Parameters p;
   p.target = uniform(60, 160);
   p.range = uniform(5, 80);
   p.alpha = random() % 8 == 0 ? (random() % 2 == 0 ? 0.0 : 1.0) : uniform(0, 1);
-  p.scheme = random() % 4 == 0 ? Scheme::paper : Scheme::split;
-  p.data_form = random() % 4 == 0 ? DataForm::raw : DataForm::clamped;
+  p.scheme = random() % 4 == 0 ? solver::Scheme::paper : solver::Scheme::split;
+  p.data_form = random() % 4 == 0 ? solver::DataForm::raw : solver::DataForm::clamped;
   p.data_term = random() % 8 != 0;
   p.curvature_term = random() % 8 != 0;
   return p;
@@ -28,7 +28,7 @@ inline Parameters random_parameters(std::mt19937& random) {
 
 struct RandomProblem {
   std::shared_ptr<const Volume> source;
-  Parameters parameters;
+  solver::Parameters parameters;
 };
 
 // A lumpy source with noise, random parameters and random spacing. Braces fix the order in which the numbers
@@ -50,14 +50,14 @@ inline RandomProblem random_problem(std::mt19937& random) {
   return problem;
 }
 
-inline void seed(Executor& level_set, const Geometry& geometry, std::mt19937& random) {
+inline void seed(solver::Executor& level_set, const Geometry& geometry, std::mt19937& random) {
   for (int i = 0; i < 3; ++i) {
     const glm::dvec3 voxel{random() % static_cast<unsigned>(geometry.size.x),
                            random() % static_cast<unsigned>(geometry.size.y),
                            random() % static_cast<unsigned>(geometry.size.z)};
-    const auto brush = i == 2 ? Brush::erase : Brush::add;
+    const auto brush = i == 2 ? solver::Brush::erase : solver::Brush::add;
     const double radius = 2.0 + random() % 6;
-    if (!level_set.paint(sphere_at_voxel(geometry, voxel, radius), brush)) qFatal("paint failed");
+    if (!level_set.paint(solver::sphere_at_voxel(geometry, voxel, radius), brush)) qFatal("paint failed");
   }
 }
 
@@ -74,7 +74,8 @@ inline bool is_flat(const std::vector<double>& phi, const Geometry& g, Index3 v)
   return true;
 }
 
-inline bool resident_pages_cover_what_is_not_flat(const Field& field, const std::vector<double>& phi) {
+inline bool resident_pages_cover_what_is_not_flat(const solver::Field& field,
+                                                  const std::vector<double>& phi) {
   const Geometry& g = field.geometry;
   for (std::int64_t i = 0; i < g.voxel_count(); ++i) {
     const Index3 v(i % g.size.x, i / g.size.x % g.size.y, i / (g.size.x * g.size.y));

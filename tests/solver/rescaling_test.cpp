@@ -12,15 +12,15 @@ using namespace tidemark::test;
 
 namespace {
 
-Parameters rescaling_alone() {
-  Parameters parameters;
+solver::Parameters rescaling_alone() {
+  solver::Parameters parameters;
   parameters.data_term = false;
   parameters.curvature_term = false;
   return parameters;
 }
 
 // The mean of | |grad phi| - 1 | over the voxels with |phi| <= 1, by central differences.
-double gradient_error(const Field& phi) {
+double gradient_error(const solver::Field& phi) {
   double sum = 0.0;
   int count = 0;
   const Index3 size = phi.geometry.size;
@@ -75,14 +75,14 @@ class RescalingTest : public QObject {
     const Geometry geometry = grid({56, 56, 56});
     const glm::dvec3 centre = centre_of(geometry);
     for (const double factor : {3.0, 0.3}) {
-      const auto level_set = executor(ExecutorKind::host, zero_volume(geometry), rescaling_alone());
+      const auto level_set = executor(solver::ExecutorKind::host, zero_volume(geometry), rescaling_alone());
       set_phi(*level_set, geometry, [&](glm::dvec3 p) { return factor * (18.0 - glm::distance(p, centre)); });
       double time = 0.0;
       for (const auto& [until, allowed] : {std::pair(20.0, 0.02), {150.0, 0.05}}) {
         const auto steps = static_cast<std::int64_t>(std::ceil((until - time) / level_set->time_step()));
         run(*level_set, steps);
         time += static_cast<double>(steps) * level_set->time_step();
-        const Field phi = level_set->snapshot().value();
+        const solver::Field phi = level_set->snapshot().value();
         const double drift = std::abs(mean_radius(phi, centre) - 18.0);
         const double error = gradient_error(phi);
         qInfo("T4: from phi x %.1f, at time %.0f: drift %.3f voxel, mean | |grad| - 1 | %.4f", factor, time,
@@ -103,7 +103,7 @@ class RescalingTest : public QObject {
       QVERIFY(mask.count() > 20);
       const double band = std::max(2.5, 2.0 * std::max({spacing.x, spacing.y, spacing.z}) /
                                             std::min({spacing.x, spacing.y, spacing.z}));
-      const Field phi = distance_transform(mask, band);
+      const solver::Field phi = solver::distance_transform(mask, band);
       for (std::int64_t i = 0; i < geometry.voxel_count(); ++i) {
         const Index3 v(i % 14, i / 14 % 13, i / (14 * 13));
         QVERIFY(std::abs(phi.at(v) - brute_force_distance(mask, v, band)) < 1e-5);
@@ -128,8 +128,8 @@ class RescalingTest : public QObject {
     };
     for (const auto& [is_box, factor] : {std::pair(false, 1.0F), {false, 1.6F}, {true, 1.0F}, {true, 1.6F}}) {
       const Function shape = is_box ? Function(box) : Function(half_space);
-      const auto level_set = executor(ExecutorKind::host, zero_volume(geometry), rescaling_alone());
-      Field start = distance_transform(mask_of(geometry, shape), level_set->band());
+      const auto level_set = executor(solver::ExecutorKind::host, zero_volume(geometry), rescaling_alone());
+      solver::Field start = solver::distance_transform(mask_of(geometry, shape), level_set->band());
       const auto band = static_cast<float>(start.band);
       for (float& phi : start.pages) phi = std::clamp(factor * phi, -band, band);
       QVERIFY(level_set->restore(start));
@@ -151,13 +151,13 @@ class RescalingTest : public QObject {
     const Geometry geometry = grid({48, 48, 48});
     const glm::dvec3 centre = centre_of(geometry);
     for (const double gradient : {0.8, 1.0, 1.5}) {
-      Parameters parameters = rescaling_alone();
+      solver::Parameters parameters = rescaling_alone();
       parameters.target_gradient = gradient;
       parameters.band = 2.5 * std::max(1.0, gradient);  // two and a half voxels to each side
-      const auto ball = executor(ExecutorKind::host, zero_volume(geometry), parameters);
+      const auto ball = executor(solver::ExecutorKind::host, zero_volume(geometry), parameters);
       set_phi(*ball, geometry, [&](glm::dvec3 p) { return 0.5 * (15.0 - glm::distance(p, centre)); });
       run(*ball, 60);
-      const Field distance = ball->snapshot().value();
+      const solver::Field distance = ball->snapshot().value();
       double sum = 0.0;
       double worst = 0.0;
       int count = 0;
@@ -181,10 +181,11 @@ class RescalingTest : public QObject {
     for (const glm::dvec3 spacing : {glm::dvec3(1, 1, 1), glm::dvec3(0.5, 0.5, 1.5)}) {
       const Geometry geometry = grid({80, 80, 80}, spacing);
       const double smallest = std::min({spacing.x, spacing.y, spacing.z});
-      const auto level_set = executor(ExecutorKind::host, zero_volume(geometry), Parameters());
+      const auto level_set =
+          executor(solver::ExecutorKind::host, zero_volume(geometry), solver::Parameters());
       set_phi(*level_set, geometry,
               [&](glm::dvec3 p) { return (15.0 - glm::distance(p, centre_of(geometry))) / smallest; });
-      const SurfaceStatistics statistics = measure(level_set->snapshot().value());
+      const solver::SurfaceStatistics statistics = solver::measure(level_set->snapshot().value());
       const double volume = 4.0 / 3.0 * std::numbers::pi * 15.0 * 15.0 * 15.0 / 1000.0;
       const double area = 4.0 * std::numbers::pi * 15.0 * 15.0;
       qInfo("ball: %.4f ml of %.4f, %.1f mm2 of %.1f", statistics.volume_ml, volume, statistics.surface_mm2,
@@ -196,7 +197,7 @@ class RescalingTest : public QObject {
       // The measure does not take phi for a distance.
       set_phi(*level_set, geometry,
               [&](glm::dvec3 p) { return 2.5 * (15.0 - glm::distance(p, centre_of(geometry))) / smallest; });
-      const SurfaceStatistics steep = measure(level_set->snapshot().value());
+      const solver::SurfaceStatistics steep = solver::measure(level_set->snapshot().value());
       QVERIFY(std::abs(steep.volume_ml - volume) < 0.01 * volume);
       QVERIFY(std::abs(steep.surface_mm2 - area) < 0.02 * area);
     }

@@ -33,31 +33,31 @@ T good(Result<T> result) {
 // Physical memory with every page of a volume resident.
 struct FullMemory {
   std::shared_ptr<gpu::Device> gpu = device();
-  PageLayout pages;
-  PackedLayout layout;
-  PageTable table;
-  std::vector<PhysicalPage> list;
-  PhysicalMemory memory;
-  GeometryEngine geometry;
+  solver::PageLayout pages;
+  solver::PackedLayout layout;
+  solver::PageTable table;
+  std::vector<solver::PhysicalPage> list;
+  solver::PhysicalMemory memory;
+  solver::GeometryEngine geometry;
 
   explicit FullMemory(Index3 size)
       : pages(size, kPageShape), layout(pages, gpu->capabilities().largest_texture), table(pages) {
     for (std::int64_t page = 0; page < pages.page_count(); ++page) list.push_back(table.allocate(page));
-    memory = good(PhysicalMemory::create(*gpu, layout, table.capacity(), 2.5F));
-    geometry = GeometryEngine::create(*gpu, layout);
+    memory = good(solver::PhysicalMemory::create(*gpu, layout, table.capacity(), 2.5F));
+    geometry = solver::GeometryEngine::create(*gpu, layout);
     if (!geometry.describe(*gpu, table, list)) qFatal("describe failed");
     gpu::begin_exact_drawing();
   }
 
   // How often each texel of G is drawn, in the order of physical pages.
-  std::vector<float> count(std::initializer_list<Substream> substreams) {
+  std::vector<float> count(std::initializer_list<solver::Substream> substreams) {
     memory.draw_into(0);
     gpu::clear_colours(1);
-    for (const Substream substream : substreams) {
+    for (const solver::Substream substream : substreams) {
       gpu::Defines defines = geometry.defines(substream);
       defines.emplace_back("IN_MEMORY", "");
-      const auto program = good(gpu::Program::render(*gpu, GeometryEngine::vertex_shader(substream), "",
-                                                     "solver/stream/constant.frag", defines));
+      const auto program = good(gpu::Program::render(*gpu, solver::GeometryEngine::vertex_shader(substream),
+                                                     "", "solver/stream/constant.frag", defines));
       const gpu::BlendScope added(gpu::Blending::add);
       program.use();
       program.set("value", glm::vec4(1.0F));
@@ -70,10 +70,10 @@ struct FullMemory {
 // Whether each voxel is drawn once, and nothing else is drawn.
 bool drawn_once(const FullMemory& full, const std::vector<float>& counts) {
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    const auto page = static_cast<PhysicalPage>(i / kPageTexels);
+    const auto page = static_cast<solver::PhysicalPage>(i / kPageTexels);
     const auto x = static_cast<std::int64_t>(i % 16);
     const auto y = static_cast<std::int64_t>(i / 16 % 16);
-    bool is_voxel = page >= kFirstPage && page < full.table.capacity();
+    bool is_voxel = page >= solver::kFirstPage && page < full.table.capacity();
     if (is_voxel) {
       const Index3 valid = full.pages.valid_shape(full.table.virtual_page(page));
       is_voxel = x < valid.x && y < valid.y;
@@ -87,7 +87,7 @@ bool drawn_once(const FullMemory& full, const std::vector<float>& counts) {
 struct Scene {
   Geometry geometry;
   std::shared_ptr<const Volume> source;
-  Parameters parameters;
+  solver::Parameters parameters;
 
   explicit Scene(Index3 size, glm::dvec3 spacing = glm::dvec3(1.0)) : geometry(grid(size, spacing)) {
     source = volume_of(geometry, [this](glm::dvec3 p) {
@@ -99,16 +99,17 @@ struct Scene {
     parameters.alpha = 0.6;
   }
 
-  std::unique_ptr<Executor> start(ExecutorKind kind, ExecutorOptions options = {}) const {
+  std::unique_ptr<solver::Executor> start(solver::ExecutorKind kind,
+                                          solver::ExecutorOptions options = {}) const {
     auto level_set = executor(kind, source, parameters, options);
-    if (!level_set->paint({centre_of(geometry), 5.0}, Brush::add)) qFatal("paint failed");
+    if (!level_set->paint({centre_of(geometry), 5.0}, solver::Brush::add)) qFatal("paint failed");
     return level_set;
   }
 };
 
-bool same_bits(const Executor& a, const Executor& b) {
-  const Field first = good(a.snapshot());
-  const Field second = good(b.snapshot());
+bool same_bits(const solver::Executor& a, const solver::Executor& b) {
+  const solver::Field first = good(a.snapshot());
+  const solver::Field second = good(b.snapshot());
   return first.table == second.table && first.dense() == second.dense();
 }
 
@@ -123,10 +124,11 @@ class StreamTest : public QObject {
          {Index3(48, 48, 3), Index3(61, 7, 5), Index3(7, 61, 3), Index3(17, 18, 3), Index3(19, 33, 2),
           Index3(1, 1, 4), Index3(2, 3, 2), Index3(34, 50, 1), Index3(600, 300, 2)}) {
       FullMemory full(size);
-      const auto substreams = full.count({Substream::interior, Substream::edges, Substream::corners});
+      const auto substreams =
+          full.count({solver::Substream::interior, solver::Substream::edges, solver::Substream::corners});
       QVERIFY2(drawn_once(full, substreams),
                qPrintable(QString("substreams, %1 x %2").arg(size.x).arg(size.y)));
-      const auto whole = full.count({Substream::whole_page});
+      const auto whole = full.count({solver::Substream::whole_page});
       QVERIFY2(drawn_once(full, whole), qPrintable(QString("whole pages, %1 x %2").arg(size.x).arg(size.y)));
       QCOMPARE(full.gpu->severe_messages(), 0);
     }
@@ -134,32 +136,32 @@ class StreamTest : public QObject {
 
   void interior_edges_and_corners_have_the_papers_shares() {
     FullMemory full({64, 48, 3});
-    const auto share = [&](Substream substream) {
+    const auto share = [&](solver::Substream substream) {
       double sum = 0.0;
       for (const float count : full.count({substream})) sum += static_cast<double>(count);
       return sum / (64.0 * 48.0 * 3.0);
     };
-    QCOMPARE(share(Substream::interior), 196.0 / 256.0);  // 76.6 %
-    QCOMPARE(share(Substream::edges), 56.0 / 256.0);      // 21.9 %
-    QCOMPARE(share(Substream::corners), 4.0 / 256.0);     // 1.6 %
+    QCOMPARE(share(solver::Substream::interior), 196.0 / 256.0);  // 76.6 %
+    QCOMPARE(share(solver::Substream::edges), 56.0 / 256.0);      // 21.9 %
+    QCOMPARE(share(solver::Substream::corners), 4.0 / 256.0);     // 1.6 %
   }
 
   void each_single_voxel_makes_its_bit_arrive() {
     const Geometry geometry = grid({48, 48, 3});
     const auto source = zero_volume(geometry);
-    const Model model(*source, {});
+    const solver::Model model(*source, {});
     const auto gpu = device();
-    const PageLayout pages(geometry.size, kPageShape);
-    const PackedLayout layout(pages, gpu->capabilities().largest_texture);
-    PageTable table(pages);
-    const PhysicalPage page = table.allocate(pages.page_number({1, 1, 1}));
+    const solver::PageLayout pages(geometry.size, kPageShape);
+    const solver::PackedLayout layout(pages, gpu->capabilities().largest_texture);
+    solver::PageTable table(pages);
+    const solver::PhysicalPage page = table.allocate(pages.page_number({1, 1, 1}));
     const float band = 2.5F;
-    auto memory = good(PhysicalMemory::create(*gpu, layout, table.capacity(), band));
-    auto geometry_engine = GeometryEngine::create(*gpu, layout);
-    const PhysicalPage list[] = {page};
+    auto memory = good(solver::PhysicalMemory::create(*gpu, layout, table.capacity(), band));
+    auto geometry_engine = solver::GeometryEngine::create(*gpu, layout);
+    const solver::PhysicalPage list[] = {page};
     QVERIFY(geometry_engine.describe(*gpu, table, list));
-    const auto texture = good(SourceTexture::create(*gpu, *source));
-    auto passes = good(RegionPasses::create(*gpu, geometry_engine, texture, model, 32));
+    const auto texture = good(solver::SourceTexture::create(*gpu, *source));
+    auto passes = good(solver::RegionPasses::create(*gpu, geometry_engine, texture, model, 32));
     QVERIFY(passes.reserve(*gpu, 1));
     gpu::begin_exact_drawing();
     std::vector<float> values(kPageTexels, -band);
@@ -170,7 +172,8 @@ class StreamTest : public QObject {
         std::fill(values.begin(), values.end(), -band);
         values[static_cast<std::size_t>(lit)] = value;
         memory.field().upload(values);
-        const PageMessage message = good(passes.message(geometry_engine, memory, lit % 2, band, 1e-3F)).at(0);
+        const solver::PageMessage message =
+            good(passes.message(geometry_engine, memory, lit % 2, band, 1e-3F)).at(0);
         const int x = lit % 16;
         const int y = lit / 16;
         const bool expected[] = {x == 0, x == 15, y == 0, y == 15, true, true};
@@ -181,18 +184,18 @@ class StreamTest : public QObject {
     }
     std::fill(values.begin(), values.end(), band);
     memory.field().upload(values);
-    const PageMessage inside = good(passes.message(geometry_engine, memory, 0, band, 1e-3F)).at(0);
+    const solver::PageMessage inside = good(passes.message(geometry_engine, memory, 0, band, 1e-3F)).at(0);
     QVERIFY(inside.is_inside() && inside.differs_across_any());
   }
 
   void thirty_steps_are_the_hosts() {
     double worst = 0.0;
     for (const glm::dvec3 spacing : {glm::dvec3(1.0), glm::dvec3(1.0, 1.0, 3.0)}) {
-      for (const Scheme scheme : {Scheme::split, Scheme::paper}) {
+      for (const solver::Scheme scheme : {solver::Scheme::split, solver::Scheme::paper}) {
         Scene scene({61, 47, 40}, spacing);
         scene.parameters.scheme = scheme;
-        const auto host = scene.start(ExecutorKind::host);
-        const auto stream = scene.start(ExecutorKind::stream);
+        const auto host = scene.start(solver::ExecutorKind::host);
+        const auto stream = scene.start(solver::ExecutorKind::stream);
         QCOMPARE(largest_difference(*host, *stream), 0.0);
         run(*host, 1);
         run(*stream, 1);
@@ -211,12 +214,12 @@ class StreamTest : public QObject {
     for (const Index3 size :
          {Index3(7, 61, 9), Index3(61, 7, 9), Index3(17, 33, 20), Index3(1, 20, 20), Index3(7, 7, 7)}) {
       Scene scene(size);
-      ExecutorOptions options;
+      solver::ExecutorOptions options;
       options.skip_quiet_pages = false;
-      const auto host = scene.start(ExecutorKind::host, options);
-      const auto stream = scene.start(ExecutorKind::stream, options);
+      const auto host = scene.start(solver::ExecutorKind::host, options);
+      const auto stream = scene.start(solver::ExecutorKind::stream, options);
       run(*host, 30);
-      const AdvanceReport report = run(*stream, 30);
+      const solver::AdvanceReport report = run(*stream, 30);
       QVERIFY(report.voxel_updates > 0 && report.voxel_updates <= 30 * scene.geometry.voxel_count());
       QVERIFY(largest_difference(*host, *stream) <= 1e-4);
       QCOMPARE(failure(stream->validate()), QString());
@@ -226,15 +229,15 @@ class StreamTest : public QObject {
   void sub_regions_change_no_bit() {
     const Scene scene({90, 90, 40});
     const auto start = [&](std::int64_t largest_region) {
-      auto made = good(StreamExecutor::create(scene.source, scene.parameters, {}, largest_region));
-      if (!made->paint({centre_of(scene.geometry), 12.0}, Brush::add)) qFatal("paint failed");
+      auto made = good(solver::StreamExecutor::create(scene.source, scene.parameters, {}, largest_region));
+      if (!made->paint({centre_of(scene.geometry), 12.0}, solver::Brush::add)) qFatal("paint failed");
       return made;
     };
     const auto whole = start(1024);
     const auto parts = start(32);
     for (int chunk = 0; chunk < 4; ++chunk) {
-      const AdvanceReport a = run(*whole, 10);
-      const AdvanceReport b = run(*parts, 10);
+      const solver::AdvanceReport a = run(*whole, 10);
+      const solver::AdvanceReport b = run(*parts, 10);
       QVERIFY(whole->memory().resident_pages > 3 * 32);
       QVERIFY(same_bits(*whole, *parts));
       QCOMPARE(a.voxel_updates, b.voxel_updates);
@@ -245,14 +248,14 @@ class StreamTest : public QObject {
   void churn_with_growth_loses_nothing() {
     const Scene scene({100, 100, 60});
     std::mt19937 random(3);
-    const auto host = scene.start(ExecutorKind::host);
-    const auto stream = scene.start(ExecutorKind::stream);
+    const auto host = scene.start(solver::ExecutorKind::host);
+    const auto stream = scene.start(solver::ExecutorKind::stream);
     std::int64_t most = 0;
     for (int round = 0; round < 12; ++round) {
       const glm::dvec3 voxel{random() % 100, random() % 100, random() % 60};
-      const Sphere sphere = sphere_at_voxel(scene.geometry, voxel, 4.0 + random() % 24);
-      const Brush brush = round % 3 == 2 ? Brush::erase : Brush::add;
-      for (Executor* level_set : {host.get(), stream.get()}) {
+      const solver::Sphere sphere = solver::sphere_at_voxel(scene.geometry, voxel, 4.0 + random() % 24);
+      const solver::Brush brush = round % 3 == 2 ? solver::Brush::erase : solver::Brush::add;
+      for (solver::Executor* level_set : {host.get(), stream.get()}) {
         QCOMPARE(failure(level_set->paint(sphere, brush)), QString());
         run(*level_set, 5);
       }
@@ -261,7 +264,7 @@ class StreamTest : public QObject {
       most = std::max(most, stream->memory().resident_pages);
     }
     QVERIFY(most > 400);
-    QVERIFY(stream->paint({centre_of(scene.geometry), 200.0}, Brush::erase));
+    QVERIFY(stream->paint({centre_of(scene.geometry), 200.0}, solver::Brush::erase));
     run(*stream, 3);
     QCOMPARE(stream->memory().resident_pages, 0);
     QCOMPARE(failure(stream->validate()), QString());
@@ -269,11 +272,11 @@ class StreamTest : public QObject {
 
   void a_snapshot_resumes_to_the_same_bits() {
     const Scene scene({61, 47, 40});
-    ExecutorOptions options;
+    solver::ExecutorOptions options;
     options.skip_quiet_pages = false;
-    const auto stream = scene.start(ExecutorKind::stream, options);
+    const auto stream = scene.start(solver::ExecutorKind::stream, options);
     run(*stream, 20);
-    const auto other = executor(ExecutorKind::stream, scene.source, scene.parameters, options);
+    const auto other = executor(solver::ExecutorKind::stream, scene.source, scene.parameters, options);
     QVERIFY(other->restore(good(stream->snapshot())));
     run(*stream, 20);
     run(*other, 20);
@@ -282,12 +285,12 @@ class StreamTest : public QObject {
 
   void the_driver_has_no_severe_message_for_it() {
     const Scene scene({61, 47, 40});
-    ExecutorOptions options;
+    solver::ExecutorOptions options;
     options.device = device();
     QVERIFY(options.device->debugging());
-    const auto stream = scene.start(ExecutorKind::stream, options);
+    const auto stream = scene.start(solver::ExecutorKind::stream, options);
     run(*stream, 64);
-    QVERIFY(stream->paint({centre_of(scene.geometry), 9.0}, Brush::erase));
+    QVERIFY(stream->paint({centre_of(scene.geometry), 9.0}, solver::Brush::erase));
     run(*stream, 5);
     QCOMPARE(failure(stream->validate()), QString());
     QCOMPARE(options.device->severe_messages(), 0);
@@ -295,10 +298,10 @@ class StreamTest : public QObject {
 
   void it_shares_a_context_of_a_later_version() {
     const Scene scene({61, 47, 40});
-    ExecutorOptions options;
+    solver::ExecutorOptions options;
     options.device = good(gpu::Device::create_headless({gpu::GlVersion::gl45, true}));
-    const auto stream = scene.start(ExecutorKind::stream, options);
-    const auto other = scene.start(ExecutorKind::stream);
+    const auto stream = scene.start(solver::ExecutorKind::stream, options);
+    const auto other = scene.start(solver::ExecutorKind::stream);
     run(*stream, 20);
     run(*other, 20);
     QVERIFY(largest_difference(*stream, *other) <= 1e-4);

@@ -21,20 +21,22 @@ class PhantomExecutorsTest : public QObject {
   void all_end_with_the_same_mask() {
     QFETCH(QString, kind);
     QFETCH(int, steps);
-    auto phantom = make_phantom(kind.toStdString(), {}, {});
+    auto phantom = imaging::make_phantom(kind.toStdString(), {}, {});
     QCOMPARE(failure(phantom), QString());
-    Parameters parameters;
+    solver::Parameters parameters;
     parameters.target = phantom->target;
     parameters.range = phantom->range;
     parameters.alpha = phantom->alpha;
     const auto source = std::make_shared<const Volume>(std::move(phantom->volume));
-    const auto start = [&](Executor& level_set) -> Status {
+    const auto start = [&](solver::Executor& level_set) -> Status {
       if (phantom->init_threshold) {
         const auto& [low, high] = *phantom->init_threshold;
-        return level_set.restore(distance_transform(threshold(*source, low, high), level_set.band()));
+        return level_set.restore(
+            solver::distance_transform(imaging::threshold(*source, low, high), level_set.band()));
       }
       const auto& [i, j, k, radius_mm] = *phantom->seed;
-      return level_set.paint(sphere_at_voxel(source->geometry, {i, j, k}, radius_mm), Brush::add);
+      return level_set.paint(solver::sphere_at_voxel(source->geometry, {i, j, k}, radius_mm),
+                             solver::Brush::add);
     };
     expect_same_mask(source, parameters, start, steps);
   }

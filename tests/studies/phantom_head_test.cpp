@@ -16,22 +16,24 @@ class PhantomHeadTest : public QObject {
       double lowest = 1.0;
       double highest = 0.0;
       for (const std::uint64_t random_seed : {1, 2}) {
-        PhantomOptions options;
+        imaging::PhantomOptions options;
         options.noise_percent = noise;
         options.random_seed = random_seed;
-        auto head = make_phantom("head", options);
+        auto head = imaging::make_phantom("head", options);
         QCOMPARE(failure(head), QString());
         QVERIFY(head->seed.has_value());
-        Parameters parameters;
+        solver::Parameters parameters;
         parameters.target = head->target;
         parameters.range = head->range;
         parameters.alpha = head->alpha;
         const auto source = std::make_shared<const Volume>(std::move(head->volume));
-        auto level_set = make_executor(ExecutorKind::host, source, parameters);
+        auto level_set = solver::make_executor(solver::ExecutorKind::host, source, parameters);
         QCOMPARE(failure(level_set), QString());
         const auto& [i, j, k, radius_mm] = *head->seed;
-        QVERIFY((*level_set)->paint(sphere_at_voxel(source->geometry, {i, j, k}, radius_mm), Brush::add));
-        Advance run;
+        QVERIFY(
+            (*level_set)
+                ->paint(solver::sphere_at_voxel(source->geometry, {i, j, k}, radius_mm), solver::Brush::add));
+        solver::Advance run;
         run.steps = 5000;
         run.until_converged = true;
         const auto report = (*level_set)->advance(run);

@@ -11,13 +11,15 @@
 
 namespace tidemark::test {
 
-inline void expect_same_mask(const std::shared_ptr<const Volume>& source, const Parameters& parameters,
-                             const std::function<Status(Executor&)>& start, std::int64_t steps) {
+inline void expect_same_mask(const std::shared_ptr<const Volume>& source,
+                             const solver::Parameters& parameters,
+                             const std::function<Status(solver::Executor&)>& start, std::int64_t steps) {
   std::optional<Mask> expected;
-  for (const ExecutorKind kind : {ExecutorKind::host, ExecutorKind::compute, ExecutorKind::stream}) {
-    ExecutorOptions options;
+  for (const solver::ExecutorKind kind :
+       {solver::ExecutorKind::host, solver::ExecutorKind::compute, solver::ExecutorKind::stream}) {
+    solver::ExecutorOptions options;
     options.debug = true;
-    auto level_set = make_executor(kind, source, parameters, options);
+    auto level_set = solver::make_executor(kind, source, parameters, options);
     QCOMPARE(failure(level_set), QString());
     QCOMPARE(failure(start(**level_set)), QString());
     const auto report = (*level_set)->advance({.steps = steps});

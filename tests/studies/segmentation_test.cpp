@@ -62,30 +62,31 @@ class SegmentationTest : public QObject {
   void a_few_seeds_reach_the_reference() {
     QFETCH(int, index);
     const Study& study = studies()[static_cast<std::size_t>(index)];
-    auto image = load_volume(studies_folder() / study.image);
+    auto image = imaging::load_volume(studies_folder() / study.image);
     QCOMPARE(failure(image), QString());
-    const auto labels = load_volume(studies_folder() / study.labels);
+    const auto labels = imaging::load_volume(studies_folder() / study.labels);
     QCOMPARE(failure(labels), QString());
     const Mask reference = reference_on(image->geometry, *labels, study.label);
     QVERIFY(reference.count() > 1000);
     if (study.sigma_mm > 0.0) {
-      auto smoothed = smooth(*image, study.sigma_mm);
+      auto smoothed = imaging::smooth(*image, study.sigma_mm);
       QCOMPARE(failure(smoothed), QString());
       image = std::move(smoothed);
     }
 
-    Parameters parameters;
+    solver::Parameters parameters;
     parameters.target = study.target;
     parameters.range = study.range;
     parameters.alpha = study.alpha;
     const auto source = std::make_shared<const Volume>(std::move(*image));
-    auto level_set = make_executor(ExecutorKind::host, source, parameters);
+    auto level_set = solver::make_executor(solver::ExecutorKind::host, source, parameters);
     QCOMPARE(failure(level_set), QString());
     for (const Seed& seed : study.seeds) {
-      const Sphere sphere = sphere_at_voxel(source->geometry, {seed.i, seed.j, seed.k}, seed.radius_mm);
-      QCOMPARE(failure((*level_set)->paint(sphere, Brush::add)), QString());
+      const solver::Sphere sphere =
+          solver::sphere_at_voxel(source->geometry, {seed.i, seed.j, seed.k}, seed.radius_mm);
+      QCOMPARE(failure((*level_set)->paint(sphere, solver::Brush::add)), QString());
     }
-    Advance run;
+    solver::Advance run;
     run.steps = study.steps;
     run.until_converged = true;
     const auto report = (*level_set)->advance(run);

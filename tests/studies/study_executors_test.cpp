@@ -12,17 +12,18 @@ class StudyExecutorsTest : public QObject {
 
  private slots:
   void all_end_with_the_same_mask_on_a_tumour() {
-    auto image = load_volume(studies_folder() / "d03_mr_tumour_brainix/FLAIR");
+    auto image = imaging::load_volume(studies_folder() / "d03_mr_tumour_brainix/FLAIR");
     QCOMPARE(failure(image), QString());
-    auto smoothed = smooth(*image, 1.2);
+    auto smoothed = imaging::smooth(*image, 1.2);
     QCOMPARE(failure(smoothed), QString());
-    Parameters parameters;
+    solver::Parameters parameters;
     parameters.target = 440;
     parameters.range = 140;
     parameters.alpha = 0.97;
     const auto source = std::make_shared<const Volume>(std::move(*smoothed));
-    const auto start = [&](Executor& level_set) {
-      return level_set.paint(sphere_at_voxel(source->geometry, {188, 149, 13}, 8.0), Brush::add);
+    const auto start = [&](solver::Executor& level_set) {
+      return level_set.paint(solver::sphere_at_voxel(source->geometry, {188, 149, 13}, 8.0),
+                             solver::Brush::add);
     };
     expect_same_mask(source, parameters, start, 300);
   }

@@ -10,7 +10,7 @@
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr ThirdPartyPart kParts[] = {
@@ -139,4 +139,4 @@ AboutDialog::AboutDialog(QWidget* parent) : QDialog(parent) {
   resize(560, 620);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -4,7 +4,7 @@
 #include <QDialog>
 #include <span>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // A part of others that runs with Tidemark. docs/third-party.md says more about each.
 struct ThirdPartyPart {
@@ -20,4 +20,4 @@ class AboutDialog : public QDialog {
   explicit AboutDialog(QWidget* parent = nullptr);
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -1,6 +1,6 @@
 #include "ui/look/colour.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 QColor mixed(const QColor& from, const QColor& to, double share) {
   const auto part = [share](double a, double b) { return static_cast<float>(a + (b - a) * share); };
@@ -8,4 +8,4 @@ QColor mixed(const QColor& from, const QColor& to, double share) {
                           part(from.blueF(), to.blueF()), part(from.alphaF(), to.alphaF()));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -3,9 +3,9 @@
 
 #include <QColor>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // `share` 0: `from`; 1: `to`. Opacities are mixed, too.
 QColor mixed(const QColor& from, const QColor& to, double share);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -11,7 +11,7 @@
 #include <QSvgRenderer>
 #include <memory>
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr const char* kFolder = ":/tidemark/icons/";
@@ -99,4 +99,4 @@ QIcon application_icon() {
   return icon;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

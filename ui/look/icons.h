@@ -5,7 +5,7 @@
 #include <QStringList>
 #include <QStringView>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // resources/icons/NAME.svg in the palette's text colour at the moment of painting (enabled, disabled,
 // selected), sharp at any size and scale. For an unknown name it returns a null icon and prints a
@@ -18,4 +18,4 @@ QStringList icon_names();
 // Tidemark's own, in its colours: for windows and "About".
 QIcon application_icon();
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -6,7 +6,7 @@
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 // Fusion's outline of check boxes is darker than their background, and lost in the dark.
@@ -76,4 +76,4 @@ void Style::drawComplexControl(ComplexControl control, const QStyleOptionComplex
   QProxyStyle::drawComplexControl(control, &shown, painter, widget);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -3,7 +3,7 @@
 
 #include <QProxyStyle>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class Style : public QProxyStyle {
   Q_OBJECT
@@ -21,4 +21,4 @@ class Style : public QProxyStyle {
                           const QWidget* widget = nullptr) const override;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -5,7 +5,7 @@
 
 #include "ui/look/style.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 struct Colours {
@@ -182,4 +182,4 @@ QColor case_colour(int number) {
   return QColor::fromRgb(kCases[(number - 1 + colours) % colours]);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -5,7 +5,7 @@
 
 class QApplication;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // `system` is light or dark, whichever is nearer to the platform's palette at the program's start.
 enum class Theme { system, light, dark };
@@ -35,4 +35,4 @@ inline constexpr int kSpaceGroups = 16;  // between groups, and from a dialog's 
 inline constexpr int kIconSmall = 16;  // in menus, lists and views
 inline constexpr int kIcon = 20;       // on tool bars
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

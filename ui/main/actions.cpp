@@ -5,7 +5,7 @@
 #include "ui/settings.h"
 #include "ui/views/mouse_scheme.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr const char* kOwnKey = "own_key";  // property: the key that the program gives
@@ -127,31 +127,32 @@ void Actions::make_evolution() {
 
 void Actions::make_tools() {
   tools = new QActionGroup(this);
-  const auto tool = [this](Tool which, const char* name, const char* picture, const QString& text,
+  const auto tool = [this](engine::Tool which, const char* name, const char* picture, const QString& text,
                            const char* key, const QString& tip) {
     QAction* action = make(name, picture, text, QKeySequence(QString::fromLatin1(key)), true, tip);
     action->setCheckable(true);
     action->setData(static_cast<int>(which));
     tools->addAction(action);
   };
-  tool(Tool::window, "tool-window", "tool-window", tr("&Window and level"), "W",
+  tool(engine::Tool::window, "tool-window", "tool-window", tr("&Window and level"), "W",
        tr("Drag on a slice for window and level, in 3D to turn"));
-  tool(Tool::crosshair, "tool-crosshair", "tool-crosshair", tr("&Crosshair"), "C",
+  tool(engine::Tool::crosshair, "tool-crosshair", "tool-crosshair", tr("&Crosshair"), "C",
        tr("Move all slices to the point under the mouse"));
-  tool(Tool::probe_speed, "tool-probe-speed", "tool-probe", tr("&Probe T and ε"), "T",
+  tool(engine::Tool::probe_speed, "tool-probe-speed", "tool-probe", tr("&Probe T and ε"), "T",
        tr("Drag over the tissue: T becomes its mean, ε its standard deviation"));
-  tool(Tool::probe_transfer, "tool-probe-transfer", "tool-probe-transfer", tr("Probe t&ransfer function"),
-       "G", tr("Drag over the tissue to set the chosen Gaussian of the transfer function"));
+  tool(engine::Tool::probe_transfer, "tool-probe-transfer", "tool-probe-transfer",
+       tr("Probe t&ransfer function"), "G",
+       tr("Drag over the tissue to set the chosen Gaussian of the transfer function"));
   tool(
-      Tool::seed, "tool-seed", "tool-seed", tr("&Sphere"), "S",
+      engine::Tool::seed, "tool-seed", "tool-seed", tr("&Sphere"), "S",
       tr("Place a surface: click in the tissue, or press in its middle and drag (right button: takes away)"));
-  tool(Tool::paint, "tool-paint", "tool-paint", tr("P&aint"), "B",
+  tool(engine::Tool::paint, "tool-paint", "tool-paint", tr("P&aint"), "B",
        tr("Add to the surface with a 3D brush (right button: erase)"));
-  tool(Tool::erase, "tool-erase", "tool-erase", tr("&Erase"), "E",
+  tool(engine::Tool::erase, "tool-erase", "tool-erase", tr("&Erase"), "E",
        tr("Take away from the surface with a 3D brush (right button: paint)"));
-  tool(Tool::measure_distance, "tool-distance", "tool-distance", tr("&Distance"), "D",
+  tool(engine::Tool::measure_distance, "tool-distance", "tool-distance", tr("&Distance"), "D",
        tr("Measure a distance"));
-  tool(Tool::measure_angle, "tool-angle", "tool-angle", tr("A&ngle"), "A",
+  tool(engine::Tool::measure_angle, "tool-angle", "tool-angle", tr("A&ngle"), "A",
        tr("Measure an angle: one drag to the vertex, one to the other end"));
   last_tool = make("last-tool", nullptr, tr("&Last tool"), QKeySequence("Space"), true,
                    tr("Change between the last two tools"));
@@ -208,12 +209,12 @@ void Actions::make_windows() {
   about = make("about", "about", tr("&About Tidemark"), {}, false);
 }
 
-QAction* Actions::tool(Tool tool) const {
+QAction* Actions::tool(engine::Tool tool) const {
   return tools->actions().at(static_cast<int>(tool));
 }
 
-void Actions::follow(CaseProxy* proxy) {
-  static const CaseState kNothing{};
+void Actions::follow(engine::CaseProxy* proxy) {
+  static const engine::CaseState kNothing{};
   for (QAction* action : of_cases_) action->setEnabled(proxy != nullptr);
   follow_evolution(proxy ? proxy->state() : kNothing);
   clip->setChecked(proxy && proxy->display().settings().clip_on);
@@ -226,7 +227,7 @@ void Actions::follow(CaseProxy* proxy) {
   tools->setExclusionPolicy(QActionGroup::ExclusionPolicy::Exclusive);
 }
 
-void Actions::follow_evolution(const CaseState& state) {
+void Actions::follow_evolution(const engine::CaseState& state) {
   play->setChecked(state.playing);
   play->setIcon(icon(state.playing ? u"pause" : u"play"));
   play->setText(state.playing ? tr("&Pause") : tr("&Play"));
@@ -241,4 +242,4 @@ void Actions::follow_evolution(const CaseState& state) {
   redo->setText(state.redo_text.isEmpty() ? tr("&Redo") : tr("&Redo: %1").arg(state.redo_text));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,10 +8,12 @@
 
 #include "engine/display.h"
 
-namespace tidemark {
-
+namespace tidemark::engine {
 class CaseProxy;
 struct CaseState;
+}  // namespace tidemark::engine
+
+namespace tidemark::ui {
 
 // Names, pictures and keys. The objects that carry an action out connect to it. Keys are kept in the settings
 // and can be changed (KeysDialog).
@@ -71,11 +73,11 @@ class Actions : public QObject {
   QAction* first_steps;
   QAction* about;
 
-  [[nodiscard]] QAction* tool(Tool tool) const;
+  [[nodiscard]] QAction* tool(engine::Tool tool) const;
   // The actions whose keys can be changed.
   [[nodiscard]] const std::vector<QAction*>& all() const { return all_; }
   // Enables and checks the actions by the state of the active case; null: there is none.
-  void follow(CaseProxy* proxy);
+  void follow(engine::CaseProxy* proxy);
   void set_key(QAction* action, const QKeySequence& key);  // an empty one: its own again
 
  private:
@@ -87,10 +89,10 @@ class Actions : public QObject {
   void make_mouse();
   void make_views();
   void make_windows();
-  void follow_evolution(const CaseState& state);
+  void follow_evolution(const engine::CaseState& state);
 
   std::vector<QAction*> of_cases_;  // need a case
   std::vector<QAction*> all_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

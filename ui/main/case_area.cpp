@@ -8,7 +8,7 @@
 
 #include "ui/main/case_head.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 CaseArea::CaseArea(QWidget* parent) : QMdiArea(parent) {
   setTabsClosable(true);
@@ -76,4 +76,4 @@ void CaseArea::fill() {
   emit case_closed();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

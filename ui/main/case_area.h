@@ -5,7 +5,7 @@
 
 #include "ui/main/case_window.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class CaseArea : public QMdiArea {
   Q_OBJECT
@@ -34,4 +34,4 @@ class CaseArea : public QMdiArea {
   bool tiled_ = true;  // else as the user has laid them
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -13,17 +13,17 @@
 #include "ui/panels/region_table.h"
 #include "ui/views/picture_view.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
-Status write_label_file(const SessionContents& contents, const std::filesystem::path& file) {
+Status write_label_file(const document::SessionContents& contents, const std::filesystem::path& file) {
   Volume volume;
   volume.geometry = contents.geometry;
   std::vector<std::uint16_t> voxels(static_cast<std::size_t>(contents.geometry.voxel_count()));
   if (contents.label_voxels)
     std::copy(contents.label_voxels->begin(), contents.label_voxels->end(), voxels.begin());
   volume.voxels = std::move(voxels);
-  return write_volume_file(volume, file);
+  return imaging::write_volume_file(volume, file);
 }
 
 }  // namespace
@@ -54,13 +54,13 @@ void CaseExports::export_mask(CaseWindow& window) {
 }
 
 void CaseExports::write_mask(CaseWindow& window, const QString& file) {
-  files_.write_contents(window, file, [path = path_of(file)](const SessionContents& contents) {
-    return write_mask_file(contents.phi->mask(), path);
+  files_.write_contents(window, file, [path = path_of(file)](const document::SessionContents& contents) {
+    return imaging::write_mask_file(contents.phi->mask(), path);
   });
 }
 
 void CaseExports::write_labels(CaseWindow& window, const QString& file) {
-  files_.write_contents(window, file, [path = path_of(file)](const SessionContents& contents) {
+  files_.write_contents(window, file, [path = path_of(file)](const document::SessionContents& contents) {
     return write_label_file(contents, path);
   });
 }
@@ -72,11 +72,12 @@ void CaseExports::export_mesh(CaseWindow& window) {
 }
 
 void CaseExports::write_surface(CaseWindow& window, const QString& file) {
-  files_.write_contents(window, file, [path = path_of(file)](const SessionContents& contents) -> Status {
-    const auto mesh = extract_surface(contents.phi->to_volume());
-    if (!mesh) return tl::unexpected<Error>(mesh.error());
-    return write_mesh(*mesh, path);
-  });
+  files_.write_contents(window, file,
+                        [path = path_of(file)](const document::SessionContents& contents) -> Status {
+                          const auto mesh = imaging::extract_surface(contents.phi->to_volume());
+                          if (!mesh) return tl::unexpected<Error>(mesh.error());
+                          return imaging::write_mesh(*mesh, path);
+                        });
 }
 
 void CaseExports::export_picture(CaseWindow& window) {
@@ -88,14 +89,15 @@ void CaseExports::write_picture(CaseWindow& window, const QString& file) {
   PictureView* view = window.active_view();
   if (!view) return;
   // Nothing that tells who the patient is.
-  Display& display = window.proxy().display();
+  engine::Display& display = window.proxy().display();
   const bool text = display.settings().patient_text;
-  display.change([](DisplaySettings& settings) { settings.patient_text = false; });
+  display.change([](engine::DisplaySettings& settings) { settings.patient_text = false; });
   const QImage image = view->grab_picture().convertToFormat(QImage::Format_RGBA8888);
-  display.change([text](DisplaySettings& settings) { settings.patient_text = text; });
+  display.change([text](engine::DisplaySettings& settings) { settings.patient_text = text; });
   files_.write(window, file, [image, path = path_of(file)] {
-    return write_png_file(image.width(), image.height(),
-                          std::span(image.constBits(), static_cast<std::size_t>(image.sizeInBytes())), path);
+    return imaging::write_png_file(
+        image.width(), image.height(),
+        std::span(image.constBits(), static_cast<std::size_t>(image.sizeInBytes())), path);
   });
 }
 
@@ -112,11 +114,12 @@ void CaseExports::write_statistics(CaseWindow& window, const QString& file) {
 void CaseExports::export_recipe(CaseWindow& window) {
   const QString file = files_.ask_for_file(window, tr("Export the recipe"), tr("Recipe (*.json)"));
   if (file.isEmpty()) return;
-  files_.write_contents(window, file, [path = path_of(file)](const SessionContents& contents) -> Status {
-    const auto text = contents.recipe.to_text();
-    if (!text) return tl::unexpected<Error>(text.error());
-    return write_file(path, *text);
-  });
+  files_.write_contents(window, file,
+                        [path = path_of(file)](const document::SessionContents& contents) -> Status {
+                          const auto text = contents.recipe.to_text();
+                          if (!text) return tl::unexpected<Error>(text.error());
+                          return write_file(path, *text);
+                        });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -5,7 +5,7 @@
 
 #include "ui/main/case_window.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class CaseFiles;
 class MainWindow;
@@ -37,4 +37,4 @@ class CaseExports : public QObject {
   CaseFiles& files_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

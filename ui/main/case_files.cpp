@@ -12,7 +12,7 @@
 #include "ui/results/file_name.h"
 #include "ui/settings.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 // A name that has none of the endings of a filter ("NIfTI (*.nii.gz *.nii)") gets the first: the suffix says
@@ -69,7 +69,7 @@ void CaseFiles::write(const CaseWindow& window, const QString& file, Work work, 
 }
 
 void CaseFiles::write_contents(CaseWindow& window, const QString& file,
-                               std::function<Status(const SessionContents&)> work) {
+                               std::function<Status(const document::SessionContents&)> work) {
   window.proxy().take_snapshot(window.view_state(), [this, about = about_writing(window, file), file,
                                                      work = std::move(work)](const auto& snapshot) {
     run(about, file, [snapshot, work] { return work(snapshot->contents); }, {});
@@ -77,16 +77,17 @@ void CaseFiles::write_contents(CaseWindow& window, const QString& file,
 }
 
 void CaseFiles::run(const QString& about, const QString& file, Work work, std::function<void()> done) {
-  jobs_.push_back(BackgroundJob::start(this, [this, about, file, work = std::move(work), done](auto& job) {
-    const Status status = without_exceptions(work);
-    job.deliver([this, about, file, status, done] {
-      if (!status) return window_.tell(QString::fromStdString(status.error().message), about);
-      window_.settle(about);
-      window_.statusBar()->showMessage(tr("Wrote %1").arg(file), 8000);
-      if (done) done();
-      emit written(file);
-    });
-  }));
+  jobs_.push_back(
+      engine::BackgroundJob::start(this, [this, about, file, work = std::move(work), done](auto& job) {
+        const Status status = without_exceptions(work);
+        job.deliver([this, about, file, status, done] {
+          if (!status) return window_.tell(QString::fromStdString(status.error().message), about);
+          window_.settle(about);
+          window_.statusBar()->showMessage(tr("Wrote %1").arg(file), 8000);
+          if (done) done();
+          emit written(file);
+        });
+      }));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -10,9 +10,12 @@
 #include "core/result.h"
 #include "ui/main/case_window.h"
 
-namespace tidemark {
-
+namespace tidemark::engine {
 class BackgroundJob;
+}
+
+namespace tidemark::ui {
+
 class MainWindow;
 
 // Files are written on threads of their own; how it went is said in the window.
@@ -30,7 +33,7 @@ class CaseFiles : public QObject {
   void write(const CaseWindow& window, const QString& file, Work work, std::function<void()> done = {});
   // From what the case is like now.
   void write_contents(CaseWindow& window, const QString& file,
-                      std::function<Status(const SessionContents&)> work);
+                      std::function<Status(const document::SessionContents&)> work);
 
  signals:
   void written(const QString& file);
@@ -39,9 +42,9 @@ class CaseFiles : public QObject {
   void run(const QString& about, const QString& file, Work work, std::function<void()> done);
 
   MainWindow& window_;
-  std::vector<std::shared_ptr<BackgroundJob>> jobs_;
+  std::vector<std::shared_ptr<engine::BackgroundJob>> jobs_;
 };
 
 std::filesystem::path path_of(const QString& file);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -9,7 +9,7 @@
 #include "ui/main/case_window.h"
 #include "ui/widgets/elided_label.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kStripe = 2;  // pixels below the line, in the case's colour
@@ -33,10 +33,10 @@ QPixmap drawn_mark(int number, int side) {
 }
 
 // "Name · ID · series", without unknown and hidden parts.
-QString text_of(CaseProxy& proxy) {
+QString text_of(engine::CaseProxy& proxy) {
   QStringList parts;
   if (proxy.display().settings().patient_text) {
-    const Patient& patient = proxy.study().patient;
+    const imaging::Patient& patient = proxy.study().patient;
     for (const std::string& part : {patient.name, patient.id}) {
       if (!part.empty()) parts << QString::fromStdString(part);
     }
@@ -76,7 +76,7 @@ void CaseHead::set_case(CaseWindow* window) {
   if (window_) {
     connect(window_, &CaseWindow::mark_changed, this, &CaseHead::refresh);
     connect(window_, &QWidget::windowTitleChanged, this, &CaseHead::refresh_text);
-    connect(&window_->proxy().display(), &Display::changed, this, &CaseHead::refresh_text);
+    connect(&window_->proxy().display(), &engine::Display::changed, this, &CaseHead::refresh_text);
   }
   refresh();
 }
@@ -108,4 +108,4 @@ void CaseHead::paintEvent(QPaintEvent* /*event*/) {
   painter.fillRect(QRect(0, height() - kStripe, width(), kStripe), case_colour(window_->number()));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -7,7 +7,7 @@
 
 class QLabel;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class CaseWindow;
 class ElidedLabel;
@@ -39,4 +39,4 @@ class CaseHead : public QWidget {
   QLabel* chain_ = nullptr;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 void CaseLinks::link(const QList<CaseWindow*>& windows) {
   for (CaseWindow* window : std::exchange(windows_, {})) {
@@ -16,7 +16,8 @@ void CaseLinks::link(const QList<CaseWindow*>& windows) {
     for (CaseWindow* window : windows) {
       windows_ << window;
       window->set_linked(true);
-      connect(&window->proxy().display(), &Display::changed, this, [this, window] { follow(*window); });
+      connect(&window->proxy().display(), &engine::Display::changed, this,
+              [this, window] { follow(*window); });
       connect(window, &QObject::destroyed, this, [this, window] { forget(window); });
     }
     follow(*windows_.first());
@@ -25,12 +26,12 @@ void CaseLinks::link(const QList<CaseWindow*>& windows) {
 }
 
 void CaseLinks::play_together(const QList<CaseWindow*>& windows, bool together) {
-  std::vector<CaseProxy*> proxies;
+  std::vector<engine::CaseProxy*> proxies;
   for (CaseWindow* window : windows) {
     if (!together) window->proxy().leave_lock_step();
     proxies.push_back(&window->proxy());
   }
-  if (together) CaseProxy::play_in_lock_step(proxies);
+  if (together) engine::CaseProxy::play_in_lock_step(proxies);
 }
 
 bool CaseLinks::any_in_lock_step(const QList<CaseWindow*>& windows) {
@@ -46,11 +47,11 @@ void CaseLinks::forget(CaseWindow* closed) {
 void CaseLinks::follow(CaseWindow& moved) {
   if (following_) return;
   const QScopedValueRollback guard(following_, true);
-  const DisplaySettings& from = moved.proxy().display().settings();
+  const engine::DisplaySettings& from = moved.proxy().display().settings();
   for (CaseWindow* window : windows_) {
     if (window == &moved) continue;
     const bool same_values = window->proxy().volume().modality == moved.proxy().volume().modality;
-    window->proxy().display().change([&](DisplaySettings& to) {
+    window->proxy().display().change([&](engine::DisplaySettings& to) {
       to.cursor_mm = from.cursor_mm;
       to.slice_centre_mm = from.slice_centre_mm;
       to.slice_zoom = from.slice_zoom;
@@ -63,4 +64,4 @@ void CaseLinks::follow(CaseWindow& moved) {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

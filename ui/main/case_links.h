@@ -6,7 +6,7 @@
 
 #include "ui/main/case_window.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class CaseLinks : public QObject {
   Q_OBJECT
@@ -35,4 +35,4 @@ class CaseLinks : public QObject {
   bool following_ = false;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

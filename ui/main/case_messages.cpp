@@ -6,7 +6,7 @@
 #include "ui/main/message_bar.h"
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 // One case's failure is not settled by another's success.
@@ -18,22 +18,22 @@ QString outcome_name_of(const CaseWindow& window) {
   return QStringLiteral("surface of ") + name_of(window);
 }
 
-QString advice_on(Outcome outcome) {
+QString advice_on(document::Outcome outcome) {
   switch (outcome) {
-    case Outcome::vanished:
+    case document::Outcome::vanished:
       return CaseMessages::tr(
           "The surface has vanished: it has shrunk to nothing. Try a larger start, a wider range ε or a "
           "larger α, and restart.");
-    case Outcome::seeded_outside:
+    case document::Outcome::seeded_outside:
       return CaseMessages::tr(
           "The surface has vanished: no value where it began is within T ± ε. Probe T and ε over "
           "the tissue, or draw another start, and restart.");
-    case Outcome::filled_volume:
+    case document::Outcome::filled_volume:
       return CaseMessages::tr(
           "The surface has filled the volume: nothing has stopped it. Try a narrower range ε or a smaller "
           "α, and restart.");
-    case Outcome::converged:
-    case Outcome::unfinished:
+    case document::Outcome::converged:
+    case document::Outcome::unfinished:
       break;
   }
   return {};
@@ -43,15 +43,15 @@ QString advice_on(Outcome outcome) {
 
 CaseMessages::CaseMessages(CaseWindow& window, MessageBar& bar)
     : QObject(&window), window_(window), bar_(bar) {
-  connect(&window.proxy(), &CaseProxy::failed, this, &CaseMessages::tell_failure);
-  connect(&window.proxy(), &CaseProxy::state_changed, this, &CaseMessages::follow);
-  connect(&window.autosave(), &CaseAutosave::failed, this, [this](const QString& message) {
+  connect(&window.proxy(), &engine::CaseProxy::failed, this, &CaseMessages::tell_failure);
+  connect(&window.proxy(), &engine::CaseProxy::state_changed, this, &CaseMessages::follow);
+  connect(&window.autosave(), &engine::CaseAutosave::failed, this, [this](const QString& message) {
     bar_.show_text(tr("Unsaved work cannot be copied against a crash: %1").arg(message));
   });
 }
 
 QString CaseMessages::done() const {
-  const CaseState& state = window_.proxy().state();
+  const engine::CaseState& state = window_.proxy().state();
   return QStringLiteral("%1 %2").arg(state.edits).arg(state.undo_text);
 }
 
@@ -66,7 +66,7 @@ void CaseMessages::follow() {
 }
 
 void CaseMessages::tell_outcome() {
-  const CaseState& state = window_.proxy().state();
+  const engine::CaseState& state = window_.proxy().state();
   if (state.outcome == told_ && state.wider_range == offered_) return;
   told_ = state.outcome;
   offered_ = state.wider_range;
@@ -84,10 +84,10 @@ void CaseMessages::tell_outcome() {
 }
 
 void CaseMessages::widen(double range) {
-  Parameters parameters = window_.proxy().parameters();
+  solver::Parameters parameters = window_.proxy().parameters();
   parameters.range = range;
   window_.proxy().set_parameters(parameters);
   window_.proxy().play();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

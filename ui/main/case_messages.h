@@ -7,7 +7,7 @@
 
 #include "document/outcome.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class CaseWindow;
 class MessageBar;
@@ -29,8 +29,8 @@ class CaseMessages : public QObject {
   CaseWindow& window_;
   MessageBar& bar_;
   QString done_at_failure_;
-  Outcome told_ = Outcome::unfinished;
+  document::Outcome told_ = document::Outcome::unfinished;
   std::optional<double> offered_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -13,7 +13,7 @@
 #include "ui/results/write_result_dialog.h"
 #include "ui/settings.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 const char* const kAboutImport = "import of labels";
@@ -47,7 +47,7 @@ CaseResults::CaseResults(MainWindow& window)
   writes(actions.export_label_meshes, ResultFile::meshes);
   with_case(actions.import_labels, [this](CaseWindow& into) { ask_and_import(into); });
   with_case(actions.send_result, [this, name = actions.send_result->objectName()](CaseWindow& of) {
-    new_dialog<SendResultDialog>(of, name, pacs_configuration_file());
+    new_dialog<SendResultDialog>(of, name, imaging::pacs_configuration_file());
   });
 }
 
@@ -65,12 +65,12 @@ Dialog* CaseResults::new_dialog(CaseWindow& window, const QString& name, Argumen
 }
 
 void CaseResults::connect_jobs() {
-  connect(&jobs_, &ResultJobs::progressed, progress_, &LoadingView::set_progress);
-  connect(progress_, &LoadingView::cancelled, &jobs_, &ResultJobs::cancel);
-  connect(&jobs_, &ResultJobs::labels_read, this, &CaseResults::add);
-  connect(&jobs_, &ResultJobs::cancelled, this, [this] { end_reading(); });
-  connect(&jobs_, &ResultJobs::failed, this, &CaseResults::end_reading);
-  connect(&jobs_, &ResultJobs::no_result, this, [this] {
+  connect(&jobs_, &engine::ResultJobs::progressed, progress_, &LoadingView::set_progress);
+  connect(progress_, &LoadingView::cancelled, &jobs_, &engine::ResultJobs::cancel);
+  connect(&jobs_, &engine::ResultJobs::labels_read, this, &CaseResults::add);
+  connect(&jobs_, &engine::ResultJobs::cancelled, this, [this] { end_reading(); });
+  connect(&jobs_, &engine::ResultJobs::failed, this, &CaseResults::end_reading);
+  connect(&jobs_, &engine::ResultJobs::no_result, this, [this] {
     window_.open(waiting_.front().file);
     end_reading();
   });
@@ -121,7 +121,7 @@ void CaseResults::end_reading(const QString& problem) {
   if (!waiting_.empty()) read_next();
 }
 
-void CaseResults::add(const std::shared_ptr<const Segments>& segments) {
+void CaseResults::add(const std::shared_ptr<const imaging::Segments>& segments) {
   if (CaseWindow* into = waiting_.front().window) {
     into->proxy().import_labels(segments);
     window_.settle(kAboutImport);
@@ -138,4 +138,4 @@ void CaseResults::add(const std::shared_ptr<const Segments>& segments) {
   end_reading();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

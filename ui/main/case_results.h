@@ -10,7 +10,7 @@
 #include "engine/result_jobs.h"
 #include "ui/main/case_window.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class LoadingView;
 class MainWindow;
@@ -32,7 +32,7 @@ class CaseResults : public QObject {
   void read(CaseWindow& window, const QString& file, bool only_results);
   void read_next();
   void end_reading(const QString& problem = {});
-  void add(const std::shared_ptr<const Segments>& segments);
+  void add(const std::shared_ptr<const imaging::Segments>& segments);
   // Null: a dialog of that name is there already, and was brought to the front.
   template <class Dialog, class... Arguments>
   Dialog* new_dialog(CaseWindow& window, const QString& name, Arguments... arguments);
@@ -45,9 +45,9 @@ class CaseResults : public QObject {
   };
 
   MainWindow& window_;
-  ResultJobs jobs_;
+  engine::ResultJobs jobs_;
   LoadingView* progress_;
   std::deque<Reading> waiting_;  // the first is being read
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -18,7 +18,7 @@
 #include "ui/views/view_bar.h"
 #include "ui/views/volume_view.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr const char* kKind = "view_kind";      // property of a dock
@@ -34,10 +34,10 @@ PictureView* view_of(const QDockWidget* dock) {
 }
 
 // The display of a new case.
-DisplaySettings first_settings(const CaseProxy& proxy) {
+engine::DisplaySettings first_settings(const engine::CaseProxy& proxy) {
   const Volume& volume = proxy.volume();
-  DisplaySettings settings;
-  settings.cursor_mm = settings.slice_centre_mm = middle_of(volume.geometry);
+  engine::DisplaySettings settings;
+  settings.cursor_mm = settings.slice_centre_mm = renderer::middle_of(volume.geometry);
   if (const auto& start = proxy.study().start; start && start->seed) {
     // The start that suits the phantom.
     const auto& seed = *start->seed;
@@ -45,7 +45,7 @@ DisplaySettings first_settings(const CaseProxy& proxy) {
   }
   settings.window = proxy.summary().window;
   settings.clip.normal = {0.0, -1.0, 0.0};
-  settings.clip.offset_mm = -middle_of(volume.geometry).y;
+  settings.clip.offset_mm = -renderer::middle_of(volume.geometry).y;
   settings.camera.azimuth = 30.0;
   settings.camera.elevation = 20.0;
   const glm::dvec3 extent = glm::dvec3(volume.geometry.size) * volume.geometry.spacing_mm;
@@ -54,7 +54,7 @@ DisplaySettings first_settings(const CaseProxy& proxy) {
 }
 
 // "Patient – series", without what is not known or not to be read.
-QString title_of(CaseProxy& proxy) {
+QString title_of(engine::CaseProxy& proxy) {
   const QString patient = QString::fromStdString(proxy.study().patient.name);
   const bool is_phantom = !proxy.origin().phantom.empty();
   if (patient.isEmpty() || is_phantom || !proxy.display().settings().patient_text) return proxy.name();
@@ -83,7 +83,7 @@ QString text_of(ViewKind kind) {
   return {};
 }
 
-CaseWindow::CaseWindow(std::unique_ptr<CaseProxy> proxy, Actions& actions, QWidget* parent)
+CaseWindow::CaseWindow(std::unique_ptr<engine::CaseProxy> proxy, Actions& actions, QWidget* parent)
     : QMainWindow(parent), proxy_(std::move(proxy)), actions_(actions) {
   setWindowFlags(Qt::Widget);
   setDockNestingEnabled(true);
@@ -97,10 +97,11 @@ CaseWindow::CaseWindow(std::unique_ptr<CaseProxy> proxy, Actions& actions, QWidg
   auto* head = new CaseHead;
   setMenuWidget(head);
   head->set_case(this);
-  connect(proxy_.get(), &CaseProxy::state_changed, this, &CaseWindow::follow_state);
-  connect(&proxy_->display(), &Display::changed, this, &CaseWindow::follow_state);
+  connect(proxy_.get(), &engine::CaseProxy::state_changed, this, &CaseWindow::follow_state);
+  connect(&proxy_->display(), &engine::Display::changed, this, &CaseWindow::follow_state);
   follow_state();
-  autosave_ = std::make_unique<CaseAutosave>(*proxy_, recovery_folder(), [this] { return view_state(); });
+  autosave_ = std::make_unique<engine::CaseAutosave>(*proxy_, engine::recovery_folder(),
+                                                     [this] { return view_state(); });
   set_layout(settings::layout().get());
 }
 
@@ -130,17 +131,17 @@ void CaseWindow::follow_state() {
 PictureView* CaseWindow::make_view(ViewKind kind) {
   switch (kind) {
     case ViewKind::axial:
-      return new SliceViewWidget(*proxy_, SlicePlane::axial, SliceContent::source);
+      return new SliceViewWidget(*proxy_, SlicePlane::axial, renderer::SliceContent::source);
     case ViewKind::coronal:
-      return new SliceViewWidget(*proxy_, SlicePlane::coronal, SliceContent::source);
+      return new SliceViewWidget(*proxy_, SlicePlane::coronal, renderer::SliceContent::source);
     case ViewKind::sagittal:
-      return new SliceViewWidget(*proxy_, SlicePlane::sagittal, SliceContent::source);
+      return new SliceViewWidget(*proxy_, SlicePlane::sagittal, renderer::SliceContent::source);
     case ViewKind::oblique:
-      return new SliceViewWidget(*proxy_, SlicePlane::oblique, SliceContent::source);
+      return new SliceViewWidget(*proxy_, SlicePlane::oblique, renderer::SliceContent::source);
     case ViewKind::speed:
-      return new SliceViewWidget(*proxy_, SlicePlane::axial, SliceContent::speed);
+      return new SliceViewWidget(*proxy_, SlicePlane::axial, renderer::SliceContent::speed);
     case ViewKind::pages:
-      return new SliceViewWidget(*proxy_, SlicePlane::axial, SliceContent::pages);
+      return new SliceViewWidget(*proxy_, SlicePlane::axial, renderer::SliceContent::pages);
     case ViewKind::volume:
       break;
   }
@@ -166,7 +167,7 @@ QDockWidget* CaseWindow::make_dock(ViewKind kind, int number) {
   });
   if (auto* volume = qobject_cast<VolumeViewWidget*>(view)) {
     connect(volume, &VolumeViewWidget::place_wanted, this, [this] {
-      actions_.tool(Tool::seed)->trigger();
+      actions_.tool(engine::Tool::seed)->trigger();
       emit place_panel_wanted();
     });
   }
@@ -293,8 +294,8 @@ QDockWidget* CaseWindow::dock_of(const PictureView* view) const {
 }
 
 void CaseWindow::reset_views() {
-  const DisplaySettings first = first_settings(*proxy_);
-  proxy_->display().change([&](DisplaySettings& settings) {
+  const engine::DisplaySettings first = first_settings(*proxy_);
+  proxy_->display().change([&](engine::DisplaySettings& settings) {
     settings.cursor_mm = first.cursor_mm;
     settings.slice_centre_mm = first.slice_centre_mm;
     settings.slice_zoom = first.slice_zoom;
@@ -358,7 +359,7 @@ void CaseWindow::restore_arrangement(const QByteArray& arrangement) {
 }
 
 std::string CaseWindow::view_state() const {
-  const QJsonObject state{{"display", QString::fromStdString(to_json(proxy_->display().settings()))},
+  const QJsonObject state{{"display", QString::fromStdString(engine::to_json(proxy_->display().settings()))},
                           {"views", QString::fromLatin1(arrangement().toBase64())}};
   return QJsonDocument(state).toJson(QJsonDocument::Compact).toStdString();
 }
@@ -368,7 +369,7 @@ Status CaseWindow::restore_view_state(const std::string& text) {
   const QByteArray views = QByteArray::fromBase64(state["views"].toString().toLatin1());
   if (!views.isEmpty()) restore_arrangement(views);
   auto settings =
-      display_settings(state["display"].toString("{}").toStdString(), proxy_->display().settings());
+      engine::display_settings(state["display"].toString("{}").toStdString(), proxy_->display().settings());
   if (!settings) return pass_on(settings);
   proxy_->display().set(std::move(*settings));
   return {};
@@ -392,4 +393,4 @@ void CaseWindow::changeEvent(QEvent* event) {
     parentWidget()->setWindowModified(isWindowModified());
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -11,7 +11,7 @@
 
 class QDockWidget;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class PictureView;
 class ViewBar;
@@ -26,10 +26,10 @@ QString text_of(ViewKind kind);
 class CaseWindow : public QMainWindow {
   Q_OBJECT
  public:
-  CaseWindow(std::unique_ptr<CaseProxy> proxy, Actions& actions, QWidget* parent = nullptr);
+  CaseWindow(std::unique_ptr<engine::CaseProxy> proxy, Actions& actions, QWidget* parent = nullptr);
   ~CaseWindow() override;
 
-  [[nodiscard]] CaseProxy& proxy() { return *proxy_; }
+  [[nodiscard]] engine::CaseProxy& proxy() { return *proxy_; }
 
   // The mark of an open case: a number from 1 on, with a colour (CaseHead), and whether the case is linked to
   // others.
@@ -56,7 +56,7 @@ class CaseWindow : public QMainWindow {
   // Closes without a question, as the case was just saved.
   void close_saved();
 
-  [[nodiscard]] CaseAutosave& autosave() { return *autosave_; }
+  [[nodiscard]] engine::CaseAutosave& autosave() { return *autosave_; }
   // The case's own file, once it has one.
   QString session_file;
 
@@ -82,9 +82,9 @@ class CaseWindow : public QMainWindow {
   [[nodiscard]] QByteArray arrangement() const;
   void restore_arrangement(const QByteArray& arrangement);
 
-  std::unique_ptr<CaseProxy> proxy_;
+  std::unique_ptr<engine::CaseProxy> proxy_;
   Actions& actions_;
-  std::unique_ptr<CaseAutosave> autosave_;
+  std::unique_ptr<engine::CaseAutosave> autosave_;
   QList<QDockWidget*> docks_;
   int number_ = 1;
   bool linked_ = false;
@@ -95,4 +95,4 @@ class CaseWindow : public QMainWindow {
   bool saved_ = false;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -7,7 +7,7 @@
 
 #include "ui/views/mouse_scheme.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr const char* kName = "first-steps-page";  // of the one window
@@ -28,15 +28,16 @@ QString steps(const Actions& actions) {
   const QStringList steps = {
       tr("Open a study (%1), or a phantom from File &gt; Phantoms.").arg(key(actions.open_folder)),
       tr("Choose <b>Probe T and ε</b> (%1) and drag over the tissue you want.")
-          .arg(key(actions.tool(Tool::probe_speed))),
+          .arg(key(actions.tool(engine::Tool::probe_speed))),
       tr("Place a surface: choose <b>Sphere</b> (%1) and click in the tissue, or press in its middle and "
          "drag.")
-          .arg(key(actions.tool(Tool::seed))),
+          .arg(key(actions.tool(engine::Tool::seed))),
       tr("Press <b>Play</b> (%1) and watch. Change T, ε and α, the weight of the data, while it runs: near "
          "1 the surface follows brightness, near 0 it becomes smooth.")
           .arg(key(actions.play)),
       tr("Paint (%1) or erase (%2) while it runs; undo (%3) takes anything back.")
-          .arg(key(actions.tool(Tool::paint)), key(actions.tool(Tool::erase)), key(actions.undo)),
+          .arg(key(actions.tool(engine::Tool::paint)), key(actions.tool(engine::Tool::erase)),
+               key(actions.undo)),
       tr("Accept the surface into a label, and export mask (%1), polygons or a DICOM segmentation.")
           .arg(key(actions.export_mask))};
   QString text;
@@ -90,4 +91,4 @@ void show_first_steps(QWidget* parent, const Actions& actions) {
   dialog->activateWindow();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -5,9 +5,9 @@
 
 class QWidget;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // In a window of its own that may stay beside the work; there is one, and it comes to the front.
 void show_first_steps(QWidget* parent, const Actions& actions);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -2,7 +2,7 @@
 
 #include <QWidget>
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 bool can_be_reached(const QWidget& widget) {
@@ -23,4 +23,4 @@ QWidget* next_in_focus_chain(const QWidget& from, bool forward,
   return nullptr;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -5,11 +5,11 @@
 
 class QWidget;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // The first widget behind `from` in its window's focus chain (before it, when not `forward`) that Tab can
 // reach and for which `allowed` is true; null: there is none.
 [[nodiscard]] QWidget* next_in_focus_chain(const QWidget& from, bool forward,
                                            const std::function<bool(const QWidget&)>& allowed);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

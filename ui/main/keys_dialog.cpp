@@ -9,7 +9,7 @@
 
 #include "ui/look/icons.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 KeysDialog::KeysDialog(Actions& actions, QWidget* parent) : QDialog(parent), actions_(actions) {
   setWindowTitle(tr("Keys"));
@@ -70,4 +70,4 @@ void KeysDialog::mark_conflicts() {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

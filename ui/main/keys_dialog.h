@@ -7,7 +7,7 @@
 
 class QTableWidget;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class KeysDialog : public QDialog {
   Q_OBJECT
@@ -21,4 +21,4 @@ class KeysDialog : public QDialog {
   QTableWidget* table_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -50,13 +50,13 @@
 #include "ui/views/picture_surface.h"
 #include "ui/views/picture_view.h"
 
-namespace tidemark {
-MainWindow::MainWindow(Engine& engine, QWidget* parent) : QMainWindow(parent), engine_(engine) {
+namespace tidemark::ui {
+MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(parent), engine_(engine) {
   setObjectName("main");
   setWindowTitle(tr("Tidemark"));  // Qt adds the name of a case that fills the window
   setWindowIcon(application_icon());
   setAcceptDrops(true);
-  if (engine.pictures() == Engine::Pictures::textures) expect_surfaces(*this);
+  if (engine.pictures() == engine::Engine::Pictures::textures) expect_surfaces(*this);
   resize(QSize(1280, 800).boundedTo(screen()->availableSize()));
   actions_ = new Actions(this);
   recent_ = new RecentStudies(this);
@@ -133,8 +133,8 @@ void MainWindow::make_status_bar() {
   loading_ = new LoadingView(LoadingView::Shape::line);
   loading_->hide();
   statusBar()->addPermanentWidget(loading_);
-  if (engine_.graphics() == Engine::Graphics::hardware) return;
-  const bool software = engine_.graphics() == Engine::Graphics::software;
+  if (engine_.graphics() == engine::Engine::Graphics::hardware) return;
+  const bool software = engine_.graphics() == engine::Engine::Graphics::software;
   auto* note = new QLabel(software ? tr("Software OpenGL") : tr("No OpenGL"));
   note->setToolTip(
       software ? tr("There is no graphics processor: pictures are drawn by the processor, the level set is "
@@ -208,8 +208,8 @@ void MainWindow::open_phantom(const QString& kind) {
   opener_->open_phantom(kind);
 }
 
-CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study,
-                                 const RestoredCase& restored) {
+CaseWindow* MainWindow::add_case(const std::shared_ptr<const engine::LoadedStudy>& study,
+                                 const engine::RestoredCase& restored) {
   const bool from_session = restored.contents && !restored.rescued;  // the session file is remembered instead
   if (!study->origin.path.empty() && !from_session) {
     const RecentStudy recent{QString::fromStdString(study->origin.path.string()),
@@ -218,12 +218,13 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
     recent_->add(recent);
     recent_->add_picture(recent, study->volume, study->summary.window, study->volume->geometry.size.z / 2);
   }
-  auto* window = new CaseWindow(std::make_unique<CaseProxy>(engine_, study, executor_, restored), *actions_);
-  window->proxy().display().change([&](DisplaySettings& settings) {
+  auto* window =
+      new CaseWindow(std::make_unique<engine::CaseProxy>(engine_, study, executor_, restored), *actions_);
+  window->proxy().display().change([&](engine::DisplaySettings& settings) {
     if (active_) {
       settings.tool = active_->proxy().display().settings().tool;
     } else if (!study->origin.phantom.empty()) {
-      settings.tool = Tool::seed;  // to be tried at once: its T and epsilon fit
+      settings.tool = engine::Tool::seed;  // to be tried at once: its T and epsilon fit
     }
   });
   settle(kAboutOpening);
@@ -240,7 +241,8 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const LoadedStudy>& study
   return window;
 }
 
-void MainWindow::show_case(QMdiSubWindow& child, const LoadedStudy& study, const RestoredCase& restored) {
+void MainWindow::show_case(QMdiSubWindow& child, const engine::LoadedStudy& study,
+                           const engine::RestoredCase& restored) {
   centre_->setCurrentWidget(area_);
   area_->show_child(child);
   auto& window = static_cast<CaseWindow&>(*child.widget());
@@ -297,13 +299,14 @@ void MainWindow::activate(QMdiSubWindow* child) {
     if (std::exchange(quitting_, false))
       QMetaObject::invokeMethod(this, &QWidget::close, Qt::QueuedConnection);
   }
-  CaseProxy* proxy = active_ ? &active_->proxy() : nullptr;
+  engine::CaseProxy* proxy = active_ ? &active_->proxy() : nullptr;
   panels_->set_case(active_);
   values_->set_proxy(proxy);
   value_details_->setVisible(proxy != nullptr);
   if (proxy) {
-    active_connections_ << connect(proxy, &CaseProxy::state_changed, this, &MainWindow::follow_case)
-                        << connect(&proxy->display(), &Display::changed, this, &MainWindow::follow_case);
+    active_connections_ << connect(proxy, &engine::CaseProxy::state_changed, this, &MainWindow::follow_case)
+                        << connect(&proxy->display(), &engine::Display::changed, this,
+                                   &MainWindow::follow_case);
   }
   follow_case();
 }
@@ -332,7 +335,7 @@ void MainWindow::connect_evolution() {
   });
   connect(actions_->tools, &QActionGroup::triggered, this, [this](QAction* chosen) {
     for (CaseWindow* window : cases())
-      window->proxy().display().choose_tool(static_cast<Tool>(chosen->data().toInt()));
+      window->proxy().display().choose_tool(static_cast<engine::Tool>(chosen->data().toInt()));
   });
 }
 
@@ -342,11 +345,12 @@ void MainWindow::connect_views() {
   });
   with_case(actions_->reset_view, [](CaseWindow& window) { window.reset_views(); });
   with_case(actions_->clip, [](CaseWindow& window) {
-    window.proxy().display().change([](DisplaySettings& settings) { settings.clip_on = !settings.clip_on; });
+    window.proxy().display().change(
+        [](engine::DisplaySettings& settings) { settings.clip_on = !settings.clip_on; });
   });
   with_case(actions_->patient_text, [](CaseWindow& window) {
     window.proxy().display().change(
-        [](DisplaySettings& settings) { settings.patient_text = !settings.patient_text; });
+        [](engine::DisplaySettings& settings) { settings.patient_text = !settings.patient_text; });
   });
   connect(actions_->hide_interface, &QAction::toggled, panels_, &PanelDocks::set_hidden);
   connect(actions_->full_screen, &QAction::toggled, this, [this](bool full) {
@@ -432,4 +436,4 @@ void MainWindow::dropEvent(QDropEvent* event) {
   event->acceptProposedAction();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -12,7 +12,11 @@ class QMdiSubWindow;
 class QStackedWidget;
 class QToolButton;
 
-namespace tidemark {
+namespace tidemark::engine {
+struct LoadedStudy;
+}
+
+namespace tidemark::ui {
 
 class CaseArea;
 class CaseExports;
@@ -27,19 +31,19 @@ class SessionReader;
 class SessionWriter;
 class StudyOpener;
 class ValueBar;
-struct LoadedStudy;
 struct RecentStudy;
 
 class MainWindow : public QMainWindow {
   Q_OBJECT
  public:
-  explicit MainWindow(Engine& engine, QWidget* parent = nullptr);
+  explicit MainWindow(engine::Engine& engine, QWidget* parent = nullptr);
   ~MainWindow() override;
 
   // A folder, an image file or a session file.
   void open(const QString& path);
   void open_phantom(const QString& kind);
-  CaseWindow* add_case(const std::shared_ptr<const LoadedStudy>& study, const RestoredCase& restored = {});
+  CaseWindow* add_case(const std::shared_ptr<const engine::LoadedStudy>& study,
+                       const engine::RestoredCase& restored = {});
 
   [[nodiscard]] CaseWindow* active_case() const;  // null: none
   [[nodiscard]] QList<CaseWindow*> cases() const;
@@ -51,7 +55,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] SessionWriter& session_writer() { return *session_writer_; }
   [[nodiscard]] CaseResults& results() { return *results_; }
   // The executor of new cases.
-  void set_executor(ExecutorKind kind) { executor_ = kind; }
+  void set_executor(solver::ExecutorKind kind) { executor_ = kind; }
   // Shows a sentence until it is dismissed, the next one comes, or its subject has succeeded.
   void tell(const QString& message, const QString& about = {});
   void settle(const QString& about);
@@ -77,7 +81,8 @@ class MainWindow : public QMainWindow {
   void ask_for_folder();
   void ask_for_file();
   void open_recent(const RecentStudy& study);
-  void show_case(QMdiSubWindow& child, const LoadedStudy& study, const RestoredCase& restored);
+  void show_case(QMdiSubWindow& child, const engine::LoadedStudy& study,
+                 const engine::RestoredCase& restored);
   [[nodiscard]] int free_number() const;
   void activate(QMdiSubWindow* window);
   void follow_case();
@@ -87,9 +92,9 @@ class MainWindow : public QMainWindow {
   template <class Do>
   void with_case(QAction* action, Do act);
 
-  Engine& engine_;
+  engine::Engine& engine_;
   Actions* actions_;
-  ExecutorKind executor_ = ExecutorKind::automatic;
+  solver::ExecutorKind executor_ = solver::ExecutorKind::automatic;
   CaseArea* area_ = nullptr;
   QStackedWidget* centre_ = nullptr;
   PanelDocks* panels_ = nullptr;
@@ -110,4 +115,4 @@ class MainWindow : public QMainWindow {
   QList<QMetaObject::Connection> active_connections_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

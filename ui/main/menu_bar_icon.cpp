@@ -8,7 +8,7 @@
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 // Watches the menu bar for new children, and paints in place of the label in its corner.
@@ -42,4 +42,4 @@ void draw_menu_bar_icon_whole(QMenuBar& bar) {
   bar.installEventFilter(new IconPainter(bar));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -3,9 +3,9 @@
 
 class QMenuBar;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Qt puts it there, but on dense screens it draws it too large for its place. From now on it is drawn whole.
 void draw_menu_bar_icon_whole(QMenuBar& bar);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -12,7 +12,7 @@
 #include "ui/opening/phantom_menu.h"
 #include "ui/opening/recent_studies.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 void make_file_menu(MainWindow& window, Actions& actions, RecentStudies& recent) {
@@ -99,4 +99,4 @@ void make_tool_bar(MainWindow& window, Actions& actions) {
   bar->addActions(actions.layouts->actions());
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

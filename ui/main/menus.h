@@ -3,7 +3,7 @@
 
 #include "ui/main/actions.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class MainWindow;
 class PanelDocks;
@@ -16,4 +16,4 @@ struct MenuParts {
 void make_tool_bar(MainWindow& window, Actions& actions);
 void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,7 +8,7 @@
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 MessageBar::MessageBar(QWidget* parent) : QFrame(parent) {
   auto* column = new QVBoxLayout(this);
@@ -77,4 +77,4 @@ void MessageBar::dismiss() {
   hide();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,7 +8,7 @@ class QLabel;
 class QPushButton;
 class QStackedLayout;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 inline constexpr const char* kAboutOpening = "opening";  // of studies and sessions
 
@@ -38,4 +38,4 @@ class MessageBar : public QFrame {
   QString about_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

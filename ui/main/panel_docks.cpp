@@ -15,7 +15,7 @@
 #include "ui/panels/value_unit.h"
 #include "ui/transfer/transfer_function_editor.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kWidth = 320;  // logical pixels
@@ -91,13 +91,13 @@ QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* pa
 }
 
 void PanelDocks::set_case(CaseWindow* window) {
-  CaseProxy* proxy = window ? &window->proxy() : nullptr;
+  engine::CaseProxy* proxy = window ? &window->proxy() : nullptr;
   for (CaseHead* head : heads_) head->set_case(window);
   for (CaseWidget* panel : panels_) panel->set_proxy(proxy);
   if (proxy_) disconnect(proxy_, nullptr, this, nullptr);
   proxy_ = proxy;
   begun_ = proxy && proxy->state().begun;
-  if (proxy_) connect(proxy_, &CaseProxy::state_changed, this, &PanelDocks::follow_start);
+  if (proxy_) connect(proxy_, &engine::CaseProxy::state_changed, this, &PanelDocks::follow_start);
   transfer_->set_display(proxy ? &proxy->display() : nullptr, proxy ? &proxy->summary() : nullptr,
                          proxy ? value_unit(proxy->volume()) : QString());
   show_or_hide();
@@ -158,4 +158,4 @@ void PanelDocks::show(const QString& name) {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

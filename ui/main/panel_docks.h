@@ -11,7 +11,7 @@
 
 class QMainWindow;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class CaseHead;
 class CaseWindow;
@@ -39,7 +39,7 @@ class PanelDocks : public QObject {
   void show_or_hide();
 
   QMainWindow& window_;
-  QPointer<CaseProxy> proxy_;
+  QPointer<engine::CaseProxy> proxy_;
   bool begun_ = false;
   QList<QDockWidget*> docks_;
   QList<CaseWidget*> panels_;
@@ -51,4 +51,4 @@ class PanelDocks : public QObject {
   TransferFunctionEditor* transfer_ = nullptr;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

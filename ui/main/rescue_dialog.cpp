@@ -10,7 +10,7 @@
 
 #include "engine/phantom_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr std::size_t kMostListed = 8;
@@ -24,10 +24,10 @@ QString text_of(const std::filesystem::path& path) {
 }
 
 // "Liver, study of 2004-07-31, copy of 21/11/2026 14:03", and below it where the study is.
-QString entry(const Recoverable& copy) {
-  const StudyOrigin& study = copy.study;
+QString entry(const document::Recoverable& copy) {
+  const document::StudyOrigin& study = copy.study;
   QString name = QString::fromStdString(study.name);
-  if (name.isEmpty()) name = phantom_text(study.phantom).title;
+  if (name.isEmpty()) name = engine::phantom_text(study.phantom).title;
   if (name.isEmpty()) name = text_of(study.path.filename());
   if (name.isEmpty()) name = tr("A case");
   QStringList facts;
@@ -43,7 +43,8 @@ QString entry(const Recoverable& copy) {
 
 }  // namespace
 
-RescueAnswer ask_about_copies(QWidget* parent, const QString& why, const std::vector<Recoverable>& copies) {
+RescueAnswer ask_about_copies(QWidget* parent, const QString& why,
+                              const std::vector<document::Recoverable>& copies) {
   QString list;
   for (std::size_t index = 0; index < std::min(copies.size(), kMostListed); ++index)
     list += entry(copies[index]);
@@ -62,4 +63,4 @@ RescueAnswer ask_about_copies(QWidget* parent, const QString& why, const std::ve
   return box.clickedButton() == discard ? RescueAnswer::discard : RescueAnswer::later;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

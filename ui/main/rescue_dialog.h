@@ -8,11 +8,12 @@
 
 class QWidget;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 enum class RescueAnswer { open, discard, later };
 
 // `why`: the reason why there are copies. The copies are listed by name, study and age.
-RescueAnswer ask_about_copies(QWidget* parent, const QString& why, const std::vector<Recoverable>& copies);
+RescueAnswer ask_about_copies(QWidget* parent, const QString& why,
+                              const std::vector<document::Recoverable>& copies);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -3,12 +3,12 @@
 #include "ui/main/main_window.h"
 #include "ui/pacs/query_dialog.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 void query_server(MainWindow& window) {
   auto* dialog = window.findChild<QueryDialog*>();
   if (dialog == nullptr) {
-    dialog = new QueryDialog(pacs_configuration_file(), &window);
+    dialog = new QueryDialog(imaging::pacs_configuration_file(), &window);
     QObject::connect(dialog, &QueryDialog::retrieved, &window, &MainWindow::open);
     QObject::connect(dialog, &QueryDialog::told, &window,
                      [&window](const QString& text) { window.tell(text); });
@@ -18,4 +18,4 @@ void query_server(MainWindow& window) {
   dialog->activateWindow();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -1,11 +1,11 @@
 // The way from a PACS to a case.
 #pragma once
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class MainWindow;
 
 // Shows the window's one query dialog, and opens the series that it brings.
 void query_server(MainWindow& window);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

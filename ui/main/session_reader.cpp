@@ -15,23 +15,23 @@
 #include "ui/main/session_writer.h"
 #include "ui/settings.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 // What programs left behind that died; nothing where there is no memory even for that.
-std::vector<Recoverable> find_copies() {
-  auto found = without_exceptions([]() -> Result<std::vector<Recoverable>> {
-    sweep_unfinished(recovery_folder());
-    return find_recoverable(recovery_folder());
+std::vector<document::Recoverable> find_copies() {
+  auto found = without_exceptions([]() -> Result<std::vector<document::Recoverable>> {
+    document::sweep_unfinished(engine::recovery_folder());
+    return document::find_recoverable(engine::recovery_folder());
   });
-  return found ? std::move(*found) : std::vector<Recoverable>();
+  return found ? std::move(*found) : std::vector<document::Recoverable>();
 }
 
 }  // namespace
 
 SessionReader::SessionReader(MainWindow& window) : QObject(&window), window_(window) {
-  connect(&loader_, &StudyLoader::loaded, this, &SessionReader::compare);
-  connect(&loader_, &StudyLoader::failed, this, [this](const QString& message) {
+  connect(&loader_, &engine::StudyLoader::loaded, this, &SessionReader::compare);
+  connect(&loader_, &engine::StudyLoader::failed, this, [this](const QString& message) {
     end_reading(tr("The study of the session %1 was not found: %2").arg(waiting_.front().file, message));
   });
 }
@@ -58,22 +58,22 @@ void SessionReader::read(const QString& file, const std::string& rescued) {
 void SessionReader::read_next() {
   const auto path = path_of(waiting_.front().file);
   const bool is_copy = !waiting_.front().rescued.empty();
-  jobs_.push_back(BackgroundJob::start(this, [this, path, is_copy](BackgroundJob& job) {
-    auto contents = without_exceptions([&] { return load_session(path); });
+  jobs_.push_back(engine::BackgroundJob::start(this, [this, path, is_copy](engine::BackgroundJob& job) {
+    auto contents = without_exceptions([&] { return document::load_session(path); });
     if (!contents) {
-      auto copies = is_copy ? std::vector<Recoverable>() : find_copies();
+      auto copies = is_copy ? std::vector<document::Recoverable>() : find_copies();
       job.deliver([this, message = QString::fromStdString(contents.error().message),
                    copies = std::move(copies)] { refuse(message, copies); });
       return;
     }
-    job.deliver([this, contents = std::make_shared<const SessionContents>(std::move(*contents))] {
+    job.deliver([this, contents = std::make_shared<const document::SessionContents>(std::move(*contents))] {
       find_volume(contents);
     });
   }));
 }
 
 // What else there is to go on with: another copy of the file, or one that was kept for a crash.
-void SessionReader::refuse(const QString& problem, const std::vector<Recoverable>& copies) {
+void SessionReader::refuse(const QString& problem, const std::vector<document::Recoverable>& copies) {
   const QString file = waiting_.front().file;
   const bool damaged = QFileInfo::exists(file);
   end_reading(damaged ? tr("%1. If you have another copy of this file, open that one.").arg(problem)
@@ -90,19 +90,19 @@ void SessionReader::end_reading(const QString& problem) {
   if (!waiting_.empty()) read_next();
 }
 
-void SessionReader::find_volume(std::shared_ptr<const SessionContents> contents) {
-  const StudyOrigin& origin = contents->origin;
+void SessionReader::find_volume(std::shared_ptr<const document::SessionContents> contents) {
+  const document::StudyOrigin& origin = contents->origin;
   waiting_.front().contents = contents;
   if (!origin.phantom.empty()) return loader_.make_phantom(origin.phantom);
   loader_.load(origin.path, origin.series_uid, origin.policy);
 }
 
 // The volume is here: is it the one that the session is about? Comparing reads all of it.
-void SessionReader::compare(const std::shared_ptr<const LoadedStudy>& study) {
-  jobs_.push_back(
-      BackgroundJob::start(this, [this, study, contents = waiting_.front().contents](BackgroundJob& job) {
-        const auto found =
-            without_exceptions([&]() -> Result<VolumeMatch> { return match(*contents, *study->volume); });
+void SessionReader::compare(const std::shared_ptr<const engine::LoadedStudy>& study) {
+  jobs_.push_back(engine::BackgroundJob::start(
+      this, [this, study, contents = waiting_.front().contents](engine::BackgroundJob& job) {
+        const auto found = without_exceptions(
+            [&]() -> Result<document::VolumeMatch> { return document::match(*contents, *study->volume); });
         job.deliver([this, study, found] {
           if (!found) return end_reading(QString::fromStdString(found.error().message));
           restore(study, *found);
@@ -110,13 +110,14 @@ void SessionReader::compare(const std::shared_ptr<const LoadedStudy>& study) {
       }));
 }
 
-void SessionReader::restore(const std::shared_ptr<const LoadedStudy>& study, VolumeMatch found) {
+void SessionReader::restore(const std::shared_ptr<const engine::LoadedStudy>& study,
+                            document::VolumeMatch found) {
   const Waiting waiting = waiting_.front();
-  if (found == VolumeMatch::other_grid) {
+  if (found == document::VolumeMatch::other_grid) {
     return end_reading(
         tr("The study of the session %1 is another one now: its size or place differ").arg(waiting.file));
   }
-  if (found == VolumeMatch::other_voxels &&
+  if (found == document::VolumeMatch::other_voxels &&
       QMessageBox::question(
           &window_, tr("Open a session"),
           tr("The voxels of this study are not those that the session was saved with. Go on "
@@ -135,15 +136,15 @@ void SessionReader::restore(const std::shared_ptr<const LoadedStudy>& study, Vol
 
 // The copy goes once the case has one of its own, or the user has closed it.
 void SessionReader::keep_rescued(CaseWindow& window, const std::string& copy) {
-  const auto remove = [copy] { discard(recovery_folder(), copy); };
-  connect(&window.autosave(), &CaseAutosave::saved, this, remove, Qt::SingleShotConnection);
+  const auto remove = [copy] { document::discard(engine::recovery_folder(), copy); };
+  connect(&window.autosave(), &engine::CaseAutosave::saved, this, remove, Qt::SingleShotConnection);
   connect(&window, &QObject::destroyed, this, remove);
   window.autosave().save_soon();
 }
 
 // To tell whether a copy is whole, all of it is read.
 void SessionReader::offer_rescued() {
-  jobs_.push_back(BackgroundJob::start(this, [this](BackgroundJob& job) {
+  jobs_.push_back(engine::BackgroundJob::start(this, [this](engine::BackgroundJob& job) {
     job.deliver([this, copies = find_copies()] {
       offer(copies,
             tr("Tidemark did not end as it should the last time, and kept copies of what was not saved:"));
@@ -151,13 +152,13 @@ void SessionReader::offer_rescued() {
   }));
 }
 
-void SessionReader::offer(const std::vector<Recoverable>& copies, const QString& why) {
+void SessionReader::offer(const std::vector<document::Recoverable>& copies, const QString& why) {
   if (copies.empty()) return;
   const RescueAnswer answer = ask_about_copies(&window_, why, copies);
-  for (const Recoverable& copy : copies) {
+  for (const document::Recoverable& copy : copies) {
     if (answer == RescueAnswer::open) read(QString::fromStdU16String(copy.file.u16string()), copy.case_id);
-    if (answer == RescueAnswer::discard) discard(recovery_folder(), copy.case_id);
+    if (answer == RescueAnswer::discard) document::discard(engine::recovery_folder(), copy.case_id);
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

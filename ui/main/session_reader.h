@@ -11,9 +11,12 @@
 #include "engine/study_loader.h"
 #include "ui/main/case_window.h"
 
-namespace tidemark {
-
+namespace tidemark::engine {
 class BackgroundJob;
+}
+
+namespace tidemark::ui {
+
 class MainWindow;
 
 // Sessions that are opened together are opened one after the other.
@@ -30,30 +33,30 @@ class SessionReader : public QObject {
   void offer_rescued();
 
  signals:
-  void opened(tidemark::CaseWindow& window);  // from its session_file
+  void opened(tidemark::ui::CaseWindow& window);  // from its session_file
 
  private:
   // A session that waits for its volume.
   struct Waiting {
-    std::shared_ptr<const SessionContents> contents;
+    std::shared_ptr<const document::SessionContents> contents;
     QString file;
     std::string rescued;  // the copy's case; empty: a file of the user's
   };
 
   void read(const QString& file, const std::string& rescued);
   void read_next();
-  void refuse(const QString& problem, const std::vector<Recoverable>& copies);
+  void refuse(const QString& problem, const std::vector<document::Recoverable>& copies);
   void end_reading(const QString& problem = {});
-  void find_volume(std::shared_ptr<const SessionContents> contents);
-  void compare(const std::shared_ptr<const LoadedStudy>& study);
-  void restore(const std::shared_ptr<const LoadedStudy>& study, VolumeMatch found);
-  void offer(const std::vector<Recoverable>& copies, const QString& why);
+  void find_volume(std::shared_ptr<const document::SessionContents> contents);
+  void compare(const std::shared_ptr<const engine::LoadedStudy>& study);
+  void restore(const std::shared_ptr<const engine::LoadedStudy>& study, document::VolumeMatch found);
+  void offer(const std::vector<document::Recoverable>& copies, const QString& why);
   void keep_rescued(CaseWindow& window, const std::string& copy);
 
   MainWindow& window_;
-  StudyLoader loader_;
+  engine::StudyLoader loader_;
   std::deque<Waiting> waiting_;  // the first is being read
-  std::vector<std::shared_ptr<BackgroundJob>> jobs_;
+  std::vector<std::shared_ptr<engine::BackgroundJob>> jobs_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

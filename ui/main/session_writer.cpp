@@ -7,7 +7,7 @@
 #include "ui/main/case_files.h"
 #include "ui/main/main_window.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 QString session_filter() {
   return SessionWriter::tr("Tidemark session (*.tidemark)");
@@ -30,18 +30,20 @@ QString SessionWriter::ask_for_file(CaseWindow& window) {
 }
 
 void SessionWriter::save_to(CaseWindow& window, const QString& file, std::function<void()> done) {
-  window.proxy().take_snapshot(window.view_state(), [this, file, done,
-                                                     saving = QPointer(&window)](const auto& snapshot) {
-    if (!saving) return;
-    const auto work = [snapshot, path = path_of(file)] { return write_session(snapshot->contents, path); };
-    files_.write(*saving, file, work, [this, file, saving, snapshot, done] {
-      if (!saving) return;
-      saving->session_file = file;
-      saving->proxy().mark_saved(*snapshot);
-      emit saved(*saving);
-      if (done) done();
-    });
-  });
+  window.proxy().take_snapshot(window.view_state(),
+                               [this, file, done, saving = QPointer(&window)](const auto& snapshot) {
+                                 if (!saving) return;
+                                 const auto work = [snapshot, path = path_of(file)] {
+                                   return document::write_session(snapshot->contents, path);
+                                 };
+                                 files_.write(*saving, file, work, [this, file, saving, snapshot, done] {
+                                   if (!saving) return;
+                                   saving->session_file = file;
+                                   saving->proxy().mark_saved(*snapshot);
+                                   emit saved(*saving);
+                                   if (done) done();
+                                 });
+                               });
 }
 
 void SessionWriter::close(CaseWindow& window, QCloseEvent* event) {
@@ -61,4 +63,4 @@ void SessionWriter::close(CaseWindow& window, QCloseEvent* event) {
   });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,7 +8,7 @@
 
 class QCloseEvent;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class CaseFiles;
 class MainWindow;
@@ -28,7 +28,7 @@ class SessionWriter : public QObject {
   [[nodiscard]] bool closes_later() const { return closing_ > 0; }
 
  signals:
-  void saved(tidemark::CaseWindow& window);  // its session_file holds it
+  void saved(tidemark::ui::CaseWindow& window);  // its session_file holds it
 
  private:
   [[nodiscard]] QString ask_for_file(CaseWindow& window);
@@ -39,4 +39,4 @@ class SessionWriter : public QObject {
   int closing_ = 0;  // cases that close once they are saved
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -7,7 +7,7 @@
 #include "ui/panels/value_unit.h"
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 ValueBar::ValueBar(QWidget* parent) : QLabel(parent) {
   setAccessibleName(tr("Values under the mouse"));
@@ -24,15 +24,15 @@ void ValueBar::set_detailed(bool detailed) {
   follow();
 }
 
-void ValueBar::set_proxy(CaseProxy* proxy) {
+void ValueBar::set_proxy(engine::CaseProxy* proxy) {
   if (proxy_) {
     disconnect(&proxy_->display(), nullptr, this, nullptr);
     disconnect(proxy_, nullptr, this, nullptr);
   }
   proxy_ = proxy;
   if (proxy_) {
-    connect(&proxy_->display(), &Display::pointer_moved, this, &ValueBar::follow);
-    connect(proxy_, &CaseProxy::state_changed, this, &ValueBar::follow);
+    connect(&proxy_->display(), &engine::Display::pointer_moved, this, &ValueBar::follow);
+    connect(proxy_, &engine::CaseProxy::state_changed, this, &ValueBar::follow);
   }
   follow();
 }
@@ -62,11 +62,12 @@ void ValueBar::follow() {
 
 QString ValueBar::details_at(Index3 voxel) const {
   const Volume& source = *proxy_->source();  // as D sees it
-  const CaseState& state = proxy_->state();
-  const Parameters& parameters = proxy_->parameters();
-  QString values = tr("   D %1").arg(rounded(data_speed(parameters, source.value(voxel)), 2), 0, 'f', 2);
+  const engine::CaseState& state = proxy_->state();
+  const solver::Parameters& parameters = proxy_->parameters();
+  QString values =
+      tr("   D %1").arg(rounded(solver::data_speed(parameters, source.value(voxel)), 2), 0, 'f', 2);
   if (!state.phi || !state.begun) return values;
-  const VoxelValues at = values_at(*state.phi, source, parameters, voxel);
+  const solver::VoxelValues at = solver::values_at(*state.phi, source, parameters, voxel);
   values += tr("   φ %1").arg(rounded(at.phi, 2), 0, 'f', 2);
   const bool clamped = std::abs(at.phi) >= state.phi->band;
   if (!clamped)
@@ -74,4 +75,4 @@ QString ValueBar::details_at(Index3 voxel) const {
   return values;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

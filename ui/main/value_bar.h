@@ -6,21 +6,21 @@
 
 #include "engine/case_proxy.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class ValueBar : public QLabel {
   Q_OBJECT
  public:
   explicit ValueBar(QWidget* parent = nullptr);
-  void set_proxy(CaseProxy* proxy);
+  void set_proxy(engine::CaseProxy* proxy);
   void set_detailed(bool detailed);
 
  private:
   void follow();
   [[nodiscard]] QString details_at(Index3 voxel) const;
 
-  QPointer<CaseProxy> proxy_;
+  QPointer<engine::CaseProxy> proxy_;
   bool detailed_ = false;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

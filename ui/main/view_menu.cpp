@@ -9,7 +9,7 @@
 #include "ui/views/picture_view.h"
 #include "ui/views/probe_drags.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 QString tr(const char* text) {
@@ -25,39 +25,40 @@ void add_place(QMenu& menu, PictureView& view, std::optional<glm::dvec3> place_m
     QObject::connect(action, &QAction::triggered, &view,
                      [&proxy = view.proxy(), place = *place_mm, act] { act(proxy, place); });
   };
-  add("tool-crosshair", tr("&Show this place in all views"), [](CaseProxy& proxy, glm::dvec3 place) {
-    proxy.display().change([&](DisplaySettings& settings) { settings.cursor_mm = place; });
+  add("tool-crosshair", tr("&Show this place in all views"), [](engine::CaseProxy& proxy, glm::dvec3 place) {
+    proxy.display().change([&](engine::DisplaySettings& settings) { settings.cursor_mm = place; });
   });
-  add("tool-seed", tr("&Place a sphere here"), [](CaseProxy& proxy, glm::dvec3 place) {
-    proxy.paint({place, proxy.display().settings().brush_mm}, Brush::add, CaseProxy::new_gesture());
+  add("tool-seed", tr("&Place a sphere here"), [](engine::CaseProxy& proxy, glm::dvec3 place) {
+    proxy.paint({place, proxy.display().settings().brush_mm}, solver::Brush::add,
+                engine::CaseProxy::new_gesture());
   });
   add("tool-probe", tr("Probe &T and ε here"), probe_speed_at);
 }
 
 void add_windows(QMenu& menu, PictureView& view) {
   QMenu* windows = menu.addMenu(icon(u"tool-window"), tr("&Window and level"));
-  CaseProxy& proxy = view.proxy();
+  engine::CaseProxy& proxy = view.proxy();
   for (const WindowPreset& preset : window_presets(proxy.volume(), proxy.summary())) {
-    QObject::connect(windows->addAction(preset.name), &QAction::triggered, &view,
-                     [&proxy, window = preset.window] {
-                       proxy.display().change([&](DisplaySettings& settings) { settings.window = window; });
-                     });
+    QObject::connect(
+        windows->addAction(preset.name), &QAction::triggered, &view, [&proxy, window = preset.window] {
+          proxy.display().change([&](engine::DisplaySettings& settings) { settings.window = window; });
+        });
   }
 }
 
 void add_overlays(QMenu& menu, PictureView& view, const Actions& actions) {
   QMenu* overlays = menu.addMenu(icon(u"eye"), tr("&Overlays"));
-  const auto add = [&](const QString& text, bool DisplaySettings::*setting) {
+  const auto add = [&](const QString& text, bool engine::DisplaySettings::*setting) {
     QAction* action = overlays->addAction(text);
     action->setCheckable(true);
     action->setChecked(view.proxy().display().settings().*setting);
     QObject::connect(action, &QAction::triggered, &view, [&proxy = view.proxy(), setting](bool on) {
-      proxy.display().change([=](DisplaySettings& settings) { settings.*setting = on; });
+      proxy.display().change([=](engine::DisplaySettings& settings) { settings.*setting = on; });
     });
   };
-  add(tr("&Outline of the surface"), &DisplaySettings::outline);
-  add(tr("&Crosshair"), &DisplaySettings::crosshair);
-  if (view.proxy().study().truth) add(tr("Outline of the t&ruth"), &DisplaySettings::truth);
+  add(tr("&Outline of the surface"), &engine::DisplaySettings::outline);
+  add(tr("&Crosshair"), &engine::DisplaySettings::crosshair);
+  if (view.proxy().study().truth) add(tr("Outline of the t&ruth"), &engine::DisplaySettings::truth);
   overlays->addAction(actions.patient_text);
 }
 
@@ -77,4 +78,4 @@ QMenu* make_view_menu(PictureView& view, const Actions& actions, std::optional<g
   return menu;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

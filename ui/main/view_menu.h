@@ -6,7 +6,7 @@
 
 class QMenu;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class Actions;
 class PictureView;
@@ -14,4 +14,4 @@ class PictureView;
 // Deletes itself when it closes. `place_mm` (LPS): what lies under the mouse; none: nothing of the patient.
 QMenu* make_view_menu(PictureView& view, const Actions& actions, std::optional<glm::dvec3> place_mm);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -6,7 +6,7 @@
 
 #include "ui/settings.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 QString translated(const char* text) {
@@ -34,4 +34,4 @@ QString ask_for_image_file(QWidget& window) {
   return file;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

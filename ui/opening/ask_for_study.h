@@ -5,10 +5,10 @@
 
 class QWidget;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Begin in the folder that was used last; empty when given up.
 QString ask_for_study_folder(QWidget& window);
 QString ask_for_image_file(QWidget& window);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -5,7 +5,7 @@
 #include <QKeyEvent>
 #include <QPainter>
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kPadding = 12;
@@ -161,4 +161,4 @@ bool CardButton::event(QEvent* event) {
   return QAbstractButton::event(event);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -6,7 +6,7 @@
 
 #include "ui/look/colour.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class CardButton : public QAbstractButton {
   Q_OBJECT
@@ -44,4 +44,4 @@ class CardButton : public QAbstractButton {
   bool one_line_ = false;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

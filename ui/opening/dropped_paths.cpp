@@ -4,7 +4,7 @@
 #include <QIODevice>
 #include <QUrl>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 QStringList dropped_paths(const QMimeData& data) {
   QStringList paths;
@@ -31,4 +31,4 @@ std::optional<DraggedSeries> dropped_series(const QMimeData& data) {
   return series;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

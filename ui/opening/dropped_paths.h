@@ -6,7 +6,7 @@
 #include <QStringList>
 #include <optional>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 inline constexpr char kSeriesMimeType[] = "application/x-tidemark-series";
 
@@ -21,4 +21,4 @@ struct DraggedSeries {
 void put_series(QMimeData& data, const DraggedSeries& series);
 std::optional<DraggedSeries> dropped_series(const QMimeData& data);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -4,7 +4,7 @@
 
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 QString size_text(const Geometry& geometry) {
   return QStringLiteral("%1 × %2 × %3").arg(geometry.size.x).arg(geometry.size.y).arg(geometry.size.z);
@@ -21,4 +21,4 @@ QString grid_text(const Geometry& geometry) {
       .arg(size_text(geometry), spacing_text(geometry));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -12,7 +12,7 @@
 #include "ui/opening/grid_text.h"
 #include "ui/widgets/elided_label.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kMostLines = 8;  // of the details; more scroll
@@ -46,19 +46,20 @@ QString html_list(const QString& items) {
   return QStringLiteral("<ul style='margin:2px 0 0 -22px'>%1</ul>").arg(items);
 }
 
-QString form_text(ResultForm form) {
-  return form == ResultForm::segmentation ? LoadReport::tr("a DICOM segmentation")
-                                          : LoadReport::tr("a structure set");
+QString form_text(imaging::ResultForm form) {
+  return form == imaging::ResultForm::segmentation ? LoadReport::tr("a DICOM segmentation")
+                                                   : LoadReport::tr("a structure set");
 }
 
-QString result_text(const FoundResult& result) {
+QString result_text(const engine::FoundResult& result) {
   return LoadReport::tr("%1 is %2")
       .arg(QString::fromStdString(result.file.filename().string()), form_text(result.form));
 }
 
 }  // namespace
 
-LoadReport::LoadReport(const LoadedStudy& study, const std::vector<FoundResult>& results, QWidget* parent)
+LoadReport::LoadReport(const engine::LoadedStudy& study, const std::vector<engine::FoundResult>& results,
+                       QWidget* parent)
     : QFrame(parent), details_button_(new QPushButton(tr("Details"))) {
   setAccessibleName(tr("Report of loading"));
   auto* column = new QVBoxLayout(this);
@@ -71,7 +72,8 @@ LoadReport::LoadReport(const LoadedStudy& study, const std::vector<FoundResult>&
   connect(details_button_, &QPushButton::toggled, details, &QWidget::setVisible);
 }
 
-QWidget* LoadReport::make_line(const LoadedStudy& study, const std::vector<FoundResult>& results) {
+QWidget* LoadReport::make_line(const engine::LoadedStudy& study,
+                               const std::vector<engine::FoundResult>& results) {
   auto* line = new QWidget;
   auto* row = new QHBoxLayout(line);
   row->setContentsMargins(0, 0, 0, 0);
@@ -95,7 +97,7 @@ QWidget* LoadReport::make_line(const LoadedStudy& study, const std::vector<Found
 }
 
 // Goes when it is accepted: importing twice would double the labels.
-QWidget* LoadReport::make_offer(const std::vector<FoundResult>& results) {
+QWidget* LoadReport::make_offer(const std::vector<engine::FoundResult>& results) {
   auto* offer = new QWidget;
   auto* row = new QHBoxLayout(offer);
   row->setContentsMargins(0, 0, 0, 0);
@@ -107,7 +109,7 @@ QWidget* LoadReport::make_offer(const std::vector<FoundResult>& results) {
   row->addWidget(what);
   QStringList files;
   QStringList lines{tr("Adds what these files hold as new labels:")};
-  for (const FoundResult& result : results) {
+  for (const engine::FoundResult& result : results) {
     files << QString::fromStdString(result.file.string());
     lines << result_text(result);
   }
@@ -122,7 +124,7 @@ QWidget* LoadReport::make_offer(const std::vector<FoundResult>& results) {
 }
 
 QWidget* LoadReport::make_details(const std::vector<std::string>& changes,
-                                  const std::vector<FoundResult>& results) {
+                                  const std::vector<engine::FoundResult>& results) {
   QString text;
   for (const std::string& change : changes) {
     text += QStringLiteral("<li>%1</li>").arg(QString::fromStdString(change).toHtmlEscaped());
@@ -130,7 +132,7 @@ QWidget* LoadReport::make_details(const std::vector<std::string>& changes,
   text = changes.empty() ? tr("Nothing was changed or missing.")
                          : tr("Found and changed when it was read:") + html_list(text);
   QString beside;
-  for (const FoundResult& result : results) {
+  for (const engine::FoundResult& result : results) {
     beside += QStringLiteral("<li>%1</li>").arg(result_text(result).toHtmlEscaped());
   }
   if (!beside.isEmpty()) text += QStringLiteral("<div>%1</div>").arg(tr("Beside it:")) + html_list(beside);
@@ -156,4 +158,4 @@ void LoadReport::keyPressEvent(QKeyEvent* event) {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -10,13 +10,13 @@
 
 class QPushButton;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class LoadReport : public QFrame {
   Q_OBJECT
  public:
   // The results lie beside the study, and are offered for import.
-  explicit LoadReport(const LoadedStudy& study, const std::vector<FoundResult>& results = {},
+  explicit LoadReport(const engine::LoadedStudy& study, const std::vector<engine::FoundResult>& results = {},
                       QWidget* parent = nullptr);
 
  signals:
@@ -27,12 +27,13 @@ class LoadReport : public QFrame {
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
-  QWidget* make_line(const LoadedStudy& study, const std::vector<FoundResult>& results);
-  QWidget* make_offer(const std::vector<FoundResult>& results);
-  QWidget* make_details(const std::vector<std::string>& changes, const std::vector<FoundResult>& results);
+  QWidget* make_line(const engine::LoadedStudy& study, const std::vector<engine::FoundResult>& results);
+  QWidget* make_offer(const std::vector<engine::FoundResult>& results);
+  QWidget* make_details(const std::vector<std::string>& changes,
+                        const std::vector<engine::FoundResult>& results);
   void dismiss();
 
   QPushButton* details_button_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

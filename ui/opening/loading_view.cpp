@@ -4,7 +4,7 @@
 #include <QKeyEvent>
 #include <cmath>
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kSteps = 1000;  // of the bar
@@ -95,4 +95,4 @@ void LoadingView::keyPressEvent(QKeyEvent* event) {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

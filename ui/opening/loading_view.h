@@ -6,7 +6,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class LoadingView : public QFrame {
   Q_OBJECT
@@ -41,4 +41,4 @@ class LoadingView : public QFrame {
   QPushButton* button_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

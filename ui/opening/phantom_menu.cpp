@@ -2,12 +2,12 @@
 
 #include "imaging/phantom/phantom.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 PhantomMenu::PhantomMenu(QWidget* parent) : QMenu(tr("Open &Phantom"), parent) {
   setToolTipsVisible(true);
-  for (const std::string_view kind : phantom_kinds()) {
-    const PhantomText text = phantom_text(kind);
+  for (const std::string_view kind : imaging::phantom_kinds()) {
+    const engine::PhantomText text = engine::phantom_text(kind);
     QAction* action = addAction(text.title);
     action->setToolTip(text.sentence);
     action->setStatusTip(text.sentence);
@@ -17,4 +17,4 @@ PhantomMenu::PhantomMenu(QWidget* parent) : QMenu(tr("Open &Phantom"), parent) {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

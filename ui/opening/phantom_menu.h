@@ -5,7 +5,7 @@
 
 #include "engine/phantom_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // One action a kind.
 class PhantomMenu : public QMenu {
@@ -17,4 +17,4 @@ class PhantomMenu : public QMenu {
   void chosen(const QString& kind);
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -4,7 +4,7 @@
 
 #include "ui/opening/study_opener.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 PreviewPage::PreviewPage(QStackedWidget& pages, const StudyOpener& opener) : pages_(pages) {
   setAccessibleName(tr("Middle slice of the study that is being opened"));
@@ -39,4 +39,4 @@ void PreviewPage::paintEvent(QPaintEvent*) {
   emit painted();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -5,7 +5,7 @@
 #include <QStackedWidget>
 #include <QWidget>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class StudyOpener;
 
@@ -30,4 +30,4 @@ class PreviewPage : public QWidget {
   QImage picture_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -9,7 +9,7 @@
 #include <QTemporaryFile>
 #include <cstdio>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 QString recent_picture_name(const QString& path, const QString& uid) {
   const QByteArray key = (path + QLatin1Char('\n') + uid).toUtf8();
@@ -44,4 +44,4 @@ void keep_recent_pictures(const QStringList& names) {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,7 +8,7 @@
 #include <QString>
 #include <QStringList>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // The file's name for a study, in recent_picture_folder().
 QString recent_picture_name(const QString& path, const QString& uid);
@@ -21,4 +21,4 @@ bool write_recent_picture(const QString& name, const QImage& picture);
 // Removes all others.
 void keep_recent_pictures(const QStringList& names);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,7 +8,7 @@
 #include "engine/study_picture.h"
 #include "ui/opening/recent_pictures.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 const QString kGroup = QStringLiteral("recent_studies");
@@ -24,8 +24,8 @@ RecentStudy read_study(const QSettings& settings) {
                     settings.value("uid").toString(),
                     settings.value("name").toString(),
                     {}};
-  if (settings.value("tilt").toString() == kKeep) study.policy.tilt = GridPolicy::Tilt::keep;
-  if (settings.value("gaps").toString() == kFill) study.policy.gaps = GridPolicy::Gaps::fill;
+  if (settings.value("tilt").toString() == kKeep) study.policy.tilt = imaging::GridPolicy::Tilt::keep;
+  if (settings.value("gaps").toString() == kFill) study.policy.gaps = imaging::GridPolicy::Gaps::fill;
   return study;
 }
 
@@ -33,8 +33,8 @@ void write_study(const RecentStudy& study, QSettings& settings) {
   settings.setValue("path", study.path);
   settings.setValue("uid", study.uid);
   settings.setValue("name", study.name);
-  if (study.policy.tilt == GridPolicy::Tilt::keep) settings.setValue("tilt", kKeep);
-  if (study.policy.gaps == GridPolicy::Gaps::fill) settings.setValue("gaps", kFill);
+  if (study.policy.tilt == imaging::GridPolicy::Tilt::keep) settings.setValue("tilt", kKeep);
+  if (study.policy.gaps == imaging::GridPolicy::Gaps::fill) settings.setValue("gaps", kFill);
 }
 
 // A text that a menu shows literally.
@@ -90,9 +90,9 @@ void RecentStudies::save() const {
 void RecentStudies::add_picture(const RecentStudy& study, std::shared_ptr<const Volume> volume,
                                 const WindowLevel& window, std::int64_t k) {
   const QString name = recent_picture_name(study.path, study.uid);
-  picture_jobs_.push_back(
-      BackgroundJob::start(this, [this, name, volume = std::move(volume), window, k](BackgroundJob& job) {
-        const QImage picture = picture_of_volume(*volume, window, k, kPicturePixels);
+  picture_jobs_.push_back(engine::BackgroundJob::start(
+      this, [this, name, volume = std::move(volume), window, k](engine::BackgroundJob& job) {
+        const QImage picture = engine::picture_of_volume(*volume, window, k, kPicturePixels);
         job.deliver([this, name, picture] {
           const auto has_name = [&](const RecentStudy& one) {
             return recent_picture_name(one.path, one.uid) == name;
@@ -112,9 +112,9 @@ void RecentStudies::check() {
   if (job_) job_->abandon();
   QStringList paths;
   for (const RecentStudy& study : list_) paths.push_back(study.path);
-  job_ = BackgroundJob::start(
+  job_ = engine::BackgroundJob::start(
       this,
-      [this, paths](BackgroundJob& job) {
+      [this, paths](engine::BackgroundJob& job) {
         QStringList missing;
         for (const QString& path : paths) {
           if (job.stop().stop_requested()) return;
@@ -163,4 +163,4 @@ void RecentStudies::fill(QMenu& menu) {
   connect(clear_all, &QAction::triggered, this, &RecentStudies::clear);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -12,16 +12,18 @@
 #include "core/volume.h"
 #include "imaging/grid_policy.h"
 
-namespace tidemark {
-
+namespace tidemark::engine {
 class BackgroundJob;
+}
+
+namespace tidemark::ui {
 
 struct RecentStudy {
   QString path;
   QString uid;
-  QString name;          // as titles have it; never the patient's
-  GridPolicy policy;     // by which its slices were made a grid
-  bool missing = false;  // as of the last check()
+  QString name;                // as titles have it; never the patient's
+  imaging::GridPolicy policy;  // by which its slices were made a grid
+  bool missing = false;        // as of the last check()
 };
 
 // At most ten, the latest first, in QSettings; their pictures are files (recent_pictures.h).
@@ -49,15 +51,15 @@ class RecentStudies : public QObject {
 
  signals:
   void changed();
-  void chosen(const tidemark::RecentStudy& study);
+  void chosen(const tidemark::ui::RecentStudy& study);
 
  private:
   void save() const;
   void fill(QMenu& menu);
 
   QList<RecentStudy> list_;
-  std::shared_ptr<BackgroundJob> job_;
-  std::vector<std::shared_ptr<BackgroundJob>> picture_jobs_;
+  std::shared_ptr<engine::BackgroundJob> job_;
+  std::vector<std::shared_ptr<engine::BackgroundJob>> picture_jobs_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

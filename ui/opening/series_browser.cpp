@@ -9,7 +9,7 @@
 
 #include "ui/opening/series_model.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kColumnGap = 14;
@@ -45,9 +45,9 @@ QString skipped_text(std::size_t count) {
                     : SeriesBrowser::tr("%1 other files are no scans.").arg(count);
 }
 
-QString skipped_list(const std::vector<SkippedFile>& skipped) {
+QString skipped_list(const std::vector<imaging::SkippedFile>& skipped) {
   QStringList lines;
-  for (const SkippedFile& one : skipped) {
+  for (const imaging::SkippedFile& one : skipped) {
     if (lines.size() == kMostSkippedNamed) {
       lines.push_back(QStringLiteral("…"));
       break;
@@ -143,7 +143,7 @@ void SeriesBrowser::lay_out() {
   setTabOrder(details_, open_);
 }
 
-void SeriesBrowser::show_catalogue(std::shared_ptr<const Catalogue> catalogue, const QString& path) {
+void SeriesBrowser::show_catalogue(std::shared_ptr<const imaging::Catalogue> catalogue, const QString& path) {
   catalogue_ = std::move(catalogue);
   filter_->clear();
   model_->show(catalogue_, devicePixelRatioF());
@@ -156,21 +156,22 @@ void SeriesBrowser::show_catalogue(std::shared_ptr<const Catalogue> catalogue, c
     table_->setColumnWidth(column, std::min(table_->columnWidth(column), kWidestColumn) + kColumnGap);
   }
   const auto& all = catalogue_->series;
-  table_->setColumnHidden(
-      SeriesModel::kPatient,
-      std::all_of(all.begin(), all.end(), [](const Series& series) { return series.patient.name.empty(); }));
+  table_->setColumnHidden(SeriesModel::kPatient,
+                          std::all_of(all.begin(), all.end(), [](const imaging::Series& series) {
+                            return series.patient.name.empty();
+                          }));
   if (shown_->rowCount() > 0) table_->selectRow(0);
   table_->setFocus();
   follow_selection();
 }
 
-const Series* SeriesBrowser::selected() const {
+const imaging::Series* SeriesBrowser::selected() const {
   const QModelIndexList rows = table_->selectionModel()->selectedRows();
   return rows.isEmpty() ? nullptr : &model_->series(shown_->mapToSource(rows.front()).row());
 }
 
 void SeriesBrowser::follow_selection() {
-  const Series* series = selected();
+  const imaging::Series* series = selected();
   open_->setEnabled(series != nullptr && (series->loadable || series->fillable()));
   if (series == nullptr) return details_->clear();
   QString html;
@@ -186,11 +187,11 @@ void SeriesBrowser::follow_selection() {
 }
 
 void SeriesBrowser::choose() {
-  const Series* series = selected();
+  const imaging::Series* series = selected();
   if (series == nullptr || !(series->loadable || series->fillable())) return;
-  const Series copy = *series;  // the catalogue may go while it is opened
+  const imaging::Series copy = *series;  // the catalogue may go while it is opened
   accept();
   emit chosen(copy);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -12,7 +12,7 @@
 
 #include "imaging/series.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class SeriesModel;
 
@@ -21,12 +21,12 @@ class SeriesBrowser : public QDialog {
  public:
   explicit SeriesBrowser(QWidget* parent = nullptr);
 
-  void show_catalogue(std::shared_ptr<const Catalogue> catalogue, const QString& path);
+  void show_catalogue(std::shared_ptr<const imaging::Catalogue> catalogue, const QString& path);
   // Null where none is chosen.
-  [[nodiscard]] const Series* selected() const;
+  [[nodiscard]] const imaging::Series* selected() const;
 
  signals:
-  void chosen(const tidemark::Series& series);  // loadable or fillable; the dialog is then closed
+  void chosen(const tidemark::imaging::Series& series);  // loadable or fillable; the dialog is then closed
 
  private:
   void build_table();
@@ -34,7 +34,7 @@ class SeriesBrowser : public QDialog {
   void choose();
   void follow_selection();
 
-  std::shared_ptr<const Catalogue> catalogue_;
+  std::shared_ptr<const imaging::Catalogue> catalogue_;
   SeriesModel* model_;
   QSortFilterProxyModel* shown_;
   QLabel* heading_;
@@ -45,4 +45,4 @@ class SeriesBrowser : public QDialog {
   QPushButton* open_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

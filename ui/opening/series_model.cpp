@@ -14,17 +14,17 @@
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/grid_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 const QVariant kAlignment = QVariant::fromValue(Qt::Alignment(Qt::AlignLeft | Qt::AlignVCenter));
 constexpr int kIconPixels = 64;  // enough for every scale; the painter chooses the size
 
-bool has_grid(const Series& series) {
+bool has_grid(const imaging::Series& series) {
   return series.geometry.voxel_count() > 0;
 }
 
-QString notes_text(const Series& series) {
+QString notes_text(const imaging::Series& series) {
   if (series.fillable()) return SeriesModel::tr("Irregular slices");
   if (!series.loadable) return SeriesModel::tr("Cannot be loaded");
   const auto warnings = static_cast<int>(series.warnings.size());
@@ -37,7 +37,7 @@ QString notes_text(const Series& series) {
 }
 
 // Worse is larger.
-int severity(const Series& series) {
+int severity(const imaging::Series& series) {
   if (series.fillable()) return 2;
   if (!series.loadable) return 3;
   if (!series.warnings.empty()) return 2;
@@ -51,7 +51,7 @@ QIcon untinted(const QPixmap& pixmap) {
   return icon;
 }
 
-QIcon notes_icon(const Series& series) {
+QIcon notes_icon(const imaging::Series& series) {
   constexpr QStyle::StandardPixmap kIcons[] = {QStyle::SP_DialogApplyButton, QStyle::SP_MessageBoxInformation,
                                                QStyle::SP_MessageBoxWarning, QStyle::SP_MessageBoxCritical};
   const QIcon icon = QApplication::style()->standardIcon(kIcons[severity(series)]);
@@ -60,20 +60,21 @@ QIcon notes_icon(const Series& series) {
 
 }  // namespace
 
-SeriesModel::SeriesModel(QObject* parent) : QAbstractTableModel(parent), previews_(new SeriesPreviews(this)) {
-  connect(previews_, &SeriesPreviews::made, this, &SeriesModel::keep);
+SeriesModel::SeriesModel(QObject* parent)
+    : QAbstractTableModel(parent), previews_(new engine::SeriesPreviews(this)) {
+  connect(previews_, &engine::SeriesPreviews::made, this, &SeriesModel::keep);
 }
 
-void SeriesModel::show(std::shared_ptr<const Catalogue> catalogue, double device_pixel_ratio) {
+void SeriesModel::show(std::shared_ptr<const imaging::Catalogue> catalogue, double device_pixel_ratio) {
   beginResetModel();
   previews_->forget();
   pictures_.clear();
   rows_.clear();
   device_pixel_ratio_ = device_pixel_ratio;
   catalogue_ = std::move(catalogue);
-  for (const Series& series : catalogue_->series) rows_.push_back(&series);
-  std::stable_sort(rows_.begin(), rows_.end(), [](const Series* a, const Series* b) {
-    const auto rank = [](const Series& series) {
+  for (const imaging::Series& series : catalogue_->series) rows_.push_back(&series);
+  std::stable_sort(rows_.begin(), rows_.end(), [](const imaging::Series* a, const imaging::Series* b) {
+    const auto rank = [](const imaging::Series& series) {
       return std::tuple(series.loadable, series.fillable(), series.geometry.voxel_count());
     };
     return rank(*a) > rank(*b);
@@ -89,10 +90,10 @@ int SeriesModel::columnCount(const QModelIndex& parent) const {
   return parent.isValid() ? 0 : kColumns;
 }
 
-QString SeriesModel::text(const Series& series, int column) const {
+QString SeriesModel::text(const imaging::Series& series, int column) const {
   switch (column) {
     case kSeries:
-      return StudyLoader::name_of(series);
+      return engine::StudyLoader::name_of(series);
     case kPatient:
       return QString::fromStdString(series.patient.name);
     case kModality:
@@ -110,7 +111,7 @@ QString SeriesModel::text(const Series& series, int column) const {
   }
 }
 
-QVariant SeriesModel::sort_key(const Series& series, int column) const {
+QVariant SeriesModel::sort_key(const imaging::Series& series, int column) const {
   switch (column) {
     case kSize:
       return static_cast<qlonglong>(series.geometry.voxel_count());
@@ -129,7 +130,7 @@ QVariant SeriesModel::sort_key(const Series& series, int column) const {
 
 QVariant SeriesModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid()) return {};
-  const Series& one = series(index.row());
+  const imaging::Series& one = series(index.row());
   switch (role) {
     case Qt::DisplayRole:
       return text(one, index.column());
@@ -170,17 +171,17 @@ QStringList SeriesModel::mimeTypes() const {
 
 QMimeData* SeriesModel::mimeData(const QModelIndexList& indexes) const {
   if (indexes.isEmpty()) return nullptr;
-  const Series& one = series(indexes.front().row());
+  const imaging::Series& one = series(indexes.front().row());
   auto* data = new QMimeData;
-  put_series(*data,
-             {QString::fromStdString(StudyLoader::place_of(one).string()), QString::fromStdString(one.uid)});
+  put_series(*data, {QString::fromStdString(engine::StudyLoader::place_of(one).string()),
+                     QString::fromStdString(one.uid)});
   return data;
 }
 
 QPixmap SeriesModel::preview(int row) const {
   const auto known = pictures_.find(row);
   if (known != pictures_.end()) return known->second;
-  const Series& one = series(row);
+  const imaging::Series& one = series(row);
   if (one.loadable) {
     previews_->request(row, one, static_cast<int>(std::ceil(kPreviewSize * device_pixel_ratio_)));
   }
@@ -210,4 +211,4 @@ QPixmap SeriesModel::frame(const QImage& picture) const {
   return square;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

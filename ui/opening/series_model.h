@@ -10,7 +10,7 @@
 #include "engine/series_preview.h"
 #include "imaging/series.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Loadable series come first, the largest on top. A picture is made when its row is first painted. Rows can
 // be dragged (kSeriesMimeType).
@@ -23,8 +23,8 @@ class SeriesModel : public QAbstractTableModel {
 
   explicit SeriesModel(QObject* parent = nullptr);
 
-  void show(std::shared_ptr<const Catalogue> catalogue, double device_pixel_ratio);
-  [[nodiscard]] const Series& series(int row) const { return *rows_[static_cast<std::size_t>(row)]; }
+  void show(std::shared_ptr<const imaging::Catalogue> catalogue, double device_pixel_ratio);
+  [[nodiscard]] const imaging::Series& series(int row) const { return *rows_[static_cast<std::size_t>(row)]; }
 
   [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
   [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
@@ -35,17 +35,17 @@ class SeriesModel : public QAbstractTableModel {
   [[nodiscard]] QMimeData* mimeData(const QModelIndexList& indexes) const override;
 
  private:
-  [[nodiscard]] QString text(const Series& series, int column) const;
-  [[nodiscard]] QVariant sort_key(const Series& series, int column) const;
+  [[nodiscard]] QString text(const imaging::Series& series, int column) const;
+  [[nodiscard]] QVariant sort_key(const imaging::Series& series, int column) const;
   [[nodiscard]] QPixmap preview(int row) const;
   void keep(int row, const QImage& picture);
   [[nodiscard]] QPixmap frame(const QImage& picture) const;
 
-  std::shared_ptr<const Catalogue> catalogue_;
-  std::vector<const Series*> rows_;
+  std::shared_ptr<const imaging::Catalogue> catalogue_;
+  std::vector<const imaging::Series*> rows_;
   double device_pixel_ratio_ = 1.0;
-  SeriesPreviews* previews_;
+  engine::SeriesPreviews* previews_;
   mutable std::map<int, QPixmap> pictures_;  // an empty frame from when it was asked for
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

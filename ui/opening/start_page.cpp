@@ -14,7 +14,7 @@
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/phantom_menu.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kContentWidth = 980;  // wider windows get margins
@@ -141,8 +141,8 @@ QWidget* StartPage::build_phantoms() {
   auto* grid = new QGridLayout;
   grid->setSpacing(8);
   int place = 2;  // after the first, which has a row of its own
-  for (const std::string_view kind : phantom_kinds()) {
-    const PhantomText text = phantom_text(kind);
+  for (const std::string_view kind : imaging::phantom_kinds()) {
+    const engine::PhantomText text = engine::phantom_text(kind);
     auto* card = new CardButton(text.title, text.sentence, part);
     const QString name = QString::fromUtf8(kind.data(), static_cast<qsizetype>(kind.size()));
     card->setObjectName(QStringLiteral("phantom_") + name);
@@ -152,7 +152,7 @@ QWidget* StartPage::build_phantoms() {
       card->set_emphasised(true);
       grid->addWidget(card, 0, 0, 1, 2);
     } else {
-      const bool is_alone = kind == phantom_kinds().back() && place % 2 == 0;
+      const bool is_alone = kind == imaging::phantom_kinds().back() && place % 2 == 0;
       grid->addWidget(card, place / 2, place % 2, 1, is_alone ? 2 : 1);
       ++place;
     }
@@ -217,4 +217,4 @@ void StartPage::paintEvent(QPaintEvent* event) {
   painter.drawRect(QRectF(rect()).adjusted(1.5, 1.5, -1.5, -1.5));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -9,7 +9,7 @@
 class QBoxLayout;
 class QVBoxLayout;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class StartPage : public QWidget {
   Q_OBJECT
@@ -20,7 +20,7 @@ class StartPage : public QWidget {
   void open_folder();  // asks which
   void open_file();
   void dropped(const QStringList& paths);
-  void recent_chosen(const tidemark::RecentStudy& study);
+  void recent_chosen(const tidemark::ui::RecentStudy& study);
   void phantom_chosen(const QString& kind);
 
  protected:
@@ -44,4 +44,4 @@ class StartPage : public QWidget {
   bool is_dragged_over_ = false;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,44 +8,45 @@
 
 #include "ui/opening/phantom_menu.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kPreviewPixels = 1024;
 
-QCheckBox* make_tilt_box(const GridPolicy& policy) {
+QCheckBox* make_tilt_box(const imaging::GridPolicy& policy) {
   auto* box = new QCheckBox(StudyOpener::tr("&Correct the tilt of the gantry"));
   box->setToolTip(
       StudyOpener::tr("Moves the slices back within their planes. Without it distances across slices are\n"
                       "sheared, and results cannot be written as DICOM."));
-  box->setChecked(policy.tilt == GridPolicy::Tilt::correct);
+  box->setChecked(policy.tilt == imaging::GridPolicy::Tilt::correct);
   return box;
 }
 
 }  // namespace
 
 StudyOpener::StudyOpener(QWidget* window) : QObject(window), window_(window) {
-  connect(&loader_, &StudyLoader::progressed, this, &StudyOpener::progressed);
-  connect(&loader_, &StudyLoader::found, this, &StudyOpener::look_at);
-  connect(&loader_, &StudyLoader::cancelled, this, &StudyOpener::next);
-  connect(&loader_, &StudyLoader::failed, this, [this](const QString& message) {
+  connect(&loader_, &engine::StudyLoader::progressed, this, &StudyOpener::progressed);
+  connect(&loader_, &engine::StudyLoader::found, this, &StudyOpener::look_at);
+  connect(&loader_, &engine::StudyLoader::cancelled, this, &StudyOpener::next);
+  connect(&loader_, &engine::StudyLoader::failed, this, [this](const QString& message) {
     problems_ << message;
     next();
   });
-  connect(&loader_, &StudyLoader::loaded, this, [this](const std::shared_ptr<const LoadedStudy>& study) {
-    last_opened_ = study;
-    beside_last_opened_ = std::exchange(results_, {});
-    emit opened(study);
-    next();
-  });
-  connect(&finder_, &ResultFinder::cancelled, this, &StudyOpener::next);
-  const auto load_with = [this](const std::vector<FoundResult>& results) {
+  connect(&loader_, &engine::StudyLoader::loaded, this,
+          [this](const std::shared_ptr<const engine::LoadedStudy>& study) {
+            last_opened_ = study;
+            beside_last_opened_ = std::exchange(results_, {});
+            emit opened(study);
+            next();
+          });
+  connect(&finder_, &engine::ResultFinder::cancelled, this, &StudyOpener::next);
+  const auto load_with = [this](const std::vector<engine::FoundResult>& results) {
     results_ = results;
     loader_.load(to_load_.series, to_load_.remarks);
   };
-  connect(&finder_, &ResultFinder::found, this, load_with);
-  connect(&finder_, &ResultFinder::failed, this, [load_with] { load_with({}); });
-  connect(&previews_, &SeriesPreviews::made, this, [this](int, const QImage& picture) {
+  connect(&finder_, &engine::ResultFinder::found, this, load_with);
+  connect(&finder_, &engine::ResultFinder::failed, this, [load_with] { load_with({}); });
+  connect(&previews_, &engine::SeriesPreviews::made, this, [this](int, const QImage& picture) {
     if (!picture.isNull()) emit previewed(picture);
   });
 }
@@ -59,7 +60,7 @@ void StudyOpener::open(const QString& path, Ask ask) {
   });
 }
 
-void StudyOpener::open_series(const QString& path, const QString& uid, const GridPolicy& policy) {
+void StudyOpener::open_series(const QString& path, const QString& uid, const imaging::GridPolicy& policy) {
   add(QFileInfo(path).fileName(), [this, path, uid, policy] {
     path_ = path;
     uid_ = uid;
@@ -68,7 +69,8 @@ void StudyOpener::open_series(const QString& path, const QString& uid, const Gri
 }
 
 void StudyOpener::open_phantom(const QString& kind) {
-  add(phantom_text(kind.toStdString()).title, [this, kind] { loader_.make_phantom(kind.toStdString()); });
+  add(engine::phantom_text(kind.toStdString()).title,
+      [this, kind] { loader_.make_phantom(kind.toStdString()); });
 }
 
 void StudyOpener::cancel() {
@@ -78,8 +80,8 @@ void StudyOpener::cancel() {
   loader_.cancel();
 }
 
-std::vector<FoundResult> StudyOpener::results_beside(const LoadedStudy& study) const {
-  return last_opened_.lock().get() == &study ? beside_last_opened_ : std::vector<FoundResult>();
+std::vector<engine::FoundResult> StudyOpener::results_beside(const engine::LoadedStudy& study) const {
+  return last_opened_.lock().get() == &study ? beside_last_opened_ : std::vector<engine::FoundResult>();
 }
 
 void StudyOpener::add(const QString& what, std::function<void()> start) {
@@ -113,11 +115,13 @@ void StudyOpener::begin(const QString& what) {
   emit began(asked_ > 1 ? tr("%1 (%2 of %3)").arg(what).arg(number_).arg(asked_) : what);
 }
 
-void StudyOpener::look_at(const std::shared_ptr<const Catalogue>& catalogue) {
+void StudyOpener::look_at(const std::shared_ptr<const imaging::Catalogue>& catalogue) {
   catalogue_ = catalogue;
   if (uid_) return load_by_uid(*catalogue);
   const auto& all = catalogue->series;
-  const auto can_be_chosen = [](const Series& series) { return series.loadable || series.fillable(); };
+  const auto can_be_chosen = [](const imaging::Series& series) {
+    return series.loadable || series.fillable();
+  };
   if (ask_ == Ask::if_several && std::count_if(all.begin(), all.end(), can_be_chosen) == 1) {
     return load_as_wanted(*std::find_if(all.begin(), all.end(), can_be_chosen));
   }
@@ -130,29 +134,29 @@ void StudyOpener::look_at(const std::shared_ptr<const Catalogue>& catalogue) {
   emit ended();
 }
 
-void StudyOpener::load(const Series& series, const std::vector<std::string>& remarks) {
-  begin(StudyLoader::name_of(series));
+void StudyOpener::load(const imaging::Series& series, const std::vector<std::string>& remarks) {
+  begin(engine::StudyLoader::name_of(series));
   if (previews_wanted_) previews_.request(0, series, kPreviewPixels);
   to_load_ = {series, remarks};
   finder_.look(series, std::exchange(catalogue_, nullptr));
 }
 
-void StudyOpener::load_by_uid(const Catalogue& catalogue) {
+void StudyOpener::load_by_uid(const imaging::Catalogue& catalogue) {
   const std::string uid = uid_->toStdString();
-  if (const Series* gappy = find_fillable(catalogue, uid)) return ask_for_policy(*gappy);
-  const auto chosen = choose_series(catalogue, uid, path_.toStdString());
+  if (const imaging::Series* gappy = imaging::find_fillable(catalogue, uid)) return ask_for_policy(*gappy);
+  const auto chosen = imaging::choose_series(catalogue, uid, path_.toStdString());
   if (chosen) return load(chosen->series, chosen->remarks);
   problems_ << QString::fromStdString(chosen.error().message);
   next();
 }
 
-void StudyOpener::load_as_wanted(const Series& series) {
+void StudyOpener::load_as_wanted(const imaging::Series& series) {
   if (series.fillable() || !series.grid.tilt.empty()) return ask_for_policy(series);
   load(series);
 }
 
 // Making slices up is not the default; moving them back is.
-void StudyOpener::ask_for_policy(const Series& series) {
+void StudyOpener::ask_for_policy(const imaging::Series& series) {
   const bool fills = series.fillable();
   question_ = new QMessageBox(QMessageBox::Question, fills ? tr("Irregular slices") : tr("Tilted slices"),
                               QString::fromStdString(fills ? series.grid.question : series.grid.tilt),
@@ -173,12 +177,13 @@ void StudyOpener::ask_for_policy(const Series& series) {
   }
   connect(question_, &QMessageBox::finished, this, [this, series, fills, proceed, box = question_.data()] {
     if (box->clickedButton() != proceed) return next();
-    GridPolicy policy = series.policy;
-    if (fills) policy.gaps = GridPolicy::Gaps::fill;
+    imaging::GridPolicy policy = series.policy;
+    if (fills) policy.gaps = imaging::GridPolicy::Gaps::fill;
     if (box->checkBox() != nullptr) {
-      policy.tilt = box->checkBox()->isChecked() ? GridPolicy::Tilt::correct : GridPolicy::Tilt::keep;
+      policy.tilt =
+          box->checkBox()->isChecked() ? imaging::GridPolicy::Tilt::correct : imaging::GridPolicy::Tilt::keep;
     }
-    load(by_policy(series, policy));
+    load(imaging::by_policy(series, policy));
   });
   question_->open();
   emit ended();
@@ -189,4 +194,4 @@ void StudyOpener::close_questions() {
   if (question_) question_->close();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

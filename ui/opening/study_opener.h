@@ -17,7 +17,7 @@
 #include "imaging/load_study.h"
 #include "ui/opening/series_browser.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Opens one study after the other, in the order of the requests. While the user chooses a series, or how its
 // slices become a regular grid, earlier requests wait. A new request during the choice gives the choice
@@ -33,7 +33,7 @@ class StudyOpener : public QObject {
   };
   void open(const QString& path, Ask ask = Ask::if_several);
   // Does not ask which series, and follows the policy for a tilt. Asks about gaps unless it fills them.
-  void open_series(const QString& path, const QString& uid, const GridPolicy& policy = {});
+  void open_series(const QString& path, const QString& uid, const imaging::GridPolicy& policy = {});
   void open_phantom(const QString& kind);
   void cancel();  // the one that is being opened, and those that wait
   // Whether previewed() is needed; at first, yes. A preview of a volume file reads the whole file once
@@ -44,13 +44,13 @@ class StudyOpener : public QObject {
   [[nodiscard]] SeriesBrowser* browser() const { return browser_; }
   [[nodiscard]] QMessageBox* question() const { return question_; }
   // What was found beside the study; none where it is not the one that was opened last.
-  [[nodiscard]] std::vector<FoundResult> results_beside(const LoadedStudy& study) const;
+  [[nodiscard]] std::vector<engine::FoundResult> results_beside(const engine::LoadedStudy& study) const;
 
  signals:
   void began(const QString& what);                        // for LoadingView::begin(): "head_t1 (2 of 3)"
   void progressed(double fraction, const QString& step);  // for LoadingView::set_progress()
   void previewed(const QImage& middle_slice);             // of what is being loaded; not of all series
-  void opened(std::shared_ptr<const tidemark::LoadedStudy> study);
+  void opened(std::shared_ptr<const tidemark::engine::LoadedStudy> study);
   void failed(const QString& message);  // for LoadingView::fail(); once for all that wait for each other
   void ended();  // nothing is being looked for or loaded (opened, given up, or to be chosen by the user)
 
@@ -62,32 +62,32 @@ class StudyOpener : public QObject {
   void add(const QString& what, std::function<void()> start);
   void next();
   void begin(const QString& what);
-  void look_at(const std::shared_ptr<const Catalogue>& catalogue);
-  void load(const Series& series, const std::vector<std::string>& remarks = {});
-  void load_by_uid(const Catalogue& catalogue);
-  void load_as_wanted(const Series& series);  // asks first where there is something to ask
-  void ask_for_policy(const Series& series);
+  void look_at(const std::shared_ptr<const imaging::Catalogue>& catalogue);
+  void load(const imaging::Series& series, const std::vector<std::string>& remarks = {});
+  void load_by_uid(const imaging::Catalogue& catalogue);
+  void load_as_wanted(const imaging::Series& series);  // asks first where there is something to ask
+  void ask_for_policy(const imaging::Series& series);
   void close_questions();
 
   QWidget* window_;
-  StudyLoader loader_;
-  ResultFinder finder_;
-  SeriesPreviews previews_;
+  engine::StudyLoader loader_;
+  engine::ResultFinder finder_;
+  engine::SeriesPreviews previews_;
   bool previews_wanted_ = true;
   QPointer<SeriesBrowser> browser_;
   QPointer<QMessageBox> question_;
   std::deque<Request> waiting_;
-  int number_ = 0;                              // of the request that is worked on, from 1; 0: none is
-  int asked_ = 0;                               // requests since there was none
-  QStringList problems_;                        // of these
-  QString path_;                                // of the request
-  std::shared_ptr<const Catalogue> catalogue_;  // found there
-  ChosenSeries to_load_;                        // of these, when results were looked for
-  std::vector<FoundResult> results_;            // of the request
-  std::weak_ptr<const LoadedStudy> last_opened_;
-  std::vector<FoundResult> beside_last_opened_;
+  int number_ = 0;        // of the request that is worked on, from 1; 0: none is
+  int asked_ = 0;         // requests since there was none
+  QStringList problems_;  // of these
+  QString path_;          // of the request
+  std::shared_ptr<const imaging::Catalogue> catalogue_;  // found there
+  imaging::ChosenSeries to_load_;                        // of these, when results were looked for
+  std::vector<engine::FoundResult> results_;             // of the request
+  std::weak_ptr<const engine::LoadedStudy> last_opened_;
+  std::vector<engine::FoundResult> beside_last_opened_;
   std::optional<QString> uid_;
   Ask ask_ = Ask::if_several;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -17,7 +17,7 @@
 #include "ui/settings.h"
 #include "ui/widgets/work_line.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 QString usual_folder() {
@@ -62,24 +62,25 @@ QueryDialog::QueryDialog(std::filesystem::path servers, QWidget* parent)
 }
 
 void QueryDialog::connect_client() {
-  connect(work_, &WorkLine::cancelled, &client_, &PacsClient::cancel);
-  connect(&client_, &PacsClient::progressed, work_, &WorkLine::set_progress);
-  connect(&client_, &PacsClient::failed, this, &QueryDialog::rest);
-  connect(&client_, &PacsClient::cancelled, this, [this] { rest(tr("Cancelled.")); });
-  connect(&client_, &PacsClient::studies_found, this, [this](const auto& found) {
+  connect(work_, &WorkLine::cancelled, &client_, &engine::PacsClient::cancel);
+  connect(&client_, &engine::PacsClient::progressed, work_, &WorkLine::set_progress);
+  connect(&client_, &engine::PacsClient::failed, this, &QueryDialog::rest);
+  connect(&client_, &engine::PacsClient::cancelled, this, [this] { rest(tr("Cancelled.")); });
+  connect(&client_, &engine::PacsClient::studies_found, this, [this](const auto& found) {
     tree_->show_studies(*found);
     const auto count = found->entries.size();
     rest(found->more  ? tr("The server has more than these %1 studies: ask for less.").arg(count)
          : count == 1 ? tr("1 study.")
                       : tr("%1 studies.").arg(count));
   });
-  connect(&client_, &PacsClient::series_found, this, [this](const QString& study_uid, const auto& found) {
-    asked_study_.clear();
-    tree_->show_series(study_uid, *found);
-    const auto count = found->entries.size();
-    rest(count == 1 ? tr("1 series.") : tr("%1 series.").arg(count));
-  });
-  connect(&client_, &PacsClient::retrieved, this, [this](const QString& folder, const auto& what) {
+  connect(&client_, &engine::PacsClient::series_found, this,
+          [this](const QString& study_uid, const auto& found) {
+            asked_study_.clear();
+            tree_->show_series(study_uid, *found);
+            const auto count = found->entries.size();
+            rest(count == 1 ? tr("1 series.") : tr("%1 series.").arg(count));
+          });
+  connect(&client_, &engine::PacsClient::retrieved, this, [this](const QString& folder, const auto& what) {
     const auto came = what->files.size();
     rest(came == 1 ? tr("1 object came.") : tr("%1 objects came.").arg(came));
     const auto lost = what->missing + static_cast<std::int64_t>(what->refused.size());
@@ -160,8 +161,8 @@ void QueryDialog::retrieve() {
   settings::retrieval_folder({}).set(folder_->text());
   // Named by the time, not by anything that says whose it is.
   const QString name = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd hh-mm-ss-zzz"));
-  const RetrieveRequest request{chosen->study_uid.toStdString(), chosen->series_uid.toStdString(),
-                                QDir(folder_->text()).filePath(name).toStdString()};
+  const imaging::RetrieveRequest request{chosen->study_uid.toStdString(), chosen->series_uid.toStdString(),
+                                         QDir(folder_->text()).filePath(name).toStdString()};
   begin(tr("Calling the server"));
   client_.retrieve(*servers_->server(), request, servers_->limits());
 }
@@ -197,4 +198,4 @@ void QueryDialog::reject() {
   QDialog::reject();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,7 +8,7 @@
 
 #include "engine/pacs_client.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class QueryForm;
 class ServerChoice;
@@ -43,7 +43,7 @@ class QueryDialog : public QDialog {
   void rest(const QString& said);
   void follow();
 
-  PacsClient client_;
+  engine::PacsClient client_;
   QString asked_study_;  // whose series are awaited
   ServerChoice* servers_;
   QueryForm* form_;
@@ -54,4 +54,4 @@ class QueryDialog : public QDialog {
   QPushButton* open_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

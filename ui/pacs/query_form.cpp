@@ -5,7 +5,7 @@
 
 #include "ui/look/theme.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 QueryForm::QueryForm(QWidget* parent) : QWidget(parent), modality_(new QComboBox(this)) {
   auto* grid = new QGridLayout(this);
@@ -45,9 +45,9 @@ QLineEdit* QueryForm::line(const QString& label, const QString& placeholder, con
   return edit;
 }
 
-StudyQuery QueryForm::query() const {
+imaging::StudyQuery QueryForm::query() const {
   const auto text = [](const QString& entered) { return entered.trimmed().toStdString(); };
-  StudyQuery query;
+  imaging::StudyQuery query;
   query.patient_name = text(name_->text());
   query.patient_id = text(id_->text());
   query.date_from = text(from_->text());
@@ -57,4 +57,4 @@ StudyQuery QueryForm::query() const {
   return query;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

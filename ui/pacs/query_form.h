@@ -7,13 +7,13 @@
 
 #include "imaging/pacs/services.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class QueryForm : public QWidget {
   Q_OBJECT
  public:
   explicit QueryForm(QWidget* parent = nullptr);
-  [[nodiscard]] StudyQuery query() const;
+  [[nodiscard]] imaging::StudyQuery query() const;
 
  signals:
   void submitted();  // by Return
@@ -29,4 +29,4 @@ class QueryForm : public QWidget {
   QLineEdit* description_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -10,7 +10,7 @@
 #include "ui/pacs/servers_dialog.h"
 #include "ui/settings.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kLeastLetters = 20;
@@ -37,16 +37,17 @@ ServerChoice::ServerChoice(std::filesystem::path file, const QString& tip, QWidg
 
 void ServerChoice::read() {
   const QString before = server_->currentText();
-  auto found = read_pacs_configuration(file_);
+  auto found = imaging::read_pacs_configuration(file_);
   std::error_code error;
   // A user who has named no server yet has made no mistake.
   const bool is_wrong = !found && std::filesystem::exists(file_, error);
   problem_ = is_wrong ? QString::fromStdString(found.error().message) : QString();
-  configuration_ = found ? std::move(*found) : PacsConfiguration();
+  configuration_ = found ? std::move(*found) : imaging::PacsConfiguration();
   if (!is_wrong && configuration_.servers.empty())
     problem_ = tr("There is no server yet: name one with “Servers…”.");
   server_->clear();
-  for (const PacsServer& one : configuration_.servers) server_->addItem(QString::fromStdString(one.name));
+  for (const imaging::PacsServer& one : configuration_.servers)
+    server_->addItem(QString::fromStdString(one.name));
   const QString wanted = before.isEmpty() ? settings::server().get() : before;
   server_->setCurrentIndex(std::max(server_->findText(wanted), server_->count() > 0 ? 0 : -1));
 }
@@ -64,7 +65,7 @@ void ServerChoice::edit() {
   emit edited();
 }
 
-const PacsServer* ServerChoice::server() const {
+const imaging::PacsServer* ServerChoice::server() const {
   const int index = server_->currentIndex();
   return index < 0 ? nullptr : &configuration_.servers[static_cast<std::size_t>(index)];
 }
@@ -73,4 +74,4 @@ void ServerChoice::remember() const {
   settings::server().set(server_->currentText());
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -7,7 +7,7 @@
 
 #include "imaging/pacs/configuration.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class ServerChoice : public QWidget {
   Q_OBJECT
@@ -15,8 +15,8 @@ class ServerChoice : public QWidget {
   // `file` is that of the servers; `tip` is on the purpose of the chosen one.
   ServerChoice(std::filesystem::path file, const QString& tip, QWidget* parent = nullptr);
 
-  [[nodiscard]] const PacsServer* server() const;  // null: there is none
-  [[nodiscard]] const PacsLimits& limits() const { return configuration_.limits; }
+  [[nodiscard]] const imaging::PacsServer* server() const;  // null: there is none
+  [[nodiscard]] const imaging::PacsLimits& limits() const { return configuration_.limits; }
   [[nodiscard]] const QString& problem() const { return problem_; }  // why there is none
   // The next dialog offers the same server.
   void remember() const;
@@ -30,9 +30,9 @@ class ServerChoice : public QWidget {
   void edit();
 
   std::filesystem::path file_;
-  PacsConfiguration configuration_;
+  imaging::PacsConfiguration configuration_;
   QString problem_;
   QComboBox* server_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -11,7 +11,7 @@
 #include "ui/look/theme.h"
 #include "ui/widgets/form.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 NumberBox* whole_number(int low, int high) {
@@ -47,11 +47,11 @@ ServersDialog::ServersDialog(std::filesystem::path file, QWidget* parent)
   whole->addWidget(said_);
   whole->addWidget(buttons);
 
-  connect(&client_, &PacsClient::answered, this, [this](double seconds) {
+  connect(&client_, &engine::PacsClient::answered, this, [this](double seconds) {
     say(tr("The server answers in %1 ms.").arg(seconds * 1000.0, 0, 'f', 1));
   });
-  connect(&client_, &PacsClient::failed, this, &ServersDialog::say);
-  auto read = read_pacs_configuration(file_);
+  connect(&client_, &engine::PacsClient::failed, this, &ServersDialog::say);
+  auto read = imaging::read_pacs_configuration(file_);
   std::error_code error;
   if (read) {
     configuration_ = std::move(*read);
@@ -62,7 +62,8 @@ ServersDialog::ServersDialog(std::filesystem::path file, QWidget* parent)
     save->setEnabled(false);
     save->setToolTip(tr("The file of servers cannot be read: repair it, or move it away"));
   }
-  for (const PacsServer& server : configuration_.servers) list_->addItem(QString::fromStdString(server.name));
+  for (const imaging::PacsServer& server : configuration_.servers)
+    list_->addItem(QString::fromStdString(server.name));
   connect(list_, &QListWidget::currentRowChanged, this, &ServersDialog::show_entry);
   connect(name_, &QLineEdit::textChanged, this, [this](const QString& text) {
     if (list_->currentItem() != nullptr) list_->currentItem()->setText(text);
@@ -181,19 +182,19 @@ void ServersDialog::show_entry(int row) {
   shown_ = row;
   entry_->setEnabled(row >= 0);
   if (row < 0) return;
-  const PacsServer& server = configuration_.servers[static_cast<std::size_t>(row)];
+  const imaging::PacsServer& server = configuration_.servers[static_cast<std::size_t>(row)];
   const auto text = [](const auto& value) { return QString::fromStdString(std::string(value)); };
   name_->setText(text(server.name));
   host_->setText(text(server.host));
   port_->show_value(server.port);
   ae_title_->setText(text(server.ae_title));
   own_ae_title_->setText(text(server.own_ae_title));
-  const bool by_move = server.retrieve == PacsServer::Retrieve::move;
+  const bool by_move = server.retrieve == imaging::PacsServer::Retrieve::move;
   retrieve_->setCurrentIndex(by_move ? 1 : 0);
   move_port_->show_value(server.move_port);
   move_port_->setEnabled(by_move);
   timeout_->show_value(server.timeout_seconds);
-  const PacsTls tls = server.tls.value_or(PacsTls{});
+  const imaging::PacsTls tls = server.tls.value_or(imaging::PacsTls{});
   tls_->setChecked(server.tls.has_value());
   ca_->setText(text(tls.ca.string()));
   certificate_->setText(text(tls.certificate.string()));
@@ -203,24 +204,26 @@ void ServersDialog::show_entry(int row) {
 
 void ServersDialog::keep_entry() {
   if (shown_ < 0 || shown_ >= static_cast<int>(configuration_.servers.size())) return;
-  PacsServer& server = configuration_.servers[static_cast<std::size_t>(shown_)];
+  imaging::PacsServer& server = configuration_.servers[static_cast<std::size_t>(shown_)];
   server.name = entered(*name_);
   server.host = entered(*host_);
   server.port = entered(*port_);
   server.ae_title = entered(*ae_title_);
   server.own_ae_title = entered(*own_ae_title_);
-  server.retrieve = retrieve_->currentIndex() == 1 ? PacsServer::Retrieve::move : PacsServer::Retrieve::get;
+  server.retrieve = retrieve_->currentIndex() == 1 ? imaging::PacsServer::Retrieve::move
+                                                   : imaging::PacsServer::Retrieve::get;
   server.move_port = entered(*move_port_);
   server.timeout_seconds = entered(*timeout_);
   server.tls.reset();
   if (tls_->isChecked()) {
-    server.tls = PacsTls{entered(*ca_), entered(*certificate_), entered(*key_), verify_->isChecked()};
+    server.tls =
+        imaging::PacsTls{entered(*ca_), entered(*certificate_), entered(*key_), verify_->isChecked()};
   }
 }
 
 void ServersDialog::add() {
   keep_entry();
-  PacsServer server;
+  imaging::PacsServer server;
   server.name = tr("New server").toStdString();
   configuration_.servers.push_back(server);
   list_->addItem(QString::fromStdString(server.name));
@@ -260,17 +263,17 @@ void ServersDialog::accept() {
   keep_entry();
   std::set<std::string> names;
   for (std::size_t row = 0; row < configuration_.servers.size(); ++row) {
-    const PacsServer& server = configuration_.servers[row];
-    const Status good = check_pacs_server(server);
+    const imaging::PacsServer& server = configuration_.servers[row];
+    const Status good = imaging::check_pacs_server(server);
     if (good && names.insert(server.name).second) continue;
     list_->setCurrentRow(static_cast<int>(row));
     return say(good ? tr("Two servers are called %1.").arg(QString::fromStdString(server.name))
                     : QString::fromStdString(good.error().message));
   }
-  if (const Status written = write_pacs_configuration(configuration_, file_); !written) {
+  if (const Status written = imaging::write_pacs_configuration(configuration_, file_); !written) {
     return say(QString::fromStdString(written.error().message));
   }
   QDialog::accept();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -15,7 +15,7 @@
 #include "imaging/pacs/configuration.h"
 #include "ui/widgets/number_box.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class Form;
 
@@ -40,8 +40,8 @@ class ServersDialog : public QDialog {
   void say(const QString& message);
 
   std::filesystem::path file_;
-  PacsConfiguration configuration_;
-  PacsClient client_;
+  imaging::PacsConfiguration configuration_;
+  engine::PacsClient client_;
   int shown_ = -1;
   QListWidget* list_;
   QWidget* entry_ = nullptr;
@@ -62,4 +62,4 @@ class ServersDialog : public QDialog {
   QLabel* said_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

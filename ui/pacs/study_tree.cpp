@@ -3,7 +3,7 @@
 #include <QHeaderView>
 #include <algorithm>
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 enum Column { kName, kId, kDate, kModality, kDescription, kObjects, kColumns };
@@ -40,12 +40,12 @@ StudyTree::StudyTree(QWidget* parent) : QTreeWidget(parent) {
   });
 }
 
-void StudyTree::show_studies(const Found<PacsStudy>& studies) {
+void StudyTree::show_studies(const imaging::Found<imaging::PacsStudy>& studies) {
   clear();
-  for (const PacsStudy& one : studies.entries) {
+  for (const imaging::PacsStudy& one : studies.entries) {
     auto* item = new QTreeWidgetItem(this);
     item->setData(kName, kStudyRole, text(one.uid));
-    item->setText(kName, text(readable_name(one.patient_name)));
+    item->setText(kName, text(imaging::readable_name(one.patient_name)));
     item->setText(kId, text(one.patient_id));
     item->setText(kDate, text(one.date));
     QStringList modalities;
@@ -83,11 +83,11 @@ void StudyTree::forget_question(const QString& study_uid) {
   item->setExpanded(false);
 }
 
-void StudyTree::show_series(const QString& study_uid, const Found<PacsSeries>& series) {
+void StudyTree::show_series(const QString& study_uid, const imaging::Found<imaging::PacsSeries>& series) {
   QTreeWidgetItem* parent = study(study_uid);
   if (parent == nullptr) return;
   qDeleteAll(parent->takeChildren());
-  for (const PacsSeries& one : series.entries) {
+  for (const imaging::PacsSeries& one : series.entries) {
     auto* item = new QTreeWidgetItem(parent);
     item->setData(kName, kStudyRole, study_uid);
     item->setData(kName, kSeriesRole, text(one.uid));
@@ -107,4 +107,4 @@ std::optional<StudyTree::Chosen> StudyTree::chosen() const {
                 items.front()->data(kName, kSeriesRole).toString()};
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

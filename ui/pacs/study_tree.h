@@ -6,15 +6,15 @@
 
 #include "imaging/pacs/services.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class StudyTree : public QTreeWidget {
   Q_OBJECT
  public:
   explicit StudyTree(QWidget* parent = nullptr);
 
-  void show_studies(const Found<PacsStudy>& studies);
-  void show_series(const QString& study_uid, const Found<PacsSeries>& series);
+  void show_studies(const imaging::Found<imaging::PacsStudy>& studies);
+  void show_series(const QString& study_uid, const imaging::Found<imaging::PacsSeries>& series);
   void forget_question(const QString& study_uid);  // its series did not come: unfolding asks again
 
   // The selection: a series, or a study where the series is empty. Unset without a selection.
@@ -34,4 +34,4 @@ class StudyTree : public QTreeWidget {
   [[nodiscard]] QTreeWidgetItem* study(const QString& uid) const;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

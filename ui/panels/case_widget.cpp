@@ -1,8 +1,8 @@
 #include "ui/panels/case_widget.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
-void CaseWidget::set_proxy(CaseProxy* proxy) {
+void CaseWidget::set_proxy(engine::CaseProxy* proxy) {
   if (proxy_ == proxy) return;
   if (proxy_) {
     proxy_->disconnect(this);
@@ -10,8 +10,8 @@ void CaseWidget::set_proxy(CaseProxy* proxy) {
   }
   proxy_ = proxy;
   if (proxy) {
-    connect(proxy, &CaseProxy::state_changed, this, &CaseWidget::follow);
-    connect(&proxy->display(), &Display::changed, this, &CaseWidget::follow);
+    connect(proxy, &engine::CaseProxy::state_changed, this, &CaseWidget::follow);
+    connect(&proxy->display(), &engine::Display::changed, this, &CaseWidget::follow);
     connect(proxy, &QObject::destroyed, this, &CaseWidget::forget);
   }
   attach();
@@ -33,4 +33,4 @@ void CaseWidget::forget() {
   attach();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -7,7 +7,7 @@
 
 #include "engine/case_proxy.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class CaseWidget : public QWidget {
   Q_OBJECT
@@ -15,8 +15,8 @@ class CaseWidget : public QWidget {
   explicit CaseWidget(QWidget* parent = nullptr) : QWidget(parent) {}
 
   // Null: no case is open. A proxy that is destroyed is forgotten.
-  void set_proxy(CaseProxy* proxy);
-  [[nodiscard]] CaseProxy* proxy() const { return proxy_; }
+  void set_proxy(engine::CaseProxy* proxy);
+  [[nodiscard]] engine::CaseProxy* proxy() const { return proxy_; }
 
  protected:
   // Another case, or none any more; refresh() follows.
@@ -34,7 +34,7 @@ class CaseWidget : public QWidget {
  private:
   void follow();
   void forget();
-  QPointer<CaseProxy> proxy_;
+  QPointer<engine::CaseProxy> proxy_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -11,7 +11,7 @@
 #include "ui/widgets/form.h"
 #include "ui/widgets/slider_number.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 QToolButton* make_button(const QString& text, QStringView picture, const QString& tip) {
@@ -43,8 +43,9 @@ ClipControls::ClipControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Clip plane"));
   on_ = form.check(tr("Clip plane in 3D"), tr("Hides everything in front of a plane."));
-  connect(on_, &QCheckBox::clicked, this,
-          [this](bool on) { change_display([=](DisplaySettings& settings) { settings.clip_on = on; }); });
+  connect(on_, &QCheckBox::clicked, this, [this](bool on) {
+    change_display([=](engine::DisplaySettings& settings) { settings.clip_on = on; });
+  });
   orientations_ = make_orientations();
   form.wide(orientations_);
   distance_ = form.slider(tr("Distance"), tr("Of the plane from the middle of the study."));
@@ -52,8 +53,8 @@ ClipControls::ClipControls(QWidget* parent) : CaseWidget(parent) {
   distance_->set_unit(tr("mm"));
   connect(distance_, &SliderNumber::edited, this, [this](double value) {
     if (!proxy()) return;
-    const glm::dvec3 middle = middle_of(proxy()->volume().geometry);
-    change_display([&](DisplaySettings& settings) {
+    const glm::dvec3 middle = renderer::middle_of(proxy()->volume().geometry);
+    change_display([&](engine::DisplaySettings& settings) {
       settings.clip.offset_mm = glm::dot(settings.clip.normal, middle) + value;
     });
   });
@@ -90,29 +91,29 @@ QWidget* ClipControls::make_orientations() {
 }
 
 void ClipControls::add_effects(Form& form) {
-  const auto add = [&](const QString& text, const QString& tip, bool ClipPlane::*effect) {
+  const auto add = [&](const QString& text, const QString& tip, bool renderer::ClipPlane::*effect) {
     QCheckBox* check = form.check(text, tip);
     connect(check, &QCheckBox::clicked, this, [this, effect](bool on) {
-      change_display([=](DisplaySettings& settings) { settings.clip.*effect = on; });
+      change_display([=](engine::DisplaySettings& settings) { settings.clip.*effect = on; });
     });
     return check;
   };
-  source_ =
-      add(tr("Cuts the source"), tr("Hides the study in front of the plane."), &ClipPlane::clips_source);
-  surface_ =
-      add(tr("Cuts the surface"), tr("Hides the surface in front of the plane."), &ClipPlane::clips_surface);
+  source_ = add(tr("Cuts the source"), tr("Hides the study in front of the plane."),
+                &renderer::ClipPlane::clips_source);
+  surface_ = add(tr("Cuts the surface"), tr("Hides the surface in front of the plane."),
+                 &renderer::ClipPlane::clips_surface);
   picture_ = add(tr("Shows the slice"), tr("Shows the study on the plane, with the surface's cut in yellow."),
-                 &ClipPlane::picture);
+                 &renderer::ClipPlane::picture);
 }
 
 glm::dvec3 ClipControls::towards_viewer() const {
-  const Camera& camera = proxy()->display().settings().camera;
+  const renderer::Camera& camera = proxy()->display().settings().camera;
   return glm::normalize(glm::cross(camera.right(), camera.up()));
 }
 
 void ClipControls::lay_across(glm::dvec3 direction) {
   const glm::dvec3 normal = glm::dot(direction, towards_viewer()) < 0.0 ? -direction : direction;
-  change_display([&](DisplaySettings& settings) {
+  change_display([&](engine::DisplaySettings& settings) {
     settings.clip_on = true;
     settings.clip.normal = normal;
     settings.clip.offset_mm = glm::dot(normal, settings.cursor_mm);
@@ -120,20 +121,20 @@ void ClipControls::lay_across(glm::dvec3 direction) {
 }
 
 void ClipControls::flip() {
-  change_display([](DisplaySettings& settings) {
+  change_display([](engine::DisplaySettings& settings) {
     settings.clip.normal = -settings.clip.normal;
     settings.clip.offset_mm = -settings.clip.offset_mm;
   });
 }
 
 void ClipControls::refresh() {
-  const DisplaySettings& settings = proxy()->display().settings();
-  const ClipPlane& clip = settings.clip;
+  const engine::DisplaySettings& settings = proxy()->display().settings();
+  const renderer::ClipPlane& clip = settings.clip;
   const Geometry& geometry = proxy()->volume().geometry;
   const double most = half_extent_mm(geometry, clip.normal);
   on_->setChecked(settings.clip_on);
   distance_->set_range(-most, most, -4.0 * most, 4.0 * most);
-  distance_->set_value(clip.offset_mm - glm::dot(clip.normal, middle_of(geometry)));
+  distance_->set_value(clip.offset_mm - glm::dot(clip.normal, renderer::middle_of(geometry)));
   source_->setChecked(clip.clips_source);
   surface_->setChecked(clip.clips_surface);
   picture_->setChecked(clip.picture);
@@ -144,4 +145,4 @@ void ClipControls::refresh() {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -6,7 +6,7 @@
 class QCheckBox;
 class QPushButton;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class Form;
 class SliderNumber;
@@ -36,4 +36,4 @@ class ClipControls : public CaseWidget {
   QCheckBox* picture_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

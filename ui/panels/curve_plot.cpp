@@ -8,7 +8,7 @@
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/plot_axis.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kCurveHeight = 40;
@@ -104,4 +104,4 @@ void CurvePlot::paint_curve(QPainter& painter, const QRectF& area) const {
   painter.drawEllipse(curve.back(), 2.5, 2.5);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

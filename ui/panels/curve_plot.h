@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class CurvePlot : public QWidget {
   Q_OBJECT
@@ -42,4 +42,4 @@ class CurvePlot : public QWidget {
   std::vector<QPointF> points_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

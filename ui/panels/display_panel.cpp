@@ -5,7 +5,7 @@
 #include "ui/panels/surface_controls.h"
 #include "ui/panels/window_controls.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 DisplayPanel::DisplayPanel(QWidget* parent) : Panel(tr("Open a study to choose how it is shown."), parent) {
   add(new WindowControls);
@@ -14,4 +14,4 @@ DisplayPanel::DisplayPanel(QWidget* parent) : Panel(tr("Open a study to choose h
   add(new ClipControls);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

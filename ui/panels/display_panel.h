@@ -3,7 +3,7 @@
 
 #include "ui/panels/panel.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class DisplayPanel : public Panel {
   Q_OBJECT
@@ -11,4 +11,4 @@ class DisplayPanel : public Panel {
   explicit DisplayPanel(QWidget* parent = nullptr);
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -12,28 +12,28 @@
 #include "ui/widgets/disclosure.h"
 #include "ui/widgets/form.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr std::int64_t kStepsPerPicture[] = {0, 1, 2, 5, 10, 50, 100};
 
 struct Choice {
-  ExecutorKind kind;
+  solver::ExecutorKind kind;
   const char* name;  // Executor::name()
 };
-constexpr Choice kChoices[] = {{ExecutorKind::automatic, "automatic"},
-                               {ExecutorKind::host, "host"},
-                               {ExecutorKind::compute, "compute"},
-                               {ExecutorKind::stream, "stream"}};
+constexpr Choice kChoices[] = {{solver::ExecutorKind::automatic, "automatic"},
+                               {solver::ExecutorKind::host, "host"},
+                               {solver::ExecutorKind::compute, "compute"},
+                               {solver::ExecutorKind::stream, "stream"}};
 
 // Why this machine cannot run it; empty when it can.
-QString obstacle(ExecutorKind kind, const Engine& engine) {
-  if (kind == ExecutorKind::automatic || kind == ExecutorKind::host) return {};
-  if (engine.graphics() == Engine::Graphics::none) {
+QString obstacle(solver::ExecutorKind kind, const engine::Engine& engine) {
+  if (kind == solver::ExecutorKind::automatic || kind == solver::ExecutorKind::host) return {};
+  if (engine.graphics() == engine::Engine::Graphics::none) {
     return EvolutionControls::tr("There is no OpenGL: %1")
         .arg(QString::fromStdString(engine.graphics_problem()));
   }
-  if (kind == ExecutorKind::compute && !engine.capabilities().at_least(4, 5)) {
+  if (kind == solver::ExecutorKind::compute && !engine.capabilities().at_least(4, 5)) {
     return EvolutionControls::tr("Needs OpenGL 4.5; this machine has %1.%2")
         .arg(engine.capabilities().major)
         .arg(engine.capabilities().minor);
@@ -41,28 +41,28 @@ QString obstacle(ExecutorKind kind, const Engine& engine) {
   return {};
 }
 
-QString text_of(Outcome outcome) {
+QString text_of(document::Outcome outcome) {
   switch (outcome) {
-    case Outcome::converged:
+    case document::Outcome::converged:
       return EvolutionControls::tr("converged");
-    case Outcome::vanished:
-    case Outcome::seeded_outside:
+    case document::Outcome::vanished:
+    case document::Outcome::seeded_outside:
       return EvolutionControls::tr("vanished");
-    case Outcome::filled_volume:
+    case document::Outcome::filled_volume:
       return EvolutionControls::tr("volume filled");
-    case Outcome::unfinished:
+    case document::Outcome::unfinished:
       break;
   }
   return EvolutionControls::tr("paused");
 }
 
-QString title(ExecutorKind kind) {
+QString title(solver::ExecutorKind kind) {
   switch (kind) {
-    case ExecutorKind::host:
+    case solver::ExecutorKind::host:
       return EvolutionControls::tr("Host: the processor");
-    case ExecutorKind::compute:
+    case solver::ExecutorKind::compute:
       return EvolutionControls::tr("Compute: the GPU");
-    case ExecutorKind::stream:
+    case solver::ExecutorKind::stream:
       return EvolutionControls::tr("Stream: the paper's way");
     default:
       return EvolutionControls::tr("Automatic");
@@ -149,7 +149,7 @@ void EvolutionControls::attach() {
 }
 
 void EvolutionControls::refresh() {
-  const CaseState& state = proxy()->state();
+  const engine::CaseState& state = proxy()->state();
   state_->setText(!state.begun    ? tr("no surface yet")
                   : state.playing ? tr("playing")
                                   : text_of(state.outcome));
@@ -160,4 +160,4 @@ void EvolutionControls::refresh() {
   executor_->setCurrentIndex(executor_->findData(state.executor));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -11,7 +11,7 @@ class QComboBox;
 class QLabel;
 class QToolButton;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class Form;
 
@@ -46,4 +46,4 @@ class EvolutionControls : public CaseWidget {
   QComboBox* executor_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

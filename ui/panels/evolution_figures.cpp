@@ -8,7 +8,7 @@
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 EvolutionFigures::EvolutionFigures(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
@@ -21,8 +21,9 @@ EvolutionFigures::EvolutionFigures(QWidget* parent) : CaseWidget(parent) {
                                   "it and nothing else, 0 nothing of it."));
   truth_ =
       truth.check(tr("Show the truth"), tr("Draws the outline of the true shape into slices, in violet."));
-  connect(truth_, &QCheckBox::clicked, this,
-          [this](bool on) { change_display([=](DisplaySettings& settings) { settings.truth = on; }); });
+  connect(truth_, &QCheckBox::clicked, this, [this](bool on) {
+    change_display([=](engine::DisplaySettings& settings) { settings.truth = on; });
+  });
   dice_part_->hide();  // until there is a phantom
   form.wide(dice_part_);
   add_curves(form);
@@ -47,11 +48,11 @@ void EvolutionFigures::add_curves(Form& form) {
   motion_ = new CurvePlot(tr("Motion"), QString(), true);
   volume_->setToolTip(tr("The volume inside the surface, over the steps."));
   area_->setToolTip(tr("The area of the surface, over the steps."));
-  motion_->set_mark(kConvergedSpeed,
+  motion_->set_mark(solver::kConvergedSpeed,
                     tr("How fast the surface moves, on a logarithmic scale: 1 is a front "
                        "that the data drives as fast as can be. Below the dashed line (%1) it "
                        "counts as converged.")
-                        .arg(number_text(kConvergedSpeed, 2)));
+                        .arg(number_text(solver::kConvergedSpeed, 2)));
   for (CurvePlot* plot : {volume_, area_, motion_}) form.wide(plot);
 }
 
@@ -63,31 +64,31 @@ void EvolutionFigures::attach() {
 }
 
 void EvolutionFigures::show_curves() {
-  const Curve::Points& curve = *proxy()->state().curve.points();
-  const auto show = [&curve](CurvePlot* plot, double CurvePoint::*quantity) {
+  const document::Curve::Points& curve = *proxy()->state().curve.points();
+  const auto show = [&curve](CurvePlot* plot, double document::CurvePoint::*quantity) {
     std::vector<QPointF> points;
     points.reserve(curve.size());
-    for (const CurvePoint& point : curve)
+    for (const document::CurvePoint& point : curve)
       points.emplace_back(static_cast<double>(point.step), point.*quantity);
     plot->set_points(std::move(points));
   };
-  show(volume_, &CurvePoint::volume_ml);
-  show(area_, &CurvePoint::surface_mm2);
-  show(motion_, &CurvePoint::surface_speed);
+  show(volume_, &document::CurvePoint::volume_ml);
+  show(area_, &document::CurvePoint::surface_mm2);
+  show(motion_, &document::CurvePoint::surface_speed);
 }
 
 void EvolutionFigures::refresh() {
-  const CaseState& state = proxy()->state();
+  const engine::CaseState& state = proxy()->state();
   show_curves();
   step_->setText(count_text(state.step));
   dice_->setText(state.begun && state.dice ? number_text(*state.dice, 3) : QStringLiteral("–"));
   truth_->setChecked(proxy()->display().settings().truth);
   const double measured = state.playing ? state.steps_per_second : state.solver_steps_per_second;
-  const double pace = has_surface(state.outcome) ? measured : 0.0;
+  const double pace = document::has_surface(state.outcome) ? measured : 0.0;
   pace_->setText(pace > 0.0 ? short_text(pace) : QStringLiteral("–"));
   pages_->setText(tr("%1, %2 at rest")
                       .arg(count_text(state.memory.resident_pages), count_text(state.memory.quiet_pages)));
   bytes_->setText(number_locale().formattedDataSize(state.memory.state_bytes, 1, QLocale::DataSizeSIFormat));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

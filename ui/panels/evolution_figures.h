@@ -6,7 +6,7 @@
 class QCheckBox;
 class QLabel;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class CurvePlot;
 class Form;
@@ -37,4 +37,4 @@ class EvolutionFigures : public CaseWidget {
   QLabel* pace_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

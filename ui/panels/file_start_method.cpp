@@ -12,7 +12,7 @@
 #include "ui/look/theme.h"
 #include "ui/widgets/form.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 FileStartMethod::FileStartMethod(StartFile kind, QWidget* parent) : StartMethod(parent), kind_(kind) {
   Form form(this);
@@ -73,19 +73,20 @@ void FileStartMethod::choose() {
 }
 
 void FileStartMethod::start() {
-  const QPointer<CaseProxy> wanted(proxy());
+  const QPointer<engine::CaseProxy> wanted(proxy());
   const std::filesystem::path path(path_->text().toStdU16String());
-  reading_ = BackgroundJob::start(this, [this, wanted, kind = kind_, path, grid = proxy()->volume().geometry,
-                                         band = proxy()->state().band](BackgroundJob& job) {
-    const auto start = std::make_shared<Result<Start>>(without_exceptions([&] {
-      return load_start(kind, path, grid, band, {nullptr, job.stop()});
-    }));
-    job.deliver([this, wanted, start] { take(*start, wanted); });
-  });
+  reading_ =
+      engine::BackgroundJob::start(this, [this, wanted, kind = kind_, path, grid = proxy()->volume().geometry,
+                                          band = proxy()->state().band](engine::BackgroundJob& job) {
+        const auto start = std::make_shared<Result<document::Start>>(without_exceptions([&] {
+          return load_start(kind, path, grid, band, {nullptr, job.stop()});
+        }));
+        job.deliver([this, wanted, start] { take(*start, wanted); });
+      });
   emit changed();
 }
 
-void FileStartMethod::take(const Result<Start>& start, CaseProxy* proxy) {
+void FileStartMethod::take(const Result<document::Start>& start, engine::CaseProxy* proxy) {
   reading_.reset();
   if (!start) {
     emit failed(QString::fromStdString(start.error().message));
@@ -95,4 +96,4 @@ void FileStartMethod::take(const Result<Start>& start, CaseProxy* proxy) {
   emit changed();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

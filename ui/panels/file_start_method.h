@@ -8,9 +8,11 @@
 
 class QLineEdit;
 
-namespace tidemark {
-
+namespace tidemark::engine {
 class BackgroundJob;
+}
+
+namespace tidemark::ui {
 
 class FileStartMethod : public StartMethod {
   Q_OBJECT
@@ -28,11 +30,11 @@ class FileStartMethod : public StartMethod {
 
  private:
   void choose();
-  void take(const Result<Start>& start, CaseProxy* proxy);
+  void take(const Result<document::Start>& start, engine::CaseProxy* proxy);
 
   StartFile kind_;
   QLineEdit* path_;
-  std::shared_ptr<BackgroundJob> reading_;
+  std::shared_ptr<engine::BackgroundJob> reading_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

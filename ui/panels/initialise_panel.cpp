@@ -11,7 +11,7 @@
 #include "ui/panels/start_methods.h"
 #include "ui/widgets/form.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 InitialisePanel::InitialisePanel(QWidget* parent)
     : Panel(tr("Open a study to place a surface in it."), parent) {
@@ -95,4 +95,4 @@ void InitialisePanel::refresh() {
   show_sentence();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -9,7 +9,7 @@ class QComboBox;
 class QLabel;
 class QPushButton;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class StartMethod;
 
@@ -37,4 +37,4 @@ class InitialisePanel : public Panel {
   QPushButton* start_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -6,21 +6,23 @@
 #include "ui/look/icons.h"
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kLongestName = 64;  // characters, as other systems have it
 
-QColor to_colour(const Label& label) {
+QColor to_colour(const document::Label& label) {
   return {label.colour[0], label.colour[1], label.colour[2]};
 }
 
 }  // namespace
 
-void LabelsModel::show(const std::vector<Label>& labels, const std::vector<RegionStatistics>& statistics) {
-  const bool same_rows = labels.size() == labels_.size() &&
-                         std::equal(labels.begin(), labels.end(), labels_.begin(),
-                                    [](const Label& a, const Label& b) { return a.id == b.id; });
+void LabelsModel::show(const std::vector<document::Label>& labels,
+                       const std::vector<document::RegionStatistics>& statistics) {
+  const bool same_rows =
+      labels.size() == labels_.size() &&
+      std::equal(labels.begin(), labels.end(), labels_.begin(),
+                 [](const document::Label& a, const document::Label& b) { return a.id == b.id; });
   if (!same_rows) {
     beginResetModel();
     labels_ = given_ = labels;
@@ -35,7 +37,7 @@ void LabelsModel::show(const std::vector<Label>& labels, const std::vector<Regio
   if (!labels_.empty()) emit dataChanged(index(0, first_changed), index(rowCount() - 1, columns - 1));
 }
 
-const Label* LabelsModel::label(int row) const {
+const document::Label* LabelsModel::label(int row) const {
   return row >= 0 && row < rowCount() ? &labels_[static_cast<std::size_t>(row)] : nullptr;
 }
 
@@ -47,7 +49,7 @@ int LabelsModel::columnCount(const QModelIndex& parent) const {
   return parent.isValid() ? 0 : columns;
 }
 
-QVariant LabelsModel::text(const Label& label, int row, int column) const {
+QVariant LabelsModel::text(const document::Label& label, int row, int column) const {
   switch (column) {
     case name:
       return QString::fromStdString(label.name);
@@ -61,7 +63,7 @@ QVariant LabelsModel::text(const Label& label, int row, int column) const {
 }
 
 QVariant LabelsModel::data(const QModelIndex& index, int role) const {
-  const Label* found = label(index.row());
+  const document::Label* found = label(index.row());
   if (!found) return {};
   switch (role) {
     case Qt::DisplayRole:
@@ -88,7 +90,7 @@ QVariant LabelsModel::data(const QModelIndex& index, int role) const {
 
 bool LabelsModel::setData(const QModelIndex& index, const QVariant& value, int role) {
   if (!label(index.row())) return false;
-  Label& edited = labels_[static_cast<std::size_t>(index.row())];
+  document::Label& edited = labels_[static_cast<std::size_t>(index.row())];
   const bool checked = value.toInt() == Qt::Checked;
   if (role == Qt::CheckStateRole && index.column() == visible) {
     edited.visible = checked;
@@ -111,7 +113,7 @@ void LabelsModel::set_colour(int row, const QColor& chosen) {
   announce(row);
 }
 
-void LabelsModel::set_meaning(int row, const std::optional<SegmentMeaning>& chosen) {
+void LabelsModel::set_meaning(int row, const std::optional<imaging::SegmentMeaning>& chosen) {
   if (!label(row)) return;
   labels_[static_cast<std::size_t>(row)].meaning = chosen;
   announce(row);
@@ -119,7 +121,7 @@ void LabelsModel::set_meaning(int row, const std::optional<SegmentMeaning>& chos
 
 void LabelsModel::announce(int row) {
   emit dataChanged(index(row, 0), index(row, columns - 1));
-  emit edited(Label(labels_[static_cast<std::size_t>(row)]));
+  emit edited(document::Label(labels_[static_cast<std::size_t>(row)]));
 }
 
 Qt::ItemFlags LabelsModel::flags(const QModelIndex& index) const {
@@ -157,4 +159,4 @@ QVariant LabelsModel::headerData(int section, Qt::Orientation orientation, int r
   return tips[section];
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

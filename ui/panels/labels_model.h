@@ -6,7 +6,7 @@
 
 #include "engine/case_state.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class LabelsModel : public QAbstractTableModel {
   Q_OBJECT
@@ -15,10 +15,11 @@ class LabelsModel : public QAbstractTableModel {
   using QAbstractTableModel::QAbstractTableModel;
 
   // Rows keep edits until the case has another list.
-  void show(const std::vector<Label>& labels, const std::vector<RegionStatistics>& statistics);
-  [[nodiscard]] const Label* label(int row) const;  // null: there is no such row
+  void show(const std::vector<document::Label>& labels,
+            const std::vector<document::RegionStatistics>& statistics);
+  [[nodiscard]] const document::Label* label(int row) const;  // null: there is no such row
   void set_colour(int row, const QColor& chosen);
-  void set_meaning(int row, const std::optional<SegmentMeaning>& chosen);
+  void set_meaning(int row, const std::optional<imaging::SegmentMeaning>& chosen);
 
   [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
   [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
@@ -28,15 +29,15 @@ class LabelsModel : public QAbstractTableModel {
   [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
  signals:
-  void edited(const Label& label);  // by the user
+  void edited(const document::Label& label);  // by the user
 
  private:
-  [[nodiscard]] QVariant text(const Label& label, int row, int column) const;
+  [[nodiscard]] QVariant text(const document::Label& label, int row, int column) const;
   void announce(int row);
 
-  std::vector<Label> labels_;
-  std::vector<Label> given_;
-  std::vector<RegionStatistics> statistics_;
+  std::vector<document::Label> labels_;
+  std::vector<document::Label> given_;
+  std::vector<document::RegionStatistics> statistics_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

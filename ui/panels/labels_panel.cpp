@@ -17,7 +17,7 @@
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kMarkColumn = 30;  // a check box, or a colour
@@ -29,7 +29,7 @@ LabelsPanel::LabelsPanel(QWidget* parent)
     : Panel(tr("Open a study to keep what you segment as labels."), parent), model_(new LabelsModel(this)) {
   add(make_table());
   add(make_actions());
-  connect(model_, &LabelsModel::edited, this, [this](const Label& label) {
+  connect(model_, &LabelsModel::edited, this, [this](const document::Label& label) {
     if (proxy()) proxy()->set_label(label);
   });
   show_buttons();
@@ -104,10 +104,11 @@ QWidget* LabelsPanel::make_actions() {
   meaning_ = new MeaningPicker;
   form.row(tr("Meaning"), meaning_,
            tr("What the chosen label is, in codes of SNOMED CT for other systems. Type to search."));
-  connect(meaning_, &MeaningPicker::picked, this, [this](const std::optional<SegmentMeaning>& meaning) {
-    const QModelIndexList rows = table_->selectionModel()->selectedRows();
-    if (!rows.isEmpty()) model_->set_meaning(rows.first().row(), meaning);
-  });
+  connect(meaning_, &MeaningPicker::picked, this,
+          [this](const std::optional<imaging::SegmentMeaning>& meaning) {
+            const QModelIndexList rows = table_->selectionModel()->selectedRows();
+            if (!rows.isEmpty()) model_->set_meaning(rows.first().row(), meaning);
+          });
   accept_ = new QPushButton(tr("Accept surface into label"));
   form.wide(accept_);
   connect(accept_, &QPushButton::clicked, this, &LabelsPanel::accept_surface);
@@ -130,12 +131,12 @@ QWidget* LabelsPanel::make_actions() {
   opacity_->set_range(0.0, 100.0);
   opacity_->set_unit(QStringLiteral("%"));
   connect(opacity_, &SliderNumber::edited, this, [this](double value) {
-    change_display([=](DisplaySettings& settings) { settings.label_opacity = value / 100.0; });
+    change_display([=](engine::DisplaySettings& settings) { settings.label_opacity = value / 100.0; });
   });
   return part;
 }
 
-const Label* LabelsPanel::chosen() const {
+const document::Label* LabelsPanel::chosen() const {
   const QModelIndexList rows = table_->selectionModel()->selectedRows();
   return rows.isEmpty() ? nullptr : model_->label(rows.first().row());
 }
@@ -153,8 +154,9 @@ QString LabelsPanel::new_name() const {
 // Accepts into the chosen label, or makes the first one.
 void LabelsPanel::accept_surface() {
   if (!proxy()) return;
-  const Take take = take_all_->isChecked() ? Take::others_too : Take::free_voxels;
-  if (const Label* label = chosen()) {
+  const document::Take take =
+      take_all_->isChecked() ? document::Take::others_too : document::Take::free_voxels;
+  if (const document::Label* label = chosen()) {
     proxy()->accept_surface(label->id, take);
   } else {
     choose_new_ = true;
@@ -176,7 +178,7 @@ void LabelsPanel::show_acceptance() {
 }
 
 void LabelsPanel::choose_colour(const QModelIndex& index) {
-  const Label* label = model_->label(index.row());
+  const document::Label* label = model_->label(index.row());
   if (!label || index.column() != LabelsModel::colour) return;
   auto* dialog = new QColorDialog(QColor(label->colour[0], label->colour[1], label->colour[2]), this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
@@ -195,7 +197,7 @@ void LabelsPanel::attach() {
 }
 
 void LabelsPanel::refresh() {
-  const CaseState& state = proxy()->state();
+  const engine::CaseState& state = proxy()->state();
   const int before = model_->rowCount();
   const int was = chosen() ? chosen()->id : 0;  // 0: none
   model_->show(state.labels, state.label_statistics);
@@ -215,7 +217,7 @@ void LabelsPanel::refresh() {
 }
 
 void LabelsPanel::show_buttons() {
-  const Label* label = chosen();
+  const document::Label* label = chosen();
   remove_->setEnabled(label != nullptr);
   meaning_->show_label(label);
   const bool begun = proxy() && proxy()->state().begun;
@@ -228,4 +230,4 @@ void LabelsPanel::show_buttons() {
   begin_->setEnabled(label != nullptr);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

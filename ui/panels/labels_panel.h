@@ -10,7 +10,7 @@ class QPushButton;
 class QTableView;
 class QToolButton;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class LabelsModel;
 class MeaningPicker;
@@ -35,7 +35,7 @@ class LabelsPanel : public Panel {
   [[nodiscard]] QString new_name() const;
   void choose_colour(const QModelIndex& index);
   void show_buttons();
-  [[nodiscard]] const Label* chosen() const;
+  [[nodiscard]] const document::Label* chosen() const;
 
   LabelsModel* model_;
   QTableView* table_;
@@ -49,4 +49,4 @@ class LabelsPanel : public Panel {
   bool choose_new_ = false;  // a label was added here: it becomes the chosen one
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

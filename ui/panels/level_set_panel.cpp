@@ -4,7 +4,7 @@
 #include "ui/panels/speed_controls.h"
 #include "ui/panels/speed_details.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 LevelSetPanel::LevelSetPanel(QWidget* parent)
     : Panel(tr("Open a study to steer a level set in it."), parent), evolution_(new EvolutionControls) {
@@ -14,4 +14,4 @@ LevelSetPanel::LevelSetPanel(QWidget* parent)
   add(new EvolutionFigures);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

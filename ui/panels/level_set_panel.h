@@ -4,7 +4,7 @@
 #include "ui/panels/evolution_controls.h"
 #include "ui/panels/panel.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class LevelSetPanel : public Panel {
   Q_OBJECT
@@ -17,4 +17,4 @@ class LevelSetPanel : public Panel {
   EvolutionControls* evolution_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -9,7 +9,7 @@
 
 #include "ui/widgets/wheel_guard.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kByName = 0;  // the first row
@@ -25,8 +25,8 @@ QString text_of(std::string_view word) {
 
 }  // namespace
 
-QString meaning_text(const SegmentMeaning& meaning) {
-  for (const NamedMeaning& named : segment_meanings()) {
+QString meaning_text(const imaging::SegmentMeaning& meaning) {
+  for (const imaging::NamedMeaning& named : imaging::segment_meanings()) {
     if (named.meaning == meaning) return text_of(named.word);
   }
   return QString::fromStdString(meaning.type.meaning);
@@ -43,24 +43,24 @@ MeaningPicker::MeaningPicker(QWidget* parent) : QComboBox(parent) {
   completer()->setFilterMode(Qt::MatchContains);
   guard_wheel(this);
   addItem(QString());
-  for (const NamedMeaning& named : segment_meanings()) addItem(text_of(named.word));
+  for (const imaging::NamedMeaning& named : imaging::segment_meanings()) addItem(text_of(named.word));
   connect(this, &QComboBox::activated, this, &MeaningPicker::pick);
   connect(lineEdit(), &QLineEdit::returnPressed, this, &MeaningPicker::take_first_match);
   show_label(nullptr);
 }
 
-int MeaningPicker::row_of(const std::optional<SegmentMeaning>& meaning) {
+int MeaningPicker::row_of(const std::optional<imaging::SegmentMeaning>& meaning) {
   if (!meaning) return kByName;
-  const auto meanings = segment_meanings();
+  const auto meanings = imaging::segment_meanings();
   const auto named = std::find_if(meanings.begin(), meanings.end(),
-                                  [&](const NamedMeaning& one) { return one.meaning == *meaning; });
+                                  [&](const imaging::NamedMeaning& one) { return one.meaning == *meaning; });
   if (named != meanings.end()) return 1 + static_cast<int>(named - meanings.begin());
   foreign_ = meaning;
   addItem(meaning_text(*meaning));
   return count() - 1;
 }
 
-void MeaningPicker::show_label(const Label* label) {
+void MeaningPicker::show_label(const document::Label* label) {
   setEnabled(label != nullptr);
   // Nothing has changed: text that is being typed stays.
   if (label && shown_ && label->id == shown_->id && label->name == shown_->name &&
@@ -71,8 +71,9 @@ void MeaningPicker::show_label(const Label* label) {
   if (label) shown_ = *label;
   if (foreign_) removeItem(count() - 1);
   foreign_.reset();
-  setItemText(kByName, label ? tr("By its name: %1").arg(meaning_text(guess_segment_meaning(label->name)))
-                             : QString());
+  setItemText(kByName,
+              label ? tr("By its name: %1").arg(meaning_text(imaging::guess_segment_meaning(label->name)))
+                    : QString());
   setCurrentIndex(label ? row_of(label->meaning) : kByName);
   setEditText(currentText());
   lineEdit()->setCursorPosition(0);  // a long one shows its beginning
@@ -80,11 +81,11 @@ void MeaningPicker::show_label(const Label* label) {
 
 void MeaningPicker::pick(int row) {
   if (!shown_) return;
-  std::optional<SegmentMeaning> meaning;
+  std::optional<imaging::SegmentMeaning> meaning;
   if (foreign_ && row == count() - 1) {
     meaning = foreign_;
   } else if (row != kByName) {
-    meaning = segment_meanings()[static_cast<std::size_t>(row - 1)].meaning;
+    meaning = imaging::segment_meanings()[static_cast<std::size_t>(row - 1)].meaning;
   }
   lineEdit()->setCursorPosition(0);
   if (meaning == shown_->meaning) return;
@@ -107,4 +108,4 @@ void MeaningPicker::focusOutEvent(QFocusEvent* event) {
   if (!completer()->popup()->isVisible()) setEditText(itemText(currentIndex()));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -12,7 +12,7 @@
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr double kSmallest = 0.5;  // mm
@@ -31,7 +31,7 @@ PaintPanel::PaintPanel(QWidget* parent) : Panel(tr("Open a study to paint in it.
   radius_->set_range(kSmallest, kLargest, SliderNumber::Scale::logarithmic);
   radius_->set_unit(tr("mm"));
   connect(radius_, &SliderNumber::edited, this, [this](double value) {
-    change_display([=](DisplaySettings& settings) { settings.brush_mm = value; });
+    change_display([=](engine::DisplaySettings& settings) { settings.brush_mm = value; });
   });
   voxels_ = form.figure(tr("In voxels"), tr("The radius along columns, rows and slices."));
   form.heading(tr("Take back"));
@@ -49,7 +49,7 @@ QWidget* PaintPanel::make_tools() {
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(kSpace);
   tools_ = new QButtonGroup(this);
-  const auto add_tool = [&](Tool tool, QStringView picture, const QString& text, const QString& tip) {
+  const auto add_tool = [&](engine::Tool tool, QStringView picture, const QString& text, const QString& tip) {
     auto* button = new QToolButton;
     button->setText(text);
     button->setIcon(icon(picture));
@@ -63,10 +63,10 @@ QWidget* PaintPanel::make_tools() {
     tools_->addButton(button, static_cast<int>(tool));
     layout->addWidget(button);
   };
-  add_tool(Tool::paint, u"tool-paint", tr("Paint"), tr("Adds spheres to the inside of the surface."));
-  add_tool(Tool::erase, u"tool-erase", tr("Erase"), tr("Takes spheres away from it."));
+  add_tool(engine::Tool::paint, u"tool-paint", tr("Paint"), tr("Adds spheres to the inside of the surface."));
+  add_tool(engine::Tool::erase, u"tool-erase", tr("Erase"), tr("Takes spheres away from it."));
   connect(tools_, &QButtonGroup::idClicked, this, [this](int tool) {
-    if (proxy()) proxy()->display().choose_tool(static_cast<Tool>(tool));
+    if (proxy()) proxy()->display().choose_tool(static_cast<engine::Tool>(tool));
   });
   return row;
 }
@@ -97,7 +97,7 @@ void PaintPanel::set_actions(QAction* undo, QAction* redo) {
 }
 
 void PaintPanel::refresh() {
-  const DisplaySettings& settings = proxy()->display().settings();
+  const engine::DisplaySettings& settings = proxy()->display().settings();
   // With another tool neither is chosen, which an exclusive group does not allow otherwise.
   tools_->setExclusive(false);
   for (QAbstractButton* button : tools_->buttons()) {
@@ -110,4 +110,4 @@ void PaintPanel::refresh() {
                        .arg(number_text(radius.x, 1), number_text(radius.y, 1), number_text(radius.z, 1)));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

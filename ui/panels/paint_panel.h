@@ -8,7 +8,7 @@ class QButtonGroup;
 class QLabel;
 class QToolButton;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class SliderNumber;
 
@@ -34,4 +34,4 @@ class PaintPanel : public Panel {
   QToolButton* redo_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

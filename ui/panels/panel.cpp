@@ -6,7 +6,7 @@
 #include "ui/look/theme.h"
 #include "ui/widgets/form.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 Panel::Panel(const QString& hint, QWidget* parent)
     : CaseWidget(parent), hint_(make_note(hint)), content_(new QWidget), parts_(new QVBoxLayout(content_)) {
@@ -37,4 +37,4 @@ void Panel::attach() {
   for (CaseWidget* part : proxy_parts_) part->set_proxy(proxy());
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

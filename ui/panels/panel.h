@@ -9,7 +9,7 @@
 class QLabel;
 class QVBoxLayout;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Parts below each other. Without a case they are grey, and a sentence says that a study is missing.
 class Panel : public CaseWidget {
@@ -32,4 +32,4 @@ class Panel : public CaseWidget {
   std::vector<CaseWidget*> proxy_parts_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,7 +8,7 @@
 #include "ui/panels/value_unit.h"
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 QString text(const char* words) {
@@ -38,7 +38,7 @@ QStringList cells(const RegionRow& row, const Notation& notation) {
           QString()};
 }
 
-QStringList cells(const Measurement& measurement, const QString& name, const Notation& notation) {
+QStringList cells(const engine::Measurement& measurement, const QString& name, const Notation& notation) {
   QStringList row(kFigures + 1);
   row.first() = name;
   row.last() = notation.number(measurement.value(), 2);
@@ -62,17 +62,17 @@ QString with_unit(const QString& name, const QString& unit) {
 
 }  // namespace
 
-QString kind_text(Measurement::Kind kind) {
-  return kind == Measurement::Kind::distance ? text(QT_TRANSLATE_NOOP("RegionTable", "Distance"))
-                                             : text(QT_TRANSLATE_NOOP("RegionTable", "Angle"));
+QString kind_text(engine::Measurement::Kind kind) {
+  return kind == engine::Measurement::Kind::distance ? text(QT_TRANSLATE_NOOP("RegionTable", "Distance"))
+                                                     : text(QT_TRANSLATE_NOOP("RegionTable", "Angle"));
 }
 
-QString unit_text(Measurement::Kind kind) {
-  return kind == Measurement::Kind::distance ? text(QT_TRANSLATE_NOOP("RegionTable", "mm"))
-                                             : QStringLiteral("°");
+QString unit_text(engine::Measurement::Kind kind) {
+  return kind == engine::Measurement::Kind::distance ? text(QT_TRANSLATE_NOOP("RegionTable", "mm"))
+                                                     : QStringLiteral("°");
 }
 
-std::vector<RegionRow> region_rows(const CaseState& state) {
+std::vector<RegionRow> region_rows(const engine::CaseState& state) {
   std::vector<RegionRow> rows;
   if (state.begun) {
     RegionRow row{text(QT_TRANSLATE_NOOP("RegionTable", "Surface")), state.surface.volume_ml,
@@ -85,7 +85,7 @@ std::vector<RegionRow> region_rows(const CaseState& state) {
     RegionRow row;
     row.name = QString::fromStdString(state.labels[index].name);
     if (index < state.label_statistics.size()) {
-      const RegionStatistics& values = state.label_statistics[index];
+      const document::RegionStatistics& values = state.label_statistics[index];
       row.volume_ml = values.volume_ml;
       row.voxels = values.voxels;
       if (values.voxels > 0) row.values = values;
@@ -96,7 +96,7 @@ std::vector<RegionRow> region_rows(const CaseState& state) {
 }
 
 // Names of columns do not depend on the language: programs read them.
-std::string to_csv(CaseProxy& proxy) {
+std::string to_csv(engine::CaseProxy& proxy) {
   const QString unit = value_unit(proxy.volume());
   QLocale plain = QLocale::c();
   plain.setNumberOptions(QLocale::OmitGroupSeparator);
@@ -110,9 +110,9 @@ std::string to_csv(CaseProxy& proxy) {
     line.insert(kFigures, row.values ? unit : QString());
     csv += csv_line(line << QString());
   }
-  for (const Measurement& measurement : proxy.display().settings().measurements) {
+  for (const engine::Measurement& measurement : proxy.display().settings().measurements) {
     if (!measurement.complete()) continue;
-    const bool distance = measurement.kind == Measurement::Kind::distance;
+    const bool distance = measurement.kind == engine::Measurement::Kind::distance;
     QStringList line =
         cells(measurement, distance ? QStringLiteral("distance") : QStringLiteral("angle"), notation);
     line.insert(kFigures, QString());
@@ -121,7 +121,7 @@ std::string to_csv(CaseProxy& proxy) {
   return csv;
 }
 
-QString to_text(CaseProxy& proxy) {
+QString to_text(engine::CaseProxy& proxy) {
   const QString unit = value_unit(proxy.volume());
   const Notation notation{number_locale()};
   QStringList lines;
@@ -134,7 +134,7 @@ QString to_text(CaseProxy& proxy) {
                        text(QT_TRANSLATE_NOOP("RegionTable", "Measured"))}
                .join(u'\t');
   for (const RegionRow& row : region_rows(proxy.state())) lines << cells(row, notation).join(u'\t');
-  for (const Measurement& measurement : proxy.display().settings().measurements) {
+  for (const engine::Measurement& measurement : proxy.display().settings().measurements) {
     if (!measurement.complete()) continue;
     const QString name = with_unit(kind_text(measurement.kind), unit_text(measurement.kind));
     lines << cells(measurement, name, notation).join(u'\t');
@@ -142,4 +142,4 @@ QString to_text(CaseProxy& proxy) {
   return lines.join(u'\n') + u'\n';
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -6,7 +6,7 @@
 #include "ui/widgets/form.h"
 #include "ui/widgets/slider_number.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 SliceControls::SliceControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
@@ -20,22 +20,22 @@ void SliceControls::add_picture(Form& form) {
       form.choice(tr("Voxels"), tr("Between voxels values are interpolated, or each voxel is a square."));
   voxels_->addItems({tr("Smooth"), tr("Squares")});
   connect(voxels_, &QComboBox::activated, this, [this](int index) {
-    change_display([=](DisplaySettings& settings) { settings.nearest = index == 1; });
+    change_display([=](engine::DisplaySettings& settings) { settings.nearest = index == 1; });
   });
   side_ = form.choice(tr("Sides"), tr("Radiological: the patient's right is on the left of the screen. "
                                       "Neurological: on the right."));
   side_->addItems({tr("Radiological"), tr("Neurological")});
   connect(side_, &QComboBox::activated, this, [this](int index) {
-    change_display([=](DisplaySettings& settings) { settings.radiological = index == 0; });
+    change_display([=](engine::DisplaySettings& settings) { settings.radiological = index == 0; });
   });
   term_ = form.choice(tr("Speed map"), tr("Which part of the speed the map shows."));
-  term_->addItem(tr("Total"), static_cast<int>(SpeedTerm::total));
-  term_->addItem(tr("Data"), static_cast<int>(SpeedTerm::data));
-  term_->addItem(tr("Curvature"), static_cast<int>(SpeedTerm::curvature));
-  term_->addItem(tr("Rescaling"), static_cast<int>(SpeedTerm::rescaling));
+  term_->addItem(tr("Total"), static_cast<int>(renderer::SpeedTerm::total));
+  term_->addItem(tr("Data"), static_cast<int>(renderer::SpeedTerm::data));
+  term_->addItem(tr("Curvature"), static_cast<int>(renderer::SpeedTerm::curvature));
+  term_->addItem(tr("Rescaling"), static_cast<int>(renderer::SpeedTerm::rescaling));
   connect(term_, &QComboBox::activated, this, [this] {
-    const auto term = static_cast<SpeedTerm>(term_->currentData().toInt());
-    change_display([=](DisplaySettings& settings) { settings.speed_term = term; });
+    const auto term = static_cast<renderer::SpeedTerm>(term_->currentData().toInt());
+    change_display([=](engine::DisplaySettings& settings) { settings.speed_term = term; });
   });
 }
 
@@ -45,32 +45,34 @@ void SliceControls::add_overlays(Form& form) {
   labels_->set_range(0.0, 100.0);
   labels_->set_unit(QStringLiteral("%"));
   connect(labels_, &SliderNumber::edited, this, [this](double value) {
-    change_display([=](DisplaySettings& settings) { settings.label_opacity = value / 100.0; });
+    change_display([=](engine::DisplaySettings& settings) { settings.label_opacity = value / 100.0; });
   });
   line_ = form.slider(tr("Line width"), tr("Of the surface's outline."));
   line_->set_decimals(1);
   line_->set_range(0.5, 6.0);
   line_->set_unit(tr("px"));
   connect(line_, &SliderNumber::edited, this, [this](double value) {
-    change_display([=](DisplaySettings& settings) { settings.line_pixels = value; });
+    change_display([=](engine::DisplaySettings& settings) { settings.line_pixels = value; });
   });
-  const auto add_check = [&](const QString& text, const QString& tip, bool DisplaySettings::*setting) {
+  const auto add_check = [&](const QString& text, const QString& tip,
+                             bool engine::DisplaySettings::*setting) {
     QCheckBox* check = form.check(text, tip);
     connect(check, &QCheckBox::clicked, this, [this, setting](bool on) {
-      change_display([=](DisplaySettings& settings) { settings.*setting = on; });
+      change_display([=](engine::DisplaySettings& settings) { settings.*setting = on; });
     });
     return check;
   };
-  outline_ = add_check(tr("Outline of the surface"), tr("The yellow line."), &DisplaySettings::outline);
+  outline_ =
+      add_check(tr("Outline of the surface"), tr("The yellow line."), &engine::DisplaySettings::outline);
   crosshair_ = add_check(tr("Crosshair"), tr("Shows the point that all slices go through."),
-                         &DisplaySettings::crosshair);
+                         &engine::DisplaySettings::crosshair);
   patient_ =
       add_check(tr("Patient's name and dates"), tr("In the corners; off for teaching and screenshots."),
-                &DisplaySettings::patient_text);
+                &engine::DisplaySettings::patient_text);
 }
 
 void SliceControls::refresh() {
-  const DisplaySettings& settings = proxy()->display().settings();
+  const engine::DisplaySettings& settings = proxy()->display().settings();
   voxels_->setCurrentIndex(settings.nearest ? 1 : 0);
   side_->setCurrentIndex(settings.radiological ? 0 : 1);
   term_->setCurrentIndex(term_->findData(static_cast<int>(settings.speed_term)));
@@ -82,4 +84,4 @@ void SliceControls::refresh() {
   patient_->setChecked(settings.patient_text);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

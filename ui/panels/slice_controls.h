@@ -6,7 +6,7 @@
 class QCheckBox;
 class QComboBox;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class Form;
 class SliderNumber;
@@ -33,4 +33,4 @@ class SliceControls : public CaseWidget {
   QCheckBox* patient_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

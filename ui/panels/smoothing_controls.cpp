@@ -7,7 +7,7 @@
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr double kMost = 5.0;  // mm
@@ -55,4 +55,4 @@ void SmoothingControls::show_button() {
   apply_->setEnabled(std::abs(sigma_->value() - proxy()->state().smoothed_mm) > 1e-6);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

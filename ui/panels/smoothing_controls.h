@@ -6,7 +6,7 @@
 class QLabel;
 class QPushButton;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class SliderNumber;
 
@@ -27,4 +27,4 @@ class SmoothingControls : public CaseWidget {
   QPushButton* apply_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

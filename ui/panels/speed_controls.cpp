@@ -13,7 +13,7 @@
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 SpeedControls::SpeedControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
@@ -22,7 +22,7 @@ SpeedControls::SpeedControls(QWidget* parent) : CaseWidget(parent) {
   form.wide(tent_);
   connect(tent_, &SpeedPlot::edited, this, [this](double target, double range, std::uint64_t gesture) {
     change(
-        [=](Parameters& parameters) {
+        [=](solver::Parameters& parameters) {
           parameters.target = target;
           parameters.range = range;
         },
@@ -45,19 +45,19 @@ void SpeedControls::add_numbers(Form& form) {
   form.ends_of(*alpha_, tr("smooth"), tr("follow data"));
 
   connect(target_, &SliderNumber::edited, this, [this](double value, std::uint64_t gesture) {
-    change([value](Parameters& parameters) { parameters.target = value; }, gesture);
+    change([value](solver::Parameters& parameters) { parameters.target = value; }, gesture);
   });
   connect(range_, &SliderNumber::edited, this, [this](double value, std::uint64_t gesture) {
-    change([value](Parameters& parameters) { parameters.range = value; }, gesture);
+    change([value](solver::Parameters& parameters) { parameters.range = value; }, gesture);
   });
   connect(alpha_, &SliderNumber::edited, this, [this](double value, std::uint64_t gesture) {
-    change([value](Parameters& parameters) { parameters.alpha = value; }, gesture);
+    change([value](solver::Parameters& parameters) { parameters.alpha = value; }, gesture);
   });
 }
 
 void SpeedControls::attach() {
   if (!proxy()) return;
-  const SourceSummary& summary = proxy()->summary();
+  const engine::SourceSummary& summary = proxy()->summary();
   const QString unit = value_unit(proxy()->volume());
   const double span = std::max<double>(summary.high - summary.low, 1e-6);
   const double all = std::max<double>(summary.highest - summary.lowest, span);
@@ -68,7 +68,7 @@ void SpeedControls::attach() {
   target_->set_step(step);
   target_->set_range(summary.low, summary.high, summary.lowest - all, summary.highest + all);
   target_->set_unit(unit);
-  const double smallest = std::max(kMinimumRange, std::pow(10.0, -decimals));
+  const double smallest = std::max(solver::kMinimumRange, std::pow(10.0, -decimals));
   range_->set_decimals(decimals);
   range_->set_step(step);
   range_->set_range(std::max(smallest, span / 1000.0), span, smallest, 2.0 * all,
@@ -77,18 +77,18 @@ void SpeedControls::attach() {
 }
 
 void SpeedControls::refresh() {
-  const Parameters& parameters = proxy()->parameters();
+  const solver::Parameters& parameters = proxy()->parameters();
   tent_->set_tent(parameters.target, parameters.range);
   target_->set_value(parameters.target);
   range_->set_value(parameters.range);
   alpha_->set_value(parameters.alpha);
 }
 
-void SpeedControls::change(const std::function<void(Parameters&)>& apply, std::uint64_t gesture) {
+void SpeedControls::change(const std::function<void(solver::Parameters&)>& apply, std::uint64_t gesture) {
   if (!proxy()) return;
-  Parameters parameters = proxy()->parameters();
+  solver::Parameters parameters = proxy()->parameters();
   apply(parameters);
   proxy()->set_parameters(parameters, gesture);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

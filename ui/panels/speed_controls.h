@@ -5,7 +5,7 @@
 
 #include "ui/panels/case_widget.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class Form;
 class SliderNumber;
@@ -22,7 +22,7 @@ class SpeedControls : public CaseWidget {
 
  private:
   void add_numbers(Form& form);
-  void change(const std::function<void(Parameters&)>& apply, std::uint64_t gesture);
+  void change(const std::function<void(solver::Parameters&)>& apply, std::uint64_t gesture);
 
   SpeedPlot* tent_;
   SliderNumber* target_;
@@ -30,4 +30,4 @@ class SpeedControls : public CaseWidget {
   SliderNumber* alpha_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -11,7 +11,7 @@
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 SpeedDetails::SpeedDetails(QWidget* parent) : CaseWidget(parent) {
   auto* fold = new Disclosure(tr("Details of the speed"), QStringLiteral("speed"));
@@ -30,22 +30,24 @@ void SpeedDetails::add_terms(Form& form) {
   auto* row = new QHBoxLayout(terms);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(kSpace);
-  const auto add = [&](const QString& text, const QString& tip, bool Parameters::*term) {
+  const auto add = [&](const QString& text, const QString& tip, bool solver::Parameters::*term) {
     auto* check = new QCheckBox(text);
     check->setToolTip(tip);
     check->setAccessibleName(tr("%1 term").arg(text));
     row->addWidget(check);
     connect(check, &QCheckBox::clicked, this, [this, term](bool on) {
-      change([=](Parameters& parameters) { parameters.*term = on; }, CaseProxy::new_gesture());
+      change([=](solver::Parameters& parameters) { parameters.*term = on; },
+             engine::CaseProxy::new_gesture());
     });
     return check;
   };
-  data_term_ = add(tr("Data"), tr("Moves the surface by the values of the source."), &Parameters::data_term);
-  curvature_term_ =
-      add(tr("Curvature"), tr("Smooths the surface by its mean curvature."), &Parameters::curvature_term);
+  data_term_ =
+      add(tr("Data"), tr("Moves the surface by the values of the source."), &solver::Parameters::data_term);
+  curvature_term_ = add(tr("Curvature"), tr("Smooths the surface by its mean curvature."),
+                        &solver::Parameters::curvature_term);
   rescaling_term_ = add(tr("Rescaling"),
                         tr("Keeps the slope of φ near 1, so that the band around the surface stays as wide."),
-                        &Parameters::rescaling_term);
+                        &solver::Parameters::rescaling_term);
   row->addStretch(1);
   form.heading(tr("Terms"));
   form.wide(terms);
@@ -57,11 +59,12 @@ void SpeedDetails::add_scheme(Form& form) {
                         tr("How a step is computed. Split: data and smoothing have a gradient of their own "
                            "each. Paper: one upwind gradient for both, as the paper writes it, in smaller "
                            "steps."));
-  scheme_->addItem(tr("Split"), static_cast<int>(Scheme::split));
-  scheme_->addItem(tr("Paper"), static_cast<int>(Scheme::paper));
+  scheme_->addItem(tr("Split"), static_cast<int>(solver::Scheme::split));
+  scheme_->addItem(tr("Paper"), static_cast<int>(solver::Scheme::paper));
   connect(scheme_, &QComboBox::activated, this, [this] {
-    const auto scheme = static_cast<Scheme>(scheme_->currentData().toInt());
-    change([=](Parameters& parameters) { parameters.scheme = scheme; }, CaseProxy::new_gesture());
+    const auto scheme = static_cast<solver::Scheme>(scheme_->currentData().toInt());
+    change([=](solver::Parameters& parameters) { parameters.scheme = scheme; },
+           engine::CaseProxy::new_gesture());
   });
   rescale_ =
       form.slider(tr("Rescaling w"), tr("How strongly the slope of φ is drawn to the target gradient."));
@@ -69,7 +72,7 @@ void SpeedDetails::add_scheme(Form& form) {
   rescale_->set_step(0.01);
   rescale_->set_range(0.0, 1.0, 0.0, 10.0);
   connect(rescale_, &SliderNumber::edited, this, [this](double value, std::uint64_t gesture) {
-    change([value](Parameters& parameters) { parameters.rescale = value; }, gesture);
+    change([value](solver::Parameters& parameters) { parameters.rescale = value; }, gesture);
   });
   rescale_by_band_ =
       form.check(tr("w by the band's width"),
@@ -77,8 +80,10 @@ void SpeedDetails::add_scheme(Form& form) {
   connect(rescale_by_band_, &QCheckBox::clicked, this, [this](bool on) {
     const double now = rescaling_weight();
     change(
-        [=](Parameters& parameters) { parameters.rescale = on ? std::nullopt : std::optional<double>(now); },
-        CaseProxy::new_gesture());
+        [=](solver::Parameters& parameters) {
+          parameters.rescale = on ? std::nullopt : std::optional<double>(now);
+        },
+        engine::CaseProxy::new_gesture());
   });
   target_gradient_ =
       form.slider(tr("Target gradient"), tr("The slope of φ that the rescaling term keeps. At 1 "
@@ -87,7 +92,7 @@ void SpeedDetails::add_scheme(Form& form) {
   target_gradient_->set_step(0.05);
   target_gradient_->set_range(0.2, 2.0, 0.05, 10.0);
   connect(target_gradient_, &SliderNumber::edited, this, [this](double value, std::uint64_t gesture) {
-    change([value](Parameters& parameters) { parameters.target_gradient = value; }, gesture);
+    change([value](solver::Parameters& parameters) { parameters.target_gradient = value; }, gesture);
   });
 }
 
@@ -97,8 +102,8 @@ double SpeedDetails::rescaling_weight() const {
 }
 
 void SpeedDetails::refresh() {
-  const Parameters& parameters = proxy()->parameters();
-  paper_alpha_->setText(short_text(paper_alpha(parameters)));
+  const solver::Parameters& parameters = proxy()->parameters();
+  paper_alpha_->setText(short_text(solver::paper_alpha(parameters)));
   data_term_->setChecked(parameters.data_term);
   curvature_term_->setChecked(parameters.curvature_term);
   rescaling_term_->setChecked(parameters.rescaling_term);
@@ -111,11 +116,11 @@ void SpeedDetails::refresh() {
     number->setEnabled(parameters.rescaling_term);
 }
 
-void SpeedDetails::change(const std::function<void(Parameters&)>& apply, std::uint64_t gesture) {
+void SpeedDetails::change(const std::function<void(solver::Parameters&)>& apply, std::uint64_t gesture) {
   if (!proxy()) return;
-  Parameters parameters = proxy()->parameters();
+  solver::Parameters parameters = proxy()->parameters();
   apply(parameters);
   proxy()->set_parameters(parameters, gesture);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

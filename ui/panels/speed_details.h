@@ -10,7 +10,7 @@ class QCheckBox;
 class QComboBox;
 class QLabel;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class Form;
 class SliderNumber;
@@ -26,7 +26,7 @@ class SpeedDetails : public CaseWidget {
  private:
   void add_terms(Form& form);
   void add_scheme(Form& form);
-  void change(const std::function<void(Parameters&)>& apply, std::uint64_t gesture);
+  void change(const std::function<void(solver::Parameters&)>& apply, std::uint64_t gesture);
   [[nodiscard]] double rescaling_weight() const;  // also where the band decides
 
   QLabel* paper_alpha_;
@@ -39,4 +39,4 @@ class SpeedDetails : public CaseWidget {
   SliderNumber* target_gradient_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -10,7 +10,7 @@
 #include "ui/look/theme.h"
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr std::size_t kBars = 64;  // few enough that whole numbers leave no gaps between them
@@ -20,13 +20,13 @@ constexpr double kStep = 0.005;    // of the shown range, for a key
 
 // Heights of the histogram's bars. A few values (air, padding) are so frequent that the rest would not show:
 // bars are square roots of counts, and one in twenty is cut off.
-std::vector<double> bars_of(const SourceSummary& summary) {
+std::vector<double> bars_of(const engine::SourceSummary& summary) {
   std::vector<double> bars(kBars, 0.0);
   for (std::size_t index = 0; index < summary.value_gradient.size(); ++index) {
-    const std::size_t bin = index % SourceSummary::kBins;
+    const std::size_t bin = index % engine::SourceSummary::kBins;
     // The outermost hold all that lies beyond them.
-    if (bin == 0 || bin == SourceSummary::kBins - 1) continue;
-    bars[bin * kBars / SourceSummary::kBins] += static_cast<double>(summary.value_gradient[index]);
+    if (bin == 0 || bin == engine::SourceSummary::kBins - 1) continue;
+    bars[bin * kBars / engine::SourceSummary::kBins] += static_cast<double>(summary.value_gradient[index]);
   }
   for (double& bar : bars) bar = std::sqrt(bar);
   std::vector<double> sorted;
@@ -50,7 +50,7 @@ SpeedPlot::SpeedPlot(QWidget* parent) : QWidget(parent) {
       "them it shrinks. Drag the peak to move T, a foot to change ε; or use the arrow keys."));
 }
 
-void SpeedPlot::set_source(const SourceSummary& summary, const QString& unit) {
+void SpeedPlot::set_source(const engine::SourceSummary& summary, const QString& unit) {
   bars_ = bars_of(summary);
   low_ = summary.low;
   high_ = std::max(summary.high, std::nextafter(summary.low, INFINITY));
@@ -127,7 +127,7 @@ void SpeedPlot::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return;
   dragged_ = handle_at(event->position());
   if (dragged_ == Handle::none) return;
-  gesture_ = CaseProxy::new_gesture();
+  gesture_ = engine::CaseProxy::new_gesture();
   const double at = dragged_ == Handle::peak        ? target_
                     : dragged_ == Handle::left_foot ? target_ - range_
                                                     : target_ + range_;
@@ -160,7 +160,7 @@ void SpeedPlot::leaveEvent(QEvent* /*event*/) {
 }
 
 void SpeedPlot::drag_to(double value) {
-  const double smallest = std::max(kMinimumRange, std::pow(10.0, -decimals_));
+  const double smallest = std::max(solver::kMinimumRange, std::pow(10.0, -decimals_));
   switch (dragged_) {
     case Handle::peak:
       return change(rounded(std::clamp(value, shown_low_, shown_high_), decimals_), range_);
@@ -194,7 +194,7 @@ void SpeedPlot::keyPressEvent(QKeyEvent* event) {
     default:
       return QWidget::keyPressEvent(event);
   }
-  if (!event->isAutoRepeat() || gesture_ == 0) gesture_ = CaseProxy::new_gesture();
+  if (!event->isAutoRepeat() || gesture_ == 0) gesture_ = engine::CaseProxy::new_gesture();
   change(std::clamp(target, lowest_, highest_), range);
 }
 
@@ -313,4 +313,4 @@ void SpeedPlot::paint_values(QPainter& painter) const {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,7 +8,7 @@
 #include "engine/source_summary.h"
 #include "ui/widgets/plot_axis.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // The peak of the tent is T; its feet, where D = 0, are T - epsilon and T + epsilon. Inside the feet the
 // surface grows, outside it shrinks. Left and right move T, up and down change epsilon.
@@ -17,7 +17,7 @@ class SpeedPlot : public QWidget {
  public:
   explicit SpeedPlot(QWidget* parent = nullptr);
 
-  void set_source(const SourceSummary& summary, const QString& unit);
+  void set_source(const engine::SourceSummary& summary, const QString& unit);
   void set_tent(double target, double range);
   [[nodiscard]] double target() const { return target_; }
   [[nodiscard]] double range() const { return range_; }
@@ -74,4 +74,4 @@ class SpeedPlot : public QWidget {
   std::uint64_t gesture_ = 0;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -4,24 +4,25 @@
 #include "imaging/onto_grid.h"
 #include "imaging/results/results.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
-Result<Start> load_start(StartFile kind, const std::filesystem::path& path, const Geometry& grid, double band,
-                         const Progress& progress) {
+Result<document::Start> load_start(StartFile kind, const std::filesystem::path& path, const Geometry& grid,
+                                   double band, const Progress& progress) {
   const std::string name = path.filename().string();
-  Start start;
+  document::Start start;
   if (kind == StartFile::mask) {
-    auto loaded = load_any_mask(path, &grid, progress);
+    auto loaded = imaging::load_any_mask(path, &grid, progress);
     if (!loaded) return pass_on(loaded);
-    start.from = MaskStart{std::make_shared<const Mask>(std::move(loaded->mask)), name};
+    start.from = document::MaskStart{std::make_shared<const Mask>(std::move(loaded->mask)), name};
     return start;
   }
-  const auto volume = load_volume(path, {}, progress);
+  const auto volume = imaging::load_volume(path, {}, progress);
   if (!volume) return tl::unexpected<Error>(volume.error());
-  const auto values = onto_grid(*volume, grid, name);
+  const auto values = imaging::onto_grid(*volume, grid, name);
   if (!values) return tl::unexpected<Error>(values.error());
-  start.from = FieldStart{std::make_shared<const Field>(Field::from_dense(grid, *values, band)), name};
+  start.from = document::FieldStart{
+      std::make_shared<const solver::Field>(solver::Field::from_dense(grid, *values, band)), name};
   return start;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

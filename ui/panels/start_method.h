@@ -3,7 +3,7 @@
 
 #include "ui/panels/case_widget.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class StartMethod : public CaseWidget {
   Q_OBJECT
@@ -21,4 +21,4 @@ class StartMethod : public CaseWidget {
   void failed(const QString& message);
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

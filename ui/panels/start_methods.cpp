@@ -13,7 +13,7 @@
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 QToolButton* make_button(const QString& text, const QString& tip) {
@@ -33,8 +33,8 @@ Index3 nearest_voxel(const glm::dvec3& voxel) {
 }
 
 // How many voxels have a value in [low, high], from the histogram.
-double count_between(const SourceSummary& summary, double low, double high) {
-  const double width = (static_cast<double>(summary.highest) - summary.lowest) / SourceSummary::kBins;
+double count_between(const engine::SourceSummary& summary, double low, double high) {
+  const double width = (static_cast<double>(summary.highest) - summary.lowest) / engine::SourceSummary::kBins;
   double count = 0.0;
   for (std::size_t bin = 0; bin < summary.values.size(); ++bin) {
     const double left = summary.lowest + static_cast<double>(bin) * width;
@@ -59,7 +59,7 @@ SphereStartMethod::SphereStartMethod(QWidget* parent) : StartMethod(parent) {
   draw_->setCheckable(true);
   form.wide(draw_);
   connect(draw_, &QToolButton::clicked, this, [this] {
-    if (proxy()) proxy()->display().choose_tool(Tool::seed);
+    if (proxy()) proxy()->display().choose_tool(engine::Tool::seed);
     draw_->setChecked(true);
   });
   radius_ = form.slider(tr("Radius"), tr("Of the sphere around the crosshair."));
@@ -79,13 +79,13 @@ bool SphereStartMethod::can_start() const {
 }
 
 void SphereStartMethod::start() {
-  Start start;
+  document::Start start;
   start.seeds.push_back({proxy()->display().settings().cursor_mm, radius_->value()});
   proxy()->begin(start);
 }
 
 void SphereStartMethod::refresh() {
-  draw_->setChecked(proxy()->display().settings().tool == Tool::seed);
+  draw_->setChecked(proxy()->display().settings().tool == engine::Tool::seed);
 }
 
 // Values.
@@ -112,7 +112,7 @@ QString ValueStartMethod::title() const {
 
 void ValueStartMethod::attach() {
   if (!proxy()) return;
-  const SourceSummary& summary = proxy()->summary();
+  const engine::SourceSummary& summary = proxy()->summary();
   const double lowest = summary.lowest;
   const double highest = summary.highest;
   const QString unit = value_unit(proxy()->volume());
@@ -131,7 +131,7 @@ void ValueStartMethod::attach() {
 
 void ValueStartMethod::take_tent() {
   if (!proxy()) return;
-  const Parameters& parameters = proxy()->parameters();
+  const solver::Parameters& parameters = proxy()->parameters();
   low_->set_value(parameters.target - parameters.range);
   high_->set_value(parameters.target + parameters.range);
   emit changed();
@@ -185,11 +185,11 @@ bool ValueStartMethod::can_start() const {
 }
 
 void ValueStartMethod::start() {
-  Start start;
+  document::Start start;
   if (extent_ == Extent::everywhere) {
-    start.from = ThresholdStart{low_->value(), high_->value()};
+    start.from = document::ThresholdStart{low_->value(), high_->value()};
   } else {
-    start.from = FloodStart{*voxel(), low_->value(), high_->value()};
+    start.from = document::FloodStart{*voxel(), low_->value(), high_->value()};
   }
   proxy()->begin(start);
 }
@@ -219,12 +219,12 @@ void LabelStartMethod::attach() {
 }
 
 void LabelStartMethod::refresh() {
-  const std::vector<Label>& labels = proxy()->state().labels;
+  const std::vector<document::Label>& labels = proxy()->state().labels;
   if (labels == shown_) return;
   shown_ = labels;
   const QVariant chosen = label_->currentData();
   label_->clear();
-  for (const Label& label : labels) label_->addItem(QString::fromStdString(label.name), label.id);
+  for (const document::Label& label : labels) label_->addItem(QString::fromStdString(label.name), label.id);
   label_->setCurrentIndex(std::max(0, label_->findData(chosen)));
   emit changed();
 }
@@ -242,4 +242,4 @@ void LabelStartMethod::start() {
   proxy()->begin_from_label(static_cast<std::uint8_t>(label_->currentData().toUInt()));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

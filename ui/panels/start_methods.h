@@ -7,7 +7,7 @@ class QComboBox;
 class QLabel;
 class QToolButton;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class SliderNumber;
 
@@ -72,8 +72,8 @@ class LabelStartMethod : public StartMethod {
   void refresh() override;
 
  private:
-  std::vector<Label> shown_;
+  std::vector<document::Label> shown_;
   QComboBox* label_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -16,7 +16,7 @@
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 const QString kNothing = QStringLiteral("–");
@@ -122,9 +122,9 @@ QWidget* StatisticsPanel::make_buttons() {
   return part;
 }
 
-void StatisticsPanel::show_measurements(const std::vector<Measurement>& measurements) {
+void StatisticsPanel::show_measurements(const std::vector<engine::Measurement>& measurements) {
   std::vector<QStringList> lines;
-  for (const Measurement& measurement : measurements) {
+  for (const engine::Measurement& measurement : measurements) {
     if (!measurement.complete()) continue;
     lines.push_back(
         {kind_text(measurement.kind), number_text(measurement.value(), 1, unit_text(measurement.kind))});
@@ -178,4 +178,4 @@ void StatisticsPanel::refresh() {
   show_measurements(proxy()->display().settings().measurements);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,7 +8,7 @@ class QLabel;
 class QPushButton;
 class QTableWidget;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 struct RegionRow;
 
@@ -30,7 +30,7 @@ class StatisticsPanel : public Panel {
   QWidget* make_buttons();
   void show_surface(const std::vector<RegionRow>& rows);
   void show_labels(const std::vector<RegionRow>& rows);
-  void show_measurements(const std::vector<Measurement>& measurements);
+  void show_measurements(const std::vector<engine::Measurement>& measurements);
 
   QLabel* volume_;
   QLabel* area_;
@@ -44,4 +44,4 @@ class StatisticsPanel : public Panel {
   QPushButton* export_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -7,7 +7,7 @@
 #include "ui/widgets/form.h"
 #include "ui/widgets/slider_number.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 QColor to_colour(const glm::vec4& colour) {
@@ -23,43 +23,46 @@ SurfaceControls::SurfaceControls(QWidget* parent) : CaseWidget(parent) {
                                          "reconstructed one after the other."));
   mode_->addItems({tr("Ray casting"), tr("Slices")});
   connect(mode_, &QComboBox::activated, this, [this](int index) {
-    change_display(
-        [=](DisplaySettings& settings) { settings.mode = index == 0 ? Mode::raycast : Mode::slices; });
+    change_display([=](engine::DisplaySettings& settings) {
+      settings.mode = index == 0 ? renderer::Mode::raycast : renderer::Mode::slices;
+    });
   });
   add_surface(form);
   add_source(form);
   cube_ = form.check(tr("Orientation cube"), tr("Shows in a corner how the patient is turned."));
   connect(cube_, &QCheckBox::clicked, this, [this](bool on) {
-    change_display([=](DisplaySettings& settings) { settings.orientation_cube = on; });
+    change_display([=](engine::DisplaySettings& settings) { settings.orientation_cube = on; });
   });
   box_ = form.check(tr("Edges of the volume"), tr("Shows how far the study reaches."));
-  connect(box_, &QCheckBox::clicked, this,
-          [this](bool on) { change_display([=](DisplaySettings& settings) { settings.volume_box = on; }); });
+  connect(box_, &QCheckBox::clicked, this, [this](bool on) {
+    change_display([=](engine::DisplaySettings& settings) { settings.volume_box = on; });
+  });
 }
 
 void SurfaceControls::add_surface(Form& form) {
   surface_ = form.check(tr("Surface"), tr("Shows the level set's surface."));
-  connect(surface_, &QCheckBox::clicked, this,
-          [this](bool on) { change_display([=](DisplaySettings& settings) { settings.surface = on; }); });
+  connect(surface_, &QCheckBox::clicked, this, [this](bool on) {
+    change_display([=](engine::DisplaySettings& settings) { settings.surface = on; });
+  });
   colouring_ =
       form.choice(tr("Coloured by"), tr("One colour, or what happens at each place of the surface."));
-  const std::pair<QString, SurfaceColouring> colourings[] = {
-      {tr("One colour"), SurfaceColouring::plain},
-      {tr("Total speed"), SurfaceColouring::total_speed},
-      {tr("Speed of the data term"), SurfaceColouring::data},
-      {tr("Speed of the curvature term"), SurfaceColouring::curvature_term},
-      {tr("Speed of rescaling"), SurfaceColouring::rescaling},
-      {tr("Mean curvature"), SurfaceColouring::curvature},
-      {tr("Pages of memory"), SurfaceColouring::pages}};
+  const std::pair<QString, renderer::SurfaceColouring> colourings[] = {
+      {tr("One colour"), renderer::SurfaceColouring::plain},
+      {tr("Total speed"), renderer::SurfaceColouring::total_speed},
+      {tr("Speed of the data term"), renderer::SurfaceColouring::data},
+      {tr("Speed of the curvature term"), renderer::SurfaceColouring::curvature_term},
+      {tr("Speed of rescaling"), renderer::SurfaceColouring::rescaling},
+      {tr("Mean curvature"), renderer::SurfaceColouring::curvature},
+      {tr("Pages of memory"), renderer::SurfaceColouring::pages}};
   for (const auto& [text, colouring] : colourings) colouring_->addItem(text, static_cast<int>(colouring));
   connect(colouring_, &QComboBox::activated, this, [this] {
-    const auto colouring = static_cast<SurfaceColouring>(colouring_->currentData().toInt());
-    change_display([=](DisplaySettings& settings) { settings.colouring = colouring; });
+    const auto colouring = static_cast<renderer::SurfaceColouring>(colouring_->currentData().toInt());
+    change_display([=](engine::DisplaySettings& settings) { settings.colouring = colouring; });
   });
   colour_ = new ColourButton;
   form.row(tr("Colour"), colour_, tr("Of the surface, where it has one colour."));
   connect(colour_, &ColourButton::chosen, this, [this](const QColor& colour) {
-    change_display([&](DisplaySettings& settings) {
+    change_display([&](engine::DisplaySettings& settings) {
       settings.surface_colour =
           glm::vec4(colour.redF(), colour.greenF(), colour.blueF(), settings.surface_colour.a);
     });
@@ -69,8 +72,9 @@ void SurfaceControls::add_surface(Form& form) {
   opacity_->set_range(0.0, 100.0);
   opacity_->set_unit(QStringLiteral("%"));
   connect(opacity_, &SliderNumber::edited, this, [this](double value) {
-    change_display(
-        [=](DisplaySettings& settings) { settings.surface_colour.a = static_cast<float>(value / 100.0); });
+    change_display([=](engine::DisplaySettings& settings) {
+      settings.surface_colour.a = static_cast<float>(value / 100.0);
+    });
   });
   occlusion_ =
       form.slider(tr("Hollows"), tr("How much darker hollows of the surface are (ambient occlusion)."));
@@ -78,29 +82,31 @@ void SurfaceControls::add_surface(Form& form) {
   occlusion_->set_range(0.0, 100.0);
   occlusion_->set_unit(QStringLiteral("%"));
   connect(occlusion_, &SliderNumber::edited, this, [this](double value) {
-    change_display([=](DisplaySettings& settings) { settings.occlusion = value / 100.0; });
+    change_display([=](engine::DisplaySettings& settings) { settings.occlusion = value / 100.0; });
   });
 }
 
 void SurfaceControls::add_source(Form& form) {
   source_ = form.check(tr("Source"), tr("Shows the study itself, by its transfer function."));
-  connect(source_, &QCheckBox::clicked, this,
-          [this](bool on) { change_display([=](DisplaySettings& settings) { settings.show_source = on; }); });
+  connect(source_, &QCheckBox::clicked, this, [this](bool on) {
+    change_display([=](engine::DisplaySettings& settings) { settings.show_source = on; });
+  });
   region_ = form.choice(tr("Where"), tr("Where the source shows: the surface is a region of interest."));
-  const std::pair<QString, Region> regions[] = {{tr("Everywhere"), Region::everywhere},
-                                                {tr("Inside the surface"), Region::inside},
-                                                {tr("Outside the surface"), Region::outside},
-                                                {tr("Everywhere, inside tinted"), Region::tinted}};
+  const std::pair<QString, renderer::Region> regions[] = {
+      {tr("Everywhere"), renderer::Region::everywhere},
+      {tr("Inside the surface"), renderer::Region::inside},
+      {tr("Outside the surface"), renderer::Region::outside},
+      {tr("Everywhere, inside tinted"), renderer::Region::tinted}};
   for (const auto& [text, region] : regions) region_->addItem(text, static_cast<int>(region));
   connect(region_, &QComboBox::activated, this, [this] {
-    const auto region = static_cast<Region>(region_->currentData().toInt());
-    change_display([=](DisplaySettings& settings) { settings.region = region; });
+    const auto region = static_cast<renderer::Region>(region_->currentData().toInt());
+    change_display([=](engine::DisplaySettings& settings) { settings.region = region; });
   });
 }
 
 void SurfaceControls::refresh() {
-  const DisplaySettings& settings = proxy()->display().settings();
-  mode_->setCurrentIndex(settings.mode == Mode::raycast ? 0 : 1);
+  const engine::DisplaySettings& settings = proxy()->display().settings();
+  mode_->setCurrentIndex(settings.mode == renderer::Mode::raycast ? 0 : 1);
   surface_->setChecked(settings.surface);
   colouring_->setCurrentIndex(colouring_->findData(static_cast<int>(settings.colouring)));
   colour_->set_colour(to_colour(settings.surface_colour));
@@ -111,10 +117,10 @@ void SurfaceControls::refresh() {
   cube_->setChecked(settings.orientation_cube);
   box_->setChecked(settings.volume_box);
   colouring_->setEnabled(settings.surface);
-  colour_->setEnabled(settings.surface && settings.colouring == SurfaceColouring::plain);
+  colour_->setEnabled(settings.surface && settings.colouring == renderer::SurfaceColouring::plain);
   opacity_->setEnabled(settings.surface);
   occlusion_->setEnabled(settings.surface);
   region_->setEnabled(settings.show_source);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

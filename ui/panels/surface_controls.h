@@ -6,7 +6,7 @@
 class QCheckBox;
 class QComboBox;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class ColourButton;
 class Form;
@@ -36,4 +36,4 @@ class SurfaceControls : public CaseWidget {
   QCheckBox* box_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -5,11 +5,11 @@
 
 #include "core/volume.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Empty for values that have none.
 inline QString value_unit(const Volume& volume) {
   return QString::fromStdString(volume.unit);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

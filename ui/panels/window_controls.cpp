@@ -9,7 +9,7 @@
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr double kFar =
@@ -17,7 +17,7 @@ constexpr double kFar =
 
 }  // namespace
 
-std::vector<WindowPreset> window_presets(const Volume& volume, const SourceSummary& summary) {
+std::vector<WindowPreset> window_presets(const Volume& volume, const engine::SourceSummary& summary) {
   const auto text = [](const char* name) { return QCoreApplication::translate("WindowPresets", name); };
   std::vector<WindowPreset> presets;
   if (volume.modality == "CT") {
@@ -46,19 +46,19 @@ WindowControls::WindowControls(QWidget* parent) : CaseWidget(parent) {
   connect(preset_, &QComboBox::activated, this, [this](int index) {
     if (index == 0 || index > static_cast<int>(presets_.size())) return refresh();
     const WindowLevel window = presets_[static_cast<std::size_t>(index) - 1].window;
-    change_display([&](DisplaySettings& settings) { settings.window = window; });
+    change_display([&](engine::DisplaySettings& settings) { settings.window = window; });
   });
   connect(width_, &SliderNumber::edited, this, [this](double value) {
-    change_display([=](DisplaySettings& settings) { settings.window.width = value; });
+    change_display([=](engine::DisplaySettings& settings) { settings.window.width = value; });
   });
   connect(level_, &SliderNumber::edited, this, [this](double value) {
-    change_display([=](DisplaySettings& settings) { settings.window.centre = value; });
+    change_display([=](engine::DisplaySettings& settings) { settings.window.centre = value; });
   });
 }
 
 void WindowControls::attach() {
   if (!proxy()) return;
-  const SourceSummary& summary = proxy()->summary();
+  const engine::SourceSummary& summary = proxy()->summary();
   const QString unit = value_unit(proxy()->volume());
   presets_ = window_presets(proxy()->volume(), summary);
   preset_->clear();
@@ -91,4 +91,4 @@ void WindowControls::refresh() {
   preset_->setCurrentIndex(chosen);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,7 +8,7 @@
 
 class QComboBox;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class SliderNumber;
 
@@ -28,4 +28,4 @@ class WindowControls : public CaseWidget {
   std::vector<WindowPreset> presets_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

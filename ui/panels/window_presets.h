@@ -7,7 +7,7 @@
 #include "core/volume.h"
 #include "engine/source_summary.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 struct WindowPreset {
   QString name;
@@ -15,6 +15,6 @@ struct WindowPreset {
 };
 
 // For CT those of its tissues; for all the file's own, if there is one, and the full range of values.
-std::vector<WindowPreset> window_presets(const Volume& volume, const SourceSummary& summary);
+std::vector<WindowPreset> window_presets(const Volume& volume, const engine::SourceSummary& summary);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

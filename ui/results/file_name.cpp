@@ -6,11 +6,11 @@
 
 #include "engine/study_loader.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 // Whether a part of the patient's name or number is in it; initials say nothing.
-bool tells_the_patient(const QString& text, const Patient& patient) {
+bool tells_the_patient(const QString& text, const imaging::Patient& patient) {
   static const QRegularExpression kBetweenParts(QStringLiteral("[^\\w]+"),
                                                 QRegularExpression::UseUnicodePropertiesOption);
   constexpr qsizetype kInitials = 2;
@@ -23,7 +23,7 @@ bool tells_the_patient(const QString& text, const Patient& patient) {
 
 }  // namespace
 
-QString file_name_of(const LoadedStudy& study) {
+QString file_name_of(const engine::LoadedStudy& study) {
   static const QRegularExpression kNotInNames(QStringLiteral("[^\\w .()+-]"),
                                               QRegularExpression::UseUnicodePropertiesOption);
   constexpr int kLongest = 60;
@@ -35,4 +35,4 @@ QString file_name_of(const LoadedStudy& study) {
   return name.left(kLongest).replace(kNotInNames, QStringLiteral("-")).simplified();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -3,12 +3,14 @@
 
 #include <QString>
 
-namespace tidemark {
-
+namespace tidemark::engine {
 struct LoadedStudy;
+}
+
+namespace tidemark::ui {
 
 // The series' name without what has no place in names of files; its modality and date where the name tells
 // who the patient is. Without an ending.
-QString file_name_of(const LoadedStudy& study);
+QString file_name_of(const engine::LoadedStudy& study);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -5,7 +5,7 @@
 
 #include "ui/look/theme.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 ResultChoice::ResultChoice(QWidget* parent) : QGroupBox(tr("What"), parent) {
   auto* column = new QVBoxLayout(this);
@@ -22,10 +22,10 @@ QRadioButton* ResultChoice::add(const QString& tip) {
   return button;
 }
 
-void ResultChoice::show_state(const CaseState& state) {
+void ResultChoice::show_state(const engine::CaseState& state) {
   const auto all = static_cast<int>(state.labels.size());
-  const auto visible = static_cast<int>(std::count_if(state.labels.begin(), state.labels.end(),
-                                                      [](const Label& label) { return label.visible; }));
+  const auto visible = static_cast<int>(std::count_if(
+      state.labels.begin(), state.labels.end(), [](const document::Label& label) { return label.visible; }));
   all_->setText(tr("&All labels (%1)").arg(all));
   visible_->setText(tr("&Visible labels (%1)").arg(visible));
   surface_->setText(tr("&Inside of the surface"));
@@ -44,9 +44,10 @@ bool ResultChoice::has_choice() const {
   return is_there(all_) || is_there(surface_);
 }
 
-ResultContent ResultChoice::content() const {
-  if (surface_->isChecked()) return ResultContent::surface;
-  return visible_->isChecked() ? ResultContent::visible_labels : ResultContent::all_labels;
+document::ResultContent ResultChoice::content() const {
+  if (surface_->isChecked()) return document::ResultContent::surface;
+  return visible_->isChecked() ? document::ResultContent::visible_labels
+                               : document::ResultContent::all_labels;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

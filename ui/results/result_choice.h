@@ -7,7 +7,7 @@
 #include "document/result_files.h"
 #include "engine/case_state.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class ResultChoice : public QGroupBox {
   Q_OBJECT
@@ -15,9 +15,9 @@ class ResultChoice : public QGroupBox {
   explicit ResultChoice(QWidget* parent = nullptr);
 
   // Sets the choices; the chosen one stays if it is among them.
-  void show_state(const CaseState& state);
+  void show_state(const engine::CaseState& state);
   [[nodiscard]] bool has_choice() const;
-  [[nodiscard]] ResultContent content() const;
+  [[nodiscard]] document::ResultContent content() const;
 
  private:
   QRadioButton* add(const QString& tip);
@@ -29,4 +29,4 @@ class ResultChoice : public QGroupBox {
   QRadioButton* surface_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

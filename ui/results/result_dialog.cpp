@@ -6,14 +6,14 @@
 #include "ui/look/theme.h"
 #include "ui/widgets/form.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kWidth = 520;
 
 }  // namespace
 
-QString source_note(const LoadedStudy& study) {
+QString source_note(const engine::LoadedStudy& study) {
   if (study.dicom_files.empty()) {
     return ResultDialog::tr(
         "The study that is open is no DICOM series. The result makes a new study of an anonymous patient and "
@@ -33,8 +33,8 @@ ResultDialog::ResultDialog(CaseWindow& window, const QString& title)
       go_(new QPushButton(this)) {
   setWindowTitle(title);
   setAttribute(Qt::WA_DeleteOnClose);
-  connect(&proxy(), &CaseProxy::state_changed, this, &ResultDialog::follow);
-  connect(&proxy(), &CaseProxy::failed, this, [this](const QString& message) {
+  connect(&proxy(), &engine::CaseProxy::state_changed, this, &ResultDialog::follow);
+  connect(&proxy(), &engine::CaseProxy::failed, this, [this](const QString& message) {
     if (waiting_) rest(message);
   });
   connect(work_, &WorkLine::cancelled, this, [this] {
@@ -102,4 +102,4 @@ void ResultDialog::reject() {
   QDialog::reject();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -9,7 +9,7 @@
 #include "ui/results/result_choice.h"
 #include "ui/widgets/work_line.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Not modal: the user can go on with the case while its result is made, which shows the case at the click. It
 // closes with the case.
@@ -19,7 +19,7 @@ class ResultDialog : public QDialog {
   ResultDialog(CaseWindow& window, const QString& title);
 
  protected:
-  using Snapshot = std::shared_ptr<const CaseProxy::Snapshot>;
+  using Snapshot = std::shared_ptr<const engine::CaseProxy::Snapshot>;
 
   // From the constructor: whether there is something to choose, where it goes, what that means, the button.
   void build(bool with_choice, QWidget* target, const QString& note, const QString& verb, const QString& tip);
@@ -33,8 +33,8 @@ class ResultDialog : public QDialog {
   void follow();
   void rest(const QString& said);
   void reject() override;
-  [[nodiscard]] CaseProxy& proxy() const { return window_.proxy(); }
-  [[nodiscard]] ResultContent content() const { return choice_->content(); }
+  [[nodiscard]] engine::CaseProxy& proxy() const { return window_.proxy(); }
+  [[nodiscard]] document::ResultContent content() const { return choice_->content(); }
   [[nodiscard]] WorkLine& work() const { return *work_; }
 
  private:
@@ -51,6 +51,6 @@ class ResultDialog : public QDialog {
 };
 
 // The patient and study to which a DICOM result will belong, in words.
-[[nodiscard]] QString source_note(const LoadedStudy& study);
+[[nodiscard]] QString source_note(const engine::LoadedStudy& study);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

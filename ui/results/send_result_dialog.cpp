@@ -4,23 +4,24 @@
 
 #include "ui/look/theme.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 // Each form as a file of its own in that folder.
-Result<std::vector<std::filesystem::path>> write_forms(const SessionContents& contents, ResultContent content,
-                                                       const std::vector<ResultForm>& forms,
+Result<std::vector<std::filesystem::path>> write_forms(const document::SessionContents& contents,
+                                                       document::ResultContent content,
+                                                       const std::vector<imaging::ResultForm>& forms,
                                                        const std::vector<std::filesystem::path>& source,
                                                        const std::filesystem::path& folder,
                                                        const Progress& progress) {
-  const auto segments = result_segments(contents, content);
+  const auto segments = document::result_segments(contents, content);
   if (!segments) return tl::unexpected<Error>(segments.error());
   std::vector<std::filesystem::path> files;
   const auto count = static_cast<int>(forms.size());
   for (int form = 0; form < count; ++form) {
     files.push_back(folder / fmt::format("{}.dcm", form + 1));
-    const Status written = write_result(*segments, forms[static_cast<std::size_t>(form)], source,
-                                        files.back(), progress.part(form, count));
+    const Status written = document::write_result(*segments, forms[static_cast<std::size_t>(form)], source,
+                                                  files.back(), progress.part(form, count));
     if (!written) return tl::unexpected<Error>(written.error());
   }
   return files;
@@ -35,11 +36,11 @@ SendResultDialog::SendResultDialog(CaseWindow& window, std::filesystem::path ser
       contours_(new QCheckBox(tr("Contours (&RT structure set)"), this)) {
   build(true, make_target(), source_note(proxy().study()), tr("Se&nd"),
         tr("Sends the case in its present state"));
-  connect(&client_, &PacsClient::progressed, &work(), &WorkLine::set_progress);
-  connect(&client_, &PacsClient::failed, this, &SendResultDialog::rest);
-  connect(&client_, &PacsClient::cancelled, this,
+  connect(&client_, &engine::PacsClient::progressed, &work(), &WorkLine::set_progress);
+  connect(&client_, &engine::PacsClient::failed, this, &SendResultDialog::rest);
+  connect(&client_, &engine::PacsClient::cancelled, this,
           [this] { rest(tr("Cancelled. What the server has taken by then stays there.")); });
-  connect(&client_, &PacsClient::sent, this, [this](const auto& sent) { tell(*sent); });
+  connect(&client_, &engine::PacsClient::sent, this, [this](const auto& sent) { tell(*sent); });
   for (QCheckBox* form : {segmentation_, contours_})
     connect(form, &QCheckBox::toggled, this, &SendResultDialog::follow);
   connect(servers_, &ServerChoice::chosen, this, &SendResultDialog::follow);
@@ -73,19 +74,19 @@ bool SendResultDialog::ready() const {
 }
 
 void SendResultDialog::begin(const Snapshot& snapshot) {
-  const PacsServer& server = *servers_->server();
+  const imaging::PacsServer& server = *servers_->server();
   receiver_ = QString::fromStdString(server.name);
   servers_->remember();
-  std::vector<ResultForm> forms;
-  if (segmentation_->isChecked()) forms.push_back(ResultForm::segmentation);
-  if (contours_->isChecked()) forms.push_back(ResultForm::structure_set);
+  std::vector<imaging::ResultForm> forms;
+  if (segmentation_->isChecked()) forms.push_back(imaging::ResultForm::segmentation);
+  if (contours_->isChecked()) forms.push_back(imaging::ResultForm::structure_set);
   client_.send(server, [snapshot, forms, what = content(), source = proxy().study().dicom_files](
                            const std::filesystem::path& folder, const Progress& progress) {
     return write_forms(snapshot->contents, what, forms, source, folder, progress);
   });
 }
 
-void SendResultDialog::tell(const Sent& sent) {
+void SendResultDialog::tell(const imaging::Sent& sent) {
   if (!sent.unsent.empty()) {
     return rest(tr("%1 did not take all of it: %2.")
                     .arg(receiver_, QString::fromStdString(sent.unsent.front().reason)));
@@ -98,4 +99,4 @@ void SendResultDialog::tell(const Sent& sent) {
                         : tr("%1 has it, as a new study of an anonymous patient.").arg(receiver_));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,7 +8,7 @@
 #include "ui/pacs/server_choice.h"
 #include "ui/results/result_dialog.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class SendResultDialog : public ResultDialog {
   Q_OBJECT
@@ -23,13 +23,13 @@ class SendResultDialog : public ResultDialog {
 
  private:
   QWidget* make_target();
-  void tell(const Sent& sent);
+  void tell(const imaging::Sent& sent);
 
-  PacsClient client_;
+  engine::PacsClient client_;
   QString receiver_;  // the server that gets it now
   ServerChoice* servers_;
   QCheckBox* segmentation_;
   QCheckBox* contours_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -13,7 +13,7 @@
 #include "ui/results/file_name.h"
 #include "ui/settings.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 QString usual_folder() {
@@ -39,7 +39,7 @@ QString title_of(ResultFile kind) {
   return WriteResultDialog::tr("Export the level set");
 }
 
-QString note_of(ResultFile kind, const LoadedStudy& study) {
+QString note_of(ResultFile kind, const engine::LoadedStudy& study) {
   switch (kind) {
     case ResultFile::level_set:
       return WriteResultDialog::tr(
@@ -57,7 +57,7 @@ QString note_of(ResultFile kind, const LoadedStudy& study) {
 }
 
 // Files of the study are never written to.
-bool is_of_study(const LoadedStudy& study, const std::filesystem::path& file) {
+bool is_of_study(const engine::LoadedStudy& study, const std::filesystem::path& file) {
   const auto is_it = [&](const std::filesystem::path& other) {
     std::error_code error;
     return std::filesystem::equivalent(file, other, error);
@@ -65,18 +65,19 @@ bool is_of_study(const LoadedStudy& study, const std::filesystem::path& file) {
   return is_it(study.origin.path) || std::any_of(study.dicom_files.begin(), study.dicom_files.end(), is_it);
 }
 
-Status write_kind(const SessionContents& contents, ResultFile kind, ResultContent content,
+Status write_kind(const document::SessionContents& contents, ResultFile kind, document::ResultContent content,
                   const std::vector<std::filesystem::path>& source, const std::filesystem::path& file,
                   const Progress& progress) {
   if (kind == ResultFile::level_set) {
     progress(0.0, "writing the level set");
-    return write_level_set(contents.phi->to_volume(), contents.phi->band, file);
+    return imaging::write_level_set(contents.phi->to_volume(), contents.phi->band, file);
   }
-  const auto segments = result_segments(contents, content);
+  const auto segments = document::result_segments(contents, content);
   if (!segments) return tl::unexpected<Error>(segments.error());
-  if (kind == ResultFile::meshes) return write_meshes(*segments, file, progress);
-  const auto form = kind == ResultFile::segmentation ? ResultForm::segmentation : ResultForm::structure_set;
-  return write_result(*segments, form, source, file, progress);
+  if (kind == ResultFile::meshes) return document::write_meshes(*segments, file, progress);
+  const auto form = kind == ResultFile::segmentation ? imaging::ResultForm::segmentation
+                                                     : imaging::ResultForm::structure_set;
+  return document::write_result(*segments, form, source, file, progress);
 }
 
 }  // namespace
@@ -86,10 +87,11 @@ WriteResultDialog::WriteResultDialog(CaseWindow& window, ResultFile kind)
   build(kind != ResultFile::level_set, make_target(), note_of(kind, proxy().study()), tr("&Write"),
         tr("Writes what the case is like now"));
   connect(file_, &QLineEdit::textChanged, this, &WriteResultDialog::follow);
-  connect(&jobs_, &ResultJobs::progressed, &work(), &WorkLine::set_progress);
-  connect(&jobs_, &ResultJobs::failed, this, &WriteResultDialog::rest);
-  connect(&jobs_, &ResultJobs::cancelled, this, [this] { rest(tr("Cancelled: nothing was written.")); });
-  connect(&jobs_, &ResultJobs::written, this, [this] {
+  connect(&jobs_, &engine::ResultJobs::progressed, &work(), &WorkLine::set_progress);
+  connect(&jobs_, &engine::ResultJobs::failed, this, &WriteResultDialog::rest);
+  connect(&jobs_, &engine::ResultJobs::cancelled, this,
+          [this] { rest(tr("Cancelled: nothing was written.")); });
+  connect(&jobs_, &engine::ResultJobs::written, this, [this] {
     const QString written_files = files().join(QStringLiteral(", "));
     rest(tr("Wrote %1").arg(written_files));
     emit written(written_files);
@@ -125,14 +127,14 @@ QStringList WriteResultDialog::suffixes() const {
 QStringList WriteResultDialog::files() const {
   if (kind_ != ResultFile::meshes) return {file_->text()};
   std::vector<std::string> names;
-  if (content() == ResultContent::surface)
-    names = {kSurfaceSegment};
+  if (content() == document::ResultContent::surface)
+    names = {document::kSurfaceSegment};
   else
-    for (const Label& label : proxy().state().labels) {
-      if (label.visible || content() == ResultContent::all_labels) names.push_back(label.name);
+    for (const document::Label& label : proxy().state().labels) {
+      if (label.visible || content() == document::ResultContent::all_labels) names.push_back(label.name);
     }
   QStringList files;
-  for (const std::filesystem::path& file : mesh_files(names, path_of(file_->text()))) {
+  for (const std::filesystem::path& file : document::mesh_files(names, path_of(file_->text()))) {
     files << QString::fromStdU16String(file.u16string());
   }
   return files;
@@ -192,4 +194,4 @@ void WriteResultDialog::begin(const Snapshot& snapshot) {
   });
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -6,7 +6,7 @@
 #include "engine/result_jobs.h"
 #include "ui/results/result_dialog.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 enum class ResultFile { segmentation, structure_set, level_set, meshes };
 
@@ -32,8 +32,8 @@ class WriteResultDialog : public ResultDialog {
   [[nodiscard]] QString usual_file() const;
 
   ResultFile kind_;
-  ResultJobs jobs_;
+  engine::ResultJobs jobs_;
   QLineEdit* file_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

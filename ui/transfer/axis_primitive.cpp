@@ -6,7 +6,7 @@
 
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 QString translated(const char* text) {
@@ -17,30 +17,30 @@ QString number(double value) {
   return general_text(value, 4);
 }
 
-QString describe_factor(const TransferFactor& factor, const QString& unit) {
-  const QString form =
-      factor.kind == TransferFactor::Kind::gaussian ? QStringLiteral("%1 ± %2") : QStringLiteral("%1 → %2");
+QString describe_factor(const renderer::TransferFactor& factor, const QString& unit) {
+  const QString form = factor.kind == renderer::TransferFactor::Kind::gaussian ? QStringLiteral("%1 ± %2")
+                                                                               : QStringLiteral("%1 → %2");
   const QString text = form.arg(number(factor.start), number(factor.end));
   return unit.isEmpty() ? text : text + QChar(0x00A0) + unit;
 }
 
 }  // namespace
 
-std::vector<AxisPrimitive> primitives_of(const TransferFunction& function, PrimitiveKind kind) {
+std::vector<AxisPrimitive> primitives_of(const renderer::TransferFunction& function, PrimitiveKind kind) {
   std::vector<AxisPrimitive> primitives;
   if (kind == PrimitiveKind::source) {
-    for (const SourcePrimitive& p : function.source) {
+    for (const renderer::SourcePrimitive& p : function.source) {
       primitives.push_back({{p.value, p.gradient, p.phi}, p.opacity, p.colour});
     }
   } else {
-    for (const SurfacePrimitive& p : function.surface) {
+    for (const renderer::SurfacePrimitive& p : function.surface) {
       primitives.push_back({{p.intensity, p.distance, {}}, p.opacity, p.colour});
     }
   }
   return primitives;
 }
 
-void set_primitives(TransferFunction& function, PrimitiveKind kind,
+void set_primitives(renderer::TransferFunction& function, PrimitiveKind kind,
                     const std::vector<AxisPrimitive>& primitives) {
   if (kind == PrimitiveKind::source) {
     function.source.clear();
@@ -58,14 +58,14 @@ void set_primitives(TransferFunction& function, PrimitiveKind kind,
 QString describe(const AxisPrimitive& primitive, const std::vector<PrimitiveAxis>& axes) {
   QStringList parts;
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    const TransferFactor& factor = primitive.factors[i];
-    if (factor.kind == TransferFactor::Kind::everything) continue;
+    const renderer::TransferFactor& factor = primitive.factors[i];
+    if (factor.kind == renderer::TransferFactor::Kind::everything) continue;
     const QString text = describe_factor(factor, axes[i].unit);
     if (!parts.isEmpty() || i > 0) {
       parts << axes[i].name.toLower() + ' ' + text;
     } else {
-      parts << (factor.kind == TransferFactor::Kind::gaussian ? translated("Gaussian %1")
-                                                              : translated("Ramp %1"))
+      parts << (factor.kind == renderer::TransferFactor::Kind::gaussian ? translated("Gaussian %1")
+                                                                        : translated("Ramp %1"))
                    .arg(text);
     }
   }
@@ -75,14 +75,14 @@ QString describe(const AxisPrimitive& primitive, const std::vector<PrimitiveAxis
   return text;
 }
 
-TransferFactor middle_factor(TransferFactor::Kind kind, const PrimitiveAxis& axis) {
+renderer::TransferFactor middle_factor(renderer::TransferFactor::Kind kind, const PrimitiveAxis& axis) {
   const double extent = axis.high - axis.low;
   switch (kind) {
-    case TransferFactor::Kind::gaussian:
+    case renderer::TransferFactor::Kind::gaussian:
       return {kind, axis.low + 0.5 * extent, 0.1 * extent};
-    case TransferFactor::Kind::ramp:
+    case renderer::TransferFactor::Kind::ramp:
       return {kind, axis.low + 0.4 * extent, axis.low + 0.6 * extent};
-    case TransferFactor::Kind::everything:
+    case renderer::TransferFactor::Kind::everything:
       break;
   }
   return {};
@@ -104,4 +104,4 @@ QColor to_qcolor(const glm::vec3& colour) {
   return QColor::fromRgbF(colour.r, colour.g, colour.b);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,7 +8,7 @@
 
 #include "renderer/transfer_function.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // An axis of a transfer function, as people see it.
 struct PrimitiveAxis {
@@ -21,7 +21,7 @@ struct PrimitiveAxis {
 
 // The factors are in the order of the list's axes: value, gradient, phi; or intensity, distance.
 struct AxisPrimitive {
-  std::array<TransferFactor, 3> factors;
+  std::array<renderer::TransferFactor, 3> factors;
   double opacity = 1.0;
   glm::vec3 colour{1.0F};
 
@@ -30,19 +30,19 @@ struct AxisPrimitive {
 
 enum class PrimitiveKind { source, surface };
 
-std::vector<AxisPrimitive> primitives_of(const TransferFunction& function, PrimitiveKind kind);
-void set_primitives(TransferFunction& function, PrimitiveKind kind,
+std::vector<AxisPrimitive> primitives_of(const renderer::TransferFunction& function, PrimitiveKind kind);
+void set_primitives(renderer::TransferFunction& function, PrimitiveKind kind,
                     const std::vector<AxisPrimitive>& primitives);
 
 // "Gaussian 230 ± 50 HU, gradient 10 → 50 HU/mm"
 QString describe(const AxisPrimitive& primitive, const std::vector<PrimitiveAxis>& axes);
 
 // A factor of this kind in the middle of the axis.
-TransferFactor middle_factor(TransferFactor::Kind kind, const PrimitiveAxis& axis);
+renderer::TransferFactor middle_factor(renderer::TransferFactor::Kind kind, const PrimitiveAxis& axis);
 
 // A colour that the others have not, as far as there are enough.
 glm::vec3 next_colour(const std::vector<AxisPrimitive>& others);
 
 QColor to_qcolor(const glm::vec3& colour);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -7,10 +7,10 @@
 
 #include "ui/transfer/panel_scroll.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
-using Kind = TransferFactor::Kind;
+using Kind = renderer::TransferFactor::Kind;
 
 constexpr double kFarthest = 1e9;
 
@@ -57,7 +57,7 @@ void FactorEditor::set_axis(const PrimitiveAxis& axis) {
   set_factor(factor_);
 }
 
-void FactorEditor::set_factor(const TransferFactor& factor) {
+void FactorEditor::set_factor(const renderer::TransferFactor& factor) {
   factor_ = factor;
   const bool gaussian = factor.kind == Kind::gaussian;
   const bool matters = factor.kind != Kind::everything;
@@ -85,7 +85,7 @@ double FactorEditor::smallest() const {
 void FactorEditor::take_kind() {
   const auto kind = static_cast<Kind>(kind_->currentData().toInt());
   if (kind == factor_.kind) return;
-  TransferFactor next = middle_factor(kind, axis_);
+  renderer::TransferFactor next = middle_factor(kind, axis_);
   // A Gaussian becomes a ramp where it is, and the other way round.
   if (kind == Kind::ramp && factor_.kind == Kind::gaussian) {
     next = {kind, factor_.start - factor_.end, factor_.start + factor_.end};
@@ -97,7 +97,7 @@ void FactorEditor::take_kind() {
 }
 
 void FactorEditor::take_numbers() {
-  TransferFactor next = factor_;
+  renderer::TransferFactor next = factor_;
   // A box holds no more digits than it shows: the one that was not touched must not round the other number.
   if (sender() == start_) next.start = start_->value();
   if (sender() == end_) next.end = end_->value();
@@ -119,4 +119,4 @@ void show_number(NumberBox& box, double value) {
   box.setValue(value);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

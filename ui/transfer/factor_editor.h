@@ -7,7 +7,7 @@
 #include "ui/transfer/axis_primitive.h"
 #include "ui/widgets/number_box.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class FactorEditor : public QWidget {
   Q_OBJECT
@@ -15,14 +15,14 @@ class FactorEditor : public QWidget {
   explicit FactorEditor(QWidget* parent = nullptr);
 
   void set_axis(const PrimitiveAxis& axis);
-  void set_factor(const TransferFactor& factor);  // emits nothing
+  void set_factor(const renderer::TransferFactor& factor);  // emits nothing
 
   [[nodiscard]] QComboBox* kind_box() const { return kind_; }
   [[nodiscard]] NumberBox* start_box() const { return start_; }
   [[nodiscard]] NumberBox* end_box() const { return end_; }
 
  signals:
-  void edited(const tidemark::TransferFactor& factor);
+  void edited(const tidemark::renderer::TransferFactor& factor);
 
  private:
   void take_kind();
@@ -30,7 +30,7 @@ class FactorEditor : public QWidget {
   [[nodiscard]] double smallest() const;
 
   PrimitiveAxis axis_;
-  TransferFactor factor_;
+  renderer::TransferFactor factor_;
   QComboBox* kind_;
   NumberBox* start_;
   NumberBox* end_;
@@ -41,4 +41,4 @@ void suit_decimals(NumberBox& box, double extent);
 // Shows a number that changed elsewhere; if it did not, text that is being typed stays.
 void show_number(NumberBox& box, double value);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -7,7 +7,7 @@
 
 #include "ui/transfer/plot_painting.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 HistogramPlot::HistogramPlot(QWidget* parent) : TransferPlot(parent) {
   setAccessibleName(tr("Opacity by value, over the histogram"));
@@ -104,4 +104,4 @@ void HistogramPlot::paint_axes(QPainter& painter) {
   if (!counts_.empty()) draw_count_axis(painter, area(), most_, tr("Voxels"), colour);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -5,7 +5,7 @@
 
 #include "ui/transfer/transfer_plot.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Counts are drawn by their logarithm; opacity by its third root, as a thousandth of a mm is much in a volume
 // and a half is, too.
@@ -33,4 +33,4 @@ class HistogramPlot : public TransferPlot {
   double most_ = 1.0;  // of the counts
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -7,10 +7,10 @@
 
 #include "ui/transfer/plot_painting.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
-using Kind = TransferFactor::Kind;
+using Kind = renderer::TransferFactor::Kind;
 
 bool is_ellipse(const AxisPrimitive& primitive) {
   return primitive.factors[0].kind == Kind::gaussian && primitive.factors[1].kind == Kind::gaussian;
@@ -143,4 +143,4 @@ void JointHistogramPlot::paint_axes(QPainter& painter) {
   draw_left_axis(painter, area(), y_axis(), title_of(y_), colour(y_));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

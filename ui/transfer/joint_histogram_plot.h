@@ -6,7 +6,7 @@
 
 #include "ui/transfer/transfer_plot.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class JointHistogramPlot : public TransferPlot {
   Q_OBJECT
@@ -33,4 +33,4 @@ class JointHistogramPlot : public TransferPlot {
   Extent counts_y_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

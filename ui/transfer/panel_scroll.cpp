@@ -4,7 +4,7 @@
 #include <QScrollBar>
 #include <QWidget>
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 class WheelGuard : public QObject {
@@ -48,4 +48,4 @@ void guard_from_wheel(QWidget* control) {
   control->installEventFilter(new WheelGuard(control));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -3,7 +3,7 @@
 
 #include <QScrollArea>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Scrolls up and down only: it asks for as much width as its content needs, whenever that changes.
 class PanelScroll : public QScrollArea {
@@ -22,4 +22,4 @@ class PanelScroll : public QScrollArea {
 // acts on the control only when that has the focus.
 void guard_from_wheel(QWidget* control);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

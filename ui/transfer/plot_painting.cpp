@@ -5,7 +5,7 @@
 
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr double kTick = 4.0;
@@ -141,4 +141,4 @@ void draw_read_out(QPainter& painter, const QRectF& area, const QString& text, c
   painter.drawText(box, Qt::AlignCenter, text);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

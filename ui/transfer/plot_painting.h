@@ -8,7 +8,7 @@
 #include "ui/look/colour.h"
 #include "ui/widgets/plot_axis.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // The room that axes take around the plot's area, in logical pixels.
 struct PlotMargins {
@@ -41,4 +41,4 @@ void draw_number(QPainter& painter, QPointF at, int number, bool chosen, const Q
 // The value that is being set, in a corner of the area.
 void draw_read_out(QPainter& painter, const QRectF& area, const QString& text, const QPalette& palette);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

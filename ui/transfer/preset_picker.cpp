@@ -8,7 +8,7 @@
 #include "ui/transfer/panel_scroll.h"
 #include "ui/transfer/preset_thumbnail.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 PresetPicker::PresetPicker(QWidget* parent) : QComboBox(parent) {
   setAccessibleName(tr("Preset"));
@@ -17,8 +17,8 @@ PresetPicker::PresetPicker(QWidget* parent) : QComboBox(parent) {
   setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   setMinimumContentsLength(8);
   setPlaceholderText(tr("Custom"));
-  for (const std::string& name : preset_names()) {
-    auto one = preset(name);
+  for (const std::string& name : renderer::preset_names()) {
+    auto one = renderer::preset(name);
     if (!one) continue;
     presets_.push_back(std::move(*one));
     addItem(QString::fromStdString(presets_.back().name));
@@ -36,14 +36,14 @@ PresetPicker::PresetPicker(QWidget* parent) : QComboBox(parent) {
           [this](int index) { emit picked(presets_[static_cast<std::size_t>(index)]); });
 }
 
-void PresetPicker::set_summary(const SourceSummary& summary) {
+void PresetPicker::set_summary(const engine::SourceSummary& summary) {
   summary_ = summary;
   draw_pictures();
 }
 
-void PresetPicker::show_function(const TransferFunction& function) {
-  const auto same = [&](const TransferFunction& preset) {
-    const TransferFunction own = preset.for_range(summary_.low, summary_.high);
+void PresetPicker::show_function(const renderer::TransferFunction& function) {
+  const auto same = [&](const renderer::TransferFunction& preset) {
+    const renderer::TransferFunction own = preset.for_range(summary_.low, summary_.high);
     return own.source == function.source && own.surface == function.surface;
   };
   const auto found = std::find_if(presets_.begin(), presets_.end(), same);
@@ -72,9 +72,10 @@ void PresetPicker::changeEvent(QEvent* event) {
 
 void PresetPicker::draw_pictures() {
   for (int i = 0; i < count(); ++i) {
-    const TransferFunction own = presets_[static_cast<std::size_t>(i)].for_range(summary_.low, summary_.high);
+    const renderer::TransferFunction own =
+        presets_[static_cast<std::size_t>(i)].for_range(summary_.low, summary_.high);
     setItemIcon(i, QIcon(preset_thumbnail(own, summary_, palette(), devicePixelRatioF())));
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

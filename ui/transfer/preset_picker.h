@@ -7,7 +7,7 @@
 #include "engine/source_summary.h"
 #include "renderer/transfer_function.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class PresetPicker : public QComboBox {
   Q_OBJECT
@@ -15,12 +15,12 @@ class PresetPicker : public QComboBox {
   explicit PresetPicker(QWidget* parent = nullptr);
 
   // Draws the pictures over this histogram.
-  void set_summary(const SourceSummary& summary);
+  void set_summary(const engine::SourceSummary& summary);
   // Shows which preset this is, in the source's units, if it is one.
-  void show_function(const TransferFunction& function);
+  void show_function(const renderer::TransferFunction& function);
 
  signals:
-  void picked(const tidemark::TransferFunction& preset);
+  void picked(const tidemark::renderer::TransferFunction& preset);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -29,8 +29,8 @@ class PresetPicker : public QComboBox {
  private:
   void draw_pictures();
 
-  std::vector<TransferFunction> presets_;
-  SourceSummary summary_;
+  std::vector<renderer::TransferFunction> presets_;
+  engine::SourceSummary summary_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

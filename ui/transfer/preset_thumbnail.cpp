@@ -8,7 +8,7 @@
 #include "ui/transfer/plot_painting.h"
 #include "ui/transfer/primitive_handles.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 struct Shade {
@@ -29,15 +29,15 @@ Shade shade_at(const std::vector<AxisPrimitive>& primitives, std::size_t axis, d
   return {sum, to_qcolor(glm::min(colour, glm::vec3(1.0F)))};
 }
 
-void paint_histogram(QPainter& painter, const QRectF& area, const Extent& shown, const SourceSummary& summary,
-                     const QColor& colour) {
+void paint_histogram(QPainter& painter, const QRectF& area, const Extent& shown,
+                     const engine::SourceSummary& summary, const QColor& colour) {
   if (summary.values.empty() || !(summary.highest > summary.lowest)) return;
   const auto most = static_cast<double>(*std::max_element(summary.values.begin(), summary.values.end()));
   for (double x = area.left(); x < area.right(); x += 1.0) {
     const double value = shown.low + (x - area.left() + 0.5) / area.width() * (shown.high - shown.low);
     const double share = (value - summary.lowest) / (summary.highest - summary.lowest);
     if (share < 0.0 || share >= 1.0) continue;
-    const auto count = summary.values[static_cast<std::size_t>(share * SourceSummary::kBins)];
+    const auto count = summary.values[static_cast<std::size_t>(share * engine::SourceSummary::kBins)];
     const double height = area.height() * std::log1p(static_cast<double>(count)) / std::log1p(most);
     painter.fillRect(QRectF(x, area.bottom() - height, 1.0, height), colour);
   }
@@ -45,7 +45,7 @@ void paint_histogram(QPainter& painter, const QRectF& area, const Extent& shown,
 
 }  // namespace
 
-QPixmap preset_thumbnail(const TransferFunction& function, const SourceSummary& summary,
+QPixmap preset_thumbnail(const renderer::TransferFunction& function, const engine::SourceSummary& summary,
                          const QPalette& palette, double pixel_ratio) {
   QPixmap picture(kThumbnailSize * pixel_ratio);
   picture.setDevicePixelRatio(pixel_ratio);
@@ -81,4 +81,4 @@ QPixmap preset_thumbnail(const TransferFunction& function, const SourceSummary& 
   return picture;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

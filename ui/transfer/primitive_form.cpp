@@ -7,7 +7,7 @@
 #include "ui/transfer/panel_scroll.h"
 #include "ui/transfer/primitive_list.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 PrimitiveForm::PrimitiveForm(PrimitiveKind kind, int axes, QWidget* parent)
     : QWidget(parent), opacity_(new NumberBox(this)), colour_(new QPushButton(this)) {
@@ -23,7 +23,7 @@ PrimitiveForm::PrimitiveForm(PrimitiveKind kind, int axes, QWidget* parent)
     grid->addWidget(editor, axis, 1);
     names_.push_back(name);
     factors_.push_back(editor);
-    connect(editor, &FactorEditor::edited, this, [this, axis](const TransferFactor& factor) {
+    connect(editor, &FactorEditor::edited, this, [this, axis](const renderer::TransferFactor& factor) {
       primitive_.factors[static_cast<std::size_t>(axis)] = factor;
       emit edited(primitive_);
     });
@@ -96,4 +96,4 @@ void PrimitiveForm::take_colour(const glm::vec3& colour) {
   emit edited(primitive_);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -10,7 +10,7 @@
 
 class QColorDialog;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class PrimitiveForm : public QWidget {
   Q_OBJECT
@@ -26,7 +26,7 @@ class PrimitiveForm : public QWidget {
   [[nodiscard]] QPushButton* colour_button() const { return colour_; }
 
  signals:
-  void edited(const tidemark::AxisPrimitive& primitive);
+  void edited(const tidemark::ui::AxisPrimitive& primitive);
 
  private:
   void choose_colour();
@@ -40,4 +40,4 @@ class PrimitiveForm : public QWidget {
   QPointer<QColorDialog> dialog_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
-using Kind = TransferFactor::Kind;
+using Kind = renderer::TransferFactor::Kind;
 
 struct FactorHandle {
   Grip grip;
@@ -14,7 +14,7 @@ struct FactorHandle {
 };
 
 // The ends first: among overlapping handles the first is dragged, and a centre can be dragged elsewhere.
-std::vector<FactorHandle> end_handles(const TransferFactor& factor) {
+std::vector<FactorHandle> end_handles(const renderer::TransferFactor& factor) {
   switch (factor.kind) {
     case Kind::gaussian:
       return {{Grip::below, factor.start - factor.end}, {Grip::above, factor.start + factor.end}};
@@ -26,12 +26,12 @@ std::vector<FactorHandle> end_handles(const TransferFactor& factor) {
   return {};
 }
 
-Grip whole_of(const TransferFactor& factor) {
+Grip whole_of(const renderer::TransferFactor& factor) {
   return factor.kind == Kind::everything ? Grip::none : Grip::whole;
 }
 
 // On a ramp's plateau, as far as it is shown; at a Gaussian's peak.
-double top_of(const TransferFactor& factor, const Extent& shown) {
+double top_of(const renderer::TransferFactor& factor, const Extent& shown) {
   if (factor.kind != Kind::ramp) return middle_of(factor, shown);
   const double side = factor.end > factor.start ? shown.high : shown.low;
   const double ahead = factor.end + 0.06 * std::copysign(shown.high - shown.low, factor.end - factor.start);
@@ -42,7 +42,7 @@ double top_of(const TransferFactor& factor, const Extent& shown) {
 }  // namespace
 
 std::vector<Handle> curve_handles(const AxisPrimitive& primitive, const Extent& x) {
-  const TransferFactor& factor = primitive.factors[0];
+  const renderer::TransferFactor& factor = primitive.factors[0];
   std::vector<Handle> handles;
   for (const FactorHandle& end : end_handles(factor)) {
     handles.push_back({{end.grip, Grip::none, false}, {end.at, primitive.opacity * factor.at(end.at)}});
@@ -57,8 +57,8 @@ std::vector<Handle> curve_handles(const AxisPrimitive& primitive, const Extent& 
 }
 
 std::vector<Handle> plane_handles(const AxisPrimitive& primitive, const Extent& x, const Extent& y) {
-  const TransferFactor& along = primitive.factors[0];
-  const TransferFactor& up = primitive.factors[1];
+  const renderer::TransferFactor& along = primitive.factors[0];
+  const renderer::TransferFactor& up = primitive.factors[1];
   const glm::dvec2 middle{middle_of(along, x), middle_of(up, y)};
   std::vector<Handle> handles;
   for (const FactorHandle& end : end_handles(along)) {
@@ -79,7 +79,7 @@ AxisPrimitive moved(AxisPrimitive primitive, const HandleKind& handle, glm::dvec
   return primitive;
 }
 
-TransferFactor moved(TransferFactor factor, Grip grip, double to, double smallest) {
+renderer::TransferFactor moved(renderer::TransferFactor factor, Grip grip, double to, double smallest) {
   const double length = factor.end - factor.start;
   switch (grip) {
     case Grip::none:
@@ -107,24 +107,24 @@ TransferFactor moved(TransferFactor factor, Grip grip, double to, double smalles
   return factor;
 }
 
-double middle_of(const TransferFactor& factor, const Extent& shown) {
+double middle_of(const renderer::TransferFactor& factor, const Extent& shown) {
   if (factor.kind == Kind::gaussian) return factor.start;
   if (factor.kind == Kind::ramp) return 0.5 * (factor.start + factor.end);
   return 0.5 * (shown.low + shown.high);
 }
 
-Extent reach_of(const TransferFactor& factor, const Extent& shown) {
+Extent reach_of(const renderer::TransferFactor& factor, const Extent& shown) {
   if (factor.kind == Kind::gaussian) return {factor.start - factor.end, factor.start + factor.end};
   if (factor.kind == Kind::everything) return shown;
   return factor.end > factor.start ? Extent{factor.start, std::max(factor.end, shown.high)}
                                    : Extent{std::min(factor.end, shown.low), factor.start};
 }
 
-void include(Extent& extent, const TransferFactor& factor) {
+void include(Extent& extent, const renderer::TransferFactor& factor) {
   if (factor.kind == Kind::everything) return;
   const double other = factor.kind == Kind::ramp ? factor.end : factor.start;
   extent.low = std::min({extent.low, factor.start, other});
   extent.high = std::max({extent.high, factor.start, other});
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -6,7 +6,7 @@
 
 #include "ui/transfer/axis_primitive.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // The part of a factor that a handle moves. `below` and `above` are the two sides of a Gaussian: either sets
 // its width.
@@ -40,15 +40,15 @@ std::vector<Handle> plane_handles(const AxisPrimitive& primitive, const Extent& 
 // The primitive once the handle has been moved to `to`. No width and no ramp is made shorter than
 // `smallest` of its axis.
 AxisPrimitive moved(AxisPrimitive primitive, const HandleKind& handle, glm::dvec2 to, glm::dvec2 smallest);
-TransferFactor moved(TransferFactor factor, Grip grip, double to, double smallest);
+renderer::TransferFactor moved(renderer::TransferFactor factor, Grip grip, double to, double smallest);
 
 // Where the factor's middle is: a Gaussian's centre, a ramp's middle, that of `shown` when everything counts.
-double middle_of(const TransferFactor& factor, const Extent& shown);
+double middle_of(const renderer::TransferFactor& factor, const Extent& shown);
 // From where to where it matters: a Gaussian's width to both sides, a ramp from its start to the end of what
 // is shown.
-Extent reach_of(const TransferFactor& factor, const Extent& shown);
+Extent reach_of(const renderer::TransferFactor& factor, const Extent& shown);
 // Makes the extent hold a Gaussian's centre (of its sides, the one towards the middle is in reach) or a
 // ramp's ends.
-void include(Extent& extent, const TransferFactor& factor);
+void include(Extent& extent, const renderer::TransferFactor& factor);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -6,7 +6,7 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kSwatch = 16;
@@ -47,8 +47,9 @@ PrimitiveList::PrimitiveList(const QString& when_empty, QWidget* parent)
     if (index >= 0) emit chosen(index);
   });
   connect(add_gaussian_, &QPushButton::clicked, this,
-          [this] { emit add_asked(TransferFactor::Kind::gaussian); });
-  connect(add_ramp_, &QPushButton::clicked, this, [this] { emit add_asked(TransferFactor::Kind::ramp); });
+          [this] { emit add_asked(renderer::TransferFactor::Kind::gaussian); });
+  connect(add_ramp_, &QPushButton::clicked, this,
+          [this] { emit add_asked(renderer::TransferFactor::Kind::ramp); });
   connect(duplicate_, &QPushButton::clicked, this, &PrimitiveList::duplicate_asked);
   connect(remove_, &QPushButton::clicked, this, &PrimitiveList::delete_asked);
 }
@@ -68,7 +69,7 @@ void PrimitiveList::set_primitives(const std::vector<AxisPrimitive>& primitives,
     item.setIcon(colour_swatch(to_qcolor(primitive.colour), *this));
   }
   list_->setCurrentRow(chosen);
-  const bool room = primitives.size() < TransferFunction::kMostPrimitives;
+  const bool room = primitives.size() < renderer::TransferFunction::kMostPrimitives;
   for (QPushButton* adds : {add_gaussian_, add_ramp_}) adds->setEnabled(room);
   duplicate_->setEnabled(room && count > 0);
   remove_->setEnabled(count > 0);
@@ -108,4 +109,4 @@ QIcon colour_swatch(const QColor& colour, const QWidget& on) {
   return icon;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

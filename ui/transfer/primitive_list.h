@@ -7,7 +7,7 @@
 
 #include "ui/transfer/axis_primitive.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class PrimitiveList : public QWidget {
   Q_OBJECT
@@ -22,7 +22,7 @@ class PrimitiveList : public QWidget {
 
  signals:
   void chosen(int index);
-  void add_asked(tidemark::TransferFactor::Kind kind);
+  void add_asked(tidemark::renderer::TransferFactor::Kind kind);
   void duplicate_asked();
   void delete_asked();
 
@@ -41,4 +41,4 @@ class PrimitiveList : public QWidget {
 // A piece of colour with a border, so that any colour is seen on any background.
 QIcon colour_swatch(const QColor& colour, const QWidget& on);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -6,7 +6,7 @@
 
 #include "ui/transfer/joint_histogram_plot.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 PrimitivePage::PrimitivePage(PrimitiveKind kind, int axes, const QString& when_empty, QWidget* parent)
     : QWidget(parent),
@@ -35,7 +35,7 @@ PrimitivePage::PrimitivePage(PrimitiveKind kind, int axes, const QString& when_e
   connect(switch_group_, &QButtonGroup::idClicked, plots_, &QStackedWidget::setCurrentIndex);
   connect(list_, &PrimitiveList::chosen, this, [this](int index) { emit edited(primitives_, index); });
   connect(list_, &PrimitiveList::add_asked, this,
-          [this](TransferFactor::Kind shape) { add(new_primitive(shape)); });
+          [this](renderer::TransferFactor::Kind shape) { add(new_primitive(shape)); });
   connect(list_, &PrimitiveList::duplicate_asked, this, [this] {
     if (chosen_ >= 0) add(primitives_[static_cast<std::size_t>(chosen_)]);
   });
@@ -97,7 +97,7 @@ void PrimitivePage::replace(int index, const AxisPrimitive& primitive) {
 }
 
 void PrimitivePage::add(const AxisPrimitive& primitive) {
-  if (primitives_.size() >= TransferFunction::kMostPrimitives) return;
+  if (primitives_.size() >= renderer::TransferFunction::kMostPrimitives) return;
   std::vector<AxisPrimitive> next = primitives_;
   next.push_back(primitive);
   emit edited(next, static_cast<int>(next.size()) - 1);
@@ -111,12 +111,12 @@ void PrimitivePage::remove_chosen() {
 }
 
 // In the middle of the visible range.
-AxisPrimitive PrimitivePage::new_primitive(TransferFactor::Kind kind) const {
+AxisPrimitive PrimitivePage::new_primitive(renderer::TransferFactor::Kind kind) const {
   const TransferPlot& plot = *shown_plot();
   AxisPrimitive primitive;
   primitive.factors[0] = middle_factor(kind, {{}, {}, plot.x_axis().low, plot.x_axis().high, {}});
   const bool in_plane = qobject_cast<const JointHistogramPlot*>(&plot) != nullptr;
-  if (in_plane && kind == TransferFactor::Kind::gaussian) {
+  if (in_plane && kind == renderer::TransferFactor::Kind::gaussian) {
     primitive.factors[1] = middle_factor(kind, {{}, {}, plot.y_axis().low, plot.y_axis().high, {}});
   }
   primitive.opacity = kind_ == PrimitiveKind::source ? 0.2 : 1.0;
@@ -124,4 +124,4 @@ AxisPrimitive PrimitivePage::new_primitive(TransferFactor::Kind kind) const {
   return primitive;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -10,7 +10,7 @@
 #include "ui/transfer/primitive_list.h"
 #include "ui/transfer/transfer_plot.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class PrimitivePage : public QWidget {
   Q_OBJECT
@@ -29,13 +29,13 @@ class PrimitivePage : public QWidget {
   [[nodiscard]] PrimitiveForm* form() const { return form_; }
 
  signals:
-  void edited(const std::vector<tidemark::AxisPrimitive>& primitives, int chosen);
+  void edited(const std::vector<tidemark::ui::AxisPrimitive>& primitives, int chosen);
 
  private:
   void replace(int index, const AxisPrimitive& primitive);
   void add(const AxisPrimitive& primitive);
   void remove_chosen();
-  [[nodiscard]] AxisPrimitive new_primitive(TransferFactor::Kind kind) const;
+  [[nodiscard]] AxisPrimitive new_primitive(renderer::TransferFactor::Kind kind) const;
 
   PrimitiveKind kind_;
   std::vector<PrimitiveAxis> axes_;
@@ -50,4 +50,4 @@ class PrimitivePage : public QWidget {
   PrimitiveForm* form_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

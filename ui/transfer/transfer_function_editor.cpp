@@ -13,11 +13,11 @@
 #include "ui/transfer/preset_picker.h"
 #include "ui/transfer/primitive_page.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 // Equality of what the editor shows; it does not depend on the camera.
-bool look_the_same(const DisplaySettings& a, const DisplaySettings& b) {
+bool look_the_same(const engine::DisplaySettings& a, const engine::DisplaySettings& b) {
   return a.transfer == b.transfer && a.chosen_primitive == b.chosen_primitive && a.region == b.region &&
          a.clip_on == b.clip_on && a.show_source == b.show_source;
 }
@@ -81,10 +81,10 @@ QWidget* TransferFunctionEditor::make_volume_tab() {
   volume_page_->add_plot(tr("Value × gradient"), joint_);
   column->addWidget(volume_page_, 1);
   region_ = new QComboBox(tab);
-  region_->addItem(tr("Everywhere"), static_cast<int>(Region::everywhere));
-  region_->addItem(tr("Only inside"), static_cast<int>(Region::inside));
-  region_->addItem(tr("Only outside"), static_cast<int>(Region::outside));
-  region_->addItem(tr("Everywhere, the inside tinted"), static_cast<int>(Region::tinted));
+  region_->addItem(tr("Everywhere"), static_cast<int>(renderer::Region::everywhere));
+  region_->addItem(tr("Only inside"), static_cast<int>(renderer::Region::inside));
+  region_->addItem(tr("Only outside"), static_cast<int>(renderer::Region::outside));
+  region_->addItem(tr("Everywhere, the inside tinted"), static_cast<int>(renderer::Region::tinted));
   region_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);  // its texts are long
   region_->setMinimumContentsLength(8);
   guard_from_wheel(region_);
@@ -95,11 +95,11 @@ QWidget* TransferFunctionEditor::make_volume_tab() {
   column->addWidget(region_name);
   column->addWidget(region_);
   connect(show_source_, &QCheckBox::toggled, this, [this](bool on) {
-    if (display_) display_->change([&](DisplaySettings& s) { s.show_source = on; });
+    if (display_) display_->change([&](engine::DisplaySettings& s) { s.show_source = on; });
   });
   connect(region_, &QComboBox::activated, this, [this] {
-    const auto region = static_cast<Region>(region_->currentData().toInt());
-    if (display_) display_->change([&](DisplaySettings& s) { s.region = region; });
+    const auto region = static_cast<renderer::Region>(region_->currentData().toInt());
+    if (display_) display_->change([&](engine::DisplaySettings& s) { s.region = region; });
   });
   connect(volume_page_, &PrimitivePage::edited, this,
           [this](const auto& primitives, int chosen) { edit(PrimitiveKind::source, primitives, chosen); });
@@ -121,13 +121,13 @@ QWidget* TransferFunctionEditor::make_surface_tab() {
   return new PanelScroll(tab);
 }
 
-void TransferFunctionEditor::set_display(Display* display, const SourceSummary* summary,
+void TransferFunctionEditor::set_display(engine::Display* display, const engine::SourceSummary* summary,
                                          const QString& unit) {
   // A colour that is just being chosen goes back to the case that it belongs to.
   for (PrimitivePage* page : {volume_page_, surface_page_}) page->form()->set_primitive(std::nullopt);
   if (display_) display_->disconnect(this);
   display_ = summary ? display : nullptr;
-  summary_ = display_ ? *summary : SourceSummary();
+  summary_ = display_ ? *summary : engine::SourceSummary();
   unit_ = unit;
   surface_chosen_ = 0;
   shown_.reset();
@@ -140,7 +140,7 @@ void TransferFunctionEditor::set_display(Display* display, const SourceSummary* 
     return say(tr("Open a study to choose how its volume and its surface show."));
   }
   say({});
-  connect(display_, &Display::changed, this, &TransferFunctionEditor::refresh);
+  connect(display_, &engine::Display::changed, this, &TransferFunctionEditor::refresh);
   connect(display_, &QObject::destroyed, this, [this] { set_display(nullptr, nullptr); });
   refresh();
 }
@@ -153,7 +153,7 @@ void TransferFunctionEditor::showEvent(QShowEvent* event) {
 void TransferFunctionEditor::show_volume() {
   presets_->set_summary(summary_);
   histogram_->set_counts(summary_.values, {summary_.lowest, summary_.highest});
-  joint_->set_counts(summary_.value_gradient, SourceSummary::kBins, {summary_.low, summary_.high},
+  joint_->set_counts(summary_.value_gradient, engine::SourceSummary::kBins, {summary_.low, summary_.high},
                      {0.0, summary_.steepest});
 }
 
@@ -175,14 +175,14 @@ void TransferFunctionEditor::refresh_axes() {
 
 void TransferFunctionEditor::refresh() {
   if (!display_ || !isVisible()) return;
-  const DisplaySettings& now = display_->settings();
+  const engine::DisplaySettings& now = display_->settings();
   if (shown_ && look_the_same(*shown_, now)) return;
   const bool is_new = std::exchange(new_volume_, false);
   if (is_new) show_volume();
   const bool new_axes = !shown_ || now.clip_on != shown_->clip_on;
   shown_ = now;
   if (new_axes) refresh_axes();
-  const TransferFunction function = now.transfer.for_range(summary_.low, summary_.high);
+  const renderer::TransferFunction function = now.transfer.for_range(summary_.low, summary_.high);
   volume_page_->set_primitives(primitives_of(function, PrimitiveKind::source), now.chosen_primitive);
   surface_page_->set_primitives(primitives_of(function, PrimitiveKind::surface), surface_chosen_);
   presets_->show_function(function);
@@ -202,8 +202,8 @@ void TransferFunctionEditor::edit(PrimitiveKind kind, const std::vector<AxisPrim
     surface_chosen_ = chosen;
     shown_.reset();
   }
-  display_->change([&](DisplaySettings& s) {
-    TransferFunction next = s.transfer.for_range(summary_.low, summary_.high);
+  display_->change([&](engine::DisplaySettings& s) {
+    renderer::TransferFunction next = s.transfer.for_range(summary_.low, summary_.high);
     if (primitives_of(next, kind) != primitives) {
       set_primitives(next, kind, primitives);
       s.transfer = next;
@@ -213,11 +213,11 @@ void TransferFunctionEditor::edit(PrimitiveKind kind, const std::vector<AxisPrim
   refresh();
 }
 
-void TransferFunctionEditor::replace(const TransferFunction& function) {
+void TransferFunctionEditor::replace(const renderer::TransferFunction& function) {
   if (!display_) return;
   say({});
   surface_chosen_ = 0;
-  display_->change([&](DisplaySettings& s) {
+  display_->change([&](engine::DisplaySettings& s) {
     s.transfer = function;
     s.chosen_primitive = 0;
     // A user who chooses a function wants to see its effect.
@@ -231,14 +231,14 @@ void TransferFunctionEditor::say(const QString& message) {
 }
 
 void TransferFunctionEditor::load(const std::filesystem::path& file) {
-  const auto function = TransferFunction::load(file);
+  const auto function = renderer::TransferFunction::load(file);
   if (!function) return say(QString::fromStdString(function.error().message));
   replace(*function);
 }
 
 void TransferFunctionEditor::save(const std::filesystem::path& file) {
   if (!display_) return;
-  TransferFunction function = display_->settings().transfer;
+  renderer::TransferFunction function = display_->settings().transfer;
   function.name = file.stem().string();
   const Status written = write_file(file, function.to_json());
   say(written ? QString() : QString::fromStdString(written.error().message));
@@ -258,4 +258,4 @@ void TransferFunctionEditor::ask_save() {
   save(file.toStdString());
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -13,7 +13,7 @@
 #include "engine/display.h"
 #include "engine/source_summary.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class HistogramPlot;
 class JointHistogramPlot;
@@ -31,7 +31,7 @@ class TransferFunctionEditor : public QWidget {
 
   // Sets the display to edit; null: none. `unit` is that of the volume's values ("HU"), empty when it has
   // none.
-  void set_display(Display* display, const SourceSummary* summary, const QString& unit = {});
+  void set_display(engine::Display* display, const engine::SourceSummary* summary, const QString& unit = {});
 
   // Loads a file in the presets' format. An error is shown, and changes nothing.
   void load(const std::filesystem::path& file);
@@ -54,17 +54,17 @@ class TransferFunctionEditor : public QWidget {
   void refresh();
   void show_volume();
   void refresh_axes();
-  void replace(const TransferFunction& function);
+  void replace(const renderer::TransferFunction& function);
   void edit(PrimitiveKind kind, const std::vector<AxisPrimitive>& primitives, int chosen);
   void say(const QString& message);
   void ask_load();
   void ask_save();
 
-  QPointer<Display> display_;
-  SourceSummary summary_;
+  QPointer<engine::Display> display_;
+  engine::SourceSummary summary_;
   QString unit_;
-  std::optional<DisplaySettings> shown_;  // the settings that the widgets show
-  bool new_volume_ = true;                // of which nothing is drawn yet
+  std::optional<engine::DisplaySettings> shown_;  // the settings that the widgets show
+  bool new_volume_ = true;                        // of which nothing is drawn yet
   int surface_chosen_ = 0;
 
   QWidget* top_row_;
@@ -81,4 +81,4 @@ class TransferFunctionEditor : public QWidget {
   PrimitivePage* surface_page_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -6,7 +6,7 @@
 #include "ui/transfer/plot_painting.h"
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 TransferPlot::TransferPlot(QWidget* parent) : QWidget(parent) {
   setMouseTracking(true);
@@ -97,8 +97,8 @@ QString TransferPlot::handle_text(const HandleKind& handle) const {
     return unit.isEmpty() ? text : text + QChar(0x00A0) + unit;
   };
   QStringList parts;
-  const auto add = [&](Grip grip, const TransferFactor& factor, const PrimitiveAxis& axis) {
-    const bool ramp = factor.kind == TransferFactor::Kind::ramp;
+  const auto add = [&](Grip grip, const renderer::TransferFactor& factor, const PrimitiveAxis& axis) {
+    const bool ramp = factor.kind == renderer::TransferFactor::Kind::ramp;
     const double middle = ramp ? 0.5 * (factor.start + factor.end) : factor.start;
     if (grip == Grip::whole) parts << (ramp ? tr("Middle") : tr("Centre")) + ' ' + number(middle, axis.unit);
     if (grip == Grip::start) parts << tr("Start") + ' ' + number(factor.start, axis.unit);
@@ -155,4 +155,4 @@ void TransferPlot::resizeEvent(QResizeEvent* /*event*/) {
   fit();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -7,7 +7,7 @@
 #include "ui/transfer/primitive_handles.h"
 #include "ui/widgets/plot_axis.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Has the gestures; derived classes draw primitives and place their handles. A drag changes the primitive
 // that was shown last, so that changes from elsewhere during a drag stay.
@@ -35,7 +35,7 @@ class TransferPlot : public QWidget {
 
  signals:
   void chosen(int index);
-  void edited(int index, const tidemark::AxisPrimitive& primitive);
+  void edited(int index, const tidemark::ui::AxisPrimitive& primitive);
   void delete_asked();
 
  protected:
@@ -109,4 +109,4 @@ class TransferPlot : public QWidget {
   std::optional<Extent> zoomed_;  // of the first axis
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

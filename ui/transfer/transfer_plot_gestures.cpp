@@ -6,7 +6,7 @@
 
 #include "ui/transfer/transfer_plot.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr double kHandleReach = 9.0;  // logical pixels around a handle's middle
@@ -258,4 +258,4 @@ bool TransferPlot::focusNextPrevChild(bool next) {
   return QWidget::focusNextPrevChild(next);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

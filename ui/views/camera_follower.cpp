@@ -6,7 +6,7 @@
 
 #include "renderer/sheet.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kGlide = 350;  // ms
@@ -15,8 +15,9 @@ constexpr double kRoom = 1.3;
 // A seed stays in the context of its volume.
 constexpr double kNearest = 4.0;
 
-Camera between(const Camera& from, const Camera& to, double share, glm::dvec3 middle) {
-  Camera camera = to;
+renderer::Camera between(const renderer::Camera& from, const renderer::Camera& to, double share,
+                         glm::dvec3 middle) {
+  renderer::Camera camera = to;
   camera.zoom = from.zoom * std::pow(to.zoom / from.zoom, share);
   camera.focus_mm = glm::mix(from.focus_mm.value_or(middle), to.focus_mm.value_or(middle), share);
   return camera;
@@ -24,19 +25,19 @@ Camera between(const Camera& from, const Camera& to, double share, glm::dvec3 mi
 
 }  // namespace
 
-CameraFollower::CameraFollower(CaseProxy& proxy, std::function<double()> aspect, QObject* parent)
+CameraFollower::CameraFollower(engine::CaseProxy& proxy, std::function<double()> aspect, QObject* parent)
     : QObject(parent), proxy_(proxy), aspect_(std::move(aspect)) {
   glide_.setDuration(kGlide);
   glide_.setEasingCurve(QEasingCurve::InOutQuad);
   glide_.setStartValue(0.0);
   glide_.setEndValue(1.0);
-  connect(&proxy, &CaseProxy::state_changed, this, &CameraFollower::follow);
+  connect(&proxy, &engine::CaseProxy::state_changed, this, &CameraFollower::follow);
 }
 
 void CameraFollower::fit() {
   if (aspect_() <= 0.0) return;
   glide_.stop();
-  Camera next = camera();
+  renderer::Camera next = camera();
   next.zoom = 1.0;
   next.focus_mm.reset();
   const bool shown = proxy_.state().begun && proxy_.display().settings().surface;
@@ -44,7 +45,7 @@ void CameraFollower::fit() {
 }
 
 void CameraFollower::follow() {
-  const CaseState& state = proxy_.state();
+  const engine::CaseState& state = proxy_.state();
   const double aspect = aspect_();
   if (aspect <= 0.0 || !state.begun || !state.phi) return;
   const bool ends = state.converged && !converged_;
@@ -55,18 +56,18 @@ void CameraFollower::follow() {
   if (ends) return glide_to(on_surface(camera(), 1.0));
   const bool first = !own_;
   const bool moves = glide_.state() == QAbstractAnimation::Running;
-  const bool sees = camera().sees(box_around(*seen_), proxy_.volume().geometry, aspect);
+  const bool sees = camera().sees(renderer::box_around(*seen_), proxy_.volume().geometry, aspect);
   if (!first && (moves || sees)) return;
-  Camera next = on_surface(camera(), kRoom);
+  renderer::Camera next = on_surface(camera(), kRoom);
   next.zoom = std::min(next.zoom, kNearest);
   first ? set(next) : glide_to(next);
 }
 
 // `room`: times the surface's own extent.
-Camera CameraFollower::on_surface(const Camera& from, double room) const {
+renderer::Camera CameraFollower::on_surface(const renderer::Camera& from, double room) const {
   const auto& phi = proxy_.state().phi;
   if (!phi || phi->resident_pages() == 0) return from;
-  Camera next = from.on(box_around(*phi), proxy_.volume().geometry, aspect_());
+  renderer::Camera next = from.on(renderer::box_around(*phi), proxy_.volume().geometry, aspect_());
   next.zoom = std::clamp(next.zoom / room, kLeastZoom, kMostZoom);
   return next;
 }
@@ -76,15 +77,15 @@ bool CameraFollower::is_own() const {
   return as_at_first || camera() == own_;
 }
 
-void CameraFollower::set(const Camera& camera) {
+void CameraFollower::set(const renderer::Camera& camera) {
   own_ = camera;
-  proxy_.display().change([&](DisplaySettings& settings) { settings.camera = camera; });
+  proxy_.display().change([&](engine::DisplaySettings& settings) { settings.camera = camera; });
 }
 
-void CameraFollower::glide_to(const Camera& to) {
+void CameraFollower::glide_to(const renderer::Camera& to) {
   glide_.stop();
   glide_.disconnect(this);
-  const glm::dvec3 middle = middle_of(proxy_.volume().geometry);
+  const glm::dvec3 middle = renderer::middle_of(proxy_.volume().geometry);
   connect(&glide_, &QVariantAnimation::valueChanged, this,
           [this, from = camera(), to, middle](const QVariant& share) {
             if (!is_own()) return glide_.stop();
@@ -93,4 +94,4 @@ void CameraFollower::glide_to(const Camera& to) {
   glide_.start();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

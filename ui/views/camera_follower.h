@@ -10,7 +10,7 @@
 
 #include "engine/case_proxy.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 inline constexpr double kLeastZoom = 0.2;
 inline constexpr double kMostZoom = 40.0;
@@ -21,7 +21,7 @@ class CameraFollower : public QObject {
   Q_OBJECT
  public:
   // `aspect`: of the view's picture; 0 while nobody sees it.
-  CameraFollower(CaseProxy& proxy, std::function<double()> aspect, QObject* parent);
+  CameraFollower(engine::CaseProxy& proxy, std::function<double()> aspect, QObject* parent);
 
   // At once: the surface fills the picture, or the volume where no surface is shown.
   void fit();
@@ -29,18 +29,18 @@ class CameraFollower : public QObject {
   void follow();
 
  private:
-  [[nodiscard]] const Camera& camera() const { return proxy_.display().settings().camera; }
+  [[nodiscard]] const renderer::Camera& camera() const { return proxy_.display().settings().camera; }
   [[nodiscard]] bool is_own() const;
-  [[nodiscard]] Camera on_surface(const Camera& from, double room) const;
-  void set(const Camera& camera);
-  void glide_to(const Camera& camera);
+  [[nodiscard]] renderer::Camera on_surface(const renderer::Camera& from, double room) const;
+  void set(const renderer::Camera& camera);
+  void glide_to(const renderer::Camera& camera);
 
-  CaseProxy& proxy_;
+  engine::CaseProxy& proxy_;
   std::function<double()> aspect_;
-  std::shared_ptr<const Field> seen_;
+  std::shared_ptr<const solver::Field> seen_;
   bool converged_ = false;
-  std::optional<Camera> own_;  // as it was left here
+  std::optional<renderer::Camera> own_;  // as it was left here
   QVariantAnimation glide_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

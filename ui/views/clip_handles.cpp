@@ -6,7 +6,7 @@
 
 #include "ui/views/overlay.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr double kGripRadius = 7.0;  // as drawn, logical pixels
@@ -16,12 +16,12 @@ const QColor kColour(255, 214, 90);
 
 // Where the grips are: the middle of the cut, and the tip of an arrow along the normal that is never too
 // short to be dragged.
-glm::dvec3 middle_of_cut(const ClipPlane& plane, const Geometry& geometry) {
+glm::dvec3 middle_of_cut(const renderer::ClipPlane& plane, const Geometry& geometry) {
   const auto cut = cut_of_box(geometry, plane);
   glm::dvec3 middle(0.0);
   for (const glm::dvec3& point : cut) middle += point / static_cast<double>(cut.size());
   if (!cut.empty()) return middle;
-  const glm::dvec3 centre = middle_of(geometry);
+  const glm::dvec3 centre = renderer::middle_of(geometry);
   return centre + plane.normal * (plane.offset_mm - glm::dot(centre, plane.normal));
 }
 
@@ -43,12 +43,13 @@ class MoveDrag : public Drag {
   }
   void move(const Pointer& pointer) override {
     const double way_mm = QPointF::dotProduct(pointer.position - from_, mm_per_way_);
-    display().change([&](DisplaySettings& settings) { settings.clip.offset_mm = plane_.offset_mm + way_mm; });
+    display().change(
+        [&](engine::DisplaySettings& settings) { settings.clip.offset_mm = plane_.offset_mm + way_mm; });
   }
 
  private:
   QPointF from_;
-  ClipPlane plane_;
+  renderer::ClipPlane plane_;
   QPointF mm_per_way_;
 };
 
@@ -70,7 +71,7 @@ class TiltDrag : public Drag {
     const glm::dvec3 tip = plane_.normal * length_mm + right_ * way.x() + down_ * way.y();
     if (glm::length(tip) < 1e-6) return;
     const glm::dvec3 normal = glm::normalize(tip);
-    display().change([&](DisplaySettings& settings) {
+    display().change([&](engine::DisplaySettings& settings) {
       settings.clip.normal = normal;
       settings.clip.offset_mm = glm::dot(pivot_mm_, normal);
     });
@@ -78,7 +79,7 @@ class TiltDrag : public Drag {
 
  private:
   QPointF from_;
-  ClipPlane plane_;
+  renderer::ClipPlane plane_;
   glm::dvec3 into_;
   glm::dvec3 right_;  // a pixel to the right and one down, in mm
   glm::dvec3 down_;
@@ -98,7 +99,8 @@ void paint_grip(QPainter& painter, QPointF at, bool hot, bool round) {
 
 }  // namespace
 
-ClipHandles::ClipHandles(const ClipPlane& plane, const VolumeScreen& screen, const Geometry& geometry) {
+ClipHandles::ClipHandles(const renderer::ClipPlane& plane, const VolumeScreen& screen,
+                         const Geometry& geometry) {
   for (const glm::dvec3& point : cut_of_box(geometry, plane)) outline_ << screen.position_of(point);
   if (!outline_.isEmpty()) outline_ << outline_.first();
   const glm::dvec3 middle = middle_of_cut(plane, geometry);
@@ -141,4 +143,4 @@ std::unique_ptr<Drag> clip_drag(DragView view, const Pointer& pressed, ClipHandl
   return std::make_unique<TiltDrag>(std::move(view), pressed, screen);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -9,11 +9,11 @@
 #include "ui/views/drag.h"
 #include "ui/views/view_geometry.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class ClipHandles {
  public:
-  ClipHandles(const ClipPlane& plane, const VolumeScreen& screen, const Geometry& geometry);
+  ClipHandles(const renderer::ClipPlane& plane, const VolumeScreen& screen, const Geometry& geometry);
 
   enum class Grip { move, tilt };
   [[nodiscard]] std::optional<Grip> grip_at(QPointF position) const;
@@ -33,4 +33,4 @@ class ClipHandles {
 std::unique_ptr<Drag> clip_drag(DragView view, const Pointer& pressed, ClipHandles::Grip grip,
                                 const VolumeScreen& screen);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

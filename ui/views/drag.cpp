@@ -7,7 +7,7 @@
 #include "ui/views/mouse_scheme.h"
 #include "ui/views/probe_drags.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 // Right and left: wider and narrower; down and up: the centre to higher and lower values, darker and
@@ -16,7 +16,7 @@ class WindowDrag : public Drag {
  public:
   WindowDrag(DragView view, const Pointer& pressed)
       : Drag(std::move(view)), from_(pressed.position), window_(display().settings().window) {
-    const SourceSummary& summary = proxy().summary();
+    const engine::SourceSummary& summary = proxy().summary();
     per_pixel_ = std::max<double>(summary.high - summary.low, 1e-6) / 400.0;
   }
 
@@ -25,7 +25,7 @@ class WindowDrag : public Drag {
     WindowLevel window = window_;
     window.width = std::max(window_.width + way.x() * per_pixel_, per_pixel_);
     window.centre = window_.centre + way.y() * per_pixel_;
-    display().change([&](DisplaySettings& settings) { settings.window = window; });
+    display().change([&](engine::DisplaySettings& settings) { settings.window = window; });
   }
 
  private:
@@ -40,7 +40,7 @@ class CrosshairDrag : public Drag {
 
   void move(const Pointer& pointer) override {
     if (!pointer.patient_mm) return;
-    display().change([&](DisplaySettings& settings) { settings.cursor_mm = *pointer.patient_mm; });
+    display().change([&](engine::DisplaySettings& settings) { settings.cursor_mm = *pointer.patient_mm; });
   }
 };
 
@@ -50,8 +50,8 @@ std::unique_ptr<Drag> window_drag(DragView view, const Pointer& pressed) {
   return std::make_unique<WindowDrag>(std::move(view), pressed);
 }
 
-std::unique_ptr<Drag> tool_drag(Tool tool, DragView view, const Pointer& pressed) {
-  if (tool == Tool::window) {
+std::unique_ptr<Drag> tool_drag(engine::Tool tool, DragView view, const Pointer& pressed) {
+  if (tool == engine::Tool::window) {
     const bool moves = mouse_scheme() == MouseScheme::itk_snap && pressed.patient_mm;
     return moves ? std::make_unique<CrosshairDrag>(std::move(view), pressed)
                  : window_drag(std::move(view), pressed);
@@ -59,26 +59,29 @@ std::unique_ptr<Drag> tool_drag(Tool tool, DragView view, const Pointer& pressed
   if (!pressed.patient_mm) return nullptr;
   const bool other_button = pressed.button == Qt::RightButton;
   switch (tool) {
-    case Tool::window:
+    case engine::Tool::window:
       break;
-    case Tool::crosshair:
+    case engine::Tool::crosshair:
       return std::make_unique<CrosshairDrag>(std::move(view), pressed);
-    case Tool::probe_speed:
+    case engine::Tool::probe_speed:
       return std::make_unique<SpeedProbeDrag>(std::move(view), pressed);
-    case Tool::probe_transfer:
+    case engine::Tool::probe_transfer:
       return std::make_unique<TransferProbeDrag>(std::move(view), pressed);
-    case Tool::seed:
-      return std::make_unique<SphereDrag>(std::move(view), pressed, other_button ? Brush::erase : Brush::add);
-    case Tool::paint:
-      return std::make_unique<StrokeDrag>(std::move(view), pressed, other_button ? Brush::erase : Brush::add);
-    case Tool::erase:
-      return std::make_unique<StrokeDrag>(std::move(view), pressed, other_button ? Brush::add : Brush::erase);
-    case Tool::measure_distance:
+    case engine::Tool::seed:
+      return std::make_unique<SphereDrag>(std::move(view), pressed,
+                                          other_button ? solver::Brush::erase : solver::Brush::add);
+    case engine::Tool::paint:
+      return std::make_unique<StrokeDrag>(std::move(view), pressed,
+                                          other_button ? solver::Brush::erase : solver::Brush::add);
+    case engine::Tool::erase:
+      return std::make_unique<StrokeDrag>(std::move(view), pressed,
+                                          other_button ? solver::Brush::add : solver::Brush::erase);
+    case engine::Tool::measure_distance:
       return std::make_unique<DistanceDrag>(std::move(view), pressed);
-    case Tool::measure_angle:
+    case engine::Tool::measure_angle:
       return std::make_unique<AngleDrag>(std::move(view), pressed);
   }
   return nullptr;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -11,7 +11,7 @@
 
 #include "engine/case_proxy.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Where the mouse is.
 struct Pointer {
@@ -23,7 +23,7 @@ struct Pointer {
 
 // A view as drags see it.
 struct DragView {
-  CaseProxy& proxy;
+  engine::CaseProxy& proxy;
   QSizeF size;
   double mm_per_pixel = 1.0;
   std::function<QPointF(glm::dvec3)> position_of;  // of a point of the patient
@@ -43,9 +43,9 @@ class Drag {
   [[nodiscard]] virtual QString text() const { return {}; }  // beside the mouse: its result so far
 
  protected:
-  [[nodiscard]] CaseProxy& proxy() const { return view_.proxy; }
+  [[nodiscard]] engine::CaseProxy& proxy() const { return view_.proxy; }
   [[nodiscard]] const DragView& view() const { return view_; }
-  [[nodiscard]] Display& display() const { return view_.proxy.display(); }
+  [[nodiscard]] engine::Display& display() const { return view_.proxy.display(); }
 
  private:
   DragView view_;
@@ -53,7 +53,7 @@ class Drag {
 
 // The gesture of a button in any view (docs/user-interface.md). None where there is nothing to do, as for a
 // tool that needs a point of the patient and has none.
-std::unique_ptr<Drag> tool_drag(Tool tool, DragView view, const Pointer& pressed);
+std::unique_ptr<Drag> tool_drag(engine::Tool tool, DragView view, const Pointer& pressed);
 std::unique_ptr<Drag> window_drag(DragView view, const Pointer& pressed);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

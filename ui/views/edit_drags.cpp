@@ -5,9 +5,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace tidemark {
+namespace tidemark::ui {
 
-SphereDrag::SphereDrag(DragView view, const Pointer& pressed, Brush brush)
+SphereDrag::SphereDrag(DragView view, const Pointer& pressed, solver::Brush brush)
     : Drag(std::move(view)),
       brush_(brush),
       centre_mm_(*pressed.patient_mm),
@@ -20,7 +20,7 @@ SphereDrag::~SphereDrag() {
 }
 
 void SphereDrag::show() {
-  display().set_drawn_sphere(DrawnSphere{{centre_mm_, radius_mm_}, brush_ == Brush::erase});
+  display().set_drawn_sphere(engine::DrawnSphere{{centre_mm_, radius_mm_}, brush_ == solver::Brush::erase});
 }
 
 void SphereDrag::move(const Pointer& pointer) {
@@ -32,17 +32,17 @@ void SphereDrag::move(const Pointer& pointer) {
 }
 
 void SphereDrag::release() {
-  proxy().paint({centre_mm_, radius_mm_}, brush_, CaseProxy::new_gesture());
+  proxy().paint({centre_mm_, radius_mm_}, brush_, engine::CaseProxy::new_gesture());
 }
 
 QString SphereDrag::text() const {
   return QCoreApplication::translate("SphereDrag", "radius %1 mm").arg(radius_mm_, 0, 'f', 1);
 }
 
-StrokeDrag::StrokeDrag(DragView view, const Pointer& pressed, Brush brush)
+StrokeDrag::StrokeDrag(DragView view, const Pointer& pressed, solver::Brush brush)
     : Drag(std::move(view)),
       brush_(brush),
-      gesture_(CaseProxy::new_gesture()),
+      gesture_(engine::CaseProxy::new_gesture()),
       radius_mm_(display().settings().brush_mm),
       last_mm_(*pressed.patient_mm) {
   dab(last_mm_);
@@ -64,4 +64,4 @@ void StrokeDrag::move(const Pointer& pointer) {
   if (strides > 0) last_mm_ = *pointer.patient_mm;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -3,12 +3,12 @@
 
 #include "ui/views/drag.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // From the centre outwards, seen in all views; painted at the release.
 class SphereDrag : public Drag {
  public:
-  SphereDrag(DragView view, const Pointer& pressed, Brush brush);
+  SphereDrag(DragView view, const Pointer& pressed, solver::Brush brush);
   ~SphereDrag() override;
   void move(const Pointer& pointer) override;
   void release() override;
@@ -17,7 +17,7 @@ class SphereDrag : public Drag {
  private:
   void show();
 
-  Brush brush_;
+  solver::Brush brush_;
   glm::dvec3 centre_mm_;
   double radius_mm_;
 };
@@ -25,16 +25,16 @@ class SphereDrag : public Drag {
 // A brush along the way of the mouse: one stroke is one entry of the history.
 class StrokeDrag : public Drag {
  public:
-  StrokeDrag(DragView view, const Pointer& pressed, Brush brush);
+  StrokeDrag(DragView view, const Pointer& pressed, solver::Brush brush);
   void move(const Pointer& pointer) override;
 
  private:
   void dab(glm::dvec3 at_mm);
 
-  Brush brush_;
+  solver::Brush brush_;
   std::uint64_t gesture_;
   double radius_mm_;
   glm::dvec3 last_mm_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

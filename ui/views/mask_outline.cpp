@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 // How much of a point is inside: 0 to 1, between the middles of voxels by interpolation.
@@ -43,7 +43,8 @@ struct Lattice {
   }
 };
 
-Lattice lattice_in(const Geometry& geometry, const SliceOrientation& orientation, glm::dvec3 position_mm) {
+Lattice lattice_in(const Geometry& geometry, const renderer::SliceOrientation& orientation,
+                   glm::dvec3 position_mm) {
   Lattice lattice{orientation.right, orientation.up, {}, {}, {}, 0, 0};
   lattice.off_mm = position_mm - lattice.right * glm::dot(position_mm, lattice.right) -
                    lattice.up * glm::dot(position_mm, lattice.up);
@@ -79,7 +80,7 @@ Lattice lattice_in(const Geometry& geometry, const SliceOrientation& orientation
 }  // namespace
 
 // Marching squares, at a half.
-QList<QLineF> outline_in_slice(const Mask& mask, const SliceOrientation& orientation,
+QList<QLineF> outline_in_slice(const Mask& mask, const renderer::SliceOrientation& orientation,
                                glm::dvec3 position_mm) {
   const Lattice lattice = lattice_in(mask.geometry, orientation, position_mm);
   const auto value_at = [&](int column, int row) {
@@ -113,4 +114,4 @@ QList<QLineF> outline_in_slice(const Mask& mask, const SliceOrientation& orienta
   return lines;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -7,10 +7,11 @@
 #include "core/volume.h"
 #include "renderer/camera.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Lines between the middles of neighbouring voxels that differ, in mm along the slice's right (x) and up (y)
 // from the patient's origin. `position_mm`: a point of the slice (LPS).
-QList<QLineF> outline_in_slice(const Mask& mask, const SliceOrientation& orientation, glm::dvec3 position_mm);
+QList<QLineF> outline_in_slice(const Mask& mask, const renderer::SliceOrientation& orientation,
+                               glm::dvec3 position_mm);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

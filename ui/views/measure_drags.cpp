@@ -2,22 +2,22 @@
 
 #include <glm/geometric.hpp>
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
-void set_last(Display& display, const Measurement& measurement) {
-  display.change([&](DisplaySettings& settings) { settings.measurements.back() = measurement; });
+void set_last(engine::Display& display, const engine::Measurement& measurement) {
+  display.change([&](engine::DisplaySettings& settings) { settings.measurements.back() = measurement; });
 }
 
-void remove_last(Display& display) {
-  display.change([](DisplaySettings& settings) { settings.measurements.pop_back(); });
+void remove_last(engine::Display& display) {
+  display.change([](engine::DisplaySettings& settings) { settings.measurements.pop_back(); });
 }
 
 }  // namespace
 
 DistanceDrag::DistanceDrag(DragView view, const Pointer& pressed) : Drag(std::move(view)) {
   measurement_.points_mm = {*pressed.patient_mm, *pressed.patient_mm};
-  display().change([&](DisplaySettings& settings) { settings.measurements.push_back(measurement_); });
+  display().change([&](engine::DisplaySettings& settings) { settings.measurements.push_back(measurement_); });
 }
 
 void DistanceDrag::move(const Pointer& pointer) {
@@ -33,17 +33,18 @@ void DistanceDrag::release() {
 
 AngleDrag::AngleDrag(DragView view, const Pointer& pressed) : Drag(std::move(view)) {
   const auto& measurements = display().settings().measurements;
-  second_leg_ = !measurements.empty() && measurements.back().kind == Measurement::Kind::angle &&
+  second_leg_ = !measurements.empty() && measurements.back().kind == engine::Measurement::Kind::angle &&
                 !measurements.back().complete();
-  display().change([&](DisplaySettings& settings) {
-    if (!second_leg_) settings.measurements.push_back({Measurement::Kind::angle, {*pressed.patient_mm}});
+  display().change([&](engine::DisplaySettings& settings) {
+    if (!second_leg_)
+      settings.measurements.push_back({engine::Measurement::Kind::angle, {*pressed.patient_mm}});
     settings.measurements.back().points_mm.push_back(*pressed.patient_mm);
   });
 }
 
 void AngleDrag::move(const Pointer& pointer) {
   if (!pointer.patient_mm || display().settings().measurements.empty()) return;
-  Measurement measurement = display().settings().measurements.back();
+  engine::Measurement measurement = display().settings().measurements.back();
   measurement.points_mm.back() = *pointer.patient_mm;
   set_last(display(), measurement);
 }
@@ -55,4 +56,4 @@ void AngleDrag::release() {
   if (leg_mm < 2.0 * view().mm_per_pixel) remove_last(display());
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -3,7 +3,7 @@
 
 #include "ui/views/drag.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // From one end to the other. A drag of no length leaves nothing.
 class DistanceDrag : public Drag {
@@ -13,7 +13,7 @@ class DistanceDrag : public Drag {
   void release() override;
 
  private:
-  Measurement measurement_;
+  engine::Measurement measurement_;
 };
 
 // The first drag is one leg, ending in the vertex; the next one, begun anywhere, points to the other end.
@@ -27,4 +27,4 @@ class AngleDrag : public Drag {
   bool second_leg_ = false;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

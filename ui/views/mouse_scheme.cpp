@@ -2,7 +2,7 @@
 
 #include "ui/settings.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr const char* kItkSnap = "itk-snap";
@@ -17,4 +17,4 @@ void set_mouse_scheme(MouseScheme scheme) {
   settings::mouse_scheme().set(scheme == MouseScheme::itk_snap ? kItkSnap : "tidemark");
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -1,7 +1,7 @@
 // The meaning of the left button in slices while no other tool than window and level is chosen.
 #pragma once
 
-namespace tidemark {
+namespace tidemark::ui {
 
 enum class MouseScheme {
   tidemark,  // window and level
@@ -12,4 +12,4 @@ enum class MouseScheme {
 [[nodiscard]] MouseScheme mouse_scheme();
 void set_mouse_scheme(MouseScheme scheme);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -10,7 +10,7 @@
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kPlaySide = 88;  // logical pixels
@@ -64,7 +64,7 @@ bool PlayButton::event(QEvent* event) {
   return QAbstractButton::event(event);
 }
 
-NextStep::NextStep(CaseProxy& proxy, QWidget& view)
+NextStep::NextStep(engine::CaseProxy& proxy, QWidget& view)
     : QWidget(&view), proxy_(proxy), view_(view), hint_(new QWidget), play_(new PlayButton) {
   auto* column = new QVBoxLayout(hint_);
   column->setContentsMargins(kSpaceGroups, kSpaceGroups, kSpaceGroups, kSpaceGroups);
@@ -84,7 +84,8 @@ NextStep::NextStep(CaseProxy& proxy, QWidget& view)
   connect(play_, &PlayButton::clicked, this, [this] {
     view_.setFocus();  // the button goes
     // A drag turns the 3D view from now on, and no click adds a sphere by accident.
-    if (proxy_.display().settings().tool == Tool::seed) proxy_.display().choose_tool(Tool::window);
+    if (proxy_.display().settings().tool == engine::Tool::seed)
+      proxy_.display().choose_tool(engine::Tool::window);
     proxy_.play();
   });
   auto* all = new QVBoxLayout(this);
@@ -92,15 +93,15 @@ NextStep::NextStep(CaseProxy& proxy, QWidget& view)
   all->addWidget(hint_);
   all->addWidget(play_);
   view_.installEventFilter(this);
-  connect(&proxy_, &CaseProxy::state_changed, this, &NextStep::follow);
-  connect(&proxy_.display(), &Display::changed, this, &NextStep::follow);
+  connect(&proxy_, &engine::CaseProxy::state_changed, this, &NextStep::follow);
+  connect(&proxy_.display(), &engine::Display::changed, this, &NextStep::follow);
   follow();
 }
 
 void NextStep::follow() {
-  const CaseState& state = proxy_.state();
-  const DisplaySettings& settings = proxy_.display().settings();
-  const bool draws = proxy_.engine().graphics() != Engine::Graphics::none;
+  const engine::CaseState& state = proxy_.state();
+  const engine::DisplaySettings& settings = proxy_.display().settings();
+  const bool draws = proxy_.engine().graphics() != engine::Engine::Graphics::none;
   const bool to_place = !state.begun && !settings.show_source;
   const bool to_play = state.begun && !state.playing && state.step == 0;
   const bool wanted = draws && !settings.clip_on && (to_place || to_play);
@@ -133,4 +134,4 @@ void NextStep::paintEvent(QPaintEvent* /*event*/) {
   painter.drawRoundedRect(rect(), kRadius, kRadius);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

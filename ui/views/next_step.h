@@ -6,7 +6,7 @@
 
 #include "engine/case_proxy.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Round and large, for what is to be pressed next. Enter and Space press it.
 class PlayButton : public QAbstractButton {
@@ -26,7 +26,7 @@ class PlayButton : public QAbstractButton {
 class NextStep : public QWidget {
   Q_OBJECT
  public:
-  NextStep(CaseProxy& proxy, QWidget& view);
+  NextStep(engine::CaseProxy& proxy, QWidget& view);
 
  signals:
   void place_wanted();  // the tool and the panel that place a surface
@@ -39,10 +39,10 @@ class NextStep : public QWidget {
   void follow();
   void move_into_view();
 
-  CaseProxy& proxy_;
+  engine::CaseProxy& proxy_;
   QWidget& view_;
   QWidget* hint_;
   PlayButton* play_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

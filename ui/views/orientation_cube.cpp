@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr double kEdge = 34.0;    // logical pixels
@@ -38,7 +38,7 @@ QPainterPath letter_on(const CubeFace& face, const QFont& font) {
 
 }  // namespace
 
-std::vector<CubeFace> cube_faces(const Camera& camera, QPointF centre, double edge) {
+std::vector<CubeFace> cube_faces(const renderer::Camera& camera, QPointF centre, double edge) {
   constexpr double kLeastFacing = 0.02;
   const glm::dvec3 right = camera.right();
   const glm::dvec3 up = camera.up();
@@ -58,7 +58,7 @@ std::vector<CubeFace> cube_faces(const Camera& camera, QPointF centre, double ed
   return faces;
 }
 
-void paint_orientation_cube(QPainter& painter, QSizeF view, const Camera& camera) {
+void paint_orientation_cube(QPainter& painter, QSizeF view, const renderer::Camera& camera) {
   if (std::min(view.width(), view.height()) < kLeastView) return;
   const double reach = 0.5 * std::sqrt(3.0) * kEdge;
   const QPointF centre(kMargin + reach, view.height() - kMargin - reach);
@@ -72,4 +72,4 @@ void paint_orientation_cube(QPainter& painter, QSizeF view, const Camera& camera
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -6,7 +6,7 @@
 
 #include "renderer/camera.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // A face that is seen.
 struct CubeFace {
@@ -14,9 +14,9 @@ struct CubeFace {
   QPolygonF outline;    // its corners as the letter stands: top left, top right, bottom right, bottom left
   double facing = 1.0;  // 1 where it faces the viewer, 0 where it is seen from its edge
 };
-std::vector<CubeFace> cube_faces(const Camera& camera, QPointF centre, double edge);
+std::vector<CubeFace> cube_faces(const renderer::Camera& camera, QPointF centre, double edge);
 
 // At the bottom left; nothing where the view has no room for it.
-void paint_orientation_cube(QPainter& painter, QSizeF view, const Camera& camera);
+void paint_orientation_cube(QPainter& painter, QSizeF view, const renderer::Camera& camera);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

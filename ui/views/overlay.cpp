@@ -7,7 +7,7 @@
 
 #include "renderer/annotation.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 const QColor kRim(0, 0, 0, 170);
@@ -58,7 +58,7 @@ void paint_circle(QPainter& painter, QPointF centre, double radius, bool erases)
 
 void paint_orientation(QPainter& painter, QSizeF size, glm::dvec3 right, glm::dvec3 up) {
   const auto letters = [](glm::dvec3 direction) {
-    return QString::fromStdString(orientation_letters(direction));
+    return QString::fromStdString(renderer::orientation_letters(direction));
   };
   const QRectF all(QPointF(kMargin, kMargin), size - QSizeF(2 * kMargin, 2 * kMargin));
   paint_text(painter, all, Qt::AlignRight | Qt::AlignVCenter, letters(right));
@@ -68,7 +68,7 @@ void paint_orientation(QPainter& painter, QSizeF size, glm::dvec3 right, glm::dv
 }
 
 void paint_scale_bar(QPainter& painter, QSizeF size, double mm_per_pixel) {
-  const double length_mm = scale_bar_mm(0.2 * size.width() * mm_per_pixel);
+  const double length_mm = renderer::scale_bar_mm(0.2 * size.width() * mm_per_pixel);
   if (length_mm <= 0.0) return;
   const double length = length_mm / mm_per_pixel;
   const double y = size.height() - kMargin - 3.0;
@@ -90,16 +90,16 @@ void paint_crosshair(QPainter& painter, QSizeF size, QPointF at) {
   painter.drawLine(QPointF(at.x(), at.y() + kGap), QPointF(at.x(), size.height()));
 }
 
-QString text_of(const Measurement& measurement) {
-  if (measurement.kind == Measurement::Kind::distance) {
+QString text_of(const engine::Measurement& measurement) {
+  if (measurement.kind == engine::Measurement::Kind::distance) {
     return QCoreApplication::translate("View", "%1 mm").arg(number(measurement.value(), 1));
   }
   return QCoreApplication::translate("View", "%1°").arg(number(measurement.value(), 1));
 }
 
-void paint_measurements(QPainter& painter, const std::vector<Measurement>& measurements,
+void paint_measurements(QPainter& painter, const std::vector<engine::Measurement>& measurements,
                         const SliceScreen& screen, double reach_mm) {
-  for (const Measurement& measurement : measurements) {
+  for (const engine::Measurement& measurement : measurements) {
     QPolygonF line;
     bool near = true;
     for (const glm::dvec3& point : measurement.points_mm) {
@@ -113,7 +113,7 @@ void paint_measurements(QPainter& painter, const std::vector<Measurement>& measu
       painter.drawEllipse(end, 2.5, 2.5);
     }
     if (!measurement.complete()) continue;
-    const QPointF at = measurement.kind == Measurement::Kind::angle ? line[1] : line.last();
+    const QPointF at = measurement.kind == engine::Measurement::Kind::angle ? line[1] : line.last();
     paint_text(painter, QRectF(at + QPointF(8, -18), QSizeF(120, 16)), Qt::AlignLeft | Qt::AlignVCenter,
                text_of(measurement));
   }
@@ -133,7 +133,7 @@ void paint_corner(QPainter& painter, QSizeF size, Qt::Alignment corner, const QS
              fitting.join('\n'));
 }
 
-QStringList patient_lines(const Patient& patient) {
+QStringList patient_lines(const imaging::Patient& patient) {
   QStringList lines;
   const std::string sex_and_age = patient.sex + (patient.sex.empty() ? "" : " ") + patient.age;
   for (const std::string& line : {patient.name, patient.id, sex_and_age}) {
@@ -142,10 +142,10 @@ QStringList patient_lines(const Patient& patient) {
   return lines;
 }
 
-QStringList series_lines(const LoadedStudy& study) {
+QStringList series_lines(const engine::LoadedStudy& study) {
   QStringList lines;
   if (!study.date.empty()) lines << QString::fromStdString(study.date);
   return lines << study.name;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -14,7 +14,7 @@
 #include "renderer/camera.h"
 #include "ui/views/view_geometry.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Light on a dark veil, so that it is read on bright tissue, too.
 // `flags`: Qt::AlignmentFlag and Qt::TextFlag.
@@ -36,14 +36,14 @@ void paint_scale_bar(QPainter& painter, QSizeF size, double mm_per_pixel);
 // With a gap in the middle.
 void paint_crosshair(QPainter& painter, QSizeF size, QPointF at);
 // Measurements whose points are near the slice; `reach_mm` is how far in front or behind.
-void paint_measurements(QPainter& painter, const std::vector<Measurement>& measurements,
+void paint_measurements(QPainter& painter, const std::vector<engine::Measurement>& measurements,
                         const SliceScreen& screen, double reach_mm);
-QString text_of(const Measurement& measurement);
+QString text_of(const engine::Measurement& measurement);
 
 // Lines in a corner, those at the top cut short where they would meet the ones of the other corner.
 void paint_corner(QPainter& painter, QSizeF size, Qt::Alignment corner, const QStringList& lines);
 // Texts of the corners at the top: patient and study, and series.
-QStringList patient_lines(const Patient& patient);
-QStringList series_lines(const LoadedStudy& study);
+QStringList patient_lines(const imaging::Patient& patient);
+QStringList series_lines(const engine::LoadedStudy& study);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

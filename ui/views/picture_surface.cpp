@@ -8,9 +8,9 @@
 
 #include "engine/view_textures.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
-PictureSurface::PictureSurface(const PictureFeed& feed, Paint paint_over, QWidget* parent)
+PictureSurface::PictureSurface(const engine::PictureFeed& feed, Paint paint_over, QWidget* parent)
     : QOpenGLWidget(parent), feed_(feed), paint_over_(std::move(paint_over)) {
   QSurfaceFormat format;
   format.setRenderableType(QSurfaceFormat::OpenGL);
@@ -55,7 +55,7 @@ void PictureSurface::paintGL() {
 }
 
 void PictureSurface::show_texture() {
-  const PictureTexture& texture = *feed_.shown().texture;
+  const engine::PictureTexture& texture = *feed_.shown().texture;
   QOpenGLExtraFunctions& gl = *context()->extraFunctions();
   gl.glDisable(GL_BLEND);
   const QRect all(QPoint(0, 0), size() * devicePixelRatioF());
@@ -83,4 +83,4 @@ void expect_surfaces(QWidget& window) {
   first->hide();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,7 +8,7 @@
 
 #include "engine/picture_feed.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Lies over its whole parent, shows the feed's newest picture, and has the parent paint over it. The mouse
 // and the keyboard stay the parent's. Waits for nothing: a picture is finished when it arrives.
@@ -16,7 +16,7 @@ class PictureSurface : public QOpenGLWidget {
   Q_OBJECT
  public:
   using Paint = std::function<void(QPainter&)>;
-  PictureSurface(const PictureFeed& feed, Paint paint_over, QWidget* parent);
+  PictureSurface(const engine::PictureFeed& feed, Paint paint_over, QWidget* parent);
   ~PictureSurface() override;
 
   // The picture with something else over it; waits for the GPU.
@@ -32,7 +32,7 @@ class PictureSurface : public QOpenGLWidget {
   void let_go();
   void show_texture();
 
-  const PictureFeed& feed_;
+  const engine::PictureFeed& feed_;
   Paint paint_over_;
   QOpenGLTextureBlitter blitter_;
   int times_initialised_ = 0;
@@ -42,4 +42,4 @@ class PictureSurface : public QOpenGLWidget {
 // when the first OpenGL widget comes into it, and it flickers.
 void expect_surfaces(QWidget& window);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -11,7 +11,7 @@
 #include "ui/views/overlay.h"
 #include "ui/views/picture_surface.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kWheelClick = 120;  // eighths of a degree (Qt)
@@ -20,22 +20,22 @@ constexpr double kSmallestBrush = 0.2;  // mm
 constexpr double kLargestBrush = 200.0;
 constexpr double kClickReach = 5.0;  // logical pixels: a hand is not quite still
 
-bool edits(Tool tool) {
-  return tool == Tool::paint || tool == Tool::erase || tool == Tool::seed;
+bool edits(engine::Tool tool) {
+  return tool == engine::Tool::paint || tool == engine::Tool::erase || tool == engine::Tool::seed;
 }
 
-Qt::CursorShape cursor_for(Tool tool) {
+Qt::CursorShape cursor_for(engine::Tool tool) {
   switch (tool) {
-    case Tool::window:
+    case engine::Tool::window:
       return Qt::ArrowCursor;
-    case Tool::paint:
-    case Tool::erase:
-    case Tool::seed:
-    case Tool::crosshair:
-    case Tool::probe_speed:
-    case Tool::probe_transfer:
-    case Tool::measure_distance:
-    case Tool::measure_angle:
+    case engine::Tool::paint:
+    case engine::Tool::erase:
+    case engine::Tool::seed:
+    case engine::Tool::crosshair:
+    case engine::Tool::probe_speed:
+    case engine::Tool::probe_transfer:
+    case engine::Tool::measure_distance:
+    case engine::Tool::measure_angle:
       return Qt::CrossCursor;
   }
   return Qt::ArrowCursor;
@@ -43,17 +43,18 @@ Qt::CursorShape cursor_for(Tool tool) {
 
 }  // namespace
 
-PictureView::PictureView(CaseProxy& proxy, QWidget* parent) : QWidget(parent), proxy_(proxy), feed_(proxy) {
+PictureView::PictureView(engine::CaseProxy& proxy, QWidget* parent)
+    : QWidget(parent), proxy_(proxy), feed_(proxy) {
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
-  if (proxy.engine().pictures() == Engine::Pictures::textures) {
+  if (proxy.engine().pictures() == engine::Engine::Pictures::textures) {
     surface_ = new PictureSurface(
         feed_, [this](QPainter& painter) { paint_all(painter); }, this);
   }
-  connect(&feed_, &PictureFeed::arrived, this, &PictureView::paint_again);
-  connect(&display(), &Display::changed, this, &PictureView::follow_display);
-  connect(&display(), &Display::pointer_moved, this, &PictureView::paint_again);
+  connect(&feed_, &engine::PictureFeed::arrived, this, &PictureView::paint_again);
+  connect(&display(), &engine::Display::changed, this, &PictureView::follow_display);
+  connect(&display(), &engine::Display::pointer_moved, this, &PictureView::paint_again);
   follow_display();
 }
 
@@ -61,7 +62,7 @@ PictureView::~PictureView() {
   drag_.reset();  // it speaks to all views, this one included
 }
 
-PictureSize PictureView::physical_size() const {
+renderer::PictureSize PictureView::physical_size() const {
   const double ratio = devicePixelRatioF();
   return {std::llround(width() * ratio), std::llround(height() * ratio)};
 }
@@ -73,7 +74,7 @@ QImage PictureView::grab_picture() {
     paint_overlay(painter);
   };
   if (surface_) return surface_->grab(paint);
-  const PictureSize size = physical_size();
+  const renderer::PictureSize size = physical_size();
   QImage image(static_cast<int>(size.width), static_cast<int>(size.height), QImage::Format_RGB32);
   image.setDevicePixelRatio(devicePixelRatioF());
   QPainter painter(&image);
@@ -132,7 +133,7 @@ void PictureView::paint_picture(QPainter& painter) {
     return;
   }
   painter.fillRect(rect(), QColor(18, 20, 24));
-  if (proxy_.engine().graphics() != Engine::Graphics::none) return;
+  if (proxy_.engine().graphics() != engine::Engine::Graphics::none) return;
   paint_text(painter, QRectF(rect()).adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
              tr("Pictures need OpenGL 3.3:\n%1.\n\nSegmentation works all the same: figures and exports are "
                 "right.")
@@ -144,7 +145,7 @@ void PictureView::paint_study(QPainter& painter, const QString& note) const {
   const bool is_low = height() < kLines * fontMetrics().height();
   QStringList upper_right;
   if (settings().patient_text) {
-    const LoadedStudy& study = proxy_.study();
+    const engine::LoadedStudy& study = proxy_.study();
     const QStringList patient = patient_lines(study.patient);
     paint_corner(painter, size(), Qt::AlignLeft | Qt::AlignTop, is_low ? patient.mid(0, 1) : patient);
     if (!is_low) upper_right = series_lines(study);
@@ -154,10 +155,10 @@ void PictureView::paint_study(QPainter& painter, const QString& note) const {
 }
 
 std::optional<PictureView::Ring> PictureView::ring() const {
-  std::optional<DrawnSphere> shown = display().drawn_sphere();
+  std::optional<engine::DrawnSphere> shown = display().drawn_sphere();
   const auto& pointer = display().pointer_mm();
   if (!shown && pointer && !drag_ && edits(settings().tool)) {
-    shown = DrawnSphere{{*pointer, settings().brush_mm}, settings().tool == Tool::erase};
+    shown = engine::DrawnSphere{{*pointer, settings().brush_mm}, settings().tool == engine::Tool::erase};
   }
   if (!shown) return std::nullopt;
   const auto& [centre_mm, radius_mm] = shown->sphere;
@@ -197,7 +198,7 @@ void PictureView::set_drag(std::unique_ptr<Drag> drag) {
 }
 
 std::unique_ptr<Drag> PictureView::begin_drag(const Pointer& pressed) {
-  const Tool tool = settings().tool;
+  const engine::Tool tool = settings().tool;
   if (pressed.button == Qt::LeftButton && pressed.modifiers.testFlag(Qt::AltModifier)) {
     return window_drag(drag_view(), pressed);
   }
@@ -214,8 +215,8 @@ void PictureView::mousePressEvent(QMouseEvent* event) {
   button_ = event->button();
   pressed_at_ = mouse_ = event->position();
   // A brush has something to do at once.
-  const Tool tool = settings().tool;
-  may_be_click_ = button_ == Qt::RightButton && tool != Tool::paint && tool != Tool::erase;
+  const engine::Tool tool = settings().tool;
+  may_be_click_ = button_ == Qt::RightButton && tool != engine::Tool::paint && tool != engine::Tool::erase;
   set_drag(begin_drag(pointer_at(*event)));
 }
 
@@ -231,7 +232,7 @@ void PictureView::mouseMoveEvent(QMouseEvent* event) {
     paint_again();
   } else if (button_ == Qt::NoButton && event->modifiers().testFlag(Qt::ShiftModifier) &&
              pointer.patient_mm) {
-    display().change([&](DisplaySettings& settings) { settings.cursor_mm = *pointer.patient_mm; });
+    display().change([&](engine::DisplaySettings& settings) { settings.cursor_mm = *pointer.patient_mm; });
   }
 }
 
@@ -292,7 +293,7 @@ void PictureView::wheelEvent(QWheelEvent* event) {
   if (event->modifiers().testFlag(Qt::ControlModifier)) {
     zoom(std::pow(kZoomStep, clicks), event->position());
   } else if (event->modifiers().testFlag(Qt::ShiftModifier)) {
-    display().change([&](DisplaySettings& settings) {
+    display().change([&](engine::DisplaySettings& settings) {
       settings.brush_mm =
           std::clamp(settings.brush_mm * std::pow(1.1, clicks), kSmallestBrush, kLargestBrush);
     });
@@ -329,4 +330,4 @@ void PictureView::keyPressEvent(QKeyEvent* event) {
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

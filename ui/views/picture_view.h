@@ -9,20 +9,20 @@
 #include "engine/picture_feed.h"
 #include "ui/views/drag.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class PictureSurface;
 
 class PictureView : public QWidget {
   Q_OBJECT
  public:
-  explicit PictureView(CaseProxy& proxy, QWidget* parent = nullptr);
+  explicit PictureView(engine::CaseProxy& proxy, QWidget* parent = nullptr);
   ~PictureView() override;
 
-  [[nodiscard]] CaseProxy& proxy() const { return proxy_; }
-  [[nodiscard]] const PictureFeed& feed() const { return feed_; }
+  [[nodiscard]] engine::CaseProxy& proxy() const { return proxy_; }
+  [[nodiscard]] const engine::PictureFeed& feed() const { return feed_; }
   [[nodiscard]] virtual QString title() const = 0;
-  [[nodiscard]] PictureSize physical_size() const;
+  [[nodiscard]] renderer::PictureSize physical_size() const;
   // The picture with its overlay, in physical pixels.
   [[nodiscard]] QImage grab_picture();
   // The widget for pictures that are textures; null where they are images (Engine::pictures()).
@@ -52,11 +52,11 @@ class PictureView : public QWidget {
   void menu_wanted(QPoint position, std::optional<glm::dvec3> place_mm);
 
  protected:
-  [[nodiscard]] Display& display() const { return proxy_.display(); }
-  [[nodiscard]] const DisplaySettings& settings() const { return proxy_.display().settings(); }
+  [[nodiscard]] engine::Display& display() const { return proxy_.display(); }
+  [[nodiscard]] const engine::DisplaySettings& settings() const { return proxy_.display().settings(); }
   [[nodiscard]] DragView drag_view();
 
-  [[nodiscard]] virtual AnyView wanted() const = 0;
+  [[nodiscard]] virtual engine::AnyView wanted() const = 0;
   // To be called instead of update().
   void paint_again();
   virtual void paint_overlay(QPainter& painter) = 0;
@@ -99,8 +99,8 @@ class PictureView : public QWidget {
   void paint_picture(QPainter& painter);
   [[nodiscard]] Pointer pointer_at(const QMouseEvent& event) const;
 
-  CaseProxy& proxy_;
-  PictureFeed feed_;
+  engine::CaseProxy& proxy_;
+  engine::PictureFeed feed_;
   PictureSurface* surface_ = nullptr;  // covers the whole view
   std::unique_ptr<Drag> drag_;
   Qt::MouseButton button_ = Qt::NoButton;  // that is held down
@@ -110,4 +110,4 @@ class PictureView : public QWidget {
   int wheel_remainder_ = 0;    // of mice that turn by less than a click
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

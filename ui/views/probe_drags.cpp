@@ -6,7 +6,7 @@
 #include "ui/views/overlay.h"
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 QString tr(const char* text) {
@@ -19,11 +19,11 @@ double reach_mm(const Geometry& geometry) {
   return 1.1 * std::min({spacing.x, spacing.y, spacing.z});
 }
 
-void set_speed(CaseProxy& proxy, const ValueProbe::Spread& values, std::uint64_t gesture) {
-  const SourceSummary& summary = proxy.summary();
-  Parameters parameters = proxy.parameters();
+void set_speed(engine::CaseProxy& proxy, const engine::ValueProbe::Spread& values, std::uint64_t gesture) {
+  const engine::SourceSummary& summary = proxy.summary();
+  solver::Parameters parameters = proxy.parameters();
   parameters.target = values.mean;
-  parameters.range = std::max(values.deviation, least_probed_range(summary.low, summary.high));
+  parameters.range = std::max(values.deviation, engine::least_probed_range(summary.low, summary.high));
   proxy.set_parameters(parameters, gesture);
 }
 
@@ -56,15 +56,15 @@ void SpeedProbeDrag::set() {
   set_speed(proxy(), probe().values(), gesture_);
 }
 
-void probe_speed_at(CaseProxy& proxy, glm::dvec3 place_mm) {
+void probe_speed_at(engine::CaseProxy& proxy, glm::dvec3 place_mm) {
   constexpr double kVoxels = 3.0;
-  ValueProbe probe(proxy.source());  // as D sees it
+  engine::ValueProbe probe(proxy.source());  // as D sees it
   probe.add(place_mm, place_mm, kVoxels * reach_mm(proxy.volume().geometry));
-  if (probe.count() > 0) set_speed(proxy, probe.values(), CaseProxy::new_gesture());
+  if (probe.count() > 0) set_speed(proxy, probe.values(), engine::CaseProxy::new_gesture());
 }
 
 QString SpeedProbeDrag::text() const {
-  const ValueProbe::Spread values = probe().values();
+  const engine::ValueProbe::Spread values = probe().values();
   return tr("T %1   ε %2   (%3 voxels)")
       .arg(number_text(values.mean, 1), number_text(values.deviation, 1), count_text(probe().count()));
 }
@@ -73,22 +73,22 @@ TransferProbeDrag::TransferProbeDrag(DragView view, const Pointer& pressed)
     : ProbeDrag(view, pressed, view.proxy.study().volume) {}
 
 void TransferProbeDrag::set() {
-  const SourceSummary& summary = proxy().summary();
-  const ValueProbe::Spread values = probe().values();
-  const ValueProbe::Spread gradients = probe().gradients();
-  display().change([&](DisplaySettings& settings) {
+  const engine::SourceSummary& summary = proxy().summary();
+  const engine::ValueProbe::Spread values = probe().values();
+  const engine::ValueProbe::Spread gradients = probe().gradients();
+  display().change([&](engine::DisplaySettings& settings) {
     settings.transfer = settings.transfer.for_range(summary.low, summary.high);
     auto& primitives = settings.transfer.source;
     if (primitives.empty()) primitives.push_back({});
     const auto chosen =
         std::min(static_cast<std::size_t>(std::max(settings.chosen_primitive, 0)), primitives.size() - 1);
-    SourcePrimitive& primitive = primitives[chosen];
+    renderer::SourcePrimitive& primitive = primitives[chosen];
     // A Gaussian here falls to 1/e at its width, which is sqrt(2) standard deviations.
     constexpr double kWidth = 1.4142135623730951;
-    const double least = least_probed_range(summary.low, summary.high);
-    primitive.value = {TransferFactor::Kind::gaussian, values.mean,
+    const double least = engine::least_probed_range(summary.low, summary.high);
+    primitive.value = {renderer::TransferFactor::Kind::gaussian, values.mean,
                        std::max(kWidth * values.deviation, least)};
-    if (primitive.gradient.kind == TransferFactor::Kind::gaussian) {
+    if (primitive.gradient.kind == renderer::TransferFactor::Kind::gaussian) {
       primitive.gradient.start = gradients.mean;
       primitive.gradient.end =
           std::max(kWidth * gradients.deviation, 0.01 * static_cast<double>(summary.steepest));
@@ -99,11 +99,11 @@ void TransferProbeDrag::set() {
 }
 
 QString TransferProbeDrag::text() const {
-  const ValueProbe::Spread values = probe().values();
-  const ValueProbe::Spread gradients = probe().gradients();
+  const engine::ValueProbe::Spread values = probe().values();
+  const engine::ValueProbe::Spread gradients = probe().gradients();
   return tr("value %1 ± %2   gradient %3 ± %4")
       .arg(number_text(values.mean, 1), number_text(values.deviation, 1), number_text(gradients.mean, 1),
            number_text(gradients.deviation, 1));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

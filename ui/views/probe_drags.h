@@ -4,7 +4,7 @@
 #include "engine/value_probe.h"
 #include "ui/views/drag.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class ProbeDrag : public Drag {
  public:
@@ -16,11 +16,11 @@ class ProbeDrag : public Drag {
  protected:
   // Enough for a mean and a spread: before, nothing is set.
   static constexpr std::int64_t kEnough = 6;
-  [[nodiscard]] const ValueProbe& probe() const { return probe_; }
+  [[nodiscard]] const engine::ValueProbe& probe() const { return probe_; }
   virtual void set() = 0;
 
  private:
-  ValueProbe probe_;
+  engine::ValueProbe probe_;
   glm::dvec3 last_mm_;
   std::vector<glm::dvec3> way_mm_;
 };
@@ -33,11 +33,11 @@ class SpeedProbeDrag : public ProbeDrag {
 
  private:
   void set() override;
-  std::uint64_t gesture_ = CaseProxy::new_gesture();
+  std::uint64_t gesture_ = engine::CaseProxy::new_gesture();
 };
 
 // The same from the voxels around a place.
-void probe_speed_at(CaseProxy& proxy, glm::dvec3 place_mm);
+void probe_speed_at(engine::CaseProxy& proxy, glm::dvec3 place_mm);
 
 // Centre and width, in value and gradient of the study, of the chosen primitive of the transfer function.
 class TransferProbeDrag : public ProbeDrag {
@@ -49,4 +49,4 @@ class TransferProbeDrag : public ProbeDrag {
   void set() override;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -7,7 +7,7 @@
 #include "ui/views/overlay.h"
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr double kLeastZoom = 0.2;
@@ -15,19 +15,19 @@ constexpr double kMostZoom = 40.0;
 
 class PanDrag : public Drag {
  public:
-  PanDrag(DragView view, const Pointer& pressed, SliceOrientation orientation)
+  PanDrag(DragView view, const Pointer& pressed, renderer::SliceOrientation orientation)
       : Drag(std::move(view)), from_(pressed.position), orientation_(orientation) {
     centre_mm_ = display().settings().slice_centre_mm;
   }
   void move(const Pointer& pointer) override {
     const QPointF way = (pointer.position - from_) * view().mm_per_pixel;
     const glm::dvec3 centre = centre_mm_ - orientation_.right * way.x() + orientation_.up * way.y();
-    display().change([&](DisplaySettings& settings) { settings.slice_centre_mm = centre; });
+    display().change([&](engine::DisplaySettings& settings) { settings.slice_centre_mm = centre; });
   }
 
  private:
   QPointF from_;
-  SliceOrientation orientation_;
+  renderer::SliceOrientation orientation_;
   glm::dvec3 centre_mm_;
 };
 
@@ -39,7 +39,7 @@ class ZoomDrag : public Drag {
   void move(const Pointer& pointer) override {
     const double zoom =
         std::clamp(zoom_ * std::exp((from_.y() - pointer.position.y()) / 150.0), kLeastZoom, kMostZoom);
-    display().change([&](DisplaySettings& settings) { settings.slice_zoom = zoom; });
+    display().change([&](engine::DisplaySettings& settings) { settings.slice_zoom = zoom; });
   }
 
  private:
@@ -47,15 +47,15 @@ class ZoomDrag : public Drag {
   double zoom_ = 1.0;
 };
 
-QString term_name(SpeedTerm term) {
+QString term_name(renderer::SpeedTerm term) {
   switch (term) {
-    case SpeedTerm::total:
+    case renderer::SpeedTerm::total:
       return SliceViewWidget::tr("total speed");
-    case SpeedTerm::data:
+    case renderer::SpeedTerm::data:
       return SliceViewWidget::tr("data term D");
-    case SpeedTerm::curvature:
+    case renderer::SpeedTerm::curvature:
       return SliceViewWidget::tr("curvature term");
-    case SpeedTerm::rescaling:
+    case renderer::SpeedTerm::rescaling:
       return SliceViewWidget::tr("rescaling term");
   }
   return {};
@@ -63,7 +63,8 @@ QString term_name(SpeedTerm term) {
 
 }  // namespace
 
-SliceViewWidget::SliceViewWidget(CaseProxy& proxy, SlicePlane plane, SliceContent content, QWidget* parent)
+SliceViewWidget::SliceViewWidget(engine::CaseProxy& proxy, SlicePlane plane, renderer::SliceContent content,
+                                 QWidget* parent)
     : PictureView(proxy, parent), plane_(plane), content_(content) {
   setAccessibleName(title());
 }
@@ -84,8 +85,8 @@ QString SliceViewWidget::title() const {
       plane = tr("Oblique");
       break;
   }
-  if (content_ == SliceContent::speed) return tr("Speed map, %1").arg(plane.toLower());
-  if (content_ == SliceContent::pages) return tr("Pages, %1").arg(plane.toLower());
+  if (content_ == renderer::SliceContent::speed) return tr("Speed map, %1").arg(plane.toLower());
+  if (content_ == renderer::SliceContent::pages) return tr("Pages, %1").arg(plane.toLower());
   return plane;
 }
 
@@ -95,23 +96,23 @@ void SliceViewWidget::set_plane(SlicePlane plane) {
   emit display().changed();
 }
 
-SliceOrientation SliceViewWidget::orientation() const {
-  SliceOrientation orientation = kAxial;
-  if (plane_ == SlicePlane::coronal) orientation = kCoronal;
-  if (plane_ == SlicePlane::sagittal) orientation = kSagittal;
+renderer::SliceOrientation SliceViewWidget::orientation() const {
+  renderer::SliceOrientation orientation = renderer::kAxial;
+  if (plane_ == SlicePlane::coronal) orientation = renderer::kCoronal;
+  if (plane_ == SlicePlane::sagittal) orientation = renderer::kSagittal;
   if (plane_ == SlicePlane::oblique) orientation = settings().oblique;
   // The convention is about left and right: sagittal slices have neither.
   if (!settings().radiological && plane_ != SlicePlane::sagittal) orientation.right = -orientation.right;
   return orientation;
 }
 
-SliceView SliceViewWidget::slice() const {
-  const DisplaySettings& s = settings();
-  SliceView view;
+renderer::SliceView SliceViewWidget::slice() const {
+  const engine::DisplaySettings& s = settings();
+  renderer::SliceView view;
   view.orientation = orientation();
   view.position_mm = s.cursor_mm;
   view.zoom = s.slice_zoom;
-  const glm::dvec3 shift = s.slice_centre_mm - middle_of(proxy().volume().geometry);
+  const glm::dvec3 shift = s.slice_centre_mm - renderer::middle_of(proxy().volume().geometry);
   view.pan_mm = {glm::dot(shift, view.orientation.right), glm::dot(shift, view.orientation.up)};
   view.content = content_;
   view.term = s.speed_term;
@@ -146,7 +147,7 @@ SliceViewWidget::Place SliceViewWidget::place() const {
     extent_mm += share * geometry.spacing_mm[axis] * static_cast<double>(geometry.size[axis] - 1);
     spacing_mm += share * share * geometry.spacing_mm[axis];
   }
-  const double from_middle = glm::dot(settings().cursor_mm - middle_of(geometry), into);
+  const double from_middle = glm::dot(settings().cursor_mm - renderer::middle_of(geometry), into);
   Place place;
   place.thickness_mm = spacing_mm;
   place.slices = std::llround(extent_mm / spacing_mm) + 1;
@@ -160,15 +161,15 @@ void SliceViewWidget::scroll(int clicks) {
   const std::int64_t slice = std::clamp<std::int64_t>(now.slice + clicks, 1, now.slices);
   const glm::dvec3 into = orientation().into();
   const double way_mm = static_cast<double>(slice - now.slice) * now.thickness_mm;
-  display().change([&](DisplaySettings& settings) { settings.cursor_mm += into * way_mm; });
+  display().change([&](engine::DisplaySettings& settings) { settings.cursor_mm += into * way_mm; });
 }
 
 void SliceViewWidget::zoom(double factor, QPointF about) {
   // The point under the mouse stays there.
   const glm::dvec3 point = screen().patient_at(about);
-  display().change([&](DisplaySettings& s) {
+  display().change([&](engine::DisplaySettings& s) {
     const double zoom = std::clamp(s.slice_zoom * factor, kLeastZoom, kMostZoom);
-    const SliceOrientation o = orientation();
+    const renderer::SliceOrientation o = orientation();
     const glm::dvec3 way = point - s.slice_centre_mm;
     const double share = 1.0 - s.slice_zoom / zoom;
     s.slice_centre_mm += (o.right * glm::dot(way, o.right) + o.up * glm::dot(way, o.up)) * share;
@@ -185,7 +186,7 @@ std::unique_ptr<Drag> SliceViewWidget::navigation_drag(const Pointer& pressed) {
 
 void SliceViewWidget::paint_overlay(QPainter& painter) {
   const SliceScreen on_screen = screen();
-  const SliceOrientation o = orientation();
+  const renderer::SliceOrientation o = orientation();
   paint_truth(painter, on_screen);
   if (settings().crosshair) paint_crosshair(painter, size(), on_screen.position_of(settings().cursor_mm));
   paint_measurements(painter, settings().measurements, on_screen, 0.5 * place().thickness_mm + 1e-6);
@@ -197,7 +198,7 @@ void SliceViewWidget::paint_overlay(QPainter& painter) {
 void SliceViewWidget::paint_truth(QPainter& painter, const SliceScreen& on_screen) {
   const auto& truth = proxy().study().truth;
   if (!settings().truth || !truth) return;
-  const SliceOrientation o = orientation();
+  const renderer::SliceOrientation o = orientation();
   const double along_normal_mm = glm::dot(settings().cursor_mm, o.into());
   if (!outline_ || outline_->orientation != o || outline_->along_normal_mm != along_normal_mm)
     outline_ = {o, along_normal_mm, outline_in_slice(*truth, o, settings().cursor_mm)};
@@ -211,19 +212,19 @@ void SliceViewWidget::paint_truth(QPainter& painter, const SliceScreen& on_scree
 }
 
 void SliceViewWidget::paint_corners(QPainter& painter) const {
-  const DisplaySettings& s = settings();
+  const engine::DisplaySettings& s = settings();
   // The convention is about left and right: sagittal slices have neither.
   const QString convention = s.radiological ? tr("radiological") : tr("neurological");
   paint_study(painter, plane_ == SlicePlane::sagittal ? QString() : convention);
   const Place now = place();
   QStringList lines;
   lines << tr("%1 / %2   %3 mm").arg(now.slice).arg(now.slices).arg(now.thickness_mm, 0, 'g', 3);
-  if (content_ == SliceContent::source) {
+  if (content_ == renderer::SliceContent::source) {
     lines << tr("W %1  L %2").arg(number_text(s.window.width, 0), number_text(s.window.centre, 0));
   }
-  if (content_ == SliceContent::speed) lines << term_name(s.speed_term);
+  if (content_ == renderer::SliceContent::speed) lines << term_name(s.speed_term);
   lines << tr("Zoom %1 %").arg(100.0 * s.slice_zoom, 0, 'f', 0);
   paint_corner(painter, size(), Qt::AlignLeft | Qt::AlignBottom, lines);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

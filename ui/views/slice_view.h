@@ -5,18 +5,19 @@
 #include "ui/views/picture_view.h"
 #include "ui/views/view_geometry.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 enum class SlicePlane { axial, coronal, sagittal, oblique };
 
 class SliceViewWidget : public PictureView {
   Q_OBJECT
  public:
-  SliceViewWidget(CaseProxy& proxy, SlicePlane plane, SliceContent content, QWidget* parent = nullptr);
+  SliceViewWidget(engine::CaseProxy& proxy, SlicePlane plane, renderer::SliceContent content,
+                  QWidget* parent = nullptr);
 
   [[nodiscard]] QString title() const override;
   [[nodiscard]] SlicePlane plane() const { return plane_; }
-  [[nodiscard]] SliceContent content() const { return content_; }
+  [[nodiscard]] renderer::SliceContent content() const { return content_; }
   void set_plane(SlicePlane plane);
 
   [[nodiscard]] QPointF position_of(glm::dvec3 patient_mm) const override;
@@ -31,28 +32,28 @@ class SliceViewWidget : public PictureView {
   [[nodiscard]] Place place() const;
 
  protected:
-  [[nodiscard]] AnyView wanted() const override { return slice(); }
+  [[nodiscard]] engine::AnyView wanted() const override { return slice(); }
   void paint_overlay(QPainter& painter) override;
   std::unique_ptr<Drag> navigation_drag(const Pointer& pressed) override;
   void scroll(int clicks) override;
   void zoom(double factor, QPointF about) override;
 
  private:
-  [[nodiscard]] SliceOrientation orientation() const;
-  [[nodiscard]] SliceView slice() const;
+  [[nodiscard]] renderer::SliceOrientation orientation() const;
+  [[nodiscard]] renderer::SliceView slice() const;
   [[nodiscard]] SliceScreen screen() const;
   void paint_truth(QPainter& painter, const SliceScreen& on_screen);
   void paint_corners(QPainter& painter) const;
 
   SlicePlane plane_;
-  SliceContent content_;
+  renderer::SliceContent content_;
   // Of the truth, as of the slice for which it was last found.
   struct Outline {
-    SliceOrientation orientation;
+    renderer::SliceOrientation orientation;
     double along_normal_mm = 0.0;
     QList<QLineF> lines;
   };
   std::optional<Outline> outline_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

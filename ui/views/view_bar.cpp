@@ -8,7 +8,7 @@
 #include "ui/look/icons.h"
 #include "ui/widgets/elided_label.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kWidthForNumbers = 390;
@@ -16,7 +16,7 @@ constexpr int kWidthForEvolution = 220;
 
 }  // namespace
 
-ViewBar::ViewBar(CaseProxy& proxy, const QString& title, const QList<QAction*>& evolution,
+ViewBar::ViewBar(engine::CaseProxy& proxy, const QString& title, const QList<QAction*>& evolution,
                  const QList<QAction*>& tools, QWidget* parent)
     : QWidget(parent), proxy_(proxy), tools_(tools) {
   auto* layout = new QHBoxLayout(this);
@@ -32,9 +32,9 @@ ViewBar::ViewBar(CaseProxy& proxy, const QString& title, const QList<QAction*>& 
     layout->addWidget(button);
     evolution_ << button;
   }
-  target_ = add_number(&Parameters::target, tr("T"), tr("Target T"),
+  target_ = add_number(&solver::Parameters::target, tr("T"), tr("Target T"),
                        tr("T: the brightness that attracts the surface"));
-  range_ = add_number(&Parameters::range, tr("ε"), tr("Range epsilon"),
+  range_ = add_number(&solver::Parameters::range, tr("ε"), tr("Range epsilon"),
                       tr("ε: the surface grows where brightness is within T ± ε"));
   tool_ = new QToolButton;
   tool_->setAutoRaise(true);
@@ -49,8 +49,8 @@ ViewBar::ViewBar(CaseProxy& proxy, const QString& title, const QList<QAction*>& 
   connect(add_button("duplicate", tr("Let the view float, or put it back")), &QToolButton::clicked, this,
           &ViewBar::float_wanted);
   connect(add_button("close", tr("Close the view")), &QToolButton::clicked, this, &ViewBar::close_wanted);
-  connect(&proxy_, &CaseProxy::state_changed, this, &ViewBar::follow_state);
-  connect(&proxy_.display(), &Display::changed, this, &ViewBar::follow_tool);
+  connect(&proxy_, &engine::CaseProxy::state_changed, this, &ViewBar::follow_state);
+  connect(&proxy_.display(), &engine::Display::changed, this, &ViewBar::follow_tool);
   follow_state();
   follow_tool();
 }
@@ -66,8 +66,8 @@ QToolButton* ViewBar::add_button(const char* picture, const QString& text) {
   return button;
 }
 
-NumberBox* ViewBar::add_number(double Parameters::*parameter, const QString& label, const QString& name,
-                               const QString& tip) {
+NumberBox* ViewBar::add_number(double solver::Parameters::*parameter, const QString& label,
+                               const QString& name, const QString& tip) {
   auto* text = new QLabel(label);
   auto* number = new NumberBox;
   text->setBuddy(number);
@@ -77,7 +77,7 @@ NumberBox* ViewBar::add_number(double Parameters::*parameter, const QString& lab
   number->setButtonSymbols(QAbstractSpinBox::NoButtons);
   number->setAlignment(Qt::AlignRight);
   number->setFixedWidth(62);
-  const SourceSummary& summary = proxy_.summary();
+  const engine::SourceSummary& summary = proxy_.summary();
   const double span = std::max<double>(summary.highest - summary.lowest, 1e-3);
   number->setRange(-1e7, 1e7);
   number->setDecimals(span > 100.0 ? 1 : 4);
@@ -95,10 +95,10 @@ void ViewBar::set_title(const QString& title) {
 }
 
 // The other parameters keep all their digits, of which the bar shows a few.
-void ViewBar::change(double Parameters::*parameter, double value) {
-  Parameters parameters = proxy_.parameters();
+void ViewBar::change(double solver::Parameters::*parameter, double value) {
+  solver::Parameters parameters = proxy_.parameters();
   parameters.*parameter = value;
-  parameters.range = std::max(parameters.range, kMinimumRange);
+  parameters.range = std::max(parameters.range, solver::kMinimumRange);
   proxy_.set_parameters(parameters);
 }
 
@@ -120,4 +120,4 @@ void ViewBar::resizeEvent(QResizeEvent* event) {
   for (QWidget* button : evolution_) button->setVisible(width() >= kWidthForEvolution);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -8,13 +8,13 @@
 #include "engine/case_proxy.h"
 #include "ui/widgets/number_box.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class ViewBar : public QWidget {
   Q_OBJECT
  public:
   // `evolution` and `tools`: the actions whose buttons stand here.
-  ViewBar(CaseProxy& proxy, const QString& title, const QList<QAction*>& evolution,
+  ViewBar(engine::CaseProxy& proxy, const QString& title, const QList<QAction*>& evolution,
           const QList<QAction*>& tools, QWidget* parent = nullptr);
 
   void set_title(const QString& title);
@@ -31,13 +31,13 @@ class ViewBar : public QWidget {
 
  private:
   QToolButton* add_button(const char* picture, const QString& text);
-  NumberBox* add_number(double Parameters::*parameter, const QString& label, const QString& name,
+  NumberBox* add_number(double solver::Parameters::*parameter, const QString& label, const QString& name,
                         const QString& tip);
   void follow_state();
   void follow_tool();
-  void change(double Parameters::*parameter, double value);
+  void change(double solver::Parameters::*parameter, double value);
 
-  CaseProxy& proxy_;
+  engine::CaseProxy& proxy_;
   QLabel* title_;
   QToolButton* tool_;
   QList<QAction*> tools_;
@@ -47,4 +47,4 @@ class ViewBar : public QWidget {
   NumberBox* range_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 double aspect_of(QSizeF size) {
@@ -17,13 +17,13 @@ QPointF position_on(QSizeF size, double mm_per_pixel, double right_mm, double up
 
 }  // namespace
 
-SliceScreen::SliceScreen(const SliceView& view, QSizeF size, const Geometry& geometry)
+SliceScreen::SliceScreen(const renderer::SliceView& view, QSizeF size, const Geometry& geometry)
     : orientation_(view.orientation), size_(size) {
-  const glm::dvec3 middle = middle_of(geometry);
+  const glm::dvec3 middle = renderer::middle_of(geometry);
   const glm::dvec3 into = orientation_.into();
   centre_mm_ = middle + into * glm::dot(view.position_mm - middle, into) +
                orientation_.right * view.pan_mm.x + orientation_.up * view.pan_mm.y;
-  mm_per_pixel_ = 2.0 * slice_half_height_mm(geometry, orientation_, view.zoom, aspect_of(size)) /
+  mm_per_pixel_ = 2.0 * renderer::slice_half_height_mm(geometry, orientation_, view.zoom, aspect_of(size)) /
                   std::max(size.height(), 1.0);
 }
 
@@ -41,11 +41,11 @@ double SliceScreen::distance_mm(glm::dvec3 patient_mm) const {
   return glm::dot(patient_mm - centre_mm_, orientation_.into());
 }
 
-VolumeScreen::VolumeScreen(const Camera& camera, QSizeF size, const Geometry& geometry)
+VolumeScreen::VolumeScreen(const renderer::Camera& camera, QSizeF size, const Geometry& geometry)
     : right_(camera.right()),
       up_(camera.up()),
       into_(glm::cross(up_, right_)),
-      centre_mm_(camera.focus_mm.value_or(middle_of(geometry))),
+      centre_mm_(camera.focus_mm.value_or(renderer::middle_of(geometry))),
       size_(size),
       mm_per_pixel_(2.0 * camera.half_height_mm(geometry, aspect_of(size)) / std::max(size.height(), 1.0)) {}
 
@@ -81,7 +81,7 @@ std::array<glm::dvec3, 8> corners_of_box(const Geometry& geometry) {
   return corners;
 }
 
-std::vector<glm::dvec3> cut_of_box(const Geometry& geometry, const ClipPlane& plane) {
+std::vector<glm::dvec3> cut_of_box(const Geometry& geometry, const renderer::ClipPlane& plane) {
   const std::array<glm::dvec3, 8> corners = corners_of_box(geometry);
   std::vector<glm::dvec3> points;
   for (int corner = 0; corner < 8; ++corner) {
@@ -107,4 +107,4 @@ std::vector<glm::dvec3> cut_of_box(const Geometry& geometry, const ClipPlane& pl
   return points;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

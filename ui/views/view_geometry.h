@@ -10,12 +10,12 @@
 
 #include "renderer/views.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // A slice on the screen. Positions in logical pixels from the view's top left; patient coordinates LPS, mm.
 class SliceScreen {
  public:
-  SliceScreen(const SliceView& view, QSizeF size, const Geometry& geometry);
+  SliceScreen(const renderer::SliceView& view, QSizeF size, const Geometry& geometry);
 
   [[nodiscard]] glm::dvec3 patient_at(QPointF position) const;
   [[nodiscard]] QPointF position_of(glm::dvec3 patient_mm) const;  // of its foot on the slice
@@ -23,7 +23,7 @@ class SliceScreen {
   [[nodiscard]] double mm_per_pixel() const { return mm_per_pixel_; }
 
  private:
-  SliceOrientation orientation_;
+  renderer::SliceOrientation orientation_;
   glm::dvec3 centre_mm_;
   QSizeF size_;
   double mm_per_pixel_ = 1.0;
@@ -32,7 +32,7 @@ class SliceScreen {
 // A 3D view on the screen (parallel projection).
 class VolumeScreen {
  public:
-  VolumeScreen(const Camera& camera, QSizeF size, const Geometry& geometry);
+  VolumeScreen(const renderer::Camera& camera, QSizeF size, const Geometry& geometry);
 
   struct Ray {
     glm::dvec3 origin_mm;
@@ -60,6 +60,6 @@ class VolumeScreen {
 std::array<glm::dvec3, 8> corners_of_box(const Geometry& geometry);
 
 // The polygon in which a plane cuts the volume's box (patient mm), in order; empty when it does not.
-std::vector<glm::dvec3> cut_of_box(const Geometry& geometry, const ClipPlane& plane);
+std::vector<glm::dvec3> cut_of_box(const Geometry& geometry, const renderer::ClipPlane& plane);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -3,7 +3,7 @@
 #include <array>
 #include <glm/geometric.hpp>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 std::vector<BoxEdge> box_edges(const Geometry& geometry, const VolumeScreen& screen) {
   const std::array<glm::dvec3, 8> corners = corners_of_box(geometry);
@@ -31,4 +31,4 @@ void paint_volume_box(QPainter& painter, const Geometry& geometry, const VolumeS
   }
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -6,7 +6,7 @@
 
 #include "ui/views/view_geometry.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 struct BoxEdge {
   QPointF from;
@@ -18,4 +18,4 @@ std::vector<BoxEdge> box_edges(const Geometry& geometry, const VolumeScreen& scr
 // Faint; hidden edges fainter.
 void paint_volume_box(QPainter& painter, const Geometry& geometry, const VolumeScreen& screen);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

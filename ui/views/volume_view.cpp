@@ -13,7 +13,7 @@
 #include "ui/views/overlay.h"
 #include "ui/views/volume_box.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr double kDegreesPerPixel = 0.4;
@@ -26,15 +26,15 @@ class RotateDrag : public Drag {
   }
   void move(const Pointer& pointer) override {
     const QPointF way = pointer.position - from_;
-    Camera camera = camera_;
+    renderer::Camera camera = camera_;
     camera.azimuth = std::remainder(camera_.azimuth - kDegreesPerPixel * way.x(), 360.0);
     camera.elevation = std::clamp(camera_.elevation + kDegreesPerPixel * way.y(), -90.0, 90.0);
-    display().change([&](DisplaySettings& settings) { settings.camera = camera; });
+    display().change([&](engine::DisplaySettings& settings) { settings.camera = camera; });
   }
 
  private:
   QPointF from_;
-  Camera camera_;
+  renderer::Camera camera_;
 };
 
 class CameraPanDrag : public Drag {
@@ -44,15 +44,15 @@ class CameraPanDrag : public Drag {
   }
   void move(const Pointer& pointer) override {
     const QPointF way = (pointer.position - from_) * view().mm_per_pixel;
-    Camera camera = camera_;
-    camera.focus_mm = camera_.focus_mm.value_or(middle_of(proxy().volume().geometry)) -
+    renderer::Camera camera = camera_;
+    camera.focus_mm = camera_.focus_mm.value_or(renderer::middle_of(proxy().volume().geometry)) -
                       camera_.right() * way.x() + camera_.up() * way.y();
-    display().change([&](DisplaySettings& settings) { settings.camera = camera; });
+    display().change([&](engine::DisplaySettings& settings) { settings.camera = camera; });
   }
 
  private:
   QPointF from_;
-  Camera camera_;
+  renderer::Camera camera_;
 };
 
 class CameraZoomDrag : public Drag {
@@ -63,7 +63,7 @@ class CameraZoomDrag : public Drag {
   void move(const Pointer& pointer) override {
     const double zoom =
         std::clamp(zoom_ * std::exp((from_.y() - pointer.position.y()) / 150.0), kLeastZoom, kMostZoom);
-    display().change([&](DisplaySettings& settings) { settings.camera.zoom = zoom; });
+    display().change([&](engine::DisplaySettings& settings) { settings.camera.zoom = zoom; });
   }
 
  private:
@@ -73,7 +73,7 @@ class CameraZoomDrag : public Drag {
 
 }  // namespace
 
-VolumeViewWidget::VolumeViewWidget(CaseProxy& proxy, QWidget* parent)
+VolumeViewWidget::VolumeViewWidget(engine::CaseProxy& proxy, QWidget* parent)
     : PictureView(proxy, parent),
       follower_(
           proxy, [this] { return isVisible() ? physical_size().aspect() : 0.0; }, this) {
@@ -82,9 +82,9 @@ VolumeViewWidget::VolumeViewWidget(CaseProxy& proxy, QWidget* parent)
   connect(next, &NextStep::place_wanted, this, &VolumeViewWidget::place_wanted);
 }
 
-VolumeView VolumeViewWidget::view() const {
-  const DisplaySettings& s = settings();
-  VolumeView view;
+renderer::VolumeView VolumeViewWidget::view() const {
+  const engine::DisplaySettings& s = settings();
+  renderer::VolumeView view;
   view.mode = s.mode;
   view.camera = s.camera;
   view.surface = s.surface;
@@ -128,12 +128,12 @@ std::unique_ptr<Drag> VolumeViewWidget::begin_drag(const Pointer& pressed) {
       return clip_drag(drag_view(), pressed, *grip, screen());
     }
   }
-  const Tool tool = settings().tool;
-  const bool turns = tool == Tool::window && !pressed.modifiers.testFlag(Qt::AltModifier);
+  const engine::Tool tool = settings().tool;
+  const bool turns = tool == engine::Tool::window && !pressed.modifiers.testFlag(Qt::AltModifier);
   if (turns) return navigation_drag(pressed);
   if (!pressed.patient_mm && pressed.button != Qt::MiddleButton) {
     const bool erases = pressed.button == Qt::RightButton;
-    if (!erases || tool == Tool::paint || tool == Tool::erase || tool == Tool::seed) {
+    if (!erases || tool == engine::Tool::paint || tool == engine::Tool::erase || tool == engine::Tool::seed) {
       pick_and_begin(pressed);
       return nullptr;
     }
@@ -145,7 +145,8 @@ std::unique_ptr<Drag> VolumeViewWidget::begin_drag(const Pointer& pressed) {
 void VolumeViewWidget::pick_and_begin(const Pointer& pressed) {
   const double ratio = devicePixelRatioF();
   const glm::dvec2 pixel(pressed.position.x() * ratio, pressed.position.y() * ratio);
-  const auto answer = [self = QPointer(this), pressed, number = ++press_number_](std::optional<Hit> hit) {
+  const auto answer = [self = QPointer(this), pressed,
+                       number = ++press_number_](std::optional<renderer::Hit> hit) {
     if (!self || !self->pressed() || self->press_number_ != number) return;
     if (!hit) return self->set_drag(self->navigation_drag(pressed));
     self->grip_mm_ = hit->patient_mm;
@@ -159,7 +160,7 @@ void VolumeViewWidget::pick_and_begin(const Pointer& pressed) {
 void VolumeViewWidget::find_place(QPointF position, std::function<void(std::optional<glm::dvec3>)> answer) {
   if (const auto on_cut = patient_at(position)) return answer(on_cut);
   const double ratio = devicePixelRatioF();
-  const auto take = [self = QPointer(this), answer = std::move(answer)](std::optional<Hit> hit) {
+  const auto take = [self = QPointer(this), answer = std::move(answer)](std::optional<renderer::Hit> hit) {
     if (self) answer(hit ? std::optional(hit->patient_mm) : std::nullopt);
   };
   proxy().pick(view(), physical_size(), {position.x() * ratio, position.y() * ratio}, take);
@@ -194,11 +195,11 @@ void VolumeViewWidget::scroll(int clicks) {
   if (!settings().clip_on) return zoom(std::pow(1.1, clicks), rect().center());
   const glm::dvec3 spacing = proxy().volume().geometry.spacing_mm;
   const double stride_mm = std::min({spacing.x, spacing.y, spacing.z});
-  display().change([&](DisplaySettings& settings) { settings.clip.offset_mm += clicks * stride_mm; });
+  display().change([&](engine::DisplaySettings& settings) { settings.clip.offset_mm += clicks * stride_mm; });
 }
 
 void VolumeViewWidget::zoom(double factor, QPointF /*about*/) {
-  display().change([&](DisplaySettings& settings) {
+  display().change([&](engine::DisplaySettings& settings) {
     settings.camera.zoom = std::clamp(settings.camera.zoom * factor, kLeastZoom, kMostZoom);
   });
 }
@@ -206,7 +207,7 @@ void VolumeViewWidget::zoom(double factor, QPointF /*about*/) {
 void VolumeViewWidget::keyPressEvent(QKeyEvent* event) {
   const bool tilts = event->modifiers().testFlag(Qt::ControlModifier) && settings().clip_on;
   const auto turn = [&](double azimuth, double elevation) {
-    display().change([&](DisplaySettings& settings) {
+    display().change([&](engine::DisplaySettings& settings) {
       if (tilts) {
         // The plane turns about the axes of the screen.
         const glm::dvec3 axis = azimuth != 0.0 ? settings.camera.up() : settings.camera.right();
@@ -214,7 +215,7 @@ void VolumeViewWidget::keyPressEvent(QKeyEvent* event) {
         const glm::dvec3 n = settings.clip.normal;
         const glm::dvec3 turned = n * std::cos(angle) + glm::cross(axis, n) * std::sin(angle) +
                                   axis * (glm::dot(axis, n) * (1.0 - std::cos(angle)));
-        const glm::dvec3 middle = middle_of(proxy().volume().geometry);
+        const glm::dvec3 middle = renderer::middle_of(proxy().volume().geometry);
         const glm::dvec3 pivot = middle + n * (settings.clip.offset_mm - glm::dot(middle, n));
         settings.clip.normal = glm::normalize(turned);
         settings.clip.offset_mm = glm::dot(pivot, settings.clip.normal);
@@ -240,7 +241,7 @@ void VolumeViewWidget::keyPressEvent(QKeyEvent* event) {
 }
 
 void VolumeViewWidget::paint_overlay(QPainter& painter) {
-  const Camera& camera = settings().camera;
+  const renderer::Camera& camera = settings().camera;
   if (settings().volume_box) paint_volume_box(painter, proxy().volume().geometry, screen());
   if (settings().orientation_cube) paint_orientation_cube(painter, size(), camera);
   paint_orientation(painter, size(), camera.right(), camera.up());
@@ -251,4 +252,4 @@ void VolumeViewWidget::paint_overlay(QPainter& painter) {
   on_screen.paint(painter, on_screen.grip_at(mapFromGlobal(QCursor::pos())));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -5,12 +5,12 @@
 #include "ui/views/clip_handles.h"
 #include "ui/views/picture_view.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class VolumeViewWidget : public PictureView {
   Q_OBJECT
  public:
-  explicit VolumeViewWidget(CaseProxy& proxy, QWidget* parent = nullptr);
+  explicit VolumeViewWidget(engine::CaseProxy& proxy, QWidget* parent = nullptr);
 
   [[nodiscard]] QString title() const override { return tr("3D"); }
   [[nodiscard]] QPointF position_of(glm::dvec3 patient_mm) const override {
@@ -19,7 +19,7 @@ class VolumeViewWidget : public PictureView {
   [[nodiscard]] std::optional<glm::dvec3> patient_at(QPointF position) const override;
   [[nodiscard]] double mm_per_pixel() const override { return screen().mm_per_pixel(); }
   [[nodiscard]] ClipHandles handles() const;
-  [[nodiscard]] VolumeView view() const;
+  [[nodiscard]] renderer::VolumeView view() const;
   // The surface, or the volume without one, fills the view.
   void fit_camera() { follower_.fit(); }
 
@@ -27,7 +27,7 @@ class VolumeViewWidget : public PictureView {
   void place_wanted();  // the tool and the panel that place a surface
 
  protected:
-  [[nodiscard]] AnyView wanted() const override { return view(); }
+  [[nodiscard]] engine::AnyView wanted() const override { return view(); }
   void paint_overlay(QPainter& painter) override;
   void find_place(QPointF position, std::function<void(std::optional<glm::dvec3>)> answer) override;
   std::unique_ptr<Drag> begin_drag(const Pointer& pressed) override;
@@ -49,4 +49,4 @@ class VolumeViewWidget : public PictureView {
   std::uint64_t press_number_ = 0;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -5,7 +5,7 @@
 
 #include "ui/look/theme.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 QPixmap colour_swatch(const QColor& colour, QSize size, const QWidget& on) {
   const double scale = on.devicePixelRatioF();
@@ -40,4 +40,4 @@ void ColourButton::choose() {
   dialog->open();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -4,7 +4,7 @@
 #include <QColor>
 #include <QToolButton>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class ColourButton : public QToolButton {
   Q_OBJECT
@@ -25,4 +25,4 @@ class ColourButton : public QToolButton {
 // A filled square with an edge that shows on any background.
 QPixmap colour_swatch(const QColor& colour, QSize size, const QWidget& on);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

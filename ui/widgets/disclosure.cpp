@@ -5,7 +5,7 @@
 
 #include "ui/look/theme.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 Disclosure::Disclosure(const QString& what, const QString& key, QWidget* parent)
     : QWidget(parent), button_(new QToolButton), content_(new QWidget) {
@@ -37,4 +37,4 @@ void Disclosure::set_open(bool open) {
   button_->setChecked(open);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -4,7 +4,7 @@
 #include <QToolButton>
 #include <QWidget>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class Disclosure : public QWidget {
   Q_OBJECT
@@ -23,4 +23,4 @@ class Disclosure : public QWidget {
   QWidget* content_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -5,7 +5,7 @@
 #include <QStyle>
 #include <QToolTip>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 ElidedLabel::ElidedLabel(const QString& text, QWidget* parent) : QLabel(text, parent) {
   setTextFormat(Qt::PlainText);
@@ -32,4 +32,4 @@ void ElidedLabel::paintEvent(QPaintEvent* /*event*/) {
                         foregroundRole());
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -3,7 +3,7 @@
 
 #include <QLabel>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // text() is the whole text; where only a part fits, the tool tip has all of it.
 class ElidedLabel : public QLabel {
@@ -18,4 +18,4 @@ class ElidedLabel : public QLabel {
   [[nodiscard]] QString shown_text() const;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

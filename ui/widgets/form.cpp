@@ -10,7 +10,7 @@
 #include "ui/widgets/slider_number.h"
 #include "ui/widgets/wheel_guard.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 
 namespace {
 
@@ -132,4 +132,4 @@ QComboBox* Form::choice(const QString& label, const QString& tip) {
   return choice;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -9,7 +9,7 @@ class QComboBox;
 class QLabel;
 class QToolButton;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class SliderNumber;
 
@@ -42,4 +42,4 @@ class Form {
 // A label that wraps and whose text can be copied.
 QLabel* make_note(const QString& text);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -11,7 +11,7 @@
 #include "ui/look/theme.h"
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr QChar kMinus(0x2212);
@@ -151,4 +151,4 @@ void NumberBox::paintEvent(QPaintEvent* event) {
   painter.drawRect(rect().adjusted(1, 1, -1, -1));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

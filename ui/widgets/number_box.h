@@ -3,7 +3,7 @@
 
 #include <QDoubleSpinBox>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // A point and a comma both stand before the digits behind the point, whatever the user's language; digits are
 // not grouped. What is no number, or none that the box can hold as it was typed, changes nothing: it stays,
@@ -44,4 +44,4 @@ class NumberBox : public QDoubleSpinBox {
   mutable double kept_ = 0.0;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

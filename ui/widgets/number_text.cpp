@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 int decimals_for(double span) {
   if (!(span > 0.0) || !std::isfinite(span)) return 0;
@@ -43,4 +43,4 @@ QString short_text(double value, int significant) {
   return number_text(value, std::max(0, significant - before + leading + (size < 1.0 ? 1 : 0)));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

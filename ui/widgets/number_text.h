@@ -4,7 +4,7 @@
 #include <QLocale>
 #include <QString>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // Digits behind the point, so that a span has about a thousand steps: 0 for HU, 3 for shares of 1.
 int decimals_for(double span);
@@ -20,4 +20,4 @@ QString general_text(double value, int significant);
 // With about that many significant digits, for places where the magnitude is not known.
 QString short_text(double value, int significant = 3);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 // 1, 2 or 5 times a power of ten, not below `least`.
@@ -52,4 +52,4 @@ std::vector<double> ticks(const PlotAxis& axis, double pixels) {
   return values;
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

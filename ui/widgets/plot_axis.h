@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 struct PlotAxis {
   double low = 0.0;    // value
@@ -21,4 +21,4 @@ struct PlotAxis {
 // Round values within the axis, at least `pixels` from each other.
 std::vector<double> ticks(const PlotAxis& axis, double pixels);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -11,7 +11,7 @@
 #include "ui/widgets/number_box.h"
 #include "ui/widgets/wheel_guard.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kPositions = 1000;
@@ -113,7 +113,7 @@ void SliderNumber::number_changed(double value) {
 }
 
 void SliderNumber::begin_gesture() {
-  gesture_ = CaseProxy::new_gesture();
+  gesture_ = engine::CaseProxy::new_gesture();
 }
 
 void SliderNumber::announce() {
@@ -124,4 +124,4 @@ void SliderNumber::announce() {
   emit edited(number_->value(), gesture_);
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -7,7 +7,7 @@
 
 class QSlider;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class NumberBox;
 
@@ -56,4 +56,4 @@ class SliderNumber : public QWidget {
   QElapsedTimer since_edit_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -3,7 +3,7 @@
 #include <QEvent>
 #include <QWidget>
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 class WheelGuard : public QObject {
@@ -23,4 +23,4 @@ void guard_wheel(QWidget* widget) {
   widget->installEventFilter(new WheelGuard(widget));
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -3,9 +3,9 @@
 
 class QWidget;
 
-namespace tidemark {
+namespace tidemark::ui {
 
 // The widget takes the wheel only while it has the focus, and does not get the focus from the wheel.
 void guard_wheel(QWidget* widget);
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

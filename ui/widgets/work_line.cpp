@@ -6,7 +6,7 @@
 #include "ui/look/theme.h"
 #include "ui/widgets/form.h"
 
-namespace tidemark {
+namespace tidemark::ui {
 namespace {
 
 constexpr int kSteps = 1000;  // of the bar
@@ -56,4 +56,4 @@ void WorkLine::end(const QString& said) {
   cancel_->hide();
 }
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

@@ -6,7 +6,7 @@
 #include <QPushButton>
 #include <QWidget>
 
-namespace tidemark {
+namespace tidemark::ui {
 
 class WorkLine : public QWidget {
   Q_OBJECT
@@ -27,4 +27,4 @@ class WorkLine : public QWidget {
   QPushButton* cancel_;
 };
 
-}  // namespace tidemark
+}  // namespace tidemark::ui

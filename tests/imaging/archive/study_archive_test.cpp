@@ -141,17 +141,17 @@ class StudyArchiveTest : public QObject {
     const test::TemporaryFolder folder;
     std::vector<Entry> entries = entries_of(sample_);
     entries.push_back({"document/readme.txt", "hello"});
-    QVERIFY(write_volume_file(sample_, folder / "a.nii.gz"));
+    QVERIFY(imaging::write_volume_file(sample_, folder / "a.nii.gz"));
     entries.push_back({"a.nii.gz", contents(folder / "a.nii.gz")});
     entries.push_back({"more.ZIP", "PK"});
     write_archive(folder / "study.zip", entries);
 
-    const auto found = find_series(folder / "study.zip");
+    const auto found = imaging::find_series(folder / "study.zip");
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{2});
-    for (const Series& series : found->series) {
+    for (const imaging::Series& series : found->series) {
       QVERIFY2(series.loadable, series.reason.c_str());
-      const auto volume = load_series(series);
+      const auto volume = imaging::load_series(series);
       QCOMPARE(test::failure(volume), QString());
       QVERIFY(volume->voxels == sample_.voxels);
     }
@@ -164,16 +164,16 @@ class StudyArchiveTest : public QObject {
   void its_files_stay_as_long_as_a_series_is_held() {
     const test::TemporaryFolder folder;
     write_archive(folder / "study.zip", entries_of(sample_));
-    std::optional<Series> series;
+    std::optional<imaging::Series> series;
     {
-      const auto found = find_series(folder / "study.zip");
+      const auto found = imaging::find_series(folder / "study.zip");
       QCOMPARE(test::failure(found), QString());
       series = found->series.front();
     }
     fs::remove(folder / "study.zip");
     QCOMPARE(private_folders(temporary_->path()), std::size_t{1});
-    for (const fs::path& file : dicom_files_of(*series)) QVERIFY(fs::exists(file));
-    const auto volume = load_series(*series);
+    for (const fs::path& file : imaging::dicom_files_of(*series)) QVERIFY(fs::exists(file));
+    const auto volume = imaging::load_series(*series);
     QCOMPARE(test::failure(volume), QString());
     const fs::path gone = series->files.front();
     series.reset();
@@ -183,11 +183,11 @@ class StudyArchiveTest : public QObject {
 
   void a_loaded_series_is_found_again_under_the_same_uid() {
     const test::TemporaryFolder folder;
-    QVERIFY(write_volume_file(sample_, folder / "a.nrrd"));
+    QVERIFY(imaging::write_volume_file(sample_, folder / "a.nrrd"));
     write_archive(folder / "study.zip", {{"x/b.nrrd", contents(folder / "a.nrrd")}});
-    const auto first = load_with_series(folder / "study.zip");
+    const auto first = imaging::load_with_series(folder / "study.zip");
     QCOMPARE(test::failure(first), QString());
-    const auto again = load_with_series(folder / "study.zip", first->series.uid);
+    const auto again = imaging::load_with_series(folder / "study.zip", first->series.uid);
     QCOMPARE(test::failure(again), QString());
   }
 
@@ -198,10 +198,10 @@ class StudyArchiveTest : public QObject {
     entries[1].name = "..";
     entries[2].name = "a\\..\\..\\b:c\n*?\"<>|";
     write_archive(folder / "study.zip", entries);
-    const auto found = find_series(folder / "study.zip");
+    const auto found = imaging::find_series(folder / "study.zip");
     QCOMPARE(test::failure(found), QString());
     std::size_t files = 0;
-    for (const Series& series : found->series) files += series.files.size();
+    for (const imaging::Series& series : found->series) files += series.files.size();
     QCOMPARE(files, entries.size());
     const auto is_harmless = [](char c) {
       return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("-._", c) != nullptr;
@@ -273,7 +273,7 @@ class StudyArchiveTest : public QObject {
     QFETCH(QString, why);
     const test::TemporaryFolder folder;
     test::write_bytes(folder / "study.zip", bytes.toStdString());
-    const auto found = find_series(folder / "study.zip");
+    const auto found = imaging::find_series(folder / "study.zip");
     QVERIFY(!found);
     const QString message = QString::fromStdString(found.error().message);
     QVERIFY2(message.startsWith(QString::fromStdString((folder / "study.zip").string())),
@@ -300,7 +300,7 @@ class StudyArchiveTest : public QObject {
     timer.start();
     const auto ended = test::run_in_child(
         [&]() -> Status {
-          const auto found = find_series(folder / "study.zip");
+          const auto found = imaging::find_series(folder / "study.zip");
           return found ? Status() : tl::unexpected<Error>(found.error());
         },
         {.more_memory = static_cast<std::int64_t>(bytes.size()) + (std::int64_t{64} << 20)});
@@ -315,10 +315,10 @@ class StudyArchiveTest : public QObject {
     for (std::size_t i = 0; i < kOthers; ++i) entries.push_back({fmt::format("notes/{}.txt", i), "x"});
     for (std::size_t i = 0; i < 200; ++i) entries.push_back({fmt::format("more/{}.zip", i), "PK"});
     write_archive(folder / "study.zip", entries);
-    const auto found = find_series(folder / "study.zip");
+    const auto found = imaging::find_series(folder / "study.zip");
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{1});
-    const auto volume = load_series(found->series.front());
+    const auto volume = imaging::load_series(found->series.front());
     QCOMPARE(test::failure(volume), QString());
     QVERIFY(volume->voxels == sample_.voxels);
     // The archives are named as far as someone might read on.
@@ -331,7 +331,7 @@ class StudyArchiveTest : public QObject {
     std::vector<Entry> entries = entries_of(sample_);
     entries[1].bytes.resize(entries[1].bytes.size() - 20);
     write_archive(folder / "study.zip", entries);
-    const auto volume = load_volume(folder / "study.zip");
+    const auto volume = imaging::load_volume(folder / "study.zip");
     QVERIFY(!volume);
     QVERIFY2(holds(volume.error().message, "study.zip: "), volume.error().message.c_str());
     QVERIFY2(!holds(volume.error().message, "tidemark-study-"), volume.error().message.c_str());
@@ -341,7 +341,7 @@ class StudyArchiveTest : public QObject {
     const test::TemporaryFolder folder;
     test::write_series(sample_, folder / "series");
     write_archive(folder / "other.zip", entries_of(sample_));
-    const auto found = find_series(folder.path());
+    const auto found = imaging::find_series(folder.path());
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{1});
     QCOMPARE(found->skipped.size(), std::size_t{1});
@@ -360,7 +360,7 @@ class StudyArchiveTest : public QObject {
       QCOMPARE(std::string(what), std::string("unpacking the archive"));
       if (++reports == 2) stop.request_stop();
     };
-    const auto found = find_series(folder / "study.zip", progress);
+    const auto found = imaging::find_series(folder / "study.zip", progress);
     QVERIFY(!found);
     QCOMPARE(found.error().kind, ErrorKind::cancelled);
     QCOMPARE(reports, 2);
@@ -380,9 +380,9 @@ class StudyArchiveTest : public QObject {
     test::write_bytes(elsewhere / "keep", "x");
     fs::create_directory_symlink(elsewhere.path(), temporary_->path() / "tidemark-study-link");
     {
-      const auto held = PrivateFolder::create();
+      const auto held = imaging::PrivateFolder::create();
       QCOMPARE(test::failure(held), QString());
-      sweep_private_folders(temporary_->path());
+      imaging::sweep_private_folders(temporary_->path());
       QVERIFY(fs::exists(held->path()));  // is in use
     }
     QVERIFY(!fs::exists(left));

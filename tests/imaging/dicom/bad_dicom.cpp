@@ -39,19 +39,19 @@ void verify_refused() {
 
   QElapsedTimer timer;
   timer.start();
-  const auto slice = decode_frame(file);
+  const auto slice = imaging::decode_frame(file);
   QVERIFY2(timer.elapsed() < kLongest, qPrintable(QString("%1 ms").arg(timer.elapsed())));
   QVERIFY(!slice);
   QCOMPARE(slice.error().kind, ErrorKind::input);
   verify_message(QString::fromStdString(slice.error().message), file, field);
 
   timer.start();
-  const auto found = scan_dicom(folder.path());
+  const auto found = imaging::scan_dicom(folder.path());
   QVERIFY2(timer.elapsed() < kLongest, qPrintable(QString("%1 ms").arg(timer.elapsed())));
   QCOMPARE(failure(found), QString());
   QCOMPARE(found->series.size() + found->skipped.size(), std::size_t{1});
-  for (const Series& series : found->series) QVERIFY(!series.loadable && !series.reason.empty());
-  for (const SkippedFile& skipped : found->skipped) QVERIFY(!skipped.reason.empty());
+  for (const imaging::Series& series : found->series) QVERIFY(!series.loadable && !series.reason.empty());
+  for (const imaging::SkippedFile& skipped : found->skipped) QVERIFY(!skipped.reason.empty());
 }
 
 }  // namespace tidemark::test

@@ -103,11 +103,11 @@ class BadDicomFramesTest : public QObject {
       const std::string bytes = file(image);
       std::ofstream(folder / "good.dcm", std::ios::binary)
           .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-      const auto found = tidemark::scan_dicom(folder.path());
+      const auto found = tidemark::imaging::scan_dicom(folder.path());
       QCOMPARE(failure(found), QString());
       QCOMPARE(found->series.size(), std::size_t{1});
       QVERIFY2(found->series[0].loadable, found->series[0].reason.c_str());
-      QCOMPARE(failure(tidemark::load_dicom(found->series[0])), QString());
+      QCOMPARE(failure(tidemark::imaging::load_dicom(found->series[0])), QString());
     }
   }
   void frames_that_lie_nowhere_are_refused_data() { add_rows(group_rows()); }
@@ -118,10 +118,10 @@ class BadDicomFramesTest : public QObject {
     QFETCH(QString, field);
     const TemporaryFolder folder;
     std::ofstream(folder / "bad.dcm", std::ios::binary).write(bytes.data(), bytes.size());
-    const auto found = tidemark::scan_dicom(folder.path());
+    const auto found = tidemark::imaging::scan_dicom(folder.path());
     QCOMPARE(failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{1});
-    const tidemark::Series& series = found->series.front();
+    const tidemark::imaging::Series& series = found->series.front();
     QVERIFY(!series.loadable);
     QVERIFY2(QString::fromStdString(series.reason).contains(field), series.reason.c_str());
   }

@@ -104,13 +104,13 @@ class DicomDamageTest : public QObject {
     const test::TemporaryFolder folder;
     const auto files = test::write_series(test::sample_volume({7, 5, 4}), folder / "series");
     test::edit(files[2], damage);
-    const Series series = test::only_series(folder.path());
+    const imaging::Series series = test::only_series(folder.path());
     QVERIFY(!series.loadable);
     const QString said = QString::fromStdString(series.reason);
     QVERIFY2(said.contains("slice-00003.dcm"), qPrintable(said));
     QVERIFY2(said.contains(reason), qPrintable(said));
     QVERIFY2(!said.contains('\n'), qPrintable(said));
-    const auto loaded = load_dicom(series);
+    const auto loaded = imaging::load_dicom(series);
     QVERIFY(!loaded);
     QCOMPARE(loaded.error().kind, ErrorKind::input);
   }
@@ -126,7 +126,7 @@ class DicomDamageTest : public QObject {
         dataset.insert(rows.release(), OFTrue);
       });
     }
-    const auto read = load_dicom(test::only_series(folder.path()));
+    const auto read = imaging::load_dicom(test::only_series(folder.path()));
     QCOMPARE(test::failure(read), QString());
     QVERIFY(read->voxels == written.voxels);
   }
@@ -141,7 +141,7 @@ class DicomDamageTest : public QObject {
     for (std::uintmax_t kept = 0; kept < whole; kept += kept + 64 < whole ? 16 : 1) {
       fs::copy_file(safe / "whole.dcm", files[2], fs::copy_options::overwrite_existing);
       test::truncate(files[2], kept);
-      const Series series = test::only_series(folder.path());
+      const imaging::Series series = test::only_series(folder.path());
       const std::string said =
           series.loadable && !series.warnings.empty() ? series.warnings.front() : series.reason;
       QVERIFY2(said.find("slice-00003.dcm") != std::string::npos,
@@ -155,7 +155,7 @@ class DicomDamageTest : public QObject {
     const test::TemporaryFolder folder;
     test::write_series(test::sample_volume({7, 5, 4}), folder / "series");
     for (const char* name : {"a.dcm", "b.dcm", "c.dcm"}) write_bytes(folder / "series" / name, "lost");
-    const Series series = test::only_series(folder.path());
+    const imaging::Series series = test::only_series(folder.path());
     QVERIFY2(series.loadable, series.reason.c_str());
     QCOMPARE(series.warnings.size(), std::size_t{1});
     const QString warning = QString::fromStdString(series.warnings.front());
@@ -166,14 +166,14 @@ class DicomDamageTest : public QObject {
   void a_slice_that_shrinks_after_the_scan_is_an_error() {
     const test::TemporaryFolder folder;
     const auto files = test::write_series(test::sample_volume({7, 5, 3}), folder / "series");
-    const Series series = test::only_series(folder.path());
+    const imaging::Series series = test::only_series(folder.path());
     test::truncate(files[1], fs::file_size(files[1]) - 20);
-    const auto loaded = load_dicom(series);
+    const auto loaded = imaging::load_dicom(series);
     QVERIFY(!loaded);
     QVERIFY2(loaded.error().message.find("slice-00002.dcm") != std::string::npos,
              loaded.error().message.c_str());
     fs::remove(files[1]);
-    QVERIFY(!load_dicom(series));
+    QVERIFY(!imaging::load_dicom(series));
   }
 
   void what_is_not_dicom_is_skipped_with_a_reason() {
@@ -184,19 +184,19 @@ class DicomDamageTest : public QObject {
     write_bytes(folder / "empty.dcm", "");
     write_bytes(folder / "preamble", test::preamble());
     write_bytes(folder / "noise.dcm", test::preamble() + std::string(500, '\x42'));
-    const auto found = scan_dicom(folder.path());
+    const auto found = imaging::scan_dicom(folder.path());
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{1});
     QVERIFY2(found->series[0].loadable, found->series[0].reason.c_str());
     QVERIFY(found->series[0].warnings.empty());
     QCOMPARE(found->skipped.size(), std::size_t{4});
-    for (const SkippedFile& skipped : found->skipped) QVERIFY(!skipped.reason.empty());
-    const auto alone = scan_dicom(notes);
+    for (const imaging::SkippedFile& skipped : found->skipped) QVERIFY(!skipped.reason.empty());
+    const auto alone = imaging::scan_dicom(notes);
     QVERIFY(!alone);
     QCOMPARE(alone.error().message, notes.string() + ": is not a DICOM file");
-    QVERIFY(!looks_like_dicom(notes));
-    QVERIFY(!looks_like_dicom(folder / "empty.dcm"));
-    QVERIFY(looks_like_dicom(folder / "preamble"));
+    QVERIFY(!imaging::looks_like_dicom(notes));
+    QVERIFY(!imaging::looks_like_dicom(folder / "empty.dcm"));
+    QVERIFY(imaging::looks_like_dicom(folder / "preamble"));
   }
 
   // Whether slices may be lost with it: what the reader knows, not what its message says.
@@ -205,10 +205,10 @@ class DicomDamageTest : public QObject {
     const test::TemporaryFolder folder;
     const auto kind = [&](const std::string& bytes) {
       write_bytes(folder / "file", bytes);
-      const auto read = read_slice_headers(folder / "file");
+      const auto read = imaging::read_slice_headers(folder / "file");
       return read ? std::nullopt : std::optional(read.error().file_kind);
     };
-    using Kind = Refusal::Kind;
+    using Kind = imaging::Refusal::Kind;
     QVERIFY(kind(test::file(Dataset::slice())) == std::nullopt);
     QVERIFY(kind("Not an image.\n") == Kind::not_dicom);
     QVERIFY(kind(test::preamble()) == Kind::damaged);
@@ -217,7 +217,7 @@ class DicomDamageTest : public QObject {
     report.put_text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.88.11");
     QVERIFY(kind(test::file(report)) == Kind::no_slice);
     fs::remove(folder / "file");
-    const auto missing = read_slice_headers(folder / "file");
+    const auto missing = imaging::read_slice_headers(folder / "file");
     QVERIFY(!missing && missing.error().file_kind == Kind::damaged);
   }
 
@@ -230,9 +230,9 @@ class DicomDamageTest : public QObject {
       QVERIFY(loaded.loadFile(file.c_str()).good());
       loaded.loadAllDataIntoMemory();
       QVERIFY(loaded.getDataset()->saveFile(file.c_str(), EXS_LittleEndianImplicit).good());
-      QVERIFY(looks_like_dicom(file));
+      QVERIFY(imaging::looks_like_dicom(file));
     }
-    const auto read = load_dicom(test::only_series(folder.path()));
+    const auto read = imaging::load_dicom(test::only_series(folder.path()));
     QCOMPARE(test::failure(read), QString());
     QVERIFY(read->voxels == written.voxels);
   }
@@ -242,7 +242,7 @@ class DicomDamageTest : public QObject {
       const test::TemporaryFolder folder;
       const std::string deep = test::nested(64, "SQ", test::kExplicit, has_lengths);
       write_bytes(folder / "deep.dcm", test::file(test::Dataset::slice().put(0x00081140, deep)));
-      QCOMPARE(test::failure(decode_frame(folder / "deep.dcm")), QString());
+      QCOMPARE(test::failure(imaging::decode_frame(folder / "deep.dcm")), QString());
     }
   }
 
@@ -259,7 +259,7 @@ class DicomDamageTest : public QObject {
     slice.put(0x00091011, element(0x00091011, "??", "abcd"));
     slice.put(0x00091012, element(0x00091012, "UN", "\xfe\xff"));
     write_bytes(folder / "odd.dcm", test::file(slice));
-    const auto read = decode_frame(folder / "odd.dcm");
+    const auto read = imaging::decode_frame(folder / "odd.dcm");
     QCOMPARE(test::failure(read), QString());
     QCOMPARE(read->header.description, std::string("R?ckgrat"));
     QCOMPARE(read->pixels.stored.back(), 1100);
@@ -269,7 +269,7 @@ class DicomDamageTest : public QObject {
     const test::TemporaryFolder folder;
     const std::string stream = test::deflated(test::Dataset::slice().bytes());
     write_bytes(folder / "deflated.dcm", test::file("1.2.840.10008.1.2.1.99", stream));
-    const auto read = decode_frame(folder / "deflated.dcm");
+    const auto read = imaging::decode_frame(folder / "deflated.dcm");
     QCOMPARE(test::failure(read), QString());
     QCOMPARE(read->pixels.stored.back(), 1100);
   }
@@ -279,7 +279,7 @@ class DicomDamageTest : public QObject {
     test::write_series(test::sample_volume({7, 5, 2}), folder / "series");
     constexpr int kFiles = 5000;
     for (int k = 0; k < kFiles; ++k) write_bytes(folder.path() / "series" / std::to_string(k), "no image");
-    const auto found = scan_dicom(folder.path());
+    const auto found = imaging::scan_dicom(folder.path());
     QCOMPARE(test::failure(found), QString());
     QVERIFY2(found->series.at(0).loadable, found->series[0].reason.c_str());
     QCOMPARE(found->skipped.size(), std::size_t{kFiles});

@@ -40,15 +40,15 @@ class DicomFramesTest : public QObject {
   Q_OBJECT
 
   static void verify_reads(const fs::path& path, const Volume& written) {
-    const Series series = test::only_series(path);
+    const imaging::Series series = test::only_series(path);
     QVERIFY2(series.loadable, series.reason.c_str());
-    const auto read = load_dicom(series);
+    const auto read = imaging::load_dicom(series);
     QCOMPARE(test::failure(read), QString());
     test::verify_same(*read, written);
   }
 
   static void verify_refused(const fs::path& path, const QStringList& parts) {
-    const auto found = scan_dicom(path);
+    const auto found = imaging::scan_dicom(path);
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{1});
     QVERIFY(!found->series.front().loadable);
@@ -91,9 +91,9 @@ class DicomFramesTest : public QObject {
       values.putAndInsertString(DCM_RescaleIntercept, "100");
     };
     use_file_of(written, folder / "image.dcm", enhanced);
-    const Series series = test::only_series(folder.path());
+    const imaging::Series series = test::only_series(folder.path());
     QCOMPARE(series.scalar, std::string("float"));
-    const auto read = load_dicom(series);
+    const auto read = imaging::load_dicom(series);
     QCOMPARE(test::failure(read), QString());
     QCOMPARE(read->value(Index3{3, 2, 0}), written.value(Index3{3, 2, 0}));
     QCOMPARE(read->value(Index3{3, 2, 1}), 0.25F * written.value(Index3{3, 2, 1}) + 100.0F);
@@ -110,10 +110,10 @@ class DicomFramesTest : public QObject {
       window.putAndInsertString(DCM_WindowWidth, "900");
     };
     use_file_of(written, folder / "image.dcm", enhanced);
-    const Series series = test::only_series(folder.path());
+    const imaging::Series series = test::only_series(folder.path());
     QCOMPARE(series.files.size(), std::size_t{1});
     QCOMPARE(series.sources.size(), std::size_t{3});
-    const auto slice = load_slice(series, 1);
+    const auto slice = imaging::load_slice(series, 1);
     QCOMPARE(test::failure(slice), QString());
     QCOMPARE(slice->geometry.size, Index3(7, 5, 1));
     QVERIFY(glm::length(slice->geometry.origin_mm - written.geometry.to_patient({0.0, 0.0, 1.0})) < 1e-6);
@@ -141,20 +141,20 @@ class DicomFramesTest : public QObject {
     };
     const test::TemporaryFolder folder;
     test::write_enhanced(frames, folder / "image.dcm", enhanced);
-    const auto found = scan_dicom(folder.path());
+    const auto found = imaging::scan_dicom(folder.path());
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), written.size());
     for (std::size_t v = 0; v < written.size(); ++v) {
-      const Series& series = found->series[v];
+      const imaging::Series& series = found->series[v];
       const std::string label = fmt::format("stack {}, time {} of 3", v / 3 + 1, v % 3 + 1);
       QCOMPARE(series.description, "Sample, " + label);
-      const auto read = load_volume(folder.path(), series.uid);
+      const auto read = imaging::load_volume(folder.path(), series.uid);
       QCOMPARE(test::failure(read), QString());
       test::verify_same(*read, written[v]);
     }
     // Without a number the UID stands for all of them.
     const std::string uid = found->series[0].uid.substr(0, found->series[0].uid.find('#'));
-    const auto any = load_volume(folder.path(), uid);
+    const auto any = imaging::load_volume(folder.path(), uid);
     QCOMPARE(test::failure(any), QString());
     QVERIFY2(any->changes.front().find("6 volumes of this series can be loaded") == 0,
              any->changes.front().c_str());
@@ -221,7 +221,7 @@ class DicomFramesTest : public QObject {
       };
       use_file_of(written, folder / "image.dcm", enhanced);
       QVERIFY(test::recode(folder / "image.dcm", syntax, false));
-      const auto read = load_dicom(test::only_series(folder.path()));
+      const auto read = imaging::load_dicom(test::only_series(folder.path()));
       QCOMPARE(test::failure(read), QString());
       for (const Index3 v : {Index3{0, 0, 0}, Index3{3, 2, 1}, Index3{6, 4, 2}}) {
         QCOMPARE(read->value(v), static_cast<float>(read->geometry.offset(v) * 2 + 5));
@@ -251,7 +251,7 @@ class DicomFramesTest : public QObject {
         detector.putAndInsertString(DCM_ImageOrientationPatient, "1\\0\\0\\0\\1\\0");
       };
       use_file_of(written, folder / "image.dcm", nuclear);
-      const Series series = test::only_series(folder.path());
+      const imaging::Series series = test::only_series(folder.path());
       QVERIFY2(series.loadable, series.reason.c_str());
       const double lowest = distance > 0.0 ? 3.0 : 3.0 - 7.5;
       QVERIFY(glm::length(series.geometry.origin_mm - glm::dvec3(1.0, 2.0, lowest)) < 1e-9);
@@ -276,7 +276,7 @@ class DicomFramesTest : public QObject {
       loaded.loadAllDataIntoMemory();
       test::encapsulate(*loaded.getDataset(), EXS_JPEG2000LosslessOnly, stream, pieces);
       QVERIFY(loaded.saveFile(file.c_str(), EXS_JPEG2000LosslessOnly).good());
-      const auto frame = decode_frame(file, 1);
+      const auto frame = imaging::decode_frame(file, 1);
       QVERIFY(!frame);
       const QString message = QString::fromStdString(frame.error().message);
       const QString expected = pieces == 2 ? "PixelData (7FE0,0010), frame 2, holds no JPEG 2000 stream"
@@ -296,10 +296,10 @@ class DicomFramesTest : public QObject {
       }
     };
     use_file_of(test::sample_volume({7, 5, 3}), folder / "image.dcm", enhanced);
-    const auto slices = read_slice_headers(folder / "image.dcm");
+    const auto slices = imaging::read_slice_headers(folder / "image.dcm");
     QVERIFY2(slices, slices ? "" : slices.error().message.c_str());
     QCOMPARE(slices->size(), std::size_t{3});
-    const SliceHeader& slice = slices->back();
+    const imaging::SliceHeader& slice = slices->back();
     for (const std::string& kept :
          {slice.description, slice.modality, slice.traits.image_type, slice.patient.id}) {
       QVERIFY2(!kept.empty() && kept.size() <= 800, kept.c_str());

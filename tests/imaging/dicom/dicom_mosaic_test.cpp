@@ -22,7 +22,7 @@ namespace {
 using CsaValues = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 std::vector<double> numbers(const std::string& header, std::string_view name) {
-  return csa_numbers({reinterpret_cast<const std::uint8_t*>(header.data()), header.size()}, name);
+  return imaging::csa_numbers({reinterpret_cast<const std::uint8_t*>(header.data()), header.size()}, name);
 }
 
 constexpr std::int64_t kAcross = 3;
@@ -55,7 +55,8 @@ Volume tiled(const Volume& volume, bool is_backward) {
 CsaValues values_of(const Volume& volume, bool is_backward) {
   const glm::dvec3 normal = (is_backward ? -1.0 : 1.0) * volume.geometry.direction[2];
   return {{"NumberOfImagesInMosaic", {std::to_string(volume.geometry.size.z)}},
-          {"SliceNormalVector", {decimal(normal.x), decimal(normal.y), decimal(normal.z), ""}}};
+          {"SliceNormalVector",
+           {imaging::decimal(normal.x), imaging::decimal(normal.y), imaging::decimal(normal.z), ""}}};
 }
 
 // Writes the volume as a mosaic; `change` has the last word.
@@ -66,7 +67,8 @@ fs::path write_mosaic(
   const std::string header = test::csa_bytes(values);
   test::edit(file, [&](DcmDataset& dataset) {
     dataset.putAndInsertString(DCM_ImageType, "ORIGINAL\\PRIMARY\\M\\ND\\MOSAIC");
-    dataset.putAndInsertString(DCM_SpacingBetweenSlices, decimal(volume.geometry.spacing_mm.z).c_str());
+    dataset.putAndInsertString(DCM_SpacingBetweenSlices,
+                               imaging::decimal(volume.geometry.spacing_mm.z).c_str());
     dataset.putAndInsertString(DcmTag(0x0029, 0x0011, EVR_LO), "SIEMENS CSA HEADER");
     dataset.putAndInsertUint8Array(DcmTag(0x0029, 0x1110, EVR_OB),
                                    reinterpret_cast<const Uint8*>(header.data()),
@@ -92,14 +94,14 @@ class DicomMosaicTest : public QObject {
     for (const bool is_backward : {false, true}) {
       const test::TemporaryFolder folder;
       write_mosaic(written, folder / "mosaic", is_backward, values_of(written, is_backward));
-      const Series series = test::only_series(folder.path());
+      const imaging::Series series = test::only_series(folder.path());
       QVERIFY2(series.loadable, series.reason.c_str());
       QCOMPARE(series.files.size(), std::size_t{1});
       QCOMPARE(series.sources.front().tile, std::int64_t{is_backward ? 6 : 0});
-      const auto read = load_dicom(series);
+      const auto read = imaging::load_dicom(series);
       QCOMPARE(test::failure(read), QString());
       verify_same(*read, written);
-      const auto slice = load_slice(series, 4);
+      const auto slice = imaging::load_slice(series, 4);
       QCOMPARE(test::failure(slice), QString());
       QCOMPARE(slice->value(Index3{3, 2, 0}), written.value(Index3{3, 2, 4}));
     }
@@ -122,12 +124,12 @@ class DicomMosaicTest : public QObject {
       fs::create_directories(folder / "series");
       fs::rename(file, folder.path() / "series" / fmt::format("{}.dcm", t));
     }
-    const auto found = scan_dicom(folder.path());
+    const auto found = imaging::scan_dicom(folder.path());
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), written.size());
     for (std::size_t t = 0; t < written.size(); ++t) {
       QCOMPARE(found->series[t].description, fmt::format("Sample, acquisition {} of 3", t + 1));
-      const auto read = load_dicom(found->series[t]);
+      const auto read = imaging::load_dicom(found->series[t]);
       QCOMPARE(test::failure(read), QString());
       verify_same(*read, written[t]);
     }
@@ -168,7 +170,7 @@ class DicomMosaicTest : public QObject {
       if (what == 9) delete dataset.remove(DCM_ImagePositionPatient);
       if (what == 10) dataset.putAndInsertString(DCM_SpacingBetweenSlices, "1e308");
     });
-    const Series series = test::only_series(folder.path());
+    const imaging::Series series = test::only_series(folder.path());
     QVERIFY(!series.loadable);
     QVERIFY2(QString::fromStdString(series.reason).contains(part), series.reason.c_str());
   }

@@ -16,7 +16,7 @@ class DicomPatientTest : public QObject {
   void set(unsigned group, unsigned element, const char* text) const {
     test::set_text(file_, group, element, text);
   }
-  Patient patient() const { return test::only_series(file_).patient; }
+  imaging::Patient patient() const { return test::only_series(file_).patient; }
 
  private slots:
   void initTestCase() {
@@ -124,7 +124,7 @@ class DicomPatientTest : public QObject {
   void what_is_not_there_stays_empty() {
     for (const unsigned element : {0x0010U, 0x0020U, 0x0030U, 0x0040U, 0x1010U}) set(0x0010, element, "");
     set(0x0008, 0x0020, "");
-    QCOMPARE(patient(), Patient());
+    QCOMPARE(patient(), imaging::Patient());
   }
 };
 

@@ -79,7 +79,7 @@ class Made {
     }
     if (last) test::edit(files.back(), *last);
   }
-  [[nodiscard]] Series series() const { return test::only_series(folder_ / "series"); }
+  [[nodiscard]] imaging::Series series() const { return test::only_series(folder_ / "series"); }
   [[nodiscard]] double stored(std::int64_t voxel) const { return static_cast<double>(sample_.value(voxel)); }
 
  private:
@@ -101,7 +101,7 @@ class Enhanced {
     };
     test::write_enhanced(test::frames_of(sample_), folder_ / "image.dcm", enhanced);
   }
-  [[nodiscard]] Series series() const { return test::only_series(folder_.path()); }
+  [[nodiscard]] imaging::Series series() const { return test::only_series(folder_.path()); }
 
  private:
   test::TemporaryFolder folder_;
@@ -161,12 +161,12 @@ class DicomQuantityTest : public QObject {
     QFETCH(Change, change);
     QFETCH(double, expected);
     const Made made("CT", {make_pet, change});
-    const Series series = made.series();
+    const imaging::Series series = made.series();
     QVERIFY2(series.loadable, series.reason.c_str());
     QCOMPARE(series.unit, std::string("SUVbw g/ml"));
     QVERIFY(told(series.changes, "SUVbw"));
     QVERIFY(series.warnings.empty());
-    const auto volume = load_series(series);
+    const auto volume = imaging::load_series(series);
     QCOMPARE(test::failure(volume), QString());
     QCOMPARE(volume->unit, series.unit);
     const std::int64_t last = volume->geometry.voxel_count() - 1;
@@ -214,11 +214,11 @@ class DicomQuantityTest : public QObject {
     QFETCH(Change, change);
     QFETCH(QString, named);
     const Made made("CT", {make_pet, change});
-    const Series series = made.series();
+    const imaging::Series series = made.series();
     QVERIFY2(series.loadable, series.reason.c_str());
     QCOMPARE(series.unit, std::string("Bq/ml"));
     QVERIFY2(told(series.warnings, named), series.warnings.empty() ? "" : series.warnings[0].c_str());
-    const auto volume = load_series(series);
+    const auto volume = imaging::load_series(series);
     QCOMPARE(test::failure(volume), QString());
     const std::int64_t last = volume->geometry.voxel_count() - 1;
     QCOMPARE(static_cast<double>(volume->value(last)), 0.5 * made.stored(last));
@@ -249,11 +249,11 @@ class DicomQuantityTest : public QObject {
 
   void a_mapping_to_a_unit_is_used_in_mr() {
     const Made made("MR", {[](DcmDataset& d) { put_mapping(d, "mm2/s"); }});
-    const Series series = made.series();
+    const imaging::Series series = made.series();
     QVERIFY2(series.loadable, series.reason.c_str());
     QCOMPARE(series.unit, std::string("mm2/s"));
     QVERIFY(told(series.changes, "RealWorldValueMappingSequence (0040,9096)"));
-    const auto volume = load_series(series);
+    const auto volume = imaging::load_series(series);
     QCOMPARE(test::failure(volume), QString());
     const std::int64_t last = volume->geometry.voxel_count() - 1;
     QVERIFY(std::abs(static_cast<double>(volume->value(last)) - (1e-6 * made.stored(last) + 0.25)) < 1e-6);
@@ -287,12 +287,12 @@ class DicomQuantityTest : public QObject {
     QFETCH(Change, change);
     QFETCH(QString, why);
     const Made made(modality.constData(), {change});
-    const Series series = made.series();
+    const imaging::Series series = made.series();
     QVERIFY2(series.loadable, series.reason.c_str());
     QCOMPARE(series.unit, modality == "CT" ? std::string("HU") : std::string());
     QVERIFY2(told(series.changes, "is not used: " + why),
              series.changes.empty() ? "" : series.changes[0].c_str());
-    const auto volume = load_series(series);
+    const auto volume = imaging::load_series(series);
     QCOMPARE(test::failure(volume), QString());
     QCOMPARE(static_cast<double>(volume->value(std::int64_t{7})), made.stored(7));
   }
@@ -314,7 +314,7 @@ class DicomQuantityTest : public QObject {
       put_mapping(test::group(dataset, DCM_SharedFunctionalGroupsSequence), "mm2/s");
     });
     QCOMPARE(mapped.series().unit, std::string("mm2/s"));
-    const auto volume = load_series(mapped.series());
+    const auto volume = imaging::load_series(mapped.series());
     QCOMPARE(test::failure(volume), QString());
     QCOMPARE(volume->slope, 1e-6);
     QCOMPARE(volume->intercept, 0.25);

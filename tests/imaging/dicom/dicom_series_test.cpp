@@ -41,14 +41,14 @@ class DicomSeriesTest : public QObject {
     written.intercept = *static_cast<double*>(QTest::qData("intercept", QMetaType::Double));
     const test::TemporaryFolder folder;
     test::write_series(written, folder / "series", modality.toUtf8());
-    const Series series = test::only_series(folder.path());
+    const imaging::Series series = test::only_series(folder.path());
     QCOMPARE(QString::fromStdString(series.reason), QString());
     QCOMPARE(series.modality, modality.toStdString());
     QCOMPARE(series.description, std::string("Sample"));
     QCOMPARE(series.scalar, std::string(written.scalar_name()));
     QVERIFY(series.changes.empty());
     QVERIFY(series.warnings.empty());
-    const auto read = load_dicom(series);
+    const auto read = imaging::load_dicom(series);
     QCOMPARE(test::failure(read), QString());
     test::verify_same(*read, written);
     QVERIFY(read->window.has_value());
@@ -85,7 +85,7 @@ class DicomSeriesTest : public QObject {
     const Volume written = test::sample_volume({7, 5, 3});
     const test::TemporaryFolder folder;
     test::write_series(written, folder / "series");
-    const auto read = load_dicom(test::only_series(folder.path()));
+    const auto read = imaging::load_dicom(test::only_series(folder.path()));
     std::setlocale(LC_ALL, "C");
     QCOMPARE(test::failure(read), QString());
     test::verify_same(*read, written);
@@ -97,11 +97,11 @@ class DicomSeriesTest : public QObject {
     const auto files = test::write_series(written, folder / "series");
     const char* names[] = {"d", "a", "e", "b", "c"};
     for (std::size_t k = 0; k < files.size(); ++k) fs::rename(files[k], files[k].parent_path() / names[k]);
-    const Series series = test::only_series(folder.path());
+    const imaging::Series series = test::only_series(folder.path());
     QVERIFY2(series.loadable, series.reason.c_str());
     for (std::size_t k = 0; k < files.size(); ++k) QCOMPARE(series.files[k].filename().string(), names[k]);
     QCOMPARE(series.changes, std::vector<std::string>{"slices sorted by position"});
-    const auto read = load_dicom(series);
+    const auto read = imaging::load_dicom(series);
     QCOMPARE(test::failure(read), QString());
     test::verify_same(*read, written);
   }
@@ -111,7 +111,7 @@ class DicomSeriesTest : public QObject {
     written.geometry.direction[2] = -written.geometry.direction[2];
     const test::TemporaryFolder folder;
     test::write_series(written, folder / "series");
-    const auto read = load_dicom(test::only_series(folder.path()));
+    const auto read = imaging::load_dicom(test::only_series(folder.path()));
     QCOMPARE(test::failure(read), QString());
     QVERIFY(glm::dot(glm::cross(read->geometry.direction[0], read->geometry.direction[1]),
                      read->geometry.direction[2]) > 0.999);
@@ -126,11 +126,11 @@ class DicomSeriesTest : public QObject {
   void two_slices_make_a_volume_and_one_does_not() {
     const test::TemporaryFolder folder;
     const auto files = test::write_series(test::sample_volume({7, 5, 2}), folder / "series");
-    const Series two = test::only_series(folder.path());
+    const imaging::Series two = test::only_series(folder.path());
     QVERIFY2(two.loadable, two.reason.c_str());
     QVERIFY(std::abs(two.geometry.spacing_mm.z - 2.5) < 1e-9);
     fs::remove(files[1]);
-    const Series one = test::only_series(folder.path());
+    const imaging::Series one = test::only_series(folder.path());
     QVERIFY(!one.loadable);
     QVERIFY2(one.reason.find("slice-00001.dcm") != std::string::npos, one.reason.c_str());
     QVERIFY2(one.reason.find("at least two") != std::string::npos, one.reason.c_str());
@@ -140,12 +140,12 @@ class DicomSeriesTest : public QObject {
     const test::TemporaryFolder folder;
     const auto files = test::write_series(test::sample_volume({7, 5, 6}), folder / "series");
     fs::remove(files[2]);
-    const Series series = test::only_series(folder.path());
+    const imaging::Series series = test::only_series(folder.path());
     QVERIFY(!series.loadable);
     QCOMPARE(series.reason,
              std::string("1 slice is missing between slice-00002.dcm and slice-00004.dcm: they are "
                          "5.000 mm apart, others 2.500 mm"));
-    const auto refused = load_dicom(series);
+    const auto refused = imaging::load_dicom(series);
     QVERIFY(!refused);
     QCOMPARE(refused.error().kind, ErrorKind::input);
   }
@@ -154,7 +154,7 @@ class DicomSeriesTest : public QObject {
     const test::TemporaryFolder folder;
     const auto files = test::write_series(test::sample_volume({7, 5, 4}), folder / "series");
     fs::copy_file(files[1], folder.path() / "series" / "slice-00002-copy.dcm");
-    const Series series = test::only_series(folder.path());
+    const imaging::Series series = test::only_series(folder.path());
     QVERIFY2(series.loadable, series.reason.c_str());
     QCOMPARE(series.files.size(), files.size());
     QCOMPARE(series.changes.size(), std::size_t{1});
@@ -170,12 +170,12 @@ class DicomSeriesTest : public QObject {
     test::write_series(large, folder / "large", "MR");
     for (const fs::path& file : files)
       fs::rename(file, folder.path() / "large" / ("other-" + file.filename().string()));
-    const auto found = scan_dicom(folder.path());
+    const auto found = imaging::scan_dicom(folder.path());
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{2});
-    for (const Series& series : found->series) {
+    for (const imaging::Series& series : found->series) {
       QVERIFY2(series.loadable, series.reason.c_str());
-      const auto read = load_dicom(series);
+      const auto read = imaging::load_dicom(series);
       QCOMPARE(test::failure(read), QString());
       test::verify_same(*read, series.modality == "CT" ? small : large);
     }
@@ -187,7 +187,7 @@ class DicomSeriesTest : public QObject {
     const auto files = test::write_series(written, folder / "series");
     test::write_series(test::sample_volume({7, 5, 3}), folder / "other");
     fs::rename(folder.path() / "other" / "slice-00001.dcm", folder.path() / "series" / "foreign.dcm");
-    const Series series = test::only_series(files[1]);
+    const imaging::Series series = test::only_series(files[1]);
     QVERIFY2(series.loadable, series.reason.c_str());
     QCOMPARE(series.files, files);
     QCOMPARE(series.changes.size(), std::size_t{1});
@@ -201,9 +201,9 @@ class DicomSeriesTest : public QObject {
     const auto files = test::write_series(written, folder / "series");
     test::set_text(files[1], 0x0028, 0x1053, "0.25");
     test::set_text(files[1], 0x0028, 0x1052, "100");
-    const Series series = test::only_series(folder.path());
+    const imaging::Series series = test::only_series(folder.path());
     QCOMPARE(series.scalar, std::string("float"));
-    const auto read = load_dicom(series);
+    const auto read = imaging::load_dicom(series);
     QCOMPARE(test::failure(read), QString());
     QCOMPARE(read->slope, 1.0);
     QCOMPARE(read->value(Index3{3, 2, 0}), written.value(Index3{3, 2, 0}));
@@ -227,10 +227,10 @@ class DicomSeriesTest : public QObject {
         dataset.putAndInsertUint8Array(DcmTag(DCM_PixelData, EVR_OB), bytes.data(), 35);
       });
     }
-    const Series series = test::only_series(folder.path());
+    const imaging::Series series = test::only_series(folder.path());
     QVERIFY2(series.loadable, series.reason.c_str());
     QVERIFY(!series.warnings.empty() && series.warnings[0].find("MONOCHROME1") != std::string::npos);
-    const auto read = load_dicom(series);
+    const auto read = imaging::load_dicom(series);
     QCOMPARE(test::failure(read), QString());
     QCOMPARE(std::string(read->scalar_name()), std::string("uint16"));
     QCOMPARE(read->value(Index3{3, 2, 1}), 17.0F * 7.0F + 5.0F);
@@ -247,7 +247,7 @@ class DicomSeriesTest : public QObject {
         dataset.putAndInsertUint16Array(DcmTag(DCM_PixelData, EVR_OW), words, 4);
       });
     }
-    const auto read = load_dicom(test::only_series(folder.path()));
+    const auto read = imaging::load_dicom(test::only_series(folder.path()));
     QCOMPARE(test::failure(read), QString());
     const std::vector<std::int16_t> expected{2047, -2048, -1, 1, 2047, -2048, -1, 1};
     QCOMPARE(std::get<std::vector<std::int16_t>>(read->voxels), expected);
@@ -266,7 +266,7 @@ class DicomSeriesTest : public QObject {
         dataset.putAndInsertUint16Array(DcmTag(DCM_PixelData, EVR_OW), words, 4);
       });
     }
-    const auto read = load_dicom(test::only_series(folder.path()));
+    const auto read = imaging::load_dicom(test::only_series(folder.path()));
     QCOMPARE(test::failure(read), QString());
     const std::vector<std::uint16_t> expected{0x7ff, 0, 0xfff, 0x801, 0x7ff, 0, 0xfff, 0x801};
     QCOMPARE(std::get<std::vector<std::uint16_t>>(read->voxels), expected);
@@ -285,7 +285,7 @@ class DicomSeriesTest : public QObject {
       dataset.putAndInsertUint16(DCM_PixelRepresentation, 0);
       dataset.putAndInsertUint16Array(DcmTag(DCM_PixelData, EVR_OW), words, 4);
     });
-    const auto read = load_dicom(test::only_series(folder.path()));
+    const auto read = imaging::load_dicom(test::only_series(folder.path()));
     QCOMPARE(test::failure(read), QString());
     const auto& voxels = std::get<std::vector<std::int16_t>>(read->voxels);
     QCOMPARE(voxels[0], std::int16_t{-32768});
@@ -306,7 +306,7 @@ class DicomSeriesTest : public QObject {
       last = fraction;
       ++calls;
     };
-    const auto found = scan_dicom(folder.path(), progress);
+    const auto found = imaging::scan_dicom(folder.path(), progress);
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(last, 1.0);
     QCOMPARE(calls, 20);
@@ -315,7 +315,7 @@ class DicomSeriesTest : public QObject {
     Progress stopping;
     stopping.stop = stop.get_token();
     stopping.report = [&](double, std::string_view) { stop.request_stop(); };
-    const auto stopped = load_dicom(found->series.front(), stopping);
+    const auto stopped = imaging::load_dicom(found->series.front(), stopping);
     QVERIFY(!stopped);
     QCOMPARE(stopped.error().kind, ErrorKind::cancelled);
   }
@@ -329,31 +329,31 @@ class DicomSeriesTest : public QObject {
     progress.report = [&](double fraction, std::string_view) {
       if (fraction > 0.5) stop.request_stop();
     };
-    const Status stopped = write_dicom_series(volume, {}, folder / "series", progress);
+    const Status stopped = imaging::write_dicom_series(volume, {}, folder / "series", progress);
     QVERIFY(!stopped);
     QCOMPARE(stopped.error().kind, ErrorKind::cancelled);
     QVERIFY(fs::is_empty(folder.path()));
 
     fs::create_directory(folder / "series");
     std::ofstream(folder / "series" / "notes.txt") << "kept";
-    const Status refused = write_dicom_series(volume, {}, folder / "series");
+    const Status refused = imaging::write_dicom_series(volume, {}, folder / "series");
     QVERIFY(!refused);
     QCOMPARE(refused.error().kind, ErrorKind::write);
     QVERIFY2(refused.error().message.find("notes.txt") != std::string::npos, refused.error().message.c_str());
 
     Volume floats = volume;
     floats.voxels = std::vector<float>(700);
-    QCOMPARE(write_dicom_series(floats, {}, folder / "floats").error().kind, ErrorKind::write);
+    QCOMPARE(imaging::write_dicom_series(floats, {}, folder / "floats").error().kind, ErrorKind::write);
   }
 
   void a_series_takes_the_place_of_an_older_one() {
     const test::TemporaryFolder folder;
-    QVERIFY(write_dicom_series(test::sample_volume({7, 5, 3}), {}, folder / "series"));
+    QVERIFY(imaging::write_dicom_series(test::sample_volume({7, 5, 3}), {}, folder / "series"));
     fs::create_directory_symlink(folder / "series", folder / "link");
     const Volume volume = test::sample_volume({6, 4, 5});
-    QCOMPARE(test::failure(write_dicom_series(volume, {}, folder / "link/")), QString());
+    QCOMPARE(test::failure(imaging::write_dicom_series(volume, {}, folder / "link/")), QString());
     QVERIFY(fs::is_symlink(folder / "link"));
-    const auto read = load_dicom(test::only_series(folder / "series"));
+    const auto read = imaging::load_dicom(test::only_series(folder / "series"));
     QCOMPARE(test::failure(read), QString());
     QVERIFY(read->voxels == volume.voxels);
     QCOMPARE(std::distance(fs::directory_iterator(folder.path()), {}), std::ptrdiff_t{2});
@@ -362,11 +362,11 @@ class DicomSeriesTest : public QObject {
   void what_a_killed_program_was_writing_is_no_series() {
     const test::TemporaryFolder folder;
     const Volume volume = test::sample_volume({6, 4, 5});
-    QVERIFY(write_dicom_series(volume, {}, folder / "series"));
-    QVERIFY(write_dicom_series(volume, {}, folder / ".tidemark-0123ab-series"));
+    QVERIFY(imaging::write_dicom_series(volume, {}, folder / "series"));
+    QVERIFY(imaging::write_dicom_series(volume, {}, folder / ".tidemark-0123ab-series"));
     fs::copy_file(folder / ".tidemark-0123ab-series/slice-00001.dcm",
                   folder / "series/.tidemark-0123ab-slice-00001.dcm");
-    const auto found = scan_dicom(folder.path());
+    const auto found = imaging::scan_dicom(folder.path());
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{1});
     QVERIFY(found->skipped.empty());

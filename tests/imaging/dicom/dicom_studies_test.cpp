@@ -53,7 +53,7 @@ std::string uid_of(const std::string& name) {
 
 // The files in the order in which their pixels were summed up; the reader's own where it is abridged.
 std::vector<fs::path> files_in_order(const fs::path& path, const nlohmann::json& truth,
-                                     const Catalogue& found) {
+                                     const imaging::Catalogue& found) {
   if (!fs::is_directory(path)) return {path};
   std::vector<fs::path> files;
   if (truth.contains("order")) {
@@ -113,10 +113,10 @@ class DicomStudiesTest : public QObject {
     QFETCH(QString, key);
     const nlohmann::json& truth = entry_of(study, key);
     const fs::path path = path_of(study.toStdString(), key.toStdString());
-    const auto found = scan_dicom(path);
+    const auto found = imaging::scan_dicom(path);
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{1});
-    const Series& series = found->series.front();
+    const imaging::Series& series = found->series.front();
     QCOMPARE(QString::fromStdString(series.reason), QString());
     QVERIFY(series.loadable);
 
@@ -143,7 +143,7 @@ class DicomStudiesTest : public QObject {
     const glm::dvec3 last = g.to_patient({0.0, 0.0, static_cast<double>(g.size.z - 1)});
     QVERIFY(distance(last, vector_of(truth.at("last_IPP"))) < 0.02);
 
-    const auto volume = load_dicom(series);
+    const auto volume = imaging::load_dicom(series);
     QCOMPARE(test::failure(volume), QString());
     QCOMPARE(volume->geometry, g);
     QCOMPARE(std::string(volume->scalar_name()), series.scalar);
@@ -186,7 +186,7 @@ class DicomStudiesTest : public QObject {
         {"rtdose_rle.dcm", "15 frames"}};
     const auto refused = kRefused.find(path.filename().string());
     if (refused != kRefused.end() || !truth.contains("pixels_md5_int32le")) {
-      const auto slice = decode_frame(path);
+      const auto slice = imaging::decode_frame(path);
       QVERIFY(!slice);
       QVERIFY2(slice.error().message.find(path.string()) != std::string::npos, slice.error().message.c_str());
       if (refused != kRefused.end()) {
@@ -195,11 +195,11 @@ class DicomStudiesTest : public QObject {
       }
       return;
     }
-    Catalogue found;
-    if (fs::is_directory(path)) found = scan_dicom(path).value();
+    imaging::Catalogue found;
+    if (fs::is_directory(path)) found = imaging::scan_dicom(path).value();
     QCryptographicHash hash(QCryptographicHash::Md5);
     for (const fs::path& file : files_in_order(path, truth, found)) {
-      const auto slice = decode_frame(file);
+      const auto slice = imaging::decode_frame(file);
       QCOMPARE(test::failure(slice), QString());
       add_values(hash, slice->pixels.stored);
     }
@@ -210,12 +210,12 @@ class DicomStudiesTest : public QObject {
   // (the other readers' sums keep it).
   void bits_above_the_high_bit_are_ignored() {
     const fs::path folder = test::studies_folder() / "d16_12bit" / "In";
-    const auto without_sign = decode_frame(folder / "12bitUnsigned_0x0F0F.dcm");
+    const auto without_sign = imaging::decode_frame(folder / "12bitUnsigned_0x0F0F.dcm");
     QCOMPARE(test::failure(without_sign), QString());
     QVERIFY(without_sign->pixels.ignored_bits);
     QCOMPARE(*std::max_element(without_sign->pixels.stored.begin(), without_sign->pixels.stored.end()), 4095);
     QVERIFY(std::count(without_sign->pixels.stored.begin(), without_sign->pixels.stored.end(), 0x0f0f) > 0);
-    const auto with_sign = decode_frame(folder / "12bitSigned_0x0F0F.dcm");
+    const auto with_sign = imaging::decode_frame(folder / "12bitSigned_0x0F0F.dcm");
     QCOMPARE(test::failure(with_sign), QString());
     QVERIFY(std::count(with_sign->pixels.stored.begin(), with_sign->pixels.stored.end(), -241) > 0);
     QVERIFY(std::count(with_sign->pixels.stored.begin(), with_sign->pixels.stored.end(), -1) > 0);
@@ -237,27 +237,27 @@ class DicomStudiesTest : public QObject {
   void what_is_no_volume_is_refused_by_its_reason() {
     QFETCH(QString, study);
     QFETCH(QStringList, parts);
-    const auto found = scan_dicom(test::studies_folder() / study.toStdString());
+    const auto found = imaging::scan_dicom(test::studies_folder() / study.toStdString());
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{1});
-    const Series& series = found->series.front();
+    const imaging::Series& series = found->series.front();
     QVERIFY(!series.loadable);
     for (const QString& part : parts) {
       QVERIFY2(QString::fromStdString(series.reason).contains(part), series.reason.c_str());
     }
-    QVERIFY(!load_dicom(series));
+    QVERIFY(!imaging::load_dicom(series));
   }
 
   // One slice is missing between the third and the fourth image.
   void a_missing_slice_is_filled() {
-    constexpr GridPolicy kFill{GridPolicy::Tilt::correct, GridPolicy::Gaps::fill};
-    const auto loaded = load_with_series(test::studies_folder() / "d09_gap_ct_ge", {}, {}, kFill);
+    constexpr imaging::GridPolicy kFill{imaging::GridPolicy::Tilt::correct, imaging::GridPolicy::Gaps::fill};
+    const auto loaded = imaging::load_with_series(test::studies_folder() / "d09_gap_ct_ge", {}, {}, kFill);
     QCOMPARE(test::failure(loaded), QString());
     const Volume& volume = loaded->volume;
     QCOMPARE(volume.geometry.size, Index3(512, 512, 5));
     QVERIFY(distance(volume.geometry.spacing_mm, {0.429688, 0.429688, 5.0}) < 1e-5);
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto slice = decode_frame(loaded->series.files[k]);
+      const auto slice = imaging::decode_frame(loaded->series.files[k]);
       QCOMPARE(test::failure(slice), QString());
       const auto first = volume.geometry.offset({0, 0, k < 3 ? static_cast<std::int64_t>(k) : 4});
       for (std::int64_t v = 0; v < 512 * 512; ++v) {
@@ -275,8 +275,8 @@ class DicomStudiesTest : public QObject {
   // 18.5 degrees; 4 mm along the normal, then 1.08 mm once, then 7 mm.
   void a_tilted_gantry_with_two_pitches_becomes_regular() {
     const fs::path study = test::studies_folder() / "d04_ct_tilt_ge";
-    const auto corrected =
-        load_with_series(study, {}, {}, {GridPolicy::Tilt::correct, GridPolicy::Gaps::fill});
+    const auto corrected = imaging::load_with_series(
+        study, {}, {}, {imaging::GridPolicy::Tilt::correct, imaging::GridPolicy::Gaps::fill});
     QCOMPARE(test::failure(corrected), QString());
     const Geometry& grid = corrected->volume.geometry;
     QCOMPARE(grid.size, Index3(512, 543, 12));  // 47.54 mm of table, sin 18.5 degrees of it in the rows
@@ -297,11 +297,12 @@ class DicomStudiesTest : public QObject {
     QVERIFY(says(corrected->volume, "tilt of 18.5 degrees corrected"));
     QVERIFY(says(corrected->volume, "12 slices 4.002 mm apart are made of 10"));
 
-    const auto kept = load_with_series(study, {}, {}, {GridPolicy::Tilt::keep, GridPolicy::Gaps::fill});
+    const auto kept = imaging::load_with_series(
+        study, {}, {}, {imaging::GridPolicy::Tilt::keep, imaging::GridPolicy::Gaps::fill});
     QCOMPARE(test::failure(kept), QString());
     QCOMPARE(kept->volume.geometry.size, Index3(512, 512, 12));
     QVERIFY(says(kept->volume, "tilted by 18.5 degrees"));
-    const auto fourth = decode_frame(kept->series.files[4]);
+    const auto fourth = imaging::decode_frame(kept->series.files[4]);
     QCOMPARE(test::failure(fourth), QString());
     for (std::int64_t v = 0; v < 512 * 512; ++v) {
       QCOMPARE(static_cast<double>(kept->volume.value(v + 4 * 512 * 512)),
@@ -318,14 +319,14 @@ class DicomStudiesTest : public QObject {
   void of_every_odd_file_it_is_said_why_it_is_not_read() {
     QFETCH(QString, study);
     const fs::path folder = test::studies_folder() / study.toStdString();
-    const auto found = scan_dicom(folder);
+    const auto found = imaging::scan_dicom(folder);
     QCOMPARE(test::failure(found), QString());
     std::set<fs::path> explained;
-    for (const Series& series : found->series) {
+    for (const imaging::Series& series : found->series) {
       QVERIFY2(!series.loadable && !series.reason.empty(), series.uid.c_str());
       explained.insert(series.files.begin(), series.files.end());
     }
-    for (const SkippedFile& skipped : found->skipped) {
+    for (const imaging::SkippedFile& skipped : found->skipped) {
       QVERIFY(!skipped.reason.empty());
       explained.insert(skipped.file);
     }
@@ -354,10 +355,10 @@ class DicomStudiesTest : public QObject {
                                                    {"chrRuss.dcm", "Люкceмбypг"},
                                                    {"chrX1.dcm", "王 小東 (Wang, XiaoDong)"},
                                                    {"chrX2.dcm", "王 小东 (Wang, XiaoDong)"}};
-    const auto found = scan_dicom(test::studies_folder() / "d18_charsets");
+    const auto found = imaging::scan_dicom(test::studies_folder() / "d18_charsets");
     QCOMPARE(test::failure(found), QString());
     std::size_t seen = 0;
-    for (const Series& series : found->series) {
+    for (const imaging::Series& series : found->series) {
       for (const fs::path& file : series.files) {
         const auto name = names.find(file.filename().string());
         if (name == names.end()) continue;
@@ -370,10 +371,10 @@ class DicomStudiesTest : public QObject {
 
   // Copies of one series in nine folders stay nine series.
   void copies_in_several_folders_are_not_mixed() {
-    const auto found = scan_dicom(test::studies_folder() / "x01_mrhead3_syntaxes");
+    const auto found = imaging::scan_dicom(test::studies_folder() / "x01_mrhead3_syntaxes");
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{9});
-    for (const Series& series : found->series) {
+    for (const imaging::Series& series : found->series) {
       QVERIFY2(series.loadable, series.reason.c_str());
       QCOMPARE(series.files.size(), std::size_t{3});
     }

@@ -63,11 +63,11 @@ class DicomSyntaxesTest : public QObject {
     for (const fs::path& file : test::write_series(written, folder / "series")) {
       QVERIFY(test::recode(file, syntax, is_signed));
     }
-    const Series series = test::only_series(folder.path());
+    const imaging::Series series = test::only_series(folder.path());
     QVERIFY2(series.loadable, series.reason.c_str());
     QCOMPARE(series.transfer_syntaxes, std::vector<std::string>{DcmXfer(syntax).getXferID()});
     QVERIFY(series.warnings.empty());
-    const auto read = load_dicom(series);
+    const auto read = imaging::load_dicom(series);
     QCOMPARE(test::failure(read), QString());
     QVERIFY(read->voxels == written.voxels);
     QVERIFY(same_grid(read->geometry, written.geometry, 1e-6));
@@ -93,10 +93,10 @@ class DicomSyntaxesTest : public QObject {
       });
       QVERIFY(test::recode(file, syntax, false));
     }
-    const Series series = test::only_series(folder.path());
+    const imaging::Series series = test::only_series(folder.path());
     QVERIFY2(series.loadable, series.reason.c_str());
     QVERIFY(!series.warnings.empty() && series.warnings[0].find("with loss") != std::string::npos);
-    const auto read = load_dicom(series);
+    const auto read = imaging::load_dicom(series);
     QCOMPARE(test::failure(read), QString());
     float worst = 0.0F;
     for (std::int64_t v = 0; v < written.geometry.voxel_count(); ++v) {
@@ -130,7 +130,7 @@ class DicomSyntaxesTest : public QObject {
       dataset.put_number(0x00280101, 12).put_number(0x00280102, 11);
       dataset.put(test::kPixels, test::encapsulated(frame));
       test::write_bytes(folder / "slice.dcm", test::file(syntax.toStdString(), dataset.bytes()));
-      const auto slice = decode_frame(folder / "slice.dcm");
+      const auto slice = imaging::decode_frame(folder / "slice.dcm");
       QVERIFY2(test::failure(slice).contains(reason), qPrintable(test::failure(slice)));
     }
   }
@@ -141,9 +141,9 @@ class DicomSyntaxesTest : public QObject {
     const auto files = test::write_series(written, folder / "series");
     QVERIFY(test::recode(files[0], EXS_RLELossless, true));
     QVERIFY(test::recode(files[1], EXS_JPEG2000LosslessOnly, true));
-    const Series series = test::only_series(folder.path());
+    const imaging::Series series = test::only_series(folder.path());
     QCOMPARE(series.transfer_syntaxes.size(), std::size_t{3});
-    const auto read = load_dicom(series);
+    const auto read = imaging::load_dicom(series);
     QCOMPARE(test::failure(read), QString());
     QVERIFY(read->voxels == written.voxels);
   }
@@ -152,14 +152,14 @@ class DicomSyntaxesTest : public QObject {
     const std::vector<std::int32_t> values(12, 7);
     const auto stream = test::encode_j2k(values, 4, 3, 16, false, false);
     QVERIFY(!stream.empty());
-    const auto image = decode_j2k(stream, 4, 3);
+    const auto image = imaging::decode_j2k(stream, 4, 3);
     QCOMPARE(test::failure(image), QString());
     QCOMPARE(image->values, values);
     QCOMPARE(image->precision, 16);
-    QVERIFY(!decode_j2k(stream, 3, 4));
-    QVERIFY(!decode_j2k(stream, 4, 4));
-    QVERIFY(!decode_j2k(std::vector<std::uint8_t>{}, 4, 3));
-    QVERIFY(!decode_j2k(std::vector<std::uint8_t>(64, 0xff), 4, 3));
+    QVERIFY(!imaging::decode_j2k(stream, 3, 4));
+    QVERIFY(!imaging::decode_j2k(stream, 4, 4));
+    QVERIFY(!imaging::decode_j2k(std::vector<std::uint8_t>{}, 4, 3));
+    QVERIFY(!imaging::decode_j2k(std::vector<std::uint8_t>(64, 0xff), 4, 3));
   }
 
   void a_j2k_stream_that_ends_early_is_an_error() {
@@ -170,7 +170,7 @@ class DicomSyntaxesTest : public QObject {
     for (const std::size_t kept : {stream.size() / 2, stream.size() / 10, std::size_t{40}, std::size_t{3}}) {
       const std::vector<std::uint8_t> part(stream.begin(),
                                            stream.begin() + static_cast<std::ptrdiff_t>(kept));
-      QVERIFY2(!decode_j2k(part, 64, 64), qPrintable(QString::number(kept)));
+      QVERIFY2(!imaging::decode_j2k(part, 64, 64), qPrintable(QString::number(kept)));
     }
   }
 
@@ -186,7 +186,7 @@ class DicomSyntaxesTest : public QObject {
                         test::encode_j2k(negative, 4, 3, 16, true, false), 1);
       QVERIFY(loaded.saveFile(file.c_str(), EXS_JPEG2000LosslessOnly).good());
     }
-    const auto read = load_dicom(test::only_series(folder.path()));
+    const auto read = imaging::load_dicom(test::only_series(folder.path()));
     QVERIFY(!read);
     QVERIFY2(read.error().message.find("slice-00001.dcm") != std::string::npos, read.error().message.c_str());
     QVERIFY2(read.error().message.find("PixelRepresentation") != std::string::npos,

@@ -130,7 +130,7 @@ const std::vector<Explanation> kExplanations{
 // All that the table says of one study.
 struct Findings {
   const Study* study = nullptr;
-  Catalogue catalogue;
+  imaging::Catalogue catalogue;
   std::vector<Loaded> loaded;
   std::vector<std::string> truth_differences;
   std::vector<std::string> peer_differences;
@@ -155,11 +155,11 @@ std::vector<std::string> each_once(const std::vector<Loaded>& loaded, const Text
   return all;
 }
 
-std::vector<std::string> syntaxes_of(const Catalogue& catalogue) {
+std::vector<std::string> syntaxes_of(const imaging::Catalogue& catalogue) {
   std::set<std::string> names;
-  for (const Series& series : catalogue.series) {
+  for (const imaging::Series& series : catalogue.series) {
     for (const std::string& uid : series.transfer_syntaxes) {
-      const TransferSyntax* known = find_transfer_syntax(uid);
+      const imaging::TransferSyntax* known = imaging::find_transfer_syntax(uid);
       names.insert(known != nullptr ? std::string(known->name) : uid);
     }
   }
@@ -169,7 +169,7 @@ std::vector<std::string> syntaxes_of(const Catalogue& catalogue) {
 // dcm2niix is given one folder after the other, so that it does not mix copies of a series.
 void compare_with_peer(Findings& findings) {
   std::map<fs::path, std::vector<PeerVolume>> folders;
-  for (const Series& series : findings.catalogue.series) {
+  for (const imaging::Series& series : findings.catalogue.series) {
     if (series.transfer_syntaxes.empty()) continue;  // a volume file
     for (const fs::path& file : series.files) folders[file.parent_path()];
   }
@@ -210,14 +210,14 @@ void compare_with_peer(Findings& findings) {
 
 Result<Findings> find(const Study& study, const nlohmann::json& truth, bool with_peer) {
   const fs::path folder = test::studies_folder() / study.name;
-  auto catalogue = find_series(folder);
+  auto catalogue = imaging::find_series(folder);
   if (!catalogue) return pass_on(catalogue);
   Findings findings;
   findings.study = &study;
   findings.catalogue = std::move(*catalogue);
-  for (const Series& series : findings.catalogue.series) {
+  for (const imaging::Series& series : findings.catalogue.series) {
     if (!series.loadable) continue;
-    auto volume = load_series(series);
+    auto volume = imaging::load_series(series);
     if (!volume) return pass_on(volume);
     findings.loaded.push_back({&series, std::move(*volume)});
   }
@@ -234,7 +234,7 @@ std::string verdict(const Findings& findings) {
   const std::size_t refused = series.size() - findings.loaded.size();
   if (refused == 0) return "read";
   const auto first =
-      std::find_if(series.begin(), series.end(), [](const Series& one) { return !one.loadable; });
+      std::find_if(series.begin(), series.end(), [](const imaging::Series& one) { return !one.loadable; });
   std::string reason = first->reason;
   if (refused > 1) reason += fmt::format(" (and {} more)", refused - 1);
   return fmt::format("{}refused: {}", findings.loaded.empty() ? "" : "the others ", reason);
@@ -354,7 +354,7 @@ class DicomTableTest : public QObject {
     const Study& expected = *findings.study;
     QCOMPARE(findings.loaded.size(), expected.volumes);
     std::set<std::string_view> used;
-    for (const Series& series : findings.catalogue.series) {
+    for (const imaging::Series& series : findings.catalogue.series) {
       if (series.loadable) continue;
       const auto known =
           std::find_if(expected.refusals.begin(), expected.refusals.end(),

@@ -116,15 +116,15 @@ class DicomVolumesTest : public QObject {
   void a_volume_lies_where_another_reader_puts_it() {
     QFETCH(std::size_t, index);
     const Expected expected = expected_volumes()[index];
-    const auto found = scan_dicom(test::studies_folder() / expected.study);
+    const auto found = imaging::scan_dicom(test::studies_folder() / expected.study);
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), expected.volumes);
-    const Series& series = found->series[expected.number - 1];
+    const imaging::Series& series = found->series[expected.number - 1];
     QVERIFY2(series.loadable, series.reason.c_str());
     QVERIFY2(series.description.ends_with(expected.label), series.description.c_str());
     if (expected.volumes > 1) QVERIFY(series.uid.ends_with(fmt::format("#{}", expected.number)));
 
-    const auto volume = load_dicom(series);
+    const auto volume = imaging::load_dicom(series);
     QCOMPARE(test::failure(volume), QString());
     const Geometry& g = volume->geometry;
     QCOMPARE(g.size, expected.size);
@@ -140,7 +140,7 @@ class DicomVolumesTest : public QObject {
   }
 
   void the_two_b_values_are_the_files_that_say_so() {
-    const auto found = scan_dicom(test::studies_folder() / "d14_4d_dti_ge");
+    const auto found = imaging::scan_dicom(test::studies_folder() / "d14_4d_dti_ge");
     QCOMPARE(test::failure(found), QString());
     for (int k = 0; k < 4; ++k) {
       const auto slice = static_cast<std::size_t>(k);
@@ -152,14 +152,14 @@ class DicomVolumesTest : public QObject {
   }
 
   void each_frame_is_decoded_by_itself() {
-    const auto found = scan_dicom(test::studies_folder() / "d05_enhanced_mr_siemens_xa30");
+    const auto found = imaging::scan_dicom(test::studies_folder() / "d05_enhanced_mr_siemens_xa30");
     QCOMPARE(test::failure(found), QString());
-    const auto reader = FrameReader::open(found->series[0].files[0]);
+    const auto reader = imaging::FrameReader::open(found->series[0].files[0]);
     QCOMPARE(test::failure(reader), QString());
-    const auto volume = load_dicom(found->series[0]);
+    const auto volume = imaging::load_dicom(found->series[0]);
     QCOMPARE(reader->frames(), std::int64_t{96});
     for (std::int64_t k = 0; k < 96; ++k) {
-      const SliceSource& source = found->series[0].sources[static_cast<std::size_t>(k)];
+      const imaging::SliceSource& source = found->series[0].sources[static_cast<std::size_t>(k)];
       QCOMPARE(source.frame, 95 - k);  // the frames follow each other against the normal
       const auto frame = reader->decode(source.frame);
       QCOMPARE(test::failure(frame), QString());

@@ -39,12 +39,12 @@ void put_shared(const Volume& volume, DcmDataset& dataset) {
   DcmItem& shared = group(dataset, DCM_SharedFunctionalGroupsSequence);
   const auto& d = volume.geometry.direction;
   put(group(shared, DCM_PlaneOrientationSequence), DCM_ImageOrientationPatient,
-      decimals(d[0].x, d[0].y, d[0].z, d[1].x, d[1].y, d[1].z));
+      imaging::decimals(d[0].x, d[0].y, d[0].z, d[1].x, d[1].y, d[1].z));
   put(group(shared, DCM_PixelMeasuresSequence), DCM_PixelSpacing,
-      decimals(volume.geometry.spacing_mm.y, volume.geometry.spacing_mm.x));
+      imaging::decimals(volume.geometry.spacing_mm.y, volume.geometry.spacing_mm.x));
   DcmItem& values = group(shared, DCM_PixelValueTransformationSequence);
-  put(values, DCM_RescaleSlope, decimal(volume.slope));
-  put(values, DCM_RescaleIntercept, decimal(volume.intercept));
+  put(values, DCM_RescaleSlope, imaging::decimal(volume.slope));
+  put(values, DCM_RescaleIntercept, imaging::decimal(volume.intercept));
 }
 
 }  // namespace
@@ -79,7 +79,8 @@ void write_enhanced(const std::vector<EnhancedFrame>& frames, const std::filesys
       dataset.findOrCreateSequenceItem(DCM_PerFrameFunctionalGroupsSequence, groups, -2);
       const auto& [volume, k] = frames[f];
       const glm::dvec3 p = volume->geometry.to_patient({0.0, 0.0, static_cast<double>(k)});
-      put(group(*groups, DCM_PlanePositionSequence), DCM_ImagePositionPatient, decimals(p.x, p.y, p.z));
+      put(group(*groups, DCM_PlanePositionSequence), DCM_ImagePositionPatient,
+          imaging::decimals(p.x, p.y, p.z));
       enhanced.frame(*groups, f);
     }
     const auto words = words_of(frames);

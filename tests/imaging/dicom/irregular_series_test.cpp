@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr GridPolicy kFill{GridPolicy::Tilt::correct, GridPolicy::Gaps::fill};
-constexpr GridPolicy kKeep{GridPolicy::Tilt::keep, GridPolicy::Gaps::refuse};
+constexpr imaging::GridPolicy kFill{imaging::GridPolicy::Tilt::correct, imaging::GridPolicy::Gaps::fill};
+constexpr imaging::GridPolicy kKeep{imaging::GridPolicy::Tilt::keep, imaging::GridPolicy::Gaps::refuse};
 constexpr Index3 kSize{12, 10, 8};
 
 bool says(const std::vector<std::string>& lines, const std::string& part) {
@@ -49,20 +49,20 @@ class IrregularSeriesTest : public QObject {
 
   void a_gap_is_refused_and_filled_when_that_is_asked_for() {
     fs::remove(files_[3]);
-    const auto found = find_series(folder_ / "series");
+    const auto found = imaging::find_series(folder_ / "series");
     QCOMPARE(test::failure(found), QString());
-    const Series& refused = found->series.front();
+    const imaging::Series& refused = found->series.front();
     QVERIFY(!refused.loadable && refused.fillable());
     QVERIFY2(says({refused.reason}, "1 slice is missing between " + files_[2].filename().string()),
              refused.reason.c_str());
-    QVERIFY(find_fillable(*found, refused.uid) != nullptr);
-    QVERIFY(find_fillable(*found, "1.2.3") == nullptr);
-    QVERIFY(!load_volume(folder_ / "series"));
+    QVERIFY(imaging::find_fillable(*found, refused.uid) != nullptr);
+    QVERIFY(imaging::find_fillable(*found, "1.2.3") == nullptr);
+    QVERIFY(!imaging::load_volume(folder_ / "series"));
 
-    const auto loaded = load_with_series(folder_ / "series", {}, {}, kFill);
+    const auto loaded = imaging::load_with_series(folder_ / "series", {}, {}, kFill);
     QCOMPARE(test::failure(loaded), QString());
     QCOMPARE(loaded->series.policy, kFill);
-    QCOMPARE(by_policy(refused, kFill).geometry, loaded->series.geometry);
+    QCOMPARE(imaging::by_policy(refused, kFill).geometry, loaded->series.geometry);
     QCOMPARE(loaded->series.files.size(), std::size_t{7});
     const Volume& volume = loaded->volume;
     QVERIFY(same_grid(volume.geometry, whole_.geometry, 1e-3));
@@ -80,7 +80,7 @@ class IrregularSeriesTest : public QObject {
 
   void a_tilt_is_corrected_unless_it_is_kept() {
     test::tilt(files_, whole_.geometry, 0.9);  // one pixel a slice: nothing is interpolated
-    const auto loaded = load_with_series(folder_ / "series");
+    const auto loaded = imaging::load_with_series(folder_ / "series");
     QCOMPARE(test::failure(loaded), QString());
     const Volume& volume = loaded->volume;
     QCOMPARE(volume.geometry.size, kSize + Index3(0, 7, 0));
@@ -89,7 +89,7 @@ class IrregularSeriesTest : public QObject {
       QCOMPARE(value_at(volume, {4, 2 + k, k}), value_at(whole_, {4, 2, k}));
       if (k > 0) QCOMPARE(value_at(volume, {4, k - 1, k}), -1024.0);  // air: the series is CT
     }
-    const auto kept = load_with_series(folder_ / "series", {}, {}, kKeep);
+    const auto kept = imaging::load_with_series(folder_ / "series", {}, {}, kKeep);
     QCOMPARE(test::failure(kept), QString());
     QCOMPARE(kept->volume.voxels, whole_.voxels);
     QVERIFY(same_grid(kept->volume.geometry, whole_.geometry, 1e-3));
@@ -111,7 +111,7 @@ class IrregularSeriesTest : public QObject {
           }
         });
       }
-      const auto volume = load_volume(folder_ / "series");
+      const auto volume = imaging::load_volume(folder_ / "series");
       QCOMPARE(test::failure(volume), QString());
       QCOMPARE(value_at(*volume, {0, 0, 7}), -2000.0);
     }
@@ -125,14 +125,14 @@ class IrregularSeriesTest : public QObject {
       const auto step = static_cast<double>(k);
       const glm::dvec3 place =
           whole_.geometry.to_patient({0.0, 0.0, step}) + 0.3 * step * whole_.geometry.direction[1];
-      test::set_text(rest[k], 0x0020, 0x0032, decimals(place.x, place.y, place.z).c_str());
+      test::set_text(rest[k], 0x0020, 0x0032, imaging::decimals(place.x, place.y, place.z).c_str());
     }
-    const auto loaded = load_with_series(folder_ / "series", {}, {}, kFill);
+    const auto loaded = imaging::load_with_series(folder_ / "series", {}, {}, kFill);
     QCOMPARE(test::failure(loaded), QString());
     const Volume& volume = loaded->volume;
     QCOMPARE(volume.geometry.size.z, kSize.z);
     for (std::int64_t k = 0; k < kSize.z; ++k) {
-      const auto slice = load_slice(loaded->series, k);
+      const auto slice = imaging::load_slice(loaded->series, k);
       QCOMPARE(test::failure(slice), QString());
       const Index3 size = slice->geometry.size;
       QCOMPARE(size, Index3(volume.geometry.size.x, volume.geometry.size.y, 1));
@@ -144,15 +144,15 @@ class IrregularSeriesTest : public QObject {
 
   void results_refer_to_images_only_where_their_slices_lie() {
     fs::remove(files_[3]);
-    const auto loaded = load_with_series(folder_ / "series", {}, {}, kFill);
+    const auto loaded = imaging::load_with_series(folder_ / "series", {}, {}, kFill);
     QCOMPARE(test::failure(loaded), QString());
-    Segments segments{loaded->volume.geometry, {}, {}};
-    Segment segment;
+    imaging::Segments segments{loaded->volume.geometry, {}, {}};
+    imaging::Segment segment;
     segment.name = "All";
     for (std::int64_t k = 0; k < kSize.z; ++k) segment.slices[k] = std::vector<std::uint8_t>(120, 1);
     segments.list.push_back(segment);
-    const auto sources = dicom_files_of(loaded->series);
-    QCOMPARE(test::failure(write_segmentation(segments, sources, folder_ / "seg.dcm")), QString());
+    const auto sources = imaging::dicom_files_of(loaded->series);
+    QCOMPARE(test::failure(imaging::write_segmentation(segments, sources, folder_ / "seg.dcm")), QString());
     DcmFileFormat written;
     QVERIFY(written.loadFile((folder_ / "seg.dcm").c_str()).good());
     DcmSequenceOfItems* frames = nullptr;
@@ -172,7 +172,7 @@ class IrregularSeriesTest : public QObject {
       QCOMPARE(std::sscanf(place.c_str(), "%lf\\%lf\\%lf", &told.x, &told.y, &told.z), 3);
       QVERIFY(glm::distance(told, wanted) < 1e-3);
     }
-    const auto read = read_segmentation(folder_ / "seg.dcm", &loaded->volume.geometry);
+    const auto read = imaging::read_segmentation(folder_ / "seg.dcm", &loaded->volume.geometry);
     QCOMPARE(test::failure(read), QString());
     QVERIFY(read->list.front().slices == segment.slices);
   }
@@ -180,19 +180,19 @@ class IrregularSeriesTest : public QObject {
   // Results in coordinates that are not the patient's must not get back among the patient's images.
   void results_on_slices_whose_tilt_was_kept_are_refused() {
     test::tilt(files_, whole_.geometry, 0.9);
-    for (const GridPolicy& policy : {GridPolicy(), kKeep}) {
-      const auto loaded = load_with_series(folder_ / "series", {}, {}, policy);
+    for (const imaging::GridPolicy& policy : {imaging::GridPolicy(), kKeep}) {
+      const auto loaded = imaging::load_with_series(folder_ / "series", {}, {}, policy);
       QCOMPARE(test::failure(loaded), QString());
       const Geometry& grid = loaded->volume.geometry;
-      Segments segments{grid, {}, {}};
-      Segment segment;
+      imaging::Segments segments{grid, {}, {}};
+      imaging::Segment segment;
       segment.slices[2] = std::vector<std::uint8_t>(static_cast<std::size_t>(grid.size.x * grid.size.y), 1);
       segments.list.push_back(segment);
-      const auto sources = dicom_files_of(loaded->series);
-      const Status seg = write_segmentation(segments, sources, folder_ / "seg.dcm");
-      const Status contours = write_structure_set(segments, sources, folder_ / "contours.dcm");
-      QCOMPARE(seg.has_value(), policy == GridPolicy());
-      QCOMPARE(contours.has_value(), policy == GridPolicy());
+      const auto sources = imaging::dicom_files_of(loaded->series);
+      const Status seg = imaging::write_segmentation(segments, sources, folder_ / "seg.dcm");
+      const Status contours = imaging::write_structure_set(segments, sources, folder_ / "contours.dcm");
+      QCOMPARE(seg.has_value(), policy == imaging::GridPolicy());
+      QCOMPARE(contours.has_value(), policy == imaging::GridPolicy());
       if (!seg)
         QVERIFY2(says({seg.error().message}, "gantry tilt that was kept"), seg.error().message.c_str());
     }
@@ -203,15 +203,15 @@ class IrregularSeriesTest : public QObject {
   void no_attribute_makes_a_grid_much_larger_than_the_images() {
     test::tilt(files_, whole_.geometry, 0.9);
     for (const fs::path& file : files_) test::set_text(file, 0x0028, 0x0030, "0.00001\\0.00001");
-    const Series wide = find_series(folder_ / "series")->series.front();
+    const imaging::Series wide = imaging::find_series(folder_ / "series")->series.front();
     QVERIFY(!wide.loadable && !wide.fillable());
     QVERIFY2(says({wide.reason}, "times as many voxels"), wide.reason.c_str());
 
     files_ = test::write_series(whole_, folder_ / "far");
     const glm::dvec3 away = whole_.geometry.to_patient({0.0, 0.0, 3e5});
-    test::set_text(files_.back(), 0x0020, 0x0032, decimals(away.x, away.y, away.z).c_str());
-    for (const GridPolicy& policy : {GridPolicy(), kFill}) {
-      const auto found = find_series(folder_ / "far", {}, policy);
+    test::set_text(files_.back(), 0x0020, 0x0032, imaging::decimals(away.x, away.y, away.z).c_str());
+    for (const imaging::GridPolicy& policy : {imaging::GridPolicy(), kFill}) {
+      const auto found = imaging::find_series(folder_ / "far", {}, policy);
       QCOMPARE(test::failure(found), QString());
       QVERIFY(!found->series.front().loadable && !found->series.front().fillable());
     }
@@ -224,7 +224,7 @@ class IrregularSeriesTest : public QObject {
       test::set_text(file, 0x0028, 0x1053, "1e-30");
       test::set_text(file, 0x0028, 0x1052, "1e30");
     }
-    const auto tiny = load_volume(folder_ / "series");
+    const auto tiny = imaging::load_volume(folder_ / "series");
     QCOMPARE(test::failure(tiny), QString());
     QCOMPARE(std::get<std::vector<std::int16_t>>(
                  tiny->voxels)[static_cast<std::size_t>(tiny->geometry.offset({0, 0, 7}))],
@@ -234,16 +234,16 @@ class IrregularSeriesTest : public QObject {
         dataset.putAndInsertString(DcmTag(DCM_PixelPaddingValue, EVR_UT), "none");
       });
     }
-    QCOMPARE(test::failure(load_volume(folder_ / "series")), QString());
+    QCOMPARE(test::failure(imaging::load_volume(folder_ / "series")), QString());
   }
 
   void the_same_files_give_the_same_error_whoever_decodes_them() {
     test::tilt(files_, whole_.geometry, 0.45);
-    const auto found = find_series(folder_ / "series");
+    const auto found = imaging::find_series(folder_ / "series");
     QCOMPARE(test::failure(found), QString());
     QVERIFY(found->series.front().loadable);
     test::truncate(files_[4], fs::file_size(files_[4]) - 100);
-    const auto volume = load_series(found->series.front());
+    const auto volume = imaging::load_series(found->series.front());
     QVERIFY(!volume);
     QVERIFY2(says({volume.error().message}, files_[4].string()), volume.error().message.c_str());
   }

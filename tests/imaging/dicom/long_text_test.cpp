@@ -69,7 +69,7 @@ class LongTextTest : public QObject {
     }
     write_bytes(folder / "slice.dcm", at_top(sets, kExplicit));
     write_bytes(folder / "nested.dcm", in_items(sets, 100, kExplicit));
-    const auto found = scan_dicom(folder.path());
+    const auto found = imaging::scan_dicom(folder.path());
     QCOMPARE(failure(found), QString());
     QVERIFY(found->skipped.empty());
   }
@@ -98,11 +98,11 @@ class LongTextTest : public QObject {
     }
     QElapsedTimer timer;
     timer.start();
-    const auto found = scan_dicom(folder.path());
+    const auto found = imaging::scan_dicom(folder.path());
     QVERIFY2(timer.elapsed() < 2000, qPrintable(QString("%1 ms").arg(timer.elapsed())));
     QCOMPARE(failure(found), QString());
-    for (const Series& series : found->series) QVERIFY(series.reason.size() < 400);
-    for (const SkippedFile& skipped : found->skipped) QVERIFY(skipped.reason.size() < 400);
+    for (const imaging::Series& series : found->series) QVERIFY(series.reason.size() < 400);
+    for (const imaging::SkippedFile& skipped : found->skipped) QVERIFY(skipped.reason.size() < 400);
   }
 };
 

@@ -19,7 +19,7 @@ namespace {
 // A disc: the series' files in IMAGES, named as a burner may write them, and a file that is no image.
 struct Disc {
   test::TemporaryFolder folder;
-  Series series;
+  imaging::Series series;
 
   explicit Disc(const char* suffix = "") {
     test::write_series(test::sample_volume({5, 4, 3}), folder / "images");
@@ -57,21 +57,21 @@ class MediaDirectoryTest : public QObject {
     const Disc disc(suffix.constData());
     disc.write(kAll);
     fs::rename(disc.directory(), disc.folder / name.toStdString());
-    const auto found = find_series(disc.folder / name.toStdString());
+    const auto found = imaging::find_series(disc.folder / name.toStdString());
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{1});
     QVERIFY2(found->series[0].loadable, found->series[0].reason.c_str());
     QCOMPARE(found->series[0].files.size(), std::size_t{3});
     QVERIFY(found->series[0].warnings.empty());
     QVERIFY(found->skipped.empty());
-    QCOMPARE(test::failure(load_series(found->series[0])), QString());
+    QCOMPARE(test::failure(imaging::load_series(found->series[0])), QString());
   }
 
   void missing_files_are_named_by_the_directory_and_by_its_folder() {
     const Disc disc;
     disc.write({kAll[0], kAll[1], kAll[2], "IMAGES\\IM4", "OTHER\\IM5"});
     for (const fs::path& path : {disc.directory(), disc.folder.path()}) {
-      const auto found = find_series(path);
+      const auto found = imaging::find_series(path);
       QCOMPARE(test::failure(found), QString());
       QCOMPARE(found->series.size(), std::size_t{1});
       QVERIFY(found->series[0].loadable);
@@ -79,8 +79,9 @@ class MediaDirectoryTest : public QObject {
       QCOMPARE(
           found->series[0].warnings[0],
           std::string("DICOMDIR names 2 files of this series that are not there: IMAGES/IM4, OTHER/IM5"));
-      const auto told = std::find_if(found->skipped.begin(), found->skipped.end(),
-                                     [&](const SkippedFile& one) { return one.file == disc.directory(); });
+      const auto told =
+          std::find_if(found->skipped.begin(), found->skipped.end(),
+                       [&](const imaging::SkippedFile& one) { return one.file == disc.directory(); });
       QVERIFY(told != found->skipped.end());
       QCOMPARE(told->reason, std::string("refers to 2 files that are not there: IMAGES/IM4, OTHER/IM5"));
     }
@@ -89,7 +90,7 @@ class MediaDirectoryTest : public QObject {
   void a_folder_with_a_whole_directory_says_nothing_of_it() {
     const Disc disc;
     disc.write(kAll);
-    const auto found = find_series(disc.folder.path());
+    const auto found = imaging::find_series(disc.folder.path());
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->skipped.size(), std::size_t{1});
     QCOMPARE(found->skipped[0].file.filename().string(), std::string("autorun.inf"));
@@ -119,7 +120,7 @@ class MediaDirectoryTest : public QObject {
     fs::create_symlink(outside.folder / "outside/im1", inside / "link");
     fs::create_directory_symlink(outside.folder / "outside", inside / "folder");
     test::write_bytes(inside / "DICOMDIR", test::directory_bytes(outside.series.uid, {name.toStdString()}));
-    const auto found = find_series(inside / "DICOMDIR");
+    const auto found = imaging::find_series(inside / "DICOMDIR");
     QVERIFY(!found);
     QVERIFY2(found.error().message.find("none of which is there") != std::string::npos,
              found.error().message.c_str());
@@ -149,7 +150,7 @@ class MediaDirectoryTest : public QObject {
     QFETCH(QString, field);
     const test::TemporaryFolder folder;
     test::write_bytes(folder / "DICOMDIR", bytes.toStdString());
-    const auto found = find_series(folder / "DICOMDIR");
+    const auto found = imaging::find_series(folder / "DICOMDIR");
     QVERIFY(!found);
     const std::string& message = found.error().message;
     QVERIFY2(QString::fromStdString(message).contains(field), message.c_str());
@@ -167,7 +168,7 @@ class MediaDirectoryTest : public QObject {
     test::write_bytes(disc.directory(), test::file(test::Dataset().put(0x00041220, all)));
     QElapsedTimer timer;
     timer.start();
-    const auto found = find_series(disc.directory());
+    const auto found = imaging::find_series(disc.directory());
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.front().files.size(), std::size_t{1});
     QVERIFY2(timer.elapsed() < 10'000, qPrintable(QString::number(timer.elapsed())));
@@ -215,12 +216,12 @@ class MediaDirectoryTest : public QObject {
     test::write_bytes(disc.directory(), test::file(test::Dataset().put(0x00041220, all)));
     QElapsedTimer timer;
     timer.start();
-    const auto directory = read_media_directory(disc.directory());
+    const auto directory = imaging::read_media_directory(disc.directory());
     QVERIFY2(timer.elapsed() < 2'000, qPrintable(QString::number(timer.elapsed())));
     QCOMPARE(test::failure(directory), QString());
     QCOMPARE(directory->files.size(), std::size_t{1});
     QCOMPARE(qint64{directory->missing.count}, missing);
-    QVERIFY(list_missing(directory->missing).size() < 400);
+    QVERIFY(imaging::list_missing(directory->missing).size() < 400);
     for (const auto& [uid, of_series] : directory->missing_of_series) {
       QVERIFY(uid.size() <= 64 && of_series.first_names.size() <= 3);
     }
@@ -240,19 +241,19 @@ class MediaDirectoryTest : public QObject {
                               if (fraction > 0.5) stop.request_stop();
                             },
                             stop.get_token()};
-    const auto directory = read_media_directory(disc.directory(), progress);
+    const auto directory = imaging::read_media_directory(disc.directory(), progress);
     QVERIFY(!directory);
     QCOMPARE(directory.error().kind, ErrorKind::cancelled);
     QVERIFY(told.size() > 5 && std::is_sorted(told.begin(), told.end()));
     QVERIFY(told.back() < 0.6);
-    QVERIFY(find_series(disc.directory(), progress).error().kind == ErrorKind::cancelled);
-    QVERIFY(find_series(disc.folder.path(), progress).error().kind == ErrorKind::cancelled);
+    QVERIFY(imaging::find_series(disc.directory(), progress).error().kind == ErrorKind::cancelled);
+    QVERIFY(imaging::find_series(disc.folder.path(), progress).error().kind == ErrorKind::cancelled);
   }
 
   void a_damaged_directory_does_not_hide_the_series_beside_it() {
     const Disc disc;
     test::write_bytes(disc.directory(), "hello");
-    const auto found = find_series(disc.folder.path());
+    const auto found = imaging::find_series(disc.folder.path());
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{1});
     QVERIFY(found->series[0].loadable);

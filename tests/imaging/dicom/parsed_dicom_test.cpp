@@ -45,7 +45,7 @@ class ParsedDicomTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void initTestCase() { QCOMPARE(failure(set_up_dicom()), QString()); }
+  void initTestCase() { QCOMPARE(failure(imaging::set_up_dicom()), QString()); }
 
   void what_was_checked_is_what_is_parsed_data() {
     QTest::addColumn<QByteArray>("second");
@@ -58,47 +58,47 @@ class ParsedDicomTest : public QObject {
     const TemporaryFolder folder;
     const fs::path file = folder / "slice.dcm";
     write_bytes(file, slice_named("2.25.1", kLongText));
-    auto checked = check_dicom_to_parse(file);
+    auto checked = imaging::check_dicom_to_parse(file);
     QCOMPARE(failure(checked), QString());
     replace(file, second.toStdString());
-    const auto parsed = ParsedDicom::parse(std::move(*checked), file);
+    const auto parsed = imaging::ParsedDicom::parse(std::move(*checked), file);
     QCOMPARE(failure(parsed), QString());
-    QCOMPARE(element_text(parsed->dataset(), DCM_SOPInstanceUID), std::string("2.25.1"));
-    QVERIFY(element_text(parsed->dataset(), DCM_ImageComments) == kLongText);
+    QCOMPARE(imaging::element_text(parsed->dataset(), DCM_SOPInstanceUID), std::string("2.25.1"));
+    QVERIFY(imaging::element_text(parsed->dataset(), DCM_ImageComments) == kLongText);
   }
 
   void long_values_come_from_the_file_that_was_opened() {
     const TemporaryFolder folder;
     const fs::path file = folder / "slice.dcm";
     write_bytes(file, slice_named("2.25.1", kLongText));
-    auto parsed = ParsedDicom::open(file);
+    auto parsed = imaging::ParsedDicom::open(file);
     QCOMPARE(failure(parsed), QString());
     replace(file, slice_named("2.25.1", std::string(40'000, 'y')));
     const auto moved = std::move(*parsed);
-    QVERIFY(element_text(moved.dataset(), DCM_ImageComments) == kLongText);
+    QVERIFY(imaging::element_text(moved.dataset(), DCM_ImageComments) == kLongText);
   }
 
   void what_is_taken_needs_no_file() {
     const TemporaryFolder folder;
     const fs::path file = folder / "slice.dcm";
     write_bytes(file, slice_named("2.25.1", kLongText));
-    auto parsed = ParsedDicom::open(file);
+    auto parsed = imaging::ParsedDicom::open(file);
     QCOMPARE(failure(parsed), QString());
     const auto format = parsed->take();
     parsed = fail(ErrorKind::input, "closed");
-    QVERIFY(element_text(*format->getDataset(), DCM_ImageComments) == kLongText);
+    QVERIFY(imaging::element_text(*format->getDataset(), DCM_ImageComments) == kLongText);
   }
 
   void a_file_that_shrinks_meanwhile_has_only_what_is_left() {
     const TemporaryFolder folder;
     const fs::path file = folder / "slice.dcm";
     write_bytes(file, slice_named("2.25.1", kLongText));
-    const auto parsed = ParsedDicom::open(file);
+    const auto parsed = imaging::ParsedDicom::open(file);
     QCOMPARE(failure(parsed), QString());
     fs::resize_file(file, 1000);
-    QCOMPARE(element_text(parsed->dataset(), DCM_SOPInstanceUID), std::string("2.25.1"));
+    QCOMPARE(imaging::element_text(parsed->dataset(), DCM_SOPInstanceUID), std::string("2.25.1"));
     // What is missing is nothing, and no memory of others.
-    const std::string left = element_text(parsed->dataset(), DCM_ImageComments);
+    const std::string left = imaging::element_text(parsed->dataset(), DCM_ImageComments);
     QVERIFY(left.size() < 1000 && left.find_first_not_of('x') == std::string::npos);
   }
 
@@ -106,7 +106,7 @@ class ParsedDicomTest : public QObject {
     const TemporaryFolder folder;
     const fs::path file = folder / "slice.dcm";
     write_bytes(file, slice_named("2.25.1", kLongText));
-    const auto parsed = ParsedDicom::open(file, DicomTag{0x0028, 0x0010});
+    const auto parsed = imaging::ParsedDicom::open(file, imaging::DicomTag{0x0028, 0x0010});
     QCOMPARE(failure(parsed), QString());
     QVERIFY(parsed->dataset().tagExists(DCM_ImageComments));
     QVERIFY(!parsed->dataset().tagExists(DCM_Rows));

@@ -133,7 +133,7 @@ bool recode(const std::filesystem::path& file, E_TransferSyntax syntax, bool is_
         encode_j2k(values_of(dataset, is_signed), columns, rows, bits, is_signed, syntax == EXS_JPEG2000);
     if (stream.empty()) return false;
     encapsulate(dataset, syntax, stream, 3);
-  } else if (find_transfer_syntax(DcmXfer(syntax).getXferID())->is_encapsulated()) {
+  } else if (imaging::find_transfer_syntax(DcmXfer(syntax).getXferID())->is_encapsulated()) {
     DJ_RPLossy lossy(95);
     DJLSRepresentationParameter near(2, OFFalse);
     const DcmRepresentationParameter* parameter = nullptr;

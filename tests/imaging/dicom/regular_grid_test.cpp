@@ -14,15 +14,15 @@ using namespace tidemark;
 
 namespace {
 
-constexpr GridPolicy kFill{GridPolicy::Tilt::correct, GridPolicy::Gaps::fill};
-constexpr GridPolicy kKeep{GridPolicy::Tilt::keep, GridPolicy::Gaps::refuse};
+constexpr imaging::GridPolicy kFill{imaging::GridPolicy::Tilt::correct, imaging::GridPolicy::Gaps::fill};
+constexpr imaging::GridPolicy kKeep{imaging::GridPolicy::Tilt::keep, imaging::GridPolicy::Gaps::refuse};
 
 using Numbers = QList<double>;
 
 // Slices of 20 x 16 pixels of 0.5 x 0.8 mm at these places along an oblique normal, which move sideways by
 // that many mm a mm.
-ImageStack stack_at(const Numbers& along, glm::dvec2 slope = {0.0, 0.0}) {
-  ImageStack stack;
+imaging::ImageStack stack_at(const Numbers& along, glm::dvec2 slope = {0.0, 0.0}) {
+  imaging::ImageStack stack;
   stack.size = {20, 16, along.size()};
   stack.spacing_mm = {0.5, 0.8};
   const glm::dvec3 row = glm::normalize(glm::dvec3(1.0, 0.1, 0.3));
@@ -37,8 +37,8 @@ ImageStack stack_at(const Numbers& along, glm::dvec2 slope = {0.0, 0.0}) {
 }
 
 // "2" for a slice as it is, "1:0.25 2:0.75" for a mixture.
-QString text_of(const GridSlice& slice) {
-  const auto share = [](const SliceShare& one) {
+QString text_of(const imaging::GridSlice& slice) {
+  const auto share = [](const imaging::SliceShare& one) {
     return QString("%1:%2").arg(one.slice).arg(one.weight, 0, 'g', 3);
   };
   if (slice[1].weight == 0.0 && slice[0].weight == 1.0) return QString::number(slice[0].slice);
@@ -51,7 +51,7 @@ bool has(const std::string& text, const char* part) {
 
 // The slices of a stack with f(mm) at their pixels.
 template <class Voxel, class Function>
-std::vector<std::vector<Voxel>> slices_of(const ImageStack& stack, const Function& f) {
+std::vector<std::vector<Voxel>> slices_of(const imaging::ImageStack& stack, const Function& f) {
   std::vector<std::vector<Voxel>> slices;
   for (const glm::dvec3& position : stack.positions_mm) {
     auto& slice = slices.emplace_back();
@@ -67,7 +67,7 @@ std::vector<std::vector<Voxel>> slices_of(const ImageStack& stack, const Functio
 }
 
 template <class Voxel>
-std::vector<Voxel> resampled(const GridPlan& plan, const ImageStack& stack,
+std::vector<Voxel> resampled(const imaging::GridPlan& plan, const imaging::ImageStack& stack,
                              const std::vector<std::vector<Voxel>>& slices,
                              std::optional<Voxel> background = std::nullopt) {
   std::vector<Voxel> voxels(static_cast<std::size_t>(plan.geometry.voxel_count()));
@@ -76,13 +76,14 @@ std::vector<Voxel> resampled(const GridPlan& plan, const ImageStack& stack,
     std::copy(slice.begin(), slice.end(), target);
     return true;
   };
-  if (!resample_slices<Voxel>({plan, stack.size, decode, [] {}, background}, voxels)) voxels.clear();
+  if (!imaging::resample_slices<Voxel>({plan, stack.size, decode, [] {}, background}, voxels)) voxels.clear();
   return voxels;
 }
 
 // Whether a voxel lies within a slice that its grid slice is made of, at least so many pixels from its edge.
-bool is_covered(const GridPlan& plan, const ImageStack& stack, Index3 voxel, double margin) {
-  for (const SliceShare& share : plan.slices[static_cast<std::size_t>(voxel.z)]) {
+bool is_covered(const imaging::GridPlan& plan, const imaging::ImageStack& stack, Index3 voxel,
+                double margin) {
+  for (const imaging::SliceShare& share : plan.slices[static_cast<std::size_t>(voxel.z)]) {
     if (share.weight == 0.0) continue;
     const glm::dvec2 at = glm::dvec2(voxel) - share.shift;
     const glm::dvec2 last = glm::dvec2(stack.size) - 1.0;
@@ -131,11 +132,11 @@ class RegularGridTest : public QObject {
     QFETCH(Numbers, along);
     QFETCH(double, step);
     QFETCH(QStringList, slices);
-    const ImageStack stack = stack_at(along);
-    const GridPlan plan = plan_regular_grid(stack, kFill);
+    const imaging::ImageStack stack = stack_at(along);
+    const imaging::GridPlan plan = imaging::plan_regular_grid(stack, kFill);
     QCOMPARE(plan.refusal, std::string());
     QStringList told;
-    for (const GridSlice& slice : plan.slices) told << text_of(slice);
+    for (const imaging::GridSlice& slice : plan.slices) told << text_of(slice);
     QCOMPARE(told, slices);
     const Geometry& grid = plan.geometry;
     QCOMPARE(grid.size, Index3(20, 16, slices.empty() ? along.size() : slices.size()));
@@ -147,13 +148,13 @@ class RegularGridTest : public QObject {
   }
 
   void gaps_are_refused_until_they_may_be_filled() {
-    const GridPlan missing = plan_regular_grid(stack_at({0, 2, 4, 10, 12, 16}), {});
+    const imaging::GridPlan missing = imaging::plan_regular_grid(stack_at({0, 2, 4, 10, 12, 16}), {});
     QCOMPARE(missing.refusal, std::string("2 slices are missing between s2 and s3: they are 6.000 mm apart, "
                                           "others 2.000 mm, and in 1 more place"));
     QCOMPARE(missing.question,
              std::string("2 slices are missing between s2 and s3, and in 1 more place. Fill "
                          "them by interpolation?"));
-    const GridPlan filled = plan_regular_grid(stack_at({0, 2, 4, 10, 12, 16}), kFill);
+    const imaging::GridPlan filled = imaging::plan_regular_grid(stack_at({0, 2, 4, 10, 12, 16}), kFill);
     QCOMPARE(filled.question, std::string());
     QCOMPARE(filled.changes.size(), std::size_t{2});
     QVERIFY2(has(filled.changes[0], "slices 4 to 5 of 9 (6.000 to 8.000 mm from the first)"),
@@ -161,22 +162,22 @@ class RegularGridTest : public QObject {
     QVERIFY2(
         has(filled.changes[1], "slice 8 of 9 (14.000 mm from the first) is interpolated between s4 and s5"),
         filled.changes[1].c_str());
-    const GridPlan uneven = plan_regular_grid(stack_at({0, 2, 4, 7, 9}), {});
+    const imaging::GridPlan uneven = imaging::plan_regular_grid(stack_at({0, 2, 4, 7, 9}), {});
     QVERIFY2(has(uneven.refusal, "s2 and s3 are 3.000 mm apart, others 2.000 mm"), uneven.refusal.c_str());
     QVERIFY2(has(uneven.question, "Make 6 slices at 2.000 mm"), uneven.question.c_str());
   }
 
   void no_grid_is_much_larger_than_its_slices() {
-    const ImageStack far = stack_at({0, 1, 2, 1000000});
-    for (const GridPolicy& policy : {GridPolicy(), kFill}) {
-      const GridPlan plan = plan_regular_grid(far, policy);
+    const imaging::ImageStack far = stack_at({0, 1, 2, 1000000});
+    for (const imaging::GridPolicy& policy : {imaging::GridPolicy(), kFill}) {
+      const imaging::GridPlan plan = imaging::plan_regular_grid(far, policy);
       QVERIFY(!plan.refusal.empty());
       QCOMPARE(plan.question, std::string());
       QCOMPARE(plan.geometry, Geometry());
     }
-    ImageStack wide = stack_at({0, 1, 2, 3}, {0.0, 0.4});
+    imaging::ImageStack wide = stack_at({0, 1, 2, 3}, {0.0, 0.4});
     wide.spacing_mm = {1e-4, 1e-4};
-    QVERIFY(has(plan_regular_grid(wide, {}).refusal, "times as many voxels"));
+    QVERIFY(has(imaging::plan_regular_grid(wide, {}).refusal, "times as many voxels"));
   }
 
   void tilted_slices_lie_where_they_were_data() {
@@ -190,13 +191,13 @@ class RegularGridTest : public QObject {
   void tilted_slices_lie_where_they_were() {
     QFETCH(double, x);
     QFETCH(double, y);
-    const ImageStack stack = stack_at({0, 3, 6, 9, 12}, {x, y});
-    const GridPlan plan = plan_regular_grid(stack, {});
+    const imaging::ImageStack stack = stack_at({0, 3, 6, 9, 12}, {x, y});
+    const imaging::GridPlan plan = imaging::plan_regular_grid(stack, {});
     QCOMPARE(plan.refusal, std::string());
     const glm::dvec2 moved(std::ceil(12.0 * std::abs(x) / 0.5), std::ceil(12.0 * std::abs(y) / 0.8));
     QCOMPARE(plan.geometry.size, Index3(20 + moved.x, 16 + moved.y, 5));
     for (std::size_t k = 0; k < 5; ++k) {
-      const SliceShare& share = plan.slices[k][0];
+      const imaging::SliceShare& share = plan.slices[k][0];
       QCOMPARE(share.slice, static_cast<std::int64_t>(k));
       const glm::dvec3 first(share.shift, static_cast<double>(k));
       QVERIFY(glm::distance(plan.geometry.to_patient(first), stack.positions_mm[k]) < 1e-9);
@@ -206,29 +207,29 @@ class RegularGridTest : public QObject {
     QVERIFY2(has(plan.changes.at(0), fmt::format("tilt of {:.1f} degrees", degrees).c_str()),
              plan.changes[0].c_str());
 
-    const GridPlan kept = plan_regular_grid(stack, kKeep);
+    const imaging::GridPlan kept = imaging::plan_regular_grid(stack, kKeep);
     QCOMPARE(kept.refusal, std::string());
     QVERIFY(kept.slices.empty());
     QCOMPARE(kept.geometry.size, stack.size);
     QVERIFY(has(kept.warnings.at(0), fmt::format("tilted by {:.1f} degrees", degrees).c_str()));
-    for (const GridPlan& one : {plan, kept}) {
+    for (const imaging::GridPlan& one : {plan, kept}) {
       const std::string said = fmt::format(
           "tilted by {:.1f} degrees: from the first slice to the last, slices "
           "move {:.2f} mm sideways.",
           degrees, 12.0 * std::hypot(x, y));
       QVERIFY2(has(one.tilt, said.c_str()), one.tilt.c_str());
     }
-    QVERIFY(plan_regular_grid(stack_at({0, 3, 6}, {0.0, 0.0}), {}).tilt.empty());
+    QVERIFY(imaging::plan_regular_grid(stack_at({0, 3, 6}, {0.0, 0.0}), {}).tilt.empty());
   }
 
   void what_moves_sideways_otherwise_is_no_tilt() {
-    ImageStack stack = stack_at({0, 3, 6, 9, 12}, {0.0, 0.3});
+    imaging::ImageStack stack = stack_at({0, 3, 6, 9, 12}, {0.0, 0.3});
     stack.positions_mm[3] += 0.1 * stack.axes[0];
-    for (const GridPolicy& policy : {GridPolicy(), kKeep}) {
-      QVERIFY(has(plan_regular_grid(stack, policy).refusal, "unevenly: from s2 to s3"));
-      const std::string steep = plan_regular_grid(stack_at({0, 3, 6}, {0.0, 1.5}), policy).refusal;
+    for (const imaging::GridPolicy& policy : {imaging::GridPolicy(), kKeep}) {
+      QVERIFY(has(imaging::plan_regular_grid(stack, policy).refusal, "unevenly: from s2 to s3"));
+      const std::string steep = imaging::plan_regular_grid(stack_at({0, 3, 6}, {0.0, 1.5}), policy).refusal;
       QVERIFY2(has(steep, "56.3 degrees"), steep.c_str());
-      QVERIFY(plan_regular_grid(stack, policy).tilt.empty());  // there is nothing to choose
+      QVERIFY(imaging::plan_regular_grid(stack, policy).tilt.empty());  // there is nothing to choose
     }
   }
 
@@ -239,8 +240,8 @@ class RegularGridTest : public QObject {
     for (int round = 0; round < 200; ++round) {
       Numbers along{0.0};
       for (int k = 0; k < 9; ++k) along << along.back() + (random() % 3 == 0 ? step(random) : 2.0);
-      const ImageStack stack = stack_at(along, {0.1, round % 2 == 0 ? 0.0 : -0.2});
-      const GridPlan plan = plan_regular_grid(stack, kFill);
+      const imaging::ImageStack stack = stack_at(along, {0.1, round % 2 == 0 ? 0.0 : -0.2});
+      const imaging::GridPlan plan = imaging::plan_regular_grid(stack, kFill);
       QCOMPARE(plan.refusal, std::string());
       for (std::size_t q = 0; q < plan.slices.size(); ++q) {
         const auto& [low, high] = plan.slices[q];
@@ -248,7 +249,7 @@ class RegularGridTest : public QObject {
         const double place = low.weight * along[low.slice] + high.weight * along[high.slice];
         const double wanted = std::min(plan.geometry.spacing_mm.z * static_cast<double>(q), along.back());
         QVERIFY(std::abs(place - wanted) < 0.1 * plan.geometry.spacing_mm.z);
-        for (const SliceShare& share : {low, high}) {
+        for (const imaging::SliceShare& share : {low, high}) {
           QVERIFY(share.shift.x > -0.01 && share.shift.y > -0.01);
           const glm::dvec2 last = share.shift + glm::dvec2(stack.size) - 1.0;
           QVERIFY(last.x < static_cast<double>(plan.geometry.size.x) - 1.0 + 0.01);
@@ -272,8 +273,8 @@ class RegularGridTest : public QObject {
   void a_ramp_is_the_same_on_every_grid() {
     QFETCH(Numbers, along);
     QFETCH(double, slope);
-    const ImageStack stack = stack_at(along, {0.5 * slope, slope});
-    const GridPlan plan = plan_regular_grid(stack, kFill);
+    const imaging::ImageStack stack = stack_at(along, {0.5 * slope, slope});
+    const imaging::GridPlan plan = imaging::plan_regular_grid(stack, kFill);
     const auto ramp = [](glm::dvec3 mm) { return 400.0 + 11.0 * mm.x - 7.0 * mm.y + 5.0 * mm.z; };
     const auto exact = resampled(plan, stack, slices_of<float>(stack, ramp));
     const auto rounded = resampled(plan, stack, slices_of<std::int16_t>(stack, ramp));
@@ -289,8 +290,8 @@ class RegularGridTest : public QObject {
   }
 
   void slices_that_are_there_stay_as_they_are() {
-    const ImageStack stack = stack_at({0, 2, 8, 10});
-    const GridPlan plan = plan_regular_grid(stack, kFill);
+    const imaging::ImageStack stack = stack_at({0, 2, 8, 10});
+    const imaging::GridPlan plan = imaging::plan_regular_grid(stack, kFill);
     std::mt19937 random(7);
     const auto noise = [&](glm::dvec3) { return static_cast<double>(random() % 60000); };
     const auto slices = slices_of<std::uint16_t>(stack, noise);
@@ -312,14 +313,14 @@ class RegularGridTest : public QObject {
     constexpr double kRadius = 17.0;
     Numbers along;
     for (int k = 0; k < 30; ++k) along << 1.5 * k;
-    ImageStack stack = stack_at(along, {0.0, std::tan(20.0 * glm::pi<double>() / 180.0)});
+    imaging::ImageStack stack = stack_at(along, {0.0, std::tan(20.0 * glm::pi<double>() / 180.0)});
     stack.size = {60, 90, 30};
     stack.spacing_mm = {0.8, 0.8};
     const glm::dvec3 centre = stack.positions_mm.front() + stack.axes * glm::dvec3(23.6, 43.6, 21.75);
     const auto ball = [&](glm::dvec3 mm) {
       return 1000.0 * std::clamp(0.5 + (kRadius - glm::distance(mm, centre)), 0.0, 1.0);
     };
-    const GridPlan plan = plan_regular_grid(stack, {});
+    const imaging::GridPlan plan = imaging::plan_regular_grid(stack, {});
     const auto voxels = resampled(plan, stack, slices_of<std::int16_t>(stack, ball));
     double mass = 0.0;
     glm::dmat3 moments(0.0);
@@ -342,8 +343,8 @@ class RegularGridTest : public QObject {
   }
 
   void beside_the_slices_is_background() {
-    const ImageStack stack = stack_at({0, 3, 6}, {0.0, 0.5});
-    const GridPlan plan = plan_regular_grid(stack, {});
+    const imaging::ImageStack stack = stack_at({0, 3, 6}, {0.0, 0.5});
+    const imaging::GridPlan plan = imaging::plan_regular_grid(stack, {});
     const auto slices = slices_of<std::int16_t>(stack, [](glm::dvec3) { return 70.0; });
     auto darker = slices;
     darker[1][0] = -5;
@@ -359,11 +360,11 @@ class RegularGridTest : public QObject {
   }
 
   void a_slice_that_cannot_be_decoded_ends_it() {
-    const ImageStack stack = stack_at({0, 2, 8, 10});
-    const GridPlan plan = plan_regular_grid(stack, kFill);
+    const imaging::ImageStack stack = stack_at({0, 2, 8, 10});
+    const imaging::GridPlan plan = imaging::plan_regular_grid(stack, kFill);
     std::vector<std::int16_t> voxels(static_cast<std::size_t>(plan.geometry.voxel_count()));
     const auto decode = [](std::int64_t k, std::int16_t*) { return k != 2; };
-    QVERIFY(!resample_slices<std::int16_t>({plan, stack.size, decode, [] {}, {}}, voxels));
+    QVERIFY(!imaging::resample_slices<std::int16_t>({plan, stack.size, decode, [] {}, {}}, voxels));
   }
 };
 

@@ -55,11 +55,11 @@ Volume sample_volume_uint16(Index3 size) {
 }
 
 std::vector<fs::path> write_series(const Volume& volume, const fs::path& folder, const char* modality) {
-  DicomSeriesHeader header;
+  imaging::DicomSeriesHeader header;
   header.modality = modality;
   header.series_description = "Sample";
   header.window = {40.0, 400.0};
-  const Status written = write_dicom_series(volume, header, folder);
+  const Status written = imaging::write_dicom_series(volume, header, folder);
   require(written.has_value(), written ? "" : written.error().message);
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
@@ -92,7 +92,7 @@ void tilt(const std::vector<fs::path>& files, const Geometry& grid, double mm) {
   for (std::size_t k = 0; k < files.size(); ++k) {
     const auto step = static_cast<double>(k);
     const glm::dvec3 place = grid.to_patient({0.0, 0.0, step}) + mm * step * grid.direction[1];
-    set_text(files[k], 0x0020, 0x0032, decimals(place.x, place.y, place.z).c_str());
+    set_text(files[k], 0x0020, 0x0032, imaging::decimals(place.x, place.y, place.z).c_str());
   }
 }
 
@@ -100,8 +100,8 @@ void truncate(const fs::path& file, std::uintmax_t bytes) {
   fs::resize_file(file, bytes);
 }
 
-Series only_series(const fs::path& path) {
-  const auto found = scan_dicom(path);
+imaging::Series only_series(const fs::path& path) {
+  const auto found = imaging::scan_dicom(path);
   require(found.has_value(), found ? "" : found.error().message);
   require(found->series.size() == 1, fmt::format("{} series in {}", found->series.size(), path.string()));
   return found->series.front();

@@ -35,7 +35,7 @@ void tilt(const std::vector<std::filesystem::path>& files, const Geometry& grid,
 void truncate(const std::filesystem::path& file, std::uintmax_t bytes);
 
 // The only series below the path. Ends the test program when there is none or another.
-Series only_series(const std::filesystem::path& path);
+imaging::Series only_series(const std::filesystem::path& path);
 
 // Fails the test that runs unless grid, voxels and rescale are the same.
 void verify_same(const Volume& read, const Volume& written);

@@ -15,12 +15,12 @@ using namespace tidemark;
 namespace {
 
 // Slices of 10 x 8 pixels of 0.5 x 0.6 mm, `distance` mm apart along the normal of an oblique orientation.
-std::vector<SliceHeader> regular(int count, double distance) {
+std::vector<imaging::SliceHeader> regular(int count, double distance) {
   const glm::dvec3 row = glm::normalize(glm::dvec3(1.0, 0.1, 0.3));
   const glm::dvec3 column = glm::normalize(glm::cross(glm::dvec3(0.2, 0.0, 1.0), row));
-  std::vector<SliceHeader> slices;
+  std::vector<imaging::SliceHeader> slices;
   for (int k = 0; k < count; ++k) {
-    SliceHeader slice;
+    imaging::SliceHeader slice;
     slice.file = fmt::format("folder/{:03}", k);
     slice.series_uid = "1.2.3";
     slice.sop_instance_uid = fmt::format("1.2.3.{}", k);
@@ -37,7 +37,7 @@ std::vector<SliceHeader> regular(int count, double distance) {
   return slices;
 }
 
-glm::dvec3 normal_of(const SliceHeader& slice) {
+glm::dvec3 normal_of(const imaging::SliceHeader& slice) {
   return glm::cross((*slice.orientation)[0], (*slice.orientation)[1]);
 }
 
@@ -46,8 +46,8 @@ glm::dvec3 normal_of(const SliceHeader& slice) {
 class SeriesGeometryTest : public QObject {
   Q_OBJECT
 
-  static void verify_refused(const std::vector<SliceHeader>& slices, const QStringList& parts) {
-    const Series series = arrange_series(slices);
+  static void verify_refused(const std::vector<imaging::SliceHeader>& slices, const QStringList& parts) {
+    const imaging::Series series = imaging::arrange_series(slices);
     QVERIFY(!series.loadable);
     for (const QString& part : parts) {
       QVERIFY2(QString::fromStdString(series.reason).contains(part), series.reason.c_str());
@@ -60,13 +60,13 @@ class SeriesGeometryTest : public QObject {
     auto slices = regular(9, 1.25);
     const auto sorted = slices;
     std::shuffle(slices.begin(), slices.end(), std::mt19937(3));
-    const Series series = arrange_series(slices);
+    const imaging::Series series = imaging::arrange_series(slices);
     QVERIFY2(series.loadable, series.reason.c_str());
     for (std::size_t k = 0; k < sorted.size(); ++k) QCOMPARE(series.files[k], sorted[k].file);
     const Geometry& g = series.geometry;
     QCOMPARE(g.size, Index3(10, 8, 9));
     QVERIFY(glm::length(g.spacing_mm - glm::dvec3(0.5, 0.6, 1.25)) < 1e-9);
-    for (const SliceHeader& slice : sorted) {
+    for (const imaging::SliceHeader& slice : sorted) {
       const auto k = static_cast<double>(&slice - sorted.data());
       QVERIFY(glm::length(g.to_patient({0.0, 0.0, k}) - *slice.position_mm) < 1e-9);
     }
@@ -76,7 +76,7 @@ class SeriesGeometryTest : public QObject {
   void distances_count_along_the_normal_and_may_differ_by_the_tolerance() {
     auto slices = regular(5, 2.0);
     *slices[2].position_mm += 0.0099 * normal_of(slices[2]);
-    QVERIFY(arrange_series(slices).loadable);
+    QVERIFY(imaging::arrange_series(slices).loadable);
     *slices[2].position_mm += 0.0005 * normal_of(slices[2]);
     verify_refused(slices, {"uneven", "001", "002"});
   }
@@ -84,7 +84,7 @@ class SeriesGeometryTest : public QObject {
   void the_tolerance_grows_with_the_distance() {
     auto slices = regular(5, 20.0);
     *slices[2].position_mm += 0.019 * normal_of(slices[2]);
-    QVERIFY(arrange_series(slices).loadable);
+    QVERIFY(imaging::arrange_series(slices).loadable);
     *slices[2].position_mm += 0.002 * normal_of(slices[2]);
     verify_refused(slices, {"uneven"});
   }
@@ -110,16 +110,16 @@ class SeriesGeometryTest : public QObject {
       *slices[k].position_mm +=
           3.0 * static_cast<double>(k) * std::tan(15.0 * M_PI / 180.0) * (*slices[k].orientation)[1];
     }
-    Series series = arrange_series(slices);
+    imaging::Series series = imaging::arrange_series(slices);
     QVERIFY2(series.loadable, series.reason.c_str());
     QCOMPARE(series.geometry.size, Index3(10, 14, 5));
     QVERIFY(series.changes.at(0).find("15.0 degrees") != std::string::npos);
     // The policy that makes the grid last is the one in the sentences.
-    set_grid(series, {GridPolicy::Tilt::keep, GridPolicy::Gaps::refuse});
+    imaging::set_grid(series, {imaging::GridPolicy::Tilt::keep, imaging::GridPolicy::Gaps::refuse});
     QVERIFY(series.changes.empty());
     QCOMPARE(series.warnings.size(), std::size_t{1});
     QCOMPARE(series.geometry.size, Index3(10, 8, 5));
-    set_grid(series, {});
+    imaging::set_grid(series, {});
     QVERIFY(series.warnings.empty());
     QCOMPARE(series.changes.size(), std::size_t{1});
   }
@@ -129,20 +129,20 @@ class SeriesGeometryTest : public QObject {
     for (std::size_t k = 0; k < slices.size(); ++k) {
       *slices[k].position_mm += 0.005 * static_cast<double>(k) * (*slices[k].orientation)[0];
     }
-    const Series series = arrange_series(slices);
+    const imaging::Series series = imaging::arrange_series(slices);
     QVERIFY2(series.loadable, series.reason.c_str());
     QVERIFY(series.changes.at(0).find("0.3 degrees") != std::string::npos);
   }
 
   void rounding_in_the_files_is_forgiven() {
     auto slices = regular(50, 0.7);
-    for (SliceHeader& slice : slices) {
+    for (imaging::SliceHeader& slice : slices) {
       for (int a = 0; a < 3; ++a) {
         (*slice.position_mm)[a] = std::round((*slice.position_mm)[a] * 1e3) / 1e3;
         for (auto& axis : *slice.orientation) axis[a] = std::round(axis[a] * 1e5) / 1e5;
       }
     }
-    const Series series = arrange_series(slices);
+    const imaging::Series series = imaging::arrange_series(slices);
     QVERIFY2(series.loadable, series.reason.c_str());
     QVERIFY(std::abs(series.geometry.spacing_mm.z - 0.7) < 1e-4);
     QVERIFY(std::abs(glm::dot(series.geometry.direction[0], series.geometry.direction[1])) < 1e-12);
@@ -154,7 +154,7 @@ class SeriesGeometryTest : public QObject {
     verify_refused(slices, {"001 and 002 lie at the same position"});
 
     auto twice = regular(4, 2.0);
-    for (SliceHeader slice : regular(4, 2.0)) {
+    for (imaging::SliceHeader slice : regular(4, 2.0)) {
       slice.sop_instance_uid += ".1";
       slice.file += "b";
       twice.push_back(slice);
@@ -165,8 +165,8 @@ class SeriesGeometryTest : public QObject {
   // Some anonymisers write one UID into every image.
   void positions_decide_what_is_a_copy_not_uids() {
     auto slices = regular(4, 2.0);
-    for (SliceHeader& slice : slices) slice.sop_instance_uid = "1.2.3.0";
-    const Series series = arrange_series(slices);
+    for (imaging::SliceHeader& slice : slices) slice.sop_instance_uid = "1.2.3.0";
+    const imaging::Series series = imaging::arrange_series(slices);
     QVERIFY2(series.loadable, series.reason.c_str());
     slices[3].position_mm = slices[2].position_mm;
     verify_refused(slices, {"002 and 003 are the same image"});
@@ -187,25 +187,25 @@ class SeriesGeometryTest : public QObject {
 
   void copies_in_other_folders_make_other_series() {
     auto slices = regular(4, 2.0);
-    for (SliceHeader slice : regular(4, 2.0)) {
+    for (imaging::SliceHeader slice : regular(4, 2.0)) {
       slice.file = "copy" / slice.file.filename();
       slices.push_back(slice);
     }
-    const auto apart = group_series(slices);
+    const auto apart = imaging::group_series(slices);
     QCOMPARE(apart.size(), std::size_t{2});
-    for (const Series& series : apart) QVERIFY2(series.loadable, series.reason.c_str());
+    for (const imaging::Series& series : apart) QVERIFY2(series.loadable, series.reason.c_str());
     // A series that is spread over folders is one.
     auto spread = regular(4, 2.0);
     spread[2].file = "elsewhere/002";
-    const auto one = group_series(spread);
+    const auto one = imaging::group_series(spread);
     QCOMPARE(one.size(), std::size_t{1});
     QVERIFY2(one[0].loadable, one[0].reason.c_str());
   }
 
   void images_without_a_series_belong_to_their_folder() {
     auto slices = regular(3, 2.0);
-    for (SliceHeader& slice : slices) slice.series_uid.clear();
-    const auto series = group_series(slices);
+    for (imaging::SliceHeader& slice : slices) slice.series_uid.clear();
+    const auto series = imaging::group_series(slices);
     QCOMPARE(series.size(), std::size_t{1});
     QVERIFY2(series[0].loadable, series[0].reason.c_str());
     QCOMPARE(series[0].uid, std::string("folder"));
@@ -214,25 +214,26 @@ class SeriesGeometryTest : public QObject {
 
   void the_scalar_type_holds_every_slice() {
     auto slices = regular(3, 2.0);
-    QCOMPARE(arrange_series(slices).scalar, std::string("uint16"));
+    QCOMPARE(imaging::arrange_series(slices).scalar, std::string("uint16"));
     slices[1].is_signed = true;
-    QCOMPARE(arrange_series(slices).scalar, std::string("float"));
-    for (SliceHeader& slice : slices) slice.bits_stored = 12;
-    QCOMPARE(arrange_series(slices).scalar, std::string("int16"));
+    QCOMPARE(imaging::arrange_series(slices).scalar, std::string("float"));
+    for (imaging::SliceHeader& slice : slices) slice.bits_stored = 12;
+    QCOMPARE(imaging::arrange_series(slices).scalar, std::string("int16"));
     slices[1].intercept = 1.0;
-    QCOMPARE(arrange_series(slices).scalar, std::string("float"));
+    QCOMPARE(imaging::arrange_series(slices).scalar, std::string("float"));
   }
 
   void decimal_strings_are_parsed_whatever_the_locale() {
-    QCOMPARE(parse_decimals("1.5"), std::vector{1.5});
-    QCOMPARE(parse_decimals(" -1.5\\+2e-3 \\ .5"), (std::vector{-1.5, 2e-3, 0.5}));
-    QCOMPARE(parse_decimals(std::string_view("7\0", 2)), std::vector{7.0});
+    QCOMPARE(imaging::parse_decimals("1.5"), std::vector{1.5});
+    QCOMPARE(imaging::parse_decimals(" -1.5\\+2e-3 \\ .5"), (std::vector{-1.5, 2e-3, 0.5}));
+    QCOMPARE(imaging::parse_decimals(std::string_view("7\0", 2)), std::vector{7.0});
     for (const char* bad :
          {"", "\\", "1\\", "1,5", "1.5mm", "0x10", "nan", "inf", "1e400", "--1", "+-1", "1 2"}) {
-      QVERIFY2(!parse_decimals(bad), bad);
+      QVERIFY2(!imaging::parse_decimals(bad), bad);
     }
-    QCOMPARE(parse_integers("12\\-3"), (std::vector<long long>{12, -3}));
-    for (const char* bad : {"", "1.0", "1A", "99999999999999999999"}) QVERIFY2(!parse_integers(bad), bad);
+    QCOMPARE(imaging::parse_integers("12\\-3"), (std::vector<long long>{12, -3}));
+    for (const char* bad : {"", "1.0", "1A", "99999999999999999999"})
+      QVERIFY2(!imaging::parse_integers(bad), bad);
   }
 };
 

@@ -13,14 +13,14 @@ using namespace tidemark;
 
 namespace {
 
-using Change = std::function<void(SliceHeader&, int volume, int slice)>;
+using Change = std::function<void(imaging::SliceHeader&, int volume, int slice)>;
 
 // `volumes` of `slices` axial slices each at the same positions, listed volume by volume.
-std::vector<SliceHeader> series_of(int volumes, int slices, const Change& change) {
-  std::vector<SliceHeader> series;
+std::vector<imaging::SliceHeader> series_of(int volumes, int slices, const Change& change) {
+  std::vector<imaging::SliceHeader> series;
   for (int v = 0; v < volumes; ++v) {
     for (int k = 0; k < slices; ++k) {
-      SliceHeader slice;
+      imaging::SliceHeader slice;
       slice.file = fmt::format("folder/{:03}", v * slices + k);
       slice.series_uid = "1.2.3";
       slice.sop_instance_uid = fmt::format("1.2.3.{}", v * slices + k);
@@ -41,7 +41,7 @@ std::vector<SliceHeader> series_of(int volumes, int slices, const Change& change
   return series;
 }
 
-void turn(SliceHeader& slice, glm::dvec3 row, glm::dvec3 column) {
+void turn(imaging::SliceHeader& slice, glm::dvec3 row, glm::dvec3 column) {
   const double along = slice.position_mm->z;
   slice.orientation = {row, column};
   slice.position_mm = along * glm::cross(row, column);
@@ -54,16 +54,16 @@ class SplitSeriesTest : public QObject {
 
   // Each volume has its slices, and they are those that were meant, whatever the order of the files for
   // `seeds` other than 0.
-  static void verify_volumes(std::vector<SliceHeader> slices, int volumes, const QStringList& labels,
+  static void verify_volumes(std::vector<imaging::SliceHeader> slices, int volumes, const QStringList& labels,
                              const std::vector<unsigned>& seeds = {0U}) {
     const auto in_order = slices;
     for (const unsigned seed : seeds) {
       if (seed > 0) std::shuffle(slices.begin(), slices.end(), std::mt19937(seed));
-      const auto found = group_series(slices);
+      const auto found = imaging::group_series(slices);
       QCOMPARE(found.size(), static_cast<std::size_t>(volumes));
       const std::size_t count = slices.size() / found.size();
       for (std::size_t v = 0; v < found.size(); ++v) {
-        const Series& series = found[v];
+        const imaging::Series& series = found[v];
         QVERIFY2(series.loadable, series.reason.c_str());
         QCOMPARE(series.uid, fmt::format("1.2.3#{}", v + 1));
         const QString label = labels.at(static_cast<qsizetype>(v));
@@ -86,53 +86,58 @@ class SplitSeriesTest : public QObject {
       QTest::newRow(name) << change << labels;
     };
     row("type of image",
-        [](SliceHeader& s, int v, int) {
+        [](imaging::SliceHeader& s, int v, int) {
           s.traits.image_type = v == 0 ? "ORIGINAL\\PRIMARY\\M\\ND" : "ORIGINAL\\PRIMARY\\P\\ND";
         },
         {"magnitude", "phase"});
     row("type of image that only adds a value",
-        [](SliceHeader& s, int v, int) { s.traits.image_type = v == 0 ? "A\\B\\M" : "A\\B\\M\\NORM"; },
+        [](imaging::SliceHeader& s, int v, int) {
+          s.traits.image_type = v == 0 ? "A\\B\\M" : "A\\B\\M\\NORM";
+        },
         {"type A\\B\\M", "NORM"});
     row("echo",
-        [](SliceHeader& s, int v, int) {
+        [](imaging::SliceHeader& s, int v, int) {
           s.traits.echo_number = v + 1;
           s.traits.echo_time_ms = 15.0 * (v + 1);
         },
         {"echo 1, TE 15 ms", "echo 2, TE 30 ms", "echo 3, TE 45 ms"});
-    row("time of the echo alone", [](SliceHeader& s, int v, int) { s.traits.echo_time_ms = 2.5 + v; },
+    row("time of the echo alone",
+        [](imaging::SliceHeader& s, int v, int) { s.traits.echo_time_ms = 2.5 + v; },
         {"TE 2.5 ms", "TE 3.5 ms"});
-    row("b-value", [](SliceHeader& s, int v, int) { s.traits.b_value = 500.0 * v; },
+    row("b-value", [](imaging::SliceHeader& s, int v, int) { s.traits.b_value = 500.0 * v; },
         {"b 0", "b 500", "b 1000"});
     row("direction of diffusion",
-        [](SliceHeader& s, int v, int) {
+        [](imaging::SliceHeader& s, int v, int) {
           s.traits.b_value = 1000.0;
           s.traits.gradient = v == 0 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.6, 0.0, 0.8);
         },
         {"b 1000, direction (0.00, 1.00, 0.00)", "b 1000, direction (0.60, 0.00, 0.80)"});
-    row("temporal position", [](SliceHeader& s, int v, int) { s.traits.temporal_position = v + 1; },
+    row("temporal position", [](imaging::SliceHeader& s, int v, int) { s.traits.temporal_position = v + 1; },
         {"time 1 of 3", "time 2 of 3", "time 3 of 3"});
     row("trigger time, a little different in each slice",
-        [](SliceHeader& s, int v, int k) { s.traits.trigger_time_ms = 40.0 * v + k; },
+        [](imaging::SliceHeader& s, int v, int k) { s.traits.trigger_time_ms = 40.0 * v + k; },
         {"trigger time 1 of 3", "trigger time 2 of 3", "trigger time 3 of 3"});
-    row("acquisition", [](SliceHeader& s, int v, int) { s.traits.acquisition = v + 4; },
+    row("acquisition", [](imaging::SliceHeader& s, int v, int) { s.traits.acquisition = v + 4; },
         {"acquisition 1 of 2", "acquisition 2 of 2"});
     row("time of acquisition, slice by slice",
-        [](SliceHeader& s, int v, int k) { s.traits.acquired_at = 20040731120000.0 + 60 * v + k; },
+        [](imaging::SliceHeader& s, int v, int k) { s.traits.acquired_at = 20040731120000.0 + 60 * v + k; },
         {"time 1 of 2", "time 2 of 2"});
-    row("time of the content", [](SliceHeader& s, int v, int) { s.traits.made_at = 20040731120000.0 + v; },
+    row("time of the content",
+        [](imaging::SliceHeader& s, int v, int) { s.traits.made_at = 20040731120000.0 + v; },
         {"time 1 of 2", "time 2 of 2"});
-    row("number of the instance", [](SliceHeader& s, int v, int k) { s.traits.instance = 4 * v + k + 1; },
+    row("number of the instance",
+        [](imaging::SliceHeader& s, int v, int k) { s.traits.instance = 4 * v + k + 1; },
         {"volume 1 of 2", "volume 2 of 2"});
-    row("series number", [](SliceHeader& s, int v, int) { s.traits.series_number = v + 7; },
+    row("series number", [](imaging::SliceHeader& s, int v, int) { s.traits.series_number = v + 7; },
         {"series number 7", "series number 8"});
     row("two echoes, each as magnitude and phase",
-        [](SliceHeader& s, int v, int) {
+        [](imaging::SliceHeader& s, int v, int) {
           s.traits.image_type = v < 2 ? "ORIGINAL\\PRIMARY\\M" : "ORIGINAL\\PRIMARY\\P";
           s.traits.echo_number = v % 2 + 1;
         },
         {"magnitude, echo 1", "magnitude, echo 2", "phase, echo 1", "phase, echo 2"});
     row("one b-value twice and another",
-        [](SliceHeader& s, int v, int k) {
+        [](imaging::SliceHeader& s, int v, int k) {
           s.traits.b_value = v < 2 ? 0.0 : 800.0;
           s.traits.instance = 4 * v + k;
         },
@@ -147,13 +152,13 @@ class SplitSeriesTest : public QObject {
   }
 
   void attributes_that_differ_from_slice_to_slice_do_not_split_a_volume() {
-    const auto slices = series_of(1, 6, [](SliceHeader& s, int, int k) {
+    const auto slices = series_of(1, 6, [](imaging::SliceHeader& s, int, int k) {
       s.traits.image_type = k % 2 == 0 ? "A\\B\\M" : "A\\B\\P";
       s.traits.echo_time_ms = k;
       s.traits.acquired_at = k;
       s.traits.instance = k;
     });
-    const auto found = group_series(slices);
+    const auto found = imaging::group_series(slices);
     QCOMPARE(found.size(), std::size_t{1});
     QVERIFY2(found[0].loadable, found[0].reason.c_str());
     QCOMPARE(found[0].uid, std::string("1.2.3"));
@@ -163,13 +168,13 @@ class SplitSeriesTest : public QObject {
 
   void a_localiser_is_split_by_orientation_size_and_spacing() {
     verify_volumes(series_of(3, 2,
-                             [](SliceHeader& s, int v, int) {
+                             [](imaging::SliceHeader& s, int v, int) {
                                if (v == 1) turn(s, {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
                                if (v == 2) turn(s, {0.0, 1.0, 0.0}, {0.0, 0.0, -1.0});
                              }),
                    3, {"axial", "coronal", "sagittal"});
     verify_volumes(series_of(2, 3,
-                             [](SliceHeader& s, int v, int) {
+                             [](imaging::SliceHeader& s, int v, int) {
                                if (v == 1) s.rows = s.columns = 16;
                                if (v == 1) s.pixel_spacing_mm = glm::dvec2(0.25, 0.25);
                              }),
@@ -178,7 +183,7 @@ class SplitSeriesTest : public QObject {
 
   void stacks_beside_each_other_are_volumes() {
     verify_volumes(series_of(2, 3,
-                             [](SliceHeader& s, int v, int) {
+                             [](imaging::SliceHeader& s, int v, int) {
                                s.traits.stack = v == 0 ? "left" : "right";
                                s.position_mm->z += 1.0 * v;
                              }),
@@ -186,19 +191,19 @@ class SplitSeriesTest : public QObject {
   }
 
   void a_scout_is_listed_and_hinders_nobody() {
-    auto slices = series_of(1, 4, [](SliceHeader&, int, int) {});
-    SliceHeader scout = slices[0];
+    auto slices = series_of(1, 4, [](imaging::SliceHeader&, int, int) {});
+    imaging::SliceHeader scout = slices[0];
     scout.file = "folder/scout";
     scout.sop_instance_uid = "1.2.4";
     scout.rows = 300;
     slices.push_back(scout);
     // As far as it goes it may be a slice that was damaged.
-    auto found = group_series(slices);
+    auto found = imaging::group_series(slices);
     QCOMPARE(found.size(), std::size_t{1});
     QVERIFY2(found[0].reason.find("the size (Rows, Columns)") == 0, found[0].reason.c_str());
 
     slices.back().traits.image_type = "ORIGINAL\\PRIMARY\\LOCALIZER";
-    found = group_series(slices);
+    found = imaging::group_series(slices);
     QCOMPARE(found.size(), std::size_t{2});
     QVERIFY2(found[0].loadable, found[0].reason.c_str());
     QCOMPARE(found[0].files.size(), std::size_t{4});
@@ -208,58 +213,58 @@ class SplitSeriesTest : public QObject {
   }
 
   void an_image_in_another_plane_is_listed_and_hinders_nobody() {
-    auto slices = series_of(1, 5, [](SliceHeader& s, int, int k) {
+    auto slices = series_of(1, 5, [](imaging::SliceHeader& s, int, int k) {
       if (k == 4) turn(s, {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
     });
-    auto found = group_series(slices);
+    auto found = imaging::group_series(slices);
     QCOMPARE(found.size(), std::size_t{2});
     QVERIFY2(found[0].loadable, found[0].reason.c_str());
     QCOMPARE(found[1].files, std::vector<std::filesystem::path>{"folder/004"});
     // No directions of any plane.
     slices.back().orientation = {glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(1.0, 0.0, 0.0)};
-    found = group_series(slices);
+    found = imaging::group_series(slices);
     QCOMPARE(found.size(), std::size_t{1});
     QVERIFY(!found[0].loadable);
   }
 
   void a_capture_of_the_screen_hinders_nobody() {
-    auto slices = series_of(1, 4, [](SliceHeader& s, int, int) { s.sop_class_uid = "1.2.840.2"; });
-    SliceHeader capture;
+    auto slices = series_of(1, 4, [](imaging::SliceHeader& s, int, int) { s.sop_class_uid = "1.2.840.2"; });
+    imaging::SliceHeader capture;
     capture.file = "folder/capture";
     capture.series_uid = "1.2.3";
     capture.sop_class_uid = "1.2.840.7";
     capture.problem = "SamplesPerPixel (0028,0002) is 3";
     slices.insert(slices.begin(), capture);
-    auto found = group_series(slices);
+    auto found = imaging::group_series(slices);
     QCOMPARE(found.size(), std::size_t{2});
     QVERIFY2(found[0].loadable, found[0].reason.c_str());
     QCOMPARE(found[1].reason, std::string("capture: SamplesPerPixel (0028,0002) is 3"));
     // What may be a slice that is missing.
     slices.front().sop_class_uid.clear();
-    found = group_series(slices);
+    found = imaging::group_series(slices);
     QCOMPARE(found.size(), std::size_t{1});
     QVERIFY(!found[0].loadable);
   }
 
   void copies_are_left_out_and_named() {
-    auto slices = series_of(1, 4, [](SliceHeader&, int, int) {});
+    auto slices = series_of(1, 4, [](imaging::SliceHeader&, int, int) {});
     slices.push_back(slices[2]);
     slices.back().file = "folder/copy";
-    auto found = group_series(slices);
+    auto found = imaging::group_series(slices);
     QCOMPARE(found.size(), std::size_t{1});
     QVERIFY2(found[0].loadable, found[0].reason.c_str());
     QCOMPARE(found[0].files.size(), std::size_t{4});
     QCOMPARE(found[0].changes, std::vector<std::string>{"copy is the same image as 002 and is left out"});
     // Not what it says it is a copy of: both are kept, and nothing tells them apart.
     slices.back().slope = 2.0;
-    found = group_series(slices);
+    found = imaging::group_series(slices);
     QCOMPARE(found.size(), std::size_t{1});
     QVERIFY(!found[0].loadable);
     QCOMPARE(found[0].files.size(), std::size_t{5});
   }
 
   void what_nothing_tells_apart_is_refused_whole() {
-    const auto found = group_series(series_of(2, 4, [](SliceHeader&, int, int) {}));
+    const auto found = imaging::group_series(series_of(2, 4, [](imaging::SliceHeader&, int, int) {}));
     QCOMPARE(found.size(), std::size_t{1});
     QVERIFY(!found[0].loadable);
     QVERIFY2(found[0].reason.find("2 images at each of 4 positions") != std::string::npos,
@@ -267,19 +272,19 @@ class SplitSeriesTest : public QObject {
   }
 
   void a_series_with_an_image_that_cannot_be_used_is_refused_whole() {
-    auto slices = series_of(2, 4, [](SliceHeader& s, int v, int) { s.traits.echo_number = v; });
+    auto slices = series_of(2, 4, [](imaging::SliceHeader& s, int v, int) { s.traits.echo_number = v; });
     slices[5].problem = "is damaged";
-    const auto found = group_series(slices);
+    const auto found = imaging::group_series(slices);
     QCOMPARE(found.size(), std::size_t{1});
     QVERIFY2(found[0].reason.find("005: is damaged") == 0, found[0].reason.c_str());
   }
 
   void images_in_as_many_orientations_are_one_refused_series() {
-    auto slices = series_of(1, 2000, [](SliceHeader& s, int, int k) {
+    auto slices = series_of(1, 2000, [](imaging::SliceHeader& s, int, int k) {
       const double angle = 0.003 * k;
       turn(s, {std::cos(angle), std::sin(angle), 0.0}, {-std::sin(angle), std::cos(angle), 0.0});
     });
-    const auto found = group_series(slices);
+    const auto found = imaging::group_series(slices);
     QCOMPARE(found.size(), std::size_t{1});
     QVERIFY(!found[0].loadable);
     QVERIFY2(found[0].reason.find("the orientation") == 0, found[0].reason.c_str());

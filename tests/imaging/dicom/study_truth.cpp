@@ -49,7 +49,7 @@ class Entry {
     if (!same) lines_.push_back(what);
   }
 
-  void compare_files(const Series& series) {
+  void compare_files(const imaging::Series& series) {
     expect(series.files.size() == truth_.at("files"), fmt::format("{} files", series.files.size()));
     if (!truth_.contains("order") || series.files.size() != truth_.at("files")) return;
     const Json& order = truth_.at("order");

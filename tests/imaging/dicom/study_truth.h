@@ -13,7 +13,7 @@ namespace tidemark::test {
 
 // A series with its volume where it can be loaded.
 struct Loaded {
-  const Series* series = nullptr;
+  const imaging::Series* series = nullptr;
   Volume volume;
 };
 

@@ -142,11 +142,11 @@ class BadNiftiTest : public QObject {
   void a_qform_that_contradicts_the_sform_is_told() {
     const TemporaryFolder folder;
     put(folder / "v.nii", nifti([](NiftiHeader& header) { header.set<std::int16_t>(252, 1); }));
-    QVERIFY(scan_volume_file(folder / "v.nii")->warnings.empty());
+    QVERIFY(imaging::scan_volume_file(folder / "v.nii")->warnings.empty());
     // The same first voxel, and turned by half a turn about the first axis.
     put(folder / "v.nii",
         nifti([](NiftiHeader& header) { header.set<std::int16_t>(252, 1).set<float>(256, 1.0F); }));
-    const auto turned = scan_volume_file(folder / "v.nii");
+    const auto turned = imaging::scan_volume_file(folder / "v.nii");
     QCOMPARE(turned->warnings.size(), std::size_t{1});
     QVERIFY2(turned->warnings[0].find("qform and sform place voxels up to 2.0 mm apart") == 0,
              turned->warnings[0].c_str());

@@ -233,17 +233,17 @@ class BadVolumeFileTest : public QObject {
   void a_bad_gipl_file_is_refused_by_name() { verify_refused(); }
 
   void a_file_that_is_not_there_is_an_error_of_both() {
-    const auto volume = read_volume_file("/nonexistent/v.nii");
+    const auto volume = imaging::read_volume_file("/nonexistent/v.nii");
     QVERIFY(!volume);
     QCOMPARE(volume.error().kind, ErrorKind::input);
     QCOMPARE(QString::fromStdString(volume.error().message), QString("/nonexistent/v.nii: no such file"));
-    QVERIFY(!scan_volume_file("/nonexistent/v.nii"));
+    QVERIFY(!imaging::scan_volume_file("/nonexistent/v.nii"));
   }
 
   void a_folder_is_not_a_volume_file() {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "v.nii");
-    const auto volume = read_volume_file(folder / "v.nii");
+    const auto volume = imaging::read_volume_file(folder / "v.nii");
     QVERIFY(!volume);
     QCOMPARE(volume.error().kind, ErrorKind::input);
   }
@@ -254,7 +254,7 @@ class BadVolumeFileTest : public QObject {
     std::filesystem::resize_file(folder / "v.nrrd", 100000000);
     QElapsedTimer timer;
     timer.start();
-    const auto volume = read_volume_file(folder / "v.nrrd");
+    const auto volume = imaging::read_volume_file(folder / "v.nrrd");
     QVERIFY(timer.elapsed() < 1000);
     QVERIFY(!volume);
     QVERIFY2(volume.error().message.find("no end") != std::string::npos, volume.error().message.c_str());
@@ -264,11 +264,11 @@ class BadVolumeFileTest : public QObject {
     const TemporaryFolder folder;
     const Volume volume = counting_volume<std::int16_t>(awkward_grid(), -300);
     for (const std::string name : {"v.nii", "v.nii.gz", "v.nrrd", "v.mha"}) {
-      QVERIFY(write_volume_file(volume, folder / name));
+      QVERIFY(imaging::write_volume_file(volume, folder / name));
       const std::string whole = contents(folder / name);
       for (std::size_t length = 0; length < whole.size(); length += 7) {
         put(folder / name, whole.substr(0, length));
-        QVERIFY2(!read_volume_file(folder / name), qPrintable(QString("%1 bytes").arg(length)));
+        QVERIFY2(!imaging::read_volume_file(folder / name), qPrintable(QString("%1 bytes").arg(length)));
       }
     }
   }

@@ -30,7 +30,7 @@ void verify_refused() {
   put(path, bytes.toStdString());
   QElapsedTimer timer;
   timer.start();
-  const auto volume = read_volume_file(path);
+  const auto volume = imaging::read_volume_file(path);
   QVERIFY2(timer.elapsed() < 1000, qPrintable(QString("%1 ms").arg(timer.elapsed())));
   QVERIFY(!volume);
   const QString message = QString::fromStdString(volume.error().message);
@@ -40,7 +40,7 @@ void verify_refused() {
   QVERIFY2(message.contains(field), qPrintable(message));
   QVERIFY(!message.contains('\n'));
   // A scan gives no error, but never calls loadable what has a bad header.
-  const auto series = scan_volume_file(path);
+  const auto series = imaging::scan_volume_file(path);
   QVERIFY(series);
   QCOMPARE(series->loadable, series->reason.empty());
 }

@@ -20,7 +20,7 @@ namespace {
 const std::vector<std::string> kWritten = {"v.nii", "v.nii.gz", "v.nrrd", "v.mha"};
 
 Volume read(const std::filesystem::path& file) {
-  auto volume = read_volume_file(file);
+  auto volume = imaging::read_volume_file(file);
   if (!volume) qFatal("%s", volume.error().message.c_str());
   return std::move(*volume);
 }
@@ -40,23 +40,24 @@ class VolumeFileTest : public QObject {
   void suffixes_say_what_can_be_read_and_written() {
     for (const char* name :
          {"a.nii", "a.NII.GZ", "a.nrrd", "a.nhdr", "a.mha", "a.mhd", "a.gipl", "a.Gipl.gz"}) {
-      QVERIFY(is_readable_volume_file(name));
+      QVERIFY(imaging::is_readable_volume_file(name));
     }
     for (const char* name : {"a.gz", "a.dcm", "nii", "a.nii.bz2", ""})
-      QVERIFY(!is_readable_volume_file(name));
-    for (const char* name : {"a.nhdr", "a.mhd", "a.gipl", "a.stl"}) QVERIFY(!is_writable_volume_file(name));
+      QVERIFY(!imaging::is_readable_volume_file(name));
+    for (const char* name : {"a.nhdr", "a.mhd", "a.gipl", "a.stl"})
+      QVERIFY(!imaging::is_writable_volume_file(name));
   }
 
   void geometry_and_values_survive_every_format() {
     const TemporaryFolder folder;
     const Geometry geometry = awkward_grid();
     for (const auto& name : kWritten) {
-      QVERIFY(is_writable_volume_file(name));
+      QVERIFY(imaging::is_writable_volume_file(name));
       const std::vector<Volume> volumes = {counting_volume<std::int16_t>(geometry, -50),
                                            counting_volume<std::uint16_t>(geometry, 65000),
                                            counting_volume<float>(geometry, 0.25F)};
       for (const Volume& volume : volumes) {
-        QCOMPARE(failure(write_volume_file(volume, folder / name)), QString());
+        QCOMPARE(failure(imaging::write_volume_file(volume, folder / name)), QString());
         const Volume back = read(folder / name);
         QCOMPARE(back.scalar_name(), volume.scalar_name());
         QVERIFY(back.voxels == volume.voxels);
@@ -74,7 +75,7 @@ class VolumeFileTest : public QObject {
     mask.voxels.resize(static_cast<std::size_t>(mask.geometry.voxel_count()));
     mask.voxels[17] = mask.voxels[40] = 1;
     for (const auto& name : kWritten) {
-      QCOMPARE(failure(write_mask_file(mask, folder / name)), QString());
+      QCOMPARE(failure(imaging::write_mask_file(mask, folder / name)), QString());
       const Volume back = read(folder / name);
       QCOMPARE(std::string(back.scalar_name()), std::string("int16"));
       QVERIFY(back.values() == std::vector<float>(mask.voxels.begin(), mask.voxels.end()));
@@ -87,7 +88,7 @@ class VolumeFileTest : public QObject {
     const auto round_trip = [&](Volume volume, double slope, double intercept, const char* type) {
       volume.slope = slope;
       volume.intercept = intercept;
-      QCOMPARE(failure(write_volume_file(volume, folder / "v.nrrd")), QString());
+      QCOMPARE(failure(imaging::write_volume_file(volume, folder / "v.nrrd")), QString());
       const Volume back = read(folder / "v.nrrd");
       QCOMPARE(std::string(back.scalar_name()), std::string(type));
       QVERIFY(back.values() == volume.values());
@@ -105,7 +106,7 @@ class VolumeFileTest : public QObject {
     for (const Index3 size : {Index3(1, 1, 1), Index3(1, 7, 61), Index3(175, 1, 2), Index3(9, 7, 1)}) {
       for (const auto& name : kWritten) {
         const Volume volume = counting_volume<std::int16_t>(awkward_grid(size), 3);
-        QCOMPARE(failure(write_volume_file(volume, folder / name)), QString());
+        QCOMPARE(failure(imaging::write_volume_file(volume, folder / name)), QString());
         const Volume back = read(folder / name);
         QVERIFY(back.voxels == volume.voxels);
         QVERIFY(same_grid(back.geometry, volume.geometry, 1e-4));
@@ -115,8 +116,8 @@ class VolumeFileTest : public QObject {
 
   void a_scan_says_what_a_read_will_give() {
     const TemporaryFolder folder;
-    QVERIFY(write_volume_file(counting_volume<std::uint16_t>(awkward_grid(), 1), folder / "v.mha"));
-    const auto series = scan_volume_file(folder / "v.mha");
+    QVERIFY(imaging::write_volume_file(counting_volume<std::uint16_t>(awkward_grid(), 1), folder / "v.mha"));
+    const auto series = imaging::scan_volume_file(folder / "v.mha");
     QCOMPARE(failure(series), QString());
     QVERIFY(series->loadable);
     QCOMPARE(series->uid, std::string("v.mha"));
@@ -129,8 +130,8 @@ class VolumeFileTest : public QObject {
     const TemporaryFolder folder;
     const Volume plain = counting_volume<std::int16_t>(awkward_grid(), 0);
     const Volume packed = counting_volume<std::int16_t>(awkward_grid(), 500);
-    QVERIFY(write_volume_file(plain, folder / "v.nii"));
-    QVERIFY(write_volume_file(packed, folder / "v.nii.gz"));
+    QVERIFY(imaging::write_volume_file(plain, folder / "v.nii"));
+    QVERIFY(imaging::write_volume_file(packed, folder / "v.nii.gz"));
     QVERIFY(read(folder / "v.nii").voxels == plain.voxels);
     QVERIFY(read(folder / "v.nii.gz").voxels == packed.voxels);
   }
@@ -140,10 +141,10 @@ class VolumeFileTest : public QObject {
     const Volume volume = counting_volume<std::int16_t>(awkward_grid(), 0);
     for (const auto& [name, other] : std::vector<std::pair<std::string, std::string>>{
              {"a.nii", "A.Nii"}, {"b.nii.gz", "B.nii.GZ"}, {"c.nrrd", "C.NRRD"}, {"d.mha", "D.MHA"}}) {
-      QVERIFY(write_volume_file(volume, folder / name));
+      QVERIFY(imaging::write_volume_file(volume, folder / name));
       std::filesystem::rename(folder / name, folder / other);
       QVERIFY(read(folder / other).voxels == volume.voxels);
-      QCOMPARE(failure(write_volume_file(volume, folder / other)), QString());
+      QCOMPARE(failure(imaging::write_volume_file(volume, folder / other)), QString());
       QVERIFY(read(folder / other).voxels == volume.voxels);
     }
   }
@@ -209,7 +210,7 @@ class VolumeFileTest : public QObject {
     const TemporaryFolder folder;
     put(folder / "v.mha",
         "NDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\nabcdefgh");
-    const auto series = scan_volume_file(folder / "v.mha");
+    const auto series = imaging::scan_volume_file(folder / "v.mha");
     QVERIFY(series && series->loadable);
     QCOMPARE(series->warnings.size(), std::size_t{1});
     QVERIFY(read(folder / "v.mha").values() == expected_counting(8, 'a'));
@@ -267,8 +268,8 @@ class VolumeFileTest : public QObject {
       // Where the locale is not installed this is the C locale once more.
       std::setlocale(LC_NUMERIC, locale);
       for (const auto& name : kWritten) {
-        const auto status = write_volume_file(volume, folder / name);
-        const auto back = read_volume_file(folder / name);
+        const auto status = imaging::write_volume_file(volume, folder / name);
+        const auto back = imaging::read_volume_file(folder / name);
         if (!status || !back || !same_grid(back->geometry, volume.geometry, 1e-4)) {
           std::setlocale(LC_NUMERIC, "C");
           QFAIL(name.c_str());
@@ -296,13 +297,13 @@ class VolumeFileTest : public QObject {
       voxel = static_cast<std::int16_t>(state >> 16);
     }
     for (const auto& name : kWritten) {
-      QVERIFY(write_volume_file(noise, folder / name));
+      QVERIFY(imaging::write_volume_file(noise, folder / name));
       const std::string kept = contents(folder / name);
       for (const rlim_t limit : {rlim_t{100}, rlim_t{20000}, rlim_t{kept.size() - 1}}) {
         rlimit small = before;
         small.rlim_cur = limit;
         setrlimit(RLIMIT_FSIZE, &small);
-        const auto status = write_volume_file(noise, folder / name);
+        const auto status = imaging::write_volume_file(noise, folder / name);
         setrlimit(RLIMIT_FSIZE, &before);
         QVERIFY2(!status, name.c_str());
         QCOMPARE(status.error().kind, ErrorKind::write);
@@ -315,24 +316,24 @@ class VolumeFileTest : public QObject {
 
   void a_path_that_cannot_be_written_is_a_write_error() {
     const Volume volume = counting_volume<std::int16_t>(awkward_grid(), 0);
-    const auto status = write_volume_file(volume, "/nonexistent/v.nrrd");
+    const auto status = imaging::write_volume_file(volume, "/nonexistent/v.nrrd");
     QVERIFY(!status);
     QCOMPARE(status.error().kind, ErrorKind::write);
-    const auto kind = write_volume_file(volume, "/tmp/v.mhd");
+    const auto kind = imaging::write_volume_file(volume, "/tmp/v.mhd");
     QVERIFY(!kind);
     QCOMPARE(kind.error().kind, ErrorKind::usage);
   }
 
   void an_interrupted_read_says_so() {
     const TemporaryFolder folder;
-    QVERIFY(write_volume_file(counting_volume<std::int16_t>(awkward_grid(), 0), folder / "v.nii"));
+    QVERIFY(imaging::write_volume_file(counting_volume<std::int16_t>(awkward_grid(), 0), folder / "v.nii"));
     std::stop_source source;
     double last = -1.0;
     Progress progress{[&](double fraction, std::string_view) { last = fraction; }, source.get_token()};
-    QVERIFY(read_volume_file(folder / "v.nii", progress));
+    QVERIFY(imaging::read_volume_file(folder / "v.nii", progress));
     QCOMPARE(last, 1.0);
     source.request_stop();
-    const auto stopped = read_volume_file(folder / "v.nii", progress);
+    const auto stopped = imaging::read_volume_file(folder / "v.nii", progress);
     QVERIFY(!stopped);
     QCOMPARE(stopped.error().kind, ErrorKind::cancelled);
   }

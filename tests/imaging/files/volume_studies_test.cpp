@@ -16,7 +16,7 @@ using nlohmann::json;
 namespace {
 
 Volume read(const std::string& name) {
-  auto volume = read_volume_file(studies_folder() / name);
+  auto volume = imaging::read_volume_file(studies_folder() / name);
   if (!volume) qFatal("%s", volume.error().message.c_str());
   return std::move(*volume);
 }
@@ -79,7 +79,7 @@ class VolumeStudiesTest : public QObject {
         QVERIFY2(std::abs(high - expected["max"].get<double>()) < 1e-3, name.c_str());
         const bool scaled = high != std::floor(high) || study == "v01_head_mr_brain_skull";
         QCOMPARE(std::string(volume.scalar_name()), expected_scalar(expected["dtype"], scaled));
-        const auto series = scan_volume_file(studies_folder() / name);
+        const auto series = imaging::scan_volume_file(studies_folder() / name);
         QVERIFY2(series && series->loadable && series->scalar == volume.scalar_name(), name.c_str());
         ++files;
         if (!expected.contains("label_voxels")) continue;

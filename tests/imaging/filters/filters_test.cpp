@@ -123,7 +123,7 @@ class FiltersTest : public QObject {
     QFETCH(double, sigma);
     Volume volume = float_volume({61, 71, 41}, {0.8, 0.7, 1.2});
     at(volume, {30, 35, 20}) = 1000.0F;
-    const auto smoothed = smooth(volume, sigma);
+    const auto smoothed = imaging::smooth(volume, sigma);
     QCOMPARE(failure(smoothed), QString());
     QVERIFY(smoothed->geometry == volume.geometry);
     for (int axis = 0; axis < 3; ++axis) {
@@ -147,7 +147,7 @@ class FiltersTest : public QObject {
       for (const double sigma : {0.3, 1.0, 3.0, 50.0}) {
         Volume volume = float_volume(size, {0.5, 1.0, 6.5});
         for (float& value : std::get<std::vector<float>>(volume.voxels)) value = 321.0F;
-        const auto smoothed = smooth(volume, sigma);
+        const auto smoothed = imaging::smooth(volume, sigma);
         QCOMPARE(failure(smoothed), QString());
         const auto [low, high] = smoothed->range();
         QVERIFY(low > 320.9F && high < 321.1F);
@@ -158,7 +158,7 @@ class FiltersTest : public QObject {
   void smoothing_acts_along_axes_too_short_for_the_recursive_filter() {
     Volume volume = float_volume({2, 3, 1});
     at(volume, {0, 0, 0}) = 1.0F;
-    const auto smoothed = smooth(volume, 10.0);
+    const auto smoothed = imaging::smooth(volume, 10.0);
     QCOMPARE(failure(smoothed), QString());
     // Far beyond the size each axis sees its first voxel, continued, on one side: half of everything.
     const auto [low, high] = smoothed->range();
@@ -171,7 +171,7 @@ class FiltersTest : public QObject {
     volume.voxels = std::vector<std::int16_t>(512, 100);
     volume.slope = 2.0;
     volume.intercept = -50.0;
-    const auto smoothed = smooth(volume, 1.0);
+    const auto smoothed = imaging::smooth(volume, 1.0);
     QCOMPARE(failure(smoothed), QString());
     QCOMPARE(std::string(smoothed->scalar_name()), std::string("float"));
     QVERIFY(std::abs(smoothed->value(Index3(4, 4, 4)) - 150.0F) < 1e-3F);
@@ -180,7 +180,7 @@ class FiltersTest : public QObject {
   void a_sigma_that_is_no_length_is_refused() {
     for (const double sigma :
          {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-      const auto smoothed = smooth(float_volume({4, 4, 4}), sigma);
+      const auto smoothed = imaging::smooth(float_volume({4, 4, 4}), sigma);
       QVERIFY(!smoothed);
       QCOMPARE(smoothed.error().kind, ErrorKind::usage);
     }
@@ -192,9 +192,9 @@ class FiltersTest : public QObject {
     volume.voxels = std::vector<std::int16_t>{0, 10, 20, 30, 40};
     volume.slope = -1.0;
     volume.intercept = 5.0;
-    QVERIFY(threshold(volume, -25, -5).voxels == (std::vector<std::uint8_t>{0, 1, 1, 1, 0}));
-    QCOMPARE(threshold(volume, -24.9, -5.1).count(), std::int64_t{1});
-    QCOMPARE(threshold(volume, 10, 0).count(), std::int64_t{0});
+    QVERIFY(imaging::threshold(volume, -25, -5).voxels == (std::vector<std::uint8_t>{0, 1, 1, 1, 0}));
+    QCOMPARE(imaging::threshold(volume, -24.9, -5.1).count(), std::int64_t{1});
+    QCOMPARE(imaging::threshold(volume, 10, 0).count(), std::int64_t{0});
   }
 
   void a_flood_fill_gives_what_itk_gives() {
@@ -202,7 +202,7 @@ class FiltersTest : public QObject {
     for (const float high : {20.0F, 35.0F, 60.0F}) {  // below, about and above percolation
       Index3 seed(11, 8, 9);
       while (volume.value(seed) > high) ++seed.x;
-      const auto mask = flood_fill(volume, seed, 0.0, static_cast<double>(high));
+      const auto mask = imaging::flood_fill(volume, seed, 0.0, static_cast<double>(high));
       QCOMPARE(failure(mask), QString());
       QVERIFY(mask->voxels == itk_connected_threshold(volume, seed, 0.0F, high));
       QVERIFY(mask->voxels[static_cast<std::size_t>(volume.geometry.offset(seed))] == 1);
@@ -212,7 +212,7 @@ class FiltersTest : public QObject {
   void a_flood_fill_does_not_pass_corners() {
     Volume volume = float_volume({4, 4, 1});
     at(volume, {0, 0, 0}) = at(volume, {1, 0, 0}) = at(volume, {2, 1, 0}) = 1.0F;
-    const auto mask = flood_fill(volume, {0, 0, 0}, 1, 1);
+    const auto mask = imaging::flood_fill(volume, {0, 0, 0}, 1, 1);
     QCOMPARE(failure(mask), QString());
     QCOMPARE(mask->count(), std::int64_t{2});
   }
@@ -220,11 +220,11 @@ class FiltersTest : public QObject {
   void a_seed_outside_the_volume_or_the_range_is_refused() {
     const Volume volume = float_volume({4, 4, 4});
     for (const Index3 seed : {Index3(-1, 0, 0), Index3(0, 4, 0)}) {
-      const auto outside = flood_fill(volume, seed, -1, 1);
+      const auto outside = imaging::flood_fill(volume, seed, -1, 1);
       QVERIFY(!outside);
       QCOMPARE(outside.error().kind, ErrorKind::usage);
     }
-    const auto wrong_value = flood_fill(volume, {1, 2, 3}, 10, 20);
+    const auto wrong_value = imaging::flood_fill(volume, {1, 2, 3}, 10, 20);
     QVERIFY(!wrong_value);
     QCOMPARE(wrong_value.error().kind, ErrorKind::usage);
     QVERIFY(wrong_value.error().message.find("(1, 2, 3)") != std::string::npos);
@@ -242,7 +242,7 @@ class FiltersTest : public QObject {
     for (const int i : {3, 4, 5}) set(i, 2, 2);
     set(5, 3, 2);
     set(5, 3, 3);
-    const Components components = connected_components(mask);
+    const imaging::Components components = imaging::connected_components(mask);
     QCOMPARE(components.count, std::int64_t{3});
     QCOMPARE(components.largest.count(), std::int64_t{5});
     QVERIFY(components.largest.voxels[static_cast<std::size_t>(mask.geometry.offset({5, 3, 3}))] == 1);
@@ -253,7 +253,7 @@ class FiltersTest : public QObject {
     for (const std::string modality : {"CT", ""}) {
       Volume body = body_like_ct();
       body.modality = modality;
-      const auto suggestion = suggest_start(body);
+      const auto suggestion = imaging::suggest_start(body);
       QCOMPARE(failure(suggestion), QString());
       QVERIFY2(std::abs(suggestion->target - kOrgan) < 10.0, qPrintable(QString::number(suggestion->target)));
       QVERIFY(suggestion->range >= 30.0 && suggestion->range < kOrgan - kFat);
@@ -264,18 +264,18 @@ class FiltersTest : public QObject {
     // Other modalities: some even, bright place, whatever its values are.
     Volume bright = body_like_ct();
     bright.modality = "MR";
-    QVERIFY(std::abs(suggest_start(bright)->target - kFat) < 5.0);
+    QVERIFY(std::abs(imaging::suggest_start(bright)->target - kFat) < 5.0);
   }
 
   void an_empty_mask_has_no_component_and_a_full_one_has_one() {
     Mask mask;
     mask.geometry.size = {3, 3, 3};
     mask.voxels.assign(27, 0);
-    QCOMPARE(connected_components(mask).count, std::int64_t{0});
-    QCOMPARE(connected_components(mask).largest.count(), std::int64_t{0});
+    QCOMPARE(imaging::connected_components(mask).count, std::int64_t{0});
+    QCOMPARE(imaging::connected_components(mask).largest.count(), std::int64_t{0});
     mask.voxels.assign(27, 1);
-    QCOMPARE(connected_components(mask).count, std::int64_t{1});
-    QCOMPARE(connected_components(mask).largest.count(), std::int64_t{27});
+    QCOMPARE(imaging::connected_components(mask).count, std::int64_t{1});
+    QCOMPARE(imaging::connected_components(mask).largest.count(), std::int64_t{27});
   }
 };
 

@@ -46,11 +46,11 @@ class ByteSourceTest : public QObject {
     for (const int strategy : {Z_DEFAULT_STRATEGY, Z_FIXED}) {
       for (std::size_t count = kWindow - 10; count < kWindow + 600; ++count) {
         const Bytes packed = deflate_zeros(count, strategy);
-        MemoryBytes source(packed);
-        const auto size = InflatedBytes::measure(source, 0, 1 << 20);
+        imaging::MemoryBytes source(packed);
+        const auto size = imaging::InflatedBytes::measure(source, 0, 1 << 20);
         QVERIFY2(size, qPrintable(QString::number(count)));
         QCOMPARE(static_cast<std::size_t>(*size), count);
-        InflatedBytes inflated(source, 0, *size);
+        imaging::InflatedBytes inflated(source, 0, *size);
         Bytes piece(kWindow, 1);
         QCOMPARE(inflated.read(0, piece), std::min(count, kWindow));
         QCOMPARE(inflated.read(kWindow, piece), count - std::min(count, kWindow));
@@ -61,8 +61,8 @@ class ByteSourceTest : public QObject {
   void a_stream_that_is_cut_anywhere_ends_early() {
     const Bytes packed = deflate_zeros(3 * kWindow, Z_FIXED);
     for (std::size_t count = 0; count < packed.size(); ++count) {
-      MemoryBytes source(std::span<const std::uint8_t>(packed).first(count));
-      const auto size = InflatedBytes::measure(source, 0, 1 << 20);
+      imaging::MemoryBytes source(std::span<const std::uint8_t>(packed).first(count));
+      const auto size = imaging::InflatedBytes::measure(source, 0, 1 << 20);
       QVERIFY(!size);
       QVERIFY(size.error().message.find("ends within") != std::string::npos);
     }

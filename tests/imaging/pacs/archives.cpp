@@ -129,9 +129,9 @@ void Archive::start(const QString& program, const QStringList& arguments) {
   qFatal("%s does not serve: %s", qPrintable(program), log.readAll().constData());
 }
 
-PacsServer Archive::server_by_move() const {
-  PacsServer server = server_;
-  server.retrieve = PacsServer::Retrieve::move;
+imaging::PacsServer Archive::server_by_move() const {
+  imaging::PacsServer server = server_;
+  server.retrieve = imaging::PacsServer::Retrieve::move;
   return server;
 }
 

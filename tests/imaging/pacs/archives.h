@@ -24,13 +24,13 @@ class Archive {
   Archive& operator=(const Archive&) = delete;
 
   // How it is reached; retrieval by get.
-  [[nodiscard]] PacsServer server() const { return server_; }
+  [[nodiscard]] imaging::PacsServer server() const { return server_; }
   // The same, with calls to the port under which the archive knows us.
-  [[nodiscard]] PacsServer server_by_move() const;
+  [[nodiscard]] imaging::PacsServer server_by_move() const;
 
  protected:
   void start(const QString& program, const QStringList& arguments);
-  PacsServer server_;
+  imaging::PacsServer server_;
   TemporaryFolder folder_;
 
  private:

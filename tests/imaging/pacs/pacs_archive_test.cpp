@@ -29,12 +29,12 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder)
 }
 
 void write(const Volume& volume, const std::string& description, const std::filesystem::path& folder) {
-  DicomSeriesHeader header;
+  imaging::DicomSeriesHeader header;
   header.modality = volume.modality.empty() ? "MR" : volume.modality;
   header.patient_name = kPatient;
   header.patient_id = kPatientId;
   header.series_description = description;
-  QCOMPARE(failure(write_dicom_series(volume, header, folder)), QString());
+  QCOMPARE(failure(imaging::write_dicom_series(volume, header, folder)), QString());
 }
 
 }  // namespace
@@ -47,14 +47,15 @@ class PacsArchiveTest : public QObject {
     QTest::newRow("Orthanc") << "orthanc";
     QTest::newRow("dcmqrscp") << "dcmqrscp";
   }
-  static PacsLimits limits() {
-    PacsLimits limits;
+  static imaging::PacsLimits limits() {
+    imaging::PacsLimits limits;
     limits.free_bytes = 1 << 20;
     return limits;
   }
 
   // dcmqrscp does not know what series are called.
-  static void check_description(const QString& archive_name, const PacsSeries& series, const char* wanted) {
+  static void check_description(const QString& archive_name, const imaging::PacsSeries& series,
+                                const char* wanted) {
     if (archive_name == "orthanc") QCOMPARE(QString::fromStdString(series.description), QString(wanted));
   }
 
@@ -63,52 +64,52 @@ class PacsArchiveTest : public QObject {
   void a_series_comes_back_as_it_was_sent() {
     QFETCH(QString, archive_name);
     const auto archive = start_archive(archive_name);
-    const PacsServer server = archive->server();
-    const auto echoed = pacs_echo(server);
+    const imaging::PacsServer server = archive->server();
+    const auto echoed = imaging::pacs_echo(server);
     QCOMPARE(failure(echoed), QString());
 
-    const auto phantom = make_phantom("sphere", {});
+    const auto phantom = imaging::make_phantom("sphere", {});
     QCOMPARE(failure(phantom), QString());
     const TemporaryFolder folder;
     write(phantom->volume, "The phantom", folder / "sent");
     const auto files = files_in(folder / "sent");
-    const auto sent = send_files(server, files);
+    const auto sent = imaging::send_files(server, files);
     QCOMPARE(failure(sent), QString());
     QCOMPARE(sent->objects, static_cast<std::int64_t>(files.size()));
     QVERIFY(sent->unsent.empty());
 
-    StudyQuery query;
+    imaging::StudyQuery query;
     query.patient_id = kPatientId;
     query.modality = phantom->volume.modality;
-    const auto studies = find_studies(server, query);
+    const auto studies = imaging::find_studies(server, query);
     QCOMPARE(failure(studies), QString());
     QCOMPARE(studies->entries.size(), std::size_t{1});
-    const PacsStudy& study = studies->entries.front();
+    const imaging::PacsStudy& study = studies->entries.front();
     QCOMPARE(QString::fromStdString(study.patient_name), QString(kPatient));
-    QCOMPARE(QString::fromStdString(readable_name(study.patient_name)), QString("Ångström, José"));
+    QCOMPARE(QString::fromStdString(imaging::readable_name(study.patient_name)), QString("Ångström, José"));
     QCOMPARE(QString::fromStdString(study.patient_id), QString(kPatientId));
 
-    const auto series = find_pacs_series(server, {study.uid, phantom->volume.modality, {}});
+    const auto series = imaging::find_pacs_series(server, {study.uid, phantom->volume.modality, {}});
     QCOMPARE(failure(series), QString());
     QCOMPARE(series->entries.size(), std::size_t{1});
     QCOMPARE(QString::fromStdString(series->entries.front().modality),
              QString::fromStdString(phantom->volume.modality));
     check_description(archive_name, series->entries.front(), "The phantom");
 
-    for (const PacsServer& way : {server, archive->server_by_move()}) {
-      const bool by_get = way.retrieve == PacsServer::Retrieve::get;
-      const RetrieveRequest request{study.uid, series->entries.front().uid,
-                                    folder / (by_get ? "get" : "move")};
+    for (const imaging::PacsServer& way : {server, archive->server_by_move()}) {
+      const bool by_get = way.retrieve == imaging::PacsServer::Retrieve::get;
+      const imaging::RetrieveRequest request{study.uid, series->entries.front().uid,
+                                             folder / (by_get ? "get" : "move")};
       std::vector<double> fractions;
       Progress progress;
       progress.report = [&](double fraction, std::string_view) { fractions.push_back(fraction); };
-      const auto retrieved = retrieve(way, request, limits(), progress);
+      const auto retrieved = imaging::retrieve(way, request, limits(), progress);
       QCOMPARE(failure(retrieved), QString());
       QCOMPARE(retrieved->files.size(), files.size());
       QCOMPARE(retrieved->missing, 0);
       QVERIFY(retrieved->refused.empty());
       QVERIFY(!fractions.empty() && fractions.back() > 0.9);
-      const auto loaded = load_volume(request.folder);
+      const auto loaded = imaging::load_volume(request.folder);
       QCOMPARE(failure(loaded), QString());
       QVERIFY(same_grid(loaded->geometry, phantom->volume.geometry, 1e-3));
       QVERIFY2(loaded->values() == phantom->volume.values(), by_get ? "by get" : "by move");
@@ -119,22 +120,22 @@ class PacsArchiveTest : public QObject {
   void a_result_is_sent_and_found_there() {
     QFETCH(QString, archive_name);
     const auto archive = start_archive(archive_name);
-    const auto phantom = make_phantom("sphere", {});
+    const auto phantom = imaging::make_phantom("sphere", {});
     QCOMPARE(failure(phantom), QString());
     Volume result;
     result.geometry = phantom->truth.geometry;
     result.voxels = std::vector<std::uint16_t>(phantom->truth.voxels.begin(), phantom->truth.voxels.end());
     const TemporaryFolder folder;
     write(result, "Segmented", folder / "result");
-    const auto sent = send_files(archive->server(), files_in(folder / "result"));
+    const auto sent = imaging::send_files(archive->server(), files_in(folder / "result"));
     QCOMPARE(failure(sent), QString());
     QVERIFY(sent->unsent.empty());
-    StudyQuery query;
+    imaging::StudyQuery query;
     query.patient_name = "Ångström*";
-    const auto studies = find_studies(archive->server(), query);
+    const auto studies = imaging::find_studies(archive->server(), query);
     QCOMPARE(failure(studies), QString());
     QCOMPARE(studies->entries.size(), std::size_t{1});
-    const auto series = find_pacs_series(archive->server(), {studies->entries.front().uid, {}, {}});
+    const auto series = imaging::find_pacs_series(archive->server(), {studies->entries.front().uid, {}, {}});
     QCOMPARE(failure(series), QString());
     QCOMPARE(series->entries.size(), std::size_t{1});
     check_description(archive_name, series->entries.front(), "Segmented");
@@ -154,26 +155,26 @@ class PacsArchiveTest : public QObject {
         files.push_back(file);
       }
     }
-    QCOMPARE(failure(send_files(archive->server(), files)), QString());
-    const auto count = [&](const StudyQuery& query) {
-      const auto found = find_studies(archive->server(), query);
+    QCOMPARE(failure(imaging::send_files(archive->server(), files)), QString());
+    const auto count = [&](const imaging::StudyQuery& query) {
+      const auto found = imaging::find_studies(archive->server(), query);
       return found ? static_cast<int>(found->entries.size()) : -1;
     };
-    const auto by = [](std::string StudyQuery::*field, const char* value) {
-      StudyQuery query;
+    const auto by = [](std::string imaging::StudyQuery::*field, const char* value) {
+      imaging::StudyQuery query;
       query.*field = value;
       return query;
     };
     QCOMPARE(count({}), 3);
-    QCOMPARE(count(by(&StudyQuery::date_from, "2025-01-01")), 2);
-    QCOMPARE(count(by(&StudyQuery::date_to, "2025-12-31")), 2);
-    StudyQuery year = by(&StudyQuery::date_from, "20250101");
+    QCOMPARE(count(by(&imaging::StudyQuery::date_from, "2025-01-01")), 2);
+    QCOMPARE(count(by(&imaging::StudyQuery::date_to, "2025-12-31")), 2);
+    imaging::StudyQuery year = by(&imaging::StudyQuery::date_from, "20250101");
     year.date_to = "20251231";
     QCOMPARE(count(year), 1);
-    QCOMPARE(count(by(&StudyQuery::description, "ne*")), 2);
-    QCOMPARE(count(by(&StudyQuery::patient_name, "Nobody")), 0);
+    QCOMPARE(count(by(&imaging::StudyQuery::description, "ne*")), 2);
+    QCOMPARE(count(by(&imaging::StudyQuery::patient_name, "Nobody")), 0);
     // dcmqrscp does not know which modalities a study has.
-    if (archive_name == "orthanc") QCOMPARE(count(by(&StudyQuery::modality, "CT")), 2);
+    if (archive_name == "orthanc") QCOMPARE(count(by(&imaging::StudyQuery::modality, "CT")), 2);
   }
 
   void compressed_files_are_sent_as_they_are_or_refused_by_name() {
@@ -182,7 +183,7 @@ class PacsArchiveTest : public QObject {
     const auto packed = folder / "packed.dcm";
     compress_by_rle(files.front(), packed);
     const StoringPeer plain_only({"+x="});
-    const auto refused = send_files(plain_only.server(), {packed, files.back()});
+    const auto refused = imaging::send_files(plain_only.server(), {packed, files.back()});
     QCOMPARE(failure(refused), QString());
     QCOMPARE(refused->objects, 1);
     QCOMPARE(refused->unsent.size(), std::size_t{1});
@@ -190,7 +191,7 @@ class PacsArchiveTest : public QObject {
     QVERIFY(QString::fromStdString(refused->unsent.front().reason).contains("RLE"));
 
     const StoringPeer all({"+xa"});
-    const auto sent = send_files(all.server(), {packed});
+    const auto sent = imaging::send_files(all.server(), {packed});
     QCOMPARE(failure(sent), QString());
     QCOMPARE(sent->objects, 1);
     const auto received = files_in(all.received());
@@ -210,15 +211,16 @@ class PacsArchiveTest : public QObject {
     const Volume volume = sample_volume({16, 16, 3});
     const auto files = write_series(volume, folder / "plain");
     for (const auto& file : files) compress_by_rle(file, file);
-    QCOMPARE(failure(send_files(archive->server(), files)), QString());
-    const auto studies = find_studies(archive->server(), {});
+    QCOMPARE(failure(imaging::send_files(archive->server(), files)), QString());
+    const auto studies = imaging::find_studies(archive->server(), {});
     QCOMPARE(failure(studies), QString());
-    const PacsServer server = by_get ? archive->server() : archive->server_by_move();
-    const auto retrieved = retrieve(server, {studies->entries.at(0).uid, {}, folder / "back"}, limits());
+    const imaging::PacsServer server = by_get ? archive->server() : archive->server_by_move();
+    const auto retrieved =
+        imaging::retrieve(server, {studies->entries.at(0).uid, {}, folder / "back"}, limits());
     QCOMPARE(failure(retrieved), QString());
     QCOMPARE(retrieved->files.size(), files.size());
     QCOMPARE(syntax_of(retrieved->files.front()), syntax_of(files.front()));
-    const auto loaded = load_volume(folder / "back");
+    const auto loaded = imaging::load_volume(folder / "back");
     QCOMPARE(failure(loaded), QString());
     QVERIFY(loaded->values() == volume.values());
   }
@@ -230,7 +232,7 @@ class PacsArchiveTest : public QObject {
     QFile note(QString::fromStdString((folder / "note.txt").string()));
     QVERIFY(note.open(QIODevice::WriteOnly) && note.write("not DICOM") > 0);
     note.close();
-    const auto sent = send_files(peer.server(), {folder / "note.txt", files[0], files[1]});
+    const auto sent = imaging::send_files(peer.server(), {folder / "note.txt", files[0], files[1]});
     QCOMPARE(failure(sent), QString());
     QCOMPARE(sent->objects, 2);
     QCOMPARE(sent->unsent.size(), std::size_t{1});
@@ -242,7 +244,7 @@ class PacsArchiveTest : public QObject {
     const TemporaryFolder folder;
     const auto files = write_series(sample_volume({16, 16, 3}), folder / "series");
     truncate(files[1], std::filesystem::file_size(files[1]) - 100);
-    const auto sent = send_files(peer.server(), files);
+    const auto sent = imaging::send_files(peer.server(), files);
     QCOMPARE(failure(sent), QString());
     QCOMPARE(sent->objects, 2);
     QCOMPARE(sent->unsent.size(), std::size_t{1});
@@ -276,7 +278,7 @@ class PacsArchiveTest : public QObject {
           std::filesystem::rename(folder / "other.dcm", files[2]);
         },
         {}};
-    const auto sent = send_files(peer.server(), files, progress);
+    const auto sent = imaging::send_files(peer.server(), files, progress);
     QCOMPARE(failure(sent), QString());
     QVERIFY(is_replaced);
     QCOMPARE(sent->objects, 2);
@@ -291,8 +293,8 @@ class PacsArchiveTest : public QObject {
     QFETCH(QString, archive_name);
     const auto archive = start_archive(archive_name);
     const TemporaryFolder folder;
-    for (const PacsServer& way : {archive->server(), archive->server_by_move()}) {
-      const auto retrieved = retrieve(way, {"1.2.3.4", {}, folder / "none"}, limits());
+    for (const imaging::PacsServer& way : {archive->server(), archive->server_by_move()}) {
+      const auto retrieved = imaging::retrieve(way, {"1.2.3.4", {}, folder / "none"}, limits());
       QVERIFY(!retrieved);
       QCOMPARE(retrieved.error().kind, ErrorKind::input);
       QVERIFY(!std::filesystem::exists(folder / "none"));
@@ -303,12 +305,12 @@ class PacsArchiveTest : public QObject {
     const TemporaryFolder folder;
     write_series(sample_volume({4, 4, 2}), folder / "full");
     const auto before = files_in(folder / "full");
-    PacsServer server;
+    imaging::PacsServer server;
     server.name = "nobody";
     server.host = "localhost";
     server.ae_title = "NOBODY";
     server.port = free_port();
-    const auto retrieved = retrieve(server, {"1.2.3.4", {}, folder / "full"}, limits());
+    const auto retrieved = imaging::retrieve(server, {"1.2.3.4", {}, folder / "full"}, limits());
     QVERIFY(!retrieved);
     QCOMPARE(retrieved.error().kind, ErrorKind::write);
     QVERIFY(files_in(folder / "full") == before);
@@ -316,9 +318,9 @@ class PacsArchiveTest : public QObject {
 
   void a_server_that_is_called_otherwise_says_so() {
     const auto archive = start_orthanc();
-    PacsServer server = archive->server();
+    imaging::PacsServer server = archive->server();
     server.ae_title = "WRONG";
-    const auto echoed = pacs_echo(server);
+    const auto echoed = imaging::pacs_echo(server);
     QVERIFY(!echoed);
     QVERIFY2(echoed.error().message.find("it is not called 'WRONG' (ae_title)") != std::string::npos,
              echoed.error().message.c_str());
@@ -327,13 +329,15 @@ class PacsArchiveTest : public QObject {
   void a_server_that_does_not_know_where_to_send_says_so() {
     const auto archive = start_dcmqrscp();
     const TemporaryFolder folder;
-    QCOMPARE(failure(send_files(archive->server(), write_series(sample_volume({4, 4, 2}), folder / "s"))),
-             QString());
-    const auto studies = find_studies(archive->server(), {});
+    QCOMPARE(
+        failure(imaging::send_files(archive->server(), write_series(sample_volume({4, 4, 2}), folder / "s"))),
+        QString());
+    const auto studies = imaging::find_studies(archive->server(), {});
     QCOMPARE(failure(studies), QString());
-    PacsServer server = archive->server_by_move();
+    imaging::PacsServer server = archive->server_by_move();
     server.own_ae_title = "STRANGER";
-    const auto retrieved = retrieve(server, {studies->entries.at(0).uid, {}, folder / "back"}, limits());
+    const auto retrieved =
+        imaging::retrieve(server, {studies->entries.at(0).uid, {}, folder / "back"}, limits());
     QVERIFY(!retrieved);
     QVERIFY2(retrieved.error().message.find("does not know where to send to") != std::string::npos,
              retrieved.error().message.c_str());

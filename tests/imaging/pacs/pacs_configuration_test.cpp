@@ -22,21 +22,21 @@ class PacsConfigurationTest : public QObject {
  private slots:
   void what_was_written_is_read() {
     const TemporaryFolder folder;
-    PacsConfiguration configuration;
+    imaging::PacsConfiguration configuration;
     configuration.servers.push_back({.name = "main",
                                      .host = "pacs.example",
                                      .port = 11112,
                                      .ae_title = "ARCHIVE",
                                      .own_ae_title = "US",
-                                     .retrieve = PacsServer::Retrieve::move,
+                                     .retrieve = imaging::PacsServer::Retrieve::move,
                                      .move_port = 4242,
                                      .timeout_seconds = 7,
-                                     .tls = PacsTls{"/ca.pem", "/own.pem", "/key.pem", false}});
+                                     .tls = imaging::PacsTls{"/ca.pem", "/own.pem", "/key.pem", false}});
     configuration.servers.push_back({.name = "other", .host = "10.0.0.1", .ae_title = "OTHER", .tls = {}});
     configuration.limits = {std::int64_t{1} << 20, std::int64_t{2} << 20, 3, std::int64_t{4} << 20, 5};
     const auto file = folder / "new/folder/pacs.json";
-    QCOMPARE(failure(write_pacs_configuration(configuration, file)), QString());
-    const auto read = read_pacs_configuration(file);
+    QCOMPARE(failure(imaging::write_pacs_configuration(configuration, file)), QString());
+    const auto read = imaging::read_pacs_configuration(file);
     QCOMPARE(failure(read), QString());
     QVERIFY(read->servers == configuration.servers);
     QVERIFY(read->limits == configuration.limits);
@@ -51,11 +51,11 @@ class PacsConfigurationTest : public QObject {
     const TemporaryFolder folder;
     write(folder / "pacs.json",
           R"({"servers": [{"name": "a", "host": "h", "ae_title": "A", "tls": {"ca": "ca.pem"}}]})");
-    const auto read = read_pacs_configuration(folder / "pacs.json");
+    const auto read = imaging::read_pacs_configuration(folder / "pacs.json");
     QCOMPARE(failure(read), QString());
     QCOMPARE(read->servers[0].tls->ca, folder / "ca.pem");
     QVERIFY(read->servers[0].tls->verify);
-    QVERIFY(read->servers[0].retrieve == PacsServer::Retrieve::get);
+    QVERIFY(read->servers[0].retrieve == imaging::PacsServer::Retrieve::get);
   }
 
   void what_is_wrong_is_named_data() {
@@ -105,7 +105,7 @@ class PacsConfigurationTest : public QObject {
     QFETCH(QString, said);
     const TemporaryFolder folder;
     write(folder / "pacs.json", text);
-    const auto read = read_pacs_configuration(folder / "pacs.json");
+    const auto read = imaging::read_pacs_configuration(folder / "pacs.json");
     QVERIFY(!read);
     QCOMPARE(read.error().kind, ErrorKind::input);
     const QString message = QString::fromStdString(read.error().message);
@@ -116,17 +116,18 @@ class PacsConfigurationTest : public QObject {
 
   void a_file_that_is_not_there_is_named() {
     const TemporaryFolder folder;
-    const auto read = read_pacs_configuration(folder / "none.json");
+    const auto read = imaging::read_pacs_configuration(folder / "none.json");
     QVERIFY(!read);
     QVERIFY(read.error().message.find("none.json: no such file") != std::string::npos);
   }
 
   void the_usual_file_is_in_the_users_configuration() {
     qputenv("XDG_CONFIG_HOME", "/somewhere");
-    QCOMPARE(pacs_configuration_file(), std::filesystem::path("/somewhere/tidemark/pacs.json"));
+    QCOMPARE(imaging::pacs_configuration_file(), std::filesystem::path("/somewhere/tidemark/pacs.json"));
     qunsetenv("XDG_CONFIG_HOME");
     qputenv("HOME", "/home/somebody");
-    QCOMPARE(pacs_configuration_file(), std::filesystem::path("/home/somebody/.config/tidemark/pacs.json"));
+    QCOMPARE(imaging::pacs_configuration_file(),
+             std::filesystem::path("/home/somebody/.config/tidemark/pacs.json"));
   }
 
   void names_are_readable_data() {
@@ -146,7 +147,7 @@ class PacsConfigurationTest : public QObject {
   void names_are_readable() {
     QFETCH(QString, dicom_name);
     QFETCH(QString, readable);
-    QCOMPARE(QString::fromStdString(readable_name(dicom_name.toStdString())), readable);
+    QCOMPARE(QString::fromStdString(imaging::readable_name(dicom_name.toStdString())), readable);
   }
 };
 

@@ -21,8 +21,8 @@ constexpr const char* kStudy = "1.2.3";
 constexpr const char* kSeries = "1.2.3.4";
 
 // These peers are quick, but the machine may be busy.
-PacsServer patient(const ScriptedPeer& peer) {
-  PacsServer server = peer.server();
+imaging::PacsServer patient(const ScriptedPeer& peer) {
+  imaging::PacsServer server = peer.server();
   server.timeout_seconds = 20;
   return server;
 }
@@ -98,10 +98,10 @@ class PacsFloodTest : public QObject {
  private slots:
   void a_retrieval_ends_where_it_becomes_too_large_data() {
     QTest::addColumn<int>("pieces");
-    QTest::addColumn<PacsLimits>("limits");
+    QTest::addColumn<imaging::PacsLimits>("limits");
     QTest::addColumn<QString>("said");
     QTest::addColumn<ErrorKind>("kind");
-    PacsLimits small;
+    imaging::PacsLimits small;
     small.object_bytes = 5'000'000;
     small.retrieval_bytes = 30'000'000;
     small.objects = 40;
@@ -112,19 +112,19 @@ class PacsFloodTest : public QObject {
         << 4 << small << "sends more than the 28 MiB that are allowed" << ErrorKind::input;
     QTest::newRow("very many small objects")
         << 0 << small << "sends more than the 40 objects that are allowed" << ErrorKind::input;
-    PacsLimits full = small;
+    imaging::PacsLimits full = small;
     full.free_bytes = std::int64_t{1} << 60;
     QTest::newRow("a disk that is full") << 4 << full << "the disk is nearly full" << ErrorKind::write;
   }
   void a_retrieval_ends_where_it_becomes_too_large() {
     QFETCH(int, pieces);
-    QFETCH(PacsLimits, limits);
+    QFETCH(imaging::PacsLimits, limits);
     QFETCH(QString, said);
     QFETCH(ErrorKind, kind);
     const ScriptedPeer peer(objects_without_end(pieces));
     const TemporaryFolder folder;
     const long before = most_memory();
-    const auto retrieved = retrieve(patient(peer), {kStudy, kSeries, folder / "in"}, limits);
+    const auto retrieved = imaging::retrieve(patient(peer), {kStudy, kSeries, folder / "in"}, limits);
     QVERIFY(!retrieved);
     QVERIFY2(message(retrieved.error()).contains(said), qPrintable(message(retrieved.error())));
     QCOMPARE(retrieved.error().kind, kind);
@@ -142,9 +142,9 @@ class PacsFloodTest : public QObject {
       }
     });
     const TemporaryFolder folder;
-    PacsLimits limits;
+    imaging::PacsLimits limits;
     limits.free_bytes = 1 << 20;
-    const auto retrieved = retrieve(patient(peer), {kStudy, kSeries, folder / "in"}, limits);
+    const auto retrieved = imaging::retrieve(patient(peer), {kStudy, kSeries, folder / "in"}, limits);
     QVERIFY(!retrieved);
     QVERIFY2(message(retrieved.error()).contains("answers without end"),
              qPrintable(message(retrieved.error())));
@@ -152,9 +152,9 @@ class PacsFloodTest : public QObject {
 
   void answers_without_end_are_cut_off() {
     const ScriptedPeer peer(answers_without_end(explicit_attribute(0x0020, 0x000d, "UI", kStudy)));
-    PacsLimits limits;
+    imaging::PacsLimits limits;
     limits.answers = 50;
-    const auto found = find_studies(patient(peer), {}, limits);
+    const auto found = imaging::find_studies(patient(peer), {}, limits);
     QCOMPARE(failure(found), QString());
     QCOMPARE(found->entries.size(), std::size_t{50});
     QVERIFY(found->more);
@@ -173,9 +173,9 @@ class PacsFloodTest : public QObject {
     const ScriptedPeer peer(answers_without_end(identifier));
     QElapsedTimer timer;
     timer.start();
-    PacsLimits limits;
+    imaging::PacsLimits limits;
     limits.answers = 3;
-    const auto found = find_studies(patient(peer), {}, limits);
+    const auto found = imaging::find_studies(patient(peer), {}, limits);
     QVERIFY(timer.elapsed() < 5000);
     QVERIFY(!found || found->entries.empty());
     if (identifier.size() > 65536) {
@@ -198,10 +198,10 @@ class PacsFloodTest : public QObject {
       end.send_command(1, response(kFindResponse, 1, 0, false));
       end.read_command();
     });
-    const auto found = find_studies(patient(peer), {});
+    const auto found = imaging::find_studies(patient(peer), {});
     QCOMPARE(failure(found), QString());
     QCOMPARE(found->entries.size(), std::size_t{1});
-    const PacsStudy& study = found->entries.front();
+    const imaging::PacsStudy& study = found->entries.front();
     QCOMPARE(QString::fromStdString(study.date), QString());
     QVERIFY2(!QString::fromStdString(study.description).contains('\n'), study.description.c_str());
     QVERIFY(!QString::fromStdString(study.description).contains('\x1b'));
@@ -216,23 +216,23 @@ class PacsFloodTest : public QObject {
       end.send_command(1, response(0x8021, 1, 0, false));
       end.read_command();
     });
-    PacsServer server = archive.server();
-    server.retrieve = PacsServer::Retrieve::move;
+    imaging::PacsServer server = archive.server();
+    server.retrieve = imaging::PacsServer::Retrieve::move;
     server.timeout_seconds = 5;
     server.move_port = free_port();
     const TemporaryFolder folder;
     const auto files = write_series(sample_volume({64, 64, 2}), folder / "series");
-    PacsLimits limits;
+    imaging::PacsLimits limits;
     limits.free_bytes = 1 << 20;
     limits.object_bytes = 2000;
     std::thread caller([&] {
       QTest::qSleep(200);
-      PacsServer us = server;
+      imaging::PacsServer us = server;
       us.port = server.move_port;
       us.ae_title = server.own_ae_title;
-      static_cast<void>(send_files(us, files));
+      static_cast<void>(imaging::send_files(us, files));
     });
-    const auto retrieved = retrieve(server, {kStudy, kSeries, folder / "in"}, limits);
+    const auto retrieved = imaging::retrieve(server, {kStudy, kSeries, folder / "in"}, limits);
     caller.join();
     QVERIFY(!retrieved);
     QVERIFY2(message(retrieved.error()).contains("sends more than is taken as an object"),
@@ -249,27 +249,27 @@ class PacsFloodTest : public QObject {
       end.send_command(1, response(0x8021, 1, 0, false));
       end.read_command();
     });
-    PacsServer server = archive.server();
-    server.retrieve = PacsServer::Retrieve::move;
+    imaging::PacsServer server = archive.server();
+    server.retrieve = imaging::PacsServer::Retrieve::move;
     server.own_ae_title = "US";
     server.timeout_seconds = 5;
     server.move_port = free_port();
     const TemporaryFolder folder;
-    PacsLimits limits;
+    imaging::PacsLimits limits;
     limits.free_bytes = 1 << 20;
-    PacsServer us = server;
+    imaging::PacsServer us = server;
     us.port = server.move_port;
-    us.retrieve = PacsServer::Retrieve::get;
+    us.retrieve = imaging::PacsServer::Retrieve::get;
     us.ae_title = "THEM";
     Result<double> wrong = fail(ErrorKind::internal, "not called");
     Result<double> right = fail(ErrorKind::internal, "not called");
     std::thread caller([&] {
       QTest::qSleep(100);
-      wrong = pacs_echo(us);
+      wrong = imaging::pacs_echo(us);
       us.ae_title = "US";
-      right = pacs_echo(us);
+      right = imaging::pacs_echo(us);
     });
-    const auto retrieved = retrieve(server, {kStudy, kSeries, folder / "in"}, limits);
+    const auto retrieved = imaging::retrieve(server, {kStudy, kSeries, folder / "in"}, limits);
     caller.join();
     QVERIFY(!retrieved);
     QVERIFY2(message(retrieved.error()).contains("has nothing"), qPrintable(message(retrieved.error())));

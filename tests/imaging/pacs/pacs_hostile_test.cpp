@@ -48,8 +48,8 @@ class PacsHostileTest : public QObject {
 
  private slots:
   void nobody_listens() {
-    PacsServer server = ScriptedPeer([](PeerEnd&) {}).server();  // its port is free again
-    const auto echoed = pacs_echo(server);
+    imaging::PacsServer server = ScriptedPeer([](PeerEnd&) {}).server();  // its port is free again
+    const auto echoed = imaging::pacs_echo(server);
     QVERIFY(!echoed);
     QCOMPARE(echoed.error().kind, ErrorKind::input);
     QVERIFY2(message(echoed.error()).contains("Connection refused"), qPrintable(message(echoed.error())));
@@ -57,9 +57,9 @@ class PacsHostileTest : public QObject {
   }
 
   void an_unknown_host_is_named() {
-    PacsServer server = ScriptedPeer([](PeerEnd&) {}).server();
+    imaging::PacsServer server = ScriptedPeer([](PeerEnd&) {}).server();
     server.host = "no-such-host.invalid";
-    const auto echoed = pacs_echo(server);
+    const auto echoed = imaging::pacs_echo(server);
     QVERIFY(!echoed);
     QVERIFY2(message(echoed.error()).contains("the host no-such-host.invalid is not known"),
              qPrintable(message(echoed.error())));
@@ -139,7 +139,7 @@ class PacsHostileTest : public QObject {
     const ScriptedPeer peer(behave);
     QElapsedTimer timer;
     timer.start();
-    const auto echoed = pacs_echo(peer.server());
+    const auto echoed = imaging::pacs_echo(peer.server());
     QVERIFY(!echoed);
     QCOMPARE(echoed.error().kind, ErrorKind::input);
     QVERIFY2(timer.elapsed() < kSoon, qPrintable(QString::number(timer.elapsed())));
@@ -154,7 +154,7 @@ class PacsHostileTest : public QObject {
     }));
     QElapsedTimer timer;
     timer.start();
-    QCOMPARE(failure(pacs_echo(peer.server())), QString());
+    QCOMPARE(failure(imaging::pacs_echo(peer.server())), QString());
     QVERIFY(timer.elapsed() < kSoon);
   }
 
@@ -241,11 +241,11 @@ class PacsHostileTest : public QObject {
     QFETCH(QString, said);
     const ScriptedPeer peer(behave);
     const TemporaryFolder folder;
-    PacsLimits limits;
+    imaging::PacsLimits limits;
     limits.free_bytes = 1 << 20;
     QElapsedTimer timer;
     timer.start();
-    const auto retrieved = retrieve(peer.server(), {kStudy, kSeries, folder / "a/b"}, limits);
+    const auto retrieved = imaging::retrieve(peer.server(), {kStudy, kSeries, folder / "a/b"}, limits);
     QVERIFY(!retrieved);
     QVERIFY2(timer.elapsed() < kSoon, qPrintable(QString::number(timer.elapsed())));
     QCOMPARE(retrieved.error().kind, ErrorKind::input);
@@ -268,9 +268,9 @@ class PacsHostileTest : public QObject {
       end.read_command();
     }));
     const TemporaryFolder folder;
-    PacsLimits limits;
+    imaging::PacsLimits limits;
     limits.free_bytes = 1 << 20;
-    const auto retrieved = retrieve(peer.server(), {kStudy, kSeries, folder / "in"}, limits);
+    const auto retrieved = imaging::retrieve(peer.server(), {kStudy, kSeries, folder / "in"}, limits);
     QCOMPARE(failure(retrieved), QString());
     QCOMPARE(retrieved->files.size(), std::size_t{2});
     QCOMPARE(retrieved->missing, 2);
@@ -300,10 +300,10 @@ class PacsHostileTest : public QObject {
   void a_request_to_stop_is_heard_within_a_second() {
     QFETCH(Behaviour, behave);
     const ScriptedPeer peer(behave);
-    PacsServer server = peer.server();
+    imaging::PacsServer server = peer.server();
     server.timeout_seconds = 60;
     const TemporaryFolder folder;
-    PacsLimits limits;
+    imaging::PacsLimits limits;
     limits.free_bytes = 1 << 20;
     std::stop_source stop;
     QElapsedTimer since_stop;
@@ -314,7 +314,7 @@ class PacsHostileTest : public QObject {
     });
     Progress progress;
     progress.stop = stop.get_token();
-    const auto retrieved = retrieve(server, {kStudy, kSeries, folder / "in"}, limits, progress);
+    const auto retrieved = imaging::retrieve(server, {kStudy, kSeries, folder / "in"}, limits, progress);
     const qint64 took = since_stop.elapsed();
     stopper.join();
     QVERIFY(!retrieved);
@@ -326,7 +326,7 @@ class PacsHostileTest : public QObject {
   void a_request_to_stop_is_heard_where_no_connection_comes_about() {
     // A machine that drops what it is sent: TEST-NET-1, which no network has (RFC 5737), or none that is
     // reachable.
-    PacsServer server = ScriptedPeer([](PeerEnd&) {}).server();
+    imaging::PacsServer server = ScriptedPeer([](PeerEnd&) {}).server();
     server.host = "192.0.2.1";
     server.timeout_seconds = 60;
     std::stop_source stop;
@@ -338,7 +338,7 @@ class PacsHostileTest : public QObject {
     progress.stop = stop.get_token();
     QElapsedTimer timer;
     timer.start();
-    const auto echoed = pacs_echo(server, progress);
+    const auto echoed = imaging::pacs_echo(server, progress);
     stopper.join();
     QVERIFY(!echoed);
     QVERIFY2(timer.elapsed() < 1500, qPrintable(QString::number(timer.elapsed())));

@@ -39,12 +39,12 @@ void send_series(PeerEnd& end) {
   end.read_command();
 }
 
-Result<Retrieved> retrieve_series(const ScriptedPeer& peer, const fs::path& folder) {
-  PacsServer server = peer.server();
+Result<imaging::Retrieved> retrieve_series(const ScriptedPeer& peer, const fs::path& folder) {
+  imaging::PacsServer server = peer.server();
   server.timeout_seconds = 5;
-  PacsLimits limits;
+  imaging::PacsLimits limits;
   limits.free_bytes = 1 << 20;
-  return retrieve(server, {kStudy, kSeries, folder}, limits);
+  return imaging::retrieve(server, {kStudy, kSeries, folder}, limits);
 }
 
 std::vector<std::string> names_in(const fs::path& folder) {

@@ -133,8 +133,8 @@ void ScriptedPeer::serve() {
   }
 }
 
-PacsServer ScriptedPeer::server() const {
-  PacsServer server;
+imaging::PacsServer ScriptedPeer::server() const {
+  imaging::PacsServer server;
   server.name = "peer";
   server.host = "127.0.0.1";
   server.port = port_;

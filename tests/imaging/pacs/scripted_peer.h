@@ -49,7 +49,7 @@ class ScriptedPeer {
   ScriptedPeer& operator=(const ScriptedPeer&) = delete;
 
   // With a time-out of one second.
-  [[nodiscard]] PacsServer server() const;
+  [[nodiscard]] imaging::PacsServer server() const;
 
  private:
   void serve();

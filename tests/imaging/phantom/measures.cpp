@@ -54,18 +54,18 @@ class DistanceOutwards {
 
 }  // namespace
 
-Phantom made(std::string_view kind, const PhantomOptions& options, int threads) {
+imaging::Phantom made(std::string_view kind, const imaging::PhantomOptions& options, int threads) {
   ThreadPool pool(threads);
-  Result<Phantom> phantom = phantom::make_on(pool, kind, options, {});
+  Result<imaging::Phantom> phantom = imaging::phantom::make_on(pool, kind, options, {});
   if (!phantom) qFatal("%s", phantom.error().message.c_str());
   return std::move(*phantom);
 }
 
-const std::vector<std::int16_t>& stored(const Phantom& phantom) {
+const std::vector<std::int16_t>& stored(const imaging::Phantom& phantom) {
   return std::get<std::vector<std::int16_t>>(phantom.volume.voxels);
 }
 
-std::uint64_t checksum(const Phantom& phantom) {
+std::uint64_t checksum(const imaging::Phantom& phantom) {
   std::uint64_t sum = 0xcbf29ce484222325ULL;
   const auto add = [&](unsigned byte) { sum = (sum ^ (byte & 0xff)) * 0x100000001b3ULL; };
   for (const std::int16_t value : stored(phantom)) {
@@ -76,7 +76,7 @@ std::uint64_t checksum(const Phantom& phantom) {
   return sum;
 }
 
-Contrast contrast_of(const Phantom& phantom) {
+Contrast contrast_of(const imaging::Phantom& phantom) {
   Contrast contrast;
   const auto& values = stored(phantom);
   double sum = 0.0;

@@ -9,12 +9,12 @@
 namespace tidemark::test {
 
 // A phantom on a pool of that many threads. Fails the program when it cannot be made.
-Phantom made(std::string_view kind, const PhantomOptions& options = {}, int threads = 2);
+imaging::Phantom made(std::string_view kind, const imaging::PhantomOptions& options = {}, int threads = 2);
 
-const std::vector<std::int16_t>& stored(const Phantom& phantom);
+const std::vector<std::int16_t>& stored(const imaging::Phantom& phantom);
 
 // FNV-1a of the stored voxels, low byte first, and of the truth.
-std::uint64_t checksum(const Phantom& phantom);
+std::uint64_t checksum(const imaging::Phantom& phantom);
 
 // Values of the ground truth.
 struct Contrast {
@@ -22,7 +22,7 @@ struct Contrast {
   double in_range = 0.0;  // the share within T +- epsilon
   std::int64_t voxels = 0;
 };
-Contrast contrast_of(const Phantom& phantom);
+Contrast contrast_of(const imaging::Phantom& phantom);
 
 // The share of the largest part that hangs together across faces.
 double largest_part(const Mask& mask);

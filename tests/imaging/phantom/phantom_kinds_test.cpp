@@ -46,7 +46,7 @@ class PhantomKindsTest : public QObject {
     QFETCH(qint64, most);
     QFETCH(double, in_range);
     QFETCH(quint64, checksum);
-    const Phantom phantom = made(kind.toStdString(), {}, 1);
+    const imaging::Phantom phantom = made(kind.toStdString(), {}, 1);
     QVERIFY(phantom.volume.geometry.size == size);
     QVERIFY(phantom.truth.geometry == phantom.volume.geometry);
     QVERIFY(phantom.seed || phantom.init_threshold);
@@ -67,8 +67,8 @@ class PhantomKindsTest : public QObject {
   }
 
   void a_seed_lies_in_what_is_to_be_found() {
-    for (const std::string_view kind : phantom_kinds()) {
-      const Phantom phantom = made(kind);
+    for (const std::string_view kind : imaging::phantom_kinds()) {
+      const imaging::Phantom phantom = made(kind);
       if (!phantom.seed) continue;
       const auto& [i, j, k, radius_mm] = *phantom.seed;
       const Geometry& geometry = phantom.volume.geometry;
@@ -88,7 +88,7 @@ class PhantomKindsTest : public QObject {
   }
 
   void the_sheet_of_cortex_is_4_to_6_voxels_thick() {
-    const Phantom cortex = made("cortex");
+    const imaging::Phantom cortex = made("cortex");
     const std::map<int, std::int64_t> diameters = thickness(cortex.truth, 9, 7);
     std::int64_t all = 0;
     std::int64_t fitting = 0;
@@ -102,7 +102,7 @@ class PhantomKindsTest : public QObject {
   }
 
   void cortex_is_folded_and_ends_inside_the_volume() {
-    const Phantom cortex = made("cortex");
+    const imaging::Phantom cortex = made("cortex");
     const Geometry& geometry = cortex.truth.geometry;
     // Faces between inside and outside, which a smooth sheet around the same ball would have 300,000 of.
     std::int64_t faces = 0;
@@ -126,7 +126,7 @@ class PhantomKindsTest : public QObject {
 
   void white_matter_keeps_its_place_in_the_range_under_noise() {
     for (const double noise : {0.0, 9.0}) {
-      const Phantom head = made("head", {.noise_percent = noise, .random_seed = 2});
+      const imaging::Phantom head = made("head", {.noise_percent = noise, .random_seed = 2});
       const Contrast contrast = contrast_of(head);
       QVERIFY(std::abs(contrast.mean - head.target) < head.range / 3.0);
       QVERIFY(contrast.in_range > 0.75);
@@ -134,7 +134,7 @@ class PhantomKindsTest : public QObject {
   }
 
   void a_threshold_alone_leaks_out_of_the_organ() {
-    const Phantom organ = made("organ");
+    const imaging::Phantom organ = made("organ");
     // What is in range and hangs together with the truth is far more than the truth.
     Mask in_range = organ.truth;
     const auto& values = stored(organ);

@@ -13,7 +13,7 @@
 
 using namespace tidemark;
 using namespace tidemark::test;
-using tidemark::phantom::RandomWaves;
+using tidemark::imaging::phantom::RandomWaves;
 
 namespace {
 
@@ -26,7 +26,7 @@ class PhantomTest : public QObject {
 
  private slots:
   void an_unknown_kind_is_refused_by_name() {
-    const auto made_up = make_phantom("teapot");
+    const auto made_up = imaging::make_phantom("teapot");
     QVERIFY(!made_up);
     QCOMPARE(made_up.error().kind, ErrorKind::usage);
     QVERIFY(failure(made_up).contains("teapot"));
@@ -34,10 +34,10 @@ class PhantomTest : public QObject {
   }
 
   void noise_that_is_no_number_is_refused() {
-    PhantomOptions options;
+    imaging::PhantomOptions options;
     for (const double noise : {std::nan(""), std::numeric_limits<double>::infinity(), 101.0}) {
       options.noise_percent = noise;
-      const auto made_noisy = make_phantom("sphere", options);
+      const auto made_noisy = imaging::make_phantom("sphere", options);
       QVERIFY(!made_noisy);
       QCOMPARE(made_noisy.error().kind, ErrorKind::usage);
     }
@@ -50,21 +50,21 @@ class PhantomTest : public QObject {
     progress.report = [&](double fraction, std::string_view) {
       if (fraction > 0.3) source.request_stop();
     };
-    const auto stopped = make_phantom("sphere", {}, progress);
+    const auto stopped = imaging::make_phantom("sphere", {}, progress);
     QVERIFY(!stopped);
     QCOMPARE(stopped.error().kind, ErrorKind::cancelled);
   }
 
   void the_hash_is_the_same_on_every_machine() {
-    QCOMPARE(phantom::hash(1, 0), std::uint64_t{0x5e41ab087439611eULL});
-    QCOMPARE(phantom::hash(42, 123456789), std::uint64_t{0xf546b4c8800eef6fULL});
+    QCOMPARE(imaging::phantom::hash(1, 0), std::uint64_t{0x5e41ab087439611eULL});
+    QCOMPARE(imaging::phantom::hash(42, 123456789), std::uint64_t{0xf546b4c8800eef6fULL});
   }
 
   void gaussian_noise_has_mean_0_deviation_1_and_no_correlation() {
     constexpr int kCount = 1'000'000;
     double sum = 0, squares = 0, fourth = 0, products = 0, before = 0;
     for (int i = 0; i < kCount; ++i) {
-      const double x = phantom::gaussian(7, static_cast<std::uint64_t>(i));
+      const double x = imaging::phantom::gaussian(7, static_cast<std::uint64_t>(i));
       sum += x;
       squares += x * x;
       fourth += x * x * x * x;
@@ -79,7 +79,7 @@ class PhantomTest : public QObject {
 
   void the_wave_is_a_sine_and_its_slope_the_derivative() {
     for (double turns = -3.0; turns < 3.0; turns += 0.00137) {
-      const phantom::Wave wave = phantom::wave(turns);
+      const imaging::phantom::Wave wave = imaging::phantom::wave(turns);
       QVERIFY(std::abs(wave.value - std::sin(2 * kPi * turns)) < 1e-5);
       QVERIFY(std::abs(wave.slope - 2 * kPi * std::cos(2 * kPi * turns)) < 1e-4);
     }
@@ -92,8 +92,9 @@ class PhantomTest : public QObject {
     constexpr int kPoints = 4000;
     for (int n = 0; n < kPoints; ++n) {
       const auto index = static_cast<std::uint64_t>(3 * n);
-      const glm::dvec3 p = 400.0 * glm::dvec3(phantom::uniform(9, index), phantom::uniform(9, index + 1),
-                                              phantom::uniform(9, index + 2));
+      const glm::dvec3 p =
+          400.0 * glm::dvec3(imaging::phantom::uniform(9, index), imaging::phantom::uniform(9, index + 1),
+                             imaging::phantom::uniform(9, index + 2));
       const RandomWaves::Sample here = field.sample(p);
       for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 step(0.0);
@@ -108,33 +109,33 @@ class PhantomTest : public QObject {
 
   void rounded_unions_keep_distances_exact_at_right_angles() {
     // Two half-spaces x < 0 and y < 0: outside the fillet the union's surface is theirs.
-    QCOMPARE(phantom::round_union(5.0, 1.5, 1.0), 1.5);
-    QCOMPARE(phantom::round_intersection(-4.0, -2.0, 1.0), -2.0);
+    QCOMPARE(imaging::phantom::round_union(5.0, 1.5, 1.0), 1.5);
+    QCOMPARE(imaging::phantom::round_intersection(-4.0, -2.0, 1.0), -2.0);
     // On the fillet: a quarter circle of radius 3 about (3, 3).
-    QVERIFY(std::abs(phantom::round_union(3.0 - 3.0 / std::sqrt(2.0), 3.0 - 3.0 / std::sqrt(2.0), 3.0)) <
-            1e-12);
+    QVERIFY(std::abs(imaging::phantom::round_union(3.0 - 3.0 / std::sqrt(2.0), 3.0 - 3.0 / std::sqrt(2.0),
+                                                   3.0)) < 1e-12);
   }
 
   void half_a_voxel_is_covered_on_the_boundary() {
-    QCOMPARE(phantom::coverage(0.0), 0.5);
-    QCOMPARE(phantom::coverage(-1.0), 1.0);
-    QCOMPARE(phantom::coverage(1.0), 0.0);
-    QCOMPARE(phantom::coverage(0.2) + phantom::coverage(-0.2), 1.0);
-    QVERIFY(phantom::coverage(0.4, 1.0) < phantom::coverage(0.4, 2.0));
+    QCOMPARE(imaging::phantom::coverage(0.0), 0.5);
+    QCOMPARE(imaging::phantom::coverage(-1.0), 1.0);
+    QCOMPARE(imaging::phantom::coverage(1.0), 0.0);
+    QCOMPARE(imaging::phantom::coverage(0.2) + imaging::phantom::coverage(-0.2), 1.0);
+    QVERIFY(imaging::phantom::coverage(0.4, 1.0) < imaging::phantom::coverage(0.4, 2.0));
   }
 
   void folds_have_walls_where_distances_are_lengths() {
     // Around a ball of radius 90: across the surface the distance changes by a mm a mm.
-    const phantom::Folds folds(5, {});
+    const imaging::phantom::Folds folds(5, {});
     const auto distance = [&](const glm::dvec3& p) {
       const double r = glm::length(p);
       return folds.distance(r - 90.0, 90.0 / r * p, p / r, r / 90.0);
     };
     int near = 0, good = 0;
     for (std::uint64_t n = 0; n < 60'000; ++n) {
-      const glm::dvec3 random(phantom::gaussian(1, 4 * n), phantom::gaussian(1, 4 * n + 1),
-                              phantom::gaussian(1, 4 * n + 2));
-      const glm::dvec3 p = (78.0 + 24.0 * phantom::uniform(2, n)) / glm::length(random) * random;
+      const glm::dvec3 random(imaging::phantom::gaussian(1, 4 * n), imaging::phantom::gaussian(1, 4 * n + 1),
+                              imaging::phantom::gaussian(1, 4 * n + 2));
+      const glm::dvec3 p = (78.0 + 24.0 * imaging::phantom::uniform(2, n)) / glm::length(random) * random;
       if (std::abs(distance(p)) > 1.0) continue;
       constexpr double kStep = 1e-3;
       glm::dvec3 gradient;
@@ -156,18 +157,18 @@ class PhantomTest : public QObject {
   }
   void the_same_seed_gives_the_same_voxels_for_any_number_of_threads() {
     QFETCH(QString, kind);
-    const PhantomOptions noisy{.noise_percent = 5.0, .random_seed = 11};
-    const Phantom one = made(kind.toStdString(), noisy, 1);
+    const imaging::PhantomOptions noisy{.noise_percent = 5.0, .random_seed = 11};
+    const imaging::Phantom one = made(kind.toStdString(), noisy, 1);
     QVERIFY(stored(one) == stored(made(kind.toStdString(), noisy, 3)));
     QCOMPARE(one.random_seed, std::uint64_t{11});
-    const PhantomOptions other{.noise_percent = 5.0, .random_seed = 12};
+    const imaging::PhantomOptions other{.noise_percent = 5.0, .random_seed = 12};
     QVERIFY(stored(one) != stored(made(kind.toStdString(), other, 3)));
   }
 
   void noise_has_the_deviation_that_is_asked_for() {
-    const Phantom clean = made("sphere");
+    const imaging::Phantom clean = made("sphere");
     QCOMPARE(clean.noise_percent, 0.0);
-    const Phantom noisy = made("sphere", {.noise_percent = 3.0, .random_seed = 4});
+    const imaging::Phantom noisy = made("sphere", {.noise_percent = 3.0, .random_seed = 4});
     double squares = 0.0;
     std::int64_t count = 0;
     for (std::size_t i = 0; i < stored(clean).size(); ++i) {
@@ -181,14 +182,14 @@ class PhantomTest : public QObject {
   }
 
   void a_ball_has_the_volume_of_a_ball() {
-    const Phantom sphere = made("sphere");
+    const imaging::Phantom sphere = made("sphere");
     const double expected = 4.0 / 3.0 * kPi * 8000.0;
     QVERIFY(std::abs(static_cast<double>(sphere.truth.count()) - expected) < 0.005 * expected);
     QCOMPARE(largest_part(sphere.truth), 1.0);
   }
 
   void the_bridge_leads_values_in_range_from_ball_to_ball() {
-    const Phantom bridge = made("bridge");
+    const imaging::Phantom bridge = made("bridge");
     const Geometry& geometry = bridge.volume.geometry;
     for (std::int64_t i = 0; i < geometry.size.x; ++i) {
       if (i == 12 || i == 108) continue;  // on the very boundary

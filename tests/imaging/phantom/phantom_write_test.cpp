@@ -23,7 +23,7 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder)
 }
 
 // A phantom cut down to a few slices: the files are as those of the whole, and there are few of them.
-Phantom cut(Phantom phantom, std::int64_t slices) {
+imaging::Phantom cut(imaging::Phantom phantom, std::int64_t slices) {
   const auto count =
       static_cast<std::size_t>(phantom.volume.geometry.size.x * phantom.volume.geometry.size.y * slices);
   std::get<std::vector<std::int16_t>>(phantom.volume.voxels).resize(count);
@@ -50,10 +50,10 @@ class PhantomWriteTest : public QObject {
   }
   void what_is_written_is_valid_dicom() {
     QFETCH(QString, kind);
-    auto made = make_phantom(kind.toStdString());
+    auto made = imaging::make_phantom(kind.toStdString());
     QCOMPARE(failure(made), QString());
     const TemporaryFolder folder;
-    const Status written = write_phantom(cut(std::move(*made), 3), folder.path());
+    const Status written = imaging::write_phantom(cut(std::move(*made), 3), folder.path());
     QCOMPARE(failure(written), QString());
     const auto files = files_in(folder / "series");
     QCOMPARE(files.size(), std::size_t{3});
@@ -69,16 +69,16 @@ class PhantomWriteTest : public QObject {
   }
 
   void a_series_reads_back_as_it_was_made() {
-    const auto made = make_phantom("bridge");
+    const auto made = imaging::make_phantom("bridge");
     QCOMPARE(failure(made), QString());
     const TemporaryFolder folder;
-    const Status written = write_phantom(*made, folder / "a/new/folder");
+    const Status written = imaging::write_phantom(*made, folder / "a/new/folder");
     QCOMPARE(failure(written), QString());
 
-    const auto catalogue = scan_dicom(folder / "a/new/folder/series");
+    const auto catalogue = imaging::scan_dicom(folder / "a/new/folder/series");
     QCOMPARE(failure(catalogue), QString());
     QCOMPARE(catalogue->series.size(), std::size_t{1});
-    const auto volume = load_dicom(catalogue->series[0]);
+    const auto volume = imaging::load_dicom(catalogue->series[0]);
     QCOMPARE(failure(volume), QString());
     QVERIFY(same_grid(volume->geometry, made->volume.geometry, 1e-6));
     QVERIFY(volume->values() == made->volume.values());
@@ -86,7 +86,7 @@ class PhantomWriteTest : public QObject {
     QVERIFY(volume->window.has_value());
     QCOMPARE(volume->window->width, made->volume.window->width);
 
-    const auto truth = read_volume_file(folder / "a/new/folder/truth.nii.gz");
+    const auto truth = imaging::read_volume_file(folder / "a/new/folder/truth.nii.gz");
     QCOMPARE(failure(truth), QString());
     QVERIFY(same_grid(truth->geometry, made->truth.geometry, 1e-4));
     const std::vector<float> values = truth->values();
@@ -94,10 +94,10 @@ class PhantomWriteTest : public QObject {
   }
 
   void the_description_holds_parameters_and_a_start() {
-    auto made = make_phantom("dumbbell", {.noise_percent = 1.5, .random_seed = 77});
+    auto made = imaging::make_phantom("dumbbell", {.noise_percent = 1.5, .random_seed = 77});
     QCOMPARE(failure(made), QString());
     const TemporaryFolder folder;
-    QCOMPARE(failure(write_phantom(cut(*made, 2), folder.path())), QString());
+    QCOMPARE(failure(imaging::write_phantom(cut(*made, 2), folder.path())), QString());
     const nlohmann::json json = parsed(folder / "phantom.json");
     QVERIFY(!json.is_discarded());
     QCOMPARE(json.at("kind").get<std::string>(), std::string("dumbbell"));
@@ -114,18 +114,18 @@ class PhantomWriteTest : public QObject {
     QVERIFY(!json.at("truth").get<std::string>().empty());
 
     made->init_threshold = {500.0, 1100.0};
-    QCOMPARE(failure(write_phantom(cut(*made, 2), folder / "threshold")), QString());
+    QCOMPARE(failure(imaging::write_phantom(cut(*made, 2), folder / "threshold")), QString());
     const nlohmann::json other = parsed(folder / "threshold/phantom.json");
     QCOMPARE(other.at("init_threshold").get<std::vector<double>>(), std::vector<double>({500, 1100}));
     QVERIFY(!other.contains("seed"));
   }
 
   void a_folder_that_cannot_be_made_is_an_error_of_writing() {
-    const auto made = make_phantom("dumbbell");
+    const auto made = imaging::make_phantom("dumbbell");
     QCOMPARE(failure(made), QString());
     const TemporaryFolder folder;
     std::ofstream(folder / "file") << "in the way";
-    const Status written = write_phantom(*made, folder / "file/below");
+    const Status written = imaging::write_phantom(*made, folder / "file/below");
     QVERIFY(!written);
     QCOMPARE(written.error().kind, ErrorKind::write);
     QVERIFY(failure(written).contains("file/below"));

@@ -22,15 +22,16 @@ class ContoursTest : public QObject {
     }
   };
 
-  static std::vector<Contour> trace(const Picture& picture) {
-    return trace_contours(picture.width(), picture.height(),
-                          [&](std::int64_t i, std::int64_t j) { return picture.inside(i, j) ? 1.0 : -1.0; });
+  static std::vector<imaging::Contour> trace(const Picture& picture) {
+    return imaging::trace_contours(picture.width(), picture.height(), [&](std::int64_t i, std::int64_t j) {
+      return picture.inside(i, j) ? 1.0 : -1.0;
+    });
   }
 
-  static void verify_filled(const std::vector<Contour>& contours, const Picture& picture) {
+  static void verify_filled(const std::vector<imaging::Contour>& contours, const Picture& picture) {
     std::vector<std::uint8_t> slice(static_cast<std::size_t>(picture.width() * picture.height()));
-    for (const Contour& contour : contours) {
-      QVERIFY(!flip_inside(contour, picture.width(), picture.height(), slice));
+    for (const imaging::Contour& contour : contours) {
+      QVERIFY(!imaging::flip_inside(contour, picture.width(), picture.height(), slice));
     }
     for (std::int64_t j = 0; j < picture.height(); ++j) {
       for (std::int64_t i = 0; i < picture.width(); ++i) {
@@ -65,7 +66,7 @@ class ContoursTest : public QObject {
     for (const QString& row : rows) picture.rows.push_back(row.toStdString());
     const auto contours = trace(picture);
     QCOMPARE(static_cast<int>(contours.size()), regions);
-    for (const Contour& contour : contours) QVERIFY(signed_area(contour) > 0.0);
+    for (const imaging::Contour& contour : contours) QVERIFY(imaging::signed_area(contour) > 0.0);
     verify_filled(contours, picture);
   }
 
@@ -82,9 +83,9 @@ class ContoursTest : public QObject {
       const auto contours = trace(picture);
       verify_filled(contours, picture);
       std::vector<std::uint8_t> together(31 * 23);
-      for (const Contour& contour : contours) {
+      for (const imaging::Contour& contour : contours) {
         std::vector<std::uint8_t> one(together.size());
-        flip_inside(contour, 31, 23, one);
+        imaging::flip_inside(contour, 31, 23, one);
         for (std::size_t v = 0; v < one.size(); ++v) {
           QVERIFY(!(one[v] != 0 && together[v] != 0));
           together[v] |= one[v];
@@ -96,26 +97,26 @@ class ContoursTest : public QObject {
   // Each corner of a voxel that stands out is cut off by an eighth of a voxel, each one that goes in filled.
   void a_rectangle_loses_its_corners() {
     Picture picture{{"......", ".####.", ".####.", ".####.", "......"}};
-    QCOMPARE(signed_area(trace(picture).front()), 12.0 - 0.5);
+    QCOMPARE(imaging::signed_area(trace(picture).front()), 12.0 - 0.5);
     picture.rows[2] = ".#..#.";
-    QCOMPARE(signed_area(trace(picture).front()), 10.0 - 0.5 + 0.5);
+    QCOMPARE(imaging::signed_area(trace(picture).front()), 10.0 - 0.5 + 0.5);
   }
 
   void contours_of_a_field_are_between_voxels() {
     const auto ball = [](std::int64_t i, std::int64_t j) {
       return 11.3 - std::hypot(static_cast<double>(i) - 20.2, static_cast<double>(j) - 19.6);
     };
-    const auto contours = trace_contours(41, 40, ball);
+    const auto contours = imaging::trace_contours(41, 40, ball);
     QCOMPARE(contours.size(), std::size_t{1});
     for (const glm::dvec2 point : contours.front()) {
       QVERIFY(std::abs(glm::distance(point, glm::dvec2(20.2, 19.6)) - 11.3) < 0.02);
     }
-    QVERIFY(std::abs(signed_area(contours.front()) / (M_PI * 11.3 * 11.3) - 1.0) < 0.005);
+    QVERIFY(std::abs(imaging::signed_area(contours.front()) / (M_PI * 11.3 * 11.3) - 1.0) < 0.005);
   }
 
   void a_voxel_that_is_hardly_inside_stays_inside() {
     const auto hardly = [](std::int64_t i, std::int64_t j) { return i == 2 && j == 2 ? 1e-30 : -1e3; };
-    const auto contours = trace_contours(5, 5, hardly);
+    const auto contours = imaging::trace_contours(5, 5, hardly);
     QCOMPARE(contours.size(), std::size_t{1});
     for (const glm::dvec2 point : contours.front()) QVERIFY(glm::distance(point, {2.0, 2.0}) > 0.01);
   }
@@ -123,10 +124,10 @@ class ContoursTest : public QObject {
   void what_lies_beyond_the_slice_is_said_and_left_out() {
     std::vector<std::uint8_t> slice(4 * 3);
     const std::vector<glm::dvec2> large{{-1e12, -1e12}, {1e12, -1e12}, {1e12, 1e12}, {-1e12, 1e12}};
-    QVERIFY(flip_inside(large, 4, 3, slice));
+    QVERIFY(imaging::flip_inside(large, 4, 3, slice));
     QCOMPARE(std::count(slice.begin(), slice.end(), 1), 12);
     const std::vector<glm::dvec2> half{{1.5, -0.5}, {3.5, -0.5}, {3.5, 2.5}, {1.5, 2.5}};
-    QVERIFY(!flip_inside(half, 4, 3, slice));
+    QVERIFY(!imaging::flip_inside(half, 4, 3, slice));
     QCOMPARE(std::count(slice.begin(), slice.end(), 1), 6);
   }
 };

@@ -18,7 +18,7 @@ using namespace tidemark;
 class DicomSegmentationTest : public QObject {
   Q_OBJECT
 
-  static void verify_same(const Segments& read, const Segments& written) {
+  static void verify_same(const imaging::Segments& read, const imaging::Segments& written) {
     QCOMPARE(read.list.size(), written.list.size());
     for (std::size_t n = 0; n < read.list.size(); ++n) {
       QVERIFY2(read.list[n].slices == written.list[n].slices, written.list[n].name.c_str());
@@ -35,22 +35,22 @@ class DicomSegmentationTest : public QObject {
     const test::TemporaryFolder folder;
     // 77 pixels a frame: frames do not end at whole bytes.
     const auto series = test::write_oriented_series(index, {11, 7, 6}, folder / "series");
-    const Segments written = test::speckled_segments(series.geometry);
+    const imaging::Segments written = test::speckled_segments(series.geometry);
     const auto file = folder / "seg.dcm";
-    QCOMPARE(test::failure(write_segmentation(written, series.files, file)), QString());
-    QVERIFY(result_form_of(file) == ResultForm::segmentation);
-    const auto found = scan_dicom(file);
+    QCOMPARE(test::failure(imaging::write_segmentation(written, series.files, file)), QString());
+    QVERIFY(imaging::result_form_of(file) == imaging::ResultForm::segmentation);
+    const auto found = imaging::scan_dicom(file);
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.front().reason,
              std::string("seg.dcm: is a DICOM segmentation, which can be imported as labels"));
-    const auto read = read_segmentation(file, &series.geometry);
+    const auto read = imaging::read_segmentation(file, &series.geometry);
     QCOMPARE(test::failure(read), QString());
     verify_same(*read, written);
     QCOMPARE(read->list[0].name, std::string("Leber \xc3\xbc"));
     QCOMPARE(read->list[2].name, std::string("a third, with backslash"));
 
     // Alone it is on the same voxels, as far as it reaches.
-    const auto alone = read_segmentation(file);
+    const auto alone = imaging::read_segmentation(file);
     QCOMPARE(test::failure(alone), QString());
     QVERIFY(same_grid(alone->geometry, series.geometry, 1e-4));
     verify_same(*alone, written);
@@ -64,8 +64,9 @@ class DicomSegmentationTest : public QObject {
     QFETCH(int, index);
     const test::TemporaryFolder folder;
     const auto series = test::write_oriented_series(index, {11, 7, 6}, folder / "series");
-    const Segments written = test::speckled_segments(series.geometry);
-    QCOMPARE(test::failure(write_segmentation(written, series.files, folder / "seg.dcm")), QString());
+    const imaging::Segments written = test::speckled_segments(series.geometry);
+    QCOMPARE(test::failure(imaging::write_segmentation(written, series.files, folder / "seg.dcm")),
+             QString());
     const QJsonObject found = test::read_with_pydicom(folder / "seg.dcm", series.folder);
     for (const char* what :
          {"same_patient", "same_study", "same_frame_of_reference", "own_series", "at_their_images"}) {
@@ -75,7 +76,7 @@ class DicomSegmentationTest : public QObject {
     QCOMPARE(segments.size(), 3);
     std::size_t frames = 0;
     for (std::size_t n = 0; n < 3; ++n) {
-      const Segment& segment = written.list[n];
+      const imaging::Segment& segment = written.list[n];
       const QJsonObject seen = segments[static_cast<qsizetype>(n)].toObject();
       frames += segment.slices.size();
       QVERIFY(seen["known"].toBool());
@@ -103,30 +104,31 @@ class DicomSegmentationTest : public QObject {
   void every_meaning_is_in_the_tables_of_the_standard() {
     const test::TemporaryFolder folder;
     const Geometry grid = test::sample_grid({3, 3, 2}, glm::dmat3(1.0));
-    Segments segments{grid, {}, {}};
-    for (const NamedMeaning& named : segment_meanings()) {
-      Segment segment = test::ball_segment(grid, 2.0);
+    imaging::Segments segments{grid, {}, {}};
+    for (const imaging::NamedMeaning& named : imaging::segment_meanings()) {
+      imaging::Segment segment = test::ball_segment(grid, 2.0);
       segment.name = named.word;
       segment.meaning = named.meaning;
       segments.list.push_back(std::move(segment));
     }
-    QCOMPARE(test::failure(write_segmentation(segments, {}, folder / "seg.dcm")), QString());
+    QCOMPARE(test::failure(imaging::write_segmentation(segments, {}, folder / "seg.dcm")), QString());
     const QJsonObject found = test::read_with_pydicom(folder / "seg.dcm", folder / "nowhere");
     for (const auto& segment : found["segments"].toArray()) {
       QVERIFY2(segment.toObject()["known"].toBool(), qPrintable(segment.toObject()["name"].toString()));
     }
-    QCOMPARE(find_segment_meaning("no such thing").error().kind, ErrorKind::usage);
+    QCOMPARE(imaging::find_segment_meaning("no such thing").error().kind, ErrorKind::usage);
   }
 
   void the_validator_finds_no_error() {
     const test::TemporaryFolder folder;
     const auto series =
         test::write_sample_series(test::sample_grid({11, 7, 6}, glm::dmat3(1.0)), folder / "series");
-    const Segments segments = test::speckled_segments(series.geometry);
+    const imaging::Segments segments = test::speckled_segments(series.geometry);
     for (const bool with_source : {true, false}) {
       const auto file = folder / "seg.dcm";
-      const SourceFiles source = with_source ? SourceFiles(series.files) : SourceFiles();
-      QCOMPARE(test::failure(write_segmentation(segments, source, file)), QString());
+      const imaging::SourceFiles source =
+          with_source ? imaging::SourceFiles(series.files) : imaging::SourceFiles();
+      QCOMPARE(test::failure(imaging::write_segmentation(segments, source, file)), QString());
       const QString said = test::validate(file);
       QVERIFY2(said.contains("Segmentation"), qPrintable(said));
       QVERIFY2(!said.contains("Error"), qPrintable(said));
@@ -137,11 +139,11 @@ class DicomSegmentationTest : public QObject {
     const test::TemporaryFolder folder;
     Geometry left_handed = test::sample_grid({11, 7, 6}, test::orientations().back().direction);
     left_handed.direction[2] = -left_handed.direction[2];
-    const Segments written = test::speckled_segments(left_handed);
-    QCOMPARE(test::failure(write_segmentation(written, {}, folder / "seg.dcm")), QString());
+    const imaging::Segments written = test::speckled_segments(left_handed);
+    QCOMPARE(test::failure(imaging::write_segmentation(written, {}, folder / "seg.dcm")), QString());
     const QJsonObject found = test::read_with_pydicom(folder / "seg.dcm", folder / "nowhere");
     QCOMPARE(found["patient"].toString(), QString("Anonymous"));
-    const auto read = read_segmentation(folder / "seg.dcm", &left_handed);
+    const auto read = imaging::read_segmentation(folder / "seg.dcm", &left_handed);
     QCOMPARE(test::failure(read), QString());
     verify_same(*read, written);
   }
@@ -159,11 +161,11 @@ class DicomSegmentationTest : public QObject {
         }
       });
     }
-    const Segments written = test::speckled_segments(series.geometry);
+    const imaging::Segments written = test::speckled_segments(series.geometry);
     for (const auto& [write, name] :
-         {std::pair{&write_segmentation, "seg.dcm"}, {&write_structure_set, "set.dcm"}}) {
+         {std::pair{&imaging::write_segmentation, "seg.dcm"}, {&imaging::write_structure_set, "set.dcm"}}) {
       QCOMPARE(test::failure(write(written, series.files, folder / name, {})), QString());
-      const auto read = read_result(folder / name, &series.geometry);
+      const auto read = imaging::read_result(folder / name, &series.geometry);
       QCOMPARE(test::failure(read), QString());
       for (std::size_t n = 0; n < 3; ++n) QVERIFY(read->list[n].slices == written.list[n].slices);
     }
@@ -172,17 +174,17 @@ class DicomSegmentationTest : public QObject {
   void a_segmentation_lies_right_on_a_grid_with_other_axes() {
     const test::TemporaryFolder folder;
     const Geometry written_on = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
-    const Segments written = test::speckled_segments(written_on);
-    QCOMPARE(test::failure(write_segmentation(written, {}, folder / "seg.dcm")), QString());
+    const imaging::Segments written = test::speckled_segments(written_on);
+    QCOMPARE(test::failure(imaging::write_segmentation(written, {}, folder / "seg.dcm")), QString());
     Geometry turned;  // the same voxels: k, then i backwards, then j
     turned.size = {6, 11, 7};
     turned.spacing_mm = {2.5, 0.7, 0.9};
     turned.direction = {glm::dvec3(0, 0, 1), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0)};
     turned.origin_mm = written_on.to_patient({10, 0, 0});
-    const auto read = read_segmentation(folder / "seg.dcm", &turned);
+    const auto read = imaging::read_segmentation(folder / "seg.dcm", &turned);
     QCOMPARE(test::failure(read), QString());
-    const Mask before = union_of(written);
-    const Mask after = union_of(*read);
+    const Mask before = imaging::union_of(written);
+    const Mask after = imaging::union_of(*read);
     QCOMPARE(after.count(), before.count());
     for (std::int64_t k = 0; k < 6; ++k) {
       for (std::int64_t j = 0; j < 7; ++j) {
@@ -197,14 +199,15 @@ class DicomSegmentationTest : public QObject {
   void another_grid_is_refused_with_the_reason() {
     const test::TemporaryFolder folder;
     const Geometry grid = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
-    QCOMPARE(test::failure(write_segmentation(test::speckled_segments(grid), {}, folder / "seg.dcm")),
-             QString());
+    QCOMPARE(
+        test::failure(imaging::write_segmentation(test::speckled_segments(grid), {}, folder / "seg.dcm")),
+        QString());
     Geometry coarser = grid;
     coarser.spacing_mm *= 1.2;
     Geometry shifted = grid;
     shifted.origin_mm.x += 0.3;
     for (const Geometry& other : {coarser, shifted}) {
-      const auto refused = read_segmentation(folder / "seg.dcm", &other);
+      const auto refused = imaging::read_segmentation(folder / "seg.dcm", &other);
       QVERIFY(!refused);
       QCOMPARE(refused.error().kind, ErrorKind::input);
       QVERIFY2(refused.error().message.find("do not lie on the voxels") != std::string::npos,
@@ -212,7 +215,7 @@ class DicomSegmentationTest : public QObject {
     }
     Geometry shorter = grid;
     shorter.size.z = 2;
-    const auto refused = read_segmentation(folder / "seg.dcm", &shorter);
+    const auto refused = imaging::read_segmentation(folder / "seg.dcm", &shorter);
     QVERIFY(!refused);
     QVERIFY2(refused.error().message.find("beyond the volume") != std::string::npos,
              refused.error().message.c_str());
@@ -224,9 +227,9 @@ class DicomSegmentationTest : public QObject {
     Geometry part = grid;  // columns 2 to 8, rows 1 to 5, slices 3 and 4
     part.size = {7, 5, 2};
     part.origin_mm = grid.to_patient({2, 1, 3});
-    const Segments written = test::speckled_segments(part);
-    QCOMPARE(test::failure(write_segmentation(written, {}, folder / "seg.dcm")), QString());
-    const auto read = read_segmentation(folder / "seg.dcm", &grid);
+    const imaging::Segments written = test::speckled_segments(part);
+    QCOMPARE(test::failure(imaging::write_segmentation(written, {}, folder / "seg.dcm")), QString());
+    const auto read = imaging::read_segmentation(folder / "seg.dcm", &grid);
     QCOMPARE(test::failure(read), QString());
     for (std::size_t n = 0; n < 3; ++n) {
       QCOMPARE(read->list[n].count(), written.list[n].count());
@@ -242,10 +245,10 @@ class DicomSegmentationTest : public QObject {
   void slices_far_apart_stay_where_they_are() {
     const test::TemporaryFolder folder;
     const Geometry grid = test::sample_grid({5, 4, 20}, glm::dmat3(1.0));
-    Segments written{grid, {Segment()}, {}};
+    imaging::Segments written{grid, {imaging::Segment()}, {}};
     for (const std::int64_t k : {3, 9, 18}) written.list[0].slices[k] = std::vector<std::uint8_t>(20, 1);
-    QCOMPARE(test::failure(write_segmentation(written, {}, folder / "seg.dcm")), QString());
-    const auto alone = read_segmentation(folder / "seg.dcm");
+    QCOMPARE(test::failure(imaging::write_segmentation(written, {}, folder / "seg.dcm")), QString());
+    const auto alone = imaging::read_segmentation(folder / "seg.dcm");
     QCOMPARE(test::failure(alone), QString());
     QCOMPARE(alone->geometry.size.z, std::int64_t{16});
     QCOMPARE(alone->geometry.spacing_mm.z, 2.5);
@@ -257,35 +260,35 @@ class DicomSegmentationTest : public QObject {
   void frames_too_far_apart_for_a_volume_of_their_own_are_refused() {
     const test::TemporaryFolder folder;
     const Geometry grid = test::sample_grid({300, 300, 3500}, glm::dmat3(1.0));
-    Segments written{grid, {Segment()}, {}};
+    imaging::Segments written{grid, {imaging::Segment()}, {}};
     for (const std::int64_t k : {0, 1, 3499})
       written.list[0].slices[k] = std::vector<std::uint8_t>(90'000, 1);
-    QCOMPARE(test::failure(write_segmentation(written, {}, folder / "seg.dcm")), QString());
-    const auto alone = read_segmentation(folder / "seg.dcm");
+    QCOMPARE(test::failure(imaging::write_segmentation(written, {}, folder / "seg.dcm")), QString());
+    const auto alone = imaging::read_segmentation(folder / "seg.dcm");
     QVERIFY(!alone);
     QCOMPARE(alone.error().kind, ErrorKind::input);
     QVERIFY2(alone.error().message.find("too large a volume: 3500 slices of 300 x 300") != std::string::npos,
              alone.error().message.c_str());
-    const auto in_its_study = read_segmentation(folder / "seg.dcm", &grid);
+    const auto in_its_study = imaging::read_segmentation(folder / "seg.dcm", &grid);
     QCOMPARE(test::failure(in_its_study), QString());
     QVERIFY(in_its_study->list[0].slices == written.list[0].slices);
   }
 
   void frames_across_each_other_make_no_volume_of_their_own() {
-    SegmentFrame axial{1, 5, 4};
-    SegmentFrame sagittal = axial;
+    imaging::SegmentFrame axial{1, 5, 4};
+    imaging::SegmentFrame sagittal = axial;
     sagittal.step_column_mm = {0.0, 1.0, 0.0};
     sagittal.step_row_mm = {0.0, 0.0, 1.0};
-    QVERIFY(grid_of_frames({axial, axial}, {}, 1.0, "seg.dcm"));
-    const auto refused = grid_of_frames({axial, sagittal}, {}, 1.0, "seg.dcm");
+    QVERIFY(imaging::grid_of_frames({axial, axial}, {}, 1.0, "seg.dcm"));
+    const auto refused = imaging::grid_of_frames({axial, sagittal}, {}, 1.0, "seg.dcm");
     QVERIFY(!refused);
     QCOMPARE(refused.error().message, std::string("seg.dcm: its frames are not parallel"));
   }
 
   void a_thickness_without_end_is_none() {
     const test::TemporaryFolder folder;
-    const Segments written{test::sample_grid({5, 4, 1}, glm::dmat3(1.0)), {Segment()}, {}};
-    QCOMPARE(test::failure(write_segmentation(written, {}, folder / "seg.dcm")), QString());
+    const imaging::Segments written{test::sample_grid({5, 4, 1}, glm::dmat3(1.0)), {imaging::Segment()}, {}};
+    QCOMPARE(test::failure(imaging::write_segmentation(written, {}, folder / "seg.dcm")), QString());
     test::edit(folder / "seg.dcm", [](DcmDataset& dataset) {
       DcmItem* shared = nullptr;
       DcmItem* measures = nullptr;
@@ -294,7 +297,7 @@ class DicomSegmentationTest : public QObject {
       measures->putAndInsertString(DCM_SliceThickness, "1e400");
       measures->putAndInsertString(DCM_SpacingBetweenSlices, "1e400");
     });
-    const auto read = read_segmentation(folder / "seg.dcm");
+    const auto read = imaging::read_segmentation(folder / "seg.dcm");
     QCOMPARE(test::failure(read), QString());
     QCOMPARE(read->geometry.spacing_mm.z, 1.0);
   }
@@ -302,9 +305,9 @@ class DicomSegmentationTest : public QObject {
   void nothing_at_all_is_one_empty_frame() {
     const test::TemporaryFolder folder;
     const Geometry grid = test::sample_grid({5, 4, 3}, glm::dmat3(1.0));
-    const Segments nothing{grid, {Segment()}, {}};
-    QCOMPARE(test::failure(write_segmentation(nothing, {}, folder / "seg.dcm")), QString());
-    const auto read = read_segmentation(folder / "seg.dcm", &grid);
+    const imaging::Segments nothing{grid, {imaging::Segment()}, {}};
+    QCOMPARE(test::failure(imaging::write_segmentation(nothing, {}, folder / "seg.dcm")), QString());
+    const auto read = imaging::read_segmentation(folder / "seg.dcm", &grid);
     QCOMPARE(test::failure(read), QString());
     QCOMPARE(read->list.size(), std::size_t{1});
     QVERIFY(read->list[0].slices.empty());
@@ -317,9 +320,9 @@ class DicomSegmentationTest : public QObject {
     const auto file = folder / "seg.dcm";
     std::set<std::string> sops;
     for (int time = 0; time < 2; ++time) {
-      QCOMPARE(
-          test::failure(write_segmentation(test::speckled_segments(series.geometry), series.files, file)),
-          QString());
+      QCOMPARE(test::failure(
+                   imaging::write_segmentation(test::speckled_segments(series.geometry), series.files, file)),
+               QString());
       test::edit(file, [&](DcmDataset& dataset) {
         for (const DcmTagKey& key :
              {DCM_SOPInstanceUID, DCM_SeriesInstanceUID, DCM_DimensionOrganizationUID}) {
@@ -353,9 +356,9 @@ class DicomSegmentationTest : public QObject {
     const test::TemporaryFolder folder;
     const auto file = folder / "seg.dcm";
     const Geometry grid = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
-    QCOMPARE(test::failure(write_segmentation(test::speckled_segments(grid), {}, file)), QString());
+    QCOMPARE(test::failure(imaging::write_segmentation(test::speckled_segments(grid), {}, file)), QString());
     test::set_text(file, group, element, value.toUtf8());
-    const auto refused = read_segmentation(file, &grid);
+    const auto refused = imaging::read_segmentation(file, &grid);
     QVERIFY(!refused);
     QCOMPARE(refused.error().kind, ErrorKind::input);
     QVERIFY2(refused.error().message.find(field.toStdString()) != std::string::npos,
@@ -367,13 +370,13 @@ class DicomSegmentationTest : public QObject {
     const test::TemporaryFolder folder;
     const auto file = folder / "seg.dcm";
     const Geometry grid = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
-    QCOMPARE(test::failure(write_segmentation(test::speckled_segments(grid), {}, file)), QString());
+    QCOMPARE(test::failure(imaging::write_segmentation(test::speckled_segments(grid), {}, file)), QString());
     const auto whole = std::filesystem::file_size(file);
     for (const double part : {0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99}) {
       const auto cut = folder / "cut.dcm";
       std::filesystem::copy_file(file, cut, std::filesystem::copy_options::overwrite_existing);
       test::truncate(cut, static_cast<std::uintmax_t>(part * static_cast<double>(whole)));
-      const auto refused = read_segmentation(cut, &grid);
+      const auto refused = imaging::read_segmentation(cut, &grid);
       QVERIFY(!refused);
       QVERIFY2(refused.error().message.find("cut.dcm") != std::string::npos, refused.error().message.c_str());
     }
@@ -383,7 +386,8 @@ class DicomSegmentationTest : public QObject {
     const test::TemporaryFolder folder;
     Geometry sheared = test::sample_grid({5, 4, 3}, glm::dmat3(1.0));
     sheared.direction[2] = glm::normalize(glm::dvec3(0.3, 0.0, 1.0));
-    const auto refused = write_segmentation(test::speckled_segments(sheared), {}, folder / "seg.dcm");
+    const auto refused =
+        imaging::write_segmentation(test::speckled_segments(sheared), {}, folder / "seg.dcm");
     QVERIFY(!refused);
     QCOMPARE(refused.error().kind, ErrorKind::capability);
     QVERIFY(!std::filesystem::exists(folder / "seg.dcm"));

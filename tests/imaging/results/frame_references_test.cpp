@@ -35,18 +35,20 @@ class FrameReferencesTest : public QObject {
   Q_OBJECT
 
   // Of a segment in every slice of the only series, or of the first part of it.
-  static void verify_references(const std::filesystem::path& folder, const Series& series,
+  static void verify_references(const std::filesystem::path& folder, const imaging::Series& series,
                                 const QStringList& numbers) {
-    Segment segment;
+    imaging::Segment segment;
     segment.name = "all";
     const auto area = static_cast<std::size_t>(series.geometry.size.x * series.geometry.size.y);
     for (std::int64_t k = 0; k < series.geometry.size.z; ++k) {
       segment.slices[k] = std::vector<std::uint8_t>(area, 1);
     }
-    const Segments segments{series.geometry, {segment}, {}};
-    QCOMPARE(test::failure(write_segmentation(segments, series.files, folder / "seg.dcm")), QString());
+    const imaging::Segments segments{series.geometry, {segment}, {}};
+    QCOMPARE(test::failure(imaging::write_segmentation(segments, series.files, folder / "seg.dcm")),
+             QString());
     QCOMPARE(frame_numbers(folder / "seg.dcm", DCM_SourceImageSequence), numbers);
-    QCOMPARE(test::failure(write_structure_set(segments, series.files, folder / "set.dcm")), QString());
+    QCOMPARE(test::failure(imaging::write_structure_set(segments, series.files, folder / "set.dcm")),
+             QString());
     // The first is the list of all images.
     QCOMPARE(frame_numbers(folder / "set.dcm", DCM_ContourImageSequence).mid(1), numbers);
   }
@@ -73,7 +75,7 @@ class FrameReferencesTest : public QObject {
     };
     const test::TemporaryFolder folder;
     test::write_enhanced(frames, folder.path() / "image" / "image.dcm", enhanced);
-    const auto found = scan_dicom(folder / "image");
+    const auto found = imaging::scan_dicom(folder / "image");
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{2});
     verify_references(folder.path(), found->series[0], {"1\\4", "2\\5", "3\\6"});
@@ -92,7 +94,7 @@ class FrameReferencesTest : public QObject {
     };
     const test::TemporaryFolder folder;
     test::write_enhanced(frames, folder.path() / "image" / "image.dcm", enhanced);
-    const auto found = scan_dicom(folder / "image");
+    const auto found = imaging::scan_dicom(folder / "image");
     QCOMPARE(test::failure(found), QString());
     QCOMPARE(found->series.size(), std::size_t{2});
     verify_references(folder.path(), found->series[1], {"4", "5", "6"});

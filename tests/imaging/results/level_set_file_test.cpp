@@ -31,8 +31,8 @@ class LevelSetFileTest : public QObject {
     for (const test::Orientation& orientation : test::orientations()) {
       const test::TemporaryFolder folder;
       const Geometry geometry = test::sample_grid({31, 27, 12}, orientation.direction);
-      const Segment ball = test::ball_segment(geometry, 9.0);
-      QCOMPARE(test::failure(write_level_set(*ball.phi, kBand, folder / "phi.vdb")), QString());
+      const imaging::Segment ball = test::ball_segment(geometry, 9.0);
+      QCOMPARE(test::failure(imaging::write_level_set(*ball.phi, kBand, folder / "phi.vdb")), QString());
       const auto grid = read(folder / "phi.vdb");
       QCOMPARE(grid->getGridClass(), openvdb::GRID_LEVEL_SET);
       QCOMPARE(grid->background(), static_cast<float>(kBand * 0.7));
@@ -59,8 +59,8 @@ class LevelSetFileTest : public QObject {
     const test::TemporaryFolder folder;
     Geometry geometry = test::sample_grid({48, 48, 48}, test::orientations().back().direction);
     geometry.spacing_mm = glm::dvec3(0.8);
-    const Segment ball = test::ball_segment(geometry, 15.0);
-    QCOMPARE(test::failure(write_level_set(*ball.phi, kBand, folder / "phi.vdb")), QString());
+    const imaging::Segment ball = test::ball_segment(geometry, 15.0);
+    QCOMPARE(test::failure(imaging::write_level_set(*ball.phi, kBand, folder / "phi.vdb")), QString());
     const auto grid = read(folder / "phi.vdb");
     const double voxel = 0.8 * 0.8 * 0.8;
     grid->setTransform(openvdb::math::Transform::createLinearTransform(1.0));
@@ -74,8 +74,8 @@ class LevelSetFileTest : public QObject {
     const test::TemporaryFolder folder;
     Geometry geometry = test::sample_grid({96, 96, 96}, glm::dmat3(1.0));
     geometry.spacing_mm = glm::dvec3(1.0);
-    const Segment ball = test::ball_segment(geometry, 40.0);
-    QCOMPARE(test::failure(write_level_set(*ball.phi, kBand, folder / "phi.vdb")), QString());
+    const imaging::Segment ball = test::ball_segment(geometry, 40.0);
+    QCOMPARE(test::failure(imaging::write_level_set(*ball.phi, kBand, folder / "phi.vdb")), QString());
     const auto grid = read(folder / "phi.vdb");
     const double shell = 4.0 * M_PI * 40.0 * 40.0 * 2.0 * kBand;
     QVERIFY(static_cast<double>(grid->activeVoxelCount()) < 1.1 * shell);
@@ -88,8 +88,8 @@ class LevelSetFileTest : public QObject {
     const test::TemporaryFolder folder;
     Geometry geometry = test::sample_grid({12, 12, 12}, glm::dmat3(1.0));
     geometry.spacing_mm = glm::dvec3(1.0);
-    const Segment ball = test::ball_segment(geometry, 100.0);  // everything is inside
-    QCOMPARE(test::failure(write_level_set(*ball.phi, kBand, folder / "phi.vdb")), QString());
+    const imaging::Segment ball = test::ball_segment(geometry, 100.0);  // everything is inside
+    QCOMPARE(test::failure(imaging::write_level_set(*ball.phi, kBand, folder / "phi.vdb")), QString());
     const auto grid = read(folder / "phi.vdb");
     auto accessor = grid->getConstAccessor();
     QCOMPARE(accessor.getValue({0, 5, 5}), -3.0F);
@@ -102,7 +102,7 @@ class LevelSetFileTest : public QObject {
     const test::TemporaryFolder folder;
     Volume phi = *test::ball_segment(test::sample_grid({6, 6, 6}, glm::dmat3(1.0)), 2.0).phi;
     std::get<std::vector<float>>(phi.voxels)[7] = NAN;
-    const Status refused = write_level_set(phi, kBand, folder / "phi.vdb");
+    const Status refused = imaging::write_level_set(phi, kBand, folder / "phi.vdb");
     QVERIFY(!refused);
     QVERIFY(!std::filesystem::exists(folder / "phi.vdb"));
   }
@@ -110,18 +110,18 @@ class LevelSetFileTest : public QObject {
   // As on a full disk: files may grow to some size and no further.
   void a_full_disk_keeps_the_older_file() {
     const test::TemporaryFolder folder;
-    const Segment ball = test::ball_segment(test::sample_grid({40, 40, 20}, glm::dmat3(1.0)), 9.0);
+    const imaging::Segment ball = test::ball_segment(test::sample_grid({40, 40, 20}, glm::dmat3(1.0)), 9.0);
     const auto file = folder / "phi.vdb";
-    QCOMPARE(test::failure(write_level_set(*ball.phi, kBand, file)), QString());
+    QCOMPARE(test::failure(imaging::write_level_set(*ball.phi, kBand, file)), QString());
     const auto whole = std::filesystem::file_size(file);
-    const Segment other = test::ball_segment(test::sample_grid({40, 40, 20}, glm::dmat3(1.0)), 10.0);
+    const imaging::Segment other = test::ball_segment(test::sample_grid({40, 40, 20}, glm::dmat3(1.0)), 10.0);
     std::signal(SIGXFSZ, SIG_IGN);
     rlimit before{};
     getrlimit(RLIMIT_FSIZE, &before);
     for (const double part : {0.0, 0.01, 0.5, 0.9, 0.999}) {
       const rlimit limit{static_cast<rlim_t>(part * static_cast<double>(whole)), before.rlim_max};
       setrlimit(RLIMIT_FSIZE, &limit);
-      const Status written = write_level_set(*other.phi, kBand, file);
+      const Status written = imaging::write_level_set(*other.phi, kBand, file);
       setrlimit(RLIMIT_FSIZE, &before);
       QVERIFY(!written);
       QCOMPARE(written.error().kind, ErrorKind::write);

@@ -52,7 +52,7 @@ SampleSeries write_sample_series(const Geometry& geometry, const std::filesystem
   volume.geometry = geometry;
   volume.voxels = std::vector<std::int16_t>(static_cast<std::size_t>(geometry.voxel_count()), 40);
   write_series(volume, folder);
-  const Series series = only_series(folder);
+  const imaging::Series series = only_series(folder);
   return {folder, series.files, series.geometry};
 }
 
@@ -67,9 +67,9 @@ void add_orientation_rows() {
   for (const Orientation& orientation : orientations()) QTest::newRow(orientation.name) << index++;
 }
 
-Segments speckled_segments(const Geometry& geometry) {
-  Segments segments{geometry, {}, {}};
-  const std::array<SegmentColour, 3> colours{{{230, 159, 0}, {0, 114, 178}, {1, 2, 3}}};
+imaging::Segments speckled_segments(const Geometry& geometry) {
+  imaging::Segments segments{geometry, {}, {}};
+  const std::array<imaging::SegmentColour, 3> colours{{{230, 159, 0}, {0, 114, 178}, {1, 2, 3}}};
   const std::array<const char*, 3> names{"Leber \xc3\xbc", "tumour", "a third, with\\backslash"};
   const std::array<const char*, 3> meanings{"liver", "tumour", "tissue"};
   for (std::size_t n = 0; n < 3; ++n) {
@@ -79,17 +79,17 @@ Segments speckled_segments(const Geometry& geometry) {
       const bool left_out = k % 3 == static_cast<std::int64_t>(n);
       voxels[v] = !left_out && ((v + 1) * 2654435761U >> (9 + n)) % 5 < 2 ? 1 : 0;
     }
-    Segment segment;
+    imaging::Segment segment;
     segment.name = names[n];
     segment.colour = colours[n];
-    segment.meaning = *find_segment_meaning(meanings[n]);
-    segment.slices = slices_of(geometry, voxels);
+    segment.meaning = *imaging::find_segment_meaning(meanings[n]);
+    segment.slices = imaging::slices_of(geometry, voxels);
     segments.list.push_back(std::move(segment));
   }
   return segments;
 }
 
-Segment ball_segment(const Geometry& geometry, double radius_mm, double hollow_mm) {
+imaging::Segment ball_segment(const Geometry& geometry, double radius_mm, double hollow_mm) {
   const glm::dvec3 centre = geometry.to_patient(0.5 * glm::dvec3(geometry.size - Index3(1)));
   const glm::dvec3 h = geometry.spacing_mm;
   std::vector<float> phi;
@@ -104,9 +104,9 @@ Segment ball_segment(const Geometry& geometry, double radius_mm, double hollow_m
       }
     }
   }
-  Segment segment;
+  imaging::Segment segment;
   segment.name = "ball";
-  segment.slices = slices_of(geometry, inside);
+  segment.slices = imaging::slices_of(geometry, inside);
   auto volume = std::make_shared<Volume>();
   volume->geometry = geometry;
   volume->voxels = std::move(phi);

@@ -33,10 +33,10 @@ void add_orientation_rows();
 
 // Three segments of speckles that differ in every direction: the first two overlap, and both leave out
 // slices.
-Segments speckled_segments(const Geometry& geometry);
+imaging::Segments speckled_segments(const Geometry& geometry);
 
 // A ball around the middle of the grid as mask and as phi, radius in mm; with `hollow_mm`, without its core.
-Segment ball_segment(const Geometry& geometry, double radius_mm, double hollow_mm = 0.0);
+imaging::Segment ball_segment(const Geometry& geometry, double radius_mm, double hollow_mm = 0.0);
 
 // The output of dciodvfy about a file.
 QString validate(const std::filesystem::path& file);

@@ -15,13 +15,13 @@ namespace {
 
 // Fractions of 8 bits. All frames but the first are empty.
 void write_fractions(const std::filesystem::path& file, const Geometry& grid, E_TransferSyntax syntax) {
-  Segments written{grid, {Segment()}, {}};
+  imaging::Segments written{grid, {imaging::Segment()}, {}};
   const auto area = static_cast<std::size_t>(grid.size.x * grid.size.y);
   for (std::int64_t k = 0; k < grid.size.z; ++k) {
     written.list[0].slices[k].resize(area);
     written.list[0].slices[k].front() = 1;
   }
-  QCOMPARE(test::failure(write_segmentation(written, {}, file)), QString());
+  QCOMPARE(test::failure(imaging::write_segmentation(written, {}, file)), QString());
   test::edit(file, [&](DcmDataset& dataset) {
     dataset.putAndInsertString(DCM_SegmentationType, "FRACTIONAL");
     dataset.putAndInsertString(DCM_SegmentationFractionalType, "OCCUPANCY");
@@ -67,7 +67,7 @@ class SegmentationMemoryTest : public QObject {
     const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(file));
     QCOMPARE(bytes < 4 << 20, syntax != EXS_LittleEndianExplicit);
     const auto read_it = [&]() -> Status {
-      const auto read = read_segmentation(file, &grid);
+      const auto read = imaging::read_segmentation(file, &grid);
       if (!read) return tl::unexpected<Error>(read.error());
       std::vector<std::uint8_t> first(512 * 512);
       first[2] = first.back() = 1;
@@ -83,12 +83,12 @@ class SegmentationMemoryTest : public QObject {
     const test::TemporaryFolder folder;
     const auto file = folder / "seg.dcm";
     const Geometry grid = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
-    QCOMPARE(test::failure(write_segmentation(test::speckled_segments(grid), {}, file)), QString());
+    QCOMPARE(test::failure(imaging::write_segmentation(test::speckled_segments(grid), {}, file)), QString());
     Geometry large = grid;
     large.size.x = large.size.y = 100'000;
     const auto ended = test::run_in_child(
         [&]() -> Status {
-          const auto read = read_segmentation(file, &large);
+          const auto read = imaging::read_segmentation(file, &large);
           return read ? Status() : tl::unexpected<Error>(read.error());
         },
         {.more_memory = std::int64_t{64} << 20});
@@ -100,13 +100,13 @@ class SegmentationMemoryTest : public QObject {
     const test::TemporaryFolder folder;
     const auto file = folder / "seg.dcm";
     const Geometry grid = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
-    QCOMPARE(test::failure(write_segmentation(test::speckled_segments(grid), {}, file)), QString());
+    QCOMPARE(test::failure(imaging::write_segmentation(test::speckled_segments(grid), {}, file)), QString());
     test::edit(file, [](DcmDataset& dataset) {
       DcmSequenceOfItems* segments = nullptr;
       QVERIFY(dataset.findAndGetSequence(DCM_SegmentSequence, segments).good());
       for (int n = 0; n < 65'535; ++n) segments->prepend(new DcmItem());
     });
-    const auto read = read_segmentation(file, &grid);
+    const auto read = imaging::read_segmentation(file, &grid);
     QVERIFY(!read);
     const QString why = QString::fromStdString(read.error().message);
     QVERIFY2(why.contains("SegmentSequence (0062,0002) holds more than 65535 segments"), qPrintable(why));

@@ -34,13 +34,14 @@ class SegmentsTest : public QObject {
   void a_name_tells_what_it_is() {
     QFETCH(QString, name);
     QFETCH(QString, word);
-    QVERIFY(guess_segment_meaning(name.toStdString()) == find_segment_meaning(word.toStdString()).value());
+    QVERIFY(imaging::guess_segment_meaning(name.toStdString()) ==
+            imaging::find_segment_meaning(word.toStdString()).value());
   }
 
   void every_meaning_is_found_by_its_word_and_by_its_code() {
-    for (const NamedMeaning& named : segment_meanings()) {
-      QVERIFY2(guess_segment_meaning(named.word) == named.meaning, std::string(named.word).c_str());
-      QVERIFY2(guess_segment_meaning(named.meaning.type.meaning) == named.meaning,
+    for (const imaging::NamedMeaning& named : imaging::segment_meanings()) {
+      QVERIFY2(imaging::guess_segment_meaning(named.word) == named.meaning, std::string(named.word).c_str());
+      QVERIFY2(imaging::guess_segment_meaning(named.meaning.type.meaning) == named.meaning,
                named.meaning.type.meaning.c_str());
     }
   }
@@ -51,7 +52,7 @@ class SegmentsTest : public QObject {
     std::vector<float> values(12);
     values[1] = values[7] = 4.0F;
     values[11] = 255.0F;
-    const auto segments = segments_of_numbers(grid, values, "labels.nii");
+    const auto segments = imaging::segments_of_numbers(grid, values, "labels.nii");
     QCOMPARE(failure(segments), QString());
     QCOMPARE(segments->list.size(), std::size_t{2});
     QCOMPARE(segments->list[0].name, std::string("Segment 4"));
@@ -59,10 +60,10 @@ class SegmentsTest : public QObject {
     QCOMPARE(segments->list[1].slices.begin()->first, std::int64_t{1});
     for (const float wrong : {-1.0F, 0.5F, 256.0F}) {
       values[0] = wrong;
-      QVERIFY(failure(segments_of_numbers(grid, values, "labels.nii")).startsWith("labels.nii: "));
+      QVERIFY(failure(imaging::segments_of_numbers(grid, values, "labels.nii")).startsWith("labels.nii: "));
     }
-    QVERIFY(
-        failure(segments_of_numbers(grid, std::vector<float>(12), "none.nii")).contains("holds no label"));
+    QVERIFY(failure(imaging::segments_of_numbers(grid, std::vector<float>(12), "none.nii"))
+                .contains("holds no label"));
   }
 };
 

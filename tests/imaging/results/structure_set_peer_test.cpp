@@ -25,7 +25,7 @@ QString text_of(const fs::path& path) {
 
 // A trunk that parts into a thick and a thin branch, the same in no mirror; the thick one leaves through the
 // grid's side, and it fills the first slice and the last. Voxels alone: no phi places its contours.
-Segment fork_segment(const Geometry& geometry) {
+imaging::Segment fork_segment(const Geometry& geometry) {
   std::vector<std::uint8_t> inside;
   for (std::int64_t k = 0; k < geometry.size.z; ++k) {
     const double apart = 1.5 * std::max(0.0, static_cast<double>(k) - 8.0);
@@ -38,10 +38,10 @@ Segment fork_segment(const Geometry& geometry) {
       }
     }
   }
-  Segment segment;
+  imaging::Segment segment;
   segment.name = "fork \xc3\xbc";
-  segment.colour = SegmentColour{0, 114, 178};
-  segment.slices = slices_of(geometry, inside);
+  segment.colour = imaging::SegmentColour{0, 114, 178};
+  segment.slices = imaging::slices_of(geometry, inside);
   return segment;
 }
 
@@ -83,13 +83,13 @@ class StructureSetPeerTest : public QObject {
     QFETCH(int, index);
     const test::TemporaryFolder folder;
     const auto series = test::write_oriented_series(index, {60, 50, 22}, folder / "series");
-    Segments written{series.geometry, {test::ball_segment(series.geometry, 14.0)}, {}};
+    imaging::Segments written{series.geometry, {test::ball_segment(series.geometry, 14.0)}, {}};
     written.list.push_back(test::ball_segment(series.geometry, 15.0, 8.0));
     written.list.back().name = "shell";
     written.list.push_back(fork_segment(series.geometry));
     const fs::path file = folder / "set.dcm";
-    QCOMPARE(test::failure(write_structure_set(written, series.files, file)), QString());
-    const auto read = read_structure_set(file, series.geometry);
+    QCOMPARE(test::failure(imaging::write_structure_set(written, series.files, file)), QString());
+    const auto read = imaging::read_structure_set(file, series.geometry);
     QCOMPARE(test::failure(read), QString());
     QCOMPARE(read->list.size(), written.list.size());
 
@@ -98,11 +98,11 @@ class StructureSetPeerTest : public QObject {
     QCOMPARE(regions, expected);
     for (std::size_t n = 0; n < written.list.size(); ++n) {
       const std::string& name = written.list[n].name;
-      const auto peer = load_mask(folder / "masks" / (name + ".nrrd"));
+      const auto peer = imaging::load_mask(folder / "masks" / (name + ".nrrd"));
       QCOMPARE(test::failure(peer), QString());
       QVERIFY2(same_grid(peer->geometry, series.geometry, 0.01), name.c_str());
-      const Mask segmented = union_of({series.geometry, {written.list[n]}, {}});
-      const Mask read_back = union_of({series.geometry, {read->list[n]}, {}});
+      const Mask segmented = imaging::union_of({series.geometry, {written.list[n]}, {}});
+      const Mask read_back = imaging::union_of({series.geometry, {read->list[n]}, {}});
       QVERIFY(segmented.count() > 1000);
       QCOMPARE(dice(*peer, segmented), 1.0);
       QCOMPARE(dice(*peer, read_back), 1.0);

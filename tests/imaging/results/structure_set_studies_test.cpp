@@ -13,20 +13,20 @@ class StructureSetStudiesTest : public QObject {
  private slots:
   void the_sarcoma_of_a_planning_system_is_its_mask() {
     const auto study = test::studies_folder() / "d21_sarcoma_mr_rtstruct";
-    const auto found = find_series(study / "MR_T1" / "image");
+    const auto found = imaging::find_series(study / "MR_T1" / "image");
     QCOMPARE(test::failure(found), QString());
     const Geometry& grid = found->series.front().geometry;
-    auto mask = load_mask(study / "MR_T1_mask.nii.gz");
+    auto mask = imaging::load_mask(study / "MR_T1_mask.nii.gz");
     QCOMPARE(test::failure(mask), QString());
-    const auto truth = onto_grid(std::move(*mask), grid, "mask");
+    const auto truth = imaging::onto_grid(std::move(*mask), grid, "mask");
     QCOMPARE(test::failure(truth), QString());
-    const auto read = read_result(study / "MR_T1" / "mask" / "RS.dcm", &grid);
+    const auto read = imaging::read_result(study / "MR_T1" / "mask" / "RS.dcm", &grid);
     QCOMPARE(test::failure(read), QString());
     for (const std::string& change : read->changes) qInfo("%s", change.c_str());
-    for (const Segment& segment : read->list) {
+    for (const imaging::Segment& segment : read->list) {
       qInfo("%s: %lld voxels", segment.name.c_str(), static_cast<long long>(segment.count()));
     }
-    const double overlap = dice(union_of(*read), *truth);
+    const double overlap = dice(imaging::union_of(*read), *truth);
     qInfo("Dice %.5f", overlap);
     QVERIFY(overlap > 0.99);
   }

@@ -46,20 +46,20 @@ class StructureSetTest : public QObject {
     QFETCH(int, index);
     const test::TemporaryFolder folder;
     const auto series = test::write_oriented_series(index, {21, 17, 6}, folder / "series");
-    Segments written = test::speckled_segments(series.geometry);
+    imaging::Segments written = test::speckled_segments(series.geometry);
     written.list.push_back(test::ball_segment(series.geometry, 6.0, 3.0));
     const auto file = folder / "set.dcm";
-    QCOMPARE(test::failure(write_structure_set(written, series.files, file)), QString());
-    QVERIFY(result_form_of(file) == ResultForm::structure_set);
-    QCOMPARE(scan_dicom(file).error().message,
+    QCOMPARE(test::failure(imaging::write_structure_set(written, series.files, file)), QString());
+    QVERIFY(imaging::result_form_of(file) == imaging::ResultForm::structure_set);
+    QCOMPARE(imaging::scan_dicom(file).error().message,
              file.string() + ": is a structure set, which can be imported as labels");
-    const auto read = read_result(file, &series.geometry);
+    const auto read = imaging::read_result(file, &series.geometry);
     QCOMPARE(test::failure(read), QString());
     QVERIFY(read->changes.empty());
     QCOMPARE(read->list.size(), written.list.size());
     for (std::size_t n = 0; n < written.list.size(); ++n) {
       QVERIFY2(read->list[n].slices == written.list[n].slices, written.list[n].name.c_str());
-      QVERIFY(read->list[n].colour == written.list[n].colour.value_or(SegmentColour{255, 255, 0}));
+      QVERIFY(read->list[n].colour == written.list[n].colour.value_or(imaging::SegmentColour{255, 255, 0}));
     }
     QCOMPARE(read->list[0].name, std::string("Leber \xc3\xbc"));
 
@@ -79,8 +79,9 @@ class StructureSetTest : public QObject {
     Geometry geometry = test::sample_grid({60, 50, 22}, test::orientations().back().direction);
     const auto series = test::write_sample_series(geometry, folder / "series");
     for (const double hollow : {0.0, 8.0}) {
-      Segments written{series.geometry, {test::ball_segment(series.geometry, 14.0, hollow)}, {}};
-      QCOMPARE(test::failure(write_structure_set(written, series.files, folder / "set.dcm")), QString());
+      imaging::Segments written{series.geometry, {test::ball_segment(series.geometry, 14.0, hollow)}, {}};
+      QCOMPARE(test::failure(imaging::write_structure_set(written, series.files, folder / "set.dcm")),
+               QString());
       const QJsonObject found = test::read_with_pydicom(folder / "set.dcm", series.folder);
       const QJsonObject region = found["regions"].toArray().first().toObject();
       const double volume = area_of(region) * series.geometry.spacing_mm.z;
@@ -96,13 +97,13 @@ class StructureSetTest : public QObject {
   void pydicom_finds_the_area_of_a_mask() {
     const test::TemporaryFolder folder;
     const Geometry geometry = test::sample_grid({30, 20, 3}, glm::dmat3(1.0));
-    Segment segment;
+    imaging::Segment segment;
     segment.name = "box";
     std::vector<std::uint8_t> slice(600);
     for (std::size_t j = 4; j < 11; ++j)
       std::fill_n(slice.begin() + static_cast<std::ptrdiff_t>(30 * j + 5), 12, 1);
     segment.slices = {{0, slice}, {2, slice}};
-    QCOMPARE(test::failure(write_structure_set({geometry, {segment}, {}}, {}, folder / "set.dcm")),
+    QCOMPARE(test::failure(imaging::write_structure_set({geometry, {segment}, {}}, {}, folder / "set.dcm")),
              QString());
     const QJsonObject found = test::read_with_pydicom(folder / "set.dcm", folder / "nowhere");
     QCOMPARE(found["patient"].toString(), QString("Anonymous"));
@@ -114,13 +115,14 @@ class StructureSetTest : public QObject {
     const test::TemporaryFolder folder;
     const auto series =
         test::write_sample_series(test::sample_grid({21, 17, 6}, glm::dmat3(1.0)), folder / "series");
-    Segments segments = test::speckled_segments(series.geometry);
+    imaging::Segments segments = test::speckled_segments(series.geometry);
     segments.list.push_back(test::ball_segment(series.geometry, 6.0));
     segments.list.emplace_back().name = "empty";
     for (const bool with_source : {true, false}) {
       const auto file = folder / "set.dcm";
-      const SourceFiles source = with_source ? SourceFiles(series.files) : SourceFiles();
-      QCOMPARE(test::failure(write_structure_set(segments, source, file)), QString());
+      const imaging::SourceFiles source =
+          with_source ? imaging::SourceFiles(series.files) : imaging::SourceFiles();
+      QCOMPARE(test::failure(imaging::write_structure_set(segments, source, file)), QString());
       const QString said = test::validate(file);
       QVERIFY2(said.contains("RTStructureSet"), qPrintable(said));
       QVERIFY2(!said.contains("Error"), qPrintable(said));
@@ -131,12 +133,13 @@ class StructureSetTest : public QObject {
   void a_contour_of_very_many_points_is_read_back() {
     const test::TemporaryFolder folder;
     const Geometry geometry = test::sample_grid({300, 300, 1}, glm::dmat3(1.0));
-    Segment comb;
+    imaging::Segment comb;
     std::vector<std::uint8_t> slice(90000);
     for (std::size_t v = 0; v < slice.size(); ++v) slice[v] = v / 300 == 0 || v % 300 % 2 == 0 ? 1 : 0;
     comb.slices[0] = slice;
-    QCOMPARE(test::failure(write_structure_set({geometry, {comb}, {}}, {}, folder / "set.dcm")), QString());
-    const auto read = read_structure_set(folder / "set.dcm", geometry);
+    QCOMPARE(test::failure(imaging::write_structure_set({geometry, {comb}, {}}, {}, folder / "set.dcm")),
+             QString());
+    const auto read = imaging::read_structure_set(folder / "set.dcm", geometry);
     QCOMPARE(test::failure(read), QString());
     QVERIFY(read->list[0].slices == comb.slices);
     const QJsonObject found = test::read_with_pydicom(folder / "set.dcm", folder / "nowhere");
@@ -147,11 +150,11 @@ class StructureSetTest : public QObject {
     const test::TemporaryFolder folder;
     const auto file = folder / "set.dcm";
     const Geometry geometry = test::sample_grid({30, 20, 2}, glm::dmat3(1.0));
-    Segment two;
+    imaging::Segment two;
     std::vector<std::uint8_t> slice(600);
     slice[2 + 30 * 2] = slice[20 + 30 * 10] = 1;
     two.slices[1] = slice;
-    QCOMPARE(test::failure(write_structure_set({geometry, {two}, {}}, {}, file)), QString());
+    QCOMPARE(test::failure(imaging::write_structure_set({geometry, {two}, {}}, {}, file)), QString());
     // The first becomes a square around the second.
     std::string square;
     for (const auto& [i, j] : {std::pair{17.5, 7.5}, {22.5, 7.5}, {22.5, 12.5}, {17.5, 12.5}}) {
@@ -159,7 +162,7 @@ class StructureSetTest : public QObject {
       square += fmt::format("{}{:.3f}\\{:.3f}\\{:.3f}", square.empty() ? "" : "\\", mm.x, mm.y, mm.z);
     }
     set_first_contour(file, "CLOSED_PLANAR", square);
-    const auto read = read_structure_set(file, geometry);
+    const auto read = imaging::read_structure_set(file, geometry);
     QCOMPARE(test::failure(read), QString());
     QCOMPARE(read->list[0].count(), std::int64_t{24});
   }
@@ -168,12 +171,12 @@ class StructureSetTest : public QObject {
     const test::TemporaryFolder folder;
     const Geometry geometry = test::sample_grid({21, 17, 6}, glm::dmat3(1.0));
     const auto file = folder / "set.dcm";
-    QCOMPARE(
-        test::failure(write_structure_set({geometry, {test::ball_segment(geometry, 6.0)}, {}}, {}, file)),
-        QString());
+    QCOMPARE(test::failure(
+                 imaging::write_structure_set({geometry, {test::ball_segment(geometry, 6.0)}, {}}, {}, file)),
+             QString());
     Geometry between = geometry;
     between.origin_mm.z += 1.25;
-    const auto refused = read_structure_set(file, between);
+    const auto refused = imaging::read_structure_set(file, between);
     QVERIFY(!refused);
     QCOMPARE(refused.error().kind, ErrorKind::input);
     QVERIFY2(refused.error().message.find("do not lie in the slices") != std::string::npos,
@@ -184,11 +187,11 @@ class StructureSetTest : public QObject {
     const test::TemporaryFolder folder;
     const Geometry geometry = test::sample_grid({21, 17, 6}, glm::dmat3(1.0));
     const auto file = folder / "set.dcm";
-    const Segment ball = test::ball_segment(geometry, 6.0);
-    QCOMPARE(test::failure(write_structure_set({geometry, {ball}, {}}, {}, file)), QString());
+    const imaging::Segment ball = test::ball_segment(geometry, 6.0);
+    QCOMPARE(test::failure(imaging::write_structure_set({geometry, {ball}, {}}, {}, file)), QString());
     Geometry shorter = geometry;
     shorter.size = {10, 17, 3};
-    const auto read = read_structure_set(file, shorter);
+    const auto read = imaging::read_structure_set(file, shorter);
     QCOMPARE(test::failure(read), QString());
     QCOMPARE(read->changes, std::vector<std::string>{"ball: what lies beyond the volume is left out"});
     QVERIFY(read->list[0].count() > 0 && read->list[0].count() < ball.count());
@@ -197,16 +200,17 @@ class StructureSetTest : public QObject {
   void contours_in_the_planes_of_another_axis_are_filled_there() {
     const test::TemporaryFolder folder;
     const Geometry written_on = test::sample_grid({21, 17, 6}, glm::dmat3(1.0));
-    const Segment ball = test::ball_segment(written_on, 6.0, 3.0);
-    QCOMPARE(test::failure(write_structure_set({written_on, {ball}, {}}, {}, folder / "set.dcm")), QString());
+    const imaging::Segment ball = test::ball_segment(written_on, 6.0, 3.0);
+    QCOMPARE(test::failure(imaging::write_structure_set({written_on, {ball}, {}}, {}, folder / "set.dcm")),
+             QString());
     Geometry turned;  // the same voxels: k, then i backwards, then j
     turned.size = {6, 21, 17};
     turned.spacing_mm = {2.5, 0.7, 0.9};
     turned.direction = {glm::dvec3(0, 0, 1), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0)};
     turned.origin_mm = written_on.to_patient({20, 0, 0});
-    const auto read = read_structure_set(folder / "set.dcm", turned);
+    const auto read = imaging::read_structure_set(folder / "set.dcm", turned);
     QCOMPARE(test::failure(read), QString());
-    const Mask after = union_of(*read);
+    const Mask after = imaging::union_of(*read);
     QCOMPARE(after.count(), ball.count());
     for (const auto& [k, slice] : ball.slices) {
       for (std::size_t v = 0; v < slice.size(); ++v) {
@@ -220,11 +224,11 @@ class StructureSetTest : public QObject {
     const test::TemporaryFolder folder;
     const auto file = folder / "set.dcm";
     const Geometry geometry = test::sample_grid({21, 17, 6}, glm::dmat3(1.0));
-    QCOMPARE(
-        test::failure(write_structure_set({geometry, {test::ball_segment(geometry, 6.0)}, {}}, {}, file)),
-        QString());
+    QCOMPARE(test::failure(
+                 imaging::write_structure_set({geometry, {test::ball_segment(geometry, 6.0)}, {}}, {}, file)),
+             QString());
     set_first_contour(file, "POINT", "1\\2\\3");
-    const auto read = read_structure_set(file, geometry);
+    const auto read = imaging::read_structure_set(file, geometry);
     QCOMPARE(test::failure(read), QString());
     QVERIFY2(read->changes.front().find("1 points and open contours") != std::string::npos,
              read->changes.front().c_str());
@@ -247,7 +251,8 @@ class StructureSetTest : public QObject {
       return usage.ru_maxrss / 1024;
     };
     const long before = peak_mib();
-    const auto read = read_structure_set(folder / "set.dcm", sample_grid({21, 17, 6}, glm::dmat3(1.0)));
+    const auto read =
+        imaging::read_structure_set(folder / "set.dcm", sample_grid({21, 17, 6}, glm::dmat3(1.0)));
     QCOMPARE(failure(read), QString());
     QVERIFY2(read->changes.front().find("200000 points and open contours") != std::string::npos,
              read->changes.front().c_str());
@@ -268,11 +273,11 @@ class StructureSetTest : public QObject {
     const test::TemporaryFolder folder;
     const auto file = folder / "set.dcm";
     const Geometry geometry = test::sample_grid({21, 17, 6}, glm::dmat3(1.0));
-    QCOMPARE(
-        test::failure(write_structure_set({geometry, {test::ball_segment(geometry, 6.0)}, {}}, {}, file)),
-        QString());
+    QCOMPARE(test::failure(
+                 imaging::write_structure_set({geometry, {test::ball_segment(geometry, 6.0)}, {}}, {}, file)),
+             QString());
     set_first_contour(file, "CLOSED_PLANAR", points.toStdString());
-    const auto refused = read_structure_set(file, geometry);
+    const auto refused = imaging::read_structure_set(file, geometry);
     QVERIFY(!refused);
     QCOMPARE(refused.error().kind, ErrorKind::input);
     QVERIFY2(refused.error().message.find("set.dcm: ContourData") != std::string::npos,

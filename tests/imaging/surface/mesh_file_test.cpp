@@ -17,10 +17,10 @@ using namespace tidemark::test;
 
 namespace {
 
-Mesh small_ball() {
+imaging::Mesh small_ball() {
   Geometry geometry = grid({20, 20, 20}, {0.5, 0.5, 0.75});
   geometry.origin_mm = {-100.25, 3.5, 1000.125};
-  return extract_surface(field(geometry, ball({5, 5, 7}, 3.0))).value();
+  return imaging::extract_surface(field(geometry, ball({5, 5, 7}, 3.0))).value();
 }
 
 std::string contents(const std::filesystem::path& path) {
@@ -45,8 +45,8 @@ class MeshFileTest : public QObject {
  private slots:
   void stl_holds_every_triangle_with_its_outward_normal() {
     const TemporaryFolder folder;
-    const Mesh mesh = small_ball();
-    QCOMPARE(failure(write_mesh(mesh, folder / "ball.STL")), QString());
+    const imaging::Mesh mesh = small_ball();
+    QCOMPARE(failure(imaging::write_mesh(mesh, folder / "ball.STL")), QString());
     const std::string bytes = contents(folder / "ball.STL");
     QVERIFY(!bytes.starts_with("solid"));
     QCOMPARE(bytes.size(), 84 + 50 * mesh.triangles.size());
@@ -64,8 +64,8 @@ class MeshFileTest : public QObject {
 
   void ply_holds_vertices_and_faces() {
     const TemporaryFolder folder;
-    const Mesh mesh = small_ball();
-    QCOMPARE(failure(write_mesh(mesh, folder / "ball.ply")), QString());
+    const imaging::Mesh mesh = small_ball();
+    QCOMPARE(failure(imaging::write_mesh(mesh, folder / "ball.ply")), QString());
     const std::string bytes = contents(folder / "ball.ply");
     const auto end = bytes.find("end_header\n");
     QVERIFY(end != std::string::npos);
@@ -86,14 +86,14 @@ class MeshFileTest : public QObject {
 
   void obj_reads_back_to_the_same_floats() {
     const TemporaryFolder folder;
-    const Mesh mesh = small_ball();
+    const imaging::Mesh mesh = small_ball();
     const char* german = std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
-    const auto status = write_mesh(mesh, folder / "ball.obj");
+    const auto status = imaging::write_mesh(mesh, folder / "ball.obj");
     if (german != nullptr) std::setlocale(LC_NUMERIC, "C");
     QCOMPARE(failure(status), QString());
     std::istringstream stream(contents(folder / "ball.obj"));
     QVERIFY(stream.str().find(',') == std::string::npos);
-    Mesh read;
+    imaging::Mesh read;
     for (std::string line; std::getline(stream, line);) {
       std::istringstream words(line);
       std::string kind;
@@ -115,22 +115,22 @@ class MeshFileTest : public QObject {
   void an_empty_mesh_is_a_valid_file() {
     const TemporaryFolder folder;
     for (const char* name : {"none.stl", "none.ply", "none.obj"}) {
-      QCOMPARE(failure(write_mesh(Mesh{}, folder / name)), QString());
+      QCOMPARE(failure(imaging::write_mesh(imaging::Mesh{}, folder / name)), QString());
     }
     QCOMPARE(contents(folder / "none.stl").size(), std::size_t{84});
   }
 
   void a_suffix_that_is_no_mesh_is_refused() {
-    QVERIFY(is_writable_mesh_file("a/b.Ply"));
-    QVERIFY(!is_writable_mesh_file("a.stl.gz"));
-    const auto status = write_mesh(Mesh{}, "/tmp/mesh.vtk");
+    QVERIFY(imaging::is_writable_mesh_file("a/b.Ply"));
+    QVERIFY(!imaging::is_writable_mesh_file("a.stl.gz"));
+    const auto status = imaging::write_mesh(imaging::Mesh{}, "/tmp/mesh.vtk");
     QVERIFY(!status);
     QCOMPARE(status.error().kind, ErrorKind::usage);
   }
 
   void a_disk_that_is_full_leaves_nothing_behind() {
     const TemporaryFolder folder;
-    const Mesh mesh = small_ball();
+    const imaging::Mesh mesh = small_ball();
     std::signal(SIGXFSZ, SIG_IGN);
     rlimit before{};
     QCOMPARE(getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -138,7 +138,7 @@ class MeshFileTest : public QObject {
     small.rlim_cur = 2000;
     for (const char* name : {"ball.stl", "ball.ply", "ball.obj"}) {
       setrlimit(RLIMIT_FSIZE, &small);
-      const auto status = write_mesh(mesh, folder / name);
+      const auto status = imaging::write_mesh(mesh, folder / name);
       setrlimit(RLIMIT_FSIZE, &before);
       QVERIFY(!status);
       QCOMPARE(status.error().kind, ErrorKind::write);

@@ -20,10 +20,10 @@ double relative_error(double measured, double expected) {
 }
 
 // The surface of a field, which must be closed.
-Mesh closed_surface(const Volume& phi) {
-  auto mesh = extract_surface(phi);
+imaging::Mesh closed_surface(const Volume& phi) {
+  auto mesh = imaging::extract_surface(phi);
   if (!mesh) qFatal("%s", mesh.error().message.c_str());
-  if (!is_closed_and_oriented(*mesh)) qFatal("the surface is not closed");
+  if (!imaging::is_closed_and_oriented(*mesh)) qFatal("the surface is not closed");
   return std::move(*mesh);
 }
 
@@ -59,9 +59,9 @@ class SurfaceTest : public QObject {
     QFETCH(int, spacing);
     const glm::dvec3 h = kSpacings[static_cast<std::size_t>(spacing)];
     const double r = radius * std::min({h.x, h.y, h.z});
-    const Mesh mesh = closed_surface(free_ball(radius, h));
-    const double volume = relative_error(mesh_volume_ml(mesh), 4.0 / 3.0 * kPi * r * r * r / 1000.0);
-    const double area = relative_error(mesh_area_mm2(mesh), 4.0 * kPi * r * r);
+    const imaging::Mesh mesh = closed_surface(free_ball(radius, h));
+    const double volume = relative_error(imaging::mesh_volume_ml(mesh), 4.0 / 3.0 * kPi * r * r * r / 1000.0);
+    const double area = relative_error(imaging::mesh_area_mm2(mesh), 4.0 * kPi * r * r);
     qInfo("volume %+.2f %%, area %+.2f %%, %zu triangles", 100 * volume, 100 * area, mesh.triangles.size());
     // The smallest is three quarters of a voxel wide along two axes.
     QVERIFY(std::abs(volume) < (radius >= 10 ? 0.006 : 0.35));
@@ -71,7 +71,7 @@ class SurfaceTest : public QObject {
   void vertices_of_a_ball_lie_on_it() {
     const Geometry geometry = grid({60, 60, 60});
     const glm::dvec3 centre(29.3, 30.1, 28.8);
-    const Mesh mesh = closed_surface(field(geometry, ball(centre, 20.0)));
+    const imaging::Mesh mesh = closed_surface(field(geometry, ball(centre, 20.0)));
     double worst = 0.0;
     for (const auto& vertex : mesh.vertices) {
       worst = std::max(worst, std::abs(glm::distance(glm::dvec3(vertex), centre) - 20.0));
@@ -81,36 +81,38 @@ class SurfaceTest : public QObject {
   }
 
   void nothing_inside_gives_an_empty_mesh() {
-    const Mesh mesh = closed_surface(field(grid({9, 9, 9}), [](glm::dvec3) { return -1.0; }));
+    const imaging::Mesh mesh = closed_surface(field(grid({9, 9, 9}), [](glm::dvec3) { return -1.0; }));
     QVERIFY(mesh.vertices.empty());
     QVERIFY(mesh.triangles.empty());
-    QCOMPARE(mesh_volume_ml(mesh), 0.0);
+    QCOMPARE(imaging::mesh_volume_ml(mesh), 0.0);
   }
 
   void values_of_exactly_zero_are_outside() {
-    const Mesh empty = closed_surface(field(grid({9, 9, 9}), [](glm::dvec3) { return 0.0; }));
+    const imaging::Mesh empty = closed_surface(field(grid({9, 9, 9}), [](glm::dvec3) { return 0.0; }));
     QVERIFY(empty.triangles.empty());
     // A box whose faces lie exactly on voxel centres: it has its exact extent.
-    const Mesh mesh = closed_surface(field(grid({16, 16, 16}), [](glm::dvec3 p) {
+    const imaging::Mesh mesh = closed_surface(field(grid({16, 16, 16}), [](glm::dvec3 p) {
       const glm::dvec3 d = 5.0 - glm::abs(p - glm::dvec3(7.0));
       return std::min({d.x, d.y, d.z});
     }));
-    QVERIFY(std::abs(relative_error(mesh_volume_ml(mesh), 1.0)) < 0.03);
+    QVERIFY(std::abs(relative_error(imaging::mesh_volume_ml(mesh), 1.0)) < 0.03);
     float farthest = 0.0F;
     for (const auto& vertex : mesh.vertices) {
       for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(vertex[axis] - 7.0F));
     }
-    qInfo("volume %+.2f %%, half width %.3f", 100 * relative_error(mesh_volume_ml(mesh), 1.0), farthest);
+    qInfo("volume %+.2f %%, half width %.3f", 100 * relative_error(imaging::mesh_volume_ml(mesh), 1.0),
+          farthest);
     QVERIFY(std::abs(farthest - 5.0F) < 0.1F);
   }
 
   void a_field_that_is_inside_everywhere_is_capped_on_the_outer_faces() {
     const glm::dvec3 spacing(1.0, 0.5, 3.0);
-    const Mesh mesh = closed_surface(field(grid({30, 40, 20}, spacing), [](glm::dvec3) { return 9.0; }));
+    const imaging::Mesh mesh =
+        closed_surface(field(grid({30, 40, 20}, spacing), [](glm::dvec3) { return 9.0; }));
     const double box = 30 * 1.0 * 40 * 0.5 * 20 * 3.0 / 1000.0;
-    qInfo("volume %+.3f %%", 100 * relative_error(mesh_volume_ml(mesh), box));
-    QVERIFY(std::abs(relative_error(mesh_volume_ml(mesh), box)) < 1e-5);
-    QVERIFY(std::abs(relative_error(mesh_area_mm2(mesh), 2 * (30 * 20 + 30 * 60 + 20 * 60))) < 1e-5);
+    qInfo("volume %+.3f %%", 100 * relative_error(imaging::mesh_volume_ml(mesh), box));
+    QVERIFY(std::abs(relative_error(imaging::mesh_volume_ml(mesh), box)) < 1e-5);
+    QVERIFY(std::abs(relative_error(imaging::mesh_area_mm2(mesh), 2 * (30 * 20 + 30 * 60 + 20 * 60))) < 1e-5);
     glm::dvec3 low(1e9);
     glm::dvec3 high(-1e9);
     for (const auto& vertex : mesh.vertices) {
@@ -138,11 +140,11 @@ class SurfaceTest : public QObject {
     const double d = 4.5;
     glm::dvec3 centre(19.2, 20.4, 19.7);
     centre[axis] = upper ? 39.5 - d : d - 0.5;
-    const Mesh mesh = closed_surface(field(grid({40, 40, 40}), ball(centre, r)));
+    const imaging::Mesh mesh = closed_surface(field(grid({40, 40, 40}), ball(centre, r)));
     const double cap = kPi * (r - d) * (r - d) * (2.0 * r + d) / 3.0;
     const double expected = (4.0 / 3.0 * kPi * r * r * r - cap) / 1000.0;
-    qInfo("volume %+.2f %%", 100 * relative_error(mesh_volume_ml(mesh), expected));
-    QVERIFY(std::abs(relative_error(mesh_volume_ml(mesh), expected)) < 0.015);
+    qInfo("volume %+.2f %%", 100 * relative_error(imaging::mesh_volume_ml(mesh), expected));
+    QVERIFY(std::abs(relative_error(imaging::mesh_volume_ml(mesh), expected)) < 0.015);
     double farthest = upper ? -1e9 : 1e9;
     for (const auto& vertex : mesh.vertices) {
       const double x = vertex[axis];
@@ -152,39 +154,39 @@ class SurfaceTest : public QObject {
   }
 
   void a_ball_in_a_corner_of_the_volume_is_capped_on_three_faces() {
-    const Mesh mesh = closed_surface(field(grid({40, 40, 40}), ball(glm::dvec3(-0.5), 20.0)));
+    const imaging::Mesh mesh = closed_surface(field(grid({40, 40, 40}), ball(glm::dvec3(-0.5), 20.0)));
     const double eighth = 4.0 / 3.0 * kPi * 8000.0 / 8.0 / 1000.0;
-    QVERIFY(std::abs(relative_error(mesh_volume_ml(mesh), eighth)) < 0.015);
+    QVERIFY(std::abs(relative_error(imaging::mesh_volume_ml(mesh), eighth)) < 0.015);
   }
 
   void two_balls_that_touch_or_merge_stay_closed() {
     for (const double gap : {3.0, 0.5, 0.01, 0.0, -0.3, -4.0}) {
       const auto a = ball({16, 20, 20}, 10.0);
       const auto b = ball({36.0 + gap, 20, 20}, 10.0);
-      const Mesh mesh =
+      const imaging::Mesh mesh =
           closed_surface(field(grid({56, 40, 40}), [&](glm::dvec3 p) { return std::max(a(p), b(p)); }));
       const double overlap = std::max(0.0, -gap);
       // Two caps of height overlap / 2 are shared.
       const double h = overlap / 2.0;
       const double lens = 2.0 * kPi * h * h * (30.0 - h) / 3.0;
       const double expected = (2.0 * 4.0 / 3.0 * kPi * 1000.0 - lens) / 1000.0;
-      QVERIFY(std::abs(relative_error(mesh_volume_ml(mesh), expected)) < 0.015);
+      QVERIFY(std::abs(relative_error(imaging::mesh_volume_ml(mesh), expected)) < 0.015);
     }
   }
 
   void a_single_voxel_and_a_sheet_of_one_voxel_are_closed() {
-    const Mesh voxel = closed_surface(field(grid({7, 7, 7}), ball({3, 3, 3}, 0.5)));
-    QVERIFY(mesh_volume_ml(voxel) > 0.0);
-    const Mesh sheet =
+    const imaging::Mesh voxel = closed_surface(field(grid({7, 7, 7}), ball({3, 3, 3}, 0.5)));
+    QVERIFY(imaging::mesh_volume_ml(voxel) > 0.0);
+    const imaging::Mesh sheet =
         closed_surface(field(grid({20, 20, 9}), [](glm::dvec3 p) { return 0.5 - std::abs(p.z - 4.0); }));
-    qInfo("sheet %+.2f %%", 100 * relative_error(mesh_volume_ml(sheet), 20 * 20 * 1.0 / 1000.0));
-    QVERIFY(std::abs(relative_error(mesh_volume_ml(sheet), 20 * 20 * 1.0 / 1000.0)) < 0.05);
+    qInfo("sheet %+.2f %%", 100 * relative_error(imaging::mesh_volume_ml(sheet), 20 * 20 * 1.0 / 1000.0));
+    QVERIFY(std::abs(relative_error(imaging::mesh_volume_ml(sheet), 20 * 20 * 1.0 / 1000.0)) < 0.05);
   }
 
   void volumes_of_one_voxel_along_an_axis_are_closed() {
     for (const Index3 size : {Index3(1, 1, 1), Index3(7, 1, 61), Index3(1, 175, 7), Index3(12, 9, 1)}) {
-      const Mesh mesh = closed_surface(field(grid(size), [](glm::dvec3) { return 2.0; }));
-      QVERIFY(mesh_volume_ml(mesh) > 0.0);
+      const imaging::Mesh mesh = closed_surface(field(grid(size), [](glm::dvec3) { return 2.0; }));
+      QVERIFY(imaging::mesh_volume_ml(mesh) > 0.0);
     }
   }
 
@@ -196,8 +198,8 @@ class SurfaceTest : public QObject {
           if (levels == 3) return static_cast<double>(random() % 3) - 1.0;
           return static_cast<double>(random()) / 2147483648.0 - 1.0;
         });
-        const Mesh mesh = closed_surface(phi);
-        QVERIFY(mesh_volume_ml(mesh) > 0.0);
+        const imaging::Mesh mesh = closed_surface(phi);
+        QVERIFY(imaging::mesh_volume_ml(mesh) > 0.0);
       }
     }
   }
@@ -214,9 +216,10 @@ class SurfaceTest : public QObject {
       geometry.direction = direction;
       geometry.origin_mm = {-120.0, 35.0, 410.0};
       const glm::dvec3 centre = geometry.to_patient({19.4, 22.1, 14.7});
-      const Mesh mesh =
+      const imaging::Mesh mesh =
           closed_surface(field(geometry, ball(glm::dvec3(19.4, 22.1, 14.7) * geometry.spacing_mm, 12.0)));
-      QVERIFY(std::abs(relative_error(mesh_volume_ml(mesh), 4.0 / 3.0 * kPi * 1728.0 / 1000.0)) < 0.015);
+      QVERIFY(std::abs(relative_error(imaging::mesh_volume_ml(mesh), 4.0 / 3.0 * kPi * 1728.0 / 1000.0)) <
+              0.015);
       for (const auto& vertex : mesh.vertices) {
         QVERIFY(std::abs(glm::distance(glm::dvec3(vertex), centre) - 12.0) < 0.1);
       }
@@ -224,30 +227,30 @@ class SurfaceTest : public QObject {
   }
 
   void no_two_vertices_of_a_ball_share_a_place() {
-    const Mesh mesh = closed_surface(field(grid({40, 40, 40}), ball({20, 20, 20}, 12.0)));
+    const imaging::Mesh mesh = closed_surface(field(grid({40, 40, 40}), ball({20, 20, 20}, 12.0)));
     std::set<std::array<float, 3>> places;
     for (const auto& v : mesh.vertices) places.insert({v.x, v.y, v.z});
     QCOMPARE(places.size(), mesh.vertices.size());
   }
 
   void a_hole_in_a_mesh_and_a_turned_triangle_are_noticed() {
-    const Mesh whole = closed_surface(field(grid({12, 12, 12}), ball({6, 6, 6}, 3.0)));
-    Mesh hole = whole;
+    const imaging::Mesh whole = closed_surface(field(grid({12, 12, 12}), ball({6, 6, 6}, 3.0)));
+    imaging::Mesh hole = whole;
     hole.triangles.pop_back();
-    QVERIFY(!is_closed_and_oriented(hole));
-    Mesh turned = whole;
+    QVERIFY(!imaging::is_closed_and_oriented(hole));
+    imaging::Mesh turned = whole;
     std::swap(turned.triangles[5][0], turned.triangles[5][1]);
-    QVERIFY(!is_closed_and_oriented(turned));
+    QVERIFY(!imaging::is_closed_and_oriented(turned));
   }
 
   void phi_that_is_not_a_float_volume_or_not_finite_is_refused() {
     Volume phi = field(grid({4, 4, 4}), ball({2, 2, 2}, 1.0));
     std::get<std::vector<float>>(phi.voxels)[9] = NAN;
-    const auto nan = extract_surface(phi);
+    const auto nan = imaging::extract_surface(phi);
     QVERIFY(!nan);
     QCOMPARE(nan.error().kind, ErrorKind::input);
     phi.voxels = std::vector<std::int16_t>(64);
-    QVERIFY(!extract_surface(phi));
+    QVERIFY(!imaging::extract_surface(phi));
   }
 };
 

@@ -20,12 +20,12 @@ using test::failure;
 constexpr std::int64_t kMostSteps = 3000;
 
 // phi of our run until it stops by itself.
-Result<Field> our_steady_state(const Problem& problem, double alpha) {
-  Parameters parameters = problem.parameters;
+Result<solver::Field> our_steady_state(const Problem& problem, double alpha) {
+  solver::Parameters parameters = problem.parameters;
   parameters.alpha = alpha;
-  auto executor = make_executor(ExecutorKind::host, problem.source, parameters);
+  auto executor = solver::make_executor(solver::ExecutorKind::host, problem.source, parameters);
   if (!executor) return pass_on(executor);
-  TIDEMARK_TRY((*executor)->paint(*problem.seed, Brush::add));
+  TIDEMARK_TRY((*executor)->paint(*problem.seed, solver::Brush::add));
   auto run = (*executor)->advance({.steps = kMostSteps, .until_converged = true});
   if (!run) return pass_on(run);
   if (!run->converged) return fail(ErrorKind::internal, "not converged after {} steps", run->steps);
@@ -44,7 +44,7 @@ ItkImage::Pointer itk_steady_state(const Problem& problem) {
 
 // The mean distance, in voxels, of ITK's surface from ours: where ITK's phi changes sign between neighbours,
 // ours, which is a distance near its surface, is read at that point.
-double mean_surface_distance(const ItkImage& itk_phi, const Field& ours) {
+double mean_surface_distance(const ItkImage& itk_phi, const solver::Field& ours) {
   const std::vector<float> phi = ours.dense();
   const float* peer = itk_phi.GetBufferPointer();
   const Geometry& geometry = ours.geometry;
@@ -139,7 +139,7 @@ class ItkTest : public QObject {
 
   void with_data_alone_a_noiseless_region_is_what_a_flood_fill_finds() {
     QFETCH(QString, kind);
-    PhantomOptions noiseless;
+    imaging::PhantomOptions noiseless;
     noiseless.noise_percent = 0.0;
     const auto problem = bench::make_problem(kind.toStdString(), noiseless);
     QCOMPARE(failure(problem), QString());

@@ -14,16 +14,16 @@ using namespace tidemark;
 class AboutDialogTest : public QObject {
   Q_OBJECT
  private slots:
-  void initTestCase() { apply_theme(*qApp, Theme::dark); }
+  void initTestCase() { ui::apply_theme(*qApp, ui::Theme::dark); }
 
   void it_says_what_it_must_not_be_used_for() {
-    AboutDialog about;
+    ui::AboutDialog about;
     QCOMPARE(about.findChild<QLabel*>(QStringLiteral("claim"))->text(),
              QStringLiteral("Research use only. Not for diagnostic use."));
   }
 
   void it_has_the_version_and_the_methods_reference() {
-    AboutDialog about;
+    ui::AboutDialog about;
     QVERIFY(about.findChild<QLabel*>(QStringLiteral("version"))
                 ->text()
                 .contains(QStringLiteral(TIDEMARK_VERSION)));
@@ -37,19 +37,19 @@ class AboutDialogTest : public QObject {
     QFile page(QStringLiteral(TIDEMARK_SOURCE "/docs/third-party.md"));
     QVERIFY(page.open(QIODevice::ReadOnly));
     const QString text = QString::fromUtf8(page.readAll());
-    AboutDialog about;
+    ui::AboutDialog about;
     const auto* table = about.findChild<QTableWidget*>(QStringLiteral("parts"));
-    const auto parts = third_party_parts();
+    const auto parts = ui::third_party_parts();
     QCOMPARE(table->rowCount(), static_cast<int>(parts.size()));
     for (int row = 0; row < table->rowCount(); ++row) {
-      const ThirdPartyPart& part = parts[static_cast<std::size_t>(row)];
+      const ui::ThirdPartyPart& part = parts[static_cast<std::size_t>(row)];
       QCOMPARE(table->item(row, 0)->text(), QString::fromLatin1(part.name));
       QVERIFY2(text.contains(QStringLiteral("| %1 |").arg(QLatin1String(part.name))), part.name);
     }
   }
 
   void it_fits_on_a_small_screen_and_closes_with_a_key() {
-    AboutDialog about;
+    ui::AboutDialog about;
     about.show();
     QVERIFY(QTest::qWaitForWindowExposed(&about));
     QVERIFY(about.width() <= 800);

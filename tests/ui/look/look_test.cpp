@@ -32,7 +32,7 @@ const QStringList kNames =
         .split(QLatin1Char(' '));
 
 QImage drawn(const QString& name, int side, QIcon::Mode mode = QIcon::Normal) {
-  return icon(name).pixmap(QSize(side, side), mode).toImage().convertToFormat(QImage::Format_ARGB32);
+  return ui::icon(name).pixmap(QSize(side, side), mode).toImage().convertToFormat(QImage::Format_ARGB32);
 }
 
 double linear(double part) {
@@ -74,7 +74,7 @@ int distance_to(const QImage& image, const QColor& colour) {
 // All icons with their names, on the theme's window: for the eye.
 QImage contact_sheet(const QPalette& palette, int side, qreal scale) {
   constexpr int kColumns = 11;
-  const QStringList names = icon_names();
+  const QStringList names = ui::icon_names();
   const QSize cell(104, side + 34);
   const int rows = (static_cast<int>(names.size()) + kColumns - 1) / kColumns;
   QImage sheet(QSizeF(cell.width() * kColumns * scale, cell.height() * rows * scale).toSize(),
@@ -88,7 +88,7 @@ QImage contact_sheet(const QPalette& palette, int side, qreal scale) {
   painter.setPen(palette.color(QPalette::WindowText));
   for (int i = 0; i < names.size(); ++i) {
     const QPoint corner(i % kColumns * cell.width(), i / kColumns * cell.height());
-    const QIcon picture = icon(names[i]);
+    const QIcon picture = ui::icon(names[i]);
     picture.paint(&painter, QRect(corner + QPoint(52 - side - 2, 8), QSize(side, side)));
     picture.paint(&painter, QRect(corner + QPoint(54, 8), QSize(side, side)), Qt::AlignCenter,
                   QIcon::Disabled);
@@ -103,26 +103,26 @@ QImage contact_sheet(const QPalette& palette, int side, qreal scale) {
 class LookTest : public QObject {
   Q_OBJECT
  private slots:
-  void initTestCase() { apply_theme(*qApp, Theme::system); }
-  void cleanup() { apply_theme(*qApp, Theme::light); }
+  void initTestCase() { ui::apply_theme(*qApp, ui::Theme::system); }
+  void cleanup() { ui::apply_theme(*qApp, ui::Theme::light); }
 
   void every_name_has_a_drawing() {
-    for (const QString& name : kNames) QVERIFY2(!icon(name).isNull(), qUtf8Printable(name));
-    QStringList extra = icon_names();
+    for (const QString& name : kNames) QVERIFY2(!ui::icon(name).isNull(), qUtf8Printable(name));
+    QStringList extra = ui::icon_names();
     for (const QString& name : kNames) extra.removeAll(name);
     QCOMPARE(extra, QStringList());  // a drawing that nobody asks for
   }
 
   void an_unknown_name_gives_a_null_icon_and_a_warning() {
     QTest::ignoreMessage(QtWarningMsg, "There is no icon 'no-such-icon'");
-    QVERIFY(icon(u"no-such-icon").isNull());
+    QVERIFY(ui::icon(u"no-such-icon").isNull());
   }
 
   void icons_take_the_colour_of_the_themes_text() {
-    for (const Theme theme : {Theme::light, Theme::dark}) {
-      apply_theme(*qApp, theme);
+    for (const ui::Theme theme : {ui::Theme::light, ui::Theme::dark}) {
+      ui::apply_theme(*qApp, theme);
       const QPalette palette = QApplication::palette();
-      for (const QString& name : icon_names()) {
+      for (const QString& name : ui::icon_names()) {
         const QImage normal = drawn(name, 48);
         QVERIFY2(ink(normal) > 30.0, qUtf8Printable(name));
         QVERIFY2(distance_to(normal, palette.color(QPalette::WindowText)) <= 2, qUtf8Printable(name));
@@ -136,15 +136,15 @@ class LookTest : public QObject {
   }
 
   void an_icon_made_before_a_change_of_theme_follows_it() {
-    apply_theme(*qApp, Theme::light);
-    const QIcon play = icon(u"play");
+    ui::apply_theme(*qApp, ui::Theme::light);
+    const QIcon play = ui::icon(u"play");
     const QImage before = play.pixmap(24).toImage();
-    apply_theme(*qApp, Theme::dark);
+    ui::apply_theme(*qApp, ui::Theme::dark);
     QVERIFY(before != play.pixmap(24).toImage());
   }
 
   void icons_differ_from_each_other_also_when_small() {
-    const QStringList names = icon_names();
+    const QStringList names = ui::icon_names();
     for (int i = 0; i < names.size(); ++i) {
       const QImage one = drawn(names[i], 16);
       for (int j = i + 1; j < names.size(); ++j) {
@@ -160,7 +160,7 @@ class LookTest : public QObject {
   }
 
   void icons_keep_off_the_edge_and_stand_in_the_middle() {
-    for (const QString& name : icon_names()) {
+    for (const QString& name : ui::icon_names()) {
       const QImage image = drawn(name, 96);
       QRect used;
       for (int y = 0; y < 96; ++y) {
@@ -177,10 +177,10 @@ class LookTest : public QObject {
   }
 
   void icons_have_the_devices_pixels() {
-    const QPixmap twice = icon(u"save").pixmap(QSize(20, 20), 2.0);
+    const QPixmap twice = ui::icon(u"save").pixmap(QSize(20, 20), 2.0);
     QCOMPARE(twice.size(), QSize(40, 40));
     QCOMPARE(twice.devicePixelRatio(), 2.0);
-    QCOMPARE(icon(u"save").pixmap(QSize(20, 20), 1.5).size(), QSize(30, 30));
+    QCOMPARE(ui::icon(u"save").pixmap(QSize(20, 20), 1.5).size(), QSize(30, 30));
     // Drawn, not enlarged: the sharp one holds steps that an enlarged one cannot.
     const QImage enlarged =
         drawn(QStringLiteral("save"), 20).scaled(40, 40, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
@@ -189,7 +189,7 @@ class LookTest : public QObject {
 
   void the_applications_icon_has_colours_at_all_sizes() {
     for (const int side : {16, 32, 64, 256}) {
-      const QImage image = application_icon().pixmap(side, side).toImage();
+      const QImage image = ui::application_icon().pixmap(side, side).toImage();
       QCOMPARE(image.width(), side);
       int coloured = 0;
       for (int y = 0; y < side; ++y) {
@@ -201,8 +201,8 @@ class LookTest : public QObject {
 
   void texts_have_enough_contrast_data() {
     QTest::addColumn<QPalette>("palette");
-    QTest::newRow("light") << light_palette();
-    QTest::newRow("dark") << dark_palette();
+    QTest::newRow("light") << ui::light_palette();
+    QTest::newRow("dark") << ui::dark_palette();
   }
 
   void texts_have_enough_contrast() {
@@ -244,17 +244,17 @@ class LookTest : public QObject {
   }
 
   void themes_change_while_the_program_runs() {
-    apply_theme(*qApp, Theme::dark);
-    QVERIFY(is_dark(QApplication::palette()));
-    QCOMPARE(QApplication::palette().color(QPalette::Base), dark_palette().color(QPalette::Base));
-    apply_theme(*qApp, Theme::light);
-    QVERIFY(!is_dark(QApplication::palette()));
-    apply_theme(*qApp, Theme::system);  // this platform's palette is light
-    QVERIFY(!is_dark(QApplication::palette()));
+    ui::apply_theme(*qApp, ui::Theme::dark);
+    QVERIFY(ui::is_dark(QApplication::palette()));
+    QCOMPARE(QApplication::palette().color(QPalette::Base), ui::dark_palette().color(QPalette::Base));
+    ui::apply_theme(*qApp, ui::Theme::light);
+    QVERIFY(!ui::is_dark(QApplication::palette()));
+    ui::apply_theme(*qApp, ui::Theme::system);  // this platform's palette is light
+    QVERIFY(!ui::is_dark(QApplication::palette()));
   }
 
   void buttons_of_windows_docks_and_tabs_stand_out_in_the_dark() {
-    apply_theme(*qApp, Theme::dark);
+    ui::apply_theme(*qApp, ui::Theme::dark);
     const QStyle& style = *QApplication::style();
     QStyleOptionTitleBar title;
     title.rect = QRect(0, 0, 200, 24);
@@ -294,15 +294,15 @@ class LookTest : public QObject {
 
   // TIDEMARK_CONTACT_SHEETS=folder keeps them, to be looked at.
   void contact_sheets_can_be_drawn() {
-    for (const Theme theme : {Theme::light, Theme::dark}) {
-      apply_theme(*qApp, theme);
+    for (const ui::Theme theme : {ui::Theme::light, ui::Theme::dark}) {
+      ui::apply_theme(*qApp, theme);
       for (const qreal scale : {1.0, 2.0}) {
-        const QImage sheet = contact_sheet(QApplication::palette(), kIcon, scale);
+        const QImage sheet = contact_sheet(QApplication::palette(), ui::kIcon, scale);
         QVERIFY(!sheet.isNull());
         const QString folder = qEnvironmentVariable("TIDEMARK_CONTACT_SHEETS");
         if (folder.isEmpty()) continue;
         const QString file = QStringLiteral("%1/icons-%2-%3.png")
-                                 .arg(folder, theme == Theme::dark ? "dark" : "light")
+                                 .arg(folder, theme == ui::Theme::dark ? "dark" : "light")
                                  .arg(scale * 100);
         QVERIFY2(sheet.save(file), qUtf8Printable(file));
       }

@@ -50,19 +50,19 @@ class ActiveCaseTest : public QObject {
   QDoubleSpinBox* number(const QString& name);
   [[nodiscard]] QStringList titles() const;
   [[nodiscard]] QTabBar* tab_bar() const;
-  [[nodiscard]] CaseWindow* active() const { return desktop_->window().active_case(); }
+  [[nodiscard]] ui::CaseWindow* active() const { return desktop_->window().active_case(); }
 
   std::unique_ptr<Desktop> desktop_;
-  QList<CaseWindow*> cases_;
+  QList<ui::CaseWindow*> cases_;
 };
 
 void ActiveCaseTest::init() {
-  desktop_ = std::make_unique<Desktop>(ExecutorKind::host, QSize(1200, 760));
+  desktop_ = std::make_unique<Desktop>(solver::ExecutorKind::host, QSize(1200, 760));
   cases_ = {desktop_->open_phantom("sphere"), desktop_->open_phantom("tumour")};
   desktop_->window().actions().tile->trigger();
-  for (CaseWindow* window : cases_) {
+  for (ui::CaseWindow* window : cases_) {
     const auto& seed = *window->proxy().study().start->seed;
-    Start start;
+    document::Start start;
     start.seeds.push_back({window->proxy().volume().geometry.to_patient({seed[0], seed[1], seed[2]}), 8.0});
     window->proxy().begin(start);
   }
@@ -89,7 +89,7 @@ void ActiveCaseTest::begin_with(int which, bool tabs) {
 }
 
 void ActiveCaseTest::click_view(int of) {
-  PictureView* view = cases_[of]->views().first();
+  ui::PictureView* view = cases_[of]->views().first();
   QVERIFY(view->isVisible());
   click(*view);
 }
@@ -190,7 +190,7 @@ void ActiveCaseTest::a_label_goes_to_the_case_whose_panel_was_used() {
     QVERIFY(target->hasFocus());
     choose("Labels");
     QToolButton* add = nullptr;
-    for (auto* button : desktop_->window().findChild<LabelsPanel*>()->findChildren<QToolButton*>()) {
+    for (auto* button : desktop_->window().findChild<ui::LabelsPanel*>()->findChildren<QToolButton*>()) {
       if (button->text() == "Add") add = button;
     }
     QVERIFY(add && add->isVisible());
@@ -272,7 +272,7 @@ void ActiveCaseTest::popups_and_dialogs_of_panels_keep_the_case() {
   }
   // A dialog that a panel opens, without and with the other panel in front when it closes.
   QVERIFY(choose("Labels"));
-  auto* table = desktop_->window().findChild<LabelsPanel*>()->findChild<QTableView*>();
+  auto* table = desktop_->window().findChild<ui::LabelsPanel*>()->findChild<QTableView*>();
   cases_[0]->proxy().add_label("A");
   desktop_->wait_until_idle();
   constexpr int kColour = 2;
@@ -350,14 +350,14 @@ void ActiveCaseTest::a_case_that_closes_hands_over_to_the_other() {
   begin_with(0, false);
   choose("Level set");
   click(*number("Target T"));
-  const QPointer<CaseWindow> closed = cases_[0];
+  const QPointer<ui::CaseWindow> closed = cases_[0];
   closed->close_saved();
   QVERIFY(Desktop::wait_for([&] { return closed.isNull(); }));
   desktop_->wait_until_idle();
   QCOMPARE(active(), cases_[1]);
   QVERIFY(number("Target T")->isVisible());
   // One that is not active closes without changing anything.
-  CaseWindow* third = desktop_->open_phantom("sphere");
+  ui::CaseWindow* third = desktop_->open_phantom("sphere");
   desktop_->window().actions().tile->trigger();
   desktop_->wait_until_idle();
   QCOMPARE(active(), third);

@@ -13,7 +13,7 @@ struct Seen {
   bool touches = false;  // the picture's border
 };
 
-Seen seen_in(const VolumeViewWidget& view) {
+Seen seen_in(const ui::VolumeViewWidget& view) {
   const QImage& image = view.feed().shown().image;
   const QColor background = image.pixelColor(0, 0);
   QRect found;
@@ -51,12 +51,12 @@ void CameraStoryTest::play_to_the_end(Desktop& desktop) {
 void CameraStoryTest::the_camera_keeps_a_growing_surface_in_view() {
   Desktop desktop(story_executor(), {1280, 800});
   QVERIFY(desktop.open_phantom("tumour"));
-  auto* view = desktop.view<VolumeViewWidget>();
+  auto* view = desktop.view<ui::VolumeViewWidget>();
   QVERIFY(view);
-  const Camera first = desktop.proxy().display().settings().camera;
+  const renderer::Camera first = desktop.proxy().display().settings().camera;
   desktop.begin(9.0);
   desktop.screenshot("camera-1-begun");
-  const Camera begun = desktop.proxy().display().settings().camera;
+  const renderer::Camera begun = desktop.proxy().display().settings().camera;
   QVERIFY(begun.zoom > first.zoom);
   QCOMPARE(begun.azimuth, first.azimuth);
   QCOMPARE(begun.elevation, first.elevation);
@@ -72,21 +72,21 @@ void CameraStoryTest::the_camera_keeps_a_growing_surface_in_view() {
 void CameraStoryTest::a_camera_that_was_taken_stays() {
   Desktop desktop(story_executor(), {1280, 800});
   QVERIFY(desktop.open_phantom("tumour"));
-  auto* view = desktop.view<VolumeViewWidget>();
+  auto* view = desktop.view<ui::VolumeViewWidget>();
   QVERIFY(view);
   desktop.begin(9.0);
-  const Camera begun = desktop.proxy().display().settings().camera;
+  const renderer::Camera begun = desktop.proxy().display().settings().camera;
   const QPoint middle = view->rect().center();
   const QPoint free(middle.x(), 60);  // of the large Play
   desktop.press(Qt::Key_W);
   Desktop::drag(static_cast<QWidget&>(*view), {free, free + QPoint(40, 10)});
-  const Camera turned = desktop.proxy().display().settings().camera;
+  const renderer::Camera turned = desktop.proxy().display().settings().camera;
   QVERIFY(turned.azimuth != begun.azimuth);
   // Nearer, so that the surface grows out of the picture.
   QWheelEvent wheel(middle, view->mapToGlobal(middle), {}, {0, 120 * 8}, Qt::NoButton, {}, Qt::NoScrollPhase,
                     false);
   QApplication::sendEvent(view, &wheel);
-  const Camera taken = desktop.proxy().display().settings().camera;
+  const renderer::Camera taken = desktop.proxy().display().settings().camera;
   QVERIFY(taken.zoom > turned.zoom);
   play_to_the_end(desktop);
   QVERIFY(desktop.proxy().display().settings().camera == taken);
@@ -95,7 +95,7 @@ void CameraStoryTest::a_camera_that_was_taken_stays() {
 void CameraStoryTest::reset_brings_the_surface_or_the_volume_into_view() {
   Desktop desktop(story_executor(), {1280, 800});
   QVERIFY(desktop.open_phantom("tumour"));
-  auto* view = desktop.view<VolumeViewWidget>();
+  auto* view = desktop.view<ui::VolumeViewWidget>();
   QVERIFY(view);
   const QPoint middle = view->rect().center();
   const QPoint free(middle.x(), 60);  // of the hint
@@ -103,7 +103,7 @@ void CameraStoryTest::reset_brings_the_surface_or_the_volume_into_view() {
   Desktop::drag(static_cast<QWidget&>(*view), {free, free + QPoint(90, 30)});
   Desktop::drag(static_cast<QWidget&>(*view), {free, free + QPoint(60, 50)}, Qt::MiddleButton);
   desktop.press(Qt::Key_R);
-  const Camera of_volume = desktop.proxy().display().settings().camera;
+  const renderer::Camera of_volume = desktop.proxy().display().settings().camera;
   QCOMPARE(of_volume.zoom, 1.0);
   QVERIFY(!of_volume.focus_mm);
   desktop.begin(9.0);

@@ -20,13 +20,13 @@ class CaseMarksStoryTest : public QObject {
 
  private:
   // Side by side; the first one is active, by a click on one of its views.
-  static QList<CaseWindow*> open_two(Desktop& desktop, const QString& first, const QString& second);
-  static void click(CaseWindow& window);
+  static QList<ui::CaseWindow*> open_two(Desktop& desktop, const QString& first, const QString& second);
+  static void click(ui::CaseWindow& window);
 };
 
-QList<CaseWindow*> CaseMarksStoryTest::open_two(Desktop& desktop, const QString& first,
-                                                const QString& second) {
-  QList<CaseWindow*> cases{desktop.open_phantom(first), desktop.open_phantom(second)};
+QList<ui::CaseWindow*> CaseMarksStoryTest::open_two(Desktop& desktop, const QString& first,
+                                                    const QString& second) {
+  QList<ui::CaseWindow*> cases{desktop.open_phantom(first), desktop.open_phantom(second)};
   desktop.window().actions().tile->trigger();
   desktop.wait_until_idle();
   click(*cases[0]);
@@ -34,8 +34,8 @@ QList<CaseWindow*> CaseMarksStoryTest::open_two(Desktop& desktop, const QString&
   return cases;
 }
 
-void CaseMarksStoryTest::click(CaseWindow& window) {
-  PictureView* view = window.views().first();
+void CaseMarksStoryTest::click(ui::CaseWindow& window) {
+  ui::PictureView* view = window.views().first();
   QTest::mouseClick(view, Qt::LeftButton, {}, view->rect().center());
 }
 
@@ -44,26 +44,26 @@ void CaseMarksStoryTest::panels_say_whose_case_they_act_on() {
   const auto cases = open_two(desktop, "sphere", "tumour");
   QCOMPARE(cases[0]->number(), 1);
   QCOMPARE(cases[1]->number(), 2);
-  QVERIFY(case_colour(cases[0]->number()) != case_colour(cases[1]->number()));
+  QVERIFY(ui::case_colour(cases[0]->number()) != ui::case_colour(cases[1]->number()));
   for (const int turn : {0, 1, 0}) {
     click(*cases[turn]);
     desktop.wait_until_idle();
-    auto* own = cases[turn]->findChild<CaseHead*>();
+    auto* own = cases[turn]->findChild<ui::CaseHead*>();
     QVERIFY(own && own->isVisible());
     QVERIFY2(own->text().contains(cases[turn]->proxy().name()), qPrintable(own->text()));
     int shown = 0;
-    for (auto* head : desktop.window().findChildren<CaseHead*>()) {
+    for (auto* head : desktop.window().findChildren<ui::CaseHead*>()) {
       if (cases[0]->isAncestorOf(head) || cases[1]->isAncestorOf(head)) continue;
       QCOMPARE(head->text(), own->text());
       if (head->visibleRegion().isEmpty()) continue;
       ++shown;
       // The colour of the case's window is the panel's.
       QCOMPARE(head->grab().toImage().pixelColor(head->width() / 2, head->height() - 1).rgb(),
-               case_colour(cases[turn]->number()).rgb());
+               ui::case_colour(cases[turn]->number()).rgb());
     }
     QCOMPARE(shown, 1);
     QCOMPARE(own->grab().toImage().pixelColor(own->width() / 2, own->height() - 1).rgb(),
-             case_colour(cases[turn]->number()).rgb());
+             ui::case_colour(cases[turn]->number()).rgb());
   }
   desktop.screenshot("two-patients");
 }
@@ -77,25 +77,25 @@ void CaseMarksStoryTest::linked_cases_show_it_and_links_end_with_them() {
   QVERIFY(linked() && cases[0]->linked() && cases[1]->linked());
 
   // Another one is not linked until the user says so.
-  CaseWindow* third = desktop.open_phantom("tumour");
+  ui::CaseWindow* third = desktop.open_phantom("tumour");
   desktop.wait_until_idle();
   QVERIFY(!third->linked() && !linked());
   const WindowLevel before = third->proxy().display().settings().window;
-  cases[0]->proxy().display().change([](DisplaySettings& s) { s.window.centre += 55.0; });
+  cases[0]->proxy().display().change([](engine::DisplaySettings& s) { s.window.centre += 55.0; });
   QVERIFY(third->proxy().display().settings().window == before);
 
   // What remains of a pair is free.
-  for (CaseWindow* window : {cases[0], third}) {
-    QPointer<CaseWindow> closed(window);
+  for (ui::CaseWindow* window : {cases[0], third}) {
+    QPointer<ui::CaseWindow> closed(window);
     window->close_saved();
     QVERIFY(Desktop::wait_for([&] { return closed.isNull(); }));
   }
   desktop.wait_until_idle();
   QVERIFY(!cases[1]->linked() && !linked());
-  CaseWindow* next = desktop.open_phantom("tumour");
+  ui::CaseWindow* next = desktop.open_phantom("tumour");
   desktop.wait_until_idle();
   QVERIFY(!next->linked() && !linked());
-  next->proxy().display().change([](DisplaySettings& s) { s.camera.azimuth = 12.0; });
+  next->proxy().display().change([](engine::DisplaySettings& s) { s.camera.azimuth = 12.0; });
   QVERIFY(cases[1]->proxy().display().settings().camera.azimuth != 12.0);
 }
 
@@ -105,7 +105,7 @@ void CaseMarksStoryTest::linked_cases_of_two_modalities_keep_their_windows() {
   QVERIFY(cases[0]->proxy().volume().modality != cases[1]->proxy().volume().modality);
   const WindowLevel of_other = cases[1]->proxy().display().settings().window;
   desktop.press(Qt::Key_L);
-  cases[0]->proxy().display().change([](DisplaySettings& s) {
+  cases[0]->proxy().display().change([](engine::DisplaySettings& s) {
     s.window.centre += 77.0;
     s.camera.azimuth = 12.0;
   });

@@ -16,7 +16,8 @@ struct Content {
   int all[2] = {0, 0};
 };
 
-Content content(const Field& phi, const Geometry& geometry, const Sphere& sphere, glm::dvec3 normal) {
+Content content(const solver::Field& phi, const Geometry& geometry, const solver::Sphere& sphere,
+                glm::dvec3 normal) {
   Content content;
   const Index3 size = geometry.size;
   for (std::int64_t i = 0; i < geometry.voxel_count(); ++i) {
@@ -40,7 +41,7 @@ class ClipPlaneStoryTest : public QObject {
   void spheres_on_the_plane_change_the_voxels_there_while_it_plays();
 
  private:
-  using Snapshot = std::shared_ptr<const CaseProxy::Snapshot>;
+  using Snapshot = std::shared_ptr<const engine::CaseProxy::Snapshot>;
   static Snapshot snapshot(Desktop& desktop);
 };
 
@@ -54,22 +55,22 @@ ClipPlaneStoryTest::Snapshot ClipPlaneStoryTest::snapshot(Desktop& desktop) {
 
 void ClipPlaneStoryTest::spheres_on_the_plane_change_the_voxels_there_while_it_plays_data() {
   QTest::addColumn<int>("executor");
-  QTest::newRow("host") << static_cast<int>(ExecutorKind::host);
-  QTest::newRow("compute") << static_cast<int>(ExecutorKind::compute);
-  QTest::newRow("stream") << static_cast<int>(ExecutorKind::stream);
+  QTest::newRow("host") << static_cast<int>(solver::ExecutorKind::host);
+  QTest::newRow("compute") << static_cast<int>(solver::ExecutorKind::compute);
+  QTest::newRow("stream") << static_cast<int>(solver::ExecutorKind::stream);
 }
 
 void ClipPlaneStoryTest::spheres_on_the_plane_change_the_voxels_there_while_it_plays() {
   QFETCH(int, executor);
-  Desktop desktop(static_cast<ExecutorKind>(executor), {1100, 760});
+  Desktop desktop(static_cast<solver::ExecutorKind>(executor), {1100, 760});
   QVERIFY(desktop.open_phantom("tumour"));
-  desktop.window().active_case()->set_layout(ViewLayout::paper);
+  desktop.window().active_case()->set_layout(ui::ViewLayout::paper);
   desktop.begin(6.0);
-  auto* view = desktop.view<VolumeViewWidget>();
+  auto* view = desktop.view<ui::VolumeViewWidget>();
   QVERIFY(view);
   const glm::dvec3 centre = desktop.seed_mm();
   const glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, 1.0, 0.2));
-  desktop.proxy().display().change([&](DisplaySettings& s) {
+  desktop.proxy().display().change([&](engine::DisplaySettings& s) {
     s.cursor_mm = centre;
     s.camera.zoom = 3.0;
     s.camera.focus_mm = centre;
@@ -90,8 +91,8 @@ void ClipPlaneStoryTest::spheres_on_the_plane_change_the_voxels_there_while_it_p
   const glm::dvec3 place = centre + along * 24.0;
   const struct {
     Qt::MouseButton button;
-    Brush brush;
-  } edits[] = {{Qt::LeftButton, Brush::add}, {Qt::RightButton, Brush::erase}};
+    solver::Brush brush;
+  } edits[] = {{Qt::LeftButton, solver::Brush::add}, {Qt::RightButton, solver::Brush::erase}};
   for (const auto& [button, brush] : edits) {
     const Snapshot before = snapshot(desktop);
     QVERIFY(before);
@@ -101,11 +102,11 @@ void ClipPlaneStoryTest::spheres_on_the_plane_change_the_voxels_there_while_it_p
     const Snapshot after = snapshot(desktop);
     QVERIFY(after);
     QVERIFY(desktop.state().playing);
-    const Recipe& recipe = after->contents.recipe;
+    const document::Recipe& recipe = after->contents.recipe;
     QVERIFY(recipe.steps > before->contents.recipe.steps);
-    const auto* painted = std::get_if<PaintEvent>(&recipe.events.back().what);
+    const auto* painted = std::get_if<document::PaintEvent>(&recipe.events.back().what);
     QVERIFY(painted && painted->brush == brush);
-    const Sphere sphere = painted->sphere;
+    const solver::Sphere sphere = painted->sphere;
     QVERIFY(std::abs(glm::dot(sphere.centre_mm - centre, normal)) < 1e-6);
     QVERIFY2(glm::distance(sphere.centre_mm, place) < 1.0 && std::abs(sphere.radius_mm - kRadius) < 1.0,
              qPrintable(QString("%1 mm").arg(sphere.radius_mm)));
@@ -113,17 +114,18 @@ void ClipPlaneStoryTest::spheres_on_the_plane_change_the_voxels_there_while_it_p
     // What the steps since then cannot have reached: a voxel is the most that a step moves it.
     const auto steps = static_cast<double>(recipe.steps - recipe.events.back().step);
     const double voxel = geometry.spacing_mm.x;
-    const Sphere core{sphere.centre_mm, sphere.radius_mm - voxel * (1.0 + steps)};
+    const solver::Sphere core{sphere.centre_mm, sphere.radius_mm - voxel * (1.0 + steps)};
     const Content was = content(*before->contents.phi, geometry, core, normal);
     const Content is = content(*after->contents.phi, geometry, core, normal);
     qInfo("%.0f steps after it: %d and %d of %d and %d voxels, %d and %d before", steps, is.inside[0],
           is.inside[1], is.all[0], is.all[1], was.inside[0], was.inside[1]);
     for (const int side : {0, 1}) {
       QVERIFY2(is.all[side] > 40, qPrintable(QString("%1 steps").arg(steps)));
-      QVERIFY(brush == Brush::add ? was.inside[side] == 0 : was.inside[side] > is.all[side] / 4);
-      QCOMPARE(is.inside[side], brush == Brush::add ? is.all[side] : 0);
+      QVERIFY(brush == solver::Brush::add ? was.inside[side] == 0 : was.inside[side] > is.all[side] / 4);
+      QCOMPARE(is.inside[side], brush == solver::Brush::add ? is.all[side] : 0);
     }
-    desktop.screenshot_at_once(QStringLiteral("clip-voxels-%1-%2").arg(executor).arg(brush == Brush::add));
+    desktop.screenshot_at_once(
+        QStringLiteral("clip-voxels-%1-%2").arg(executor).arg(brush == solver::Brush::add));
   }
 }
 

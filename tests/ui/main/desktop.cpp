@@ -68,20 +68,20 @@ WatchedApplication& WatchedApplication::instance() {
   return static_cast<WatchedApplication&>(*qApp);
 }
 
-ExecutorKind story_executor() {
+solver::ExecutorKind story_executor() {
   const QByteArray name = qgetenv("TIDEMARK_STORIES");
-  if (name.isEmpty()) return ExecutorKind::host;
-  if (const auto kind = executor_named(name.toStdString())) return *kind;
+  if (name.isEmpty()) return solver::ExecutorKind::host;
+  if (const auto kind = solver::executor_named(name.toStdString())) return *kind;
   qFatal("TIDEMARK_STORIES is \"%s\": it can be host, compute or stream", name.constData());
 }
 
-Desktop::Desktop(ExecutorKind executor, QSize size) {
+Desktop::Desktop(solver::ExecutorKind executor, QSize size) {
   QSettings::setDefaultFormat(QSettings::IniFormat);
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope,
                      QString::fromStdString(home_.path().string()));
-  apply_theme(*qApp, Theme::light);
-  engine_ = std::make_unique<Engine>();
-  window_ = std::make_unique<MainWindow>(*engine_);
+  ui::apply_theme(*qApp, ui::Theme::light);
+  engine_ = std::make_unique<engine::Engine>();
+  window_ = std::make_unique<ui::MainWindow>(*engine_);
   window_->set_executor(executor);
   window_->resize(size);
   window_->show();
@@ -95,19 +95,19 @@ Desktop::~Desktop() {
   qInfo("the longest event took %s", qPrintable(WatchedApplication::instance().longest()));
 }
 
-CaseWindow* Desktop::open_phantom(const QString& kind) {
+ui::CaseWindow* Desktop::open_phantom(const QString& kind) {
   const qsizetype before = window_->cases().size();
   in_an_event([&] { window_->open_phantom(kind); });
   return opened(before);
 }
 
-CaseWindow* Desktop::open(const QString& path) {
+ui::CaseWindow* Desktop::open(const QString& path) {
   const qsizetype before = window_->cases().size();
   in_an_event([&] { window_->open(path); });
   return opened(before);
 }
 
-CaseWindow* Desktop::opened(qsizetype before) {
+ui::CaseWindow* Desktop::opened(qsizetype before) {
   wait_for(
       [&] { return window_->cases().size() > before && window_->active_case() == window_->cases().back(); },
       60000);
@@ -140,14 +140,14 @@ void Desktop::drag(QWidget& widget, const std::vector<QPoint>& way, Qt::MouseBut
   QTest::mouseRelease(&widget, button, modifiers, way.back());
 }
 
-void Desktop::drag(PictureView& view, const std::vector<glm::dvec3>& patient_mm, Qt::MouseButton button,
+void Desktop::drag(ui::PictureView& view, const std::vector<glm::dvec3>& patient_mm, Qt::MouseButton button,
                    Qt::KeyboardModifiers modifiers) {
   std::vector<QPoint> way;
   for (const glm::dvec3& point : patient_mm) way.push_back(view.position_of(point).toPoint());
   drag(static_cast<QWidget&>(view), way, button, modifiers);
 }
 
-void Desktop::mouse(PictureView& view, QEvent::Type type, glm::dvec3 patient_mm) {
+void Desktop::mouse(ui::PictureView& view, QEvent::Type type, glm::dvec3 patient_mm) {
   const QPointF there = view.position_of(patient_mm);
   QMouseEvent event(type, there, view.mapToGlobal(there),
                     type == QEvent::MouseMove ? Qt::NoButton : Qt::LeftButton,
@@ -179,7 +179,7 @@ glm::dvec3 Desktop::seed_mm() {
 }
 
 void Desktop::begin(double radius_mm) {
-  Start start;
+  document::Start start;
   start.seeds.push_back({seed_mm(), radius_mm});
   proxy().begin(start);
   wait_until_idle();
@@ -194,9 +194,9 @@ void Desktop::wait_until_idle() {
   }
 }
 
-PhiTraffic Desktop::phi_traffic(CaseProxy& proxy) {
+PhiTraffic Desktop::phi_traffic(engine::CaseProxy& proxy) {
   PhiTraffic traffic;
-  proxy.runner()->post([&](CaseRunner& runner, const Progress&) -> Status {
+  proxy.runner()->post([&](engine::CaseRunner& runner, const Progress&) -> Status {
     traffic = {runner.painter().phi_copies(), runner.painter().pages_uploaded()};
     return {};
   });
@@ -244,8 +244,8 @@ double difference(const QImage& a, const QImage& b) {
   return static_cast<double>(differing) / (static_cast<double>(a.width()) * a.height());
 }
 
-bool shows_a_picture(const PictureView& view) {
-  const ShownPicture& shown = view.feed().shown();
+bool shows_a_picture(const ui::PictureView& view) {
+  const engine::ShownPicture& shown = view.feed().shown();
   const QImage& image = shown.image;
   if (image.isNull() || shown.size != view.physical_size()) return false;
   QImage first(image.size(), QImage::Format_RGB32);

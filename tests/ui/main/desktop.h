@@ -43,7 +43,7 @@ class WatchedApplication : public QApplication {
 
 // The executor of stories that run with one only: host, or the one that TIDEMARK_STORIES names
 // ("compute" or "stream").
-ExecutorKind story_executor();
+solver::ExecutorKind story_executor();
 
 // Traffic of phi for the pictures of a case, since it was opened.
 struct PhiTraffic {
@@ -55,33 +55,33 @@ struct PhiTraffic {
 // At the end it tells which event kept the user interface longest since the window was there.
 class Desktop {
  public:
-  explicit Desktop(ExecutorKind executor, QSize size = {1280, 800});
+  explicit Desktop(solver::ExecutorKind executor, QSize size = {1280, 800});
   ~Desktop();
 
-  [[nodiscard]] MainWindow& window() { return *window_; }
-  [[nodiscard]] Engine& engine() { return *engine_; }
-  [[nodiscard]] CaseProxy& proxy() { return window_->active_case()->proxy(); }
-  [[nodiscard]] const CaseState& state() { return proxy().state(); }
+  [[nodiscard]] ui::MainWindow& window() { return *window_; }
+  [[nodiscard]] engine::Engine& engine() { return *engine_; }
+  [[nodiscard]] engine::CaseProxy& proxy() { return window_->active_case()->proxy(); }
+  [[nodiscard]] const engine::CaseState& state() { return proxy().state(); }
 
   // Opens and waits until the first pictures are there.
-  CaseWindow* open_phantom(const QString& kind);
-  CaseWindow* open(const QString& path);
+  ui::CaseWindow* open_phantom(const QString& kind);
+  ui::CaseWindow* open(const QString& path);
   // A view of the active case by its title; the test fails if it is not there.
   template <class View>
   View* view(const QString& title = {}) {
-    for (PictureView* view : window_->active_case()->views()) {
+    for (ui::PictureView* view : window_->active_case()->views()) {
       auto* wanted = qobject_cast<View*>(view);
       if (wanted && wanted->isVisible() && (title.isEmpty() || wanted->title() == title)) return wanted;
     }
     return nullptr;
   }
   // Presses at one point of the patient, moves over the others, and releases.
-  static void drag(PictureView& view, const std::vector<glm::dvec3>& patient_mm,
+  static void drag(ui::PictureView& view, const std::vector<glm::dvec3>& patient_mm,
                    Qt::MouseButton button = Qt::LeftButton, Qt::KeyboardModifiers modifiers = {});
   static void drag(QWidget& widget, const std::vector<QPoint>& way, Qt::MouseButton button = Qt::LeftButton,
                    Qt::KeyboardModifiers modifiers = {});
   // One part of a drag with the left button: press, move or release.
-  static void mouse(PictureView& view, QEvent::Type type, glm::dvec3 patient_mm);
+  static void mouse(ui::PictureView& view, QEvent::Type type, glm::dvec3 patient_mm);
   void press(Qt::Key key, Qt::KeyboardModifiers modifiers = {});
 
   // Presses that button of the next question.
@@ -95,7 +95,7 @@ class Desktop {
   static void in_an_event(const std::function<void()>& something);
   // Until the engine has done everything, and the user interface has seen it.
   void wait_until_idle();
-  PhiTraffic phi_traffic(CaseProxy& proxy);
+  PhiTraffic phi_traffic(engine::CaseProxy& proxy);
   static bool wait_for(const std::function<bool()>& condition, int milliseconds = 20000);
   // Where TIDEMARK_SCREENSHOTS says, if it does: of the window once it has settled, or as it is, with the
   // dialog or menu that is open.
@@ -103,16 +103,16 @@ class Desktop {
   void screenshot_at_once(const QString& name);
 
  private:
-  CaseWindow* opened(qsizetype before);  // when there are more cases than that
+  ui::CaseWindow* opened(qsizetype before);  // when there are more cases than that
 
   TemporaryFolder home_;
-  std::unique_ptr<Engine> engine_;
-  std::unique_ptr<MainWindow> window_;
+  std::unique_ptr<engine::Engine> engine_;
+  std::unique_ptr<ui::MainWindow> window_;
 };
 
 // Share of the pixels that differ by more than a little.
 double difference(const QImage& a, const QImage& b);
 // Whether the view shows a picture of its own size that is not of one colour.
-bool shows_a_picture(const PictureView& view);
+bool shows_a_picture(const ui::PictureView& view);
 
 }  // namespace tidemark::test

@@ -24,21 +24,21 @@ class DockingStoryTest : public QObject {
   void a_panel_rests_behind_a_tab_and_keeps_its_size();
 
  private:
-  static QList<QImage> pictures(CaseWindow& window);
-  static QList<PictureView*> visible(CaseWindow& window);
+  static QList<QImage> pictures(ui::CaseWindow& window);
+  static QList<ui::PictureView*> visible(ui::CaseWindow& window);
 };
 
-QList<PictureView*> DockingStoryTest::visible(CaseWindow& window) {
-  QList<PictureView*> visible;
-  for (PictureView* view : window.views()) {
+QList<ui::PictureView*> DockingStoryTest::visible(ui::CaseWindow& window) {
+  QList<ui::PictureView*> visible;
+  for (ui::PictureView* view : window.views()) {
     if (view->isVisible()) visible << view;
   }
   return visible;
 }
 
-QList<QImage> DockingStoryTest::pictures(CaseWindow& window) {
+QList<QImage> DockingStoryTest::pictures(ui::CaseWindow& window) {
   QList<QImage> pictures;
-  for (PictureView* view : window.views()) pictures << view->grab_picture();
+  for (ui::PictureView* view : window.views()) pictures << view->grab_picture();
   return pictures;
 }
 
@@ -54,7 +54,7 @@ void DockingStoryTest::a_session_brings_back_all_views_data() {
 void DockingStoryTest::a_session_brings_back_all_views() {
   QFETCH(QList<int>, keys);
   QFETCH(bool, maximised);
-  Desktop desktop(ExecutorKind::host, {1000, 700});
+  Desktop desktop(solver::ExecutorKind::host, {1000, 700});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
   for (const int key : keys) {
@@ -63,8 +63,8 @@ void DockingStoryTest::a_session_brings_back_all_views() {
   }
   const auto places = [&] {
     QStringList texts;
-    CaseWindow& window = *desktop.window().active_case();
-    for (PictureView* view : visible(window)) {
+    ui::CaseWindow& window = *desktop.window().active_case();
+    for (ui::PictureView* view : visible(window)) {
       const QRect place = window.dock_of(view)->geometry();
       texts << QStringLiteral("%1: %2, %3").arg(view->title()).arg(place.x()).arg(place.y());
     }
@@ -75,7 +75,7 @@ void DockingStoryTest::a_session_brings_back_all_views() {
   QVERIFY(before.contains("Sagittal"));
   if (maximised) {
     desktop.press(Qt::Key_W);  // a double click of the sphere tool places two
-    auto* axial = desktop.view<SliceViewWidget>("Axial");
+    auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
     QTest::mouseDClick(axial, Qt::LeftButton, {}, axial->rect().center());
     QVERIFY(Desktop::wait_for([&] { return visible(*desktop.window().active_case()).size() == 1; }));
   }
@@ -94,18 +94,18 @@ void DockingStoryTest::fifty_moves_change_no_picture_and_cost_no_context() {
   Desktop desktop(story_executor(), {1000, 700});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
-  CaseWindow& window = *desktop.window().active_case();
-  window.set_layout(ViewLayout::paper);
+  ui::CaseWindow& window = *desktop.window().active_case();
+  window.set_layout(ui::ViewLayout::paper);
   desktop.wait_until_idle();
   const QList<QImage> before = pictures(window);
-  const QList<PictureView*> views = window.views();
+  const QList<ui::PictureView*> views = window.views();
   QCOMPARE(views.size(), 3);
   auto* child = qobject_cast<QMdiSubWindow*>(window.parentWidget());
   QVERIFY(child);
 
-  Actions& actions = desktop.window().actions();
+  ui::Actions& actions = desktop.window().actions();
   for (int round = 0; round < 50; ++round) {
-    PictureView* view = views[round % 3];
+    ui::PictureView* view = views[round % 3];
     QDockWidget* dock = window.dock_of(view);
     QDockWidget* other = window.dock_of(views[(round + 1) % 3]);
     dock->setFloating(true);
@@ -125,7 +125,7 @@ void DockingStoryTest::fifty_moves_change_no_picture_and_cost_no_context() {
     child->showMaximized();
     if (round % 10 == 9) {
       desktop.wait_until_idle();
-      for (const PictureView* each : views) {
+      for (const ui::PictureView* each : views) {
         QVERIFY2(shows_a_picture(*each), qPrintable(QString("%1: %2, %3 x %4")
                                                         .arg(round)
                                                         .arg(each->title())
@@ -134,7 +134,7 @@ void DockingStoryTest::fifty_moves_change_no_picture_and_cost_no_context() {
       }
     }
   }
-  window.set_layout(ViewLayout::paper);
+  window.set_layout(ui::ViewLayout::paper);
   desktop.wait_until_idle();
   QCOMPARE(window.views(), views);
   const QList<QImage> after = pictures(window);
@@ -150,7 +150,7 @@ void DockingStoryTest::every_layout_shows_its_views() {
   Desktop desktop(story_executor(), {1000, 700});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
-  CaseWindow& window = *desktop.window().active_case();
+  ui::CaseWindow& window = *desktop.window().active_case();
   const QList<int> views{1, 4, 4, 3};
   const QList<QAction*> layouts = desktop.window().actions().layouts->actions();
   QCOMPARE(layouts.size(), views.size());
@@ -159,7 +159,7 @@ void DockingStoryTest::every_layout_shows_its_views() {
     desktop.wait_until_idle();
     QCOMPARE(static_cast<int>(window.view_layout()), layout);
     QCOMPARE(visible(window).size(), views[layout]);
-    for (const PictureView* view : visible(window)) {
+    for (const ui::PictureView* view : visible(window)) {
       QVERIFY2(shows_a_picture(*view), qPrintable(QString("%1: %2").arg(layout).arg(view->title())));
       QVERIFY(view->width() >= 120 && view->height() >= 100);
     }
@@ -171,10 +171,10 @@ void DockingStoryTest::a_view_is_maximised_by_a_double_click_and_back() {
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.press(Qt::Key_W);  // a double click of the sphere tool places two
   desktop.begin(10.0);
-  CaseWindow& window = *desktop.window().active_case();
-  window.set_layout(ViewLayout::two_two);
+  ui::CaseWindow& window = *desktop.window().active_case();
+  window.set_layout(ui::ViewLayout::two_two);
   desktop.wait_until_idle();
-  for (PictureView* view : visible(window)) {
+  for (ui::PictureView* view : visible(window)) {
     const QSize small = view->size();
     const QImage before = view->grab_picture();
     QTest::mouseDClick(view, Qt::LeftButton, {}, view->rect().center() + QPoint(30, 30));
@@ -194,12 +194,12 @@ void DockingStoryTest::a_closed_view_comes_back() {
   Desktop desktop(story_executor(), {1000, 700});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
-  CaseWindow& window = *desktop.window().active_case();
-  window.set_layout(ViewLayout::paper);
+  ui::CaseWindow& window = *desktop.window().active_case();
+  window.set_layout(ui::ViewLayout::paper);
   desktop.wait_until_idle();
-  for (const ViewKind kind : {ViewKind::volume, ViewKind::axial, ViewKind::speed}) {
+  for (const ui::ViewKind kind : {ui::ViewKind::volume, ui::ViewKind::axial, ui::ViewKind::speed}) {
     const qsizetype views = window.views().size();
-    PictureView* view = window.add_view(kind);  // beside the first of its kind
+    ui::PictureView* view = window.add_view(kind);  // beside the first of its kind
     desktop.wait_until_idle();
     QCOMPARE(window.views().size(), views + 1);
     window.dock_of(view)->close();
@@ -215,10 +215,10 @@ void DockingStoryTest::a_closed_view_comes_back() {
     QCOMPARE(view->feed().shown().step, desktop.state().step);
   }
   // Nothing is shown when all are closed, and nothing breaks.
-  for (PictureView* view : window.views()) window.dock_of(view)->close();
+  for (ui::PictureView* view : window.views()) window.dock_of(view)->close();
   desktop.wait_until_idle();
   QVERIFY(!window.active_view());
-  QVERIFY(window.add_view(ViewKind::volume));
+  QVERIFY(window.add_view(ui::ViewKind::volume));
   desktop.wait_until_idle();
   QVERIFY(window.active_view());
   QVERIFY(shows_a_picture(*window.active_view()));
@@ -227,7 +227,7 @@ void DockingStoryTest::a_closed_view_comes_back() {
 void DockingStoryTest::a_panel_rests_behind_a_tab_and_keeps_its_size() {
   Desktop desktop(story_executor(), {1400, 900});
   QVERIFY(desktop.open_phantom("sphere"));
-  MainWindow& window = desktop.window();
+  ui::MainWindow& window = desktop.window();
   auto* start = window.findChild<QDockWidget*>("initialise");
   auto* level_set = window.findChild<QDockWidget*>("level-set");
   desktop.wait_until_idle();

@@ -56,20 +56,20 @@ void FirstMinuteStoryTest::a_card_a_click_and_play_lead_to_the_tumour() {
   click(*card);
   QVERIFY(Desktop::wait_for([&] { return desktop.window().active_case() != nullptr; }, 60000));
   desktop.wait_until_idle();
-  auto* next = desktop.window().findChild<NextStep*>();
+  auto* next = desktop.window().findChild<ui::NextStep*>();
   QVERIFY(next && next->isVisible());
-  QVERIFY(!seen<PlayButton>(desktop, "Play"));
+  QVERIFY(!seen<ui::PlayButton>(desktop, "Play"));
   desktop.screenshot("first-1-opened");
 
-  auto* axial = desktop.view<SliceViewWidget>("Axial");
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
   QVERIFY(axial);
   click(*axial, axial->position_of(desktop.seed_mm()).toPoint());
   QVERIFY(Desktop::wait_for([&] { return desktop.state().begun; }));
   desktop.wait_until_idle();
-  auto* play = seen<PlayButton>(desktop, "Play");
+  auto* play = seen<ui::PlayButton>(desktop, "Play");
   QVERIFY(play);
   QVERIFY(play->width() >= 80 && play->height() >= 80);
-  auto* volume = desktop.view<VolumeViewWidget>();
+  auto* volume = desktop.view<ui::VolumeViewWidget>();
   QVERIFY(volume);
   const QRect place(play->mapTo(volume, QPoint()), play->size());
   QVERIFY(std::abs(place.center().x() - volume->rect().center().x()) <= 4);
@@ -124,18 +124,18 @@ void FirstMinuteStoryTest::a_card_a_click_and_play_lead_to_the_tumour() {
 void FirstMinuteStoryTest::keys_lead_there_too() {
   Desktop desktop(story_executor(), {1100, 700});
   QVERIFY(desktop.open_phantom("sphere"));
-  QVERIFY(desktop.proxy().display().settings().tool == Tool::seed);
+  QVERIFY(desktop.proxy().display().settings().tool == engine::Tool::seed);
   desktop.begin(10.0);
-  auto* play = seen<PlayButton>(desktop, "Play");
+  auto* play = seen<ui::PlayButton>(desktop, "Play");
   QVERIFY(play && play->accessibleName() == "Play");
-  desktop.view<SliceViewWidget>("Axial")->setFocus();
+  desktop.view<ui::SliceViewWidget>("Axial")->setFocus();
   for (int tab = 0; tab < 60 && !play->hasFocus(); ++tab) press(desktop, Qt::Key_Tab);
   QVERIFY(play->hasFocus());
   press(desktop, Qt::Key_Space);  // not the key of the tool before
   QVERIFY(Desktop::wait_for([&] { return desktop.state().step > 0; }));
-  QVERIFY(desktop.proxy().display().settings().tool == Tool::window);  // a drag turns the view
+  QVERIFY(desktop.proxy().display().settings().tool == engine::Tool::window);  // a drag turns the view
   QVERIFY(!play->isVisible());
-  QVERIFY(desktop.view<VolumeViewWidget>()->hasFocus());
+  QVERIFY(desktop.view<ui::VolumeViewWidget>()->hasFocus());
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }, 60000));
 
   desktop.press(Qt::Key_Home);
@@ -152,18 +152,18 @@ void FirstMinuteStoryTest::keys_lead_there_too() {
 }
 
 void FirstMinuteStoryTest::the_hint_brings_tool_and_panel() {
-  Desktop desktop(ExecutorKind::host, {1100, 700});
+  Desktop desktop(solver::ExecutorKind::host, {1100, 700});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.press(Qt::Key_W);
   desktop.window().panels().show("labels");
   desktop.wait_until_idle();
-  auto* next = desktop.window().findChild<NextStep*>();
+  auto* next = desktop.window().findChild<ui::NextStep*>();
   QVERIFY(next && next->isVisible());
   auto* place = next->findChild<QPushButton*>();
   QVERIFY(place && place->text() == "Sphere tool");
   click(*place);
   desktop.wait_until_idle();
-  QVERIFY(desktop.proxy().display().settings().tool == Tool::seed);
+  QVERIFY(desktop.proxy().display().settings().tool == engine::Tool::seed);
   QVERIFY(seen<QAbstractButton>(desktop, "Draw in a view"));
   // What is looked at is not covered.
   desktop.press(Qt::Key_X);

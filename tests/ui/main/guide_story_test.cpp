@@ -49,11 +49,11 @@ void GuideStoryTest::the_first_minute_leads_to_a_tumour() {
   QVERIFY(!desktop.state().begun);
 
   // A sphere in the middle of the tumour, by press and drag.
-  auto* axial = desktop.view<SliceViewWidget>("Axial");
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
   QVERIFY(axial);
   const glm::dvec3 centre = desktop.proxy().display().settings().cursor_mm;
   QVERIFY2(glm::distance(centre, desktop.seed_mm()) < 15.0, "the study opens at the tumour");
-  QVERIFY(desktop.proxy().display().settings().tool == Tool::seed);
+  QVERIFY(desktop.proxy().display().settings().tool == engine::Tool::seed);
   Desktop::mouse(*axial, QEvent::MouseButtonPress, centre);
   Desktop::mouse(*axial, QEvent::MouseMove, centre + glm::dvec3(6, 0, 0));
   Desktop::mouse(*axial, QEvent::MouseMove, centre + glm::dvec3(14, 0, 0));
@@ -62,12 +62,12 @@ void GuideStoryTest::the_first_minute_leads_to_a_tumour() {
   desktop.wait_until_idle();
   QVERIFY(desktop.state().begun);
 
-  auto* play = desktop.window().findChild<PlayButton*>();
+  auto* play = desktop.window().findChild<ui::PlayButton*>();
   QVERIFY(play && play->isVisible());
   QTest::mouseClick(play, Qt::LeftButton);
   const auto is_on_its_way = [&] {
     const auto views = desktop.window().active_case()->views();
-    return std::all_of(views.begin(), views.end(), [](const PictureView* view) {
+    return std::all_of(views.begin(), views.end(), [](const ui::PictureView* view) {
       return !view->isVisible() || view->feed().shown().step > 120;
     });
   };
@@ -120,21 +120,21 @@ void GuideStoryTest::every_layout_is_whole_in_both_themes() {
   desktop.proxy().play();
   QVERIFY(Desktop::wait_for([&] { return desktop.state().step > 30 && !desktop.state().playing; }, 120000));
   const QString scale = QString::number(std::lround(100.0 * desktop.window().devicePixelRatioF()));
-  for (const Theme theme : {Theme::light, Theme::dark}) {
-    apply_theme(*qApp, theme);
+  for (const ui::Theme theme : {ui::Theme::light, ui::Theme::dark}) {
+    ui::apply_theme(*qApp, theme);
     const QList<QAction*> layouts = desktop.window().actions().layouts->actions();
     for (int layout = 0; layout < layouts.size(); ++layout) {
       layouts[layout]->trigger();
       desktop.wait_until_idle();
-      for (const PictureView* view : desktop.window().active_case()->views()) {
+      for (const ui::PictureView* view : desktop.window().active_case()->views()) {
         QVERIFY2(!view->isVisible() || shows_a_picture(*view), qPrintable(view->title()));
       }
       desktop.screenshot(QStringLiteral("layout-%1-%2-%3")
                              .arg(layout + 1)
-                             .arg(theme == Theme::light ? "light" : "dark", scale));
+                             .arg(theme == ui::Theme::light ? "light" : "dark", scale));
     }
   }
-  apply_theme(*qApp, Theme::light);
+  ui::apply_theme(*qApp, ui::Theme::light);
 }
 
 }  // namespace tidemark::test

@@ -16,7 +16,7 @@ namespace {
 constexpr double kRadius = 12.0;  // mm
 
 // Pixels of the 3D view that have the hue of a label's colour and light on them.
-int pixels_of(const Label& label, const VolumeViewWidget& view) {
+int pixels_of(const document::Label& label, const ui::VolumeViewWidget& view) {
   const QColor wanted(label.colour[0], label.colour[1], label.colour[2]);
   const QImage& image = view.feed().shown().image;
   int count = 0;
@@ -49,7 +49,7 @@ class LabelsIn3dStoryTest : public QObject {
 void LabelsIn3dStoryTest::a_label_shows_in_its_colour_while_it_is_visible() {
   Desktop desktop(story_executor(), {1280, 800});
   QVERIFY(desktop.open_phantom("tumour"));
-  auto* view = desktop.view<VolumeViewWidget>();
+  auto* view = desktop.view<ui::VolumeViewWidget>();
   QVERIFY(view);
   desktop.begin(kRadius);
   desktop.window().panels().show("labels");
@@ -59,17 +59,17 @@ void LabelsIn3dStoryTest::a_label_shows_in_its_colour_while_it_is_visible() {
   click(desktop.window(), "Accept surface into label");
   desktop.wait_until_idle();
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
-  const Label label = desktop.state().labels.front();
+  const document::Label label = desktop.state().labels.front();
   // The surface has taken something of the label's colour; without it the label is seen alone.
   desktop.screenshot("labels-1-accepted");
-  desktop.proxy().display().change([](DisplaySettings& s) {
+  desktop.proxy().display().change([](engine::DisplaySettings& s) {
     s.surface = false;
     s.label_opacity = 1.0;
   });
   desktop.wait_until_idle();
-  for (const Theme theme : {Theme::light, Theme::dark}) {
-    apply_theme(*qApp, theme);
-    desktop.screenshot(theme == Theme::light ? "labels-2-alone-light" : "labels-2-alone-dark");
+  for (const ui::Theme theme : {ui::Theme::light, ui::Theme::dark}) {
+    ui::apply_theme(*qApp, theme);
+    desktop.screenshot(theme == ui::Theme::light ? "labels-2-alone-light" : "labels-2-alone-dark");
   }
   const double px = kRadius / view->mm_per_pixel();
   const int seen = pixels_of(label, *view);
@@ -78,10 +78,10 @@ void LabelsIn3dStoryTest::a_label_shows_in_its_colour_while_it_is_visible() {
 
   QTableView* table = nullptr;
   for (QTableView* one : desktop.window().findChildren<QTableView*>()) {
-    if (qobject_cast<LabelsModel*>(one->model())) table = one;
+    if (qobject_cast<ui::LabelsModel*>(one->model())) table = one;
   }
   QVERIFY(table && table->isVisible());
-  const QRect cell = table->visualRect(table->model()->index(0, LabelsModel::visible));
+  const QRect cell = table->visualRect(table->model()->index(0, ui::LabelsModel::visible));
   QTest::mouseClick(table->viewport(), Qt::LeftButton, {}, {cell.left() + 10, cell.center().y()});
   desktop.wait_until_idle();
   QVERIFY(!desktop.state().labels.front().visible);
@@ -89,7 +89,7 @@ void LabelsIn3dStoryTest::a_label_shows_in_its_colour_while_it_is_visible() {
   desktop.proxy().undo();
   desktop.wait_until_idle();
   QVERIFY(pixels_of(label, *view) > seen / 2);
-  desktop.proxy().display().change([](DisplaySettings& s) { s.mode = Mode::slices; });
+  desktop.proxy().display().change([](engine::DisplaySettings& s) { s.mode = renderer::Mode::slices; });
   desktop.wait_until_idle();
   desktop.screenshot("labels-3-slices");
   QVERIFY(std::abs(pixels_of(label, *view) - seen) < seen / 10);

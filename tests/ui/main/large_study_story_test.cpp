@@ -71,11 +71,11 @@ void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
   Desktop desktop(story_executor());
   QVERIFY(desktop.open(file_));
   QCOMPARE(desktop.proxy().volume().geometry.size, Index3(kWidth, kWidth, kDepth));
-  auto* axial = desktop.view<SliceViewWidget>("Axial");
-  auto* volume = desktop.view<VolumeViewWidget>();
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  auto* volume = desktop.view<ui::VolumeViewWidget>();
   QVERIFY(axial && volume);
   Desktop::in_an_event(
-      [&] { desktop.proxy().display().change([](DisplaySettings& s) { s.cursor_mm = centre(); }); });
+      [&] { desktop.proxy().display().change([](engine::DisplaySettings& s) { s.cursor_mm = centre(); }); });
   desktop.wait_until_idle();
 
   // T and epsilon from the lesion, a seed in it, and on to convergence, erasing on the way.
@@ -83,7 +83,7 @@ void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
   Desktop::drag(*axial, {centre() - glm::dvec3(12, 0, 0), centre(), centre() + glm::dvec3(12, 6, 0)});
   desktop.wait_until_idle();
   QVERIFY(std::abs(desktop.state().parameters.target - kLesion) < 5.0);
-  Parameters parameters = desktop.state().parameters;
+  solver::Parameters parameters = desktop.state().parameters;
   parameters.range = 40.0;
   Desktop::in_an_event([&] { desktop.proxy().set_parameters(parameters); });
   desktop.press(Qt::Key_S);
@@ -129,8 +129,8 @@ void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
   desktop.wait_until_idle();
   QCOMPARE(desktop.state().label_statistics[0].voxels, desktop.state().surface.voxels_inside);
   bool written = false;
-  CaseExports& exports = desktop.window().exports();
-  QObject::connect(&desktop.window().files(), &CaseFiles::written, &exports, [&] { written = true; });
+  ui::CaseExports& exports = desktop.window().exports();
+  QObject::connect(&desktop.window().files(), &ui::CaseFiles::written, &exports, [&] { written = true; });
   const std::filesystem::path mask = folder_ / "mask.nii.gz";
   Desktop::in_an_event(
       [&] { exports.write_mask(*desktop.window().active_case(), QString::fromStdString(mask.string())); });

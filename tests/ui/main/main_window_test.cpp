@@ -59,7 +59,7 @@ void MainWindowTest::close_case(Desktop& desktop) {
 }
 
 void MainWindowTest::panels_come_and_go_with_the_cases() {
-  Desktop desktop(ExecutorKind::host, {1100, 700});
+  Desktop desktop(solver::ExecutorKind::host, {1100, 700});
   QVERIFY(!any_panel_shows(desktop));
   for (QAction* toggle : desktop.window().panels().toggles()) QVERIFY(!toggle->isEnabled());
   QVERIFY(desktop.open_phantom("sphere"));
@@ -77,7 +77,7 @@ void MainWindowTest::panels_come_and_go_with_the_cases() {
 }
 
 void MainWindowTest::hidden_panels_stay_hidden_for_the_next_case() {
-  Desktop desktop(ExecutorKind::host, {1100, 700});
+  Desktop desktop(solver::ExecutorKind::host, {1100, 700});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.press(Qt::Key_F3);
   QVERIFY(!any_panel_shows(desktop));
@@ -90,9 +90,9 @@ void MainWindowTest::hidden_panels_stay_hidden_for_the_next_case() {
 }
 
 void MainWindowTest::how_panels_stand_is_remembered_though_none_shows_at_the_end() {
-  Desktop desktop(ExecutorKind::host, {1100, 700});
+  Desktop desktop(solver::ExecutorKind::host, {1100, 700});
   for (const bool first : {true, false}) {
-    MainWindow window(desktop.engine());
+    ui::MainWindow window(desktop.engine());
     window.resize(1100, 700);
     window.show();
     QVERIFY(QTest::qWaitForWindowExposed(&window));
@@ -111,12 +111,12 @@ void MainWindowTest::how_panels_stand_is_remembered_though_none_shows_at_the_end
 }
 
 void MainWindowTest::without_a_case_nothing_is_chosen_or_playing() {
-  Desktop desktop(ExecutorKind::host, {1100, 700});
-  Actions& actions = desktop.window().actions();
+  Desktop desktop(solver::ExecutorKind::host, {1100, 700});
+  ui::Actions& actions = desktop.window().actions();
   QVERIFY(!actions.tools->checkedAction());
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.press(Qt::Key_B);
-  QCOMPARE(actions.tools->checkedAction(), actions.tool(Tool::paint));
+  QCOMPARE(actions.tools->checkedAction(), actions.tool(engine::Tool::paint));
   desktop.press(Qt::Key_X);
   desktop.begin(10.0);
   desktop.proxy().set_pause_at_convergence(false);
@@ -131,12 +131,12 @@ void MainWindowTest::without_a_case_nothing_is_chosen_or_playing() {
   // The group still lets only one be chosen.
   QVERIFY(desktop.open_phantom("sphere"));
   QVERIFY(actions.tools->checkedAction());
-  actions.tool(Tool::erase)->trigger();
-  QCOMPARE(actions.tools->checkedAction(), actions.tool(Tool::erase));
+  actions.tool(engine::Tool::erase)->trigger();
+  QCOMPARE(actions.tools->checkedAction(), actions.tool(engine::Tool::erase));
 }
 
 void MainWindowTest::help_is_one_window_and_escape_closes_it() {
-  Desktop desktop(ExecutorKind::host, {1100, 700});
+  Desktop desktop(solver::ExecutorKind::host, {1100, 700});
   const auto pages = [&] {
     QList<QDialog*> visible;
     for (QDialog* dialog : desktop.window().findChildren<QDialog*>()) {
@@ -153,7 +153,7 @@ void MainWindowTest::help_is_one_window_and_escape_closes_it() {
   QTest::keyClick(page->findChild<QTextBrowser*>(), Qt::Key_Escape);
   QVERIFY(pages().isEmpty());
   // With the keys as they are by then.
-  Actions& actions = desktop.window().actions();
+  ui::Actions& actions = desktop.window().actions();
   actions.set_key(actions.play, QKeySequence("F7"));
   desktop.press(Qt::Key_F1);
   QCOMPARE(pages().size(), 1);
@@ -163,7 +163,7 @@ void MainWindowTest::help_is_one_window_and_escape_closes_it() {
 void MainWindowTest::a_session_that_is_opened_shows_the_level_set() {
   const TemporaryFolder folder;
   const QString file = QString::fromStdString((folder / "one.tidemark").string());
-  Desktop desktop(ExecutorKind::host, {1100, 700});
+  Desktop desktop(solver::ExecutorKind::host, {1100, 700});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
   desktop.window().active_case()->session_file = file;
@@ -182,8 +182,8 @@ void MainWindowTest::a_session_that_is_opened_shows_the_level_set() {
 void MainWindowTest::a_failure_is_forgotten_once_it_has_succeeded() {
   const TemporaryFolder folder;
   const auto inside = [&](const char* name) { return QString::fromStdString((folder / name).string()); };
-  Desktop desktop(ExecutorKind::host, {1100, 700});
-  const auto* messages = desktop.window().findChild<MessageBar*>();
+  Desktop desktop(solver::ExecutorKind::host, {1100, 700});
+  const auto* messages = desktop.window().findChild<ui::MessageBar*>();
   const auto told = [&] { return Desktop::wait_for([&] { return !messages->text().isEmpty(); }); };
   const auto forgotten = [&] { return Desktop::wait_for([&] { return messages->text().isEmpty(); }); };
 
@@ -195,8 +195,8 @@ void MainWindowTest::a_failure_is_forgotten_once_it_has_succeeded() {
   desktop.begin(10.0);
 
   // Writing: what goes elsewhere or is another kind of file changes nothing.
-  CaseWindow& window = *desktop.window().active_case();
-  CaseExports& saved = desktop.window().exports();
+  ui::CaseWindow& window = *desktop.window().active_case();
+  ui::CaseExports& saved = desktop.window().exports();
   saved.write_mask(window, inside("missing/mask.nrrd"));
   QVERIFY(told());
   const QString message = messages->text();
@@ -217,26 +217,26 @@ void MainWindowTest::a_failure_is_forgotten_once_it_has_succeeded() {
   QVERIFY(told());
   desktop.wait_until_idle();
   QVERIFY(!messages->text().isEmpty());
-  desktop.proxy().paint({desktop.seed_mm(), 12.0}, Brush::add, CaseProxy::new_gesture());
+  desktop.proxy().paint({desktop.seed_mm(), 12.0}, solver::Brush::add, engine::CaseProxy::new_gesture());
   QVERIFY(forgotten());
 }
 
 void MainWindowTest::a_phantom_has_one_name() {
-  Desktop desktop(ExecutorKind::host, {1100, 700});
+  Desktop desktop(solver::ExecutorKind::host, {1100, 700});
   QVERIFY(desktop.open_phantom("organ"));
   QCOMPARE(desktop.proxy().name(), QString("Liver"));
   QVERIFY(desktop.window().active_case()->windowTitle().startsWith("Liver[*]"));
 }
 
 void MainWindowTest::the_left_button_moves_the_crosshair_as_in_itk_snap_if_one_wants() {
-  Desktop desktop(ExecutorKind::host, {1100, 700});
+  Desktop desktop(solver::ExecutorKind::host, {1100, 700});
   QVERIFY(desktop.open_phantom("sphere"));
-  auto* axial = desktop.view<SliceViewWidget>("Axial");
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
   QVERIFY(axial);
   const auto settings = [&] { return desktop.proxy().display().settings(); };
-  Actions& actions = desktop.window().actions();
-  actions.tool(Tool::window)->trigger();
-  const DisplaySettings before = settings();
+  ui::Actions& actions = desktop.window().actions();
+  actions.tool(engine::Tool::window)->trigger();
+  const engine::DisplaySettings before = settings();
   const glm::dvec3 there = before.cursor_mm + glm::dvec3(12.0, 6.0, 0.0);
   const std::vector<glm::dvec3> way{before.cursor_mm + glm::dvec3(5.0, 0.0, 0.0), there};
 
@@ -248,9 +248,9 @@ void MainWindowTest::the_left_button_moves_the_crosshair_as_in_itk_snap_if_one_w
   QVERIFY(glm::distance(settings().cursor_mm, there) < 2.0);
   Desktop::drag(*axial, way, Qt::LeftButton, Qt::AltModifier);
   QVERIFY(settings().window != before.window);
-  QVERIFY(Actions(&desktop.window()).mouse_schemes->actions().last()->isChecked());  // the next time, too
+  QVERIFY(ui::Actions(&desktop.window()).mouse_schemes->actions().last()->isChecked());  // the next time, too
 
-  const DisplaySettings moved = settings();
+  const engine::DisplaySettings moved = settings();
   schemes.first()->trigger();
   Desktop::drag(*axial, way);
   QVERIFY(settings().window != moved.window);
@@ -258,8 +258,8 @@ void MainWindowTest::the_left_button_moves_the_crosshair_as_in_itk_snap_if_one_w
 }
 
 void MainWindowTest::full_screen_gives_back_a_maximised_window() {
-  Desktop desktop(ExecutorKind::host);
-  MainWindow& window = desktop.window();
+  Desktop desktop(solver::ExecutorKind::host);
+  ui::MainWindow& window = desktop.window();
   for (const bool maximised : {true, false}) {
     maximised ? window.showMaximized() : window.showNormal();
     QVERIFY(Desktop::wait_for([&] { return window.isMaximized() == maximised; }));
@@ -272,7 +272,7 @@ void MainWindowTest::full_screen_gives_back_a_maximised_window() {
 }
 
 void MainWindowTest::no_menu_has_a_letter_twice() {
-  Desktop desktop(ExecutorKind::host);
+  Desktop desktop(solver::ExecutorKind::host);
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(8.0);
   QStringList doubles;
@@ -300,7 +300,7 @@ void MainWindowTest::no_menu_has_a_letter_twice() {
 void MainWindowTest::numbers_are_typed_with_either_separator_in_any_language() {
   for (const char* language : {"de_DE", "en_US"}) {
     QLocale::setDefault(QLocale(language));
-    Desktop desktop(ExecutorKind::host);
+    Desktop desktop(solver::ExecutorKind::host);
     QVERIFY(desktop.open_phantom("tumour"));
     desktop.begin(8.0);
     desktop.window().panels().show("level-set");
@@ -334,7 +334,7 @@ void MainWindowTest::numbers_are_typed_with_either_separator_in_any_language() {
 }
 
 void MainWindowTest::a_session_is_among_the_recent_studies() {
-  Desktop desktop(ExecutorKind::host);
+  Desktop desktop(solver::ExecutorKind::host);
   const TemporaryFolder folder;
   const QString file = QString::fromStdString((folder / "kept.tidemark").string());
   const auto entries = [&] {

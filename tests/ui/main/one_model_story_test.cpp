@@ -34,7 +34,7 @@ QList<QDoubleSpinBox*> OneModelStoryTest::numbers(QWidget& in, const QString& na
 }
 
 // Pixels of the surface's cut, as the shader colours them (kOutlineYellow).
-qint64 yellow_pixels(const VolumeViewWidget& view) {
+qint64 yellow_pixels(const ui::VolumeViewWidget& view) {
   const QImage& image = view.feed().shown().image;
   qint64 count = 0;
   for (int y = 0; y < image.height(); ++y) {
@@ -50,15 +50,15 @@ void OneModelStoryTest::a_parameter_reads_the_same_everywhere() {
   Desktop desktop(story_executor(), {1300, 600});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
-  CaseWindow& window = *desktop.window().active_case();
-  auto* panel = desktop.window().findChild<SpeedControls*>();
+  ui::CaseWindow& window = *desktop.window().active_case();
+  auto* panel = desktop.window().findChild<ui::SpeedControls*>();
   QVERIFY(panel);
   const struct {
     QString in_bar;
     QString in_panel;
-    double Parameters::*value;
-  } kinds[] = {{"Target T", "Target T", &Parameters::target},
-               {"Range epsilon", "Range ε", &Parameters::range}};
+    double solver::Parameters::*value;
+  } kinds[] = {{"Target T", "Target T", &solver::Parameters::target},
+               {"Range epsilon", "Range ε", &solver::Parameters::range}};
   for (const auto& kind : kinds) {
     QList<QDoubleSpinBox*> all = numbers(window, kind.in_bar);
     QCOMPARE(all.size(), 3);
@@ -91,7 +91,7 @@ void OneModelStoryTest::a_parameter_reads_the_same_everywhere() {
 void OneModelStoryTest::a_tool_is_the_same_in_all_bars() {
   Desktop desktop(story_executor(), {1300, 600});
   QVERIFY(desktop.open_phantom("sphere"));
-  CaseWindow& window = *desktop.window().active_case();
+  ui::CaseWindow& window = *desktop.window().active_case();
   QList<QToolButton*> buttons;
   for (QToolButton* button : window.findChildren<QToolButton*>()) {
     if (button->accessibleName() == "Tool") buttons << button;
@@ -101,39 +101,39 @@ void OneModelStoryTest::a_tool_is_the_same_in_all_bars() {
   for (qsizetype tool = 0; tool < tools.size(); ++tool) {
     // From the menu of one bar after the other.
     buttons[tool % 3]->menu()->actions().at(tool)->trigger();
-    QCOMPARE(desktop.proxy().display().settings().tool, static_cast<Tool>(tool));
+    QCOMPARE(desktop.proxy().display().settings().tool, static_cast<engine::Tool>(tool));
     QVERIFY(tools[tool]->isChecked());
     for (const QToolButton* button : buttons) QVERIFY(button->toolTip().contains(tools[tool]->toolTip()));
   }
 }
 
 void OneModelStoryTest::a_sphere_that_is_being_drawn_is_seen_in_all_views() {
-  Desktop desktop(ExecutorKind::host, {1300, 800});
+  Desktop desktop(solver::ExecutorKind::host, {1300, 800});
   QVERIFY(desktop.open_phantom("sphere"));
-  desktop.window().active_case()->set_layout(ViewLayout::two_two);
+  desktop.window().active_case()->set_layout(ui::ViewLayout::two_two);
   desktop.wait_until_idle();
-  auto* axial = desktop.view<SliceViewWidget>("Axial");
-  auto* coronal = desktop.view<SliceViewWidget>("Coronal");
-  auto* sagittal = desktop.view<SliceViewWidget>("Sagittal");
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  auto* coronal = desktop.view<ui::SliceViewWidget>("Coronal");
+  auto* sagittal = desktop.view<ui::SliceViewWidget>("Sagittal");
   QVERIFY(axial && coronal && sagittal);
   const glm::dvec3 centre = desktop.seed_mm();
   constexpr double kRadius = 13.0;
   constexpr double kBeside = 5.0;  // the coronal slice does not go through the middle
-  desktop.proxy().display().change([&](DisplaySettings& s) {
+  desktop.proxy().display().change([&](engine::DisplaySettings& s) {
     s.cursor_mm = centre + glm::dvec3(0.0, kBeside, 0.0);
     s.brush_mm = 2.0;
   });
   desktop.press(Qt::Key_S);
   Desktop::mouse(*axial, QEvent::MouseButtonPress, centre);
   Desktop::mouse(*axial, QEvent::MouseMove, centre + glm::dvec3(kRadius, 0.0, 0.0));
-  const auto radius_in = [](const PictureView& view) {
+  const auto radius_in = [](const ui::PictureView& view) {
     const auto ring = view.ring();
     return ring ? ring->radius * view.mm_per_pixel() : -1.0;
   };
   QCOMPARE(radius_in(*axial), kRadius);
   QVERIFY(std::abs(radius_in(*sagittal) - kRadius) < 1e-6);
   QVERIFY(std::abs(radius_in(*coronal) - std::sqrt(kRadius * kRadius - kBeside * kBeside)) < 1e-6);
-  QVERIFY(radius_in(*desktop.view<VolumeViewWidget>()) > 0.0);
+  QVERIFY(radius_in(*desktop.view<ui::VolumeViewWidget>()) > 0.0);
   desktop.screenshot("sphere-being-drawn");
   // Then it is the brush again.
   Desktop::mouse(*axial, QEvent::MouseButtonRelease, centre + glm::dvec3(kRadius, 0.0, 0.0));
@@ -145,13 +145,13 @@ void OneModelStoryTest::a_sphere_that_is_being_drawn_is_seen_in_all_views() {
 void OneModelStoryTest::the_clip_plane_is_moved_tilted_and_worked_on() {
   Desktop desktop(story_executor(), {1100, 760});
   QVERIFY(desktop.open_phantom("tumour"));
-  desktop.window().active_case()->set_layout(ViewLayout::paper);
+  desktop.window().active_case()->set_layout(ui::ViewLayout::paper);
   desktop.begin(10.0);
-  auto* view = desktop.view<VolumeViewWidget>();
+  auto* view = desktop.view<ui::VolumeViewWidget>();
   QVERIFY(view);
-  Display& display = desktop.proxy().display();
+  engine::Display& display = desktop.proxy().display();
   const glm::dvec3 centre = desktop.seed_mm();
-  display.change([&](DisplaySettings& s) {
+  display.change([&](engine::DisplaySettings& s) {
     s.cursor_mm = centre;
     s.camera.zoom = 3.0;
     s.camera.focus_mm = centre;
@@ -162,24 +162,24 @@ void OneModelStoryTest::the_clip_plane_is_moved_tilted_and_worked_on() {
   QVERIFY(display.settings().clip_on);
 
   // By its handles: along the normal, and about the middle of the cut.
-  const auto drag_grip = [&](ClipHandles::Grip grip, QPoint way) {
+  const auto drag_grip = [&](ui::ClipHandles::Grip grip, QPoint way) {
     const QPoint from = view->handles().position_of(grip).toPoint();
     Desktop::drag(static_cast<QWidget&>(*view), {from, from + way / 2, from + way});
     desktop.wait_until_idle();
   };
-  const ClipPlane first = display.settings().clip;
+  const renderer::ClipPlane first = display.settings().clip;
   const QPointF along = view->position_of(first.normal) - view->position_of(glm::dvec3(0.0));
   const double length = std::hypot(along.x(), along.y());
   QVERIFY(length > 0.0);
-  drag_grip(ClipHandles::Grip::move, (along * (20.0 / length)).toPoint());
-  const ClipPlane moved = display.settings().clip;
+  drag_grip(ui::ClipHandles::Grip::move, (along * (20.0 / length)).toPoint());
+  const renderer::ClipPlane moved = display.settings().clip;
   QVERIFY(moved.offset_mm > first.offset_mm + 0.5);
   QVERIFY(glm::distance(moved.normal, first.normal) < 1e-9);
-  drag_grip(ClipHandles::Grip::tilt, {14, 10});
-  const ClipPlane tilted = display.settings().clip;
+  drag_grip(ui::ClipHandles::Grip::tilt, {14, 10});
+  const renderer::ClipPlane tilted = display.settings().clip;
   QVERIFY(glm::dot(tilted.normal, moved.normal) < 0.999);
   // So that it goes through the seed, whatever the drags were.
-  display.change([&](DisplaySettings& s) { s.clip.offset_mm = glm::dot(s.clip.normal, centre); });
+  display.change([&](engine::DisplaySettings& s) { s.clip.offset_mm = glm::dot(s.clip.normal, centre); });
   desktop.wait_until_idle();
   desktop.screenshot("clip-1-tilted");
   const qint64 cut = yellow_pixels(*view);
@@ -203,7 +203,7 @@ void OneModelStoryTest::the_clip_plane_is_moved_tilted_and_worked_on() {
   QCOMPARE(display.settings().chosen_primitive, 0);
   QVERIFY(!display.settings().transfer.source.empty());
   QVERIFY(display.settings().show_source);
-  display.change([](DisplaySettings& s) { s.show_source = false; });
+  display.change([](engine::DisplaySettings& s) { s.show_source = false; });
   desktop.proxy().set_parameters(desktop.proxy().study().parameters);
   desktop.wait_until_idle();
 

@@ -39,12 +39,12 @@ void write_study(const fs::path& folder) {
     voxels.push_back(static_cast<std::int16_t>(glm::dot(away, away) < 144.0 ? 100 : 0));
   }
   volume.voxels = std::move(voxels);
-  DicomSeriesHeader header;
+  imaging::DicomSeriesHeader header;
   header.modality = "CT";
   header.patient_name = kName;
   header.patient_id = kNumber;
   header.series_description = "Ball";
-  const Status written = write_dicom_series(volume, header, folder);
+  const Status written = imaging::write_dicom_series(volume, header, folder);
   if (!written) qFatal("%s", written.error().message.c_str());
 }
 
@@ -71,7 +71,7 @@ QString telling_file(const fs::path& folder) {
 // Sessions are compressed.
 std::string json_of_session(const fs::path& file) {
   constexpr std::array<std::string_view, 4> kNames{"session.json", "phi.table", "phi.pages", "labels"};
-  auto proxy = ZipReader::open(file, kNames);
+  auto proxy = document::ZipReader::open(file, kNames);
   if (!proxy) qFatal("%s", proxy.error().message.c_str());
   const auto json = proxy->read(kNames[0], proxy->size(kNames[0]));
   if (!json) qFatal("%s", json.error().message.c_str());
@@ -98,8 +98,8 @@ class PrivacyStoryTest : public QObject {
   TemporaryFolder home_;
   TemporaryFolder folder_;
   std::unique_ptr<Desktop> desktop_;
-  CaseWindow* window_ = nullptr;
-  SliceViewWidget* slice_ = nullptr;
+  ui::CaseWindow* window_ = nullptr;
+  ui::SliceViewWidget* slice_ = nullptr;
 };
 
 // The study is open, and its surface has begun.
@@ -107,18 +107,18 @@ void PrivacyStoryTest::init() {
   qputenv("HOME", QByteArray::fromStdString(home_.path().string()));
   if (!fs::exists(folder_ / "study")) write_study(folder_ / "study");
   fs::create_directories(written());
-  desktop_ = std::make_unique<Desktop>(ExecutorKind::host, QSize(1000, 700));
+  desktop_ = std::make_unique<Desktop>(solver::ExecutorKind::host, QSize(1000, 700));
   window_ = desktop_->open(QString::fromStdString((folder_ / "study").string()));
   QVERIFY(window_);
   QCOMPARE(desktop_->proxy().study().patient.name, std::string("ZZYX, QVODIAN"));
   QCOMPARE(desktop_->proxy().study().patient.id, std::string(kNumber));
-  Start start;
+  document::Start start;
   start.seeds.push_back({desktop_->proxy().display().settings().cursor_mm, 8.0});
   desktop_->proxy().begin(start);
   desktop_->proxy().add_label("Ball");
   desktop_->proxy().step(3);
   desktop_->wait_until_idle();
-  slice_ = desktop_->view<SliceViewWidget>("Axial");
+  slice_ = desktop_->view<ui::SliceViewWidget>("Axial");
   QVERIFY(slice_);
 }
 
@@ -183,10 +183,10 @@ void PrivacyStoryTest::names_of_files_do_not_name_the_patient() {
 
 // All that can be written, and a copy for the case of a crash.
 void PrivacyStoryTest::write_everything() {
-  CaseExports& files = desktop_->window().exports();
+  ui::CaseExports& files = desktop_->window().exports();
   QStringList done;
   QObject scope;
-  connect(&desktop_->window().files(), &CaseFiles::written, &scope,
+  connect(&desktop_->window().files(), &ui::CaseFiles::written, &scope,
           [&](const QString& file) { done << file; });
   const auto name = [&](const char* file) { return QString::fromStdString((written() / file).string()); };
   files.write_picture(*window_, name("picture.png"));
@@ -198,7 +198,7 @@ void PrivacyStoryTest::write_everything() {
   files.write_statistics(*window_, name("figures.csv"));
   QVERIFY(Desktop::wait_for([&] { return done.size() == 6; }));
   bool copied = false;
-  connect(&window_->autosave(), &CaseAutosave::saved, &scope, [&] { copied = true; });
+  connect(&window_->autosave(), &engine::CaseAutosave::saved, &scope, [&] { copied = true; });
   desktop_->proxy().step();
   desktop_->wait_until_idle();
   window_->autosave().save_now();

@@ -20,8 +20,8 @@ namespace tidemark::test {
 constexpr const char* kVictim = "--work-until-killed";
 
 // What must come back, as text: the same in both programs.
-QString facts(const CaseProxy& proxy) {
-  const CaseState& state = proxy.state();
+QString facts(const engine::CaseProxy& proxy) {
+  const engine::CaseState& state = proxy.state();
   return QStringLiteral("%1 step %2 inside %3 labels %4 of %5 voxels")
       .arg(proxy.name())
       .arg(state.step)
@@ -33,7 +33,7 @@ QString facts(const CaseProxy& proxy) {
 std::size_t files_of_copies() {
   std::size_t count = 0;
   std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(recovery_folder(), ignored))
+  for (const auto& entry : std::filesystem::directory_iterator(engine::recovery_folder(), ignored))
     count += entry.path().extension() == ".sha256" ? 1 : 0;
   return count;
 }
@@ -43,20 +43,20 @@ int work_until_killed() {
   Desktop desktop(story_executor(), {900, 640});
   for (const char* kind : {"sphere", "dumbbell"}) {
     desktop.open_phantom(kind);
-    CaseProxy& proxy = desktop.proxy();
+    engine::CaseProxy& proxy = desktop.proxy();
     desktop.begin(9.0);
     proxy.step(17);
     proxy.add_label("Ball");
     desktop.wait_until_idle();
     proxy.accept_surface(desktop.state().labels[0].id);
     // As many edits as bring about a copy, all before it is made.
-    for (std::uint64_t edit = 0; edit < CaseAutosave::kEdits; ++edit)
-      proxy.paint({desktop.seed_mm(), 9.5}, Brush::add, CaseProxy::new_gesture());
+    for (std::uint64_t edit = 0; edit < engine::CaseAutosave::kEdits; ++edit)
+      proxy.paint({desktop.seed_mm(), 9.5}, solver::Brush::add, engine::CaseProxy::new_gesture());
     QTest::qWait(100);
     desktop.wait_until_idle();
   }
   if (!Desktop::wait_for([] { return files_of_copies() >= 2; })) return 1;
-  for (CaseWindow* window : desktop.window().cases()) std::puts(qPrintable(facts(window->proxy())));
+  for (ui::CaseWindow* window : desktop.window().cases()) std::puts(qPrintable(facts(window->proxy())));
   std::puts("ready");
   std::fflush(stdout);
   return QApplication::exec();
@@ -76,7 +76,7 @@ class RecoveryStoryTest : public QObject {
 
 void RecoveryStoryTest::work_is_there_again_after_a_kill() {
   qputenv("HOME", QByteArray::fromStdString(home_.path().string()));
-  QVERIFY(find_recoverable(recovery_folder()).empty());
+  QVERIFY(document::find_recoverable(engine::recovery_folder()).empty());
   QProcess victim;
   victim.setProcessChannelMode(QProcess::ForwardedErrorChannel);
   victim.start(QCoreApplication::applicationFilePath(), {kVictim});
@@ -90,7 +90,7 @@ void RecoveryStoryTest::work_is_there_again_after_a_kill() {
            said.constData());
   QVERIFY2(said.contains("ready"), said.constData());
   // While it runs, its copies are its own.
-  QVERIFY(find_recoverable(recovery_folder()).empty());
+  QVERIFY(document::find_recoverable(engine::recovery_folder()).empty());
   victim.kill();
   QVERIFY(victim.waitForFinished());
   QCOMPARE(victim.exitStatus(), QProcess::CrashExit);
@@ -98,7 +98,7 @@ void RecoveryStoryTest::work_is_there_again_after_a_kill() {
   expected.removeLast();
   expected.sort();
   QCOMPARE(expected.size(), 2);
-  QCOMPARE(find_recoverable(recovery_folder()).size(), std::size_t{2});
+  QCOMPARE(document::find_recoverable(engine::recovery_folder()).size(), std::size_t{2});
 
   Desktop desktop(story_executor(), {900, 640});
   QTimer user;
@@ -118,17 +118,17 @@ void RecoveryStoryTest::work_is_there_again_after_a_kill() {
   QVERIFY2(offered.contains("Sphere") && offered.contains("Dumbbell"), qPrintable(offered));
   desktop.wait_until_idle();
   QStringList found;
-  for (CaseWindow* window : desktop.window().cases()) {
+  for (ui::CaseWindow* window : desktop.window().cases()) {
     QVERIFY(window->proxy().state().modified);
     QVERIFY(window->session_file.isEmpty());
     found << facts(window->proxy());
   }
   found.sort();
   QCOMPARE(found, expected);
-  for (PictureView* view : desktop.window().active_case()->views()) QVERIFY(shows_a_picture(*view));
+  for (ui::PictureView* view : desktop.window().active_case()->views()) QVERIFY(shows_a_picture(*view));
   qInfo("%s", qPrintable(found.join("; ")));
   // They have copies of their own, at once, instead of those that they came from.
-  QVERIFY(Desktop::wait_for([] { return find_recoverable(recovery_folder()).empty(); }));
+  QVERIFY(Desktop::wait_for([] { return document::find_recoverable(engine::recovery_folder()).empty(); }));
   QVERIFY(files_of_copies() >= 2);
 
   Desktop::answer(QMessageBox::Discard);
@@ -138,12 +138,12 @@ void RecoveryStoryTest::work_is_there_again_after_a_kill() {
 }
 
 void RecoveryStoryTest::a_damaged_session_brings_the_copies_that_there_are() {
-  Desktop desktop(ExecutorKind::host, {900, 640});
+  Desktop desktop(solver::ExecutorKind::host, {900, 640});
   QVERIFY(desktop.open_phantom("dumbbell"));
   desktop.begin(9.0);
   const std::string damaged = (home_ / "damaged.tidemark").string();
   { std::ofstream(damaged) << "PK, but nothing of ours"; }
-  const auto* messages = desktop.window().findChild<MessageBar*>();
+  const auto* messages = desktop.window().findChild<ui::MessageBar*>();
   // Without copies it is said, and nothing is asked.
   desktop.window().open(QString::fromStdString(damaged));
   QVERIFY(Desktop::wait_for([&] { return !messages->text().isEmpty(); }));
@@ -155,7 +155,7 @@ void RecoveryStoryTest::a_damaged_session_brings_the_copies_that_there_are() {
   // A copy that a program left behind.
   bool kept = false;
   desktop.proxy().take_snapshot("{}", [&kept](const auto& snapshot) {
-    auto copies = Autosave::create(recovery_folder(), Autosave::new_case_id());
+    auto copies = document::Autosave::create(engine::recovery_folder(), document::Autosave::new_case_id());
     kept = copies && copies->write(snapshot->contents);
   });
   QVERIFY(Desktop::wait_for([&] { return kept; }));
@@ -204,7 +204,7 @@ void RecoveryStoryTest::nothing_is_offered_after_a_clean_end() {
   });
   user.start(20);
   desktop.window().session_reader().offer_rescued();
-  QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
+  QVERIFY(engine::BackgroundJob::finish_all(std::chrono::seconds(60)));
   QCoreApplication::processEvents();  // what the job delivered
   QCOMPARE(questions, 0);
   QVERIFY(desktop.window().cases().isEmpty());

@@ -47,12 +47,12 @@ void write_study(const fs::path& folder) {
     voxels.push_back(inside ? 100 : 0);
   }
   volume.voxels = std::move(voxels);
-  DicomSeriesHeader header;
+  imaging::DicomSeriesHeader header;
   header.modality = "CT";
   header.patient_name = "Phantom^Paula";
   header.patient_id = "P1";
   header.series_description = "Two balls: 1/2";
-  const Status written = write_dicom_series(volume, header, folder);
+  const Status written = imaging::write_dicom_series(volume, header, folder);
   if (!written) qFatal("%s", written.error().message.c_str());
 }
 
@@ -87,10 +87,10 @@ bool says(QWidget& dialog, const QString& text) {
 void picture(QWidget& widget, const QString& name) {
   const QString folder = qEnvironmentVariable("TIDEMARK_SCREENSHOTS");
   if (folder.isEmpty()) return;
-  for (const Theme theme : {Theme::dark, Theme::light}) {
-    apply_theme(*qApp, theme);
+  for (const ui::Theme theme : {ui::Theme::dark, ui::Theme::light}) {
+    ui::apply_theme(*qApp, theme);
     QTest::qWait(30);
-    const char* end = theme == Theme::light ? "light" : "dark";
+    const char* end = theme == ui::Theme::light ? "light" : "dark";
     QVERIFY(widget.grab().save(QStringLiteral("%1/%2-%3.png").arg(folder, name, end)));
   }
 }
@@ -123,7 +123,7 @@ class ResultsStoryTest : public QObject {
   [[nodiscard]] QString path(const char* name) const {
     return QString::fromStdString((folder_ / name).string());
   }
-  [[nodiscard]] Segments block(const char* name);  // in two slices of the study
+  [[nodiscard]] imaging::Segments block(const char* name);  // in two slices of the study
   [[nodiscard]] const Geometry& grid() { return desktop_->proxy().volume().geometry; }
   [[nodiscard]] std::vector<std::uint8_t> voxels() { return *desktop_->state().label_voxels; }
   void begin(glm::dvec3 middle);
@@ -131,27 +131,27 @@ class ResultsStoryTest : public QObject {
   void segment_both();
   void write_by_the_menu(QAction* action, const QString& file);
   void import_by_the_menu(const QString& file);
-  SendResultDialog* send_to(const PacsServer& server);
+  ui::SendResultDialog* send_to(const imaging::PacsServer& server);
   void drop(const QString& file);
 
   TemporaryFolder folder_;
   std::unique_ptr<Desktop> desktop_;
-  CaseWindow* window_ = nullptr;
+  ui::CaseWindow* window_ = nullptr;
 };
 
 void ResultsStoryTest::init() {
   qputenv("XDG_CONFIG_HOME", QByteArray::fromStdString((folder_ / "config").string()));
   if (!fs::exists(folder_ / "study")) write_study(folder_ / "study");
-  desktop_ = std::make_unique<Desktop>(ExecutorKind::host, QSize(900, 620));
+  desktop_ = std::make_unique<Desktop>(solver::ExecutorKind::host, QSize(900, 620));
   window_ = desktop_->open(path("study"));
   QVERIFY(window_);
-  window_->set_layout(ViewLayout::single);  // no story about pictures
+  window_->set_layout(ui::ViewLayout::single);  // no story about pictures
   desktop_->window().panels().show("labels");
   desktop_->wait_until_idle();
 }
 
 void ResultsStoryTest::begin(glm::dvec3 middle) {
-  Start start;
+  document::Start start;
   start.seeds.push_back({middle, 5.0});
   desktop_->proxy().begin(start);
   desktop_->wait_until_idle();
@@ -159,7 +159,7 @@ void ResultsStoryTest::begin(glm::dvec3 middle) {
 
 // A surface that fills a ball becomes a new label, with that name and a meaning that is typed.
 void ResultsStoryTest::segment(glm::dvec3 middle, const char* name, const char* meaning) {
-  Parameters parameters = desktop_->proxy().parameters();
+  solver::Parameters parameters = desktop_->proxy().parameters();
   parameters.target = 100.0;
   parameters.range = 60.0;
   parameters.alpha = 0.9;
@@ -168,16 +168,16 @@ void ResultsStoryTest::segment(glm::dvec3 middle, const char* name, const char* 
   desktop_->proxy().step(40);
   desktop_->wait_until_idle();
   auto& window = desktop_->window();
-  auto& model = *window.findChild<LabelsModel*>();
+  auto& model = *window.findChild<ui::LabelsModel*>();
   for (QToolButton* add : window.findChildren<QToolButton*>()) {
     if (add->text() == "Add" && add->isVisible()) QTest::mouseClick(add, Qt::LeftButton);
   }
   desktop_->wait_until_idle();
   QTest::mouseClick(button(window, "Accept surface into label"), Qt::LeftButton);
   desktop_->wait_until_idle();
-  model.setData(model.index(model.rowCount() - 1, LabelsModel::name), name, Qt::EditRole);
+  model.setData(model.index(model.rowCount() - 1, ui::LabelsModel::name), name, Qt::EditRole);
   desktop_->wait_until_idle();
-  auto& picker = *window.findChild<MeaningPicker*>();
+  auto& picker = *window.findChild<ui::MeaningPicker*>();
   picker.setFocus();
   picker.lineEdit()->selectAll();
   QTest::keyClicks(&picker, meaning);
@@ -189,15 +189,16 @@ void ResultsStoryTest::segment_both() {
   segment(kLeft, "Left one", "kidn");
   segment(kRight, "Right one", "cyst");
   QCOMPARE(desktop_->state().labels.size(), std::size_t{2});
-  QVERIFY(desktop_->state().labels[0].meaning == find_segment_meaning("kidney").value());
-  QVERIFY(desktop_->state().labels[1].meaning == find_segment_meaning("cyst").value());
-  for (const RegionStatistics& label : desktop_->state().label_statistics) QVERIFY(label.voxels > 500);
+  QVERIFY(desktop_->state().labels[0].meaning == imaging::find_segment_meaning("kidney").value());
+  QVERIFY(desktop_->state().labels[1].meaning == imaging::find_segment_meaning("cyst").value());
+  for (const document::RegionStatistics& label : desktop_->state().label_statistics)
+    QVERIFY(label.voxels > 500);
 }
 
 void ResultsStoryTest::write_by_the_menu(QAction* action, const QString& file) {
   QVERIFY(action->isEnabled());
   action->trigger();
-  QPointer<WriteResultDialog> dialog = window_->findChild<WriteResultDialog*>();
+  QPointer<ui::WriteResultDialog> dialog = window_->findChild<ui::WriteResultDialog*>();
   QVERIFY(dialog && dialog->isVisible());
   QVERIFY(!dialog->isModal());
   QVERIFY(is_explained(*dialog));
@@ -225,14 +226,14 @@ void ResultsStoryTest::labels_go_out_as_dicom_and_come_back() {
   segment_both();
   const auto labels = desktop_->state().labels;
   const auto before = voxels();
-  Actions& actions = desktop_->window().actions();
+  ui::Actions& actions = desktop_->window().actions();
   write_by_the_menu(actions.export_segmentation, path("labels.dcm"));
   write_by_the_menu(actions.export_structure_set, path("contours.dcm"));
   write_by_the_menu(actions.export_level_set, path("surface.vdb"));
 
-  const auto segments = read_segmentation((folder_ / "labels.dcm"), &grid());
+  const auto segments = imaging::read_segmentation((folder_ / "labels.dcm"), &grid());
   QCOMPARE(failure(segments), QString());
-  QVERIFY(label_map_of(*segments)->voxels == before);
+  QVERIFY(imaging::label_map_of(*segments)->voxels == before);
   for (std::size_t n = 0; n < labels.size(); ++n) {
     QCOMPARE(segments->list[n].name, labels[n].name);
     QVERIFY(segments->list[n].meaning == labels[n].meaning);
@@ -273,35 +274,36 @@ void ResultsStoryTest::drop(const QString& file) {
 }
 
 void ResultsStoryTest::a_dropped_segmentation_becomes_labels_and_a_dropped_volume_a_study() {
-  Segments one;
+  imaging::Segments one;
   one.geometry = grid();
-  Segment segment;
+  imaging::Segment segment;
   segment.name = "Spleen";
-  segment.colour = SegmentColour{10, 200, 40};
+  segment.colour = imaging::SegmentColour{10, 200, 40};
   segment.slices[3].resize(static_cast<std::size_t>(grid().size.x * grid().size.y));
   segment.slices[3][777] = 1;
   one.list.push_back(segment);
-  QCOMPARE(failure(write_segmentation(one, {}, folder_ / "dropped.dcm")), QString());
+  QCOMPARE(failure(imaging::write_segmentation(one, {}, folder_ / "dropped.dcm")), QString());
   drop(path("dropped.dcm"));
   QVERIFY(Desktop::wait_for([&] { return desktop_->state().labels.size() == 1; }, kPatience));
   desktop_->wait_until_idle();
   QCOMPARE(desktop_->state().labels[0].name, std::string("Spleen"));
-  QVERIFY(desktop_->state().labels[0].coded() == find_segment_meaning("spleen").value());
+  QVERIFY(desktop_->state().labels[0].coded() == imaging::find_segment_meaning("spleen").value());
   QCOMPARE(desktop_->state().label_statistics[0].voxels, std::int64_t{1});
   QCOMPARE(desktop_->window().cases().size(), 1);
 
-  QCOMPARE(failure(write_volume_file(desktop_->proxy().volume(), folder_ / "study.nrrd")), QString());
+  QCOMPARE(failure(imaging::write_volume_file(desktop_->proxy().volume(), folder_ / "study.nrrd")),
+           QString());
   drop(path("study.nrrd"));
   QVERIFY(Desktop::wait_for([&] { return desktop_->window().cases().size() == 2; }, kPatience));
   desktop_->wait_until_idle();
 }
 
-Segments ResultsStoryTest::block(const char* name) {
-  Segments segments;
+imaging::Segments ResultsStoryTest::block(const char* name) {
+  imaging::Segments segments;
   segments.geometry = grid();
-  Segment segment;
+  imaging::Segment segment;
   segment.name = name;
-  segment.colour = SegmentColour{10, 200, 40};
+  segment.colour = imaging::SegmentColour{10, 200, 40};
   for (const std::int64_t k : {3, 4}) {
     auto& slice = segment.slices[k];
     slice.resize(static_cast<std::size_t>(grid().size.x * grid().size.y));
@@ -321,17 +323,17 @@ void ResultsStoryTest::what_lies_beside_a_study_is_named_and_imported_by_a_click
   const auto& source = desktop_->proxy().study().dicom_files;
   for (const char* whose : {"one", "other"}) {
     const fs::path file = root / whose / "results" / "labels.dcm";
-    QCOMPARE(failure(write_segmentation(block("Spleen"), source, file)), QString());
+    QCOMPARE(failure(imaging::write_segmentation(block("Spleen"), source, file)), QString());
   }
   const fs::path contours = root / "one" / "images" / "contours.dcm";
-  QCOMPARE(failure(write_structure_set(block("Liver"), source, contours)), QString());
+  QCOMPARE(failure(imaging::write_structure_set(block("Liver"), source, contours)), QString());
   std::ofstream(root / "one" / "notes.txt") << "no image";
 
   window_ = desktop_->open(path("patients"));
   QVERIFY(window_);
   QCOMPARE(desktop_->window().cases().size(), 2);
-  QVERIFY(Desktop::wait_for([&] { return desktop_->window().findChild<LoadReport*>() != nullptr; }));
-  auto& report = *desktop_->window().findChild<LoadReport*>();
+  QVERIFY(Desktop::wait_for([&] { return desktop_->window().findChild<ui::LoadReport*>() != nullptr; }));
+  auto& report = *desktop_->window().findChild<ui::LoadReport*>();
   QVERIFY(says(report, "Beside it: 2 segmentations or structure sets"));
   QTest::mouseClick(button(report, "Details"), Qt::LeftButton);
   QVERIFY(says(report, "contours.dcm is a structure set"));
@@ -355,13 +357,13 @@ void ResultsStoryTest::labels_go_out_as_polygons() {
   QAction* action = desktop_->window().actions().export_label_meshes;
   QVERIFY(!action->isEnabled());
   segment_both();
-  Label right = desktop_->state().labels[1];
+  document::Label right = desktop_->state().labels[1];
   right.visible = false;
   desktop_->proxy().set_label(right);
   desktop_->wait_until_idle();
   const auto write = [&](const QString& what) {
     action->trigger();
-    QPointer<WriteResultDialog> dialog = window_->findChild<WriteResultDialog*>();
+    QPointer<ui::WriteResultDialog> dialog = window_->findChild<ui::WriteResultDialog*>();
     QVERIFY(dialog && dialog->isVisible());
     QVERIFY(is_explained(*dialog));
     QVERIFY2(dialog->findChild<QLineEdit*>()->text().endsWith(".stl"),
@@ -390,13 +392,13 @@ void ResultsStoryTest::labels_go_out_as_polygons() {
 }
 
 void ResultsStoryTest::the_surface_alone_is_a_result_too() {
-  Actions& actions = desktop_->window().actions();
+  ui::Actions& actions = desktop_->window().actions();
   for (QAction* action : {actions.export_segmentation, actions.export_structure_set, actions.export_level_set,
                           actions.send_result})
     QVERIFY(!action->isEnabled());
   begin(kLeft);
   write_by_the_menu(actions.export_segmentation, path("surface.dcm"));
-  const auto segments = read_segmentation(folder_ / "surface.dcm", &grid());
+  const auto segments = imaging::read_segmentation(folder_ / "surface.dcm", &grid());
   QCOMPARE(failure(segments), QString());
   QCOMPARE(segments->list.size(), std::size_t{1});
   QCOMPARE(segments->list.front().count(), desktop_->state().surface.voxels_inside);
@@ -407,7 +409,7 @@ void ResultsStoryTest::a_study_that_is_no_dicom_says_what_that_means() {
   QVERIFY(window_);
   desktop_->begin(8.0);
   desktop_->window().actions().export_segmentation->trigger();
-  auto* dialog = window_->findChild<WriteResultDialog*>();
+  auto* dialog = window_->findChild<ui::WriteResultDialog*>();
   QVERIFY(dialog);
   QVERIFY(says(*dialog, "anonymous patient"));
   QVERIFY(dialog->findChild<QLineEdit*>()->text().endsWith("Sphere segmentation.dcm"));
@@ -417,7 +419,7 @@ void ResultsStoryTest::a_study_that_is_no_dicom_says_what_that_means() {
 void ResultsStoryTest::a_file_of_the_study_is_never_written_to() {
   begin(kLeft);
   desktop_->window().actions().export_segmentation->trigger();
-  auto* dialog = window_->findChild<WriteResultDialog*>();
+  auto* dialog = window_->findChild<ui::WriteResultDialog*>();
   QVERIFY(dialog);
   const fs::path slice = desktop_->proxy().study().dicom_files.front();
   const auto size = fs::file_size(slice);
@@ -427,12 +429,13 @@ void ResultsStoryTest::a_file_of_the_study_is_never_written_to() {
   QCOMPARE(fs::file_size(slice), size);
 }
 
-SendResultDialog* ResultsStoryTest::send_to(const PacsServer& server) {
-  PacsConfiguration configuration;
+ui::SendResultDialog* ResultsStoryTest::send_to(const imaging::PacsServer& server) {
+  imaging::PacsConfiguration configuration;
   configuration.servers.push_back(server);
-  if (!write_pacs_configuration(configuration, pacs_configuration_file())) qFatal("cannot name the server");
+  if (!imaging::write_pacs_configuration(configuration, imaging::pacs_configuration_file()))
+    qFatal("cannot name the server");
   desktop_->window().actions().send_result->trigger();
-  auto* dialog = window_->findChild<SendResultDialog*>();
+  auto* dialog = window_->findChild<ui::SendResultDialog*>();
   if (!dialog) qFatal("there is no dialog");
   return dialog;
 }
@@ -440,22 +443,23 @@ SendResultDialog* ResultsStoryTest::send_to(const PacsServer& server) {
 void ResultsStoryTest::labels_are_sent_to_a_server() {
   const auto archive = start_dcmqrscp();
   segment_both();
-  SendResultDialog& dialog = *send_to(archive->server());
+  ui::SendResultDialog& dialog = *send_to(archive->server());
   QVERIFY(is_explained(dialog));
   for (QCheckBox* form : dialog.findChildren<QCheckBox*>()) form->setChecked(true);
   picture(dialog, "send");
   QVERIFY(button(dialog, "Send")->isEnabled());
   QTest::mouseClick(button(dialog, "Send"), Qt::LeftButton);
   QVERIFY2(Desktop::wait_for([&] { return says(dialog, "as two new series of this study"); }, kPatience),
-           qPrintable(dialog.findChild<WorkLine*>()->text()));
+           qPrintable(dialog.findChild<ui::WorkLine*>()->text()));
   picture(dialog, "sent");
 
-  const auto studies = find_studies(archive->server(), {});
+  const auto studies = imaging::find_studies(archive->server(), {});
   QCOMPARE(failure(studies), QString());
   QCOMPARE(studies->entries.size(), std::size_t{1});
   QCOMPARE(studies->entries.front().patient_id, std::string("P1"));
   for (const char* modality : {"SEG", "RTSTRUCT"}) {
-    const auto series = find_pacs_series(archive->server(), {studies->entries.front().uid, modality, {}});
+    const auto series =
+        imaging::find_pacs_series(archive->server(), {studies->entries.front().uid, modality, {}});
     QCOMPARE(failure(series), QString());
     QCOMPARE(series->entries.size(), std::size_t{1});
   }
@@ -463,10 +467,10 @@ void ResultsStoryTest::labels_are_sent_to_a_server() {
 
 void ResultsStoryTest::a_server_that_keeps_silent_is_given_up_by_a_click() {
   const ScriptedPeer peer([](PeerEnd& end) { end.say_nothing(); });
-  PacsServer server = peer.server();
+  imaging::PacsServer server = peer.server();
   server.timeout_seconds = 600;
   begin(kLeft);
-  SendResultDialog& dialog = *send_to(server);
+  ui::SendResultDialog& dialog = *send_to(server);
   QTest::mouseClick(button(dialog, "Send"), Qt::LeftButton);
   QVERIFY(button(dialog, "Cancel")->isVisible());
   QVERIFY(!button(dialog, "Send")->isEnabled());

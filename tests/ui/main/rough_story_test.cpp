@@ -60,7 +60,7 @@ void RoughStoryTest::a_case_is_closed_while_it_plays() {
 }
 
 void RoughStoryTest::the_window_is_closed_while_a_case_plays() {
-  Desktop desktop(ExecutorKind::compute, {900, 640});
+  Desktop desktop(solver::ExecutorKind::compute, {900, 640});
   QVERIFY(desktop.open_phantom("sphere"));
   play(desktop);
   Desktop::answer(QMessageBox::Discard);
@@ -90,7 +90,7 @@ void RoughStoryTest::a_hundred_sizes_end_with_the_right_picture() {
   desktop.proxy().pause();
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }));
   desktop.wait_until_idle();
-  for (PictureView* view : desktop.window().active_case()->views()) {
+  for (ui::PictureView* view : desktop.window().active_case()->views()) {
     QVERIFY2(shows_a_picture(*view), qPrintable(view->title()));
     QVERIFY(view->feed().shown().finished);
     QCOMPARE(view->feed().shown().step, desktop.state().step);
@@ -103,24 +103,25 @@ void RoughStoryTest::views_go_before_their_pictures_arrive() {
   Desktop desktop(story_executor(), {900, 640});
   QVERIFY(desktop.open_phantom("sphere"));
   play(desktop);
-  CaseWindow& window = *desktop.window().active_case();
-  const std::vector<ViewKind> kinds{ViewKind::volume, ViewKind::pages, ViewKind::oblique, ViewKind::coronal};
+  ui::CaseWindow& window = *desktop.window().active_case();
+  const std::vector<ui::ViewKind> kinds{ui::ViewKind::volume, ui::ViewKind::pages, ui::ViewKind::oblique,
+                                        ui::ViewKind::coronal};
   for (int round = 0; round < 24; ++round) {
     QVERIFY(window.add_view(kinds[static_cast<std::size_t>(round) % kinds.size()]));
     if (round % 3 == 0) QTest::qWait(round);
-    window.set_layout(round % 2 == 0 ? ViewLayout::single : ViewLayout::paper);
+    window.set_layout(round % 2 == 0 ? ui::ViewLayout::single : ui::ViewLayout::paper);
   }
   QCOMPARE(window.views().size(), 3);
   QVERIFY(advances(desktop, 3));
   desktop.proxy().pause();
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }));
   desktop.wait_until_idle();
-  for (PictureView* view : window.views()) QVERIFY2(shows_a_picture(*view), qPrintable(view->title()));
+  for (ui::PictureView* view : window.views()) QVERIFY2(shows_a_picture(*view), qPrintable(view->title()));
 }
 
 void RoughStoryTest::another_study_is_opened_while_one_plays() {
   Desktop desktop(story_executor(), {900, 640});
-  CaseWindow* first = desktop.open_phantom("sphere");
+  ui::CaseWindow* first = desktop.open_phantom("sphere");
   QVERIFY(first);
   play(desktop);
   const std::int64_t step = desktop.state().step;
@@ -128,7 +129,7 @@ void RoughStoryTest::another_study_is_opened_while_one_plays() {
   QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 2; }));
   QVERIFY(Desktop::wait_for([&] { return desktop.window().active_case() != first; }));
   QVERIFY(first->proxy().state().step > step);
-  for (PictureView* view : desktop.window().active_case()->views())
+  for (ui::PictureView* view : desktop.window().active_case()->views())
     QVERIFY(Desktop::wait_for([&] { return view->feed().shown().size == view->physical_size(); }));
   QVERIFY(first->proxy().state().playing);
   QCOMPARE(desktop.engine().contexts_made(), 1);
@@ -138,8 +139,10 @@ void RoughStoryTest::executors_are_changed_while_it_plays() {
   Desktop desktop(story_executor(), {900, 640});
   QVERIFY(desktop.open_phantom("sphere"));
   play(desktop);
-  const std::vector<std::pair<ExecutorKind, QString>> kinds{
-      {ExecutorKind::compute, "compute"}, {ExecutorKind::stream, "stream"}, {ExecutorKind::host, "host"}};
+  const std::vector<std::pair<solver::ExecutorKind, QString>> kinds{
+      {solver::ExecutorKind::compute, "compute"},
+      {solver::ExecutorKind::stream, "stream"},
+      {solver::ExecutorKind::host, "host"}};
   for (const auto& [kind, name] : kinds) {
     const QString& wanted = name;  // clang before 16 captures no structured binding
     const std::int64_t step = desktop.state().step;
@@ -152,7 +155,7 @@ void RoughStoryTest::executors_are_changed_while_it_plays() {
   desktop.proxy().pause();
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }));
   desktop.wait_until_idle();
-  for (PictureView* view : desktop.window().active_case()->views()) QVERIFY(shows_a_picture(*view));
+  for (ui::PictureView* view : desktop.window().active_case()->views()) QVERIFY(shows_a_picture(*view));
 }
 
 void RoughStoryTest::keys_of_undo_and_redo_are_hammered_while_it_plays() {
@@ -189,35 +192,35 @@ void RoughStoryTest::keys_of_undo_and_redo_are_hammered_while_it_plays() {
 
 void RoughStoryTest::a_lost_context_is_made_good_data() {
   QTest::addColumn<int>("executor");
-  QTest::newRow("host") << static_cast<int>(ExecutorKind::host);
-  QTest::newRow("compute") << static_cast<int>(ExecutorKind::compute);
-  QTest::newRow("stream") << static_cast<int>(ExecutorKind::stream);
+  QTest::newRow("host") << static_cast<int>(solver::ExecutorKind::host);
+  QTest::newRow("compute") << static_cast<int>(solver::ExecutorKind::compute);
+  QTest::newRow("stream") << static_cast<int>(solver::ExecutorKind::stream);
 }
 
 void RoughStoryTest::a_lost_context_is_made_good() {
   QFETCH(int, executor);
-  Desktop desktop(static_cast<ExecutorKind>(executor), {900, 640});
+  Desktop desktop(static_cast<solver::ExecutorKind>(executor), {900, 640});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
   // Another case on the same context.
   QVERIFY(desktop.open_phantom("sphere"));
   play(desktop);
-  CaseWindow* resting = desktop.window().cases().first();
+  ui::CaseWindow* resting = desktop.window().cases().first();
   QVERIFY(resting != desktop.window().active_case());
   QStringList failures;
-  connect(&desktop.proxy(), &CaseProxy::failed, this, [&](const QString& text) { failures << text; });
+  connect(&desktop.proxy(), &engine::CaseProxy::failed, this, [&](const QString& text) { failures << text; });
   int contexts = 1;
   for (const int checks : {1, 3, 11}) {
     QCOMPARE(desktop.engine().contexts_made(), contexts);
-    Engine& engine = desktop.engine();
-    engine.post(Priority::edit, this,
+    engine::Engine& engine = desktop.engine();
+    engine.post(engine::Priority::edit, this,
                 [&engine, checks](const std::stop_token&) { engine.device()->lose_at_check(checks); });
     QVERIFY2(Desktop::wait_for([&] { return engine.contexts_made() == contexts + 1; }),
              qPrintable(QString("after %1 checks").arg(checks)));
     ++contexts;
     QVERIFY(desktop.state().playing);
     QVERIFY(advances(desktop, 3));
-    for (PictureView* view : desktop.window().active_case()->views()) {
+    for (ui::PictureView* view : desktop.window().active_case()->views()) {
       const std::uint64_t pictures = view->feed().shown().number;
       QVERIFY(Desktop::wait_for([&] { return view->feed().shown().number > pictures + 1; }));
     }
@@ -225,11 +228,11 @@ void RoughStoryTest::a_lost_context_is_made_good() {
   desktop.proxy().pause();
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }));
   desktop.wait_until_idle();
-  for (PictureView* view : desktop.window().active_case()->views()) QVERIFY(shows_a_picture(*view));
+  for (ui::PictureView* view : desktop.window().active_case()->views()) QVERIFY(shows_a_picture(*view));
   // The other case draws on the new context, too.
   desktop.window().actions().tile->trigger();
   desktop.wait_until_idle();
-  for (PictureView* view : resting->views()) QVERIFY(shows_a_picture(*view));
+  for (ui::PictureView* view : resting->views()) QVERIFY(shows_a_picture(*view));
   qInfo("%d contexts; told: %s", contexts, qPrintable(failures.join("; ")));
   QVERIFY(failures.isEmpty());
   disconnect(&desktop.proxy(), nullptr, this, nullptr);

@@ -36,8 +36,8 @@ void ScaleStoryTest::pictures_have_the_pixels_of_the_screen() {
   QCOMPARE(desktop.window().devicePixelRatioF(), scale);
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
-  for (PictureView* view : desktop.window().active_case()->views()) {
-    const PictureSize size = view->physical_size();
+  for (ui::PictureView* view : desktop.window().active_case()->views()) {
+    const renderer::PictureSize size = view->physical_size();
     QCOMPARE(size.width, std::llround(view->width() * scale));
     QCOMPARE(size.height, std::llround(view->height() * scale));
     QVERIFY2(shows_a_picture(*view), qPrintable(view->title()));
@@ -51,12 +51,12 @@ void ScaleStoryTest::pictures_have_the_pixels_of_the_screen() {
 void ScaleStoryTest::a_click_hits_what_is_seen() {
   Desktop desktop(story_executor(), {1000, 700});
   QVERIFY(desktop.open_phantom("sphere"));
-  auto* axial = desktop.view<SliceViewWidget>("Axial");
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
   QVERIFY(axial);
   const Geometry& geometry = desktop.proxy().volume().geometry;
   const double voxel_mm = geometry.spacing_mm.x;
   const glm::dvec3 there = desktop.seed_mm() + glm::dvec3(9.0, -6.0, 0.0);
-  desktop.proxy().display().change([](DisplaySettings& s) { s.crosshair = false; });
+  desktop.proxy().display().change([](engine::DisplaySettings& s) { s.crosshair = false; });
   const double reach = std::max(axial->mm_per_pixel(), voxel_mm);
   desktop.press(Qt::Key_S);
   Desktop::drag(*axial, {there, there + glm::dvec3(3.0, 0.0, 0.0), there + glm::dvec3(8.0, 0.0, 0.0)});
@@ -103,10 +103,10 @@ void ScaleStoryTest::texts_of_the_bars_fit() {
   Desktop desktop(story_executor(), {1250, 820});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
-  desktop.window().active_case()->set_layout(ViewLayout::two_two);
+  desktop.window().active_case()->set_layout(ui::ViewLayout::two_two);
   desktop.wait_until_idle();
   int bars = 0;
-  for (const ViewBar* bar : desktop.window().active_case()->findChildren<ViewBar*>()) {
+  for (const ui::ViewBar* bar : desktop.window().active_case()->findChildren<ui::ViewBar*>()) {
     if (!bar->isVisible()) continue;
     ++bars;
     QVERIFY(bar->height() >= bar->sizeHint().height());
@@ -128,7 +128,7 @@ void ScaleStoryTest::texts_of_the_bars_fit() {
 }
 
 void ScaleStoryTest::panels_fit_into_their_column() {
-  Desktop desktop(ExecutorKind::host, {1100, 760});
+  Desktop desktop(solver::ExecutorKind::host, {1100, 760});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
   int panels = 0;
@@ -153,7 +153,7 @@ void ScaleStoryTest::panels_fit_into_their_column() {
 }
 
 void ScaleStoryTest::the_icon_of_a_case_is_whole() {
-  Desktop desktop(ExecutorKind::host, {1000, 700});
+  Desktop desktop(solver::ExecutorKind::host, {1000, 700});
   QVERIFY(desktop.open_phantom("sphere"));
   QMenuBar* bar = desktop.window().menuBar();
   const QWidget* label = bar->cornerWidget(Qt::TopLeftCorner);
@@ -179,8 +179,8 @@ void ScaleStoryTest::the_window_opens_within_the_screen() {
   const TemporaryFolder settings;
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope,
                      QString::fromStdString(settings.path().string()));
-  Engine engine;
-  MainWindow window(engine);
+  engine::Engine engine;
+  ui::MainWindow window(engine);
   window.show();
   QVERIFY(QTest::qWaitForWindowExposed(&window));
   const QSize room = window.screen()->availableSize();

@@ -22,25 +22,25 @@ class SteeringStoryTest : public QObject {
 
 void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved_data() {
   QTest::addColumn<int>("executor");
-  QTest::newRow("host") << static_cast<int>(ExecutorKind::host);
-  QTest::newRow("compute") << static_cast<int>(ExecutorKind::compute);
-  QTest::newRow("stream") << static_cast<int>(ExecutorKind::stream);
+  QTest::newRow("host") << static_cast<int>(solver::ExecutorKind::host);
+  QTest::newRow("compute") << static_cast<int>(solver::ExecutorKind::compute);
+  QTest::newRow("stream") << static_cast<int>(solver::ExecutorKind::stream);
 }
 
 void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   QFETCH(int, executor);
   const TemporaryFolder folder;
-  const auto phantom = make_phantom("tumour");
+  const auto phantom = imaging::make_phantom("tumour");
   QVERIFY(phantom);
-  QCOMPARE(failure(write_phantom(*phantom, folder.path())), QString());
-  Desktop desktop(static_cast<ExecutorKind>(executor));
+  QCOMPARE(failure(imaging::write_phantom(*phantom, folder.path())), QString());
+  Desktop desktop(static_cast<solver::ExecutorKind>(executor));
 
   // A DICOM folder.
   QVERIFY(desktop.open(QString::fromStdString((folder / "series").string())));
   QCOMPARE(desktop.proxy().volume().geometry.size.x, std::int64_t{256});
-  auto* axial = desktop.view<SliceViewWidget>("Axial");
-  auto* speed = desktop.view<SliceViewWidget>("Speed map, axial");
-  auto* volume = desktop.view<VolumeViewWidget>();
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  auto* speed = desktop.view<ui::SliceViewWidget>("Speed map, axial");
+  auto* volume = desktop.view<ui::VolumeViewWidget>();
   QVERIFY(axial && speed && volume);
   QVERIFY(!axial->feed().shown().image.isNull());
   QVERIFY(desktop.engine().contexts_made() == 1);
@@ -49,11 +49,11 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   const Geometry& geometry = desktop.proxy().volume().geometry;
   const auto& seed = *phantom->seed;
   const glm::dvec3 centre = geometry.to_patient({seed[0], seed[1], seed[2]});
-  desktop.proxy().display().change([&](DisplaySettings& s) { s.cursor_mm = centre; });
+  desktop.proxy().display().change([&](engine::DisplaySettings& s) { s.cursor_mm = centre; });
 
   // Probe: T and epsilon from the tissue.
   desktop.press(Qt::Key_T);
-  QCOMPARE(desktop.proxy().display().settings().tool, Tool::probe_speed);
+  QCOMPARE(desktop.proxy().display().settings().tool, engine::Tool::probe_speed);
   Desktop::drag(*axial, {centre - glm::dvec3(8, 0, 0), centre, centre + glm::dvec3(8, 4, 0)});
   desktop.wait_until_idle();
   QVERIFY(std::abs(desktop.state().parameters.target - phantom->target) < 60.0);
@@ -64,7 +64,7 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   desktop.press(Qt::Key_Z, Qt::ControlModifier);
   desktop.wait_until_idle();
   QCOMPARE(desktop.state().parameters.range, desktop.proxy().study().parameters.range);
-  Parameters parameters = desktop.state().parameters;
+  solver::Parameters parameters = desktop.state().parameters;
   parameters.target = phantom->target;
   parameters.range = phantom->range;
   parameters.alpha = phantom->alpha;
@@ -108,7 +108,7 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   qInfo("phi was read %lld times for %llu pictures of the axial view, %lld pages were uploaded",
         static_cast<long long>(traffic.copies), static_cast<unsigned long long>(axial->feed().shown().number),
         static_cast<long long>(traffic.pages_uploaded));
-  const bool on_gpu = executor != static_cast<int>(ExecutorKind::host);
+  const bool on_gpu = executor != static_cast<int>(solver::ExecutorKind::host);
   QCOMPARE(traffic.copies == 0, on_gpu);
   QCOMPARE(traffic.pages_uploaded == 0, on_gpu);
 
@@ -134,8 +134,8 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   desktop.wait_until_idle();
   QCOMPARE(desktop.state().label_statistics[0].voxels, desktop.state().surface.voxels_inside);
   int written = 0;
-  CaseExports& exports = desktop.window().exports();
-  QObject::connect(&desktop.window().files(), &CaseFiles::written, &exports, [&] { ++written; });
+  ui::CaseExports& exports = desktop.window().exports();
+  QObject::connect(&desktop.window().files(), &ui::CaseFiles::written, &exports, [&] { ++written; });
   const QString mask_file = QString::fromStdString((folder / "mask.nii.gz").string());
   exports.write_mask(*desktop.window().active_case(), mask_file);
   exports.write_labels(*desktop.window().active_case(),
@@ -143,7 +143,7 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   exports.write_surface(*desktop.window().active_case(),
                         QString::fromStdString((folder / "surface.stl").string()));
   QVERIFY(Desktop::wait_for([&] { return written == 3; }));
-  const auto mask = load_mask(folder / "mask.nii.gz");
+  const auto mask = imaging::load_mask(folder / "mask.nii.gz");
   QVERIFY(mask);
   QCOMPARE(mask->count(), desktop.state().surface.voxels_inside);
   QVERIFY(dice(*mask, phantom->truth) > 0.97);
@@ -166,7 +166,7 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   QCOMPARE(desktop.state().parameters.target, parameters.target);
   QVERIFY(desktop.state().curve.points()->size() >= curve->size());
   QVERIFY(!desktop.state().modified);
-  auto* volume_again = desktop.view<VolumeViewWidget>();
+  auto* volume_again = desktop.view<ui::VolumeViewWidget>();
   QVERIFY(volume_again);
   desktop.screenshot(QStringLiteral("story-%1-3-reopened").arg(executor));
   QCOMPARE(volume_again->grab_picture().size(), before.size());

@@ -28,39 +28,39 @@ class TwoCasesStoryTest : public QObject {
 
  private:
   // Side by side.
-  static QList<CaseWindow*> open_two(Desktop& desktop, const QString& first, const QString& second);
+  static QList<ui::CaseWindow*> open_two(Desktop& desktop, const QString& first, const QString& second);
   static double target_in_panel(Desktop& desktop);
-  static void set_alpha(CaseWindow& window, double alpha);
-  static void begin_both(Desktop& desktop, const QList<CaseWindow*>& cases, double radius_mm);
+  static void set_alpha(ui::CaseWindow& window, double alpha);
+  static void begin_both(Desktop& desktop, const QList<ui::CaseWindow*>& cases, double radius_mm);
 };
 
-QList<CaseWindow*> TwoCasesStoryTest::open_two(Desktop& desktop, const QString& first,
-                                               const QString& second) {
-  CaseWindow* one = desktop.open_phantom(first);
-  CaseWindow* two = desktop.open_phantom(second);
+QList<ui::CaseWindow*> TwoCasesStoryTest::open_two(Desktop& desktop, const QString& first,
+                                                   const QString& second) {
+  ui::CaseWindow* one = desktop.open_phantom(first);
+  ui::CaseWindow* two = desktop.open_phantom(second);
   desktop.window().actions().tile->trigger();
   desktop.wait_until_idle();
   return {one, two};
 }
 
 double TwoCasesStoryTest::target_in_panel(Desktop& desktop) {
-  const auto* speed = desktop.window().findChild<SpeedControls*>();
+  const auto* speed = desktop.window().findChild<ui::SpeedControls*>();
   for (const QDoubleSpinBox* number : speed->findChildren<QDoubleSpinBox*>()) {
     if (number->accessibleName() == "Target T") return number->value();
   }
   qFatal("the panel has no T");
 }
 
-void TwoCasesStoryTest::set_alpha(CaseWindow& window, double alpha) {
-  Parameters parameters = window.proxy().parameters();
+void TwoCasesStoryTest::set_alpha(ui::CaseWindow& window, double alpha) {
+  solver::Parameters parameters = window.proxy().parameters();
   parameters.alpha = alpha;
   window.proxy().set_parameters(parameters);
 }
 
-void TwoCasesStoryTest::begin_both(Desktop& desktop, const QList<CaseWindow*>& cases, double radius_mm) {
-  for (CaseWindow* window : cases) {
+void TwoCasesStoryTest::begin_both(Desktop& desktop, const QList<ui::CaseWindow*>& cases, double radius_mm) {
+  for (ui::CaseWindow* window : cases) {
     const auto& seed = *window->proxy().study().start->seed;
-    Start start;
+    document::Start start;
     start.seeds.push_back(
         {window->proxy().volume().geometry.to_patient({seed[0], seed[1], seed[2]}), radius_mm});
     window->proxy().begin(start);
@@ -74,8 +74,8 @@ void TwoCasesStoryTest::panels_follow_the_active_case() {
   QVERIFY(cases[0] && cases[1] && cases[0] != cases[1]);
   begin_both(desktop, cases, 8.0);
   double target = 40.0;
-  for (CaseWindow* window : cases) {
-    Parameters parameters = window->proxy().parameters();
+  for (ui::CaseWindow* window : cases) {
+    solver::Parameters parameters = window->proxy().parameters();
     parameters.target = target;
     window->proxy().set_parameters(parameters);
     target += 13.0;
@@ -83,7 +83,7 @@ void TwoCasesStoryTest::panels_follow_the_active_case() {
   desktop.wait_until_idle();
   for (const int turn : {0, 1, 0}) {
     // By a click on one of its views.
-    PictureView* view = cases[turn]->views().first();
+    ui::PictureView* view = cases[turn]->views().first();
     QVERIFY(view->isVisible());
     QTest::mouseClick(view, Qt::LeftButton, {}, view->rect().center());
     desktop.wait_until_idle();
@@ -99,8 +99,8 @@ void TwoCasesStoryTest::panels_follow_the_active_case() {
   }
   // Six views, each with its picture.
   int shown = 0;
-  for (CaseWindow* window : cases) {
-    for (const PictureView* view : window->views()) {
+  for (ui::CaseWindow* window : cases) {
+    for (const ui::PictureView* view : window->views()) {
       QVERIFY2(shows_a_picture(*view), qPrintable(view->title()));
       ++shown;
     }
@@ -114,12 +114,12 @@ void TwoCasesStoryTest::six_views_follow_two_surfaces_and_phi_stays_where_it_is(
   Desktop desktop(story_executor(), {1200, 760});
   const auto cases = open_two(desktop, "tumour", "tumour");
   begin_both(desktop, cases, 8.0);
-  const auto pictures = [&](const CaseWindow& window) {
+  const auto pictures = [&](const ui::CaseWindow& window) {
     std::vector<std::uint64_t> numbers;
-    for (const PictureView* view : window.views()) numbers.push_back(view->feed().shown().number);
+    for (const ui::PictureView* view : window.views()) numbers.push_back(view->feed().shown().number);
     return numbers;
   };
-  for (CaseWindow* window : cases) {
+  for (ui::CaseWindow* window : cases) {
     const auto before = pictures(*window);
     QCOMPARE(before.size(), std::size_t{3});
     window->proxy().set_pause_at_convergence(false);
@@ -130,9 +130,9 @@ void TwoCasesStoryTest::six_views_follow_two_surfaces_and_phi_stays_where_it_is(
     };
     QVERIFY(Desktop::wait_for(all_moved, 60000));
   }
-  for (CaseWindow* window : cases) window->proxy().pause();
+  for (ui::CaseWindow* window : cases) window->proxy().pause();
   desktop.wait_until_idle();
-  for (CaseWindow* window : cases) {
+  for (ui::CaseWindow* window : cases) {
     const PhiTraffic traffic = desktop.phi_traffic(window->proxy());
     std::uint64_t shown = 0;
     for (const std::uint64_t number : pictures(*window)) shown += number;
@@ -142,7 +142,7 @@ void TwoCasesStoryTest::six_views_follow_two_surfaces_and_phi_stays_where_it_is(
         static_cast<long long>(window->proxy().state().step), static_cast<unsigned long long>(shown),
         static_cast<long long>(traffic.copies), static_cast<long long>(traffic.pages_uploaded),
         desktop.engine().contexts_made());
-    const bool on_gpu = story_executor() != ExecutorKind::host;
+    const bool on_gpu = story_executor() != solver::ExecutorKind::host;
     QCOMPARE(traffic.copies == 0, on_gpu);
     QCOMPARE(traffic.pages_uploaded == 0, on_gpu);
   }
@@ -152,16 +152,16 @@ void TwoCasesStoryTest::six_views_follow_two_surfaces_and_phi_stays_where_it_is(
 void TwoCasesStoryTest::linked_cases_are_looked_at_together() {
   Desktop desktop(story_executor(), {1200, 760});
   const auto cases = open_two(desktop, "sphere", "tumour");
-  Display& one = cases[0]->proxy().display();
-  Display& two = cases[1]->proxy().display();
-  one.change([](DisplaySettings& s) { s.camera.azimuth = 77.0; });
+  engine::Display& one = cases[0]->proxy().display();
+  engine::Display& two = cases[1]->proxy().display();
+  one.change([](engine::DisplaySettings& s) { s.camera.azimuth = 77.0; });
   QVERIFY(two.settings().camera.azimuth != 77.0);
   desktop.press(Qt::Key_L);
   QVERIFY(desktop.window().actions().link->isChecked());
   QCOMPARE(two.settings().camera, one.settings().camera);
 
   // Either leads: the cursor by the crosshair, the window by a drag, the camera by a drag in 3D.
-  PictureView* slice = cases[1]->views().first();
+  ui::PictureView* slice = cases[1]->views().first();
   desktop.press(Qt::Key_C);
   const glm::dvec3 there = *slice->patient_at(QPointF(slice->width() / 3.0, slice->height() / 3.0));
   Desktop::drag(*slice, {there, there});
@@ -172,8 +172,8 @@ void TwoCasesStoryTest::linked_cases_are_looked_at_together() {
   Desktop::drag(static_cast<QWidget&>(*slice), {QPoint(60, 60), QPoint(90, 90)});
   QVERIFY(one.settings().window != window);
   QVERIFY(one.settings().window == two.settings().window);
-  for (PictureView* view : cases[0]->views()) {
-    auto* volume = qobject_cast<VolumeViewWidget*>(view);
+  for (ui::PictureView* view : cases[0]->views()) {
+    auto* volume = qobject_cast<ui::VolumeViewWidget*>(view);
     if (volume) Desktop::drag(static_cast<QWidget&>(*volume), {QPoint(60, 60), QPoint(100, 80)});
   }
   QVERIFY(one.settings().camera.azimuth != 77.0);
@@ -181,29 +181,29 @@ void TwoCasesStoryTest::linked_cases_are_looked_at_together() {
 
   // And apart again.
   desktop.press(Qt::Key_L);
-  one.change([](DisplaySettings& s) { s.camera.azimuth = -11.0; });
+  one.change([](engine::DisplaySettings& s) { s.camera.azimuth = -11.0; });
   QVERIFY(two.settings().camera.azimuth != -11.0);
   QCOMPARE(desktop.engine().contexts_made(), 1);
 }
 
 void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step_data() {
   QTest::addColumn<int>("executor");
-  QTest::newRow("host") << static_cast<int>(ExecutorKind::host);
-  QTest::newRow("compute") << static_cast<int>(ExecutorKind::compute);
+  QTest::newRow("host") << static_cast<int>(solver::ExecutorKind::host);
+  QTest::newRow("compute") << static_cast<int>(solver::ExecutorKind::compute);
 }
 
 void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {
   QFETCH(int, executor);
-  Desktop desktop(static_cast<ExecutorKind>(executor), {1200, 760});
+  Desktop desktop(static_cast<solver::ExecutorKind>(executor), {1200, 760});
   const auto cases = open_two(desktop, "tumour", "tumour");
-  CaseProxy& one = cases[0]->proxy();
-  CaseProxy& two = cases[1]->proxy();
+  engine::CaseProxy& one = cases[0]->proxy();
+  engine::CaseProxy& two = cases[1]->proxy();
   set_alpha(*cases[0], 0.2);
   set_alpha(*cases[1], 0.8);
   // From a seed that curvature alone would not make vanish: 0.8 of it is strong.
   begin_both(desktop, cases, 20.0);
   // Few steps a picture: on a busy machine the surfaces would rest before the next key is pressed.
-  for (CaseProxy* proxy : {&one, &two}) proxy->set_steps_per_picture(5);
+  for (engine::CaseProxy* proxy : {&one, &two}) proxy->set_steps_per_picture(5);
   int rests = 0;
   int torn = 0;
   const auto look = [&] {
@@ -213,8 +213,8 @@ void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {
   };
   desktop.press(Qt::Key_L, Qt::ControlModifier);
   QVERIFY(one.in_lock_step() && two.in_lock_step());
-  connect(&one, &CaseProxy::state_changed, this, look);
-  connect(&two, &CaseProxy::state_changed, this, look);
+  connect(&one, &engine::CaseProxy::state_changed, this, look);
+  connect(&two, &engine::CaseProxy::state_changed, this, look);
   std::int64_t step = 0;
   for (int round = 0; round < 6; ++round) {
     desktop.press(Qt::Key_P);
@@ -231,8 +231,8 @@ void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {
   QVERIFY(std::abs(one.state().surface.volume_ml / two.state().surface.volume_ml - 1.0) > 0.02);
 
   // To the end: who is there first waits for the other, at the same step.
-  if (static_cast<ExecutorKind>(executor) == ExecutorKind::host) {
-    for (CaseProxy* proxy : {&one, &two}) proxy->set_steps_per_picture(0);
+  if (static_cast<solver::ExecutorKind>(executor) == solver::ExecutorKind::host) {
+    for (engine::CaseProxy* proxy : {&one, &two}) proxy->set_steps_per_picture(0);
     desktop.press(Qt::Key_P);
     QVERIFY(Desktop::wait_for([&] { return !one.state().playing && !two.state().playing; }, 60000));
     desktop.wait_until_idle();
@@ -248,11 +248,11 @@ void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {
 }
 
 void TwoCasesStoryTest::one_step_in_lock_step_is_one_of_each() {
-  Desktop desktop(ExecutorKind::host, {1200, 760});
+  Desktop desktop(solver::ExecutorKind::host, {1200, 760});
   const auto cases = open_two(desktop, "tumour", "tumour");
   begin_both(desktop, cases, 8.0);
-  CaseProxy& one = cases[0]->proxy();
-  CaseProxy& two = cases[1]->proxy();
+  engine::CaseProxy& one = cases[0]->proxy();
+  engine::CaseProxy& two = cases[1]->proxy();
   desktop.press(Qt::Key_L, Qt::ControlModifier);
   for (std::int64_t step = 1; step <= 3; ++step) {
     desktop.press(Qt::Key_Period);
@@ -280,8 +280,8 @@ void TwoCasesStoryTest::one_case_that_goes_back_stops_both() {
   Desktop desktop(story_executor(), {1200, 760});
   const auto cases = open_two(desktop, "tumour", "tumour");
   begin_both(desktop, cases, 8.0);
-  CaseProxy& one = cases[0]->proxy();
-  CaseProxy& two = cases[1]->proxy();
+  engine::CaseProxy& one = cases[0]->proxy();
+  engine::CaseProxy& two = cases[1]->proxy();
   desktop.press(Qt::Key_L, Qt::ControlModifier);
   one.play();
   QVERIFY(Desktop::wait_for([&] { return two.state().step > 20; }));
@@ -303,13 +303,13 @@ void TwoCasesStoryTest::one_case_that_goes_back_stops_both() {
 }
 
 void TwoCasesStoryTest::those_that_stay_get_the_room_of_one_that_is_closed() {
-  Desktop desktop(ExecutorKind::host, {1200, 760});
+  Desktop desktop(solver::ExecutorKind::host, {1200, 760});
   open_two(desktop, "sphere", "sphere");
   QVERIFY(desktop.open_phantom("sphere"));
   const QWidget* room = desktop.window().findChild<QMdiArea*>()->viewport();
   const auto share = [&] {
     double used = 0.0;
-    for (CaseWindow* window : desktop.window().cases()) {
+    for (ui::CaseWindow* window : desktop.window().cases()) {
       const QRect place = window->parentWidget()->geometry().intersected(room->rect());
       used += static_cast<double>(place.width()) * place.height();
     }
@@ -326,7 +326,7 @@ void TwoCasesStoryTest::those_that_stay_get_the_room_of_one_that_is_closed() {
 }
 
 void TwoCasesStoryTest::lock_step_ends_with_its_cases() {
-  Desktop desktop(ExecutorKind::host, {1200, 760});
+  Desktop desktop(solver::ExecutorKind::host, {1200, 760});
   open_two(desktop, "sphere", "sphere");
   const QAction& together = *desktop.window().actions().lock_step;
   desktop.press(Qt::Key_L, Qt::ControlModifier);

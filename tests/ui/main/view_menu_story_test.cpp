@@ -28,17 +28,17 @@ class ViewMenuStoryTest : public QObject {
   static QAction* entry(QMenu& menu, const QString& text);
   // Clicks it, in a submenu too.
   void choose(const QString& text);
-  [[nodiscard]] const DisplaySettings& settings() { return desktop_->proxy().display().settings(); }
+  [[nodiscard]] const engine::DisplaySettings& settings() { return desktop_->proxy().display().settings(); }
   [[nodiscard]] QPoint at(glm::dvec3 patient_mm) const { return axial_->position_of(patient_mm).toPoint(); }
 
   std::unique_ptr<Desktop> desktop_;
-  SliceViewWidget* axial_ = nullptr;
+  ui::SliceViewWidget* axial_ = nullptr;
 };
 
 void ViewMenuStoryTest::init() {
   desktop_ = std::make_unique<Desktop>(story_executor(), QSize(1300, 800));
   QVERIFY(desktop_->open_phantom("tumour"));
-  axial_ = desktop_->view<SliceViewWidget>("Axial");
+  axial_ = desktop_->view<ui::SliceViewWidget>("Axial");
   QVERIFY(axial_);
 }
 
@@ -103,7 +103,7 @@ void ViewMenuStoryTest::a_right_click_offers_what_can_be_done_here() {
   QVERIFY2(std::abs(desktop_->state().surface.volume_ml / ball_ml - 1.0) < 0.1,
            qPrintable(QString::number(desktop_->state().surface.volume_ml)));
 
-  Parameters off = desktop_->proxy().parameters();
+  solver::Parameters off = desktop_->proxy().parameters();
   off.target = 20.0;
   desktop_->proxy().set_parameters(off);
   right_click(*axial_, at(seed));
@@ -133,7 +133,7 @@ void ViewMenuStoryTest::a_right_click_offers_what_can_be_done_here() {
 
 void ViewMenuStoryTest::a_right_drag_zooms_and_opens_nothing() {
   desktop_->press(Qt::Key_W);
-  const QSignalSpy wanted(axial_, &PictureView::menu_wanted);
+  const QSignalSpy wanted(axial_, &ui::PictureView::menu_wanted);
   const double zoom = settings().slice_zoom;
   const QPoint from = axial_->rect().center();
   Desktop::drag(static_cast<QWidget&>(*axial_), {from, from - QPoint(0, 3), from - QPoint(0, 20), from},
@@ -201,12 +201,12 @@ void ViewMenuStoryTest::a_sphere_is_taken_away_by_a_drag() {
 
 void ViewMenuStoryTest::in_3d_the_surface_is_a_place() {
   desktop_->begin(24.0);
-  auto* volume = desktop_->view<VolumeViewWidget>();
+  auto* volume = desktop_->view<ui::VolumeViewWidget>();
   QVERIFY(volume);
   desktop_->proxy().step();  // so that nothing covers it
   desktop_->wait_until_idle();
   const glm::dvec3 seed = desktop_->seed_mm();
-  desktop_->proxy().display().change([](DisplaySettings& s) { s.cursor_mm += glm::dvec3(40.0); });
+  desktop_->proxy().display().change([](engine::DisplaySettings& s) { s.cursor_mm += glm::dvec3(40.0); });
   right_click(*volume, volume->position_of(seed).toPoint());
   QVERIFY(menu());
   desktop_->screenshot_at_once("menu-2-3d");

@@ -18,19 +18,19 @@ namespace {
 constexpr int kPixels = 112;  // two for one on a card
 
 // The slice through the seed, with the truth's outline in the surface's yellow.
-QImage picture_of(const Phantom& phantom) {
+QImage picture_of(const imaging::Phantom& phantom) {
   const Geometry& geometry = phantom.volume.geometry;
   const std::int64_t k = phantom.seed ? std::llround((*phantom.seed)[2]) : geometry.size.z / 2;
-  const WindowLevel window = summarise(phantom.volume, {}).window;
+  const WindowLevel window = engine::summarise(phantom.volume, {}).window;
   QImage picture =
-      picture_of_volume(phantom.volume, window, k, kPixels).convertToFormat(QImage::Format_RGB32);
+      engine::picture_of_volume(phantom.volume, window, k, kPixels).convertToFormat(QImage::Format_RGB32);
   const glm::dvec3 first = geometry.to_patient({-0.5, -0.5, static_cast<double>(k)});
   const double scale = picture.width() / (static_cast<double>(geometry.size.x) * geometry.spacing_mm.x);
   QPainter painter(&picture);
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(QPen(QColor(255, 217, 0), 1.6));
   const glm::dvec3 on_slice = geometry.to_patient({0.0, 0.0, static_cast<double>(k)});
-  for (const QLineF& line : outline_in_slice(phantom.truth, kAxial, on_slice)) {
+  for (const QLineF& line : ui::outline_in_slice(phantom.truth, renderer::kAxial, on_slice)) {
     // The patient's left is at the right, the back below.
     const auto place = [&](QPointF mm) {
       return QPointF((mm.x() - first.x) * scale, (-mm.y() - first.y) * scale);
@@ -60,7 +60,7 @@ class PhantomPicturesTest : public QObject {
  private slots:
   void a_card_shows_its_phantom_data() {
     QTest::addColumn<QString>("kind");
-    for (const std::string_view kind : phantom_kinds()) {
+    for (const std::string_view kind : imaging::phantom_kinds()) {
       const QString name = QString::fromUtf8(kind.data(), static_cast<qsizetype>(kind.size()));
       QTest::newRow(qPrintable(name)) << name;
     }
@@ -68,7 +68,7 @@ class PhantomPicturesTest : public QObject {
 
   void a_card_shows_its_phantom() {
     QFETCH(QString, kind);
-    const auto phantom = make_phantom(kind.toStdString());
+    const auto phantom = imaging::make_phantom(kind.toStdString());
     QVERIFY(phantom);
     QCOMPARE(phantom->volume.geometry.direction, glm::dmat3(1.0));
     const QImage now = picture_of(*phantom);

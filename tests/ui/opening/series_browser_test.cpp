@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Series series(const std::string& description, Index3 size, bool loadable = true) {
-  Series one;
+imaging::Series series(const std::string& description, Index3 size, bool loadable = true) {
+  imaging::Series one;
   one.uid = "1.2." + std::to_string(size.x);
   one.modality = "MR";
   one.description = description;
@@ -33,8 +33,8 @@ Series series(const std::string& description, Index3 size, bool loadable = true)
   return one;
 }
 
-std::shared_ptr<const Catalogue> sample() {
-  auto catalogue = std::make_shared<Catalogue>();
+std::shared_ptr<const imaging::Catalogue> sample() {
+  auto catalogue = std::make_shared<imaging::Catalogue>();
   catalogue->series = {series("Localizer", {500, 500, 500}, false), series("Small T2", {64, 64, 20}),
                        series("Large T1", {256, 256, 100}), series("Middle FLAIR", {128, 128, 60})};
   catalogue->series[2].warnings = {"10 slices lack a window", "text may be burned in"};
@@ -48,7 +48,7 @@ std::shared_ptr<const Catalogue> sample() {
 class SeriesBrowserTest : public QObject {
   Q_OBJECT
 
-  SeriesBrowser* browser_ = nullptr;
+  ui::SeriesBrowser* browser_ = nullptr;
   QTableView* table_ = nullptr;
   QLineEdit* filter_ = nullptr;
   QTextBrowser* details_ = nullptr;
@@ -58,7 +58,7 @@ class SeriesBrowserTest : public QObject {
 
  private slots:
   void init() {
-    browser_ = new SeriesBrowser;
+    browser_ = new ui::SeriesBrowser;
     browser_->show_catalogue(sample(), "/data");
     table_ = browser_->findChild<QTableView*>();
     filter_ = browser_->findChild<QLineEdit*>();
@@ -73,47 +73,47 @@ class SeriesBrowserTest : public QObject {
   }
   void cleanup() {
     delete browser_;
-    QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
+    QVERIFY(engine::BackgroundJob::finish_all(std::chrono::seconds(60)));
   }
 
   void the_largest_that_can_be_loaded_is_on_top_and_chosen() {
     QCOMPARE(table_->model()->rowCount(), 4);
-    QCOMPARE(cell(0, SeriesModel::kSeries), QString("Large T1"));
-    QCOMPARE(cell(1, SeriesModel::kSeries), QString("Middle FLAIR"));
-    QCOMPARE(cell(2, SeriesModel::kSeries), QString("Small T2"));
-    QCOMPARE(cell(3, SeriesModel::kSeries), QString("Localizer"));
+    QCOMPARE(cell(0, ui::SeriesModel::kSeries), QString("Large T1"));
+    QCOMPARE(cell(1, ui::SeriesModel::kSeries), QString("Middle FLAIR"));
+    QCOMPARE(cell(2, ui::SeriesModel::kSeries), QString("Small T2"));
+    QCOMPARE(cell(3, ui::SeriesModel::kSeries), QString("Localizer"));
     QVERIFY(browser_->selected() != nullptr);
     QCOMPARE(browser_->selected()->description, std::string("Large T1"));
     QVERIFY(table_->hasFocus());
-    QCOMPARE(cell(0, SeriesModel::kSize), QString::fromUtf8("256 × 256 × 100"));
-    QCOMPARE(cell(0, SeriesModel::kDate), QString("2004-07-31"));
-    QCOMPARE(cell(0, SeriesModel::kFiles), QString("2"));
+    QCOMPARE(cell(0, ui::SeriesModel::kSize), QString::fromUtf8("256 × 256 × 100"));
+    QCOMPARE(cell(0, ui::SeriesModel::kDate), QString("2004-07-31"));
+    QCOMPARE(cell(0, ui::SeriesModel::kFiles), QString("2"));
   }
 
   void patients_are_named_where_they_are_known() {
-    QVERIFY(table_->isColumnHidden(SeriesModel::kPatient));
-    auto catalogue = std::make_shared<Catalogue>(*sample());
+    QVERIFY(table_->isColumnHidden(ui::SeriesModel::kPatient));
+    auto catalogue = std::make_shared<imaging::Catalogue>(*sample());
     catalogue->series[2].patient.name = "山田 太郎 (Yamada, Tarou)";
     browser_->show_catalogue(catalogue, "/data");
-    QVERIFY(!table_->isColumnHidden(SeriesModel::kPatient));
-    QCOMPARE(cell(0, SeriesModel::kPatient), QString::fromUtf8("山田 太郎 (Yamada, Tarou)"));
-    QCOMPARE(cell(1, SeriesModel::kPatient), QString());
+    QVERIFY(!table_->isColumnHidden(ui::SeriesModel::kPatient));
+    QCOMPARE(cell(0, ui::SeriesModel::kPatient), QString::fromUtf8("山田 太郎 (Yamada, Tarou)"));
+    QCOMPARE(cell(1, ui::SeriesModel::kPatient), QString());
   }
 
   void notes_say_in_words_what_the_icon_means() {
-    QCOMPARE(cell(0, SeriesModel::kNotes), QString("2 warnings"));
-    QCOMPARE(cell(1, SeriesModel::kNotes), QString("1 change"));
-    QCOMPARE(cell(2, SeriesModel::kNotes), QString("Ready"));
-    QCOMPARE(cell(3, SeriesModel::kNotes), QString("Cannot be loaded"));
+    QCOMPARE(cell(0, ui::SeriesModel::kNotes), QString("2 warnings"));
+    QCOMPARE(cell(1, ui::SeriesModel::kNotes), QString("1 change"));
+    QCOMPARE(cell(2, ui::SeriesModel::kNotes), QString("Ready"));
+    QCOMPARE(cell(3, ui::SeriesModel::kNotes), QString("Cannot be loaded"));
     for (int row = 0; row < 4; ++row) {
-      const QVariant icon = table_->model()->index(row, SeriesModel::kNotes).data(Qt::DecorationRole);
+      const QVariant icon = table_->model()->index(row, ui::SeriesModel::kNotes).data(Qt::DecorationRole);
       QVERIFY(!icon.value<QIcon>().isNull());
     }
     QVERIFY(details_->toPlainText().contains("text may be burned in"));
   }
 
   void a_series_that_cannot_be_loaded_says_why_and_is_not_opened() {
-    QSignalSpy chosen(browser_, &SeriesBrowser::chosen);
+    QSignalSpy chosen(browser_, &ui::SeriesBrowser::chosen);
     QTest::keyClick(table_, Qt::Key_End, Qt::ControlModifier);
     QCOMPARE(browser_->selected()->description, std::string("Localizer"));
     QVERIFY(details_->toPlainText().contains("2.dcm: is <damaged>"));
@@ -124,25 +124,25 @@ class SeriesBrowserTest : public QObject {
   }
 
   void enter_opens() {
-    QSignalSpy chosen(browser_, &SeriesBrowser::chosen);
+    QSignalSpy chosen(browser_, &ui::SeriesBrowser::chosen);
     QTest::keyClick(table_, Qt::Key_Down);
     QTest::keyClick(table_, Qt::Key_Return);
     QCOMPARE(chosen.size(), 1);
-    QCOMPARE(chosen[0][0].value<Series>().description, std::string("Middle FLAIR"));
+    QCOMPARE(chosen[0][0].value<imaging::Series>().description, std::string("Middle FLAIR"));
     QVERIFY(!browser_->isVisible());
   }
 
   void a_double_click_opens() {
-    QSignalSpy chosen(browser_, &SeriesBrowser::chosen);
+    QSignalSpy chosen(browser_, &ui::SeriesBrowser::chosen);
     const QPoint place = table_->visualRect(table_->model()->index(2, 0)).center();
     QTest::mouseClick(table_->viewport(), Qt::LeftButton, {}, place);
     QTest::mouseDClick(table_->viewport(), Qt::LeftButton, {}, place);
     QCOMPARE(chosen.size(), 1);
-    QCOMPARE(chosen[0][0].value<Series>().description, std::string("Small T2"));
+    QCOMPARE(chosen[0][0].value<imaging::Series>().description, std::string("Small T2"));
   }
 
   void escape_opens_nothing() {
-    QSignalSpy chosen(browser_, &SeriesBrowser::chosen);
+    QSignalSpy chosen(browser_, &ui::SeriesBrowser::chosen);
     QTest::keyClick(table_, Qt::Key_Escape);
     QVERIFY(!browser_->isVisible());
     QCOMPARE(chosen.size(), 0);
@@ -166,9 +166,9 @@ class SeriesBrowserTest : public QObject {
   }
 
   void columns_sort_by_number_not_by_text() {
-    table_->sortByColumn(SeriesModel::kSize, Qt::AscendingOrder);
-    QCOMPARE(cell(0, SeriesModel::kSeries), QString("Small T2"));
-    QCOMPARE(cell(3, SeriesModel::kSeries), QString("Localizer"));
+    table_->sortByColumn(ui::SeriesModel::kSize, Qt::AscendingOrder);
+    QCOMPARE(cell(0, ui::SeriesModel::kSeries), QString("Small T2"));
+    QCOMPARE(cell(3, ui::SeriesModel::kSeries), QString("Localizer"));
   }
 
   void rows_can_be_dragged_where_they_can_be_loaded() {
@@ -176,14 +176,14 @@ class SeriesBrowserTest : public QObject {
     QVERIFY(rows->flags(rows->index(0, 0)) & Qt::ItemIsDragEnabled);
     QVERIFY(!(rows->flags(rows->index(3, 0)) & Qt::ItemIsDragEnabled));
     const std::unique_ptr<QMimeData> data(rows->mimeData({rows->index(0, 0)}));
-    const auto dragged = dropped_series(*data);
+    const auto dragged = ui::dropped_series(*data);
     QVERIFY(dragged);
     QCOMPARE(dragged->path, QString("/data/Large T1"));
     QCOMPARE(dragged->uid, QString("1.2.256"));
-    QVERIFY(!dropped_series(QMimeData()));
+    QVERIFY(!ui::dropped_series(QMimeData()));
     QMimeData cut;
-    cut.setData(kSeriesMimeType, data->data(kSeriesMimeType).left(7));
-    QVERIFY(!dropped_series(cut));
+    cut.setData(ui::kSeriesMimeType, data->data(ui::kSeriesMimeType).left(7));
+    QVERIFY(!ui::dropped_series(cut));
   }
 
   void a_series_of_images_gets_its_picture() {
@@ -191,12 +191,12 @@ class SeriesBrowserTest : public QObject {
     Volume volume;
     volume.geometry.size = {32, 32, 3};
     volume.voxels = std::vector<std::int16_t>(32 * 32 * 3, 900);
-    DicomSeriesHeader header;
+    imaging::DicomSeriesHeader header;
     header.window = {450.0, 900.0};
-    QCOMPARE(test::failure(write_dicom_series(volume, header, folder / "series")), QString());
-    auto found = find_series(folder.path());
+    QCOMPARE(test::failure(imaging::write_dicom_series(volume, header, folder / "series")), QString());
+    auto found = imaging::find_series(folder.path());
     QCOMPARE(test::failure(found), QString());
-    browser_->show_catalogue(std::make_shared<const Catalogue>(std::move(*found)), "series");
+    browser_->show_catalogue(std::make_shared<const imaging::Catalogue>(std::move(*found)), "series");
     const QModelIndex first = table_->model()->index(0, 0);
     const auto middle = [&] {
       const QImage picture = first.data(Qt::DecorationRole).value<QIcon>().pixmap(64).toImage();

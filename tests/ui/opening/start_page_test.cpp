@@ -40,17 +40,17 @@ class StartPageTest : public QObject {
                        QString::fromStdString(settings_.path().string()));
   }
   void init() { QSettings().clear(); }
-  void cleanup() { QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60))); }
+  void cleanup() { QVERIFY(engine::BackgroundJob::finish_all(std::chrono::seconds(60))); }
 
   void a_card_is_lit_only_while_the_mouse_is_on_it() {
-    RecentStudies recent;
-    StartPage page(recent);
+    ui::RecentStudies recent;
+    ui::StartPage page(recent);
     page.resize(1000, 800);
     page.show();
     QVERIFY(QTest::qWaitForWindowExposed(&page));
     page.activateWindow();
     QVERIFY(QTest::qWaitForWindowActive(&page));
-    auto* card = page.findChild<CardButton*>("open_folder");
+    auto* card = page.findChild<ui::CardButton*>("open_folder");
     const auto fill = [card] { return card->grab().toImage().pixelColor(card->width() - 8, 8); };
     const auto enter = [&] {
       QTest::mouseMove(&page, QPoint(2, 2));
@@ -81,22 +81,22 @@ class StartPageTest : public QObject {
   }
 
   void every_card_can_be_reached_and_pressed_by_keyboard() {
-    RecentStudies recent;
+    ui::RecentStudies recent;
     recent.add({QString::fromStdString(settings_.path().string()), "1.2.3", "T1 head", {}});
-    StartPage page(recent);
+    ui::StartPage page(recent);
     page.resize(1000, 800);
     page.show();
     QVERIFY(QTest::qWaitForWindowExposed(&page));
     page.activateWindow();
     QVERIFY(QTest::qWaitForWindowActive(&page));
-    QSignalSpy folder(&page, &StartPage::open_folder);
-    QSignalSpy file(&page, &StartPage::open_file);
-    QSignalSpy again(&page, &StartPage::recent_chosen);
-    QSignalSpy phantom(&page, &StartPage::phantom_chosen);
+    QSignalSpy folder(&page, &ui::StartPage::open_folder);
+    QSignalSpy file(&page, &ui::StartPage::open_file);
+    QSignalSpy again(&page, &ui::StartPage::recent_chosen);
+    QSignalSpy phantom(&page, &ui::StartPage::phantom_chosen);
     int pressed = 0;
     for (int tab = 0; tab < 20; ++tab) {
       QTest::keyClick(page.focusWidget() != nullptr ? page.focusWidget() : &page, Qt::Key_Tab);
-      auto* card = qobject_cast<CardButton*>(page.focusWidget());
+      auto* card = qobject_cast<ui::CardButton*>(page.focusWidget());
       if (card == nullptr) continue;
       QVERIFY(!card->accessibleName().isEmpty() && !card->accessibleDescription().isEmpty());
       QTest::keyClick(card, tab % 2 == 0 ? Qt::Key_Return : Qt::Key_Space);
@@ -106,18 +106,18 @@ class StartPageTest : public QObject {
     QVERIFY(folder.size() >= 1);
     QVERIFY(file.size() >= 1);
     QVERIFY(again.size() >= 1);
-    QCOMPARE(again[0][0].value<RecentStudy>().uid, QString("1.2.3"));
+    QCOMPARE(again[0][0].value<ui::RecentStudy>().uid, QString("1.2.3"));
     QStringList kinds;
     for (const auto& one : phantom) kinds.push_back(one[0].toString());
-    for (const std::string_view kind : phantom_kinds()) {
+    for (const std::string_view kind : imaging::phantom_kinds()) {
       QVERIFY2(kinds.contains(QString::fromUtf8(kind.data(), qsizetype(kind.size()))), kind.data());
     }
   }
 
   void folders_and_files_can_be_dropped() {
-    RecentStudies recent;
-    StartPage page(recent);
-    QSignalSpy dropped(&page, &StartPage::dropped);
+    ui::RecentStudies recent;
+    ui::StartPage page(recent);
+    QSignalSpy dropped(&page, &ui::StartPage::dropped);
     QMimeData data;
     data.setUrls({QUrl("file:///data/study"), QUrl("https://example.org/x"), QUrl("file:///data/a%20b.nii")});
     QDragEnterEvent enter({10, 10}, Qt::CopyAction, &data, Qt::LeftButton, {});
@@ -136,11 +136,11 @@ class StartPageTest : public QObject {
   }
 
   void nothing_is_cut_off_when_the_window_is_small() {
-    RecentStudies recent;
-    StartPage page(recent);
+    ui::RecentStudies recent;
+    ui::StartPage page(recent);
     const auto cut_off = [&] {
       QStringList titles;
-      for (const auto* card : page.findChildren<CardButton*>()) {
+      for (const auto* card : page.findChildren<ui::CardButton*>()) {
         const QRect seen(card->mapTo(&page, QPoint(0, 0)), card->size());
         const bool is_whole = seen.left() >= 0 && seen.right() <= page.width() &&
                               card->height() >= card->heightForWidth(card->width());
@@ -158,13 +158,13 @@ class StartPageTest : public QObject {
 
   void ten_studies_are_remembered_the_latest_first() {
     {
-      RecentStudies recent;
+      ui::RecentStudies recent;
       for (int number = 0; number < 12; ++number) {
         recent.add({QString("/data/%1").arg(number), "uid", QString("Study %1").arg(number), {}});
       }
       recent.add({"/data/5", "uid", "Study 5 again", {}});
     }
-    const RecentStudies again;
+    const ui::RecentStudies again;
     QCOMPARE(again.list().size(), 10);
     QCOMPARE(again.list()[0].name, QString("Study 5 again"));
     QCOMPARE(again.list()[1].path, QString("/data/11"));
@@ -174,24 +174,24 @@ class StartPageTest : public QObject {
 
   // A picture of pixels is sensitive: nobody else reads it, and it goes with its entry.
   void pictures_of_recent_studies_are_private_and_go_with_them() {
-    keep_recent_pictures({});
+    ui::keep_recent_pictures({});
     auto volume = std::make_shared<Volume>();
     volume->geometry.size = {40, 30, 3};
     std::vector<float> values(40 * 30 * 3);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i % 40);
     volume->voxels = std::move(values);
-    const RecentStudy study{"/data/DOE^JOHN", "1.2.3", "T1", {}};
-    RecentStudies recent;
-    QVERIFY(RecentStudies::picture_of(study).isNull());
+    const ui::RecentStudy study{"/data/DOE^JOHN", "1.2.3", "T1", {}};
+    ui::RecentStudies recent;
+    QVERIFY(ui::RecentStudies::picture_of(study).isNull());
     recent.add(study);
     recent.add_picture(study, volume, {20.0, 40.0}, 1);
-    QTRY_VERIFY_WITH_TIMEOUT(!RecentStudies::picture_of(study).isNull(), 60'000);
-    const QImage picture = RecentStudies::picture_of(study);
+    QTRY_VERIFY_WITH_TIMEOUT(!ui::RecentStudies::picture_of(study).isNull(), 60'000);
+    const QImage picture = ui::RecentStudies::picture_of(study);
     QCOMPARE(picture.width(), 128);
     QCOMPARE(picture.height(), 96);
     QVERIFY(picture.pixelColor(2, 50).lightness() + 100 < picture.pixelColor(120, 50).lightness());
 
-    const QDir folder(recent_picture_folder());
+    const QDir folder(ui::recent_picture_folder());
     QCOMPARE(folder.entryList(QDir::Files).size(), 1);
     const QFileInfo file(folder.filePath(folder.entryList(QDir::Files).first()));
     QVERIFY(!file.fileName().contains("DOE"));
@@ -202,9 +202,11 @@ class StartPageTest : public QObject {
     QCOMPARE(found.st_mode & 0777U, 0700U);
     QVERIFY(QImageReader(file.filePath()).textKeys().isEmpty());
 
-    StartPage page(recent);
-    const auto cards = page.findChildren<CardButton*>();
-    const auto shows_it = [](const CardButton* card) { return card->text() == "T1" && card->has_picture(); };
+    ui::StartPage page(recent);
+    const auto cards = page.findChildren<ui::CardButton*>();
+    const auto shows_it = [](const ui::CardButton* card) {
+      return card->text() == "T1" && card->has_picture();
+    };
     QVERIFY(std::any_of(cards.begin(), cards.end(), shows_it));
 
     recent.clear();
@@ -212,40 +214,40 @@ class StartPageTest : public QObject {
     // Ten others push it out of the list.
     recent.add(study);
     recent.add_picture(study, volume, {20.0, 40.0}, 1);
-    QTRY_VERIFY_WITH_TIMEOUT(!RecentStudies::picture_of(study).isNull(), 60'000);
+    QTRY_VERIFY_WITH_TIMEOUT(!ui::RecentStudies::picture_of(study).isNull(), 60'000);
     for (int number = 0; number < 10; ++number) recent.add({QString("/data/%1").arg(number), "u", "S", {}});
-    QVERIFY(RecentStudies::picture_of(study).isNull());
+    QVERIFY(ui::RecentStudies::picture_of(study).isNull());
     // One that left the list before its picture was made has none.
     recent.add(study);
     recent.add_picture(study, volume, {20.0, 40.0}, 1);
     recent.clear();
-    QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
+    QVERIFY(engine::BackgroundJob::finish_all(std::chrono::seconds(60)));
     QCoreApplication::processEvents();
     QCOMPARE(folder.entryList(QDir::Files).size(), 0);
   }
 
   void how_slices_became_a_grid_is_remembered() {
-    const GridPolicy filled{GridPolicy::Tilt::keep, GridPolicy::Gaps::fill};
+    const imaging::GridPolicy filled{imaging::GridPolicy::Tilt::keep, imaging::GridPolicy::Gaps::fill};
     {
-      RecentStudies recent;
+      ui::RecentStudies recent;
       recent.add({"/data/gaps", "1", "Gaps", filled});
       recent.add({"/data/whole", "2", "Whole", {}});
     }
-    RecentStudies again;
-    QVERIFY(again.list()[0].policy == GridPolicy());
+    ui::RecentStudies again;
+    QVERIFY(again.list()[0].policy == imaging::GridPolicy());
     QVERIFY(again.list()[1].policy == filled);
     const std::unique_ptr<QMenu> menu(again.make_menu(nullptr));
-    QSignalSpy chosen(&again, &RecentStudies::chosen);
+    QSignalSpy chosen(&again, &ui::RecentStudies::chosen);
     menu->actions()[1]->trigger();
-    QVERIFY(chosen[0][0].value<RecentStudy>().policy == filled);
+    QVERIFY(chosen[0][0].value<ui::RecentStudy>().policy == filled);
   }
 
   void a_study_that_is_gone_is_greyed_and_the_list_can_be_cleared() {
-    RecentStudies recent;
+    ui::RecentStudies recent;
     const QString here = QString::fromStdString(settings_.path().string());
     recent.add({here, "1", "Here & now", {}});
     recent.add({"/nowhere/study", "2", "Gone", {}});
-    StartPage page(recent);
+    ui::StartPage page(recent);
     page.show();
     const std::unique_ptr<QMenu> menu(recent.make_menu(nullptr));
     QVERIFY(menu->actions()[0]->isEnabled());  // not looked for yet
@@ -255,11 +257,11 @@ class StartPageTest : public QObject {
     QVERIFY(!menu->actions()[0]->isEnabled());
     QVERIFY(menu->actions()[0]->text().contains("not found"));
     QVERIFY(menu->actions()[1]->text().contains("Here && now"));
-    QSignalSpy chosen(&recent, &RecentStudies::chosen);
+    QSignalSpy chosen(&recent, &ui::RecentStudies::chosen);
     menu->actions()[1]->trigger();
     QCOMPARE(chosen.size(), 1);
-    QCOMPARE(chosen[0][0].value<RecentStudy>().path, here);
-    QCOMPARE(chosen[0][0].value<RecentStudy>().uid, QString("1"));
+    QCOMPARE(chosen[0][0].value<ui::RecentStudy>().path, here);
+    QCOMPARE(chosen[0][0].value<ui::RecentStudy>().uid, QString("1"));
 
     auto* clear_all = page.findChild<QToolButton*>("clear_recent");
     QVERIFY(clear_all->isVisible());
@@ -268,14 +270,14 @@ class StartPageTest : public QObject {
     QVERIFY(!clear_all->isVisible());
     QCOMPARE(menu->actions().size(), 3);  // "No studies yet", a line, "Clear"
     QVERIFY(!menu->actions()[2]->isEnabled());
-    QVERIFY(RecentStudies().list().isEmpty());
+    QVERIFY(ui::RecentStudies().list().isEmpty());
   }
 
   void the_menu_offers_each_phantom_with_a_sentence() {
-    PhantomMenu menu;
-    QSignalSpy chosen(&menu, &PhantomMenu::chosen);
-    QCOMPARE(menu.actions().size(), static_cast<qsizetype>(phantom_kinds().size()));
-    for (const std::string_view kind : phantom_kinds()) {
+    ui::PhantomMenu menu;
+    QSignalSpy chosen(&menu, &ui::PhantomMenu::chosen);
+    QCOMPARE(menu.actions().size(), static_cast<qsizetype>(imaging::phantom_kinds().size()));
+    for (const std::string_view kind : imaging::phantom_kinds()) {
       const QString name = QString::fromUtf8(kind.data(), static_cast<qsizetype>(kind.size()));
       auto* action = menu.findChild<QAction*>(name);
       QVERIFY2(action != nullptr, kind.data());

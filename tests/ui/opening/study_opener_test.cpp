@@ -31,10 +31,10 @@ Status write_series(const std::filesystem::path& folder, std::int64_t width, std
   std::vector<std::int16_t> voxels(static_cast<std::size_t>(volume.geometry.voxel_count()));
   for (std::size_t v = 0; v < voxels.size(); ++v) voxels[v] = static_cast<std::int16_t>(v % 500);
   volume.voxels = std::move(voxels);
-  DicomSeriesHeader header;
+  imaging::DicomSeriesHeader header;
   header.series_description = fmt::format("{} wide", width);
   header.window = {250.0, 500.0};
-  return write_dicom_series(volume, header, folder);
+  return imaging::write_dicom_series(volume, header, folder);
 }
 
 QString text(const std::filesystem::path& path) {
@@ -48,11 +48,11 @@ class StudyOpenerTest : public QObject {
 
   test::TemporaryFolder folder_;
   QWidget* window_ = nullptr;
-  StudyOpener* opener_ = nullptr;
+  ui::StudyOpener* opener_ = nullptr;
   std::unique_ptr<QSignalSpy> began_, opened_, failed_, ended_;
 
-  std::shared_ptr<const LoadedStudy> study() const {
-    return opened_->first()[0].value<std::shared_ptr<const LoadedStudy>>();
+  std::shared_ptr<const engine::LoadedStudy> study() const {
+    return opened_->first()[0].value<std::shared_ptr<const engine::LoadedStudy>>();
   }
 
  private slots:
@@ -62,15 +62,15 @@ class StudyOpenerTest : public QObject {
   }
   void init() {
     window_ = new QWidget;
-    opener_ = new StudyOpener(window_);
-    began_ = std::make_unique<QSignalSpy>(opener_, &StudyOpener::began);
-    opened_ = std::make_unique<QSignalSpy>(opener_, &StudyOpener::opened);
-    failed_ = std::make_unique<QSignalSpy>(opener_, &StudyOpener::failed);
-    ended_ = std::make_unique<QSignalSpy>(opener_, &StudyOpener::ended);
+    opener_ = new ui::StudyOpener(window_);
+    began_ = std::make_unique<QSignalSpy>(opener_, &ui::StudyOpener::began);
+    opened_ = std::make_unique<QSignalSpy>(opener_, &ui::StudyOpener::opened);
+    failed_ = std::make_unique<QSignalSpy>(opener_, &ui::StudyOpener::failed);
+    ended_ = std::make_unique<QSignalSpy>(opener_, &ui::StudyOpener::ended);
   }
   void cleanup() {
     delete window_;
-    QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
+    QVERIFY(engine::BackgroundJob::finish_all(std::chrono::seconds(60)));
   }
 
   void the_only_series_is_opened_at_once() {
@@ -84,7 +84,7 @@ class StudyOpenerTest : public QObject {
   }
 
   void it_is_asked_for_on_demand() {
-    opener_->open(text(folder_ / "two/a"), StudyOpener::Ask::always);
+    opener_->open(text(folder_ / "two/a"), ui::StudyOpener::Ask::always);
     QTRY_VERIFY_WITH_TIMEOUT(opener_->browser() != nullptr, kPatience);
     QCOMPARE(opened_->size(), 0);
   }
@@ -147,7 +147,7 @@ class StudyOpenerTest : public QObject {
         QCOMPARE(failed_->size(), 0);
         if (!fills) continue;
         QCOMPARE(study()->volume->geometry.size, Index3(20, 24, 5));
-        QVERIFY(study()->origin.policy.gaps == GridPolicy::Gaps::fill);
+        QVERIFY(study()->origin.policy.gaps == imaging::GridPolicy::Gaps::fill);
         uid = QString::fromStdString(study()->origin.series_uid);
       }
     }
@@ -162,7 +162,7 @@ class StudyOpenerTest : public QObject {
   }
 
   void gaps_that_were_filled_before_are_filled_without_a_question() {
-    const GridPolicy filled{GridPolicy::Tilt::correct, GridPolicy::Gaps::fill};
+    const imaging::GridPolicy filled{imaging::GridPolicy::Tilt::correct, imaging::GridPolicy::Gaps::fill};
     const auto files = test::write_series(test::sample_volume({12, 10, 6}), folder_ / "known gap");
     const QString uid = QString::fromStdString(test::only_series(folder_ / "known gap").uid);
     QVERIFY(std::filesystem::remove(files[2]));
@@ -203,9 +203,9 @@ class StudyOpenerTest : public QObject {
       QTRY_VERIFY(opener_->question() == nullptr);
       // Moved back they take more room.
       QCOMPARE(study()->volume->geometry.size, keeps ? Index3(12, 10, 6) : Index3(12, 15, 6));
-      const GridPolicy policy = study()->origin.policy;
-      QVERIFY(policy.tilt == (keeps ? GridPolicy::Tilt::keep : GridPolicy::Tilt::correct));
-      QVERIFY(policy.gaps == (has_gap ? GridPolicy::Gaps::fill : GridPolicy::Gaps::refuse));
+      const imaging::GridPolicy policy = study()->origin.policy;
+      QVERIFY(policy.tilt == (keeps ? imaging::GridPolicy::Tilt::keep : imaging::GridPolicy::Tilt::correct));
+      QVERIFY(policy.gaps == (has_gap ? imaging::GridPolicy::Gaps::fill : imaging::GridPolicy::Gaps::refuse));
     }
   }
 
@@ -218,7 +218,7 @@ class StudyOpenerTest : public QObject {
     QTest::keyClick(opener_->question(), Qt::Key_Escape);
     QTRY_VERIFY(opener_->question() == nullptr);
     QCOMPARE(ended_->size(), 2);
-    QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
+    QVERIFY(engine::BackgroundJob::finish_all(std::chrono::seconds(60)));
     QCoreApplication::processEvents();
     QCOMPARE(opened_->size() + failed_->size(), 0);
   }
@@ -227,9 +227,9 @@ class StudyOpenerTest : public QObject {
     const Volume whole = test::sample_volume({12, 10, 5});
     test::tilt(test::write_series(whole, folder_ / "known tilt"), whole.geometry, 0.9);
     const QString uid = QString::fromStdString(test::only_series(folder_ / "known tilt").uid);
-    for (const auto tilt : {GridPolicy::Tilt::correct, GridPolicy::Tilt::keep}) {
+    for (const auto tilt : {imaging::GridPolicy::Tilt::correct, imaging::GridPolicy::Tilt::keep}) {
       opened_->clear();
-      opener_->open_series(text(folder_ / "known tilt"), uid, {tilt, GridPolicy::Gaps::refuse});
+      opener_->open_series(text(folder_ / "known tilt"), uid, {tilt, imaging::GridPolicy::Gaps::refuse});
       QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
       QVERIFY(opener_->question() == nullptr);
       QVERIFY(study()->origin.policy.tilt == tilt);
@@ -248,7 +248,7 @@ class StudyOpenerTest : public QObject {
     opener_->open_phantom("sphere");
     opener_->cancel();
     QCOMPARE(ended_->size(), 1);
-    QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
+    QVERIFY(engine::BackgroundJob::finish_all(std::chrono::seconds(60)));
     QCoreApplication::processEvents();
     QCOMPARE(opened_->size() + failed_->size(), 0);
   }
@@ -256,7 +256,7 @@ class StudyOpenerTest : public QObject {
   void what_is_being_loaded_is_seen_before_it_is_loaded() {
     constexpr int kPixels = 1024;
     QCOMPARE(test::failure(write_series(folder_ / "many", 20, 300)), QString());
-    QSignalSpy previewed(opener_, &StudyOpener::previewed);
+    QSignalSpy previewed(opener_, &ui::StudyOpener::previewed);
     // Whether one slice is there before all of them, other programs on this machine have a say in.
     for (int attempt = 0; attempt < 5 && previewed.isEmpty(); ++attempt) {
       opened_->clear();
@@ -273,7 +273,7 @@ class StudyOpenerTest : public QObject {
     opener_->set_previews_wanted(false);
     opener_->open(text(folder_ / "many"));
     QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 1, kPatience);
-    QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
+    QVERIFY(engine::BackgroundJob::finish_all(std::chrono::seconds(60)));
     QCoreApplication::processEvents();
     QCOMPARE(previewed.size(), 1);
   }
@@ -282,7 +282,7 @@ class StudyOpenerTest : public QObject {
     QStackedWidget pages;
     pages.addWidget(new QWidget);  // where nothing is open
     pages.addWidget(new QWidget);  // with cases
-    auto* preview = new PreviewPage(pages, *opener_);
+    auto* preview = new ui::PreviewPage(pages, *opener_);
     QImage picture(10, 20, QImage::Format_Grayscale8);
     picture.fill(200);
     pages.resize(300, 200);
@@ -313,7 +313,8 @@ class StudyOpenerTest : public QObject {
     opener_->open(text(folder_ / "two/b"));
     QTRY_COMPARE_WITH_TIMEOUT(ended_->size(), 1, kPatience);
     QStringList names;
-    for (const auto& one : *opened_) names << one[0].value<std::shared_ptr<const LoadedStudy>>()->name;
+    for (const auto& one : *opened_)
+      names << one[0].value<std::shared_ptr<const engine::LoadedStudy>>()->name;
     QCOMPARE(names.size(), 3);
     QCOMPARE(names.first(), QString("20 wide"));
     QCOMPARE(names.last(), QString("30 wide"));
@@ -359,19 +360,19 @@ class StudyOpenerTest : public QObject {
     opener_->open(text(folder_ / "two/b"));
     opener_->cancel();
     QCOMPARE(ended_->size(), 1);
-    QVERIFY(BackgroundJob::finish_all(std::chrono::seconds(60)));
+    QVERIFY(engine::BackgroundJob::finish_all(std::chrono::seconds(60)));
     QTest::qWait(50);
     QCOMPARE(opened_->size() + failed_->size(), 0);
     QCOMPARE(began_->size(), 1);
   }
 
   void the_card_shows_how_far_it_is_and_what_went_wrong() {
-    LoadingView view(LoadingView::Shape::card);
-    connect(opener_, &StudyOpener::began, &view, &LoadingView::begin);
-    connect(opener_, &StudyOpener::progressed, &view, &LoadingView::set_progress);
-    connect(opener_, &StudyOpener::failed, &view, &LoadingView::fail);
-    connect(&view, &LoadingView::cancelled, opener_, &StudyOpener::cancel);
-    QSignalSpy closed(&view, &LoadingView::closed);
+    ui::LoadingView view(ui::LoadingView::Shape::card);
+    connect(opener_, &ui::StudyOpener::began, &view, &ui::LoadingView::begin);
+    connect(opener_, &ui::StudyOpener::progressed, &view, &ui::LoadingView::set_progress);
+    connect(opener_, &ui::StudyOpener::failed, &view, &ui::LoadingView::fail);
+    connect(&view, &ui::LoadingView::cancelled, opener_, &ui::StudyOpener::cancel);
+    QSignalSpy closed(&view, &ui::LoadingView::closed);
     view.show();
     auto* bar = view.findChild<QProgressBar*>();
     auto* button = view.findChild<QPushButton*>();
@@ -402,15 +403,15 @@ class StudyOpenerTest : public QObject {
   }
 
   void the_report_lists_what_was_changed() {
-    LoadedStudy study;
+    engine::LoadedStudy study;
     auto volume = std::make_shared<Volume>();
     volume->geometry.size = {256, 256, 100};
     volume->geometry.spacing_mm = {1.0, 1.0, 2.5};
     volume->changes = {"slices sorted by position", "<b>odd</b> description"};
     study.name = "T1 head";
     study.volume = volume;
-    LoadReport report(study);
-    QSignalSpy dismissed(&report, &LoadReport::dismissed);
+    ui::LoadReport report(study);
+    QSignalSpy dismissed(&report, &ui::LoadReport::dismissed);
     const auto* what = report.findChild<QLabel*>("what");
     QVERIFY(what->text().contains("slices sorted by position"));
     QVERIFY(what->text().contains("&lt;b&gt;odd"));
@@ -436,7 +437,7 @@ class StudyOpenerTest : public QObject {
     QVERIFY(!report.isVisible());
 
     volume->changes.clear();
-    const LoadReport nothing(study);
+    const ui::LoadReport nothing(study);
     QVERIFY(nothing.findChild<QLabel*>("what")->text().contains("Nothing was changed"));
   }
 };

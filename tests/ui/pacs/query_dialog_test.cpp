@@ -36,22 +36,22 @@ QPushButton* button(QWidget& whole, const QString& text) {
 
 // A dialog that knows servers and keeps what comes in a folder.
 struct Asked {
-  explicit Asked(const PacsServer& server) : Asked(std::vector{server}) {}
-  explicit Asked(const std::vector<PacsServer>& servers) {
+  explicit Asked(const imaging::PacsServer& server) : Asked(std::vector{server}) {}
+  explicit Asked(const std::vector<imaging::PacsServer>& servers) {
     QSettings().clear();
-    PacsConfiguration configuration;
+    imaging::PacsConfiguration configuration;
     configuration.servers = servers;
     configuration.limits.free_bytes = 1 << 20;
     const auto file = folder / "pacs.json";
-    if (!write_pacs_configuration(configuration, file)) qFatal("cannot write the file of servers");
-    dialog = std::make_unique<QueryDialog>(file);
+    if (!imaging::write_pacs_configuration(configuration, file)) qFatal("cannot write the file of servers");
+    dialog = std::make_unique<ui::QueryDialog>(file);
     dialog->set_folder(QString::fromStdString((folder / "kept").string()));
     dialog->show();
   }
   QTreeWidget& tree() const { return *named<QTreeWidget>(*dialog, "Studies found"); }
 
   TemporaryFolder folder;
-  std::unique_ptr<QueryDialog> dialog;
+  std::unique_ptr<ui::QueryDialog> dialog;
 };
 
 void picture(QWidget& widget, const char* name) {
@@ -69,11 +69,12 @@ class QueryDialogTest : public QObject {
     const auto archive = start_dcmqrscp();
     const Volume volume = sample_volume({16, 16, 4});
     const TemporaryFolder sent;
-    QCOMPARE(failure(send_files(archive->server(), write_series(volume, sent / "a"))), QString());
-    QCOMPARE(failure(send_files(archive->server(), write_series(volume, sent / "b", "MR"))), QString());
+    QCOMPARE(failure(imaging::send_files(archive->server(), write_series(volume, sent / "a"))), QString());
+    QCOMPARE(failure(imaging::send_files(archive->server(), write_series(volume, sent / "b", "MR"))),
+             QString());
 
     const Asked asked(archive->server());
-    QSignalSpy retrieved(asked.dialog.get(), &QueryDialog::retrieved);
+    QSignalSpy retrieved(asked.dialog.get(), &ui::QueryDialog::retrieved);
     named<QLineEdit>(*asked.dialog, "Patient's name")->setText("Phan*");
     QVERIFY(!button(*asked.dialog, "Open")->isEnabled());
     QTest::mouseClick(button(*asked.dialog, "Search"), Qt::LeftButton);
@@ -87,7 +88,7 @@ class QueryDialogTest : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(button(*asked.dialog, "Open")->isEnabled(), kPatience);
     QTest::mouseClick(button(*asked.dialog, "Open"), Qt::LeftButton);
     QVERIFY(retrieved.wait(kPatience));
-    const auto loaded = load_volume(retrieved.front().front().toString().toStdString());
+    const auto loaded = imaging::load_volume(retrieved.front().front().toString().toStdString());
     QCOMPARE(failure(loaded), QString());
     QVERIFY(loaded->values() == volume.values());
   }
@@ -96,8 +97,8 @@ class QueryDialogTest : public QObject {
     const auto archive = start_dcmqrscp();
     const TemporaryFolder sent;
     const Volume volume = sample_volume({4, 4, 2});
-    QCOMPARE(failure(send_files(archive->server(), write_series(volume, sent / "a"))), QString());
-    PacsServer other = archive->server();
+    QCOMPARE(failure(imaging::send_files(archive->server(), write_series(volume, sent / "a"))), QString());
+    imaging::PacsServer other = archive->server();
     other.name = "another";
     const Asked asked({archive->server(), other});
     QTest::mouseClick(button(*asked.dialog, "Search"), Qt::LeftButton);
@@ -122,7 +123,7 @@ class QueryDialogTest : public QObject {
 
   void a_silent_server_is_given_up_by_a_click() {
     const ScriptedPeer peer([](PeerEnd& end) { end.say_nothing(); });
-    PacsServer server = peer.server();
+    imaging::PacsServer server = peer.server();
     server.timeout_seconds = 600;
     const Asked asked(server);
     QTest::mouseClick(button(*asked.dialog, "Search"), Qt::LeftButton);
@@ -136,7 +137,7 @@ class QueryDialogTest : public QObject {
 
   void it_is_closed_while_it_asks() {
     const ScriptedPeer peer([](PeerEnd& end) { end.say_nothing(); });
-    PacsServer server = peer.server();
+    imaging::PacsServer server = peer.server();
     server.timeout_seconds = 600;
     Asked asked(server);
     QTest::mouseClick(button(*asked.dialog, "Search"), Qt::LeftButton);
@@ -146,9 +147,9 @@ class QueryDialogTest : public QObject {
 
   void without_a_server_it_says_how_to_name_one() {
     const TemporaryFolder folder;
-    QVERIFY(write_pacs_configuration({}, folder / "all-removed.json"));
+    QVERIFY(imaging::write_pacs_configuration({}, folder / "all-removed.json"));
     for (const char* file : {"none.json", "all-removed.json"}) {
-      QueryDialog dialog(folder / file);
+      ui::QueryDialog dialog(folder / file);
       dialog.show();
       QVERIFY(!button(dialog, "Search")->isEnabled());
       bool told = false;

@@ -16,18 +16,18 @@ namespace {
 
 constexpr int kPatience = 30'000;
 
-QLineEdit* line(ServersDialog& dialog, const QString& name) {
+QLineEdit* line(ui::ServersDialog& dialog, const QString& name) {
   for (QLineEdit* one : dialog.findChildren<QLineEdit*>()) {
     if (one->accessibleName() == name) return one;
   }
   qFatal("no line %s", qPrintable(name));
 }
 
-void click_save(ServersDialog& dialog) {
+void click_save(ui::ServersDialog& dialog) {
   QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Save), Qt::LeftButton);
 }
 
-bool says(ServersDialog& dialog, const QString& text) {
+bool says(ui::ServersDialog& dialog, const QString& text) {
   const auto labels = dialog.findChildren<QLabel*>();
   return std::any_of(labels.begin(), labels.end(),
                      [&](const QLabel* label) { return label->text().contains(text); });
@@ -43,7 +43,7 @@ class ServersDialogTest : public QObject {
     const StoringPeer peer({"+xa"});
     const TemporaryFolder folder;
     const auto file = folder / "tidemark/pacs.json";
-    ServersDialog dialog(file);
+    ui::ServersDialog dialog(file);
     dialog.show();
     line(dialog, "Name")->setText("here");
     line(dialog, "Host")->setText("localhost");
@@ -59,7 +59,7 @@ class ServersDialogTest : public QObject {
       QVERIFY(dialog.grab().save(pictures + "/servers.png"));
     click_save(dialog);
     QCOMPARE(dialog.result(), static_cast<int>(QDialog::Accepted));
-    const auto read = read_pacs_configuration(file);
+    const auto read = imaging::read_pacs_configuration(file);
     QCOMPARE(failure(read), QString());
     QCOMPARE(read->servers.size(), std::size_t{1});
     QCOMPARE(read->servers[0].name, std::string("here"));
@@ -69,7 +69,7 @@ class ServersDialogTest : public QObject {
 
   void a_port_that_is_no_number_is_not_kept_as_another() {
     const TemporaryFolder folder;
-    ServersDialog dialog(folder / "pacs.json");
+    ui::ServersDialog dialog(folder / "pacs.json");
     dialog.show();
     line(dialog, "Name")->setText("here");
     line(dialog, "Host")->setText("localhost");
@@ -88,7 +88,7 @@ class ServersDialogTest : public QObject {
 
   void what_makes_no_sense_is_said_and_not_kept() {
     const TemporaryFolder folder;
-    ServersDialog dialog(folder / "pacs.json");
+    ui::ServersDialog dialog(folder / "pacs.json");
     dialog.show();
     line(dialog, "Name")->setText("here");
     click_save(dialog);
@@ -99,12 +99,12 @@ class ServersDialogTest : public QObject {
 
   void servers_are_removed_and_the_others_stay_as_they_were() {
     const TemporaryFolder folder;
-    PacsConfiguration configuration;
+    imaging::PacsConfiguration configuration;
     for (const char* name : {"a", "b", "c"})
       configuration.servers.push_back(
-          {.name = name, .host = name, .ae_title = name, .tls = PacsTls{"/ca.pem", {}, {}, true}});
-    QCOMPARE(failure(write_pacs_configuration(configuration, folder / "pacs.json")), QString());
-    ServersDialog dialog(folder / "pacs.json");
+          {.name = name, .host = name, .ae_title = name, .tls = imaging::PacsTls{"/ca.pem", {}, {}, true}});
+    QCOMPARE(failure(imaging::write_pacs_configuration(configuration, folder / "pacs.json")), QString());
+    ui::ServersDialog dialog(folder / "pacs.json");
     dialog.show();
     auto* list = dialog.findChild<QListWidget*>();
     auto* remove = dialog.findChild<QToolButton*>("remove-server");
@@ -116,7 +116,7 @@ class ServersDialogTest : public QObject {
     QTest::mouseClick(remove, Qt::LeftButton);
     QCOMPARE(line(dialog, "Host")->text(), QString("c"));
     click_save(dialog);
-    const auto read = read_pacs_configuration(folder / "pacs.json");
+    const auto read = imaging::read_pacs_configuration(folder / "pacs.json");
     QCOMPARE(failure(read), QString());
     QCOMPARE(read->servers.size(), std::size_t{1});
     QVERIFY(read->servers[0] == configuration.servers[2]);
@@ -126,7 +126,7 @@ class ServersDialogTest : public QObject {
     const TemporaryFolder folder;
     const auto file = folder / "pacs.json";
     QCOMPARE(failure(write_file(file, R"({"servers": [{"name": "a", "hots": "b"}]})")), QString());
-    ServersDialog dialog(file);
+    ui::ServersDialog dialog(file);
     dialog.show();
     QVERIFY(says(dialog, "hots"));
     line(dialog, "Host")->setText("c");
@@ -135,7 +135,7 @@ class ServersDialogTest : public QObject {
     QTest::keyClick(&dialog, Qt::Key_Return);
     click_save(dialog);
     QVERIFY(dialog.isVisible());
-    QVERIFY(!read_pacs_configuration(file));
+    QVERIFY(!imaging::read_pacs_configuration(file));
   }
 };
 

@@ -21,7 +21,7 @@ class DisplayPanelTest : public QObject {
  private slots:
   void init() {
     the_case_ = std::make_unique<PanelCase>();
-    panel_ = shown<DisplayPanel>(*the_case_, 1100);
+    panel_ = shown<ui::DisplayPanel>(*the_case_, 1100);
   }
   void cleanup() {
     panel_.reset();
@@ -35,7 +35,7 @@ class DisplayPanelTest : public QObject {
     QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Level"))->value(), -600.0);
     choose(tr("Preset"), tr("As in the file"));
     QCOMPARE(settings().window, (WindowLevel{50.0, 300.0}));
-    the_case_->proxy->display().change([](DisplaySettings& s) { s.window = {40.0, 80.0}; });
+    the_case_->proxy->display().change([](engine::DisplaySettings& s) { s.window = {40.0, 80.0}; });
     QCOMPARE(preset(), tr("Brain"));
     type(tr("Width"), "81");
     QCOMPARE(settings().window, (WindowLevel{40.0, 81.0}));
@@ -43,13 +43,13 @@ class DisplayPanelTest : public QObject {
   }
 
   void presets_of_tissues_are_for_ct_alone() {
-    auto study = std::make_shared<LoadedStudy>(*ball_study());
+    auto study = std::make_shared<engine::LoadedStudy>(*ball_study());
     auto volume = std::make_shared<Volume>(*study->volume);
     volume->modality = "MR";
     volume->unit.clear();
     volume->window.reset();
     study->volume = volume;
-    CaseProxy proxy(the_case_->engine, study, ExecutorKind::host);
+    engine::CaseProxy proxy(the_case_->engine, study, solver::ExecutorKind::host);
     panel_->set_proxy(&proxy);
     auto* presets = named<QComboBox>(*panel_, tr("Preset"));
     QCOMPARE(presets->findText(tr("Lung")), -1);
@@ -69,7 +69,7 @@ class DisplayPanelTest : public QObject {
     choose(tr("Sides"), tr("Neurological"));
     QVERIFY(!settings().radiological);
     choose(tr("Speed map"), tr("Curvature"));
-    QCOMPARE(settings().speed_term, SpeedTerm::curvature);
+    QCOMPARE(settings().speed_term, renderer::SpeedTerm::curvature);
     type(tr("Labels"), "80");
     QCOMPARE(settings().label_opacity, 0.8);
     type(tr("Line width"), QLocale().toString(3.5).toUtf8());
@@ -85,18 +85,18 @@ class DisplayPanelTest : public QObject {
 
   void the_3d_view_can_be_set() {
     choose(tr("Drawn by"), tr("Slices"));
-    QCOMPARE(settings().mode, Mode::slices);
+    QCOMPARE(settings().mode, renderer::Mode::slices);
     type(tr("Opacity"), "50");
     QCOMPARE(settings().surface_colour.a, 0.5F);
     type(tr("Hollows"), "30");
     QCOMPARE(settings().occlusion, 0.3);
     choose(tr("Coloured by"), tr("Mean curvature"));
-    QCOMPARE(settings().colouring, SurfaceColouring::curvature);
+    QCOMPARE(settings().colouring, renderer::SurfaceColouring::curvature);
     QVERIFY(!named<QComboBox>(*panel_, tr("Where"))->isEnabled());
     click(tr("Source"));
     QVERIFY(settings().show_source);
     choose(tr("Where"), tr("Inside the surface"));
-    QCOMPARE(settings().region, Region::inside);
+    QCOMPARE(settings().region, renderer::Region::inside);
     QVERIFY(settings().orientation_cube && settings().volume_box);
     click(tr("Orientation cube"));
     QVERIFY(!settings().orientation_cube);
@@ -108,7 +108,7 @@ class DisplayPanelTest : public QObject {
 
   void a_colour_keeps_the_opacity() {
     type(tr("Opacity"), "50");
-    auto* colour = panel_->findChild<ColourButton*>();
+    auto* colour = panel_->findChild<ui::ColourButton*>();
     QTest::mouseClick(colour, Qt::LeftButton);
     auto* dialog = colour->findChild<QColorDialog*>();
     QVERIFY(dialog);
@@ -118,7 +118,7 @@ class DisplayPanelTest : public QObject {
   }
 
   void the_clip_plane_lies_across_the_crosshair_and_hides_the_viewers_side() {
-    the_case_->proxy->display().change([](DisplaySettings& s) {
+    the_case_->proxy->display().change([](engine::DisplaySettings& s) {
       s.camera.azimuth = 0.0;  // from the front: the viewer is anterior
       s.camera.elevation = 0.0;
     });
@@ -133,7 +133,7 @@ class DisplayPanelTest : public QObject {
 
   void the_clip_plane_moves_flips_and_can_be_told_what_to_cut() {
     QTest::mouseClick(button<QToolButton>(*panel_, tr("Axial")), Qt::LeftButton);
-    const ClipPlane before = settings().clip;
+    const renderer::ClipPlane before = settings().clip;
     type(tr("Distance"), "7");
     QCOMPARE(settings().clip.offset_mm, before.offset_mm + 7.0);
     QTest::mouseClick(button<QPushButton>(*panel_, tr("Flip")), Qt::LeftButton);
@@ -151,11 +151,11 @@ class DisplayPanelTest : public QObject {
   }
 
   void what_is_changed_in_a_view_shows() {
-    the_case_->proxy->display().change([](DisplaySettings& s) {
+    the_case_->proxy->display().change([](engine::DisplaySettings& s) {
       s.window = {12.0, 345.0};
       s.radiological = false;
       s.clip_on = true;
-      s.region = Region::tinted;
+      s.region = renderer::Region::tinted;
     });
     QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Width"))->value(), 345.0);
     QCOMPARE(named<QComboBox>(*panel_, tr("Sides"))->currentText(), tr("Neurological"));
@@ -165,7 +165,7 @@ class DisplayPanelTest : public QObject {
 
   void a_panel_behind_another_one_catches_up_when_it_is_seen() {
     panel_->hide();
-    the_case_->proxy->display().change([](DisplaySettings& s) { s.window.width = 222.0; });
+    the_case_->proxy->display().change([](engine::DisplaySettings& s) { s.window.width = 222.0; });
     show(*panel_);
     QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Width"))->value(), 222.0);
   }
@@ -177,7 +177,7 @@ class DisplayPanelTest : public QObject {
   }
 
  private:
-  const DisplaySettings& settings() { return panel_->proxy()->display().settings(); }
+  const engine::DisplaySettings& settings() { return panel_->proxy()->display().settings(); }
   QString preset() { return named<QComboBox>(*panel_, tr("Preset"))->currentText(); }
   // As from the list that opens.
   void choose(const QString& name, const QString& text) {
@@ -201,7 +201,7 @@ class DisplayPanelTest : public QObject {
   }
 
   std::unique_ptr<PanelCase> the_case_;
-  std::unique_ptr<DisplayPanel> panel_;
+  std::unique_ptr<ui::DisplayPanel> panel_;
 };
 
 }  // namespace tidemark

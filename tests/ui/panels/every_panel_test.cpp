@@ -21,7 +21,7 @@
 namespace tidemark {
 
 using namespace test;
-using MakePanel = std::function<std::unique_ptr<Panel>()>;
+using MakePanel = std::function<std::unique_ptr<ui::Panel>()>;
 
 // Whether a widget is a part of another control.
 static bool is_inner(const QWidget& widget) {
@@ -40,7 +40,7 @@ static QWidgetList controls(const QWidget& panel) {
     const bool is_control = qobject_cast<QAbstractButton*>(widget) ||
                             qobject_cast<QAbstractSlider*>(widget) ||
                             qobject_cast<QAbstractSpinBox*>(widget) || qobject_cast<QComboBox*>(widget) ||
-                            qobject_cast<QLineEdit*>(widget) || qobject_cast<SpeedPlot*>(widget);
+                            qobject_cast<QLineEdit*>(widget) || qobject_cast<ui::SpeedPlot*>(widget);
     // A button without an action is not shown.
     const bool waits =
         widget->isHidden() && widget->toolTip().isEmpty() && qobject_cast<QAbstractButton*>(widget);
@@ -102,14 +102,14 @@ class EveryPanelTest : public QObject {
   static void panels() {
     QTest::addColumn<MakePanel>("make");
     const auto add = [](const char* name, const MakePanel& make) { QTest::newRow(name) << make; };
-    add("level set", [] { return std::make_unique<LevelSetPanel>(); });
-    add("start", [] { return std::make_unique<InitialisePanel>(); });
-    add("paint", [] { return std::make_unique<PaintPanel>(); });
-    add("display", [] { return std::make_unique<DisplayPanel>(); });
-    add("labels", [] { return std::make_unique<LabelsPanel>(); });
-    add("statistics", [] { return std::make_unique<StatisticsPanel>(); });
+    add("level set", [] { return std::make_unique<ui::LevelSetPanel>(); });
+    add("start", [] { return std::make_unique<ui::InitialisePanel>(); });
+    add("paint", [] { return std::make_unique<ui::PaintPanel>(); });
+    add("display", [] { return std::make_unique<ui::DisplayPanel>(); });
+    add("labels", [] { return std::make_unique<ui::LabelsPanel>(); });
+    add("statistics", [] { return std::make_unique<ui::StatisticsPanel>(); });
   }
-  static std::unique_ptr<Panel> made() {
+  static std::unique_ptr<ui::Panel> made() {
     QFETCH(MakePanel, make);
     return make();
   }

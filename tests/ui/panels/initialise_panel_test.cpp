@@ -20,7 +20,7 @@ class InitialisePanelTest : public QObject {
  private slots:
   void init() {
     the_case_ = std::make_unique<PanelCase>();
-    panel_ = shown<InitialisePanel>(*the_case_, 700);
+    panel_ = shown<ui::InitialisePanel>(*the_case_, 700);
   }
   void cleanup() {
     panel_.reset();
@@ -40,10 +40,10 @@ class InitialisePanelTest : public QObject {
     choose(tr("Spheres"));
     auto* draw = button<QToolButton>(*panel_, tr("Draw in a view"));
     QTest::mouseClick(draw, Qt::LeftButton);
-    QCOMPARE(the_case_->proxy->display().settings().tool, Tool::seed);
-    the_case_->proxy->display().choose_tool(Tool::window);
+    QCOMPARE(the_case_->proxy->display().settings().tool, engine::Tool::seed);
+    the_case_->proxy->display().choose_tool(engine::Tool::window);
     QVERIFY(!draw->isChecked());
-    the_case_->proxy->display().choose_tool(Tool::seed);
+    the_case_->proxy->display().choose_tool(engine::Tool::seed);
     QVERIFY(draw->isChecked());
   }
 
@@ -75,11 +75,11 @@ class InitialisePanelTest : public QObject {
     start();
     QVERIFY(std::abs(the_case_->state().surface.volume_ml - ball_ml()) < 0.08 * ball_ml());
     the_case_->proxy->display().change(
-        [](DisplaySettings& settings) { settings.cursor_mm = glm::dvec3(1.0); });
+        [](engine::DisplaySettings& settings) { settings.cursor_mm = glm::dvec3(1.0); });
     QVERIFY(!start_button()->isEnabled());
     QVERIFY(says(tr("The value at the crosshair is not")));
     the_case_->proxy->display().change(
-        [](DisplaySettings& settings) { settings.cursor_mm = glm::dvec3(-500.0); });
+        [](engine::DisplaySettings& settings) { settings.cursor_mm = glm::dvec3(-500.0); });
     QVERIFY(says(tr("outside the study")));
   }
 
@@ -92,7 +92,7 @@ class InitialisePanelTest : public QObject {
           mask.voxels[static_cast<std::size_t>(mask.geometry.offset({i, j, k}))] = 1;
       }
     }
-    QCOMPARE(failure(write_mask_file(mask, folder_ / "box.nii.gz")), QString());
+    QCOMPARE(failure(imaging::write_mask_file(mask, folder_ / "box.nii.gz")), QString());
     choose(tr("Mask file"));
     QVERIFY(!start_button()->isEnabled());
     type_path("box.nii.gz");
@@ -119,7 +119,7 @@ class InitialisePanelTest : public QObject {
           mask.voxels[static_cast<std::size_t>(mask.geometry.offset({i, j, k}))] = 1;
       }
     }
-    QCOMPARE(failure(write_mask_file(mask, folder_ / "flipped.nrrd")), QString());
+    QCOMPARE(failure(imaging::write_mask_file(mask, folder_ / "flipped.nrrd")), QString());
     choose(tr("Mask file"));
     type_path("flipped.nrrd");
     QTest::mouseClick(start_button(), Qt::LeftButton);
@@ -135,7 +135,7 @@ class InitialisePanelTest : public QObject {
     Geometry other = the_case_->proxy->volume().geometry;
     other.size.x -= 1;
     Mask mask{other, std::vector<std::uint8_t>(static_cast<std::size_t>(other.voxel_count()), 1)};
-    QCOMPARE(failure(write_mask_file(mask, folder_ / "other.nii.gz")), QString());
+    QCOMPARE(failure(imaging::write_mask_file(mask, folder_ / "other.nii.gz")), QString());
     choose(tr("Mask file"));
     type_path("other.nii.gz");
     QTest::mouseClick(start_button(), Qt::LeftButton);
@@ -146,7 +146,7 @@ class InitialisePanelTest : public QObject {
   void a_saved_level_set_goes_on() {
     the_case_->begin(7.0);
     const double before = the_case_->state().surface.volume_ml;
-    QCOMPARE(failure(write_volume_file(the_case_->state().phi->to_volume(), folder_ / "phi.nrrd")),
+    QCOMPARE(failure(imaging::write_volume_file(the_case_->state().phi->to_volume(), folder_ / "phi.nrrd")),
              QString());
     the_case_->begin(4.0);
     choose(tr("Saved level set"));
@@ -186,7 +186,7 @@ class InitialisePanelTest : public QObject {
   void a_session_may_die_while_a_file_is_read() {
     Mask mask{the_case_->proxy->volume().geometry, {}};
     mask.voxels.assign(static_cast<std::size_t>(mask.geometry.voxel_count()), 1);
-    QCOMPARE(failure(write_mask_file(mask, folder_ / "all.nii.gz")), QString());
+    QCOMPARE(failure(imaging::write_mask_file(mask, folder_ / "all.nii.gz")), QString());
     choose(tr("Mask file"));
     type_path("all.nii.gz");
     QTest::mouseClick(start_button(), Qt::LeftButton);
@@ -242,7 +242,7 @@ class InitialisePanelTest : public QObject {
 
   TemporaryFolder folder_;
   std::unique_ptr<PanelCase> the_case_;
-  std::unique_ptr<InitialisePanel> panel_;
+  std::unique_ptr<ui::InitialisePanel> panel_;
 };
 
 }  // namespace tidemark

@@ -24,7 +24,7 @@ class LabelsPanelTest : public QObject {
  private slots:
   void init() {
     the_case_ = std::make_unique<PanelCase>();
-    panel_ = shown<LabelsPanel>(*the_case_, 500);
+    panel_ = shown<ui::LabelsPanel>(*the_case_, 500);
   }
   void cleanup() {
     panel_.reset();
@@ -47,7 +47,7 @@ class LabelsPanelTest : public QObject {
     click(tr("Accept surface into label"));
     const auto& statistics = the_case_->state().label_statistics;
     QCOMPARE(statistics.front().voxels, the_case_->state().surface.voxels_inside);
-    const QString shown = text(0, LabelsModel::volume);
+    const QString shown = text(0, ui::LabelsModel::volume);
     QCOMPARE(shown, QLocale().toString(statistics.front().volume_ml, 'f', 1));
     QVERIFY(shown != QLocale().toString(0.0, 'f', 1));
   }
@@ -101,7 +101,7 @@ class LabelsPanelTest : public QObject {
   void a_name_is_edited_in_the_table() {
     add();
     auto& table = *panel_->findChild<QTableView*>();
-    table.setCurrentIndex(table.model()->index(0, LabelsModel::name));
+    table.setCurrentIndex(table.model()->index(0, ui::LabelsModel::name));
     table.setFocus();
     QTest::keyClick(&table, Qt::Key_F2);
     auto* editor = table.viewport()->findChild<QLineEdit*>();
@@ -111,13 +111,13 @@ class LabelsPanelTest : public QObject {
     QTest::keyClick(editor, Qt::Key_Return);
     the_case_->wait_until_idle();
     QCOMPARE(QString::fromStdString(the_case_->state().labels.front().name), QStringLiteral("Left kidney"));
-    QCOMPARE(text(0, LabelsModel::name), QStringLiteral("Left kidney"));
+    QCOMPARE(text(0, ui::LabelsModel::name), QStringLiteral("Left kidney"));
   }
 
   void a_name_can_be_typed_while_the_surface_moves() {
     add();
     auto& table = *panel_->findChild<QTableView*>();
-    table.setCurrentIndex(table.model()->index(0, LabelsModel::name));
+    table.setCurrentIndex(table.model()->index(0, ui::LabelsModel::name));
     table.setFocus();
     QTest::keyClick(&table, Qt::Key_F2);
     const QPointer<QLineEdit> editor = table.viewport()->findChild<QLineEdit*>();
@@ -138,8 +138,8 @@ class LabelsPanelTest : public QObject {
     add();
     the_case_->begin(5.0);
     auto& table = *panel_->findChild<QTableView*>();
-    tick(table, LabelsModel::visible);
-    tick(table, LabelsModel::locked);
+    tick(table, ui::LabelsModel::visible);
+    tick(table, ui::LabelsModel::locked);
     the_case_->wait_until_idle();
     QVERIFY(!the_case_->state().labels.front().visible);
     QVERIFY(the_case_->state().labels.front().locked);
@@ -148,9 +148,9 @@ class LabelsPanelTest : public QObject {
 
   void two_edits_before_the_engine_answers_are_both_kept() {
     add();
-    auto& model = *panel_->findChild<LabelsModel*>();
-    model.setData(model.index(0, LabelsModel::locked), Qt::Checked, Qt::CheckStateRole);
-    model.setData(model.index(0, LabelsModel::name), QStringLiteral("Spleen"), Qt::EditRole);
+    auto& model = *panel_->findChild<ui::LabelsModel*>();
+    model.setData(model.index(0, ui::LabelsModel::locked), Qt::Checked, Qt::CheckStateRole);
+    model.setData(model.index(0, ui::LabelsModel::name), QStringLiteral("Spleen"), Qt::EditRole);
     the_case_->wait_until_idle();
     QVERIFY(the_case_->state().labels.front().locked);
     QCOMPARE(the_case_->state().labels.front().name, std::string("Spleen"));
@@ -158,14 +158,14 @@ class LabelsPanelTest : public QObject {
 
   void an_empty_name_is_refused() {
     add();
-    auto& model = *panel_->findChild<LabelsModel*>();
-    QVERIFY(!model.setData(model.index(0, LabelsModel::name), QStringLiteral("  "), Qt::EditRole));
+    auto& model = *panel_->findChild<ui::LabelsModel*>();
+    QVERIFY(!model.setData(model.index(0, ui::LabelsModel::name), QStringLiteral("  "), Qt::EditRole));
   }
 
   void a_colour_is_chosen_in_a_dialog_that_blocks_nothing() {
     add();
     auto& table = *panel_->findChild<QTableView*>();
-    const QModelIndex cell = table.model()->index(0, LabelsModel::colour);
+    const QModelIndex cell = table.model()->index(0, ui::LabelsModel::colour);
     QTest::mouseClick(table.viewport(), Qt::LeftButton, {}, table.visualRect(cell).center());
     auto* dialog = panel_->findChild<QColorDialog*>();
     QVERIFY(dialog);
@@ -177,10 +177,10 @@ class LabelsPanelTest : public QObject {
 
   void a_label_means_what_its_name_says_until_it_is_told() {
     add();
-    auto& model = *panel_->findChild<LabelsModel*>();
-    model.setData(model.index(0, LabelsModel::name), QStringLiteral("Left kidney"), Qt::EditRole);
+    auto& model = *panel_->findChild<ui::LabelsModel*>();
+    model.setData(model.index(0, ui::LabelsModel::name), QStringLiteral("Left kidney"), Qt::EditRole);
     the_case_->wait_until_idle();
-    auto& picker = *panel_->findChild<MeaningPicker*>();
+    auto& picker = *panel_->findChild<ui::MeaningPicker*>();
     QCOMPARE(picker.currentText(), QStringLiteral("By its name: Kidney"));
     QVERIFY(!the_case_->state().labels.front().meaning);
     picker.setFocus();
@@ -188,7 +188,7 @@ class LabelsPanelTest : public QObject {
     QTest::keyClicks(&picker, "cys");
     QTest::keyClick(&picker, Qt::Key_Return);
     the_case_->wait_until_idle();
-    QVERIFY(the_case_->state().labels.front().meaning == find_segment_meaning("cyst").value());
+    QVERIFY(the_case_->state().labels.front().meaning == imaging::find_segment_meaning("cyst").value());
     QCOMPARE(picker.currentText(), QStringLiteral("Cyst"));
     the_case_->proxy->undo();
     the_case_->wait_until_idle();
@@ -198,18 +198,19 @@ class LabelsPanelTest : public QObject {
 
   void a_meaning_of_another_system_is_kept_and_can_be_changed() {
     add();
-    Label label = the_case_->state().labels.front();
-    label.meaning = SegmentMeaning{{"1", "99X", "Thing"}, {"2", "99X", "Left gizmo"}};
+    document::Label label = the_case_->state().labels.front();
+    label.meaning = imaging::SegmentMeaning{{"1", "99X", "Thing"}, {"2", "99X", "Left gizmo"}};
     the_case_->proxy->set_label(label);
     the_case_->wait_until_idle();
-    auto& picker = *panel_->findChild<MeaningPicker*>();
+    auto& picker = *panel_->findChild<ui::MeaningPicker*>();
     QCOMPARE(picker.currentText(), QStringLiteral("Left gizmo"));
     const int rows = picker.count();
     picker.setFocus();
     QTest::keyClick(&picker, Qt::Key_Up);
     the_case_->wait_until_idle();
     QCOMPARE(picker.currentText(), QStringLiteral("White matter"));
-    QVERIFY(the_case_->state().labels.front().meaning == find_segment_meaning("white-matter").value());
+    QVERIFY(the_case_->state().labels.front().meaning ==
+            imaging::find_segment_meaning("white-matter").value());
     the_case_->proxy->undo();
     the_case_->wait_until_idle();
     QVERIFY(the_case_->state().labels.front().meaning == label.meaning);
@@ -219,7 +220,7 @@ class LabelsPanelTest : public QObject {
 
   void what_was_typed_and_means_nothing_goes() {
     add();
-    auto& picker = *panel_->findChild<MeaningPicker*>();
+    auto& picker = *panel_->findChild<ui::MeaningPicker*>();
     const QString before = picker.currentText();
     picker.setFocus();
     picker.lineEdit()->selectAll();
@@ -245,7 +246,7 @@ class LabelsPanelTest : public QObject {
   void a_label_added_elsewhere_shows() {
     the_case_->proxy->add_label(QStringLiteral("Tumour"));
     the_case_->wait_until_idle();
-    QCOMPARE(text(0, LabelsModel::name), QStringLiteral("Tumour"));
+    QCOMPARE(text(0, ui::LabelsModel::name), QStringLiteral("Tumour"));
   }
 
   void opacity_is_that_of_the_slices() {
@@ -260,7 +261,7 @@ class LabelsPanelTest : public QObject {
   void without_a_session_the_table_is_empty() {
     add();
     the_case_->proxy.reset();
-    QCOMPARE(panel_->findChild<LabelsModel*>()->rowCount(), 0);
+    QCOMPARE(panel_->findChild<ui::LabelsModel*>()->rowCount(), 0);
     QVERIFY(!panel_->findChild<QTableView*>()->isEnabled());
   }
 
@@ -289,7 +290,7 @@ class LabelsPanelTest : public QObject {
     QTest::keyClick(&table, Qt::Key_Space);
   }
   QString text(int row, int column) {
-    const auto& model = *panel_->findChild<LabelsModel*>();
+    const auto& model = *panel_->findChild<ui::LabelsModel*>();
     return model.data(model.index(row, column), Qt::DisplayRole).toString();
   }
   int chosen_row() {
@@ -298,7 +299,7 @@ class LabelsPanelTest : public QObject {
   }
 
   std::unique_ptr<PanelCase> the_case_;
-  std::unique_ptr<LabelsPanel> panel_;
+  std::unique_ptr<ui::LabelsPanel> panel_;
 };
 
 }  // namespace tidemark

@@ -51,8 +51,8 @@ class LevelSetPanelTest : public QObject {
   void init() {
     the_case_ = std::make_unique<PanelCase>();
     QSettings().remove("details");
-    panel_ = shown<LevelSetPanel>(*the_case_, 900);
-    for (Disclosure* fold : panel_->findChildren<Disclosure*>()) fold->set_open(true);
+    panel_ = shown<ui::LevelSetPanel>(*the_case_, 900);
+    for (ui::Disclosure* fold : panel_->findChildren<ui::Disclosure*>()) fold->set_open(true);
     QCoreApplication::processEvents();
   }
   void cleanup() {
@@ -62,7 +62,7 @@ class LevelSetPanelTest : public QObject {
 
   void a_slider_dragged_in_mid_run_reaches_the_level_set_and_is_one_entry_of_the_history() {
     the_case_->begin();
-    CaseProxy& proxy = *the_case_->proxy;
+    engine::CaseProxy& proxy = *the_case_->proxy;
     proxy.set_pause_at_convergence(false);
     proxy.play();
     QTRY_VERIFY(proxy.state().step > 5);
@@ -91,7 +91,7 @@ class LevelSetPanelTest : public QObject {
     QTest::keyClick(number, Qt::Key_Return);
     the_case_->wait_until_idle();
     QCOMPARE(the_case_->state().parameters.range, 33.0);
-    QCOMPARE(panel_->findChild<SpeedPlot*>()->range(), 33.0);
+    QCOMPARE(panel_->findChild<ui::SpeedPlot*>()->range(), 33.0);
   }
 
   void to_the_right_the_data_weigh_more() {
@@ -120,11 +120,11 @@ class LevelSetPanelTest : public QObject {
   }
 
   void the_peak_of_the_tent_moves_t_alone() {
-    auto& tent = *panel_->findChild<SpeedPlot*>();
+    auto& tent = *panel_->findChild<ui::SpeedPlot*>();
     const QPoint peak = tent.peak().toPoint();
     drag(tent, peak, peak - QPoint(40, 0));
     the_case_->wait_until_idle();
-    const Parameters& parameters = the_case_->state().parameters;
+    const solver::Parameters& parameters = the_case_->state().parameters;
     QVERIFY(parameters.target < 95.0);
     QCOMPARE(parameters.range, 50.0);
     the_case_->proxy->undo();
@@ -134,24 +134,24 @@ class LevelSetPanelTest : public QObject {
   }
 
   void a_foot_of_the_tent_changes_epsilon_alone() {
-    auto& tent = *panel_->findChild<SpeedPlot*>();
+    auto& tent = *panel_->findChild<ui::SpeedPlot*>();
     const QPoint foot = tent.left_foot().toPoint();
     drag(tent, foot, foot + QPoint(20, 30));
     the_case_->wait_until_idle();
-    const Parameters& parameters = the_case_->state().parameters;
+    const solver::Parameters& parameters = the_case_->state().parameters;
     QVERIFY(parameters.range < 48.0);
     QCOMPARE(parameters.target, 100.0);
     QCOMPARE(parameters.range, named<QDoubleSpinBox>(*panel_, tr("Range ε"))->value());
   }
 
   void a_press_beside_the_tents_handles_changes_nothing() {
-    auto& tent = *panel_->findChild<SpeedPlot*>();
+    auto& tent = *panel_->findChild<ui::SpeedPlot*>();
     drag(tent, {40, tent.height() - 20}, {90, tent.height() - 20});
     QCOMPARE(the_case_->proxy->parameters(), the_case_->proxy->study().parameters);
   }
 
   void arrow_keys_move_the_tent() {
-    auto& tent = *panel_->findChild<SpeedPlot*>();
+    auto& tent = *panel_->findChild<ui::SpeedPlot*>();
     tent.setFocus();
     QTest::keyClick(&tent, Qt::Key_Left);
     QVERIFY(the_case_->proxy->parameters().target < 100.0);
@@ -174,11 +174,11 @@ class LevelSetPanelTest : public QObject {
   }
 
   void details_are_folded_away_until_somebody_unfolds_them() {
-    const LevelSetPanel fresh;
-    const auto folds = fresh.findChildren<Disclosure*>();
+    const ui::LevelSetPanel fresh;
+    const auto folds = fresh.findChildren<ui::Disclosure*>();
     QCOMPARE(folds.size(), 3);
-    for (const Disclosure* fold : folds) QVERIFY(!fold->is_open());
-    const auto is_folded = [](const LevelSetPanel& in, const QString& name) {
+    for (const ui::Disclosure* fold : folds) QVERIFY(!fold->is_open());
+    const auto is_folded = [](const ui::LevelSetPanel& in, const QString& name) {
       for (QWidget* widget : in.findChildren<QWidget*>()) {
         if (widget->accessibleName() != name) continue;
         for (const QWidget* at = widget; at != &in; at = at->parentWidget()) {
@@ -196,20 +196,20 @@ class LevelSetPanelTest : public QObject {
       QVERIFY2(!is_folded(fresh, tr(name)), name);
 
     // By a click, and the next time, too.
-    auto shown_fresh = shown<LevelSetPanel>(*the_case_, 900);
+    auto shown_fresh = shown<ui::LevelSetPanel>(*the_case_, 900);
     auto* unfold = named<QToolButton>(*shown_fresh, tr("Details of the speed"));
     QTest::mouseClick(unfold, Qt::LeftButton);
     QVERIFY(!is_folded(*shown_fresh, tr("Scheme")));
-    const LevelSetPanel next;
+    const ui::LevelSetPanel next;
     QVERIFY(!is_folded(next, tr("Scheme")));
     QVERIFY(is_folded(next, tr("Memory")));
     QTest::mouseClick(unfold, Qt::LeftButton);
-    QVERIFY(is_folded(LevelSetPanel(), tr("Scheme")));
+    QVERIFY(is_folded(ui::LevelSetPanel(), tr("Scheme")));
   }
 
   void the_papers_scheme_can_be_chosen_is_undone_and_recorded() {
     the_case_->begin();
-    CaseProxy& proxy = *the_case_->proxy;
+    engine::CaseProxy& proxy = *the_case_->proxy;
     proxy.step(2);
     the_case_->wait_until_idle();
     const double large_step = the_case_->state().time_step;
@@ -217,7 +217,7 @@ class LevelSetPanelTest : public QObject {
     scheme->setFocus();
     QTest::keyClick(scheme, Qt::Key_Down);
     the_case_->wait_until_idle();
-    QVERIFY(the_case_->state().parameters.scheme == Scheme::paper);
+    QVERIFY(the_case_->state().parameters.scheme == solver::Scheme::paper);
     QVERIFY(the_case_->state().time_step < large_step);
     proxy.step(3);
     type(tr("Rescaling w"), "0.5");
@@ -227,16 +227,16 @@ class LevelSetPanelTest : public QObject {
     auto* by_band = button<QCheckBox>(*panel_, tr("w by the band's width"));
     QVERIFY(!by_band->isChecked());
 
-    std::shared_ptr<const CaseProxy::Snapshot> snapshot;
+    std::shared_ptr<const engine::CaseProxy::Snapshot> snapshot;
     proxy.take_snapshot({}, [&](const auto& taken) { snapshot = taken; });
     the_case_->wait_until_idle();
     QVERIFY(snapshot);
     const auto text = snapshot->contents.recipe.to_text();
     QCOMPARE(failure(text), QString());
-    const auto recipe = Recipe::parse(*text, "recipe");
+    const auto recipe = document::Recipe::parse(*text, "recipe");
     QCOMPARE(failure(recipe), QString());
     QCOMPARE(recipe->final_parameters(), the_case_->state().parameters);
-    QVERIFY(recipe->parameters.scheme == Scheme::split);  // at the start
+    QVERIFY(recipe->parameters.scheme == solver::Scheme::split);  // at the start
 
     QTest::mouseClick(by_band, Qt::LeftButton, {}, {8, by_band->height() / 2});
     the_case_->wait_until_idle();
@@ -254,14 +254,14 @@ class LevelSetPanelTest : public QObject {
   }
 
   void what_is_changed_elsewhere_shows() {
-    Parameters parameters = the_case_->proxy->parameters();
+    solver::Parameters parameters = the_case_->proxy->parameters();
     parameters.target = 42.0;
     parameters.alpha = 0.25;
     parameters.rescaling_term = false;
     the_case_->proxy->set_parameters(parameters);
     QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Target T"))->value(), 42.0);
     QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Data weight α"))->value(), 0.25);
-    QCOMPARE(panel_->findChild<SpeedPlot*>()->target(), 42.0);
+    QCOMPARE(panel_->findChild<ui::SpeedPlot*>()->target(), 42.0);
     QVERIFY(!button<QCheckBox>(*panel_, tr("Rescaling"))->isChecked());
     // alpha / (alpha + (1 - alpha) epsilon) = 0.25 / (0.25 + 0.75 * 50)
     QVERIFY(named<QLabel>(*panel_, tr("α as in the paper"))
@@ -317,14 +317,14 @@ class LevelSetPanelTest : public QObject {
     the_case_->wait_until_idle();
     QVERIFY(button<QLabel>(*panel_, tr("converged")));
     QCOMPARE(named<QLabel>(*panel_, tr("Step"))->text(), QString::number(the_case_->state().step));
-    auto* volume = named<CurvePlot>(*panel_, tr("Volume"));
+    auto* volume = named<ui::CurvePlot>(*panel_, tr("Volume"));
     QVERIFY(volume->points().size() > 1);
     QCOMPARE(volume->points().back().y(), the_case_->state().surface.volume_ml);
     const double ball_ml = 4.0 / 3.0 * M_PI * std::pow(kBallRadius, 3) / 1000.0;
     QVERIFY(std::abs(volume->points().back().y() - ball_ml) < 0.1 * ball_ml);
-    const auto& motion = named<CurvePlot>(*panel_, tr("Motion"))->points();
+    const auto& motion = named<ui::CurvePlot>(*panel_, tr("Motion"))->points();
     QVERIFY(!motion.empty());
-    QVERIFY(motion.back().y() < kConvergedSpeed);
+    QVERIFY(motion.back().y() < solver::kConvergedSpeed);
   }
 
   void without_a_session_it_is_grey_and_says_what_is_missing() {
@@ -336,7 +336,7 @@ class LevelSetPanelTest : public QObject {
   }
 
   void a_session_may_die_while_the_panel_lives_even_in_a_drag() {
-    auto& tent = *panel_->findChild<SpeedPlot*>();
+    auto& tent = *panel_->findChild<ui::SpeedPlot*>();
     const QPoint peak = tent.peak().toPoint();
     QTest::mousePress(&tent, Qt::LeftButton, {}, peak);
     QTest::mouseMove(&tent, peak + QPoint(10, 0));
@@ -350,7 +350,7 @@ class LevelSetPanelTest : public QObject {
 
   void another_session_shows_its_own() {
     PanelCase other;
-    Parameters parameters = other.proxy->parameters();
+    solver::Parameters parameters = other.proxy->parameters();
     parameters.target = 11.0;
     other.proxy->set_parameters(parameters);
     panel_->set_proxy(other.proxy.get());
@@ -373,7 +373,7 @@ class LevelSetPanelTest : public QObject {
   }
 
   std::unique_ptr<PanelCase> the_case_;
-  std::unique_ptr<LevelSetPanel> panel_;
+  std::unique_ptr<ui::LevelSetPanel> panel_;
 };
 
 }  // namespace tidemark

@@ -18,7 +18,7 @@ class PaintPanelTest : public QObject {
  private slots:
   void init() {
     the_case_ = std::make_unique<PanelCase>();
-    panel_ = shown<PaintPanel>(*the_case_, 500);
+    panel_ = shown<ui::PaintPanel>(*the_case_, 500);
   }
   void cleanup() {
     panel_.reset();
@@ -27,16 +27,16 @@ class PaintPanelTest : public QObject {
 
   void a_tool_is_chosen_and_the_one_before_remembered() {
     QTest::mouseClick(named<QToolButton>(*panel_, tr("Paint")), Qt::LeftButton);
-    QCOMPARE(settings().tool, Tool::paint);
+    QCOMPARE(settings().tool, engine::Tool::paint);
     QTest::mouseClick(named<QToolButton>(*panel_, tr("Erase")), Qt::LeftButton);
-    QCOMPARE(settings().tool, Tool::erase);
-    QCOMPARE(settings().last_tool, Tool::paint);
+    QCOMPARE(settings().tool, engine::Tool::erase);
+    QCOMPARE(settings().last_tool, engine::Tool::paint);
     QVERIFY(!named<QToolButton>(*panel_, tr("Paint"))->isChecked());
   }
 
   void with_another_tool_neither_is_chosen() {
     QTest::mouseClick(named<QToolButton>(*panel_, tr("Paint")), Qt::LeftButton);
-    the_case_->proxy->display().choose_tool(Tool::measure_angle);
+    the_case_->proxy->display().choose_tool(engine::Tool::measure_angle);
     QVERIFY(!named<QToolButton>(*panel_, tr("Paint"))->isChecked());
     QVERIFY(!named<QToolButton>(*panel_, tr("Erase"))->isChecked());
   }
@@ -54,7 +54,7 @@ class PaintPanelTest : public QObject {
   }
 
   void the_radius_follows_the_wheel_in_a_view() {
-    the_case_->proxy->display().change([](DisplaySettings& s) { s.brush_mm = 2.5; });
+    the_case_->proxy->display().change([](engine::DisplaySettings& s) { s.brush_mm = 2.5; });
     QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Radius"))->value(), 2.5);
   }
 
@@ -75,10 +75,10 @@ class PaintPanelTest : public QObject {
   }
 
  private:
-  const DisplaySettings& settings() { return the_case_->proxy->display().settings(); }
+  const engine::DisplaySettings& settings() { return the_case_->proxy->display().settings(); }
 
   std::unique_ptr<PanelCase> the_case_;
-  std::unique_ptr<PaintPanel> panel_;
+  std::unique_ptr<ui::PaintPanel> panel_;
 };
 
 }  // namespace tidemark

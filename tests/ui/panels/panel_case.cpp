@@ -10,8 +10,9 @@ void show(QWidget& widget) {
   if (!QTest::qWaitForWindowActive(&widget)) qFatal("the window does not show");
 }
 
-PanelCase::PanelCase() : proxy(std::make_unique<CaseProxy>(engine, ball_study(), ExecutorKind::host)) {
-  proxy->display().change([this](DisplaySettings& settings) { settings.cursor_mm = middle(); });
+PanelCase::PanelCase()
+    : proxy(std::make_unique<engine::CaseProxy>(engine, ball_study(), solver::ExecutorKind::host)) {
+  proxy->display().change([this](engine::DisplaySettings& settings) { settings.cursor_mm = middle(); });
   wait_until_idle();
 }
 
@@ -23,14 +24,14 @@ void PanelCase::wait_until_idle() {
 }
 
 void PanelCase::begin(double radius_mm) {
-  Start start;
+  document::Start start;
   start.seeds.push_back({middle(), radius_mm});
   proxy->begin(start);
   wait_until_idle();
 }
 
 glm::dvec3 PanelCase::middle() const {
-  return middle_of(proxy->volume().geometry);
+  return renderer::middle_of(proxy->volume().geometry);
 }
 
 }  // namespace tidemark::test

@@ -34,14 +34,14 @@ class PanelCase {
  public:
   PanelCase();
 
-  Engine engine{false};
-  std::unique_ptr<CaseProxy> proxy;
+  engine::Engine engine{false};
+  std::unique_ptr<engine::CaseProxy> proxy;
 
   // Waits until all commands are done, and the proxy has the state. Not while it plays.
   void wait_until_idle();
   // A ball of that radius in the middle of the study.
   void begin(double radius_mm = 6.0);
-  [[nodiscard]] const CaseState& state() const { return proxy->state(); }
+  [[nodiscard]] const engine::CaseState& state() const { return proxy->state(); }
   [[nodiscard]] glm::dvec3 middle() const;
 };
 

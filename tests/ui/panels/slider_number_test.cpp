@@ -21,7 +21,7 @@ class SliderNumberTest : public QObject {
   Q_OBJECT
  private slots:
   void slider_and_number_are_always_of_one_value() {
-    SliderNumber both;
+    ui::SliderNumber both;
     both.set_range(0.0, 200.0);
     both.slider()->setValue(500);
     QCOMPARE(both.value(), 100.0);
@@ -30,8 +30,8 @@ class SliderNumberTest : public QObject {
   }
 
   void a_value_that_is_set_is_not_an_edit() {
-    SliderNumber both;
-    QSignalSpy edits(&both, &SliderNumber::edited);
+    ui::SliderNumber both;
+    QSignalSpy edits(&both, &ui::SliderNumber::edited);
     both.set_range(0.0, 10.0);
     both.set_value(4.0);
     QCOMPARE(both.value(), 4.0);
@@ -39,9 +39,9 @@ class SliderNumberTest : public QObject {
   }
 
   void keys_in_quick_succession_are_one_gesture_and_later_ones_another() {
-    SliderNumber both;
+    ui::SliderNumber both;
     both.set_range(0.0, 100.0);
-    QSignalSpy edits(&both, &SliderNumber::edited);
+    QSignalSpy edits(&both, &ui::SliderNumber::edited);
     show(both);
     both.number()->setFocus();
     QTest::keyClick(both.number(), Qt::Key_Up);
@@ -54,8 +54,8 @@ class SliderNumberTest : public QObject {
   }
 
   void a_logarithmic_scale_has_the_geometric_mean_in_the_middle() {
-    SliderNumber both;
-    both.set_range(1.0, 100.0, SliderNumber::Scale::logarithmic);
+    ui::SliderNumber both;
+    both.set_range(1.0, 100.0, ui::SliderNumber::Scale::logarithmic);
     both.slider()->setValue(500);
     QCOMPARE(both.value(), 10.0);
     both.set_value(1.0);
@@ -63,7 +63,7 @@ class SliderNumberTest : public QObject {
   }
 
   void a_number_beyond_the_slider_can_be_typed() {
-    SliderNumber both;
+    ui::SliderNumber both;
     both.set_range(0.0, 10.0, -100.0, 100.0);
     both.number()->setValue(70.0);
     QCOMPARE(both.value(), 70.0);
@@ -71,7 +71,7 @@ class SliderNumberTest : public QObject {
   }
 
   void what_is_being_typed_is_left_alone() {
-    SliderNumber both;
+    ui::SliderNumber both;
     both.set_range(0.0, 1000.0);
     show(both);
     both.number()->setFocus();
@@ -89,7 +89,7 @@ class SliderNumberTest : public QObject {
     QScrollArea area;
     auto* content = new QWidget;
     auto* column = new QVBoxLayout(content);
-    auto* both = new SliderNumber;
+    auto* both = new ui::SliderNumber;
     both->set_range(0.0, 100.0);
     both->set_value(50.0);
     auto* below = new QWidget;
@@ -110,15 +110,15 @@ class SliderNumberTest : public QObject {
   }
 
   void numbers_have_as_many_digits_as_their_span_needs() {
-    QCOMPARE(decimals_for(4000.0), 0);
-    QCOMPARE(decimals_for(1.0), 3);
-    QCOMPARE(decimals_for(0.0), 0);
+    QCOMPARE(ui::decimals_for(4000.0), 0);
+    QCOMPARE(ui::decimals_for(1.0), 3);
+    QCOMPARE(ui::decimals_for(0.0), 0);
     QLocale::setDefault(QLocale(QLocale::German));
-    QCOMPARE(number_text(1234.56, 1, "mm"), QStringLiteral("1234,6") + QChar(QChar::Nbsp) + "mm");
+    QCOMPARE(ui::number_text(1234.56, 1, "mm"), QStringLiteral("1234,6") + QChar(QChar::Nbsp) + "mm");
     QLocale::setDefault(QLocale::c());
-    QCOMPARE(short_text(0.0123), QStringLiteral("0.0123"));
-    QCOMPARE(short_text(12.345), QStringLiteral("12.3"));
-    QCOMPARE(short_text(0.0), QStringLiteral("0"));
+    QCOMPARE(ui::short_text(0.0123), QStringLiteral("0.0123"));
+    QCOMPARE(ui::short_text(12.345), QStringLiteral("12.3"));
+    QCOMPARE(ui::short_text(0.0), QStringLiteral("0"));
   }
 
  private:

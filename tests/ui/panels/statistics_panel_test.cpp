@@ -22,7 +22,7 @@ class StatisticsPanelTest : public QObject {
   void init() {
     QLocale::setDefault(QLocale(QLocale::German, QLocale::Germany));
     the_case_ = std::make_unique<PanelCase>();
-    panel_ = shown<StatisticsPanel>(*the_case_, 500);
+    panel_ = shown<ui::StatisticsPanel>(*the_case_, 500);
   }
   void cleanup() {
     panel_.reset();
@@ -32,7 +32,7 @@ class StatisticsPanelTest : public QObject {
   void the_figures_are_those_of_the_surface() {
     QCOMPARE(figure(tr("Volume")), QStringLiteral("–"));
     the_case_->begin(8.0);
-    const CaseState& state = the_case_->state();
+    const engine::CaseState& state = the_case_->state();
     QCOMPARE(figure(tr("Volume")),
              QLocale().toString(state.surface.volume_ml, 'f', 2) + QChar(QChar::Nbsp) + "ml");
     QCOMPARE(figure(tr("Voxels")), QString::number(state.surface.voxels_inside));
@@ -64,7 +64,7 @@ class StatisticsPanelTest : public QObject {
     QCOMPARE(lines.size(), 6);  // the last line ends, too
     QCOMPARE(lines[0],
              QStringLiteral("name,volume_ml,area_mm2,voxels,mean,sd,value_unit,measured,measured_unit"));
-    const CaseState& state = the_case_->state();
+    const engine::CaseState& state = the_case_->state();
     const QString surface = QStringLiteral("Surface,%1,%2,%3,%4,%5,HU,,")
                                 .arg(state.surface.volume_ml, 0, 'f', 3)
                                 .arg(state.surface.surface_mm2, 0, 'f', 1)
@@ -128,19 +128,19 @@ class StatisticsPanelTest : public QObject {
   QString figure(const QString& name) { return named<QLabel>(*panel_, name)->text(); }
   // A distance, an angle, and one that is not complete.
   void measure() {
-    the_case_->proxy->display().change([](DisplaySettings& settings) {
-      using Kind = Measurement::Kind;
+    the_case_->proxy->display().change([](engine::DisplaySettings& settings) {
+      using Kind = engine::Measurement::Kind;
       settings.measurements = {{Kind::distance, {{0.0, 0.0, 0.0}, {3.0, 4.0, 0.0}}},
                                {Kind::angle, {{1.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}},
                                {Kind::distance, {{0.0, 0.0, 0.0}}}};
     });
   }
   QStringList exported() {
-    return QString::fromStdString(to_csv(*the_case_->proxy)).split(QStringLiteral("\r\n"));
+    return QString::fromStdString(ui::to_csv(*the_case_->proxy)).split(QStringLiteral("\r\n"));
   }
 
   std::unique_ptr<PanelCase> the_case_;
-  std::unique_ptr<StatisticsPanel> panel_;
+  std::unique_ptr<ui::StatisticsPanel> panel_;
 };
 
 }  // namespace tidemark

@@ -11,8 +11,8 @@
 namespace tidemark::test {
 
 // Values as of a CT: much air, a hill of soft tissue, few beyond; steeper where tissues meet.
-inline SourceSummary summary_like_ct() {
-  SourceSummary summary;
+inline engine::SourceSummary summary_like_ct() {
+  engine::SourceSummary summary;
   summary.low = -1000.0F;
   summary.high = 800.0F;
   summary.lowest = -1024.0F;
@@ -26,7 +26,7 @@ inline SourceSummary summary_like_ct() {
     return 4e5 * hill(value, -1000.0, 40.0) + 3e4 * hill(value, -100.0, 60.0) +
            8e4 * hill(value, 50.0, 60.0) + 900.0 * hill(value, 500.0, 400.0);
   };
-  constexpr int kBins = SourceSummary::kBins;
+  constexpr int kBins = engine::SourceSummary::kBins;
   for (int i = 0; i < kBins; ++i) {
     summary.values.push_back(std::llround(often(-1024.0 + 2524.0 * (i + 0.5) / kBins)));
   }
@@ -45,9 +45,10 @@ inline SourceSummary summary_like_ct() {
 class EditorFixture {
  public:
   EditorFixture() {
-    display.change([](DisplaySettings& s) {
-      s.transfer.source = {{{TransferFactor::Kind::gaussian, 0.0, 200.0}, {}, {}, 0.25, {0.9F, 0.4F, 0.3F}},
-                           {{TransferFactor::Kind::ramp, 300.0, 700.0}, {}, {}, 1.0, {1.0F, 1.0F, 0.9F}}};
+    display.change([](engine::DisplaySettings& s) {
+      s.transfer.source = {
+          {{renderer::TransferFactor::Kind::gaussian, 0.0, 200.0}, {}, {}, 0.25, {0.9F, 0.4F, 0.3F}},
+          {{renderer::TransferFactor::Kind::ramp, 300.0, 700.0}, {}, {}, 1.0, {1.0F, 1.0F, 0.9F}}};
     });
     editor.resize(420, 860);
     editor.set_display(&display, &summary, "HU");
@@ -56,13 +57,14 @@ class EditorFixture {
   }
 
   [[nodiscard]] bool is_shown() { return QTest::qWaitForWindowExposed(&editor); }
-  [[nodiscard]] TransferPlot& plot() { return *editor.volume_page()->shown_plot(); }
-  [[nodiscard]] const TransferFunction& function() const { return display.settings().transfer; }
+  [[nodiscard]] ui::TransferPlot& plot() { return *editor.volume_page()->shown_plot(); }
+  [[nodiscard]] const renderer::TransferFunction& function() const { return display.settings().transfer; }
 
   // Where the handle is in the plot that is shown.
-  [[nodiscard]] QPoint at(const HandleKind& kind) {
-    TransferPlot& shown = editor.tabs()->currentIndex() == 0 ? plot() : *editor.surface_page()->shown_plot();
-    for (const Handle& handle : shown.handles()) {
+  [[nodiscard]] QPoint at(const ui::HandleKind& kind) {
+    ui::TransferPlot& shown =
+        editor.tabs()->currentIndex() == 0 ? plot() : *editor.surface_page()->shown_plot();
+    for (const ui::Handle& handle : shown.handles()) {
       if (handle.kind == kind) return shown.pixel_of(handle).toPoint();
     }
     return {-1, -1};
@@ -80,9 +82,9 @@ class EditorFixture {
     release(widget, to);
   }
 
-  Display display;
-  SourceSummary summary = summary_like_ct();
-  TransferFunctionEditor editor;
+  engine::Display display;
+  engine::SourceSummary summary = summary_like_ct();
+  ui::TransferFunctionEditor editor;
 
  private:
   // QTest::mouseMove() says that no button is held.
@@ -92,8 +94,8 @@ class EditorFixture {
   }
 };
 
-inline constexpr HandleKind kCentre{Grip::whole, Grip::none, false};
-inline constexpr HandleKind kAbove{Grip::above, Grip::none, false};
-inline constexpr HandleKind kOpacity{Grip::none, Grip::none, true};
+inline constexpr ui::HandleKind kCentre{ui::Grip::whole, ui::Grip::none, false};
+inline constexpr ui::HandleKind kAbove{ui::Grip::above, ui::Grip::none, false};
+inline constexpr ui::HandleKind kOpacity{ui::Grip::none, ui::Grip::none, true};
 
 }  // namespace tidemark::test

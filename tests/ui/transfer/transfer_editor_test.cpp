@@ -41,13 +41,13 @@ class TransferEditorTest : public QObject {
   void primitives_are_added_copied_and_deleted() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    PrimitivePage* page = f.editor.volume_page();
+    ui::PrimitivePage* page = f.editor.volume_page();
     click(page, "add_ramp");
     QCOMPARE(f.function().source.size(), std::size_t{3});
-    QVERIFY(f.function().source[2].value.kind == TransferFactor::Kind::ramp);
+    QVERIFY(f.function().source[2].value.kind == renderer::TransferFactor::Kind::ramp);
     QCOMPARE(f.display.settings().chosen_primitive, 2);
     click(page, "add_gaussian");
-    QVERIFY(f.function().source[3].value.kind == TransferFactor::Kind::gaussian);
+    QVERIFY(f.function().source[3].value.kind == renderer::TransferFactor::Kind::gaussian);
     QVERIFY(f.function().source[3].colour != f.function().source[2].colour);
     page->list()->list()->setCurrentRow(0);
     QCOMPARE(f.display.settings().chosen_primitive, 0);
@@ -65,7 +65,7 @@ class TransferEditorTest : public QObject {
     EditorFixture f;
     QVERIFY(f.is_shown());
     for (int i = 0; i < 20; ++i) click(f.editor.volume_page(), "add_gaussian");
-    QCOMPARE(f.function().source.size(), TransferFunction::kMostPrimitives);
+    QCOMPARE(f.function().source.size(), renderer::TransferFunction::kMostPrimitives);
     QVERIFY(!f.editor.volume_page()->findChild<QPushButton*>("duplicate")->isEnabled());
     for (int i = 0; i < 20; ++i) click(f.editor.volume_page(), "delete");
     QVERIFY(f.function().source.empty());
@@ -75,10 +75,10 @@ class TransferEditorTest : public QObject {
   void exact_numbers_are_taken_and_leave_the_others_as_they_are() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    f.display.change([](DisplaySettings& s) {
-      s.transfer.source[0].value = {TransferFactor::Kind::gaussian, 12.3456789, 98.7654321};
+    f.display.change([](engine::DisplaySettings& s) {
+      s.transfer.source[0].value = {renderer::TransferFactor::Kind::gaussian, 12.3456789, 98.7654321};
     });
-    PrimitiveForm* form = f.editor.volume_page()->form();
+    ui::PrimitiveForm* form = f.editor.volume_page()->form();
     type(form->factor(0)->start_box(), "75");
     QCOMPARE(f.function().source[0].value.start, 75.0);
     QCOMPARE(f.function().source[0].value.end, 98.7654321);
@@ -86,7 +86,7 @@ class TransferEditorTest : public QObject {
     QCOMPARE(f.function().source[0].opacity, 0.125);
     QCOMPARE(f.function().source[0].value.end, 98.7654321);
     pick(form->factor(2)->kind_box(), 2);
-    QVERIFY(f.function().source[0].phi.kind == TransferFactor::Kind::ramp);
+    QVERIFY(f.function().source[0].phi.kind == renderer::TransferFactor::Kind::ramp);
     type(form->factor(2)->start_box(), "3");
     type(form->factor(2)->end_box(), "3");
     QVERIFY(f.function().source[0].phi.start == 3.0);
@@ -119,7 +119,8 @@ class TransferEditorTest : public QObject {
     EditorFixture f;
     QVERIFY(f.is_shown());
     pick(f.editor.volume_page()->form()->factor(0)->kind_box(), 2);
-    QVERIFY((f.function().source[0].value == TransferFactor{TransferFactor::Kind::ramp, -200.0, 200.0}));
+    QVERIFY((f.function().source[0].value ==
+             renderer::TransferFactor{renderer::TransferFactor::Kind::ramp, -200.0, 200.0}));
   }
 
   void colours_are_seen_while_they_are_chosen_and_can_be_taken_back() {
@@ -137,16 +138,16 @@ class TransferEditorTest : public QObject {
   void a_preset_replaces_the_function_and_is_made_absolute_by_an_edit() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    PresetPicker* presets = f.editor.presets();
-    QCOMPARE(presets->count(), static_cast<int>(preset_names().size()));
+    ui::PresetPicker* presets = f.editor.presets();
+    QCOMPARE(presets->count(), static_cast<int>(renderer::preset_names().size()));
     QCOMPARE(presets->currentIndex(), -1);
     const int mr = presets->findText("MR T1 head");
     QVERIFY(mr >= 0);
     pick(presets, mr);
-    QVERIFY(f.function() == preset("mr-head").value());
+    QVERIFY(f.function() == renderer::preset("mr-head").value());
     QVERIFY(f.display.settings().show_source);
     // 0.12 and 0.7 of the common range, -1000 to 800.
-    PrimitiveForm* form = f.editor.volume_page()->form();
+    ui::PrimitiveForm* form = f.editor.volume_page()->form();
     QCOMPARE(form->factor(0)->start_box()->value(), -784.0);
     QCOMPARE(form->factor(0)->end_box()->value(), 260.0);
     type(form->factor(0)->end_box(), "300");
@@ -154,7 +155,7 @@ class TransferEditorTest : public QObject {
     QCOMPARE(f.function().source[0].value.end, 300.0);
     QVERIFY(std::abs(f.function().source[0].value.start + 784.0) < 1e-9);
     QCOMPARE(presets->currentIndex(), -1);
-    f.display.change([](DisplaySettings& s) { s.transfer = preset("ct-bone").value(); });
+    f.display.change([](engine::DisplaySettings& s) { s.transfer = renderer::preset("ct-bone").value(); });
     QCOMPARE(presets->currentText(), QString("CT bone"));
   }
 
@@ -171,15 +172,15 @@ class TransferEditorTest : public QObject {
   void a_colour_that_is_being_chosen_stays_with_its_case() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    tidemark::Display other;  // X11 has one, too
-    other.change([](DisplaySettings& s) { s.transfer = preset("ct-lung").value(); });
+    tidemark::engine::Display other;  // X11 has one, too
+    other.change([](engine::DisplaySettings& s) { s.transfer = renderer::preset("ct-lung").value(); });
     QTest::mouseClick(f.editor.volume_page()->form()->colour_button(), Qt::LeftButton);
     auto* dialog = f.editor.findChild<QColorDialog*>();
     QVERIFY(dialog != nullptr);
     dialog->setCurrentColor(QColor(0, 255, 0));
     f.editor.set_display(&other, &f.summary);
     QVERIFY((f.function().source[0].colour == glm::vec3{0.9F, 0.4F, 0.3F}));
-    QVERIFY(other.settings().transfer == preset("ct-lung").value());
+    QVERIFY(other.settings().transfer == renderer::preset("ct-lung").value());
     QVERIFY(!dialog->isVisible());
     f.editor.set_display(nullptr, nullptr);
   }
@@ -206,8 +207,8 @@ class TransferEditorTest : public QObject {
     EditorFixture f;
     QVERIFY(f.is_shown());
     pick(f.editor.region_box(), 1);
-    QVERIFY(f.display.settings().region == Region::inside);
-    f.display.change([](DisplaySettings& s) { s.region = Region::tinted; });
+    QVERIFY(f.display.settings().region == renderer::Region::inside);
+    f.display.change([](engine::DisplaySettings& s) { s.region = renderer::Region::tinted; });
     QCOMPARE(f.editor.region_box()->currentIndex(), 3);
   }
 
@@ -223,11 +224,11 @@ class TransferEditorTest : public QObject {
     };
     QVERIFY(reason_is_shown());
     const QImage greyed = f.editor.surface_page()->shown_plot()->grab().toImage();
-    f.display.change([](DisplaySettings& s) { s.clip_on = true; });
+    f.display.change([](engine::DisplaySettings& s) { s.clip_on = true; });
     QVERIFY(!reason_is_shown());
     QTest::qWait(20);
     QVERIFY(f.editor.surface_page()->shown_plot()->grab().toImage() != greyed);
-    f.display.change([](DisplaySettings& s) { s.clip_on = false; });
+    f.display.change([](engine::DisplaySettings& s) { s.clip_on = false; });
     QVERIFY(reason_is_shown());
   }
 
@@ -235,20 +236,20 @@ class TransferEditorTest : public QObject {
     EditorFixture f;
     QVERIFY(f.is_shown());
     f.editor.tabs()->setCurrentIndex(1);
-    f.display.change([](DisplaySettings& s) {
+    f.display.change([](engine::DisplaySettings& s) {
       s.clip_on = true;
-      s.transfer = preset("surface-near-plane").value();
+      s.transfer = renderer::preset("surface-near-plane").value();
     });
-    TransferPlot& plot = *f.editor.surface_page()->shown_plot();
-    const HandleKind start{Grip::none, Grip::start, false};
-    const PlotAxis y = plot.y_axis();
+    ui::TransferPlot& plot = *f.editor.surface_page()->shown_plot();
+    const ui::HandleKind start{ui::Grip::none, ui::Grip::start, false};
+    const ui::PlotAxis y = plot.y_axis();
     const QPoint from = f.at(start);
     f.drag(plot, from, from + QPoint(0, -20));
     QVERIFY(std::abs(f.function().surface[0].distance.start - y.value(y.pixel(25.0) - 20.0)) < 1e-6);
     QCOMPARE(f.function().surface[0].distance.end, 5.0);
     click(f.editor.surface_page(), "add_gaussian");
     QCOMPARE(f.function().surface.size(), std::size_t{3});
-    QVERIFY(f.function().surface[2].distance.kind == TransferFactor::Kind::gaussian);
+    QVERIFY(f.function().surface[2].distance.kind == renderer::TransferFactor::Kind::gaussian);
     QCOMPARE(f.editor.surface_page()->list()->list()->currentRow(), 2);
     QCOMPARE(f.display.settings().chosen_primitive, 0);
   }
@@ -256,7 +257,7 @@ class TransferEditorTest : public QObject {
   void what_is_saved_can_be_loaded() {
     EditorFixture f;
     const TemporaryFolder folder;
-    const TransferFunction before = f.function();
+    const renderer::TransferFunction before = f.function();
     f.editor.save(folder / "mine.json");
     QCOMPARE(f.editor.message(), QString());
     pick(f.editor.presets(), 0);
@@ -269,7 +270,7 @@ class TransferEditorTest : public QObject {
   void what_is_wrong_with_a_file_is_said_and_nothing_is_changed() {
     EditorFixture f;
     const TemporaryFolder folder;
-    const TransferFunction before = f.function();
+    const renderer::TransferFunction before = f.function();
     f.editor.load(folder / "none.json");
     QVERIFY(f.editor.message().contains("none.json"));
     QVERIFY(f.function() == before);
@@ -283,11 +284,11 @@ class TransferEditorTest : public QObject {
     EditorFixture f;
     QVERIFY(f.is_shown());
     {
-      tidemark::Display other;  // X11 has one, too
-      other.change([](DisplaySettings& s) { s.transfer = preset("ct-lung").value(); });
+      tidemark::engine::Display other;  // X11 has one, too
+      other.change([](engine::DisplaySettings& s) { s.transfer = renderer::preset("ct-lung").value(); });
       f.editor.set_display(&other, &f.summary);
       QCOMPARE(f.editor.volume_page()->list()->list()->count(), 3);
-      f.display.change([](DisplaySettings& s) { s.transfer.source.clear(); });
+      f.display.change([](engine::DisplaySettings& s) { s.transfer.source.clear(); });
       QCOMPARE(f.editor.volume_page()->list()->list()->count(), 3);
     }
     QVERIFY(!f.editor.tabs()->isEnabled());
@@ -300,7 +301,7 @@ class TransferEditorTest : public QObject {
 
   void a_study_without_a_histogram_can_be_edited() {
     EditorFixture f;
-    const SourceSummary empty;
+    const engine::SourceSummary empty;
     f.editor.set_display(&f.display, &empty);
     QVERIFY(f.is_shown());
     f.drag(f.plot(), f.at(kCentre), f.at(kCentre) + QPoint(10, 0));
@@ -313,7 +314,7 @@ class TransferEditorTest : public QObject {
     int controls = 0;
     for (QWidget* widget : f.editor.findChildren<QWidget*>()) {
       const bool control = qobject_cast<QAbstractButton*>(widget) || qobject_cast<QComboBox*>(widget) ||
-                           qobject_cast<QDoubleSpinBox*>(widget) || qobject_cast<TransferPlot*>(widget);
+                           qobject_cast<QDoubleSpinBox*>(widget) || qobject_cast<ui::TransferPlot*>(widget);
       if (!control || widget->objectName().startsWith("qt_") || !widget->isVisible()) continue;
       if (qobject_cast<QTabBar*>(widget->parentWidget())) continue;
       ++controls;

@@ -13,7 +13,7 @@ class TransferPlotTest : public QObject {
     EditorFixture f;
     QVERIFY(f.is_shown());
     const QPoint from = f.at(kCentre);
-    const PlotAxis axis = f.plot().x_axis();
+    const ui::PlotAxis axis = f.plot().x_axis();
     f.drag(f.plot(), from, from + QPoint(40, 0));
     QVERIFY(std::abs(f.function().source[0].value.start - 40.0 * axis.extent() / (axis.to - axis.from)) <
             1e-6);
@@ -37,12 +37,12 @@ class TransferPlotTest : public QObject {
   void the_side_sets_the_width_and_the_peak_the_opacity() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    const PlotAxis x = f.plot().x_axis();
+    const ui::PlotAxis x = f.plot().x_axis();
     QPoint from = f.at(kAbove);
     f.drag(f.plot(), from, from + QPoint(-20, 7));
     QVERIFY(std::abs(f.function().source[0].value.end - (200.0 - 20.0 * x.extent() / (x.to - x.from))) <
             1e-6);
-    const PlotAxis y = f.plot().y_axis();
+    const ui::PlotAxis y = f.plot().y_axis();
     from = f.at(kOpacity);
     f.drag(f.plot(), from, from + QPoint(11, -30));
     QVERIFY(std::abs(f.function().source[0].opacity - y.value(y.pixel(0.25) - 30.0)) < 1e-6);
@@ -53,7 +53,7 @@ class TransferPlotTest : public QObject {
     EditorFixture f;
     QVERIFY(f.is_shown());
     int changes = 0;
-    connect(&f.display, &tidemark::Display::changed, this, [&] { ++changes; });
+    connect(&f.display, &tidemark::engine::Display::changed, this, [&] { ++changes; });
     const QPoint from = f.at(kCentre);
     f.press(f.plot(), from);
     QCOMPARE(changes, 0);
@@ -67,7 +67,7 @@ class TransferPlotTest : public QObject {
   void escape_takes_a_drag_back() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    const TransferFunction before = f.function();
+    const renderer::TransferFunction before = f.function();
     const QPoint from = f.at(kCentre);
     f.press(f.plot(), from);
     f.move(f.plot(), from, from + QPoint(40, 0));
@@ -81,10 +81,10 @@ class TransferPlotTest : public QObject {
   void a_click_on_a_curve_chooses_it_and_a_drag_moves_it() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    const PlotAxis x = f.plot().x_axis();
-    const PlotAxis y = f.plot().y_axis();
+    const ui::PlotAxis x = f.plot().x_axis();
+    const ui::PlotAxis y = f.plot().y_axis();
     const QPoint on_ramp(static_cast<int>(x.pixel(650.0)), static_cast<int>(y.pixel(0.4)));
-    const TransferFunction before = f.function();
+    const renderer::TransferFunction before = f.function();
     QTest::mouseClick(&f.plot(), Qt::LeftButton, {}, on_ramp);
     QCOMPARE(f.display.settings().chosen_primitive, 1);
     QVERIFY(f.function() == before);
@@ -99,7 +99,7 @@ class TransferPlotTest : public QObject {
     const QPoint from = f.at(kCentre);
     f.press(f.plot(), from);
     f.move(f.plot(), from, from + QPoint(20, 0));
-    f.display.change([](DisplaySettings& s) {
+    f.display.change([](engine::DisplaySettings& s) {
       s.transfer.source[0].opacity = 0.75;
       s.transfer.source[1].colour = {0.0F, 1.0F, 0.0F};
     });
@@ -116,17 +116,18 @@ class TransferPlotTest : public QObject {
     QVERIFY(f.is_shown());
     const QPoint from = f.at(kAbove);
     f.press(f.plot(), from);
-    f.display.change([](DisplaySettings& s) {
-      s.transfer.source[0].value = {TransferFactor::Kind::ramp, 10.0, 20.0};
+    f.display.change([](engine::DisplaySettings& s) {
+      s.transfer.source[0].value = {renderer::TransferFactor::Kind::ramp, 10.0, 20.0};
     });
     f.move(f.plot(), from, from + QPoint(40, 0));
     QVERIFY(!f.plot().dragging());
-    QVERIFY((f.function().source[0].value == TransferFactor{TransferFactor::Kind::ramp, 10.0, 20.0}));
+    QVERIFY((f.function().source[0].value ==
+             renderer::TransferFactor{renderer::TransferFactor::Kind::ramp, 10.0, 20.0}));
     f.release(f.plot(), from);
 
     const QPoint again = f.at(kCentre);
     f.press(f.plot(), again);
-    f.display.change([](DisplaySettings& s) { s.transfer.source.clear(); });
+    f.display.change([](engine::DisplaySettings& s) { s.transfer.source.clear(); });
     f.move(f.plot(), again, again + QPoint(40, 0));
     QVERIFY(f.function().source.empty());
     f.release(f.plot(), again);
@@ -158,7 +159,7 @@ class TransferPlotTest : public QObject {
     QCOMPARE(f.display.settings().chosen_primitive, 1);
     QTest::keyClick(&f.plot(), Qt::Key_Delete);
     QCOMPARE(f.function().source.size(), std::size_t{1});
-    QVERIFY(f.function().source[0].value.kind == TransferFactor::Kind::gaussian);
+    QVERIFY(f.function().source[0].value.kind == renderer::TransferFactor::Kind::gaussian);
   }
 
   void tab_goes_through_the_handles_and_then_on() {
@@ -167,7 +168,7 @@ class TransferPlotTest : public QObject {
     QVERIFY(QTest::qWaitForWindowActive(&f.editor));
     f.plot().setFocus(Qt::TabFocusReason);
     QTRY_VERIFY(f.plot().hasFocus());
-    for (const Handle& handle : f.plot().handles()) {
+    for (const ui::Handle& handle : f.plot().handles()) {
       QVERIFY(f.plot().hasFocus());
       QVERIFY(f.plot().selected_handle() == handle.kind);
       QTest::keyClick(&f.plot(), Qt::Key_Tab);
@@ -193,22 +194,22 @@ class TransferPlotTest : public QObject {
   void an_ellipse_is_dragged_along_both_axes() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    f.display.change([](DisplaySettings& s) {
-      s.transfer.source[0].gradient = {TransferFactor::Kind::gaussian, 200.0, 50.0};
+    f.display.change([](engine::DisplaySettings& s) {
+      s.transfer.source[0].gradient = {renderer::TransferFactor::Kind::gaussian, 200.0, 50.0};
     });
     const auto switches = f.editor.volume_page()->findChildren<QAbstractButton*>();
     for (QAbstractButton* button : switches) {
       if (button->text().contains("gradient")) QTest::mouseClick(button, Qt::LeftButton);
     }
-    const HandleKind middle{Grip::whole, Grip::whole, false};
-    const PlotAxis x = f.plot().x_axis();
-    const PlotAxis y = f.plot().y_axis();
+    const ui::HandleKind middle{ui::Grip::whole, ui::Grip::whole, false};
+    const ui::PlotAxis x = f.plot().x_axis();
+    const ui::PlotAxis y = f.plot().y_axis();
     const QPoint from = f.at(middle);
     QVERIFY(from.x() > 0);
     f.drag(f.plot(), from, from + QPoint(-24, 16));
     QVERIFY(std::abs(f.function().source[0].value.start - x.value(x.pixel(0.0) - 24.0)) < 1e-6);
     QVERIFY(std::abs(f.function().source[0].gradient.start - y.value(y.pixel(200.0) + 16.0)) < 1e-6);
-    const QPoint top = f.at({Grip::none, Grip::above, false});
+    const QPoint top = f.at({ui::Grip::none, ui::Grip::above, false});
     f.drag(f.plot(), top, top + QPoint(0, -10));
     QVERIFY(f.function().source[0].gradient.end > 50.0);
     QCOMPARE(f.function().source[0].value.end, 200.0);
@@ -217,14 +218,14 @@ class TransferPlotTest : public QObject {
   void what_lies_beyond_the_common_values_is_within_reach() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    f.display.change([](DisplaySettings& s) {
-      s.transfer.source[0].value = {TransferFactor::Kind::ramp, 900.0, 2000.0};
+    f.display.change([](engine::DisplaySettings& s) {
+      s.transfer.source[0].value = {renderer::TransferFactor::Kind::ramp, 900.0, 2000.0};
     });
-    for (const Handle& handle : f.plot().handles()) {
+    for (const ui::Handle& handle : f.plot().handles()) {
       QVERIFY(handle.at.x > f.plot().x_axis().low);
       QVERIFY(handle.at.x < f.plot().x_axis().high);
     }
-    const QPoint end = f.at({Grip::end, Grip::none, false});
+    const QPoint end = f.at({ui::Grip::end, ui::Grip::none, false});
     f.drag(f.plot(), end, end + QPoint(-20, 0));
     QVERIFY(f.function().source[0].value.end < 2000.0);
     QCOMPARE(f.function().source[0].value.start, 900.0);
@@ -233,7 +234,7 @@ class TransferPlotTest : public QObject {
   void ctrl_and_wheel_zoom_about_the_pointer() {
     EditorFixture f;
     QVERIFY(f.is_shown());
-    const PlotAxis before = f.plot().x_axis();
+    const ui::PlotAxis before = f.plot().x_axis();
     const QPointF at(before.pixel(100.0), 60.0);
     const auto wheel = [&](Qt::KeyboardModifiers keys) {
       QWheelEvent event(at, f.plot().mapToGlobal(at), {}, {0, 240}, Qt::NoButton, keys, Qt::NoScrollPhase,

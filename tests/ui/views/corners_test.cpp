@@ -13,20 +13,21 @@ using namespace tidemark;
 
 namespace {
 
-std::shared_ptr<const LoadedStudy> ball_of(const std::string& patient, const std::string& date) {
-  auto study = std::make_shared<LoadedStudy>(*test::ball_study());
+std::shared_ptr<const engine::LoadedStudy> ball_of(const std::string& patient, const std::string& date) {
+  auto study = std::make_shared<engine::LoadedStudy>(*test::ball_study());
   study->patient = {patient, "PID-4711", "F", "45Y"};
   study->date = date;
   return study;
 }
 
 // The overlay alone, as the engine without OpenGL draws nothing else.
-std::unique_ptr<PictureView> view_of(CaseProxy& proxy, bool in_3d) {
-  std::unique_ptr<PictureView> view;
+std::unique_ptr<ui::PictureView> view_of(engine::CaseProxy& proxy, bool in_3d) {
+  std::unique_ptr<ui::PictureView> view;
   if (in_3d) {
-    view = std::make_unique<VolumeViewWidget>(proxy);
+    view = std::make_unique<ui::VolumeViewWidget>(proxy);
   } else {
-    view = std::make_unique<SliceViewWidget>(proxy, SlicePlane::axial, SliceContent::source);
+    view =
+        std::make_unique<ui::SliceViewWidget>(proxy, ui::SlicePlane::axial, renderer::SliceContent::source);
   }
   view->resize(500, 400);
   view->show();
@@ -49,12 +50,12 @@ class CornersTest : public QObject {
  private slots:
   void patient_and_series_are_said_in_lines() {
     const auto study = ball_of("山田 太郎 (Yamada, Tarou)", "2004-07-31");
-    QCOMPARE(patient_lines(study->patient),
+    QCOMPARE(ui::patient_lines(study->patient),
              QStringList({QString::fromUtf8("山田 太郎 (Yamada, Tarou)"), "PID-4711", "F 45Y"}));
-    QCOMPARE(series_lines(*study), QStringList({"2004-07-31", "Ball"}));
-    QCOMPARE(patient_lines({}), QStringList());
-    QCOMPARE(patient_lines({"Doe", "", "", "3D"}), QStringList({"Doe", "3D"}));
-    QCOMPARE(series_lines(*test::ball_study()), QStringList("Ball"));
+    QCOMPARE(ui::series_lines(*study), QStringList({"2004-07-31", "Ball"}));
+    QCOMPARE(ui::patient_lines({}), QStringList());
+    QCOMPARE(ui::patient_lines({"Doe", "", "", "3D"}), QStringList({"Doe", "3D"}));
+    QCOMPARE(ui::series_lines(*test::ball_study()), QStringList("Ball"));
   }
 
   void a_long_name_ends_before_the_next_corner() {
@@ -62,7 +63,7 @@ class CornersTest : public QObject {
     picture.fill(Qt::black);
     const QImage empty = picture;
     QPainter painter(&picture);
-    paint_corner(painter, picture.size(), Qt::AlignLeft | Qt::AlignTop, {QString(500, 'W')});
+    ui::paint_corner(painter, picture.size(), Qt::AlignLeft | Qt::AlignTop, {QString(500, 'W')});
     painter.end();
     QVERIFY(differing_pixels(picture, empty, QRect(0, 0, 140, 200)) > 500);
     QCOMPARE(differing_pixels(picture, empty, QRect(142, 0, 158, 200)), 0);
@@ -82,9 +83,10 @@ class CornersTest : public QObject {
     picture.fill(Qt::white);
     QPainter painter(&picture);
     painter.setRenderHint(QPainter::Antialiasing);
-    if (what == 0) paint_corner(painter, picture.size(), Qt::AlignLeft | Qt::AlignTop, {"Doe, John", "4711"});
-    if (what == 1) paint_orientation(painter, picture.size(), {1.0, 0.0, 0.0}, {0.0, -1.0, 0.0});
-    if (what == 2) paint_scale_bar(painter, picture.size(), 0.5);
+    if (what == 0)
+      ui::paint_corner(painter, picture.size(), Qt::AlignLeft | Qt::AlignTop, {"Doe, John", "4711"});
+    if (what == 1) ui::paint_orientation(painter, picture.size(), {1.0, 0.0, 0.0}, {0.0, -1.0, 0.0});
+    if (what == 2) ui::paint_scale_bar(painter, picture.size(), 0.5);
     painter.end();
     // What lies around the lightest pixels of text, which are not quite white: the commonest colour there.
     std::map<QRgb, int> around;
@@ -111,9 +113,9 @@ class CornersTest : public QObject {
   }
 
   void a_low_view_has_room_for_the_name_alone() {
-    Engine engine{false};
-    CaseProxy proxy(engine, ball_of("Doe, John", "2004-07-31"), ExecutorKind::host);
-    CaseProxy nameless(engine, ball_of("", ""), ExecutorKind::host);
+    engine::Engine engine{false};
+    engine::CaseProxy proxy(engine, ball_of("Doe, John", "2004-07-31"), solver::ExecutorKind::host);
+    engine::CaseProxy nameless(engine, ball_of("", ""), solver::ExecutorKind::host);
     QVERIFY(QTest::qWaitFor([&] { return engine.idle(); }, 60000));
     const auto view = view_of(proxy, false);
     const auto other = view_of(nameless, false);
@@ -121,7 +123,7 @@ class CornersTest : public QObject {
     view->resize(400, 7 * line);
     other->resize(400, 7 * line);
     const QImage low = view->grab_picture();
-    other->proxy().display().change([](DisplaySettings& settings) { settings.patient_text = false; });
+    other->proxy().display().change([](engine::DisplaySettings& settings) { settings.patient_text = false; });
     const QImage without = other->grab_picture();
     const int below_name = 8 + line + 2;
     QVERIFY(differing_pixels(low, without, QRect(0, 0, 190, below_name)) > 50);
@@ -137,9 +139,9 @@ class CornersTest : public QObject {
 
   void every_view_names_the_patient_until_that_is_hidden() {
     QFETCH(bool, in_3d);
-    Engine engine{false};
-    CaseProxy one(engine, ball_of("Doe, John", "2004-07-31"), ExecutorKind::host);
-    CaseProxy other(engine, ball_of("Mustermann, Erika", "2011-01-02"), ExecutorKind::host);
+    engine::Engine engine{false};
+    engine::CaseProxy one(engine, ball_of("Doe, John", "2004-07-31"), solver::ExecutorKind::host);
+    engine::CaseProxy other(engine, ball_of("Mustermann, Erika", "2011-01-02"), solver::ExecutorKind::host);
     QVERIFY(QTest::qWaitFor([&] { return engine.idle(); }, 60000));
     const auto view = view_of(one, in_3d);
     const auto other_view = view_of(other, in_3d);
@@ -149,8 +151,8 @@ class CornersTest : public QObject {
     const QRect upper_right(260, 0, 240, 100);
     QVERIFY(differing_pixels(shown, shown_other, upper_left) > 50);
     QVERIFY(differing_pixels(shown, shown_other, upper_right) > 20);
-    for (CaseProxy* proxy : {&one, &other})
-      proxy->display().change([](DisplaySettings& settings) { settings.patient_text = false; });
+    for (engine::CaseProxy* proxy : {&one, &other})
+      proxy->display().change([](engine::DisplaySettings& settings) { settings.patient_text = false; });
     const QImage hidden = view->grab_picture();
     QVERIFY(differing_pixels(shown, hidden, upper_left) > 50);
     QCOMPARE(differing_pixels(hidden, other_view->grab_picture(), hidden.rect()), 0);

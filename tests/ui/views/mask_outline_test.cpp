@@ -46,14 +46,16 @@ class MaskOutlineTest : public QObject {
 
   void it_is_a_circle_around_a_ball() {
     QFETCH(int, kind);
-    SliceOrientation orientation = kind == 1 ? kCoronal : kind == 2 ? kSagittal : kAxial;
+    renderer::SliceOrientation orientation = kind == 1   ? renderer::kCoronal
+                                             : kind == 2 ? renderer::kSagittal
+                                                         : renderer::kAxial;
     if (kind == 3) {
       orientation.right = glm::normalize(glm::dvec3(1.0, 0.4, 0.2));
       orientation.up = glm::normalize(glm::cross(orientation.right, glm::dvec3(0.3, 1.0, -0.2)));
     }
     constexpr double kOff = 4.0;
     const glm::dvec3 position = middle() + orientation.into() * kOff;
-    const QList<QLineF> lines = outline_in_slice(ball(), orientation, position);
+    const QList<QLineF> lines = ui::outline_in_slice(ball(), orientation, position);
     QVERIFY2(lines.size() > 30, qPrintable(QString::number(lines.size())));
     const QPointF centre(glm::dot(middle(), orientation.right), glm::dot(middle(), orientation.up));
     const double radius = std::sqrt(kRadius * kRadius - kOff * kOff);
@@ -73,7 +75,7 @@ class MaskOutlineTest : public QObject {
     Mask all{kGrid, std::vector<std::uint8_t>(static_cast<std::size_t>(kGrid.voxel_count()), 1)};
     for (const Mask& mask : {ball(), all}) {
       std::map<std::pair<long, long>, int> ends;
-      for (const QLineF& line : outline_in_slice(mask, kAxial, middle())) {
+      for (const QLineF& line : ui::outline_in_slice(mask, renderer::kAxial, middle())) {
         for (const QPointF& end : {line.p1(), line.p2()})
           ++ends[{std::lround(end.x() * 1000.0), std::lround(end.y() * 1000.0)}];
       }
@@ -83,7 +85,9 @@ class MaskOutlineTest : public QObject {
   }
 
   void beside_the_mask_there_is_none() {
-    QVERIFY(outline_in_slice(ball(), kAxial, middle() + kAxial.into() * (kRadius + 3.0)).isEmpty());
+    QVERIFY(
+        ui::outline_in_slice(ball(), renderer::kAxial, middle() + renderer::kAxial.into() * (kRadius + 3.0))
+            .isEmpty());
   }
 };
 

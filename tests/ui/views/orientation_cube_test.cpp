@@ -12,11 +12,11 @@ namespace tidemark::test {
 namespace {
 
 QString letters(double azimuth, double elevation) {
-  Camera camera;
+  renderer::Camera camera;
   camera.azimuth = azimuth;
   camera.elevation = elevation;
   QString found;
-  for (const CubeFace& face : cube_faces(camera, {}, 10.0)) found += QLatin1Char(face.letter);
+  for (const ui::CubeFace& face : ui::cube_faces(camera, {}, 10.0)) found += QLatin1Char(face.letter);
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -53,10 +53,10 @@ class OrientationCubeTest : public QObject {
   }
 
   void a_letter_stands_upright_where_the_patients_side_is() {
-    Camera camera;
+    renderer::Camera camera;
     camera.azimuth = 30.0;
     camera.elevation = 20.0;
-    for (const CubeFace& face : cube_faces(camera, {100.0, 50.0}, 20.0)) {
+    for (const ui::CubeFace& face : ui::cube_faces(camera, {100.0, 50.0}, 20.0)) {
       const glm::dvec3 side = face.letter == 'A'   ? glm::dvec3(0.0, -1.0, 0.0)
                               : face.letter == 'L' ? glm::dvec3(1.0, 0.0, 0.0)
                                                    : glm::dvec3(0.0, 0.0, 1.0);
@@ -76,16 +76,16 @@ class OrientationCubeTest : public QObject {
     Geometry geometry;
     geometry.size = {20, 10, 5};
     geometry.spacing_mm = {1.0, 2.0, 3.0};
-    Camera camera;
+    renderer::Camera camera;
     camera.azimuth = 30.0;
     camera.elevation = 20.0;
-    const VolumeScreen screen(camera, {200.0, 200.0}, geometry);
+    const ui::VolumeScreen screen(camera, {200.0, 200.0}, geometry);
     int hidden = 0;
     // Seen from the front, the left and the head, they meet behind, at the right and at the feet.
     const QPointF far = screen.position_of(geometry.to_patient({-0.5, 9.5, -0.5}));
-    const std::vector<BoxEdge> edges = box_edges(geometry, screen);
+    const std::vector<ui::BoxEdge> edges = ui::box_edges(geometry, screen);
     QCOMPARE(edges.size(), std::size_t{12});
-    for (const BoxEdge& edge : edges) {
+    for (const ui::BoxEdge& edge : edges) {
       if (!edge.hidden) continue;
       ++hidden;
       QVERIFY((edge.from - far).manhattanLength() < 1e-9 || (edge.to - far).manhattanLength() < 1e-9);
@@ -95,18 +95,18 @@ class OrientationCubeTest : public QObject {
 
   void both_are_drawn_until_they_are_switched_off() {
     PanelCase the_case;
-    VolumeViewWidget view(*the_case.proxy);
+    ui::VolumeViewWidget view(*the_case.proxy);
     view.resize(500, 400);
     show(view);
     the_case.wait_until_idle();
-    Display& display = the_case.proxy->display();
+    engine::Display& display = the_case.proxy->display();
     const QImage both = view.grab_picture();
-    display.change([](DisplaySettings& s) { s.orientation_cube = false; });
+    display.change([](engine::DisplaySettings& s) { s.orientation_cube = false; });
     const QImage without_cube = view.grab_picture();
     const QRect corner(0, 300, 100, 100);
     QVERIFY(differing_pixels(both.copy(corner), without_cube.copy(corner)) > 700);
     QCOMPARE(differing_pixels(both.copy(100, 0, 400, 400), without_cube.copy(100, 0, 400, 400)), 0);
-    display.change([](DisplaySettings& s) { s.volume_box = false; });
+    display.change([](engine::DisplaySettings& s) { s.volume_box = false; });
     QVERIFY(differing_pixels(without_cube, view.grab_picture()) > 500);
   }
 };

@@ -21,9 +21,9 @@ class DesktopWith : public Desktop {
   explicit DesktopWith(const char* pictures) : Desktop(ask_for(pictures)) {}
   ~DesktopWith() { qunsetenv("TIDEMARK_PICTURES"); }
 
-  std::vector<PictureView*> views() {
-    std::vector<PictureView*> views;
-    for (PictureView* view : window().active_case()->views()) {
+  std::vector<ui::PictureView*> views() {
+    std::vector<ui::PictureView*> views;
+    for (ui::PictureView* view : window().active_case()->views()) {
       if (view->isVisible()) views.push_back(view);
     }
     return views;
@@ -34,9 +34,9 @@ class DesktopWith : public Desktop {
   }
 
  private:
-  static ExecutorKind ask_for(const char* pictures) {
+  static solver::ExecutorKind ask_for(const char* pictures) {
     qputenv("TIDEMARK_PICTURES", pictures);
-    return ExecutorKind::automatic;
+    return solver::ExecutorKind::automatic;
   }
 };
 
@@ -44,7 +44,7 @@ class DesktopWith : public Desktop {
 void open_sphere(Desktop& desktop) {
   QVERIFY(desktop.open_phantom("sphere"));
   const Geometry& geometry = desktop.proxy().volume().geometry;
-  Start start;
+  document::Start start;
   start.seeds.push_back({geometry.to_patient(0.5 * glm::dvec3(geometry.size - Index3(1))), 12.0});
   desktop.proxy().begin(start);
   desktop.proxy().step();  // the large Play leaves the view
@@ -52,7 +52,7 @@ void open_sphere(Desktop& desktop) {
 }
 
 // The screen, after Qt has put all widgets together.
-QImage on_screen(PictureView& view) {
+QImage on_screen(ui::PictureView& view) {
   const QWidget& window = *view.window();
   QTest::qWait(50);
   QImage all = window.screen()->grabWindow(window.winId()).toImage();
@@ -85,7 +85,7 @@ void PictureSurfaceTest::textures_show_what_images_show_and_nothing_is_read_back
     const WId window = desktop.window().winId();
     open_sphere(desktop);
     QCOMPARE(desktop.window().winId(), window);  // one that is made anew flickers
-    QCOMPARE(desktop.engine().pictures() == Engine::Pictures::textures, textures);
+    QCOMPARE(desktop.engine().pictures() == engine::Engine::Pictures::textures, textures);
     const auto views = desktop.views();
     QVERIFY(views.size() >= 3);
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -111,7 +111,8 @@ void PictureSurfaceTest::textures_show_what_images_show_and_nothing_is_read_back
     WatchedApplication::instance().restart();
     desktop.proxy().play();
     for (int i = 0; i < 20; ++i) {
-      desktop.proxy().display().change([](DisplaySettings& settings) { settings.camera.azimuth += 3.0; });
+      desktop.proxy().display().change(
+          [](engine::DisplaySettings& settings) { settings.camera.azimuth += 3.0; });
       QTest::qWait(20);
     }
     QTest::qWait(300);
@@ -127,9 +128,9 @@ void PictureSurfaceTest::textures_show_what_images_show_and_nothing_is_read_back
 void PictureSurfaceTest::views_survive_being_undocked_docked_and_put_into_tabs() {
   DesktopWith desktop("textures");
   open_sphere(desktop);
-  CaseWindow& window = *desktop.window().active_case();
-  auto* axial = desktop.view<SliceViewWidget>("Axial");
-  auto* volume = desktop.view<VolumeViewWidget>();
+  ui::CaseWindow& window = *desktop.window().active_case();
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  auto* volume = desktop.view<ui::VolumeViewWidget>();
   QVERIFY(axial && volume);
   QDockWidget* dock = window.dock_of(axial);
   QDockWidget* other = window.dock_of(volume);
@@ -152,7 +153,8 @@ void PictureSurfaceTest::views_survive_being_undocked_docked_and_put_into_tabs()
   desktop.window().resize(900, 600);
   desktop.wait_until_idle();
   QVERIFY(volume->feed().shown().texture->size() == volume->physical_size());
-  for (PictureView* view : {static_cast<PictureView*>(axial), static_cast<PictureView*>(volume)}) {
+  for (ui::PictureView* view :
+       {static_cast<ui::PictureView*>(axial), static_cast<ui::PictureView*>(volume)}) {
     QCOMPARE(view->surface()->times_initialised(), 1);
   }
   QCOMPARE(desktop.engine().contexts_made(), 1);
@@ -162,7 +164,7 @@ void PictureSurfaceTest::views_survive_being_undocked_docked_and_put_into_tabs()
 void PictureSurfaceTest::the_mouse_and_the_keyboard_reach_the_view() {
   DesktopWith desktop("textures");
   open_sphere(desktop);
-  auto* axial = desktop.view<SliceViewWidget>("Axial");
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
   QVERIFY(axial);
   const QPoint middle = axial->rect().center();
   // Through the window, so that Qt decides whose the click is.
@@ -179,9 +181,9 @@ void PictureSurfaceTest::the_mouse_and_the_keyboard_reach_the_view() {
 void PictureSurfaceTest::a_texture_that_somebody_holds_is_not_drawn_into() {
   DesktopWith desktop("textures");
   open_sphere(desktop);
-  auto* axial = desktop.view<SliceViewWidget>("Axial");
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
   QVERIFY(axial);
-  const std::shared_ptr<const PictureTexture> held = axial->feed().shown().texture;
+  const std::shared_ptr<const engine::PictureTexture> held = axial->feed().shown().texture;
   std::set<unsigned> others;
   for (int i = 0; i < 10; ++i) {
     QTest::keyClick(axial, Qt::Key_Up);
@@ -197,12 +199,13 @@ void PictureSurfaceTest::a_texture_that_somebody_holds_is_not_drawn_into() {
 void PictureSurfaceTest::a_lost_context_of_the_engine_costs_one_picture() {
   DesktopWith desktop("textures");
   open_sphere(desktop);
-  auto* axial = desktop.view<SliceViewWidget>("Axial");
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
   QVERIFY(axial);
   const QImage before = axial->grab_picture();
   const std::uint64_t number = axial->feed().shown().number;
-  Engine& engine = desktop.engine();
-  engine.post(Priority::edit, this, [&engine](const std::stop_token&) { engine.device()->lose_at_check(1); });
+  engine::Engine& engine = desktop.engine();
+  engine.post(engine::Priority::edit, this,
+              [&engine](const std::stop_token&) { engine.device()->lose_at_check(1); });
   QTest::keyClick(axial, Qt::Key_Up);
   QTRY_COMPARE(engine.contexts_made(), 2);
   desktop.wait_until_idle();
@@ -217,18 +220,18 @@ void PictureSurfaceTest::a_lost_context_of_the_engine_costs_one_picture() {
 void PictureSurfaceTest::a_case_is_closed_while_its_pictures_are_drawn() {
   DesktopWith desktop("textures");
   open_sphere(desktop);
-  CaseWindow* first = desktop.window().active_case();
-  const PictureView* view = desktop.view<VolumeViewWidget>();
+  ui::CaseWindow* first = desktop.window().active_case();
+  const ui::PictureView* view = desktop.view<ui::VolumeViewWidget>();
   QVERIFY(view);
   // After its last holder it is destroyed on the engine's thread.
-  std::shared_ptr<const PictureTexture> held = view->feed().shown().texture;
+  std::shared_ptr<const engine::PictureTexture> held = view->feed().shown().texture;
   open_sphere(desktop);
   first->proxy().play();
   QTest::qWait(50);
   first->close_saved();
   QTRY_COMPARE(desktop.window().cases().size(), qsizetype{1});
   held.reset();
-  auto* other = desktop.view<VolumeViewWidget>();
+  auto* other = desktop.view<ui::VolumeViewWidget>();
   QVERIFY(other);
   desktop.wait_until_idle();
   QVERIFY(difference(on_screen(*other), other->grab_picture()) < 0.006);

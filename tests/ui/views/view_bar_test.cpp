@@ -10,7 +10,7 @@ class ViewBarTest : public QObject {
   Q_OBJECT
 
   std::unique_ptr<test::PanelCase> the_case_;
-  std::unique_ptr<ViewBar> bar_;
+  std::unique_ptr<ui::ViewBar> bar_;
 
   QDoubleSpinBox& box(const QString& name) { return *test::named<QDoubleSpinBox>(*bar_, name); }
 
@@ -24,7 +24,7 @@ class ViewBarTest : public QObject {
  private slots:
   void init() {
     the_case_ = std::make_unique<test::PanelCase>();
-    bar_ = std::make_unique<ViewBar>(*the_case_->proxy, "Axial", QList<QAction*>(), QList<QAction*>());
+    bar_ = std::make_unique<ui::ViewBar>(*the_case_->proxy, "Axial", QList<QAction*>(), QList<QAction*>());
     bar_->resize(600, 30);
     test::show(*bar_);
   }
@@ -47,12 +47,12 @@ class ViewBarTest : public QObject {
     QTest::keyClicks(&box(name), "3");
     QTest::keyClick(&box(name), Qt::Key_Return);
     the_case_->wait_until_idle();
-    const Parameters now = the_case_->state().parameters;
+    const solver::Parameters now = the_case_->state().parameters;
     QCOMPARE(name == "Target T" ? now.target : now.range, 123.0);
   }
 
   void a_change_of_one_leaves_the_others_digits() {
-    Parameters parameters = the_case_->proxy->parameters();
+    solver::Parameters parameters = the_case_->proxy->parameters();
     parameters.target = 40.123456;
     parameters.range = 30.123456;
     the_case_->proxy->set_parameters(parameters);
@@ -70,7 +70,7 @@ class ViewBarTest : public QObject {
   }
 
   void it_follows_what_is_set_elsewhere() {
-    Parameters parameters = the_case_->proxy->parameters();
+    solver::Parameters parameters = the_case_->proxy->parameters();
     parameters.target = 55.0;
     parameters.range = 11.0;
     the_case_->proxy->set_parameters(parameters);

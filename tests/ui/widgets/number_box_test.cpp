@@ -20,12 +20,12 @@ class NumberBoxTest : public QObject {
   Q_OBJECT
 
   std::unique_ptr<QWidget> window_;
-  NumberBox* box_ = nullptr;
+  ui::NumberBox* box_ = nullptr;
 
   void make(const QString& language) {
     QLocale::setDefault(QLocale(language));
     window_ = std::make_unique<QWidget>();
-    box_ = new NumberBox(window_.get());
+    box_ = new ui::NumberBox(window_.get());
     box_->resize(120, 28);
     box_->setDecimals(3);
     box_->setRange(-5000.0, 5000.0);
@@ -43,7 +43,7 @@ class NumberBoxTest : public QObject {
   void leave() { QTest::keyClick(box_, Qt::Key_Tab); }
   bool is_marked() {
     const QImage picture = box_->grab().toImage();
-    return picture.pixelColor(1, picture.height() / 2) == problem_colour(box_->palette());
+    return picture.pixelColor(1, picture.height() / 2) == ui::problem_colour(box_->palette());
   }
 
  private slots:
@@ -176,12 +176,12 @@ class NumberBoxTest : public QObject {
     QCOMPARE(box_->cleanText(), QStringLiteral("-1234567,000"));
     box_->setValue(-0.0);
     QCOMPARE(box_->cleanText(), QStringLiteral("0,000"));
-    QCOMPARE(count_text(1234567), QStringLiteral("1234567"));
-    QCOMPARE(number_text(-1234.56, 1), QStringLiteral("-1234,6"));
-    QCOMPARE(number_text(-0.04, 1), QStringLiteral("0,0"));
-    QCOMPARE(general_text(-0.0, 4), QStringLiteral("0"));
-    QCOMPARE(short_text(-0.0), QStringLiteral("0"));
-    QVERIFY(!std::signbit(rounded(-0.2, 0)));
+    QCOMPARE(ui::count_text(1234567), QStringLiteral("1234567"));
+    QCOMPARE(ui::number_text(-1234.56, 1), QStringLiteral("-1234,6"));
+    QCOMPARE(ui::number_text(-0.04, 1), QStringLiteral("0,0"));
+    QCOMPARE(ui::general_text(-0.0, 4), QStringLiteral("0"));
+    QCOMPARE(ui::short_text(-0.0), QStringLiteral("0"));
+    QVERIFY(!std::signbit(ui::rounded(-0.2, 0)));
   }
 
   // Others than these boxes read numbers by the rules of one language.
