@@ -1,0 +1,45 @@
+// What drives the level set of a case: speed functions with all that they are made from, walls and anchors.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+#include "core/volume.h"
+#include "solver/speed/constraints.h"
+#include "solver/speed/speed_setting.h"
+#include "solver/speed/strokes.h"
+
+namespace tidemark::document {
+
+// A further image of a case, on a grid of its own. It is never overwritten: views and speed functions see it
+// resampled.
+struct CaseImage {
+  std::string name;        // for people: the series' description or the file's name
+  std::string series_uid;  // empty: not from DICOM
+  std::string frame_of_reference_uid;
+  std::string checksum;  // see checksum.h
+  std::shared_ptr<const Volume> volume;
+  // From its own patient coordinates (LPS, mm) to the case's: a registration that the user accepted.
+  glm::dmat4 to_case{1.0};
+};
+
+// A map of D or of a probability that was made elsewhere.
+struct SpeedMap {
+  std::string name;
+  std::string checksum;
+  std::shared_ptr<const Volume> volume;  // on a grid of its own
+};
+
+// A value: parts are shared, and never change.
+struct Drive {
+  solver::SpeedSetting setting;
+  std::vector<std::shared_ptr<const CaseImage>> images;
+  std::shared_ptr<const solver::Strokes> strokes;          // null: none
+  std::shared_ptr<const SpeedMap> map;                     // null: none
+  std::shared_ptr<const solver::Constraints> constraints;  // null: none
+};
+
+}  // namespace tidemark::document

@@ -1,0 +1,91 @@
+#include "solver/speed/constraints.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace tidemark::solver {
+
+Constraints::Constraints(Index3 grid_size)
+    : layout_(grid_size, kDefaultPageShape), pages_(static_cast<std::size_t>(layout_.page_count())) {}
+
+Constraint Constraints::at(Index3 voxel) const {
+  const VirtualAddress address = layout_.translate(voxel);
+  const Page* there = page(address.page);
+  return there == nullptr ? Constraint::none : (*there)[static_cast<std::size_t>(address.offset)];
+}
+
+std::int64_t Constraints::count(Constraint what) const {
+  std::int64_t sum = 0;
+  for (const auto& page : pages_) {
+    if (page != nullptr) sum += std::count(page->begin(), page->end(), what);
+  }
+  return sum;
+}
+
+void Constraints::replace(std::int64_t virtual_page, const Page& page) {
+  std::shared_ptr<const Page>& held = pages_[static_cast<std::size_t>(virtual_page)];
+  if (held != nullptr) --constrained_pages_;
+  held.reset();
+  if (std::all_of(page.begin(), page.end(), [](Constraint c) { return c == Constraint::none; })) return;
+  held = std::make_shared<const Page>(page);
+  ++constrained_pages_;
+}
+
+void Constraints::set(const std::function<bool(Index3)>& chosen, Index3 first, Index3 last, Constraint what) {
+  const Index3 first_page = first / kDefaultPageShape;
+  const Index3 last_page = last / kDefaultPageShape;
+  for (std::int64_t pz = first_page.z; pz <= last_page.z; ++pz) {
+    for (std::int64_t py = first_page.y; py <= last_page.y; ++py) {
+      for (std::int64_t px = first_page.x; px <= last_page.x; ++px) {
+        const std::int64_t number = layout_.page_number({px, py, pz});
+        const Page* before = page(number);
+        Page values{};
+        if (before != nullptr) values = *before;
+        const Index3 start = layout_.first_voxel(number);
+        const Index3 valid = layout_.valid_shape(number);
+        bool changed = false;
+        for (std::int64_t z = 0; z < valid.z; ++z) {
+          for (std::int64_t y = 0; y < valid.y; ++y) {
+            for (std::int64_t x = 0; x < valid.x; ++x) {
+              Constraint& value = values[static_cast<std::size_t>(x + 8 * (y + 8 * z))];
+              if (value == what || !chosen(start + Index3(x, y, z))) continue;
+              value = what;
+              changed = true;
+            }
+          }
+        }
+        if (changed) replace(number, values);
+      }
+    }
+  }
+}
+
+void Constraints::set(const Mask& mask, Constraint what) {
+  set([&](Index3 voxel) { return mask.voxels[static_cast<std::size_t>(mask.geometry.offset(voxel))] != 0; },
+      Index3(0), layout_.volume_size() - Index3(1), what);
+}
+
+void Constraints::set(const Geometry& geometry, const Sphere& sphere, Constraint what) {
+  const glm::dvec3 centre = geometry.to_voxel(sphere.centre_mm);
+  const glm::dvec3 reach = sphere.radius_mm / geometry.spacing_mm;
+  const glm::dvec3 end(layout_.volume_size() - Index3(1));
+  const glm::dvec3 low = glm::ceil(centre - reach);
+  const glm::dvec3 high = glm::floor(centre + reach);
+  if (glm::any(glm::lessThan(high, glm::dvec3(0.0))) || glm::any(glm::greaterThan(low, end))) return;
+  const auto chosen = [&](Index3 voxel) {
+    const glm::dvec3 offset = (glm::dvec3(voxel) - centre) * geometry.spacing_mm;
+    return glm::dot(offset, offset) <= sphere.radius_mm * sphere.radius_mm;
+  };
+  set(chosen, Index3(glm::max(low, glm::dvec3(0.0))), Index3(glm::min(high, end)), what);
+}
+
+bool Constraints::operator==(const Constraints& other) const {
+  if (layout_ != other.layout_ || constrained_pages_ != other.constrained_pages_) return false;
+  return std::equal(pages_.begin(), pages_.end(), other.pages_.begin(), [](const auto& a, const auto& b) {
+    return a == b || (a != nullptr && b != nullptr && *a == *b);
+  });
+}
+
+}  // namespace tidemark::solver
