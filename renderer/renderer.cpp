@@ -6,6 +6,7 @@
 #include "renderer/source_plane.h"
 #include "renderer/uniforms.h"
 #include "solver/gl/step_uniforms.h"
+#include "solver/speed/tent_speed.h"
 
 namespace tidemark::renderer {
 namespace {
@@ -34,6 +35,12 @@ glm::dvec2 offset_of_round(int round) {
   return glm::dvec2(mirrored(round, 2), mirrored(round, 3)) - 0.5;
 }
 
+solver::StepConstants<float> constants_of(const std::shared_ptr<const Volume>& source,
+                                          const solver::Parameters& parameters) {
+  const solver::TentSpeed tent(source, parameters);
+  return solver::Model(source->geometry, parameters, tent).constants<float>();
+}
+
 gpu::Defines variant_of(const SliceView& view, bool source_by_plane) {
   gpu::Defines variant;
   if (source_by_plane) variant.emplace_back("SOURCE_PLANE", "");
@@ -49,7 +56,8 @@ gpu::Defines variant_of(const SliceView& view, bool source_by_plane) {
 Renderer::Renderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source)
     : device_(std::move(device)),
       source_(std::move(source)),
-      constants_(solver::Model(*source_, solver::Parameters()).constants<float>()) {}
+      constants_(constants_of(source_, solver::Parameters())),
+      tent_(solver::tent_of(solver::Parameters())) {}
 
 Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> device,
                                                    std::shared_ptr<const Volume> source,
@@ -108,7 +116,8 @@ Status Renderer::look_at(const solver::PackedView& view,
 }
 
 void Renderer::set_parameters(const solver::Parameters& parameters) {
-  constants_ = solver::Model(*source_, parameters).constants<float>();
+  constants_ = constants_of(source_, parameters);
+  tent_ = solver::tent_of(parameters);
 }
 
 Status Renderer::set_labels(std::span<const std::uint8_t> labels) {
@@ -156,6 +165,7 @@ Result<const gpu::Program*> Renderer::use_program(const char* fragment, const gp
   slots_.clear();
   program.use();
   solver::set_step_uniforms(program, constants_);
+  solver::set_tent_uniforms(program, tent_);
   phi_.set_uniforms(program, kPhiUnit);  // after the step's: the band is that of the phi shown
   source_picture_.set_uniforms(program, kSourceUnit);
   labels_.set_uniforms(program, kLabelUnits);

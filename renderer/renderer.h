@@ -94,6 +94,7 @@ class Renderer {
   gpu::SamplerSlots slots_;
   std::optional<std::pair<float, float>> common_range_;  // of the source, once it is needed
   solver::StepConstants<float> constants_;
+  solver::Tent tent_;
   SourcePicture source_picture_;
   PhiPicture phi_;
   LabelPicture labels_;

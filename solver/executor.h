@@ -11,6 +11,8 @@
 #include "core/volume.h"
 #include "solver/field.h"
 #include "solver/parameters.h"
+#include "solver/speed/constraints.h"
+#include "solver/speed/speed_function.h"
 #include "solver/sphere.h"
 
 namespace tidemark::gpu {
@@ -81,6 +83,19 @@ class Executor {
   // Takes effect with the next step and wakes every page. The band W cannot change in mid-run.
   virtual Status set_parameters(const Parameters& parameters) = 0;
   [[nodiscard]] virtual const Parameters& parameters() const = 0;
+
+  // What drives the surface; null: the tent of the parameters on the source. Takes effect with the next step
+  // and wakes every page. Fails (ErrorKind::capability) when there is no memory for it; the former one then
+  // goes on.
+  virtual Status set_speed(std::shared_ptr<const SpeedFunction> speed) = 0;
+  // What set_speed() was given, as it follows the surface now.
+  [[nodiscard]] virtual const std::shared_ptr<const SpeedFunction>& speed() const = 0;
+
+  // Walls and anchors; null: none. phi takes their limits at once, and keeps to them in every step, edit and
+  // restore(). Fails (ErrorKind::usage) when they are on another grid, (ErrorKind::capability) when the
+  // memory budget is reached.
+  virtual Status set_constraints(std::shared_ptr<const Constraints> constraints) = 0;
+  [[nodiscard]] virtual const std::shared_ptr<const Constraints>& constraints() const = 0;
 
   // Computes steps. Fails (ErrorKind::capability) when the memory budget is reached: every step up to there
   // is complete and kept. Cancelling is not a failure: the report says how many steps were done.

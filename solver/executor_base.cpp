@@ -1,17 +1,41 @@
 #include "solver/executor_base.h"
 
 #include "core/stopwatch.h"
+#include "solver/speed/tent_speed.h"
 
 namespace tidemark::solver {
 
 ExecutorBase::ExecutorBase(std::shared_ptr<const Volume> source, const Parameters& parameters)
-    : source_(std::move(source)), model_(*source_, parameters) {}
+    : source_(std::move(source)),
+      speed_(std::make_shared<TentSpeed>(source_, parameters)),
+      model_(source_->geometry, parameters, *speed_) {}
 
-Result<Model> ExecutorBase::model_with(const Parameters& parameters) const {
+Result<ExecutorBase::Drive> ExecutorBase::drive_with(const Parameters& parameters,
+                                                     std::shared_ptr<const SpeedFunction> given) const {
   TIDEMARK_TRY(check(parameters));
-  Model model(*source_, parameters);
+  std::shared_ptr<const SpeedFunction> used = given;
+  if (used == nullptr) used = std::make_shared<TentSpeed>(source_, parameters);
+  const Model model(source_->geometry, parameters, *used);
   if (model.band() != model_.band()) return fail(ErrorKind::usage, "the band W cannot change in mid-run");
-  return model;
+  return Drive{std::move(given), std::move(used), model};
+}
+
+void ExecutorBase::take(Drive drive) {
+  given_speed_ = std::move(drive.given);
+  speed_ = std::move(drive.used);
+  model_ = drive.model;
+}
+
+Result<std::shared_ptr<const SpeedFunction>> ExecutorBase::following_speed() const {
+  if (!speed_->follows_surface()) return nullptr;
+  auto phi = snapshot();
+  if (!phi) return pass_on(phi);
+  return speed_->following(*phi);
+}
+
+Status ExecutorBase::check_fits(const Constraints& constraints) const {
+  if (constraints.layout().volume_size() == source_->geometry.size) return {};
+  return fail(ErrorKind::usage, "walls and anchors are on another grid than the volume");
 }
 
 Result<AdvanceReport> ExecutorBase::run_steps(const Advance& run,
@@ -22,6 +46,13 @@ Result<AdvanceReport> ExecutorBase::run_steps(const Advance& run,
   AdvanceReport report;
   steps_of_last_run_ = 0;
   while (report.steps < run.steps && !run.progress.cancelled()) {
+    if (steps_in_window_ == 0 && speed_->follows_surface()) {
+      auto speed = following_speed();
+      if (!speed) return pass_on(speed);
+      if (*speed != nullptr) {
+        TIDEMARK_TRY(set_speed(*speed));
+      }
+    }
     steps_of_last_run_ = ++report.steps;
     auto window_ended = step(report);
     if (!window_ended) return pass_on(window_ended);

@@ -14,13 +14,26 @@ class ExecutorBase : public Executor {
   [[nodiscard]] double band() const final { return model_.band(); }
   [[nodiscard]] double time_step() const final { return model_.time_step(); }
   [[nodiscard]] std::int64_t steps_of_last_run() const final { return steps_of_last_run_; }
+  [[nodiscard]] const std::shared_ptr<const SpeedFunction>& speed() const final { return given_speed_; }
+  [[nodiscard]] const std::shared_ptr<const Constraints>& constraints() const final { return constraints_; }
 
  protected:
   ExecutorBase(std::shared_ptr<const Volume> source, const Parameters& parameters);
 
-  // The model that other parameters make. Fails (ErrorKind::usage) on those that check() refuses or that
-  // change the band.
-  [[nodiscard]] Result<Model> model_with(const Parameters& parameters) const;
+  // What drives the surface, with the model that it and the parameters make.
+  struct Drive {
+    std::shared_ptr<const SpeedFunction> given;  // null: the tent
+    std::shared_ptr<const SpeedFunction> used;
+    Model model;
+  };
+  // With other parameters or another speed function (null: the tent). Fails (ErrorKind::usage) on parameters
+  // that check() refuses or that change the band.
+  [[nodiscard]] Result<Drive> drive_with(const Parameters& parameters,
+                                         std::shared_ptr<const SpeedFunction> given) const;
+  void take(Drive drive);
+  // The function that belongs to the present phi, where it follows the surface; null: the present one fits.
+  [[nodiscard]] Result<std::shared_ptr<const SpeedFunction>> following_speed() const;
+  [[nodiscard]] Status check_fits(const Constraints& constraints) const;
 
   // Steps one by one until the run ends. `step` computes one, adds its voxels and its paging to the report,
   // and returns whether a window of steps ended with it, so that surface_speed_ is new.
@@ -28,6 +41,9 @@ class ExecutorBase : public Executor {
                                   const std::function<Result<bool>(AdvanceReport&)>& step);
 
   std::shared_ptr<const Volume> source_;
+  std::shared_ptr<const SpeedFunction> given_speed_;  // null: the tent
+  std::shared_ptr<const SpeedFunction> speed_;        // in use
+  std::shared_ptr<const Constraints> constraints_;    // null: none
   Model model_;
   // Of the window over which motion is summed up. The change over two steps is known after the second.
   int steps_in_window_ = 0;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/gtx/component_wise.hpp>
-#include <limits>
 
 namespace tidemark::solver {
 
@@ -12,30 +11,24 @@ double default_band(const Geometry& geometry) {
   return std::max(2.5, 2.0 * glm::compMax(geometry.spacing_mm) / glm::compMin(geometry.spacing_mm));
 }
 
-Model::Model(const Volume& source, const Parameters& parameters)
+Model::Model(const Geometry& geometry, const Parameters& parameters, const SpeedFunction& speed)
     : parameters_(parameters),
-      smallest_spacing_mm_(glm::compMin(source.geometry.spacing_mm)),
+      smallest_spacing_mm_(glm::compMin(geometry.spacing_mm)),
       // Rounded to the executors' type, so that all of them clamp to the same value.
-      band_(static_cast<float>(parameters.band.value_or(default_band(source.geometry)))) {
-  spacing_ = source.geometry.spacing_mm / smallest_spacing_mm_;
+      band_(static_cast<float>(parameters.band.value_or(default_band(geometry)))) {
+  spacing_ = geometry.spacing_mm / smallest_spacing_mm_;
   rescale_ = parameters.rescale.value_or(0.75 / band_);
-  time_step_ = stable_time_step(largest_data_speed(source));
+  time_step_ = stable_time_step(parameters.data_term ? speed.largest() : 0.0,
+                                speed.advects() ? speed.fastest_advection() : 0.0);
 }
 
-double Model::largest_data_speed(const Volume& source) const {
-  if (!parameters_.data_term) return 0.0;
-  if (parameters_.data_form == DataForm::clamped) return 1.0;
-  const auto [low, high] = source.range();
-  const auto raw = [&](double value) { return parameters_.range - std::abs(value - parameters_.target); };
-  return std::max({std::abs(raw(low)), std::abs(raw(high)), parameters_.range});
-}
-
-// Forward Euler: an advective part (data and rescaling move the level sets at up to these speeds along every
-// axis) and a diffusive part (curvature diffuses in the tangent plane, so the coarsest axis is left out).
-double Model::stable_time_step(double largest_data) const {
+// Forward Euler: an advective part (data, rescaling and advection move the level sets at up to these speeds
+// along every axis) and a diffusive part (curvature diffuses in the tangent plane, so the coarsest axis is
+// left out).
+double Model::stable_time_step(double largest_data, double fastest_advection) const {
   const glm::dvec3 inverse_squared = 1.0 / (spacing_ * spacing_);
   const double sum = glm::compAdd(inverse_squared);
-  double speed = parameters_.alpha * largest_data;
+  double speed = parameters_.alpha * largest_data + fastest_advection;
   // An unclamped field has no band; its rescaling weight is then 0 by default.
   if (parameters_.rescaling_term && rescale_ > 0.0) speed += rescale_ * band_;
   const double diffusion = parameters_.curvature_term ? 1.0 - parameters_.alpha : 0.0;
@@ -47,7 +40,6 @@ double Model::stable_time_step(double largest_data) const {
 
 template <class Real>
 StepConstants<Real> Model::constants() const {
-  const bool raw = parameters_.data_form == DataForm::raw;
   StepConstants<Real> c{};
   for (int axis = 0; axis < 3; ++axis) c.inverse_spacing[axis] = static_cast<Real>(1.0 / spacing_[axis]);
   c.time_step = static_cast<Real>(time_step_);
@@ -56,11 +48,7 @@ StepConstants<Real> Model::constants() const {
   c.curvature_weight = static_cast<Real>(parameters_.curvature_term ? 1.0 - parameters_.alpha : 0.0);
   c.rescaling_weight = static_cast<Real>(parameters_.rescaling_term ? rescale_ : 0.0);
   c.target_gradient = static_cast<Real>(parameters_.target_gradient);
-  c.target = static_cast<Real>(parameters_.target);
   c.near = static_cast<Real>(glm::compMax(spacing_));
-  c.data_peak = static_cast<Real>(raw ? parameters_.range : 1.0);
-  c.data_slope = static_cast<Real>(raw ? 1.0 : 1.0 / parameters_.range);
-  c.data_floor = raw ? std::numeric_limits<Real>::lowest() : Real(-1);
   return c;
 }
 

@@ -5,11 +5,11 @@
 
 #include "core/volume.h"
 #include "solver/parameters.h"
+#include "solver/speed/speed_function.h"
 
 namespace tidemark::solver {
 
-// Lengths are in units of the smallest voxel spacing, source values in the source's units. `Real` is double
-// in the reference and float elsewhere.
+// Lengths are in units of the smallest voxel spacing. `Real` is double in the reference and float elsewhere.
 template <class Real>
 struct StepConstants {
   Real inverse_spacing[3];  // 1 / h of each axis
@@ -19,18 +19,13 @@ struct StepConstants {
   Real curvature_weight;    // 1 - alpha; 0 when the term is off
   Real rescaling_weight;    // w; 0 when the term is off
   Real target_gradient;     // g_phi
-  Real target;              // T
   Real near;                // |phi| of a voxel beside the surface is at most this: the largest spacing
-  // D = max(data_floor, data_peak - data_slope |I - T|)
-  Real data_peak;
-  Real data_slope;
-  Real data_floor;
 };
 
-// A level set's equation on its grid. The source's values bound raw D, and with it the time step.
+// A level set's equation on its grid. The largest speed bounds the time step.
 class Model {
  public:
-  Model(const Volume& source, const Parameters& parameters);
+  Model(const Geometry& geometry, const Parameters& parameters, const SpeedFunction& speed);
 
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
   [[nodiscard]] double band() const { return band_; }  // W as resolved
@@ -42,8 +37,7 @@ class Model {
   [[nodiscard]] StepConstants<Real> constants() const;
 
  private:
-  [[nodiscard]] double largest_data_speed(const Volume& source) const;
-  [[nodiscard]] double stable_time_step(double largest_data) const;
+  [[nodiscard]] double stable_time_step(double largest_data, double fastest_advection) const;
 
   Parameters parameters_;
   glm::dvec3 spacing_{1.0};

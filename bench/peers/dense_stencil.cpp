@@ -6,8 +6,7 @@
 #include "bench/peers/dense_kernel.h"
 #include "core/thread_pool.h"
 
-// After the standard headers: defines functions of these names.
-#include "solver/speed/data-inl.h"
+#include "solver/speed/tent_speed.h"
 
 namespace tidemark::bench {
 namespace {
@@ -16,7 +15,8 @@ class DenseStencil final : public Contestant {
  public:
   explicit DenseStencil(const Problem& problem)
       : geometry_(problem.source->geometry),
-        model_(*problem.source, problem.parameters),
+        tent_(problem.source, problem.parameters),
+        model_(geometry_, problem.parameters, tent_),
         constants_(model_.constants<float>()),
         pool_(kThreads) {
     row_ = kDenseMargin + geometry_.size.x + kDenseMargin;
@@ -24,11 +24,13 @@ class DenseStencil final : public Contestant {
     const auto count = static_cast<std::size_t>(slice_ * (geometry_.size.z + 2));
     data_.resize(count);
     for (auto& phi : phi_) phi.resize(count);
-    copy_in(problem.values, data_);
+    std::vector<double> speed(static_cast<std::size_t>(geometry_.voxel_count()));
+    tent_.evaluate({Index3(0), geometry_.size}, speed.data());
     const auto constants = model_.constants<double>();
-    std::transform(data_.begin(), data_.end(), data_.begin(), [&](float value) {
-      return static_cast<float>(solver::HWY_NAMESPACE::data_motion(double{value}, constants));
-    });
+    const double weight = constants.time_step * constants.data_weight;
+    copy_in({speed.begin(), speed.end()}, data_);
+    std::transform(data_.begin(), data_.end(), data_.begin(),
+                   [&](float value) { return static_cast<float>(weight * double{value}); });
     copy_in(start_distance(problem, model_.band()), phi_[0]);
     repeat_border(phi_[0]);
   }
@@ -114,6 +116,7 @@ class DenseStencil final : public Contestant {
   }
 
   Geometry geometry_;
+  solver::TentSpeed tent_;
   solver::Model model_;
   solver::StepConstants<float> constants_;
   ThreadPool pool_;

@@ -12,6 +12,7 @@
 
 #include "bench/peers/contestants.h"
 #include "solver/model.h"
+#include "solver/speed/tent_speed.h"
 
 namespace tidemark::bench {
 namespace {
@@ -34,8 +35,10 @@ class OpenVdbTracker final : public Contestant {
       : problem_(problem), threads_(tbb::global_control::max_allowed_parallelism, kThreads) {
     solver::Parameters unscaled = problem.parameters;
     unscaled.rescaling_term = false;
-    const solver::Model model(*problem.source, unscaled);
+    const solver::TentSpeed speed(problem.source, unscaled);
+    const solver::Model model(problem.source->geometry, unscaled, speed);
     constants_ = model.constants<float>();
+    tent_ = solver::tent_of(unscaled);
 
     std::vector<float> start = start_distance(problem, kHalfWidth);
     for (float& value : start) value = -value;
@@ -90,8 +93,8 @@ class OpenVdbTracker final : public Contestant {
     const Index3 index(voxel.x(), voxel.y(), voxel.z());
     if (!geometry.contains(index)) return -1.0F;
     const float value = problem_.values[static_cast<std::size_t>(geometry.offset(index))];
-    return std::max(constants_.data_floor,
-                    constants_.data_peak - constants_.data_slope * std::abs(value - constants_.target));
+    const double peak_to_floor = tent_.peak - tent_.slope * std::abs(double{value} - tent_.target);
+    return static_cast<float>(std::max(tent_.floor, peak_to_floor));
   }
 
   // phi < 0 inside: the surface grows where phi falls.
@@ -131,6 +134,7 @@ class OpenVdbTracker final : public Contestant {
   const Problem& problem_;
   tbb::global_control threads_;
   solver::StepConstants<float> constants_{};
+  solver::Tent tent_;
   FloatGrid::Ptr grid_;
   std::unique_ptr<Tracker> tracker_;
 };

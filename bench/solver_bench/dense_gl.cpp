@@ -6,6 +6,7 @@
 #include "gpu/program.h"
 #include "solver/gl/step_uniforms.h"
 #include "solver/model.h"
+#include "solver/speed/tent_speed.h"
 
 namespace tidemark::bench {
 
@@ -13,7 +14,8 @@ Result<DenseRun> run_dense_gl(const Volume& source, const solver::Parameters& pa
                               const solver::Field& phi, std::int64_t steps) {
   auto device = gpu::Device::create_headless({});
   if (!device) return pass_on(device);
-  const solver::Model model(source, parameters);
+  const solver::Model model(source.geometry, parameters,
+                            solver::TentSpeed(std::make_shared<const Volume>(source), parameters));
   auto program = gpu::Program::compute(**device, "bench/dense.comp", solver::step_defines(model));
   if (!program) return pass_on(program);
   const std::int64_t bytes = source.geometry.voxel_count() * 4;
@@ -32,6 +34,7 @@ Result<DenseRun> run_dense_gl(const Volume& source, const solver::Parameters& pa
   buffers[2].bind_storage(2);
   program->use();
   solver::set_step_uniforms(*program, model.constants<float>());
+  solver::set_tent_uniforms(*program, solver::tent_of(parameters));
   const glm::ivec3 size(source.geometry.size);
   program->set("volume_size", size);
   const auto run = [&](std::int64_t count) {

@@ -11,6 +11,7 @@
 #include "solver/gl/packed_view.h"
 #include "solver/paging/reserve.h"
 #include "solver/paging/validate.h"
+#include "solver/speed/tent_speed.h"
 
 namespace tidemark::solver {
 namespace {
@@ -125,6 +126,7 @@ void ComputeExecutor::prepare_update(const gpu::Program& program) {
   program.use();
   set_layout(program);
   set_step_uniforms(program, model_.constants<float>());
+  set_tent_uniforms(program, tent_of(parameters()));
   source_texture_.set_uniforms(program, 1);
   program.set("phi_now", 0);
 }

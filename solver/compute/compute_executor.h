@@ -29,6 +29,8 @@ class ComputeExecutor final : public ExecutorBase {
   [[nodiscard]] Result<Field> snapshot() const override;
   Status paint(const Sphere& sphere, Brush brush) override;
   Status set_parameters(const Parameters& parameters) override;
+  Status set_speed(std::shared_ptr<const SpeedFunction> speed) override;
+  Status set_constraints(std::shared_ptr<const Constraints> constraints) override;
   Result<AdvanceReport> advance(const Advance& run) override;
   [[nodiscard]] MemoryReport memory() const override;
   [[nodiscard]] Result<std::vector<std::int64_t>> quiet_pages() const override;

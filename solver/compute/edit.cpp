@@ -27,12 +27,20 @@ Status ComputeExecutor::restore(const Field& phi) {
   return activate_pages();
 }
 
+Status ComputeExecutor::set_speed(std::shared_ptr<const SpeedFunction>) {
+  return fail(ErrorKind::capability, "the compute executor knows the tent alone");
+}
+
+Status ComputeExecutor::set_constraints(std::shared_ptr<const Constraints>) {
+  return fail(ErrorKind::capability, "the compute executor knows no walls");
+}
+
 Status ComputeExecutor::set_parameters(const Parameters& parameters) {
-  auto model = model_with(parameters);
-  if (!model) return pass_on(model);
+  auto drive = drive_with(parameters, given_speed_);
+  if (!drive) return pass_on(drive);
   TIDEMARK_TRY(device_->make_current());
   const bool other_kernel = model_.parameters().scheme != parameters.scheme;
-  model_ = *model;
+  take(std::move(*drive));
   if (other_kernel) {
     TIDEMARK_TRY(compile_update());
   }

@@ -13,10 +13,13 @@ void set_step_uniforms(const gpu::Program& program, const StepConstants<float>& 
   program.set("curvature_weight", k.curvature_weight);
   program.set("rescaling_weight", k.rescaling_weight);
   program.set("target_gradient", k.target_gradient);
-  program.set("target", k.target);
-  program.set("data_peak", k.data_peak);
-  program.set("data_slope", k.data_slope);
-  program.set("data_floor", k.data_floor);
+}
+
+void set_tent_uniforms(const gpu::Program& program, const Tent& tent) {
+  program.set("target", static_cast<float>(tent.target));
+  program.set("data_peak", static_cast<float>(tent.peak));
+  program.set("data_slope", static_cast<float>(tent.slope));
+  program.set("data_floor", static_cast<float>(tent.floor));
 }
 
 gpu::Defines step_defines(const Model& model) {

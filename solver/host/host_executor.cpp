@@ -4,9 +4,11 @@
 #include <bit>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #include "core/stopwatch.h"
 #include "solver/host/page_code.h"
+#include "solver/host/page_constraints.h"
 #include "solver/paging/validate.h"
 
 namespace tidemark::solver {
@@ -49,9 +51,9 @@ HostExecutor::HostExecutor(std::shared_ptr<const Volume> source, const Parameter
       constants_(model_.constants<float>()),
       kernels_(std::move(kernels)),
       threads_(std::make_unique<ThreadPool>(options.threads)),
-      pages_(*source_, model_, *threads_, options.memory_budget_bytes),
+      pages_({source_->geometry, model_, speed_, constraints_}, *threads_, options.memory_budget_bytes),
       quiet_(pages_, options.skip_quiet_pages),
-      edits_(*source_, model_, pages_, quiet_) {
+      edits_({source_->geometry, model_, speed_, constraints_}, pages_, quiet_) {
   for (int member = 0; member < threads_->threads(); ++member) tiles_.push_back(std::make_unique<Tile>());
   updates_.resize(tiles_.size());
 }
@@ -66,15 +68,47 @@ Status HostExecutor::paint(const Sphere& sphere, Brush brush) {
   return edits_.paint(sphere, brush);
 }
 
-Status HostExecutor::set_parameters(const Parameters& parameters) {
-  auto model = model_with(parameters);
-  if (!model) return pass_on(model);
-  model_ = *model;
+Status HostExecutor::drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given) {
+  auto drive = drive_with(parameters, std::move(given));
+  if (!drive) return pass_on(drive);
+  take(std::move(*drive));
   constants_ = model_.constants<float>();
   begin_window();
   quiet_.wake_all();
-  pages_.refill_data_motion();
+  pages_.refill();
   return {};
+}
+
+Status HostExecutor::set_parameters(const Parameters& parameters) {
+  return drive(parameters, given_speed_);
+}
+
+Status HostExecutor::set_speed(std::shared_ptr<const SpeedFunction> speed) {
+  return drive(parameters(), std::move(speed));
+}
+
+Status HostExecutor::set_constraints(std::shared_ptr<const Constraints> constraints) {
+  if (constraints != nullptr) {
+    TIDEMARK_TRY(check_fits(*constraints));
+  }
+  const std::shared_ptr<const Constraints> former = std::exchange(constraints_, std::move(constraints));
+  pages_.link_constraints();
+  begin_window();
+  quiet_.wake_all();
+  if (const Status limited = edits_.constrain(); !limited) {
+    constraints_ = former;
+    pages_.link_constraints();
+    return limited;
+  }
+  return pages_.activate_all();
+}
+
+// Takes a page to the limits of its constraints; `before` is phi two steps ago.
+void HostExecutor::limit(const PageInfo& info, const float* before, float* phi, RowMasks& masks,
+                         PageResult& result) const {
+  if (!constrain(*info.constraints, phi)) return;
+  masks = masks_of(phi, info.valid[0], info.padding, constants_.band);
+  if (next_step_is_measured()) measure_again(info, before, phi, constants_.near, result);
 }
 
 // Computes those rows of an active page from the current buffer into the other one and writes its code;
@@ -95,6 +129,8 @@ std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const Pa
   fill_rows(phi, work.inside & ~masks.inside, constants_.band);
   fill_rows(phi, work.outside & ~masks.outside, -constants_.band);
 
+  float before[kPageVoxels];
+  if (info.constraints != nullptr) std::copy_n(phi, kPageVoxels, before);
   PageResult result;
   if (rows != 0) {
     PageJob job;
@@ -103,6 +139,7 @@ std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const Pa
     job.info = &info;
     job.tile = &tile;
     job.data_motion = pool.data_motion(page);
+    job.advection = pool.advection(page);
     job.next = phi;
     job.rows = rows;
     job.ahead = &ahead;
@@ -119,6 +156,7 @@ std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const Pa
   masks.outside_first |= work.outside;
   masks.outside_last |= work.outside;
   masks.add_padding(info.padding);
+  if (info.constraints != nullptr) limit(info, before, phi, masks, result);
 
   info.change += result.largest_change;
   info.squared_change += result.squared_change;
@@ -165,8 +203,10 @@ std::int64_t HostExecutor::update_piece(std::int64_t begin, std::int64_t end, in
 
 void HostExecutor::step() {
   const bool motion = next_step_is_measured();
-  kernel_ = kernels_.kernels[model_.parameters().scheme == Scheme::paper ? 1 : 0]
-                            [model_.spacing() == glm::dvec3(1.0) ? 0 : 1][motion ? 1 : 0];
+  kernel_ =
+      kernels_
+          .kernels[model_.parameters().scheme == Scheme::paper ? 1 : 0]
+                  [model_.spacing() == glm::dvec3(1.0) ? 0 : 1][motion ? 1 : 0][speed_->advects() ? 1 : 0];
   std::fill(updates_.begin(), updates_.end(), 0);
   const std::int64_t count = std::ssize(quiet_.active());
   // Short enough that no thread waits for another's last piece for long.
@@ -245,7 +285,8 @@ MemoryReport HostExecutor::memory() const {
   report.state_bytes =
       pages_.state_bytes() + quiet_.state_bytes() + static_cast<std::int64_t>(codes_.capacity());
   report.peak_state_bytes = report.state_bytes;  // pages are kept for reuse, so memory never shrinks
-  report.source_bytes = PagePool::data_bytes(pages_.table().capacity());
+  report.source_bytes = PagePool::data_bytes(pages_.table().capacity()) +
+                        pages_.pool().advection_bytes(pages_.table().capacity());
   report.page_shape = kDefaultPageShape;
   return report;
 }

@@ -28,6 +28,8 @@ class HostExecutor final : public ExecutorBase {
   [[nodiscard]] Result<Field> snapshot() const override { return pages_.copy(); }
   Status paint(const Sphere& sphere, Brush brush) override;
   Status set_parameters(const Parameters& parameters) override;
+  Status set_speed(std::shared_ptr<const SpeedFunction> speed) override;
+  Status set_constraints(std::shared_ptr<const Constraints> constraints) override;
   Result<AdvanceReport> advance(const Advance& run) override;
   [[nodiscard]] MemoryReport memory() const override;
   [[nodiscard]] Result<std::vector<std::int64_t>> quiet_pages() const override {
@@ -41,10 +43,13 @@ class HostExecutor final : public ExecutorBase {
   HostExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters,
                const ExecutorOptions& options, PageKernels kernels);
 
+  Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given);
   void step();
   // Steps go through the pages there and back: of a surface that is larger than the cache, a step finds there
   // what the last one left.
   [[nodiscard]] bool goes_back() const { return pages_.current() == 1; }
+  void limit(const PageInfo& info, const float* before, float* phi, RowMasks& masks,
+             PageResult& result) const;
   std::int64_t update_page(std::size_t index, RowWork work, const PagePrefetch& ahead, Tile& tile);
   std::int64_t update_piece(std::int64_t begin, std::int64_t end, int member);
   Status maintain();

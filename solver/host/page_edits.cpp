@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "solver/host/page_constraints.h"
+
 namespace tidemark::solver {
 namespace {
 
@@ -59,7 +61,7 @@ bool all_equal(const Values& values, float value) {
 }  // namespace
 
 Status PageEdits::restore(const Field& phi) {
-  TIDEMARK_TRY(phi.check_fits(source_.geometry, model_.band()));
+  TIDEMARK_TRY(phi.check_fits(contents_.geometry, contents_.model.band()));
   if (phi.layout.page_shape() != kDefaultPageShape) {
     return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band));
   }
@@ -81,16 +83,46 @@ Status PageEdits::restore(const Field& phi) {
     std::copy_n(phi.pages.data() + std::int64_t{entry} * kPageVoxels, kPageVoxels, pages_.phi(page));
     pages_.refresh(page);
   });
+  TIDEMARK_TRY(constrain());
   return pages_.activate_all();
 }
 
+Status PageEdits::constrain() {
+  const Constraints* constraints = contents_.constraints.get();
+  if (constraints == nullptr || constraints->empty()) return {};
+  const PageTable& table = pages_.table();
+  const auto wants = [](const Constraints::Page& page, Constraint what) {
+    return std::find(page.begin(), page.end(), what) != page.end();
+  };
+  std::vector<std::int64_t> to_allocate;
+  for (std::int64_t page = 0; page < table.layout().page_count(); ++page) {
+    const Constraints::Page* there = constraints->page(page);
+    const PhysicalPage physical = table.physical(page);
+    if (there == nullptr || !is_static_page(physical)) continue;
+    if (wants(*there, physical == kInsidePage ? Constraint::wall : Constraint::anchor))
+      to_allocate.push_back(page);
+  }
+  TIDEMARK_TRY(pages_.check_budget(static_cast<std::int64_t>(to_allocate.size())));
+  for (const std::int64_t page : to_allocate) {
+    TIDEMARK_TRY(pages_.make_resident(page));
+  }
+  pages_.fill_new_pages();
+  pages_.for_each([&](PhysicalPage page) {
+    const Constraints::Page* there = pages_.pool().info(page).constraints;
+    if (there == nullptr || !tidemark::solver::constrain(*there, pages_.phi(page))) return;
+    pages_.refresh(page);
+    quiet_.wake_around(page);
+  });
+  return {};
+}
+
 Status PageEdits::paint(const Sphere& sphere, Brush brush) {
-  const Stroke stroke{source_.geometry,
+  const Stroke stroke{contents_.geometry,
                       sphere,
                       brush,
-                      source_.geometry.to_voxel(sphere.centre_mm),
-                      model_.smallest_spacing_mm(),
-                      static_cast<float>(model_.band())};
+                      contents_.geometry.to_voxel(sphere.centre_mm),
+                      contents_.model.smallest_spacing_mm(),
+                      static_cast<float>(contents_.model.band())};
   std::vector<std::int64_t> to_allocate;
   std::vector<Index3> to_flip;  // pages that are not resident and change from all outside to inside or back
   Values values;
@@ -123,6 +155,7 @@ Status PageEdits::paint(const Sphere& sphere, Brush brush) {
     pages_.refresh(page);
     quiet_.wake_around(page);
   });
+  TIDEMARK_TRY(constrain());
   return pages_.activate_all();
 }
 

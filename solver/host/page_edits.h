@@ -10,16 +10,17 @@ namespace tidemark::solver {
 class PageEdits {
  public:
   // What it is made from outlives it.
-  PageEdits(const Volume& source, const Model& model, ResidentPages& pages, QuietPages& quiet)
-      : source_(source), model_(model), pages_(pages), quiet_(quiet) {}
+  PageEdits(const ResidentPages::Contents& contents, ResidentPages& pages, QuietPages& quiet)
+      : contents_(contents), pages_(pages), quiet_(quiet) {}
 
   // As Executor's.
   Status restore(const Field& phi);
   Status paint(const Sphere& sphere, Brush brush);
+  // Makes resident what the constraints need, and takes phi to their limits.
+  Status constrain();
 
  private:
-  const Volume& source_;
-  const Model& model_;
+  ResidentPages::Contents contents_;
   ResidentPages& pages_;
   QuietPages& quiet_;
 };

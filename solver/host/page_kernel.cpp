@@ -193,7 +193,7 @@ HWY_INLINE Rows rows_where(const std::uint8_t* bytes, std::uint8_t and_mask) {
   return rows;
 }
 
-template <bool kPaper, bool kAnisotropic, bool kMotion>
+template <bool kPaper, bool kAnisotropic, bool kMotion, bool kAdvection>
 void update_page(const PageJob& job, PageResult& result) {
   const LanesTag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -219,6 +219,7 @@ void update_page(const PageJob& job, PageResult& result) {
   // Bytes are written in the loop, which the compiler takes for changes of the job.
   const Tile& tile = *job.tile;
   const float* const data_motion = job.data_motion;
+  const float* const advection = job.advection;
   float* const next = job.next;
   const Rows one_vector = (Rows{1} << rows_per_vector) - 1;
   PagePrefetch::Turns ahead(*job.ahead, static_cast<int>(hwy::PopCount(job.rows)) / rows_per_vector);
@@ -229,10 +230,18 @@ void update_page(const PageJob& job, PageResult& result) {
     const std::size_t tile_row = Tile::row(row);
     for (int x = 0; x < kPageSide; x += lanes) {
       const std::size_t voxel = row * kPageSide + x;
-      const auto differences_here = differences<kAnisotropic, float>(load_stencil(tile, voxel, tile_row + x),
-                                                                     constants.inverse_spacing);
+      const Stencil<Lanes> stencil = load_stencil(tile, voxel, tile_row + x);
+      const auto differences_here = differences<kAnisotropic, float>(stencil, constants.inverse_spacing);
       const Lanes data(hn::LoadU(d, data_motion + voxel));
-      const auto phi = updated_phi<kPaper, float>(differences_here, data, constants).v;
+      hn::Vec<decltype(d)> phi;
+      if constexpr (kAdvection) {
+        const float* v = advection + voxel;
+        const StepVelocity<Lanes> velocity{Lanes(hn::LoadU(d, v)), Lanes(hn::LoadU(d, v + kPageVoxels)),
+                                           Lanes(hn::LoadU(d, v + 2 * kPageVoxels))};
+        phi = updated_phi<kPaper, float>(differences_here, data, constants, advected(stencil, velocity)).v;
+      } else {
+        phi = updated_phi<kPaper, float>(differences_here, data, constants).v;
+      }
       if constexpr (kMotion) {
         const std::size_t ends_in_padding = job.info->padding >> (row + rows_per_vector - 1) & 1U;
         const auto near = hn::Le(hn::Abs(phi), hn::LoadU(d, near_limit[ends_in_padding] + x));
@@ -262,8 +271,11 @@ void update_page(const PageJob& job, PageResult& result) {
 
 template <bool kPaper, bool kAnisotropic>
 void set_kernels(PageKernels& kernels) {
-  kernels.kernels[kPaper][kAnisotropic][false] = update_page<kPaper, kAnisotropic, false>;
-  kernels.kernels[kPaper][kAnisotropic][true] = update_page<kPaper, kAnisotropic, true>;
+  auto& some = kernels.kernels[kPaper][kAnisotropic];
+  some[false][false] = update_page<kPaper, kAnisotropic, false, false>;
+  some[false][true] = update_page<kPaper, kAnisotropic, false, true>;
+  some[true][false] = update_page<kPaper, kAnisotropic, true, false>;
+  some[true][true] = update_page<kPaper, kAnisotropic, true, true>;
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ struct PageJob {
   const PageInfo* info = nullptr;
   Tile* tile = nullptr;                // scratch
   const float* data_motion = nullptr;  // of the page
+  const float* advection = nullptr;    // of the page, axis by axis; for kernels with advection
   float* next = nullptr;  // out: the new phi, in the rows of `rows`; in, for motion: phi a step ago
   Rows rows = 0;          // a multiple of PageKernels::rows_per_vector neighbouring rows
   const PagePrefetch* ahead = nullptr;  // what to ask for on the way
@@ -36,7 +37,8 @@ struct PageResult {
 // The kernel for one instruction set.
 struct PageKernels {
   using Kernel = void (*)(const PageJob&, PageResult&);
-  Kernel kernels[2][2][2] = {};  // [Scheme::paper][anisotropic spacing][motion is measured]
+  // [Scheme::paper][anisotropic spacing][motion is measured][advection]
+  Kernel kernels[2][2][2][2] = {};
   int rows_per_vector = 1;
   std::string name;  // "sse4", "avx2", "avx512"
 };

@@ -7,6 +7,7 @@
 #include "solver/host/reserved_array.h"
 #include "solver/host/row_masks.h"
 #include "solver/paging/page_table.h"
+#include "solver/speed/constraints.h"
 
 namespace tidemark::solver {
 
@@ -27,6 +28,8 @@ struct PageInfo {
   std::uint8_t constant_steps = 0;  // for how many steps it has been constant
   bool asleep = false;              // quiet: not computed, both buffers are equal
   bool woke_neighbours = false;     // in this window
+
+  const Constraints::Page* constraints = nullptr;  // of its voxels; null: none
 };
 
 // Pages lie one after the other in reserved address space: phi of buffer 0, of buffer 1, then how far the
@@ -42,7 +45,13 @@ class PagePool {
   }
   [[nodiscard]] float* data_motion(PhysicalPage page) const { return values(page) + 2 * kPageVoxels; }
 
-  // All that is kept for each voxel of a page, kFloatsPerPage floats.
+  // dt v / h of each axis, three times kPageVoxels; null: the speed function has no velocity.
+  [[nodiscard]] float* advection(PhysicalPage page) const {
+    return advection_.data() == nullptr ? nullptr : advection_.data() + index(page) * 3 * kPageVoxels;
+  }
+  void keep_advection(bool wanted);
+
+  // All that is kept for each voxel of a page, but for the velocity: kFloatsPerPage floats.
   [[nodiscard]] const float* all_values(PhysicalPage page) const { return values(page); }
 
   [[nodiscard]] PageInfo& info(PhysicalPage page) { return infos_[index(page)]; }
@@ -57,6 +66,7 @@ class PagePool {
   // Bytes that `pages` pages take for phi and what is kept beside it, and for the data term.
   [[nodiscard]] static std::int64_t state_bytes(std::int64_t pages);
   [[nodiscard]] static std::int64_t data_bytes(std::int64_t pages);
+  [[nodiscard]] std::int64_t advection_bytes(std::int64_t pages) const;
 
  private:
   static std::size_t index(PhysicalPage page) { return static_cast<std::size_t>(page); }
@@ -64,7 +74,9 @@ class PagePool {
     return values_.data() + index(page) * kFloatsPerPage;
   }
 
+  PhysicalPage capacity_;
   ReservedArray<float> values_;
+  ReservedArray<float> advection_;
   ReservedArray<RowMasks> masks_[2];
   ReservedArray<PageInfo> infos_;
 };

@@ -1,14 +1,13 @@
 #include "solver/host/resident_pages.h"
 
-#include "solver/host/data_motion.h"
 #include "solver/host/page_code.h"
+#include "solver/host/step_motion.h"
 #include "solver/paging/page_neighbours.h"
 
 namespace tidemark::solver {
 
-ResidentPages::ResidentPages(const Volume& source, const Model& model, ThreadPool& threads,
-                             std::int64_t memory_budget)
-    : source_(source), model_(model), threads_(threads), memory_budget_(memory_budget) {
+ResidentPages::ResidentPages(const Contents& contents, ThreadPool& threads, std::int64_t memory_budget)
+    : contents_(contents), threads_(threads), memory_budget_(memory_budget) {
   clear();
 }
 
@@ -20,12 +19,13 @@ PhysicalPage ResidentPages::pool_capacity() const {
 }
 
 float ResidentPages::constant(bool inside) const {
-  return static_cast<float>(inside ? model_.band() : -model_.band());
+  return static_cast<float>(inside ? contents_.model.band() : -contents_.model.band());
 }
 
 void ResidentPages::clear() {
-  table_ = PageTable(PageLayout(source_.geometry.size, kDefaultPageShape));
+  table_ = PageTable(PageLayout(contents_.geometry.size, kDefaultPageShape));
   pool_ = PagePool(pool_capacity());
+  pool_.keep_advection(contents_.speed->advects());
   for (const PhysicalPage page : {kOutsidePage, kInsidePage}) {
     const bool inside = page == kInsidePage;
     for (const int buffer : {0, 1}) {
@@ -41,7 +41,7 @@ void ResidentPages::clear() {
 }
 
 Field ResidentPages::copy() const {
-  Field field = Field::empty(source_.geometry, model_.band());
+  Field field = Field::empty(contents_.geometry, contents_.model.band());
   field.pages.reserve(static_cast<std::size_t>(table_.resident() * kPageVoxels));
   for (std::int64_t page = 0; page < table_.layout().page_count(); ++page) {
     const PhysicalPage physical = table_.physical(page);
@@ -64,7 +64,7 @@ Status ResidentPages::check_budget(std::int64_t more_pages) const {
   // included.
   constexpr std::int64_t kListBytesPerPage = 64;
   const std::int64_t bytes = PagePool::state_bytes(capacity) + PagePool::data_bytes(capacity) +
-                             table_.bytes() + capacity * kListBytesPerPage;
+                             pool_.advection_bytes(capacity) + table_.bytes() + capacity * kListBytesPerPage;
   if (bytes <= memory_budget_) return {};
   return fail(ErrorKind::capability, "the surface needs {} pages, {} MB, and the memory budget is {} MB",
               capacity, bytes >> 20, memory_budget_ >> 20);
@@ -77,6 +77,17 @@ void ResidentPages::describe(PhysicalPage page) {
   const Index3 valid = table_.layout().valid_shape(table_.virtual_page(page));
   for (int axis = 0; axis < 3; ++axis) info.valid[axis] = static_cast<std::uint8_t>(valid[axis]);
   info.padding = padding_rows(info.valid[1], info.valid[2]);
+  link_constraints(page);
+}
+
+void ResidentPages::link_constraints(PhysicalPage page) {
+  const Constraints* constraints = contents_.constraints.get();
+  pool_.info(page).constraints =
+      constraints == nullptr ? nullptr : constraints->page(table_.virtual_page(page));
+}
+
+void ResidentPages::link_constraints() {
+  for_each([&](PhysicalPage page) { link_constraints(page); });
 }
 
 // Tells the resident pages around `coordinates` which physical page is there now.
@@ -170,25 +181,31 @@ void ResidentPages::fill_new_pages() {
                         for (const int buffer : {0, 1}) {
                           std::fill_n(pool_.phi(buffer, page), kPageVoxels, constant(inside));
                         }
-                        fill_data(page);
+                        fill_motion(page);
                       }
                     });
   new_pages_.clear();
 }
 
-void ResidentPages::fill_data(PhysicalPage page) {
+void ResidentPages::fill_motion(PhysicalPage page) {
   const std::int64_t virtual_page = table_.virtual_page(page);
-  fill_data_motion(source_, model_.constants<double>(), table_.layout().first_voxel(virtual_page),
-                   table_.layout().valid_shape(virtual_page), pool_.data_motion(page));
+  const Index3 first = table_.layout().first_voxel(virtual_page);
+  const Index3 valid = table_.layout().valid_shape(virtual_page);
+  const auto constants = contents_.model.constants<double>();
+  fill_data_motion(*contents_.speed, constants, first, valid, pool_.data_motion(page));
+  if (float* advection = pool_.advection(page); advection != nullptr) {
+    fill_advection(*contents_.speed, constants, first, valid, advection);
+  }
 }
 
-void ResidentPages::refill_data_motion() {
+void ResidentPages::refill() {
+  pool_.keep_advection(contents_.speed->advects());
   std::vector<PhysicalPage> pages;
   for_each([&](PhysicalPage page) { pages.push_back(page); });
   threads_.for_each(static_cast<std::int64_t>(pages.size()), 8,
                     [&](std::int64_t begin, std::int64_t end, int) {
                       for (std::int64_t i = begin; i < end; ++i) {
-                        fill_data(pages[static_cast<std::size_t>(i)]);
+                        fill_motion(pages[static_cast<std::size_t>(i)]);
                       }
                     });
 }

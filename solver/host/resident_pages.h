@@ -15,8 +15,15 @@ namespace tidemark::solver {
 
 class ResidentPages {
  public:
-  // Everything is outside at first. What it is made from outlives it; it keeps to `model` as that changes.
-  ResidentPages(const Volume& source, const Model& model, ThreadPool& threads, std::int64_t memory_budget);
+  // What pages are filled from. It changes between steps; refill() is called then.
+  struct Contents {
+    const Geometry& geometry;
+    const Model& model;
+    const std::shared_ptr<const SpeedFunction>& speed;
+    const std::shared_ptr<const Constraints>& constraints;
+  };
+  // Everything is outside at first. What it is made from outlives it.
+  ResidentPages(const Contents& contents, ThreadPool& threads, std::int64_t memory_budget);
   void clear();
 
   [[nodiscard]] const PageTable& table() const { return table_; }
@@ -49,8 +56,10 @@ class ResidentPages {
 
   // After the current buffer of a page was written to: the masks of both buffers, and the other buffer.
   void refresh(PhysicalPage page);
-  // After the parameters changed.
-  void refill_data_motion();
+  // After the parameters or the speed function changed.
+  void refill();
+  // After the constraints changed: what pages know of them. phi is as before.
+  void link_constraints();
 
   template <class Visit>
   void for_each(Visit visit) const {
@@ -82,12 +91,12 @@ class ResidentPages {
   void describe(PhysicalPage page);
   void link_neighbours(PhysicalPage page);
   void tell_neighbours(Index3 coordinates, PhysicalPage page);
-  void fill_data(PhysicalPage page);
+  void fill_motion(PhysicalPage page);
+  void link_constraints(PhysicalPage page);
   [[nodiscard]] bool surroundings_are_constant(PhysicalPage page, bool inside) const;
   void put_in_order();
 
-  const Volume& source_;
-  const Model& model_;
+  Contents contents_;
   ThreadPool& threads_;
   std::int64_t memory_budget_;
   PageTable table_;

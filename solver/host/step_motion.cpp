@@ -1,31 +1,48 @@
-#include "solver/host/data_motion.h"
+#include "solver/host/step_motion.h"
 
 #include <algorithm>
+#include <array>
 
 #include "solver/host/row_masks.h"
 
-// After the standard headers: defines functions of these names.
-#include "solver/speed/data-inl.h"
-
 namespace tidemark::solver {
+namespace {
 
-void fill_data_motion(const Volume& source, const StepConstants<double>& constants, Index3 first,
+// Calls visit(place in the page) for the valid voxels, x fastest.
+template <class Visit>
+void for_each_voxel(Index3 valid, Visit visit) {
+  for (std::int64_t z = 0; z < valid.z; ++z) {
+    for (std::int64_t y = 0; y < valid.y; ++y) {
+      for (std::int64_t x = 0; x < valid.x; ++x) visit(x + kPageSide * (y + kPageSide * z));
+    }
+  }
+}
+
+}  // namespace
+
+void fill_data_motion(const SpeedFunction& speed, const StepConstants<double>& constants, Index3 first,
                       Index3 valid, float* motion) {
+  std::array<double, kPageVoxels> values;
+  speed.evaluate({first, valid}, values.data());
   std::fill_n(motion, kPageVoxels, 0.0F);
-  std::visit(
-      [&](const auto& stored) {
-        for (std::int64_t z = 0; z < valid.z; ++z) {
-          for (std::int64_t y = 0; y < valid.y; ++y) {
-            const auto* row = stored.data() + source.geometry.offset(first + Index3(0, y, z));
-            float* to = motion + (y + kPageSide * z) * kPageSide;
-            for (std::int64_t x = 0; x < valid.x; ++x) {
-              const double value = source.slope * static_cast<double>(row[x]) + source.intercept;
-              to[x] = static_cast<float>(HWY_NAMESPACE::data_motion(value, constants));
-            }
-          }
-        }
-      },
-      source.voxels);
+  const double weight = constants.time_step * constants.data_weight;
+  const double* value = values.data();
+  for_each_voxel(valid, [&](std::int64_t at) { motion[at] = static_cast<float>(weight * *value++); });
+}
+
+void fill_advection(const SpeedFunction& speed, const StepConstants<double>& constants, Index3 first,
+                    Index3 valid, float* motion) {
+  std::array<glm::vec3, kPageVoxels> values;
+  speed.evaluate_advection({first, valid}, values.data());
+  std::fill_n(motion, 3 * kPageVoxels, 0.0F);
+  const glm::vec3* value = values.data();
+  for_each_voxel(valid, [&](std::int64_t at) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double per_step = constants.time_step * constants.inverse_spacing[axis];
+      motion[axis * kPageVoxels + at] = static_cast<float>(per_step * static_cast<double>((*value)[axis]));
+    }
+    ++value;
+  });
 }
 
 }  // namespace tidemark::solver

@@ -23,12 +23,49 @@ ReferenceExecutor::ReferenceExecutor(std::shared_ptr<const Volume> source, const
                                      Index3 page_shape)
     : ExecutorBase(std::move(source), parameters),
       layout_(source_->geometry.size, page_shape),
-      source_values_(source_->values()) {
-  set_values(std::vector<double>(source_values_.size(), -model_.band()));
+      speed_values_(static_cast<std::size_t>(source_->geometry.voxel_count())) {
+  evaluate_speed();
+  set_values(std::vector<double>(speed_values_.size(), -model_.band()));
+}
+
+void ReferenceExecutor::evaluate_speed() {
+  const VoxelBox whole{Index3(0), source_->geometry.size};
+  speed_->evaluate(whole, speed_values_.data());
+  advection_.clear();
+  if (!speed_->advects()) return;
+  advection_.resize(speed_values_.size());
+  speed_->evaluate_advection(whole, advection_.data());
+}
+
+double ReferenceExecutor::constrained(Index3 voxel, double phi) const {
+  if (constraints_ == nullptr) return phi;
+  switch (constraints_->at(voxel)) {
+    case Constraint::wall:
+      return std::min<double>(phi, -kConstraintDepth);
+    case Constraint::anchor:
+      return std::max<double>(phi, kConstraintDepth);
+    case Constraint::none:
+      break;
+  }
+  return phi;
+}
+
+void ReferenceExecutor::constrain() {
+  if (constraints_ == nullptr) return;
+  const Geometry& geometry = source_->geometry;
+  for (std::int64_t z = 0; z < geometry.size.z; ++z) {
+    for (std::int64_t y = 0; y < geometry.size.y; ++y) {
+      for (std::int64_t x = 0; x < geometry.size.x; ++x) {
+        double& phi = phi_[static_cast<std::size_t>(geometry.offset({x, y, z}))];
+        phi = constrained({x, y, z}, phi);
+      }
+    }
+  }
 }
 
 void ReferenceExecutor::set_values(std::vector<double> phi) {
   phi_ = std::move(phi);
+  constrain();
   previous_ = phi_;
   next_.resize(phi_.size());
   begin_window();
@@ -77,16 +114,35 @@ Status ReferenceExecutor::paint(const Sphere& sphere, Brush brush) {
       }
     }
   }
+  constrain();
   previous_ = phi_;
   begin_window();
   return {};
 }
 
-Status ReferenceExecutor::set_parameters(const Parameters& parameters) {
-  auto model = model_with(parameters);
-  if (!model) return pass_on(model);
-  model_ = *model;
+Status ReferenceExecutor::drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given) {
+  auto drive = drive_with(parameters, std::move(given));
+  if (!drive) return pass_on(drive);
+  take(std::move(*drive));
+  evaluate_speed();
   begin_window();
+  return {};
+}
+
+Status ReferenceExecutor::set_parameters(const Parameters& parameters) {
+  return drive(parameters, given_speed_);
+}
+
+Status ReferenceExecutor::set_speed(std::shared_ptr<const SpeedFunction> speed) {
+  return drive(parameters(), std::move(speed));
+}
+
+Status ReferenceExecutor::set_constraints(std::shared_ptr<const Constraints> constraints) {
+  if (constraints != nullptr) {
+    TIDEMARK_TRY(check_fits(*constraints));
+  }
+  constraints_ = std::move(constraints);
+  set_values(std::move(phi_));
   return {};
 }
 
@@ -100,10 +156,18 @@ void ReferenceExecutor::step() {
     for (std::int64_t y = 0; y < geometry.size.y; ++y) {
       for (std::int64_t x = 0; x < geometry.size.x; ++x) {
         const auto i = static_cast<std::size_t>(geometry.offset({x, y, z}));
-        const auto d = HWY_NAMESPACE::differences<true, double>(gather(phi_, geometry, {x, y, z}),
-                                                                update.inverse_spacing);
-        const double data = HWY_NAMESPACE::data_motion(static_cast<double>(source_values_[i]), constants);
-        next_[i] = HWY_NAMESPACE::updated_phi<kPaper, double>(d, data, update);
+        const Stencil<double> stencil = gather(phi_, geometry, {x, y, z});
+        const auto d = HWY_NAMESPACE::differences<true, double>(stencil, update.inverse_spacing);
+        const double data = constants.time_step * constants.data_weight * speed_values_[i];
+        double advected = 0.0;
+        if (!advection_.empty()) {
+          const glm::dvec3 per_step = constants.time_step * glm::dvec3(advection_[i]);
+          advected = HWY_NAMESPACE::advected<double>(
+              stencil, {per_step.x * update.inverse_spacing[0], per_step.y * update.inverse_spacing[1],
+                        per_step.z * update.inverse_spacing[2]});
+        }
+        next_[i] =
+            constrained({x, y, z}, HWY_NAMESPACE::updated_phi<kPaper, double>(d, data, update, advected));
         if (is_measured && std::abs(next_[i]) <= constants.near) {
           const double change = next_[i] - previous_[i];
           PageMotion& page = motion_[static_cast<std::size_t>(layout_.translate({x, y, z}).page)];
@@ -134,7 +198,8 @@ MemoryReport ReferenceExecutor::memory() const {
   report.resident_pages = report.peak_resident_pages = layout_.page_count();
   report.state_bytes = report.peak_state_bytes =
       static_cast<std::int64_t>((phi_.size() + previous_.size() + next_.size()) * sizeof(double));
-  report.source_bytes = static_cast<std::int64_t>(source_values_.size() * sizeof(float));
+  report.source_bytes = static_cast<std::int64_t>(speed_values_.size() * sizeof(double) +
+                                                  advection_.size() * sizeof(glm::vec3));
   report.page_shape = layout_.page_shape();
   return report;
 }

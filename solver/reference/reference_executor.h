@@ -20,6 +20,8 @@ class ReferenceExecutor final : public ExecutorBase {
   [[nodiscard]] Result<Field> snapshot() const override;
   Status paint(const Sphere& sphere, Brush brush) override;
   Status set_parameters(const Parameters& parameters) override;
+  Status set_speed(std::shared_ptr<const SpeedFunction> speed) override;
+  Status set_constraints(std::shared_ptr<const Constraints> constraints) override;
   Result<AdvanceReport> advance(const Advance& run) override;
   [[nodiscard]] MemoryReport memory() const override;
   [[nodiscard]] Result<std::vector<std::int64_t>> quiet_pages() const override { return {}; }
@@ -33,10 +35,15 @@ class ReferenceExecutor final : public ExecutorBase {
   template <bool kPaper>
   void step();
   void begin_window();
+  Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given);
+  void evaluate_speed();
+  [[nodiscard]] double constrained(Index3 voxel, double phi) const;
+  void constrain();
   [[nodiscard]] bool finish_window();
 
   PageLayout layout_;
-  std::vector<float> source_values_;
+  std::vector<double> speed_values_;  // D
+  std::vector<glm::vec3> advection_;  // empty: there is none
   std::vector<double> phi_;
   std::vector<double> previous_;  // of one step earlier
   std::vector<double> next_;

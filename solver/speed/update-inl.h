@@ -7,8 +7,8 @@
 #define TIDEMARK_SPEED_UPDATE_INL_H_
 #endif
 
+#include "solver/speed/advection-inl.h"
 #include "solver/speed/curvature-inl.h"
-#include "solver/speed/data-inl.h"
 #include "solver/speed/rescaling-inl.h"
 #include "solver/speed/stencil-inl.h"
 
@@ -40,14 +40,14 @@ HWY_INLINE UpdateConstants<V> update_constants(const StepConstants<Real>& k) {
   return constants;
 }
 
-// The new phi of a voxel; `data` is from data_motion(). kPaper: eq. 6 literally, with one upwind gradient
-// for the total speed.
+// The new phi of a voxel; `data` is dt alpha D, how far the data term moves the surface in the step, and
+// `advected` is from advected(). kPaper: eq. 6 literally, with one upwind gradient for the total speed.
 //
 // dphi/dt is linear in the upwind gradients. Their weights are computed first, beside the roots of the
 // gradients, which take longest. Both parts are treated alike, so that inside and outside are
 // alike to the last bit.
-template <bool kPaper, class Real, class V>
-HWY_INLINE V updated_phi(const Differences<V>& d, V data, const UpdateConstants<V>& k) {
+template <bool kPaper, class Real, class V, class... Advected>
+HWY_INLINE V updated_phi(const Differences<V>& d, V data, const UpdateConstants<V>& k, Advected... advected) {
   const V moved = kPaper ? data + k.curvature * curvature<Real>(d) : data;
   // The weight of each gradient in -w phi |grad phi| where both share alike.
   const V shared = k.minus_half_rescaling * d.phi;
@@ -57,6 +57,7 @@ HWY_INLINE V updated_phi(const Differences<V>& d, V data, const UpdateConstants<
 
   V half = k.half_grown * d.phi;
   if constexpr (!kPaper) half = mul_add(k.half_curvature, curvature_motion<Real>(d), half);
+  if constexpr (sizeof...(Advected) != 0) half = half + (advected + ...);
   const V phi = mul_add(growing, d.upwind_growing, half) + mul_add(shrinking, d.upwind_shrinking, half);
   return clamp(phi, k.band);
 }

@@ -115,15 +115,23 @@ Result<Field> StreamExecutor::snapshot() const {
   return phi;
 }
 
+Status StreamExecutor::set_speed(std::shared_ptr<const SpeedFunction>) {
+  return fail(ErrorKind::capability, "the stream executor knows the tent alone");
+}
+
+Status StreamExecutor::set_constraints(std::shared_ptr<const Constraints>) {
+  return fail(ErrorKind::capability, "the stream executor knows no walls");
+}
+
 Status StreamExecutor::set_parameters(const Parameters& parameters) {
-  auto model = model_with(parameters);
-  if (!model) return pass_on(model);
+  auto drive = drive_with(parameters, given_speed_);
+  if (!drive) return pass_on(drive);
   TIDEMARK_TRY(device_->make_current());
   gpu::begin_exact_drawing();
   if (model_.parameters().scheme != parameters.scheme) {
-    TIDEMARK_TRY(passes_.compile_step(*device_, active_geometry_, source_texture_, *model));
+    TIDEMARK_TRY(passes_.compile_step(*device_, active_geometry_, source_texture_, drive->model));
   }
-  model_ = *model;
+  take(std::move(*drive));
   begin_window();
   for_each_resident([&](PhysicalPage page) { wake(page); });
   return rebuild_active_list();

@@ -120,11 +120,11 @@ Status RegionPasses::reserve_message(gpu::Device& device, std::int64_t pages) {
 }
 
 void RegionPasses::step(const GeometryEngine& geometry, const PhysicalMemory& memory,
-                        const SourceTexture& source, const StepConstants<float>& constants, int now,
-                        bool measure_motion) const {
+                        const SourceTexture& source, const Tent& tent, const StepConstants<float>& constants,
+                        int now, bool measure_motion) const {
   for (const Region region : regions(geometry.size(), largest_region_)) {
     differentiate(geometry, memory, constants, now, measure_motion, region);
-    compute_speeds(geometry, memory, source, constants, region);
+    compute_speeds(geometry, memory, source, tent, constants, region);
     update(geometry, memory, constants, 1 - now, region);
     if (measure_motion) add_motion(geometry, memory, constants, 1 - now, region);
   }
@@ -146,11 +146,12 @@ void RegionPasses::differentiate(const GeometryEngine& geometry, const PhysicalM
 }
 
 void RegionPasses::compute_speeds(const GeometryEngine& geometry, const PhysicalMemory& memory,
-                                  const SourceTexture& source, const StepConstants<float>& constants,
-                                  Region region) const {
+                                  const SourceTexture& source, const Tent& tent,
+                                  const StepConstants<float>& constants, Region region) const {
   speeds_target_.bind();
   use(speeds_, memory);
   set_step_uniforms(speeds_, constants);
+  set_tent_uniforms(speeds_, tent);
   bind(speeds_, 1, upwind_, "upwind_buffer");
   bind(speeds_, 2, central_, "central_buffer");
   bind(speeds_, 3, second_, "second_buffer");

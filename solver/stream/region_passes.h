@@ -35,7 +35,7 @@ class RegionPasses {
 
   // One step of phi in all pages of the list: reads phi from buffer `now`, writes the other one.
   void step(const GeometryEngine& geometry, const PhysicalMemory& memory, const SourceTexture& source,
-            const StepConstants<float>& constants, int now, bool measure_motion) const;
+            const Tent& tent, const StepConstants<float>& constants, int now, bool measure_motion) const;
   // The messages of the pages of the list, about phi in the given buffer. Waits for the GPU.
   Result<std::vector<PageMessage>> message(const GeometryEngine& geometry, const PhysicalMemory& memory,
                                            int buffer, float band, float quiet_change);
@@ -78,7 +78,7 @@ class RegionPasses {
                      const StepConstants<float>& constants, int now, bool measure_motion,
                      Region region) const;
   void compute_speeds(const GeometryEngine& geometry, const PhysicalMemory& memory,
-                      const SourceTexture& source, const StepConstants<float>& constants,
+                      const SourceTexture& source, const Tent& tent, const StepConstants<float>& constants,
                       Region region) const;
   void update(const GeometryEngine& geometry, const PhysicalMemory& memory,
               const StepConstants<float>& constants, int next, Region region) const;

@@ -2,6 +2,7 @@
 
 #include "core/stopwatch.h"
 #include "solver/gl/packed_view.h"
+#include "solver/speed/tent_speed.h"
 
 namespace tidemark::solver {
 namespace {
@@ -56,8 +57,8 @@ Status StreamExecutor::start(std::int64_t largest_region) {
 
 // Computes the active pages and reads their messages.
 Status StreamExecutor::step() {
-  passes_.step(active_geometry_, memory_, source_texture_, model_.constants<float>(), current_,
-               next_step_is_measured());
+  passes_.step(active_geometry_, memory_, source_texture_, tent_of(parameters()), model_.constants<float>(),
+               current_, next_step_is_measured());
   current_ = 1 - current_;
   // The message's own time is to be known; the wait costs nothing that could be measured.
   return gpu::Fence::insert(*device_).wait();

@@ -6,6 +6,7 @@
 #include "gpu/draw.h"
 #include "gpu/shader_source.h"
 #include "level_sets.h"
+#include "solver/speed/tent_speed.h"
 #include "solver/stream/stream_executor.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
@@ -149,7 +150,8 @@ class StreamTest : public QObject {
   void each_single_voxel_makes_its_bit_arrive() {
     const Geometry geometry = grid({48, 48, 3});
     const auto source = zero_volume(geometry);
-    const solver::Model model(*source, {});
+    const solver::TentSpeed tent(source, {});
+    const solver::Model model(source->geometry, {}, tent);
     const auto gpu = device();
     const solver::PageLayout pages(geometry.size, kPageShape);
     const solver::PackedLayout layout(pages, gpu->capabilities().largest_texture);

@@ -1,0 +1,35 @@
+#include "solver/host/page_constraints.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tidemark::solver {
+
+bool constrain(const Constraints::Page& constraints, float* phi) {
+  bool changed = false;
+  for (int i = 0; i < kPageVoxels; ++i) {
+    const Constraint constraint = constraints[static_cast<std::size_t>(i)];
+    float limited = phi[i];
+    if (constraint == Constraint::wall) limited = std::min(limited, -kConstraintDepth);
+    if (constraint == Constraint::anchor) limited = std::max(limited, kConstraintDepth);
+    changed = changed || limited != phi[i];
+    phi[i] = limited;
+  }
+  return changed;
+}
+
+void measure_again(const PageInfo& info, const float* before, const float* phi, float near,
+                   PageResult& result) {
+  result.largest_change = result.squared_change = 0.0F;
+  result.near_voxels = 0;
+  for (int i = 0; i < kPageVoxels; ++i) {
+    const bool padding = (info.padding >> (i / kPageSide) & 1U) != 0 || i % kPageSide >= info.valid[0];
+    if (padding || std::abs(phi[i]) > near) continue;
+    const float change = std::abs(phi[i] - before[i]);
+    result.largest_change = std::max(result.largest_change, change);
+    result.squared_change += change * change;
+    ++result.near_voxels;
+  }
+}
+
+}  // namespace tidemark::solver
