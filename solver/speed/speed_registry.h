@@ -45,6 +45,7 @@ struct SpeedKind {
   Result<std::shared_ptr<const SpeedFunction>> (*make)(const SpeedInputs& inputs,
                                                        const std::map<std::string, double>& values,
                                                        const Progress& progress) = nullptr;
+  bool cached = true;  // make_speed() puts a CachedSpeed before it: not worth it for D(I) of one voxel
 };
 
 const std::vector<SpeedKind>& speed_kinds();

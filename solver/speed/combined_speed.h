@@ -1,0 +1,33 @@
+// Several speed functions joined into one.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solver/speed/speed_function.h"
+#include "solver/speed/speed_setting.h"
+
+namespace tidemark::solver {
+
+// D is the least of theirs or their product (Combine); v is the sum of theirs.
+class CombinedSpeed final : public SpeedFunction {
+ public:
+  // At least one function, with D in [-1, 1].
+  CombinedSpeed(std::vector<std::shared_ptr<const SpeedFunction>> functions, Combine combine);
+
+  void evaluate(const VoxelBox& box, double* speed) const override;
+
+  [[nodiscard]] bool advects() const override;
+  void evaluate_advection(const VoxelBox& box, glm::vec3* velocity) const override;
+  [[nodiscard]] double fastest_advection() const override;
+
+  // Those that follow the surface follow it; the others stay, with what they have cached.
+  [[nodiscard]] bool follows_surface() const override;
+  [[nodiscard]] std::shared_ptr<const SpeedFunction> following(const Field& phi) const override;
+
+ private:
+  std::vector<std::shared_ptr<const SpeedFunction>> functions_;
+  Combine combine_;
+};
+
+}  // namespace tidemark::solver
