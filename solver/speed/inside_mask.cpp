@@ -32,24 +32,32 @@ std::uint64_t InsideMask::word(std::int64_t page, std::int64_t i) const {
 }
 
 Block InsideMask::values_in(const VoxelBox& box) const {
-  Block block{box, {}};
-  block.values.reserve(static_cast<std::size_t>(box.voxels()));
+  Block block{box, std::vector<float>(static_cast<std::size_t>(box.voxels()))};
   const Index3 last = layout_.volume_size() - Index3(1);
   const Index3 shape = layout_.page_shape();
+  const std::int64_t end_x = box.first.x + box.size.x;
+  float* value = block.values.data();
   for (std::int64_t z = box.first.z; z < box.first.z + box.size.z; ++z) {
     for (std::int64_t y = box.first.y; y < box.first.y + box.size.y; ++y) {
       const Index3 row = glm::clamp(Index3(0, y, z), Index3(0), last);
       const std::int64_t in_page = shape.x * (row.y % shape.y + shape.y * (row.z % shape.z));
-      std::int64_t page_x = -1;
-      std::int64_t page = 0;
-      for (std::int64_t x = box.first.x; x < box.first.x + box.size.x; ++x) {
-        const std::int64_t column = std::clamp<std::int64_t>(x, 0, last.x);
-        if (page_x < 0 || column >= (page_x + 1) * shape.x) {
-          page_x = column / shape.x;
-          page = layout_.page_number({page_x, row.y / shape.y, row.z / shape.z});
+      const std::int64_t first_page = layout_.page_number({0, row.y / shape.y, row.z / shape.z});
+      // From page to page; the first one and the last one go on beyond the grid.
+      for (std::int64_t x = box.first.x; x < end_x;) {
+        const std::int64_t page_x = std::clamp<std::int64_t>(x, 0, last.x) / shape.x;
+        const std::int64_t page_end = (page_x + 1) * shape.x;
+        const std::int64_t end = page_end > last.x ? end_x : std::min(page_end, end_x);
+        const std::int32_t entry = table_[static_cast<std::size_t>(first_page + page_x)];
+        if (entry < 0) {
+          value = std::fill_n(value, end - x, entry == Field::kInside ? 1.0F : 0.0F);
+          x = end;
+          continue;
         }
-        const std::int64_t i = in_page + column - page_x * shape.x;
-        block.values.push_back((word(page, i / 64) >> (i % 64) & 1) != 0 ? 1.0F : 0.0F);
+        const std::uint64_t* words = words_.data() + entry * words_per_page_;
+        for (; x < end; ++x) {
+          const std::int64_t i = in_page + std::clamp<std::int64_t>(x, 0, last.x) - page_x * shape.x;
+          *value++ = static_cast<float>(words[i / 64] >> (i % 64) & 1);
+        }
       }
     }
   }

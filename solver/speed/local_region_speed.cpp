@@ -38,17 +38,16 @@ double speed(double value, double voxels, double sum, double squares, double ins
 
 LocalRegionSpeed::LocalRegionSpeed(std::shared_ptr<const Volume> source, Index3 reach, float level,
                                    std::shared_ptr<const InsideMask> inside)
-    : source_(std::move(source)), voxels_(1.0), level_(level), inside_(std::move(inside)) {
-  for (int axis = 0; axis < 3; ++axis) {
-    box_[static_cast<std::size_t>(axis)].assign(static_cast<std::size_t>(reach[axis]) + 1, 1.0F);
-    voxels_ *= static_cast<double>(2 * reach[axis] + 1);
-  }
-}
+    : source_(std::move(source)),
+      reach_(reach),
+      voxels_(static_cast<double>(grown({}, reach).voxels())),
+      level_(level),
+      inside_(std::move(inside)) {}
 
 void LocalRegionSpeed::evaluate(const VoxelBox& box, double* speeds) const {
   std::fill_n(speeds, box.voxels(), 0.0);
   if (inside_ == nullptr) return;
-  const VoxelBox around = grown(box, reach_of(box_));
+  const VoxelBox around = grown(box, reach_);
   BoxSums sums;
   sums.inside = inside_->values_in(around);
   const auto [none, all] = std::minmax_element(sums.inside.values.begin(), sums.inside.values.end());
@@ -61,7 +60,7 @@ void LocalRegionSpeed::evaluate(const VoxelBox& box, double* speeds) const {
   sums.inside_values = sums.values;
   multiply(sums.inside_values.values, sums.inside.values);
   for (Block* block : {&sums.values, &sums.squares, &sums.inside, &sums.inside_values})
-    sum_along_axes(*block, box_);
+    sum_boxes(*block, reach_);
 
   const Block own = values_in(*source_, box);
   for (std::size_t i = 0; i < own.values.size(); ++i) {
@@ -77,7 +76,7 @@ std::shared_ptr<const SpeedFunction> LocalRegionSpeed::following(const Field& ph
   if (inside_ != nullptr && static_cast<double>(inside_->largest_change(*inside)) <= kChangedPart * voxels_) {
     return nullptr;
   }
-  return std::make_shared<LocalRegionSpeed>(source_, reach_of(box_), level_, std::move(inside));
+  return std::make_shared<LocalRegionSpeed>(source_, reach_, level_, std::move(inside));
 }
 
 }  // namespace tidemark::solver

@@ -24,8 +24,8 @@ class LocalRegionSpeed final : public SpeedFunction {
 
  private:
   std::shared_ptr<const Volume> source_;
-  AxisWeights box_;  // 1 for each voxel
-  double voxels_;    // in the box
+  Index3 reach_;
+  double voxels_;  // in the box
   float level_;
   std::shared_ptr<const InsideMask> inside_;
 };
