@@ -11,7 +11,7 @@
 
 #include "document/session_file.h"
 #include "document/zip_archive.h"
-#include "imaging/dicom/preflight.h"
+#include "imaging/guard/dicom/preflight.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/results/results.h"
 #include "renderer/transfer_function.h"
