@@ -2,8 +2,10 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 
-#include "level_sets.h"
+#include <glm/vec3.hpp>
+
 #include "solver/speed/cached_speed.h"
 
 namespace tidemark::test {
