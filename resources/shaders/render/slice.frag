@@ -38,7 +38,7 @@ ivec3 nearest_voxel(vec3 p) {
 #if defined(SPEED) || defined(DATA_SPEED)
 vec3 speed_colour(vec3 p, float phi, vec3 grey) {
 #ifdef DATA_SPEED
-  float speed = data_speed(source_between(p));
+  float speed = data_speed_between(p);
 #else
   // The other terms are defined only near the surface; the line where they change their sign needs a pixel's neighbours.
   float near = float(abs(phi) < 0.98 * band);
