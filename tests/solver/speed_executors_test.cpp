@@ -72,7 +72,7 @@ class SpeedExecutorsTest : public QObject {
     const auto phi = sample(scene.geometry, [&](glm::dvec3 p) { return scene.start(p); });
     const auto before = std::count_if(phi.begin(), phi.end(), [](float value) { return value > 0.0F; });
     QVERIFY(host.count() > before * 3 / 2);  // it has moved
-    for (const ExecutorKind kind : {ExecutorKind::reference}) {
+    for (const ExecutorKind kind : {ExecutorKind::reference, ExecutorKind::compute, ExecutorKind::stream}) {
       const double overlap = dice(host, scene.result(kind, setting));
       QVERIFY2(overlap >= 0.999, qPrintable(QString::number(overlap)));
     }
