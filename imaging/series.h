@@ -60,6 +60,8 @@ struct Series {
 struct SkippedFile {
   std::filesystem::path file;
   std::string reason;
+  std::filesystem::path
+      unpacked{};  // where the file lies as long as its archive is held; empty outside of one
 };
 
 struct Catalogue {
