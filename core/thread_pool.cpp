@@ -3,6 +3,7 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace tidemark {
 namespace {
@@ -43,13 +44,27 @@ ThreadPool::~ThreadPool() {
 }
 
 void ThreadPool::run_pieces(int member) {
+  try {
+    take_pieces(member);
+  } catch (...) {
+    if (!failed_.exchange(true)) failure_ = std::current_exception();
+  }
+}
+
+void ThreadPool::throw_on() {
+  if (!failed_.load(std::memory_order_relaxed)) return;
+  failed_.store(false, std::memory_order_relaxed);
+  std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+void ThreadPool::take_pieces(int member) {
   const auto members = shares_.size();
   for (std::size_t i = 0; i < members; ++i) {
     Share& from = shares_[(static_cast<std::size_t>(member) + i) % members];
     for (;;) {
       const std::int64_t taken = from.taken.fetch_add(grain_, std::memory_order_relaxed);
       const std::int64_t left = from.range.end - from.range.begin - taken;
-      if (left <= 0) break;
+      if (left <= 0 || failed_.load(std::memory_order_relaxed)) break;
       const std::int64_t size = std::min(grain_, left);
       const std::int64_t begin =
           direction_ == Direction::forward ? from.range.begin + taken : from.range.begin + left - size;
@@ -96,7 +111,7 @@ void ThreadPool::for_each(std::int64_t count, std::int64_t grain, const Body& bo
   // A loop of one piece is not worth waking anybody.
   if (workers_.empty() || count <= grain_) {
     run_pieces(0);
-    return;
+    return throw_on();
   }
   busy_.store(kOpen, std::memory_order_release);
   generation_.fetch_add(1, std::memory_order_release);
@@ -104,13 +119,14 @@ void ThreadPool::for_each(std::int64_t count, std::int64_t grain, const Body& bo
   run_pieces(0);
   busy_.fetch_and(~kOpen, std::memory_order_acq_rel);
   for (int spin = 0; spin < kSpins; ++spin) {
-    if (busy_.load(std::memory_order_acquire) == 0) return;
+    if (busy_.load(std::memory_order_acquire) == 0) return throw_on();
     relax();
   }
   for (std::uint32_t left = busy_.load(std::memory_order_acquire); left != 0;
        left = busy_.load(std::memory_order_acquire)) {
     busy_.wait(left, std::memory_order_acquire);
   }
+  throw_on();
 }
 
 }  // namespace tidemark

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -37,7 +38,8 @@ class ThreadPool {
   // time, so that what it touched in the last loop is still in its cache; then it helps the others.
   // Backward, a share's pieces come from its end: loops that change direction each time meet first what the
   // last one touched last. Not re-entrant: body must not call for_each of this pool, and only one thread at
-  // a time may call it. body must not throw.
+  // a time may call it. The first exception of body leaves out pieces that are not begun yet, and is thrown
+  // on to the caller when all members have ended.
   enum class Direction { forward, backward };
   using Body = std::function<void(std::int64_t begin, std::int64_t end, int member)>;
   void for_each(std::int64_t count, std::int64_t grain, const Body& body,
@@ -46,6 +48,8 @@ class ThreadPool {
  private:
   void work(int member);
   void run_pieces(int member);
+  void take_pieces(int member);
+  void throw_on();
   bool join_loop();
   void leave_loop();
 
@@ -62,6 +66,8 @@ class ThreadPool {
   std::int64_t grain_ = 1;
   Direction direction_ = Direction::forward;
   const Body* body_ = nullptr;
+  std::atomic<bool> failed_{false};
+  std::exception_ptr failure_;  // of whoever set failed_; read when all have ended
 };
 
 // The processors that this process may use (its affinity mask), at least 1.

@@ -49,6 +49,7 @@ Result<LoadedStudy> load_study(const imaging::ChosenSeries& chosen, const Progre
   study.origin.series_uid = series.uid;
   study.origin.policy = series.policy;
   study.dicom_files = imaging::dicom_files_of(series);
+  study.slice_numbers = imaging::slice_numbers(series);
   study.name = StudyLoader::name_of(series);
   study.patient = series.patient;
   study.date = series.date;

@@ -13,6 +13,7 @@
 #include "document/origin.h"
 #include "engine/job_runner.h"
 #include "engine/source_summary.h"
+#include "imaging/dicom/slice_number.h"
 #include "imaging/patient.h"
 #include "imaging/series.h"
 #include "solver/parameters.h"
@@ -29,7 +30,8 @@ struct PhantomStart {
 struct LoadedStudy {
   std::shared_ptr<const Volume> volume;
   document::StudyOrigin origin;
-  std::vector<std::filesystem::path> dicom_files;  // in slice order: results refer to them; empty: not DICOM
+  std::vector<std::filesystem::path> dicom_files;   // in slice order: results refer to them; empty: not DICOM
+  std::vector<imaging::SliceNumber> slice_numbers;  // of the volume's slices along k; empty: not DICOM
   SourceSummary summary;
   QString name;  // for titles; never the patient's
   imaging::Patient patient;

@@ -10,6 +10,7 @@
 
 #include "core/geometry.h"
 #include "imaging/dicom/regular_grid.h"
+#include "imaging/dicom/slice_number.h"
 #include "imaging/patient.h"
 
 namespace tidemark::imaging {
@@ -36,6 +37,7 @@ struct Series {
   Patient patient;                             // of the first image; empty for volume files
   std::vector<std::filesystem::path> files;    // each once, in slice order when loadable
   std::vector<SliceSource> sources;            // of each slice, in slice order when loadable; DICOM only
+  std::vector<SliceNumber> numbers;            // of the same slices
   Geometry geometry;                           // meaningful when loadable
   std::string scalar;                          // of the volume when loaded: "int16", "uint16" or "float"
   std::string unit;                            // of the values: "HU", "SUVbw g/ml"; empty when they have none

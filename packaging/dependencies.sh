@@ -22,7 +22,7 @@ tidemark_test_packages=(
 )
 
 # Only ./test --long needs these.
-tidemark_long_test_packages=(clang-format clang-tidy)
+tidemark_long_test_packages=(clang-format clang-tidy python3-skimage)
 
 # The packages of the list that are not installed, one a line.
 tidemark_missing_packages() {

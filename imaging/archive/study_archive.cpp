@@ -24,6 +24,7 @@ constexpr std::int64_t kReserve = std::int64_t{256} << 20;
 constexpr std::int64_t kMostNamed = 100;
 constexpr const char* kStep = "unpacking the archive";
 // Of folders within names: the standard's, and one that some programs write.
+constexpr std::int64_t kLongestOfNothing = 2;  // bytes of a deflated stream that holds none
 constexpr const char* kSeparators = "/\\";
 
 // A name in a message.
@@ -87,6 +88,10 @@ class Unpacker {
         }
         continue;
       }
+      if (record.bytes == 0 && record.packed <= kLongestOfNothing) {
+        ++empty_;
+        continue;
+      }
       if (!record.is_readable()) {
         return refuse(fmt::format(
             "is compressed in a way that is not read ({}, method {}); unpack it and open the folder",
@@ -104,6 +109,7 @@ class Unpacker {
       left_out.push_back(
           {file_, fmt::format("holds {} more archives: unpack them first", archives_within_ - kMostNamed)});
     }
+    if (empty_ > 0) left_out.push_back({file_, fmt::format("holds {} empty files", empty_)});
     return check_room();
   }
 
@@ -178,6 +184,7 @@ class Unpacker {
   std::optional<ZipDirectory> directory_;
   std::vector<const ZipRecord*> entries_;  // that are unpacked
   std::int64_t archives_within_ = 0;
+  std::int64_t empty_ = 0;
   std::int64_t total_ = 0;  // bytes of all entries
   std::int64_t done_ = 0;   // bytes written
   std::map<std::string, fs::path> folders_;

@@ -18,9 +18,9 @@ namespace tidemark::imaging {
 // The files of an archive, unpacked for as long as the object lives.
 class StudyArchive {
  public:
-  // The largest studies have some 20,000 images. More than 65,535 would also take more memory for their
-  // names than the archive's size and 64 MiB.
-  static constexpr std::int64_t kMostEntries = 65'535;
+  // The largest studies have some 20,000 images. The archive's end says how many entries there are, so that
+  // more are refused before one is looked at.
+  static constexpr std::int64_t kMostEntries = 50'000;
   // An archive that unpacks to more than a gibibyte may not unpack to so many times its own size.
   static constexpr std::int64_t kMostTimes = 200;
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/result.h"
-#include "imaging/dicom/preflight.h"
 #include "imaging/guard/byte_source.h"
+#include "imaging/guard/dicom/preflight.h"
 
 namespace tidemark::imaging {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "imaging/dicom/tag_walk.h"
-#include "imaging/dicom/transfer_syntaxes.h"
 #include "imaging/guard/byte_source.h"
+#include "imaging/guard/dicom/tag_walk.h"
+#include "imaging/guard/dicom/transfer_syntaxes.h"
 
 class DcmFileFormat;
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "imaging/dicom/slice_header.h"
-#include "imaging/dicom/transfer_syntaxes.h"
+#include "imaging/guard/dicom/transfer_syntaxes.h"
 
 namespace tidemark::imaging {
 

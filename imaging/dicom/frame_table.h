@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "imaging/dicom/tag_walk.h"
-#include "imaging/dicom/transfer_syntaxes.h"
+#include "imaging/guard/dicom/tag_walk.h"
+#include "imaging/guard/dicom/transfer_syntaxes.h"
 
 namespace tidemark::imaging {
 

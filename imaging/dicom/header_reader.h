@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/result.h"
-#include "imaging/dicom/preflight.h"
 #include "imaging/dicom/slice_header.h"
 #include "imaging/guard/byte_source.h"
+#include "imaging/guard/dicom/preflight.h"
 
 namespace tidemark::imaging {
 

@@ -11,7 +11,7 @@
 
 #include "core/checked.h"
 #include "imaging/dicom/j2k_stream.h"
-#include "imaging/dicom/transfer_syntaxes.h"
+#include "imaging/guard/dicom/transfer_syntaxes.h"
 
 namespace tidemark::imaging {
 namespace {

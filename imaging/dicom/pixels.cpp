@@ -6,7 +6,7 @@
 
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/frame_codec.h"
-#include "imaging/dicom/frame_header.h"
+#include "imaging/guard/dicom/frame_header.h"
 #include "imaging/guard/guarded.h"
 
 namespace tidemark::imaging {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -159,6 +160,20 @@ Reason check_distinct(const Slices& slices, const std::vector<double>& positions
   return fmt::format("{} lie at the same position", pair);
 }
 
+// The tiles of a mosaic are no images of their own.
+SliceNumber number_of(const SliceHeader& slice) {
+  SliceNumber number;
+  if (slice.tiles > 1) return number;
+  // An integer string (PS3.5, IS) is one of 32 bits.
+  const auto& instance = slice.traits.instance;
+  if (instance && std::abs(*instance) <= std::numeric_limits<std::int32_t>::max() &&
+      *instance == std::floor(*instance)) {
+    number.instance = static_cast<std::int64_t>(*instance);
+  }
+  if (slice.frames > 1) number.frame = slice.frame + 1;
+  return number;
+}
+
 ImageStack stack_of(const Slices& slices, const glm::dmat3& axes) {
   const SliceHeader& first = slices.front();
   ImageStack stack;
@@ -259,6 +274,7 @@ Series arrange_series(std::vector<SliceHeader> slices) {
     std::set<std::filesystem::path> known;
     for (const SliceHeader& slice : slices) {
       series.sources.push_back({slice.file, slice.frame, slice.tile});
+      series.numbers.push_back(number_of(slice));
       if (known.insert(slice.file).second) series.files.push_back(slice.file);
     }
   };

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/without_exceptions.h"
-#include "imaging/dicom/transfer_syntaxes.h"
+#include "imaging/guard/dicom/transfer_syntaxes.h"
 #include "imaging/guard/guarded.h"
 #include "imaging/pacs/association.h"
 #include "imaging/pacs/checked_object.h"

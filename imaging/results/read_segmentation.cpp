@@ -122,6 +122,7 @@ class SegmentationReader {
   SegmentPixelFormat format_;
   std::optional<SegmentPixels> pixels_;
   bool is_binary_ = true;
+  bool lacks_count_ = false;  // of frames
   std::vector<Segment> list_;
   std::vector<SegmentFrame> frames_;
   std::optional<double> between_mm_;
@@ -129,9 +130,13 @@ class SegmentationReader {
 };
 
 Status SegmentationReader::find_pixels(DcmDataset& dataset) {
-  const auto frames = parse_integers(element_text(dataset, DCM_NumberOfFrames));
+  // Required of a segmentation (PS3.3 A.51, C.7.6.6). An image without it has one frame: read_frames() holds
+  // that against the frames that are described.
+  const std::string count = element_text(dataset, DCM_NumberOfFrames);
+  lacks_count_ = count.empty();
+  const auto frames = parse_integers(lacks_count_ ? "1" : count);
   if (!frames || frames->size() != 1 || frames->front() < 1) {
-    return refuse("NumberOfFrames (0028,0008) is missing");
+    return refuse("NumberOfFrames (0028,0008) is no number of frames");
   }
   Uint16 bits = 1;
   dataset.findAndGetUint16(DCM_BitsAllocated, bits);
@@ -229,6 +234,10 @@ Status SegmentationReader::read_frames(DcmDataset& dataset) {
     return {};
   }));
   if (frames_.empty()) return refuse("PerFrameFunctionalGroupsSequence (5200,9230) is missing");
+  if (lacks_count_ && frames_.size() > 1) {
+    return refuse(
+        fmt::format("NumberOfFrames (0028,0008) is missing, and {} frames are described", frames_.size()));
+  }
   if (static_cast<std::int64_t>(frames_.size()) > format_.frames) {
     return refuse(fmt::format("PixelData (7FE0,0010) holds less than the {} frames that are described",
                               frames_.size()));
@@ -275,6 +284,10 @@ Result<Segments> SegmentationReader::read(const Geometry* grid) {
   }
   if (!is_binary_) {
     segments.changes.push_back("the segments are fractions; half and more of a voxel is taken as inside");
+  }
+  if (lacks_count_) {
+    segments.changes.push_back(
+        "NumberOfFrames (0028,0008) is missing; the one frame that is described is read");
   }
   return segments;
 }

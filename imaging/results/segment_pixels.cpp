@@ -7,7 +7,7 @@
 
 #include "core/checked.h"
 #include "imaging/dicom/frame_codec.h"
-#include "imaging/dicom/frame_header.h"
+#include "imaging/guard/dicom/frame_header.h"
 
 namespace tidemark::imaging {
 

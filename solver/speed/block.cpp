@@ -28,6 +28,45 @@ void weighted_sums(const float* values, std::int64_t stride, const std::vector<f
   }
 }
 
+// sums[i] = values[i] + values[i + stride] + ... of `length` values, out of sums of 1, 2, 4, 8, ... values,
+// which take the place of `values`.
+void window_sums(float* values, std::int64_t stride, std::int64_t length, std::int64_t count, float* sums) {
+  std::fill_n(sums, count, 0.0F);
+  std::int64_t valid = count + (length - 1) * stride;
+  std::int64_t begin = 0;
+  for (std::int64_t power = 1; power <= length; power *= 2) {
+    if ((length & power) != 0) {
+      const float* part = values + begin * stride;
+      for (std::int64_t i = 0; i < count; ++i) sums[i] += part[i];
+      begin += power;
+    }
+    if (2 * power > length) break;
+    valid -= power * stride;
+    const float* next = values + power * stride;
+    for (std::int64_t i = 0; i < valid; ++i) values[i] += next[i];
+  }
+}
+
+// Replaces the block by sums along each axis. sum(axis, values, stride, count, sums) writes the sums of a run
+// of values; it may change the values.
+template <class Sum>
+void sum_along_axes(Block& block, Index3 reach, const Sum& sum) {
+  // The slowest axis first: its sums run over whole slices.
+  for (int axis = 2; axis >= 0; --axis) {
+    const Index3 size = block.box.size;
+    const std::int64_t stride = axis == 0 ? 1 : axis == 1 ? size.x : size.x * size.y;
+    const std::int64_t lines = size.x * size.y * size.z / (stride * size[axis]);
+    const std::int64_t count = stride * (size[axis] - 2 * reach[axis]);
+    std::vector<float> sums(static_cast<std::size_t>(lines * count));
+    for (std::int64_t line = 0; line < lines; ++line) {
+      sum(axis, block.values.data() + line * stride * size[axis], stride, count, sums.data() + line * count);
+    }
+    block.values = std::move(sums);
+    block.box.first[axis] += reach[axis];
+    block.box.size[axis] -= 2 * reach[axis];
+  }
+}
+
 }  // namespace
 
 Block values_in(const Volume& volume, const VoxelBox& box) {
@@ -61,21 +100,18 @@ Index3 reach_of(const AxisWeights& weights) {
 
 void sum_along_axes(Block& block, const AxisWeights& weights) {
   const Index3 reach = reach_of(weights);
-  // The slowest axis first: its sums run over whole slices.
-  for (int axis = 2; axis >= 0; --axis) {
-    const Index3 size = block.box.size;
-    const std::int64_t stride = axis == 0 ? 1 : axis == 1 ? size.x : size.x * size.y;
-    const std::int64_t lines = size.x * size.y * size.z / (stride * size[axis]);
-    const std::int64_t count = stride * (size[axis] - 2 * reach[axis]);
-    std::vector<float> sums(static_cast<std::size_t>(lines * count));
-    for (std::int64_t line = 0; line < lines; ++line) {
-      weighted_sums(block.values.data() + line * stride * size[axis] + reach[axis] * stride, stride,
-                    weights[static_cast<std::size_t>(axis)], count, sums.data() + line * count);
-    }
-    block.values = std::move(sums);
-    block.box.first[axis] += reach[axis];
-    block.box.size[axis] -= 2 * reach[axis];
-  }
+  sum_along_axes(block, reach,
+                 [&](int axis, float* values, std::int64_t stride, std::int64_t count, float* sums) {
+                   weighted_sums(values + reach[axis] * stride, stride,
+                                 weights[static_cast<std::size_t>(axis)], count, sums);
+                 });
+}
+
+void sum_boxes(Block& block, Index3 reach) {
+  sum_along_axes(block, reach,
+                 [&](int axis, float* values, std::int64_t stride, std::int64_t count, float* sums) {
+                   window_sums(values, stride, 2 * reach[axis] + 1, count, sums);
+                 });
 }
 
 AxisWeights gaussian_weights(const Geometry& geometry, double sigma_mm) {

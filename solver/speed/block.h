@@ -31,6 +31,9 @@ using AxisWeights = std::array<std::vector<float>, 3>;
 // a voxel lies in the block, so that they have the same bits.
 void sum_along_axes(Block& block, const AxisWeights& weights);
 
+// The sums of all voxels up to the reach on either side, for what is left of the block without it.
+void sum_boxes(Block& block, Index3 reach);
+
 // Of a sampled, normalised Gaussian, cut at 3 sigma.
 [[nodiscard]] AxisWeights gaussian_weights(const Geometry& geometry, double sigma_mm);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <new>
 
 namespace tidemark::solver {
 namespace {
@@ -44,8 +45,15 @@ void evaluate_anew(const SpeedFunction& function, const VoxelBox& box, std::int1
 }  // namespace
 
 struct CachedSpeed::Page {
+  enum class State : std::uint8_t { claimed, evaluated, failed };
+
   std::array<std::int16_t, kPageVoxels> values;  // padding holds anything
-  std::atomic<bool> evaluated{false};
+  std::atomic<State> state{State::claimed};
+
+  void set(State now) {
+    state.store(now, std::memory_order_release);
+    state.notify_all();
+  }
 };
 
 std::int16_t quantised_speed(double speed) {
@@ -109,13 +117,21 @@ std::atomic<CachedSpeed::Page*>& CachedSpeed::entry(Index3 page) const {
 
 const CachedSpeed::Page* CachedSpeed::ready(Index3 page) const {
   const Page* there = entry(page).load(std::memory_order_acquire);
-  return there != nullptr && there->evaluated.load(std::memory_order_acquire) ? there : nullptr;
+  if (there == nullptr) return nullptr;
+  return there->state.load(std::memory_order_acquire) == Page::State::evaluated ? there : nullptr;
+}
+
+const CachedSpeed::Page* CachedSpeed::waited_for(Index3 page) const {
+  const Page* there = entry(page).load(std::memory_order_acquire);
+  if (there != nullptr) there->state.wait(Page::State::claimed, std::memory_order_acquire);
+  return ready(page);
 }
 
 bool CachedSpeed::claim(Index3 page) const {
   std::atomic<Page*>& place = entry(page);
   if (place.load(std::memory_order_acquire) != nullptr) return false;
-  auto fresh = std::make_unique<Page>();
+  std::unique_ptr<Page> fresh(new (std::nothrow) Page());
+  if (fresh == nullptr) return false;  // it is answered without being kept
   Page* nobody = nullptr;
   if (!place.compare_exchange_strong(nobody, fresh.get(), std::memory_order_acq_rel)) return false;
   fresh.release();
@@ -150,14 +166,21 @@ void CachedSpeed::evaluate_pages(Index3 first, std::int64_t count) const {
   const VoxelBox last = box_of(first + Index3(count - 1, 0, 0));
   const VoxelBox start = box_of(first);
   const VoxelBox box{start.first, last.first + last.size - start.first};
-  std::vector<std::int16_t> speed(static_cast<std::size_t>(box.voxels()));
-  evaluate_anew(*function_, box, speed.data());
+  std::vector<std::int16_t> speed;
+  const auto page = [&](std::int64_t i) {
+    return entry(first + Index3(i, 0, 0)).load(std::memory_order_relaxed);
+  };
+  try {
+    speed.resize(static_cast<std::size_t>(box.voxels()));
+    evaluate_anew(*function_, box, speed.data());
+  } catch (...) {  // for lack of memory: nobody must wait for these pages
+    for (std::int64_t i = 0; i < count; ++i) page(i)->set(Page::State::failed);
+    throw;
+  }
   for (std::int64_t i = 0; i < count; ++i) {
     const VoxelBox part = box_of(first + Index3(i, 0, 0));
-    Page* page = entry(first + Index3(i, 0, 0)).load(std::memory_order_relaxed);
-    copy(part, speed.data(), box, page->values.data(), {part.first, kDefaultPageShape});
-    page->evaluated.store(true, std::memory_order_release);
-    page->evaluated.notify_all();
+    copy(part, speed.data(), box, page(i)->values.data(), {part.first, kDefaultPageShape});
+    page(i)->set(Page::State::evaluated);
   }
 }
 
@@ -177,9 +200,8 @@ void CachedSpeed::evaluate_what_is_missing(const VoxelBox& box, Index3 first, st
 void CachedSpeed::answer(const VoxelBox& box, Index3 first, std::int64_t end_x, std::int16_t* speed) const {
   for (Index3 page = first; page.x < end_x; ++page.x) {
     VoxelBox part = common(box, box_of(page));
-    const Page* there = takes_most(box, page) ? entry(page).load(std::memory_order_acquire) : ready(page);
+    const Page* there = takes_most(box, page) ? waited_for(page) : ready(page);
     if (there != nullptr) {
-      there->evaluated.wait(false, std::memory_order_acquire);  // another thread may be at it
       copy(part, there->values.data(), {box_of(page).first, kDefaultPageShape}, speed, box);
       continue;
     }

@@ -59,6 +59,8 @@ class CachedSpeed final : public SpeedFunction {
   [[nodiscard]] std::atomic<Page*>& entry(Index3 page) const;
   // What is there; null while it is missing or being evaluated.
   [[nodiscard]] const Page* ready(Index3 page) const;
+  // The same, once a thread that has claimed the page is done; null when it failed.
+  [[nodiscard]] const Page* waited_for(Index3 page) const;
   // Whether this thread is the one that has to evaluate the page.
   [[nodiscard]] bool claim(Index3 page) const;
   // Whether a box takes so much of a page that all of it is evaluated and kept.

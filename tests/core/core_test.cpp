@@ -5,7 +5,10 @@
 #include <csignal>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 #include "core/atomic_file.h"
 #include "core/checked.h"
@@ -243,6 +246,44 @@ class CoreTest : public QObject {
       }
     });
     QCOMPARE(across.load(), 0);
+  }
+
+  void what_a_member_of_the_pool_throws_comes_to_the_caller() {
+    for (const int threads : {1, 2, 4}) {
+      ThreadPool pool(threads);
+      for (int thrower = 0; thrower < threads; ++thrower) {
+        const std::int64_t culprit = pool.share(997, thrower).begin;
+        std::atomic<std::int64_t> done{0};
+        std::string caught;
+        try {
+          pool.for_each(997, 1, [&](std::int64_t begin, std::int64_t, int) {
+            if (begin == culprit) throw std::runtime_error("piece " + std::to_string(begin));
+            ++done;
+          });
+        } catch (const std::runtime_error& error) {
+          caught = error.what();
+        }
+        QCOMPARE(caught, "piece " + std::to_string(culprit));
+        QVERIFY(done < 997);
+      }
+      // The pool is as good as new.
+      std::atomic<std::int64_t> visited{0};
+      pool.for_each(997, 1, [&](std::int64_t begin, std::int64_t end, int) { visited += end - begin; });
+      QCOMPARE(visited.load(), 997);
+    }
+  }
+
+  void of_many_exceptions_in_a_pool_one_is_thrown() {
+    ThreadPool pool(4);
+    for (int round = 0; round < 100; ++round) {
+      int caught = 0;
+      try {
+        pool.for_each(64, 1, [](std::int64_t, std::int64_t, int) { throw std::bad_alloc(); });
+      } catch (const std::bad_alloc&) {
+        ++caught;
+      }
+      QCOMPARE(caught, 1);
+    }
   }
 
   void a_pool_of_one_goes_there_and_back_in_order() {

@@ -1,7 +1,7 @@
 // The walk over a DICOM file's tags, on bytes in memory.
 #include <cstdlib>
 
-#include "imaging/dicom/preflight.h"
+#include "imaging/guard/dicom/preflight.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
   using tidemark::imaging::Preflight;

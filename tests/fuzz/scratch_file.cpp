@@ -20,7 +20,7 @@ ScratchFile::~ScratchFile() {
 
 std::filesystem::path ScratchFile::write(const char* name, const std::uint8_t* bytes, std::size_t count) {
   const auto file = folder_ / name;
-  std::filesystem::create_directories(file.parent_path());
+  if (file.parent_path() != folder_) std::filesystem::create_directories(file.parent_path());
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   stream.write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(count));
   if (!stream.flush()) std::abort();

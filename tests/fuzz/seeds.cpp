@@ -11,8 +11,8 @@
 
 #include "document/session_file.h"
 #include "document/zip_archive.h"
-#include "imaging/dicom/preflight.h"
 #include "imaging/files/volume_file.h"
+#include "imaging/guard/dicom/preflight.h"
 #include "imaging/results/results.h"
 #include "renderer/transfer_function.h"
 #include "tests/document/cases.h"
@@ -300,6 +300,13 @@ void write_results() {
   write("result_files", "fractions-rle", test::contents(file));
 }
 
+std::string session_json_in(const fs::path& file) {
+  constexpr std::array<std::string_view, 4> kNames{"session.json", "phi.table", "phi.pages", "labels"};
+  auto archive = document::ZipReader::open(file, kNames).value();
+  const auto text = archive.read(kNames[0], archive.size(kNames[0])).value();
+  return {reinterpret_cast<const char*>(text.data()), text.size()};
+}
+
 void write_studies() {
   const auto document = test::make_case(test::lumpy_volume({9, 8, 9}));
   document::Start start;
@@ -315,13 +322,14 @@ void write_studies() {
   if (const auto set = document->labels().set(label); !set) qFatal("%s", set.error().message.c_str());
 
   auto contents = document::snapshot_of(*document).value();
-  write("study_files", "recipe.json", contents.recipe.to_text().value());
+  write("recipe", "recipe.json", contents.recipe.to_text().value());
   contents.origin.phantom = "tumour";
   const test::TemporaryFolder folder;
   if (const auto saved = document::write_session(contents, folder / "case"); !saved) {
     qFatal("%s", saved.error().message.c_str());
   }
-  write("study_files", "session.tidemark", test::contents(folder / "case"));
+  write("session", "session.tidemark", test::contents(folder / "case"));
+  write("session", "session.json", session_json_in(folder / "case"));
   for (const std::string& name : renderer::preset_names())
     write("transfer_preset", name, renderer::preset(name).value().to_json());
 }

@@ -26,6 +26,7 @@ class Counting final : public SpeedFunction {
 
   void evaluate(const VoxelBox& box, double* speed) const override {
     evaluated += box.voxels();
+    if (failures > 0 && failures-- > 0) throw std::bad_alloc();
     if (slow) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     for (std::int64_t z = 0; z < box.size.z; ++z) {
       for (std::int64_t y = 0; y < box.size.y; ++y) {
@@ -39,6 +40,7 @@ class Counting final : public SpeedFunction {
   }
 
   mutable std::atomic<std::int64_t> evaluated{0};
+  mutable std::atomic<int> failures{0};  // that are still to come
   bool slow = false;
 
  private:
@@ -119,6 +121,17 @@ class CachedSpeedTest : public QObject {
     }
     QCOMPARE(wrong.load(), 0);
     QCOMPARE(function->evaluated.load(), kGrid.x * kGrid.y * kGrid.z);
+  }
+
+  void a_page_that_failed_for_lack_of_memory_keeps_nobody_waiting() {
+    const auto function = std::make_shared<Counting>();
+    const CachedSpeed cached(function, kGrid);
+    const VoxelBox two{{8, 8, 8}, {16, 8, 8}};
+    function->failures = 1;
+    std::vector<double> speed(static_cast<std::size_t>(two.voxels()));
+    QVERIFY_EXCEPTION_THROWN(cached.evaluate(two, speed.data()), std::bad_alloc);
+    QCOMPARE(difference(cached, two), QString());
+    QCOMPARE(difference(cached, {Index3(0), kGrid}), QString());
   }
 
   void slices_are_answered_from_the_pages_that_are_there() {

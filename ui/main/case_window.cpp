@@ -43,6 +43,7 @@ engine::DisplaySettings first_settings(const engine::CaseProxy& proxy) {
     const auto& seed = *start->seed;
     settings.cursor_mm = volume.geometry.to_patient({seed[0], seed[1], seed[2]});
   }
+  settings.oblique = acquired_plane(volume.geometry);
   settings.window = proxy.summary().window;
   settings.clip.normal = {0.0, -1.0, 0.0};
   settings.clip.offset_mm = -renderer::middle_of(volume.geometry).y;

@@ -162,6 +162,17 @@ SliceViewWidget::Place SliceViewWidget::place() const {
   return place;
 }
 
+QString SliceViewWidget::acquired_number() const {
+  const auto& numbers = proxy().study().slice_numbers;
+  const auto slice = acquired_slice(proxy().volume().geometry, orientation(), settings().cursor_mm);
+  if (!slice || static_cast<std::size_t>(*slice) >= numbers.size()) return {};
+  const imaging::SliceNumber& number = numbers[static_cast<std::size_t>(*slice)];
+  QStringList parts;
+  if (number.instance) parts << tr("instance %1").arg(*number.instance);
+  if (number.frame) parts << tr("frame %1").arg(*number.frame);
+  return parts.join(QLatin1String(", "));
+}
+
 void SliceViewWidget::scroll(int clicks) {
   const Place now = place();
   const std::int64_t slice = std::clamp<std::int64_t>(now.slice + clicks, 1, now.slices);
@@ -253,6 +264,7 @@ void SliceViewWidget::paint_corners(QPainter& painter) const {
   const Place now = place();
   QStringList lines;
   lines << tr("%1 / %2   %3 mm").arg(now.slice).arg(now.slices).arg(now.thickness_mm, 0, 'g', 3);
+  if (const QString number = acquired_number(); !number.isEmpty()) lines << number;
   if (content_ == renderer::SliceContent::source) {
     lines << tr("W %1  L %2").arg(number_text(s.window.width, 0), number_text(s.window.centre, 0));
   }

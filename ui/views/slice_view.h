@@ -32,6 +32,9 @@ class SliceViewWidget : public PictureView {
     double thickness_mm = 1.0;
   };
   [[nodiscard]] Place place() const;
+  // The number that other systems give the slice that is seen: "instance 37", "frame 12". Empty where the
+  // view looks along another plane than the slices were acquired in, or the file has none.
+  [[nodiscard]] QString acquired_number() const;
 
  protected:
   [[nodiscard]] engine::AnyView wanted() const override { return slice(); }

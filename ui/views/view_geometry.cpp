@@ -41,6 +41,27 @@ double SliceScreen::distance_mm(glm::dvec3 patient_mm) const {
   return glm::dot(patient_mm - centre_mm_, orientation_.into());
 }
 
+renderer::SliceOrientation acquired_plane(const Geometry& geometry) {
+  const renderer::SliceOrientation standard = renderer::oblique(geometry.direction[2]);
+  const glm::dvec3 row = geometry.direction[0];
+  const glm::dvec3 column = geometry.direction[1];
+  const bool is_turned = std::abs(glm::dot(row, standard.right)) < std::abs(glm::dot(row, standard.up));
+  const auto towards = [](glm::dvec3 axis, glm::dvec3 wanted) {
+    return glm::dot(axis, wanted) < 0.0 ? -axis : axis;
+  };
+  return {towards(is_turned ? column : row, standard.right), towards(is_turned ? row : column, standard.up)};
+}
+
+std::optional<std::int64_t> acquired_slice(const Geometry& geometry,
+                                           const renderer::SliceOrientation& orientation,
+                                           glm::dvec3 patient_mm) {
+  constexpr double kParallel = 1.0 - 1e-6;  // within a twelfth of a degree
+  if (std::abs(glm::dot(orientation.into(), geometry.direction[2])) < kParallel) return std::nullopt;
+  const std::int64_t slice = std::llround(geometry.to_voxel(patient_mm).z);
+  if (slice < 0 || slice >= geometry.size.z) return std::nullopt;
+  return slice;
+}
+
 VolumeScreen::VolumeScreen(const renderer::Camera& camera, QSizeF size, const Geometry& geometry)
     : right_(camera.right()),
       up_(camera.up()),

@@ -55,6 +55,15 @@ class VolumeScreen {
   double mm_per_pixel_ = 1.0;
 };
 
+// The plane in which the slices were acquired, turned as the standard plane that it is nearest to; rows and
+// columns of the images are level.
+renderer::SliceOrientation acquired_plane(const Geometry& geometry);
+// The slice along k (from 0) that an orientation shows at a place. None where the orientation looks along
+// another plane, or the place is beside the volume.
+std::optional<std::int64_t> acquired_slice(const Geometry& geometry,
+                                           const renderer::SliceOrientation& orientation,
+                                           glm::dvec3 patient_mm);
+
 // The corners of the volume's box (patient mm), by bits: 1 at the far side of i, 2 of j, 4 of k. They are
 // half a voxel outside the outermost centres.
 std::array<glm::dvec3, 8> corners_of_box(const Geometry& geometry);

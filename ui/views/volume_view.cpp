@@ -144,27 +144,28 @@ std::unique_ptr<Drag> VolumeViewWidget::begin_drag(const Pointer& pressed) {
 
 // The engine finds the point under the mouse. Where there is none, the drag turns the camera.
 void VolumeViewWidget::pick_and_begin(const Pointer& pressed) {
-  const double ratio = devicePixelRatioF();
-  const glm::dvec2 pixel(pressed.position.x() * ratio, pressed.position.y() * ratio);
-  const auto answer = [self = QPointer(this), pressed,
-                       number = ++press_number_](std::optional<renderer::Hit> hit) {
-    if (!self || !self->pressed() || self->press_number_ != number) return;
-    if (!hit) return self->set_drag(self->navigation_drag(pressed));
-    self->grip_mm_ = hit->patient_mm;
+  pick(pressed.position, [this, pressed, number = ++press_number_](std::optional<glm::dvec3> hit_mm) {
+    if (!this->pressed() || press_number_ != number) return;
+    if (!hit_mm) return set_drag(navigation_drag(pressed));
+    grip_mm_ = hit_mm;
     Pointer there = pressed;
-    there.patient_mm = hit->patient_mm;
-    self->set_drag(self->PictureView::begin_drag(there));
-  };
-  proxy().pick(view(), physical_size(), pixel, answer);
+    there.patient_mm = hit_mm;
+    set_drag(PictureView::begin_drag(there));
+  });
 }
 
-void VolumeViewWidget::find_place(QPointF position, std::function<void(std::optional<glm::dvec3>)> answer) {
-  if (const auto on_cut = patient_at(position)) return answer(on_cut);
+// Without an answer where the view is gone by then.
+void VolumeViewWidget::pick(QPointF position, std::function<void(std::optional<glm::dvec3>)> answer) {
   const double ratio = devicePixelRatioF();
   const auto take = [self = QPointer(this), answer = std::move(answer)](std::optional<renderer::Hit> hit) {
     if (self) answer(hit ? std::optional(hit->patient_mm) : std::nullopt);
   };
   proxy().pick(view(), physical_size(), {position.x() * ratio, position.y() * ratio}, take);
+}
+
+void VolumeViewWidget::find_place(QPointF position, std::function<void(std::optional<glm::dvec3>)> answer) {
+  if (const auto on_cut = patient_at(position)) return answer(on_cut);
+  pick(position, std::move(answer));
 }
 
 void VolumeViewWidget::showEvent(QShowEvent* event) {

@@ -42,6 +42,8 @@ class VolumeViewWidget : public PictureView {
  private:
   [[nodiscard]] VolumeScreen screen() const;
   void pick_and_begin(const Pointer& pressed);
+  // The place on the surface under a position; none where there is no surface.
+  void pick(QPointF position, std::function<void(std::optional<glm::dvec3>)> answer);
 
   CameraFollower follower_;
   // A drag that began on the surface goes on in the plane through that point that faces the viewer.

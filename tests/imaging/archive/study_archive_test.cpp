@@ -285,8 +285,9 @@ class StudyArchiveTest : public QObject {
   void many_entries_in_few_bytes_are_refused_at_once_data() {
     QTest::addColumn<int>("records");
     QTest::addColumn<QString>("why");
-    QTest::newRow("as many as there may be") << 65'535 << "its entries overlap";
-    QTest::newRow("more than there may be") << 180'000 << "has more than 65535 entries";
+    QTest::newRow("as many as there may be") << 50'000 << "its entries overlap";
+    QTest::newRow("more than there may be") << 65'534 << "has 65534 entries, more than 50000";
+    QTest::newRow("more than 16 bits count") << 180'000 << "has more than 50000 entries";
   }
 
   void many_entries_in_few_bytes_are_refused_at_once() {
@@ -306,6 +307,46 @@ class StudyArchiveTest : public QObject {
         {.more_memory = static_cast<std::int64_t>(bytes.size()) + (std::int64_t{64} << 20)});
     QVERIFY2(ended.failure.find(why.toStdString()) != std::string::npos, ended.failure.c_str());
     QVERIFY2(timer.elapsed() < 1000, qPrintable(QString::number(timer.elapsed()) + " ms"));
+  }
+
+  // Each is an entry of its own, with bytes of its own, and no lie about it.
+  void many_empty_files_are_told_in_one_line_at_once_data() {
+    QTest::addColumn<int>("count");
+    QTest::addColumn<QString>("why");
+    QTest::newRow("as many as there may be") << 50'000 << "holds no DICOM series or volume file";
+    QTest::newRow("more") << 65'534 << "has 65534 entries, more than 50000";
+  }
+
+  void many_empty_files_are_told_in_one_line_at_once() {
+    QFETCH(int, count);
+    QFETCH(QString, why);
+    std::string entries;
+    std::vector<std::string> records;
+    for (int n = 0; n < count; ++n) {
+      records.push_back(record_of(entries.size(), 0));
+      entries += entry_of(0);
+    }
+    const test::TemporaryFolder folder;
+    test::write_bytes(folder / "study.zip", archive_of(entries, records));
+    QElapsedTimer timer;
+    timer.start();
+    const auto found = imaging::find_series(folder / "study.zip");
+    QVERIFY2(timer.elapsed() < 1000, qPrintable(QString::number(timer.elapsed()) + " ms"));
+    QVERIFY(!found);
+    QVERIFY2(holds(found.error().message, why.toUtf8()), found.error().message.c_str());
+  }
+
+  void empty_files_beside_a_study_are_counted() {
+    const test::TemporaryFolder folder;
+    std::vector<Entry> entries = entries_of(sample_);
+    entries.push_back({"document/series/.keep", ""});
+    entries.push_back({"notes.txt", ""});
+    write_archive(folder / "study.zip", entries);
+    const auto found = imaging::find_series(folder / "study.zip");
+    QCOMPARE(test::failure(found), QString());
+    QCOMPARE(found->series.size(), std::size_t{1});
+    QCOMPARE(found->skipped.size(), std::size_t{1});
+    QVERIFY(holds(found->skipped.front().reason, "holds 2 empty files"));
   }
 
   void thousands_of_small_files_are_a_study() {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "imaging/dicom/transfer_syntaxes.h"
+#include "imaging/guard/dicom/transfer_syntaxes.h"
 #include "imaging/load_study.h"
 #include "tests/imaging/dicom/nifti_peer.h"
 #include "tests/imaging/dicom/study_truth.h"

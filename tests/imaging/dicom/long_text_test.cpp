@@ -2,7 +2,7 @@
 #include <QElapsedTimer>
 
 #include "imaging/dicom/dicom.h"
-#include "imaging/dicom/tag_walk.h"
+#include "imaging/guard/dicom/tag_walk.h"
 #include "tests/imaging/dicom/bad_dicom.h"
 #include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/support/test_program.h"

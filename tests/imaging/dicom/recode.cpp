@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "imaging/dicom/transfer_syntaxes.h"
+#include "imaging/guard/dicom/transfer_syntaxes.h"
 
 namespace tidemark::test {
 namespace {

@@ -343,7 +343,9 @@ class DicomSegmentationTest : public QObject {
     QTest::addColumn<QString>("value");
     QTest::newRow("no type") << "SegmentationType" << 0x0062U << 0x0001U << "";
     QTest::newRow("a type of later years") << "SegmentationType" << 0x0062U << 0x0001U << "LABELMAP";
-    QTest::newRow("no frames") << "NumberOfFrames" << 0x0028U << 0x0008U << "";
+    QTest::newRow("no number of several frames")
+        << "NumberOfFrames (0028,0008) is missing, and" << 0x0028U << 0x0008U << "";
+    QTest::newRow("no frames") << "NumberOfFrames" << 0x0028U << 0x0008U << "0";
     QTest::newRow("too many frames") << "PixelData" << 0x0028U << 0x0008U << "2000000000";
     QTest::newRow("another class") << "no DICOM segmentation" << 0x0008U << 0x0016U << "1.2.3";
   }
@@ -364,6 +366,24 @@ class DicomSegmentationTest : public QObject {
     QVERIFY2(refused.error().message.find(field.toStdString()) != std::string::npos,
              refused.error().message.c_str());
     QVERIFY2(refused.error().message.find("seg.dcm") != std::string::npos, refused.error().message.c_str());
+  }
+
+  void one_frame_needs_no_number_of_frames() {
+    const test::TemporaryFolder folder;
+    const auto file = folder / "seg.dcm";
+    imaging::Segments written;
+    written.geometry = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
+    imaging::Segment& only = written.list.emplace_back();
+    only.name = "One";
+    only.slices[4].resize(77);
+    only.slices[4][33] = 1;
+    QCOMPARE(test::failure(imaging::write_segmentation(written, {}, file)), QString());
+    test::set_text(file, 0x0028, 0x0008, "");
+    const auto read = imaging::read_segmentation(file, &written.geometry);
+    QCOMPARE(test::failure(read), QString());
+    QVERIFY(read->list.front().slices == only.slices);
+    QCOMPARE(read->changes.size(), std::size_t{1});
+    QVERIFY(read->changes.front().starts_with("NumberOfFrames (0028,0008) is missing"));
   }
 
   void a_truncated_file_is_refused() {

@@ -1,4 +1,4 @@
-#include "imaging/dicom/frame_header.h"
+#include "imaging/guard/dicom/frame_header.h"
 
 #include <fmt/format.h>
 

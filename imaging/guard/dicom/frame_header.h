@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "imaging/dicom/transfer_syntaxes.h"
 #include "imaging/guard/byte_source.h"
+#include "imaging/guard/dicom/transfer_syntaxes.h"
 
 namespace tidemark::imaging {
 

@@ -13,8 +13,8 @@
 #include <optional>
 #include <string>
 
-#include "imaging/dicom/tag_walk.h"
-#include "imaging/dicom/transfer_syntaxes.h"
+#include "imaging/guard/dicom/tag_walk.h"
+#include "imaging/guard/dicom/transfer_syntaxes.h"
 
 namespace tidemark::imaging {
 

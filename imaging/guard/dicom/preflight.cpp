@@ -1,4 +1,4 @@
-#include "imaging/dicom/preflight.h"
+#include "imaging/guard/dicom/preflight.h"
 
 #include <algorithm>
 #include <cstring>
@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "imaging/dicom/pixel_extent.h"
+#include "imaging/guard/dicom/pixel_extent.h"
 
 namespace tidemark::imaging {
 namespace {

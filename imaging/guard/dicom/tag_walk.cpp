@@ -1,4 +1,4 @@
-#include "imaging/dicom/tag_walk.h"
+#include "imaging/guard/dicom/tag_walk.h"
 
 #include <algorithm>
 

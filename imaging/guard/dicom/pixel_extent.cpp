@@ -1,4 +1,4 @@
-#include "imaging/dicom/pixel_extent.h"
+#include "imaging/guard/dicom/pixel_extent.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "imaging/dicom/transfer_syntaxes.h"
+#include "imaging/guard/dicom/transfer_syntaxes.h"
 
 #include <algorithm>
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "imaging/dicom/frame_header.h"
-#include "imaging/dicom/tag_walk.h"
+#include "imaging/guard/dicom/frame_header.h"
+#include "imaging/guard/dicom/tag_walk.h"
 
 namespace tidemark::imaging {
 
