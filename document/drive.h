@@ -40,6 +40,12 @@ struct Drive {
   std::shared_ptr<const solver::Strokes> strokes;          // null: none
   std::shared_ptr<const SpeedMap> map;                     // null: none
   std::shared_ptr<const solver::Constraints> constraints;  // null: none
+
+  // Parts are compared by their address.
+  bool operator==(const Drive&) const = default;
 };
+
+// Of strokes, walls and anchors in memory.
+[[nodiscard]] std::int64_t bytes_of(const Drive& drive);
 
 }  // namespace tidemark::document

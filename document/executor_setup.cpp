@@ -55,12 +55,26 @@ Status ExecutorSetup::remake(std::shared_ptr<const Volume> source, solver::Execu
                              const solver::ExecutorOptions& options, const solver::Field& phi) {
   auto made = solver::make_executor(kind, source, executor_->parameters(), options);
   if (!made) return pass_on(made);
+  if (executor_->speed()) {
+    TIDEMARK_TRY((*made)->set_speed(executor_->speed()));
+  }
+  if (executor_->constraints()) {
+    TIDEMARK_TRY((*made)->set_constraints(executor_->constraints()));
+  }
   TIDEMARK_TRY((*made)->restore(phi));
   source_ = std::move(source);
   kind_ = kind;
   options_ = options;
   executor_ = std::move(*made);
   return {};
+}
+
+Status ExecutorSetup::set_speed(std::shared_ptr<const solver::SpeedFunction> speed) {
+  return executor_->set_speed(std::move(speed));
+}
+
+Status ExecutorSetup::set_constraints(std::shared_ptr<const solver::Constraints> constraints) {
+  return executor_->set_constraints(std::move(constraints));
 }
 
 Status ExecutorSetup::smooth_source(double sigma_mm) {

@@ -24,6 +24,10 @@ class ExecutorSetup {
   [[nodiscard]] solver::ExecutorKind kind() const { return kind_; }  // as it was asked for
   [[nodiscard]] RecipeExecutor description() const;
 
+  // What drives the surface, and what holds it; another executor gets it, too. Null: the tent, and none.
+  Status set_speed(std::shared_ptr<const solver::SpeedFunction> speed);
+  Status set_constraints(std::shared_ptr<const solver::Constraints> constraints);
+
   // Each makes another executor, or fails and changes nothing. The first goes on from the same phi.
   Status smooth_source(double sigma_mm);
   Status change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options,

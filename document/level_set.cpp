@@ -4,13 +4,19 @@
 #include <utility>
 
 #include "document/level_set_change.h"
+#include "solver/speed/speed_registry.h"
 
 namespace tidemark::document {
 namespace {
 
+bool is_of_parameters(ChangeKind kind) {
+  return kind == ChangeKind::target || kind == ChangeKind::range || kind == ChangeKind::smoothing ||
+         kind == ChangeKind::parameters;
+}
+
 bool moves_phi(ChangeKind kind) {
-  return kind != ChangeKind::target && kind != ChangeKind::range && kind != ChangeKind::smoothing &&
-         kind != ChangeKind::parameters && kind != ChangeKind::source;
+  return !is_of_parameters(kind) && kind != ChangeKind::source && kind != ChangeKind::examples &&
+         kind != ChangeKind::speed;
 }
 
 // Which of the parameters was changed.
@@ -24,6 +30,12 @@ ChangeKind kind_of_change(const solver::Parameters& before, const solver::Parame
   changed = before;
   changed.alpha = after.alpha;
   return changed == after ? ChangeKind::smoothing : ChangeKind::parameters;
+}
+
+// What of it was changed. The function that strokes bring with them is no change of its own.
+ChangeKind kind_of_change(const Drive& before, const Drive& after) {
+  if (before.constraints != after.constraints) return ChangeKind::constraints;
+  return before.strokes != after.strokes ? ChangeKind::examples : ChangeKind::speed;
 }
 
 }  // namespace
@@ -51,7 +63,7 @@ LevelSet::LevelSet(ExecutorSetup setup, const solver::Parameters& parameters, Hi
 
 ChangeDescription LevelSet::description() const {
   ChangeKind kind = open_->kind;
-  if (!moves_phi(kind)) kind = kind_of_change(open_->before.recipe.final_parameters(), parameters());
+  if (is_of_parameters(kind)) kind = kind_of_change(open_->before.recipe.final_parameters(), parameters());
   return {kind, kind == ChangeKind::evolution ? step() - open_->before.recipe.steps : 0, {}};
 }
 
@@ -120,13 +132,14 @@ Status LevelSet::read_back_phi() {
     known_.recipe = recipe_;
     known_.start = start_;
     known_.curve = curve_;
+    known_.drive = drive_;
     return {};
   }
   auto phi = executor().snapshot();
   if (!phi) return pass_on(phi);
   auto shared = std::make_shared<const solver::Field>(std::move(*phi));
   if (step() == 0) start_ = shared;
-  known_ = {recipe_, std::move(shared), start_, curve_};
+  known_ = {recipe_, std::move(shared), start_, curve_, drive_};
   dirty_ = false;
   return {};
 }
@@ -156,6 +169,7 @@ Status LevelSet::begin(const Start& start, const Progress& progress) {
   point.recipe.start = start;
   point.recipe.parameters = parameters();
   point.start = point.phi;
+  point.drive = drive_;
   put_in_place(std::move(point));
   add_entry(ChangeKind::start, before, known_);
   return {};
@@ -180,6 +194,26 @@ Status LevelSet::set_parameters(const solver::Parameters& parameters, std::uint6
     record({step(), ParametersEvent{parameters}});
   } else {
     recipe_.parameters = parameters;
+  }
+  return gesture == 0 ? history_.close() : Status();
+}
+
+Status LevelSet::set_drive(const Drive& drive, std::uint64_t gesture) {
+  TIDEMARK_TRY(end_other_change(gesture));
+  if (drive == *drive_) return {};
+  TIDEMARK_TRY(check(drive.setting));
+  const ChangeKind kind = kind_of_change(*drive_, drive);
+  if (kind == ChangeKind::constraints) {
+    TIDEMARK_TRY(setup_.set_constraints(drive.constraints));
+  }
+  if (drive.setting.is_tent()) {
+    TIDEMARK_TRY(setup_.set_speed(nullptr));
+  }
+  begin_change(kind, gesture, known_);
+  drive_ = std::make_shared<const Drive>(drive);
+  if (kind == ChangeKind::constraints) {
+    curve_.cut(step());
+    dirty_ = true;
   }
   return gesture == 0 ? history_.close() : Status();
 }
@@ -219,6 +253,7 @@ void LevelSet::put_in_place(Point point) {
   recipe_ = point.recipe;
   start_ = point.start;
   curve_ = point.curve;
+  drive_ = point.drive;
   known_ = std::move(point);
   in_place_ = known_;
   dirty_ = false;
@@ -233,6 +268,12 @@ Status LevelSet::hand_over(const Point& point) {
   }
   if (!(wanted == parameters())) {
     TIDEMARK_TRY(executor().set_parameters(wanted));
+  }
+  if (point.drive->constraints != executor().constraints()) {
+    TIDEMARK_TRY(setup_.set_constraints(point.drive->constraints));
+  }
+  if (point.drive->setting.is_tent() && executor().speed() != nullptr) {
+    TIDEMARK_TRY(setup_.set_speed(nullptr));
   }
   return executor().restore(*point.phi);
 }
@@ -254,7 +295,7 @@ Status LevelSet::go_to(Point point) {
 Status LevelSet::resume_from(const Recipe& recipe, std::shared_ptr<const solver::Field> phi,
                              const Curve& curve) {
   TIDEMARK_TRY(history_.close());
-  return go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr, curve});
+  return go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr, curve, drive_});
 }
 
 void LevelSet::note(const CurvePoint& point) {
@@ -283,7 +324,9 @@ Status LevelSet::prepare_start() {
 
 Status LevelSet::compute_again(std::int64_t target, const Progress& progress) {
   if (in_place_.recipe.steps > 0 && in_place_.recipe.steps <= target) {
-    TIDEMARK_TRY(hand_over(in_place_));
+    Point from_there = in_place_;
+    from_there.drive = drive_;  // what drives the surface now stays
+    TIDEMARK_TRY(hand_over(from_there));
     const Recipe& from = in_place_.recipe;
     return setup_.play(recipe_, from.events.size(), from.steps, target, progress);
   }
@@ -311,7 +354,7 @@ Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
     TIDEMARK_TRY(go_to(before));
     return computed;
   }
-  if (in_place_.recipe.steps > target) in_place_ = {recipe_.up_to(0), start_, start_};
+  if (in_place_.recipe.steps > target) in_place_ = {recipe_.up_to(0), start_, start_, {}, drive_};
   add_entry(ChangeKind::step_back, before, known_);
   return {};
 }
@@ -332,7 +375,7 @@ Status LevelSet::restart() {
     }
     start_ = std::make_shared<const solver::Field>(std::move(*phi));
   }
-  Point point{recipe_.up_to(0), start_, start_};
+  Point point{recipe_.up_to(0), start_, start_, {}, drive_};
   std::erase_if(point.recipe.events,
                 [](const RecipeEvent& event) { return !std::holds_alternative<PaintEvent>(event.what); });
   point.recipe.parameters = present;
@@ -357,6 +400,7 @@ Status LevelSet::rebuild(const solver::ExecutorOptions& options, std::optional<s
   if (!rebuilt) return rebuilt;
   if (open_) open_->last_edit.reset();
   const solver::Parameters present = parameters();
+  known_.drive = drive_;
   TIDEMARK_TRY(go_to(known_));
   if (present == parameters()) return {};
   if (!open_) return set_parameters(present);
