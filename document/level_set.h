@@ -65,10 +65,8 @@ class LevelSet final : private OpenChange {
   // Back to the start as it was before the first step, with the present parameters. An entry of its own.
   Status restart();
 
-  // The function that was made from drive(). Not an entry of the history.
-  Status set_speed(std::shared_ptr<const solver::SpeedFunction> speed) {
-    return setup_.set_speed(std::move(speed));
-  }
+  // The function that was made from drive(): from here on the recipe has it. Not an entry of the history.
+  Status set_speed(std::shared_ptr<const solver::SpeedFunction> speed);
 
   // Goes on with another executor from the same phi.
   Status change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options);
@@ -122,12 +120,16 @@ class LevelSet final : private OpenChange {
   Status end_other_change(std::uint64_t gesture);
   void begin_change(ChangeKind kind, std::uint64_t gesture, Point before);
   void record(RecipeEvent event);
+  [[nodiscard]] Drive drive_in_use() const;
+  Status use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed);
+  Status drive_as(const Recipe& recipe);
   void add_entry(ChangeKind kind, const Point& before, const Point& after);
   Status read_back_phi();
   void put_in_place(Point point);
   Status hand_over(const Point& point);
   Status go_to(Point point);
   Status prepare_start();
+  void take_drive_of_recipe();
   Status compute_again(std::int64_t target, const Progress& progress);
 
   ExecutorSetup setup_;
