@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "solver/speed/tent_speed.h"
 #include "solver/voxel_values.h"
 #include "ui/panels/value_unit.h"
 #include "ui/widgets/number_text.h"
@@ -63,11 +64,10 @@ void ValueBar::follow() {
 QString ValueBar::details_at(Index3 voxel) const {
   const Volume& source = *proxy_->source();  // as D sees it
   const engine::CaseState& state = proxy_->state();
-  const solver::Parameters& parameters = proxy_->parameters();
-  QString values =
-      tr("   D %1").arg(rounded(solver::data_speed(parameters, source.value(voxel)), 2), 0, 'f', 2);
+  const solver::TentSpeed speed(proxy_->source(), proxy_->parameters());
+  QString values = tr("   D %1").arg(rounded(solver::speed_at(speed, voxel), 2), 0, 'f', 2);
   if (!state.phi || !state.begun) return values;
-  const solver::VoxelValues at = solver::values_at(*state.phi, source, parameters, voxel);
+  const solver::VoxelValues at = solver::values_at(*state.phi, source, speed, voxel);
   values += tr("   φ %1").arg(rounded(at.phi, 2), 0, 'f', 2);
   const bool clamped = std::abs(at.phi) >= state.phi->band;
   if (!clamped)
