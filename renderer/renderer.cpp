@@ -17,6 +17,7 @@ constexpr int kSourceUnit = 3;
 constexpr LabelPicture::Units kLabelUnits{5, 10, 11, 12};
 constexpr int kFreeUnit = 6;  // and the three behind it
 constexpr int kSpeedUnit = 13;
+constexpr int kConstraintUnit = 14;
 
 // The view moved by a part of a picture's pixels.
 glm::dmat4 moved_by(glm::dvec2 pixels, PictureSize size) {
@@ -120,6 +121,24 @@ Status Renderer::look_at(const solver::PackedView& view,
 void Renderer::set_parameters(const solver::Parameters& parameters) {
   constants_ = constants_of(source_, parameters);
   tent_ = solver::tent_of(parameters);
+}
+
+Status Renderer::set_constraints(const solver::Constraints* constraints) {
+  TIDEMARK_TRY(device_->make_current());
+  if (constraints == nullptr || constraints->empty()) {
+    constraints_.reset();
+    return {};
+  }
+  if (constraints->layout().volume_size() != source_->geometry.size) {
+    return fail(ErrorKind::usage, "walls and anchors are on another grid than the volume");
+  }
+  if (!constraints_) {
+    auto made = solver::ConstraintTexture::create(*device_, source_->geometry.size);
+    if (!made) return pass_on(made);
+    constraints_ = std::move(*made);
+  }
+  constraints_->show(*constraints);
+  return device_->check("showing walls and anchors");
 }
 
 Status Renderer::set_labels(std::span<const std::uint8_t> labels) {
@@ -305,9 +324,13 @@ Status Renderer::draw_on(Canvas& canvas, const SliceView& view, const Progress& 
     TIDEMARK_TRY(speed_picture_.fill_plane(*device_, voxel_from_view));
     for (const auto& define : speed_picture_.defines()) variant.push_back(define);
   }
+  if (constraints_) {
+    for (const auto& define : constraints_->defines()) variant.push_back(define);
+  }
   auto program = use_program("render/slice.frag", variant);
   if (!program) return pass_on(program);
   const gpu::Program& slice = **program;
+  if (constraints_) constraints_->set_uniforms(slice, kConstraintUnit);
   slice.set("voxel_from_view", glm::mat4(voxel_from_view));
   gpu::Texture2D plane;
   if (by_plane) {

@@ -18,6 +18,7 @@
 #include "renderer/source_picture.h"
 #include "renderer/speed_picture.h"
 #include "renderer/views.h"
+#include "solver/gl/constraint_texture.h"
 #include "solver/model.h"
 
 namespace tidemark::renderer {
@@ -56,6 +57,9 @@ class Renderer {
   void set_speed(std::shared_ptr<const solver::SpeedFunction> speed) {
     speed_picture_.set_function(std::move(speed));
   }
+  // Walls and anchors, which slices show; null: none. Fails (ErrorKind::usage) when they are on another grid,
+  // (ErrorKind::capability) when memory is short.
+  Status set_constraints(const solver::Constraints* constraints);
   // A label for each voxel, 0 for none. Fails (ErrorKind::usage) when there are not as many as voxels.
   Status set_labels(std::span<const std::uint8_t> labels);
   // Red, green, blue and opacity (0: hidden) of the labels from 0 on; at first all are seen, with
@@ -106,6 +110,7 @@ class Renderer {
   PhiPicture phi_;
   LabelPicture labels_;
   SpeedPicture speed_picture_;
+  std::optional<solver::ConstraintTexture> constraints_;
   struct Made {
     gpu::Program program;
     std::int64_t used = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
+#include "core/without_exceptions.h"
 #include "solver/speed/cached_speed.h"
 
 namespace tidemark::solver {
@@ -47,10 +48,14 @@ Status SpeedTextures::set_function(gpu::Device& device, std::shared_ptr<const Sp
     has_velocity_ = advects;
   }
   function_ = std::move(function);
+  forget();
+  return {};
+}
+
+void SpeedTextures::forget() {
   there_.assign(static_cast<std::size_t>(blocks_.page_count()), false);
   wanted_.clear();
   surrounded_.clear();
-  return {};
 }
 
 void SpeedTextures::want(const VoxelBox& box) {
@@ -120,7 +125,12 @@ void SpeedTextures::evaluate(std::span<Run> runs) const {
 
 Status SpeedTextures::fill(gpu::Device& device) {
   if (wanted_.empty()) return {};
-  std::vector<Run> runs = take_wanted();
+  Status filled = without_exceptions([&] { return write(device, take_wanted()); });
+  if (!filled) forget();
+  return filled;
+}
+
+Status SpeedTextures::write(gpu::Device& device, std::vector<Run> runs) {
   for (std::size_t first = 0; first < runs.size(); first += kRunsAtATime) {
     const std::span<Run> some = std::span(runs).subspan(first, std::min(kRunsAtATime, runs.size() - first));
     evaluate(some);

@@ -34,7 +34,7 @@ class SpeedTextures {
   // ... for those of the pages and of all that are at most `reach` pages away. Layout and reach are always
   // the same.
   void want_around(const PageLayout& layout, std::span<const std::int64_t> pages, Index3 reach);
-  // Evaluates what was asked for and is not there.
+  // Evaluates what was asked for and is not there. Fails (ErrorKind::capability) when memory is short.
   Status fill(gpu::Device& device);
 
   // SPEED_VOLUME and ADVECTION; two units from `unit` on.
@@ -46,6 +46,8 @@ class SpeedTextures {
   struct Run;
   [[nodiscard]] std::vector<Run> take_wanted();
   void evaluate(std::span<Run> runs) const;
+  Status write(gpu::Device& device, std::vector<Run> runs);
+  void forget();
 
   PageLayout blocks_;
   std::shared_ptr<const SpeedFunction> function_;

@@ -66,7 +66,6 @@ Status StreamExecutor::evaluate_speed() {
 
 // Computes the active pages and reads their messages.
 Status StreamExecutor::step() {
-  TIDEMARK_TRY(evaluate_speed());
   passes_.step(active_geometry_, memory_, drive_textures_, model_.constants<float>(), current_,
                next_step_is_measured());
   current_ = 1 - current_;
@@ -108,6 +107,10 @@ Result<AdvanceReport> StreamExecutor::advance(const Advance& run) {
   }
   return run_steps(run, [this](AdvanceReport& report) -> Result<bool> {
     if (!active_.empty()) {
+      if (auto evaluated = evaluate_speed(); !evaluated) {
+        steps_of_last_run_ = --report.steps;
+        return pass_on(evaluated);
+      }
       TIDEMARK_TRY(step());
       report.voxel_updates += active_geometry_.voxels();
     }

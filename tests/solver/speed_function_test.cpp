@@ -2,6 +2,8 @@
 // comes, and anew when it follows the surface.
 #include "executor_rows.h"
 #include "formula_speed.h"
+#include "solver/speed/tent_speed.h"
+#include "solver/voxel_values.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
@@ -134,6 +136,26 @@ class SpeedFunctionTest : public QObject {
     }
   }
 
+  // So small that a step takes no time, and runs are long; so fast that pages are entered within them.
+  void no_page_waits_for_its_speed_within_a_run_data() { add_rows(); }
+  void no_page_waits_for_its_speed_within_a_run() {
+    const Setting setting = this_row();
+    const Geometry geometry = grid({64, 40, 40});
+    solver::Parameters parameters;
+    parameters.alpha = 1.0;
+    std::vector<float> expected;
+    for (const std::int64_t chunk : {1, 40}) {
+      const auto tested = setting.make(zero_volume(geometry), parameters);
+      QCOMPARE(failure(tested->set_speed(std::make_shared<FormulaSpeed>([](glm::dvec3) { return 1.0; }))),
+               QString());
+      QCOMPARE(failure(tested->paint({{20, 20, 20}, 2.0}, solver::Brush::add)), QString());
+      for (std::int64_t done = 0; done < 40; done += chunk) run(*tested, chunk);
+      const std::vector<float> values = tested->snapshot().value().dense();
+      if (expected.empty()) expected = values;
+      QVERIFY(values == expected);
+    }
+  }
+
   void a_flow_carries_a_sphere_along_data() { add_all_rows(); }
   void a_flow_carries_a_sphere_along() {
     const Setting setting = this_row();
@@ -239,6 +261,52 @@ class SpeedFunctionTest : public QObject {
       results[way] = tested->snapshot().value().dense();
     }
     QVERIFY(results[0] == results[1]);
+  }
+
+  void a_run_goes_on_where_memory_was_short_for_a_while_data() { add_rows(); }
+  void a_run_goes_on_where_memory_was_short_for_a_while() {
+    const Setting setting = this_row();
+    const Scene scene = lumpy_scene({61, 50, 47});
+    const auto calls_left = std::make_shared<std::atomic<int>>(60000);
+    const auto speed = std::make_shared<FormulaSpeed>([calls_left](glm::dvec3 v) {
+      if (--*calls_left == 0) throw std::bad_alloc();
+      return lumps(v);
+    });
+    const auto tested = setting.make(scene.source, scene.parameters);
+    const auto expected = setting.make(scene.source, scene.parameters);
+    QCOMPARE(failure(tested->set_speed(speed)), QString());
+    QCOMPARE(failure(expected->set_speed(lumpy_speed(false))), QString());
+    for (solver::Executor* level_set : {tested.get(), expected.get()}) {
+      QCOMPARE(failure(level_set->paint(scene.seed, solver::Brush::add)), QString());
+    }
+    solver::Advance request;
+    request.steps = 80;
+    const auto stopped = tested->advance(request);
+    QVERIFY(!stopped && stopped.error().kind == ErrorKind::capability);
+    QVERIFY(tested->steps_of_last_run() < 80);
+    run(*tested, 80 - tested->steps_of_last_run());
+    run(*expected, 80);
+    QVERIFY(tested->snapshot().value().dense() == expected->snapshot().value().dense());
+  }
+
+  void the_values_at_a_voxel_are_the_functions() {
+    const Scene scene = lumpy_scene({40, 37, 29});
+    const solver::Field phi = solver::Field::empty(scene.geometry, 2.5);
+    const Index3 voxel(12, 20, 9);
+    const auto lumpy = lumpy_speed(false);
+    const double expected = solver::speed_of(solver::quantised_speed(lumps(voxel)));
+    QCOMPARE(solver::values_at(phi, *scene.source, *lumpy, voxel).speed, expected);
+    QCOMPARE(lumpy->evaluated(), std::int64_t{1});
+    for (const solver::DataForm form : {solver::DataForm::clamped, solver::DataForm::raw}) {
+      solver::Parameters parameters = scene.parameters;
+      parameters.data_form = form;
+      const solver::TentSpeed tent(scene.source, parameters);
+      const double off = std::abs(scene.source->value(voxel) - parameters.target);
+      const double eq7 = form == solver::DataForm::raw ? parameters.range - off
+                                                       : std::max(-1.0, 1.0 - off / parameters.range);
+      QVERIFY(std::abs(solver::speed_at(tent, voxel) - eq7) < 1e-12);
+      QVERIFY(std::abs(solver::data_speed(parameters, scene.source->value(voxel)) - eq7) < 1e-12);
+    }
   }
 };
 
