@@ -2,6 +2,7 @@
 #include <QTest>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "core/label_colour.h"
 #include "tests/renderer/scenes.h"
@@ -175,6 +176,50 @@ class SliceViewTest : public QObject {
     view.term = renderer::SpeedTerm::total;
     const glm::ivec3 far = pixel(draw(view, 160, 160), 8, 8);
     QVERIFY(far.r == far.g && far.g == far.b);
+  }
+
+  void walls_and_anchors_are_hatched_where_they_are() {
+    const Geometry geometry = grid({40, 40, 40});
+    Painter draw(ball_scene(geometry, 10.0));
+    solver::Constraints constraints(geometry.size);
+    const glm::dvec3 middle = renderer::middle_of(geometry);
+    constraints.set(geometry, {middle + glm::dvec3(9, 0, 0), 6.0}, solver::Constraint::wall);
+    constraints.set(geometry, {middle - glm::dvec3(9, 0, 0), 6.0}, solver::Constraint::anchor);
+    renderer::SliceView view;
+    view.window = {0.0, 1e6};  // grey
+    view.surface = false;
+    const renderer::Picture before = draw(view, 200, 200);
+    QCOMPARE(failure(draw.renderer().set_constraints(&constraints)), QString());
+    const renderer::Picture picture = draw(view, 200, 200);
+    const auto is_wall = [](glm::ivec3 c) { return c.r > c.g + 25 && c.b > c.g + 10 && !is_yellow(c); };
+    const auto is_anchor = [](glm::ivec3 c) { return c.g > c.r + 25 && c.b > c.r + 25; };
+    QCOMPARE(count(before, is_wall) + count(before, is_anchor), std::int64_t{0});
+    // Discs of radius 6 voxels of 5 pixels.
+    for (const PixelTest& test : {PixelTest(is_wall), PixelTest(is_anchor)}) {
+      const auto pixels = static_cast<double>(count(picture, test));
+      QVERIFY2(std::abs(pixels / (std::numbers::pi * 900.0) - 1.0) < 0.15,
+               qPrintable(QString::number(pixels)));
+    }
+    // 9 of 20 voxels to each side; to the left of the patient, which is on the right, is the wall.
+    QVERIFY(glm::length(middle_of_pixels(picture, is_wall) - glm::dvec2(0.45, 0.0)) < 0.04);
+    QVERIFY(glm::length(middle_of_pixels(picture, is_anchor) - glm::dvec2(-0.45, 0.0)) < 0.04);
+    // Anchors have level lines, walls have not: their pixels of a row are alike, or are not.
+    const auto shades_of_row = [&](std::int64_t left) {
+      std::set<int> shades;
+      for (std::int64_t x = left; x < left + 12; ++x) shades.insert(pixel(picture, x, 100).b);
+      return shades.size();
+    };
+    QCOMPARE(shades_of_row(42), std::size_t{1});
+    QVERIFY(shades_of_row(148) > 1);
+    // As they change, and none at last.
+    constraints.set(geometry, {middle + glm::dvec3(9, 0, 0), 6.0}, solver::Constraint::none);
+    QCOMPARE(failure(draw.renderer().set_constraints(&constraints)), QString());
+    QCOMPARE(count(draw(view, 200, 200), is_wall), std::int64_t{0});
+    QVERIFY(count(draw(view, 200, 200), is_anchor) > 2000);
+    QCOMPARE(failure(draw.renderer().set_constraints(nullptr)), QString());
+    QVERIFY(draw(view, 200, 200).pixels == before.pixels);
+    const solver::Constraints elsewhere(Index3(20, 20, 20));
+    QCOMPARE(failure(draw.renderer().set_constraints(&elsewhere)), QString());  // there are none
   }
 
   void labels_lie_on_their_voxels() {
