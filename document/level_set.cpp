@@ -120,6 +120,7 @@ void LevelSet::add_entry(ChangeKind kind, const Point& before, const Point& afte
   const bool counts_steps = kind == ChangeKind::evolution || kind == ChangeKind::step_back;
   const std::int64_t steps = counts_steps ? std::abs(after.recipe.steps - before.recipe.steps) : 0;
   history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after));
+  settled_events_ = after.recipe.events.size();
 }
 
 Status LevelSet::end_run() {
@@ -149,6 +150,7 @@ void LevelSet::record(RecipeEvent event) {
   std::vector<RecipeEvent>& events = recipe_.events;
   if (!events.empty() && events.back().step == event.step && replaces(event, events.back())) {
     events.pop_back();
+    settled_events_ = std::min(settled_events_, events.size());
   }
   events.push_back(std::move(event));
 }

@@ -147,7 +147,7 @@ class DriveRecipeTest : public QObject {
     QVERIFY(replayed(again(level_set.recipe()), document->volume()) == values_of(level_set));
   }
 
-  void undo_takes_the_function_away() {
+  void undo_and_redo_bring_the_function_back() {
     const auto document = begun_case();
     document::LevelSet& level_set = document->level_set();
     run(level_set, 10);
@@ -165,6 +165,11 @@ class DriveRecipeTest : public QObject {
     QVERIFY(!level_set.executor().speed());
     QVERIFY(level_set.drive().setting.is_tent());
     QVERIFY(Seen(level_set).phi == before.phi);
+    while (document->history().redo_description()) QCOMPARE(failure(document->redo()), QString());
+    QVERIFY(level_set.executor().speed());
+    QVERIFY(Seen(level_set).phi == after.phi);
+    run(level_set, 5);
+    QVERIFY(replayed(again(level_set.recipe()), document->volume()) == values_of(level_set));
   }
 
   void only_recipes_with_something_new_are_of_the_new_version() {
