@@ -55,6 +55,10 @@ struct Drive {
 [[nodiscard]] bool is_plain(const Drive& drive);
 // Whether a tent takes part: T and epsilon count then.
 [[nodiscard]] bool uses_tent(const Drive& drive);
+// Whether both make the same speed function of a source: not what holds the surface, but all else.
+[[nodiscard]] bool same_speed(const Drive& a, const Drive& b);
+// Whether phi is the same with these constraints at once as with `earlier` ones first and then these.
+[[nodiscard]] bool cover(const Drive& drive, const Drive& earlier);
 // "tent", "least of examples and edges", "examples, walls"
 [[nodiscard]] std::string describe(const Drive& drive);
 

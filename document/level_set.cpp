@@ -47,6 +47,17 @@ std::shared_ptr<const Drive> shared(const Drive& drive) {
   return drive == Drive() ? nullptr : std::make_shared<const Drive>(drive);
 }
 
+// Of events that follow each other without a step between, whether the last counts alone. A wall that is
+// taken away again has moved the surface.
+bool replaces(const RecipeEvent& event, const RecipeEvent& before) {
+  if (std::holds_alternative<ParametersEvent>(event.what)) {
+    return std::holds_alternative<ParametersEvent>(before.what);
+  }
+  const auto* now = std::get_if<DriveEvent>(&event.what);
+  const auto* then = std::get_if<DriveEvent>(&before.what);
+  return now != nullptr && then != nullptr && cover(*now->drive, *then->drive);
+}
+
 // Without what waits for another function.
 Drive relevant(Drive drive) {
   if (!drive.setting.is_tent()) return drive;
@@ -109,6 +120,7 @@ void LevelSet::add_entry(ChangeKind kind, const Point& before, const Point& afte
   const bool counts_steps = kind == ChangeKind::evolution || kind == ChangeKind::step_back;
   const std::int64_t steps = counts_steps ? std::abs(after.recipe.steps - before.recipe.steps) : 0;
   history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after));
+  settled_events_ = after.recipe.events.size();
 }
 
 Status LevelSet::end_run() {
@@ -136,12 +148,10 @@ void LevelSet::begin_change(ChangeKind kind, std::uint64_t gesture, Point before
 void LevelSet::record(RecipeEvent event) {
   if (std::exchange(resumed_, false) && step() > 0) recipe_.events.push_back({step(), ResumeEvent{}});
   std::vector<RecipeEvent>& events = recipe_.events;
-  // Of parameters that follow each other without a step between, the last count.
-  const bool replaces =
-      !events.empty() && events.back().step == event.step &&
-      event.what.index() == events.back().what.index() &&
-      (std::holds_alternative<ParametersEvent>(event.what) || std::holds_alternative<DriveEvent>(event.what));
-  if (replaces) events.pop_back();
+  if (!events.empty() && events.back().step == event.step && replaces(event, events.back())) {
+    events.pop_back();
+    settled_events_ = std::min(settled_events_, events.size());
+  }
   events.push_back(std::move(event));
 }
 
@@ -247,6 +257,9 @@ Drive LevelSet::drive_in_use() const {
 // Puts it in place of what drives and holds the surface, and into the recipe.
 Status LevelSet::use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed) {
   const Drive used = relevant(drive);
+  // The one in place was made from the same: giving it again would wake pages, which a replay does not.
+  const bool in_place = used.setting.is_tent() || executor().speed() != nullptr;
+  if (in_place && used == drive_in_use()) return {};
   TIDEMARK_TRY(setup_.set_drive(shared(used), std::move(speed)));
   if (used == value_of(recipe_.final_drive())) return {};
   if (begun()) {

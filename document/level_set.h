@@ -138,6 +138,9 @@ class LevelSet final : private OpenChange {
   std::shared_ptr<const solver::Field> start_;  // phi before the first step
   Curve curve_;
   std::shared_ptr<const Drive> drive_ = std::make_shared<const Drive>();
+  // How many of the recipe's events any way through the history to here has: set_speed() adds some between
+  // two entries.
+  std::size_t settled_events_ = 0;
   Point known_;           // the last phi that was read back
   bool dirty_ = false;    // phi has changed since
   Point in_place_;        // where phi was last put in place; the executor has run on since

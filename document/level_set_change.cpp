@@ -31,7 +31,7 @@ LevelSetChange::LevelSetChange(LevelSet& level_set, const LevelSet::Point& befor
   const auto& a = before.recipe.events;
   const auto& b = after.recipe.events;
   const auto [first_different, ignored] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
-  common_events_ = static_cast<std::size_t>(first_different - a.begin());
+  common_events_ = std::min(static_cast<std::size_t>(first_different - a.begin()), level_set.settled_events_);
   before_ = {without_events(before.recipe, common_events_), before.start, before.curve, before.drive};
   after_ = {without_events(after.recipe, common_events_), after.start, after.curve, after.drive};
 }
@@ -59,7 +59,9 @@ Status LevelSetChange::go(const Side& side, solver::Field phi) {
   const auto& present = level_set_.recipe_.events;
   point.recipe.events.insert(point.recipe.events.begin(), present.begin(),
                              present.begin() + static_cast<std::ptrdiff_t>(common_events_));
-  return level_set_.go_to(std::move(point));
+  TIDEMARK_TRY(level_set_.go_to(std::move(point)));
+  level_set_.settled_events_ = common_events_;
+  return {};
 }
 
 }  // namespace tidemark::document

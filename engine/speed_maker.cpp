@@ -9,11 +9,14 @@ namespace tidemark::engine {
 
 SpeedOrigin speed_origin(const document::Drive& drive, std::shared_ptr<const Volume> source,
                          const solver::Parameters& parameters) {
-  SpeedOrigin origin{drive.setting, std::move(source), nullptr, nullptr, {}};
+  SpeedOrigin origin{drive.setting, std::move(source), nullptr, {}, nullptr, {}};
   for (const solver::SpeedTerm& term : drive.setting.terms) {
     const solver::SpeedKind* kind = solver::speed_kind(term.function);
     if (kind == nullptr) continue;
-    if (kind->needs_strokes) origin.strokes = drive.strokes;
+    if (kind->needs_strokes) {
+      origin.strokes = drive.strokes;
+      origin.images = drive.images;
+    }
     if (kind->needs_map) origin.map = drive.map;
     if (term.function == "tent") {
       origin.parameters = parameters;
@@ -37,13 +40,9 @@ void SpeedMaker::make(const SpeedOrigin& origin, Done done) {
       [before = std::move(thread_), origin, done = std::move(done)](const std::stop_token& stop) mutable {
         if (before.joinable()) before.join();
         if (stop.stop_requested()) return;
-        solver::SpeedInputs inputs;
-        inputs.source = origin.source;
-        inputs.parameters = origin.parameters;
-        inputs.strokes = origin.strokes;
-        if (origin.map) inputs.map = origin.map->volume;
+        const document::Drive drive{origin.setting, origin.images, origin.strokes, origin.map, nullptr};
         auto made = without_exceptions([&] {
-          return make_speed(origin.setting, inputs, Progress{nullptr, stop});
+          return document::make_speed(drive, origin.source, origin.parameters, Progress{nullptr, stop});
         });
         if (!stop.stop_requested()) done(std::move(made));
       });

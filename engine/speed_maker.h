@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <thread>
+#include <vector>
 
 #include "document/drive.h"
 #include "solver/speed/speed_registry.h"
@@ -14,9 +15,10 @@ namespace tidemark::engine {
 struct SpeedOrigin {
   solver::SpeedSetting setting;
   std::shared_ptr<const Volume> source;
-  std::shared_ptr<const solver::Strokes> strokes;  // of functions that learn from them
-  std::shared_ptr<const document::SpeedMap> map;   // of functions that need one
-  solver::Parameters parameters;                   // of the tent, beside others
+  std::shared_ptr<const solver::Strokes> strokes;                  // of functions that learn from them
+  std::vector<std::shared_ptr<const document::CaseImage>> images;  // of the same
+  std::shared_ptr<const document::SpeedMap> map;                   // of functions that need one
+  solver::Parameters parameters;                                   // of the tent, beside others
 
   bool operator==(const SpeedOrigin&) const = default;
 };
