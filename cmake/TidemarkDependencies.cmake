@@ -17,7 +17,7 @@ set_property(TARGET Qt6::Test PROPERTY INTERFACE_COMPILE_DEFINITIONS QT_TESTLIB_
 # Its configuration finds every library that any of its modules may use and says much about each.
 set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
 find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIONIFTI ITKIONRRD ITKIOMeta ITKIOGIPL
-             ITKSmoothing ITKRegionGrowing ITKLevelSets)
+             ITKSmoothing ITKRegionGrowing ITKLevelSets ITKMetricsv4 ITKOptimizersv4 ITKTransform)
 unset(CMAKE_MESSAGE_LOG_LEVEL)
 message(STATUS "Found ITK: ${ITK_DIR} (found version \"${ITK_VERSION}\")")
 # What reading, writing and smoothing volumes needs. (ITK_LIBRARIES holds the level sets' libraries too.)

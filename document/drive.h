@@ -7,15 +7,18 @@
 
 #include <glm/mat4x4.hpp>
 
+#include "core/progress.h"
 #include "core/volume.h"
+#include "solver/parameters.h"
 #include "solver/speed/constraints.h"
+#include "solver/speed/speed_function.h"
 #include "solver/speed/speed_setting.h"
 #include "solver/speed/strokes.h"
 
 namespace tidemark::document {
 
 // A further image of a case, on a grid of its own. It is never overwritten: views and speed functions see it
-// resampled.
+// resampled. One that a recipe names has no volume until its file is given.
 struct CaseImage {
   std::string name;        // for people: the series' description or the file's name
   std::string series_uid;  // empty: not from DICOM
@@ -24,13 +27,14 @@ struct CaseImage {
   std::shared_ptr<const Volume> volume;
   // From its own patient coordinates (LPS, mm) to the case's: a registration that the user accepted.
   glm::dmat4 to_case{1.0};
+  std::shared_ptr<const Volume> resampled;  // on the case's grid
 };
 
 // A map of D or of a probability that was made elsewhere.
 struct SpeedMap {
   std::string name;
   std::string checksum;
-  std::shared_ptr<const Volume> volume;  // on a grid of its own
+  std::shared_ptr<const Volume> volume;  // on the case's grid
 };
 
 // A value: parts are shared, and never change.
@@ -40,6 +44,25 @@ struct Drive {
   std::shared_ptr<const solver::Strokes> strokes;          // null: none
   std::shared_ptr<const SpeedMap> map;                     // null: none
   std::shared_ptr<const solver::Constraints> constraints;  // null: none
+
+  // Parts are compared by their address.
+  bool operator==(const Drive&) const = default;
 };
+
+// Of strokes, walls and anchors in memory.
+[[nodiscard]] std::int64_t bytes_of(const Drive& drive);
+// Whether executors are as without any drive: the tent alone, and nothing that holds the surface.
+[[nodiscard]] bool is_plain(const Drive& drive);
+// Whether a tent takes part: T and epsilon count then.
+[[nodiscard]] bool uses_tent(const Drive& drive);
+// "tent", "least of examples and edges", "examples, walls"
+[[nodiscard]] std::string describe(const Drive& drive);
+
+// The speed function; null: the tent alone. `source` is the volume as the level set sees it. Fails
+// (ErrorKind::usage) saying what is missing, (ErrorKind::cancelled).
+Result<std::shared_ptr<const solver::SpeedFunction>> make_speed(const Drive& drive,
+                                                                std::shared_ptr<const Volume> source,
+                                                                const solver::Parameters& parameters,
+                                                                const Progress& progress = {});
 
 }  // namespace tidemark::document

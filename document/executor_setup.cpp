@@ -52,9 +52,16 @@ RecipeExecutor ExecutorSetup::description() const {
 }
 
 Status ExecutorSetup::remake(std::shared_ptr<const Volume> source, solver::ExecutorKind kind,
-                             const solver::ExecutorOptions& options, const solver::Field& phi) {
+                             const solver::ExecutorOptions& options, const solver::Field& phi,
+                             std::shared_ptr<const solver::SpeedFunction> speed) {
   auto made = solver::make_executor(kind, source, executor_->parameters(), options);
   if (!made) return pass_on(made);
+  if (speed != nullptr) {
+    TIDEMARK_TRY((*made)->set_speed(std::move(speed)));
+  }
+  if (executor_->constraints()) {
+    TIDEMARK_TRY((*made)->set_constraints(executor_->constraints()));
+  }
   TIDEMARK_TRY((*made)->restore(phi));
   source_ = std::move(source);
   kind_ = kind;
@@ -68,14 +75,55 @@ Status ExecutorSetup::smooth_source(double sigma_mm) {
   if (!source) return pass_on(source);
   const auto phi = executor_->snapshot();
   if (!phi) return tl::unexpected<Error>(phi.error());
-  TIDEMARK_TRY(remake(std::move(*source), kind_, options_, *phi));
+  auto speed = executor_->speed();
+  if (drive_ != nullptr) {
+    auto anew = make_speed(*drive_, *source, executor_->parameters());
+    if (!anew) return pass_on(anew);
+    speed = std::move(*anew);
+  }
+  TIDEMARK_TRY(remake(std::move(*source), kind_, options_, *phi, std::move(speed)));
   smoothed_mm_ = sigma_mm;
   return {};
 }
 
 Status ExecutorSetup::change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options,
                                       const solver::Field& phi) {
-  return remake(source_, kind, options, phi);
+  return remake(source_, kind, options, phi, executor_->speed());
+}
+
+Status ExecutorSetup::set_drive(std::shared_ptr<const Drive> drive, const Progress& progress) {
+  if (drive == nullptr) return set_drive(nullptr, std::shared_ptr<const solver::SpeedFunction>());
+  auto speed = make_speed(*drive, source_, executor_->parameters(), progress);
+  if (!speed) return pass_on(speed);
+  return set_drive(std::move(drive), std::move(*speed));
+}
+
+Status ExecutorSetup::set_drive(std::shared_ptr<const Drive> drive,
+                                std::shared_ptr<const solver::SpeedFunction> speed) {
+  const auto former = executor_->speed();
+  auto constraints = drive == nullptr ? nullptr : drive->constraints;
+  if (speed != former) {
+    TIDEMARK_TRY(executor_->set_speed(std::move(speed)));
+  }
+  if (constraints != executor_->constraints()) {
+    if (const Status held = executor_->set_constraints(std::move(constraints)); !held) {
+      TIDEMARK_TRY(executor_->set_speed(former));
+      return held;
+    }
+  }
+  drive_ = std::move(drive);
+  return {};
+}
+
+// A tent that is joined with other functions is made anew; others do not depend on T and epsilon.
+Status ExecutorSetup::set_parameters(const solver::Parameters& parameters) {
+  if (drive_ == nullptr || drive_->setting.is_tent() || !uses_tent(*drive_)) {
+    return executor_->set_parameters(parameters);
+  }
+  auto speed = make_speed(*drive_, source_, parameters);
+  if (!speed) return pass_on(speed);
+  TIDEMARK_TRY(executor_->set_parameters(parameters));
+  return executor_->set_speed(std::move(*speed));
 }
 
 Result<solver::Field> ExecutorSetup::begin(const Recipe& recipe, const Progress& progress) {
@@ -96,10 +144,11 @@ Status ExecutorSetup::apply(const RecipeEvent& event) {
     return executor_->paint(paint->sphere, paint->brush);
   }
   if (const auto* change = std::get_if<ParametersEvent>(&event.what)) {
-    return executor_->set_parameters(change->parameters);
+    return set_parameters(change->parameters);
   }
   if (const auto* smoothing = std::get_if<SmoothEvent>(&event.what))
     return smooth_source(smoothing->sigma_mm);
+  if (const auto* drive = std::get_if<DriveEvent>(&event.what)) return set_drive(drive->drive);
   return resume();
 }
 

@@ -24,6 +24,14 @@ class ExecutorSetup {
   [[nodiscard]] solver::ExecutorKind kind() const { return kind_; }  // as it was asked for
   [[nodiscard]] RecipeExecutor description() const;
 
+  // What drives and holds the surface (null: as without): another executor gets it, too. Fails as
+  // make_speed() and the executor do; the former drive then goes on.
+  Status set_drive(std::shared_ptr<const Drive> drive, const Progress& progress = {});
+  // The same with the function that was made from it for the present source and parameters.
+  Status set_drive(std::shared_ptr<const Drive> drive, std::shared_ptr<const solver::SpeedFunction> speed);
+  Status set_parameters(const solver::Parameters& parameters);
+  [[nodiscard]] const std::shared_ptr<const Drive>& drive() const { return drive_; }
+
   // Each makes another executor, or fails and changes nothing. The first goes on from the same phi.
   Status smooth_source(double sigma_mm);
   Status change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options,
@@ -45,11 +53,13 @@ class ExecutorSetup {
  private:
   ExecutorSetup() = default;
   Status remake(std::shared_ptr<const Volume> source, solver::ExecutorKind kind,
-                const solver::ExecutorOptions& options, const solver::Field& phi);
+                const solver::ExecutorOptions& options, const solver::Field& phi,
+                std::shared_ptr<const solver::SpeedFunction> speed);
 
   std::shared_ptr<const Volume> volume_;
   std::shared_ptr<const Volume> source_;
   double smoothed_mm_ = 0.0;
+  std::shared_ptr<const Drive> drive_;  // null: the tent, and nothing that holds the surface
   solver::ExecutorKind kind_ = solver::ExecutorKind::automatic;
   solver::ExecutorOptions options_;
   std::unique_ptr<solver::Executor> executor_;

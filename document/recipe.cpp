@@ -51,6 +51,15 @@ double Recipe::final_smoothed_mm() const {
   return event != nullptr ? event->sigma_mm : smoothed_mm;
 }
 
+const std::shared_ptr<const Drive>& Recipe::final_drive() const {
+  const auto* event = last_event<DriveEvent>(events);
+  return event != nullptr ? event->drive : drive;
+}
+
+bool Recipe::has_drive() const {
+  return drive != nullptr || last_event<DriveEvent>(events) != nullptr;
+}
+
 Recipe Recipe::up_to(std::int64_t step) const {
   Recipe earlier = *this;
   std::erase_if(earlier.events, [&](const RecipeEvent& event) { return event.step > step; });

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "document/drive.h"
 #include "document/start.h"
 #include "imaging/grid_policy.h"
 #include "solver/parameters.h"
@@ -28,6 +29,11 @@ struct SmoothEvent {
   double sigma_mm = 0.0;
   bool operator==(const SmoothEvent&) const = default;
 };
+// From here on that drives the level set; never null.
+struct DriveEvent {
+  std::shared_ptr<const Drive> drive;
+  bool operator==(const DriveEvent&) const = default;
+};
 // phi was put back (undo, recovery). Executors then forget which pages are quiet, which changes the last bits
 // of the steps that follow.
 struct ResumeEvent {
@@ -37,7 +43,7 @@ struct ResumeEvent {
 // Happens when that many steps have been computed.
 struct RecipeEvent {
   std::int64_t step = 0;
-  std::variant<PaintEvent, ParametersEvent, SmoothEvent, ResumeEvent> what;
+  std::variant<PaintEvent, ParametersEvent, SmoothEvent, DriveEvent, ResumeEvent> what;
   bool operator==(const RecipeEvent&) const = default;
 };
 
@@ -60,14 +66,16 @@ struct RecipeExecutor {
 };
 
 struct Recipe {
-  static constexpr int kVersion = 1;
+  static constexpr int kVersion = 2;
+  static constexpr int kVersionOfTents = 1;  // still written where nothing but a tent drives the surface
   static constexpr std::size_t kLargestFile = std::size_t{64} << 20;  // bytes
 
   RecipeSource source;
   RecipeExecutor executor;
   double smoothed_mm = 0.0;  // at the start
   Start start;
-  solver::Parameters parameters;  // at the start
+  solver::Parameters parameters;       // at the start
+  std::shared_ptr<const Drive> drive;  // at the start; null: the tent, and nothing that holds the surface
   std::vector<RecipeEvent> events;
   std::int64_t steps = 0;  // in all
 
@@ -81,6 +89,8 @@ struct Recipe {
   [[nodiscard]] bool begun() const;  // there is a surface
   [[nodiscard]] const solver::Parameters& final_parameters() const;
   [[nodiscard]] double final_smoothed_mm() const;
+  [[nodiscard]] const std::shared_ptr<const Drive>& final_drive() const;  // null: as `drive`
+  [[nodiscard]] bool has_drive() const;                                   // at the start, or in an event
   // The recipe up to that many steps, with the edits after the last of them.
   [[nodiscard]] Recipe up_to(std::int64_t step) const;
 };

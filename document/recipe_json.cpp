@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/checked.h"
+#include "document/drive_json.h"
 #include "document/field_bytes.h"
 #include "document/packed_bytes.h"
 
@@ -52,28 +53,16 @@ std::vector<solver::Sphere> read_spheres(const JsonField& field) {
   return spheres;
 }
 
-Json packed_mask(const Mask& mask) {
-  std::vector<std::byte> bits((mask.voxels.size() + 7) / 8);
-  for (std::size_t i = 0; i < mask.voxels.size(); ++i) {
-    if (mask.voxels[i] != 0) bits[i / 8] |= std::byte{1} << (i % 8);
-  }
-  return pack_bytes(bits);
-}
-
 std::shared_ptr<const Mask> read_mask(const JsonField& field) {
   auto mask = std::make_shared<Mask>();
   mask->geometry = read_geometry(field.at("grid"));
   const std::string packed = field.at("bits").text(std::numeric_limits<std::size_t>::max());
   if (!field.good()) return mask;
-  const auto voxels = static_cast<std::size_t>(mask->geometry.voxel_count());
-  const auto bits = unpack_bytes(packed, (voxels + 7) / 8);
-  if (!bits) {
+  auto voxels = unpack_bits(packed, static_cast<std::size_t>(mask->geometry.voxel_count()));
+  if (voxels) {
+    mask->voxels = std::move(*voxels);
+  } else {
     field.at("bits").wrong("does not hold the grid's voxels");
-    return mask;
-  }
-  mask->voxels.resize(voxels);
-  for (std::size_t i = 0; i < voxels; ++i) {
-    mask->voxels[i] = ((*bits)[i / 8] >> (i % 8) & std::byte{1}) != std::byte{0} ? 1 : 0;
   }
   return mask;
 }
@@ -138,7 +127,7 @@ struct FromJson {
     return {{"kind", "mask"},
             {"origin", start.origin},
             {"grid", tidemark::document::to_json(start.mask->geometry)},
-            {"bits", packed_mask(*start.mask)}};
+            {"bits", pack_bits(start.mask->voxels)}};
   }
   Json operator()(const FieldStart& start) const {
     Json json = to_json(*start.phi);
@@ -191,13 +180,16 @@ Json to_json(const RecipeEvent& event) {
     json["parameters"] = tidemark::document::to_json(change->parameters);
   } else if (const auto* smoothing = std::get_if<SmoothEvent>(&event.what)) {
     json["smoothed_mm"] = smoothing->sigma_mm;
+  } else if (const auto* drive = std::get_if<DriveEvent>(&event.what)) {
+    json["drive"] = tidemark::document::to_json(*drive->drive);
   } else {
     json["resume"] = true;
   }
   return json;
 }
 
-RecipeEvent read_event(const JsonField& field, std::int64_t first_step, std::int64_t last_step) {
+RecipeEvent read_event(const JsonField& field, std::int64_t first_step, std::int64_t last_step,
+                       Index3 grid_size) {
   RecipeEvent event;
   event.step = field.at("step").integer(first_step, last_step);
   if (field.has("add")) {
@@ -208,6 +200,8 @@ RecipeEvent read_event(const JsonField& field, std::int64_t first_step, std::int
     event.what = ParametersEvent{read_parameters(field.at("parameters"))};
   } else if (field.has("smoothed_mm")) {
     event.what = SmoothEvent{field.at("smoothed_mm").number(0.0, 1000.0)};
+  } else if (field.has("drive")) {
+    event.what = DriveEvent{std::make_shared<const Drive>(read_drive(field.at("drive"), grid_size))};
   } else if (field.has("resume")) {
     event.what = ResumeEvent{};
   } else {
@@ -308,7 +302,8 @@ imaging::GridPolicy read_policy(const JsonField& field) {
 }
 
 Json to_json(const Recipe& recipe) {
-  Json json{{"format", kFormat}, {"version", Recipe::kVersion}};
+  Json json{{"format", kFormat},
+            {"version", recipe.has_drive() ? Recipe::kVersion : Recipe::kVersionOfTents}};
   json["source"] = {{"size", index_json(recipe.source.size)},
                     {"spacing_mm", vector_json(recipe.source.spacing_mm)},
                     {"series_uid", recipe.source.series_uid},
@@ -322,6 +317,7 @@ Json to_json(const Recipe& recipe) {
                    {"seeds", to_json(recipe.start.seeds)},
                    {"erasers", to_json(recipe.start.erasers)}};
   json["parameters"] = to_json(recipe.parameters);
+  if (recipe.drive != nullptr) json["drive"] = to_json(*recipe.drive);
   Json events = Json::array();
   for (const RecipeEvent& event : recipe.events) events.push_back(to_json(event));
   json["events"] = std::move(events);
@@ -333,7 +329,9 @@ Recipe read_recipe(const JsonField& field) {
   Recipe recipe;
   field.at("format").must_be(kFormat);
   const JsonField version = field.at("version");
-  if (version.integer(0, 1 << 30) != Recipe::kVersion) version.wrong("this version cannot be read");
+  const std::int64_t number = version.integer(0, 1 << 30);
+  if (number != Recipe::kVersion && number != Recipe::kVersionOfTents)
+    version.wrong("this version cannot be read");
   if (!field.good()) return recipe;
   const JsonField source = field.at("source");
   recipe.source.size = source.at("size").index(1, kLongestAxis);
@@ -350,12 +348,15 @@ Recipe read_recipe(const JsonField& field) {
   recipe.smoothed_mm = field.at("smoothed_mm").number(0.0, 1000.0);
   recipe.start = read_start(field.at("start"));
   recipe.parameters = read_parameters(field.at("parameters"));
+  if (field.has("drive")) {
+    recipe.drive = std::make_shared<const Drive>(read_drive(field.at("drive"), recipe.source.size));
+  }
   recipe.steps = field.at("steps").integer(0, kMostSteps);
   const JsonField events = field.at("events");
   const std::size_t count = events.size(kMostEvents);
   std::int64_t step = 0;
   for (std::size_t i = 0; i < count && field.good(); ++i) {
-    recipe.events.push_back(read_event(events.at(i), step, recipe.steps));
+    recipe.events.push_back(read_event(events.at(i), step, recipe.steps, recipe.source.size));
     step = recipe.events.back().step;
   }
   return recipe;

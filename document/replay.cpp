@@ -43,6 +43,9 @@ Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume
   auto setup =
       ExecutorSetup::create(std::move(volume), recipe.smoothed_mm, recipe.parameters, kind, executor_options);
   if (!setup) return pass_on(setup);
+  if (recipe.drive != nullptr) {
+    TIDEMARK_TRY(setup->set_drive(recipe.drive, progress));
+  }
   auto start = setup->begin(recipe, progress);
   if (!start) return pass_on(start);
   Replay result;

@@ -10,11 +10,6 @@ namespace {
 
 constexpr double kTolerance = 0.1;  // of the smallest spacing: files round their numbers
 
-std::string describe(const Geometry& grid) {
-  return fmt::format("{} x {} x {} voxels of {:.4g} x {:.4g} x {:.4g} mm", grid.size.x, grid.size.y,
-                     grid.size.z, grid.spacing_mm.x, grid.spacing_mm.y, grid.spacing_mm.z);
-}
-
 double tolerance_mm(const Geometry& grid) {
   return kTolerance * std::min({grid.spacing_mm.x, grid.spacing_mm.y, grid.spacing_mm.z});
 }
@@ -90,6 +85,11 @@ Result<std::vector<std::int64_t>> matching_voxels(const Geometry& from, const Ge
 }
 
 }  // namespace
+
+std::string describe(const Geometry& grid) {
+  return fmt::format("{} x {} x {} voxels of {:.4g} x {:.4g} x {:.4g} mm", grid.size.x, grid.size.y,
+                     grid.size.z, grid.spacing_mm.x, grid.spacing_mm.y, grid.spacing_mm.z);
+}
 
 Result<Mask> onto_grid(Mask mask, const Geometry& grid, const std::string& what) {
   if (same_grid(mask.geometry, grid, tolerance_mm(grid))) {

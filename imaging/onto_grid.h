@@ -16,4 +16,7 @@ namespace tidemark::imaging {
 Result<Mask> onto_grid(Mask mask, const Geometry& grid, const std::string& what);
 Result<std::vector<float>> onto_grid(const Volume& volume, const Geometry& grid, const std::string& what);
 
+// For messages: "512 x 512 x 60 voxels of 0.7 x 0.7 x 3 mm".
+[[nodiscard]] std::string describe(const Geometry& grid);
+
 }  // namespace tidemark::imaging

@@ -134,7 +134,7 @@ bool CachedSpeed::claim(Index3 page) const {
   if (fresh == nullptr) return false;  // it is answered without being kept
   Page* nobody = nullptr;
   if (!place.compare_exchange_strong(nobody, fresh.get(), std::memory_order_acq_rel)) return false;
-  fresh.release();
+  static_cast<void>(fresh.release());  // the table owns it
   ++kept_pages_;
   return true;
 }

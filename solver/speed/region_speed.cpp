@@ -102,8 +102,8 @@ const SpeedKind& regions_kind() {
           "now.",
       .parameters = {{.name = "radius",
                       .title = "Radius",
-                      .text =
-                          "How far around a voxel the means are taken; 0 takes them from the whole volume.",
+                      .text = "How far around a voxel the means are taken, for a start that is about as near "
+                              "to the border; 0 takes them from the whole volume.",
                       .unit = "mm",
                       .low = 0.0,
                       .high = 100.0,

@@ -179,13 +179,14 @@ class ExecutorsTest : public QObject {
   void a_lost_context_is_survived_from_a_checkpoint_data() { add_rows(); }
   void a_lost_context_is_survived_from_a_checkpoint() {
     const Setting setting = this_row();
+    constexpr std::int64_t kSteps = 8;  // each has the same checks
     const Scene scene = lumpy_scene({40, 37, 29});
     const auto unbroken = setting.make(scene.source, scene.parameters);
     QVERIFY(unbroken->paint(scene.seed, solver::Brush::add));
     run(*unbroken, 24);
     const solver::Field checkpoint = unbroken->snapshot().value();
     QVERIFY(unbroken->restore(checkpoint));
-    run(*unbroken, 24);
+    run(*unbroken, kSteps);
     const std::vector<float> expected = unbroken->snapshot().value().dense();
 
     int losses = 0;
@@ -200,7 +201,7 @@ class ExecutorsTest : public QObject {
         auto made = solver::make_executor(setting.kind, scene.source, scene.parameters, options);
         if (!made) return pass_on(made);
         TIDEMARK_TRY((*made)->restore(checkpoint));
-        auto report = (*made)->advance({.steps = 24});
+        auto report = (*made)->advance({.steps = kSteps});
         if (!report) return pass_on(report);
         return (*made)->snapshot();
       };

@@ -154,6 +154,7 @@ class RegionSpeedTest : public QObject {
       const auto second = first->following(phi_of(geometry, ball(geometry, 8.0)));
       QVERIFY(second != nullptr);
       QVERIFY(second->following(phi_of(geometry, ball(geometry, 8.0))) == nullptr);
+      QVERIFY(second->following(phi_of(geometry, ball(geometry, 8.0), {16, 16, 1})) == nullptr);
       QVERIFY(second->following(phi_of(geometry, ball(geometry, 9.0))) != nullptr);
       const auto through_cache = make_speed(setting_of("regions", {{"radius", radius}}), inputs_of(source));
       QVERIFY((*through_cache)->follows_surface());

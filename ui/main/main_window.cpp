@@ -49,6 +49,7 @@
 #include "ui/settings.h"
 #include "ui/views/picture_surface.h"
 #include "ui/views/picture_view.h"
+#include "ui/views/play.h"
 
 namespace tidemark::ui {
 MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(parent), engine_(engine) {
@@ -324,7 +325,7 @@ void MainWindow::with_case(QAction* action, Do act) {
 }
 
 void MainWindow::connect_evolution() {
-  with_case(actions_->play, [](CaseWindow& window) { window.proxy().toggle_play(); });
+  with_case(actions_->play, [](CaseWindow& window) { toggle_play(window.proxy()); });
   with_case(actions_->step, [](CaseWindow& window) { window.proxy().step(); });
   with_case(actions_->step_back, [](CaseWindow& window) { window.proxy().step_back(); });
   with_case(actions_->restart, [](CaseWindow& window) { window.proxy().restart(); });

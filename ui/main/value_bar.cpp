@@ -3,14 +3,14 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "solver/speed/tent_speed.h"
 #include "solver/voxel_values.h"
 #include "ui/panels/value_unit.h"
 #include "ui/widgets/number_text.h"
 
 namespace tidemark::ui {
 
-ValueBar::ValueBar(QWidget* parent) : QLabel(parent) {
+ValueBar::ValueBar(QWidget* parent) : QLabel(parent), speed_(new engine::SpeedSampler(this)) {
+  connect(speed_, &engine::SpeedSampler::answered, this, &ValueBar::follow);
   setAccessibleName(tr("Values under the mouse"));
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   setIndent(6);
@@ -61,13 +61,20 @@ void ValueBar::follow() {
   setText(values + QStringLiteral("      ") + place);
 }
 
+// The tent is known at once; other functions may take a while.
+QString ValueBar::speed_at(Index3 voxel) const {
+  const auto text = [](double speed) { return QString::number(rounded(speed, 2), 'f', 2); };
+  const auto& function = proxy_->state().speed;
+  if (!function) return text(solver::data_speed(proxy_->parameters(), proxy_->source()->value(voxel)));
+  speed_->ask({function, voxel, Index3(1)});
+  return speed_->answer() ? text(speed_->answer()->front()) : QStringLiteral("…");
+}
+
 QString ValueBar::details_at(Index3 voxel) const {
-  const Volume& source = *proxy_->source();  // as D sees it
   const engine::CaseState& state = proxy_->state();
-  const solver::TentSpeed speed(proxy_->source(), proxy_->parameters());
-  QString values = tr("   D %1").arg(rounded(solver::speed_at(speed, voxel), 2), 0, 'f', 2);
+  QString values = tr("   D %1").arg(speed_at(voxel));
   if (!state.phi || !state.begun) return values;
-  const solver::VoxelValues at = solver::values_at(*state.phi, source, speed, voxel);
+  const solver::VoxelValues at = solver::values_at(*state.phi, voxel);
   values += tr("   φ %1").arg(rounded(at.phi, 2), 0, 'f', 2);
   const bool clamped = std::abs(at.phi) >= state.phi->band;
   if (!clamped)

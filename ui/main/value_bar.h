@@ -5,6 +5,7 @@
 #include <QPointer>
 
 #include "engine/case_proxy.h"
+#include "engine/speed_sampler.h"
 
 namespace tidemark::ui {
 
@@ -18,8 +19,10 @@ class ValueBar : public QLabel {
  private:
   void follow();
   [[nodiscard]] QString details_at(Index3 voxel) const;
+  [[nodiscard]] QString speed_at(Index3 voxel) const;
 
   QPointer<engine::CaseProxy> proxy_;
+  engine::SpeedSampler* speed_;
   bool detailed_ = false;
 };
 

@@ -1,0 +1,188 @@
+#include "document/drive_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <span>
+
+#include "document/packed_bytes.h"
+#include "solver/speed/speed_registry.h"
+
+namespace tidemark::document {
+namespace {
+
+constexpr std::size_t kMostTerms = 16;
+constexpr std::size_t kMostImages = 64;
+constexpr std::size_t kLongestName = 256;
+constexpr std::size_t kEndless = std::numeric_limits<std::size_t>::max();
+
+Json to_json(const solver::SpeedTerm& term) {
+  Json values = Json::object();
+  for (const auto& [name, value] : term.values) values[name] = value;
+  return {{"function", term.function}, {"values", std::move(values)}};
+}
+
+solver::SpeedTerm read_term(const JsonField& field) {
+  solver::SpeedTerm term;
+  term.function = field.at("function").text(kLongestName);
+  const solver::SpeedKind* kind = solver::speed_kind(term.function);
+  if (kind == nullptr) {
+    field.at("function").wrong("there is no such speed function");
+    return term;
+  }
+  const JsonField values = field.at("values");
+  std::vector<std::string_view> names;
+  for (const solver::SpeedParameter& number : kind->parameters) {
+    names.emplace_back(number.name);
+    if (values.has(number.name))
+      term.values[number.name] = values.at(number.name).number(number.low, number.high);
+  }
+  values.only(names);
+  return term;
+}
+
+Json packed_offsets(const std::vector<std::int64_t>& offsets) {
+  return {{"count", offsets.size()}, {"offsets", pack_bytes(std::as_bytes(std::span(offsets)))}};
+}
+
+std::vector<std::int64_t> read_offsets(const JsonField& field, std::int64_t voxels) {
+  const auto count = static_cast<std::size_t>(field.at("count").integer(0, voxels));
+  const std::string packed = field.at("offsets").text(kEndless);
+  if (!field.good()) return {};
+  const auto bytes = unpack_bytes(packed, count * sizeof(std::int64_t));
+  if (!bytes) {
+    field.at("offsets").wrong("does not hold as many numbers as it should");
+    return {};
+  }
+  std::vector<std::int64_t> offsets(count);
+  std::memcpy(offsets.data(), bytes->data(), bytes->size());
+  const bool ascends =
+      std::adjacent_find(offsets.begin(), offsets.end(), std::greater_equal<>()) == offsets.end();
+  if (!ascends || (count > 0 && (offsets.front() < 0 || offsets.back() >= voxels))) {
+    field.at("offsets").wrong("are not voxels of the volume, each once, in their order");
+  }
+  return offsets;
+}
+
+solver::Strokes read_strokes(const JsonField& field, std::int64_t voxels) {
+  solver::Strokes strokes{read_offsets(field.at("inside"), voxels),
+                          read_offsets(field.at("outside"), voxels)};
+  std::vector<std::int64_t> both;
+  std::set_intersection(strokes.inside.begin(), strokes.inside.end(), strokes.outside.begin(),
+                        strokes.outside.end(), std::back_inserter(both));
+  if (!both.empty()) field.wrong("a voxel is both inside and outside");
+  return strokes;
+}
+
+Json packed_voxels(const solver::Constraints& constraints, solver::Constraint what) {
+  const Index3 size = constraints.layout().volume_size();
+  std::vector<std::uint8_t> voxels;
+  voxels.reserve(static_cast<std::size_t>(size.x * size.y * size.z));
+  for (std::int64_t z = 0; z < size.z; ++z) {
+    for (std::int64_t y = 0; y < size.y; ++y) {
+      for (std::int64_t x = 0; x < size.x; ++x) voxels.push_back(constraints.at({x, y, z}) == what ? 1 : 0);
+    }
+  }
+  return pack_bits(voxels);
+}
+
+void read_voxels(const JsonField& field, Index3 size, solver::Constraint what,
+                 solver::Constraints& constraints) {
+  Mask mask;
+  mask.geometry.size = size;
+  const std::string packed = field.text(kEndless);
+  if (!field.good()) return;
+  auto voxels = unpack_bits(packed, static_cast<std::size_t>(size.x * size.y * size.z));
+  if (!voxels) return field.wrong("does not hold the volume's voxels");
+  mask.voxels = std::move(*voxels);
+  constraints.set(mask, what);
+}
+
+Json to_json(const CaseImage& image) {
+  Json transform = Json::array();
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) transform.push_back(image.to_case[column][row]);
+  }
+  return {{"name", image.name},
+          {"series_uid", image.series_uid},
+          {"frame_of_reference_uid", image.frame_of_reference_uid},
+          {"sha256", image.checksum},
+          {"to_case", std::move(transform)}};
+}
+
+CaseImage read_image(const JsonField& field) {
+  CaseImage image;
+  image.name = field.at("name").text(kLongestName);
+  image.series_uid = field.at("series_uid").text(kLongestName);
+  image.frame_of_reference_uid = field.at("frame_of_reference_uid").text(kLongestName);
+  image.checksum = field.at("sha256").text(64);
+  const JsonField transform = field.at("to_case");
+  if (transform.size(16) != 16) transform.wrong("not sixteen numbers");
+  for (std::size_t i = 0; i < 16 && field.good(); ++i) {
+    image.to_case[static_cast<int>(i % 4)][static_cast<int>(i / 4)] = transform.at(i).number(-1e7, 1e7);
+  }
+  if (!field.good()) return image;
+  const glm::dmat4& m = image.to_case;
+  const bool affine = m[0][3] == 0.0 && m[1][3] == 0.0 && m[2][3] == 0.0 && m[3][3] == 1.0;
+  if (!affine || std::abs(std::abs(glm::determinant(glm::dmat3(m))) - 1.0) > 1e-3) {
+    transform.wrong("does not keep lengths");
+  }
+  return image;
+}
+
+}  // namespace
+
+Json to_json(const Drive& drive) {
+  Json json{{"combine", drive.setting.combine == solver::Combine::least ? "least" : "product"}};
+  for (const solver::SpeedTerm& term : drive.setting.terms) json["speed"].push_back(to_json(term));
+  if (drive.strokes != nullptr) {
+    json["strokes"] = {{"inside", packed_offsets(drive.strokes->inside)},
+                       {"outside", packed_offsets(drive.strokes->outside)}};
+  }
+  if (drive.constraints != nullptr && !drive.constraints->empty()) {
+    json["walls"] = packed_voxels(*drive.constraints, solver::Constraint::wall);
+    json["anchors"] = packed_voxels(*drive.constraints, solver::Constraint::anchor);
+  }
+  for (const auto& image : drive.images) json["images"].push_back(to_json(*image));
+  if (drive.map != nullptr) json["map"] = {{"name", drive.map->name}, {"sha256", drive.map->checksum}};
+  return json;
+}
+
+Drive read_drive(const JsonField& field, Index3 grid_size) {
+  Drive drive;
+  drive.setting.combine =
+      field.at("combine").word({"least", "product"}) == 0 ? solver::Combine::least : solver::Combine::product;
+  const JsonField terms = field.at("speed");
+  const std::size_t count = terms.size(kMostTerms);
+  if (count == 0) terms.wrong("no speed function is named");
+  drive.setting.terms.clear();
+  for (std::size_t i = 0; i < count && field.good(); ++i)
+    drive.setting.terms.push_back(read_term(terms.at(i)));
+  const std::int64_t voxels = grid_size.x * grid_size.y * grid_size.z;
+  if (field.has("strokes")) {
+    drive.strokes = std::make_shared<const solver::Strokes>(read_strokes(field.at("strokes"), voxels));
+  }
+  if (field.has("walls") && field.good()) {
+    auto constraints = std::make_shared<solver::Constraints>(grid_size);
+    read_voxels(field.at("walls"), grid_size, solver::Constraint::wall, *constraints);
+    read_voxels(field.at("anchors"), grid_size, solver::Constraint::anchor, *constraints);
+    drive.constraints = std::move(constraints);
+  }
+  if (field.has("images")) {
+    const JsonField images = field.at("images");
+    const std::size_t images_count = images.size(kMostImages);
+    for (std::size_t i = 0; i < images_count && field.good(); ++i) {
+      drive.images.push_back(std::make_shared<const CaseImage>(read_image(images.at(i))));
+    }
+  }
+  if (field.has("map")) {
+    const JsonField map = field.at("map");
+    drive.map = std::make_shared<const SpeedMap>(
+        SpeedMap{map.at("name").text(kLongestName), map.at("sha256").text(64), nullptr});
+  }
+  return drive;
+}
+
+}  // namespace tidemark::document

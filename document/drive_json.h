@@ -1,0 +1,15 @@
+// What drives a level set as JSON, for recipes. Images and maps are references: their voxels are in their
+// files.
+#pragma once
+
+#include "core/json/json.h"
+#include "core/json/json_field.h"
+#include "document/drive.h"
+
+namespace tidemark::document {
+
+[[nodiscard]] Json to_json(const Drive& drive);
+// Of a volume of that size. Images and the map have no voxels yet. Errors are noted in the field's document.
+Drive read_drive(const JsonField& field, Index3 grid_size);
+
+}  // namespace tidemark::document

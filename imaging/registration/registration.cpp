@@ -1,0 +1,120 @@
+#include "imaging/registration/registration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vec4.hpp>
+#include <iterator>
+#include <new>
+
+#include "imaging/onto_grid.h"
+#include "imaging/registration/maximise.h"
+#include "imaging/registration/pyramid.h"
+
+namespace tidemark::imaging {
+namespace {
+
+// The part of the work that makes both pyramids.
+constexpr double kPyramidsPart = 0.1;
+
+bool holds(const Geometry& grid, glm::dvec3 patient_mm) {
+  const glm::dvec3 voxel = grid.to_voxel(patient_mm);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (voxel[axis] < -0.5 || voxel[axis] > static_cast<double>(grid.size[axis]) - 0.5) return false;
+  }
+  return true;
+}
+
+// Where the search begins, from the fixed image to the moving one.
+glm::dmat4 first_guess(const Geometry& moving, const Geometry& fixed, const glm::dmat4& start) {
+  const glm::dmat4 to_moving = glm::inverse(start);
+  const glm::dvec3 of_moving = registration::centre_mm(moving);
+  const glm::dvec3 of_fixed = registration::centre_mm(fixed);
+  const glm::dvec3 there(to_moving * glm::dvec4(of_fixed, 1.0));
+  const glm::dvec3 here(start * glm::dvec4(of_moving, 1.0));
+  if (holds(moving, there) || holds(fixed, here)) return to_moving;
+  glm::dmat4 centred = to_moving;
+  centred[3] += glm::dvec4(of_moving - there, 0.0);
+  return centred;
+}
+
+Status require_contrast(const Volume& image, const char* which) {
+  const auto [low, high] = image.common_range();
+  if (low < high) return {};
+  return fail(ErrorKind::usage, "registration: the {} image of {} has a single value", which,
+              describe(image.geometry));
+}
+
+// The part of a progress that runs from `begin` to `end`.
+Progress between(const Progress& progress, double begin, double end) {
+  Progress part{nullptr, progress.stop};
+  if (progress.report) {
+    part.report = [report = progress.report, begin, end](double fraction, std::string_view what) {
+      report(begin + (end - begin) * fraction, what);
+    };
+  }
+  return part;
+}
+
+Result<Registration> run(const Volume& moving, const Volume& fixed, const glm::dmat4& start,
+                         const Progress& progress) {
+  progress(0.0, "registering");
+  const auto moving_levels = registration::make_pyramid(moving, progress);
+  if (!moving_levels) return tl::unexpected<Error>(moving_levels.error());
+  progress(0.5 * kPyramidsPart, "registering");
+  const auto fixed_levels = registration::make_pyramid(fixed, progress);
+  if (!fixed_levels) return tl::unexpected<Error>(fixed_levels.error());
+
+  const Progress search = between(progress, kPyramidsPart, 1.0);
+  const auto levels = static_cast<int>(std::size(registration::kLevelsMm));
+  const glm::dmat4 guess = first_guess(moving.geometry, fixed.geometry, start);
+  glm::dmat4 to_moving = guess;
+  double after = 0.0;
+  for (int level = 0; level < levels; ++level) {
+    const auto index = static_cast<std::size_t>(level);
+    const auto maximum =
+        registration::maximise((*moving_levels)[index], (*fixed_levels)[index], to_moving,
+                               0.5 * registration::kLevelsMm[index], search.part(level, levels));
+    if (!maximum) return tl::unexpected<Error>(maximum.error());
+    to_moving = maximum->to_moving;
+    after = maximum->information;
+  }
+  Registration result = describe_rigid(glm::inverse(to_moving), registration::centre_mm(moving.geometry));
+  result.information_after = after;
+  // On the same level and the same samples as the end.
+  const auto before = registration::information(moving_levels->back(), fixed_levels->back(), guess);
+  if (!before) return tl::unexpected<Error>(before.error());
+  result.information_before = *before;
+  progress(1.0, "registering");
+  return result;
+}
+
+}  // namespace
+
+Registration describe_rigid(const glm::dmat4& transform, glm::dvec3 centre_mm) {
+  Registration result;
+  result.to_fixed = transform;
+  // The angle by the skew part: the trace alone is blunt near 0.
+  const glm::dvec3 twice_sine(transform[1][2] - transform[2][1], transform[2][0] - transform[0][2],
+                              transform[0][1] - transform[1][0]);
+  const double trace = transform[0][0] + transform[1][1] + transform[2][2];
+  result.rotation_degrees = glm::degrees(std::atan2(glm::length(twice_sine), trace - 1.0));
+  result.translation_mm = glm::dvec3(transform * glm::dvec4(centre_mm, 1.0)) - centre_mm;
+  return result;
+}
+
+Result<Registration> register_rigidly(const Volume& moving, const Volume& fixed, const glm::dmat4& start,
+                                      const Progress& progress) {
+  TIDEMARK_TRY(require_contrast(moving, "moving"));
+  TIDEMARK_TRY(require_contrast(fixed, "fixed"));
+  try {
+    return run(moving, fixed, start, progress);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::capability, "registration: not enough memory for {} and {}",
+                describe(moving.geometry), describe(fixed.geometry));
+  }
+}
+
+}  // namespace tidemark::imaging

@@ -1,0 +1,28 @@
+// A volume on another grid in the patient: how further images of a case come onto the grid of its own.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <optional>
+#include <string>
+
+#include "core/progress.h"
+#include "core/volume.h"
+
+namespace tidemark::imaging {
+
+struct Resampled {
+  Volume volume;         // float, on the grid; voxels outside of the image have its minimum
+  double covered = 0.0;  // the part of the grid's voxels that the image covers, above 0
+};
+
+// The image on the grid, trilinearly. `transform` leads from the image's patient coordinates (LPS, mm) to the
+// grid's and must be invertible. An image reaches half a voxel beyond the centres of its outermost voxels.
+// Fails (ErrorKind::usage), naming `what` (the image) and both grids, when no voxel of the grid is in the
+// image.
+Result<Resampled> resample(const Volume& image, const glm::dmat4& transform, const Geometry& grid,
+                           const std::string& what, const Progress& progress = {});
+
+// The image's value at a place of its own patient coordinates, trilinearly; nothing outside of it.
+[[nodiscard]] std::optional<double> value_at(const Volume& image, glm::dvec3 patient_mm);
+
+}  // namespace tidemark::imaging
