@@ -80,20 +80,6 @@ InsideMask::InsideMask(const Field& phi)
   }
 }
 
-InsideMask::Bits InsideMask::bits(std::int64_t page) const {
-  const std::int32_t entry = table_[static_cast<std::size_t>(page)];
-  if (entry >= 0) return pages_[static_cast<std::size_t>(entry)];
-  Bits all{};
-  if (entry == Field::kOutside) return all;
-  const Index3 valid = layout_.valid_shape(page);
-  for (std::int64_t z = 0; z < valid.z; ++z) {
-    for (std::int64_t y = 0; y < valid.y; ++y) {
-      all[static_cast<std::size_t>(z)] |= ((std::uint64_t{1} << valid.x) - 1) << (kSide * y);
-    }
-  }
-  return all;
-}
-
 Block InsideMask::values_in(const VoxelBox& box) const {
   Block block{box, std::vector<float>(static_cast<std::size_t>(box.voxels()))};
   const Index3 last = layout_.volume_size() - Index3(1);
@@ -127,18 +113,17 @@ Block InsideMask::values_in(const VoxelBox& box) const {
   return block;
 }
 
-std::int64_t InsideMask::largest_change(const InsideMask& other) const {
-  std::int64_t largest = 0;
-  for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
-    const auto at = static_cast<std::size_t>(page);
-    if (table_[at] < 0 && table_[at] == other.table_[at]) continue;
-    const Bits here = bits(page);
-    const Bits there = other.bits(page);
-    std::int64_t changed = 0;
-    for (std::size_t i = 0; i < here.size(); ++i) changed += std::popcount(here[i] ^ there[i]);
-    largest = std::max(largest, changed);
+std::vector<bool> InsideMask::changes_from(const InsideMask& other) const {
+  std::vector<bool> changed(table_.size());
+  for (std::size_t page = 0; page < table_.size(); ++page) {
+    const std::int32_t here = table_[page];
+    const std::int32_t there = other.table_[page];
+    // Pages that are all inside or all outside have no bits.
+    changed[page] = here < 0 || there < 0 ? here != there
+                                          : pages_[static_cast<std::size_t>(here)] !=
+                                                other.pages_[static_cast<std::size_t>(there)];
   }
-  return largest;
+  return changed;
 }
 
 }  // namespace tidemark::solver

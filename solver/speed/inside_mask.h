@@ -18,15 +18,14 @@ class InsideMask {
 
   // 1 inside and 0 outside; beyond the grid as the nearest voxel.
   [[nodiscard]] Block values_in(const VoxelBox& box) const;
-  // The voxels that differ, in the page where most do; both are on the same grid.
-  [[nodiscard]] std::int64_t largest_change(const InsideMask& other) const;
+  // Whether each page differs from that of a mask on the same grid.
+  [[nodiscard]] std::vector<bool> changes_from(const InsideMask& other) const;
+  [[nodiscard]] const PageLayout& layout() const { return layout_; }
 
  private:
   // Bit x + 8 y of each slice. Padding is 0.
   using Bits = std::array<std::uint64_t, 8>;
   static Bits inside_of(const Field& phi, const VoxelBox& box);
-  [[nodiscard]] Bits bits(std::int64_t page) const;
-
   PageLayout layout_;
   std::vector<std::int32_t> table_;  // as Field::table
   std::vector<Bits> pages_;

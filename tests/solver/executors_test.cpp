@@ -98,7 +98,7 @@ class ExecutorsTest : public QObject {
     QCOMPARE(reports[0].steps, reports[1].steps);
     QVERIFY(std::abs(reports[0].surface_speed - reports[1].surface_speed) < 1e-4);
     QVERIFY(reports[0].voxel_updates > 0);
-    run(*tested, 4000);
+    run_until_all_rest(*tested, 4000);
     const solver::MemoryReport memory = tested->memory();
     QVERIFY(memory.resident_pages > 20);
     QCOMPARE(memory.quiet_pages, memory.resident_pages);
@@ -106,7 +106,7 @@ class ExecutorsTest : public QObject {
     // And it wakes with its parameters, and where it is edited.
     QCOMPARE(failure(tested->set_parameters(scene.parameters)), QString());
     QCOMPARE(tested->memory().quiet_pages, std::int64_t{0});
-    run(*tested, 4000);
+    run_until_all_rest(*tested, 4000);
     QCOMPARE(run(*tested, 50).voxel_updates, std::int64_t{0});
     QCOMPARE(failure(tested->paint({scene.seed.centre_mm, 3.0}, solver::Brush::erase)), QString());
     QVERIFY(run(*tested, 5).voxel_updates > 0);
