@@ -14,16 +14,8 @@ double data_speed(const Parameters& parameters, double intensity) {
   return std::max(tent.peak - std::abs(intensity - tent.target) * tent.slope, tent.floor);
 }
 
-double speed_at(const SpeedFunction& speed, Index3 voxel) {
-  double value = 0.0;
-  speed.evaluate({voxel, Index3(1)}, &value);
-  return value;
-}
-
-VoxelValues values_at(const Field& phi, const Volume& source, const SpeedFunction& speed, Index3 voxel) {
+VoxelValues values_at(const Field& phi, Index3 voxel) {
   VoxelValues values;
-  values.intensity = source.value(voxel);
-  values.speed = speed_at(speed, voxel);
   values.phi = phi.at(voxel);
   if (std::abs(values.phi) >= phi.band) return values;
   double inverse_spacing[3];

@@ -2,8 +2,6 @@
 // comes, and anew when it follows the surface.
 #include "executor_rows.h"
 #include "formula_speed.h"
-#include "solver/speed/tent_speed.h"
-#include "solver/voxel_values.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
@@ -287,26 +285,6 @@ class SpeedFunctionTest : public QObject {
     run(*tested, 80 - tested->steps_of_last_run());
     run(*expected, 80);
     QVERIFY(tested->snapshot().value().dense() == expected->snapshot().value().dense());
-  }
-
-  void the_values_at_a_voxel_are_the_functions() {
-    const Scene scene = lumpy_scene({40, 37, 29});
-    const solver::Field phi = solver::Field::empty(scene.geometry, 2.5);
-    const Index3 voxel(12, 20, 9);
-    const auto lumpy = lumpy_speed(false);
-    const double expected = solver::speed_of(solver::quantised_speed(lumps(voxel)));
-    QCOMPARE(solver::values_at(phi, *scene.source, *lumpy, voxel).speed, expected);
-    QCOMPARE(lumpy->evaluated(), std::int64_t{1});
-    for (const solver::DataForm form : {solver::DataForm::clamped, solver::DataForm::raw}) {
-      solver::Parameters parameters = scene.parameters;
-      parameters.data_form = form;
-      const solver::TentSpeed tent(scene.source, parameters);
-      const double off = std::abs(scene.source->value(voxel) - parameters.target);
-      const double eq7 = form == solver::DataForm::raw ? parameters.range - off
-                                                       : std::max(-1.0, 1.0 - off / parameters.range);
-      QVERIFY(std::abs(solver::speed_at(tent, voxel) - eq7) < 1e-12);
-      QVERIFY(std::abs(solver::data_speed(parameters, scene.source->value(voxel)) - eq7) < 1e-12);
-    }
   }
 };
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "solver/speed/tent_speed.h"
 #include "solver/voxel_values.h"
 #include "ui/panels/value_unit.h"
 #include "ui/widgets/number_text.h"
@@ -72,13 +71,10 @@ QString ValueBar::speed_at(Index3 voxel) const {
 }
 
 QString ValueBar::details_at(Index3 voxel) const {
-  const Volume& source = *proxy_->source();  // as D sees it
   const engine::CaseState& state = proxy_->state();
-  // For phi's own terms, whatever drives the surface.
-  const solver::TentSpeed tent(proxy_->source(), proxy_->parameters());
   QString values = tr("   D %1").arg(speed_at(voxel));
   if (!state.phi || !state.begun) return values;
-  const solver::VoxelValues at = solver::values_at(*state.phi, source, tent, voxel);
+  const solver::VoxelValues at = solver::values_at(*state.phi, voxel);
   values += tr("   φ %1").arg(rounded(at.phi, 2), 0, 'f', 2);
   const bool clamped = std::abs(at.phi) >= state.phi->band;
   if (!clamped)
