@@ -24,7 +24,7 @@ constexpr double kLargest = 50.0;
 constexpr std::size_t kMostToCount = 20000;  // strokes from files can be whole organs
 
 QString text_of(const Geometry& geometry, const std::vector<std::int64_t>& voxels) {
-  const QString count = ExampleControls::tr("%n voxel(s)", nullptr, static_cast<int>(voxels.size()));
+  const QString count = ExampleControls::tr("%1 voxels").arg(count_text(static_cast<qint64>(voxels.size())));
   if (voxels.empty()) return ExampleControls::tr("none");
   if (voxels.size() > kMostToCount) return count;
   const std::int64_t strokes = engine::count_strokes(geometry, voxels);

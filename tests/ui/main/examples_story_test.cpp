@@ -6,12 +6,15 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "solver/speed/speed_registry.h"
+#include "imaging/files/volume_file.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
+#include "ui/look/theme.h"
 #include "ui/main/panel_docks.h"
 #include "ui/panels/example_controls.h"
+#include "ui/panels/speed_histogram.h"
 #include "ui/panels/wall_controls.h"
+#include "ui/views/next_step.h"
 
 namespace tidemark::test {
 
@@ -19,12 +22,18 @@ class ExamplesStoryTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void initTestCase();
   void strokes_are_painted_shown_and_undone();
   void strokes_go_into_the_case_under_the_mouse();
   void walls_and_anchors_are_painted_and_cleared();
   void what_was_erased_does_not_grow_back();
+  void five_strokes_and_play_find_a_texture();
 
  private:
+  static constexpr std::int64_t kSide = 72;
+  static constexpr double kRadius = 17.0;
+
+  static glm::dvec3 centre() { return glm::dvec3(36.0, 36.0, 36.0); }
   static const document::Drive& drive(Desktop& desktop) { return desktop.proxy().drive(); }
   static std::size_t inside(Desktop& desktop) {
     return drive(desktop).strokes ? drive(desktop).strokes->inside.size() : 0;
@@ -40,7 +49,41 @@ class ExamplesStoryTest : public QObject {
   static int orange_pixels(const ui::PictureView& view);
   template <class Widget>
   static Widget* seen(QWidget& in, const QString& text);
+
+  TemporaryFolder folder_;
+  QString file_;
+  Mask truth_;
 };
+
+// A ball of fine texture in a coarse one: mean and spread are the same inside and outside, so that no range
+// of brightness tells them apart.
+void ExamplesStoryTest::initTestCase() {
+  Geometry geometry;
+  geometry.size = Index3(kSide);
+  std::vector<float> values;
+  truth_.geometry = geometry;
+  std::uint32_t random = 7;
+  for (std::int64_t k = 0; k < kSide; ++k) {
+    for (std::int64_t j = 0; j < kSide; ++j) {
+      for (std::int64_t i = 0; i < kSide; ++i) {
+        const glm::dvec3 p(i, j, k);
+        const bool is_inside = glm::distance(p, centre()) < kRadius;
+        random = random * 1664525U + 1013904223U;
+        const double fine = static_cast<double>(random >> 16U) / 65536.0 - 0.5;
+        const double coarse =
+            (std::sin(0.23 * p.x + 1.0) + std::sin(0.29 * p.y + 0.11 * p.x) + std::sin(0.26 * p.z)) / 4.0;
+        values.push_back(static_cast<float>(500.0 + 300.0 * (is_inside ? fine : coarse)));
+        truth_.voxels.push_back(is_inside ? 1 : 0);
+      }
+    }
+  }
+  Volume volume;
+  volume.geometry = geometry;
+  volume.voxels = std::move(values);
+  const std::filesystem::path path = folder_ / "textures.nii.gz";
+  QCOMPARE(failure(imaging::write_volume_file(volume, path)), QString());
+  file_ = QString::fromStdString(path.string());
+}
 
 int ExamplesStoryTest::orange_pixels(const ui::PictureView& view) {
   const QImage picture = const_cast<ui::PictureView&>(view).grab_picture();
@@ -68,7 +111,6 @@ void ExamplesStoryTest::strokes_are_painted_shown_and_undone() {
   auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
   QVERIFY(axial);
   const glm::dvec3 middle = desktop.proxy().display().settings().cursor_mm;
-  const char* const with_examples = solver::speed_kind("examples") ? "examples" : "tent";
   const int orange_before = orange_pixels(*axial);
   desktop.press(Qt::Key_M);
   QVERIFY(desktop.proxy().display().settings().tool == engine::Tool::examples);
@@ -102,7 +144,7 @@ void ExamplesStoryTest::strokes_are_painted_shown_and_undone() {
                 Qt::RightButton);
   desktop.wait_until_idle();
   QVERIFY(outside(desktop) > 30);
-  QVERIFY(is_driven_by(desktop, with_examples));
+  QVERIFY(is_driven_by(desktop, "examples"));
   const std::size_t second = outside(desktop);
 
   // Ctrl takes away, where it goes over.
@@ -128,7 +170,7 @@ void ExamplesStoryTest::strokes_are_painted_shown_and_undone() {
   for (int redo = 0; redo < 3; ++redo) desktop.press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
   desktop.wait_until_idle();
   QCOMPARE(outside(desktop), second);
-  QVERIFY(is_driven_by(desktop, with_examples));
+  QVERIFY(is_driven_by(desktop, "examples"));
 
   // The panel clears all of it, and says what is missing then.
   desktop.window().panels().show("level-set");
@@ -238,6 +280,65 @@ void ExamplesStoryTest::what_was_erased_does_not_grow_back() {
   desktop.wait_until_idle();
   QVERIFY(!drive(desktop).constraints);
   QVERIFY(encloses());
+}
+
+void ExamplesStoryTest::five_strokes_and_play_find_a_texture() {
+  QLocale::setDefault(QLocale(QLocale::German, QLocale::Germany));
+  Desktop desktop(story_executor(), {1382, 858});
+  QVERIFY(desktop.open(file_));
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  QVERIFY(axial);
+  const glm::dvec3 middle = desktop.proxy().volume().geometry.to_patient(centre());
+  desktop.proxy().display().change([&](engine::DisplaySettings& s) { s.cursor_mm = middle; });
+  desktop.wait_until_idle();
+  desktop.press(Qt::Key_M);
+  const auto stroke = [&](glm::dvec3 from, glm::dvec3 to, Qt::MouseButton button) {
+    Desktop::drag(*axial, {middle + from, middle + 0.5 * (from + to), middle + to}, button);
+  };
+  WatchedApplication::instance().restart();
+  stroke({-13.0, -4.0, 0.0}, {13.0, -4.0, 0.0}, Qt::LeftButton);
+  stroke({-11.0, 8.0, 0.0}, {11.0, 8.0, 0.0}, Qt::LeftButton);
+  desktop.screenshot_at_once("examples-1-inside");
+  stroke({-28.0, -20.0, 0.0}, {28.0, -26.0, 0.0}, Qt::RightButton);
+  stroke({-27.0, 10.0, 0.0}, {-22.0, 28.0, 0.0}, Qt::RightButton);
+  stroke({24.0, -10.0, 0.0}, {26.0, 26.0, 0.0}, Qt::RightButton);
+  desktop.wait_until_idle();
+  qInfo("while strokes were painted: %s", qPrintable(WatchedApplication::instance().longest()));
+  QVERIFY(is_driven_by(desktop, "examples"));
+  QVERIFY(Desktop::wait_for([&] { return desktop.state().speed && !desktop.state().speed_waits; }, 60000));
+  desktop.window().panels().show("level-set");
+  desktop.wait_until_idle();
+  QVERIFY(
+      Desktop::wait_for([&] { return !desktop.window().findChild<ui::SpeedHistogram*>()->bars().empty(); }));
+  desktop.screenshot("examples-2-strokes");
+
+  // There is no surface yet: Play begins in the strokes.
+  QVERIFY(!desktop.state().begun);
+  auto* play = desktop.window().findChild<ui::PlayButton*>();
+  QVERIFY(play && play->isVisible());
+  QTest::mouseClick(play, Qt::LeftButton);
+  QVERIFY(Desktop::wait_for([&] { return desktop.state().step > 5; }, 60000));
+  QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }, 240000));
+  desktop.wait_until_idle();
+  desktop.screenshot("examples-3-found");
+  const double overlap = tidemark::dice(desktop.state().phi->mask(), truth_);
+  qInfo("Dice %.3f after %lld steps", overlap, static_cast<long long>(desktop.state().step));
+  QVERIFY2(overlap >= 0.9, qPrintable(QString::number(overlap)));
+
+  ui::apply_theme(*qApp, ui::Theme::dark);
+  desktop.screenshot("examples-4-dark");
+  ui::apply_theme(*qApp, ui::Theme::light);
+
+  // The way back: the run, the start, and the last stroke.
+  const std::size_t painted = outside(desktop);
+  for (int undo = 0; undo < 3; ++undo) desktop.press(Qt::Key_Z, Qt::ControlModifier);
+  desktop.wait_until_idle();
+  QVERIFY(!desktop.state().begun);
+  QVERIFY(outside(desktop) > 0 && outside(desktop) < painted);
+  desktop.press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  desktop.wait_until_idle();
+  QCOMPARE(outside(desktop), painted);
+  QLocale::setDefault(QLocale::c());
 }
 
 }  // namespace tidemark::test
