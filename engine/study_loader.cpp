@@ -50,6 +50,7 @@ Result<LoadedStudy> load_study(const imaging::ChosenSeries& chosen, const Progre
   study.origin.policy = series.policy;
   study.dicom_files = imaging::dicom_files_of(series);
   study.name = StudyLoader::name_of(series);
+  study.frame_of_reference_uid = series.frame_of_reference_uid;
   study.patient = series.patient;
   study.date = series.date;
   study.archive = series.archive;

@@ -17,6 +17,7 @@ class ValueBar : public QLabel {
 
  private:
   void follow();
+  [[nodiscard]] static QString value_of(const document::CaseImage& image, glm::dvec3 place_mm);
   [[nodiscard]] QString details_at(Index3 voxel) const;
 
   QPointer<engine::CaseProxy> proxy_;

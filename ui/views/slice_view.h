@@ -1,6 +1,7 @@
 // Views in 2D: slices, speed maps and pages.
 #pragma once
 
+#include "ui/views/image_overlay.h"
 #include "ui/views/mask_outline.h"
 #include "ui/views/picture_view.h"
 #include "ui/views/view_geometry.h"
@@ -42,6 +43,7 @@ class SliceViewWidget : public PictureView {
   [[nodiscard]] renderer::SliceOrientation orientation() const;
   [[nodiscard]] renderer::SliceView slice() const;
   [[nodiscard]] SliceScreen screen() const;
+  void paint_images(QPainter& painter, const SliceScreen& on_screen);
   void paint_truth(QPainter& painter, const SliceScreen& on_screen);
   void paint_corners(QPainter& painter) const;
 
@@ -54,6 +56,7 @@ class SliceViewWidget : public PictureView {
     QList<QLineF> lines;
   };
   std::optional<Outline> outline_;
+  ImageOverlay images_;
 };
 
 }  // namespace tidemark::ui
