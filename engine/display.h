@@ -9,6 +9,7 @@
 
 #include "core/result.h"
 #include "engine/measurement.h"
+#include "engine/shown_image.h"
 #include "renderer/views.h"
 #include "solver/speed/constraints.h"
 #include "solver/speed/strokes.h"
@@ -48,8 +49,9 @@ struct DisplaySettings {
   bool marks = true;                                           // strokes, walls and anchors
   bool truth = false;                                          // the outline of a phantom's known answer
   renderer::SpeedTerm speed_term = renderer::SpeedTerm::data;  // of the speed map
-  bool radiological = true;  // the patient's right on the left of the screen
-  bool patient_text = true;  // names and dates in the corners
+  bool radiological = true;        // the patient's right on the left of the screen
+  bool patient_text = true;        // names and dates in the corners
+  std::vector<ShownImage> images;  // over the slices, the last one on top
 
   // 3D.
   renderer::Camera camera;

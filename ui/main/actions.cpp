@@ -70,6 +70,10 @@ void Actions::make_files() {
                       tr("Find a series in a PACS and open it"));
   import_labels = make("import-labels", "label", tr("I&mport labels…"), QKeySequence("Ctrl+I"), true,
                        tr("Add labels from a DICOM segmentation, an RT structure set or a label map"));
+  add_image = make("add-image", "add", tr("Add ima&ge file…"), {}, true,
+                   tr("Show another image, such as PET over CT, on the slices of this case"));
+  add_series = make("add-series", nullptr, tr("Add series of the st&udy…"), {}, true,
+                    tr("Show another series of the same folder on the slices of this case"));
   save = make("save", "save", tr("&Save session"), QKeySequence("Ctrl+S"), true);
   save_as = make("save-as", "save-as", tr("Save session &as…"), QKeySequence("Ctrl+Shift+S"), true);
   export_mask = make("export-mask", "export", tr("&Mask or labels…"), QKeySequence("Ctrl+E"), true,

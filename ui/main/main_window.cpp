@@ -28,6 +28,7 @@
 #include "ui/main/case_links.h"
 #include "ui/main/case_messages.h"
 #include "ui/main/case_results.h"
+#include "ui/main/image_adder.h"
 #include "ui/main/first_steps.h"
 #include "ui/main/focus_chain.h"
 #include "ui/main/keys_dialog.h"
@@ -73,6 +74,7 @@ MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(pa
   make_tool_bar(*this, *actions_);
   make_status_bar();
   results_ = new CaseResults(*this);
+  images_ = new ImageAdder(*this);
   connect_files();
   connect_evolution();
   connect_views();

@@ -15,7 +15,8 @@ ValueBar::ValueBar(QWidget* parent) : QLabel(parent), speed_(new engine::SpeedSa
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   setIndent(6);
   setToolTip(
-      tr("Under the mouse: the brightness I, the voxel and its place in mm (LPS).\n"
+      tr("Under the mouse: the brightness I, the voxel and its place in mm (LPS),\n"
+         "and the value of each further image that is shown.\n"
          "In detail: the data term D (above 0 the surface grows here), φ (positive inside the surface),\n"
          "and near the surface its curvature κ and the slope of φ."));
 }
@@ -33,6 +34,7 @@ void ValueBar::set_proxy(engine::CaseProxy* proxy) {
   proxy_ = proxy;
   if (proxy_) {
     connect(&proxy_->display(), &engine::Display::pointer_moved, this, &ValueBar::follow);
+    connect(&proxy_->display(), &engine::Display::changed, this, &ValueBar::follow);
     connect(proxy_, &engine::CaseProxy::state_changed, this, &ValueBar::follow);
   }
   follow();
@@ -57,6 +59,9 @@ void ValueBar::follow() {
   if (proxy_->state().smoothed_mm > 0.0) {
     values += tr("   smoothed %1").arg(source.value(voxel) + 0.0, 0, 'g', 5);
   }
+  for (const engine::ShownImage& shown : proxy_->display().settings().images) {
+    if (shown.visible) values += value_of(*shown.image, *point);
+  }
   if (detailed_) values += details_at(voxel);
   setText(values + QStringLiteral("      ") + place);
 }
@@ -68,6 +73,14 @@ QString ValueBar::speed_at(Index3 voxel) const {
   if (!function) return text(solver::data_speed(proxy_->parameters(), proxy_->source()->value(voxel)));
   speed_->ask({function, voxel, Index3(1)});
   return speed_->answer() ? text(speed_->answer()->front()) : QStringLiteral("…");
+}
+
+QString ValueBar::value_of(const document::CaseImage& image, glm::dvec3 place_mm) {
+  const QString name = QString::fromStdString(image.name);
+  const auto value = engine::value_at(image, place_mm);
+  if (!value) return tr("   %1 –").arg(name);
+  const QString unit = image.volume->unit.empty() ? QString() : QLatin1Char(' ') + value_unit(*image.volume);
+  return tr("   %1 %2%3").arg(name, QString::number(*value + 0.0, 'g', 4), unit);
 }
 
 QString ValueBar::details_at(Index3 voxel) const {

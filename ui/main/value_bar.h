@@ -18,6 +18,7 @@ class ValueBar : public QLabel {
 
  private:
   void follow();
+  [[nodiscard]] static QString value_of(const document::CaseImage& image, glm::dvec3 place_mm);
   [[nodiscard]] QString details_at(Index3 voxel) const;
   [[nodiscard]] QString speed_at(Index3 voxel) const;
 

@@ -204,6 +204,7 @@ std::unique_ptr<Drag> SliceViewWidget::navigation_drag(const Pointer& pressed) {
 void SliceViewWidget::paint_overlay(QPainter& painter) {
   const SliceScreen on_screen = screen();
   const renderer::SliceOrientation o = orientation();
+  paint_images(painter, on_screen);
   paint_truth(painter, on_screen);
   paint_marks(painter, on_screen);
   if (settings().crosshair) paint_crosshair(painter, size(), on_screen.position_of(settings().cursor_mm));
@@ -211,6 +212,16 @@ void SliceViewWidget::paint_overlay(QPainter& painter) {
   paint_orientation(painter, size(), o.right, o.up);
   paint_scale_bar(painter, size(), on_screen.mm_per_pixel());
   paint_corners(painter);
+}
+
+void SliceViewWidget::paint_images(QPainter& painter, const SliceScreen& on_screen) {
+  if (content_ != renderer::SliceContent::source || settings().images.empty()) return;
+  painter.save();
+  painter.setRenderHint(QPainter::SmoothPixmapTransform);
+  for (const QImage& picture : images_.pictures(settings().images, slice(), on_screen, size())) {
+    painter.drawImage(rect(), picture);
+  }
+  painter.restore();
 }
 
 void SliceViewWidget::paint_truth(QPainter& painter, const SliceScreen& on_screen) {

@@ -1,6 +1,7 @@
 // Views in 2D: slices, speed maps and pages.
 #pragma once
 
+#include "ui/views/image_overlay.h"
 #include "ui/views/marks_overlay.h"
 #include "ui/views/mask_outline.h"
 #include "ui/views/picture_view.h"
@@ -47,6 +48,7 @@ class SliceViewWidget : public PictureView {
   [[nodiscard]] renderer::SliceOrientation orientation() const;
   [[nodiscard]] renderer::SliceView slice() const;
   [[nodiscard]] SliceScreen screen() const;
+  void paint_images(QPainter& painter, const SliceScreen& on_screen);
   void paint_truth(QPainter& painter, const SliceScreen& on_screen);
   void paint_corners(QPainter& painter) const;
   [[nodiscard]] engine::DrawnMarks marks() const;
@@ -64,6 +66,7 @@ class SliceViewWidget : public PictureView {
   std::optional<Outline> outline_;
   MarksOverlay marks_overlay_;
   engine::DrawnMarks marks_;  // as of the last state
+  ImageOverlay images_;
 };
 
 }  // namespace tidemark::ui
