@@ -6,9 +6,10 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
   using tidemark::imaging::Preflight;
   tidemark::imaging::MemoryBytes source({bytes, count});
-  const imaging::Preflight checked = tidemark::imaging::preflight_dicom(source);
+  const tidemark::imaging::Preflight checked = tidemark::imaging::preflight_dicom(source);
   // A file to be parsed has a syntax; a refused one has a reason.
   if (checked.may_be_parsed() && checked.syntax == nullptr) std::abort();
-  if ((checked.verdict == imaging::Preflight::Verdict::good) != checked.reason.what.empty()) std::abort();
+  if ((checked.verdict == tidemark::imaging::Preflight::Verdict::good) != checked.reason.what.empty())
+    std::abort();
   return 0;
 }

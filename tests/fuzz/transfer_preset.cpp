@@ -6,9 +6,10 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
   using tidemark::renderer::TransferFunction;
-  const auto function = renderer::TransferFunction::parse({reinterpret_cast<const char*>(bytes), count});
+  const auto function =
+      tidemark::renderer::TransferFunction::parse({reinterpret_cast<const char*>(bytes), count});
   if (!function) return 0;
-  const auto again = renderer::TransferFunction::parse(function->to_json());
+  const auto again = tidemark::renderer::TransferFunction::parse(function->to_json());
   if (!again || !(*again == *function)) std::abort();
   return 0;
 }
