@@ -17,7 +17,8 @@ bool uses_tent(const Drive& drive) {
 
 std::string describe(const Drive& drive) {
   std::string text;
-  for (const solver::SpeedTerm& term : drive.setting.terms) text += (text.empty() ? "" : " and ") + term.function;
+  for (const solver::SpeedTerm& term : drive.setting.terms)
+    text += (text.empty() ? "" : " and ") + term.function;
   if (drive.setting.terms.size() > 1) {
     text = (drive.setting.combine == solver::Combine::least ? "the least of " : "the product of ") + text;
   }
@@ -36,11 +37,13 @@ Result<std::shared_ptr<const solver::SpeedFunction>> make_speed(const Drive& dri
   inputs.parameters = parameters;
   inputs.strokes = drive.strokes;
   if (drive.map != nullptr) {
-    if (drive.map->volume == nullptr) return fail(ErrorKind::usage, "the map \"{}\" is missing", drive.map->name);
+    if (drive.map->volume == nullptr)
+      return fail(ErrorKind::usage, "the map \"{}\" is missing", drive.map->name);
     inputs.map = drive.map->volume;
   }
   for (const auto& image : drive.images) {
-    if (image->resampled == nullptr) return fail(ErrorKind::usage, "the image \"{}\" is missing", image->name);
+    if (image->resampled == nullptr)
+      return fail(ErrorKind::usage, "the image \"{}\" is missing", image->name);
     inputs.images.push_back(image->resampled);
   }
   return solver::make_speed(drive.setting, inputs, progress);

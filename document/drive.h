@@ -9,6 +9,7 @@
 
 #include "core/progress.h"
 #include "core/volume.h"
+#include "solver/parameters.h"
 #include "solver/speed/constraints.h"
 #include "solver/speed/speed_function.h"
 #include "solver/speed/speed_setting.h"

@@ -36,7 +36,8 @@ solver::SpeedTerm read_term(const JsonField& field) {
   std::vector<std::string_view> names;
   for (const solver::SpeedParameter& number : kind->parameters) {
     names.emplace_back(number.name);
-    if (values.has(number.name)) term.values[number.name] = values.at(number.name).number(number.low, number.high);
+    if (values.has(number.name))
+      term.values[number.name] = values.at(number.name).number(number.low, number.high);
   }
   values.only(names);
   return term;
@@ -57,7 +58,8 @@ std::vector<std::int64_t> read_offsets(const JsonField& field, std::int64_t voxe
   }
   std::vector<std::int64_t> offsets(count);
   std::memcpy(offsets.data(), bytes->data(), bytes->size());
-  const bool ascends = std::adjacent_find(offsets.begin(), offsets.end(), std::greater_equal<>()) == offsets.end();
+  const bool ascends =
+      std::adjacent_find(offsets.begin(), offsets.end(), std::greater_equal<>()) == offsets.end();
   if (!ascends || (count > 0 && (offsets.front() < 0 || offsets.back() >= voxels))) {
     field.at("offsets").wrong("are not voxels of the volume, each once, in their order");
   }
@@ -65,10 +67,11 @@ std::vector<std::int64_t> read_offsets(const JsonField& field, std::int64_t voxe
 }
 
 solver::Strokes read_strokes(const JsonField& field, std::int64_t voxels) {
-  solver::Strokes strokes{read_offsets(field.at("inside"), voxels), read_offsets(field.at("outside"), voxels)};
+  solver::Strokes strokes{read_offsets(field.at("inside"), voxels),
+                          read_offsets(field.at("outside"), voxels)};
   std::vector<std::int64_t> both;
-  std::set_intersection(strokes.inside.begin(), strokes.inside.end(), strokes.outside.begin(), strokes.outside.end(),
-                        std::back_inserter(both));
+  std::set_intersection(strokes.inside.begin(), strokes.inside.end(), strokes.outside.begin(),
+                        strokes.outside.end(), std::back_inserter(both));
   if (!both.empty()) field.wrong("a voxel is both inside and outside");
   return strokes;
 }
@@ -85,7 +88,8 @@ Json packed_voxels(const solver::Constraints& constraints, solver::Constraint wh
   return pack_bits(voxels);
 }
 
-void read_voxels(const JsonField& field, Index3 size, solver::Constraint what, solver::Constraints& constraints) {
+void read_voxels(const JsonField& field, Index3 size, solver::Constraint what,
+                 solver::Constraints& constraints) {
   Mask mask;
   mask.geometry.size = size;
   const std::string packed = field.text(kEndless);
@@ -154,7 +158,8 @@ Drive read_drive(const JsonField& field, Index3 grid_size) {
   const std::size_t count = terms.size(kMostTerms);
   if (count == 0) terms.wrong("no speed function is named");
   drive.setting.terms.clear();
-  for (std::size_t i = 0; i < count && field.good(); ++i) drive.setting.terms.push_back(read_term(terms.at(i)));
+  for (std::size_t i = 0; i < count && field.good(); ++i)
+    drive.setting.terms.push_back(read_term(terms.at(i)));
   const std::int64_t voxels = grid_size.x * grid_size.y * grid_size.z;
   if (field.has("strokes")) {
     drive.strokes = std::make_shared<const solver::Strokes>(read_strokes(field.at("strokes"), voxels));

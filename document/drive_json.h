@@ -1,4 +1,5 @@
-// What drives a level set as JSON, for recipes. Images and maps are references: their voxels are in their files.
+// What drives a level set as JSON, for recipes. Images and maps are references: their voxels are in their
+// files.
 #pragma once
 
 #include "core/json/json.h"
