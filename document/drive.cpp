@@ -5,6 +5,60 @@
 #include "solver/speed/speed_registry.h"
 
 namespace tidemark::document {
+namespace {
+
+// By value: what was read from a file twice is in two places.
+bool same_strokes(const std::shared_ptr<const solver::Strokes>& a,
+                  const std::shared_ptr<const solver::Strokes>& b) {
+  return a == b || (a != nullptr && b != nullptr && *a == *b);
+}
+
+bool same_image(const std::shared_ptr<const CaseImage>& a, const std::shared_ptr<const CaseImage>& b) {
+  if (a == b) return true;
+  return !a->checksum.empty() && a->checksum == b->checksum && a->to_case == b->to_case &&
+         (a->resampled == nullptr) == (b->resampled == nullptr);
+}
+
+bool same_map(const std::shared_ptr<const SpeedMap>& a, const std::shared_ptr<const SpeedMap>& b) {
+  if (a == b) return true;
+  return a != nullptr && b != nullptr && !a->checksum.empty() && a->checksum == b->checksum &&
+         (a->volume == nullptr) == (b->volume == nullptr);
+}
+
+}  // namespace
+
+bool same_speed(const Drive& a, const Drive& b) {
+  return a.setting == b.setting && same_strokes(a.strokes, b.strokes) && same_map(a.map, b.map) &&
+         std::equal(a.images.begin(), a.images.end(), b.images.begin(), b.images.end(), same_image);
+}
+
+bool cover(const Drive& drive, const Drive& earlier) {
+  if (earlier.constraints == nullptr || earlier.constraints->empty()) return true;
+  if (drive.constraints == nullptr) return false;
+  for (std::int64_t i = 0; i < earlier.constraints->layout().page_count(); ++i) {
+    const auto* before = earlier.constraints->page(i);
+    const auto* now = drive.constraints->page(i);
+    if (before == nullptr || before == now) continue;
+    if (now == nullptr) return false;
+    const bool covered = std::equal(
+        before->begin(), before->end(), now->begin(),
+        [](solver::Constraint a, solver::Constraint b) { return a == solver::Constraint::none || a == b; });
+    if (!covered) return false;
+  }
+  return true;
+}
+
+std::int64_t bytes_of(const Drive& drive) {
+  std::size_t bytes = 0;
+  if (drive.strokes)
+    bytes += (drive.strokes->inside.size() + drive.strokes->outside.size()) * sizeof(std::int64_t);
+  // Pages are shared with the constraints before; the list of them is not.
+  if (drive.constraints) {
+    bytes += static_cast<std::size_t>(drive.constraints->layout().page_count()) *
+             sizeof(std::shared_ptr<const solver::Constraints::Page>);
+  }
+  return static_cast<std::int64_t>(bytes);
+}
 
 bool is_plain(const Drive& drive) {
   return drive.setting.is_tent() && (drive.constraints == nullptr || drive.constraints->empty());

@@ -44,12 +44,21 @@ struct Drive {
   std::shared_ptr<const solver::Strokes> strokes;          // null: none
   std::shared_ptr<const SpeedMap> map;                     // null: none
   std::shared_ptr<const solver::Constraints> constraints;  // null: none
+
+  // Parts are compared by their address.
+  bool operator==(const Drive&) const = default;
 };
 
+// Of strokes, walls and anchors in memory.
+[[nodiscard]] std::int64_t bytes_of(const Drive& drive);
 // Whether executors are as without any drive: the tent alone, and nothing that holds the surface.
 [[nodiscard]] bool is_plain(const Drive& drive);
 // Whether a tent takes part: T and epsilon count then.
 [[nodiscard]] bool uses_tent(const Drive& drive);
+// Whether both make the same speed function of a source: not what holds the surface, but all else.
+[[nodiscard]] bool same_speed(const Drive& a, const Drive& b);
+// Whether phi is the same with these constraints at once as with `earlier` ones first and then these.
+[[nodiscard]] bool cover(const Drive& drive, const Drive& earlier);
 // "tent", "least of examples and edges", "examples, walls"
 [[nodiscard]] std::string describe(const Drive& drive);
 

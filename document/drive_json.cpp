@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "core/checked.h"
 #include "document/packed_bytes.h"
 #include "solver/speed/speed_registry.h"
 
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::size_t kMostTerms = 16;
 constexpr std::size_t kMostImages = 64;
+constexpr std::int64_t kMostVoxels = std::int64_t{1} << 31;
 constexpr std::size_t kLongestName = 256;
 constexpr std::size_t kEndless = std::numeric_limits<std::size_t>::max();
 
@@ -88,16 +90,37 @@ Json packed_voxels(const solver::Constraints& constraints, solver::Constraint wh
   return pack_bits(voxels);
 }
 
-void read_voxels(const JsonField& field, Index3 size, solver::Constraint what,
-                 solver::Constraints& constraints) {
+Mask read_voxels(const JsonField& field, Index3 size) {
   Mask mask;
   mask.geometry.size = size;
   const std::string packed = field.text(kEndless);
-  if (!field.good()) return;
+  if (!field.good()) return mask;
   auto voxels = unpack_bits(packed, static_cast<std::size_t>(size.x * size.y * size.z));
-  if (!voxels) return field.wrong("does not hold the volume's voxels");
-  mask.voxels = std::move(*voxels);
-  constraints.set(mask, what);
+  if (voxels) {
+    mask.voxels = std::move(*voxels);
+  } else {
+    field.wrong("does not hold the volume's voxels");
+  }
+  return mask;
+}
+
+// Memory is taken only for as many voxels as the file holds.
+std::shared_ptr<const solver::Constraints> read_constraints(const JsonField& field, Index3 size) {
+  const Mask walls = read_voxels(field.at("walls"), size);
+  const Mask anchors = read_voxels(field.at("anchors"), size);
+  if (!field.good()) return nullptr;
+  auto constraints = std::make_shared<solver::Constraints>(size);
+  constraints->set(walls, solver::Constraint::wall);
+  constraints->set(anchors, solver::Constraint::anchor);
+  return constraints;
+}
+
+// Notes a problem where there are more than are read.
+std::int64_t voxels_of(const JsonField& field, Index3 size) {
+  const auto voxels = checked_product(size.x, size.y, size.z);
+  if (voxels && *voxels <= kMostVoxels) return *voxels;
+  field.wrong("the volume has more voxels than are read");
+  return 0;
 }
 
 Json to_json(const CaseImage& image) {
@@ -160,15 +183,12 @@ Drive read_drive(const JsonField& field, Index3 grid_size) {
   drive.setting.terms.clear();
   for (std::size_t i = 0; i < count && field.good(); ++i)
     drive.setting.terms.push_back(read_term(terms.at(i)));
-  const std::int64_t voxels = grid_size.x * grid_size.y * grid_size.z;
+  const std::int64_t voxels = voxels_of(field, grid_size);
   if (field.has("strokes")) {
     drive.strokes = std::make_shared<const solver::Strokes>(read_strokes(field.at("strokes"), voxels));
   }
   if (field.has("walls") && field.good()) {
-    auto constraints = std::make_shared<solver::Constraints>(grid_size);
-    read_voxels(field.at("walls"), grid_size, solver::Constraint::wall, *constraints);
-    read_voxels(field.at("anchors"), grid_size, solver::Constraint::anchor, *constraints);
-    drive.constraints = std::move(constraints);
+    drive.constraints = read_constraints(field, grid_size);
   }
   if (field.has("images")) {
     const JsonField images = field.at("images");

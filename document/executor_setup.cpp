@@ -56,8 +56,12 @@ Status ExecutorSetup::remake(std::shared_ptr<const Volume> source, solver::Execu
                              std::shared_ptr<const solver::SpeedFunction> speed) {
   auto made = solver::make_executor(kind, source, executor_->parameters(), options);
   if (!made) return pass_on(made);
-  TIDEMARK_TRY((*made)->set_speed(std::move(speed)));
-  TIDEMARK_TRY((*made)->set_constraints(executor_->constraints()));
+  if (speed != nullptr) {
+    TIDEMARK_TRY((*made)->set_speed(std::move(speed)));
+  }
+  if (executor_->constraints()) {
+    TIDEMARK_TRY((*made)->set_constraints(executor_->constraints()));
+  }
   TIDEMARK_TRY((*made)->restore(phi));
   source_ = std::move(source);
   kind_ = kind;
@@ -89,6 +93,9 @@ Status ExecutorSetup::change_executor(solver::ExecutorKind kind, const solver::E
 
 Status ExecutorSetup::set_drive(std::shared_ptr<const Drive> drive, const Progress& progress) {
   if (drive == nullptr) return set_drive(nullptr, std::shared_ptr<const solver::SpeedFunction>());
+  // Walls alone change no function, and learning one again takes long.
+  const bool made = drive_ != nullptr && executor_->speed() != nullptr && same_speed(*drive_, *drive);
+  if (made) return set_drive(std::move(drive), executor_->speed());
   auto speed = make_speed(*drive, source_, executor_->parameters(), progress);
   if (!speed) return pass_on(speed);
   return set_drive(std::move(drive), std::move(*speed));

@@ -24,8 +24,8 @@ class ExecutorSetup {
   [[nodiscard]] solver::ExecutorKind kind() const { return kind_; }  // as it was asked for
   [[nodiscard]] RecipeExecutor description() const;
 
-  // What drives and holds the surface (null: as without): another executor gets it, too. Fails as make_speed() and
-  // the executor do; the former drive then goes on.
+  // What drives and holds the surface (null: as without): another executor gets it, too. Fails as
+  // make_speed() and the executor do; the former drive then goes on.
   Status set_drive(std::shared_ptr<const Drive> drive, const Progress& progress = {});
   // The same with the function that was made from it for the present source and parameters.
   Status set_drive(std::shared_ptr<const Drive> drive, std::shared_ptr<const solver::SpeedFunction> speed);

@@ -29,6 +29,12 @@ std::string describe(const ChangeDescription& change) {
       return "restart";
     case ChangeKind::source:
       return "smoothing of the volume";
+    case ChangeKind::examples:
+      return "examples";
+    case ChangeKind::constraints:
+      return "walls and anchors";
+    case ChangeKind::speed:
+      return "speed function";
     case ChangeKind::new_label:
       return fmt::format("new label {}", change.name);
     case ChangeKind::label_settings:

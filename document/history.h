@@ -23,6 +23,9 @@ enum class ChangeKind {
   step_back,
   restart,
   source,  // the volume as the level set sees it
+  examples,
+  constraints,  // walls and anchors
+  speed,        // the speed functions, or their numbers
   new_label,
   label_settings,
   remove_label,

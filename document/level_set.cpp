@@ -4,13 +4,19 @@
 #include <utility>
 
 #include "document/level_set_change.h"
+#include "solver/speed/speed_registry.h"
 
 namespace tidemark::document {
 namespace {
 
+bool is_of_parameters(ChangeKind kind) {
+  return kind == ChangeKind::target || kind == ChangeKind::range || kind == ChangeKind::smoothing ||
+         kind == ChangeKind::parameters;
+}
+
 bool moves_phi(ChangeKind kind) {
-  return kind != ChangeKind::target && kind != ChangeKind::range && kind != ChangeKind::smoothing &&
-         kind != ChangeKind::parameters && kind != ChangeKind::source;
+  return !is_of_parameters(kind) && kind != ChangeKind::source && kind != ChangeKind::examples &&
+         kind != ChangeKind::speed;
 }
 
 // Which of the parameters was changed.
@@ -24,6 +30,40 @@ ChangeKind kind_of_change(const solver::Parameters& before, const solver::Parame
   changed = before;
   changed.alpha = after.alpha;
   return changed == after ? ChangeKind::smoothing : ChangeKind::parameters;
+}
+
+// What of it was changed. The function that strokes bring with them is no change of its own.
+ChangeKind kind_of_change(const Drive& before, const Drive& after) {
+  if (before.constraints != after.constraints) return ChangeKind::constraints;
+  return before.strokes != after.strokes ? ChangeKind::examples : ChangeKind::speed;
+}
+
+Drive value_of(const std::shared_ptr<const Drive>& drive) {
+  return drive == nullptr ? Drive() : *drive;
+}
+
+// Null for what executors do without any drive.
+std::shared_ptr<const Drive> shared(const Drive& drive) {
+  return drive == Drive() ? nullptr : std::make_shared<const Drive>(drive);
+}
+
+// Of events that follow each other without a step between, whether the last counts alone. A wall that is
+// taken away again has moved the surface.
+bool replaces(const RecipeEvent& event, const RecipeEvent& before) {
+  if (std::holds_alternative<ParametersEvent>(event.what)) {
+    return std::holds_alternative<ParametersEvent>(before.what);
+  }
+  const auto* now = std::get_if<DriveEvent>(&event.what);
+  const auto* then = std::get_if<DriveEvent>(&before.what);
+  return now != nullptr && then != nullptr && cover(*now->drive, *then->drive);
+}
+
+// Without what waits for another function.
+Drive relevant(Drive drive) {
+  if (!drive.setting.is_tent()) return drive;
+  Drive held;
+  held.constraints = std::move(drive.constraints);
+  return held;
 }
 
 }  // namespace
@@ -51,7 +91,7 @@ LevelSet::LevelSet(ExecutorSetup setup, const solver::Parameters& parameters, Hi
 
 ChangeDescription LevelSet::description() const {
   ChangeKind kind = open_->kind;
-  if (!moves_phi(kind)) kind = kind_of_change(open_->before.recipe.final_parameters(), parameters());
+  if (is_of_parameters(kind)) kind = kind_of_change(open_->before.recipe.final_parameters(), parameters());
   return {kind, kind == ChangeKind::evolution ? step() - open_->before.recipe.steps : 0, {}};
 }
 
@@ -80,6 +120,7 @@ void LevelSet::add_entry(ChangeKind kind, const Point& before, const Point& afte
   const bool counts_steps = kind == ChangeKind::evolution || kind == ChangeKind::step_back;
   const std::int64_t steps = counts_steps ? std::abs(after.recipe.steps - before.recipe.steps) : 0;
   history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after));
+  settled_events_ = after.recipe.events.size();
 }
 
 Status LevelSet::end_run() {
@@ -107,11 +148,10 @@ void LevelSet::begin_change(ChangeKind kind, std::uint64_t gesture, Point before
 void LevelSet::record(RecipeEvent event) {
   if (std::exchange(resumed_, false) && step() > 0) recipe_.events.push_back({step(), ResumeEvent{}});
   std::vector<RecipeEvent>& events = recipe_.events;
-  // Of parameters that follow each other without a step between, the last count.
-  const bool replaces = !events.empty() && events.back().step == event.step &&
-                        std::holds_alternative<ParametersEvent>(event.what) &&
-                        std::holds_alternative<ParametersEvent>(events.back().what);
-  if (replaces) events.pop_back();
+  if (!events.empty() && events.back().step == event.step && replaces(event, events.back())) {
+    events.pop_back();
+    settled_events_ = std::min(settled_events_, events.size());
+  }
   events.push_back(std::move(event));
 }
 
@@ -120,13 +160,14 @@ Status LevelSet::read_back_phi() {
     known_.recipe = recipe_;
     known_.start = start_;
     known_.curve = curve_;
+    known_.drive = drive_;
     return {};
   }
   auto phi = executor().snapshot();
   if (!phi) return pass_on(phi);
   auto shared = std::make_shared<const solver::Field>(std::move(*phi));
   if (step() == 0) start_ = shared;
-  known_ = {recipe_, std::move(shared), start_, curve_};
+  known_ = {recipe_, std::move(shared), start_, curve_, drive_};
   dirty_ = false;
   return {};
 }
@@ -156,6 +197,8 @@ Status LevelSet::begin(const Start& start, const Progress& progress) {
   point.recipe.start = start;
   point.recipe.parameters = parameters();
   point.start = point.phi;
+  point.drive = drive_;
+  point.recipe.drive = setup_.drive();
   put_in_place(std::move(point));
   add_entry(ChangeKind::start, before, known_);
   return {};
@@ -174,7 +217,7 @@ Status LevelSet::paint(const solver::Sphere& sphere, solver::Brush brush, std::u
 Status LevelSet::set_parameters(const solver::Parameters& parameters, std::uint64_t gesture) {
   TIDEMARK_TRY(end_other_change(gesture));
   if (parameters == this->parameters()) return {};
-  TIDEMARK_TRY(executor().set_parameters(parameters));
+  TIDEMARK_TRY(setup_.set_parameters(parameters));
   begin_change(ChangeKind::parameters, gesture, known_);
   if (begun()) {
     record({step(), ParametersEvent{parameters}});
@@ -182,6 +225,62 @@ Status LevelSet::set_parameters(const solver::Parameters& parameters, std::uint6
     recipe_.parameters = parameters;
   }
   return gesture == 0 ? history_.close() : Status();
+}
+
+Status LevelSet::set_drive(const Drive& drive, std::uint64_t gesture) {
+  TIDEMARK_TRY(end_other_change(gesture));
+  if (drive == *drive_) return {};
+  TIDEMARK_TRY(check(drive.setting));
+  const ChangeKind kind = kind_of_change(*drive_, drive);
+  const Point before = known_;
+  // Another function comes with set_speed(); until then the present one goes on.
+  Drive now = drive.setting.is_tent() ? drive : drive_in_use();
+  now.constraints = drive.constraints;
+  TIDEMARK_TRY(use(now, drive.setting.is_tent() ? nullptr : executor().speed()));
+  begin_change(kind, gesture, before);
+  drive_ = std::make_shared<const Drive>(drive);
+  if (kind == ChangeKind::constraints) {
+    curve_.cut(step());
+    dirty_ = true;
+  }
+  return gesture == 0 ? history_.close() : Status();
+}
+
+Status LevelSet::set_speed(std::shared_ptr<const solver::SpeedFunction> speed) {
+  return use(*drive_, std::move(speed));
+}
+
+Drive LevelSet::drive_in_use() const {
+  return value_of(setup_.drive());
+}
+
+// Puts it in place of what drives and holds the surface, and into the recipe.
+Status LevelSet::use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed) {
+  const Drive used = relevant(drive);
+  // The one in place was made from the same: giving it again would wake pages, which a replay does not.
+  const bool in_place = used.setting.is_tent() || executor().speed() != nullptr;
+  if (in_place && used == drive_in_use()) return {};
+  TIDEMARK_TRY(setup_.set_drive(shared(used), std::move(speed)));
+  if (used == value_of(recipe_.final_drive())) return {};
+  if (begun()) {
+    record({step(), DriveEvent{std::make_shared<const Drive>(used)}});
+  } else {
+    recipe_.drive = shared(used);
+  }
+  if (!dirty_) known_.recipe = recipe_;
+  return {};
+}
+
+// As at the end of the recipe. Of a function that cannot be made, because an image is missing, only what
+// holds the surface is left; who makes functions says why.
+Status LevelSet::drive_as(const Recipe& recipe) {
+  const Drive wanted = value_of(recipe.final_drive());
+  if (wanted == drive_in_use()) return {};
+  const Status driven = setup_.set_drive(shared(wanted));
+  if (driven || driven.error().kind != ErrorKind::usage) return driven;
+  Drive held;
+  held.constraints = wanted.constraints;
+  return setup_.set_drive(shared(held));
 }
 
 Status LevelSet::smooth_source(double sigma_mm) {
@@ -219,6 +318,7 @@ void LevelSet::put_in_place(Point point) {
   recipe_ = point.recipe;
   start_ = point.start;
   curve_ = point.curve;
+  drive_ = point.drive;
   known_ = std::move(point);
   in_place_ = known_;
   dirty_ = false;
@@ -232,8 +332,9 @@ Status LevelSet::hand_over(const Point& point) {
     TIDEMARK_TRY(setup_.smooth_source(sigma_mm));
   }
   if (!(wanted == parameters())) {
-    TIDEMARK_TRY(executor().set_parameters(wanted));
+    TIDEMARK_TRY(setup_.set_parameters(wanted));
   }
+  TIDEMARK_TRY(drive_as(point.recipe));
   return executor().restore(*point.phi);
 }
 
@@ -254,7 +355,8 @@ Status LevelSet::go_to(Point point) {
 Status LevelSet::resume_from(const Recipe& recipe, std::shared_ptr<const solver::Field> phi,
                              const Curve& curve) {
   TIDEMARK_TRY(history_.close());
-  return go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr, curve});
+  auto drive = std::make_shared<const Drive>(value_of(recipe.final_drive()));
+  return go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr, curve, std::move(drive)});
 }
 
 void LevelSet::note(const CurvePoint& point) {
@@ -267,7 +369,8 @@ Status LevelSet::prepare_start() {
   if (recipe_.smoothed_mm != smoothed_mm()) {
     TIDEMARK_TRY(setup_.smooth_source(recipe_.smoothed_mm));
   }
-  TIDEMARK_TRY(executor().set_parameters(recipe_.parameters));
+  TIDEMARK_TRY(setup_.set_parameters(recipe_.parameters));
+  TIDEMARK_TRY(setup_.set_drive(recipe_.drive));
   if (start_ == nullptr) {
     TIDEMARK_TRY(setup_.begin(recipe_, {}));
     return setup_.play(recipe_.up_to(0), 0, 0, 0, {});
@@ -279,6 +382,16 @@ Status LevelSet::prepare_start() {
     TIDEMARK_TRY(setup_.apply(event));
   }
   return {};
+}
+
+// Of what waits for another function nothing is lost.
+void LevelSet::take_drive_of_recipe() {
+  Drive drive = value_of(recipe_.final_drive());
+  if (drive == relevant(*drive_)) return;
+  if (drive.strokes == nullptr) drive.strokes = drive_->strokes;
+  if (drive.map == nullptr) drive.map = drive_->map;
+  if (drive.images.empty()) drive.images = drive_->images;
+  drive_ = std::make_shared<const Drive>(std::move(drive));
 }
 
 Status LevelSet::compute_again(std::int64_t target, const Progress& progress) {
@@ -301,6 +414,7 @@ Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
   Status computed = compute_again(target, progress);
   if (computed) {
     recipe_ = recipe_.up_to(target);
+    take_drive_of_recipe();
     curve_.cut(target);
     recipe_.executor = setup_.description();
     resumed_ = false;
@@ -311,7 +425,7 @@ Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
     TIDEMARK_TRY(go_to(before));
     return computed;
   }
-  if (in_place_.recipe.steps > target) in_place_ = {recipe_.up_to(0), start_, start_};
+  if (in_place_.recipe.steps > target) in_place_ = {recipe_.up_to(0), start_, start_, {}, drive_};
   add_entry(ChangeKind::step_back, before, known_);
   return {};
 }
@@ -322,6 +436,7 @@ Status LevelSet::restart() {
   const Point before = known_;
   const solver::Parameters present = parameters();
   const double smoothed = smoothed_mm();
+  const auto in_use = setup_.drive();
   if (start_ == nullptr) {
     // It was saved later than its start: what lies between is made again.
     Status prepared = prepare_start();
@@ -332,10 +447,11 @@ Status LevelSet::restart() {
     }
     start_ = std::make_shared<const solver::Field>(std::move(*phi));
   }
-  Point point{recipe_.up_to(0), start_, start_};
+  Point point{recipe_.up_to(0), start_, start_, {}, drive_};
   std::erase_if(point.recipe.events,
                 [](const RecipeEvent& event) { return !std::holds_alternative<PaintEvent>(event.what); });
   point.recipe.parameters = present;
+  point.recipe.drive = in_use;
   if (smoothed != point.recipe.smoothed_mm) point.recipe.events.push_back({0, SmoothEvent{smoothed}});
   TIDEMARK_TRY(go_to(std::move(point)));
   add_entry(ChangeKind::restart, before, known_);
@@ -357,7 +473,13 @@ Status LevelSet::rebuild(const solver::ExecutorOptions& options, std::optional<s
   if (!rebuilt) return rebuilt;
   if (open_) open_->last_edit.reset();
   const solver::Parameters present = parameters();
+  const auto wanted = drive_;
   TIDEMARK_TRY(go_to(known_));
+  drive_ = known_.drive = wanted;
+  if (Drive now = drive_in_use(); now.constraints != wanted->constraints) {
+    now.constraints = wanted->constraints;
+    TIDEMARK_TRY(use(now, executor().speed()));
+  }
   if (present == parameters()) return {};
   if (!open_) return set_parameters(present);
   // What goes on has set them.

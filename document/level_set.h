@@ -7,6 +7,7 @@
 #include <string>
 
 #include "document/curve.h"
+#include "document/drive.h"
 #include "document/executor_setup.h"
 #include "document/history.h"
 #include "document/recipe.h"
@@ -34,6 +35,7 @@ class LevelSet final : private OpenChange {
   [[nodiscard]] const solver::Parameters& parameters() const { return executor().parameters(); }
   [[nodiscard]] const std::shared_ptr<const Volume>& source() const { return setup_.source(); }
   [[nodiscard]] double smoothed_mm() const { return setup_.smoothed_mm(); }
+  [[nodiscard]] const Drive& drive() const { return *drive_; }
   [[nodiscard]] std::int64_t step() const { return recipe_.steps; }  // since the start
   [[nodiscard]] bool begun() const { return recipe_.begun(); }       // there is a surface to steer
   // phi before the first step; null: a session was opened that goes on from later.
@@ -47,6 +49,9 @@ class LevelSet final : private OpenChange {
   Status begin(const Start& start, const Progress& progress = {});
   Status paint(const solver::Sphere& sphere, solver::Brush brush, std::uint64_t gesture = 0);
   Status set_parameters(const solver::Parameters& parameters, std::uint64_t gesture = 0);
+  // Walls and anchors hold the surface at once. The speed function is the tent, if it is to be; else what
+  // set_speed() gives is the one that belongs to it.
+  Status set_drive(const Drive& drive, std::uint64_t gesture = 0);
   // The level set's source becomes the volume, smoothed by that many mm (0: not at all).
   Status smooth_source(double sigma_mm);
   // Steps, one after the other, are one entry until another edit or end_run(). When a memory budget ends the
@@ -59,6 +64,9 @@ class LevelSet final : private OpenChange {
   Status step_back(std::int64_t steps, const Progress& progress = {});
   // Back to the start as it was before the first step, with the present parameters. An entry of its own.
   Status restart();
+
+  // The function that was made from drive(): from here on the recipe has it. Not an entry of the history.
+  Status set_speed(std::shared_ptr<const solver::SpeedFunction> speed);
 
   // Goes on with another executor from the same phi.
   Status change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options);
@@ -87,10 +95,11 @@ class LevelSet final : private OpenChange {
     std::shared_ptr<const solver::Field> phi;
     std::shared_ptr<const solver::Field> start;
     Curve curve{};
+    std::shared_ptr<const Drive> drive = std::make_shared<const Drive>();
 
     [[nodiscard]] bool same_as(const Point& other) const {
-      return phi == other.phi && recipe.steps == other.recipe.steps && recipe.events == other.recipe.events &&
-             recipe.parameters == other.recipe.parameters;
+      return phi == other.phi && *drive == *other.drive && recipe.steps == other.recipe.steps &&
+             recipe.events == other.recipe.events && recipe.parameters == other.recipe.parameters;
     }
   };
   // An open entry.
@@ -111,12 +120,16 @@ class LevelSet final : private OpenChange {
   Status end_other_change(std::uint64_t gesture);
   void begin_change(ChangeKind kind, std::uint64_t gesture, Point before);
   void record(RecipeEvent event);
+  [[nodiscard]] Drive drive_in_use() const;
+  Status use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed);
+  Status drive_as(const Recipe& recipe);
   void add_entry(ChangeKind kind, const Point& before, const Point& after);
   Status read_back_phi();
   void put_in_place(Point point);
   Status hand_over(const Point& point);
   Status go_to(Point point);
   Status prepare_start();
+  void take_drive_of_recipe();
   Status compute_again(std::int64_t target, const Progress& progress);
 
   ExecutorSetup setup_;
@@ -124,6 +137,10 @@ class LevelSet final : private OpenChange {
   Recipe recipe_;
   std::shared_ptr<const solver::Field> start_;  // phi before the first step
   Curve curve_;
+  std::shared_ptr<const Drive> drive_ = std::make_shared<const Drive>();
+  // How many of the recipe's events any way through the history to here has: set_speed() adds some between
+  // two entries.
+  std::size_t settled_events_ = 0;
   Point known_;           // the last phi that was read back
   bool dirty_ = false;    // phi has changed since
   Point in_place_;        // where phi was last put in place; the executor has run on since

@@ -31,9 +31,9 @@ LevelSetChange::LevelSetChange(LevelSet& level_set, const LevelSet::Point& befor
   const auto& a = before.recipe.events;
   const auto& b = after.recipe.events;
   const auto [first_different, ignored] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
-  common_events_ = static_cast<std::size_t>(first_different - a.begin());
-  before_ = {without_events(before.recipe, common_events_), before.start, before.curve};
-  after_ = {without_events(after.recipe, common_events_), after.start, after.curve};
+  common_events_ = std::min(static_cast<std::size_t>(first_different - a.begin()), level_set.settled_events_);
+  before_ = {without_events(before.recipe, common_events_), before.start, before.curve, before.drive};
+  after_ = {without_events(after.recipe, common_events_), after.start, after.curve, after.drive};
 }
 
 std::int64_t LevelSetChange::bytes() const {
@@ -42,6 +42,7 @@ std::int64_t LevelSetChange::bytes() const {
   std::int64_t sum =
       static_cast<std::int64_t>(sizeof(*this) + events * sizeof(RecipeEvent) + points * sizeof(CurvePoint)) +
       delta_.bytes();
+  if (before_.drive != after_.drive) sum += bytes_of(*before_.drive) + bytes_of(*after_.drive);
   if (before_.start != after_.start) {
     // Entries of one start share it; it counts where it was made, and where it is left.
     for (const Side* side : {&before_, &after_}) {
@@ -54,11 +55,13 @@ std::int64_t LevelSetChange::bytes() const {
 
 Status LevelSetChange::go(const Side& side, solver::Field phi) {
   LevelSet::Point point{side.recipe, std::make_shared<const solver::Field>(std::move(phi)), side.start,
-                        side.curve};
+                        side.curve, side.drive};
   const auto& present = level_set_.recipe_.events;
   point.recipe.events.insert(point.recipe.events.begin(), present.begin(),
                              present.begin() + static_cast<std::ptrdiff_t>(common_events_));
-  return level_set_.go_to(std::move(point));
+  TIDEMARK_TRY(level_set_.go_to(std::move(point)));
+  level_set_.settled_events_ = common_events_;
+  return {};
 }
 
 }  // namespace tidemark::document

@@ -23,6 +23,7 @@ class LevelSetChange : public Change {
     Recipe recipe;  // its events: those that are not common
     std::shared_ptr<const solver::Field> start;
     Curve curve;
+    std::shared_ptr<const Drive> drive;
   };
   Status go(const Side& side, solver::Field phi);
 

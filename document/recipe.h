@@ -74,7 +74,7 @@ struct Recipe {
   RecipeExecutor executor;
   double smoothed_mm = 0.0;  // at the start
   Start start;
-  solver::Parameters parameters;  // at the start
+  solver::Parameters parameters;       // at the start
   std::shared_ptr<const Drive> drive;  // at the start; null: the tent, and nothing that holds the surface
   std::vector<RecipeEvent> events;
   std::int64_t steps = 0;  // in all
@@ -90,7 +90,7 @@ struct Recipe {
   [[nodiscard]] const solver::Parameters& final_parameters() const;
   [[nodiscard]] double final_smoothed_mm() const;
   [[nodiscard]] const std::shared_ptr<const Drive>& final_drive() const;  // null: as `drive`
-  [[nodiscard]] bool has_drive() const;  // at the start, or in an event
+  [[nodiscard]] bool has_drive() const;                                   // at the start, or in an event
   // The recipe up to that many steps, with the edits after the last of them.
   [[nodiscard]] Recipe up_to(std::int64_t step) const;
 };

@@ -188,7 +188,8 @@ Json to_json(const RecipeEvent& event) {
   return json;
 }
 
-RecipeEvent read_event(const JsonField& field, std::int64_t first_step, std::int64_t last_step, Index3 grid_size) {
+RecipeEvent read_event(const JsonField& field, std::int64_t first_step, std::int64_t last_step,
+                       Index3 grid_size) {
   RecipeEvent event;
   event.step = field.at("step").integer(first_step, last_step);
   if (field.has("add")) {
@@ -301,7 +302,8 @@ imaging::GridPolicy read_policy(const JsonField& field) {
 }
 
 Json to_json(const Recipe& recipe) {
-  Json json{{"format", kFormat}, {"version", recipe.has_drive() ? Recipe::kVersion : Recipe::kVersionOfTents}};
+  Json json{{"format", kFormat},
+            {"version", recipe.has_drive() ? Recipe::kVersion : Recipe::kVersionOfTents}};
   json["source"] = {{"size", index_json(recipe.source.size)},
                     {"spacing_mm", vector_json(recipe.source.spacing_mm)},
                     {"series_uid", recipe.source.series_uid},
@@ -328,7 +330,8 @@ Recipe read_recipe(const JsonField& field) {
   field.at("format").must_be(kFormat);
   const JsonField version = field.at("version");
   const std::int64_t number = version.integer(0, 1 << 30);
-  if (number != Recipe::kVersion && number != Recipe::kVersionOfTents) version.wrong("this version cannot be read");
+  if (number != Recipe::kVersion && number != Recipe::kVersionOfTents)
+    version.wrong("this version cannot be read");
   if (!field.good()) return recipe;
   const JsonField source = field.at("source");
   recipe.source.size = source.at("size").index(1, kLongestAxis);

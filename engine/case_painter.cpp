@@ -131,6 +131,10 @@ Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>&
     canvas.renderer->set_parameters(level_set.parameters());
     canvas.parameters = level_set.parameters();
   }
+  if (canvas.speed != level_set.executor().speed()) {
+    canvas.speed = level_set.executor().speed();
+    canvas.renderer->set_speed(canvas.speed);
+  }
   TIDEMARK_TRY(show_labels(canvas, document.labels()));
   if (canvas.phi != phi_revision_ || (with_pages && canvas.pages != phi_revision_)) {
     TIDEMARK_TRY(show_phi(canvas, document, with_pages));

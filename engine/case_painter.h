@@ -61,6 +61,7 @@ class CasePainter {
     std::uint64_t labels = 0;  // revision
     std::vector<document::Label> label_list;
     std::optional<solver::Parameters> parameters;
+    std::shared_ptr<const solver::SpeedFunction> speed;
   };
 
   Result<renderer::Renderer*> renderer_for(const AnyView& view, document::Case& document);

@@ -56,7 +56,10 @@ void CaseProxy::post(Command command) {
 void CaseProxy::take(CaseState state) {
   state_ = std::move(state);
   // While edits are under way, the user sees the wanted values.
-  if (*edits_done_ == edits_sent_) wanted_parameters_ = state_.parameters;
+  if (*edits_done_ == edits_sent_) {
+    wanted_parameters_ = state_.parameters;
+    wanted_drive_ = state_.drive;
+  }
   emit state_changed();
 }
 
@@ -115,6 +118,15 @@ void CaseProxy::set_parameters(const solver::Parameters& parameters, std::uint64
     return runner.report_change(runner.document().level_set().set_parameters(parameters, gesture));
   });
   emit state_changed();  // every view and panel shows the wish at once
+}
+
+void CaseProxy::set_drive(const document::Drive& drive, std::uint64_t gesture) {
+  if (drive == wanted_drive_) return;
+  wanted_drive_ = drive;
+  post([drive, gesture](CaseRunner& runner, const Progress&) {
+    return runner.report_edit(runner.document().level_set().set_drive(drive, gesture));
+  });
+  emit state_changed();
 }
 
 void CaseProxy::begin(const document::Start& start) {

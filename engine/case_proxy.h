@@ -12,6 +12,7 @@
 
 #include "core/progress.h"
 #include "document/case.h"
+#include "document/drive.h"
 #include "document/session_contents.h"
 #include "engine/case_state.h"
 #include "engine/display.h"
@@ -60,6 +61,8 @@ class CaseProxy : public QObject {
   [[nodiscard]] Engine& engine() { return engine_; }
   // The parameters as last set here, before the engine has taken them: what sliders show.
   [[nodiscard]] const solver::Parameters& parameters() const { return wanted_parameters_; }
+  // So is what drives the surface.
+  [[nodiscard]] const document::Drive& drive() const { return wanted_drive_; }
 
   // The evolution.
   void play();
@@ -77,6 +80,8 @@ class CaseProxy : public QObject {
   // Edits. One gesture (a drag, a stroke) is one entry of the history; 0: an edit of its own.
   [[nodiscard]] static std::uint64_t new_gesture();
   void set_parameters(const solver::Parameters& parameters, std::uint64_t gesture = 0);
+  // The speed function that belongs to it is made in the background, and drives the surface from then on.
+  void set_drive(const document::Drive& drive, std::uint64_t gesture = 0);
   void begin(const document::Start& start);
   void paint(const solver::Sphere& sphere, solver::Brush brush, std::uint64_t gesture);
   void smooth_source(double sigma_mm);  // the level set's source; 0: the volume itself
@@ -139,6 +144,7 @@ class CaseProxy : public QObject {
   std::shared_ptr<LockStep> lock_step_;
   CaseState state_;
   solver::Parameters wanted_parameters_;
+  document::Drive wanted_drive_;
   std::int64_t steps_per_picture_ = 0;
   bool pause_at_convergence_ = true;
   std::uint64_t edits_sent_ = 0;

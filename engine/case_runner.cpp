@@ -48,6 +48,7 @@ void CaseRunner::post(Command command) {
 }
 
 void CaseRunner::show() {
+  follow_drive();
   show_pictures();
   post_measurement();
   publish();
@@ -71,6 +72,7 @@ void CaseRunner::mark_saved(std::uint64_t position) {
 }
 
 void CaseRunner::close() {
+  speed_maker_.give_up();
   playing_ = false;
   painter_.forget();
   painter_.use(nullptr);
@@ -155,6 +157,60 @@ Status CaseRunner::accept_surface(std::uint8_t label, document::Take take) {
   return report_labels({});
 }
 
+// What drives the surface.
+
+void CaseRunner::follow_drive() {
+  const document::LevelSet& level_set = case_->level_set();
+  const SpeedOrigin wanted = speed_origin(level_set.drive(), level_set.source(), level_set.parameters());
+  if (wanted.setting.is_tent() || (wanted == speed_made_ && level_set.executor().speed())) {
+    speed_maker_.give_up();
+    speed_wish_.reset();
+    speed_waits_ = false;
+    if (wanted.setting.is_tent()) speed_made_ = {};
+    return;
+  }
+  if (speed_wish_ == wanted) return;
+  speed_wish_ = wanted;
+  speed_waits_ = true;
+  speed_maker_.make(wanted, [weak = weak_from_this(), wanted](SpeedMaker::Made made) {
+    auto self = weak.lock();
+    if (!self) return;
+    Engine& engine = self->engine_;
+    const void* owner = self.get();
+    // The job has the last hold of it: the runner must not die on the thread that makes its functions.
+    engine.post(Priority::edit, owner,
+                [self = std::move(self), wanted, made = std::move(made)](const std::stop_token&) {
+                  if (self->case_) self->take_speed(wanted, made);
+                });
+  });
+}
+
+void CaseRunner::take_speed(const SpeedOrigin& origin, SpeedMaker::Made made) {
+  if (speed_wish_ != origin) return;
+  speed_waits_ = false;
+  Status taken = made ? case_->level_set().set_speed(*made) : Status(pass_on(made));
+  if (taken) {
+    speed_made_ = origin;
+    speed_wish_.reset();
+    report_change({});
+    if (playing_) post_steps();
+  } else {
+    report_failure(taken.error());
+    set_playing(false);
+  }
+  show();
+}
+
+bool CaseRunner::waits_for_speed() const {
+  if (!speed_wish_ || !speed_waits_) return false;
+  const auto functions = [](const SpeedOrigin& origin) {
+    std::vector<std::string> names;
+    for (const solver::SpeedTerm& term : origin.setting.terms) names.push_back(term.function);
+    return names;
+  };
+  return functions(*speed_wish_) != functions(speed_made_);
+}
+
 // Playing.
 
 void CaseRunner::set_playing(bool playing) {
@@ -164,13 +220,14 @@ void CaseRunner::set_playing(bool playing) {
 
 void CaseRunner::play_alone(bool playing) {
   const bool begins = playing && !playing_;
+  if (begins && !speed_waits_) speed_wish_.reset();  // one that could not be had is tried again
   playing_ = playing && case_->level_set().begun();
   if (begins && playing_) post_steps();
   if (!playing_) end_run();
 }
 
 Status CaseRunner::step(std::int64_t steps, const Progress& progress) {
-  if (!case_->level_set().begun()) return {};
+  if (!case_->level_set().begun() || waits_for_speed()) return {};
   if (const auto group = group_.lock()) return group->step(steps, progress);
   play_alone(false);
   return advance(steps, progress);
@@ -195,7 +252,7 @@ void CaseRunner::post_steps() {
 }
 
 void CaseRunner::run_steps(std::stop_token stop) {
-  if (!playing_ || !case_) return;
+  if (!playing_ || !case_ || waits_for_speed()) return;
   Status status = follow_graphics();
   const auto group = group_.lock();
   const Progress progress{nullptr, std::move(stop)};
@@ -332,6 +389,9 @@ void CaseRunner::publish() {
   state.time_step = level_set.executor().time_step();
   state.band = level_set.executor().band();
   state.smoothed_mm = case_->smoothed_mm();
+  state.drive = level_set.drive();
+  state.speed = level_set.executor().speed();
+  state.speed_waits = speed_waits_;
   state.source = level_set.source();
   state.executor = QString::fromUtf8(level_set.executor().name().data(),
                                      static_cast<qsizetype>(level_set.executor().name().size()));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "document/curve.h"
+#include "document/drive.h"
 #include "document/labels.h"
 #include "document/outcome.h"
 #include "solver/executor.h"
@@ -26,6 +27,9 @@ struct CaseState {
   std::optional<double> wider_range;  // the epsilon to try: see wider_range(); measured when it rests
   double time_step = 0.0;
   double band = 2.5;
+  document::Drive drive;
+  std::shared_ptr<const solver::SpeedFunction> speed;  // that drives it now; null: the tent
+  bool speed_waits = false;                            // another one is being made
   double smoothed_mm = 0.0;
   std::shared_ptr<const Volume> source;  // as the level set sees it: smoothed by that much
   QString executor;                      // "host", "compute", "stream"

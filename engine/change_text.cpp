@@ -30,6 +30,12 @@ QString change_text(const document::ChangeDescription& change) {
       return tr("restart");
     case document::ChangeKind::source:
       return tr("smoothing of the source");
+    case document::ChangeKind::examples:
+      return tr("examples");
+    case document::ChangeKind::constraints:
+      return tr("walls and anchors");
+    case document::ChangeKind::speed:
+      return tr("change of the speed function");
     case document::ChangeKind::new_label:
       return tr("new label %1").arg(name);
     case document::ChangeKind::label_settings:

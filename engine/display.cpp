@@ -2,6 +2,11 @@
 
 namespace tidemark::engine {
 
+bool has_right_button(Tool tool) {
+  return tool == Tool::seed || tool == Tool::paint || tool == Tool::erase || tool == Tool::examples ||
+         tool == Tool::wall;
+}
+
 void Display::set(DisplaySettings next) {
   if (next == settings_) return;
   settings_ = std::move(next);
@@ -25,6 +30,12 @@ void Display::set_pointer(std::optional<glm::dvec3> patient_mm) {
 void Display::set_drawn_sphere(std::optional<DrawnSphere> drawn) {
   if (drawn == drawn_sphere_) return;
   drawn_sphere_ = drawn;
+  emit pointer_moved();
+}
+
+void Display::set_drawn_marks(std::optional<DrawnMarks> drawn) {
+  if (drawn == drawn_marks_) return;
+  drawn_marks_ = std::move(drawn);
   emit pointer_moved();
 }
 

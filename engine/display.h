@@ -3,12 +3,16 @@
 
 #include <QObject>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "core/result.h"
 #include "engine/measurement.h"
+#include "engine/shown_image.h"
 #include "renderer/views.h"
+#include "solver/speed/constraints.h"
+#include "solver/speed/strokes.h"
 #include "solver/sphere.h"
 
 namespace tidemark::engine {
@@ -24,7 +28,11 @@ enum class Tool {
   erase,           // erases; the right button adds
   measure_distance,
   measure_angle,
+  examples,  // strokes: the left button inside, the right one outside
+  wall,      // keeps the surface out; the right button takes walls and anchors away
 };
+// Tools whose right button changes something, too.
+[[nodiscard]] bool has_right_button(Tool tool);
 
 struct DisplaySettings {
   // Slices.
@@ -38,10 +46,12 @@ struct DisplaySettings {
   double line_pixels = 2.0;
   double label_opacity = 0.4;
   bool crosshair = true;
+  bool marks = true;                                           // strokes, walls and anchors
   bool truth = false;                                          // the outline of a phantom's known answer
   renderer::SpeedTerm speed_term = renderer::SpeedTerm::data;  // of the speed map
-  bool radiological = true;  // the patient's right on the left of the screen
-  bool patient_text = true;  // names and dates in the corners
+  bool radiological = true;        // the patient's right on the left of the screen
+  bool patient_text = true;        // names and dates in the corners
+  std::vector<ShownImage> images;  // over the slices, the last one on top
 
   // 3D.
   renderer::Camera camera;
@@ -62,6 +72,8 @@ struct DisplaySettings {
   Tool tool = Tool::window;
   Tool last_tool = Tool::crosshair;  // Space goes back to it
   double brush_mm = 5.0;             // radius
+  double stroke_voxels = 2.5;        // radius of a stroke, in voxels of the slice
+  bool wall_behind_eraser = false;   // what is erased does not grow back
   int chosen_primitive = 0;          // of transfer.source: probing sets it
   std::vector<Measurement> measurements;
 
@@ -74,6 +86,14 @@ struct DrawnSphere {
   bool erases = false;
 
   bool operator==(const DrawnSphere&) const = default;
+};
+
+// Strokes, walls and anchors as a drag is about to leave them.
+struct DrawnMarks {
+  std::shared_ptr<const solver::Strokes> strokes;
+  std::shared_ptr<const solver::Constraints> constraints;
+
+  bool operator==(const DrawnMarks&) const = default;
 };
 
 class Display : public QObject {
@@ -96,15 +116,19 @@ class Display : public QObject {
   // The sphere that is drawn in one view is seen in all.
   [[nodiscard]] const std::optional<DrawnSphere>& drawn_sphere() const { return drawn_sphere_; }
   void set_drawn_sphere(std::optional<DrawnSphere> drawn);
+  // So are marks.
+  [[nodiscard]] const std::optional<DrawnMarks>& drawn_marks() const { return drawn_marks_; }
+  void set_drawn_marks(std::optional<DrawnMarks> drawn);
 
  signals:
   void changed();
-  void pointer_moved();  // or the sphere that is being drawn has changed
+  void pointer_moved();  // or what is being drawn has changed
 
  private:
   DisplaySettings settings_;
   std::optional<glm::dvec3> pointer_mm_;
   std::optional<DrawnSphere> drawn_sphere_;
+  std::optional<DrawnMarks> drawn_marks_;
 };
 
 }  // namespace tidemark::engine

@@ -9,7 +9,7 @@ namespace tidemark::engine {
 namespace {
 
 constexpr double kFarthest = 1e6;  // mm: nothing in a patient is as far away
-constexpr int kTools = 9;
+constexpr int kTools = 11;
 constexpr JsonLimits kLimits{.bytes = std::size_t{16} << 20, .values = std::size_t{1} << 20};
 
 Json json_of(glm::dvec3 v) {
@@ -50,6 +50,7 @@ Json slices_json(const DisplaySettings& s) {
           {"label_opacity", s.label_opacity},
           {"crosshair", s.crosshair},
           {"truth", s.truth},
+          {"marks", s.marks},
           {"speed_term", static_cast<int>(s.speed_term)},
           {"radiological", s.radiological},
           {"patient_text", s.patient_text}};
@@ -69,6 +70,7 @@ void read_slices(const JsonField& field, DisplaySettings& s) {
   read(field, "label_opacity", 0.0, 1.0, s.label_opacity);
   read(field, "crosshair", s.crosshair);
   read(field, "truth", s.truth);
+  read(field, "marks", s.marks);
   read_enum(field, "speed_term", 4, s.speed_term);
   read(field, "radiological", s.radiological);
   read(field, "patient_text", s.patient_text);
@@ -170,6 +172,8 @@ std::string to_json(const DisplaySettings& s) {
               {"volume", volume_json(s)},
               {"tool", static_cast<int>(s.tool)},
               {"brush_mm", s.brush_mm},
+              {"stroke_voxels", s.stroke_voxels},
+              {"wall_behind_eraser", s.wall_behind_eraser},
               {"chosen_primitive", s.chosen_primitive},
               {"measurements", measurements_json(s)}}
       .dump();
@@ -183,6 +187,8 @@ Result<DisplaySettings> display_settings(const std::string& text, DisplaySetting
   if (root.has("volume")) read_volume(root.at("volume"), s);
   read_enum(root, "tool", kTools, s.tool);
   read(root, "brush_mm", 0.01, 1000.0, s.brush_mm);
+  read(root, "stroke_voxels", 0.5, 100.0, s.stroke_voxels);
+  read(root, "wall_behind_eraser", s.wall_behind_eraser);
   if (root.has("chosen_primitive"))
     s.chosen_primitive = static_cast<int>(root.at("chosen_primitive").integer(0, 1000));
   if (root.has("measurements")) read_measurements(root.at("measurements"), s);

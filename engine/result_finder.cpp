@@ -24,20 +24,42 @@ bool holds_results(const imaging::Series& series) {
   return !series.loadable && !series.files.empty() && form_of(series.files.front());
 }
 
+// The places and the study of which results belong to a series.
+class Surroundings {
+ public:
+  explicit Surroundings(const imaging::Series& series)
+      : series_(series), around_(StudyLoader::place_of(series).parent_path()) {}
+
+  // Whether the file lies around the series or is of its study, which may be spread over folders.
+  bool hold(const fs::path& file) {
+    if (series_.archive || lies_below(file, around_)) return true;
+    if (series_.transfer_syntaxes.empty()) return false;  // a volume file
+    if (!study_uid_) study_uid_ = imaging::study_uid_of(series_.files.front());
+    return !study_uid_->empty() && imaging::study_uid_of(file) == *study_uid_;
+  }
+
+ private:
+  const imaging::Series& series_;
+  fs::path around_;
+  std::optional<std::string> study_uid_;  // when it was needed
+};
+
 Result<std::vector<FoundResult>> find_results(const imaging::Series& series,
                                               const imaging::Catalogue& found_with,
                                               const Progress& progress) {
-  const fs::path around = series.archive ? fs::path() : StudyLoader::place_of(series).parent_path();
+  Surroundings surroundings(series);
   std::vector<FoundResult> results;
   const auto look_at = [&](const fs::path& file) {
-    if (progress.cancelled() || !lies_below(file, around)) return;
-    if (const auto form = form_of(file)) results.push_back({file, *form});
+    if (progress.cancelled()) return;
+    if (const auto form = form_of(file); form && surroundings.hold(file)) results.push_back({file, *form});
   };
   for (const imaging::Series& one : found_with.series) {
     if (!holds_results(one)) continue;
     for (const fs::path& file : one.files) look_at(file);
   }
-  for (const imaging::SkippedFile& skipped : found_with.skipped) look_at(skipped.file);
+  for (const imaging::SkippedFile& skipped : found_with.skipped) {
+    look_at(skipped.unpacked.empty() ? skipped.file : skipped.unpacked);
+  }
   std::sort(results.begin(), results.end(),
             [](const FoundResult& a, const FoundResult& b) { return a.file < b.file; });
   if (progress.cancelled()) return cancelled_error();

@@ -25,7 +25,8 @@ class ResultFinder : public JobRunner {
   explicit ResultFinder(QObject* parent = nullptr);
 
   // Ends with found(). Looks at what was found with the series: all of its archive, else what lies in its
-  // folder, in folders within it or in those next to it. Reads the beginnings of these files.
+  // folder, in folders within it or in those next to it, and what is of its study, wherever it lies. Reads
+  // the beginnings of these files.
   void look(const imaging::Series& series, std::shared_ptr<const imaging::Catalogue> found_with);
   void cancel() { give_up(); }
 

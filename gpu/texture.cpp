@@ -160,6 +160,7 @@ Result<Texture3D> Texture3D::create(Device& device, TexelFormat format, Index3 s
   TIDEMARK_TRY(device.check("allocating a volume texture"));
   Texture3D texture;
   texture.handle_ = TextureHandle(device, new_texture(GL_TEXTURE_3D));
+  texture.format_ = format;
   const GlFormat gl = gl_format(format);
   fetch_only(GL_TEXTURE_3D, false);
   if (filter == Filter::linear) {
@@ -174,6 +175,15 @@ Result<Texture3D> Texture3D::create(Device& device, TexelFormat format, Index3 s
   set_label(device, GL_TEXTURE, texture.id(), label);
   TIDEMARK_TRY(device.check("allocating a volume texture"));
   return texture;
+}
+
+void Texture3D::upload(Index3 first, Index3 size, std::span<const std::byte> data) {
+  const GlFormat gl = gl_format(format_);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  bind_for_editing(GL_TEXTURE_3D, id());
+  glTexSubImage3D(GL_TEXTURE_3D, 0, static_cast<GLint>(first.x), static_cast<GLint>(first.y),
+                  static_cast<GLint>(first.z), static_cast<GLsizei>(size.x), static_cast<GLsizei>(size.y),
+                  static_cast<GLsizei>(size.z), gl.format, gl.type, data.data());
 }
 
 void Texture3D::bind(unsigned unit) const {

@@ -76,15 +76,20 @@ class Texture2D {
 class Texture3D {
  public:
   Texture3D() = default;
+  // Without data the texels hold anything.
   static Result<Texture3D> create(Device& device, TexelFormat format, Index3 size,
                                   std::span<const std::byte> data, std::string_view label,
                                   Filter filter = Filter::nearest);
+
+  // Replaces the texels of a box.
+  void upload(Index3 first, Index3 size, std::span<const std::byte> data);
 
   [[nodiscard]] unsigned id() const { return handle_.id(); }
   void bind(unsigned unit) const;
 
  private:
   TextureHandle handle_;
+  TexelFormat format_ = TexelFormat::r32f;
 };
 
 // A buffer that shaders of OpenGL 3.3 fetch from, as isamplerBuffer (r32i) or samplerBuffer (rg32f, rgba32f).

@@ -59,7 +59,8 @@ Result<Catalogue> find_in_archive(const fs::path& file, const Progress& progress
   }
   for (Series& series : catalogue->series) series.archive = *archive;
   for (SkippedFile& skipped : catalogue->skipped) {
-    skipped = {unpacked.name_archive_in(skipped.file.string()), unpacked.name_archive_in(skipped.reason)};
+    skipped = {unpacked.name_archive_in(skipped.file.string()), unpacked.name_archive_in(skipped.reason),
+               skipped.file};
   }
   const auto& left_out = unpacked.left_out();
   catalogue->skipped.insert(catalogue->skipped.end(), left_out.begin(), left_out.end());

@@ -115,7 +115,7 @@ Result<std::int64_t> fill(const Volume& image, const std::vector<Voxel>& voxels,
 }  // namespace
 
 Result<Resampled> resample(const Volume& image, const glm::dmat4& transform, const Geometry& grid,
-                           const std::string& what, const Progress& progress) {
+                           const std::string& what, const Progress& progress, std::optional<float> outside) {
   const auto map = make_map(image.geometry, transform, grid, what);
   if (!map) return tl::unexpected<Error>(map.error());
   Resampled result;
@@ -126,7 +126,8 @@ Result<Resampled> resample(const Volume& image, const glm::dmat4& transform, con
   result.volume.window = image.window;
   result.volume.changes = image.changes;
   try {
-    std::vector<float> values(static_cast<std::size_t>(grid.voxel_count()), image.range().first);
+    const float background = outside ? *outside : image.range().first;
+    std::vector<float> values(static_cast<std::size_t>(grid.voxel_count()), background);
     const auto covered = std::visit(
         [&](const auto& voxels) { return fill(image, voxels, *map, grid, values, progress); }, image.voxels);
     if (!covered) return tl::unexpected<Error>(covered.error());

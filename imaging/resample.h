@@ -11,16 +11,17 @@
 namespace tidemark::imaging {
 
 struct Resampled {
-  Volume volume;         // float, on the grid; voxels outside of the image have its minimum
+  Volume volume;         // float, on the grid
   double covered = 0.0;  // the part of the grid's voxels that the image covers, above 0
 };
 
-// The image on the grid, trilinearly. `transform` leads from the image's patient coordinates (LPS, mm) to the
-// grid's and must be invertible. An image reaches half a voxel beyond the centres of its outermost voxels.
-// Fails (ErrorKind::usage), naming `what` (the image) and both grids, when no voxel of the grid is in the
-// image.
+// The image on the grid, trilinearly. Voxels outside of the image have its minimum, or `outside`. `transform`
+// leads from the image's patient coordinates (LPS, mm) to the grid's and must be invertible. An image reaches
+// half a voxel beyond the centres of its outermost voxels. Fails (ErrorKind::usage), naming `what` (the
+// image) and both grids, when no voxel of the grid is in the image.
 Result<Resampled> resample(const Volume& image, const glm::dmat4& transform, const Geometry& grid,
-                           const std::string& what, const Progress& progress = {});
+                           const std::string& what, const Progress& progress = {},
+                           std::optional<float> outside = {});
 
 // The image's value at a place of its own patient coordinates, trilinearly; nothing outside of it.
 [[nodiscard]] std::optional<double> value_at(const Volume& image, glm::dvec3 patient_mm);

@@ -16,6 +16,8 @@ constexpr int kPhiUnit = 0;
 constexpr int kSourceUnit = 3;
 constexpr LabelPicture::Units kLabelUnits{5, 10, 11, 12};
 constexpr int kFreeUnit = 6;  // and the three behind it
+constexpr int kSpeedUnit = 13;
+constexpr int kConstraintUnit = 14;
 
 // The view moved by a part of a picture's pixels.
 glm::dmat4 moved_by(glm::dvec2 pixels, PictureSize size) {
@@ -57,7 +59,8 @@ Renderer::Renderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Vo
     : device_(std::move(device)),
       source_(std::move(source)),
       constants_(constants_of(source_, solver::Parameters())),
-      tent_(solver::tent_of(solver::Parameters())) {}
+      tent_(solver::tent_of(solver::Parameters())),
+      speed_picture_(source_->geometry.size) {}
 
 Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> device,
                                                    std::shared_ptr<const Volume> source,
@@ -120,6 +123,24 @@ void Renderer::set_parameters(const solver::Parameters& parameters) {
   tent_ = solver::tent_of(parameters);
 }
 
+Status Renderer::set_constraints(const solver::Constraints* constraints) {
+  TIDEMARK_TRY(device_->make_current());
+  if (constraints == nullptr || constraints->empty()) {
+    constraints_.reset();
+    return {};
+  }
+  if (constraints->layout().volume_size() != source_->geometry.size) {
+    return fail(ErrorKind::usage, "walls and anchors are on another grid than the volume");
+  }
+  if (!constraints_) {
+    auto made = solver::ConstraintTexture::create(*device_, source_->geometry.size);
+    if (!made) return pass_on(made);
+    constraints_ = std::move(*made);
+  }
+  constraints_->show(*constraints);
+  return device_->check("showing walls and anchors");
+}
+
 Status Renderer::set_labels(std::span<const std::uint8_t> labels) {
   if (static_cast<std::int64_t>(labels.size()) != source_->geometry.voxel_count()) {
     return fail(ErrorKind::usage, "there are {} labels for {} voxels", labels.size(),
@@ -165,7 +186,8 @@ Result<const gpu::Program*> Renderer::use_program(const char* fragment, const gp
   slots_.clear();
   program.use();
   solver::set_step_uniforms(program, constants_);
-  solver::set_tent_uniforms(program, tent_);
+  solver::set_tent_uniforms(program, speed_picture_.tent() != nullptr ? *speed_picture_.tent() : tent_);
+  speed_picture_.set_uniforms(program, kSpeedUnit);
   phi_.set_uniforms(program, kPhiUnit);  // after the step's: the band is that of the phi shown
   source_picture_.set_uniforms(program, kSourceUnit);
   labels_.set_uniforms(program, kLabelUnits);
@@ -183,6 +205,12 @@ VolumeView Renderer::resolved(const VolumeView& asked) {
   if (view.colouring != SurfaceColouring::plain)
     view.lighting.specular = 0.0;  // white would hide the colours
   return view;
+}
+
+// From D, in 3D.
+bool Renderer::shows_speed(const VolumeView& view) const {
+  return speed_picture_.is_evaluated() &&
+         (view.colouring == SurfaceColouring::data || view.colouring == SurfaceColouring::total_speed);
 }
 
 bool Renderer::shows_labels(const VolumeView& view) const {
@@ -208,6 +236,10 @@ Result<const gpu::Program*> Renderer::use_volume_program(const char* fragment, c
   with(view.lighting.occlusion > 0.0, "OCCLUSION");
   with(source && view.quality.fast_gradient, "FAST_GRADIENT");
   with(!view.quality.skip_empty, "NO_SKIP");
+  if (shows_speed(view)) {
+    TIDEMARK_TRY(speed_picture_.fill_pages(*device_, phi_.layout().layout(), phi_.page_entries()));
+    for (const auto& define : speed_picture_.defines()) variant.push_back(define);
+  }
   const gpu::Defines shading = shading_defines(view);
   variant.insert(variant.end(), shading.begin(), shading.end());
   const auto used = use_program(fragment, variant);
@@ -285,11 +317,20 @@ Status Renderer::draw_on(Canvas& canvas, const SliceView& view, const Progress& 
   TIDEMARK_TRY(device_->make_current());
   const PictureSize size = canvas.size();
   const bool by_plane = !source_picture_.has_volume();
-  auto program = use_program("render/slice.frag", variant_of(view, by_plane));
-  if (!program) return pass_on(program);
-  const gpu::Program& slice = **program;
   const glm::dmat4 voxel_from_view = slice_from_view(source_->geometry, view.orientation, view.position_mm,
                                                      view.zoom, view.pan_mm, size.aspect());
+  gpu::Defines variant = variant_of(view, by_plane);
+  if (view.content == SliceContent::speed) {
+    TIDEMARK_TRY(speed_picture_.fill_plane(*device_, voxel_from_view));
+    for (const auto& define : speed_picture_.defines()) variant.push_back(define);
+  }
+  if (constraints_) {
+    for (const auto& define : constraints_->defines()) variant.push_back(define);
+  }
+  auto program = use_program("render/slice.frag", variant);
+  if (!program) return pass_on(program);
+  const gpu::Program& slice = **program;
+  if (constraints_) constraints_->set_uniforms(slice, kConstraintUnit);
   slice.set("voxel_from_view", glm::mat4(voxel_from_view));
   gpu::Texture2D plane;
   if (by_plane) {

@@ -16,7 +16,9 @@
 #include "renderer/phi_picture.h"
 #include "renderer/slice_caster.h"
 #include "renderer/source_picture.h"
+#include "renderer/speed_picture.h"
 #include "renderer/views.h"
+#include "solver/gl/constraint_texture.h"
 #include "solver/model.h"
 
 namespace tidemark::renderer {
@@ -50,6 +52,14 @@ class Renderer {
                  const std::optional<std::vector<std::int64_t>>& quiet = std::nullopt);
   // The parameters of the speed map.
   void set_parameters(const solver::Parameters& parameters);
+  // What drives the surface, for the speed map and its colours; null: the tent of the parameters. D is
+  // evaluated where pictures show it.
+  void set_speed(std::shared_ptr<const solver::SpeedFunction> speed) {
+    speed_picture_.set_function(std::move(speed));
+  }
+  // Walls and anchors, which slices show; null: none. Fails (ErrorKind::usage) when they are on another grid,
+  // (ErrorKind::capability) when memory is short.
+  Status set_constraints(const solver::Constraints* constraints);
   // A label for each voxel, 0 for none. Fails (ErrorKind::usage) when there are not as many as voxels.
   Status set_labels(std::span<const std::uint8_t> labels);
   // Red, green, blue and opacity (0: hidden) of the labels from 0 on; at first all are seen, with
@@ -83,6 +93,7 @@ class Renderer {
   Result<const gpu::Program*> use_volume_program(const char* fragment, const VolumeView& view,
                                                  PictureSize size, gpu::Defines variant);
   [[nodiscard]] VolumeView resolved(const VolumeView& asked);
+  [[nodiscard]] bool shows_speed(const VolumeView& view) const;
   [[nodiscard]] bool shows_labels(const VolumeView& view) const;
   template <class View>
   Result<Picture> draw_and_read(const View& view, PictureSize size, const Progress& progress);
@@ -98,6 +109,8 @@ class Renderer {
   SourcePicture source_picture_;
   PhiPicture phi_;
   LabelPicture labels_;
+  SpeedPicture speed_picture_;
+  std::optional<solver::ConstraintTexture> constraints_;
   struct Made {
     gpu::Program program;
     std::int64_t used = 0;

@@ -11,7 +11,8 @@ namespace {
 constexpr const char* kSummary = "Lists the series found under a path";
 constexpr const char* kDescription =
     "Lists the series under PATH: size in voxels (i,j,k), spacing in mm, orientation and origin in patient\n"
-    "coordinates (LPS, mm), transfer syntax, and whether and why not they can be loaded.\n"
+    "coordinates (LPS, mm), the frame of reference and which other series share it, transfer syntax, and\n"
+    "whether and why not they can be loaded.\n"
     "A DICOM series that holds several volumes (echoes, times, b-values, stacks) is listed volume by "
     "volume,\n"
     "each with its number behind the UID: 1.2.3#2. Without a number --series takes the largest.";
@@ -26,7 +27,7 @@ Json triple(const glm::dvec3& v) {
   return Json::array({v.x, v.y, v.z});
 }
 
-Json to_json(const imaging::Series& series) {
+Json to_json(const imaging::Series& series, const imaging::Catalogue& catalogue) {
   const Geometry& grid = series.geometry;
   const bool known = grid.voxel_count() > 0;
   Json direction = Json::array();  // the unit vector of the i axis, then of j, then of k
@@ -44,6 +45,11 @@ Json to_json(const imaging::Series& series) {
   object["spacing_mm"] = known ? triple(grid.spacing_mm) : Json();
   object["direction"] = known ? direction : Json();
   object["origin_mm"] = known ? triple(grid.origin_mm) : Json();
+  object["frame_of_reference"] = series.frame_of_reference_uid;
+  object["same_frame"] = Json::array();  // the UIDs of the other series on it
+  for (const imaging::Series* other : catalogue.on_the_frame_of(series)) {
+    object["same_frame"].push_back(other->uid);
+  }
   object["scalar"] = series.scalar;
   object["unit"] = series.unit;
   object["transfer_syntaxes"] = series.transfer_syntaxes;
@@ -59,7 +65,8 @@ Json to_json(const imaging::Catalogue& catalogue) {
   Json object;
   object["series"] = Json::array();
   object["skipped"] = Json::array();
-  for (const imaging::Series& series : catalogue.series) object["series"].push_back(to_json(series));
+  for (const imaging::Series& series : catalogue.series)
+    object["series"].push_back(to_json(series, catalogue));
   for (const imaging::SkippedFile& skipped : catalogue.skipped) {
     object["skipped"].push_back({{"file", skipped.file.string()}, {"reason", skipped.reason}});
   }
@@ -89,7 +96,17 @@ void say_geometry(Console& console, const Geometry& grid) {
               grid.origin_mm.z);
 }
 
-void say_series(Console& console, const imaging::Series& series) {
+// Series of one frame lie in the same patient coordinates: they can be shown and used together as they are.
+void say_frame(Console& console, const imaging::Series& series, const imaging::Catalogue& catalogue) {
+  if (series.frame_of_reference_uid.empty()) return;
+  console.say("  frame       {}", series.frame_of_reference_uid);
+  for (const imaging::Series* other : catalogue.on_the_frame_of(series)) {
+    console.say("              shared with {}{}{}", other->uid, other->description.empty() ? "" : ", ",
+                other->description);
+  }
+}
+
+void say_series(Console& console, const imaging::Series& series, const imaging::Catalogue& catalogue) {
   console.say("{}{}{}", series.modality, series.modality.empty() ? "" : "  ", series.description);
   console.say("  uid         {}", series.uid);
   if (!series.date.empty()) console.say("  date        {}", series.date);
@@ -97,6 +114,7 @@ void say_series(Console& console, const imaging::Series& series) {
   console.say("  files       {}{}", series.files.size(),
               has_many ? fmt::format(" with {} slices in them", series.sources.size()) : "");
   if (series.geometry.voxel_count() > 0) say_geometry(console, series.geometry);
+  say_frame(console, series, catalogue);
   if (!series.scalar.empty()) {
     console.say("  values      {}{}{}", series.scalar, series.unit.empty() ? "" : ", ", series.unit);
   }
@@ -109,7 +127,7 @@ void say_series(Console& console, const imaging::Series& series) {
 
 void say_catalogue(Console& console, const imaging::Catalogue& catalogue) {
   for (const imaging::Series& series : catalogue.series) {
-    say_series(console, series);
+    say_series(console, series, catalogue);
     console.say("");
   }
   for (const imaging::SkippedFile& skipped : catalogue.skipped) {

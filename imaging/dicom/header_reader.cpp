@@ -145,6 +145,7 @@ ImageResult<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file,
   header.file = file;
   AttributeReader in(dataset, header.problem);
   header.series_uid = in.name(DCM_SeriesInstanceUID);
+  header.frame_of_reference_uid = in.name(DCM_FrameOfReferenceUID);
   header.sop_class_uid = in.name(DCM_SOPClassUID);
   header.sop_instance_uid = in.name(DCM_SOPInstanceUID);
   header.modality = in.name(DCM_Modality);

@@ -248,6 +248,18 @@ void describe(const Slices& slices, Series& series) {
   series.date = first.date;
   series.patient = first.patient;
   series.description = first.description.empty() ? first.file.filename().string() : first.description;
+  series.frame_of_reference_uid = first.frame_of_reference_uid;
+  if (const auto other = all_that(slices,
+                                  [&](const auto& s) {
+                                    return s.problem.empty() &&
+                                           s.frame_of_reference_uid != first.frame_of_reference_uid;
+                                  });
+      !other.empty()) {
+    series.frame_of_reference_uid.clear();
+    series.warnings.push_back(fmt::format(
+        "FrameOfReferenceUID (0020,0052) is not the same in all images: {} of {} have another than {}",
+        other.size(), slices.size(), name(first)));
+  }
   for (const SliceHeader& slice : slices) {
     auto& known = series.transfer_syntaxes;
     if (std::find(known.begin(), known.end(), slice.transfer_syntax) == known.end()) {

@@ -42,12 +42,13 @@ struct SliceHeader {
   // The reason why the image cannot be a slice, one line without the file's name; empty when it can.
   std::string problem;
 
-  std::string series_uid;        // (0020,000E)
-  std::string sop_class_uid;     // (0008,0016)
-  std::string sop_instance_uid;  // (0008,0018)
-  std::string modality;          // (0008,0060)
-  std::string description;       // (0008,103E), UTF-8
-  std::string date;              // (0008,0020) as "2004-07-31"; empty when absent or not a date
+  std::string series_uid;              // (0020,000E)
+  std::string frame_of_reference_uid;  // (0020,0052)
+  std::string sop_class_uid;           // (0008,0016)
+  std::string sop_instance_uid;        // (0008,0018)
+  std::string modality;                // (0008,0060)
+  std::string description;             // (0008,103E), UTF-8
+  std::string date;                    // (0008,0020) as "2004-07-31"; empty when absent or not a date
   Patient patient;
   std::string transfer_syntax;  // UID
 

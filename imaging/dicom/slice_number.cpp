@@ -7,9 +7,10 @@
 namespace tidemark::imaging {
 namespace {
 
-// The image that a slice of a planned grid repeats; weights of neighbours are rounded.
+constexpr double kWhole = 1.0 - 1e-6;  // weights of neighbours are rounded
+
+// The image that a slice of a planned grid repeats.
 std::optional<std::int64_t> image_of(const GridSlice& slice) {
-  constexpr double kWhole = 1.0 - 1e-6;
   const auto whole =
       std::find_if(slice.begin(), slice.end(), [](const auto& s) { return s.weight >= kWhole; });
   return whole == slice.end() ? std::nullopt : std::optional(whole->slice);

@@ -56,4 +56,10 @@ std::optional<ResultForm> result_form_of(const fs::path& file) {
   return std::nullopt;
 }
 
+std::string study_uid_of(const fs::path& file) {
+  constexpr DicomTag kSeriesInstanceUid{0x0020, 0x000e};  // the next one
+  const auto object = load_object(file, kSeriesInstanceUid);
+  return object ? element_text(object->dataset(), DCM_StudyInstanceUID) : std::string();
+}
+
 }  // namespace tidemark::imaging

@@ -16,6 +16,9 @@ enum class ResultForm { segmentation, structure_set };
 // The kind of a DICOM file by its SOP class; nothing when it is neither or cannot be read.
 [[nodiscard]] std::optional<ResultForm> result_form_of(const std::filesystem::path& file);
 
+// StudyInstanceUID (0020,000D) of any DICOM file; empty when it has none or cannot be read.
+[[nodiscard]] std::string study_uid_of(const std::filesystem::path& file);
+
 // The DICOM files of the series that was segmented, in slice order (Series::files): the result belongs to
 // their patient, study and frame of reference, and refers to them slice by slice, in images of many frames to
 // the frames at each slice's place. Empty when the volume was not DICOM: the result then makes a new study of

@@ -11,7 +11,6 @@
 #include "solver/gl/packed_view.h"
 #include "solver/paging/reserve.h"
 #include "solver/paging/validate.h"
-#include "solver/speed/tent_speed.h"
 
 namespace tidemark::solver {
 namespace {
@@ -60,9 +59,9 @@ ComputeExecutor::ComputeExecutor(std::shared_ptr<gpu::Device> device, std::share
               device_->capabilities().largest_texture) {}
 
 Status ComputeExecutor::compile() {
-  auto texture = SourceTexture::create(*device_, *source_);
-  if (!texture) return pass_on(texture);
-  source_texture_ = std::move(*texture);
+  auto textures = DriveTextures::create(*device_, *source_, speed_, options_.threads);
+  if (!textures) return pass_on(textures);
+  drive_textures_ = std::move(*textures);
   struct Kernel {
     gpu::Program& program;
     const char* path;
@@ -70,9 +69,9 @@ Status ComputeExecutor::compile() {
   gpu::Defines defines = layout_.defines();
   // Invocations that look after a page: on a software driver, one vector of them.
   defines.emplace_back("MAINTAINERS", software() ? "8" : "32");
-  for (const Kernel& kernel : {Kernel{maintain_, "maintain"}, Kernel{find_quiet_pages_, "find_quiet_pages"},
-                               Kernel{check_convergence_, "check_convergence"}, Kernel{rebuild_, "rebuild"},
-                               Kernel{paint_, "paint"}}) {
+  for (const Kernel& kernel :
+       {Kernel{maintain_, "maintain"}, Kernel{find_quiet_pages_, "find_quiet_pages"},
+        Kernel{check_convergence_, "check_convergence"}, Kernel{rebuild_, "rebuild"}}) {
     auto program =
         gpu::Program::compute(*device_, fmt::format("solver/compute/{}.comp", kernel.path), defines);
     if (!program) return pass_on(program);
@@ -81,6 +80,7 @@ Status ComputeExecutor::compile() {
   auto readback = gpu::Readback::create(*device_, sizeof(ComputeControl), "control on its way");
   if (!readback) return pass_on(readback);
   readback_ = std::move(*readback);
+  TIDEMARK_TRY(compile_paint());
   return compile_update();
 }
 
@@ -89,10 +89,20 @@ bool ComputeExecutor::shared_apron() const {
   return chosen == nullptr ? !software() : std::string_view(chosen) == "shared";
 }
 
-// The kernel of the scheme that the parameters ask for.
+Status ComputeExecutor::compile_paint() {
+  gpu::Defines defines = layout_.defines();
+  for (const auto& define : drive_textures_.constraint_defines()) defines.push_back(define);
+  if (defines == paint_defines_) return {};
+  auto paint = gpu::Program::compute(*device_, "solver/compute/paint.comp", defines);
+  if (!paint) return pass_on(paint);
+  paint_ = std::move(*paint);
+  paint_defines_ = std::move(defines);
+  return {};
+}
+
 Status ComputeExecutor::compile_update() {
   gpu::Defines defines = layout_.defines();
-  for (const gpu::Defines& more : {step_defines(model_), source_texture_.defines()}) {
+  for (const gpu::Defines& more : {step_defines(model_), drive_textures_.defines()}) {
     defines.insert(defines.end(), more.begin(), more.end());
   }
   // A software driver runs the columns along x in the lanes of a vector, and its shared memory is slow.
@@ -101,11 +111,14 @@ Status ComputeExecutor::compile_update() {
   defines.emplace_back("FOR_BLOCK(F)", repeated(block));
   defines.emplace_back("FOR_ROWS(F)", repeated(block + 2));
   if (shared_apron()) defines.emplace_back("SHARED_APRON", "");
+  if (defines == update_defines_) return {};
   auto update = gpu::Program::compute(*device_, "solver/compute/update.comp", defines);
   if (!update) return pass_on(update);
-  defines.emplace_back("MEASURE_ONLY", "");
-  auto measure = gpu::Program::compute(*device_, "solver/compute/update.comp", defines);
+  gpu::Defines measured = defines;
+  measured.emplace_back("MEASURE_ONLY", "");
+  auto measure = gpu::Program::compute(*device_, "solver/compute/update.comp", measured);
   if (!measure) return pass_on(measure);
+  update_defines_ = std::move(defines);
   update_ = std::move(*update);
   measure_ = std::move(*measure);
   return {};
@@ -126,8 +139,7 @@ void ComputeExecutor::prepare_update(const gpu::Program& program) {
   program.use();
   set_layout(program);
   set_step_uniforms(program, model_.constants<float>());
-  set_tent_uniforms(program, tent_of(parameters()));
-  source_texture_.set_uniforms(program, 1);
+  drive_textures_.set_uniforms(program, 1);
   program.set("phi_now", 0);
 }
 
@@ -294,6 +306,28 @@ Status ComputeExecutor::activate_pages() {
   return {};
 }
 
+// As run_steps() of the other executors does before a step.
+Status ComputeExecutor::follow_surface() {
+  if (steps_in_window_ != 0 || !speed_->follows_surface()) return {};
+  auto speed = following_speed();
+  if (!speed) return pass_on(speed);
+  if (*speed == nullptr) return {};
+  return set_speed(std::move(*speed));
+}
+
+// Readies a run of at most so many steps; returns how many it may have. No page may wait inside of a run for
+// what the processor evaluates.
+Result<std::int64_t> ComputeExecutor::prepare_run(std::int64_t steps) {
+  TIDEMARK_TRY(follow_surface());
+  if (speed_->follows_surface()) {
+    steps = std::min<std::int64_t>(steps, kConvergenceWindow - steps_in_window_);
+  }
+  if (!drive_textures_.is_evaluated()) return steps;
+  constexpr std::int64_t kMostSteps = DriveTextures::kMostStepsOfARun;
+  TIDEMARK_TRY(drive_textures_.fill_around(*device_, layout_.layout(), memory_.resident_pages(), kMostSteps));
+  return std::min(steps, kMostSteps);
+}
+
 Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
   constexpr std::int64_t kMostStepsPerRun = 64;
   const Stopwatch whole;
@@ -305,7 +339,9 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
   }
   control_.converged = 0;
   while (report.steps < run.steps && !run.progress.cancelled()) {
-    const std::int64_t count = std::min(run.steps - report.steps, steps_per_run_);
+    auto prepared = prepare_run(std::min(run.steps - report.steps, steps_per_run_));
+    if (!prepared) return pass_on(prepared);
+    const std::int64_t count = *prepared;
     const Stopwatch one_run;
     auto control = run_steps(count, run.until_converged);
     if (!control) return pass_on(control);

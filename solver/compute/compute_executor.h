@@ -7,7 +7,7 @@
 #include "gpu/program.h"
 #include "solver/compute/page_memory.h"
 #include "solver/executor_base.h"
-#include "solver/gl/step_uniforms.h"
+#include "solver/gl/drive_textures.h"
 
 namespace tidemark::solver {
 
@@ -43,7 +43,9 @@ class ComputeExecutor final : public ExecutorBase {
   [[nodiscard]] bool software() const { return device_->capabilities().software; }
   [[nodiscard]] bool shared_apron() const;
   Status compile();
+  // The kernels of what the parameters, the speed function and walls ask for, if they are others.
   Status compile_update();
+  Status compile_paint();
 
   // Orders the dispatches of one step, which reads phi from buffer `now`.
   void order_step(int now, int step_in_window, bool in_pieces);
@@ -61,13 +63,19 @@ class ComputeExecutor final : public ExecutorBase {
   // Grants every request of the present phi; G grows as needed.
   Status activate_pages();
   Status grow(std::int64_t more_pages);
+  Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given);
+  Status replace(const Field& phi);
+  Status use_constraints(std::shared_ptr<const Constraints> constraints, const Field& phi);
+  Status follow_surface();
+  Result<std::int64_t> prepare_run(std::int64_t steps);
   void order_sphere(const Sphere& sphere, Brush brush, bool only_count);
   void note_memory(const ComputeControl& control);
 
   std::shared_ptr<gpu::Device> device_;  // first: it outlives everything below
   ExecutorOptions options_;
   PackedLayout layout_;
-  SourceTexture source_texture_;
+  DriveTextures drive_textures_;
+  gpu::Defines update_defines_, paint_defines_;
   gpu::Program update_, measure_, maintain_, find_quiet_pages_, check_convergence_, rebuild_, paint_;
   PageMemory memory_;
   gpu::Readback readback_;

@@ -1,5 +1,7 @@
 // Replacing and painting phi, and changing parameters, in the compute executor.
+#include <algorithm>
 #include <glm/common.hpp>
+#include <utility>
 
 #include "solver/compute/compute_executor.h"
 
@@ -10,6 +12,15 @@ Status ComputeExecutor::restore(const Field& phi) {
   if (phi.layout.page_shape() != layout_.layout().page_shape()) {
     return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band, layout_.layout().page_shape()));
   }
+  if (constraints_ != nullptr && !constraints_->empty()) {
+    Field limited = phi;
+    constrain(limited, *constraints_);
+    return replace(limited);
+  }
+  return replace(phi);
+}
+
+Status ComputeExecutor::replace(const Field& phi) {
   TIDEMARK_TRY(device_->make_current());
   constexpr std::int64_t kFewPages = 16;
   const std::int64_t pages = phi.resident_pages() + kFewPages;
@@ -27,23 +38,48 @@ Status ComputeExecutor::restore(const Field& phi) {
   return activate_pages();
 }
 
-Status ComputeExecutor::set_speed(std::shared_ptr<const SpeedFunction>) {
-  return fail(ErrorKind::capability, "the compute executor knows the tent alone");
-}
-
-Status ComputeExecutor::set_constraints(std::shared_ptr<const Constraints>) {
-  return fail(ErrorKind::capability, "the compute executor knows no walls");
-}
-
 Status ComputeExecutor::set_parameters(const Parameters& parameters) {
-  auto drive = drive_with(parameters, given_speed_);
+  return drive(parameters, given_speed_);
+}
+
+Status ComputeExecutor::set_speed(std::shared_ptr<const SpeedFunction> speed) {
+  return drive(parameters(), std::move(speed));
+}
+
+// phi goes through the processor, where pages are made that were constant.
+Status ComputeExecutor::set_constraints(std::shared_ptr<const Constraints> constraints) {
+  if (constraints != nullptr) {
+    TIDEMARK_TRY(check_fits(*constraints));
+  }
+  auto phi = snapshot();
+  if (!phi) return pass_on(phi);
+  const auto former = constraints_;
+  Status set = use_constraints(std::move(constraints), *phi);
+  if (set) return set;
+  TIDEMARK_TRY(use_constraints(former, *phi));
+  return set;
+}
+
+Status ComputeExecutor::use_constraints(std::shared_ptr<const Constraints> constraints, const Field& phi) {
+  TIDEMARK_TRY(drive_textures_.set_constraints(*device_, constraints.get()));
+  constraints_ = std::move(constraints);
+  TIDEMARK_TRY(compile_paint());
+  TIDEMARK_TRY(compile_update());
+  const std::int64_t peak_resident = peak_resident_;
+  const std::int64_t peak_bytes = peak_bytes_;
+  TIDEMARK_TRY(restore(phi));
+  peak_resident_ = std::max(peak_resident_, peak_resident);
+  peak_bytes_ = std::max(peak_bytes_, peak_bytes);
+  return {};
+}
+
+Status ComputeExecutor::drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given) {
+  auto drive = drive_with(parameters, std::move(given));
   if (!drive) return pass_on(drive);
   TIDEMARK_TRY(device_->make_current());
-  const bool other_kernel = model_.parameters().scheme != parameters.scheme;
+  TIDEMARK_TRY(drive_textures_.set_speed(*device_, drive->used));
   take(std::move(*drive));
-  if (other_kernel) {
-    TIDEMARK_TRY(compile_update());
-  }
+  TIDEMARK_TRY(compile_update());
   begin_window(true);
   note_memory(memory_.read_control());
   return device_->check("waking all pages");
@@ -70,6 +106,7 @@ void ComputeExecutor::order_sphere(const Sphere& sphere, Brush brush, bool only_
   paint_.set("band", static_cast<float>(band()));
   paint_.set("erase", brush == Brush::erase ? 1 : 0);
   paint_.set("only_count", only_count ? 1 : 0);
+  drive_textures_.set_constraint_uniforms(paint_, 1);
   memory_.field().phi(current_).bind_image(0, true);
   memory_.field().phi(1 - current_).bind_image(1, true);
   gpu::dispatch(glm::ivec3(last - first + Index3(1)));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 
 namespace tidemark::solver {
 namespace {
@@ -146,6 +147,14 @@ Result<Field> PageMemory::download(const Geometry& geometry, double band, int bu
     phi.pages.insert(phi.pages.end(), values, values + voxels);
   }
   return phi;
+}
+
+std::vector<std::int64_t> PageMemory::resident_pages() const {
+  const auto inverse = inverse_table_.download_values<std::int32_t>(0, capacity());
+  std::vector<std::int64_t> pages;
+  std::copy_if(inverse.begin() + kFirstPage, inverse.end(), std::back_inserter(pages),
+               [](std::int32_t page) { return page >= 0; });
+  return pages;
 }
 
 std::vector<std::int64_t> PageMemory::sleeping_pages() const {

@@ -65,7 +65,8 @@ class PageMemory {
 
   [[nodiscard]] const PackedField& field() const { return field_; }
   [[nodiscard]] const gpu::Buffer& page_table() const { return page_table_; }
-  // The virtual pages that are resident and quiet. Waits for the GPU.
+  // The virtual pages that are resident, and those of them that are quiet. Waits for the GPU.
+  [[nodiscard]] std::vector<std::int64_t> resident_pages() const;
   [[nodiscard]] std::vector<std::int64_t> sleeping_pages() const;
   [[nodiscard]] const gpu::Buffer& control() const { return control_; }
   [[nodiscard]] ComputeControl read_control() const;

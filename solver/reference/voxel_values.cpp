@@ -5,19 +5,17 @@
 
 #include "solver/reference/gather-inl.h"
 #include "solver/speed/curvature-inl.h"
+#include "solver/speed/tent_speed.h"
 
 namespace tidemark::solver {
 
 double data_speed(const Parameters& parameters, double intensity) {
-  const double distance = std::abs(intensity - parameters.target);
-  if (parameters.data_form == DataForm::raw) return parameters.range - distance;
-  return std::max(-1.0, 1.0 - distance / parameters.range);
+  const Tent tent = tent_of(parameters);
+  return std::max(tent.peak - std::abs(intensity - tent.target) * tent.slope, tent.floor);
 }
 
-VoxelValues values_at(const Field& phi, const Volume& source, const Parameters& parameters, Index3 voxel) {
+VoxelValues values_at(const Field& phi, Index3 voxel) {
   VoxelValues values;
-  values.intensity = source.value(voxel);
-  values.data = data_speed(parameters, values.intensity);
   values.phi = phi.at(voxel);
   if (std::abs(values.phi) >= phi.band) return values;
   double inverse_spacing[3];

@@ -80,7 +80,20 @@ CachedSpeed::~CachedSpeed() {
 std::shared_ptr<const SpeedFunction> CachedSpeed::following(const Field& phi) const {
   auto next = function_->following(phi);
   if (next == nullptr) return nullptr;
-  return std::make_shared<CachedSpeed>(std::move(next), layout_.volume_size());
+  auto cached = std::make_shared<CachedSpeed>(next, layout_.volume_size());
+  if (const auto* local = dynamic_cast<const LocallyFollowing*>(next.get())) cached->take_over(*this, *local);
+  return cached;
+}
+
+void CachedSpeed::take_over(const CachedSpeed& former, const LocallyFollowing& function) {
+  for (std::int64_t number = 0; number < layout_.page_count(); ++number) {
+    const Index3 page = layout_.page_coordinates(number);
+    const Page* there = former.ready(page);
+    if (there == nullptr || !function.is_as_before(box_of(page)) || !claim(page)) continue;
+    Page* own = entry(page).load(std::memory_order_relaxed);
+    own->values = there->values;
+    own->set(Page::State::evaluated);
+  }
 }
 
 std::int64_t CachedSpeed::memory() const {
@@ -134,7 +147,7 @@ bool CachedSpeed::claim(Index3 page) const {
   if (fresh == nullptr) return false;  // it is answered without being kept
   Page* nobody = nullptr;
   if (!place.compare_exchange_strong(nobody, fresh.get(), std::memory_order_acq_rel)) return false;
-  fresh.release();
+  static_cast<void>(fresh.release());  // the table owns it
   ++kept_pages_;
   return true;
 }

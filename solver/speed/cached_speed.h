@@ -22,6 +22,14 @@ inline constexpr double kSpeedSteps = 32767.0;
 // Writes D of the box's voxels, quantised: from its pages where the function is a CachedSpeed.
 void evaluate_quantised(const SpeedFunction& function, const VoxelBox& box, std::int16_t* speed);
 
+// A function that follows the surface and changes with it in places alone.
+class LocallyFollowing {
+ public:
+  virtual ~LocallyFollowing() = default;
+  // Whether D of the box has the same bits as that of the function that this one followed.
+  [[nodiscard]] virtual bool is_as_before(const VoxelBox& box) const = 0;
+};
+
 // Keeps D by pages of 8^3 voxels, two bytes a voxel that was asked for. A page is evaluated once, also when
 // several threads ask for it. Boxes that take little of each page, as slices do, are answered from pages that
 // are there; the rest of them is evaluated anew each time, quantised in the same way.
@@ -45,7 +53,7 @@ class CachedSpeed final : public SpeedFunction {
   }
   [[nodiscard]] double fastest_advection() const override { return function_->fastest_advection(); }
 
-  // The function that follows has a cache of its own.
+  // The function that follows has a cache of its own, with what is there of pages that are as before.
   [[nodiscard]] bool follows_surface() const override { return function_->follows_surface(); }
   [[nodiscard]] std::shared_ptr<const SpeedFunction> following(const Field& phi) const override;
 
@@ -55,6 +63,7 @@ class CachedSpeed final : public SpeedFunction {
  private:
   struct Page;
 
+  void take_over(const CachedSpeed& former, const LocallyFollowing& function);
   [[nodiscard]] VoxelBox box_of(Index3 page) const;
   [[nodiscard]] std::atomic<Page*>& entry(Index3 page) const;
   // What is there; null while it is missing or being evaluated.

@@ -81,6 +81,32 @@ void Constraints::set(const Geometry& geometry, const Sphere& sphere, Constraint
   set(chosen, Index3(glm::max(low, glm::dvec3(0.0))), Index3(glm::min(high, end)), what);
 }
 
+void constrain(Field& phi, const Constraints& constraints) {
+  const PageLayout& layout = constraints.layout();
+  const auto band = static_cast<float>(phi.band);
+  const auto limit = [&](Index3 voxel, Constraint what) {
+    const VirtualAddress address = phi.layout.translate(voxel);
+    std::int32_t& entry = phi.table[static_cast<std::size_t>(address.page)];
+    if (entry < 0) {
+      if (entry == (what == Constraint::wall ? Field::kOutside : Field::kInside)) return;
+      const float constant = entry == Field::kInside ? band : -band;
+      entry = static_cast<std::int32_t>(phi.resident_pages());
+      phi.pages.insert(phi.pages.end(), static_cast<std::size_t>(phi.layout.voxels_per_page()), constant);
+    }
+    float& value = phi.pages[static_cast<std::size_t>(entry * phi.layout.voxels_per_page() + address.offset)];
+    value = what == Constraint::wall ? std::min(value, -kConstraintDepth) : std::max(value, kConstraintDepth);
+  };
+  for (std::int64_t page = 0; page < layout.page_count(); ++page) {
+    const Constraints::Page* there = constraints.page(page);
+    if (there == nullptr) continue;
+    const Index3 first = layout.first_voxel(page);
+    for (std::int64_t i = 0; i < Constraints::kPageVoxels; ++i) {
+      const Constraint what = (*there)[static_cast<std::size_t>(i)];
+      if (what != Constraint::none) limit(first + Index3(i % 8, i / 8 % 8, i / 64), what);
+    }
+  }
+}
+
 bool Constraints::operator==(const Constraints& other) const {
   if (layout_ != other.layout_ || constrained_pages_ != other.constrained_pages_) return false;
   return std::equal(pages_.begin(), pages_.end(), other.pages_.begin(), [](const auto& a, const auto& b) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/volume.h"
+#include "solver/field.h"
 #include "solver/paging/page_layout.h"
 #include "solver/sphere.h"
 
@@ -53,5 +54,8 @@ class Constraints {
   std::vector<std::shared_ptr<const Page>> pages_;
   std::int64_t constrained_pages_ = 0;
 };
+
+// Takes phi to the limits of the constraints on its grid; pages become resident as they need to.
+void constrain(Field& phi, const Constraints& constraints);
 
 }  // namespace tidemark::solver

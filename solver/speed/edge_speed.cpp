@@ -13,6 +13,8 @@
 namespace tidemark::solver {
 namespace {
 
+// K, unless it is told, is so many times the gradient that noise and texture have.
+constexpr double kAboveNoise = 1.5;
 // A Gaussian that reaches farther costs more than it shows.
 constexpr double kLargestSigma = 16.0;  // voxels
 
@@ -58,9 +60,9 @@ class SmoothedGradient {
     return squares;
   }
 
-  // The magnitude that nine of ten voxels with any gradient are below, from a regular sample; 1 where the
-  // source is constant.
-  [[nodiscard]] double common_magnitude() const {
+  // The median of all magnitudes that are not 0, from a regular sample: what noise and texture have; 1 where
+  // the source is constant.
+  [[nodiscard]] double median() const {
     constexpr Index3 kSample{8};
     constexpr std::int64_t kSamplesAnAxis = 8;
     const Index3 size = source_->geometry.size;
@@ -76,9 +78,9 @@ class SmoothedGradient {
                    [](float square) { return square > 0.0F; });
     }
     if (all.empty()) return 1.0;
-    const auto ninth = all.begin() + static_cast<std::ptrdiff_t>(all.size() * 9 / 10);
-    std::nth_element(all.begin(), ninth, all.end());
-    return std::sqrt(static_cast<double>(*ninth));
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::nth_element(all.begin(), middle, all.end());
+    return std::sqrt(static_cast<double>(*middle));
   }
 
   [[nodiscard]] const Geometry& geometry() const { return source_->geometry; }
@@ -140,7 +142,7 @@ Result<std::shared_ptr<const SpeedFunction>> make_edges(const SpeedInputs& input
   }
   SmoothedGradient gradient(inputs.source, sigma);
   const double contrast = values.at("contrast");
-  const double used = contrast > 0.0 ? contrast : gradient.common_magnitude();
+  const double used = contrast > 0.0 ? contrast : kAboveNoise * gradient.median();
   return std::make_shared<EdgeSpeed>(std::move(gradient), used, values.at("balloon"),
                                      values.at("attraction"));
 }

@@ -4,48 +4,95 @@
 #include <bit>
 #include <glm/common.hpp>
 
-#include "solver/paging/page_rows.h"
-
 namespace tidemark::solver {
+namespace {
 
-InsideMask::InsideMask(const Field& phi)
-    : layout_(phi.layout), words_per_page_((phi.layout.voxels_per_page() + 63) / 64), table_(phi.table) {
-  words_.resize(static_cast<std::size_t>(phi.resident_pages() * words_per_page_));
-  for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
-    const std::int32_t entry = table_[static_cast<std::size_t>(page)];
-    if (entry < 0) continue;
-    const float* values = phi.pages.data() + entry * layout_.voxels_per_page();
-    std::uint64_t* words = words_.data() + entry * words_per_page_;
-    for_each_row(phi.geometry, layout_, page, [&](std::int64_t, std::int64_t length, std::int64_t index) {
-      for (std::int64_t i = index; i < index + length; ++i) {
-        if (values[i] > 0.0F) words[i / 64] |= std::uint64_t{1} << (i % 64);
+constexpr std::int64_t kSide = kDefaultPageShape.x;
+
+// Whether the pages of phi that hold the box are all inside or all outside; `side` is which.
+bool is_constant(const Field& phi, const VoxelBox& box, std::int32_t& side) {
+  const Index3 shape = phi.layout.page_shape();
+  const Index3 first = box.first / shape;
+  const Index3 last = (box.first + box.size - Index3(1)) / shape;
+  const auto entry = [&](Index3 page) {
+    return phi.table[static_cast<std::size_t>(phi.layout.page_number(page))];
+  };
+  side = entry(first);
+  for (std::int64_t z = first.z; z <= last.z; ++z) {
+    for (std::int64_t y = first.y; y <= last.y; ++y) {
+      for (std::int64_t x = first.x; x <= last.x; ++x) {
+        if (const std::int32_t one = entry({x, y, z}); one >= 0 || one != side) return false;
       }
-    });
+    }
   }
+  return true;
 }
 
-std::uint64_t InsideMask::word(std::int64_t page, std::int64_t i) const {
-  const std::int32_t entry = table_[static_cast<std::size_t>(page)];
-  if (entry == Field::kOutside) return 0;
-  if (entry == Field::kInside) return ~std::uint64_t{0};
-  return words_[static_cast<std::size_t>(entry * words_per_page_ + i)];
+// Bit i: the i-th of a row's voxels is inside. The row lies in one page of 8^3.
+std::uint64_t inside_of_row(const Field& phi, Index3 first, std::int64_t length) {
+  const std::int64_t page_length = phi.layout.page_shape().x;
+  std::uint64_t inside = 0;
+  for (std::int64_t x = 0; x < length;) {
+    const Index3 voxel = first + Index3(x, 0, 0);
+    const VirtualAddress address = phi.layout.translate(voxel);
+    const std::int64_t end = std::min(length, x + page_length - voxel.x % page_length);
+    const std::int32_t entry = phi.table[static_cast<std::size_t>(address.page)];
+    if (entry < 0) {
+      const std::uint64_t all = (std::uint64_t{1} << (end - x)) - 1;
+      if (entry == Field::kInside) inside |= all << x;
+      x = end;
+      continue;
+    }
+    const float* value = phi.pages.data() + entry * phi.layout.voxels_per_page() + address.offset;
+    for (; x < end; ++x) inside |= std::uint64_t(*value++ > 0.0F) << x;
+  }
+  return inside;
+}
+
+}  // namespace
+
+InsideMask::Bits InsideMask::inside_of(const Field& phi, const VoxelBox& box) {
+  Bits inside{};
+  for (std::int64_t z = 0; z < box.size.z; ++z) {
+    for (std::int64_t y = 0; y < box.size.y; ++y) {
+      inside[static_cast<std::size_t>(z)] |= inside_of_row(phi, box.first + Index3(0, y, z), box.size.x)
+                                             << (kSide * y);
+    }
+  }
+  return inside;
+}
+
+InsideMask::InsideMask(const Field& phi)
+    : layout_(phi.geometry.size, kDefaultPageShape), table_(static_cast<std::size_t>(layout_.page_count())) {
+  for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
+    std::int32_t& entry = table_[static_cast<std::size_t>(page)];
+    const VoxelBox box{layout_.first_voxel(page), layout_.valid_shape(page)};
+    if (is_constant(phi, box, entry)) continue;
+    const Bits inside = inside_of(phi, box);
+    std::int64_t count = 0;
+    for (const std::uint64_t slice : inside) count += std::popcount(slice);
+    if (count == 0 || count == box.voxels()) {
+      entry = count == 0 ? Field::kOutside : Field::kInside;
+    } else {
+      entry = static_cast<std::int32_t>(pages_.size());
+      pages_.push_back(inside);
+    }
+  }
 }
 
 Block InsideMask::values_in(const VoxelBox& box) const {
   Block block{box, std::vector<float>(static_cast<std::size_t>(box.voxels()))};
   const Index3 last = layout_.volume_size() - Index3(1);
-  const Index3 shape = layout_.page_shape();
   const std::int64_t end_x = box.first.x + box.size.x;
   float* value = block.values.data();
   for (std::int64_t z = box.first.z; z < box.first.z + box.size.z; ++z) {
     for (std::int64_t y = box.first.y; y < box.first.y + box.size.y; ++y) {
       const Index3 row = glm::clamp(Index3(0, y, z), Index3(0), last);
-      const std::int64_t in_page = shape.x * (row.y % shape.y + shape.y * (row.z % shape.z));
-      const std::int64_t first_page = layout_.page_number({0, row.y / shape.y, row.z / shape.z});
+      const std::int64_t first_page = layout_.page_number({0, row.y / kSide, row.z / kSide});
       // From page to page; the first one and the last one go on beyond the grid.
       for (std::int64_t x = box.first.x; x < end_x;) {
-        const std::int64_t page_x = std::clamp<std::int64_t>(x, 0, last.x) / shape.x;
-        const std::int64_t page_end = (page_x + 1) * shape.x;
+        const std::int64_t page_x = std::clamp<std::int64_t>(x, 0, last.x) / kSide;
+        const std::int64_t page_end = (page_x + 1) * kSide;
         const std::int64_t end = page_end > last.x ? end_x : std::min(page_end, end_x);
         const std::int32_t entry = table_[static_cast<std::size_t>(first_page + page_x)];
         if (entry < 0) {
@@ -53,10 +100,12 @@ Block InsideMask::values_in(const VoxelBox& box) const {
           x = end;
           continue;
         }
-        const std::uint64_t* words = words_.data() + entry * words_per_page_;
+        const std::uint64_t slice =
+            pages_[static_cast<std::size_t>(entry)][static_cast<std::size_t>(row.z % kSide)];
+        const std::uint64_t in_row = slice >> (kSide * (row.y % kSide));
         for (; x < end; ++x) {
-          const std::int64_t i = in_page + std::clamp<std::int64_t>(x, 0, last.x) - page_x * shape.x;
-          *value++ = static_cast<float>(words[i / 64] >> (i % 64) & 1);
+          const std::int64_t column = std::clamp<std::int64_t>(x, 0, last.x) - page_x * kSide;
+          *value++ = static_cast<float>(in_row >> column & 1);
         }
       }
     }
@@ -64,18 +113,17 @@ Block InsideMask::values_in(const VoxelBox& box) const {
   return block;
 }
 
-std::int64_t InsideMask::largest_change(const InsideMask& other) const {
-  if (layout_ != other.layout_) return layout_.voxels_per_page();
-  std::int64_t largest = 0;
-  for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
-    const auto at = static_cast<std::size_t>(page);
-    if (table_[at] < 0 && table_[at] == other.table_[at]) continue;
-    std::int64_t changed = 0;
-    for (std::int64_t i = 0; i < words_per_page_; ++i)
-      changed += std::popcount(word(page, i) ^ other.word(page, i));
-    largest = std::max(largest, changed);
+std::vector<bool> InsideMask::changes_from(const InsideMask& other) const {
+  std::vector<bool> changed(table_.size());
+  for (std::size_t page = 0; page < table_.size(); ++page) {
+    const std::int32_t here = table_[page];
+    const std::int32_t there = other.table_[page];
+    // Pages that are all inside or all outside have no bits.
+    changed[page] = here < 0 || there < 0 ? here != there
+                                          : pages_[static_cast<std::size_t>(here)] !=
+                                                other.pages_[static_cast<std::size_t>(there)];
   }
-  return largest;
+  return changed;
 }
 
 }  // namespace tidemark::solver

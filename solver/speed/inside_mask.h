@@ -1,6 +1,7 @@
-// The inside of a surface by pages, a bit a voxel near the surface.
+// The inside of a surface by pages of 8^3 voxels, a bit a voxel near the surface.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -9,6 +10,7 @@
 
 namespace tidemark::solver {
 
+// The same for the same surface, whatever the shape of phi's pages.
 class InsideMask {
  public:
   // The voxels where phi is above 0.
@@ -16,18 +18,17 @@ class InsideMask {
 
   // 1 inside and 0 outside; beyond the grid as the nearest voxel.
   [[nodiscard]] Block values_in(const VoxelBox& box) const;
-  // The voxels that differ, in the page where most do; both are on the same grid. Masks on other layouts
-  // differ in every voxel.
-  [[nodiscard]] std::int64_t largest_change(const InsideMask& other) const;
+  // Whether each page differs from that of a mask on the same grid.
+  [[nodiscard]] std::vector<bool> changes_from(const InsideMask& other) const;
+  [[nodiscard]] const PageLayout& layout() const { return layout_; }
 
  private:
-  // The i-th 64 voxels of a page.
-  [[nodiscard]] std::uint64_t word(std::int64_t page, std::int64_t i) const;
-
+  // Bit x + 8 y of each slice. Padding is 0.
+  using Bits = std::array<std::uint64_t, 8>;
+  static Bits inside_of(const Field& phi, const VoxelBox& box);
   PageLayout layout_;
-  std::int64_t words_per_page_ = 0;
   std::vector<std::int32_t> table_;  // as Field::table
-  std::vector<std::uint64_t> words_;
+  std::vector<Bits> pages_;
 };
 
 }  // namespace tidemark::solver

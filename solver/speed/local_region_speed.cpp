@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 namespace tidemark::solver {
 namespace {
-
-// Local means are taken anew when so much of a box has changed sides within one page.
-constexpr double kChangedPart = 0.005;
 
 void multiply(std::vector<float>& values, const std::vector<float>& by) {
   std::transform(values.begin(), values.end(), by.begin(), values.begin(), std::multiplies<>());
@@ -37,12 +35,13 @@ double speed(double value, double voxels, double sum, double squares, double ins
 }  // namespace
 
 LocalRegionSpeed::LocalRegionSpeed(std::shared_ptr<const Volume> source, Index3 reach, float level,
-                                   std::shared_ptr<const InsideMask> inside)
+                                   std::shared_ptr<const InsideMask> inside, std::vector<bool> changed)
     : source_(std::move(source)),
       reach_(reach),
       voxels_(static_cast<double>(grown({}, reach).voxels())),
       level_(level),
-      inside_(std::move(inside)) {}
+      inside_(std::move(inside)),
+      changed_(std::move(changed)) {}
 
 void LocalRegionSpeed::evaluate(const VoxelBox& box, double* speeds) const {
   std::fill_n(speeds, box.voxels(), 0.0);
@@ -73,10 +72,30 @@ void LocalRegionSpeed::evaluate(const VoxelBox& box, double* speeds) const {
 
 std::shared_ptr<const SpeedFunction> LocalRegionSpeed::following(const Field& phi) const {
   auto inside = std::make_shared<const InsideMask>(phi);
-  if (inside_ != nullptr && static_cast<double>(inside_->largest_change(*inside)) <= kChangedPart * voxels_) {
-    return nullptr;
+  std::vector<bool> changed;
+  if (inside_ != nullptr) {
+    changed = inside->changes_from(*inside_);
+    if (std::find(changed.begin(), changed.end(), true) == changed.end()) return nullptr;
   }
-  return std::make_shared<LocalRegionSpeed>(source_, reach_, level_, std::move(inside));
+  return std::make_shared<LocalRegionSpeed>(source_, reach_, level_, std::move(inside), std::move(changed));
+}
+
+bool LocalRegionSpeed::is_as_before(const VoxelBox& box) const {
+  if (changed_.empty()) return false;
+  const PageLayout& layout = inside_->layout();
+  const VoxelBox around = grown(box, reach_);
+  const Index3 last_voxel = layout.volume_size() - Index3(1);
+  const Index3 first = glm::clamp(around.first, Index3(0), last_voxel) / layout.page_shape();
+  const Index3 last =
+      glm::clamp(around.first + around.size - Index3(1), Index3(0), last_voxel) / layout.page_shape();
+  for (std::int64_t z = first.z; z <= last.z; ++z) {
+    for (std::int64_t y = first.y; y <= last.y; ++y) {
+      for (std::int64_t x = first.x; x <= last.x; ++x) {
+        if (changed_[static_cast<std::size_t>(layout.page_number({x, y, z}))]) return false;
+      }
+    }
+  }
+  return true;
 }
 
 }  // namespace tidemark::solver

@@ -11,10 +11,18 @@
 namespace tidemark::solver {
 namespace {
 
-// Means that moved by less than this part of their distance are as good as new ones.
-constexpr double kMeansMoved = 1e-3;
+// Means are rounded to about this part of their distance: voxels that flicker make no new function, and the
+// function depends on phi alone, not on how the surface came there.
+constexpr double kMeansStep = 1.0 / 1024.0;
 // A larger box costs more than the global means.
 constexpr std::int64_t kLongestReach = 32;  // voxels
+
+// To multiples of a power of 2.
+std::optional<RegionMeans> rounded(const std::optional<RegionMeans>& means) {
+  if (!means || means->distance() == 0.0) return means;
+  const double step = std::exp2(std::floor(std::log2(means->distance()))) * kMeansStep;
+  return RegionMeans{std::round(means->inside / step) * step, std::round(means->outside / step) * step};
+}
 
 class RegionSpeed final : public SpeedFunction {
  public:
@@ -40,8 +48,8 @@ class RegionSpeed final : public SpeedFunction {
   [[nodiscard]] std::shared_ptr<const SpeedFunction> following(const Field& phi) const override {
     const auto sums =
         phi.layout == sums_->layout() ? sums_ : std::make_shared<RegionSums>(source_, phi.layout);
-    const std::optional<RegionMeans> means = sums->means(phi);
-    if (means.has_value() == means_.has_value() && (!means || still_fit(*means))) return nullptr;
+    const std::optional<RegionMeans> means = rounded(sums->means(phi));
+    if (means == means_) return nullptr;
     return std::make_shared<RegionSpeed>(source_, sums, means);
   }
 
@@ -57,12 +65,6 @@ class RegionSpeed final : public SpeedFunction {
  private:
   // Means that differ by less, of their size, are equal but for rounding.
   static constexpr double kEqual = 1e-9;
-
-  [[nodiscard]] bool still_fit(const RegionMeans& means) const {
-    const double moved =
-        std::max(std::abs(means.inside - means_->inside), std::abs(means.outside - means_->outside));
-    return moved <= kMeansMoved * means_->distance();
-  }
 
   std::shared_ptr<const Volume> source_;
   std::shared_ptr<const RegionSums> sums_;
@@ -102,8 +104,8 @@ const SpeedKind& regions_kind() {
           "now.",
       .parameters = {{.name = "radius",
                       .title = "Radius",
-                      .text =
-                          "How far around a voxel the means are taken; 0 takes them from the whole volume.",
+                      .text = "How far around a voxel the means are taken, for a start that is about as near "
+                              "to the border; 0 takes them from the whole volume.",
                       .unit = "mm",
                       .low = 0.0,
                       .high = 100.0,

@@ -17,6 +17,7 @@ struct RegionMeans {
   double outside = 0.0;
 
   [[nodiscard]] double distance() const;
+  bool operator==(const RegionMeans&) const = default;
 };
 
 // The sum of the volume's values in each page: pages that are inside as a whole need not be read again.

@@ -8,6 +8,7 @@ namespace tidemark::solver {
 const SpeedKind& tent_kind();
 const SpeedKind& regions_kind();
 const SpeedKind& edges_kind();
+const SpeedKind& examples_kind();
 const SpeedKind& image_kind();
 
 }  // namespace tidemark::solver

@@ -60,7 +60,8 @@ Result<std::shared_ptr<const SpeedFunction>> make_term(const SpeedTerm& term, co
 }  // namespace
 
 const std::vector<SpeedKind>& speed_kinds() {
-  static const std::vector<SpeedKind> kinds{tent_kind(), regions_kind(), edges_kind(), image_kind()};
+  static const std::vector<SpeedKind> kinds{tent_kind(), regions_kind(), edges_kind(), examples_kind(),
+                                            image_kind()};
   return kinds;
 }
 

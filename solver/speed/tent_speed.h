@@ -16,13 +16,14 @@ class TentSpeed final : public SpeedFunction {
   TentSpeed(std::shared_ptr<const Volume> source, const Parameters& parameters);
 
   void evaluate(const VoxelBox& box, double* speed) const override;
-  [[nodiscard]] double largest() const override { return largest_; }
+  // Of the raw form, from the range of the source, which takes a while.
+  [[nodiscard]] double largest() const override;
   [[nodiscard]] const Tent* tent() const override { return &tent_; }
 
  private:
   std::shared_ptr<const Volume> source_;
   Tent tent_;
-  double largest_ = 1.0;
+  bool is_raw_;
 };
 
 }  // namespace tidemark::solver

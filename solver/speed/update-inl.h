@@ -57,7 +57,7 @@ HWY_INLINE V updated_phi(const Differences<V>& d, V data, const UpdateConstants<
 
   V half = k.half_grown * d.phi;
   if constexpr (!kPaper) half = mul_add(k.half_curvature, curvature_motion<Real>(d), half);
-  if constexpr (sizeof...(Advected) != 0) half = half + (advected + ...);
+  if constexpr (sizeof...(Advected) != 0) half = mul_add(V(Real(0.5)), (advected + ...), half);
   const V phi = mul_add(growing, d.upwind_growing, half) + mul_add(shrinking, d.upwind_shrinking, half);
   return clamp(phi, k.band);
 }

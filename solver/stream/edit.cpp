@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "solver/stream/pages_around.h"
 #include "solver/stream/stream_executor.h"
@@ -18,8 +19,9 @@ struct PaintJob {
   glm::dvec3 centre;  // voxels
   double unit;        // the smallest spacing, mm
   float band;
+  const Constraints* constraints;  // null: none
 
-  // What phi is combined with, in the voxels of a page.
+  // What phi, which keeps to walls and anchors, is combined with in the voxels of a page.
   [[nodiscard]] std::vector<float> values(Index3 page) const {
     std::vector<float> values;
     const Index3 first = page * layout.page_shape();
@@ -28,7 +30,7 @@ struct PaintJob {
         const glm::dvec3 offset = (glm::dvec3(first + Index3(x, y, 0)) - centre) * geometry.spacing_mm;
         const double distance = (sphere.radius_mm - glm::length(offset)) / unit;
         const float d = std::clamp(static_cast<float>(distance), -band, band);
-        values.push_back(brush == Brush::add ? d : -d);
+        values.push_back(limited(brush == Brush::add ? d : -d, first + Index3(x, y, 0)));
       }
     }
     return values;
@@ -40,6 +42,12 @@ struct PaintJob {
   [[nodiscard]] Index3 last_page() const { return page_at(glm::ceil(centre + reach())); }
 
  private:
+  [[nodiscard]] float limited(float value, Index3 voxel) const {
+    if (constraints == nullptr || voxel.x >= geometry.size.x || voxel.y >= geometry.size.y) return value;
+    const Constraint what = constraints->at(voxel);
+    if (brush == Brush::add) return what == Constraint::wall ? std::min(value, -kConstraintDepth) : value;
+    return what == Constraint::anchor ? std::max(value, kConstraintDepth) : value;
+  }
   [[nodiscard]] glm::dvec3 reach() const {
     return (sphere.radius_mm + static_cast<double>(band) * unit) / geometry.spacing_mm;
   }
@@ -60,6 +68,15 @@ Status StreamExecutor::restore(const Field& phi) {
   if (phi.layout.page_shape() != layout_.layout().page_shape()) {
     return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band, layout_.layout().page_shape()));
   }
+  if (constraints_ != nullptr && !constraints_->empty()) {
+    Field limited = phi;
+    constrain(limited, *constraints_);
+    return replace(limited);
+  }
+  return replace(phi);
+}
+
+Status StreamExecutor::replace(const Field& phi) {
   TIDEMARK_TRY(device_->make_current());
   gpu::begin_exact_drawing();
   constexpr std::int64_t kFewPages = 16;
@@ -75,7 +92,7 @@ Status StreamExecutor::restore(const Field& phi) {
 
   // Pages are allocated in the order in which they lie in the field.
   table_ = PageTable(layout_.layout());
-  viewed_changes_ = -1;
+  viewed_changes_ = evaluated_changes_ = -1;
   std::vector<std::int64_t> in_order(static_cast<std::size_t>(phi.resident_pages()));
   for (std::int64_t page = 0; page < table_.layout().page_count(); ++page) {
     const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
@@ -115,23 +132,49 @@ Result<Field> StreamExecutor::snapshot() const {
   return phi;
 }
 
-Status StreamExecutor::set_speed(std::shared_ptr<const SpeedFunction>) {
-  return fail(ErrorKind::capability, "the stream executor knows the tent alone");
-}
-
-Status StreamExecutor::set_constraints(std::shared_ptr<const Constraints>) {
-  return fail(ErrorKind::capability, "the stream executor knows no walls");
-}
-
 Status StreamExecutor::set_parameters(const Parameters& parameters) {
-  auto drive = drive_with(parameters, given_speed_);
+  return drive(parameters, given_speed_);
+}
+
+Status StreamExecutor::set_speed(std::shared_ptr<const SpeedFunction> speed) {
+  return drive(parameters(), std::move(speed));
+}
+
+// phi goes through the processor, where pages are made that were constant.
+Status StreamExecutor::set_constraints(std::shared_ptr<const Constraints> constraints) {
+  if (constraints != nullptr) {
+    TIDEMARK_TRY(check_fits(*constraints));
+  }
+  auto phi = snapshot();
+  if (!phi) return pass_on(phi);
+  const auto former = constraints_;
+  Status set = use_constraints(std::move(constraints), *phi);
+  if (set) return set;
+  TIDEMARK_TRY(use_constraints(former, *phi));
+  return set;
+}
+
+Status StreamExecutor::use_constraints(std::shared_ptr<const Constraints> constraints, const Field& phi) {
+  TIDEMARK_TRY(drive_textures_.set_constraints(*device_, constraints.get()));
+  constraints_ = std::move(constraints);
+  TIDEMARK_TRY(passes_.compile_step(*device_, active_geometry_, drive_textures_, model_));
+  const std::int64_t peak_resident = peak_resident_;
+  const std::int64_t peak_bytes = peak_bytes_;
+  TIDEMARK_TRY(restore(phi));
+  peak_resident_ = std::max(peak_resident_, peak_resident);
+  peak_bytes_ = std::max(peak_bytes_, peak_bytes);
+  return {};
+}
+
+Status StreamExecutor::drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given) {
+  auto drive = drive_with(parameters, std::move(given));
   if (!drive) return pass_on(drive);
   TIDEMARK_TRY(device_->make_current());
   gpu::begin_exact_drawing();
-  if (model_.parameters().scheme != parameters.scheme) {
-    TIDEMARK_TRY(passes_.compile_step(*device_, active_geometry_, source_texture_, drive->model));
-  }
+  TIDEMARK_TRY(drive_textures_.set_speed(*device_, drive->used));
   take(std::move(*drive));
+  TIDEMARK_TRY(passes_.compile_step(*device_, active_geometry_, drive_textures_, model_));
+  evaluated_changes_ = -1;
   begin_window();
   for_each_resident([&](PhysicalPage page) { wake(page); });
   return rebuild_active_list();
@@ -146,7 +189,8 @@ StreamExecutor::PaintPlan StreamExecutor::plan_paint(const Sphere& sphere, Brush
                      brush,
                      source_->geometry.to_voxel(sphere.centre_mm),
                      model_.smallest_spacing_mm(),
-                     static_cast<float>(band())};
+                     static_cast<float>(band()),
+                     constraints_.get()};
   PaintPlan plan;
   const Index3 first = job.first_page();
   const Index3 last = job.last_page();

@@ -26,7 +26,7 @@ Status compile(gpu::Device& device, const GeometryEngine& geometry, const gpu::D
 }  // namespace
 
 Result<RegionPasses> RegionPasses::create(gpu::Device& device, const GeometryEngine& geometry,
-                                          const SourceTexture& source, const Model& model,
+                                          const DriveTextures& drive, const Model& model,
                                           std::int64_t largest_region) {
   RegionPasses passes;
   constexpr std::int64_t kRow = GeometryEngine::kPlacesPerRow;
@@ -43,14 +43,15 @@ Result<RegionPasses> RegionPasses::create(gpu::Device& device, const GeometryEng
                                Wanted{passes.paint_, Substream::whole_page, "paint", in_memory}}) {
     TIDEMARK_TRY(compile(device, geometry, {}, wanted));
   }
-  TIDEMARK_TRY(passes.compile_step(device, geometry, source, model));
+  TIDEMARK_TRY(passes.compile_step(device, geometry, drive, model));
   return passes;
 }
 
 Status RegionPasses::compile_step(gpu::Device& device, const GeometryEngine& geometry,
-                                  const SourceTexture& source, const Model& model) {
+                                  const DriveTextures& drive, const Model& model) {
   gpu::Defines common = step_defines(model);
-  for (const auto& define : source.defines()) common.push_back(define);
+  for (const auto& define : drive.defines()) common.push_back(define);
+  if (common == step_defines_) return {};
   const gpu::Defines neighbours = {{"NEIGHBOURS", ""}};
   for (const Wanted& wanted : {Wanted{derivatives_[0], Substream::interior, "derivatives", neighbours},
                                Wanted{derivatives_[1], Substream::edges, "derivatives", neighbours},
@@ -59,6 +60,7 @@ Status RegionPasses::compile_step(gpu::Device& device, const GeometryEngine& geo
                                Wanted{update_, Substream::whole_page, "update", {{"IN_MEMORY", ""}}}}) {
     TIDEMARK_TRY(compile(device, geometry, common, wanted));
   }
+  step_defines_ = std::move(common);
   return {};
 }
 

@@ -120,12 +120,12 @@ Status RegionPasses::reserve_message(gpu::Device& device, std::int64_t pages) {
 }
 
 void RegionPasses::step(const GeometryEngine& geometry, const PhysicalMemory& memory,
-                        const SourceTexture& source, const Tent& tent, const StepConstants<float>& constants,
-                        int now, bool measure_motion) const {
+                        const DriveTextures& drive, const StepConstants<float>& constants, int now,
+                        bool measure_motion) const {
   for (const Region region : regions(geometry.size(), largest_region_)) {
     differentiate(geometry, memory, constants, now, measure_motion, region);
-    compute_speeds(geometry, memory, source, tent, constants, region);
-    update(geometry, memory, constants, 1 - now, region);
+    compute_speeds(geometry, memory, drive, constants, region);
+    update(geometry, memory, drive, constants, 1 - now, region);
     if (measure_motion) add_motion(geometry, memory, constants, 1 - now, region);
   }
 }
@@ -146,27 +146,28 @@ void RegionPasses::differentiate(const GeometryEngine& geometry, const PhysicalM
 }
 
 void RegionPasses::compute_speeds(const GeometryEngine& geometry, const PhysicalMemory& memory,
-                                  const SourceTexture& source, const Tent& tent,
-                                  const StepConstants<float>& constants, Region region) const {
+                                  const DriveTextures& drive, const StepConstants<float>& constants,
+                                  Region region) const {
   speeds_target_.bind();
   use(speeds_, memory);
   set_step_uniforms(speeds_, constants);
-  set_tent_uniforms(speeds_, tent);
   bind(speeds_, 1, upwind_, "upwind_buffer");
   bind(speeds_, 2, central_, "central_buffer");
   bind(speeds_, 3, second_, "second_buffer");
   bind(speeds_, 4, mixed_, "mixed_buffer");
-  source.set_uniforms(speeds_, 5);
+  drive.set_uniforms(speeds_, 5);
   geometry.draw(speeds_, Substream::whole_page, region.first, region.count, size());
 }
 
 void RegionPasses::update(const GeometryEngine& geometry, const PhysicalMemory& memory,
-                          const StepConstants<float>& constants, int next, Region region) const {
+                          const DriveTextures& drive, const StepConstants<float>& constants, int next,
+                          Region region) const {
   memory.draw_into(next);
   use(update_, memory);
   set_step_uniforms(update_, constants);
   bind(update_, 1, upwind_, "upwind_buffer");
   bind(update_, 2, speed_terms_, "speed_buffer");
+  drive.set_constraint_uniforms(update_, 3);
   geometry.draw(update_, Substream::whole_page, region.first, region.count, memory.size());
 }
 

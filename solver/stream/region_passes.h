@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gpu/framebuffer.h"
-#include "solver/gl/step_uniforms.h"
+#include "solver/gl/drive_textures.h"
 #include "solver/stream/geometry_engine.h"
 #include "solver/stream/page_message.h"
 #include "solver/stream/physical_memory.h"
@@ -25,17 +25,17 @@ class RegionPasses {
   RegionPasses() = default;
   // `largest_region` in pages, rounded up to a whole row of places.
   static Result<RegionPasses> create(gpu::Device& device, const GeometryEngine& geometry,
-                                     const SourceTexture& source, const Model& model,
+                                     const DriveTextures& drive, const Model& model,
                                      std::int64_t largest_region);
-  // Makes the variants of the passes that the model needs.
-  Status compile_step(gpu::Device& device, const GeometryEngine& geometry, const SourceTexture& source,
+  // Makes the variants of the passes that the model and what drives the surface need, if they are others.
+  Status compile_step(gpu::Device& device, const GeometryEngine& geometry, const DriveTextures& drive,
                       const Model& model);
   // Buffers for a list of so many pages. Fails (ErrorKind::capability) when memory is short.
   Status reserve(gpu::Device& device, std::int64_t pages);
 
   // One step of phi in all pages of the list: reads phi from buffer `now`, writes the other one.
-  void step(const GeometryEngine& geometry, const PhysicalMemory& memory, const SourceTexture& source,
-            const Tent& tent, const StepConstants<float>& constants, int now, bool measure_motion) const;
+  void step(const GeometryEngine& geometry, const PhysicalMemory& memory, const DriveTextures& drive,
+            const StepConstants<float>& constants, int now, bool measure_motion) const;
   // The messages of the pages of the list, about phi in the given buffer. Waits for the GPU.
   Result<std::vector<PageMessage>> message(const GeometryEngine& geometry, const PhysicalMemory& memory,
                                            int buffer, float band, float quiet_change);
@@ -78,9 +78,8 @@ class RegionPasses {
                      const StepConstants<float>& constants, int now, bool measure_motion,
                      Region region) const;
   void compute_speeds(const GeometryEngine& geometry, const PhysicalMemory& memory,
-                      const SourceTexture& source, const Tent& tent, const StepConstants<float>& constants,
-                      Region region) const;
-  void update(const GeometryEngine& geometry, const PhysicalMemory& memory,
+                      const DriveTextures& drive, const StepConstants<float>& constants, Region region) const;
+  void update(const GeometryEngine& geometry, const PhysicalMemory& memory, const DriveTextures& drive,
               const StepConstants<float>& constants, int next, Region region) const;
   void add_motion(const GeometryEngine& geometry, const PhysicalMemory& memory,
                   const StepConstants<float>& constants, int next, Region region) const;
@@ -91,6 +90,7 @@ class RegionPasses {
   Result<std::vector<PageMessage>> read_message(std::int64_t pages) const;
 
   std::int64_t largest_region_ = kLargestRegion;
+  gpu::Defines step_defines_;                // of the programs of a step
   std::array<gpu::Program, 3> derivatives_;  // interior, edges, corners
   gpu::Program speeds_, update_, motion_blocks_, motion_pages_, neighbours_, page_message_;
   gpu::Program fill_, fill_points_, copy_, paint_;

@@ -2,7 +2,6 @@
 
 #include "core/stopwatch.h"
 #include "solver/gl/packed_view.h"
-#include "solver/speed/tent_speed.h"
 
 namespace tidemark::solver {
 namespace {
@@ -40,25 +39,35 @@ StreamExecutor::StreamExecutor(std::shared_ptr<gpu::Device> device, std::shared_
       layout_(PageLayout(source_->geometry.size, kPageShape), device_->capabilities().largest_texture) {}
 
 Status StreamExecutor::start(std::int64_t largest_region) {
-  auto texture = SourceTexture::create(*device_, *source_);
-  if (!texture) return pass_on(texture);
-  source_texture_ = std::move(*texture);
+  auto textures = DriveTextures::create(*device_, *source_, speed_, options_.threads);
+  if (!textures) return pass_on(textures);
+  drive_textures_ = std::move(*textures);
   active_geometry_ = GeometryEngine::create(*device_, layout_);
   special_geometry_ = GeometryEngine::create(*device_, layout_);
   if (largest_region == 0) {
     largest_region =
         device_->capabilities().software ? RegionPasses::kLargestRegionInCache : RegionPasses::kLargestRegion;
   }
-  auto passes = RegionPasses::create(*device_, active_geometry_, source_texture_, model_, largest_region);
+  auto passes = RegionPasses::create(*device_, active_geometry_, drive_textures_, model_, largest_region);
   if (!passes) return pass_on(passes);
   passes_ = std::move(*passes);
   return restore(Field::empty(source_->geometry, band(), kPageShape));
 }
 
+// Has D evaluated wherever the next step reads it.
+Status StreamExecutor::evaluate_speed() {
+  if (!drive_textures_.is_evaluated() || evaluated_changes_ == table_.changes()) return {};
+  std::vector<std::int64_t> pages;
+  for_each_resident([&](PhysicalPage page) { pages.push_back(table_.virtual_page(page)); });
+  TIDEMARK_TRY(drive_textures_.fill_around(*device_, layout_.layout(), pages, 1));
+  evaluated_changes_ = table_.changes();
+  return {};
+}
+
 // Computes the active pages and reads their messages.
 Status StreamExecutor::step() {
-  passes_.step(active_geometry_, memory_, source_texture_, tent_of(parameters()), model_.constants<float>(),
-               current_, next_step_is_measured());
+  passes_.step(active_geometry_, memory_, drive_textures_, model_.constants<float>(), current_,
+               next_step_is_measured());
   current_ = 1 - current_;
   // The message's own time is to be known; the wait costs nothing that could be measured.
   return gpu::Fence::insert(*device_).wait();
@@ -98,6 +107,10 @@ Result<AdvanceReport> StreamExecutor::advance(const Advance& run) {
   }
   return run_steps(run, [this](AdvanceReport& report) -> Result<bool> {
     if (!active_.empty()) {
+      if (auto evaluated = evaluate_speed(); !evaluated) {
+        steps_of_last_run_ = --report.steps;
+        return pass_on(evaluated);
+      }
       TIDEMARK_TRY(step());
       report.voxel_updates += active_geometry_.voxels();
     }

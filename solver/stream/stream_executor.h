@@ -7,7 +7,7 @@
 
 #include "gpu/device.h"
 #include "solver/executor_base.h"
-#include "solver/gl/step_uniforms.h"
+#include "solver/gl/drive_textures.h"
 #include "solver/paging/page_table.h"
 #include "solver/stream/geometry_engine.h"
 #include "solver/stream/physical_memory.h"
@@ -60,6 +60,7 @@ class StreamExecutor final : public ExecutorBase {
   }
 
   // Steps (stream_executor.cpp).
+  Status evaluate_speed();
   Status step();
   Result<bool> finish_step(AdvanceReport& report);
 
@@ -75,7 +76,10 @@ class StreamExecutor final : public ExecutorBase {
   Status activate_pages(std::vector<PhysicalPage> asked);
   Status validate_sleeping_pages() const;
 
-  // Painting (edit.cpp).
+  // Replacing phi, painting, and what drives the surface (edit.cpp).
+  Status replace(const Field& phi);
+  Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given);
+  Status use_constraints(std::shared_ptr<const Constraints> constraints, const Field& phi);
   struct PaintPlan {
     std::vector<std::int64_t> to_draw;  // virtual pages, some of them to be made resident
     std::vector<float> values;          // for each of these, the values that phi is combined with
@@ -103,7 +107,7 @@ class StreamExecutor final : public ExecutorBase {
   std::shared_ptr<gpu::Device> device_;  // first: it outlives everything below
   ExecutorOptions options_;
   PackedLayout layout_;
-  SourceTexture source_texture_;
+  DriveTextures drive_textures_;
   PhysicalMemory memory_;
   GeometryEngine active_geometry_;   // of the active list
   GeometryEngine special_geometry_;  // of pages that are filled, copied, painted or asked
@@ -120,6 +124,7 @@ class StreamExecutor final : public ExecutorBase {
   std::int64_t quiet_near_voxels_ = 0;
   std::int64_t peak_resident_ = 0;
   std::int64_t peak_bytes_ = 0;
+  std::int64_t evaluated_changes_ = -1;  // of the table, when D was evaluated around its pages
 
   gpu::Buffer viewed_table_;          // the page table as packed_view() gave it last
   std::int64_t viewed_changes_ = -1;  // of the table, when it did

@@ -36,9 +36,9 @@ void CliFilesTest::info_lists_what_the_contract_names() {
   for (const auto one : all["series"].toArray()) {
     if (one.toObject()["modality"].toString() == "MR") series = one.toObject();
   }
-  for (const char* key :
-       {"uid", "modality", "description", "date", "files", "size", "spacing_mm", "direction", "origin_mm",
-        "scalar", "transfer_syntaxes", "loadable", "reason", "changes", "warnings"}) {
+  for (const char* key : {"uid", "modality", "description", "date", "files", "size", "spacing_mm",
+                          "direction", "origin_mm", "frame_of_reference", "same_frame", "scalar",
+                          "transfer_syntaxes", "loadable", "reason", "changes", "warnings"}) {
     QVERIFY2(series.contains(key), key);
   }
   QCOMPARE(series["files"].toInt(), 81);

@@ -7,6 +7,7 @@
 #include "document/replay.h"
 #include "document/session_contents.h"
 #include "imaging/filters/filters.h"
+#include "solver/speed/speed_registry.h"
 #include "tests/support/test_program.h"
 
 using namespace tidemark;
@@ -110,6 +111,31 @@ class RecipeTest : public QObject {
     QVERIFY(replayed(recipe, document->volume()) != values_of(level_set));
   }
 
+  // What was undone is not replayed, and the means of regions must not remember it.
+  void regions_replay_to_the_same_bits_after_undo() {
+    for (const double radius : {0.0, 4.0}) {
+      const auto document = make_case(lumpy_volume());
+      document::LevelSet& level_set = document->level_set();
+      QCOMPARE(failure(level_set.begin(seed_in(*document->volume()))), QString());
+      document::Drive drive;
+      drive.setting.terms = {{"regions", {{"radius", radius}}}};
+      QCOMPARE(failure(level_set.set_drive(drive)), QString());
+      const auto speed = solver::make_speed(drive.setting, {document->volume(), {}, {}, nullptr, nullptr});
+      QCOMPARE(failure(speed), QString());
+      QCOMPARE(failure(level_set.set_speed(*speed)), QString());
+      run(level_set, 40);
+      QCOMPARE(failure(level_set.paint(ball_at(*document->volume(), {4, 0, 0}, 1.5), solver::Brush::add)),
+               QString());
+      run(level_set, 33);
+      QCOMPARE(failure(document->undo()), QString());
+      QCOMPARE(failure(document->undo()), QString());
+      run(level_set, 50);
+      const document::Recipe recipe = again(level_set.recipe());
+      QVERIFY(recipe.has_drive());
+      QVERIFY(replayed(recipe, document->volume()) == values_of(level_set));
+    }
+  }
+
   void any_start_comes_back_data() {
     QTest::addColumn<int>("start");
     const char* const names[] = {"seeds", "threshold", "flood", "mask", "phi", "painted only"};
@@ -201,7 +227,7 @@ class RecipeTest : public QObject {
     row(
         "format", [](Json& j) { j["format"] = "recipe"; }, "format: ");
     row(
-        "version 2", [](Json& j) { j["version"] = 2; }, "version: this version");
+        "version 3", [](Json& j) { j["version"] = 3; }, "version: this version");
     row(
         "version text", [](Json& j) { j["version"] = "1"; }, "version: not a whole number");
     row(

@@ -133,6 +133,30 @@ class CaseProxyTest : public QObject {
     QCOMPARE(copied, executor_of_row() == solver::ExecutorKind::host);
   }
 
+  void the_speed_map_is_the_functions_that_drives_data() { add_executors(); }
+  void the_speed_map_is_the_functions_that_drives() {
+    Fixture fixture(executor_of_row());
+    engine::PictureFeed feed(fixture.proxy);
+    renderer::SliceView view = fixture.slice(renderer::SliceContent::speed);
+    view.term = renderer::SpeedTerm::data;
+    feed.request(view, kSmall);
+    QTRY_VERIFY_WITH_TIMEOUT(feed.shown().number > 0, kPatience);
+    fixture.wait_until_idle();
+    const QImage of_tent = feed.shown().image.copy();
+    document::Drive drive = fixture.proxy.drive();
+    drive.setting.terms = {{"edges", {}}};
+    fixture.proxy.set_drive(drive);
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.proxy.state().speed && !fixture.proxy.state().speed_waits, kPatience);
+    QTRY_VERIFY_WITH_TIMEOUT(feed.shown().image != of_tent, kPatience);
+    fixture.wait_until_idle();
+    // Where nothing varies edges let the surface grow: orange, as in the corner of the picture.
+    const QColor corner = feed.shown().image.pixelColor(kSmall.width / 2, 4);
+    QVERIFY2(corner.red() > corner.blue() + 60, qPrintable(corner.name()));
+    fixture.proxy.undo();
+    QTRY_VERIFY_WITH_TIMEOUT(feed.shown().image == of_tent, kPatience);
+    QVERIFY(fixture.failures.isEmpty());
+  }
+
   // A drag asks for the next picture before the last one is there.
   void the_surface_moves_on_under_the_mouse_data() {
     QTest::addColumn<int>("unused");

@@ -94,6 +94,9 @@ class ResampleTest : public QObject {
     QCOMPARE(result->covered, 0.5);
     QCOMPARE(result->volume.value({3, 2, 2}), image.value({3, 2, 2}));
     QCOMPARE(result->volume.value({4, 2, 2}), image.range().first);
+    const auto marked = imaging::resample(image, glm::dmat4(1.0), grid, "a.nrrd", {}, -5.0F);
+    QCOMPARE(test::failure(marked), QString());
+    QCOMPARE(marked->volume.value({4, 2, 2}), -5.0F);
   }
 
   void images_that_do_not_overlap_are_refused() {

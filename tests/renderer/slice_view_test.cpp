@@ -177,6 +177,51 @@ class SliceViewTest : public QObject {
     QVERIFY(far.r == far.g && far.g == far.b);
   }
 
+  void walls_and_anchors_are_hatched_where_they_are() {
+    const Geometry geometry = grid({40, 40, 40});
+    Painter draw(ball_scene(geometry, 10.0));
+    solver::Constraints constraints(geometry.size);
+    const glm::dvec3 middle = renderer::middle_of(geometry);
+    constraints.set(geometry, {middle + glm::dvec3(9, 0, 0), 6.0}, solver::Constraint::wall);
+    constraints.set(geometry, {middle - glm::dvec3(9, 0, 0), 6.0}, solver::Constraint::anchor);
+    renderer::SliceView view;
+    view.window = {0.0, 1e6};  // grey
+    view.surface = false;
+    const renderer::Picture before = draw(view, 200, 200);
+    QCOMPARE(failure(draw.renderer().set_constraints(&constraints)), QString());
+    const renderer::Picture picture = draw(view, 200, 200);
+    const auto is_wall = [](glm::ivec3 c) { return c.r > c.g + 20 && c.r > c.b + 20; };
+    const auto is_anchor = [](glm::ivec3 c) { return c.g > c.r + 20 && c.g > c.b + 20; };
+    QCOMPARE(count(before, is_wall) + count(before, is_anchor), std::int64_t{0});
+    // Discs of radius 6 voxels of 5 pixels.
+    for (const PixelTest& test : {PixelTest(is_wall), PixelTest(is_anchor)}) {
+      const auto pixels = static_cast<double>(count(picture, test));
+      QVERIFY2(std::abs(pixels / (std::numbers::pi * 900.0) - 1.0) < 0.15,
+               qPrintable(QString::number(pixels)));
+    }
+    // 9 of 20 voxels to each side; to the left of the patient, which is on the right, is the wall.
+    QVERIFY(glm::length(middle_of_pixels(picture, is_wall) - glm::dvec2(0.45, 0.0)) < 0.04);
+    QVERIFY(glm::length(middle_of_pixels(picture, is_anchor) - glm::dvec2(-0.45, 0.0)) < 0.04);
+    // Walls are cross-hatched and anchors dotted: that many of their pixels are strong.
+    const auto strong = [&](const PixelTest& test) {
+      const auto saturated = [&](glm::ivec3 c) {
+        return test(c) && std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b}) > 60;
+      };
+      return static_cast<double>(count(picture, saturated)) / static_cast<double>(count(picture, test));
+    };
+    QVERIFY(std::abs(strong(is_wall) - 5.0 / 9.0) < 0.08);
+    QVERIFY(std::abs(strong(is_anchor) - 0.25) < 0.05);
+    // As they change, and none at last.
+    constraints.set(geometry, {middle + glm::dvec3(9, 0, 0), 6.0}, solver::Constraint::none);
+    QCOMPARE(failure(draw.renderer().set_constraints(&constraints)), QString());
+    QCOMPARE(count(draw(view, 200, 200), is_wall), std::int64_t{0});
+    QVERIFY(count(draw(view, 200, 200), is_anchor) > 2000);
+    QCOMPARE(failure(draw.renderer().set_constraints(nullptr)), QString());
+    QVERIFY(draw(view, 200, 200).pixels == before.pixels);
+    const solver::Constraints elsewhere(Index3(20, 20, 20));
+    QCOMPARE(failure(draw.renderer().set_constraints(&elsewhere)), QString());  // there are none
+  }
+
   void labels_lie_on_their_voxels() {
     const Geometry geometry = grid({32, 32, 32});
     const Scene scene = ball_scene(geometry, 5.0, [](glm::dvec3) { return 0.0; });

@@ -20,7 +20,7 @@ double wave(Index3 v) {
 }
 
 // Counts the voxels that it is asked for.
-class Counting final : public SpeedFunction {
+class Counting final : public SpeedFunction, public LocallyFollowing {
  public:
   explicit Counting(double sign = 1.0) : sign_(sign) {}
 
@@ -36,12 +36,17 @@ class Counting final : public SpeedFunction {
   }
   bool follows_surface() const override { return true; }
   std::shared_ptr<const SpeedFunction> following(const Field& phi) const override {
-    return phi.table.empty() ? nullptr : std::make_shared<Counting>(-sign_);
+    if (phi.table.empty()) return nullptr;
+    auto next = std::make_shared<Counting>(-sign_);
+    next->changed_from_x = changed_from_x;
+    return next;
   }
+  bool is_as_before(const VoxelBox& box) const override { return box.first.x + box.size.x <= changed_from_x; }
 
   mutable std::atomic<std::int64_t> evaluated{0};
   mutable std::atomic<int> failures{0};  // that are still to come
   bool slow = false;
+  std::int64_t changed_from_x = 0;  // where following() turns the sign
 
  private:
   double sign_;
@@ -168,6 +173,24 @@ class CachedSpeedTest : public QObject {
     double speed[512];
     next->evaluate(page, speed);
     QVERIFY(std::abs(speed[3] + wave({3, 0, 0})) < 1e-4);
+  }
+
+  void pages_that_are_as_before_are_taken_over() {
+    const auto function = std::make_shared<Counting>();
+    function->changed_from_x = 16;
+    const CachedSpeed cached(function, kGrid);
+    const VoxelBox all{Index3(0), {32, 16, 16}};
+    QCOMPARE(difference(cached, all), QString());
+    Geometry geometry;
+    geometry.size = kGrid;
+    const auto next = cached.following(Field::empty(geometry, 2.5));
+    const auto& next_cache = dynamic_cast<const CachedSpeed&>(*next);
+    const auto& next_function = dynamic_cast<const Counting&>(next_cache.function());
+    std::vector<double> speed(static_cast<std::size_t>(all.voxels()));
+    next->evaluate(all, speed.data());
+    QCOMPARE(next_function.evaluated.load(), 16 * 16 * 16);
+    QVERIFY(std::abs(speed[3] - wave({3, 0, 0})) < 1e-4);
+    QVERIFY(std::abs(speed[20] + wave({20, 0, 0})) < 1e-4);
   }
 
   void functions_without_a_cache_are_quantised_alike() {

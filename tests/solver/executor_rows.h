@@ -63,6 +63,15 @@ inline Setting this_row() {
   return {static_cast<solver::ExecutorKind>(kind), kShapes[layout]};
 }
 
+// Until every page rests, for at most so many steps.
+inline void run_until_all_rest(solver::Executor& level_set, std::int64_t most) {
+  for (std::int64_t steps = 0; steps < most; steps += 100) {
+    run(level_set, 100);
+    const solver::MemoryReport memory = level_set.memory();
+    if (memory.quiet_pages == memory.resident_pages) return;
+  }
+}
+
 // A lumpy source, a start and parameters under which everything is in motion.
 struct Scene {
   Geometry geometry;

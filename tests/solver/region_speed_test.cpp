@@ -87,7 +87,9 @@ class RegionSpeedTest : public QObject {
  private slots:
   void the_means_are_those_of_all_voxels_on_either_side() {
     const Geometry geometry = grid({45, 38, 29}, {0.8, 0.8, 1.5});
-    const auto source = noise_on(geometry, 200.0);
+    const auto source = with_noise(
+        volume_of(geometry, [&](glm::dvec3 p) { return ball(geometry, 12.0)(p) > 0.0 ? 260.0 : 200.0; }),
+        15.0);
     for (const Index3 page_shape : {kDefaultPageShape, Index3(16, 16, 1)}) {
       const Field phi = phi_of(geometry, ball(geometry, 14.0, {9.0, 3.0, 0.0}), page_shape);
       double sums[2] = {0.0, 0.0};
@@ -102,11 +104,15 @@ class RegionSpeedTest : public QObject {
       const double out = sums[0] / counts[0];
       const auto regions = uncached(inputs_of(source), "regions")->following(phi);
       QVERIFY(regions != nullptr);
+      int between = 0;
       for (std::int64_t x = 0; x < 45; ++x) {
         const double i = static_cast<double>(source->value(Index3(x, 20, 20)));
         const double d = ((i - out) * (i - out) - (i - in) * (i - in)) / ((in - out) * (in - out));
-        QVERIFY(std::abs(speed_at(*regions, {x, 20, 20}) - std::clamp(d, -1.0, 1.0)) < 1e-5);
+        QVERIFY(std::abs(speed_at(*regions, {x, 20, 20}) - std::clamp(d, -1.0, 1.0)) <
+                3e-3);  // means are rounded
+        if (std::abs(d) < 0.9) ++between;
       }
+      QVERIFY(between > 10);
     }
   }
 
@@ -154,10 +160,31 @@ class RegionSpeedTest : public QObject {
       const auto second = first->following(phi_of(geometry, ball(geometry, 8.0)));
       QVERIFY(second != nullptr);
       QVERIFY(second->following(phi_of(geometry, ball(geometry, 8.0))) == nullptr);
+      QVERIFY(second->following(phi_of(geometry, ball(geometry, 8.0), {16, 16, 1})) == nullptr);
       QVERIFY(second->following(phi_of(geometry, ball(geometry, 9.0))) != nullptr);
       const auto through_cache = make_speed(setting_of("regions", {{"radius", radius}}), inputs_of(source));
       QVERIFY((*through_cache)->follows_surface());
       QVERIFY((*through_cache)->following(phi_of(geometry, ball(geometry, 8.0))) != nullptr);
+    }
+  }
+
+  // Undo puts phi back, and a recipe does not replay what was undone.
+  void the_function_depends_on_phi_alone_and_not_on_its_past() {
+    const Geometry geometry = grid(Index3(40));
+    const auto source = with_noise(
+        volume_of(geometry, [&](glm::dvec3 p) { return ball(geometry, 12.0)(p) > 0.0 ? 100.0 : 0.0; }), 5.0);
+    const VoxelBox whole{Index3(0), geometry.size};
+    for (const double radius : {0.0, 4.0}) {
+      const auto fresh = *make_speed(setting_of("regions", {{"radius", radius}}), inputs_of(source));
+      for (const double moved : {0.02, 0.1, 0.4, 3.0}) {
+        const Field phi = phi_of(geometry, ball(geometry, 8.0));
+        const auto direct = fresh->following(phi);
+        auto by_detour = fresh->following(phi_of(geometry, ball(geometry, 8.0 + moved, {0.3, 0.0, 0.0})));
+        QVERIFY(by_detour != nullptr);
+        speeds(*by_detour, whole);  // so that the cache is full
+        if (auto next = by_detour->following(phi)) by_detour = next;
+        QVERIFY(speeds(*by_detour, whole) == speeds(*direct, whole));
+      }
     }
   }
 

@@ -150,8 +150,8 @@ class StreamTest : public QObject {
   void each_single_voxel_makes_its_bit_arrive() {
     const Geometry geometry = grid({48, 48, 3});
     const auto source = zero_volume(geometry);
-    const solver::TentSpeed tent(source, {});
-    const solver::Model model(source->geometry, {}, tent);
+    const auto tent = std::make_shared<solver::TentSpeed>(source, solver::Parameters());
+    const solver::Model model(source->geometry, {}, *tent);
     const auto gpu = device();
     const solver::PageLayout pages(geometry.size, kPageShape);
     const solver::PackedLayout layout(pages, gpu->capabilities().largest_texture);
@@ -162,8 +162,8 @@ class StreamTest : public QObject {
     auto geometry_engine = solver::GeometryEngine::create(*gpu, layout);
     const solver::PhysicalPage list[] = {page};
     QVERIFY(geometry_engine.describe(*gpu, table, list));
-    const auto texture = good(solver::SourceTexture::create(*gpu, *source));
-    auto passes = good(solver::RegionPasses::create(*gpu, geometry_engine, texture, model, 32));
+    const auto drive = good(solver::DriveTextures::create(*gpu, *source, tent, 1));
+    auto passes = good(solver::RegionPasses::create(*gpu, geometry_engine, drive, model, 32));
     QVERIFY(passes.reserve(*gpu, 1));
     gpu::begin_exact_drawing();
     std::vector<float> values(kPageTexels, -band);
@@ -319,7 +319,7 @@ class StreamTest : public QObject {
       for (std::sregex_iterator i(source.text.begin(), source.text.end(), sampler), end; i != end; ++i) {
         const std::string type = (*i)[1];
         const std::string uniform = (*i)[2];
-        QVERIFY2(type == "sampler2D" || uniform == "source_volume", uniform.c_str());
+        QVERIFY2(type == "sampler2D" || uniform.ends_with("_volume"), uniform.c_str());
         QVERIFY2(uniform.find("table") == std::string::npos && uniform.find("record") == std::string::npos,
                  uniform.c_str());
       }

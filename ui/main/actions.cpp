@@ -4,6 +4,7 @@
 #include "ui/look/icons.h"
 #include "ui/settings.h"
 #include "ui/views/mouse_scheme.h"
+#include "ui/views/play.h"
 
 namespace tidemark::ui {
 namespace {
@@ -69,6 +70,10 @@ void Actions::make_files() {
                       tr("Find a series in a PACS and open it"));
   import_labels = make("import-labels", "label", tr("I&mport labels…"), QKeySequence("Ctrl+I"), true,
                        tr("Add labels from a DICOM segmentation, an RT structure set or a label map"));
+  add_image = make("add-image", "add", tr("Add ima&ge file…"), {}, true,
+                   tr("Show another image, such as PET over CT, on the slices of this case"));
+  add_series = make("add-series", nullptr, tr("Add series of the st&udy…"), {}, true,
+                    tr("Show another series of the same folder on the slices of this case"));
   save = make("save", "save", tr("&Save session"), QKeySequence("Ctrl+S"), true);
   save_as = make("save-as", "save-as", tr("Save session &as…"), QKeySequence("Ctrl+Shift+S"), true);
   export_mask = make("export-mask", "export", tr("&Mask or labels…"), QKeySequence("Ctrl+E"), true,
@@ -154,6 +159,10 @@ void Actions::make_tools() {
        tr("Measure a distance"));
   tool(engine::Tool::measure_angle, "tool-angle", "tool-angle", tr("A&ngle"), "A",
        tr("Measure an angle: one drag to the vertex, one to the other end"));
+  tool(engine::Tool::examples, "tool-examples", "tool-examples", tr("E&xamples"), "M",
+       tr("Mark examples in slices: left button inside, right button outside, with Ctrl takes away"));
+  tool(engine::Tool::wall, "tool-wall", "tool-wall", tr("Wa&ll"), "K",
+       tr("Keep the surface out with a 3D brush; with Shift keep it in (right button: takes away)"));
   last_tool = make("last-tool", nullptr, tr("&Last tool"), QKeySequence("Space"), true,
                    tr("Change between the last two tools"));
 }
@@ -217,6 +226,7 @@ void Actions::follow(engine::CaseProxy* proxy) {
   static const engine::CaseState kNothing{};
   for (QAction* action : of_cases_) action->setEnabled(proxy != nullptr);
   follow_evolution(proxy ? proxy->state() : kNothing);
+  play->setEnabled(proxy && can_play(*proxy));
   clip->setChecked(proxy && proxy->display().settings().clip_on);
   patient_text->setChecked(proxy && proxy->display().settings().patient_text);
   if (proxy) return tool(proxy->display().settings().tool)->setChecked(true);
@@ -231,7 +241,7 @@ void Actions::follow_evolution(const engine::CaseState& state) {
   play->setChecked(state.playing);
   play->setIcon(icon(state.playing ? u"pause" : u"play"));
   play->setText(state.playing ? tr("&Pause") : tr("&Play"));
-  for (QAction* action : {play, step, restart, export_mesh, export_recipe, export_level_set})
+  for (QAction* action : {step, restart, export_mesh, export_recipe, export_level_set})
     action->setEnabled(state.begun);
   for (QAction* action : {export_segmentation, export_structure_set, export_label_meshes, send_result})
     action->setEnabled(state.begun || !state.labels.empty());

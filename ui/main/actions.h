@@ -27,6 +27,8 @@ class Actions : public QObject {
   QAction* open_file;
   QAction* open_session;
   QAction* query_server;
+  QAction* add_image;
+  QAction* add_series;
   QAction* import_labels;
   QAction* save;
   QAction* save_as;

@@ -52,6 +52,7 @@ QString mouse() {
                                : tr("the tool; window and level on slices, turning in 3D")) +
            row(tr("middle"), tr("move the picture")) +
            row(tr("right"), tr("zoom, a click opens a menu; the opposite of the brush while painting")) +
+           row(tr("with Examples"), tr("left inside, right outside, with Ctrl takes strokes away")) +
            row(tr("wheel"), tr("slices; the clip plane or zoom in 3D")) +
            row(tr("Shift + wheel"), tr("size of the brush")) + row(tr("Ctrl + wheel"), tr("zoom")) +
            row(tr("Shift + move"), tr("linked crosshair")) +

@@ -28,6 +28,7 @@
 #include "ui/main/case_links.h"
 #include "ui/main/case_messages.h"
 #include "ui/main/case_results.h"
+#include "ui/main/image_adder.h"
 #include "ui/main/first_steps.h"
 #include "ui/main/focus_chain.h"
 #include "ui/main/keys_dialog.h"
@@ -49,6 +50,7 @@
 #include "ui/settings.h"
 #include "ui/views/picture_surface.h"
 #include "ui/views/picture_view.h"
+#include "ui/views/play.h"
 
 namespace tidemark::ui {
 MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(parent), engine_(engine) {
@@ -72,6 +74,7 @@ MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(pa
   make_tool_bar(*this, *actions_);
   make_status_bar();
   results_ = new CaseResults(*this);
+  images_ = new ImageAdder(*this);
   connect_files();
   connect_evolution();
   connect_views();
@@ -324,7 +327,7 @@ void MainWindow::with_case(QAction* action, Do act) {
 }
 
 void MainWindow::connect_evolution() {
-  with_case(actions_->play, [](CaseWindow& window) { window.proxy().toggle_play(); });
+  with_case(actions_->play, [](CaseWindow& window) { toggle_play(window.proxy()); });
   with_case(actions_->step, [](CaseWindow& window) { window.proxy().step(); });
   with_case(actions_->step_back, [](CaseWindow& window) { window.proxy().step_back(); });
   with_case(actions_->restart, [](CaseWindow& window) { window.proxy().restart(); });

@@ -23,6 +23,7 @@ class CaseExports;
 class CaseFiles;
 class CaseLinks;
 class CaseResults;
+class ImageAdder;
 class LoadingView;
 class MessageBar;
 class PanelDocks;
@@ -53,6 +54,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] CaseExports& exports() { return *exports_; }
   [[nodiscard]] SessionReader& session_reader() { return *session_reader_; }
   [[nodiscard]] SessionWriter& session_writer() { return *session_writer_; }
+  [[nodiscard]] ImageAdder& images() { return *images_; }
   [[nodiscard]] CaseResults& results() { return *results_; }
   // The executor of new cases.
   void set_executor(solver::ExecutorKind kind) { executor_ = kind; }
@@ -110,6 +112,7 @@ class MainWindow : public QMainWindow {
   SessionReader* session_reader_ = nullptr;
   SessionWriter* session_writer_ = nullptr;
   CaseResults* results_ = nullptr;
+  ImageAdder* images_ = nullptr;
   QPointer<CaseWindow> active_;
   bool quitting_ = false;
   QList<QMetaObject::Connection> active_connections_;

@@ -9,12 +9,14 @@
 
 namespace tidemark::ui {
 
-ValueBar::ValueBar(QWidget* parent) : QLabel(parent) {
+ValueBar::ValueBar(QWidget* parent) : QLabel(parent), speed_(new engine::SpeedSampler(this)) {
+  connect(speed_, &engine::SpeedSampler::answered, this, &ValueBar::follow);
   setAccessibleName(tr("Values under the mouse"));
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   setIndent(6);
   setToolTip(
-      tr("Under the mouse: the brightness I, the voxel and its place in mm (LPS).\n"
+      tr("Under the mouse: the brightness I, the voxel and its place in mm (LPS),\n"
+         "and the value of each further image that is shown.\n"
          "In detail: the data term D (above 0 the surface grows here), φ (positive inside the surface),\n"
          "and near the surface its curvature κ and the slope of φ."));
 }
@@ -32,6 +34,7 @@ void ValueBar::set_proxy(engine::CaseProxy* proxy) {
   proxy_ = proxy;
   if (proxy_) {
     connect(&proxy_->display(), &engine::Display::pointer_moved, this, &ValueBar::follow);
+    connect(&proxy_->display(), &engine::Display::changed, this, &ValueBar::follow);
     connect(proxy_, &engine::CaseProxy::state_changed, this, &ValueBar::follow);
   }
   follow();
@@ -56,18 +59,35 @@ void ValueBar::follow() {
   if (proxy_->state().smoothed_mm > 0.0) {
     values += tr("   smoothed %1").arg(source.value(voxel) + 0.0, 0, 'g', 5);
   }
+  for (const engine::ShownImage& shown : proxy_->display().settings().images) {
+    if (shown.visible) values += value_of(*shown.image, *point);
+  }
   if (detailed_) values += details_at(voxel);
   setText(values + QStringLiteral("      ") + place);
 }
 
+// The tent is known at once; other functions may take a while.
+QString ValueBar::speed_at(Index3 voxel) const {
+  const auto text = [](double speed) { return QString::number(rounded(speed, 2), 'f', 2); };
+  const auto& function = proxy_->state().speed;
+  if (!function) return text(solver::data_speed(proxy_->parameters(), proxy_->source()->value(voxel)));
+  speed_->ask({function, voxel, Index3(1)});
+  return speed_->answer() ? text(speed_->answer()->front()) : QStringLiteral("…");
+}
+
+QString ValueBar::value_of(const document::CaseImage& image, glm::dvec3 place_mm) {
+  const QString name = QString::fromStdString(image.name);
+  const auto value = engine::value_at(image, place_mm);
+  if (!value) return tr("   %1 –").arg(name);
+  const QString unit = image.volume->unit.empty() ? QString() : QLatin1Char(' ') + value_unit(*image.volume);
+  return tr("   %1 %2%3").arg(name, QString::number(*value + 0.0, 'g', 4), unit);
+}
+
 QString ValueBar::details_at(Index3 voxel) const {
-  const Volume& source = *proxy_->source();  // as D sees it
   const engine::CaseState& state = proxy_->state();
-  const solver::Parameters& parameters = proxy_->parameters();
-  QString values =
-      tr("   D %1").arg(rounded(solver::data_speed(parameters, source.value(voxel)), 2), 0, 'f', 2);
+  QString values = tr("   D %1").arg(speed_at(voxel));
   if (!state.phi || !state.begun) return values;
-  const solver::VoxelValues at = solver::values_at(*state.phi, source, parameters, voxel);
+  const solver::VoxelValues at = solver::values_at(*state.phi, voxel);
   values += tr("   φ %1").arg(rounded(at.phi, 2), 0, 'f', 2);
   const bool clamped = std::abs(at.phi) >= state.phi->band;
   if (!clamped)

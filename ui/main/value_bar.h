@@ -5,6 +5,7 @@
 #include <QPointer>
 
 #include "engine/case_proxy.h"
+#include "engine/speed_sampler.h"
 
 namespace tidemark::ui {
 
@@ -17,9 +18,12 @@ class ValueBar : public QLabel {
 
  private:
   void follow();
+  [[nodiscard]] static QString value_of(const document::CaseImage& image, glm::dvec3 place_mm);
   [[nodiscard]] QString details_at(Index3 voxel) const;
+  [[nodiscard]] QString speed_at(Index3 voxel) const;
 
   QPointer<engine::CaseProxy> proxy_;
+  engine::SpeedSampler* speed_;
   bool detailed_ = false;
 };
 

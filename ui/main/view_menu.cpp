@@ -58,6 +58,7 @@ void add_overlays(QMenu& menu, PictureView& view, const Actions& actions) {
   };
   add(tr("&Outline of the surface"), &engine::DisplaySettings::outline);
   add(tr("&Crosshair"), &engine::DisplaySettings::crosshair);
+  add(tr("&Examples, walls and anchors"), &engine::DisplaySettings::marks);
   if (view.proxy().study().truth) add(tr("Outline of the t&ruth"), &engine::DisplaySettings::truth);
   overlays->addAction(actions.patient_text);
 }

@@ -7,6 +7,7 @@
 #include <QStyledItemDelegate>
 #include <algorithm>
 
+#include "engine/study_loader.h"
 #include "ui/opening/series_model.h"
 
 namespace tidemark::ui {
@@ -160,6 +161,7 @@ void SeriesBrowser::show_catalogue(std::shared_ptr<const imaging::Catalogue> cat
                           std::all_of(all.begin(), all.end(), [](const imaging::Series& series) {
                             return series.patient.name.empty();
                           }));
+  table_->setColumnHidden(SeriesModel::kFrame, !model_->has_shared_frames());
   if (shown_->rowCount() > 0) table_->selectRow(0);
   table_->setFocus();
   follow_selection();
@@ -182,7 +184,12 @@ void SeriesBrowser::follow_selection() {
   }
   html += item_list(tr("Warnings"), series->warnings);
   html += item_list(tr("What loading changes"), series->changes);
+  std::vector<std::string> in_place;
+  for (const imaging::Series* other : catalogue_->on_the_frame_of(*series)) {
+    in_place.push_back(engine::StudyLoader::name_of(*other).toStdString());
+  }
   if (html.isEmpty()) html = tr("Nothing has to be changed to load this series.").toHtmlEscaped();
+  html += item_list(tr("In place with, by a shared frame of reference"), in_place);
   details_->setHtml(html);
 }
 

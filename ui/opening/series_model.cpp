@@ -79,6 +79,13 @@ void SeriesModel::show(std::shared_ptr<const imaging::Catalogue> catalogue, doub
     };
     return rank(*a) > rank(*b);
   });
+  shared_frames_.clear();
+  for (const imaging::Series* series : rows_) {
+    const std::string& frame = series->frame_of_reference_uid;
+    const bool is_known =
+        std::find(shared_frames_.begin(), shared_frames_.end(), frame) != shared_frames_.end();
+    if (!is_known && !catalogue_->on_the_frame_of(*series).empty()) shared_frames_.push_back(frame);
+  }
   endResetModel();
 }
 
@@ -88,6 +95,15 @@ int SeriesModel::rowCount(const QModelIndex& parent) const {
 
 int SeriesModel::columnCount(const QModelIndex& parent) const {
   return parent.isValid() ? 0 : kColumns;
+}
+
+// A, B, ..., Z, then numbers; empty where no other series lies on the frame.
+QString SeriesModel::frame_letter(const imaging::Series& series) const {
+  constexpr auto kLetters = 26;
+  const auto found = std::find(shared_frames_.begin(), shared_frames_.end(), series.frame_of_reference_uid);
+  if (found == shared_frames_.end()) return {};
+  const auto index = static_cast<int>(found - shared_frames_.begin());
+  return index < kLetters ? QString(QChar('A' + index)) : QString::number(index + 1);
 }
 
 QString SeriesModel::text(const imaging::Series& series, int column) const {
@@ -104,6 +120,8 @@ QString SeriesModel::text(const imaging::Series& series, int column) const {
       return has_grid(series) ? size_text(series.geometry) : QString();
     case kSpacing:
       return has_grid(series) ? spacing_text(series.geometry) : QString();
+    case kFrame:
+      return frame_letter(series);
     case kFiles:
       return QString::number(series.files.size());
     default:
@@ -154,9 +172,13 @@ QVariant SeriesModel::data(const QModelIndex& index, int role) const {
 QVariant SeriesModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal) return {};
   if (role == Qt::TextAlignmentRole) return kAlignment;
+  if (role == Qt::ToolTipRole && section == kFrame) {
+    return tr("Series with the same letter share a frame of reference: they lie in place on one another");
+  }
   if (role != Qt::DisplayRole) return {};
-  const QString titles[kColumns] = {tr("Series"), tr("Patient"),      tr("Modality"), tr("Date"),
-                                    tr("Voxels"), tr("Spacing (mm)"), tr("Files"),    tr("Notes")};
+  const QString titles[kColumns] = {tr("Series"), tr("Patient"), tr("Modality"),
+                                    tr("Date"),   tr("Voxels"),  tr("Spacing (mm)"),
+                                    tr("Frame"),  tr("Files"),   tr("Notes")};
   return titles[section];
 }
 

@@ -17,7 +17,7 @@ namespace tidemark::ui {
 class SeriesModel : public QAbstractTableModel {
   Q_OBJECT
  public:
-  enum Column { kSeries, kPatient, kModality, kDate, kSize, kSpacing, kFiles, kNotes, kColumns };
+  enum Column { kSeries, kPatient, kModality, kDate, kSize, kSpacing, kFrame, kFiles, kNotes, kColumns };
   static constexpr int kSortRole = Qt::UserRole;
   static constexpr int kPreviewSize = 64;  // in points, wide and high
 
@@ -25,6 +25,9 @@ class SeriesModel : public QAbstractTableModel {
 
   void show(std::shared_ptr<const imaging::Catalogue> catalogue, double device_pixel_ratio);
   [[nodiscard]] const imaging::Series& series(int row) const { return *rows_[static_cast<std::size_t>(row)]; }
+
+  // Whether several series are known to lie on one frame of reference.
+  [[nodiscard]] bool has_shared_frames() const { return !shared_frames_.empty(); }
 
   [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
   [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
@@ -37,12 +40,14 @@ class SeriesModel : public QAbstractTableModel {
  private:
   [[nodiscard]] QString text(const imaging::Series& series, int column) const;
   [[nodiscard]] QVariant sort_key(const imaging::Series& series, int column) const;
+  [[nodiscard]] QString frame_letter(const imaging::Series& series) const;
   [[nodiscard]] QPixmap preview(int row) const;
   void keep(int row, const QImage& picture);
   [[nodiscard]] QPixmap frame(const QImage& picture) const;
 
   std::shared_ptr<const imaging::Catalogue> catalogue_;
   std::vector<const imaging::Series*> rows_;
+  std::vector<std::string> shared_frames_;  // the UIDs of frames that several rows share: A, B, ...
   double device_pixel_ratio_ = 1.0;
   engine::SeriesPreviews* previews_;
   mutable std::map<int, QPixmap> pictures_;  // an empty frame from when it was asked for

@@ -1,6 +1,8 @@
 #include "ui/panels/level_set_panel.h"
 
 #include "ui/panels/evolution_figures.h"
+#include "ui/panels/example_controls.h"
+#include "ui/panels/function_controls.h"
 #include "ui/panels/speed_controls.h"
 #include "ui/panels/speed_details.h"
 
@@ -9,6 +11,8 @@ namespace tidemark::ui {
 LevelSetPanel::LevelSetPanel(QWidget* parent)
     : Panel(tr("Open a study to steer a level set in it."), parent), evolution_(new EvolutionControls) {
   add(evolution_);
+  add(new FunctionControls);
+  add(new ExampleControls);
   add(new SpeedControls);
   add(new SpeedDetails);
   add(new EvolutionFigures);

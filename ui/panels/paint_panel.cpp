@@ -8,6 +8,7 @@
 
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/panels/wall_controls.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
@@ -34,13 +35,17 @@ PaintPanel::PaintPanel(QWidget* parent) : Panel(tr("Open a study to paint in it.
     change_display([=](engine::DisplaySettings& settings) { settings.brush_mm = value; });
   });
   voxels_ = form.figure(tr("In voxels"), tr("The radius along columns, rows and slices."));
-  form.heading(tr("Take back"));
-  form.wide(make_history());
-  form.heading(tr("In a view"));
-  form.note(
+  add(part);
+  add(new WallControls);
+  auto* rest = new QWidget;
+  Form below(rest);
+  below.heading(tr("Take back"));
+  below.wide(make_history());
+  below.heading(tr("In a view"));
+  below.note(
       tr("Left drag: the chosen tool\nRight drag: the other one\nShift and wheel: radius\n"
          "Alt and drag: window and level\nThe surface goes on moving while you paint."));
-  add(part);
+  add(rest);
 }
 
 QWidget* PaintPanel::make_tools() {

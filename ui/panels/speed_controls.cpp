@@ -7,8 +7,10 @@
 #include <cmath>
 
 #include "ui/look/theme.h"
+#include "ui/panels/speed_histogram.h"
 #include "ui/panels/speed_plot.h"
 #include "ui/panels/value_unit.h"
+#include "ui/views/driven_by.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
@@ -17,9 +19,12 @@ namespace tidemark::ui {
 
 SpeedControls::SpeedControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
-  form.heading(tr("Speed"));
+  form_ = form.layout();
   tent_ = new SpeedPlot;
   form.wide(tent_);
+  certainty_ = new SpeedHistogram;
+  form.wide(certainty_);
+  form_->setRowVisible(certainty_, false);
   connect(tent_, &SpeedPlot::edited, this, [this](double target, double range, std::uint64_t gesture) {
     change(
         [=](solver::Parameters& parameters) {
@@ -56,6 +61,7 @@ void SpeedControls::add_numbers(Form& form) {
 }
 
 void SpeedControls::attach() {
+  certainty_->set_proxy(proxy());
   if (!proxy()) return;
   const engine::SourceSummary& summary = proxy()->summary();
   const QString unit = value_unit(proxy()->volume());
@@ -78,6 +84,12 @@ void SpeedControls::attach() {
 
 void SpeedControls::refresh() {
   const solver::Parameters& parameters = proxy()->parameters();
+  // T and epsilon are the tent's.
+  const bool has_tent = is_driven_by(proxy()->drive(), "tent");
+  for (QWidget* of_tent :
+       {static_cast<QWidget*>(tent_), static_cast<QWidget*>(target_), static_cast<QWidget*>(range_)})
+    form_->setRowVisible(of_tent, has_tent);
+  form_->setRowVisible(certainty_, !proxy()->drive().setting.is_tent());
   tent_->set_tent(parameters.target, parameters.range);
   target_->set_value(parameters.target);
   range_->set_value(parameters.range);

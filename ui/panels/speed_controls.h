@@ -1,14 +1,17 @@
-// What steers the surface: T, epsilon and alpha (paper section 6.1).
+// What steers the surface: T, epsilon and alpha (paper section 6.1). T and epsilon are the tent's.
 #pragma once
 
 #include <functional>
 
 #include "ui/panels/case_widget.h"
 
+class QFormLayout;
+
 namespace tidemark::ui {
 
 class Form;
 class SliderNumber;
+class SpeedHistogram;
 class SpeedPlot;
 
 class SpeedControls : public CaseWidget {
@@ -24,7 +27,9 @@ class SpeedControls : public CaseWidget {
   void add_numbers(Form& form);
   void change(const std::function<void(solver::Parameters&)>& apply, std::uint64_t gesture);
 
+  QFormLayout* form_;
   SpeedPlot* tent_;
+  SpeedHistogram* certainty_;
   SliderNumber* target_;
   SliderNumber* range_;
   SliderNumber* alpha_;

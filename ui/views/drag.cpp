@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ui/views/edit_drags.h"
+#include "ui/views/mark_drags.h"
 #include "ui/views/measure_drags.h"
 #include "ui/views/mouse_scheme.h"
 #include "ui/views/probe_drags.h"
@@ -80,6 +81,10 @@ std::unique_ptr<Drag> tool_drag(engine::Tool tool, DragView view, const Pointer&
       return std::make_unique<DistanceDrag>(std::move(view), pressed);
     case engine::Tool::measure_angle:
       return std::make_unique<AngleDrag>(std::move(view), pressed);
+    case engine::Tool::examples:
+      return view.slab ? std::make_unique<ExampleDrag>(std::move(view), pressed) : nullptr;
+    case engine::Tool::wall:
+      return std::make_unique<ConstraintDrag>(std::move(view), pressed);
   }
   return nullptr;
 }

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "engine/case_proxy.h"
+#include "engine/slice_slab.h"
 
 namespace tidemark::ui {
 
@@ -27,6 +28,7 @@ struct DragView {
   QSizeF size;
   double mm_per_pixel = 1.0;
   std::function<QPointF(glm::dvec3)> position_of;  // of a point of the patient
+  std::optional<engine::SliceSlab> slab;           // the voxels that a slice shows; none in 3D
 };
 
 // One gesture, from the press over every move to the release.

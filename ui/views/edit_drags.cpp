@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "ui/views/mark_drags.h"
+
 namespace tidemark::ui {
 
 SphereDrag::SphereDrag(DragView view, const Pointer& pressed, solver::Brush brush)
@@ -50,6 +52,15 @@ StrokeDrag::StrokeDrag(DragView view, const Pointer& pressed, solver::Brush brus
 
 void StrokeDrag::dab(glm::dvec3 at_mm) {
   proxy().paint({at_mm, radius_mm_}, brush_, gesture_);
+  spheres_.push_back({at_mm, radius_mm_});
+}
+
+void StrokeDrag::release() {
+  if (brush_ != solver::Brush::erase || !display().settings().wall_behind_eraser) return;
+  document::Drive drive = proxy().drive();
+  drive.constraints =
+      with_spheres(drive.constraints.get(), proxy().volume().geometry, spheres_, solver::Constraint::wall);
+  proxy().set_drive(drive, gesture_);
 }
 
 void StrokeDrag::move(const Pointer& pointer) {

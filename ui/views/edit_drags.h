@@ -22,11 +22,13 @@ class SphereDrag : public Drag {
   double radius_mm_;
 };
 
-// A brush along the way of the mouse: one stroke is one entry of the history.
+// A brush along the way of the mouse: one stroke is one entry of the history. What it erases becomes a wall
+// when the display says so.
 class StrokeDrag : public Drag {
  public:
   StrokeDrag(DragView view, const Pointer& pressed, solver::Brush brush);
   void move(const Pointer& pointer) override;
+  void release() override;
 
  private:
   void dab(glm::dvec3 at_mm);
@@ -35,6 +37,7 @@ class StrokeDrag : public Drag {
   std::uint64_t gesture_;
   double radius_mm_;
   glm::dvec3 last_mm_;
+  std::vector<solver::Sphere> spheres_;
 };
 
 }  // namespace tidemark::ui

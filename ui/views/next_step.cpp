@@ -9,6 +9,7 @@
 
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/views/play.h"
 
 namespace tidemark::ui {
 namespace {
@@ -86,7 +87,7 @@ NextStep::NextStep(engine::CaseProxy& proxy, QWidget& view)
     // A drag turns the 3D view from now on, and no click adds a sphere by accident.
     if (proxy_.display().settings().tool == engine::Tool::seed)
       proxy_.display().choose_tool(engine::Tool::window);
-    proxy_.play();
+    toggle_play(proxy_);
   });
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
@@ -102,8 +103,9 @@ void NextStep::follow() {
   const engine::CaseState& state = proxy_.state();
   const engine::DisplaySettings& settings = proxy_.display().settings();
   const bool draws = proxy_.engine().graphics() != engine::Engine::Graphics::none;
-  const bool to_place = !state.begun && !settings.show_source;
-  const bool to_play = state.begun && !state.playing && state.step == 0;
+  const bool begins_in_strokes = !state.begun && can_play(proxy_);
+  const bool to_place = !state.begun && !begins_in_strokes && !settings.show_source;
+  const bool to_play = begins_in_strokes || (state.begun && !state.playing && state.step == 0);
   const bool wanted = draws && !settings.clip_on && (to_place || to_play);
   hint_->setVisible(to_place);
   play_->setVisible(to_play);

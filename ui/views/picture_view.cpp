@@ -18,11 +18,9 @@ constexpr int kWheelClick = 120;  // eighths of a degree (Qt)
 constexpr double kZoomStep = 1.15;
 constexpr double kSmallestBrush = 0.2;  // mm
 constexpr double kLargestBrush = 200.0;
+constexpr double kSmallestStroke = 0.5;  // voxels
+constexpr double kLargestStroke = 50.0;
 constexpr double kClickReach = 5.0;  // logical pixels: a hand is not quite still
-
-bool edits(engine::Tool tool) {
-  return tool == engine::Tool::paint || tool == engine::Tool::erase || tool == engine::Tool::seed;
-}
 
 Qt::CursorShape cursor_for(engine::Tool tool) {
   switch (tool) {
@@ -36,6 +34,8 @@ Qt::CursorShape cursor_for(engine::Tool tool) {
     case engine::Tool::probe_transfer:
     case engine::Tool::measure_distance:
     case engine::Tool::measure_angle:
+    case engine::Tool::examples:
+    case engine::Tool::wall:
       return Qt::CrossCursor;
   }
   return Qt::ArrowCursor;
@@ -83,7 +83,8 @@ QImage PictureView::grab_picture() {
 }
 
 DragView PictureView::drag_view() {
-  return {proxy_, QSizeF(size()), mm_per_pixel(), [this](glm::dvec3 point) { return position_of(point); }};
+  return {proxy_, QSizeF(size()), mm_per_pixel(), [this](glm::dvec3 point) { return position_of(point); },
+          slab()};
 }
 
 void PictureView::ask() {
@@ -157,7 +158,13 @@ void PictureView::paint_study(QPainter& painter, const QString& note) const {
 std::optional<PictureView::Ring> PictureView::ring() const {
   std::optional<engine::DrawnSphere> shown = display().drawn_sphere();
   const auto& pointer = display().pointer_mm();
-  if (!shown && pointer && !drag_ && edits(settings().tool)) {
+  if (pointer && settings().tool == engine::Tool::examples) {
+    // In the slice under the mouse alone: a stroke is in no other.
+    const auto here = slab();
+    if (!here || !underMouse()) return std::nullopt;
+    return Ring{position_of(*pointer), settings().stroke_voxels * here->finest_mm() / mm_per_pixel(), false};
+  }
+  if (!shown && pointer && !drag_ && engine::has_right_button(settings().tool)) {
     shown = engine::DrawnSphere{{*pointer, settings().brush_mm}, settings().tool == engine::Tool::erase};
   }
   if (!shown) return std::nullopt;
@@ -202,8 +209,8 @@ std::unique_ptr<Drag> PictureView::begin_drag(const Pointer& pressed) {
   if (pressed.button == Qt::LeftButton && pressed.modifiers.testFlag(Qt::AltModifier)) {
     return window_drag(drag_view(), pressed);
   }
-  const bool with_tool =
-      pressed.button == Qt::LeftButton || (pressed.button == Qt::RightButton && edits(tool));
+  const bool with_tool = pressed.button == Qt::LeftButton ||
+                         (pressed.button == Qt::RightButton && engine::has_right_button(tool));
   if (with_tool) {
     if (auto drag = tool_drag(tool, drag_view(), pressed)) return drag;
   }
@@ -216,7 +223,8 @@ void PictureView::mousePressEvent(QMouseEvent* event) {
   pressed_at_ = mouse_ = event->position();
   // A brush has something to do at once.
   const engine::Tool tool = settings().tool;
-  may_be_click_ = button_ == Qt::RightButton && tool != engine::Tool::paint && tool != engine::Tool::erase;
+  const bool is_brush = engine::has_right_button(tool) && tool != engine::Tool::seed;
+  may_be_click_ = button_ == Qt::RightButton && !is_brush;
   set_drag(begin_drag(pointer_at(*event)));
 }
 
@@ -269,7 +277,10 @@ void PictureView::find_place(QPointF position, std::function<void(std::optional<
 }
 
 void PictureView::mouseDoubleClickEvent(QMouseEvent* event) {
-  if (event->button() == Qt::LeftButton && !edits(settings().tool)) emit maximise_wanted();
+  const engine::Tool tool = settings().tool;
+  // Dots are painted one quickly after the other.
+  if (tool == engine::Tool::examples || tool == engine::Tool::wall) return mousePressEvent(event);
+  if (event->button() == Qt::LeftButton && !engine::has_right_button(tool)) emit maximise_wanted();
 }
 
 void PictureView::leaveEvent(QEvent* event) {
@@ -294,8 +305,12 @@ void PictureView::wheelEvent(QWheelEvent* event) {
     zoom(std::pow(kZoomStep, clicks), event->position());
   } else if (event->modifiers().testFlag(Qt::ShiftModifier)) {
     display().change([&](engine::DisplaySettings& settings) {
-      settings.brush_mm =
-          std::clamp(settings.brush_mm * std::pow(1.1, clicks), kSmallestBrush, kLargestBrush);
+      const double factor = std::pow(1.1, clicks);
+      if (settings.tool == engine::Tool::examples) {
+        settings.stroke_voxels = std::clamp(settings.stroke_voxels * factor, kSmallestStroke, kLargestStroke);
+      } else {
+        settings.brush_mm = std::clamp(settings.brush_mm * factor, kSmallestBrush, kLargestBrush);
+      }
     });
   } else {
     scroll(clicks);

@@ -33,6 +33,8 @@ class PictureView : public QWidget {
   // On the slice or the clip plane; none beside it.
   [[nodiscard]] virtual std::optional<glm::dvec3> patient_at(QPointF position) const = 0;
   [[nodiscard]] virtual double mm_per_pixel() const = 0;
+  // The voxels that a slice shows; none in 3D.
+  [[nodiscard]] virtual std::optional<engine::SliceSlab> slab() const { return std::nullopt; }
 
   // The cross-section of the brush, or of the sphere that is being drawn in any view, in logical pixels.
   struct Ring {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "ui/views/mark_drags.h"
 #include "ui/views/overlay.h"
 #include "ui/widgets/number_text.h"
 
@@ -67,6 +68,7 @@ SliceViewWidget::SliceViewWidget(engine::CaseProxy& proxy, SlicePlane plane, ren
                                  QWidget* parent)
     : PictureView(proxy, parent), plane_(plane), content_(content) {
   setAccessibleName(title());
+  connect(&proxy, &engine::CaseProxy::state_changed, this, &SliceViewWidget::follow_marks);
 }
 
 QString SliceViewWidget::title() const {
@@ -136,6 +138,10 @@ std::optional<glm::dvec3> SliceViewWidget::patient_at(QPointF position) const {
   return screen().patient_at(position);
 }
 
+std::optional<engine::SliceSlab> SliceViewWidget::slab() const {
+  return engine::SliceSlab(proxy().volume().geometry, settings().cursor_mm, orientation().into());
+}
+
 SliceViewWidget::Place SliceViewWidget::place() const {
   const Geometry& geometry = proxy().volume().geometry;
   const glm::dvec3 into = orientation().into();
@@ -198,12 +204,24 @@ std::unique_ptr<Drag> SliceViewWidget::navigation_drag(const Pointer& pressed) {
 void SliceViewWidget::paint_overlay(QPainter& painter) {
   const SliceScreen on_screen = screen();
   const renderer::SliceOrientation o = orientation();
+  paint_images(painter, on_screen);
   paint_truth(painter, on_screen);
+  paint_marks(painter, on_screen);
   if (settings().crosshair) paint_crosshair(painter, size(), on_screen.position_of(settings().cursor_mm));
   paint_measurements(painter, settings().measurements, on_screen, 0.5 * place().thickness_mm + 1e-6);
   paint_orientation(painter, size(), o.right, o.up);
   paint_scale_bar(painter, size(), on_screen.mm_per_pixel());
   paint_corners(painter);
+}
+
+void SliceViewWidget::paint_images(QPainter& painter, const SliceScreen& on_screen) {
+  if (content_ != renderer::SliceContent::source || settings().images.empty()) return;
+  painter.save();
+  painter.setRenderHint(QPainter::SmoothPixmapTransform);
+  for (const QImage& picture : images_.pictures(settings().images, slice(), on_screen, size())) {
+    painter.drawImage(rect(), picture);
+  }
+  painter.restore();
 }
 
 void SliceViewWidget::paint_truth(QPainter& painter, const SliceScreen& on_screen) {
@@ -220,6 +238,33 @@ void SliceViewWidget::paint_truth(QPainter& painter, const SliceScreen& on_scree
   lines.reserve(outline_->lines.size());
   for (const QLineF& line : outline_->lines) lines << QLineF(to_screen(line.p1()), to_screen(line.p2()));
   paint_fine_lines(painter, lines, kTruthColour);
+}
+
+engine::DrawnMarks SliceViewWidget::marks() const {
+  if (const auto& drawn = display().drawn_marks()) return *drawn;
+  return {proxy().drive().strokes, proxy().drive().constraints};
+}
+
+void SliceViewWidget::paint_marks(QPainter& painter, const SliceScreen& on_screen) {
+  const engine::DrawnMarks now = marks();
+  if (settings().marks) {
+    marks_overlay_.paint(painter, now, proxy().volume().geometry, orientation(), settings().cursor_mm,
+                         on_screen);
+  }
+  if (settings().tool != engine::Tool::examples || !underMouse()) return;
+  const QString missing = missing_examples(now.strokes.get());
+  if (missing.isEmpty()) return;
+  constexpr double kHeight = 20.0;
+  const QRectF where(0.0, 0.75 * height(), width(), kHeight);
+  paint_text(painter, where, Qt::AlignHCenter | Qt::AlignVCenter, missing);
+}
+
+// Undo, or a session, has brought others.
+void SliceViewWidget::follow_marks() {
+  const engine::DrawnMarks now = marks();
+  if (now == marks_) return;
+  marks_ = now;
+  paint_again();
 }
 
 void SliceViewWidget::paint_corners(QPainter& painter) const {

@@ -1,6 +1,8 @@
 // Views in 2D: slices, speed maps and pages.
 #pragma once
 
+#include "ui/views/image_overlay.h"
+#include "ui/views/marks_overlay.h"
 #include "ui/views/mask_outline.h"
 #include "ui/views/picture_view.h"
 #include "ui/views/view_geometry.h"
@@ -23,6 +25,7 @@ class SliceViewWidget : public PictureView {
   [[nodiscard]] QPointF position_of(glm::dvec3 patient_mm) const override;
   [[nodiscard]] std::optional<glm::dvec3> patient_at(QPointF position) const override;
   [[nodiscard]] double mm_per_pixel() const override { return screen().mm_per_pixel(); }
+  [[nodiscard]] std::optional<engine::SliceSlab> slab() const override;
   // Along the normal: which slice of how many is seen (1-based), and how far they are apart.
   struct Place {
     std::int64_t slice = 1;
@@ -45,8 +48,12 @@ class SliceViewWidget : public PictureView {
   [[nodiscard]] renderer::SliceOrientation orientation() const;
   [[nodiscard]] renderer::SliceView slice() const;
   [[nodiscard]] SliceScreen screen() const;
+  void paint_images(QPainter& painter, const SliceScreen& on_screen);
   void paint_truth(QPainter& painter, const SliceScreen& on_screen);
   void paint_corners(QPainter& painter) const;
+  [[nodiscard]] engine::DrawnMarks marks() const;
+  void paint_marks(QPainter& painter, const SliceScreen& on_screen);
+  void follow_marks();
 
   SlicePlane plane_;
   renderer::SliceContent content_;
@@ -57,6 +64,9 @@ class SliceViewWidget : public PictureView {
     QList<QLineF> lines;
   };
   std::optional<Outline> outline_;
+  MarksOverlay marks_overlay_;
+  engine::DrawnMarks marks_;  // as of the last state
+  ImageOverlay images_;
 };
 
 }  // namespace tidemark::ui

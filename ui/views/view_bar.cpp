@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "ui/look/icons.h"
+#include "ui/views/driven_by.h"
 #include "ui/widgets/elided_label.h"
 
 namespace tidemark::ui {
@@ -103,6 +104,7 @@ void ViewBar::change(double solver::Parameters::*parameter, double value) {
 }
 
 void ViewBar::follow_state() {
+  show_what_fits();
   target_->show_unless_typed(proxy_.parameters().target);
   range_->show_unless_typed(proxy_.parameters().range);
 }
@@ -116,7 +118,13 @@ void ViewBar::follow_tool() {
 
 void ViewBar::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
-  for (QWidget* number : numbers_) number->setVisible(width() >= kWidthForNumbers);
+  show_what_fits();
+}
+
+// T and epsilon are the tent's.
+void ViewBar::show_what_fits() {
+  const bool has_tent = is_driven_by(proxy_.drive(), "tent");
+  for (QWidget* number : numbers_) number->setVisible(has_tent && width() >= kWidthForNumbers);
   for (QWidget* button : evolution_) button->setVisible(width() >= kWidthForEvolution);
 }
 

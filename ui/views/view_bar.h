@@ -34,6 +34,7 @@ class ViewBar : public QWidget {
   NumberBox* add_number(double solver::Parameters::*parameter, const QString& label, const QString& name,
                         const QString& tip);
   void follow_state();
+  void show_what_fits();
   void follow_tool();
   void change(double solver::Parameters::*parameter, double value);
 

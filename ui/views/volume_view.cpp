@@ -129,11 +129,12 @@ std::unique_ptr<Drag> VolumeViewWidget::begin_drag(const Pointer& pressed) {
     }
   }
   const engine::Tool tool = settings().tool;
-  const bool turns = tool == engine::Tool::window && !pressed.modifiers.testFlag(Qt::AltModifier);
+  const bool only_in_slices = tool == engine::Tool::window || tool == engine::Tool::examples;
+  const bool turns = only_in_slices && !pressed.modifiers.testFlag(Qt::AltModifier);
   if (turns) return navigation_drag(pressed);
   if (!pressed.patient_mm && pressed.button != Qt::MiddleButton) {
     const bool erases = pressed.button == Qt::RightButton;
-    if (!erases || tool == engine::Tool::paint || tool == engine::Tool::erase || tool == engine::Tool::seed) {
+    if (!erases || engine::has_right_button(tool)) {
       pick_and_begin(pressed);
       return nullptr;
     }

@@ -1,4 +1,5 @@
 #include "solver/speed/update.glsl"
+#include "solver/speed/data.glsl"
 
 // The same equation for every voxel of a volume that lies in a buffer, voxel after voxel: what a program without pages
 // computes. An invocation a voxel.
@@ -24,5 +25,6 @@ void main() {
                       phi_at(v - x - z), phi_at(v - x + z), phi_at(v + x - z), phi_at(v + x + z),
                       phi_at(v - y - z), phi_at(v - y + z), phi_at(v + y - z), phi_at(v + y + z));
   int at = v.x + volume_size.x * (v.y + volume_size.y * v.z);
-  phi_next[at] = updated_phi(differences(s), source_values[at]);
+  Differences d = differences(s);
+  phi_next[at] = updated_phi(d, speeds(d, data_speed(source_values[at])));
 }

@@ -1,6 +1,6 @@
 // A slice through the volume: the source in its window, the speed (SPEED) or its data term alone (DATA_SPEED), or the pages
-// (PAGES); labels and the surface's outline over it. These are variants, not uniforms: a driver that computes both sides of
-// every branch would work out the speed for every picture.
+// (PAGES); labels, walls and anchors (CONSTRAINED) and the surface's outline over it. These are variants, not uniforms: a
+// driver that computes both sides of every branch would work out the speed for every picture.
 
 #include "solver/phi.glsl"
 #ifdef SOURCE_PLANE
@@ -15,6 +15,9 @@
 #include "render/page_state.glsl"
 #endif
 #include "render/colours.glsl"
+#ifdef CONSTRAINED
+#include "render/constraints.glsl"
+#endif
 
 in vec2 view_position;
 out vec4 fragment;
@@ -38,7 +41,7 @@ ivec3 nearest_voxel(vec3 p) {
 #if defined(SPEED) || defined(DATA_SPEED)
 vec3 speed_colour(vec3 p, float phi, vec3 grey) {
 #ifdef DATA_SPEED
-  float speed = data_speed(source_between(p));
+  float speed = data_speed_between(p);
 #else
   // The other terms are defined only near the surface; the line where they change their sign needs a pixel's neighbours.
   float near = float(abs(phi) < 0.98 * band);
@@ -92,6 +95,9 @@ void main() {
     vec4 label_colour = texture(label_colours, vec2((float(label) + 0.5) / 256.0, 0.5));
     if (label > 0) colour = mix(colour, label_colour.rgb, label_opacity * label_colour.a);
   }
+#ifdef CONSTRAINED
+  colour = with_constraint(colour, nearest_voxel(p));
+#endif
   if (show_surface && abs(phi) < band) {
     // Where the slice grazes the surface phi hardly changes in it; the line must not become a patch.
     float pixel = length(dFdx(p) * spacing) / min(spacing.x, min(spacing.y, spacing.z));

@@ -1,8 +1,12 @@
 // The terms of the speed at a voxel near the surface, as the solver computes them; needs solver/phi.glsl and
-// render/source.glsl.
+// render/source.glsl. With SPEED_VOLUME D is what the processor evaluated, else the tent on the source.
 
 #include "solver/speed/stencil.glsl"
+#ifdef SPEED_VOLUME
+#include "solver/speed/speed_volume.glsl"
+#else
 #include "solver/speed/data.glsl"
+#endif
 #include "solver/speed/curvature.glsl"
 #include "solver/speed/rescaling.glsl"
 
@@ -41,9 +45,29 @@ Differences differences_at(ivec3 v) {
   return differences(s);
 }
 
+#ifdef SPEED_VOLUME
+// Trilinear.
+float data_speed_between(vec3 position) {
+  vec3 p = clamp(position, vec3(0.0), vec3(volume_size - 1));
+  ivec3 low = min(ivec3(p), max(volume_size - 2, ivec3(0)));
+  vec3 f = p - vec3(low);
+  float sum = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    ivec3 corner = ivec3(i & 1, i >> 1 & 1, i >> 2);
+    vec3 share = mix(1.0 - f, f, vec3(corner));
+    sum += share.x * share.y * share.z * speed_at(min(low + corner, volume_size - 1));
+  }
+  return sum;
+}
+float data_speed_of(ivec3 voxel) { return speed_at(min(voxel, volume_size - 1)); }
+#else
+float data_speed_between(vec3 position) { return data_speed(source_between(position)); }
+float data_speed_of(ivec3 voxel) { return data_speed(source_between(vec3(voxel))); }
+#endif
+
 // A weighted term, in units of the data term's: 1 is a front that moves at full speed outward.
-float speed_of(int term, Differences d, float value) {
-  float data = data_weight * data_speed(value);
+float speed_of(int term, Differences d, float data_speed) {
+  float data = data_weight * data_speed;
   float bending = curvature_weight * curvature(d);
   float rescaling = rescaling_weight * rescaling_speed(d);
   return term == kDataSpeed ? data : term == kCurvatureSpeed ? bending : term == kRescalingSpeed ? rescaling
@@ -63,7 +87,7 @@ vec2 speed_and_curvature_between(int term, vec3 position, bool wanted) {
     ivec3 corner = ivec3(i & 1, i >> 1 & 1, i >> 2);
     vec3 share = mix(1.0 - f, f, vec3(corner));
     Differences d = differences_at(low + corner);
-    sum += share.x * share.y * share.z * vec2(speed_of(term, d, source_between(vec3(low + corner))), curvature(d));
+    sum += share.x * share.y * share.z * vec2(speed_of(term, d, data_speed_of(low + corner)), curvature(d));
   }
   return sum;
 }

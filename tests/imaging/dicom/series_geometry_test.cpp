@@ -73,6 +73,32 @@ class SeriesGeometryTest : public QObject {
     QVERIFY(glm::length(glm::cross(g.direction[0], g.direction[1]) - g.direction[2]) < 1e-12);
   }
 
+  void series_of_one_frame_of_reference_know_one_another() {
+    auto slices = regular(5, 2.0);
+    for (auto& slice : slices) slice.frame_of_reference_uid = "1.2.9";
+    const imaging::Series one = imaging::arrange_series(slices);
+    QCOMPARE(one.frame_of_reference_uid, std::string("1.2.9"));
+    imaging::Catalogue catalogue;
+    catalogue.series = {one, one, one, imaging::arrange_series(regular(5, 2.0))};
+    catalogue.series[2].frame_of_reference_uid = "1.2.10";
+    catalogue.series.push_back(catalogue.series[3]);  // two that name none share none
+    QCOMPARE(catalogue.on_the_frame_of(catalogue.series[0]),
+             (std::vector<const imaging::Series*>{&catalogue.series[1]}));
+    QVERIFY(catalogue.on_the_frame_of(catalogue.series[2]).empty());
+    QVERIFY(catalogue.on_the_frame_of(catalogue.series[3]).empty());
+  }
+
+  void slices_of_several_frames_of_reference_have_none() {
+    auto slices = regular(5, 2.0);
+    for (auto& slice : slices) slice.frame_of_reference_uid = "1.2.9";
+    slices[3].frame_of_reference_uid = "1.2.10";
+    const imaging::Series series = imaging::arrange_series(slices);
+    QVERIFY(series.loadable);
+    QVERIFY(series.frame_of_reference_uid.empty());
+    QCOMPARE(series.warnings.size(), std::size_t{1});
+    QVERIFY(series.warnings[0].find("FrameOfReferenceUID (0020,0052)") != std::string::npos);
+  }
+
   void distances_count_along_the_normal_and_may_differ_by_the_tolerance() {
     auto slices = regular(5, 2.0);
     *slices[2].position_mm += 0.0099 * normal_of(slices[2]);

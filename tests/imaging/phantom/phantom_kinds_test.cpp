@@ -1,7 +1,10 @@
 // Every kind of phantom at full size: is it what it claims to be?
 #include <QElapsedTimer>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numeric>
+#include <string>
 
 #include "tests/imaging/phantom/measures.h"
 #include "tests/support/support.h"
@@ -12,6 +15,13 @@ using namespace tidemark::test;
 
 class PhantomKindsTest : public QObject {
   Q_OBJECT
+
+  // Some take seconds to make.
+  const imaging::Phantom& usual(std::string_view kind) {
+    const auto known = usual_.find(kind);
+    return known != usual_.end() ? known->second : usual_.emplace(kind, made(kind, {}, 3)).first->second;
+  }
+  std::map<std::string, imaging::Phantom, std::less<>> usual_;
 
  private slots:
   void every_kind_is_there_data() {
@@ -62,13 +72,13 @@ class PhantomKindsTest : public QObject {
     QVERIFY(largest_part(phantom.truth) > 0.9999);
 
     // The same voxels for another number of threads, and on every machine.
-    QVERIFY(stored(phantom) == stored(made(kind.toStdString(), {}, 3)));
+    QVERIFY(stored(phantom) == stored(usual(kind.toStdString())));
     QCOMPARE(QString::number(tidemark::test::checksum(phantom), 16), QString::number(checksum, 16));
   }
 
   void a_seed_lies_in_what_is_to_be_found() {
     for (const std::string_view kind : imaging::phantom_kinds()) {
-      const imaging::Phantom phantom = made(kind);
+      const imaging::Phantom& phantom = usual(kind);
       if (!phantom.seed) continue;
       const auto& [i, j, k, radius_mm] = *phantom.seed;
       const Geometry& geometry = phantom.volume.geometry;
@@ -88,7 +98,7 @@ class PhantomKindsTest : public QObject {
   }
 
   void the_sheet_of_cortex_is_4_to_6_voxels_thick() {
-    const imaging::Phantom cortex = made("cortex");
+    const imaging::Phantom& cortex = usual("cortex");
     const std::map<int, std::int64_t> diameters = thickness(cortex.truth, 9, 7);
     std::int64_t all = 0;
     std::int64_t fitting = 0;
@@ -102,7 +112,7 @@ class PhantomKindsTest : public QObject {
   }
 
   void cortex_is_folded_and_ends_inside_the_volume() {
-    const imaging::Phantom cortex = made("cortex");
+    const imaging::Phantom& cortex = usual("cortex");
     const Geometry& geometry = cortex.truth.geometry;
     // Faces between inside and outside, which a smooth sheet around the same ball would have 300,000 of.
     std::int64_t faces = 0;
@@ -134,7 +144,7 @@ class PhantomKindsTest : public QObject {
   }
 
   void a_threshold_alone_leaks_out_of_the_organ() {
-    const imaging::Phantom organ = made("organ");
+    const imaging::Phantom& organ = usual("organ");
     // What is in range and hangs together with the truth is far more than the truth.
     Mask in_range = organ.truth;
     const auto& values = stored(organ);

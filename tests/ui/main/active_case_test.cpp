@@ -58,7 +58,7 @@ class ActiveCaseTest : public QObject {
 
 void ActiveCaseTest::init() {
   desktop_ = std::make_unique<Desktop>(solver::ExecutorKind::host, QSize(1200, 760));
-  cases_ = {desktop_->open_phantom("sphere"), desktop_->open_phantom("tumour")};
+  cases_ = {desktop_->open_phantom("sphere"), desktop_->open_phantom("dumbbell")};
   desktop_->window().actions().tile->trigger();
   for (ui::CaseWindow* window : cases_) {
     const auto& seed = *window->proxy().study().start->seed;

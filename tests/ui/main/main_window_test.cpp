@@ -301,7 +301,7 @@ void MainWindowTest::numbers_are_typed_with_either_separator_in_any_language() {
   for (const char* language : {"de_DE", "en_US"}) {
     QLocale::setDefault(QLocale(language));
     Desktop desktop(solver::ExecutorKind::host);
-    QVERIFY(desktop.open_phantom("tumour"));
+    QVERIFY(desktop.open_phantom("dumbbell"));
     desktop.begin(8.0);
     desktop.window().panels().show("level-set");
     const auto type = [&](const char* name, const char* text) {

@@ -1,26 +1,16 @@
-// What was segmented goes to other systems, as files and to a server, and comes back.
+// What was segmented goes to other systems, as files and to a server.
 #include <QAction>
-#include <QDragEnterEvent>
-#include <QDropEvent>
 #include <QFileDialog>
 #include <QLineEdit>
-#include <QMimeData>
 #include <QPushButton>
 #include <QToolButton>
-#include <fstream>
-#include <glm/geometric.hpp>
 
-#include "imaging/dicom/dicom.h"
-#include "imaging/files/volume_file.h"
 #include "imaging/pacs/services.h"
 #include "imaging/results/results.h"
 #include "tests/imaging/pacs/archives.h"
 #include "tests/imaging/pacs/scripted_peer.h"
 #include "tests/support/test_program.h"
-#include "tests/ui/main/desktop.h"
-#include "ui/look/theme.h"
-#include "ui/main/panel_docks.h"
-#include "ui/opening/load_report.h"
+#include "tests/ui/main/results_desktop.h"
 #include "ui/panels/labels_model.h"
 #include "ui/panels/meaning_picker.h"
 #include "ui/results/send_result_dialog.h"
@@ -30,38 +20,6 @@ namespace tidemark::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kPatience = 60'000;
-const glm::dvec3 kLeft{34.0, 20.0, 16.0};
-const glm::dvec3 kRight{14.0, 20.0, 16.0};
-
-// Two bright balls in the dark.
-void write_study(const fs::path& folder) {
-  Volume volume;
-  volume.geometry.size = {48, 40, 16};
-  volume.geometry.spacing_mm = {1.0, 1.0, 2.0};
-  std::vector<std::int16_t> voxels;
-  for (std::int64_t offset = 0; offset < volume.geometry.voxel_count(); ++offset) {
-    const glm::dvec3 point(offset % 48, offset / 48 % 40, 2.0 * (offset / 1920));
-    const bool inside = glm::distance(point, kLeft) < 9.0 || glm::distance(point, kRight) < 8.0;
-    voxels.push_back(inside ? 100 : 0);
-  }
-  volume.voxels = std::move(voxels);
-  imaging::DicomSeriesHeader header;
-  header.modality = "CT";
-  header.patient_name = "Phantom^Paula";
-  header.patient_id = "P1";
-  header.series_description = "Two balls: 1/2";
-  const Status written = imaging::write_dicom_series(volume, header, folder);
-  if (!written) qFatal("%s", written.error().message.c_str());
-}
-
-QPushButton* button(QWidget& in, const QString& text) {
-  for (QPushButton* one : in.findChildren<QPushButton*>()) {
-    if (QString(one->text()).remove('&') == text) return one;
-  }
-  qFatal("there is no button %s", qPrintable(text));
-}
 
 // Every control has a tip, and a name or a text.
 bool is_explained(QWidget& dialog) {
@@ -77,24 +35,6 @@ bool is_explained(QWidget& dialog) {
   return true;
 }
 
-bool says(QWidget& dialog, const QString& text) {
-  const auto labels = dialog.findChildren<QLabel*>();
-  return std::any_of(labels.begin(), labels.end(),
-                     [&](const QLabel* label) { return label->text().contains(text); });
-}
-
-// In both themes, into the folder of TIDEMARK_SCREENSHOTS.
-void picture(QWidget& widget, const QString& name) {
-  const QString folder = qEnvironmentVariable("TIDEMARK_SCREENSHOTS");
-  if (folder.isEmpty()) return;
-  for (const ui::Theme theme : {ui::Theme::dark, ui::Theme::light}) {
-    ui::apply_theme(*qApp, theme);
-    QTest::qWait(30);
-    const char* end = theme == ui::Theme::light ? "light" : "dark";
-    QVERIFY(widget.grab().save(QStringLiteral("%1/%2-%3.png").arg(folder, name, end)));
-  }
-}
-
 Mask mask_of(const std::vector<std::uint8_t>& voxels, std::uint8_t id, const Geometry& geometry) {
   Mask mask{geometry, voxels};
   for (std::uint8_t& voxel : mask.voxels) voxel = voxel == id ? 1 : 0;
@@ -103,15 +43,13 @@ Mask mask_of(const std::vector<std::uint8_t>& voxels, std::uint8_t id, const Geo
 
 }  // namespace
 
-class ResultsStoryTest : public QObject {
+class ResultsStoryTest : public QObject, private ResultsDesktop {
   Q_OBJECT
 
  private slots:
-  void init();
-  void cleanup() { desktop_.reset(); }
+  void init() { open(); }
+  void cleanup() { close(); }
   void labels_go_out_as_dicom_and_come_back();
-  void a_dropped_segmentation_becomes_labels_and_a_dropped_volume_a_study();
-  void what_lies_beside_a_study_is_named_and_imported_by_a_click();
   void labels_go_out_as_polygons();
   void the_surface_alone_is_a_result_too();
   void a_study_that_is_no_dicom_says_what_that_means();
@@ -120,11 +58,6 @@ class ResultsStoryTest : public QObject {
   void a_server_that_keeps_silent_is_given_up_by_a_click();
 
  private:
-  [[nodiscard]] QString path(const char* name) const {
-    return QString::fromStdString((folder_ / name).string());
-  }
-  [[nodiscard]] imaging::Segments block(const char* name);  // in two slices of the study
-  [[nodiscard]] const Geometry& grid() { return desktop_->proxy().volume().geometry; }
   [[nodiscard]] std::vector<std::uint8_t> voxels() { return *desktop_->state().label_voxels; }
   void begin(glm::dvec3 middle);
   void segment(glm::dvec3 middle, const char* name, const char* meaning);
@@ -132,23 +65,7 @@ class ResultsStoryTest : public QObject {
   void write_by_the_menu(QAction* action, const QString& file);
   void import_by_the_menu(const QString& file);
   ui::SendResultDialog* send_to(const imaging::PacsServer& server);
-  void drop(const QString& file);
-
-  TemporaryFolder folder_;
-  std::unique_ptr<Desktop> desktop_;
-  ui::CaseWindow* window_ = nullptr;
 };
-
-void ResultsStoryTest::init() {
-  qputenv("XDG_CONFIG_HOME", QByteArray::fromStdString((folder_ / "config").string()));
-  if (!fs::exists(folder_ / "study")) write_study(folder_ / "study");
-  desktop_ = std::make_unique<Desktop>(solver::ExecutorKind::host, QSize(900, 620));
-  window_ = desktop_->open(path("study"));
-  QVERIFY(window_);
-  window_->set_layout(ui::ViewLayout::single);  // no story about pictures
-  desktop_->window().panels().show("labels");
-  desktop_->wait_until_idle();
-}
 
 void ResultsStoryTest::begin(glm::dvec3 middle) {
   document::Start start;
@@ -260,97 +177,6 @@ void ResultsStoryTest::labels_go_out_as_dicom_and_come_back() {
         dice(mask_of(before, id, grid()), mask_of(voxels(), static_cast<std::uint8_t>(id + 2), grid()));
     QVERIFY2(same >= 0.98, qPrintable(QString::number(same)));
   }
-}
-
-void ResultsStoryTest::drop(const QString& file) {
-  QMimeData data;
-  data.setUrls({QUrl::fromLocalFile(file)});
-  QDragEnterEvent enter({200, 300}, Qt::CopyAction, &data, Qt::LeftButton, {});
-  QDropEvent drop({200, 300}, Qt::CopyAction, &data, Qt::LeftButton, {});
-  desktop_->in_an_event([&] {
-    QCoreApplication::sendEvent(&desktop_->window(), &enter);
-    QCoreApplication::sendEvent(&desktop_->window(), &drop);
-  });
-}
-
-void ResultsStoryTest::a_dropped_segmentation_becomes_labels_and_a_dropped_volume_a_study() {
-  imaging::Segments one;
-  one.geometry = grid();
-  imaging::Segment segment;
-  segment.name = "Spleen";
-  segment.colour = imaging::SegmentColour{10, 200, 40};
-  segment.slices[3].resize(static_cast<std::size_t>(grid().size.x * grid().size.y));
-  segment.slices[3][777] = 1;
-  one.list.push_back(segment);
-  QCOMPARE(failure(imaging::write_segmentation(one, {}, folder_ / "dropped.dcm")), QString());
-  drop(path("dropped.dcm"));
-  QVERIFY(Desktop::wait_for([&] { return desktop_->state().labels.size() == 1; }, kPatience));
-  desktop_->wait_until_idle();
-  QCOMPARE(desktop_->state().labels[0].name, std::string("Spleen"));
-  QVERIFY(desktop_->state().labels[0].coded() == imaging::find_segment_meaning("spleen").value());
-  QCOMPARE(desktop_->state().label_statistics[0].voxels, std::int64_t{1});
-  QCOMPARE(desktop_->window().cases().size(), 1);
-
-  QCOMPARE(failure(imaging::write_volume_file(desktop_->proxy().volume(), folder_ / "study.nrrd")),
-           QString());
-  drop(path("study.nrrd"));
-  QVERIFY(Desktop::wait_for([&] { return desktop_->window().cases().size() == 2; }, kPatience));
-  desktop_->wait_until_idle();
-}
-
-imaging::Segments ResultsStoryTest::block(const char* name) {
-  imaging::Segments segments;
-  segments.geometry = grid();
-  imaging::Segment segment;
-  segment.name = name;
-  segment.colour = imaging::SegmentColour{10, 200, 40};
-  for (const std::int64_t k : {3, 4}) {
-    auto& slice = segment.slices[k];
-    slice.resize(static_cast<std::size_t>(grid().size.x * grid().size.y));
-    for (std::int64_t j = 10; j < 20; ++j) {
-      std::fill_n(slice.begin() + j * grid().size.x + 10, 10, std::uint8_t{1});
-    }
-  }
-  segments.list.push_back(segment);
-  return segments;
-}
-
-void ResultsStoryTest::what_lies_beside_a_study_is_named_and_imported_by_a_click() {
-  const fs::path root = folder_ / "patients";
-  fs::create_directories(root / "one" / "results");
-  fs::create_directories(root / "other" / "results");
-  write_study(root / "one" / "images");
-  const auto& source = desktop_->proxy().study().dicom_files;
-  for (const char* whose : {"one", "other"}) {
-    const fs::path file = root / whose / "results" / "labels.dcm";
-    QCOMPARE(failure(imaging::write_segmentation(block("Spleen"), source, file)), QString());
-  }
-  const fs::path contours = root / "one" / "images" / "contours.dcm";
-  QCOMPARE(failure(imaging::write_structure_set(block("Liver"), source, contours)), QString());
-  std::ofstream(root / "one" / "notes.txt") << "no image";
-
-  window_ = desktop_->open(path("patients"));
-  QVERIFY(window_);
-  QCOMPARE(desktop_->window().cases().size(), 2);
-  QVERIFY(Desktop::wait_for([&] { return desktop_->window().findChild<ui::LoadReport*>() != nullptr; }));
-  auto& report = *desktop_->window().findChild<ui::LoadReport*>();
-  QVERIFY(says(report, "Beside it: 2 segmentations or structure sets"));
-  QTest::mouseClick(button(report, "Details"), Qt::LeftButton);
-  QVERIFY(says(report, "contours.dcm is a structure set"));
-  QVERIFY(says(report, "labels.dcm is a DICOM segmentation"));
-  QVERIFY(!says(report, "notes.txt"));
-  desktop_->wait_until_idle();
-  picture(desktop_->window(), "results-beside-a-study");
-
-  QPushButton* accept = button(report, "Import labels");
-  QTest::mouseClick(accept, Qt::LeftButton);
-  QVERIFY(Desktop::wait_for([&] { return desktop_->state().labels.size() == 2; }, kPatience));
-  desktop_->wait_until_idle();
-  QCOMPARE(desktop_->state().labels[0].name, std::string("Liver"));
-  QCOMPARE(desktop_->state().labels[1].name, std::string("Spleen"));
-  QCOMPARE(desktop_->state().label_statistics[1].voxels, std::int64_t{200});
-  QVERIFY(!accept->isVisible());  // a second time would double them
-  desktop_->screenshot("results-beside-imported");
 }
 
 void ResultsStoryTest::labels_go_out_as_polygons() {

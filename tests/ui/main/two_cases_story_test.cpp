@@ -70,7 +70,7 @@ void TwoCasesStoryTest::begin_both(Desktop& desktop, const QList<ui::CaseWindow*
 
 void TwoCasesStoryTest::panels_follow_the_active_case() {
   Desktop desktop(story_executor(), {1200, 760});
-  const auto cases = open_two(desktop, "sphere", "tumour");
+  const auto cases = open_two(desktop, "sphere", "dumbbell");
   QVERIFY(cases[0] && cases[1] && cases[0] != cases[1]);
   begin_both(desktop, cases, 8.0);
   double target = 40.0;
@@ -112,7 +112,7 @@ void TwoCasesStoryTest::panels_follow_the_active_case() {
 
 void TwoCasesStoryTest::six_views_follow_two_surfaces_and_phi_stays_where_it_is() {
   Desktop desktop(story_executor(), {1200, 760});
-  const auto cases = open_two(desktop, "tumour", "tumour");
+  const auto cases = open_two(desktop, "dumbbell", "dumbbell");
   begin_both(desktop, cases, 8.0);
   const auto pictures = [&](const ui::CaseWindow& window) {
     std::vector<std::uint64_t> numbers;
@@ -151,7 +151,7 @@ void TwoCasesStoryTest::six_views_follow_two_surfaces_and_phi_stays_where_it_is(
 
 void TwoCasesStoryTest::linked_cases_are_looked_at_together() {
   Desktop desktop(story_executor(), {1200, 760});
-  const auto cases = open_two(desktop, "sphere", "tumour");
+  const auto cases = open_two(desktop, "sphere", "dumbbell");
   engine::Display& one = cases[0]->proxy().display();
   engine::Display& two = cases[1]->proxy().display();
   one.change([](engine::DisplaySettings& s) { s.camera.azimuth = 77.0; });
@@ -249,7 +249,7 @@ void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {
 
 void TwoCasesStoryTest::one_step_in_lock_step_is_one_of_each() {
   Desktop desktop(solver::ExecutorKind::host, {1200, 760});
-  const auto cases = open_two(desktop, "tumour", "tumour");
+  const auto cases = open_two(desktop, "dumbbell", "dumbbell");
   begin_both(desktop, cases, 8.0);
   engine::CaseProxy& one = cases[0]->proxy();
   engine::CaseProxy& two = cases[1]->proxy();
@@ -278,7 +278,7 @@ void TwoCasesStoryTest::one_step_in_lock_step_is_one_of_each() {
 
 void TwoCasesStoryTest::one_case_that_goes_back_stops_both() {
   Desktop desktop(story_executor(), {1200, 760});
-  const auto cases = open_two(desktop, "tumour", "tumour");
+  const auto cases = open_two(desktop, "dumbbell", "dumbbell");
   begin_both(desktop, cases, 8.0);
   engine::CaseProxy& one = cases[0]->proxy();
   engine::CaseProxy& two = cases[1]->proxy();

@@ -36,8 +36,8 @@ class ViewMenuStoryTest : public QObject {
 };
 
 void ViewMenuStoryTest::init() {
-  desktop_ = std::make_unique<Desktop>(story_executor(), QSize(1300, 800));
-  QVERIFY(desktop_->open_phantom("tumour"));
+  desktop_ = std::make_unique<Desktop>(story_executor(), QSize(1100, 700));
+  QVERIFY(desktop_->open_phantom("dumbbell"));
   axial_ = desktop_->view<ui::SliceViewWidget>("Axial");
   QVERIFY(axial_);
 }

@@ -100,6 +100,24 @@ class SeriesBrowserTest : public QObject {
     QCOMPARE(cell(1, ui::SeriesModel::kPatient), QString());
   }
 
+  void series_on_one_frame_of_reference_have_one_letter() {
+    QVERIFY(table_->isColumnHidden(ui::SeriesModel::kFrame));
+    auto catalogue = std::make_shared<imaging::Catalogue>(*sample());
+    catalogue->series[1].frame_of_reference_uid = "1.2.7";  // Small T2
+    catalogue->series[2].frame_of_reference_uid = "1.2.7";  // Large T1
+    catalogue->series[3].frame_of_reference_uid = "1.2.8";  // Middle FLAIR: alone on it
+    browser_->show_catalogue(catalogue, "/data");
+    QVERIFY(!table_->isColumnHidden(ui::SeriesModel::kFrame));
+    QCOMPARE(cell(0, ui::SeriesModel::kFrame), QString("A"));
+    QCOMPARE(cell(1, ui::SeriesModel::kFrame), QString());
+    QCOMPARE(cell(2, ui::SeriesModel::kFrame), QString("A"));
+    QCOMPARE(cell(3, ui::SeriesModel::kFrame), QString());
+    QVERIFY(details_->toPlainText().contains("frame of reference"));
+    QVERIFY(details_->toPlainText().contains("Small T2"));
+    table_->selectRow(1);
+    QVERIFY(!details_->toPlainText().contains("frame of reference"));
+  }
+
   void notes_say_in_words_what_the_icon_means() {
     QCOMPARE(cell(0, ui::SeriesModel::kNotes), QString("2 warnings"));
     QCOMPARE(cell(1, ui::SeriesModel::kNotes), QString("1 change"));

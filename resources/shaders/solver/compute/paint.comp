@@ -1,7 +1,9 @@
 #include "solver/compute/page_memory.glsl"
+#include "solver/speed/constraints.glsl"
 
 // Adds or erases a sphere, a work group a page of V_P that it may touch: phi = max(phi, d) or min(phi, -d), d the signed
-// distance to the sphere in units of the smallest spacing. Pages are made where something is drawn.
+// distance to the sphere in units of the smallest spacing, but for walls and anchors. Pages are made where something is
+// drawn.
 
 layout(local_size_x = PAGE_X, local_size_y = PAGE_Y) in;
 
@@ -21,7 +23,7 @@ shared bool changed;
 
 float painted(float phi, ivec3 voxel) {
   float d = clamp(radius - length((vec3(voxel) - centre) * spacing), -band, band);
-  return erase ? min(phi, -d) : max(phi, d);
+  return constrained(erase ? min(phi, -d) : max(phi, d), voxel);
 }
 
 void main() {

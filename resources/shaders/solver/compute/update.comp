@@ -1,6 +1,6 @@
 #include "solver/compute/neighbourhood.glsl"
-#include "solver/speed/update.glsl"
-#include "solver/source.glsl"
+#include "solver/speed/voxel_speeds.glsl"
+#include "solver/speed/constraints.glsl"
 
 // One step of phi in the active pages, a work group each. Each page's code says afterwards what it needs. With
 // MEASURE_ONLY nothing is computed but the code of phi as it is.
@@ -54,8 +54,9 @@ void note(float phi, float phi_before, ivec3 local) {
 void compute_voxel(int i, int z, float below[SLICE_VALUES], float here[SLICE_VALUES], float above[SLICE_VALUES]) {
   ivec3 local = ivec3(block_start + ivec2(0, i), z);
   ivec2 texel = origin + texel_in_page(local);
-  float source = source_at(first_voxel + min(local, last));
-  float phi = updated_phi(differences(stencil_of(i, below, here, above)), source);
+  ivec3 voxel = first_voxel + min(local, last);
+  Differences d = differences(stencil_of(i, below, here, above));
+  float phi = constrained(updated_phi(d, speeds_at(voxel, d)), voxel);
   note(phi, measure_motion ? imageLoad(phi_next, texel).r : phi, local);
   imageStore(phi_next, texel, vec4(phi));
 }

@@ -1,7 +1,6 @@
 // One explicit step of dphi/dt (paper eq. 5 to 7): the sum of the speed terms.
 
 #include "solver/speed/stencil.glsl"
-#include "solver/speed/data.glsl"
 #include "solver/speed/curvature.glsl"
 #include "solver/speed/rescaling.glsl"
 
@@ -16,11 +15,13 @@ struct Speeds {
   float data;
   float curvature;  // times |grad phi|, except with PAPER_SCHEME
   float rescaling;
+  float advection;  // with ADVECTION
 };
 
-Speeds speeds(Differences d, float source) {
+// `data` is D.
+Speeds speeds(Differences d, float data) {
   Speeds s;
-  s.data = data_weight * data_speed(source);
+  s.data = data_weight * data;
 #ifdef PAPER_SCHEME
   s.curvature = curvature_weight * curvature(d);
 #else
@@ -28,6 +29,7 @@ Speeds speeds(Differences d, float source) {
   s.curvature = curvature_weight * curvature_motion(d, four_squared_gradient);
 #endif
   s.rescaling = rescaling_weight * rescaling_speed(d);
+  s.advection = 0.0;
   return s;
 }
 
@@ -40,9 +42,12 @@ float upwind_update(float phi, Speeds s, float upwind_growing, float upwind_shri
   float change = s.data * (s.data > 0.0 ? upwind_growing : upwind_shrinking) + s.curvature;
 #endif
   change += s.rescaling;
+#ifdef ADVECTION
+  change += s.advection;
+#endif
   return clamp(phi + time_step * change, -band, band);
 }
 
-float updated_phi(Differences d, float source) {
-  return upwind_update(d.phi, speeds(d, source), d.upwind_growing, d.upwind_shrinking);
+float updated_phi(Differences d, Speeds s) {
+  return upwind_update(d.phi, s, d.upwind_growing, d.upwind_shrinking);
 }

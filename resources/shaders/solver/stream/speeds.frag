@@ -1,6 +1,6 @@
-#include "solver/source.glsl"
 #include "solver/stream/coordinates.glsl"
 #include "solver/stream/differences.glsl"
+#include "solver/speed/voxel_speeds.glsl"
 
 // Step B (paper section 4.3): the speed terms, each with its weight.
 
@@ -18,6 +18,6 @@ void main() {
   Differences d = unpack(PackedDifferences(
       textureLod(upwind_buffer, here, 0.0), textureLod(central_buffer, here, 0.0),
       textureLod(second_buffer, here, 0.0), textureLod(mixed_buffer, here, 0.0)));
-  Speeds s = speeds(d, source_at(ivec3(ivec2(gl_FragCoord.xy) + to_voxel.xy, to_voxel.z)));
-  speed_terms = vec4(s.data, s.curvature, s.rescaling, 0.0);
+  Speeds s = speeds_at(ivec3(ivec2(gl_FragCoord.xy) + to_voxel.xy, to_voxel.z), d);
+  speed_terms = vec4(s.data, s.curvature, s.rescaling, s.advection);
 }

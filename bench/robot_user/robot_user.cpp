@@ -1,0 +1,193 @@
+// A robot that segments real studies by painting strokes, as a user would, with the speed function
+// `examples`. Prints how much of the truth it has after each round, and how long a round takes.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "cases.h"
+#include "core/stopwatch.h"
+#include "core/thread_pool.h"
+#include "robot.h"
+#include "solver/executor.h"
+#include "solver/speed/cached_speed.h"
+#include "solver/speed/examples/examples_speed.h"
+#include "solver/speed/examples/forest_training.h"
+
+namespace tidemark {
+namespace {
+
+struct Settings {
+  std::string folder;
+  std::string only;
+  int strokes = 20;
+  bool still = false;
+  double alpha = 0.5;
+  std::int64_t steps = 400;
+  solver::TrainingOptions training;
+};
+
+std::vector<double> whole(const solver::SpeedFunction& function, Index3 size) {
+  std::vector<double> speed(static_cast<std::size_t>(size.x * size.y * size.z));
+  ThreadPool threads;
+  threads.for_each((size.z + 7) / 8, 1, [&](std::int64_t first, std::int64_t last, int) {
+    for (std::int64_t n = first; n < last; ++n) {
+      const solver::VoxelBox box{{0, 0, 8 * n}, {size.x, size.y, std::min<std::int64_t>(8, size.z - 8 * n)}};
+      function.evaluate(box, speed.data() + 8 * n * size.x * size.y);
+    }
+  });
+  return speed;
+}
+
+// Dice a round, and what of it counts.
+struct Outcome {
+  std::vector<double> dice;
+  double training_seconds = 0.0;  // of the longest
+  double round_seconds = 0.0;     // of the longest, with training
+
+  // Below the best before, from round 4 on.
+  [[nodiscard]] double worst_fall() const {
+    double fall = 0.0;
+    for (std::size_t round = 4; round < dice.size(); ++round) {
+      fall = std::max(fall,
+                      *std::max_element(dice.begin(), dice.begin() + static_cast<long>(round)) - dice[round]);
+    }
+    return fall;
+  }
+};
+
+// What the strokes found so far.
+class Surface {
+ public:
+  virtual ~Surface() = default;
+  virtual Result<Mask> follow(std::shared_ptr<const solver::ExamplesSpeed> function, const Robot& robot) = 0;
+};
+
+class StillSurface final : public Surface {
+ public:
+  explicit StillSurface(const Geometry& grid) : grid_(grid) {}
+  Result<Mask> follow(std::shared_ptr<const solver::ExamplesSpeed> function, const Robot& robot) override {
+    return connected(grid_, whole(*function, grid_.size), robot.inside());
+  }
+
+ private:
+  Geometry grid_;
+};
+
+// The level set of the processor. It goes on from where it is; each new stroke inside adds a sphere.
+class LevelSetSurface final : public Surface {
+ public:
+  static Result<std::unique_ptr<Surface>> make(std::shared_ptr<const Volume> source,
+                                               const Settings& settings) {
+    solver::Parameters parameters;
+    parameters.alpha = settings.alpha;
+    auto executor = solver::make_executor(solver::ExecutorKind::host, std::move(source), parameters);
+    if (!executor) return pass_on(executor);
+    auto surface = std::make_unique<LevelSetSurface>();
+    surface->executor_ = std::move(*executor);
+    surface->steps_ = settings.steps;
+    return surface;
+  }
+
+  Result<Mask> follow(std::shared_ptr<const solver::ExamplesSpeed> function, const Robot& robot) override {
+    const Geometry& grid = function->features().geometry();
+    TIDEMARK_TRY(executor_->set_speed(std::make_shared<solver::CachedSpeed>(function, grid.size)));
+    const double unit = std::min({grid.spacing_mm.x, grid.spacing_mm.y, grid.spacing_mm.z});
+    for (; spheres_ < robot.inside().size(); ++spheres_) {
+      const glm::dvec3 centre(robot.inside()[spheres_]);
+      TIDEMARK_TRY(executor_->paint(solver::sphere_at_voxel(grid, centre, 4.0 * unit), solver::Brush::add));
+    }
+    const auto report = executor_->advance({.steps = steps_, .until_converged = true});
+    if (!report) return tl::unexpected<Error>(report.error());
+    auto phi = executor_->snapshot();
+    if (!phi) return pass_on(phi);
+    return phi->mask();
+  }
+
+ private:
+  std::unique_ptr<solver::Executor> executor_;
+  std::size_t spheres_ = 0;
+  std::int64_t steps_ = 0;
+};
+
+Result<Outcome> segment(const RobotCase& robot_case, const Settings& settings) {
+  std::unique_ptr<Surface> surface = std::make_unique<StillSurface>(robot_case.truth.geometry);
+  if (!settings.still) {
+    auto made = LevelSetSurface::make(robot_case.images.front(), settings);
+    if (!made) return pass_on(made);
+    surface = std::move(*made);
+  }
+  Robot robot(robot_case.truth);
+  robot.begin();
+  Outcome outcome;
+  // Kept until the next one is there, so that both share their images' pyramids.
+  std::shared_ptr<const solver::ExamplesSpeed> function;
+  for (;;) {
+    Stopwatch watch;
+    auto made = solver::ExamplesSpeed::train(robot_case.images, robot.strokes(), settings.training, {});
+    if (!made) return pass_on(made);
+    function = std::move(*made);
+    outcome.training_seconds = std::max(outcome.training_seconds, watch.seconds());
+    auto found = surface->follow(function, robot);
+    if (!found) return pass_on(found);
+    outcome.round_seconds = std::max(outcome.round_seconds, watch.seconds());
+    outcome.dice.push_back(dice(*found, robot_case.truth));
+    if (robot.count() + 2 > settings.strokes) return outcome;
+    robot.correct(*found);
+  }
+}
+
+int run(const Settings& settings) {
+  std::vector<double> all;
+  for (const CaseFiles& files : robot_cases()) {
+    if (!settings.only.empty() && files.name.find(settings.only) == std::string::npos) continue;
+    auto loaded = load_case(settings.folder, files);
+    if (!loaded) {
+      fmt::print("{}: {}\n", files.name, loaded.error().message);
+      return 1;
+    }
+    const auto outcome = segment(*loaded, settings);
+    if (!outcome) {
+      fmt::print("{}: {}\n", files.name, outcome.error().message);
+      return 1;
+    }
+    fmt::print("{:<20}", files.name);
+    for (const double share : outcome->dice) fmt::print(" {:.2f}", share);
+    fmt::print("  fall {:.2f}  training {:.2f} s, round {:.1f} s\n", outcome->worst_fall(),
+               outcome->training_seconds, outcome->round_seconds);
+    std::fflush(stdout);
+    all.push_back(outcome->dice.back());
+  }
+  std::sort(all.begin(), all.end());
+  if (!all.empty()) {
+    double sum = 0;
+    for (double d : all) sum += d;
+    fmt::print("median {:.3f}, least {:.3f}, mean {:.3f}\n", all[all.size() / 2], all.front(),
+               sum / static_cast<double>(all.size()));
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace tidemark
+
+int main(int argc, char** argv) {
+  tidemark::Settings settings;
+  CLI::App app("A robot that paints strokes on real studies");
+  app.add_option("folder", settings.folder, "the studies")->required();
+  app.add_option("--case", settings.only, "only cases whose names have this");
+  app.add_option("--strokes", settings.strokes, "at most");
+  app.add_flag("--still", settings.still, "no level set: the part of D > 0 that is connected to the strokes");
+  app.add_option("--alpha", settings.alpha, "of the level set");
+  app.add_option("--steps", settings.steps, "a round, at most");
+  app.add_option("--trees", settings.training.trees, "");
+  app.add_option("--depth", settings.training.depth, "");
+  app.add_option("--leaf", settings.training.smallest_leaf, "");
+  app.add_option("--features", settings.training.tried_features, "");
+  app.add_option("--thresholds", settings.training.tried_thresholds, "");
+  app.add_option("--doubt", settings.training.doubt, "");
+  CLI11_PARSE(app, argc, argv);
+  return tidemark::run(settings);
+}

@@ -1,0 +1,105 @@
+#include "engine/stroke_painting.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <iterator>
+
+namespace tidemark::engine {
+namespace {
+
+Index3 voxel_at(const Geometry& geometry, std::int64_t offset) {
+  const std::int64_t row = offset / geometry.size.x;
+  return {offset % geometry.size.x, row % geometry.size.y, row / geometry.size.y};
+}
+
+// Calls `visit` with the places in `voxels` of the up to 26 neighbours of a voxel that are among them.
+template <class Visit>
+void visit_neighbours(const Geometry& geometry, const std::vector<std::int64_t>& voxels, std::int64_t offset,
+                      Visit&& visit) {
+  const Index3 voxel = voxel_at(geometry, offset);
+  for (int neighbour = 0; neighbour < 27; ++neighbour) {
+    const Index3 other = voxel + Index3(neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1);
+    if (other == voxel || !geometry.contains(other)) continue;
+    const auto found = std::ranges::lower_bound(voxels, geometry.offset(other));
+    if (found != voxels.end() && *found == geometry.offset(other))
+      visit(static_cast<std::size_t>(found - voxels.begin()));
+  }
+}
+
+std::vector<std::int64_t> without(const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b) {
+  std::vector<std::int64_t> rest;
+  std::ranges::set_difference(a, b, std::back_inserter(rest));
+  return rest;
+}
+
+std::vector<std::int64_t> with(const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b) {
+  std::vector<std::int64_t> all;
+  std::ranges::set_union(a, b, std::back_inserter(all));
+  return all;
+}
+
+}  // namespace
+
+std::shared_ptr<const solver::Strokes> painted(const solver::Strokes* strokes,
+                                               const std::vector<std::int64_t>& voxels, Mark mark) {
+  static const solver::Strokes kNone;
+  const solver::Strokes& before = strokes ? *strokes : kNone;
+  auto after = std::make_shared<solver::Strokes>();
+  after->inside = mark == Mark::inside ? with(before.inside, voxels) : without(before.inside, voxels);
+  after->outside = mark == Mark::outside ? with(before.outside, voxels) : without(before.outside, voxels);
+  if (after->empty()) return nullptr;
+  return after;
+}
+
+bool can_teach(const solver::Strokes* strokes) {
+  return strokes && !strokes->inside.empty() && !strokes->outside.empty();
+}
+
+std::int64_t count_strokes(const Geometry& geometry, const std::vector<std::int64_t>& voxels) {
+  std::int64_t strokes = 0;
+  std::vector<bool> seen(voxels.size());
+  std::vector<std::size_t> waiting;
+  for (std::size_t first = 0; first < voxels.size(); ++first) {
+    if (seen[first]) continue;
+    ++strokes;
+    seen[first] = true;
+    waiting.push_back(first);
+    while (!waiting.empty()) {
+      const std::size_t now = waiting.back();
+      waiting.pop_back();
+      visit_neighbours(geometry, voxels, voxels[now], [&](std::size_t next) {
+        if (seen[next]) return;
+        seen[next] = true;
+        waiting.push_back(next);
+      });
+    }
+  }
+  return strokes;
+}
+
+std::vector<solver::Sphere> spheres_along(const Geometry& geometry, const std::vector<std::int64_t>& voxels) {
+  // Those in the middle of a stroke come first: they have the most neighbours.
+  std::vector<std::pair<int, std::int64_t>> by_neighbours;
+  by_neighbours.reserve(voxels.size());
+  for (const std::int64_t offset : voxels) {
+    int neighbours = 0;
+    visit_neighbours(geometry, voxels, offset, [&](std::size_t) { ++neighbours; });
+    by_neighbours.emplace_back(-neighbours, offset);
+  }
+  std::ranges::sort(by_neighbours);
+  const glm::dvec3 spacing = geometry.spacing_mm;
+  const double radius_mm = 2.0 * std::min({spacing.x, spacing.y, spacing.z});
+  constexpr std::size_t kMost = 500;  // far more than strokes need, and soon placed
+  std::vector<solver::Sphere> spheres;
+  for (const auto& [neighbours, offset] : by_neighbours) {
+    const glm::dvec3 centre_mm = geometry.to_patient(glm::dvec3(voxel_at(geometry, offset)));
+    const bool is_near = std::ranges::any_of(spheres, [&](const solver::Sphere& sphere) {
+      return glm::distance(sphere.centre_mm, centre_mm) < 1.5 * radius_mm;
+    });
+    if (!is_near) spheres.push_back({centre_mm, radius_mm});
+    if (spheres.size() == kMost) break;
+  }
+  return spheres;
+}
+
+}  // namespace tidemark::engine

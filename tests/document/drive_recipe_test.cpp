@@ -1,0 +1,288 @@
+// Recipes with speed functions, walls and anchors: what is written is read again, and replays to the same
+// bits.
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "document/checksum.h"
+#include "document/replay.h"
+#include "tests/document/cases.h"
+#include "tests/support/test_program.h"
+
+using namespace tidemark;
+using namespace tidemark::test;
+using Json = nlohmann::json;
+
+namespace {
+
+document::Drive learning(const Volume& volume) {
+  auto strokes = std::make_shared<solver::Strokes>();
+  for (std::int64_t offset = 0; offset < volume.geometry.voxel_count(); offset += 17) {
+    if (volume.value(offset) > 800.0F) strokes->inside.push_back(offset);
+    if (volume.value(offset) < 650.0F) strokes->outside.push_back(offset);
+  }
+  document::Drive drive;
+  drive.setting.terms = {{"examples", {{"trees", 12.0}}}};
+  drive.strokes = std::move(strokes);
+  return drive;
+}
+
+document::Drive with_ball(document::Drive drive, const Volume& volume, glm::dvec3 off_mm,
+                          solver::Constraint what) {
+  auto constraints = drive.constraints ? std::make_shared<solver::Constraints>(*drive.constraints)
+                                       : std::make_shared<solver::Constraints>(volume.geometry.size);
+  constraints->set(volume.geometry, ball_at(volume, off_mm, 3.0), what);
+  drive.constraints = std::move(constraints);
+  return drive;
+}
+
+// As the engine does it: the function is made for what is wanted, and handed over.
+void drive(document::LevelSet& level_set, const document::Drive& wanted) {
+  QCOMPARE(failure(level_set.set_drive(wanted)), QString());
+  if (wanted.setting.is_tent()) return;
+  const auto speed = document::make_speed(wanted, level_set.source(), level_set.parameters());
+  QCOMPARE(failure(speed), QString());
+  QCOMPARE(failure(level_set.set_speed(*speed)), QString());
+}
+
+document::Recipe again(const document::Recipe& recipe) {
+  const auto text = recipe.to_text();
+  if (!text) qFatal("%s", text.error().message.c_str());
+  auto read = document::Recipe::parse(*text, "again.json");
+  if (!read) qFatal("%s", read.error().message.c_str());
+  return std::move(*read);
+}
+
+std::vector<float> replayed(const document::Recipe& recipe, const std::shared_ptr<const Volume>& volume) {
+  const auto result = document::replay(recipe, volume, {});
+  if (!result) qFatal("%s", result.error().message.c_str());
+  return result->phi.dense();
+}
+
+// A recipe with everything that drives and holds, as JSON.
+Json good_json() {
+  static const Json json = [] {
+    const auto document = begun_case();
+    const Volume& volume = *document->volume();
+    document::Recipe recipe = document->level_set().recipe();
+    document::Drive all = with_ball(learning(volume), volume, {6, 0, 0}, solver::Constraint::wall);
+    all = with_ball(all, volume, {0, 0, 0}, solver::Constraint::anchor);
+    all.setting.terms.push_back({"edges", {{"sigma", 1.5}}});
+    all.setting.combine = solver::Combine::product;
+    document::CaseImage image{"PET",   "1.2.3",         "1.2.4", std::string(64, 'a'),
+                              nullptr, glm::dmat4(1.0), nullptr};
+    image.to_case[3] = {1.0, -2.5, 30.0, 1.0};
+    all.images = {std::make_shared<const document::CaseImage>(image)};
+    all.map = std::make_shared<const document::SpeedMap>(
+        document::SpeedMap{"map.nrrd", std::string(64, 'b'), nullptr});
+    recipe.drive = std::make_shared<const document::Drive>(all);
+    return Json::parse(recipe.to_text().value());
+  }();
+  return json;
+}
+
+}  // namespace
+
+class DriveRecipeTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_replay_gives_the_same_bits_data() { add_executors(); }
+  void a_replay_gives_the_same_bits() {
+    const auto document = begun_case(this_executor());
+    document::LevelSet& level_set = document->level_set();
+    const auto volume = document->volume();
+    run(level_set, 12);
+    drive(level_set, learning(*volume));
+    run(level_set, 30);
+    const auto function = level_set.executor().speed();
+    QVERIFY(function);
+    QCOMPARE(failure(level_set.set_drive(
+                 with_ball(level_set.drive(), *volume, {9, 0, 0}, solver::Constraint::wall))),
+             QString());
+    QCOMPARE(level_set.executor().speed(), function);  // a wall makes no function anew
+    run(level_set, 20);
+    document::Drive joined = level_set.drive();
+    joined.setting.terms = {{"tent", {}}, {"edges", {}}};
+    drive(level_set, joined);
+    run(level_set, 10);
+    QCOMPARE(failure(level_set.set_parameters(with_target(level_set.parameters(), 870.0))), QString());
+    run(level_set, 10);
+    const std::vector<float> phi = values_of(level_set);
+    const document::Recipe recipe = again(level_set.recipe());
+    QCOMPARE(recipe.events.size(), std::size_t{4});
+    QVERIFY(replayed(recipe, volume) == phi);
+    document::Recipe without = recipe;
+    std::erase_if(without.events,
+                  [](const auto& e) { return std::holds_alternative<document::DriveEvent>(e.what); });
+    QVERIFY(replayed(without, volume) != phi);
+  }
+
+  // Means that follow the surface are those of the run, also when a wall comes in the middle of a window.
+  void a_function_that_follows_the_surface_replays() {
+    const auto document = begun_case();
+    document::LevelSet& level_set = document->level_set();
+    document::Drive regions;
+    regions.setting.terms = {{"regions", {}}};
+    drive(level_set, regions);
+    run(level_set, 37);
+    drive(level_set, with_ball(level_set.drive(), *document->volume(), {7, 0, 0}, solver::Constraint::wall));
+    run(level_set, 41);
+    QVERIFY(replayed(again(level_set.recipe()), document->volume()) == values_of(level_set));
+  }
+
+  void a_wall_that_is_taken_away_again_has_moved_the_surface() {
+    const auto document = begun_case();
+    document::LevelSet& level_set = document->level_set();
+    const Volume& volume = *document->volume();
+    run(level_set, 10);
+    const glm::dvec3 place{1.3, -0.7, 0.4};
+    const auto wall = with_ball({}, volume, place, solver::Constraint::wall);
+    drive(level_set, wall);
+    const auto wider = with_ball(wall, volume, place + glm::dvec3(2, 0, 0), solver::Constraint::wall);
+    drive(level_set, wider);
+    QCOMPARE(level_set.recipe().events.size(), std::size_t{1});  // the second covers the first
+    drive(level_set, with_ball(wider, volume, place, solver::Constraint::none));
+    QCOMPARE(level_set.recipe().events.size(), std::size_t{2});
+    run(level_set, 3);
+    QVERIFY(replayed(again(level_set.recipe()), document->volume()) == values_of(level_set));
+  }
+
+  void undo_and_redo_bring_the_function_back() {
+    const auto document = begun_case();
+    document::LevelSet& level_set = document->level_set();
+    run(level_set, 10);
+    const Seen before(level_set);
+    drive(level_set, learning(*document->volume()));
+    run(level_set, 15);
+    const Seen after(level_set);
+    QVERIFY(after.phi != before.phi);
+    while (document->history().undo_description() && level_set.step() > 10) {
+      QCOMPARE(failure(document->undo()), QString());
+    }
+    while (undo_text(*document) == "examples" || undo_text(*document) == "speed function") {
+      QCOMPARE(failure(document->undo()), QString());
+    }
+    QVERIFY(!level_set.executor().speed());
+    QVERIFY(level_set.drive().setting.is_tent());
+    QVERIFY(Seen(level_set).phi == before.phi);
+    while (document->history().redo_description()) QCOMPARE(failure(document->redo()), QString());
+    QVERIFY(level_set.executor().speed());
+    QVERIFY(Seen(level_set).phi == after.phi);
+    run(level_set, 5);
+    QVERIFY(replayed(again(level_set.recipe()), document->volume()) == values_of(level_set));
+  }
+
+  void only_recipes_with_something_new_are_of_the_new_version() {
+    const auto document = begun_case();
+    document::LevelSet& level_set = document->level_set();
+    run(level_set, 4);
+    Json json = Json::parse(level_set.recipe().to_text().value());
+    QCOMPARE(json["version"].get<int>(), 1);
+    QVERIFY(!json.contains("drive"));
+    drive(level_set, with_ball({}, *document->volume(), {6, 0, 0}, solver::Constraint::wall));
+    json = Json::parse(level_set.recipe().to_text().value());
+    QCOMPARE(json["version"].get<int>(), 2);
+  }
+
+  void everything_comes_back() {
+    const auto recipe = document::Recipe::parse(good_json().dump(), "r.json");
+    QCOMPARE(failure(recipe), QString());
+    QVERIFY(recipe->drive);
+    const document::Drive& read = *recipe->drive;
+    const document::Drive expected = learning(*lumpy_volume());
+    QVERIFY(*read.strokes == *expected.strokes);
+    QCOMPARE(read.setting.terms.size(), std::size_t{2});
+    QCOMPARE(read.setting.terms[1].values.at("sigma"), 1.5);
+    QVERIFY(read.setting.combine == solver::Combine::product);
+    QVERIFY(read.constraints->count(solver::Constraint::wall) > 50);
+    QVERIFY(read.constraints->count(solver::Constraint::anchor) > 50);
+    QCOMPARE(read.images.front()->name, std::string("PET"));
+    QCOMPARE(read.images.front()->to_case[3].z, 30.0);
+    QCOMPARE(read.map->checksum, std::string(64, 'b'));
+    QCOMPARE(Json::parse(recipe->to_text().value()).dump(), good_json().dump());
+  }
+
+  void an_image_that_is_missing_is_named() {
+    const auto recipe = document::Recipe::parse(good_json().dump(), "r.json");
+    QCOMPARE(failure(recipe), QString());
+    const auto result = document::replay(*recipe, lumpy_volume(), {});
+    QVERIFY(!result);
+    QCOMPARE(result.error().kind, ErrorKind::usage);
+    QVERIFY2(
+        failure(result).contains("\"map.nrrd\" is missing") || failure(result).contains("\"PET\" is missing"),
+        qPrintable(failure(result)));
+  }
+
+  void a_bad_drive_is_refused_with_its_field_data() {
+    QTest::addColumn<QByteArray>("text");
+    QTest::addColumn<QString>("says");
+    const auto row = [](const char* name, const std::function<void(Json&)>& spoil, const char* says) {
+      Json json = good_json();
+      spoil(json);
+      QTest::newRow(name) << QByteArray::fromStdString(json.dump()) << QString(says);
+    };
+    row(
+        "unknown function", [](Json& j) { j["drive"]["speed"][0]["function"] = "witchcraft"; },
+        "drive.speed[0].function: ");
+    row(
+        "no function", [](Json& j) { j["drive"]["speed"] = Json::array(); },
+        "drive.speed: no speed function");
+    row(
+        "unknown number", [](Json& j) { j["drive"]["speed"][1]["values"]["wish"] = 1; },
+        "drive.speed[1].values");
+    row(
+        "number out of range", [](Json& j) { j["drive"]["speed"][1]["values"]["sigma"] = 1e9; },
+        "drive.speed[1].values.sigma: ");
+    row(
+        "combine", [](Json& j) { j["drive"]["combine"] = "sum"; }, "drive.combine: ");
+    row(
+        "strokes cut", [](Json& j) { j["drive"]["strokes"]["inside"]["offsets"] = "eJw="; },
+        "drive.strokes.inside.offsets: ");
+    row(
+        "as many strokes as there is no memory for",
+        [](Json& j) { j["drive"]["strokes"]["inside"]["count"] = std::int64_t{1} << 60; },
+        "drive.strokes.inside.count: ");
+    row(
+        "inside and outside",
+        [](Json& j) { j["drive"]["strokes"]["outside"] = j["drive"]["strokes"]["inside"]; },
+        "drive.strokes: a voxel is both");
+    row(
+        "walls cut", [](Json& j) { j["drive"]["walls"] = "eJw="; }, "drive.walls: does not hold");
+    row(
+        "no anchors beside walls", [](Json& j) { j["drive"].erase("anchors"); }, "drive.anchors: ");
+    row(
+        "walls of an endless volume",
+        [](Json& j) {
+          j["source"]["size"] = {1 << 20, 1 << 20, 1 << 20};
+          j["drive"].erase("strokes");
+        },
+        "drive: the volume has more voxels");
+    row(
+        "walls of a large volume",
+        [](Json& j) {
+          j["source"]["size"] = {1000, 1000, 2000};
+          j["drive"].erase("strokes");
+        },
+        "drive.walls: does not hold");
+    row(
+        "transform of fifteen", [](Json& j) { j["drive"]["images"][0]["to_case"].erase(0); },
+        "drive.images[0].to_case: ");
+    row(
+        "transform that shrinks", [](Json& j) { j["drive"]["images"][0]["to_case"][0] = 0.5; },
+        "drive.images[0].to_case: does not keep lengths");
+    row(
+        "map without a name", [](Json& j) { j["drive"]["map"].erase("name"); }, "drive.map.name: is missing");
+  }
+  void a_bad_drive_is_refused_with_its_field() {
+    QFETCH(QByteArray, text);
+    QFETCH(QString, says);
+    const auto recipe = document::Recipe::parse(text.toStdString(), "bad.json");
+    QVERIFY(!recipe);
+    QCOMPARE(recipe.error().kind, ErrorKind::input);
+    QVERIFY2(failure(recipe).startsWith("bad.json: " + says), qPrintable(failure(recipe)));
+    QVERIFY(!failure(recipe).contains('\n'));
+  }
+};
+
+TIDEMARK_TEST(DriveRecipeTest)
+#include "drive_recipe_test.moc"

@@ -1,0 +1,111 @@
+// Copies against a crash: what happens when the case cannot be read, and when the folder cannot be written.
+#include "engine/case_autosave.h"
+
+#include <QSignalSpy>
+#include <QTest>
+#include <fstream>
+
+#include "document/autosave.h"
+#include "engine/background_job.h"
+#include "engine/case_proxy.h"
+#include "engine/case_runner.h"
+#include "engine/engine.h"
+#include "tests/engine/ball_study.h"
+#include "tests/support/support.h"
+#include "tests/support/test_program.h"
+
+using namespace tidemark;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr int kPatience = 60'000;  // ms
+
+// A case with a surface that has been edited, and its copies.
+struct Edited {
+  explicit Edited(std::filesystem::path folder)
+      : proxy(engine, test::ball_study(), solver::ExecutorKind::host),
+        autosave(proxy, std::move(folder), [] { return std::string(); }) {
+    QObject::connect(&proxy, &engine::CaseProxy::failed, [this](const QString& why) { failures << why; });
+    document::Start start;
+    start.seeds.push_back({renderer::middle_of(proxy.volume().geometry), 4.0});
+    proxy.begin(start);
+    proxy.step(3);
+    wait_until_idle();
+  }
+  void wait_until_idle() {
+    static_cast<void>(QTest::qWaitFor([this] { return engine.idle(); }, kPatience));
+    QCoreApplication::processEvents();
+  }
+
+  engine::Engine engine{false};
+  engine::CaseProxy proxy;
+  engine::CaseAutosave autosave;
+  QStringList failures;
+};
+
+class Unclosable : public document::OpenChange {
+ public:
+  [[nodiscard]] document::ChangeDescription description() const override { return {}; }
+  [[nodiscard]] std::int64_t bytes() const override { return 0; }
+  Status close() override { return fail(ErrorKind::internal, "there is no way to close it"); }
+};
+
+}  // namespace
+
+class CaseAutosaveTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void cleanup() { QVERIFY(engine::BackgroundJob::finish_all(60s)); }
+
+  // What cannot be closed cannot be copied: the case says why, and the next attempt is a copy.
+  void a_copy_that_was_given_up_is_made_the_next_time() {
+    const test::TemporaryFolder folder;
+    Edited edited(folder / "recovery");
+    QVERIFY(edited.proxy.state().modified);
+    QSignalSpy saved(&edited.autosave, &engine::CaseAutosave::saved);
+    QSignalSpy failed(&edited.autosave, &engine::CaseAutosave::failed);
+    Unclosable change;
+    edited.proxy.runner()->post([&](engine::CaseRunner& runner, const Progress&) -> Status {
+      TIDEMARK_TRY(runner.document().history().close());
+      runner.document().history().open(change);
+      return {};
+    });
+    edited.autosave.save_now();
+    QTRY_COMPARE_WITH_TIMEOUT(edited.failures, QStringList{"there is no way to close it"}, kPatience);
+    edited.wait_until_idle();
+    QVERIFY(engine::BackgroundJob::finish_all(60s));
+    QCoreApplication::processEvents();
+    QCOMPARE(saved.size(), 0);
+    QCOMPARE(failed.size(), 0);
+    QVERIFY(document::find_recoverable(folder / "recovery").empty());
+    edited.autosave.save_now();
+    QTRY_COMPARE_WITH_TIMEOUT(saved.size(), 1, kPatience);
+    QCOMPARE(failed.size(), 0);
+    QCOMPARE(edited.failures.size(), 1);
+  }
+
+  // It is said once; to try again every half minute would say it again and again.
+  void a_folder_that_cannot_be_written_is_told_once() {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "recovery") << "a file in the folder's place";
+    Edited edited(folder / "recovery");
+    QSignalSpy saved(&edited.autosave, &engine::CaseAutosave::saved);
+    QSignalSpy failed(&edited.autosave, &engine::CaseAutosave::failed);
+    edited.autosave.save_now();
+    QTRY_COMPARE_WITH_TIMEOUT(failed.size(), 1, kPatience);
+    QVERIFY2(failed[0][0].toString().contains("recovery"), qPrintable(failed[0][0].toString()));
+    edited.proxy.step(3);
+    edited.wait_until_idle();
+    edited.autosave.save_now();
+    edited.wait_until_idle();
+    QVERIFY(engine::BackgroundJob::finish_all(60s));
+    QCoreApplication::processEvents();
+    QCOMPARE(failed.size(), 1);
+    QCOMPARE(saved.size(), 0);
+  }
+};
+
+TIDEMARK_TEST(CaseAutosaveTest)
+#include "case_autosave_test.moc"

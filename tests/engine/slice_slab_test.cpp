@@ -1,0 +1,171 @@
+// Discs that a brush paints in slices, and what becomes of strokes.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "engine/slice_slab.h"
+#include "engine/stroke_painting.h"
+#include "tests/support/test_program.h"
+
+namespace tidemark::engine {
+
+class SliceSlabTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_disc_is_round_and_in_one_slice();
+  void discs_are_round_in_mm_where_voxels_are_not();
+  void a_plane_between_two_slices_belongs_to_one();
+  void a_tilted_grid_has_one_layer();
+  void the_voxel_under_the_mouse_is_always_painted();
+  void beside_the_volume_there_is_nothing();
+  void a_later_stroke_wins();
+  void strokes_that_touch_are_one();
+  void spheres_cover_the_strokes_and_start_inside();
+
+ private:
+  static Geometry grid(Index3 size, glm::dvec3 spacing_mm = glm::dvec3(1.0)) {
+    Geometry geometry;
+    geometry.size = size;
+    geometry.spacing_mm = spacing_mm;
+    geometry.origin_mm = {-7.0, 11.0, 3.0};
+    return geometry;
+  }
+  static Index3 voxel_at(const Geometry& g, std::int64_t offset) {
+    return {offset % g.size.x, offset / g.size.x % g.size.y, offset / (g.size.x * g.size.y)};
+  }
+};
+
+void SliceSlabTest::a_disc_is_round_and_in_one_slice() {
+  const Geometry g = grid({40, 40, 20});
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 normal(0.0);
+    normal[axis] = 1.0;
+    const glm::dvec3 centre = g.to_patient({20.0, 20.0, 10.0});
+    const auto voxels = SliceSlab(g, centre, normal).disc(centre, 2.5);
+    // x^2 + y^2 <= 6.25 has 21 whole solutions.
+    QCOMPARE(voxels.size(), std::size_t{21});
+    QVERIFY(std::ranges::is_sorted(voxels));
+    for (const std::int64_t offset : voxels) QCOMPARE(voxel_at(g, offset)[axis], axis == 2 ? 10 : 20);
+  }
+}
+
+void SliceSlabTest::discs_are_round_in_mm_where_voxels_are_not() {
+  const Geometry g = grid({40, 40, 20}, {0.5, 0.5, 5.0});
+  const glm::dvec3 centre = g.to_patient({20.0, 20.0, 10.0});
+  const SliceSlab axial(g, centre, {0.0, 0.0, 1.0});
+  QCOMPARE(axial.finest_mm(), 0.5);
+  QCOMPARE(axial.disc(centre, 2.5 * 0.5).size(), std::size_t{21});
+  // In a coronal slice the next row is 5 mm away.
+  const SliceSlab coronal(g, centre, {0.0, 1.0, 0.0});
+  QCOMPARE(coronal.finest_mm(), 0.5);
+  QCOMPARE(coronal.disc(centre, 1.25).size(), std::size_t{5});
+  QCOMPARE(coronal.disc(centre, 5.1).size(), std::size_t{21 + 2 * 5});  // the rows above and below: 1.0 mm
+}
+
+void SliceSlabTest::a_plane_between_two_slices_belongs_to_one() {
+  const Geometry g = grid({10, 10, 10});
+  const glm::dvec3 between = g.to_patient({5.0, 5.0, 4.5});
+  for (const double sign : {1.0, -1.0}) {
+    const SliceSlab slab(g, between, {0.0, 0.0, sign});
+    int layers = 0;
+    for (std::int64_t k = 0; k < 10; ++k) layers += slab.contains({5, 5, k}) ? 1 : 0;
+    QCOMPARE(layers, 1);
+  }
+}
+
+void SliceSlabTest::a_tilted_grid_has_one_layer() {
+  Geometry g = grid({30, 30, 30}, {1.0, 1.0, 2.0});
+  const double angle = 0.3;
+  g.direction = {
+      {1.0, 0.0, 0.0}, {0.0, std::cos(angle), std::sin(angle)}, {0.0, -std::sin(angle), std::cos(angle)}};
+  const glm::dvec3 centre = g.to_patient({15.0, 15.0, 15.0});
+  const SliceSlab slab(g, centre, {0.0, 0.0, 1.0});
+  QCOMPARE(slab.axes(), (std::array<int, 3>{0, 1, 2}));
+  const auto disc = slab.disc(centre, 4.0);
+  QVERIFY(disc.size() > 30);
+  for (const std::int64_t offset : disc) {
+    const glm::dvec3 place = g.to_patient(glm::dvec3(voxel_at(g, offset)));
+    QVERIFY(std::abs(place.z - centre.z) <= 1.0);
+    QVERIFY(glm::length(glm::dvec2(place - centre)) <= 4.0);
+  }
+  QVERIFY(slab.meets({0, 0, 0}, {30, 30, 30}));
+  QVERIFY(!slab.meets({0, 0, 24}, {8, 8, 6}));
+}
+
+void SliceSlabTest::the_voxel_under_the_mouse_is_always_painted() {
+  const Geometry g = grid({10, 10, 10});
+  const glm::dvec3 corner = g.to_patient({5.4, 5.4, 5.0});
+  const auto voxels = SliceSlab(g, corner, {0.0, 0.0, 1.0}).disc(corner, 0.1);
+  QCOMPARE(voxels, std::vector<std::int64_t>{g.offset({5, 5, 5})});
+}
+
+void SliceSlabTest::beside_the_volume_there_is_nothing() {
+  const Geometry g = grid({10, 10, 10});
+  const glm::dvec3 beside = g.to_patient({-20.0, 5.0, 5.0});
+  QVERIFY(SliceSlab(g, beside, {0.0, 0.0, 1.0}).disc(beside, 2.5).empty());
+  const glm::dvec3 border = g.to_patient({0.0, 5.0, 5.0});
+  QCOMPARE(SliceSlab(g, border, {0.0, 0.0, 1.0}).disc(border, 1.0).size(), std::size_t{4});
+}
+
+void SliceSlabTest::a_later_stroke_wins() {
+  const auto first = painted(nullptr, {3, 4, 5, 6}, Mark::inside);
+  QVERIFY(first && !can_teach(first.get()));
+  const auto second = painted(first.get(), {5, 6, 7}, Mark::outside);
+  QCOMPARE(second->inside, (std::vector<std::int64_t>{3, 4}));
+  QCOMPARE(second->outside, (std::vector<std::int64_t>{5, 6, 7}));
+  QVERIFY(can_teach(second.get()));
+  const auto third = painted(second.get(), {4, 5}, Mark::none);
+  QCOMPARE(third->inside, std::vector<std::int64_t>{3});
+  QCOMPARE(third->outside, (std::vector<std::int64_t>{6, 7}));
+  QVERIFY(!painted(third.get(), {3, 6, 7}, Mark::none));
+  QCOMPARE(first->inside.size(), std::size_t{4});  // the one before is as it was
+}
+
+void SliceSlabTest::strokes_that_touch_are_one() {
+  const Geometry g = grid({20, 20, 20});
+  const glm::dvec3 normal(0.0, 0.0, 1.0);
+  std::set<std::int64_t> voxels;
+  const auto add = [&](glm::dvec3 voxel) {
+    const glm::dvec3 place = g.to_patient(voxel);
+    for (const std::int64_t offset : SliceSlab(g, place, normal).disc(place, 2.5)) voxels.insert(offset);
+  };
+  const auto count = [&] { return count_strokes(g, {voxels.begin(), voxels.end()}); };
+  QCOMPARE(count(), 0);
+  add({4.0, 4.0, 4.0});
+  add({14.0, 4.0, 4.0});
+  add({4.0, 4.0, 6.0});  // another slice, one between them
+  QCOMPARE(count(), 3);
+  add({4.0, 4.0, 5.0});
+  QCOMPARE(count(), 2);
+}
+
+void SliceSlabTest::spheres_cover_the_strokes_and_start_inside() {
+  const Geometry g = grid({40, 40, 20}, {0.5, 0.5, 2.0});
+  std::set<std::int64_t> voxels;
+  for (double x = 8.0; x < 30.0; x += 1.0) {
+    const glm::dvec3 place = g.to_patient({x, 20.0, 10.0});
+    for (const std::int64_t offset : SliceSlab(g, place, {0.0, 0.0, 1.0}).disc(place, 1.25))
+      voxels.insert(offset);
+  }
+  const std::vector<std::int64_t> stroke(voxels.begin(), voxels.end());
+  const auto spheres = spheres_along(g, stroke);
+  QVERIFY(spheres.size() >= 5 && spheres.size() <= stroke.size() / 4);
+  for (const solver::Sphere& sphere : spheres) {
+    QCOMPARE(sphere.radius_mm, 1.0);
+    QVERIFY(std::ranges::binary_search(stroke, g.offset(Index3(glm::round(g.to_voxel(sphere.centre_mm))))));
+  }
+  for (const std::int64_t offset : stroke) {
+    const glm::dvec3 place = g.to_patient(glm::dvec3(voxel_at(g, offset)));
+    QVERIFY(std::ranges::any_of(spheres, [&](const solver::Sphere& sphere) {
+      return glm::distance(sphere.centre_mm, place) < 1.5 * sphere.radius_mm + 1e-9;
+    }));
+  }
+  QVERIFY(spheres_along(g, {}).empty());
+}
+
+}  // namespace tidemark::engine
+
+TIDEMARK_TEST(tidemark::engine::SliceSlabTest)
+#include "slice_slab_test.moc"

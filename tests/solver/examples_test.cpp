@@ -1,0 +1,268 @@
+// The speed function `examples`: features, the forest, and what it makes of strokes.
+#include <cmath>
+#include <random>
+
+#include "solver/speed/examples/examples_speed.h"
+#include "solver/speed/examples/forest_training.h"
+#include "speed_functions.h"
+#include "tests/support/support.h"
+#include "tests/support/test_program.h"
+
+using namespace tidemark;
+using namespace tidemark::solver;
+using namespace tidemark::test;
+
+namespace {
+
+template <class Value>
+std::shared_ptr<const Volume> volume_of(Index3 size, glm::dvec3 spacing_mm, const Value& value) {
+  auto volume = std::make_shared<Volume>();
+  volume->geometry.size = size;
+  volume->geometry.spacing_mm = spacing_mm;
+  std::vector<float> values;
+  for (std::int64_t z = 0; z < size.z; ++z) {
+    for (std::int64_t y = 0; y < size.y; ++y) {
+      for (std::int64_t x = 0; x < size.x; ++x)
+        values.push_back(static_cast<float>(value(glm::dvec3(x, y, z))));
+    }
+  }
+  volume->voxels = std::move(values);
+  return volume;
+}
+
+constexpr Index3 kGrid{63, 54, 45};
+constexpr glm::dvec3 kCentre{31.0, 26.0, 22.0};
+constexpr double kRadius = 16.0;
+
+bool in_ball(glm::dvec3 p) {
+  return glm::length(p - kCentre) < kRadius;
+}
+
+// The same mean inside and outside, and nearly the same values: fine mottle in a ball of coarse mottle.
+std::shared_ptr<const Volume> two_textures() {
+  return volume_of(kGrid, glm::dvec3(1.0), [](glm::dvec3 p) {
+    const double wave = in_ball(p) ? 2.2 : 0.7;
+    return 100.0 + 40.0 * std::sin(wave * p.x) * std::cos(wave * p.y + 0.3) * std::cos(wave * p.z);
+  });
+}
+
+void add_disc(std::vector<std::int64_t>& stroke, Index3 centre) {
+  for (std::int64_t y = -2; y <= 2; ++y) {
+    for (std::int64_t x = -2; x <= 2; ++x) {
+      const Index3 v = centre + Index3(x, y, 0);
+      stroke.push_back(v.x + kGrid.x * (v.y + kGrid.y * v.z));
+    }
+  }
+  std::sort(stroke.begin(), stroke.end());
+}
+
+std::shared_ptr<const Strokes> strokes_of_ball() {
+  auto strokes = std::make_shared<Strokes>();
+  for (const Index3 centre : {Index3(31, 26, 22), Index3(19, 26, 22), Index3(31, 38, 22), Index3(36, 21, 29),
+                              Index3(28, 17, 12), Index3(31, 13, 22)}) {
+    add_disc(strokes->inside, centre);
+  }
+  for (const Index3 centre :
+       {Index3(6, 8, 5), Index3(52, 44, 38), Index3(50, 26, 22), Index3(31, 7, 20), Index3(12, 26, 22),
+        Index3(31, 26, 41), Index3(20, 42, 24), Index3(31, 45, 22), Index3(31, 26, 3)}) {
+    add_disc(strokes->outside, centre);
+  }
+  return strokes;
+}
+
+SpeedInputs inputs_of(std::shared_ptr<const Volume> volume) {
+  SpeedInputs inputs;
+  inputs.source = std::move(volume);
+  inputs.strokes = strokes_of_ball();
+  return inputs;
+}
+
+}  // namespace
+
+class ExamplesTest : public QObject {
+  Q_OBJECT
+ private slots:
+  void features_of_a_quadratic_are_its_derivatives();
+  void deviation_is_that_of_noise();
+  void features_have_the_same_bits_in_every_box();
+  void speed_has_the_same_bits_in_every_box_and_every_training();
+  void textures_that_no_tent_separates_are_separated();
+  void a_second_image_counts();
+  void strokes_of_one_kind_are_refused_data();
+  void strokes_of_one_kind_are_refused();
+  void an_image_on_another_grid_is_refused();
+  void training_can_be_cancelled();
+  void a_pyramid_is_shared_and_goes_with_its_users();
+};
+
+void ExamplesTest::features_of_a_quadratic_are_its_derivatives() {
+  // The Gaussian adds a constant to it. Its second derivatives, sorted, are 0.6, 0.2 and -0.4 per mm^2.
+  const glm::dvec3 spacing(1.0, 1.25, 2.0);
+  const glm::dvec3 middle(64.0, 60.0, 64.0);  // mm
+  const auto volume = volume_of({129, 97, 65}, spacing, [&](glm::dvec3 voxel) {
+    const glm::dvec3 p = voxel * spacing - middle;
+    return 0.3 * p.x * p.x - 0.2 * p.y * p.y + 0.1 * p.z * p.z;
+  });
+  const auto features = Features::of({volume}, {});
+  QCOMPARE(failure(features), QString());
+  const Index3 voxel(70, 52, 35);
+  const glm::dvec3 p = glm::dvec3(voxel) * spacing - middle;
+  const double gradient_length = glm::length(glm::dvec3(0.6 * p.x, -0.4 * p.y, 0.2 * p.z));
+  std::vector<float> values(static_cast<std::size_t>(features->count()));
+  features->evaluate({voxel, Index3(1)}, values.data());
+  QCOMPARE(features->count(), 5 * kNodeFeatures + 3);
+  for (int scale = 0; scale < 3; ++scale) {  // those that do not reach the border
+    const float* f = values.data() + scale * kNodeFeatures;
+    QVERIFY2(std::abs(f[hessian_largest] - 0.6) < 0.01, qPrintable(QString::number(f[hessian_largest])));
+    QVERIFY2(std::abs(f[hessian_middle] - 0.2) < 0.01, qPrintable(QString::number(f[hessian_middle])));
+    QVERIFY2(std::abs(f[hessian_smallest] + 0.4) < 0.01, qPrintable(QString::number(f[hessian_smallest])));
+    // Interpolated between nodes, the magnitude is a little more than at the voxel.
+    QVERIFY2(std::abs(f[gradient] - gradient_length) < 0.05 * gradient_length,
+             qPrintable(QString::number(f[gradient])));
+    QVERIFY(f[structure_largest] >= f[structure_middle] && f[structure_middle] >= f[structure_smallest]);
+    QVERIFY(f[structure_largest] > 0.9F * f[gradient]);
+  }
+  const float* position = values.data() + 5 * kNodeFeatures;
+  QCOMPARE(position[0], 70.0F);
+  QCOMPARE(position[1], 65.0F);
+  QCOMPARE(position[2], 70.0F);
+}
+
+void ExamplesTest::deviation_is_that_of_noise() {
+  const auto flat = volume_of({64, 64, 64}, glm::dvec3(0.5), [](glm::dvec3) { return 1000.0; });
+  const auto noisy = with_noise(flat, 12.0);
+  const auto features = Features::of({noisy}, {});
+  QCOMPARE(failure(features), QString());
+  std::vector<float> values(static_cast<std::size_t>(features->count()));
+  features->evaluate({Index3(32), Index3(1)}, values.data());
+  for (int scale = 2; scale < 4; ++scale) {
+    const float measured = values[static_cast<std::size_t>(scale * kNodeFeatures + deviation)];
+    QVERIFY2(std::abs(measured - 12.0F) < 1.5F, qPrintable(QString::number(measured)));
+  }
+}
+
+void ExamplesTest::features_have_the_same_bits_in_every_box() {
+  const auto features = Features::of({two_textures()}, {});
+  QCOMPARE(failure(features), QString());
+  const auto count = static_cast<std::size_t>(features->count());
+  std::mt19937 random(5);
+  for (int i = 0; i < 40; ++i) {
+    VoxelBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.first[axis] = std::uniform_int_distribution<std::int64_t>(0, kGrid[axis] - 1)(random);
+      box.size[axis] = std::min<std::int64_t>(kGrid[axis] - box.first[axis], 1 + i % 9);
+    }
+    std::vector<float> in_box(count * static_cast<std::size_t>(box.voxels()));
+    features->evaluate(box, in_box.data());
+    const Index3 last = box.size - Index3(1);
+    std::vector<float> alone(count);
+    features->evaluate({box.first + last, Index3(1)}, alone.data());
+    for (std::size_t f = 0; f < count; ++f) {
+      QCOMPARE(in_box[(f + 1) * static_cast<std::size_t>(box.voxels()) - 1], alone[f]);
+    }
+  }
+}
+
+void ExamplesTest::speed_has_the_same_bits_in_every_box_and_every_training() {
+  const SpeedInputs inputs = inputs_of(two_textures());
+  const auto first = uncached(inputs, "examples");
+  QVERIFY(same_in_every_box(*first, kGrid));
+  const SpeedInputs again = inputs_of(two_textures());  // other objects, the same values
+  const auto second = uncached(again, "examples");
+  QVERIFY(speeds(*first, {Index3(0), kGrid}) == speeds(*second, {Index3(0), kGrid}));
+}
+
+void ExamplesTest::textures_that_no_tent_separates_are_separated() {
+  const auto volume = two_textures();
+  const auto function = uncached(inputs_of(volume), "examples");
+  const auto speed = speeds(*function, {Index3(0), kGrid});
+  Mask found{volume->geometry, {}};
+  Mask truth = found;
+  Mask bright = found;
+  for (std::int64_t i = 0; i < volume->geometry.voxel_count(); ++i) {
+    const glm::dvec3 p(i % kGrid.x, i / kGrid.x % kGrid.y, i / (kGrid.x * kGrid.y));
+    truth.voxels.push_back(in_ball(p) ? 1 : 0);
+    found.voxels.push_back(speed[static_cast<std::size_t>(i)] > 0.0 ? 1 : 0);
+    bright.voxels.push_back(std::abs(volume->value(i) - 100.0F) < 20.0F ? 1 : 0);
+  }
+  QVERIFY2(dice(found, truth) >= 0.95, qPrintable(QString::number(dice(found, truth))));
+  QVERIFY2(dice(bright, truth) < 0.3, qPrintable(QString::number(dice(bright, truth))));
+}
+
+void ExamplesTest::a_second_image_counts() {
+  const auto flat = with_noise(volume_of(kGrid, glm::dvec3(1.0), [](glm::dvec3) { return 50.0; }), 5.0);
+  SpeedInputs inputs = inputs_of(flat);
+  const auto difference = [&] {
+    const auto function = uncached(inputs, "examples");
+    // Neither voxel is in a stroke.
+    return speed_at(*function, {28, 23, 18}) - speed_at(*function, {31, 49, 22});
+  };
+  const double alone = difference();
+  inputs.images = {
+      volume_of(kGrid, glm::dvec3(1.0), [](glm::dvec3 p) { return in_ball(p) ? 300.0 : 200.0; })};
+  QVERIFY2(difference() > alone + 0.3, qPrintable(QString::number(alone)));
+}
+
+void ExamplesTest::strokes_of_one_kind_are_refused_data() {
+  QTest::addColumn<bool>("inside");
+  QTest::newRow("inside") << true;
+  QTest::newRow("outside") << false;
+}
+
+void ExamplesTest::strokes_of_one_kind_are_refused() {
+  QFETCH(bool, inside);
+  SpeedInputs inputs = inputs_of(two_textures());
+  auto strokes = std::make_shared<Strokes>(*inputs.strokes);
+  (inside ? strokes->outside : strokes->inside).clear();
+  inputs.strokes = strokes;
+  const auto made = make_speed(setting_of("examples"), inputs);
+  QVERIFY(!made);
+  QVERIFY(made.error().kind == ErrorKind::usage);
+  QCOMPARE(failure(made), QString("examples: paint at least one stroke %1 of what is to be found")
+                              .arg(inside ? "outside" : "inside"));
+}
+
+void ExamplesTest::an_image_on_another_grid_is_refused() {
+  SpeedInputs inputs = inputs_of(two_textures());
+  inputs.images = {volume_of({9, 8, 7}, glm::dvec3(1.0), [](glm::dvec3) { return 1.0; })};
+  const auto made = make_speed(setting_of("examples"), inputs);
+  QCOMPARE(failure(made), QString("examples: an image has 9 x 8 x 7 voxels, the volume 63 x 54 x 45"));
+}
+
+void ExamplesTest::training_can_be_cancelled() {
+  std::stop_source stop;
+  stop.request_stop();
+  const auto made =
+      make_speed(setting_of("examples"), inputs_of(two_textures()), {nullptr, stop.get_token()});
+  QVERIFY(!made);
+  QVERIFY(made.error().kind == ErrorKind::cancelled);
+  // What was given up leaves nothing behind that is wrong.
+  Samples samples{1, {}, {}};
+  for (int i = 0; i < 100; ++i) {
+    samples.values.push_back(static_cast<float>(i));
+    samples.inside.push_back(i < 50 ? 1 : 0);
+  }
+  QVERIFY(train(samples, {}, {nullptr, stop.get_token()}).error().kind == ErrorKind::cancelled);
+  const auto forest = train(samples, {}, {});
+  QCOMPARE(failure(forest), QString());
+  const float ends[] = {0.0F, 99.0F};
+  double speed[2];
+  ForestEvaluator(*forest).evaluate(ends, 1, 2, speed);
+  QVERIFY(speed[0] > 0.5 && speed[1] < -0.5);
+}
+
+void ExamplesTest::a_pyramid_is_shared_and_goes_with_its_users() {
+  const auto volume = two_textures();
+  auto first = ScaleSpace::of(volume, {});
+  QCOMPARE(failure(first), QString());
+  auto second = ScaleSpace::of(volume, {});
+  QVERIFY(*first == *second);
+  const std::weak_ptr<const ScaleSpace> watched = *first;
+  *first = nullptr;
+  QVERIFY(!watched.expired());
+  *second = nullptr;
+  QVERIFY(watched.expired());
+}
+
+TIDEMARK_TEST(ExamplesTest)
+#include "examples_test.moc"

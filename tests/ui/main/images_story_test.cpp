@@ -1,0 +1,157 @@
+// Further images of a case: found, shown over the slices, read under the mouse, and taken out again.
+#include <QFileDialog>
+#include <QListWidget>
+#include <QPushButton>
+#include <QToolButton>
+#include <cmath>
+
+#include "imaging/files/volume_file.h"
+#include "tests/support/test_program.h"
+#include "tests/ui/main/desktop.h"
+#include "ui/main/value_bar.h"
+#include "ui/widgets/number_box.h"
+
+namespace tidemark::test {
+
+namespace {
+
+constexpr int kPatience = 60000;
+
+// A ball in a box, in values from 0 to 100 times `bright`.
+Volume ball_in_a_box(Index3 size, glm::dvec3 spacing_mm, glm::dvec3 middle_mm, float bright) {
+  Volume volume;
+  volume.geometry.size = size;
+  volume.geometry.spacing_mm = spacing_mm;
+  volume.geometry.origin_mm = middle_mm - 0.5 * glm::dvec3(size - Index3(1)) * spacing_mm;
+  std::vector<float> values;
+  for (std::int64_t k = 0; k < size.z; ++k) {
+    for (std::int64_t j = 0; j < size.y; ++j) {
+      for (std::int64_t i = 0; i < size.x; ++i) {
+        const glm::dvec3 place = volume.geometry.to_patient(glm::dvec3(i, j, k));
+        values.push_back(glm::length(place - middle_mm) < 20.0 ? 100.0F * bright : 10.0F * bright);
+      }
+    }
+  }
+  volume.voxels = std::move(values);
+  return volume;
+}
+
+}  // namespace
+
+class ImagesStoryTest : public QObject {
+  Q_OBJECT
+
+  TemporaryFolder folder_;
+  std::unique_ptr<Desktop> desktop_;
+
+  QString made(const char* name, const Volume& volume) {
+    const auto file = folder_ / name;
+    [[maybe_unused]] const Status written = imaging::write_volume_file(volume, file);
+    return QString::fromStdString(file.string());
+  }
+  // By the menu's action and its dialog.
+  void choose_image(const QString& file) {
+    desktop_->window().actions().add_image->trigger();
+    auto* dialog = desktop_->window().findChild<QFileDialog*>();
+    QVERIFY(dialog);
+    dialog->selectFile(file);
+    static_cast<QDialog*>(dialog)->accept();
+  }
+  void add_image(const QString& file) {
+    const std::size_t before = images().size();
+    choose_image(file);
+    QVERIFY(Desktop::wait_for([&] { return images().size() > before; }, kPatience));
+    desktop_->wait_until_idle();
+  }
+  const std::vector<engine::ShownImage>& images() { return desktop_->proxy().display().settings().images; }
+  ui::SliceViewWidget* axial() { return desktop_->view<ui::SliceViewWidget>("Axial"); }
+  QImage picture() {
+    desktop_->wait_until_idle();
+    return axial()->grab_picture();
+  }
+  QString values_at(glm::dvec3 place) {
+    const QPoint at = axial()->position_of(place).toPoint();
+    QTest::mouseMove(axial(), at + QPoint(3, 3));
+    QTest::mouseMove(axial(), at);
+    QTest::qWait(50);
+    return desktop_->window().findChild<ui::ValueBar*>()->text();
+  }
+  template <class Widget>
+  Widget* named(const QString& name) {
+    for (auto* widget : desktop_->window().findChildren<Widget*>()) {
+      if (widget->accessibleName() == name && widget->isVisible()) return widget;
+    }
+    return nullptr;
+  }
+
+ private slots:
+  void an_image_is_shown_over_the_slices_and_taken_out() {
+    desktop_ = std::make_unique<Desktop>(story_executor());
+    const glm::dvec3 middle(0.0);
+    QVERIFY(desktop_->open(made("ct.nii.gz", ball_in_a_box({80, 80, 60}, glm::dvec3(1.0), middle, 1.0F))));
+    QVERIFY(axial());
+    const QImage before = picture();
+    // Coarser voxels, and only a part of the study.
+    add_image(made("pet.nii.gz", ball_in_a_box({14, 14, 14}, glm::dvec3(4.0), middle, 0.05F)));
+    // The message makes the view lower while it is there.
+    for (auto* button : desktop_->window().findChildren<QPushButton*>()) {
+      if (button->text().remove('&') == "Dismiss" && button->isVisible())
+        QTest::mouseClick(button, Qt::LeftButton);
+    }
+    QVERIFY(Desktop::wait_for([&] {
+      return axial()->physical_size() == renderer::PictureSize{static_cast<std::int64_t>(before.width()),
+                                                               static_cast<std::int64_t>(before.height())};
+    }));
+    const QImage half = picture();
+    QVERIFY2(difference(before, half) > 0.05, qPrintable(QString::number(difference(before, half))));
+    desktop_->screenshot("images-1-added");
+    QVERIFY(values_at(middle).contains("pet"));
+    QVERIFY2(values_at(middle).contains("5"), qPrintable(values_at(middle)));
+    QVERIFY(values_at({-35.0, 0.0, 0.0}).contains(QStringLiteral("–")));
+
+    // Opacity by the keyboard.
+    auto* opacity = named<ui::NumberBox>("Image opacity");
+    QVERIFY(opacity);
+    opacity->setFocus();
+    opacity->selectAll();
+    QTest::keyClicks(opacity, "100");
+    QTest::keyClick(opacity, Qt::Key_Return);
+    QCOMPARE(images()[0].opacity, 1.0);
+    const QImage full = picture();
+    QVERIFY(difference(half, full) > 0.02);
+
+    // Hidden by a click on its check mark: the picture is as it was.
+    auto* list = named<QListWidget>("Images over the slices");
+    QVERIFY(list);
+    const QRect row = list->visualItemRect(list->item(0));
+    QTest::mouseClick(list->viewport(), Qt::LeftButton, {}, {row.left() + 10, row.center().y()});
+    QVERIFY(!images()[0].visible);
+    QVERIFY(difference(before, picture()) < 0.01);
+
+    auto* remove = named<QToolButton>("Remove image");
+    QVERIFY(remove);
+    QTest::mouseClick(remove, Qt::LeftButton);
+    QVERIFY(images().empty());
+    QVERIFY(!list->isVisible());
+    QVERIFY(!values_at(middle).contains("pet"));
+  }
+
+  void an_image_elsewhere_in_the_patient_is_refused() {
+    desktop_ = std::make_unique<Desktop>(story_executor());
+    QVERIFY(desktop_->open(made("ct.nii.gz", ball_in_a_box({40, 40, 40}, glm::dvec3(1.0), {}, 1.0F))));
+    choose_image(made("far.nii.gz", ball_in_a_box({20, 20, 20}, glm::dvec3(1.0), {500.0, 0.0, 0.0}, 1.0F)));
+    const auto told = [&] {
+      for (const auto* label : desktop_->window().findChildren<QLabel*>()) {
+        if (label->isVisible() && label->text().contains("lies elsewhere in the patient")) return true;
+      }
+      return false;
+    };
+    QVERIFY(Desktop::wait_for(told, kPatience));
+    QVERIFY(images().empty());
+  }
+};
+
+}  // namespace tidemark::test
+
+TIDEMARK_TEST(tidemark::test::ImagesStoryTest)
+#include "images_story_test.moc"

@@ -1,0 +1,118 @@
+#include "ui/main/image_adder.h"
+
+#include <QFileDialog>
+#include <QStatusBar>
+
+#include "imaging/onto_grid.h"
+#include "imaging/resample.h"
+#include "ui/main/main_window.h"
+#include "ui/main/panel_docks.h"
+#include "ui/opening/loading_view.h"
+#include "ui/opening/study_opener.h"
+#include "ui/settings.h"
+
+namespace tidemark::ui {
+namespace {
+
+constexpr const char* kAboutImages = "adding an image";
+
+// Tells quickly whether the image lies anywhere in the study: by places a few mm apart.
+bool overlap(const document::CaseImage& image, const Geometry& study) {
+  constexpr std::int64_t kPlaces = 48;
+  Geometry coarse = study;
+  coarse.size = glm::min(study.size, Index3(kPlaces));
+  coarse.spacing_mm = study.spacing_mm * glm::dvec3(study.size) / glm::dvec3(coarse.size);
+  coarse.origin_mm = study.to_patient((coarse.spacing_mm / study.spacing_mm - 1.0) * 0.5);
+  return imaging::resample(*image.volume, image.to_case, coarse, image.name, {}, 0.0F).has_value();
+}
+
+}  // namespace
+
+ImageAdder::ImageAdder(MainWindow& window)
+    : QObject(&window),
+      window_(window),
+      opener_(new StudyOpener(&window)),
+      progress_(new LoadingView(LoadingView::Shape::line)) {
+  progress_->hide();
+  window.statusBar()->addPermanentWidget(progress_);
+  opener_->set_previews_wanted(false);
+  connect_opener();
+  const auto with_case = [this](QAction* action, auto act) {
+    connect(action, &QAction::triggered, this, [this, act] {
+      if (CaseWindow* active = window_.active_case()) (this->*act)(*active);
+    });
+  };
+  with_case(window.actions().add_image, &ImageAdder::ask_for_file);
+  with_case(window.actions().add_series, &ImageAdder::ask_for_series);
+}
+
+void ImageAdder::connect_opener() {
+  connect(opener_, &StudyOpener::began, progress_, [this](const QString& what) {
+    progress_->begin(what);
+    progress_->show();
+  });
+  connect(opener_, &StudyOpener::progressed, progress_, &LoadingView::set_progress);
+  connect(opener_, &StudyOpener::ended, progress_, &QWidget::hide);
+  connect(progress_, &LoadingView::cancelled, opener_, &StudyOpener::cancel);
+  connect(opener_, &StudyOpener::opened, this, [this](const auto& study) { add(*study); });
+  connect(opener_, &StudyOpener::failed, this, [this](const QString& message) {
+    progress_->hide();
+    window_.tell(message, kAboutImages);
+  });
+}
+
+void ImageAdder::ask_for_file(CaseWindow& into) {
+  auto* dialog = new QFileDialog(
+      &into, tr("Add an image"), QString(),
+      tr("Images (*.dcm *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;All files (*)"));
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setFileMode(QFileDialog::ExistingFile);
+  const auto& origin = into.proxy().origin().path;
+  if (!origin.empty()) dialog->setDirectory(QString::fromStdString(origin.parent_path().string()));
+  connect(dialog, &QFileDialog::fileSelected, this, [this, to = QPointer(&into)](const QString& file) {
+    if (to) add_file(*to, file);
+  });
+  dialog->open();
+}
+
+void ImageAdder::ask_for_series(CaseWindow& into) {
+  const auto& origin = into.proxy().origin().path;
+  if (origin.empty())
+    return window_.tell(tr("This study was made here: it has no other series."), kAboutImages);
+  into_ = &into;
+  opener_->open(QString::fromStdString(origin.string()), StudyOpener::Ask::always);
+}
+
+void ImageAdder::add_file(CaseWindow& into, const QString& path) {
+  into_ = &into;
+  opener_->open(path);
+}
+
+void ImageAdder::add(const engine::LoadedStudy& loaded) {
+  if (!into_) return;
+  engine::CaseProxy& proxy = into_->proxy();
+  const engine::ShownImage shown = engine::shown_image(loaded);
+  if (!overlap(*shown.image, proxy.volume().geometry)) {
+    return window_.tell(
+        tr("%1 lies elsewhere in the patient than the study: its %2 share no place with the "
+           "study's %3.")
+            .arg(loaded.name, QString::fromStdString(imaging::describe(loaded.volume->geometry)),
+                 QString::fromStdString(imaging::describe(proxy.volume().geometry))),
+        kAboutImages);
+  }
+  proxy.display().change([&](engine::DisplaySettings& settings) { settings.images.push_back(shown); });
+  window_.panels().show("display");
+  if (engine::is_placed(*shown.image, proxy.study())) return window_.settle(kAboutImages);
+  const bool differs =
+      !loaded.frame_of_reference_uid.empty() && !proxy.study().frame_of_reference_uid.empty();
+  window_.tell(differs
+                   ? tr("%1 has another frame of reference than the study: the patient may have moved "
+                        "between them. Compare them before you rely on their places.")
+                         .arg(loaded.name)
+                   : tr("It is not known whether %1 has the study's frame of reference. Compare them before "
+                        "you rely on their places.")
+                         .arg(loaded.name),
+               kAboutImages);
+}
+
+}  // namespace tidemark::ui

@@ -1,0 +1,156 @@
+#include "ui/panels/registration_dialog.h"
+
+#include <QBoxLayout>
+#include <QDialogButtonBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QProgressBar>
+#include <QPushButton>
+#include <array>
+#include <glm/geometric.hpp>
+
+#include "ui/look/theme.h"
+#include "ui/views/image_overlay.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/number_text.h"
+
+namespace tidemark::ui {
+namespace {
+
+constexpr int kPicture = 200;  // logical pixels, wide and high
+constexpr int kSteps = 1000;
+
+// The image where a transform puts it.
+engine::ShownImage moved(engine::ShownImage shown, const glm::dmat4& to_case) {
+  auto image = std::make_shared<document::CaseImage>(*shown.image);
+  image->to_case = to_case;
+  shown.image = std::move(image);
+  return shown;
+}
+
+}  // namespace
+
+// Axial, coronal and sagittal slices through the crosshair: the study in grey, the image over it.
+class RegistrationPicture : public QWidget {
+ public:
+  RegistrationPicture(engine::CaseProxy& proxy, QWidget* parent)
+      : QWidget(parent), cursor_mm_(proxy.display().settings().cursor_mm) {
+    auto study = std::make_shared<document::CaseImage>();
+    study->volume = proxy.study().volume;
+    study_ = {study, true, engine::ImageColours::grey, 1.0, proxy.display().settings().window};
+    setFixedSize(3 * kPicture + 2 * kSpaceTight, kPicture);
+  }
+  void set_image(engine::ShownImage image) {
+    image.visible = true;
+    image_ = std::move(image);
+    update();
+  }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    constexpr std::array kPlanes{renderer::kAxial, renderer::kCoronal, renderer::kSagittal};
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::SmoothPixmapTransform);
+    std::vector<engine::ShownImage> images{study_};
+    if (image_) images.push_back(*image_);
+    int left = 0;
+    for (std::size_t plane = 0; plane < kPlanes.size(); ++plane) {
+      const QRect where(left, 0, kPicture, kPicture);
+      left += kPicture + kSpaceTight;
+      painter.fillRect(where, Qt::black);
+      renderer::SliceView view;
+      view.orientation = kPlanes[plane];
+      view.position_mm = cursor_mm_;
+      const SliceScreen screen(view, QSizeF(where.size()), study_.image->volume->geometry);
+      for (const QImage& picture : overlays_[plane].pictures(images, view, screen, where.size())) {
+        painter.drawImage(where, picture);
+      }
+    }
+  }
+
+ private:
+  glm::dvec3 cursor_mm_;
+  engine::ShownImage study_;
+  std::optional<engine::ShownImage> image_;
+  std::array<ImageOverlay, 3> overlays_;
+};
+
+RegistrationDialog::RegistrationDialog(engine::CaseProxy& proxy, engine::ShownImage image, QWidget* parent)
+    : QDialog(parent),
+      proxy_(&proxy),
+      image_(std::move(image)),
+      before_(new RegistrationPicture(proxy, this)),
+      after_(new RegistrationPicture(proxy, this)),
+      progress_(new QProgressBar(this)),
+      text_(make_note({})),
+      accept_(new QPushButton(tr("&Accept"), this)) {
+  setAttribute(Qt::WA_DeleteOnClose);
+  setWindowTitle(tr("Register %1").arg(QString::fromStdString(image_.image->name)));
+  lay_out();
+  before_->set_image(image_);
+  after_->hide();
+  accept_->setEnabled(false);
+  progress_->setRange(0, kSteps);
+  progress_->setAccessibleName(tr("Progress of the registration"));
+  text_->setMinimumHeight(2 * fontMetrics().lineSpacing());
+  text_->setText(tr("Looking for the turn and shift at which the images tell most of each other."));
+  connect(accept_, &QPushButton::clicked, this, &RegistrationDialog::take);
+  connect(&job_, &engine::RegistrationJob::progressed, this, [this](double fraction, const QString&) {
+    progress_->setValue(static_cast<int>(std::max(fraction, 0.0) * kSteps));
+  });
+  connect(&job_, &engine::RegistrationJob::registered, this, &RegistrationDialog::show_found);
+  connect(&job_, &engine::RegistrationJob::failed, this, [this](const QString& message) {
+    progress_->hide();
+    text_->setText(message);
+  });
+  connect(&proxy, &QObject::destroyed, this, &QDialog::reject);
+  job_.start(image_.image, proxy.study().volume);
+}
+
+void RegistrationDialog::lay_out() {
+  auto* pictures = new QGridLayout;
+  pictures->addWidget(new QLabel(tr("Now")), 0, 0);
+  pictures->addWidget(before_, 0, 1);
+  pictures->addWidget(new QLabel(tr("Registered")), 1, 0);
+  auto* place = new QWidget;  // keeps its room while there is no picture
+  place->setFixedSize(before_->size());
+  after_->setParent(place);
+  pictures->addWidget(place, 1, 1);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
+  buttons->addButton(accept_, QDialogButtonBox::AcceptRole);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* column = new QVBoxLayout(this);
+  column->addLayout(pictures);
+  column->addWidget(progress_);
+  column->addWidget(text_);
+  column->addWidget(buttons);
+}
+
+void RegistrationDialog::show_found(const imaging::Registration& found) {
+  found_ = found.to_fixed;
+  progress_->hide();
+  after_->set_image(moved(image_, found_));
+  after_->show();
+  text_->setText(
+      tr("Turned by %1°, its middle shifted by %2 mm; mutual information %3, before %4. Compare the "
+         "pictures before you accept.")
+          .arg(number_text(found.rotation_degrees, 1), number_text(glm::length(found.translation_mm), 1),
+               number_text(found.information_after, 3), number_text(found.information_before, 3)));
+  accept_->setEnabled(true);
+  accept_->setFocus();
+}
+
+// The image may have been taken out of the case meanwhile.
+void RegistrationDialog::take() {
+  if (proxy_) {
+    proxy_->display().change([&](engine::DisplaySettings& settings) {
+      for (engine::ShownImage& shown : settings.images) {
+        if (shown.image == image_.image) shown = moved(shown, found_);
+      }
+    });
+  }
+  QDialog::accept();
+}
+
+}  // namespace tidemark::ui

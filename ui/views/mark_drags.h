@@ -1,0 +1,56 @@
+// Drags that paint examples, walls and anchors. They change what drives the surface when the button is
+// released; until then all views show what it will be.
+#pragma once
+
+#include "engine/stroke_painting.h"
+#include "ui/views/drag.h"
+
+namespace tidemark::ui {
+
+// Discs in one slice: the left button inside, the right one outside, with Ctrl either takes strokes away.
+class ExampleDrag : public Drag {
+ public:
+  ExampleDrag(DragView view, const Pointer& pressed);
+  ~ExampleDrag() override;
+  void move(const Pointer& pointer) override;
+  void release() override;
+  [[nodiscard]] QString text() const override;
+
+ private:
+  void dab(glm::dvec3 from_mm, glm::dvec3 to_mm);
+
+  engine::Mark mark_;
+  double radius_mm_;
+  glm::dvec3 last_mm_;
+  std::vector<std::int64_t> voxels_;  // ascending
+  std::shared_ptr<const solver::Strokes> strokes_;
+};
+
+// Spheres of the brush: the left button walls, with Shift anchors, the right one takes both away.
+class ConstraintDrag : public Drag {
+ public:
+  ConstraintDrag(DragView view, const Pointer& pressed);
+  ~ConstraintDrag() override;
+  void move(const Pointer& pointer) override;
+  void release() override;
+
+ private:
+  void dab(glm::dvec3 from_mm, glm::dvec3 to_mm);
+
+  solver::Constraint what_;
+  double radius_mm_;
+  glm::dvec3 last_mm_;
+  std::shared_ptr<const solver::Constraints> constraints_;
+};
+
+// `drive` with the strokes. With the first ones of both kinds they drive the surface from then on.
+[[nodiscard]] document::Drive taught(document::Drive drive, std::shared_ptr<const solver::Strokes> strokes);
+// The constraints of a drive (null: none) with a sphere more; null when nothing is left.
+[[nodiscard]] std::shared_ptr<const solver::Constraints> with_spheres(
+    const solver::Constraints* constraints, const Geometry& geometry,
+    const std::vector<solver::Sphere>& spheres, solver::Constraint what);
+
+// What is still missing before examples can drive the surface; empty: nothing.
+[[nodiscard]] QString missing_examples(const solver::Strokes* strokes);
+
+}  // namespace tidemark::ui
