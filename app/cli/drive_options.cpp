@@ -75,17 +75,22 @@ std::string name_of(const std::string& file) {
   return std::filesystem::path(file).filename().string();
 }
 
-Result<std::shared_ptr<const document::CaseImage>> read_image(const std::string& file, const Geometry& grid,
-                                                              const glm::dmat4& to_case, Console& console) {
+// On its own grid; place_image() brings it onto that of the case.
+Result<document::CaseImage> read_image(const std::string& file, Console& console) {
   auto loaded = imaging::load_volume(file, {}, console.progress());
   if (!loaded) return pass_on(loaded);
-  auto resampled = imaging::resample(*loaded, to_case, grid, file, console.progress());
-  if (!resampled) return fail(ErrorKind::input, "{}", resampled.error().message);
   document::CaseImage image;
   image.name = name_of(file);
   image.checksum = document::checksum_of(*loaded);
-  image.to_case = to_case;
   image.volume = std::make_shared<const Volume>(std::move(*loaded));
+  return image;
+}
+
+Result<std::shared_ptr<const document::CaseImage>> place_image(document::CaseImage image,
+                                                               const std::string& file, const Geometry& grid,
+                                                               Console& console) {
+  auto resampled = imaging::resample(*image.volume, image.to_case, grid, file, console.progress());
+  if (!resampled) return fail(ErrorKind::input, "{}", resampled.error().message);
   image.resampled = std::make_shared<const Volume>(std::move(resampled->volume));
   return std::make_shared<const document::CaseImage>(std::move(image));
 }
@@ -165,6 +170,103 @@ Result<std::shared_ptr<const solver::Constraints>> read_constraints(const DriveO
   return constraints;
 }
 
+// The images and the map of the command line for the drives of a recipe: each file is read once.
+class GivenFiles {
+ public:
+  GivenFiles(const DriveOptions& options, const Geometry& grid, Console& console)
+      : options_(options), grid_(grid), console_(console) {}
+
+  // Null stays null.
+  Status give(std::shared_ptr<const document::Drive>& drive);
+
+ private:
+  Status read_images();
+  Result<std::size_t> file_of(const document::CaseImage& wanted, std::size_t place);
+  Result<std::shared_ptr<const document::CaseImage>> image_for(const document::CaseImage& wanted,
+                                                               std::size_t place);
+  Result<std::shared_ptr<const document::SpeedMap>> map_for(const document::SpeedMap& wanted);
+
+  const DriveOptions& options_;
+  const Geometry& grid_;
+  Console& console_;
+  std::vector<document::CaseImage> images_;  // of the command line, in its order
+  std::vector<std::shared_ptr<const document::CaseImage>> placed_;
+  std::shared_ptr<const document::SpeedMap> map_;
+};
+
+Status GivenFiles::read_images() {
+  for (std::size_t i = images_.size(); i < options_.images.size(); ++i) {
+    auto image = read_image(options_.images[i], console_);
+    if (!image) return pass_on(image);
+    images_.push_back(std::move(*image));
+  }
+  return {};
+}
+
+// By its voxels; an image of unknown voxels is the one at the same place of the command line.
+Result<std::size_t> GivenFiles::file_of(const document::CaseImage& wanted, std::size_t place) {
+  TIDEMARK_TRY(read_images());
+  for (std::size_t i = 0; i < images_.size(); ++i) {
+    if (wanted.checksum.empty() ? i == place : images_[i].checksum == wanted.checksum) return i;
+  }
+  if (place >= images_.size()) {
+    return fail(ErrorKind::usage, "the recipe needs the image \"{}\": give it with --image", wanted.name);
+  }
+  return fail(ErrorKind::input, "{}: not the recipe's image \"{}\": its voxels differ",
+              options_.images[place], wanted.name);
+}
+
+Result<std::shared_ptr<const document::CaseImage>> GivenFiles::image_for(const document::CaseImage& wanted,
+                                                                         std::size_t place) {
+  const auto file = file_of(wanted, place);
+  if (!file) return tl::unexpected<Error>(file.error());
+  const document::CaseImage& read = images_[*file];
+  for (const auto& placed : placed_) {
+    if (placed->volume == read.volume && placed->name == wanted.name && placed->to_case == wanted.to_case)
+      return placed;
+  }
+  document::CaseImage image = wanted;
+  image.checksum = read.checksum;
+  image.volume = read.volume;
+  auto placed = place_image(std::move(image), options_.images[*file], grid_, console_);
+  if (placed) placed_.push_back(*placed);
+  return placed;
+}
+
+Result<std::shared_ptr<const document::SpeedMap>> GivenFiles::map_for(const document::SpeedMap& wanted) {
+  if (!options_.map) {
+    return fail(ErrorKind::usage, "the recipe needs the map \"{}\": give it with --speed-image", wanted.name);
+  }
+  if (map_ == nullptr) {
+    auto map = read_map(*options_.map, grid_, console_);
+    if (!map) return map;
+    map_ = std::move(*map);
+  }
+  if (!wanted.checksum.empty() && wanted.checksum != map_->checksum) {
+    return fail(ErrorKind::input, "{}: not the recipe's map \"{}\": its voxels differ", *options_.map,
+                wanted.name);
+  }
+  return std::make_shared<const document::SpeedMap>(
+      document::SpeedMap{wanted.name, map_->checksum, map_->volume});
+}
+
+Status GivenFiles::give(std::shared_ptr<const document::Drive>& drive) {
+  if (drive == nullptr) return {};
+  document::Drive given = *drive;
+  for (std::size_t i = 0; i < given.images.size(); ++i) {
+    auto image = image_for(*given.images[i], i);
+    if (!image) return pass_on(image);
+    given.images[i] = std::move(*image);
+  }
+  if (given.map != nullptr) {
+    auto map = map_for(*given.map);
+    if (!map) return pass_on(map);
+    given.map = std::move(*map);
+  }
+  drive = std::make_shared<const document::Drive>(std::move(given));
+  return {};
+}
+
 }  // namespace
 
 bool DriveOptions::uses_tent() const {
@@ -213,6 +315,9 @@ void add_drive_options(CLI::App& app, DriveOptions& options) {
                  "Voxels that the surface always encloses: a mask on the same grid")
       ->type_name("MASK")
       ->group(kGroup);
+}
+
+void add_within_option(CLI::App& app, DriveOptions& options) {
   add_number(app, "--within", options.within_mm,
              "With --init: the surface stays within so many mm of the mask's")
       ->group(kGroup);
@@ -249,9 +354,11 @@ Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& op
   if (!setting) return pass_on(setting);
   drive.setting = std::move(*setting);
   for (const std::string& file : options.images) {
-    auto image = read_image(file, grid, glm::dmat4(1.0), console);
+    auto image = read_image(file, console);
     if (!image) return pass_on(image);
-    drive.images.push_back(std::move(*image));
+    auto placed = place_image(std::move(*image), file, grid, console);
+    if (!placed) return pass_on(placed);
+    drive.images.push_back(std::move(*placed));
   }
   if (options.map) {
     auto map = read_map(*options.map, grid, console);
@@ -272,42 +379,11 @@ Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& op
 
 Status give_images(document::Recipe& recipe, const DriveOptions& options, const Geometry& grid,
                    Console& console) {
-  const auto give = [&](std::shared_ptr<const document::Drive>& drive) -> Status {
-    if (drive == nullptr) return {};
-    document::Drive given = *drive;
-    for (std::size_t i = 0; i < given.images.size(); ++i) {
-      const document::CaseImage& wanted = *given.images[i];
-      if (i >= options.images.size()) {
-        return fail(ErrorKind::usage, "the recipe needs the image \"{}\": give it with --image", wanted.name);
-      }
-      auto image = read_image(options.images[i], grid, wanted.to_case, console);
-      if (!image) return pass_on(image);
-      if (!wanted.checksum.empty() && wanted.checksum != (*image)->checksum) {
-        return fail(ErrorKind::input, "{}: not the recipe's image \"{}\": its voxels differ",
-                    options.images[i], wanted.name);
-      }
-      given.images[i] = std::move(*image);
-    }
-    if (given.map != nullptr) {
-      if (!options.map) {
-        return fail(ErrorKind::usage, "the recipe needs the map \"{}\": give it with --speed-image",
-                    given.map->name);
-      }
-      auto map = read_map(*options.map, grid, console);
-      if (!map) return pass_on(map);
-      if (!given.map->checksum.empty() && given.map->checksum != (*map)->checksum) {
-        return fail(ErrorKind::input, "{}: not the recipe's map \"{}\": its voxels differ", *options.map,
-                    given.map->name);
-      }
-      given.map = std::move(*map);
-    }
-    drive = std::make_shared<const document::Drive>(std::move(given));
-    return {};
-  };
-  TIDEMARK_TRY(give(recipe.drive));
+  GivenFiles files(options, grid, console);
+  TIDEMARK_TRY(files.give(recipe.drive));
   for (document::RecipeEvent& event : recipe.events) {
     if (auto* change = std::get_if<document::DriveEvent>(&event.what)) {
-      TIDEMARK_TRY(give(change->drive));
+      TIDEMARK_TRY(files.give(change->drive));
     }
   }
   return {};

@@ -26,6 +26,8 @@ struct DriveOptions {
 };
 
 void add_drive_options(CLI::App& app, DriveOptions& options);
+// --within, for commands that start from a mask.
+void add_within_option(CLI::App& app, DriveOptions& options);
 // --image and --speed-image alone: what a recipe needs beside its volume.
 void add_image_options(CLI::App& app, DriveOptions& options);
 
@@ -39,8 +41,9 @@ Status check(const DriveOptions& options, bool starts_from_mask);
 Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& options, const Geometry& grid,
                                                           const document::Start& start, Console& console);
 
-// Gives the images and the map that a recipe names the files of the command line, in their order. Fails
-// (ErrorKind::usage) naming the one that is missing, (ErrorKind::input) naming a file with other voxels.
+// Gives the images and the map that a recipe names the files of the command line: images by their voxels, or
+// in their order where it has no checksum. Fails (ErrorKind::usage) naming the one that is missing,
+// (ErrorKind::input) naming a file with other voxels.
 Status give_images(document::Recipe& recipe, const DriveOptions& options, const Geometry& grid,
                    Console& console);
 

@@ -118,6 +118,7 @@ void add_segment_options(CLI::App& app, SegmentOptions& options) {
                "near the middle; says what it chose");
   add_equation_options(app, options);
   add_drive_options(app, options.drive);
+  add_within_option(app, options.drive);
   add_start_options(app, options.start);
   add_run_options(app, options);
   add_result_options(app, options.results);
