@@ -6,6 +6,7 @@
 
 #include "app/cli/arguments.h"
 #include "document/checksum.h"
+#include "document/speed_map.h"
 #include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
 #include "imaging/resample.h"
@@ -93,19 +94,6 @@ Result<std::shared_ptr<const document::CaseImage>> place_image(document::CaseIma
   if (!resampled) return fail(ErrorKind::input, "{}", resampled.error().message);
   image.resampled = std::make_shared<const Volume>(std::move(resampled->volume));
   return std::make_shared<const document::CaseImage>(std::move(image));
-}
-
-Result<std::shared_ptr<const document::SpeedMap>> read_map(const std::string& file, const Geometry& grid,
-                                                           Console& console) {
-  const auto loaded = imaging::load_volume(file, {}, console.progress());
-  if (!loaded) return tl::unexpected<Error>(loaded.error());
-  auto values = imaging::onto_grid(*loaded, grid, file);
-  if (!values) return pass_on(values);
-  auto volume = std::make_shared<Volume>();
-  volume->geometry = grid;
-  volume->voxels = std::move(*values);
-  return std::make_shared<const document::SpeedMap>(
-      document::SpeedMap{name_of(file), document::checksum_of(*volume), volume});
 }
 
 Result<std::shared_ptr<const solver::Strokes>> read_examples(const std::string& file, const Geometry& grid,
@@ -238,7 +226,7 @@ Result<std::shared_ptr<const document::SpeedMap>> GivenFiles::map_for(const docu
     return fail(ErrorKind::usage, "the recipe needs the map \"{}\": give it with --speed-image", wanted.name);
   }
   if (map_ == nullptr) {
-    auto map = read_map(*options_.map, grid_, console_);
+    auto map = document::load_speed_map(*options_.map, grid_, console_.progress());
     if (!map) return map;
     map_ = std::move(*map);
   }
@@ -361,7 +349,7 @@ Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& op
     drive.images.push_back(std::move(*placed));
   }
   if (options.map) {
-    auto map = read_map(*options.map, grid, console);
+    auto map = document::load_speed_map(*options.map, grid, console.progress());
     if (!map) return pass_on(map);
     drive.map = std::move(*map);
   }
