@@ -163,7 +163,7 @@ void Actions::make_tools() {
        tr("Mark examples in slices: left button inside, right button outside, with Ctrl takes away"));
   tool(engine::Tool::wall, "tool-wall", "tool-wall", tr("Wa&ll"), "K",
        tr("Keep the surface out with a 3D brush; with Shift keep it in (right button: takes away)"));
-  last_tool = make("last-tool", nullptr, tr("&Last tool"), QKeySequence("Space"), true,
+  last_tool = make("last-tool", nullptr, tr("Last &tool"), QKeySequence("Space"), true,
                    tr("Change between the last two tools"));
 }
 
