@@ -35,15 +35,19 @@ void visit_pages(const solver::Field& phi, const Wanted& wanted, const Visit& vi
   }
 }
 
-// Whether a value inside of what it began with draws the surface outwards.
+double speed_at(const EvolvedSurface& surface, Index3 voxel) {
+  if (surface.speed == nullptr) return solver::data_speed(surface.parameters, surface.source.value(voxel));
+  double speed = 0.0;
+  surface.speed->evaluate({voxel, Index3(1)}, &speed);
+  return speed;
+}
+
+// Whether a voxel inside of what it began with draws the surface outwards.
 bool is_attracted(const EvolvedSurface& surface) {
   bool any = false;
   visit_pages(
       *surface.start, [&](std::int32_t entry) { return !any && entry != solver::Field::kOutside; },
-      [&](Index3 voxel, float phi) {
-        any =
-            any || (phi > 0.0F && solver::data_speed(surface.parameters, surface.source.value(voxel)) > 0.0);
-      });
+      [&](Index3 voxel, float phi) { any = any || (phi > 0.0F && speed_at(surface, voxel) > 0.0); });
   return any;
 }
 
@@ -103,7 +107,9 @@ Outcome outcome_of(const EvolvedSurface& surface) {
 
 std::optional<double> wider_range(const EvolvedSurface& surface) {
   const solver::Parameters& parameters = surface.parameters;
-  if (outcome_of(surface) != Outcome::converged || !parameters.data_term) return std::nullopt;
+  if (surface.speed != nullptr || outcome_of(surface) != Outcome::converged || !parameters.data_term) {
+    return std::nullopt;
+  }
   const double band = std::min(surface.phi.band, solver::default_band(surface.phi.geometry));
   std::int64_t beside = 0;
   std::int64_t alike = 0;

@@ -7,6 +7,7 @@
 
 #include "solver/field.h"
 #include "solver/parameters.h"
+#include "solver/speed/speed_function.h"
 
 namespace tidemark::document {
 
@@ -14,7 +15,7 @@ enum class Outcome {
   unfinished,      // it moves, or no step was computed
   converged,       // it has stopped moving
   vanished,        // nothing is inside any more, but for a few voxels that have stopped
-  seeded_outside,  // the same, and no value where it began is within T -+ epsilon
+  seeded_outside,  // the same, and D > 0 nowhere where it began
   filled_volume,   // everything is inside, but for islands
 };
 
@@ -28,10 +29,11 @@ struct EvolvedSurface {
   const solver::Field& phi;
   std::int64_t voxels_inside = 0;
   std::int64_t steps = 0;
-  bool stopped = false;                  // AdvanceReport::converged
-  const solver::Field* start = nullptr;  // before the first step; null: not known
-  const Volume& source;                  // as the level set sees it
-  const solver::Parameters& parameters;  // the present ones
+  bool stopped = false;                          // AdvanceReport::converged
+  const solver::Field* start = nullptr;          // before the first step; null: not known
+  const Volume& source;                          // as the level set sees it
+  const solver::Parameters& parameters;          // the present ones
+  const solver::SpeedFunction* speed = nullptr;  // null: the parameters' tent
 };
 Outcome outcome_of(const EvolvedSurface& surface);
 

@@ -59,6 +59,7 @@ Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume
   result.band = setup->executor().band();
   result.time_step = setup->executor().time_step();
   result.source = setup->source();
+  result.speed = setup->executor().speed();
   return result;
 }
 

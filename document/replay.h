@@ -22,7 +22,8 @@ struct Replay {
   solver::MemoryReport memory;
   double band = 0.0;
   double time_step = 0.0;
-  std::shared_ptr<const Volume> source;  // as the level set saw it at the end
+  std::shared_ptr<const solver::SpeedFunction> speed;  // at the end; null: the tent
+  std::shared_ptr<const Volume> source;                // as the level set saw it at the end
 };
 
 // The differences between the volume and the recipe's, one sentence each: another spacing (smoothing is per

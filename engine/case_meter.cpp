@@ -60,7 +60,8 @@ Status CaseMeter::measure(const ReadPhi& read_phi, document::Case& document, boo
                                          converged_,
                                          level_set.start().get(),
                                          *level_set.source(),
-                                         level_set.parameters()};
+                                         level_set.parameters(),
+                                         level_set.executor().speed().get()};
   outcome_ = document::outcome_of(evolved);
   if (thoroughly) {
     wider_range_ = wider_range(evolved);

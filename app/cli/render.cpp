@@ -28,7 +28,8 @@ constexpr const char* kDescription =
     "  speed     the axial slice coloured by a term of the speed: orange where the surface grows, blue and\n"
     "            hatched where it shrinks\n"
     "  pages     which pages of the level set are resident\n"
-    "  sheet     three slices, the speed map (with --target and --range) and the 3D view on one sheet\n\n"
+    "  sheet     three slices, the speed map (with --target and --range, or --speed) and the 3D view on one "
+    "sheet\n\n"
     "Positions are voxel indices; normals and planes are in patient coordinates (LPS, mm): what lies where\n"
     "N . x > D of --clip is hidden.";
 constexpr const char* kExamples =
@@ -118,6 +119,22 @@ Result<renderer::Picture> draw(renderer::Renderer& renderer, const RenderOptions
                           : renderer.draw(views.slice, size, progress);
 }
 
+// What drives the surface, for views of the speed, and what holds it, for slices.
+Status show_drive(renderer::Renderer& renderer, const DriveOptions& options,
+                  const std::shared_ptr<const Volume>& source, const solver::Parameters& parameters,
+                  const solver::Field& phi, Console& console) {
+  const auto drive = make_drive(options, source->geometry, {}, console);
+  if (!drive) return tl::unexpected<Error>(drive.error());
+  if (*drive == nullptr) return {};
+  auto speed = document::make_speed(**drive, source, parameters, console.progress());
+  if (!speed) return pass_on(speed);
+  if (*speed != nullptr && (*speed)->follows_surface()) {
+    if (auto following = (*speed)->following(phi)) *speed = std::move(following);
+  }
+  renderer.set_speed(std::move(*speed));
+  return renderer.set_constraints((*drive)->constraints.get());
+}
+
 bool is_even(const renderer::Picture& picture) {
   const auto& pixels = picture.pixels;
   return std::equal(pixels.begin() + 4, pixels.end(), pixels.begin());
@@ -142,6 +159,7 @@ Status run(Program& program, const RenderOptions& options) {
   if (!renderer) return pass_on(renderer);
   TIDEMARK_TRY((*renderer)->set_phi(*phi));
   (*renderer)->set_parameters(views->parameters);
+  TIDEMARK_TRY(show_drive(**renderer, options.drive, source, views->parameters, *phi, console));
   if (!options.labels.empty()) {
     const auto labels = load_labels(options.labels, source->geometry, console);
     if (!labels) return tl::unexpected<Error>(labels.error());

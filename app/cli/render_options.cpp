@@ -176,13 +176,14 @@ Status check(const RenderOptions& options) {
       options.view == "speed" ||
       (options.colour != "plain" && options.colour != "curvature" && options.colour != "pages");
   if (by_speed && !has_speed(options))
-    return fail(ErrorKind::usage, "a term of the speed needs --target and --range");
+    return fail(ErrorKind::usage, "a term of the speed needs --target and --range, or a --speed");
   if (options.window && !((*options.window)[1] > 0.0)) {
     return fail(ErrorKind::usage, "--window: the width must be above 0");
   }
   if (options.target.has_value() != options.range.has_value()) {
     return fail(ErrorKind::usage, "--target and --range belong together");
   }
+  TIDEMARK_TRY(check(options.drive, false));
   if ((options.region == "inside" || options.region == "outside") && !has_surface(options)) {
     return fail(ErrorKind::usage, "--roi {} needs --mask or --phi", options.region);
   }
@@ -200,7 +201,7 @@ bool has_surface(const RenderOptions& options) {
 }
 
 bool has_speed(const RenderOptions& options) {
-  return options.target && options.range;
+  return (options.target && options.range) || !options.drive.uses_tent();
 }
 Result<Views> views_of(const RenderOptions& options) {
   TIDEMARK_TRY(check(options));
@@ -247,8 +248,9 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_number(command, "--target", options.target, "T, for the speed");
   add_number(command, "--range", options.range, "epsilon, for the speed");
   add_number(command, "--alpha", options.alpha, "alpha, for the speed (default: 0.5)");
-  command.add_option("--term", options.term, "What --view speed shows (default: data, which is D(I))")
+  command.add_option("--term", options.term, "What --view speed shows (default: data, which is D)")
       ->type_name(joined(kTerms, "|"));
+  add_drive_options(command, options.drive);
   command.add_option("--camera", options.camera,
                      "AZIMUTH,ELEVATION[,ZOOM] in degrees: 0,0 looks from the front (default); azimuth goes\n"
                      "towards the patient's left, elevation towards the head");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/drive_options.h"
 #include "app/cli/study_input.h"
 #include "renderer/picture.h"
 #include "renderer/views.h"
@@ -33,6 +34,7 @@ struct RenderOptions {
   std::optional<double> target;
   std::optional<double> range;
   std::optional<double> alpha;
+  DriveOptions drive;
   std::string term = "data";
   std::string colour = "plain";
   std::optional<double> opacity;

@@ -1,6 +1,7 @@
 // tidemark-cli replay: the replay of a recipe.
 #include <memory>
 
+#include "app/cli/drive_options.h"
 #include "app/cli/program.h"
 #include "app/cli/results.h"
 #include "app/cli/solver_options.h"
@@ -28,6 +29,7 @@ struct ReplayArguments {
   StudyInput study;
   SolverOptions solver;
   ResultOptions results;
+  DriveOptions images;
 };
 
 Status check(const ReplayArguments& arguments, ResultWriter& writer) {
@@ -67,9 +69,12 @@ RunResults results_of(const document::Recipe& recipe, const Volume& volume, cons
                                          replayed.advance.converged,
                                          start,
                                          *replayed.source,
-                                         figures.parameters};
+                                         figures.parameters,
+                                         replayed.speed.get()};
   figures.outcome = document::outcome_of(surface);
   figures.wider_range = wider_range(surface);
+  figures.drive = recipe.final_drive();
+  results.speed = std::move(replayed.speed);
   results.source = std::move(replayed.source);
   results.mask = replayed.phi.mask();
   results.phi = std::move(replayed.phi);
@@ -88,12 +93,13 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
   Console& console = program.console;
   ResultWriter writer(arguments.results, console);
   TIDEMARK_TRY(check(arguments, writer));
-  const auto recipe = document::Recipe::load(arguments.recipe);
+  auto recipe = document::Recipe::load(arguments.recipe);
   if (!recipe) return tl::unexpected<Error>(recipe.error());
   auto study = load_study(arguments.study, console.progress(), recipe->source.policy);
   if (!study) return pass_on(study);
   const auto volume = std::make_shared<const Volume>(std::move(study->volume));
   for (const std::string& difference : document::differences(*recipe, *volume)) console.warn(difference);
+  TIDEMARK_TRY(give_images(*recipe, arguments.images, volume->geometry, console));
   console.say("Recipe     {}; {} edits, {} steps", recipe->start.describe(), recipe->events.size(),
               recipe->steps);
 
@@ -125,6 +131,7 @@ void add_replay(CLI::App& app, Program& program) {
   command.add_option("RECIPE", arguments->recipe, "A recipe (.json)")->required()->type_name("");
   add_study_input(command, arguments->study);
   add_solver_options(command, arguments->solver, "the recipe's");
+  add_image_options(command, arguments->images);
   add_result_options(command, arguments->results);
 }
 

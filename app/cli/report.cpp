@@ -30,6 +30,24 @@ Json parameters_json(const RunFigures& figures) {
   return object;
 }
 
+Json drive_json(const document::Drive& drive) {
+  Json object;
+  for (const solver::SpeedTerm& term : drive.setting.terms) {
+    object["speed"].push_back({{"function", term.function}, {"values", term.values}});
+  }
+  object["combine"] = drive.setting.combine == solver::Combine::least ? "least" : "product";
+  for (const auto& image : drive.images) object["images"].push_back(image->name);
+  if (drive.strokes != nullptr) {
+    object["examples"] = {{"inside", drive.strokes->inside.size()},
+                          {"outside", drive.strokes->outside.size()}};
+  }
+  if (drive.constraints != nullptr) {
+    object["wall_voxels"] = drive.constraints->count(solver::Constraint::wall);
+    object["anchor_voxels"] = drive.constraints->count(solver::Constraint::anchor);
+  }
+  return object;
+}
+
 const char* describe(document::Outcome outcome) {
   switch (outcome) {
     case document::Outcome::converged:
@@ -58,11 +76,27 @@ std::string describe_pace(const RunFigures& figures) {
 
 }  // namespace
 
+MaskChange change_between(const Mask& before, const Mask& after) {
+  MaskChange change;
+  for (std::size_t i = 0; i < before.voxels.size(); ++i) {
+    change.added += before.voxels[i] == 0 && after.voxels[i] != 0 ? 1 : 0;
+    change.removed += before.voxels[i] != 0 && after.voxels[i] == 0 ? 1 : 0;
+  }
+  const glm::dvec3 spacing = after.geometry.spacing_mm;
+  const double voxel_ml = spacing.x * spacing.y * spacing.z / 1000.0;
+  change.added_ml = static_cast<double>(change.added) * voxel_ml;
+  change.removed_ml = static_cast<double>(change.removed) * voxel_ml;
+  return change;
+}
+
 std::string advice_on(const RunFigures& figures) {
   switch (figures.outcome) {
     case document::Outcome::vanished:
       return "the surface has vanished: it has shrunk to nothing (a larger start, --range or --alpha?)";
     case document::Outcome::seeded_outside:
+      if (figures.drive != nullptr && !document::uses_tent(*figures.drive)) {
+        return "the surface has vanished: its speed is negative everywhere where it began (another start?)";
+      }
       return fmt::format(
           "the surface has vanished: no value where it began is within {:.6g} -+ {:.6g} (another start or "
           "--target, a larger --range?)",
@@ -134,6 +168,13 @@ Json to_json(const RunFigures& figures) {
   object["changes"] = figures.changes;
   object["start"] = figures.start;
   object["parameters"] = parameters_json(figures);
+  object["drive"] = figures.drive == nullptr ? Json() : drive_json(*figures.drive);
+  if (figures.change) {
+    object["change"] = {{"added_voxels", figures.change->added},
+                        {"removed_voxels", figures.change->removed},
+                        {"added_ml", figures.change->added_ml},
+                        {"removed_ml", figures.change->removed_ml}};
+  }
   return object;
 }
 

@@ -7,11 +7,21 @@
 
 #include "app/cli/console.h"
 #include "core/volume.h"
+#include "document/drive.h"
 #include "document/outcome.h"
 #include "solver/executor.h"
 #include "solver/statistics.h"
 
 namespace tidemark::cli {
+
+// What a refined mask has become.
+struct MaskChange {
+  std::int64_t added = 0;  // voxels
+  std::int64_t removed = 0;
+  double added_ml = 0.0;
+  double removed_ml = 0.0;
+};
+[[nodiscard]] MaskChange change_between(const Mask& before, const Mask& after);
 
 // The figures of a run of the solver.
 struct RunFigures {
@@ -24,6 +34,7 @@ struct RunFigures {
   std::string series_uid;            // empty when the format has none
   std::vector<std::string> changes;  // found and changed by loading
   std::string start;
+  std::shared_ptr<const document::Drive> drive;  // null: the tent alone
   solver::Parameters parameters;
   std::optional<double> smooth_mm;
   double band = 0.0;
@@ -34,6 +45,7 @@ struct RunFigures {
   solver::MemoryReport memory;
   solver::SurfaceStatistics surface;
   std::optional<double> dice;
+  std::optional<MaskChange> change;  // of a mask that it began with
 };
 
 // What happened to a surface that is of no use, and what to try; empty: nothing of the kind.

@@ -9,6 +9,7 @@
 #include "imaging/results/results.h"
 #include "imaging/surface/surface.h"
 #include "renderer/sheet.h"
+#include "solver/speed/tent_speed.h"
 
 namespace tidemark::cli {
 
@@ -26,6 +27,10 @@ void add_result_options(CLI::App& app, ResultOptions& options) {
          "The level set itself, to go on from with --init-phi (.nii .nii.gz .nrrd .mha, float):\n> 0 "
          "inside, in units of the smallest voxel spacing;\nor for others as OpenVDB (.vdb): < 0 inside, in "
          "patient mm (LPS)")
+      ->type_name("FILE")
+      ->group(kGroup);
+  app.add_option("--out-speed", options.out_speed,
+                 "The speed D of every voxel at the end, -1 to 1 (.nii .nii.gz .nrrd .mha, float)")
       ->type_name("FILE")
       ->group(kGroup);
   app.add_option("--rtstruct", options.rtstruct,
@@ -54,6 +59,9 @@ Status ResultWriter::prepare() {
   if (!options_.out_phi.empty()) {
     Status good = outputs_.announce("--out-phi", options_.out_phi, {FileForm::volume, FileForm::level_set});
     if (!good) return good;
+  }
+  if (!options_.out_speed.empty()) {
+    TIDEMARK_TRY(outputs_.announce("--out-speed", options_.out_speed, {FileForm::volume}));
   }
   if (!options_.rtstruct.empty()) {
     TIDEMARK_TRY(outputs_.announce_dicom("--rtstruct", options_.rtstruct));
@@ -101,6 +109,20 @@ Status ResultWriter::stage_phi(const RunResults& results) {
   });
 }
 
+Status ResultWriter::stage_speed(const RunResults& results) {
+  std::shared_ptr<const solver::SpeedFunction> speed = results.speed;
+  if (speed == nullptr)
+    speed = std::make_shared<solver::TentSpeed>(results.source, results.figures.parameters);
+  Volume volume;
+  volume.geometry = results.source->geometry;
+  std::vector<double> values(static_cast<std::size_t>(volume.geometry.voxel_count()));
+  speed->evaluate({Index3(0), volume.geometry.size}, values.data());
+  volume.voxels = std::vector<float>(values.begin(), values.end());
+  return outputs_.stage(options_.out_speed, [&](const std::filesystem::path& name) {
+    return imaging::write_volume_file(volume, name);
+  });
+}
+
 Status ResultWriter::stage_out(const RunResults& results) {
   std::optional<imaging::Mesh> mesh;
   for (const std::string& file : options_.out) {
@@ -134,6 +156,9 @@ Status ResultWriter::stage(const RunResults& results) {
   TIDEMARK_TRY(stage_out(results));
   if (!options_.out_phi.empty()) {
     TIDEMARK_TRY(stage_phi(results));
+  }
+  if (!options_.out_speed.empty()) {
+    TIDEMARK_TRY(stage_speed(results));
   }
   if (!options_.rtstruct.empty()) {
     TIDEMARK_TRY(stage_dicom(options_.rtstruct, imaging::ResultForm::structure_set, results));
@@ -180,8 +205,8 @@ Status ResultWriter::write(const RunResults& results) {
   TIDEMARK_TRY(outputs_.commit());
   say(console_, results.figures);
   for (const std::string& file : options_.out) console_.say("Wrote      {}", file);
-  for (const std::string& file :
-       {options_.out_phi, options_.rtstruct, options_.picture, options_.stats, options_.recipe}) {
+  for (const std::string& file : {options_.out_phi, options_.out_speed, options_.rtstruct, options_.picture,
+                                  options_.stats, options_.recipe}) {
     if (!file.empty()) console_.say("Wrote      {}", file);
   }
   const bool any_dicom = !options_.rtstruct.empty() ||

@@ -24,7 +24,7 @@ namespace tidemark::cli {
 
 struct ResultOptions {
   std::vector<std::string> out;
-  std::string out_phi, rtstruct, stats, picture, recipe;
+  std::string out_phi, out_speed, rtstruct, stats, picture, recipe;
   LabelArgument label;  // the segment in DICOM results
 };
 void add_result_options(CLI::App& app, ResultOptions& options);
@@ -34,6 +34,7 @@ struct RunResults {
   std::shared_ptr<const Volume> source;            // as the solver saw it
   std::vector<std::filesystem::path> dicom_files;  // that it was read from, in slice order; empty: not DICOM
   std::shared_ptr<const imaging::StudyArchive> archive;  // in which they lie, if they do
+  std::shared_ptr<const solver::SpeedFunction> speed;    // at the end; null: the tent
   solver::Field phi;
   Mask mask;
   RunFigures figures;
@@ -57,6 +58,7 @@ class ResultWriter {
   Status stage_out(const RunResults& results);
   Status stage_dicom(const std::string& file, imaging::ResultForm form, const RunResults& results);
   Status stage_phi(const RunResults& results);
+  Status stage_speed(const RunResults& results);
   Status stage_text(const std::string& file, const std::string& text);
   Result<renderer::Picture> draw(const RunResults& results);
 

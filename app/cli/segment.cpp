@@ -192,6 +192,17 @@ Status Segmentation::evolve() {
   auto start = make_start(options_.start, results_.source->geometry, solver.band(), console_);
   if (!start) return pass_on(start);
   recipe.start = std::move(*start);
+  auto drive = make_drive(options_.drive, results_.source->geometry, recipe.start, console_);
+  if (!drive) return pass_on(drive);
+  recipe.drive = figures.drive = std::move(*drive);
+  if (recipe.drive != nullptr) {
+    auto speed =
+        document::make_speed(*recipe.drive, results_.source, figures.parameters, console_.progress());
+    if (!speed) return pass_on(speed);
+    console_.say("Speed      {}", describe(*recipe.drive));
+    TIDEMARK_TRY(solver.set_speed(std::move(*speed)));
+    TIDEMARK_TRY(solver.set_constraints(recipe.drive->constraints));
+  }
   figures.start = recipe.start.describe();
   const auto begun = document::begin(solver, *results_.source, recipe.start, console_.progress());
   if (!begun) return tl::unexpected<Error>(begun.error());
@@ -215,6 +226,9 @@ Status Segmentation::evolve() {
   results_.phi = std::move(*phi);
   results_.mask = results_.phi.mask();
   figures.surface = solver::measure(results_.phi);
+  if (const auto* mask = std::get_if<document::MaskStart>(&recipe.start.from)) {
+    figures.change = change_between(*mask->mask, results_.mask);
+  }
   if (truth_) figures.dice = dice(results_.mask, *truth_);
   const document::EvolvedSurface surface{results_.phi,
                                          figures.surface.voxels_inside,
@@ -222,7 +236,9 @@ Status Segmentation::evolve() {
                                          figures.advance.converged,
                                          &*begun,
                                          *results_.source,
-                                         figures.parameters};
+                                         figures.parameters,
+                                         solver.speed().get()};
+  results_.speed = solver.speed();
   figures.outcome = document::outcome_of(surface);
   figures.wider_range = wider_range(surface);
   return {};

@@ -54,10 +54,11 @@ void add_comparison_options(CLI::App& app, SegmentOptions& options) {
 
 Status check_present(const SegmentOptions& options) {
   if (options.auto_start) return {};
-  for (const auto& [name, value] :
-       {std::pair{"--target", options.target}, std::pair{"--range", options.range},
-        std::pair{"--alpha", options.alpha}}) {
-    if (!value) return fail(ErrorKind::usage, "{} is needed (or --auto-start)", name);
+  const bool tent = options.drive.uses_tent();
+  for (const auto& [name, value, needed] :
+       {std::tuple{"--target", options.target, tent}, std::tuple{"--range", options.range, tent},
+        std::tuple{"--alpha", options.alpha, true}}) {
+    if (needed && !value) return fail(ErrorKind::usage, "{} is needed (or --auto-start)", name);
   }
   if (!options.start.given()) {
     return fail(ErrorKind::usage,
@@ -80,7 +81,7 @@ Status check_numbers(const SegmentOptions& options) {
   if (options.truth_label && !options.truth) return fail(ErrorKind::usage, "--truth-label needs --truth");
   // The values of --auto-start are within the limits; the others are checked now.
   SegmentOptions filled = options;
-  if (options.auto_start) {
+  if (options.auto_start || !options.drive.uses_tent()) {
     filled.target = options.target.value_or(0.0);
     filled.range = options.range.value_or(1.0);
     filled.alpha = options.alpha.value_or(0.5);
@@ -96,8 +97,8 @@ std::int64_t SegmentOptions::step_limit() const {
 
 solver::Parameters SegmentOptions::parameters() const {
   solver::Parameters parameters;
-  parameters.target = *target;
-  parameters.range = *range;
+  parameters.target = target.value_or(parameters.target);
+  parameters.range = range.value_or(parameters.range);
   parameters.alpha = *alpha;
   parameters.band = band;
   parameters.rescale = rescale;
@@ -116,6 +117,8 @@ void add_segment_options(CLI::App& app, SegmentOptions& options) {
                "bright region "
                "near the middle; says what it chose");
   add_equation_options(app, options);
+  add_drive_options(app, options.drive);
+  add_within_option(app, options.drive);
   add_start_options(app, options.start);
   add_run_options(app, options);
   add_result_options(app, options.results);
@@ -126,6 +129,7 @@ Status check(const SegmentOptions& options) {
   TIDEMARK_TRY(check_present(options));
   TIDEMARK_TRY(check_numbers(options));
   TIDEMARK_TRY(check(options.start));
+  TIDEMARK_TRY(check(options.drive, options.start.mask.has_value()));
   return check(options.solver);
 }
 
@@ -134,6 +138,7 @@ std::vector<std::string> inputs_of(const SegmentOptions& options) {
   for (const auto& input : {options.start.mask, options.start.phi, options.truth}) {
     if (input) inputs.push_back(*input);
   }
+  for (const std::string& input : inputs_of(options.drive)) inputs.push_back(input);
   return inputs;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/drive_options.h"
 #include "app/cli/results.h"
 #include "app/cli/solver_options.h"
 #include "app/cli/start.h"
@@ -17,7 +18,8 @@ namespace tidemark::cli {
 
 struct SegmentOptions {
   StudyInput study;
-  std::optional<double> target, range, alpha;  // all needed, unless auto_start
+  std::optional<double> target, range, alpha;  // all needed, unless auto_start; two of them only by a tent
+  DriveOptions drive;
   std::optional<double> smooth_mm;
   std::optional<double> rescale, band;
   solver::Scheme scheme = solver::Scheme::split;

@@ -52,7 +52,7 @@ Status check_values(const Volume& map, float low) {
       const float value = typed.value(i);
       if (value >= low - kRounding && value <= 1.0F + kRounding) continue;
       const Index3 size = map.geometry.size;
-      return fail(ErrorKind::usage,
+      return fail(ErrorKind::input,
                   "the map of the speed function image: voxel ({}, {}, {}) is {}, not between {} and 1",
                   i % size.x, i / size.x % size.y, i / (size.x * size.y), value, low);
     }

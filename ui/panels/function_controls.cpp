@@ -9,6 +9,7 @@
 #include "engine/stroke_painting.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/panels/map_choice.h"
 #include "ui/panels/term_controls.h"
 #include "ui/views/mark_drags.h"
 #include "ui/widgets/form.h"
@@ -36,7 +37,16 @@ FunctionControls::FunctionControls(QWidget* parent) : CaseWidget(parent) {
   problem_ = make_note({});
   problem_->hide();
   column->addWidget(problem_);
+  add_map_choice(*column);
   add_joining(*column);
+}
+
+void FunctionControls::add_map_choice(QVBoxLayout& column) {
+  map_ = new MapChoice;
+  map_->hide();
+  column.addWidget(map_);
+  connect(map_, &MapChoice::chosen, this, &FunctionControls::take_map);
+  connect(map_, &MapChoice::failed, this, &FunctionControls::say);
 }
 
 void FunctionControls::add_joining(QVBoxLayout& column) {
@@ -60,7 +70,14 @@ void FunctionControls::add_joining(QVBoxLayout& column) {
 }
 
 void FunctionControls::attach() {
-  problem_->hide();
+  place_of_map_.reset();
+  say({});
+  map_->set_proxy(proxy());
+}
+
+void FunctionControls::say(const QString& problem) {
+  problem_->setText(problem);
+  problem_->setVisible(!problem.isEmpty());
 }
 
 void FunctionControls::refresh() {
@@ -73,6 +90,9 @@ void FunctionControls::refresh() {
     terms_[place]->set_values(setting.terms[place].values);
   joining_->setVisible(terms_.size() > 1);
   combine_->setCurrentIndex(combine_->findData(static_cast<int>(setting.combine)));
+  const bool needs_map =
+      std::ranges::any_of(terms_, [](const TermControls* controls) { return controls->kind().needs_map; });
+  map_->setVisible(needs_map || place_of_map_);
   add_->setEnabled(terms_.size() < solver::speed_kinds().size());
 }
 
@@ -83,7 +103,8 @@ void FunctionControls::show_terms(const solver::SpeedSetting& setting) {
     controls->deleteLater();
   }
   terms_.clear();
-  problem_->hide();
+  place_of_map_.reset();
+  say({});
   for (std::size_t place = 0; place < setting.terms.size(); ++place) {
     const solver::SpeedKind* kind = solver::speed_kind(setting.terms[place].function);
     if (!kind) continue;  // none that came from a file is unknown
@@ -117,9 +138,11 @@ void FunctionControls::choose(std::size_t place, const QString& function) {
   const solver::SpeedKind* kind = solver::speed_kind(function.toStdString());
   if (!proxy() || !kind) return;
   const QString missing = obstacle(*kind);
-  problem_->setText(missing);
-  problem_->setVisible(!missing.isEmpty());
+  say(missing);
+  place_of_map_.reset();
   if (!missing.isEmpty()) {
+    if (kind->needs_map) place_of_map_ = place;
+    refresh();
     // The surface is driven by it from the first strokes of both kinds on.
     if (kind->needs_strokes) proxy()->display().choose_tool(engine::Tool::examples);
     return;
@@ -131,6 +154,18 @@ void FunctionControls::choose(std::size_t place, const QString& function) {
       setting.terms.push_back({kind->name, {}});
     }
   });
+}
+
+// The function that waits for it drives the surface then.
+void FunctionControls::take_map(const std::shared_ptr<const document::SpeedMap>& map) {
+  if (!proxy()) return;
+  say({});
+  document::Drive drive = proxy()->drive();
+  drive.map = map;
+  auto& terms = drive.setting.terms;
+  if (place_of_map_ && *place_of_map_ < terms.size()) terms[*place_of_map_] = {"image", {}};
+  place_of_map_.reset();
+  proxy()->set_drive(drive, engine::CaseProxy::new_gesture());
 }
 
 // The first that is not there yet and lacks nothing.

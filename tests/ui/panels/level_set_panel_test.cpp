@@ -4,8 +4,10 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QSlider>
@@ -14,6 +16,7 @@
 #include <QStyleOptionSlider>
 #include <QToolButton>
 
+#include "imaging/files/volume_file.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 #include "ui/panels/curve_plot.h"
@@ -362,7 +365,57 @@ class LevelSetPanelTest : public QObject {
     panel_->set_proxy(nullptr);
   }
 
+  void a_map_is_chosen_from_a_file_and_drives_the_surface() {
+    const Volume& study = the_case_->proxy->volume();
+    Volume map;
+    map.geometry = study.geometry;
+    map.voxels = std::vector<float>(static_cast<std::size_t>(study.geometry.voxel_count()), 0.8F);
+    const TemporaryFolder folder;
+    QCOMPARE(failure(imaging::write_volume_file(map, folder / "sure.nii.gz")), QString());
+    map.geometry.size = {3, 3, 3};
+    map.voxels = std::vector<float>(27, 0.8F);
+    QCOMPARE(failure(imaging::write_volume_file(map, folder / "other.nii.gz")), QString());
+
+    auto* choose = button<QPushButton>(*panel_, tr("Choose a map…"));
+    QVERIFY(!choose->isVisible());
+    auto* function = named<QComboBox>(*panel_, tr("Driven by"));
+    function->setFocus();
+    QTest::keyClick(function, Qt::Key_M);  // "Map"
+    QTRY_VERIFY(choose->isVisible());
+    QVERIFY(the_case_->proxy->drive().setting.is_tent());
+
+    give_map(folder / "other.nii.gz");
+    QTRY_VERIFY(choose->isEnabled() && says("other.nii.gz"));
+    QVERIFY(the_case_->proxy->drive().setting.is_tent());
+
+    give_map(folder / "sure.nii.gz");
+    QTRY_VERIFY(the_case_->proxy->drive().map);
+    the_case_->wait_until_idle();
+    QCOMPARE(the_case_->proxy->drive().setting.terms.front().function, std::string("image"));
+    QCOMPARE(named<QComboBox>(*panel_, tr("Driven by"))->currentData().toString(), QString("image"));
+    QVERIFY(choose->isVisible() && says("sure.nii.gz"));
+    QVERIFY(!says("other.nii.gz"));
+    the_case_->proxy->undo();
+    the_case_->wait_until_idle();
+    QVERIFY(the_case_->proxy->drive().setting.is_tent());
+    QTRY_VERIFY(!choose->isVisible());
+  }
+
  private:
+  void give_map(const std::filesystem::path& file) {
+    QTest::mouseClick(button<QPushButton>(*panel_, tr("Choose a map…")), Qt::LeftButton);
+    auto* dialog = panel_->findChild<QFileDialog*>();
+    QVERIFY(dialog);
+    dialog->selectFile(QString::fromStdString(file.string()));
+    static_cast<QDialog*>(dialog)->accept();
+    QTRY_VERIFY(!panel_->findChild<QFileDialog*>());
+  }
+  [[nodiscard]] bool says(const QString& text) const {
+    for (const QLabel* label : panel_->findChildren<QLabel*>()) {
+      if (label->isVisible() && label->text().contains(text)) return true;
+    }
+    return false;
+  }
   void type(const QString& name, const char* text) {
     auto* number = named<QDoubleSpinBox>(*panel_, name);
     number->setFocus();

@@ -1,0 +1,50 @@
+// What drives the surface, on the command line: speed functions with their inputs, walls and anchors.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/console.h"
+#include "document/drive.h"
+#include "document/recipe.h"
+
+namespace tidemark::cli {
+
+struct DriveOptions {
+  std::vector<std::string> functions;  // --speed; none: the tent
+  solver::Combine combine = solver::Combine::least;
+  std::vector<std::string> values;      // --speed-value FUNCTION.NAME=NUMBER
+  std::vector<std::string> images;      // --image
+  std::optional<std::string> examples;  // a label file: 1 inside, 2 outside
+  std::optional<std::string> map;       // --speed-image
+  std::optional<std::string> walls, anchors;
+  std::optional<double> within_mm;
+
+  [[nodiscard]] bool uses_tent() const;
+};
+
+void add_drive_options(CLI::App& app, DriveOptions& options);
+// --within, for commands that start from a mask.
+void add_within_option(CLI::App& app, DriveOptions& options);
+// --image and --speed-image alone: what a recipe needs beside its volume.
+void add_image_options(CLI::App& app, DriveOptions& options);
+
+// All checks that need no file. Fails (ErrorKind::usage) naming the option.
+Status check(const DriveOptions& options, bool starts_from_mask);
+// The files that are read.
+[[nodiscard]] std::vector<std::string> inputs_of(const DriveOptions& options);
+
+// The drive with its files read; null: nothing but the tent. Fails (ErrorKind::input, ErrorKind::usage)
+// naming the file.
+Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& options, const Geometry& grid,
+                                                          const document::Start& start, Console& console);
+
+// Gives the images and the map that a recipe names the files of the command line: images by their voxels, or
+// in their order where it has no checksum. Fails (ErrorKind::usage) naming the one that is missing,
+// (ErrorKind::input) naming a file with other voxels.
+Status give_images(document::Recipe& recipe, const DriveOptions& options, const Geometry& grid,
+                   Console& console);
+
+}  // namespace tidemark::cli

@@ -1,0 +1,88 @@
+#include "ui/panels/map_choice.h"
+
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+
+#include "core/without_exceptions.h"
+#include "document/speed_map.h"
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+
+namespace tidemark::ui {
+
+MapChoice::MapChoice(QWidget* parent) : CaseWidget(parent) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(kSpace);
+  button_ = new QPushButton(icon(u"open-file"), tr("Choose a map…"));
+  button_->setToolTip(
+      tr("A file on the grid of the study: a probability from 0 to 1, or a speed from -1 to 1."));
+  connect(button_, &QPushButton::clicked, this, &MapChoice::choose);
+  name_ = new QLabel;
+  name_->setTextFormat(Qt::PlainText);
+  name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  row->addWidget(button_);
+  row->addWidget(name_, 1);
+}
+
+MapChoice::~MapChoice() {
+  give_up();
+}
+
+void MapChoice::give_up() {
+  if (reading_) reading_->abandon();
+  reading_.reset();
+}
+
+void MapChoice::attach() {
+  give_up();
+}
+
+void MapChoice::refresh() {
+  const auto& map = proxy()->drive().map;
+  const QString name = map ? QString::fromStdString(map->name) : QString();
+  name_->setText(reading_ ? tr("Reading the file …") : name);
+  name_->setToolTip(name);
+  button_->setEnabled(!reading_);
+}
+
+void MapChoice::choose() {
+  auto* dialog = new QFileDialog(
+      this, tr("Map that drives the surface"), {},
+      tr("Volumes (*.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;All files (*)"));
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setFileMode(QFileDialog::ExistingFile);
+  connect(dialog, &QFileDialog::fileSelected, this, &MapChoice::read);
+  dialog->open();
+}
+
+void MapChoice::read(const QString& file) {
+  if (!proxy()) return;
+  give_up();
+  const std::filesystem::path path(file.toStdU16String());
+  reading_ = engine::BackgroundJob::start(
+      this,
+      [this, path, grid = proxy()->volume().geometry](engine::BackgroundJob& job) {
+        const auto map =
+            std::make_shared<Result<std::shared_ptr<const document::SpeedMap>>>(without_exceptions([&] {
+              return document::load_speed_map(path, grid, {nullptr, job.stop()});
+            }));
+        job.deliver([this, map] { take(*map); });
+      },
+      [this](const Error& error) { take(tl::unexpected(error)); });
+  refresh();
+}
+
+void MapChoice::take(const Result<std::shared_ptr<const document::SpeedMap>>& map) {
+  reading_.reset();
+  if (map) {
+    emit chosen(*map);
+  } else {
+    emit failed(QString::fromStdString(map.error().message));
+  }
+  if (proxy()) refresh();
+}
+
+}  // namespace tidemark::ui
