@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,7 @@ struct Settings {
   bool still = false;
   double alpha = 0.5;
   std::int64_t steps = 400;
-  solver::TrainingOptions training;
+  solver::ExamplesOptions options;
 };
 
 std::vector<double> whole(const solver::SpeedFunction& function, Index3 size) {
@@ -76,7 +77,8 @@ class StillSurface final : public Surface {
   Geometry grid_;
 };
 
-// The level set of the processor. It goes on from where it is; each new stroke inside adds a sphere.
+// The level set of the processor. It goes on from where it is; strokes inside that it
+// does not hold add spheres.
 class LevelSetSurface final : public Surface {
  public:
   static Result<std::unique_ptr<Surface>> make(std::shared_ptr<const Volume> source,
@@ -95,20 +97,23 @@ class LevelSetSurface final : public Surface {
     const Geometry& grid = function->features().geometry();
     TIDEMARK_TRY(executor_->set_speed(std::make_shared<solver::CachedSpeed>(function, grid.size)));
     const double unit = std::min({grid.spacing_mm.x, grid.spacing_mm.y, grid.spacing_mm.z});
-    for (; spheres_ < robot.inside().size(); ++spheres_) {
-      const glm::dvec3 centre(robot.inside()[spheres_]);
-      TIDEMARK_TRY(executor_->paint(solver::sphere_at_voxel(grid, centre, 4.0 * unit), solver::Brush::add));
+    for (const Index3 centre : robot.inside()) {
+      if (!found_.voxels.empty() && found_.voxels[static_cast<std::size_t>(grid.offset(centre))] != 0)
+        continue;
+      TIDEMARK_TRY(executor_->paint(solver::sphere_at_voxel(grid, glm::dvec3(centre), 4.0 * unit),
+                                    solver::Brush::add));
     }
     const auto report = executor_->advance({.steps = steps_, .until_converged = true});
     if (!report) return tl::unexpected<Error>(report.error());
     auto phi = executor_->snapshot();
     if (!phi) return pass_on(phi);
-    return phi->mask();
+    found_ = phi->mask();
+    return found_;
   }
 
  private:
   std::unique_ptr<solver::Executor> executor_;
-  std::size_t spheres_ = 0;
+  Mask found_;  // last
   std::int64_t steps_ = 0;
 };
 
@@ -126,7 +131,7 @@ Result<Outcome> segment(const RobotCase& robot_case, const Settings& settings) {
   std::shared_ptr<const solver::ExamplesSpeed> function;
   for (;;) {
     Stopwatch watch;
-    auto made = solver::ExamplesSpeed::train(robot_case.images, robot.strokes(), settings.training, {});
+    auto made = solver::ExamplesSpeed::train(robot_case.images, robot.strokes(), settings.options, {});
     if (!made) return pass_on(made);
     function = std::move(*made);
     outcome.training_seconds = std::max(outcome.training_seconds, watch.seconds());
@@ -141,6 +146,7 @@ Result<Outcome> segment(const RobotCase& robot_case, const Settings& settings) {
 
 int run(const Settings& settings) {
   std::vector<double> all;
+  double worst_fall = 0.0;
   for (const CaseFiles& files : robot_cases()) {
     if (!settings.only.empty() && files.name.find(settings.only) == std::string::npos) continue;
     auto loaded = load_case(settings.folder, files);
@@ -159,13 +165,13 @@ int run(const Settings& settings) {
                outcome->training_seconds, outcome->round_seconds);
     std::fflush(stdout);
     all.push_back(outcome->dice.back());
+    worst_fall = std::max(worst_fall, outcome->worst_fall());
   }
   std::sort(all.begin(), all.end());
   if (!all.empty()) {
-    double sum = 0;
-    for (double d : all) sum += d;
-    fmt::print("median {:.3f}, least {:.3f}, mean {:.3f}\n", all[all.size() / 2], all.front(),
-               sum / static_cast<double>(all.size()));
+    const double mean = std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
+    fmt::print("median {:.3f}, least {:.3f}, mean {:.3f}, worst fall {:.2f}\n", all[all.size() / 2],
+               all.front(), mean, worst_fall);
   }
   return 0;
 }
@@ -182,12 +188,15 @@ int main(int argc, char** argv) {
   app.add_flag("--still", settings.still, "no level set: the part of D > 0 that is connected to the strokes");
   app.add_option("--alpha", settings.alpha, "of the level set");
   app.add_option("--steps", settings.steps, "a round, at most");
-  app.add_option("--trees", settings.training.trees, "");
-  app.add_option("--depth", settings.training.depth, "");
-  app.add_option("--leaf", settings.training.smallest_leaf, "");
-  app.add_option("--features", settings.training.tried_features, "");
-  app.add_option("--thresholds", settings.training.tried_thresholds, "");
-  app.add_option("--doubt", settings.training.doubt, "");
+  app.add_option("--trees", settings.options.training.trees, "");
+  app.add_option("--depth", settings.options.training.depth, "");
+  app.add_option("--leaf", settings.options.training.smallest_leaf, "");
+  app.add_option("--features", settings.options.training.tried_features, "");
+  app.add_option("--thresholds", settings.options.training.tried_thresholds, "");
+  app.add_option("--doubt", settings.options.training.doubt, "");
+  app.add_option("--seed", settings.options.training.seed, "");
+  app.add_option("--sharpness", settings.options.sharpness, "");
+  app.add_option("--nearness", settings.options.nearness, "");
   CLI11_PARSE(app, argc, argv);
   return tidemark::run(settings);
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/thread_pool.h"
-#include "solver/speed/examples/forest_training.h"
 #include "solver/speed/speed_kinds.h"
 
 namespace tidemark::solver {
@@ -72,8 +71,10 @@ Result<std::shared_ptr<const SpeedFunction>> make_examples(const SpeedInputs& in
                                                            const Progress& progress) {
   std::vector<std::shared_ptr<const Volume>> volumes{inputs.source};
   volumes.insert(volumes.end(), inputs.images.begin(), inputs.images.end());
-  TrainingOptions options;
-  options.trees = static_cast<int>(values.at("trees"));
+  ExamplesOptions options;
+  options.sharpness = values.at("sharpness");
+  options.nearness = values.at("nearness");
+  options.training.trees = static_cast<int>(values.at("trees"));
   auto made = ExamplesSpeed::train(std::move(volumes), inputs.strokes ? *inputs.strokes : Strokes{}, options,
                                    progress);
   if (!made) return pass_on(made);
@@ -84,16 +85,17 @@ Result<std::shared_ptr<const SpeedFunction>> make_examples(const SpeedInputs& in
 
 Result<std::shared_ptr<const ExamplesSpeed>> ExamplesSpeed::train(
     std::vector<std::shared_ptr<const Volume>> volumes, const Strokes& strokes,
-    const TrainingOptions& options, const Progress& progress) {
+    const ExamplesOptions& options, const Progress& progress) {
   TIDEMARK_TRY(check(strokes.inside, "inside", volumes.front()->geometry));
   TIDEMARK_TRY(check(strokes.outside, "outside", volumes.front()->geometry));
+  const Nearness nearness(strokes, volumes.front()->geometry);
   auto features = Features::of(std::move(volumes), progress);
   if (!features) return pass_on(features);
   auto samples = samples_of(*features, strokes, progress);
   if (!samples) return pass_on(samples);
-  auto forest = solver::train(*samples, options, progress);
+  auto forest = solver::train(*samples, options.training, progress);
   if (!forest) return pass_on(forest);
-  return std::make_shared<ExamplesSpeed>(std::move(*features), std::move(*forest));
+  return std::make_shared<ExamplesSpeed>(std::move(*features), std::move(*forest), nearness, options);
 }
 
 void ExamplesSpeed::evaluate(const VoxelBox& box, double* speed) const {
@@ -104,6 +106,7 @@ void ExamplesSpeed::evaluate(const VoxelBox& box, double* speed) const {
   ForestEvaluator forest(forest_);
   std::vector<float> features;
   std::vector<double> speeds;
+  std::vector<float> nearness;
   Index3 at;
   for (at.z = 0; at.z < box.size.z; at.z += tile.size.z) {
     for (at.y = 0; at.y < box.size.y; at.y += tile.size.y) {
@@ -113,6 +116,12 @@ void ExamplesSpeed::evaluate(const VoxelBox& box, double* speed) const {
         speeds.resize(static_cast<std::size_t>(part.voxels()));
         features_.evaluate(part, features.data());
         forest.evaluate(features.data(), features_.count(), part.voxels(), speeds.data());
+        nearness.resize(speeds.size());
+        nearness_.evaluate(part, nearness.data());
+        for (std::size_t i = 0; i < speeds.size(); ++i) {
+          const double sum = options_.sharpness * speeds[i] + options_.nearness * nearness[i];
+          speeds[i] = std::clamp(sum, -1.0, 1.0);
+        }
         const double* from = speeds.data();
         for (std::int64_t z = 0; z < part.size.z; ++z) {
           for (std::int64_t y = 0; y < part.size.y; ++y, from += part.size.x) {
@@ -138,7 +147,21 @@ const SpeedKind& examples_kind() {
                       .unit = "",
                       .low = 10,
                       .high = 500,
-                      .initial = 100}},
+                      .initial = 100},
+                     {.name = "sharpness",
+                      .title = "Sharpness",
+                      .text = "How fast the surface moves where the trees are not of one mind.",
+                      .unit = "",
+                      .low = 0.5,
+                      .high = 10,
+                      .initial = ExamplesOptions{}.sharpness},
+                     {.name = "nearness",
+                      .title = "Nearness",
+                      .text = "How much it counts which strokes are nearer, those inside or those outside.",
+                      .unit = "",
+                      .low = 0,
+                      .high = 5,
+                      .initial = ExamplesOptions{}.nearness}},
       .make = make_examples};
   return kind;
 }

@@ -1,16 +1,23 @@
-// D = 2 p - 1, p the probability of "inside" as learned from strokes.
+// D = sharpness (2 p - 1) + nearness n, at most 1: p is the probability of "inside" as learned from strokes,
+// n how much nearer strokes inside are (nearness.h).
 #pragma once
 
 #include <memory>
 
 #include "solver/speed/examples/features.h"
 #include "solver/speed/examples/forest.h"
+#include "solver/speed/examples/forest_training.h"
+#include "solver/speed/examples/nearness.h"
 #include "solver/speed/speed_function.h"
 #include "solver/speed/strokes.h"
 
 namespace tidemark::solver {
 
-struct TrainingOptions;
+struct ExamplesOptions {
+  double sharpness = 2.0;
+  double nearness = 0.5;
+  TrainingOptions training;
+};
 
 class ExamplesSpeed final : public SpeedFunction {
  public:
@@ -18,9 +25,12 @@ class ExamplesSpeed final : public SpeedFunction {
   // leave the grid, or a volume has another size, (ErrorKind::cancelled).
   static Result<std::shared_ptr<const ExamplesSpeed>> train(
       std::vector<std::shared_ptr<const Volume>> volumes, const Strokes& strokes,
-      const TrainingOptions& options, const Progress& progress);
-  ExamplesSpeed(Features features, Forest forest)
-      : features_(std::move(features)), forest_(std::move(forest)) {}
+      const ExamplesOptions& options, const Progress& progress);
+  ExamplesSpeed(Features features, Forest forest, Nearness nearness, const ExamplesOptions& options)
+      : features_(std::move(features)),
+        forest_(std::move(forest)),
+        nearness_(std::move(nearness)),
+        options_(options) {}
 
   void evaluate(const VoxelBox& box, double* speed) const override;
   [[nodiscard]] const Features& features() const { return features_; }
@@ -29,6 +39,8 @@ class ExamplesSpeed final : public SpeedFunction {
  private:
   Features features_;
   Forest forest_;
+  Nearness nearness_;
+  ExamplesOptions options_;
 };
 
 }  // namespace tidemark::solver

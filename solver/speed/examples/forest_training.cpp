@@ -163,7 +163,7 @@ Result<Forest> train(const Samples& samples, const TrainingOptions& options, con
   threads.for_each(options.trees, 1, [&](std::int64_t first, std::int64_t last, int) {
     for (std::int64_t tree = first; tree < last && !progress.cancelled(); ++tree) {
       trees[static_cast<std::size_t>(tree)] =
-          TreeBuilder(samples, options, static_cast<std::uint64_t>(tree) + 1).build();
+          TreeBuilder(samples, options, static_cast<std::uint64_t>(tree) + options.seed * 100'000).build();
     }
   });
   if (progress.cancelled()) return cancelled_error();

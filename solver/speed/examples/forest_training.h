@@ -21,10 +21,11 @@ struct Samples {
 struct TrainingOptions {
   int trees = 100;
   int depth = 12;
-  int smallest_leaf = 3;     // samples
+  int smallest_leaf = 1;     // samples
   int tried_features = 0;    // a node; 0: the root of their number
   int tried_thresholds = 1;  // a feature
-  double doubt = 0.0;        // samples of either class that each leaf is given beforehand
+  std::uint64_t seed = 1;
+  double doubt = 0.0;  // samples of either class that each leaf is given beforehand
 };
 
 // Both classes count alike, however many samples each has. The same samples give the same trees, for any
