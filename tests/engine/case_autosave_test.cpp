@@ -44,7 +44,7 @@ struct Edited {
   QStringList failures;
 };
 
-class Unclosable : public document::OpenChange {
+class Unclosable final : public document::OpenChange {
  public:
   [[nodiscard]] document::ChangeDescription description() const override { return {}; }
   [[nodiscard]] std::int64_t bytes() const override { return 0; }
