@@ -33,7 +33,7 @@ struct LoadedStudy {
   std::vector<std::filesystem::path> dicom_files;   // in slice order: results refer to them; empty: not DICOM
   std::vector<imaging::SliceNumber> slice_numbers;  // of the volume's slices along k; empty: not DICOM
   SourceSummary summary;
-  QString name;  // for titles; never the patient's
+  QString name;                        // for titles; never the patient's
   std::string frame_of_reference_uid;  // empty where it is not known
   imaging::Patient patient;
   std::string date;               // of the study: "2004-07-31"; empty when unknown
