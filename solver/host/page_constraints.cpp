@@ -8,12 +8,9 @@ namespace tidemark::solver {
 bool constrain(const Constraints::Page& constraints, float* phi) {
   bool changed = false;
   for (int i = 0; i < kPageVoxels; ++i) {
-    const Constraint constraint = constraints[static_cast<std::size_t>(i)];
-    float limited = phi[i];
-    if (constraint == Constraint::wall) limited = std::min(limited, -kConstraintDepth);
-    if (constraint == Constraint::anchor) limited = std::max(limited, kConstraintDepth);
-    changed = changed || limited != phi[i];
-    phi[i] = limited;
+    const float held = limited(constraints[static_cast<std::size_t>(i)], phi[i]);
+    changed = changed || held != phi[i];
+    phi[i] = held;
   }
   return changed;
 }

@@ -38,16 +38,7 @@ void ReferenceExecutor::evaluate_speed() {
 }
 
 double ReferenceExecutor::constrained(Index3 voxel, double phi) const {
-  if (constraints_ == nullptr) return phi;
-  switch (constraints_->at(voxel)) {
-    case Constraint::wall:
-      return std::min<double>(phi, -kConstraintDepth);
-    case Constraint::anchor:
-      return std::max<double>(phi, kConstraintDepth);
-    case Constraint::none:
-      break;
-  }
-  return phi;
+  return constraints_ == nullptr ? phi : limited(constraints_->at(voxel), phi);
 }
 
 void ReferenceExecutor::constrain() {

@@ -94,7 +94,7 @@ void constrain(Field& phi, const Constraints& constraints) {
       phi.pages.insert(phi.pages.end(), static_cast<std::size_t>(phi.layout.voxels_per_page()), constant);
     }
     float& value = phi.pages[static_cast<std::size_t>(entry * phi.layout.voxels_per_page() + address.offset)];
-    value = what == Constraint::wall ? std::min(value, -kConstraintDepth) : std::max(value, kConstraintDepth);
+    value = limited(what, value);
   };
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {
     const Constraints::Page* there = constraints.page(page);

@@ -1,6 +1,7 @@
 // Walls and anchors: voxels that the surface may never enclose, and voxels that it always encloses.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -19,6 +20,13 @@ enum class Constraint : std::uint8_t { none = 0, wall = 1, anchor = 2 };
 // phi <= -kConstraintDepth in a wall and phi >= kConstraintDepth in an anchor, in units of the smallest
 // spacing: the surface runs beside the voxel and not through it.
 inline constexpr float kConstraintDepth = 0.5F;
+// phi of a voxel, taken to its limit.
+template <class Real>
+[[nodiscard]] Real limited(Constraint constraint, Real phi) {
+  if (constraint == Constraint::wall) return std::min(phi, -static_cast<Real>(kConstraintDepth));
+  if (constraint == Constraint::anchor) return std::max(phi, static_cast<Real>(kConstraintDepth));
+  return phi;
+}
 
 // Kept by pages of 8^3 voxels: memory follows what is constrained, not the volume.
 class Constraints {
