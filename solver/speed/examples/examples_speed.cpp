@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/thread_pool.h"
+#include "solver/speed/doubt_map.h"
 #include "solver/speed/speed_kinds.h"
 
 namespace tidemark::solver {
@@ -98,7 +99,13 @@ Result<std::shared_ptr<const ExamplesSpeed>> ExamplesSpeed::train(
   return std::make_shared<ExamplesSpeed>(std::move(*features), std::move(*forest), nearness, options);
 }
 
-void ExamplesSpeed::evaluate(const VoxelBox& box, double* speed) const {
+// The forest's own p, without what sharpness and nearness make of it.
+void ExamplesSpeed::evaluate_doubt(const VoxelBox& box, double* doubt) const {
+  evaluate(box, 1.0, 0.0, doubt);
+  std::transform(doubt, doubt + box.voxels(), doubt, [](double d) { return entropy(0.5 * (d + 1.0)); });
+}
+
+void ExamplesSpeed::evaluate(const VoxelBox& box, double sharpness, double nearness, double* speed) const {
   VoxelBox tile;
   tile.size.z = std::min<std::int64_t>(box.size.z, 8);
   tile.size.y = std::min<std::int64_t>(box.size.y, tile.size.z == 8 ? 8 : 16);
@@ -106,7 +113,7 @@ void ExamplesSpeed::evaluate(const VoxelBox& box, double* speed) const {
   ForestEvaluator forest(forest_);
   std::vector<float> features;
   std::vector<double> speeds;
-  std::vector<float> nearness;
+  std::vector<float> near;
   Index3 at;
   for (at.z = 0; at.z < box.size.z; at.z += tile.size.z) {
     for (at.y = 0; at.y < box.size.y; at.y += tile.size.y) {
@@ -116,10 +123,10 @@ void ExamplesSpeed::evaluate(const VoxelBox& box, double* speed) const {
         speeds.resize(static_cast<std::size_t>(part.voxels()));
         features_.evaluate(part, features.data());
         forest.evaluate(features.data(), features_.count(), part.voxels(), speeds.data());
-        nearness.resize(speeds.size());
-        nearness_.evaluate(part, nearness.data());
+        near.resize(speeds.size());
+        nearness_.evaluate(part, near.data());
         for (std::size_t i = 0; i < speeds.size(); ++i) {
-          const double sum = options_.sharpness * speeds[i] + options_.nearness * nearness[i];
+          const double sum = sharpness * speeds[i] + nearness * near[i];
           speeds[i] = std::clamp(sum, -1.0, 1.0);
         }
         const double* from = speeds.data();

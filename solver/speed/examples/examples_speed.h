@@ -32,11 +32,17 @@ class ExamplesSpeed final : public SpeedFunction {
         nearness_(std::move(nearness)),
         options_(options) {}
 
-  void evaluate(const VoxelBox& box, double* speed) const override;
+  void evaluate(const VoxelBox& box, double* speed) const override {
+    evaluate(box, options_.sharpness, options_.nearness, speed);
+  }
+  [[nodiscard]] bool has_doubt() const override { return true; }
+  void evaluate_doubt(const VoxelBox& box, double* doubt) const override;
   [[nodiscard]] const Features& features() const { return features_; }
   [[nodiscard]] const Forest& forest() const { return forest_; }
 
  private:
+  void evaluate(const VoxelBox& box, double sharpness, double nearness, double* speed) const;
+
   Features features_;
   Forest forest_;
   Nearness nearness_;
