@@ -104,18 +104,29 @@ Status ExecutorSetup::set_drive(std::shared_ptr<const Drive> drive, const Progre
 Status ExecutorSetup::set_drive(std::shared_ptr<const Drive> drive,
                                 std::shared_ptr<const solver::SpeedFunction> speed) {
   const auto former = executor_->speed();
-  auto constraints = drive == nullptr ? nullptr : drive->constraints;
   if (speed != former) {
     TIDEMARK_TRY(executor_->set_speed(std::move(speed)));
   }
-  if (constraints != executor_->constraints()) {
-    if (const Status held = executor_->set_constraints(std::move(constraints)); !held) {
-      TIDEMARK_TRY(executor_->set_speed(former));
-      return held;
-    }
+  if (const Status held = hold(drive == nullptr ? nullptr : drive->constraints, limit_); !held) {
+    TIDEMARK_TRY(executor_->set_speed(former));
+    return held;
   }
   drive_ = std::move(drive);
   return {};
+}
+
+Status ExecutorSetup::set_limit(std::shared_ptr<const solver::MotionLimit> limit) {
+  TIDEMARK_TRY(hold(drive_ == nullptr ? nullptr : drive_->constraints, limit));
+  limit_ = std::move(limit);
+  return {};
+}
+
+// The executor gets nothing that it has: phi would count as edited.
+Status ExecutorSetup::hold(std::shared_ptr<const solver::Constraints> marks,
+                           std::shared_ptr<const solver::MotionLimit> limit) {
+  const auto former = drive_ == nullptr ? nullptr : drive_->constraints;
+  if (marks == former && limit == limit_) return {};
+  return executor_->set_constraints(joined(std::move(marks), limit.get()));
 }
 
 // A tent that is joined with other functions is made anew; others do not depend on T and epsilon.
@@ -129,8 +140,16 @@ Status ExecutorSetup::set_parameters(const solver::Parameters& parameters) {
   return executor_->set_speed(std::move(*speed));
 }
 
-Result<solver::Field> ExecutorSetup::begin(const Recipe& recipe, const Progress& progress) {
-  if (!recipe.start.empty()) return tidemark::document::begin(*executor_, *source_, recipe.start, progress);
+Result<solver::Field> ExecutorSetup::begin(const Start& start, const Progress& progress) {
+  const auto former = limit_;
+  TIDEMARK_TRY(set_limit(start.limit()));
+  if (!start.empty()) {
+    auto begun = tidemark::document::begin(*executor_, *source_, start, progress);
+    if (!begun) {
+      TIDEMARK_TRY(set_limit(former));
+    }
+    return begun;
+  }
   solver::Field nothing = solver::Field::empty(source_->geometry, executor_->band());
   TIDEMARK_TRY(executor_->restore(nothing));
   return nothing;

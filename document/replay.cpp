@@ -46,7 +46,7 @@ Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume
   if (recipe.drive != nullptr) {
     TIDEMARK_TRY(setup->set_drive(recipe.drive, progress));
   }
-  auto start = setup->begin(recipe, progress);
+  auto start = setup->begin(recipe.start, progress);
   if (!start) return pass_on(start);
   Replay result;
   result.start = std::move(*start);

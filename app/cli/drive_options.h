@@ -39,7 +39,7 @@ Status check(const DriveOptions& options, bool starts_from_mask);
 // The drive with its files read; null: nothing but the tent. Fails (ErrorKind::input, ErrorKind::usage)
 // naming the file.
 Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& options, const Geometry& grid,
-                                                          const document::Start& start, Console& console);
+                                                          Console& console);
 
 // Gives the images and the map that a recipe names the files of the command line: images by their voxels, or
 // in their order where it has no checksum. Fails (ErrorKind::usage) naming the one that is missing,

@@ -192,7 +192,13 @@ Status Segmentation::evolve() {
   auto start = make_start(options_.start, results_.source->geometry, solver.band(), console_);
   if (!start) return pass_on(start);
   recipe.start = std::move(*start);
-  auto drive = make_drive(options_.drive, results_.source->geometry, recipe.start, console_);
+  if (options_.drive.within_mm) {
+    auto refined =
+        limited(std::get<document::MaskStart>(std::move(recipe.start.from)), *options_.drive.within_mm);
+    if (!refined) return pass_on(refined);
+    recipe.start.from = std::move(*refined);
+  }
+  auto drive = make_drive(options_.drive, results_.source->geometry, console_);
   if (!drive) return pass_on(drive);
   recipe.drive = figures.drive = std::move(*drive);
   if (recipe.drive != nullptr) {
@@ -201,8 +207,9 @@ Status Segmentation::evolve() {
     if (!speed) return pass_on(speed);
     console_.say("Speed      {}", describe(*recipe.drive));
     TIDEMARK_TRY(solver.set_speed(std::move(*speed)));
-    TIDEMARK_TRY(solver.set_constraints(recipe.drive->constraints));
   }
+  TIDEMARK_TRY(solver.set_constraints(
+      document::joined(recipe.drive ? recipe.drive->constraints : nullptr, recipe.start.limit().get())));
   figures.start = recipe.start.describe();
   const auto begun = document::begin(solver, *results_.source, recipe.start, console_.progress());
   if (!begun) return tl::unexpected<Error>(begun.error());
