@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "imaging/filters/filters.h"
+#include "solver/speed/motion_limit.h"
 
 namespace tidemark::document {
 namespace {
@@ -142,7 +143,10 @@ Status ExecutorSetup::set_parameters(const solver::Parameters& parameters) {
 
 Result<solver::Field> ExecutorSetup::begin(const Start& start, const Progress& progress) {
   const auto former = limit_;
-  TIDEMARK_TRY(set_limit(start.limit()));
+  // Of a mask on another grid begin() says so.
+  const auto* from = std::get_if<MaskStart>(&start.from);
+  const bool fits = from == nullptr || from->mask->geometry.size == source_->geometry.size;
+  TIDEMARK_TRY(set_limit(fits ? start.limit() : nullptr));
   if (!start.empty()) {
     auto begun = tidemark::document::begin(*executor_, *source_, start, progress);
     if (!begun) {

@@ -10,6 +10,7 @@
 #include "document/drive_json.h"
 #include "document/field_bytes.h"
 #include "document/packed_bytes.h"
+#include "solver/speed/motion_limit.h"
 
 namespace tidemark::document {
 namespace {
@@ -144,7 +145,7 @@ MaskStart read_mask_start(const JsonField& field) {
   MaskStart start{read_mask(field), field.at("origin").text()};
   if (!field.has("within_mm")) return start;
   const double within_mm = field.at("within_mm").number(std::numeric_limits<double>::min(), kLargestLimit);
-  if (field.good()) start.limit = std::make_shared<const solver::MotionLimit>(*start.mask, within_mm);
+  if (field.good()) start.limit = std::make_shared<const solver::MotionLimit>(start.mask, within_mm);
   return start;
 }
 

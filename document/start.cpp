@@ -6,6 +6,7 @@
 
 #include "imaging/filters/filters.h"
 #include "solver/distance_transform.h"
+#include "solver/speed/motion_limit.h"
 
 namespace tidemark::document {
 namespace {
@@ -124,7 +125,7 @@ Result<MaskStart> limited(MaskStart start, double within_mm) {
   if (!std::isfinite(within_mm) || within_mm <= 0.0) {
     return fail(ErrorKind::usage, "a surface cannot stay within {} mm of a mask", within_mm);
   }
-  start.limit = std::make_shared<const solver::MotionLimit>(*start.mask, within_mm);
+  start.limit = std::make_shared<const solver::MotionLimit>(start.mask, within_mm);
   return start;
 }
 

@@ -8,7 +8,10 @@
 
 #include "core/progress.h"
 #include "solver/executor.h"
-#include "solver/speed/motion_limit.h"
+
+namespace tidemark::solver {
+class MotionLimit;
+}
 
 namespace tidemark::document {
 

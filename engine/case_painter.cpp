@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "solver/gl/packed_view.h"
+#include "solver/speed/motion_limit.h"
 
 namespace tidemark::engine {
 namespace {
@@ -131,9 +132,13 @@ Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>&
     canvas.renderer->set_parameters(level_set.parameters());
     canvas.parameters = level_set.parameters();
   }
-  if (canvas.speed != level_set.executor().speed()) {
-    canvas.speed = level_set.executor().speed();
+  if (canvas.speed != speed_) {
+    canvas.speed = speed_;
     canvas.renderer->set_speed(canvas.speed);
+  }
+  if (const auto limit = level_set.recipe().start.limit(); canvas.limit != limit) {
+    canvas.limit = limit;
+    canvas.renderer->set_change(limit == nullptr ? nullptr : limit->change());
   }
   TIDEMARK_TRY(show_labels(canvas, document.labels()));
   if (canvas.phi != phi_revision_ || (with_pages && canvas.pages != phi_revision_)) {

@@ -34,6 +34,8 @@ class CasePainter {
     ++phi_revision_;
   }
   void look_changed() { ++look_revision_; }
+  // What speed maps show; null: the tent.
+  void set_speed(std::shared_ptr<const solver::SpeedFunction> speed) { speed_ = std::move(speed); }
 
   [[nodiscard]] bool out_of_date(ViewSlot& slot) const;
   // Draws the next picture of a view and announces it. Returns whether a better one can follow. Fails
@@ -62,6 +64,7 @@ class CasePainter {
     std::vector<document::Label> label_list;
     std::optional<solver::Parameters> parameters;
     std::shared_ptr<const solver::SpeedFunction> speed;
+    std::shared_ptr<const solver::MotionLimit> limit;
   };
 
   Result<renderer::Renderer*> renderer_for(const AnyView& view, document::Case& document);
@@ -84,6 +87,7 @@ class CasePainter {
   std::shared_ptr<gpu::Device> device_;
   Canvas shown_;   // the volume as it was loaded
   Canvas solved_;  // the level set's source, where that is another one
+  std::shared_ptr<const solver::SpeedFunction> speed_;
   std::shared_ptr<const solver::Field> phi_;
   std::int64_t phi_revision_ = 0;
   std::uint64_t look_revision_ = 1;

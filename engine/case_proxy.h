@@ -97,7 +97,8 @@ class CaseProxy : public QObject {
   // The surface's inside becomes the label, or a new one; CaseState::acceptance has the outcome.
   void accept_surface(std::uint8_t label, document::Take take = document::Take::free_voxels);
   void accept_surface_as(const QString& name, document::Take take = document::Take::free_voxels);
-  void begin_from_label(std::uint8_t label);
+  // With `within_mm` the label is refined: the surface stays that near to it.
+  void begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt);
 
   // The place that a pixel of a 3D view shows (from its top left, physical pixels); the answer comes later,
   // or never when the case is closed before.

@@ -49,6 +49,7 @@ void CaseRunner::post(Command command) {
 
 void CaseRunner::show() {
   follow_drive();
+  if (auto status = follow_surface(); !status) report_failure(status.error());
   show_pictures();
   post_measurement();
   publish();
@@ -199,6 +200,23 @@ void CaseRunner::take_speed(const SpeedOrigin& origin, SpeedMaker::Made made) {
     set_playing(false);
   }
   show();
+}
+
+// An executor asks for the function of its phi only when it steps; at rest D is to be seen as well.
+Status CaseRunner::follow_surface() {
+  const auto& driving = case_->level_set().executor().speed();
+  if (playing_ || driving == nullptr || !driving->follows_surface()) {
+    shown_speed_ = {driving, nullptr, driving};
+  } else {
+    const auto phi = painter_.phi(*case_);
+    if (!phi) return tl::unexpected<Error>(phi.error());
+    if (shown_speed_.driving == driving && shown_speed_.phi == *phi) return {};
+    auto following = driving->following(**phi);
+    shown_speed_ = {driving, *phi, following != nullptr ? std::move(following) : driving};
+    painter_.look_changed();
+  }
+  painter_.set_speed(shown_speed_.function);
+  return {};
 }
 
 bool CaseRunner::waits_for_speed() const {
@@ -390,7 +408,7 @@ void CaseRunner::publish() {
   state.band = level_set.executor().band();
   state.smoothed_mm = case_->smoothed_mm();
   state.drive = level_set.drive();
-  state.speed = level_set.executor().speed();
+  state.speed = shown_speed_.function;
   state.speed_waits = speed_waits_;
   state.source = level_set.source();
   state.executor = QString::fromUtf8(level_set.executor().name().data(),
@@ -405,6 +423,7 @@ void CaseRunner::publish() {
   state.modified = case_->changed_since_save() || restored_.rescued;
   state.edits = case_->history().edits();
   state.start_text = QString::fromStdString(level_set.recipe().start.describe());
+  state.limit = level_set.recipe().start.limit();
   meter_.report(state);
   {
     const std::lock_guard lock(post_->mutex);

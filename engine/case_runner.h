@@ -88,6 +88,8 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   // Has the function made that belongs to what drives the surface, unless it is there or on its way.
   void follow_drive();
   void take_speed(const SpeedOrigin& origin, SpeedMaker::Made made);
+  // What views show of the speed: at rest that of the present surface.
+  Status follow_surface();
   // While another kind of function is on its way, the surface does not move by the one before.
   [[nodiscard]] bool waits_for_speed() const;
   void post_measurement();
@@ -113,6 +115,12 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   SpeedOrigin speed_made_;                 // of the function that drives the surface
   std::optional<SpeedOrigin> speed_wish_;  // on its way, or cannot be had
   bool speed_waits_ = false;               // the former
+  struct ShownSpeed {
+    std::shared_ptr<const solver::SpeedFunction> driving;  // of the executor
+    std::shared_ptr<const solver::Field> phi;              // that it follows
+    std::shared_ptr<const solver::SpeedFunction> function;
+  };
+  ShownSpeed shown_speed_;
 
   bool playing_ = false;
   bool pause_at_convergence_ = true;

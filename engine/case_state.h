@@ -28,7 +28,7 @@ struct CaseState {
   double time_step = 0.0;
   double band = 2.5;
   document::Drive drive;
-  std::shared_ptr<const solver::SpeedFunction> speed;  // that drives it now; null: the tent
+  std::shared_ptr<const solver::SpeedFunction> speed;  // that drives it now, or will; null: the tent
   bool speed_waits = false;                            // another one is being made
   double smoothed_mm = 0.0;
   std::shared_ptr<const Volume> source;  // as the level set sees it: smoothed by that much
@@ -47,9 +47,10 @@ struct CaseState {
   std::optional<document::Acceptance> acceptance;                 // while it is the last change
   QString undo_text;                                              // which change undo takes back; empty: none
   QString redo_text;
-  std::uint64_t edits = 0;  // how much was done: grows with each edit
-  bool modified = false;    // something would be lost
-  QString start_text;       // how it began
+  std::uint64_t edits = 0;                           // how much was done: grows with each edit
+  bool modified = false;                             // something would be lost
+  QString start_text;                                // how it began
+  std::shared_ptr<const solver::MotionLimit> limit;  // of a mask that is refined; null: none
 };
 
 }  // namespace tidemark::engine

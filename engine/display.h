@@ -47,6 +47,7 @@ struct DisplaySettings {
   double label_opacity = 0.4;
   bool crosshair = true;
   bool marks = true;                                           // strokes, walls and anchors
+  bool change = true;                                          // of a mask that is refined
   bool truth = false;                                          // the outline of a phantom's known answer
   renderer::SpeedTerm speed_term = renderer::SpeedTerm::data;  // of the speed map
   bool radiological = true;        // the patient's right on the left of the screen

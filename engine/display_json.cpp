@@ -51,6 +51,7 @@ Json slices_json(const DisplaySettings& s) {
           {"crosshair", s.crosshair},
           {"truth", s.truth},
           {"marks", s.marks},
+          {"change", s.change},
           {"speed_term", static_cast<int>(s.speed_term)},
           {"radiological", s.radiological},
           {"patient_text", s.patient_text}};
@@ -71,7 +72,8 @@ void read_slices(const JsonField& field, DisplaySettings& s) {
   read(field, "crosshair", s.crosshair);
   read(field, "truth", s.truth);
   read(field, "marks", s.marks);
-  read_enum(field, "speed_term", 4, s.speed_term);
+  read(field, "change", s.change);
+  read_enum(field, "speed_term", 5, s.speed_term);
   read(field, "radiological", s.radiological);
   read(field, "patient_text", s.patient_text);
 }

@@ -48,7 +48,10 @@ gpu::Defines variant_of(const SliceView& view, bool source_by_plane) {
   if (source_by_plane) variant.emplace_back("SOURCE_PLANE", "");
   if (view.content == SliceContent::pages) variant.emplace_back("PAGES", "");
   if (view.content == SliceContent::speed) {
-    variant.emplace_back(view.term == SpeedTerm::data ? "DATA_SPEED" : "SPEED", "");
+    variant.emplace_back(view.term == SpeedTerm::data    ? "DATA_SPEED"
+                         : view.term == SpeedTerm::doubt ? "DOUBT"
+                                                         : "SPEED",
+                         "");
   }
   return variant;
 }
@@ -60,7 +63,7 @@ Renderer::Renderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Vo
       source_(std::move(source)),
       constants_(constants_of(source_, solver::Parameters())),
       tent_(solver::tent_of(solver::Parameters())),
-      speed_picture_(source_->geometry.size) {}
+      maps_(source_->geometry.size) {}
 
 Result<std::unique_ptr<Renderer>> Renderer::create(std::shared_ptr<gpu::Device> device,
                                                    std::shared_ptr<const Volume> source,
@@ -179,15 +182,16 @@ Result<const gpu::Program*> Renderer::find_program(const char* fragment, const g
   return &found->second.program;
 }
 
-Result<const gpu::Program*> Renderer::use_program(const char* fragment, const gpu::Defines& variant) {
+Result<const gpu::Program*> Renderer::use_program(const char* fragment, const gpu::Defines& variant,
+                                                  const SpeedPicture* evaluated) {
   const auto found = find_program(fragment, variant);
   if (!found) return found;
   const gpu::Program& program = **found;
   slots_.clear();
   program.use();
   solver::set_step_uniforms(program, constants_);
-  solver::set_tent_uniforms(program, speed_picture_.tent() != nullptr ? *speed_picture_.tent() : tent_);
-  speed_picture_.set_uniforms(program, kSpeedUnit);
+  solver::set_tent_uniforms(program, maps_.tent() != nullptr ? *maps_.tent() : tent_);
+  if (evaluated != nullptr) evaluated->set_uniforms(program, kSpeedUnit);
   phi_.set_uniforms(program, kPhiUnit);  // after the step's: the band is that of the phi shown
   source_picture_.set_uniforms(program, kSourceUnit);
   labels_.set_uniforms(program, kLabelUnits);
@@ -202,15 +206,11 @@ VolumeView Renderer::resolved(const VolumeView& asked) {
     if (!common_range_) common_range_ = source_->common_range();
     view.source = view.source->for_range(common_range_->first, common_range_->second);
   }
+  if (view.change && view.colouring == SurfaceColouring::plain && maps_.has_change())
+    view.colouring = SurfaceColouring::change;
   if (view.colouring != SurfaceColouring::plain)
     view.lighting.specular = 0.0;  // white would hide the colours
   return view;
-}
-
-// From D, in 3D.
-bool Renderer::shows_speed(const VolumeView& view) const {
-  return speed_picture_.is_evaluated() &&
-         (view.colouring == SurfaceColouring::data || view.colouring == SurfaceColouring::total_speed);
 }
 
 bool Renderer::shows_labels(const VolumeView& view) const {
@@ -236,13 +236,15 @@ Result<const gpu::Program*> Renderer::use_volume_program(const char* fragment, c
   with(view.lighting.occlusion > 0.0, "OCCLUSION");
   with(source && view.quality.fast_gradient, "FAST_GRADIENT");
   with(!view.quality.skip_empty, "NO_SKIP");
-  if (shows_speed(view)) {
-    TIDEMARK_TRY(speed_picture_.fill_pages(*device_, phi_.layout().layout(), phi_.page_entries()));
-    for (const auto& define : speed_picture_.defines()) variant.push_back(define);
+  with(view.colouring == SurfaceColouring::change, "CHANGE");
+  SpeedPicture* map = maps_.of(view);
+  if (map != nullptr) {
+    TIDEMARK_TRY(map->fill_pages(*device_, phi_.layout().layout(), phi_.page_entries()));
+    for (const auto& define : map->defines()) variant.push_back(define);
   }
   const gpu::Defines shading = shading_defines(view);
   variant.insert(variant.end(), shading.begin(), shading.end());
-  const auto used = use_program(fragment, variant);
+  const auto used = use_program(fragment, variant, map);
   if (!used) return used;
   const gpu::Program& program = **used;
   const Geometry& geometry = source_->geometry;
@@ -320,14 +322,16 @@ Status Renderer::draw_on(Canvas& canvas, const SliceView& view, const Progress& 
   const glm::dmat4 voxel_from_view = slice_from_view(source_->geometry, view.orientation, view.position_mm,
                                                      view.zoom, view.pan_mm, size.aspect());
   gpu::Defines variant = variant_of(view, by_plane);
-  if (view.content == SliceContent::speed) {
-    TIDEMARK_TRY(speed_picture_.fill_plane(*device_, voxel_from_view));
-    for (const auto& define : speed_picture_.defines()) variant.push_back(define);
+  SpeedPicture* map = maps_.of(view);
+  if (map != nullptr) {
+    TIDEMARK_TRY(map->fill_plane(*device_, voxel_from_view));
+    for (const auto& define : map->defines()) variant.push_back(define);
+    if (view.content == SliceContent::source) variant.emplace_back("CHANGE", "");
   }
   if (constraints_) {
     for (const auto& define : constraints_->defines()) variant.push_back(define);
   }
-  auto program = use_program("render/slice.frag", variant);
+  auto program = use_program("render/slice.frag", variant, map);
   if (!program) return pass_on(program);
   const gpu::Program& slice = **program;
   if (constraints_) constraints_->set_uniforms(slice, kConstraintUnit);

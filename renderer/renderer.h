@@ -12,11 +12,11 @@
 #include "gpu/device.h"
 #include "gpu/sampler_slots.h"
 #include "renderer/canvas.h"
+#include "renderer/evaluated_maps.h"
 #include "renderer/label_picture.h"
 #include "renderer/phi_picture.h"
 #include "renderer/slice_caster.h"
 #include "renderer/source_picture.h"
-#include "renderer/speed_picture.h"
 #include "renderer/views.h"
 #include "solver/gl/constraint_texture.h"
 #include "solver/model.h"
@@ -54,8 +54,11 @@ class Renderer {
   void set_parameters(const solver::Parameters& parameters);
   // What drives the surface, for the speed map and its colours; null: the tent of the parameters. D is
   // evaluated where pictures show it.
-  void set_speed(std::shared_ptr<const solver::SpeedFunction> speed) {
-    speed_picture_.set_function(std::move(speed));
+  void set_speed(std::shared_ptr<const solver::SpeedFunction> speed) { maps_.set_speed(std::move(speed)); }
+  // How far the surface has moved since it began, from -1 to 1 (solver::MotionLimit::change()); null: nobody
+  // knows.
+  void set_change(std::shared_ptr<const solver::SpeedFunction> change) {
+    maps_.set_change(std::move(change));
   }
   // Walls and anchors, which slices show; null: none. Fails (ErrorKind::usage) when they are on another grid,
   // (ErrorKind::capability) when memory is short.
@@ -88,12 +91,13 @@ class Renderer {
   Renderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source);
   // An existing program, or a new one. Beyond a limit, the one unused for longest is deleted.
   Result<const gpu::Program*> find_program(const char* fragment, const gpu::Defines& variant);
-  // A program with the uniforms that all programs have; the view's own are not set.
-  Result<const gpu::Program*> use_program(const char* fragment, const gpu::Defines& variant);
+  // A program with the uniforms that all programs have; the view's own are not set. `evaluated`: of the map
+  // that it reads.
+  Result<const gpu::Program*> use_program(const char* fragment, const gpu::Defines& variant,
+                                          const SpeedPicture* evaluated = nullptr);
   Result<const gpu::Program*> use_volume_program(const char* fragment, const VolumeView& view,
                                                  PictureSize size, gpu::Defines variant);
   [[nodiscard]] VolumeView resolved(const VolumeView& asked);
-  [[nodiscard]] bool shows_speed(const VolumeView& view) const;
   [[nodiscard]] bool shows_labels(const VolumeView& view) const;
   template <class View>
   Result<Picture> draw_and_read(const View& view, PictureSize size, const Progress& progress);
@@ -109,7 +113,7 @@ class Renderer {
   SourcePicture source_picture_;
   PhiPicture phi_;
   LabelPicture labels_;
-  SpeedPicture speed_picture_;
+  EvaluatedMaps maps_;
   std::optional<solver::ConstraintTexture> constraints_;
   struct Made {
     gpu::Program program;

@@ -38,8 +38,10 @@ struct Lighting {
 
 // Numbered as in resources/shaders/render.
 enum class Region { everywhere, inside, outside, tinted };  // tinted: everywhere, with the inside coloured
-enum class SpeedTerm { total, data, curvature, rescaling };
-enum class SurfaceColouring { plain, total_speed, data, curvature_term, rescaling, curvature, pages };
+// doubt: the entropy of the probability that a learned D comes from.
+enum class SpeedTerm { total, data, curvature, rescaling, doubt };
+// change: as VolumeView::change says; nobody asks for it by name.
+enum class SurfaceColouring { plain, total_speed, data, curvature_term, rescaling, curvature, pages, change };
 enum class SliceContent { source, speed, pages };
 
 // The quality of a volume rendering.
@@ -66,6 +68,7 @@ struct VolumeView {
   bool surface = true;
   glm::vec4 surface_colour{0.93F, 0.72F, 0.45F, 1.0F};  // and opacity, unless `source` colours it
   SurfaceColouring colouring = SurfaceColouring::plain;
+  bool change = false;  // a plain surface shows how far it has moved since it began from a mask
   Region region = Region::everywhere;  // where the source shows
   double label_opacity = 0.0;          // of the labels' borders
   std::optional<ClipPlane> clip;
@@ -87,6 +90,7 @@ struct SliceView {
   WindowLevel window;
   bool nearest = false;  // voxels as squares
   bool surface = true;
+  bool change = false;  // what the surface has won and lost since it began from a mask
   double line_pixels = 2.0;
   double label_opacity = 0.4;
   glm::vec3 background{0.0F};

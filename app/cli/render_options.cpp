@@ -32,8 +32,8 @@ const Words<renderer::SurfaceColouring> kColourings{
     {"total", renderer::SurfaceColouring::total_speed},
     {"curvature", renderer::SurfaceColouring::curvature},
     {"pages", renderer::SurfaceColouring::pages}};
-const Words<int> kViews{{"3d", 0},      {"axial", 1}, {"coronal", 2}, {"sagittal", 3},
-                        {"oblique", 4}, {"speed", 5}, {"pages", 6},   {"sheet", 7}};
+const Words<int> kViews{{"3d", 0},    {"axial", 1}, {"coronal", 2}, {"sagittal", 3}, {"oblique", 4},
+                        {"speed", 5}, {"doubt", 8}, {"pages", 6},   {"sheet", 7}};
 const Words<renderer::Mode> kModes{{"raycast", renderer::Mode::raycast}, {"slices", renderer::Mode::slices}};
 const Words<int> kClipped{{"both", 0}, {"source", 1}, {"surface", 2}};
 
@@ -154,6 +154,10 @@ Result<renderer::SliceView> slice_view(const RenderOptions& options) {
   const auto term = meaning("--term", options.term, kTerms);
   if (!term) return tl::unexpected<Error>(term.error());
   view.term = *term;
+  if (options.view == "doubt") {
+    view.content = renderer::SliceContent::speed;
+    view.term = renderer::SpeedTerm::doubt;
+  }
   view.nearest = options.nearest;
   return view;
 }
@@ -184,6 +188,9 @@ Status check(const RenderOptions& options) {
     return fail(ErrorKind::usage, "--target and --range belong together");
   }
   TIDEMARK_TRY(check(options.drive, false));
+  if (options.view == "doubt" && !options.drive.examples) {
+    return fail(ErrorKind::usage, "--view doubt needs --speed examples");
+  }
   if ((options.region == "inside" || options.region == "outside") && !has_surface(options)) {
     return fail(ErrorKind::usage, "--roi {} needs --mask or --phi", options.region);
   }

@@ -82,13 +82,16 @@ class ChangeMap final : public SpeedFunction {
 
 }  // namespace
 
-MotionLimit::MotionLimit(const Mask& mask, double within_mm) : within_mm_(within_mm) {
-  const glm::dvec3& spacing = mask.geometry.spacing_mm;
-  const double within = within_mm / std::min({spacing.x, spacing.y, spacing.z});
-  // Beyond the limit and what is written of it, nothing needs to be known.
-  Field distance = distance_transform(mask, within + 2.0 * static_cast<double>(kLimitReach));
-  constraints_ = constraints_of(distance, within);
-  change_ = std::make_shared<ChangeMap>(std::move(distance), within);
+const MotionLimit::Made& MotionLimit::made() const {
+  std::call_once(once_, [this] {
+    const glm::dvec3& spacing = mask_->geometry.spacing_mm;
+    const double within = within_mm_ / std::min({spacing.x, spacing.y, spacing.z});
+    // Beyond the limit and what is written of it, nothing needs to be known.
+    Field distance = distance_transform(*mask_, within + 2.0 * static_cast<double>(kLimitReach));
+    made_.constraints = constraints_of(distance, within);
+    made_.change = std::make_shared<ChangeMap>(std::move(distance), within);
+  });
+  return made_;
 }
 
 }  // namespace tidemark::solver

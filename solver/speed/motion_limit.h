@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
+#include <utility>
 
 #include "core/volume.h"
 #include "solver/field.h"
@@ -17,20 +19,29 @@ namespace tidemark::solver {
 // next one.
 class MotionLimit {
  public:
-  // `within_mm` > 0.
-  MotionLimit(const Mask& mask, double within_mm);
+  // `within_mm` > 0. What follows from it is made when somebody first asks: a start that is only read costs
+  // nothing. All methods may be called from several threads at once.
+  MotionLimit(std::shared_ptr<const Mask> mask, double within_mm)
+      : mask_(std::move(mask)), within_mm_(within_mm) {}
 
   [[nodiscard]] double within_mm() const { return within_mm_; }
   // What holds the surface in an executor.
-  [[nodiscard]] const std::shared_ptr<const Constraints>& constraints() const { return constraints_; }
+  [[nodiscard]] const std::shared_ptr<const Constraints>& constraints() const { return made().constraints; }
   // As a map for views: how far outside of the mask's surface a voxel lies, over the limit, from -1 to 1.
   // Where a surface is, that is how far it has moved.
-  [[nodiscard]] const std::shared_ptr<const SpeedFunction>& change() const { return change_; }
+  [[nodiscard]] const std::shared_ptr<const SpeedFunction>& change() const { return made().change; }
 
  private:
+  struct Made {
+    std::shared_ptr<const Constraints> constraints;
+    std::shared_ptr<const SpeedFunction> change;
+  };
+  [[nodiscard]] const Made& made() const;
+
+  std::shared_ptr<const Mask> mask_;
   double within_mm_;
-  std::shared_ptr<const Constraints> constraints_;
-  std::shared_ptr<const SpeedFunction> change_;
+  mutable std::once_flag once_;
+  mutable Made made_;
 };
 
 }  // namespace tidemark::solver

@@ -25,6 +25,7 @@ class CliSpeedTest : public QObject {
   void a_second_image_counts_and_a_replay_needs_it();
   void a_recipe_of_a_tent_is_of_version_1();
   void pictures_show_the_function();
+  void doubt_is_a_picture_of_its_own();
 
  private:
   [[nodiscard]] QString file(const std::string& name) const { return text(files_ / name); }
@@ -219,6 +220,21 @@ void CliSpeedTest::pictures_show_the_function() {
     QVERIFY2(!pictures[i].isEmpty(), qPrintable(QString::number(i)));
     QVERIFY2(pictures.indexOf(pictures[i]) == i, qPrintable(QString::number(i)));
   }
+}
+
+void CliSpeedTest::doubt_is_a_picture_of_its_own() {
+  const auto picture = [&](const QStringList& more) {
+    must_run(QStringList{"render", file("textures.nii.gz"), "--size", "120x120", "--speed", "examples",
+                         "--examples", file("labels.nii.gz"), "--out", file("picture.png")} +
+             more);
+    return bytes_of(files_ / "picture.png");
+  };
+  const QByteArray doubt = picture({"--view", "doubt"});
+  QVERIFY(doubt != picture({"--view", "speed"}));
+  // What they make of the probability for the surface hides none of it.
+  const QStringList other{"--speed-value", "examples.sharpness=6", "--speed-value", "examples.nearness=2"};
+  QCOMPARE(picture(QStringList{"--view", "doubt"} + other), doubt);
+  QVERIFY(picture(QStringList{"--view", "doubt", "--speed-value", "examples.trees=11"}) != doubt);
 }
 
 TIDEMARK_TEST(CliSpeedTest)

@@ -145,6 +145,7 @@ void CliUsageTest::wrong_usage_ends_with_2_and_one_line_data() {
   QTest::newRow("render from nowhere") << render({"--preset", "ct-bone", "--camera", "1"});
   QTest::newRow("render a plane without normal") << render({"--preset", "ct-bone", "--clip", "0,0,0,1"});
   QTest::newRow("render a speed map without T") << render({"--view", "speed"});
+  QTest::newRow("render the doubt of no examples") << render({"--view", "doubt", "--speed", "edges"});
   QTest::newRow("render the total speed without T") << render({"--mask", volume_, "--colour", "total"});
   QTest::newRow("render an oblique slice without normal") << render({"--view", "oblique"});
   QTest::newRow("render with a colour of no name") << render({"--mask", volume_, "--colour", "red"});

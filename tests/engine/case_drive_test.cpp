@@ -52,6 +52,36 @@ class CaseDriveTest : public QObject {
     QVERIFY(failures_.isEmpty());
   }
 
+  void a_function_that_follows_the_surface_is_seen_before_the_first_step() {
+    const glm::dvec3 middle = renderer::middle_of(proxy_->volume().geometry);
+    const auto speed_at = [&](glm::dvec3 place_mm) {
+      double speed = 0.0;
+      const Index3 voxel(glm::round(proxy_->volume().geometry.to_voxel(place_mm)));
+      if (proxy_->state().speed) proxy_->state().speed->evaluate({voxel, Index3(1)}, &speed);
+      return speed;
+    };
+    document::Drive drive = proxy_->drive();
+    drive.setting.terms = {{"regions", {}}};
+    proxy_->set_drive(drive);
+    QTRY_VERIFY(proxy_->state().speed && !proxy_->state().speed_waits);
+    QCOMPARE(speed_at(middle), 0.0);  // there is no surface to follow
+    document::Start start;
+    start.seeds.push_back({middle, 6.0});
+    proxy_->begin(start);
+    QTRY_VERIFY(speed_at(middle) > 0.5);
+    QVERIFY(speed_at(middle + glm::dvec3(1.8 * kBallRadius, 0.0, 0.0)) < -0.5);
+    QCOMPARE(proxy_->state().step, std::int64_t{0});
+    // Paint moves the means, before a step does.
+    const double before = speed_at(middle);
+    proxy_->paint({middle + glm::dvec3(1.2 * kBallRadius, 0.0, 0.0), 8.0}, solver::Brush::add, 7);
+    QTRY_VERIFY(speed_at(middle) != before);
+    QCOMPARE(proxy_->state().step, std::int64_t{0});
+    proxy_->step(1);
+    QTRY_COMPARE(proxy_->state().step, std::int64_t{1});
+    QVERIFY(speed_at(middle) > 0.5);
+    QVERIFY(failures_.isEmpty());
+  }
+
   void one_that_cannot_be_made_is_told_of_and_the_surface_waits() {
     document::Start start;
     start.seeds.push_back({renderer::middle_of(proxy_->volume().geometry), 4.0});

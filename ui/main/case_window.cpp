@@ -15,6 +15,7 @@
 #include "ui/main/view_menu.h"
 #include "ui/settings.h"
 #include "ui/views/slice_view.h"
+#include "ui/views/speed_map_choice.h"
 #include "ui/views/view_bar.h"
 #include "ui/views/volume_view.h"
 
@@ -157,6 +158,7 @@ QDockWidget* CaseWindow::make_dock(ViewKind kind, int number) {
   dock->setProperty(kKind, static_cast<int>(kind));
   dock->setWidget(view);
   auto* bar = new ViewBar(*proxy_, view->title(), {actions_.play, actions_.step}, actions_.tools->actions());
+  if (kind == ViewKind::speed) bar->add_choice(new SpeedMapChoice(*proxy_));
   dock->setTitleBarWidget(bar);
   connect(bar, &ViewBar::close_wanted, dock, &QDockWidget::close);
   connect(bar, &ViewBar::float_wanted, dock, [dock] { dock->setFloating(!dock->isFloating()); });

@@ -3,21 +3,25 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "solver/speed/doubt_map.h"
 #include "solver/voxel_values.h"
 #include "ui/panels/value_unit.h"
 #include "ui/widgets/number_text.h"
 
 namespace tidemark::ui {
 
-ValueBar::ValueBar(QWidget* parent) : QLabel(parent), speed_(new engine::SpeedSampler(this)) {
+ValueBar::ValueBar(QWidget* parent)
+    : QLabel(parent), speed_(new engine::SpeedSampler(this)), doubt_(new engine::SpeedSampler(this)) {
   connect(speed_, &engine::SpeedSampler::answered, this, &ValueBar::follow);
+  connect(doubt_, &engine::SpeedSampler::answered, this, &ValueBar::follow);
   setAccessibleName(tr("Values under the mouse"));
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   setIndent(6);
   setToolTip(
       tr("Under the mouse: the brightness I, the voxel and its place in mm (LPS),\n"
          "and the value of each further image that is shown.\n"
-         "In detail: the data term D (above 0 the surface grows here), φ (positive inside the surface),\n"
+         "In detail: the data term D (above 0 the surface grows here), its doubt in bits, φ (positive inside "
+         "the surface),\n"
          "and near the surface its curvature κ and the slope of φ."));
 }
 
@@ -83,9 +87,21 @@ QString ValueBar::value_of(const document::CaseImage& image, glm::dvec3 place_mm
   return tr("   %1 %2%3").arg(name, QString::number(*value + 0.0, 'g', 4), unit);
 }
 
-QString ValueBar::details_at(Index3 voxel) const {
+QString ValueBar::doubt_at(Index3 voxel) {
+  if (proxy_->state().speed != doubted_) {
+    doubted_ = proxy_->state().speed;
+    doubt_map_ = solver::doubt_map(doubted_);
+  }
+  if (!doubt_map_) return {};
+  doubt_->ask({doubt_map_, voxel, Index3(1)});
+  return tr("   doubt %1")
+      .arg(doubt_->answer() ? QString::number(rounded(doubt_->answer()->front(), 2), 'f', 2)
+                            : QStringLiteral("…"));
+}
+
+QString ValueBar::details_at(Index3 voxel) {
   const engine::CaseState& state = proxy_->state();
-  QString values = tr("   D %1").arg(speed_at(voxel));
+  QString values = tr("   D %1").arg(speed_at(voxel)) + doubt_at(voxel);
   if (!state.phi || !state.begun) return values;
   const solver::VoxelValues at = solver::values_at(*state.phi, voxel);
   values += tr("   φ %1").arg(rounded(at.phi, 2), 0, 'f', 2);

@@ -19,11 +19,16 @@ class ValueBar : public QLabel {
  private:
   void follow();
   [[nodiscard]] static QString value_of(const document::CaseImage& image, glm::dvec3 place_mm);
-  [[nodiscard]] QString details_at(Index3 voxel) const;
+  [[nodiscard]] QString details_at(Index3 voxel);
   [[nodiscard]] QString speed_at(Index3 voxel) const;
+  // Of a speed function that has a doubt, else empty.
+  [[nodiscard]] QString doubt_at(Index3 voxel);
 
   QPointer<engine::CaseProxy> proxy_;
   engine::SpeedSampler* speed_;
+  engine::SpeedSampler* doubt_;
+  std::shared_ptr<const solver::SpeedFunction> doubted_;    // the function,
+  std::shared_ptr<const solver::SpeedFunction> doubt_map_;  // and its doubt
   bool detailed_ = false;
 };
 

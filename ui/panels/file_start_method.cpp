@@ -10,7 +10,9 @@
 #include "engine/background_job.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/panels/refine_choice.h"
 #include "ui/widgets/form.h"
+#include "ui/widgets/number_text.h"
 
 namespace tidemark::ui {
 
@@ -36,6 +38,10 @@ FileStartMethod::FileStartMethod(StartFile kind, QWidget* parent) : StartMethod(
   form.wide(row);
   connect(browse, &QToolButton::clicked, this, &FileStartMethod::choose);
   connect(path_, &QLineEdit::textChanged, this, &StartMethod::changed);
+  if (kind != StartFile::mask) return;
+  refine_ = new RefineChoice;
+  form.wide(refine_);
+  connect(refine_, &RefineChoice::changed, this, &StartMethod::changed);
 }
 
 FileStartMethod::~FileStartMethod() {
@@ -50,6 +56,10 @@ QString FileStartMethod::sentence() const {
   if (reading_) return tr("Reading the file …");
   const QString name = QFileInfo(path_->text()).fileName();
   if (name.isEmpty()) return tr("Choose a file first.");
+  if (const auto within_mm = refine_ ? refine_->within_mm() : std::nullopt) {
+    return tr("Refines the mask in %1: the surface stays within %2 of it.")
+        .arg(name, number_text(*within_mm, 1, tr("mm")));
+  }
   return kind_ == StartFile::mask ? tr("Places the surface around the mask in %1.").arg(name)
                                   : tr("Goes on with the level set in %1.").arg(name);
 }
@@ -75,14 +85,14 @@ void FileStartMethod::choose() {
 void FileStartMethod::start() {
   const QPointer<engine::CaseProxy> wanted(proxy());
   const std::filesystem::path path(path_->text().toStdU16String());
-  reading_ =
-      engine::BackgroundJob::start(this, [this, wanted, kind = kind_, path, grid = proxy()->volume().geometry,
-                                          band = proxy()->state().band](engine::BackgroundJob& job) {
-        const auto start = std::make_shared<Result<document::Start>>(without_exceptions([&] {
-          return load_start(kind, path, grid, band, {nullptr, job.stop()});
-        }));
-        job.deliver([this, wanted, start] { take(*start, wanted); });
-      });
+  StartRequest request{kind_, path, proxy()->volume().geometry, proxy()->state().band, std::nullopt};
+  if (refine_) request.within_mm = refine_->within_mm();
+  reading_ = engine::BackgroundJob::start(this, [this, wanted, request](engine::BackgroundJob& job) {
+    const auto start = std::make_shared<Result<document::Start>>(without_exceptions([&] {
+      return load_start(request, {nullptr, job.stop()});
+    }));
+    job.deliver([this, wanted, start] { take(*start, wanted); });
+  });
   emit changed();
 }
 

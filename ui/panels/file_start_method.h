@@ -14,6 +14,8 @@ class BackgroundJob;
 
 namespace tidemark::ui {
 
+class RefineChoice;
+
 class FileStartMethod : public StartMethod {
   Q_OBJECT
  public:
@@ -34,6 +36,7 @@ class FileStartMethod : public StartMethod {
 
   StartFile kind_;
   QLineEdit* path_;
+  RefineChoice* refine_ = nullptr;  // of a mask
   std::shared_ptr<engine::BackgroundJob> reading_;
 };
 

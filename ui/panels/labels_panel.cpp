@@ -13,6 +13,7 @@
 #include "ui/look/theme.h"
 #include "ui/panels/labels_model.h"
 #include "ui/panels/meaning_picker.h"
+#include "ui/panels/refine_choice.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
@@ -126,6 +127,15 @@ QWidget* LabelsPanel::make_actions() {
   connect(begin_, &QPushButton::clicked, this, [this] {
     if (proxy() && chosen()) proxy()->begin_from_label(chosen()->id);
   });
+  refine_ = new QPushButton(tr("Refine label"));
+  refine_->setToolTip(
+      tr("The surface begins around the chosen label and stays near to it. Colours show what has changed."));
+  form.wide(refine_);
+  within_ = RefineChoice::make_number();
+  form.row(tr("Stay within"), within_, tr("How far a refined label's surface may move, to both sides."));
+  connect(refine_, &QPushButton::clicked, this, [this] {
+    if (proxy() && chosen()) proxy()->begin_from_label(chosen()->id, within_->value());
+  });
   opacity_ = form.slider(tr("Opacity"), tr("Of all labels, in slices."));
   opacity_->set_decimals(0);
   opacity_->set_range(0.0, 100.0);
@@ -228,6 +238,7 @@ void LabelsPanel::show_buttons() {
                       : !label ? tr("The surface's inside becomes a new label.")
                                : tr("The surface's inside becomes the chosen label."));
   begin_->setEnabled(label != nullptr);
+  refine_->setEnabled(label != nullptr);
 }
 
 }  // namespace tidemark::ui

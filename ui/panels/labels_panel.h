@@ -45,6 +45,8 @@ class LabelsPanel : public Panel {
   QCheckBox* take_all_;
   QLabel* accepted_;  // the outcome of the last acceptance
   QPushButton* begin_;
+  QPushButton* refine_;
+  SliderNumber* within_;
   SliderNumber* opacity_;
   bool choose_new_ = false;  // a label was added here: it becomes the chosen one
 };

@@ -1,5 +1,6 @@
 #include "ui/panels/level_set_panel.h"
 
+#include "ui/panels/change_controls.h"
 #include "ui/panels/evolution_figures.h"
 #include "ui/panels/example_controls.h"
 #include "ui/panels/function_controls.h"
@@ -11,6 +12,7 @@ namespace tidemark::ui {
 LevelSetPanel::LevelSetPanel(QWidget* parent)
     : Panel(tr("Open a study to steer a level set in it."), parent), evolution_(new EvolutionControls) {
   add(evolution_);
+  add(new ChangeControls);
   add(new FunctionControls);
   add(new ExampleControls);
   add(new SpeedControls);

@@ -28,11 +28,13 @@ void SliceControls::add_picture(Form& form) {
   connect(side_, &QComboBox::activated, this, [this](int index) {
     change_display([=](engine::DisplaySettings& settings) { settings.radiological = index == 0; });
   });
-  term_ = form.choice(tr("Speed map"), tr("Which part of the speed the map shows."));
+  term_ = form.choice(tr("Speed map"),
+                      tr("Which part of the speed the map shows, or how much the examples leave in doubt."));
   term_->addItem(tr("Total"), static_cast<int>(renderer::SpeedTerm::total));
   term_->addItem(tr("Data"), static_cast<int>(renderer::SpeedTerm::data));
   term_->addItem(tr("Curvature"), static_cast<int>(renderer::SpeedTerm::curvature));
   term_->addItem(tr("Rescaling"), static_cast<int>(renderer::SpeedTerm::rescaling));
+  term_->addItem(tr("Doubt"), static_cast<int>(renderer::SpeedTerm::doubt));
   connect(term_, &QComboBox::activated, this, [this] {
     const auto term = static_cast<renderer::SpeedTerm>(term_->currentData().toInt());
     change_display([=](engine::DisplaySettings& settings) { settings.speed_term = term; });

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ui/look/theme.h"
+#include "ui/panels/joint_plot.h"
 #include "ui/panels/speed_histogram.h"
 #include "ui/panels/speed_plot.h"
 #include "ui/panels/value_unit.h"
@@ -24,7 +25,10 @@ SpeedControls::SpeedControls(QWidget* parent) : CaseWidget(parent) {
   form.wide(tent_);
   certainty_ = new SpeedHistogram;
   form.wide(certainty_);
+  joint_ = new JointPlot;
+  form.wide(joint_);
   form_->setRowVisible(certainty_, false);
+  form_->setRowVisible(joint_, false);
   connect(tent_, &SpeedPlot::edited, this, [this](double target, double range, std::uint64_t gesture) {
     change(
         [=](solver::Parameters& parameters) {
@@ -62,6 +66,7 @@ void SpeedControls::add_numbers(Form& form) {
 
 void SpeedControls::attach() {
   certainty_->set_proxy(proxy());
+  joint_->set_proxy(proxy());
   if (!proxy()) return;
   const engine::SourceSummary& summary = proxy()->summary();
   const QString unit = value_unit(proxy()->volume());
@@ -90,6 +95,9 @@ void SpeedControls::refresh() {
        {static_cast<QWidget*>(tent_), static_cast<QWidget*>(target_), static_cast<QWidget*>(range_)})
     form_->setRowVisible(of_tent, has_tent);
   form_->setRowVisible(certainty_, !proxy()->drive().setting.is_tent());
+  // What learns sees all images; the others see one.
+  form_->setRowVisible(joint_,
+                       is_driven_by(proxy()->drive(), "examples") && JointPlot::fits(proxy()->drive()));
   tent_->set_tent(parameters.target, parameters.range);
   target_->set_value(parameters.target);
   range_->set_value(parameters.range);

@@ -11,6 +11,7 @@ namespace tidemark::ui {
 
 class Form;
 class SliderNumber;
+class JointPlot;
 class SpeedHistogram;
 class SpeedPlot;
 
@@ -30,6 +31,7 @@ class SpeedControls : public CaseWidget {
   QFormLayout* form_;
   SpeedPlot* tent_;
   SpeedHistogram* certainty_;
+  JointPlot* joint_;
   SliderNumber* target_;
   SliderNumber* range_;
   SliderNumber* alpha_;

@@ -6,14 +6,20 @@
 
 namespace tidemark::ui {
 
-Result<document::Start> load_start(StartFile kind, const std::filesystem::path& path, const Geometry& grid,
-                                   double band, const Progress& progress) {
+Result<document::Start> load_start(const StartRequest& request, const Progress& progress) {
+  const auto& [kind, path, grid, band, within_mm] = request;
   const std::string name = path.filename().string();
   document::Start start;
   if (kind == StartFile::mask) {
     auto loaded = imaging::load_any_mask(path, &grid, progress);
     if (!loaded) return pass_on(loaded);
-    start.from = document::MaskStart{std::make_shared<const Mask>(std::move(loaded->mask)), name};
+    document::MaskStart mask{std::make_shared<const Mask>(std::move(loaded->mask)), name};
+    if (within_mm) {
+      auto refined = limited(std::move(mask), *within_mm);
+      if (!refined) return pass_on(refined);
+      mask = std::move(*refined);
+    }
+    start.from = std::move(mask);
     return start;
   }
   const auto volume = imaging::load_volume(path, {}, progress);

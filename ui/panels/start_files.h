@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "core/progress.h"
 #include "document/start.h"
@@ -10,10 +11,17 @@ namespace tidemark::ui {
 
 enum class StartFile { mask, level_set };
 
+struct StartRequest {
+  StartFile kind = StartFile::mask;
+  std::filesystem::path path;
+  Geometry grid;                    // of the study
+  double band = 2.5;                // W of the level set that is to begin
+  std::optional<double> within_mm;  // of a mask that is refined
+};
+
 // A mask (voxels other than 0 are inside), or a saved phi, on the grid of the study; the file's axes may be
 // in another order or run the other way. Fails (ErrorKind::input) when the file cannot be read or has other
-// voxels. `band`: W of the level set that is to begin.
-Result<document::Start> load_start(StartFile kind, const std::filesystem::path& path, const Geometry& grid,
-                                   double band, const Progress& progress = {});
+// voxels.
+Result<document::Start> load_start(const StartRequest& request, const Progress& progress = {});
 
 }  // namespace tidemark::ui

@@ -8,6 +8,7 @@
 
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/panels/refine_choice.h"
 #include "ui/panels/value_unit.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
@@ -211,6 +212,9 @@ LabelStartMethod::LabelStartMethod(QWidget* parent) : StartMethod(parent) {
   form.note(tr("Takes what was segmented before."));
   label_ = form.choice(tr("Label"), tr("The surface begins around its voxels."));
   connect(label_, &QComboBox::activated, this, &StartMethod::changed);
+  refine_ = new RefineChoice;
+  form.wide(refine_);
+  connect(refine_, &RefineChoice::changed, this, &StartMethod::changed);
 }
 
 void LabelStartMethod::attach() {
@@ -231,6 +235,10 @@ void LabelStartMethod::refresh() {
 
 QString LabelStartMethod::sentence() const {
   if (label_->count() == 0) return tr("There are no labels yet.");
+  if (const auto within_mm = refine_->within_mm()) {
+    return tr("Refines “%1”: the surface stays within %2 of it.")
+        .arg(label_->currentText(), number_text(*within_mm, 1, tr("mm")));
+  }
   return tr("Places the surface around the voxels of “%1”.").arg(label_->currentText());
 }
 
@@ -239,7 +247,7 @@ bool LabelStartMethod::can_start() const {
 }
 
 void LabelStartMethod::start() {
-  proxy()->begin_from_label(static_cast<std::uint8_t>(label_->currentData().toUInt()));
+  proxy()->begin_from_label(static_cast<std::uint8_t>(label_->currentData().toUInt()), refine_->within_mm());
 }
 
 }  // namespace tidemark::ui

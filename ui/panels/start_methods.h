@@ -9,6 +9,7 @@ class QToolButton;
 
 namespace tidemark::ui {
 
+class RefineChoice;
 class SliderNumber;
 
 // A sphere around the crosshair; in views spheres are drawn with the mouse.
@@ -74,6 +75,7 @@ class LabelStartMethod : public StartMethod {
  private:
   std::vector<document::Label> shown_;
   QComboBox* label_;
+  RefineChoice* refine_;
 };
 
 }  // namespace tidemark::ui

@@ -83,9 +83,8 @@ struct MarkStyle {
   Qt::BrushStyle filling;
   Qt::PenStyle border;
 };
-// Orange and blue mean what they do in the speed map: the surface grows here, and here it does not.
-const MarkStyle kInside{QColor(255, 150, 40), Qt::SolidPattern, Qt::SolidLine};
-const MarkStyle kOutside{QColor(90, 170, 255), Qt::BDiagPattern, Qt::DashLine};
+const MarkStyle kInside{kInsideStroke, Qt::SolidPattern, Qt::SolidLine};
+const MarkStyle kOutside{kOutsideStroke, Qt::BDiagPattern, Qt::DashLine};
 const MarkStyle kWall{QColor(255, 90, 90), Qt::DiagCrossPattern, Qt::SolidLine};
 const MarkStyle kAnchor{QColor(120, 230, 130), Qt::Dense6Pattern, Qt::DotLine};
 

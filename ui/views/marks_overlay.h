@@ -13,6 +13,10 @@
 
 namespace tidemark::ui {
 
+// Orange and blue mean what they do in the speed map: the surface grows here, and here it does not.
+inline constexpr QColor kInsideStroke(255, 150, 40);
+inline constexpr QColor kOutsideStroke(90, 170, 255);
+
 // Voxels of one kind in a slice, in mm along the slice's right (x) and up (y) from the patient's origin.
 struct MarkedArea {
   QPainterPath area;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "solver/speed/motion_limit.h"
+#include "ui/views/colour_scale.h"
 #include "ui/views/mark_drags.h"
 #include "ui/views/overlay.h"
 #include "ui/widgets/number_text.h"
@@ -58,6 +60,8 @@ QString term_name(renderer::SpeedTerm term) {
       return SliceViewWidget::tr("curvature term");
     case renderer::SpeedTerm::rescaling:
       return SliceViewWidget::tr("rescaling term");
+    case renderer::SpeedTerm::doubt:
+      return SliceViewWidget::tr("doubt");
   }
   return {};
 }
@@ -121,6 +125,7 @@ renderer::SliceView SliceViewWidget::slice() const {
   view.window = s.window;
   view.nearest = s.nearest;
   view.surface = s.outline;
+  view.change = s.change;
   view.line_pixels = s.line_pixels * devicePixelRatioF();
   view.label_opacity = s.label_opacity;
   return view;
@@ -212,6 +217,19 @@ void SliceViewWidget::paint_overlay(QPainter& painter) {
   paint_orientation(painter, size(), o.right, o.up);
   paint_scale_bar(painter, size(), on_screen.mm_per_pixel());
   paint_corners(painter);
+  paint_legend(painter);
+}
+
+void SliceViewWidget::paint_legend(QPainter& painter) const {
+  if (content_ == renderer::SliceContent::source && settings().change && proxy().state().limit)
+    return paint_colour_scale(painter, size(), scale_of_change(proxy().state().limit->within_mm()));
+  if (content_ != renderer::SliceContent::speed || settings().speed_term != renderer::SpeedTerm::doubt)
+    return;
+  const auto& speed = proxy().state().speed;
+  if (speed && speed->has_doubt()) return paint_colour_scale(painter, size(), scale_of_doubt());
+  const QRectF middle(0.0, 0.0, width(), 0.8 * height());
+  paint_text(painter, middle, Qt::AlignHCenter | Qt::AlignBottom | Qt::TextWordWrap,
+             tr("Only a speed function that learns from examples has a doubt."));
 }
 
 void SliceViewWidget::paint_images(QPainter& painter, const SliceScreen& on_screen) {

@@ -51,6 +51,7 @@ class SliceViewWidget : public PictureView {
   void paint_images(QPainter& painter, const SliceScreen& on_screen);
   void paint_truth(QPainter& painter, const SliceScreen& on_screen);
   void paint_corners(QPainter& painter) const;
+  void paint_legend(QPainter& painter) const;  // of what colours mean
   [[nodiscard]] engine::DrawnMarks marks() const;
   void paint_marks(QPainter& painter, const SliceScreen& on_screen);
   void follow_marks();

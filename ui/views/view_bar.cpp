@@ -95,6 +95,10 @@ void ViewBar::set_title(const QString& title) {
   title_->setText(title);
 }
 
+void ViewBar::add_choice(QWidget* choice) {
+  static_cast<QHBoxLayout*>(layout())->insertWidget(1, choice);
+}
+
 // The other parameters keep all their digits, of which the bar shows a few.
 void ViewBar::change(double solver::Parameters::*parameter, double value) {
   solver::Parameters parameters = proxy_.parameters();

@@ -18,6 +18,8 @@ class ViewBar : public QWidget {
           const QList<QAction*>& tools, QWidget* parent = nullptr);
 
   void set_title(const QString& title);
+  // What the view's picture is to show, behind its name.
+  void add_choice(QWidget* choice);
 
   [[nodiscard]] QSize minimumSizeHint() const override { return {60, sizeHint().height()}; }
 

@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "solver/speed/motion_limit.h"
+#include "ui/views/colour_scale.h"
 #include "ui/views/next_step.h"
 #include "ui/views/orientation_cube.h"
 #include "ui/views/overlay.h"
@@ -90,6 +92,7 @@ renderer::VolumeView VolumeViewWidget::view() const {
   view.surface = s.surface;
   view.surface_colour = s.surface_colour;
   view.colouring = s.colouring;
+  view.change = s.change;
   view.region = s.region;
   view.label_opacity = s.label_opacity;
   view.lighting.occlusion = s.occlusion;
@@ -249,6 +252,9 @@ void VolumeViewWidget::paint_overlay(QPainter& painter) {
   paint_orientation(painter, size(), camera.right(), camera.up());
   paint_scale_bar(painter, size(), mm_per_pixel());
   paint_study(painter);
+  const bool is_coloured = settings().surface && settings().colouring == renderer::SurfaceColouring::plain;
+  if (const auto& limit = proxy().state().limit; limit && is_coloured && settings().change)
+    paint_colour_scale(painter, size(), scale_of_change(limit->within_mm()));
   if (!settings().clip_on) return;
   const ClipHandles on_screen = handles();
   on_screen.paint(painter, on_screen.grip_at(mapFromGlobal(QCursor::pos())));

@@ -1,6 +1,6 @@
 // What happens to a ray on its way, whichever mode draws it: it meets the surface or the clip plane's picture, and the
 // clip plane hides a part of it. Needs solver/phi.glsl, render/shade.glsl and render/ray.glsl; with SPEED_COLOURS also
-// render/page_state.glsl and render/speed_terms.glsl. With LABELS the labels show in it.
+// render/page_state.glsl and render/speed_terms.glsl, and with CHANGE colours it by how far it has moved. With LABELS the labels show in it.
 
 #ifdef LABELS
 #include "render/labels.glsl"
@@ -59,6 +59,9 @@ float openness(vec3 p, vec3 outward) {
 
 #ifdef SPEED_COLOURS
 vec3 taught_colour(vec3 p) {
+#ifdef CHANGE
+  return diverging(evaluated_between(p));
+#endif
   ivec3 voxel = clamp(ivec3(floor(p + 0.5)), ivec3(0), volume_size - 1);
   if (colouring == kActivity) return page_colour(page_state(voxel / kPageShape));
   vec2 taught = speed_and_curvature_between(colouring - 1, p, true);

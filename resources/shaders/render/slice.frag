@@ -1,12 +1,16 @@
-// A slice through the volume: the source in its window, the speed (SPEED) or its data term alone (DATA_SPEED), or the pages
-// (PAGES); labels, walls and anchors (CONSTRAINED) and the surface's outline over it. These are variants, not uniforms: a
-// driver that computes both sides of every branch would work out the speed for every picture.
+// A slice through the volume: the source in its window, the speed (SPEED) or its data term alone (DATA_SPEED), its doubt
+// (DOUBT), or the pages (PAGES); what the surface has won and lost (CHANGE), labels, walls and anchors (CONSTRAINED) and the
+// surface's outline over it. These are variants, not uniforms: a driver that computes both sides of every branch would work
+// out the speed for every picture.
 
 #include "solver/phi.glsl"
 #ifdef SOURCE_PLANE
 #include "render/source_plane.glsl"
 #else
 #include "render/source.glsl"
+#endif
+#ifdef SPEED_VOLUME
+#include "render/evaluated_map.glsl"
 #endif
 #if defined(SPEED) || defined(DATA_SPEED)
 #include "render/speed_terms.glsl"
@@ -74,6 +78,31 @@ vec3 page_picture(vec3 p, vec3 grey) {
 }
 #endif
 
+#ifdef DOUBT
+// Sure parts show the dimmed source. So does all of a function without a doubt.
+vec3 doubt_picture(vec3 p, vec3 grey) {
+  float doubt = 0.0;
+#ifdef SPEED_VOLUME
+  doubt = clamp(evaluated_between(p), 0.0, 1.0);
+#endif
+  return mix(0.5 * grey, doubt_colour(doubt), 0.8 * smoothstep(0.0, 0.5, doubt));
+}
+#endif
+
+#ifdef CHANGE
+// What was won is tinted in the colour of growth, what was lost in that of shrinking, and hatched; a dark line is where the
+// surface began. `shift`: positive outside of the start.
+vec3 with_change(vec3 colour, float shift, float phi) {
+  bool changed = (shift > 0.0) == (phi > 0.0);
+  vec3 tint = diverging(shift);
+  if (shift < 0.0 && mod(gl_FragCoord.x + gl_FragCoord.y, 8.0) < 1.5) tint *= 0.75;
+  if (changed) colour = mix(colour, tint, 0.65);
+  float slope = length(vec2(dFdx(shift), dFdy(shift)));
+  float line = 1.0 - smoothstep(0.3, 1.0, abs(shift) / max(slope, 1e-6));
+  return abs(shift) < 0.99 ? mix(colour, vec3(0.0), 0.8 * line) : colour;
+}
+#endif
+
 void main() {
   vec4 at = voxel_from_view * vec4(view_position, 0.0, 1.0);
   vec3 p = at.xyz / at.w;
@@ -85,6 +114,8 @@ void main() {
 
 #if defined(SPEED) || defined(DATA_SPEED)
   vec3 colour = speed_colour(p, phi, grey);
+#elif defined(DOUBT)
+  vec3 colour = doubt_picture(p, grey);
 #elif defined(PAGES)
   vec3 colour = page_picture(p, grey);
 #else
@@ -95,6 +126,9 @@ void main() {
     vec4 label_colour = texture(label_colours, vec2((float(label) + 0.5) / 256.0, 0.5));
     if (label > 0) colour = mix(colour, label_colour.rgb, label_opacity * label_colour.a);
   }
+#ifdef CHANGE
+  colour = with_change(colour, evaluated_between(p), phi);
+#endif
 #ifdef CONSTRAINED
   colour = with_constraint(colour, nearest_voxel(p));
 #endif

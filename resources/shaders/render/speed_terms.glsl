@@ -3,7 +3,7 @@
 
 #include "solver/speed/stencil.glsl"
 #ifdef SPEED_VOLUME
-#include "solver/speed/speed_volume.glsl"
+#include "render/evaluated_map.glsl"
 #else
 #include "solver/speed/data.glsl"
 #endif
@@ -46,19 +46,7 @@ Differences differences_at(ivec3 v) {
 }
 
 #ifdef SPEED_VOLUME
-// Trilinear.
-float data_speed_between(vec3 position) {
-  vec3 p = clamp(position, vec3(0.0), vec3(volume_size - 1));
-  ivec3 low = min(ivec3(p), max(volume_size - 2, ivec3(0)));
-  vec3 f = p - vec3(low);
-  float sum = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    ivec3 corner = ivec3(i & 1, i >> 1 & 1, i >> 2);
-    vec3 share = mix(1.0 - f, f, vec3(corner));
-    sum += share.x * share.y * share.z * speed_at(min(low + corner, volume_size - 1));
-  }
-  return sum;
-}
+float data_speed_between(vec3 position) { return evaluated_between(position); }
 float data_speed_of(ivec3 voxel) { return speed_at(min(voxel, volume_size - 1)); }
 #else
 float data_speed_between(vec3 position) { return data_speed(source_between(position)); }

@@ -312,6 +312,32 @@ void ExamplesStoryTest::five_strokes_and_play_find_a_texture() {
       Desktop::wait_for([&] { return !desktop.window().findChild<ui::SpeedHistogram*>()->bars().empty(); }));
   desktop.screenshot("examples-2-strokes");
 
+  // The map shows what they leave in doubt.
+  auto* map = desktop.view<ui::SliceViewWidget>("Speed map, axial");
+  QVERIFY(map);
+  auto* doubt = seen<QAbstractButton>(desktop.window(), "Map of the doubt");
+  QVERIFY(doubt && doubt->isEnabled());
+  const auto pink = [&] {
+    const QImage picture = map->grab_picture();
+    int count = 0;
+    for (int y = 0; y < picture.height(); y += 2) {
+      for (int x = 0; x < picture.width(); x += 2) {
+        const QColor c = picture.pixelColor(x, y);
+        count += c.red() > c.green() + 15 && c.blue() > c.green() + 15 ? 1 : 0;
+      }
+    }
+    return count;
+  };
+  const int pink_before = pink();
+  QTest::mouseClick(doubt, Qt::LeftButton);
+  desktop.wait_until_idle();
+  QVERIFY(desktop.proxy().display().settings().speed_term == renderer::SpeedTerm::doubt);
+  QVERIFY(pink() > pink_before + 500);
+  desktop.screenshot("examples-2-doubt");
+  QTest::mouseClick(seen<QAbstractButton>(desktop.window(), "Map of the speed"), Qt::LeftButton);
+  desktop.wait_until_idle();
+  QVERIFY(desktop.proxy().display().settings().speed_term == renderer::SpeedTerm::data);
+
   // There is no surface yet: Play begins in the strokes.
   QVERIFY(!desktop.state().begun);
   auto* play = desktop.window().findChild<ui::PlayButton*>();

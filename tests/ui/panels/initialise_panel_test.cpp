@@ -1,5 +1,6 @@
 #include "ui/panels/initialise_panel.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -8,6 +9,7 @@
 #include <QToolButton>
 
 #include "imaging/files/volume_file.h"
+#include "solver/speed/motion_limit.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 
@@ -169,6 +171,34 @@ class InitialisePanelTest : public QObject {
     QCOMPARE(the_case_->state().surface.voxels_inside, voxels);
   }
 
+  void a_label_or_a_mask_file_can_be_refined_alone() {
+    the_case_->begin(5.0);
+    the_case_->proxy->add_label(QStringLiteral("Liver"));
+    the_case_->wait_until_idle();
+    the_case_->proxy->accept_surface(the_case_->state().labels.front().id);
+    the_case_->wait_until_idle();
+    const Mask mask = the_case_->state().phi->mask();
+    QCOMPARE(failure(imaging::write_mask_file(mask, folder_ / "old.nii.gz")), QString());
+    for (const QString& method : {tr("Label"), tr("Mask file")}) {
+      choose(method);
+      if (method == tr("Mask file")) type_path("old.nii.gz");
+      start();
+      QVERIFY(!the_case_->state().limit);
+      refine_check()->setFocus();
+      QTest::keyClick(refine_check(), Qt::Key_Space);
+      type(tr("Stay within"), "2.5");
+      QVERIFY(says(tr("stays within %1").arg(QLocale().toString(2.5, 'f', 1))));
+      QTest::mouseClick(start_button(), Qt::LeftButton);
+      QTRY_VERIFY(the_case_->state().limit);
+      QCOMPARE(the_case_->state().limit->within_mm(), 2.5);
+      the_case_->wait_until_idle();
+      QCOMPARE(the_case_->state().phi->mask().voxels, mask.voxels);
+      the_case_->proxy->undo();
+      the_case_->wait_until_idle();
+      QVERIFY(!the_case_->state().limit);
+    }
+  }
+
   void smoothing_is_said_and_can_be_taken_back() {
     auto* apply = button<QPushButton>(*panel_, tr("Smooth"));
     QVERIFY(!apply->isEnabled());
@@ -221,6 +251,12 @@ class InitialisePanelTest : public QObject {
         path->setText(QString::fromStdString((folder_ / name).string()));
       }
     }
+  }
+  QCheckBox* refine_check() {
+    for (auto* check : panel_->findChildren<QCheckBox*>()) {
+      if (check->isVisible() && check->text() == tr("Refine it alone")) return check;
+    }
+    qFatal("no mask is refined");
   }
   QPushButton* start_button() { return button<QPushButton>(*panel_, tr("Place surface")); }
   void start() {

@@ -20,6 +20,7 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 #include "ui/panels/curve_plot.h"
+#include "ui/panels/joint_plot.h"
 #include "ui/panels/speed_plot.h"
 #include "ui/widgets/disclosure.h"
 
@@ -399,6 +400,63 @@ class LevelSetPanelTest : public QObject {
     the_case_->wait_until_idle();
     QVERIFY(the_case_->proxy->drive().setting.is_tent());
     QTRY_VERIFY(!choose->isVisible());
+  }
+
+  // A second image that tells the ball's two halves apart.
+  void with_two_images_their_joint_histogram_shows_the_strokes() {
+    const Volume& study = the_case_->proxy->volume();
+    const Geometry& grid = study.geometry;
+    auto second = std::make_shared<Volume>();
+    second->geometry = grid;
+    std::vector<float> values;
+    for (std::int64_t i = 0; i < grid.voxel_count(); ++i)
+      values.push_back(i % grid.size.x < grid.size.x / 2 ? 0.0F : 1.0F);
+    second->voxels = std::move(values);
+    document::CaseImage image;
+    image.name = "PET";
+    image.volume = second;
+    image.resampled = second;
+    auto strokes = std::make_shared<solver::Strokes>();
+    const Index3 middle = grid.size / std::int64_t{2};
+    for (std::int64_t i = 2; i < 6; ++i) {
+      strokes->inside.push_back(grid.offset(middle + Index3(i, 0, 0)));
+      strokes->outside.push_back(grid.offset({i, 2, middle.z}));
+    }
+    std::ranges::sort(strokes->outside);
+    document::Drive drive;
+    drive.setting.terms = {{"examples", {}}};
+    drive.strokes = strokes;
+    auto* joint = panel_->findChild<ui::JointPlot*>();
+    QVERIFY(joint && !joint->isVisible());
+    the_case_->proxy->set_drive(drive);
+    the_case_->wait_until_idle();
+    QVERIFY(!joint->isVisible());  // one image alone
+    drive.images = {std::make_shared<const document::CaseImage>(image)};
+    the_case_->proxy->set_drive(drive);
+    QTRY_VERIFY(joint->isVisible());
+    QTRY_VERIFY(joint->histogram());
+    const engine::JointHistogram& counted = *joint->histogram();
+    QCOMPARE(counted.inside.size(), std::size_t{4});
+    QCOMPARE(counted.inside.front()[1], 1.0F);
+    QCOMPARE(counted.outside.front()[1], 0.0F);
+    const QImage picture = joint->grab().toImage();
+    const auto colour_at = [&](QPointF place) {
+      const double scale = picture.devicePixelRatio();
+      return picture.pixelColor((place * scale).toPoint());
+    };
+    const QColor inside = colour_at(joint->position_of(counted.inside.front()));
+    QVERIFY(inside.red() > inside.blue() + 100);
+    const QColor outside = colour_at(joint->position_of(counted.outside.front()));
+    QVERIFY(outside.blue() > outside.red() + 60);
+    // Another stroke, another count.
+    auto more = std::make_shared<solver::Strokes>(*strokes);
+    more->inside.insert(more->inside.begin(), grid.offset(middle - Index3(3, 0, 0)));
+    drive.strokes = more;
+    the_case_->proxy->set_drive(drive);
+    QTRY_COMPARE(joint->histogram()->inside.size(), std::size_t{5});
+    drive.setting = {};
+    the_case_->proxy->set_drive(drive);
+    QTRY_VERIFY(!joint->isVisible());
   }
 
  private:

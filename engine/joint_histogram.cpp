@@ -1,0 +1,97 @@
+#include "engine/joint_histogram.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tidemark::engine {
+namespace {
+
+constexpr std::int64_t kMostSamples = 1'000'000;
+constexpr std::int64_t kBetweenLooks = 4096;  // at the stop token
+
+class Places {
+ public:
+  Places(const Volume& first, const Volume& second)
+      : images_{&first, &second}, ranges_{first.common_range(), second.common_range()} {}
+
+  [[nodiscard]] const std::array<std::pair<float, float>, 2>& ranges() const { return ranges_; }
+  [[nodiscard]] JointHistogram::Place of(std::int64_t voxel) const {
+    JointHistogram::Place place{};
+    for (std::size_t image = 0; image < 2; ++image) {
+      const auto [low, high] = ranges_[image];
+      place[image] = high > low ? (images_[image]->value(voxel) - low) / (high - low) : 0.0F;
+    }
+    return place;
+  }
+
+ private:
+  std::array<const Volume*, 2> images_;
+  std::array<std::pair<float, float>, 2> ranges_;
+};
+
+std::size_t bin_of(float place) {
+  const auto bin = static_cast<std::int64_t>(std::floor(place * static_cast<float>(JointHistogram::kBins)));
+  return static_cast<std::size_t>(std::clamp<std::int64_t>(bin, 0, JointHistogram::kBins - 1));
+}
+
+// Evenly, so that every stroke keeps its share.
+std::vector<JointHistogram::Place> points_of(const std::vector<std::int64_t>& stroke, const Places& places) {
+  const std::size_t count = std::min(stroke.size(), JointHistogram::kMostPoints);
+  std::vector<JointHistogram::Place> points;
+  for (std::size_t i = 0; i < count; ++i) points.push_back(places.of(stroke[i * stroke.size() / count]));
+  return points;
+}
+
+}  // namespace
+
+JointHistogram joint_histogram(const Volume& first, const Volume& second, const solver::Strokes* strokes,
+                               const std::stop_token& stop) {
+  const Places places(first, second);
+  JointHistogram joint;
+  joint.ranges = places.ranges();
+  joint.counts.assign(static_cast<std::size_t>(JointHistogram::kBins) * JointHistogram::kBins, 0);
+  const std::int64_t voxels = first.geometry.voxel_count();
+  // Odd, so that it does not follow the columns of common grids.
+  const std::int64_t step = std::max<std::int64_t>(1, voxels / kMostSamples) | 1;
+  std::int64_t looked = 0;
+  for (std::int64_t voxel = 0; voxel < voxels; voxel += step) {
+    if (++looked % kBetweenLooks == 0 && stop.stop_requested()) return {};
+    const JointHistogram::Place place = places.of(voxel);
+    ++joint.counts[bin_of(place[0]) + JointHistogram::kBins * bin_of(place[1])];
+  }
+  if (strokes == nullptr) return joint;
+  joint.inside = points_of(strokes->inside, places);
+  joint.outside = points_of(strokes->outside, places);
+  return joint;
+}
+
+JointCounter::~JointCounter() {
+  forget();
+}
+
+void JointCounter::forget() {
+  if (job_) job_->abandon();
+  job_.reset();
+  question_ = {};
+  answer_.reset();
+}
+
+void JointCounter::ask(const Question& question) {
+  if (question == question_) return;
+  question_ = question;
+  if (job_) job_->abandon();
+  job_ = BackgroundJob::start(
+      this,
+      [this, question](BackgroundJob& job) {
+        auto joint = std::make_shared<const JointHistogram>(
+            joint_histogram(*question.first, *question.second, question.strokes.get(), job.stop()));
+        job.deliver([this, joint = std::move(joint)] {
+          job_.reset();
+          answer_ = joint;
+          emit answered();
+        });
+      },
+      [this](const Error&) { job_.reset(); });
+}
+
+}  // namespace tidemark::engine

@@ -1,0 +1,44 @@
+#include "ui/panels/refine_choice.h"
+
+#include <QCheckBox>
+
+#include "ui/widgets/form.h"
+#include "ui/widgets/slider_number.h"
+
+namespace tidemark::ui {
+namespace {
+
+constexpr double kLeast = 0.2;  // mm
+constexpr double kMost = 30.0;
+constexpr double kUsual = 3.0;
+
+}  // namespace
+
+RefineChoice::RefineChoice(QWidget* parent) : QWidget(parent) {
+  Form form(this);
+  refine_ = form.check(tr("Refine it alone"),
+                       tr("The surface never moves farther from the mask's than the number below says, "
+                          "outwards or inwards. Colours show what has changed."));
+  within_ = make_number();
+  form.row(tr("Stay within"), within_, tr("How far the surface may move, to both sides."));
+  within_->setEnabled(false);
+  connect(refine_, &QCheckBox::toggled, within_, &QWidget::setEnabled);
+  connect(refine_, &QCheckBox::toggled, this, &RefineChoice::changed);
+  connect(within_, &SliderNumber::edited, this, &RefineChoice::changed);
+}
+
+SliderNumber* RefineChoice::make_number() {
+  auto* number = new SliderNumber;
+  number->set_decimals(1);
+  number->set_range(kLeast, kMost, SliderNumber::Scale::logarithmic);
+  number->set_unit(tr("mm"));
+  number->set_value(kUsual);
+  return number;
+}
+
+std::optional<double> RefineChoice::within_mm() const {
+  if (!refine_->isChecked()) return std::nullopt;
+  return within_->value();
+}
+
+}  // namespace tidemark::ui

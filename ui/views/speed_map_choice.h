@@ -1,0 +1,27 @@
+// The choice of what a speed map shows: the speed, or how sure the speed function is of it.
+#pragma once
+
+#include <QWidget>
+
+#include "engine/case_proxy.h"
+
+class QToolButton;
+
+namespace tidemark::ui {
+
+class SpeedMapChoice : public QWidget {
+  Q_OBJECT
+ public:
+  explicit SpeedMapChoice(engine::CaseProxy& proxy, QWidget* parent = nullptr);
+
+ private:
+  QToolButton* add(const QString& text);
+  void choose(renderer::SpeedTerm term);
+  void follow();
+
+  engine::CaseProxy& proxy_;
+  QToolButton* speed_;
+  QToolButton* doubt_;
+};
+
+}  // namespace tidemark::ui
