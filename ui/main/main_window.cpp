@@ -128,9 +128,8 @@ void MainWindow::make_status_bar() {
   value_details_->setAutoRaise(true);
   value_details_->setCheckable(true);
   connect(value_details_, &QToolButton::toggled, values_, &ValueBar::set_detailed);
-  connect(value_details_, &QToolButton::clicked, this,
-          [](bool on) { QSettings().setValue("details/values", on); });
-  value_details_->setChecked(QSettings().value("details/values", false).toBool());
+  connect(value_details_, &QToolButton::clicked, this, [](bool on) { settings::details("values").set(on); });
+  value_details_->setChecked(settings::details("values").get());
   value_details_->hide();  // until there is a case
   statusBar()->addPermanentWidget(value_details_);
   loading_ = new LoadingView(LoadingView::Shape::line);
@@ -258,6 +257,7 @@ void MainWindow::show_case(QMdiSubWindow& child, const engine::LoadedStudy& stud
   if (study.volume->changes.empty() && results.empty()) return;
   auto* report = new LoadReport(study, results);
   messages_->show_widget(report);
+  messages_->mark_as_of(window);
   connect(report, &LoadReport::dismissed, messages_, &MessageBar::dismiss);
   connect(report, &LoadReport::import_wanted, &window, [this, &window](const QStringList& files) {
     for (const QString& file : files) results_->import_labels(window, file);
