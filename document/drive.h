@@ -1,4 +1,4 @@
-// What drives the level set of a case: speed functions with all that they are made from, walls and anchors.
+// The drive of a case's level set: speed functions with all that they are made from, walls and anchors.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// What drives a level set as JSON, for recipes. Images and maps are references: their voxels are in their
+// The drive of a level set as JSON, for recipes. Images and maps are references: their voxels are in their
 // files.
 #pragma once
 

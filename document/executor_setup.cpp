@@ -156,12 +156,13 @@ Status ExecutorSetup::apply(const RecipeEvent& event) {
 }
 
 Status ExecutorSetup::play(const Recipe& recipe, std::size_t first_event, std::int64_t step,
-                           std::int64_t last_step, const Progress& progress, solver::AdvanceReport* total) {
+                           std::int64_t last_step, const Progress& progress, solver::AdvanceReport* total,
+                           bool until_converged) {
   const std::int64_t first_step = step;
-  const auto advance_to = [&](std::int64_t target) -> Status {
+  const auto advance_to = [&](std::int64_t target, bool to_rest) -> Status {
     while (step < target) {
       if (progress.cancelled()) return cancelled_error();
-      solver::Advance run{target - step, false, {nullptr, progress.stop}};
+      solver::Advance run{target - step, to_rest, {nullptr, progress.stop}};
       run.progress.report = [&](double fraction, std::string_view what) {
         const double done =
             static_cast<double>(step - first_step) + fraction * static_cast<double>(run.steps);
@@ -171,16 +172,17 @@ Status ExecutorSetup::play(const Recipe& recipe, std::size_t first_event, std::i
       if (!report) return tl::unexpected<Error>(report.error());
       step += report->steps;
       if (total != nullptr) add(*report, *total);
+      if (to_rest && report->converged) break;
     }
     return {};
   };
   for (std::size_t i = first_event; i < recipe.events.size(); ++i) {
     const RecipeEvent& event = recipe.events[i];
     if (event.step > last_step) break;
-    TIDEMARK_TRY(advance_to(event.step));
+    TIDEMARK_TRY(advance_to(event.step, false));
     TIDEMARK_TRY(apply(event));
   }
-  return advance_to(last_step);
+  return advance_to(last_step, until_converged);
 }
 
 }  // namespace tidemark::document

@@ -45,8 +45,9 @@ class ExecutorSetup {
 
   // Carries out the recipe from its `first_event` on until `last_step` steps have been computed, with the
   // edits after the last of them. `step` steps have been computed before. The cost is added to `total`.
+  // `until_converged`: the steps after the last event end when the surface has stopped moving.
   Status play(const Recipe& recipe, std::size_t first_event, std::int64_t step, std::int64_t last_step,
-              const Progress& progress, solver::AdvanceReport* total = nullptr);
+              const Progress& progress, solver::AdvanceReport* total = nullptr, bool until_converged = false);
   // Carries out one event.
   Status apply(const RecipeEvent& event);
 

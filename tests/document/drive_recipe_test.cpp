@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "document/checksum.h"
-#include "document/replay.h"
+#include "document/evolution.h"
 #include "tests/document/cases.h"
 #include "tests/support/test_program.h"
 
@@ -53,7 +53,7 @@ document::Recipe again(const document::Recipe& recipe) {
 }
 
 std::vector<float> replayed(const document::Recipe& recipe, const std::shared_ptr<const Volume>& volume) {
-  const auto result = document::replay(recipe, volume, {});
+  const auto result = document::evolve(recipe, volume, {});
   if (!result) qFatal("%s", result.error().message.c_str());
   return result->phi.dense();
 }
@@ -205,7 +205,7 @@ class DriveRecipeTest : public QObject {
   void an_image_that_is_missing_is_named() {
     const auto recipe = document::Recipe::parse(good_json().dump(), "r.json");
     QCOMPARE(failure(recipe), QString());
-    const auto result = document::replay(*recipe, lumpy_volume(), {});
+    const auto result = document::evolve(*recipe, lumpy_volume(), {});
     QVERIFY(!result);
     QCOMPARE(result.error().kind, ErrorKind::usage);
     QVERIFY2(

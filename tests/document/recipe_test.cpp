@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases.h"
-#include "document/replay.h"
+#include "document/evolution.h"
 #include "document/session_contents.h"
 #include "imaging/filters/filters.h"
 #include "solver/speed/speed_registry.h"
@@ -53,7 +53,7 @@ document::Recipe again(const document::Recipe& recipe) {
 }
 
 std::vector<float> replayed(const document::Recipe& recipe, const std::shared_ptr<const Volume>& volume) {
-  const auto result = document::replay(recipe, volume, {});
+  const auto result = document::evolve(recipe, volume, {});
   if (!result) qFatal("%s", result.error().message.c_str());
   return result->phi.dense();
 }
@@ -199,7 +199,7 @@ class RecipeTest : public QObject {
 
   void a_mask_of_another_grid_is_refused() {
     const document::Recipe recipe = document::Recipe::parse(good_json().dump(), "r.json").value();
-    const auto result = document::replay(recipe, lumpy_volume({20, 20, 20}), {});
+    const auto result = document::evolve(recipe, lumpy_volume({20, 20, 20}), {});
     QVERIFY(!result);
     QCOMPARE(result.error().kind, ErrorKind::usage);
   }
