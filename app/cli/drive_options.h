@@ -1,4 +1,4 @@
-// What drives the surface, on the command line: speed functions with their inputs, walls and anchors.
+// The options for what drives the surface: speed functions with their inputs, walls and anchors.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -283,7 +283,7 @@ Result<Segments> SegmentationReader::read(const Geometry* grid) {
     TIDEMARK_TRY(fill(index, segments));
   }
   if (!is_binary_) {
-    segments.changes.push_back("the segments are fractions; half and more of a voxel is taken as inside");
+    segments.changes.push_back("the segments are fractions; voxels of half and more are inside");
   }
   if (lacks_count_) {
     segments.changes.push_back(

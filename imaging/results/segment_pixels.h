@@ -1,4 +1,4 @@
-// Which pixels of a segmentation's frames are inside. Private to this folder.
+// The pixels inside in a segmentation's frames. Private to this folder.
 #pragma once
 
 #include <cstdint>

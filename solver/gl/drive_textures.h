@@ -1,4 +1,4 @@
-// What drives the surface, as the solver's shaders read it: the source with the numbers of the tent, or D and
+// The drive of the surface as the solver's shaders read it: the source with the numbers of the tent, or D and
 // a velocity; and walls and anchors.
 #pragma once
 

@@ -1,4 +1,4 @@
-// How much nearer a voxel lies to strokes inside than to strokes outside.
+// A voxel's nearness to strokes inside against that to strokes outside.
 #pragma once
 
 #include <vector>
