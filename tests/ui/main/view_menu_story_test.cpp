@@ -133,6 +133,9 @@ void ViewMenuStoryTest::a_right_click_offers_what_can_be_done_here() {
 }
 
 void ViewMenuStoryTest::a_probe_takes_the_values_that_the_level_set_sees() {
+  QVERIFY(desktop_->open_phantom("tumour"));  // which is noisy
+  axial_ = desktop_->view<ui::SliceViewWidget>("Axial");
+  QVERIFY(axial_);
   const auto probed_range = [&] {
     right_click(*axial_, at(desktop_->seed_mm()));
     choose("Probe T and ε here");
@@ -143,7 +146,7 @@ void ViewMenuStoryTest::a_probe_takes_the_values_that_the_level_set_sees() {
   desktop_->wait_until_idle();
   QCOMPARE(desktop_->state().smoothed_mm, 2.0);
   const double smoothed = probed_range();
-  QVERIFY2(smoothed < 0.5 * of_noise, qPrintable(QStringLiteral("%1, then %2").arg(of_noise).arg(smoothed)));
+  QVERIFY2(smoothed < 0.7 * of_noise, qPrintable(QStringLiteral("%1, then %2").arg(of_noise).arg(smoothed)));
 }
 
 void ViewMenuStoryTest::a_right_drag_zooms_and_opens_nothing() {
