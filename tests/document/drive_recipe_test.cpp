@@ -4,8 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "document/checksum.h"
-#include "document/replay.h"
-#include "tests/document/cases.h"
+#include "tests/document/recipes.h"
 #include "tests/support/test_program.h"
 
 using namespace tidemark;
@@ -42,20 +41,6 @@ void drive(document::LevelSet& level_set, const document::Drive& wanted) {
   const auto speed = document::make_speed(wanted, level_set.source(), level_set.parameters());
   QCOMPARE(failure(speed), QString());
   QCOMPARE(failure(level_set.set_speed(*speed)), QString());
-}
-
-document::Recipe again(const document::Recipe& recipe) {
-  const auto text = recipe.to_text();
-  if (!text) qFatal("%s", text.error().message.c_str());
-  auto read = document::Recipe::parse(*text, "again.json");
-  if (!read) qFatal("%s", read.error().message.c_str());
-  return std::move(*read);
-}
-
-std::vector<float> replayed(const document::Recipe& recipe, const std::shared_ptr<const Volume>& volume) {
-  const auto result = document::replay(recipe, volume, {});
-  if (!result) qFatal("%s", result.error().message.c_str());
-  return result->phi.dense();
 }
 
 // A recipe with everything that drives and holds, as JSON.
