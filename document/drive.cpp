@@ -27,6 +27,14 @@ bool same_map(const std::shared_ptr<const SpeedMap>& a, const std::shared_ptr<co
 
 }  // namespace
 
+Drive value_of(const std::shared_ptr<const Drive>& drive) {
+  return drive == nullptr ? Drive() : *drive;
+}
+
+std::shared_ptr<const Drive> shared(const Drive& drive) {
+  return drive == Drive() ? nullptr : std::make_shared<const Drive>(drive);
+}
+
 bool same_speed(const Drive& a, const Drive& b) {
   return a.setting == b.setting && same_strokes(a.strokes, b.strokes) && same_map(a.map, b.map) &&
          std::equal(a.images.begin(), a.images.end(), b.images.begin(), b.images.end(), same_image);

@@ -49,6 +49,9 @@ struct Drive {
   bool operator==(const Drive&) const = default;
 };
 
+// The drive, and of null what executors do without any; and the other way round.
+[[nodiscard]] Drive value_of(const std::shared_ptr<const Drive>& drive);
+[[nodiscard]] std::shared_ptr<const Drive> shared(const Drive& drive);
 // Of strokes, walls and anchors in memory.
 [[nodiscard]] std::int64_t bytes_of(const Drive& drive);
 // Whether executors are as without any drive: the tent alone, and nothing that holds the surface.

@@ -143,9 +143,7 @@ void CaseProxy::paint(const solver::Sphere& sphere, solver::Brush brush, std::ui
 }
 
 void CaseProxy::smooth_source(double sigma_mm) {
-  post([sigma_mm](CaseRunner& runner, const Progress& progress) {
-    return runner.report_change(runner.document().smooth_source(sigma_mm, progress));
-  });
+  post([sigma_mm](CaseRunner& runner, const Progress&) { return runner.smooth_source(sigma_mm); });
 }
 
 void CaseProxy::change_executor(solver::ExecutorKind kind) {
@@ -153,10 +151,7 @@ void CaseProxy::change_executor(solver::ExecutorKind kind) {
 }
 
 void CaseProxy::undo() {
-  post([](CaseRunner& runner, const Progress&) {
-    runner.set_playing(false);
-    return runner.report_edit(runner.document().undo());
-  });
+  post([](CaseRunner& runner, const Progress&) { return runner.undo(); });
 }
 
 void CaseProxy::redo() {

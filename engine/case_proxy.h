@@ -84,7 +84,8 @@ class CaseProxy : public QObject {
   void set_drive(const document::Drive& drive, std::uint64_t gesture = 0);
   void begin(const document::Start& start);
   void paint(const solver::Sphere& sphere, solver::Brush brush, std::uint64_t gesture);
-  void smooth_source(double sigma_mm);  // the level set's source; 0: the volume itself
+  // The level set's source (0: the volume itself). It is smoothed in the background; undo() gives that up.
+  void smooth_source(double sigma_mm);
   void change_executor(solver::ExecutorKind kind);
   void undo();
   void redo();

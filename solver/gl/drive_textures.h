@@ -24,6 +24,11 @@ class DriveTextures {
   Status set_speed(gpu::Device& device, std::shared_ptr<const SpeedFunction> speed);
   Status set_constraints(gpu::Device& device, const Constraints* constraints);
 
+  // Of all but the source: what such a function and such walls take, or would take.
+  [[nodiscard]] static std::int64_t bytes_for(Index3 volume_size, const SpeedFunction& speed,
+                                              const Constraints* constraints);
+  [[nodiscard]] std::int64_t bytes() const;
+
   // A run of steps must not be longer where the processor evaluates D: the surface moves less than a voxel a
   // step.
   static constexpr std::int64_t kMostStepsOfARun = 8;

@@ -60,4 +60,10 @@ Result<std::shared_ptr<const SpeedFunction>> make_speed(const SpeedSetting& sett
                                                         const SpeedInputs& inputs,
                                                         const Progress& progress = {});
 
+// The function that was made of a setting, with T and epsilon of other parameters in its tents; what else it
+// consists of stays, with all that it has learned and cached. Fails as make_speed().
+Result<std::shared_ptr<const SpeedFunction>> with_tents(std::shared_ptr<const SpeedFunction> function,
+                                                        const std::shared_ptr<const Volume>& source,
+                                                        const Parameters& parameters);
+
 }  // namespace tidemark::solver
