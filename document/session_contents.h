@@ -1,6 +1,7 @@
 // The contents of a session file as values, for writing on any thread while the case goes on.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@ struct SessionContents {
 
 // The case's present contents, taken on its thread. A checkpoint of its level set.
 Result<SessionContents> snapshot_of(Case& document);
+// Closes the open change, writes the case, and marks it as saved.
+Status save_session(Case& document, const std::filesystem::path& file);
 
 // The comparison of a volume with the saved one.
 enum class VolumeMatch {

@@ -290,13 +290,4 @@ Result<StudyOrigin> load_origin(const std::filesystem::path& file) {
   return origin;
 }
 
-Status save_session(Case& document, const std::filesystem::path& file) {
-  TIDEMARK_TRY(document.level_set().end_run());
-  const auto contents = snapshot_of(document);
-  if (!contents) return tl::unexpected<Error>(contents.error());
-  TIDEMARK_TRY(write_session(*contents, file));
-  document.mark_saved();
-  return {};
-}
-
 }  // namespace tidemark::document

@@ -283,10 +283,10 @@ Result<Segments> SegmentationReader::read(const Geometry* grid) {
     TIDEMARK_TRY(fill(index, segments));
   }
   if (!is_binary_) {
-    segments.changes.push_back("the segments are fractions; voxels of half and more are inside");
+    segments.changes.emplace_back("the segments are fractions; voxels of half and more are inside");
   }
   if (lacks_count_) {
-    segments.changes.push_back(
+    segments.changes.emplace_back(
         "NumberOfFrames (0028,0008) is missing; the one frame that is described is read");
   }
   return segments;

@@ -115,4 +115,12 @@ inline Scene lumpy_scene(Index3 size, glm::dvec3 spacing = glm::dvec3(1.0)) {
   return scene;
 }
 
+// The same, where a small ball is soon at rest.
+inline Scene resting_scene(Index3 size) {
+  Scene scene = lumpy_scene(size);
+  scene.parameters.target = 95.0;
+  scene.parameters.range = 15.0;
+  return scene;
+}
+
 }  // namespace tidemark::test

@@ -78,7 +78,7 @@ class ExecutorsTest : public QObject {
   void it_comes_to_rest_when_the_host_does_data() { add_rows(); }
   void it_comes_to_rest_when_the_host_does() {
     const Setting setting = this_row();
-    const Scene scene = lumpy_scene({61, 50, 47});
+    const Scene scene = resting_scene({45, 40, 35});
     const auto tested = setting.make(scene.source, scene.parameters);
     const auto host = executor(solver::ExecutorKind::host, scene.source, scene.parameters);
     solver::AdvanceReport reports[2];
