@@ -16,7 +16,7 @@ struct SpeedOrigin {
   solver::SpeedSetting setting;
   std::shared_ptr<const Volume> source;
   std::shared_ptr<const solver::Strokes> strokes;                  // of functions that learn from them
-  std::vector<std::shared_ptr<const document::CaseImage>> images;  // of the same
+  std::vector<std::shared_ptr<const document::CaseImage>> images;  // of functions that use several
   std::shared_ptr<const document::SpeedMap> map;                   // of functions that need one
   solver::Parameters parameters;                                   // of the tent, beside others
 
