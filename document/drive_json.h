@@ -12,4 +12,8 @@ namespace tidemark::document {
 // Of a volume of that size. Images and the map have no voxels yet. Errors are noted in the field's document.
 Drive read_drive(const JsonField& field, Index3 grid_size);
 
+// An image without its voxels, and without the place where it is found.
+[[nodiscard]] Json to_json(const CaseImage& image);
+CaseImage read_image(const JsonField& field);
+
 }  // namespace tidemark::document

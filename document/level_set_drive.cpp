@@ -105,7 +105,6 @@ void LevelSet::take_drive_of_recipe() {
   if (drive == relevant(*drive_)) return;
   if (drive.strokes == nullptr) drive.strokes = drive_->strokes;
   if (drive.map == nullptr) drive.map = drive_->map;
-  if (drive.images.empty()) drive.images = drive_->images;
   drive_ = std::make_shared<const Drive>(std::move(drive));
 }
 

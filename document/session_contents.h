@@ -20,6 +20,9 @@ struct SessionContents {
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null: no voxel has a label
   Curve curve;
   std::string view_state;
+  // Further images of the case, whether or not the speed function uses them. As read from a file they have no
+  // voxels: see find_images().
+  std::vector<std::shared_ptr<const CaseImage>> images;
 };
 
 // The case's present contents, taken on its thread. A checkpoint of its level set.

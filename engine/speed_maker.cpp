@@ -33,10 +33,8 @@ SpeedOrigin speed_origin(const document::Drive& drive, std::shared_ptr<const Vol
   for (const solver::SpeedTerm& term : drive.setting.terms) {
     const solver::SpeedKind* kind = solver::speed_kind(term.function);
     if (kind == nullptr) continue;
-    if (kind->needs_strokes) {
-      origin.strokes = drive.strokes;
-      origin.images = drive.images;
-    }
+    if (kind->needs_strokes) origin.strokes = drive.strokes;
+    if (kind->uses_images) origin.images = drive.images;
     if (kind->needs_map) origin.map = drive.map;
   }
   return origin;

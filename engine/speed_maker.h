@@ -19,7 +19,7 @@ struct SpeedOrigin {
   std::shared_ptr<const Volume> volume;  // as loaded
   double smoothed_mm = 0.0;
   std::shared_ptr<const solver::Strokes> strokes;                  // of functions that learn from them
-  std::vector<std::shared_ptr<const document::CaseImage>> images;  // of the same
+  std::vector<std::shared_ptr<const document::CaseImage>> images;  // of functions that use several
   std::shared_ptr<const document::SpeedMap> map;                   // of functions that need one
 
   bool operator==(const SpeedOrigin&) const = default;

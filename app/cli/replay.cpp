@@ -1,8 +1,8 @@
 // tidemark-cli replay: the replay of a recipe.
 #include <memory>
 
-#include "app/cli/drive_options.h"
 #include "app/cli/program.h"
+#include "app/cli/recipe_files.h"
 #include "app/cli/results.h"
 #include "app/cli/solver_options.h"
 #include "app/cli/study_input.h"

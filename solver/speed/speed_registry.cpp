@@ -38,6 +38,10 @@ Status check(const SpeedTerm& term) {
       return fail(ErrorKind::usage, "the speed function {}: {} must lie between {} and {}, not {}",
                   kind->name, name, number->low, number->high, value);
     }
+    if (!number->choices.empty() && value != std::round(value)) {
+      return fail(ErrorKind::usage, "the speed function {}: {} must be a whole number, not {}", kind->name,
+                  name, value);
+    }
   }
   return {};
 }

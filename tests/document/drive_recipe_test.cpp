@@ -54,8 +54,11 @@ Json good_json() {
     all = with_ball(all, volume, {0, 0, 0}, solver::Constraint::anchor);
     all.setting.terms.push_back({"edges", {{"sigma", 1.5}}});
     all.setting.combine = solver::Combine::product;
-    document::CaseImage image{"PET",   "1.2.3",         "1.2.4", std::string(64, 'a'),
-                              nullptr, glm::dmat4(1.0), nullptr};
+    document::CaseImage image;
+    image.name = "PET";
+    image.series_uid = "1.2.3";
+    image.frame_of_reference_uid = "1.2.4";
+    image.checksum = std::string(64, 'a');
     image.to_case[3] = {1.0, -2.5, 30.0, 1.0};
     all.images = {std::make_shared<const document::CaseImage>(image)};
     all.map = std::make_shared<const document::SpeedMap>(

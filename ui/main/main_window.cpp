@@ -250,7 +250,7 @@ void MainWindow::show_case(QMdiSubWindow& child, const engine::LoadedStudy& stud
   auto& window = static_cast<CaseWindow&>(*child.widget());
   if (restored.contents) {
     panels_->show("level-set");  // it has begun: to be steered
-    const Status shown = window.restore_view_state(restored.contents->view_state);
+    const Status shown = window.restore_view(*restored.contents);
     if (!shown) tell(tr("How it was shown is lost: %1").arg(QString::fromStdString(shown.error().message)));
   }
   const auto results = opener_->results_beside(study);
@@ -350,6 +350,10 @@ void MainWindow::connect_views() {
   with_case(actions_->clip, [](CaseWindow& window) {
     window.proxy().display().change(
         [](engine::DisplaySettings& settings) { settings.clip_on = !settings.clip_on; });
+  });
+  with_case(actions_->swipe, [](CaseWindow& window) {
+    window.proxy().display().change(
+        [](engine::DisplaySettings& settings) { settings.swipe = !settings.swipe; });
   });
   with_case(actions_->patient_text, [](CaseWindow& window) {
     window.proxy().display().change(

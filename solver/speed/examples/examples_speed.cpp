@@ -141,6 +141,7 @@ const SpeedKind& examples_kind() {
           "Learns from strokes inside and outside what belongs to the object: its brightness, texture, edges "
           "and place, in all images.",
       .needs_strokes = true,
+      .uses_images = true,
       .parameters = {{.name = "trees",
                       .title = "Trees",
                       .text = "How many decision trees vote: more are smoother and take longer.",
