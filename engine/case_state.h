@@ -14,6 +14,10 @@
 #include "solver/executor.h"
 #include "solver/statistics.h"
 
+namespace tidemark::solver {
+class MotionLimit;
+}
+
 namespace tidemark::engine {
 
 // A case after the engine's last job for it.
@@ -31,6 +35,7 @@ struct CaseState {
   std::shared_ptr<const solver::SpeedFunction> speed;  // that drives it now, or will; null: the tent
   bool speed_waits = false;                            // another one is being made
   double smoothed_mm = 0.0;
+  std::optional<double> smoothing;       // to that many mm, on its way
   std::shared_ptr<const Volume> source;  // as the level set sees it: smoothed by that much
   QString executor;                      // "host", "compute", "stream"
   double steps_per_second = 0.0;  // while it plays, in the last second: steps by time, pictures included

@@ -83,8 +83,11 @@ void JointCounter::ask(const Question& question) {
   job_ = BackgroundJob::start(
       this,
       [this, question](BackgroundJob& job) {
-        auto joint = std::make_shared<const JointHistogram>(
-            joint_histogram(*question.first, *question.second, question.strokes.get(), job.stop()));
+        const auto second = document::on_grid(*question.second, question.first->geometry);
+        auto joint = std::make_shared<JointHistogram>();
+        if (second) {
+          *joint = joint_histogram(*question.first, **second, question.strokes.get(), job.stop());
+        }
         job.deliver([this, joint = std::move(joint)] {
           job_.reset();
           answer_ = joint;

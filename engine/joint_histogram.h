@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/volume.h"
+#include "document/case_image.h"
 #include "engine/background_job.h"
 #include "solver/speed/strokes.h"
 
@@ -37,7 +38,7 @@ class JointCounter : public QObject {
  public:
   struct Question {
     std::shared_ptr<const Volume> first;
-    std::shared_ptr<const Volume> second;
+    std::shared_ptr<const document::CaseImage> second;  // on any grid
     std::shared_ptr<const solver::Strokes> strokes;
 
     bool operator==(const Question&) const = default;
@@ -47,7 +48,7 @@ class JointCounter : public QObject {
   ~JointCounter() override;
 
   void ask(const Question& question);
-  // The newest that is there; null: none yet.
+  // The newest that is there; null: none yet. Empty where the image shares no place with the first.
   [[nodiscard]] const std::shared_ptr<const JointHistogram>& answer() const { return answer_; }
   void forget();
 

@@ -191,6 +191,14 @@ Status check(const RenderOptions& options) {
   if (options.view == "doubt" && !options.drive.examples) {
     return fail(ErrorKind::usage, "--view doubt needs --speed examples");
   }
+  const bool shows_speed = by_speed || options.view == "doubt" || options.view == "sheet";
+  if (!options.drive.functions.empty() && !shows_speed) {
+    return fail(ErrorKind::usage,
+                "--speed is seen with --view speed, doubt or sheet, or a --colour of the speed");
+  }
+  if ((options.drive.walls || options.drive.anchors) && options.view == "3d") {
+    return fail(ErrorKind::usage, "--walls and --anchors are seen on slices, not with --view 3d");
+  }
   if ((options.region == "inside" || options.region == "outside") && !has_surface(options)) {
     return fail(ErrorKind::usage, "--roi {} needs --mask or --phi", options.region);
   }

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
+#include <string_view>
 
 #include "core/checked.h"
 #include "imaging/guard/pixel_layout.h"
@@ -16,10 +17,10 @@ constexpr std::size_t kHeaderSize = 348;
 constexpr std::int32_t kNifti2HeaderSize = 540;
 constexpr std::int64_t kFirstVoxel = 352;
 
-// The header's numbers, in either byte order.
+// The numbers of a header that outlives it, in either byte order.
 class Fields {
  public:
-  explicit Fields(std::string bytes) : bytes_(std::move(bytes)) {
+  explicit Fields(std::string_view bytes) : bytes_(bytes) {
     const auto size = read<std::int32_t>(0);
     swapped_ = size != static_cast<std::int32_t>(kHeaderSize) && size != kNifti2HeaderSize;
   }
@@ -37,30 +38,36 @@ class Fields {
   }
   [[nodiscard]] std::int32_t size_field() const { return read<std::int32_t>(0); }
   [[nodiscard]] bool swapped() const { return swapped_; }
-  [[nodiscard]] std::string magic() const { return bytes_.substr(344, 3); }
+  [[nodiscard]] std::string_view magic() const { return bytes_.substr(344, 3); }
 
  private:
-  std::string bytes_;
+  std::string_view bytes_;
   bool swapped_ = false;
 };
 
-// Bits of a voxel of the scalar types, by NIfTI's datatype code; nothing for RGB, complex and unknown ones.
-std::optional<int> bits_of(int datatype) {
+// By NIfTI's datatype code; nothing for RGB, complex and unknown ones.
+std::optional<Scalar> scalar_of(int datatype) {
   switch (datatype) {
     case 2:
-    case 256:
-      return 8;
+      return Scalar::uint8;
     case 4:
-    case 512:
-      return 16;
+      return Scalar::int16;
     case 8:
+      return Scalar::int32;
     case 16:
-    case 768:
-      return 32;
+      return Scalar::float32;
     case 64:
+      return Scalar::float64;
+    case 256:
+      return Scalar::int8;
+    case 512:
+      return Scalar::uint16;
+    case 768:
+      return Scalar::uint32;
     case 1024:
+      return Scalar::int64;
     case 1280:
-      return 64;
+      return Scalar::uint64;
     default:
       return std::nullopt;
   }
@@ -189,7 +196,7 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
     return fail(ErrorKind::input, "{}: not a NIfTI file: {} bytes are too few for its header", name,
                 start->size());
   }
-  const Fields header(std::move(*start));
+  const Fields header(*start);
   if (header.size_field() == kNifti2HeaderSize) {
     return fail(ErrorKind::input, "{}: sizeof_hdr is 540: NIfTI-2 is not supported", name);
   }
@@ -202,11 +209,11 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
   const auto voxels = count_voxels(header, name);
   if (!voxels) return tl::unexpected<Error>(voxels.error());
   const int datatype = header.read<std::int16_t>(70);
-  const auto bits = bits_of(datatype);
-  if (!bits) return fail(ErrorKind::input, "{}: datatype {} is not a scalar type", name, datatype);
-  if (header.read<std::int16_t>(72) != *bits) {
+  const auto scalar = scalar_of(datatype);
+  if (!scalar) return fail(ErrorKind::input, "{}: datatype {} is not a scalar type", name, datatype);
+  if (header.read<std::int16_t>(72) != 8 * bytes_of(*scalar)) {
     return fail(ErrorKind::input, "{}: bitpix is {}, but datatype {} has {} bits", name,
-                header.read<std::int16_t>(72), datatype, *bits);
+                header.read<std::int16_t>(72), datatype, 8 * bytes_of(*scalar));
   }
   const double offset = header.read<float>(108);
   if (!(offset >= static_cast<double>(kFirstVoxel) && offset < 1e9) || offset != std::floor(offset)) {
@@ -216,7 +223,7 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
     return fail(ErrorKind::input, "{}: scl_slope or scl_inter is infinite", name);
   }
   TIDEMARK_TRY(check_geometry(header, name));
-  const auto bytes = checked_product(*voxels, *bits / 8);
+  const auto bytes = checked_product(*voxels, bytes_of(*scalar));
   if (!bytes) return fail(ErrorKind::input, "{}: dim: too many voxels", name);
 
   PixelLayout layout{.file = file, .voxels = *voxels, .bytes = *bytes};
@@ -226,10 +233,10 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
   const double slope = header.read<float>(112);
   const double intercept = header.read<float>(116);
   const bool scaled = slope != 0.0 && !std::isnan(slope);
-  layout.nifti = NiftiVoxels{.datatype = datatype,
-                             .swapped = header.swapped(),
-                             .slope = scaled ? slope : 1.0,
-                             .intercept = scaled && !std::isnan(intercept) ? intercept : 0.0};
+  layout.scalar = *scalar;
+  layout.swapped = header.swapped();
+  layout.slope = scaled ? slope : 1.0;
+  layout.intercept = scaled && !std::isnan(intercept) ? intercept : 0.0;
   compare_orientations(header, layout);
   return layout;
 }

@@ -59,8 +59,13 @@ class JointHistogramTest : public QObject {
     engine::JointCounter counter;
     auto strokes = std::make_shared<solver::Strokes>();
     strokes->inside = {0};
-    counter.ask({ramp(0), ramp(0), nullptr});
-    counter.ask({ramp(0), ramp(1), strokes});
+    const auto image = [](int axis) {
+      auto made = std::make_shared<document::CaseImage>();
+      made->volume = ramp(axis);
+      return made;
+    };
+    counter.ask({ramp(0), image(0), nullptr});
+    counter.ask({ramp(0), image(1), strokes});
     QVERIFY(!counter.answer());  // counted elsewhere
     QTRY_VERIFY(counter.answer());
     QCOMPARE(counter.answer()->inside.size(), std::size_t{1});

@@ -22,10 +22,11 @@ QColor mixed(const QColor& from, const QColor& to, double share) {
   return {mix(from.red(), to.red()), mix(from.green(), to.green()), mix(from.blue(), to.blue())};
 }
 
-const document::CaseImage* second_image(const document::Drive& drive) {
+// Null: there is none.
+std::shared_ptr<const document::CaseImage> second_image(const document::Drive& drive) {
   const auto found =
-      std::ranges::find_if(drive.images, [](const auto& image) { return image->resampled != nullptr; });
-  return found == drive.images.end() ? nullptr : found->get();
+      std::ranges::find_if(drive.images, [](const auto& image) { return image->volume != nullptr; });
+  return found == drive.images.end() ? nullptr : *found;
 }
 
 }  // namespace
@@ -49,8 +50,8 @@ void JointPlot::attach() {
 }
 
 void JointPlot::refresh() {
-  const document::CaseImage* second = second_image(proxy()->drive());
-  if (second) counter_->ask({proxy()->source(), second->resampled, proxy()->drive().strokes});
+  if (const auto second = second_image(proxy()->drive()))
+    counter_->ask({proxy()->source(), second, proxy()->drive().strokes});
   update();
 }
 
@@ -68,9 +69,10 @@ QPointF JointPlot::position_of(const JointHistogram::Place& place) const {
 void JointPlot::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
   painter.fillRect(rect(), palette().color(QPalette::Base));
-  if (!histogram()) {
+  if (!histogram() || histogram()->counts.empty()) {
     painter.setPen(palette().color(QPalette::PlaceholderText));
-    painter.drawText(rect(), Qt::AlignCenter, tr("Counting…"));
+    painter.drawText(rect(), Qt::AlignCenter,
+                     histogram() ? tr("The images share no place.") : tr("Counting…"));
     return;
   }
   paint_counts(painter);
@@ -81,7 +83,6 @@ void JointPlot::paintEvent(QPaintEvent* /*event*/) {
 // Grey by the logarithm of the count: rare pairs of values are seen beside those of the air.
 void JointPlot::paint_counts(QPainter& painter) const {
   const std::vector<std::int64_t>& counts = histogram()->counts;
-  if (counts.empty()) return;
   const double most = std::log1p(static_cast<double>(*std::ranges::max_element(counts)));
   if (most <= 0.0) return;
   const QColor none = palette().color(QPalette::Base);
@@ -120,7 +121,7 @@ void JointPlot::paint_axes(QPainter& painter) const {
   painter.setBrush(Qt::NoBrush);
   painter.drawRect(area);
   painter.setPen(palette().color(QPalette::Text));
-  const document::CaseImage* second = proxy() ? second_image(proxy()->drive()) : nullptr;
+  const auto second = proxy() ? second_image(proxy()->drive()) : nullptr;
   const double line = fontMetrics().height() + 2.0;
   const auto axis = [&](const QRectF& where, std::size_t image, const QString& name) {
     const auto [low, high] = histogram()->ranges[image];

@@ -131,8 +131,7 @@ QWidget* LabelsPanel::make_actions() {
   refine_->setToolTip(
       tr("The surface begins around the chosen label and stays near to it. Colours show what has changed."));
   form.wide(refine_);
-  within_ = RefineChoice::make_number();
-  form.row(tr("Stay within"), within_, tr("How far a refined label's surface may move, to both sides."));
+  within_ = RefineChoice::add_number(form);
   connect(refine_, &QPushButton::clicked, this, [this] {
     if (proxy() && chosen()) proxy()->begin_from_label(chosen()->id, within_->value());
   });

@@ -19,16 +19,16 @@ RefineChoice::RefineChoice(QWidget* parent) : QWidget(parent) {
   refine_ = form.check(tr("Refine it alone"),
                        tr("The surface never moves farther from the mask's than the number below says, "
                           "outwards or inwards. Colours show what has changed."));
-  within_ = make_number();
-  form.row(tr("Stay within"), within_, tr("How far the surface may move, to both sides."));
+  within_ = add_number(form);
   within_->setEnabled(false);
   connect(refine_, &QCheckBox::toggled, within_, &QWidget::setEnabled);
   connect(refine_, &QCheckBox::toggled, this, &RefineChoice::changed);
   connect(within_, &SliderNumber::edited, this, &RefineChoice::changed);
 }
 
-SliderNumber* RefineChoice::make_number() {
-  auto* number = new SliderNumber;
+SliderNumber* RefineChoice::add_number(Form& form) {
+  SliderNumber* number = form.slider(
+      tr("Stay within"), tr("How far a refined mask's surface may move from where it began, to both sides."));
   number->set_decimals(1);
   number->set_range(kLeast, kMost, SliderNumber::Scale::logarithmic);
   number->set_unit(tr("mm"));

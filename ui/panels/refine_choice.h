@@ -8,6 +8,7 @@ class QCheckBox;
 
 namespace tidemark::ui {
 
+class Form;
 class SliderNumber;
 
 // Of a surface that begins from a mask.
@@ -20,7 +21,7 @@ class RefineChoice : public QWidget {
   [[nodiscard]] std::optional<double> within_mm() const;
 
   // The number alone, wherever such a limit is asked for.
-  [[nodiscard]] static SliderNumber* make_number();
+  static SliderNumber* add_number(Form& form);
 
  signals:
   void changed();

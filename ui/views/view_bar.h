@@ -17,7 +17,6 @@ class ViewBar : public QWidget {
   ViewBar(engine::CaseProxy& proxy, const QString& title, const QList<QAction*>& evolution,
           const QList<QAction*>& tools, QWidget* parent = nullptr);
 
-  void set_title(const QString& title);
   // What the view's picture is to show, behind its name.
   void add_choice(QWidget* choice);
 
@@ -41,7 +40,6 @@ class ViewBar : public QWidget {
   void change(double solver::Parameters::*parameter, double value);
 
   engine::CaseProxy& proxy_;
-  QLabel* title_;
   QToolButton* tool_;
   QList<QAction*> tools_;
   QList<QWidget*> numbers_;    // hidden first when the bar is narrow
