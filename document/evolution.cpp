@@ -69,7 +69,8 @@ Result<Evolution> evolve(const Recipe& recipe, std::shared_ptr<const Volume> vol
                                recipe.start.empty() ? nullptr : &result.start,  // else it was painted
                                *result.source,
                                recipe.final_parameters(),
-                               result.speed.get()};
+                               result.speed.get(),
+                               setup->executor().constraints().get()};
   result.outcome = outcome_of(evolved);
   result.wider_range = wider_range(evolved);
   return result;

@@ -116,6 +116,7 @@ std::optional<double> wider_range(const EvolvedSurface& surface) {
   double squares = 0.0;
   const auto look_at = [&](Index3 voxel, float phi) {
     if (phi <= -band || phi > -kBeside * band) return;
+    if (surface.constraints != nullptr && is_upper(surface.constraints->at(voxel))) return;
     ++beside;
     if (std::abs(mean_around(surface.source, voxel) - parameters.target) >= parameters.range) return;
     ++alike;

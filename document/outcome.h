@@ -7,6 +7,7 @@
 
 #include "solver/field.h"
 #include "solver/parameters.h"
+#include "solver/speed/constraints.h"
 #include "solver/speed/speed_function.h"
 
 namespace tidemark::document {
@@ -29,11 +30,12 @@ struct EvolvedSurface {
   const solver::Field& phi;
   std::int64_t voxels_inside = 0;
   std::int64_t steps = 0;
-  bool stopped = false;                          // AdvanceReport::converged
-  const solver::Field* start = nullptr;          // before the first step; null: not known
-  const Volume& source;                          // as the level set sees it
-  const solver::Parameters& parameters;          // the present ones
-  const solver::SpeedFunction* speed = nullptr;  // null: the parameters' tent
+  bool stopped = false;                              // AdvanceReport::converged
+  const solver::Field* start = nullptr;              // before the first step; null: not known
+  const Volume& source;                              // as the level set sees it
+  const solver::Parameters& parameters;              // the present ones
+  const solver::SpeedFunction* speed = nullptr;      // null: the parameters' tent
+  const solver::Constraints* constraints = nullptr;  // that hold it; null: none
 };
 Outcome outcome_of(const EvolvedSurface& surface);
 
@@ -43,7 +45,7 @@ Outcome outcome_of(const EvolvedSurface& surface);
 // Looks at the voxels two away from the surface on its outer side. Like tissue is where the mean of a voxel
 // and its 26 neighbours is within T -+ epsilon: without noise the surface would be drawn there. At the border
 // of another tissue there is next to none of it. What is offered is twice the root mean square of I - T in
-// such voxels.
+// such voxels. Where a limit or a wall holds the surface, noise does not.
 std::optional<double> wider_range(const EvolvedSurface& surface);
 
 }  // namespace tidemark::document

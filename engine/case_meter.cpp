@@ -61,7 +61,8 @@ Status CaseMeter::measure(const ReadPhi& read_phi, document::Case& document, boo
                                          level_set.start().get(),
                                          *level_set.source(),
                                          level_set.parameters(),
-                                         level_set.executor().speed().get()};
+                                         level_set.executor().speed().get(),
+                                         level_set.executor().constraints().get()};
   outcome_ = document::outcome_of(evolved);
   if (thoroughly) {
     wider_range_ = wider_range(evolved);

@@ -1,9 +1,12 @@
 // What has become of a surface, and whether its range is too narrow.
 #include "document/outcome.h"
 
+#include <glm/common.hpp>
+
 #include "document/start.h"
 #include "imaging/phantom/phantom.h"
 #include "solver/executor.h"
+#include "solver/speed/motion_limit.h"
 #include "solver/statistics.h"
 #include "tests/document/cases.h"
 #include "tests/support/test_program.h"
@@ -24,6 +27,8 @@ Ended run(const std::shared_ptr<const Volume>& source, const solver::Parameters&
           const document::Start& start, std::int64_t steps = 4000) {
   auto executor = solver::make_executor(solver::ExecutorKind::host, source, parameters);
   if (!executor) qFatal("%s", executor.error().message.c_str());
+  const auto constraints = document::joined(nullptr, start.limit().get());
+  if (!(*executor)->set_constraints(constraints)) qFatal("no constraints");
   const auto begun = begin(**executor, *source, start);
   if (!begun) qFatal("%s", begun.error().message.c_str());
   const auto report = (*executor)->advance({.steps = steps, .until_converged = true});
@@ -31,8 +36,15 @@ Ended run(const std::shared_ptr<const Volume>& source, const solver::Parameters&
   if (!report || !phi) qFatal("no run");
   Ended ended;
   ended.surface = solver::measure(*phi);
-  const document::EvolvedSurface evolved{
-      *phi, ended.surface.voxels_inside, report->steps, report->converged, &*begun, *source, parameters};
+  const document::EvolvedSurface evolved{*phi,
+                                         ended.surface.voxels_inside,
+                                         report->steps,
+                                         report->converged,
+                                         &*begun,
+                                         *source,
+                                         parameters,
+                                         nullptr,
+                                         constraints.get()};
   ended.outcome = document::outcome_of(evolved);
   ended.wider_range = document::wider_range(evolved);
   return ended;
@@ -132,6 +144,22 @@ class OutcomeTest : public QObject {
     const PhantomRun phantom = phantom_run(QTest::currentDataTag());
     const Ended ended = run(phantom.volume, phantom.parameters, phantom.start);
     QCOMPARE(ended.outcome, document::Outcome::converged);
+    QVERIFY(!ended.wider_range);
+  }
+
+  void a_refined_mask_that_is_held_in_like_tissue_is_offered_no_range() {
+    auto mask = std::make_shared<Mask>();
+    mask->geometry = halves()->geometry;
+    for (std::int64_t i = 0; i < mask->geometry.voxel_count(); ++i) {
+      const Index3 voxel(i % 40, i / 40 % 40, i / 1600);
+      const Index3 off = glm::abs(voxel - Index3(10, 20, 20));
+      mask->voxels.push_back(std::max({off.x, off.y, off.z}) <= 4 ? 1 : 0);
+    }
+    document::Start start;
+    start.from = document::limited({mask, "box"}, 3.0).value();
+    const Ended ended = run(halves(), attracting(100.0, 30.0), start);
+    QCOMPARE(ended.outcome, document::Outcome::converged);
+    QVERIFY(ended.surface.voxels_inside > mask->count());
     QVERIFY(!ended.wider_range);
   }
 

@@ -1,5 +1,6 @@
 #include "ui/main/message_bar.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -23,14 +24,14 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent) {
   line_ = new QWidget;
   auto* row = new QHBoxLayout(line_);
   row->setContentsMargins(kSpace, kSpaceTight, kSpace, kSpaceTight);
-  auto* sign = new QLabel;
-  sign->setPixmap(icon(u"warning").pixmap(kIcon, kIcon));
+  sign_ = new QLabel;
+  paint_sign();
   text_ = new QLabel;
   text_->setWordWrap(true);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   offer_ = new QPushButton;
   auto* button = new QPushButton(tr("Dismiss"));
-  row->addWidget(sign);
+  row->addWidget(sign_);
   row->addWidget(text_, 1);
   row->addWidget(offer_);
   row->addWidget(button);
@@ -42,6 +43,16 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent) {
     accepted();
   });
   hide();
+}
+
+void MessageBar::paint_sign() {
+  sign_->setPixmap(icon(u"warning").pixmap(QSize(kIcon, kIcon), devicePixelRatioF()));
+}
+
+// Icons have the colour of the text, which is another one in another theme.
+void MessageBar::changeEvent(QEvent* event) {
+  QFrame::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) paint_sign();
 }
 
 QString MessageBar::text() const {

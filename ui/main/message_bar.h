@@ -34,12 +34,17 @@ class MessageBar : public QFrame {
   void dismiss();
   [[nodiscard]] QString text() const;
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
   void forget_case();
+  void paint_sign();
 
   QLabel* mark_;  // of the case that the message is of
   QMetaObject::Connection case_closed_;
   QWidget* line_;
+  QLabel* sign_;
   QLabel* text_;
   QPushButton* offer_;
   std::function<void()> accepted_;

@@ -76,8 +76,8 @@ void JointPlot::paintEvent(QPaintEvent* /*event*/) {
     return;
   }
   paint_counts(painter);
-  paint_points(painter);
   paint_axes(painter);
+  paint_points(painter);  // over the frame: many lie at the ends
 }
 
 // Grey by the logarithm of the count: rare pairs of values are seen beside those of the air.

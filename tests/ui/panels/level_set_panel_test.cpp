@@ -458,8 +458,9 @@ class LevelSetPanelTest : public QObject {
     the_case_->proxy->set_drive(drive);
     the_case_->wait_until_idle();
     QVERIFY(!joint->isVisible());  // one image alone
-    drive.images = {std::make_shared<const document::CaseImage>(image)};
-    the_case_->proxy->set_drive(drive);
+    engine::ShownImage shown;
+    shown.image = std::make_shared<const document::CaseImage>(image);
+    the_case_->proxy->display().change([&](engine::DisplaySettings& settings) { settings.images = {shown}; });
     QTRY_VERIFY(joint->isVisible());
     QTRY_VERIFY(joint->histogram());
     const engine::JointHistogram& counted = *joint->histogram();
