@@ -25,7 +25,7 @@ struct Settings {
   std::string only;
   int strokes = 20;
   bool still = false;
-  double alpha = 0.5;
+  double alpha = 0.7;
   std::int64_t steps = 400;
   solver::ExamplesOptions options;
 };
@@ -196,7 +196,10 @@ int main(int argc, char** argv) {
   app.add_option("--doubt", settings.options.training.doubt, "");
   app.add_option("--seed", settings.options.training.seed, "");
   app.add_option("--sharpness", settings.options.sharpness, "");
-  app.add_option("--nearness", settings.options.nearness, "");
+  app.add_option("--contrast", settings.options.walker.contrast, "");
+  app.add_option("--prior", settings.options.walker.prior, "");
+  app.add_option("--sweeps", settings.options.walker.sweeps, "");
+  app.add_option("--cells", settings.options.walker.most_cells, "");
   CLI11_PARSE(app, argc, argv);
   return tidemark::run(settings);
 }

@@ -55,6 +55,79 @@ Result<Samples> samples_of(const Features& features, const Strokes& strokes, con
   return samples;
 }
 
+VoxelBox common(const VoxelBox& a, const VoxelBox& b) {
+  const Index3 first = glm::max(a.first, b.first);
+  return {first, glm::max(glm::min(a.first + a.size, b.first + b.size) - first, Index3(0))};
+}
+
+// The values of a box that lies within another, x fastest.
+void copy_box(const double* values, const VoxelBox& box, const VoxelBox& into, double* to) {
+  const Index3 at = box.first - into.first;
+  for (std::int64_t z = 0; z < box.size.z; ++z) {
+    for (std::int64_t y = 0; y < box.size.y; ++y, values += box.size.x) {
+      std::copy_n(values, box.size.x, to + at.x + into.size.x * (at.y + y + into.size.y * (at.z + z)));
+    }
+  }
+}
+
+template <class Visit>
+void for_tiles(const VoxelBox& box, Visit visit) {
+  VoxelBox tile;
+  tile.size.z = std::min<std::int64_t>(box.size.z, 8);
+  tile.size.y = std::min<std::int64_t>(box.size.y, tile.size.z == 8 ? 8 : 16);
+  tile.size.x = std::max<std::int64_t>(1, kTileVoxels / (tile.size.y * tile.size.z));
+  Index3 at;
+  for (at.z = 0; at.z < box.size.z; at.z += tile.size.z) {
+    for (at.y = 0; at.y < box.size.y; at.y += tile.size.y) {
+      for (at.x = 0; at.x < box.size.x; at.x += tile.size.x) {
+        visit(VoxelBox{box.first + at, glm::min(tile.size, box.size - at)});
+      }
+    }
+  }
+}
+
+// The forest's probabilities of cells, each by the voxel in its middle.
+void write_prior(const Features& features, const Forest& forest, const WalkerGrid& grid, std::int64_t first,
+                 std::int64_t last, float* inside) {
+  ForestEvaluator evaluator(forest);
+  std::vector<float> values;
+  std::vector<float> of_cells;
+  std::vector<double> probabilities;
+  for_tiles(
+      {Index3(0, 0, first), Index3(grid.size.x, grid.size.y, last - first)}, [&](const VoxelBox& cells) {
+        const VoxelBox voxels =
+            common({grid.box.first + cells.first * grid.step, cells.size * grid.step}, grid.box);
+        values.resize(static_cast<std::size_t>(voxels.voxels() * features.count()));
+        features.evaluate(voxels, values.data());
+        const std::int64_t count = cells.voxels();
+        of_cells.resize(static_cast<std::size_t>(count * features.count()));
+        Index3 cell;
+        std::int64_t i = 0;
+        for (cell.z = 0; cell.z < cells.size.z; ++cell.z) {
+          for (cell.y = 0; cell.y < cells.size.y; ++cell.y) {
+            for (cell.x = 0; cell.x < cells.size.x; ++cell.x, ++i) {
+              const Index3 v = glm::min(cell * grid.step + grid.step / Index3(2), voxels.size - Index3(1));
+              const std::int64_t voxel = v.x + voxels.size.x * (v.y + voxels.size.y * v.z);
+              for (int f = 0; f < features.count(); ++f) {
+                of_cells[static_cast<std::size_t>(f * count + i)] =
+                    values[static_cast<std::size_t>(f * voxels.voxels() + voxel)];
+              }
+            }
+          }
+        }
+        probabilities.resize(static_cast<std::size_t>(count));
+        evaluator.evaluate(of_cells.data(), features.count(), count, probabilities.data());
+        for (std::int64_t n = 0; n < count; ++n) {
+          const std::int64_t x = n % cells.size.x;
+          const std::int64_t y = n / cells.size.x % cells.size.y;
+          const std::int64_t z = n / (cells.size.x * cells.size.y);
+          inside[cells.first.x + x +
+                 grid.size.x * (cells.first.y + y + grid.size.y * (cells.first.z - first + z))] =
+              static_cast<float>(probabilities[static_cast<std::size_t>(n)]);
+        }
+      });
+}
+
 Status check(const std::vector<std::int64_t>& stroke, const char* kind, const Geometry& geometry) {
   if (stroke.empty()) {
     return fail(ErrorKind::usage, "examples: paint at least one stroke {} of what is to be found", kind);
@@ -73,7 +146,6 @@ Result<std::shared_ptr<const SpeedFunction>> make_examples(const SpeedInputs& in
   volumes.insert(volumes.end(), inputs.images.begin(), inputs.images.end());
   ExamplesOptions options;
   options.sharpness = values.at("sharpness");
-  options.nearness = values.at("nearness");
   options.training.trees = static_cast<int>(values.at("trees"));
   auto made = ExamplesSpeed::train(std::move(volumes), inputs.strokes ? *inputs.strokes : Strokes{}, options,
                                    progress);
@@ -88,49 +160,42 @@ Result<std::shared_ptr<const ExamplesSpeed>> ExamplesSpeed::train(
     const ExamplesOptions& options, const Progress& progress) {
   TIDEMARK_TRY(check(strokes.inside, "inside", volumes.front()->geometry));
   TIDEMARK_TRY(check(strokes.outside, "outside", volumes.front()->geometry));
-  const Nearness nearness(strokes, volumes.front()->geometry);
-  auto features = Features::of(std::move(volumes), progress);
+  auto features = Features::of(volumes, progress);
   if (!features) return pass_on(features);
   auto samples = samples_of(*features, strokes, progress);
   if (!samples) return pass_on(samples);
   auto forest = solver::train(*samples, options.training, progress);
   if (!forest) return pass_on(forest);
-  return std::make_shared<ExamplesSpeed>(std::move(*features), std::move(*forest), nearness, options);
+  auto walker = RandomWalker::solve(
+      volumes, strokes, options.walker,
+      [&](const WalkerGrid& grid, std::int64_t first, std::int64_t last, float* inside) {
+        if (!progress.cancelled()) write_prior(*features, *forest, grid, first, last, inside);
+      },
+      progress);
+  if (!walker) return pass_on(walker);
+  return std::make_shared<ExamplesSpeed>(std::move(*features), std::move(*forest), std::move(*walker),
+                                         options);
 }
 
 void ExamplesSpeed::evaluate(const VoxelBox& box, double* speed) const {
-  VoxelBox tile;
-  tile.size.z = std::min<std::int64_t>(box.size.z, 8);
-  tile.size.y = std::min<std::int64_t>(box.size.y, tile.size.z == 8 ? 8 : 16);
-  tile.size.x = std::max<std::int64_t>(1, kTileVoxels / (tile.size.y * tile.size.z));
-  ForestEvaluator forest(forest_);
-  std::vector<float> features;
-  std::vector<double> speeds;
-  std::vector<float> nearness;
-  Index3 at;
-  for (at.z = 0; at.z < box.size.z; at.z += tile.size.z) {
-    for (at.y = 0; at.y < box.size.y; at.y += tile.size.y) {
-      for (at.x = 0; at.x < box.size.x; at.x += tile.size.x) {
-        const VoxelBox part{box.first + at, glm::min(tile.size, box.size - at)};
-        features.resize(static_cast<std::size_t>(part.voxels() * features_.count()));
-        speeds.resize(static_cast<std::size_t>(part.voxels()));
-        features_.evaluate(part, features.data());
-        forest.evaluate(features.data(), features_.count(), part.voxels(), speeds.data());
-        nearness.resize(speeds.size());
-        nearness_.evaluate(part, nearness.data());
-        for (std::size_t i = 0; i < speeds.size(); ++i) {
-          const double sum = options_.sharpness * speeds[i] + options_.nearness * nearness[i];
-          speeds[i] = std::clamp(sum, -1.0, 1.0);
-        }
-        const double* from = speeds.data();
-        for (std::int64_t z = 0; z < part.size.z; ++z) {
-          for (std::int64_t y = 0; y < part.size.y; ++y, from += part.size.x) {
-            std::copy_n(from, part.size.x, speed + at.x + box.size.x * (at.y + y + box.size.y * (at.z + z)));
-          }
-        }
-      }
+  const VoxelBox& known = walker_.grid().box;
+  for_tiles(box, [&, forest = ForestEvaluator(forest_), features = std::vector<float>(),
+                  inside = std::vector<double>()](const VoxelBox& tile) mutable {
+    inside.resize(static_cast<std::size_t>(tile.voxels()));
+    const VoxelBox shared = common(tile, known);
+    if (shared.size != tile.size) {
+      features.resize(static_cast<std::size_t>(tile.voxels() * features_.count()));
+      features_.evaluate(tile, features.data());
+      forest.evaluate(features.data(), features_.count(), tile.voxels(), inside.data());
     }
-  }
+    if (shared.voxels() > 0) {
+      std::vector<double> walked(static_cast<std::size_t>(shared.voxels()));
+      walker_.evaluate(shared, walked.data());
+      copy_box(walked.data(), shared, tile, inside.data());
+    }
+    for (double& value : inside) value = std::clamp(options_.sharpness * (2.0 * value - 1.0), -1.0, 1.0);
+    copy_box(inside.data(), tile, box, speed);
+  });
 }
 
 const SpeedKind& examples_kind() {
@@ -154,14 +219,7 @@ const SpeedKind& examples_kind() {
                       .unit = "",
                       .low = 0.5,
                       .high = 10,
-                      .initial = ExamplesOptions{}.sharpness},
-                     {.name = "nearness",
-                      .title = "Nearness",
-                      .text = "How much it counts which strokes are nearer, those inside or those outside.",
-                      .unit = "",
-                      .low = 0,
-                      .high = 5,
-                      .initial = ExamplesOptions{}.nearness}},
+                      .initial = ExamplesOptions{}.sharpness}},
       .make = make_examples};
   return kind;
 }

@@ -1,5 +1,5 @@
-// D = sharpness (2 p - 1) + nearness n, at most 1: p is the probability of "inside" as learned from strokes,
-// n how much nearer strokes inside are (nearness.h).
+// D = sharpness (2 p - 1), at most 1: p is the probability of "inside". A forest learns from strokes what
+// belongs to the object, and a random walker spreads the strokes as far as no edge is in between.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 #include "solver/speed/examples/features.h"
 #include "solver/speed/examples/forest.h"
 #include "solver/speed/examples/forest_training.h"
-#include "solver/speed/examples/nearness.h"
+#include "solver/speed/examples/random_walker.h"
 #include "solver/speed/speed_function.h"
 #include "solver/speed/strokes.h"
 
@@ -15,8 +15,8 @@ namespace tidemark::solver {
 
 struct ExamplesOptions {
   double sharpness = 2.0;
-  double nearness = 0.5;
   TrainingOptions training;
+  WalkerOptions walker;
 };
 
 class ExamplesSpeed final : public SpeedFunction {
@@ -26,10 +26,10 @@ class ExamplesSpeed final : public SpeedFunction {
   static Result<std::shared_ptr<const ExamplesSpeed>> train(
       std::vector<std::shared_ptr<const Volume>> volumes, const Strokes& strokes,
       const ExamplesOptions& options, const Progress& progress);
-  ExamplesSpeed(Features features, Forest forest, Nearness nearness, const ExamplesOptions& options)
+  ExamplesSpeed(Features features, Forest forest, RandomWalker walker, const ExamplesOptions& options)
       : features_(std::move(features)),
         forest_(std::move(forest)),
-        nearness_(std::move(nearness)),
+        walker_(std::move(walker)),
         options_(options) {}
 
   void evaluate(const VoxelBox& box, double* speed) const override;
@@ -39,7 +39,7 @@ class ExamplesSpeed final : public SpeedFunction {
  private:
   Features features_;
   Forest forest_;
-  Nearness nearness_;
+  RandomWalker walker_;
   ExamplesOptions options_;
 };
 

@@ -5,7 +5,7 @@
 
 namespace tidemark::solver {
 
-void ForestEvaluator::evaluate(const float* features, int feature_count, std::int64_t count, double* speed) {
+void ForestEvaluator::evaluate(const float* features, int feature_count, std::int64_t count, double* inside) {
   features_ = features;
   count_ = count;
   low_.resize(static_cast<std::size_t>(feature_count));
@@ -27,8 +27,8 @@ void ForestEvaluator::evaluate(const float* features, int feature_count, std::in
   sums_.assign(static_cast<std::size_t>(count), 0);
   for (const std::int32_t root : forest_.roots) descend(root, 0, count, 0);
 
-  const double unit = 2.0 / (static_cast<double>(kCertain) * static_cast<double>(forest_.roots.size()));
-  for (std::int64_t i = 0; i < count; ++i) speed[i] = unit * sums_[static_cast<std::size_t>(i)] - 1.0;
+  const double unit = 1.0 / (static_cast<double>(kCertain) * static_cast<double>(forest_.roots.size()));
+  for (std::int64_t i = 0; i < count; ++i) inside[i] = unit * sums_[static_cast<std::size_t>(i)];
 }
 
 // The samples [begin, end) of samples_[depth].

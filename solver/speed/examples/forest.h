@@ -32,8 +32,8 @@ struct Forest {
 class ForestEvaluator {
  public:
   explicit ForestEvaluator(const Forest& forest) : forest_(forest) {}
-  // D = 2 p - 1 of each sample.
-  void evaluate(const float* features, int feature_count, std::int64_t count, double* speed);
+  // The probability of each sample.
+  void evaluate(const float* features, int feature_count, std::int64_t count, double* inside);
 
  private:
   void descend(std::int32_t node, std::int64_t begin, std::int64_t end, int depth);
