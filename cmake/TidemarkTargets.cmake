@@ -11,8 +11,7 @@ function(tidemark_library target folder)
   target_include_directories(${target} PUBLIC ${public_include})
 endfunction()
 
-# The target's files are compiled with these headers read beforehand, which halves the time of files that use Qt's
-# widgets or the command line's parser. It changes nothing else: every file still includes what it uses.
+# The target's files are compiled with these headers read beforehand, which takes a third to a half off. It changes nothing else: every file still includes what it uses.
 #   tidemark_precompile(target header...)
 function(tidemark_precompile target)
   target_precompile_headers(${target} PRIVATE ${ARGN})
@@ -22,16 +21,22 @@ endfunction()
 # A test's time goes into what it tests: its own code is compiled quickly.
 set(TIDEMARK_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 
-# A target that is nothing but these headers, read once for all the test programs that take them over.
-#   tidemark_test_headers(target LINKS lib... HEADERS header...)
-function(tidemark_test_headers target)
-  cmake_parse_arguments(arg "" "" "LINKS;HEADERS" ${ARGN})
+# A target that is nothing but these headers, read once for all the targets that take them over.
+#   tidemark_headers(target [OPTIONS compiler's option...] LINKS lib... HEADERS header...)
+function(tidemark_headers target)
+  cmake_parse_arguments(arg "" "" "OPTIONS;LINKS;HEADERS" ${ARGN})
   set(file ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp)
   file(CONFIGURE OUTPUT ${file} CONTENT "// Precompiled headers belong to a target, and a target has a file.\n")
   add_library(${target} STATIC ${file})
-  target_compile_options(${target} PRIVATE ${TIDEMARK_TEST_OPTIONS})
+  target_compile_options(${target} PRIVATE ${arg_OPTIONS})
   target_link_libraries(${target} PRIVATE ${arg_LINKS})
   tidemark_precompile(${target} ${arg_HEADERS})
+endfunction()
+
+# Takes over the precompiled headers of another target; both are compiled with the same options.
+function(tidemark_take_headers target from)
+  target_precompile_headers(${target} REUSE_FROM ${from})
+  tidemark_cache_precompiled(${target})
 endfunction()
 
 # What ccache wants of files that are compiled so (its manual, "Precompiled headers"). Comments count: a header that is
@@ -62,8 +67,7 @@ function(tidemark_test_program name)
   endif()
   add_executable(${name} ${arg_SOURCES})
   if(NOT arg_HEADERS STREQUAL NONE)
-    target_precompile_headers(${name} REUSE_FROM ${arg_HEADERS})
-    tidemark_cache_precompiled(${name})
+    tidemark_take_headers(${name} ${arg_HEADERS})
   endif()
   target_compile_options(${name} PRIVATE ${TIDEMARK_TEST_OPTIONS})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)

@@ -1,4 +1,4 @@
-// Where a volume's voxels lie in the patient.
+// The place of a volume's voxels in the patient.
 #pragma once
 
 #include <cstdint>

@@ -33,11 +33,8 @@ StudyOrigin Case::origin() const {
   return origin;
 }
 
-Status Case::smooth_source(double sigma_mm, const Progress& progress) {
-  progress(0.0, "smoothing");
-  Status smoothed = level_set_->smooth_source(sigma_mm);
-  progress(1.0, "smoothing");
-  return smoothed;
+Status Case::smooth_source(double sigma_mm) {
+  return level_set_->smooth_source(sigma_mm);
 }
 
 Result<Acceptance> Case::accept_surface(std::uint8_t label, Take take) {

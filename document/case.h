@@ -37,7 +37,7 @@ class Case {
   [[nodiscard]] const History& history() const { return history_; }
 
   // The source that the level set sees: the volume smoothed by that many mm (0: not at all).
-  Status smooth_source(double sigma_mm, const Progress& progress = {});
+  Status smooth_source(double sigma_mm);
   [[nodiscard]] double smoothed_mm() const { return level_set_->smoothed_mm(); }
 
   // Changes of labels; each is one entry of the history.

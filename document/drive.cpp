@@ -16,7 +16,7 @@ bool same_strokes(const std::shared_ptr<const solver::Strokes>& a,
 bool same_image(const std::shared_ptr<const CaseImage>& a, const std::shared_ptr<const CaseImage>& b) {
   if (a == b) return true;
   return !a->checksum.empty() && a->checksum == b->checksum && a->to_case == b->to_case &&
-         (a->resampled == nullptr) == (b->resampled == nullptr);
+         (a->volume == nullptr) == (b->volume == nullptr);
 }
 
 bool same_map(const std::shared_ptr<const SpeedMap>& a, const std::shared_ptr<const SpeedMap>& b) {
@@ -26,6 +26,14 @@ bool same_map(const std::shared_ptr<const SpeedMap>& a, const std::shared_ptr<co
 }
 
 }  // namespace
+
+Drive value_of(const std::shared_ptr<const Drive>& drive) {
+  return drive == nullptr ? Drive() : *drive;
+}
+
+std::shared_ptr<const Drive> shared(const Drive& drive) {
+  return drive == Drive() ? nullptr : std::make_shared<const Drive>(drive);
+}
 
 bool same_speed(const Drive& a, const Drive& b) {
   return a.setting == b.setting && same_strokes(a.strokes, b.strokes) && same_map(a.map, b.map) &&
@@ -69,6 +77,13 @@ bool uses_tent(const Drive& drive) {
   return std::any_of(terms.begin(), terms.end(), [](const auto& term) { return term.function == "tent"; });
 }
 
+bool uses_images(const solver::SpeedSetting& setting) {
+  return std::any_of(setting.terms.begin(), setting.terms.end(), [](const solver::SpeedTerm& term) {
+    const solver::SpeedKind* kind = solver::speed_kind(term.function);
+    return kind != nullptr && kind->uses_images;
+  });
+}
+
 std::string describe(const Drive& drive) {
   std::string text;
   for (const solver::SpeedTerm& term : drive.setting.terms)
@@ -95,10 +110,12 @@ Result<std::shared_ptr<const solver::SpeedFunction>> make_speed(const Drive& dri
       return fail(ErrorKind::usage, "the map \"{}\" is missing", drive.map->name);
     inputs.map = drive.map->volume;
   }
-  for (const auto& image : drive.images) {
-    if (image->resampled == nullptr)
-      return fail(ErrorKind::usage, "the image \"{}\" is missing", image->name);
-    inputs.images.push_back(image->resampled);
+  if (uses_images(drive.setting)) {
+    for (const auto& image : drive.images) {
+      auto voxels = on_grid(*image, inputs.source->geometry);
+      if (!voxels) return pass_on(voxels);
+      inputs.images.push_back(std::move(*voxels));
+    }
   }
   return solver::make_speed(drive.setting, inputs, progress);
 }

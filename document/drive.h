@@ -1,14 +1,13 @@
-// What drives the level set of a case: speed functions with all that they are made from, walls and anchors.
+// The drive of a case's level set: speed functions with all that they are made from, walls and anchors.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
-#include <glm/mat4x4.hpp>
-
 #include "core/progress.h"
 #include "core/volume.h"
+#include "document/case_image.h"
 #include "solver/parameters.h"
 #include "solver/speed/constraints.h"
 #include "solver/speed/speed_function.h"
@@ -16,19 +15,6 @@
 #include "solver/speed/strokes.h"
 
 namespace tidemark::document {
-
-// A further image of a case, on a grid of its own. It is never overwritten: views and speed functions see it
-// resampled. One that a recipe names has no volume until its file is given.
-struct CaseImage {
-  std::string name;        // for people: the series' description or the file's name
-  std::string series_uid;  // empty: not from DICOM
-  std::string frame_of_reference_uid;
-  std::string checksum;  // see checksum.h
-  std::shared_ptr<const Volume> volume;
-  // From its own patient coordinates (LPS, mm) to the case's: a registration that the user accepted.
-  glm::dmat4 to_case{1.0};
-  std::shared_ptr<const Volume> resampled;  // on the case's grid
-};
 
 // A map of D or of a probability that was made elsewhere.
 struct SpeedMap {
@@ -49,12 +35,17 @@ struct Drive {
   bool operator==(const Drive&) const = default;
 };
 
+// The drive, and of null what executors do without any; and the other way round.
+[[nodiscard]] Drive value_of(const std::shared_ptr<const Drive>& drive);
+[[nodiscard]] std::shared_ptr<const Drive> shared(const Drive& drive);
 // Of strokes, walls and anchors in memory.
 [[nodiscard]] std::int64_t bytes_of(const Drive& drive);
 // Whether executors are as without any drive: the tent alone, and nothing that holds the surface.
 [[nodiscard]] bool is_plain(const Drive& drive);
 // Whether a tent takes part: T and epsilon count then.
 [[nodiscard]] bool uses_tent(const Drive& drive);
+// Whether further images take part: a function learns from several.
+[[nodiscard]] bool uses_images(const solver::SpeedSetting& setting);
 // Whether both make the same speed function of a source: not what holds the surface, but all else.
 [[nodiscard]] bool same_speed(const Drive& a, const Drive& b);
 // Whether phi is the same with these constraints at once as with `earlier` ones first and then these.

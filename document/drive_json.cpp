@@ -123,6 +123,8 @@ std::int64_t voxels_of(const JsonField& field, Index3 size) {
   return 0;
 }
 
+}  // namespace
+
 Json to_json(const CaseImage& image) {
   Json transform = Json::array();
   for (int row = 0; row < 4; ++row) {
@@ -154,8 +156,6 @@ CaseImage read_image(const JsonField& field) {
   }
   return image;
 }
-
-}  // namespace
 
 Json to_json(const Drive& drive) {
   Json json{{"combine", drive.setting.combine == solver::Combine::least ? "least" : "product"}};

@@ -1,4 +1,4 @@
-// What drives a level set as JSON, for recipes. Images and maps are references: their voxels are in their
+// The drive of a level set as JSON, for recipes. Images and maps are references: their voxels are in their
 // files.
 #pragma once
 
@@ -11,5 +11,9 @@ namespace tidemark::document {
 [[nodiscard]] Json to_json(const Drive& drive);
 // Of a volume of that size. Images and the map have no voxels yet. Errors are noted in the field's document.
 Drive read_drive(const JsonField& field, Index3 grid_size);
+
+// An image without its voxels, and without the place where it is found.
+[[nodiscard]] Json to_json(const CaseImage& image);
+CaseImage read_image(const JsonField& field);
 
 }  // namespace tidemark::document

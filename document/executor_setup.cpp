@@ -5,19 +5,10 @@
 #include <utility>
 
 #include "imaging/filters/filters.h"
+#include "solver/speed/speed_registry.h"
 
 namespace tidemark::document {
 namespace {
-
-Result<std::shared_ptr<const Volume>> smoothed(const std::shared_ptr<const Volume>& volume, double sigma_mm) {
-  if (sigma_mm == 0.0) return volume;
-  if (!std::isfinite(sigma_mm) || sigma_mm < 0.0) {
-    return fail(ErrorKind::usage, "a volume cannot be smoothed by {} mm", sigma_mm);
-  }
-  auto source = imaging::smooth(*volume, sigma_mm);
-  if (!source) return pass_on(source);
-  return std::make_shared<const Volume>(std::move(*source));
-}
 
 void add(const solver::AdvanceReport& run, solver::AdvanceReport& total) {
   total.steps += run.steps;
@@ -30,11 +21,22 @@ void add(const solver::AdvanceReport& run, solver::AdvanceReport& total) {
 
 }  // namespace
 
+Result<std::shared_ptr<const Volume>> smoothed_source(const std::shared_ptr<const Volume>& volume,
+                                                      double sigma_mm, const Progress& progress) {
+  if (sigma_mm == 0.0) return volume;
+  if (!std::isfinite(sigma_mm) || sigma_mm < 0.0) {
+    return fail(ErrorKind::usage, "a volume cannot be smoothed by {} mm", sigma_mm);
+  }
+  auto source = imaging::smooth(*volume, sigma_mm, progress);
+  if (!source) return pass_on(source);
+  return std::make_shared<const Volume>(std::move(*source));
+}
+
 Result<ExecutorSetup> ExecutorSetup::create(std::shared_ptr<const Volume> volume, double smoothed_mm,
                                             const solver::Parameters& parameters, solver::ExecutorKind kind,
                                             const solver::ExecutorOptions& options) {
   ExecutorSetup setup;
-  auto source = smoothed(volume, smoothed_mm);
+  auto source = smoothed_source(volume, smoothed_mm);
   if (!source) return pass_on(source);
   auto executor = solver::make_executor(kind, *source, parameters, options);
   if (!executor) return pass_on(executor);
@@ -70,19 +72,26 @@ Status ExecutorSetup::remake(std::shared_ptr<const Volume> source, solver::Execu
   return {};
 }
 
-Status ExecutorSetup::smooth_source(double sigma_mm) {
-  auto source = smoothed(volume_, sigma_mm);
+Status ExecutorSetup::smooth_source(double sigma_mm, const Progress& progress) {
+  auto source = smoothed_source(volume_, sigma_mm, progress);
   if (!source) return pass_on(source);
-  const auto phi = executor_->snapshot();
-  if (!phi) return tl::unexpected<Error>(phi.error());
-  auto speed = executor_->speed();
+  std::shared_ptr<const solver::SpeedFunction> speed;
   if (drive_ != nullptr) {
-    auto anew = make_speed(*drive_, *source, executor_->parameters());
+    auto anew = make_speed(*drive_, *source, executor_->parameters(), progress);
     if (!anew) return pass_on(anew);
     speed = std::move(*anew);
   }
-  TIDEMARK_TRY(remake(std::move(*source), kind_, options_, *phi, std::move(speed)));
-  smoothed_mm_ = sigma_mm;
+  return set_source(std::move(*source), sigma_mm, std::move(speed));
+}
+
+Status ExecutorSetup::set_source(std::shared_ptr<const Volume> source, double smoothed_mm,
+                                 std::shared_ptr<const solver::SpeedFunction> speed) {
+  const auto phi = executor_->snapshot();
+  if (!phi) return tl::unexpected<Error>(phi.error());
+  auto fitting = solver::with_tents(std::move(speed), source, executor_->parameters());
+  if (!fitting) return pass_on(fitting);
+  TIDEMARK_TRY(remake(std::move(source), kind_, options_, *phi, std::move(*fitting)));
+  smoothed_mm_ = smoothed_mm;
   return {};
 }
 
@@ -104,6 +113,11 @@ Status ExecutorSetup::set_drive(std::shared_ptr<const Drive> drive, const Progre
 Status ExecutorSetup::set_drive(std::shared_ptr<const Drive> drive,
                                 std::shared_ptr<const solver::SpeedFunction> speed) {
   const auto former = executor_->speed();
+  if (speed != former) {
+    auto fitting = solver::with_tents(std::move(speed), source_, executor_->parameters());
+    if (!fitting) return pass_on(fitting);
+    speed = std::move(*fitting);
+  }
   auto constraints = drive == nullptr ? nullptr : drive->constraints;
   if (speed != former) {
     TIDEMARK_TRY(executor_->set_speed(std::move(speed)));
@@ -118,12 +132,20 @@ Status ExecutorSetup::set_drive(std::shared_ptr<const Drive> drive,
   return {};
 }
 
-// A tent that is joined with other functions is made anew; others do not depend on T and epsilon.
+bool ExecutorSetup::lacks_speed() const {
+  return drive_ != nullptr && !drive_->setting.is_tent() && executor_->speed() == nullptr;
+}
+
+Status ExecutorSetup::make_missing_speed(const Progress& progress) {
+  return lacks_speed() ? set_drive(drive_, progress) : Status();
+}
+
+// Other functions than tents do not depend on T and epsilon.
 Status ExecutorSetup::set_parameters(const solver::Parameters& parameters) {
-  if (drive_ == nullptr || drive_->setting.is_tent() || !uses_tent(*drive_)) {
+  if (drive_ == nullptr || !uses_tent(*drive_) || executor_->speed() == nullptr) {
     return executor_->set_parameters(parameters);
   }
-  auto speed = make_speed(*drive_, source_, parameters);
+  auto speed = solver::with_tents(executor_->speed(), source_, parameters);
   if (!speed) return pass_on(speed);
   TIDEMARK_TRY(executor_->set_parameters(parameters));
   return executor_->set_speed(std::move(*speed));
@@ -142,7 +164,7 @@ Status ExecutorSetup::resume() {
   return executor_->restore(*phi);
 }
 
-Status ExecutorSetup::apply(const RecipeEvent& event) {
+Status ExecutorSetup::apply(const RecipeEvent& event, const Progress& progress) {
   if (const auto* paint = std::get_if<PaintEvent>(&event.what)) {
     return executor_->paint(paint->sphere, paint->brush);
   }
@@ -150,18 +172,23 @@ Status ExecutorSetup::apply(const RecipeEvent& event) {
     return set_parameters(change->parameters);
   }
   if (const auto* smoothing = std::get_if<SmoothEvent>(&event.what))
-    return smooth_source(smoothing->sigma_mm);
-  if (const auto* drive = std::get_if<DriveEvent>(&event.what)) return set_drive(drive->drive);
+    return smooth_source(smoothing->sigma_mm, {nullptr, progress.stop});
+  if (const auto* drive = std::get_if<DriveEvent>(&event.what))
+    return set_drive(drive->drive, Progress{nullptr, progress.stop});
   return resume();
 }
 
 Status ExecutorSetup::play(const Recipe& recipe, std::size_t first_event, std::int64_t step,
-                           std::int64_t last_step, const Progress& progress, solver::AdvanceReport* total) {
+                           std::int64_t last_step, const Progress& progress, solver::AdvanceReport* total,
+                           bool until_converged) {
   const std::int64_t first_step = step;
-  const auto advance_to = [&](std::int64_t target) -> Status {
+  const auto advance_to = [&](std::int64_t target, bool to_rest) -> Status {
+    if (step < target) {
+      TIDEMARK_TRY(make_missing_speed({nullptr, progress.stop}));
+    }
     while (step < target) {
       if (progress.cancelled()) return cancelled_error();
-      solver::Advance run{target - step, false, {nullptr, progress.stop}};
+      solver::Advance run{target - step, to_rest, {nullptr, progress.stop}};
       run.progress.report = [&](double fraction, std::string_view what) {
         const double done =
             static_cast<double>(step - first_step) + fraction * static_cast<double>(run.steps);
@@ -171,16 +198,17 @@ Status ExecutorSetup::play(const Recipe& recipe, std::size_t first_event, std::i
       if (!report) return tl::unexpected<Error>(report.error());
       step += report->steps;
       if (total != nullptr) add(*report, *total);
+      if (to_rest && report->converged) break;
     }
     return {};
   };
   for (std::size_t i = first_event; i < recipe.events.size(); ++i) {
     const RecipeEvent& event = recipe.events[i];
     if (event.step > last_step) break;
-    TIDEMARK_TRY(advance_to(event.step));
-    TIDEMARK_TRY(apply(event));
+    TIDEMARK_TRY(advance_to(event.step, false));
+    TIDEMARK_TRY(apply(event, progress));
   }
-  return advance_to(last_step);
+  return advance_to(last_step, until_converged);
 }
 
 }  // namespace tidemark::document

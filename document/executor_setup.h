@@ -9,9 +9,14 @@
 
 namespace tidemark::document {
 
+// The volume as a level set sees it: smoothed by that many mm (0: itself). Fails (ErrorKind::usage) where
+// that is no length, (ErrorKind::cancelled).
+Result<std::shared_ptr<const Volume>> smoothed_source(const std::shared_ptr<const Volume>& volume,
+                                                      double sigma_mm, const Progress& progress = {});
+
 class ExecutorSetup {
  public:
-  // phi is outside everywhere. Fails as make_executor() and smooth() do.
+  // phi is outside everywhere. Fails as make_executor() and smoothed_source() do.
   static Result<ExecutorSetup> create(std::shared_ptr<const Volume> volume, double smoothed_mm,
                                       const solver::Parameters& parameters, solver::ExecutorKind kind,
                                       const solver::ExecutorOptions& options);
@@ -27,13 +32,21 @@ class ExecutorSetup {
   // What drives and holds the surface (null: as without): another executor gets it, too. Fails as
   // make_speed() and the executor do; the former drive then goes on.
   Status set_drive(std::shared_ptr<const Drive> drive, const Progress& progress = {});
-  // The same with the function that was made from it for the present source and parameters.
+  // The same with the function that was made from it for the present source; its tents are made anew for the
+  // present parameters. Null, of another setting than the tent: it lacks its function then.
   Status set_drive(std::shared_ptr<const Drive> drive, std::shared_ptr<const solver::SpeedFunction> speed);
   Status set_parameters(const solver::Parameters& parameters);
   [[nodiscard]] const std::shared_ptr<const Drive>& drive() const { return drive_; }
+  // Whether the drive's function is missing: the tent is in its place, and no step may be computed before
+  // make_missing_speed(), which fails as set_drive() does, or another set_drive().
+  [[nodiscard]] bool lacks_speed() const;
+  Status make_missing_speed(const Progress& progress);
 
-  // Each makes another executor, or fails and changes nothing. The first goes on from the same phi.
-  Status smooth_source(double sigma_mm);
+  // Each makes another executor, or fails and changes nothing. They go on from the same phi.
+  Status smooth_source(double sigma_mm, const Progress& progress = {});
+  // With the volume, smoothed by that much, and the function for it, as set_drive() takes it.
+  Status set_source(std::shared_ptr<const Volume> source, double smoothed_mm,
+                    std::shared_ptr<const solver::SpeedFunction> speed);
   Status change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options,
                          const solver::Field& phi);
 
@@ -45,10 +58,11 @@ class ExecutorSetup {
 
   // Carries out the recipe from its `first_event` on until `last_step` steps have been computed, with the
   // edits after the last of them. `step` steps have been computed before. The cost is added to `total`.
+  // `until_converged`: the steps after the last event end when the surface has stopped moving.
   Status play(const Recipe& recipe, std::size_t first_event, std::int64_t step, std::int64_t last_step,
-              const Progress& progress, solver::AdvanceReport* total = nullptr);
+              const Progress& progress, solver::AdvanceReport* total = nullptr, bool until_converged = false);
   // Carries out one event.
-  Status apply(const RecipeEvent& event);
+  Status apply(const RecipeEvent& event, const Progress& progress = {});
 
  private:
   ExecutorSetup() = default;

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "document/level_set_change.h"
-#include "solver/speed/speed_registry.h"
 
 namespace tidemark::document {
 namespace {
@@ -32,21 +31,6 @@ ChangeKind kind_of_change(const solver::Parameters& before, const solver::Parame
   return changed == after ? ChangeKind::smoothing : ChangeKind::parameters;
 }
 
-// What of it was changed. The function that strokes bring with them is no change of its own.
-ChangeKind kind_of_change(const Drive& before, const Drive& after) {
-  if (before.constraints != after.constraints) return ChangeKind::constraints;
-  return before.strokes != after.strokes ? ChangeKind::examples : ChangeKind::speed;
-}
-
-Drive value_of(const std::shared_ptr<const Drive>& drive) {
-  return drive == nullptr ? Drive() : *drive;
-}
-
-// Null for what executors do without any drive.
-std::shared_ptr<const Drive> shared(const Drive& drive) {
-  return drive == Drive() ? nullptr : std::make_shared<const Drive>(drive);
-}
-
 // Of events that follow each other without a step between, whether the last counts alone. A wall that is
 // taken away again has moved the surface.
 bool replaces(const RecipeEvent& event, const RecipeEvent& before) {
@@ -56,14 +40,6 @@ bool replaces(const RecipeEvent& event, const RecipeEvent& before) {
   const auto* now = std::get_if<DriveEvent>(&event.what);
   const auto* then = std::get_if<DriveEvent>(&before.what);
   return now != nullptr && then != nullptr && cover(*now->drive, *then->drive);
-}
-
-// Without what waits for another function.
-Drive relevant(Drive drive) {
-  if (!drive.setting.is_tent()) return drive;
-  Drive held;
-  held.constraints = std::move(drive.constraints);
-  return held;
 }
 
 }  // namespace
@@ -227,83 +203,12 @@ Status LevelSet::set_parameters(const solver::Parameters& parameters, std::uint6
   return gesture == 0 ? history_.close() : Status();
 }
 
-Status LevelSet::set_drive(const Drive& drive, std::uint64_t gesture) {
-  TIDEMARK_TRY(end_other_change(gesture));
-  if (drive == *drive_) return {};
-  TIDEMARK_TRY(check(drive.setting));
-  const ChangeKind kind = kind_of_change(*drive_, drive);
-  const Point before = known_;
-  // Another function comes with set_speed(); until then the present one goes on.
-  Drive now = drive.setting.is_tent() ? drive : drive_in_use();
-  now.constraints = drive.constraints;
-  TIDEMARK_TRY(use(now, drive.setting.is_tent() ? nullptr : executor().speed()));
-  begin_change(kind, gesture, before);
-  drive_ = std::make_shared<const Drive>(drive);
-  if (kind == ChangeKind::constraints) {
-    curve_.cut(step());
-    dirty_ = true;
-  }
-  return gesture == 0 ? history_.close() : Status();
-}
-
-Status LevelSet::set_speed(std::shared_ptr<const solver::SpeedFunction> speed) {
-  return use(*drive_, std::move(speed));
-}
-
-Drive LevelSet::drive_in_use() const {
-  return value_of(setup_.drive());
-}
-
-// Puts it in place of what drives and holds the surface, and into the recipe.
-Status LevelSet::use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed) {
-  const Drive used = relevant(drive);
-  // The one in place was made from the same: giving it again would wake pages, which a replay does not.
-  const bool in_place = used.setting.is_tent() || executor().speed() != nullptr;
-  if (in_place && used == drive_in_use()) return {};
-  TIDEMARK_TRY(setup_.set_drive(shared(used), std::move(speed)));
-  if (used == value_of(recipe_.final_drive())) return {};
-  if (begun()) {
-    record({step(), DriveEvent{std::make_shared<const Drive>(used)}});
-  } else {
-    recipe_.drive = shared(used);
-  }
-  if (!dirty_) known_.recipe = recipe_;
-  return {};
-}
-
-// As at the end of the recipe. Of a function that cannot be made, because an image is missing, only what
-// holds the surface is left; who makes functions says why.
-Status LevelSet::drive_as(const Recipe& recipe) {
-  const Drive wanted = value_of(recipe.final_drive());
-  if (wanted == drive_in_use()) return {};
-  const Status driven = setup_.set_drive(shared(wanted));
-  if (driven || driven.error().kind != ErrorKind::usage) return driven;
-  Drive held;
-  held.constraints = wanted.constraints;
-  return setup_.set_drive(shared(held));
-}
-
-Status LevelSet::smooth_source(double sigma_mm) {
-  TIDEMARK_TRY(history_.close());
-  if (sigma_mm == smoothed_mm()) return {};
-  TIDEMARK_TRY(setup_.smooth_source(sigma_mm));
-  const Point before = known_;
-  if (begun()) {
-    record({step(), SmoothEvent{sigma_mm}});
-  } else {
-    recipe_.smoothed_mm = sigma_mm;
-  }
-  TIDEMARK_TRY(read_back_phi());
-  in_place_ = known_;
-  add_entry(ChangeKind::source, before, known_);
-  return {};
-}
-
 Result<solver::AdvanceReport> LevelSet::advance(const solver::Advance& run) {
   if (!begun()) return fail(ErrorKind::usage, "there is no surface yet: a start is needed");
   if (step() == 0 && dirty_) {
     TIDEMARK_TRY(read_back_phi());  // restart() comes back to it
   }
+  TIDEMARK_TRY(setup_.make_missing_speed({nullptr, run.progress.stop}));
   auto report = executor().advance(run);
   const std::int64_t steps = executor().steps_of_last_run();
   if (steps == 0) return report;
@@ -329,7 +234,9 @@ void LevelSet::put_in_place(Point point) {
 Status LevelSet::hand_over(const Point& point) {
   const solver::Parameters& wanted = point.recipe.final_parameters();
   if (const double sigma_mm = point.recipe.final_smoothed_mm(); sigma_mm != smoothed_mm()) {
-    TIDEMARK_TRY(setup_.smooth_source(sigma_mm));
+    auto source = smoothed_source(setup_.volume(), sigma_mm);
+    if (!source) return pass_on(source);
+    TIDEMARK_TRY(setup_.set_source(std::move(*source), sigma_mm, nullptr));
   }
   if (!(wanted == parameters())) {
     TIDEMARK_TRY(setup_.set_parameters(wanted));
@@ -382,16 +289,6 @@ Status LevelSet::prepare_start() {
     TIDEMARK_TRY(setup_.apply(event));
   }
   return {};
-}
-
-// Of what waits for another function nothing is lost.
-void LevelSet::take_drive_of_recipe() {
-  Drive drive = value_of(recipe_.final_drive());
-  if (drive == relevant(*drive_)) return;
-  if (drive.strokes == nullptr) drive.strokes = drive_->strokes;
-  if (drive.map == nullptr) drive.map = drive_->map;
-  if (drive.images.empty()) drive.images = drive_->images;
-  drive_ = std::make_shared<const Drive>(std::move(drive));
 }
 
 Status LevelSet::compute_again(std::int64_t target, const Progress& progress) {

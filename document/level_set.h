@@ -54,6 +54,10 @@ class LevelSet final : private OpenChange {
   Status set_drive(const Drive& drive, std::uint64_t gesture = 0);
   // The level set's source becomes the volume, smoothed by that many mm (0: not at all).
   Status smooth_source(double sigma_mm);
+  // The same with the source that smoothed_source() has made, and the function that belongs to it and to
+  // drive(); null: the tent, or one that is made when it is needed.
+  Status set_source(std::shared_ptr<const Volume> source, double sigma_mm,
+                    std::shared_ptr<const solver::SpeedFunction> speed);
   // Steps, one after the other, are one entry until another edit or end_run(). When a memory budget ends the
   // run, the steps up to there count.
   Result<solver::AdvanceReport> advance(const solver::Advance& run);
@@ -65,6 +69,9 @@ class LevelSet final : private OpenChange {
   // Back to the start as it was before the first step, with the present parameters. An entry of its own.
   Status restart();
 
+  // Whether undo or a session has led to a drive whose function must be made first. The next step makes it,
+  // unless set_speed() or set_source() has given it by then.
+  [[nodiscard]] bool lacks_speed() const { return setup_.lacks_speed(); }
   // The function that was made from drive(): from here on the recipe has it. Not an entry of the history.
   Status set_speed(std::shared_ptr<const solver::SpeedFunction> speed);
 

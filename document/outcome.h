@@ -1,4 +1,4 @@
-// How a level set has ended: decided in one place for the desktop and the command line.
+// The outcome of a level set: decided in one place for the desktop and the command line.
 #pragma once
 
 #include <cstdint>

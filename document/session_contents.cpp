@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "document/checksum.h"
+#include "document/session_file.h"
 
 namespace tidemark::document {
 namespace {
@@ -64,6 +65,15 @@ Result<std::unique_ptr<Case>> restore_case(const SessionContents& contents,
   if (!restored) return pass_on(restored);
   document.view_state = contents.view_state;
   return made;
+}
+
+Status save_session(Case& document, const std::filesystem::path& file) {
+  TIDEMARK_TRY(document.level_set().end_run());
+  const auto contents = snapshot_of(document);
+  if (!contents) return tl::unexpected<Error>(contents.error());
+  TIDEMARK_TRY(write_session(*contents, file));
+  document.mark_saved();
+  return {};
 }
 
 }  // namespace tidemark::document

@@ -1,6 +1,7 @@
 // The contents of a session file as values, for writing on any thread while the case goes on.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,10 +20,15 @@ struct SessionContents {
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null: no voxel has a label
   Curve curve;
   std::string view_state;
+  // Further images of the case, whether or not the speed function uses them. As read from a file they have no
+  // voxels: see find_images().
+  std::vector<std::shared_ptr<const CaseImage>> images;
 };
 
 // The case's present contents, taken on its thread. A checkpoint of its level set.
 Result<SessionContents> snapshot_of(Case& document);
+// Closes the open change, writes the case, and marks it as saved.
+Status save_session(Case& document, const std::filesystem::path& file);
 
 // The comparison of a volume with the saved one.
 enum class VolumeMatch {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/atomic_file.h"
+#include "document/drive_json.h"
 #include "document/field_bytes.h"
 #include "document/recipe_json.h"
 #include "document/zip_archive.h"
@@ -19,6 +20,7 @@ constexpr std::string_view kLabels = "labels";
 constexpr const char* kFormat = "tidemark session";
 constexpr std::size_t kLongestViewState = std::size_t{16} << 20;
 constexpr std::size_t kLongestName = 256;
+constexpr std::size_t kMostImages = 64;
 constexpr std::size_t kLongestDescription = std::size_t{1} << 20;
 // Some 170,000 strokes of a brush: 2 million values, in 16 MiB of places and 32 MiB of text.
 constexpr JsonLimits kJsonLimits{.bytes = std::size_t{32} << 20, .values = std::size_t{2} << 20};
@@ -114,18 +116,36 @@ Curve read_curve(const JsonField& field) {
   return Curve(std::move(points));
 }
 
-Json study_json(const StudyOrigin& origin, const std::filesystem::path& session) {
-  std::error_code ignored;
-  Json json{{"series_uid", origin.series_uid},  {"phantom", origin.phantom}, {"sha256", origin.checksum},
-            {"slices", to_json(origin.policy)}, {"name", origin.name},       {"date", origin.date}};
+// Where a study or an image is found again.
+void add_place(Json& json, const std::filesystem::path& path, const std::filesystem::path& session) {
   json["path"] = "";
   json["relative_path"] = "";
-  if (origin.path.empty()) return json;
-  const auto whole = std::filesystem::absolute(origin.path, ignored);
+  if (path.empty()) return;
+  std::error_code ignored;
+  const auto whole = std::filesystem::absolute(path, ignored);
   json["path"] = whole.string();
   json["relative_path"] =
       std::filesystem::proximate(whole, std::filesystem::absolute(session, ignored).parent_path(), ignored)
           .string();
+}
+
+// Beside the session, if it is there, else where it was; empty: it was made here.
+std::filesystem::path read_place(const JsonField& field, const std::filesystem::path& session) {
+  const std::filesystem::path path = field.at("path").text();
+  const std::filesystem::path relative = field.at("relative_path").text();
+  for (const auto& any : {path, relative}) {
+    if (any.string().find('\0') != std::string::npos) field.wrong("names no path");
+  }
+  if (!field.good() || relative.empty()) return path;
+  std::error_code error;
+  const auto beside = std::filesystem::weakly_canonical(session.parent_path() / relative, error);
+  return !error && std::filesystem::exists(beside, error) ? beside : path;
+}
+
+Json study_json(const StudyOrigin& origin, const std::filesystem::path& session) {
+  Json json{{"series_uid", origin.series_uid},  {"phantom", origin.phantom}, {"sha256", origin.checksum},
+            {"slices", to_json(origin.policy)}, {"name", origin.name},       {"date", origin.date}};
+  add_place(json, origin.path, session);
   return json;
 }
 
@@ -134,20 +154,36 @@ StudyOrigin read_study(const JsonField& field, const std::filesystem::path& sess
   origin.series_uid = field.at("series_uid").text(kLongestName);
   origin.phantom = field.at("phantom").text(kLongestName);
   origin.checksum = field.at("sha256").text(64);
-  origin.path = field.at("path").text();
   if (field.has("slices")) origin.policy = read_policy(field.at("slices"));
   if (field.has("name")) origin.name = field.at("name").text(kLongestDescription);
   if (field.has("date")) origin.date = field.at("date").text(kLongestDescription);
-  const std::filesystem::path relative = field.at("relative_path").text();
+  origin.path = read_place(field, session);
   if (field.good() && origin.path.empty() && origin.phantom.empty()) field.wrong("names no study");
-  for (const auto& path : {origin.path, relative}) {
-    if (path.string().find('\0') != std::string::npos) field.wrong("names no path");
-  }
-  if (!field.good() || relative.empty()) return origin;
-  std::error_code error;
-  const auto beside = std::filesystem::weakly_canonical(session.parent_path() / relative, error);
-  if (!error && std::filesystem::exists(beside, error)) origin.path = beside;
   return origin;
+}
+
+Json images_json(const SessionContents& contents, const std::filesystem::path& file) {
+  Json list = Json::array();
+  for (const auto& image : contents.images) {
+    Json one = to_json(*image);
+    one["slices"] = to_json(image->policy);
+    add_place(one, image->path, file);
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+std::vector<std::shared_ptr<const CaseImage>> read_images(const JsonField& field,
+                                                          const std::filesystem::path& file) {
+  std::vector<std::shared_ptr<const CaseImage>> images;
+  const std::size_t count = field.size(kMostImages);
+  for (std::size_t i = 0; i < count && field.good(); ++i) {
+    CaseImage image = read_image(field.at(i));
+    image.policy = read_policy(field.at(i).at("slices"));
+    image.path = read_place(field.at(i), file);
+    images.push_back(std::make_shared<const CaseImage>(std::move(image)));
+  }
+  return images;
 }
 
 Json session_json(const SessionContents& contents, const std::filesystem::path& file) {
@@ -162,6 +198,7 @@ Json session_json(const SessionContents& contents, const std::filesystem::path& 
   json["labels"] = labels_json(contents.labels);
   json["curve"] = curve_json(*contents.curve.points());
   json["view_state"] = contents.view_state;
+  if (!contents.images.empty()) json["images"] = images_json(contents, file);
   return json;
 }
 
@@ -270,6 +307,7 @@ Result<SessionContents> load_session(const std::filesystem::path& file) {
   contents.labels = read_labels(root.at("labels"));
   if (root.has("curve")) contents.curve = read_curve(root.at("curve"));
   contents.view_state = root.at("view_state").text(kLongestViewState);
+  if (root.has("images")) contents.images = read_images(root.at("images"), file);
   if (root.good() && contents.recipe.source.size != contents.geometry.size) {
     root.at("recipe").wrong("is of another grid");
   }
@@ -288,15 +326,6 @@ Result<StudyOrigin> load_origin(const std::filesystem::path& file) {
   StudyOrigin origin = read_study(root.at("study"), file);
   if (!root.good()) return tl::unexpected<Error>(root.status().error());
   return origin;
-}
-
-Status save_session(Case& document, const std::filesystem::path& file) {
-  TIDEMARK_TRY(document.level_set().end_run());
-  const auto contents = snapshot_of(document);
-  if (!contents) return tl::unexpected<Error>(contents.error());
-  TIDEMARK_TRY(write_session(*contents, file));
-  document.mark_saved();
-  return {};
 }
 
 }  // namespace tidemark::document

@@ -20,7 +20,4 @@ Result<SessionContents> load_session(const std::filesystem::path& file);
 // The origin alone, without reading the rest.
 Result<StudyOrigin> load_origin(const std::filesystem::path& file);
 
-// Closes the open change, writes the case, and marks it as saved.
-Status save_session(Case& document, const std::filesystem::path& file);
-
 }  // namespace tidemark::document

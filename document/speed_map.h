@@ -9,8 +9,9 @@
 
 namespace tidemark::document {
 
-// A map on the voxels of `grid`; the file's axes may be in another order or run the other way. Fails
-// (ErrorKind::input) naming the file when it cannot be read or has other voxels.
+// A map on the voxels of `grid`. A volume file has the same voxels; its axes may be in another order or run
+// the other way. A DICOM parametric map or segmentation (as fractions) is placed by its geometry. Fails
+// (ErrorKind::input) naming the file when it cannot be read, or does not fit.
 Result<std::shared_ptr<const SpeedMap>> load_speed_map(const std::filesystem::path& file,
                                                        const Geometry& grid, const Progress& progress = {});
 

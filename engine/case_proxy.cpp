@@ -25,6 +25,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
   receiver.progressed = [this](double fraction, const QString& what) { emit progressed(fraction, what); };
   runner_ = std::make_shared<CaseRunner>(engine_, study_, executor, std::move(receiver), std::move(restored));
   post([](CaseRunner& runner, const Progress&) { return runner.open(); });
+  connect(&display_, &Display::changed, this, &CaseProxy::use_images_of_display);
 }
 
 CaseProxy::~CaseProxy() {
@@ -59,6 +60,7 @@ void CaseProxy::take(CaseState state) {
   if (*edits_done_ == edits_sent_) {
     wanted_parameters_ = state_.parameters;
     wanted_drive_ = state_.drive;
+    show_images_of_drive();
   }
   emit state_changed();
 }
@@ -120,13 +122,30 @@ void CaseProxy::set_parameters(const solver::Parameters& parameters, std::uint64
   emit state_changed();  // every view and panel shows the wish at once
 }
 
-void CaseProxy::set_drive(const document::Drive& drive, std::uint64_t gesture) {
+void CaseProxy::set_drive(const document::Drive& wanted, std::uint64_t gesture) {
+  document::Drive drive = wanted;
+  drive.images.clear();
+  if (document::uses_images(drive.setting)) drive.images = used_images(display_.settings().images);
   if (drive == wanted_drive_) return;
   wanted_drive_ = drive;
   post([drive, gesture](CaseRunner& runner, const Progress&) {
     return runner.report_edit(runner.document().level_set().set_drive(drive, gesture));
   });
   emit state_changed();
+}
+
+// An image was added, moved, taken away, or is to be used or not.
+void CaseProxy::use_images_of_display() {
+  if (!document::uses_images(wanted_drive_.setting)) return;
+  if (wanted_drive_.images != used_images(display_.settings().images))
+    set_drive(wanted_drive_, new_gesture());
+}
+
+// Undo, or a session, has brought others.
+void CaseProxy::show_images_of_drive() {
+  if (!document::uses_images(wanted_drive_.setting)) return;
+  if (wanted_drive_.images == used_images(display_.settings().images)) return;
+  display_.change([&](DisplaySettings& settings) { use_images(settings.images, wanted_drive_.images); });
 }
 
 void CaseProxy::begin(const document::Start& start) {
@@ -143,9 +162,7 @@ void CaseProxy::paint(const solver::Sphere& sphere, solver::Brush brush, std::ui
 }
 
 void CaseProxy::smooth_source(double sigma_mm) {
-  post([sigma_mm](CaseRunner& runner, const Progress& progress) {
-    return runner.report_change(runner.document().smooth_source(sigma_mm, progress));
-  });
+  post([sigma_mm](CaseRunner& runner, const Progress&) { return runner.smooth_source(sigma_mm); });
 }
 
 void CaseProxy::change_executor(solver::ExecutorKind kind) {
@@ -153,10 +170,7 @@ void CaseProxy::change_executor(solver::ExecutorKind kind) {
 }
 
 void CaseProxy::undo() {
-  post([](CaseRunner& runner, const Progress&) {
-    runner.set_playing(false);
-    return runner.report_edit(runner.document().undo());
-  });
+  post([](CaseRunner& runner, const Progress&) { return runner.undo(); });
 }
 
 void CaseProxy::redo() {
@@ -226,7 +240,10 @@ void CaseProxy::take_snapshot(std::string view_state,
                               std::function<void(std::shared_ptr<const Snapshot>)> answer,
                               std::function<void()> gave_up) {
   using Taken = Result<std::shared_ptr<const Snapshot>>;
-  post([view_state = std::move(view_state), answer = std::move(answer), gave_up = std::move(gave_up),
+  std::vector<std::shared_ptr<const document::CaseImage>> images;
+  for (const ShownImage& shown : display_.settings().images) images.push_back(shown.image);
+  post([view_state = std::move(view_state), images = std::move(images), answer = std::move(answer),
+        gave_up = std::move(gave_up),
         weak_receiver = weak_receiver_](CaseRunner& runner, const Progress&) -> Status {
     const Taken taken = without_exceptions([&]() -> Taken {
       document::Case& document = runner.document();
@@ -234,6 +251,7 @@ void CaseProxy::take_snapshot(std::string view_state,
       TIDEMARK_TRY(document.history().close());
       auto contents = document::snapshot_of(document);
       if (!contents) return pass_on(contents);
+      contents->images = images;
       return std::make_shared<const Snapshot>(Snapshot{std::move(*contents), document.history().position()});
     });
     if (taken) {

@@ -81,10 +81,12 @@ class CaseProxy : public QObject {
   [[nodiscard]] static std::uint64_t new_gesture();
   void set_parameters(const solver::Parameters& parameters, std::uint64_t gesture = 0);
   // The speed function that belongs to it is made in the background, and drives the surface from then on.
+  // Its images are those that the display says are used, where a function uses images; else none.
   void set_drive(const document::Drive& drive, std::uint64_t gesture = 0);
   void begin(const document::Start& start);
   void paint(const solver::Sphere& sphere, solver::Brush brush, std::uint64_t gesture);
-  void smooth_source(double sigma_mm);  // the level set's source; 0: the volume itself
+  // The level set's source (0: the volume itself). It is smoothed in the background; undo() gives that up.
+  void smooth_source(double sigma_mm);
   void change_executor(solver::ExecutorKind kind);
   void undo();
   void redo();
@@ -104,8 +106,8 @@ class CaseProxy : public QObject {
   void pick(const renderer::VolumeView& view, renderer::PictureSize size, glm::dvec2 pixel,
             std::function<void(std::optional<renderer::Hit>)> answer);
 
-  // The case as it is now, for writing on another thread; the answer comes as pick()'s does. An open change
-  // ends as an entry of the history.
+  // The case as it is now, with the images of the display, for writing on another thread; the answer comes as
+  // pick()'s does. An open change ends as an entry of the history.
   struct Snapshot {
     document::SessionContents contents;
     std::uint64_t position = 0;  // for mark_saved()
@@ -134,6 +136,8 @@ class CaseProxy : public QObject {
   using Command = std::function<Status(CaseRunner&, const Progress&)>;
   void post(Command command);
   void take(CaseState state);
+  void use_images_of_display();
+  void show_images_of_drive();
   void set_playing(bool playing);
 
   Engine& engine_;

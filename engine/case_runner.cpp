@@ -30,21 +30,23 @@ CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study,
 void CaseRunner::post(Command command) {
   engine_.interrupt(Priority::step, this);  // refinement can wait
   auto job = [self = shared_from_this(), command = std::move(command)](const std::stop_token& stop) {
-    Progress progress;
-    progress.stop = stop;
-    progress.report = [self](double fraction, std::string_view what) {
-      self->receiver_.weak_receiver->send(
-          [report = self->receiver_.progressed, fraction,
-           text = QString::fromUtf8(what.data(), static_cast<qsizetype>(what.size()))] {
-            report(fraction, text);
-          });
-    };
+    const Progress progress{self->report(), stop};
     if (auto status = self->follow_graphics(); !status) self->report_failure(status.error());
     if (auto status = command(*self, progress); !status) self->report_failure(status.error());
     if (self->case_) self->show();
   };
   engine_.post(Priority::edit, this, std::move(job),
                [self = shared_from_this()](const Error& error) { self->recover(error); });
+}
+
+SpeedMaker::Report CaseRunner::report() const {
+  return [weak_receiver = receiver_.weak_receiver, progressed = receiver_.progressed](double fraction,
+                                                                                      std::string_view what) {
+    weak_receiver->send(
+        [progressed, fraction, text = QString::fromUtf8(what.data(), static_cast<qsizetype>(what.size()))] {
+          progressed(fraction, text);
+        });
+  };
 }
 
 void CaseRunner::show() {
@@ -72,7 +74,7 @@ void CaseRunner::mark_saved(std::uint64_t position) {
 }
 
 void CaseRunner::close() {
-  speed_maker_.give_up();
+  case_speed_.give_up();
   playing_ = false;
   painter_.forget();
   painter_.use(nullptr);
@@ -160,55 +162,46 @@ Status CaseRunner::accept_surface(std::uint8_t label, document::Take take) {
 // What drives the surface.
 
 void CaseRunner::follow_drive() {
-  const document::LevelSet& level_set = case_->level_set();
-  const SpeedOrigin wanted = speed_origin(level_set.drive(), level_set.source(), level_set.parameters());
-  if (wanted.setting.is_tent() || (wanted == speed_made_ && level_set.executor().speed())) {
-    speed_maker_.give_up();
-    speed_wish_.reset();
-    speed_waits_ = false;
-    if (wanted.setting.is_tent()) speed_made_ = {};
-    return;
-  }
-  if (speed_wish_ == wanted) return;
-  speed_wish_ = wanted;
-  speed_waits_ = true;
-  speed_maker_.make(wanted, [weak = weak_from_this(), wanted](SpeedMaker::Made made) {
-    auto self = weak.lock();
-    if (!self) return;
-    Engine& engine = self->engine_;
-    const void* owner = self.get();
-    // The job has the last hold of it: the runner must not die on the thread that makes its functions.
-    engine.post(Priority::edit, owner,
-                [self = std::move(self), wanted, made = std::move(made)](const std::stop_token&) {
-                  if (self->case_) self->take_speed(wanted, made);
-                });
-  });
+  case_speed_.follow(
+      *case_, report(), [weak = weak_from_this()](const SpeedOrigin& origin, SpeedMaker::Made made) {
+        auto self = weak.lock();
+        if (!self) return;
+        Engine& engine = self->engine_;
+        const void* owner = self.get();
+        // The job has the last hold of it: the runner must not die on the maker's thread.
+        engine.post(Priority::edit, owner,
+                    [self = std::move(self), origin, made = std::move(made)](const std::stop_token&) {
+                      self->take_speed(origin, made);
+                    });
+      });
 }
 
-void CaseRunner::take_speed(const SpeedOrigin& origin, SpeedMaker::Made made) {
-  if (speed_wish_ != origin) return;
-  speed_waits_ = false;
-  Status taken = made ? case_->level_set().set_speed(*made) : Status(pass_on(made));
-  if (taken) {
-    speed_made_ = origin;
-    speed_wish_.reset();
-    report_change({});
-    if (playing_) post_steps();
-  } else {
+void CaseRunner::take_speed(const SpeedOrigin& origin, const SpeedMaker::Made& made) {
+  if (!case_) return;
+  const auto taken = case_speed_.take(*case_, origin, made);
+  if (!taken) {
     report_failure(taken.error());
     set_playing(false);
+  } else if (*taken) {
+    report_change({});
+    if (playing_) post_steps();
   }
   show();
 }
 
-bool CaseRunner::waits_for_speed() const {
-  if (!speed_wish_ || !speed_waits_) return false;
-  const auto functions = [](const SpeedOrigin& origin) {
-    std::vector<std::string> names;
-    for (const solver::SpeedTerm& term : origin.setting.terms) names.push_back(term.function);
-    return names;
-  };
-  return functions(*speed_wish_) != functions(speed_made_);
+Status CaseRunner::smooth_source(double sigma_mm) {
+  case_speed_.smooth(sigma_mm);
+  return {};
+}
+
+// What is still on its way was done last.
+Status CaseRunner::undo() {
+  set_playing(false);
+  if (case_speed_.smoothing()) {
+    case_speed_.give_up_smoothing();
+    return {};
+  }
+  return report_edit(case_->undo());
 }
 
 // Playing.
@@ -220,14 +213,14 @@ void CaseRunner::set_playing(bool playing) {
 
 void CaseRunner::play_alone(bool playing) {
   const bool begins = playing && !playing_;
-  if (begins && !speed_waits_) speed_wish_.reset();  // one that could not be had is tried again
+  if (begins) case_speed_.try_again();
   playing_ = playing && case_->level_set().begun();
   if (begins && playing_) post_steps();
   if (!playing_) end_run();
 }
 
 Status CaseRunner::step(std::int64_t steps, const Progress& progress) {
-  if (!case_->level_set().begun() || waits_for_speed()) return {};
+  if (!case_->level_set().begun() || case_speed_.holds_steps(*case_)) return {};
   if (const auto group = group_.lock()) return group->step(steps, progress);
   play_alone(false);
   return advance(steps, progress);
@@ -252,7 +245,7 @@ void CaseRunner::post_steps() {
 }
 
 void CaseRunner::run_steps(std::stop_token stop) {
-  if (!playing_ || !case_ || waits_for_speed()) return;
+  if (!playing_ || !case_ || case_speed_.holds_steps(*case_)) return;
   Status status = follow_graphics();
   const auto group = group_.lock();
   const Progress progress{nullptr, std::move(stop)};
@@ -391,7 +384,8 @@ void CaseRunner::publish() {
   state.smoothed_mm = case_->smoothed_mm();
   state.drive = level_set.drive();
   state.speed = level_set.executor().speed();
-  state.speed_waits = speed_waits_;
+  state.speed_waits = case_speed_.waits();
+  state.smoothing = case_speed_.smoothing();
   state.source = level_set.source();
   state.executor = QString::fromUtf8(level_set.executor().name().data(),
                                      static_cast<qsizetype>(level_set.executor().name().size()));
@@ -401,6 +395,7 @@ void CaseRunner::publish() {
   state.label_voxels = label_voxels();
   if (case_->history().position() == acceptance_position_) state.acceptance = acceptance_;
   if (const auto change = case_->history().undo_description()) state.undo_text = change_text(*change);
+  if (case_speed_.smoothing()) state.undo_text = change_text({document::ChangeKind::source, 0, {}});
   if (const auto change = case_->history().redo_description()) state.redo_text = change_text(*change);
   state.modified = case_->changed_since_save() || restored_.rescued;
   state.edits = case_->history().edits();

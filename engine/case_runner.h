@@ -7,7 +7,7 @@
 #include "engine/case_meter.h"
 #include "engine/case_painter.h"
 #include "engine/case_proxy.h"
-#include "engine/speed_maker.h"
+#include "engine/case_speed.h"
 #include "engine/weak_receiver.h"
 
 namespace tidemark::engine {
@@ -50,6 +50,8 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   Status report_edit(Status outcome);
   Status report_change(Status outcome);
   Status report_labels(Status outcome);
+  Status smooth_source(double sigma_mm);  // in the background
+  Status undo();
   Status accept_surface(std::uint8_t label, document::Take take);
 
   [[nodiscard]] bool playing() const { return playing_; }
@@ -85,11 +87,9 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void draw_in_turn(const std::shared_ptr<ViewSlot>& slot, Priority priority, std::stop_token stop);
   void draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token stop);
   Status measure(bool thoroughly);
-  // Has the function made that belongs to what drives the surface, unless it is there or on its way.
   void follow_drive();
-  void take_speed(const SpeedOrigin& origin, SpeedMaker::Made made);
-  // While another kind of function is on its way, the surface does not move by the one before.
-  [[nodiscard]] bool waits_for_speed() const;
+  void take_speed(const SpeedOrigin& origin, const SpeedMaker::Made& made);
+  [[nodiscard]] SpeedMaker::Report report() const;  // of long work, to the proxy
   void post_measurement();
   void end_run();
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels();
@@ -109,10 +109,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   int graphics_ = 0;  // Engine::contexts_made() when the executor was made
   std::weak_ptr<LockStep> group_;
 
-  SpeedMaker speed_maker_;
-  SpeedOrigin speed_made_;                 // of the function that drives the surface
-  std::optional<SpeedOrigin> speed_wish_;  // on its way, or cannot be had
-  bool speed_waits_ = false;               // the former
+  CaseSpeed case_speed_;
 
   bool playing_ = false;
   bool pause_at_convergence_ = true;

@@ -31,6 +31,7 @@ struct CaseState {
   std::shared_ptr<const solver::SpeedFunction> speed;  // that drives it now; null: the tent
   bool speed_waits = false;                            // another one is being made
   double smoothed_mm = 0.0;
+  std::optional<double> smoothing;       // to that many mm, on its way
   std::shared_ptr<const Volume> source;  // as the level set sees it: smoothed by that much
   QString executor;                      // "host", "compute", "stream"
   double steps_per_second = 0.0;  // while it plays, in the last second: steps by time, pictures included

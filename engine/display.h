@@ -52,6 +52,8 @@ struct DisplaySettings {
   bool radiological = true;        // the patient's right on the left of the screen
   bool patient_text = true;        // names and dates in the corners
   std::vector<ShownImage> images;  // over the slices, the last one on top
+  bool swipe = false;              // left of a line slices show the study alone
+  double swipe_at = 0.5;           // that line, as a part of a view's width
 
   // 3D.
   renderer::Camera camera;

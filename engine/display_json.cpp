@@ -1,5 +1,6 @@
 #include "engine/display_json.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "core/json/json.h"
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double kFarthest = 1e6;  // mm: nothing in a patient is as far away
 constexpr int kTools = 11;
+constexpr std::size_t kMostImages = 64;
 constexpr JsonLimits kLimits{.bytes = std::size_t{16} << 20, .values = std::size_t{1} << 20};
 
 Json json_of(glm::dvec3 v) {
@@ -53,7 +55,9 @@ Json slices_json(const DisplaySettings& s) {
           {"marks", s.marks},
           {"speed_term", static_cast<int>(s.speed_term)},
           {"radiological", s.radiological},
-          {"patient_text", s.patient_text}};
+          {"patient_text", s.patient_text},
+          {"swipe", s.swipe},
+          {"swipe_at", s.swipe_at}};
 }
 
 void read_slices(const JsonField& field, DisplaySettings& s) {
@@ -74,6 +78,8 @@ void read_slices(const JsonField& field, DisplaySettings& s) {
   read_enum(field, "speed_term", 4, s.speed_term);
   read(field, "radiological", s.radiological);
   read(field, "patient_text", s.patient_text);
+  read(field, "swipe", s.swipe);
+  read(field, "swipe_at", 0.0, 1.0, s.swipe_at);
 }
 
 Json volume_json(const DisplaySettings& s) {
@@ -149,6 +155,34 @@ Json measurements_json(const DisplaySettings& s) {
   return list;
 }
 
+// How each image is shown; the images themselves are no part of it.
+Json images_json(const DisplaySettings& s) {
+  Json list = Json::array();
+  for (const ShownImage& shown : s.images) {
+    list.push_back({{"visible", shown.visible},
+                    {"colours", static_cast<int>(shown.colours)},
+                    {"opacity", shown.opacity},
+                    {"window_centre", shown.window.centre},
+                    {"window_width", shown.window.width},
+                    {"used", shown.used}});
+  }
+  return list;
+}
+
+void read_images(const JsonField& field, DisplaySettings& s) {
+  const std::size_t count = std::min(field.size(kMostImages), s.images.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const JsonField one = field.at(i);
+    ShownImage& shown = s.images[i];
+    read(one, "visible", shown.visible);
+    read_enum(one, "colours", 4, shown.colours);
+    read(one, "opacity", 0.0, 1.0, shown.opacity);
+    read(one, "window_centre", -1e9, 1e9, shown.window.centre);
+    read(one, "window_width", 1e-9, 1e9, shown.window.width);
+    read(one, "used", shown.used);
+  }
+}
+
 void read_measurements(const JsonField& field, DisplaySettings& s) {
   constexpr std::size_t kMost = 1000;
   s.measurements.clear();
@@ -175,6 +209,7 @@ std::string to_json(const DisplaySettings& s) {
               {"stroke_voxels", s.stroke_voxels},
               {"wall_behind_eraser", s.wall_behind_eraser},
               {"chosen_primitive", s.chosen_primitive},
+              {"images", images_json(s)},
               {"measurements", measurements_json(s)}}
       .dump();
 }
@@ -191,6 +226,7 @@ Result<DisplaySettings> display_settings(const std::string& text, DisplaySetting
   read(root, "wall_behind_eraser", s.wall_behind_eraser);
   if (root.has("chosen_primitive"))
     s.chosen_primitive = static_cast<int>(root.at("chosen_primitive").integer(0, 1000));
+  if (root.has("images")) read_images(root.at("images"), s);
   if (root.has("measurements")) read_measurements(root.at("measurements"), s);
   if (!root.good()) return tl::unexpected<Error>(root.status().error());
   return s;

@@ -4,24 +4,38 @@
 #include <utility>
 
 #include "core/without_exceptions.h"
+#include "document/executor_setup.h"
 
 namespace tidemark::engine {
 
-SpeedOrigin speed_origin(const document::Drive& drive, std::shared_ptr<const Volume> source,
-                         const solver::Parameters& parameters) {
-  SpeedOrigin origin{drive.setting, std::move(source), nullptr, {}, nullptr, {}};
+namespace {
+
+SpeedMaker::Made made_from(const SpeedOrigin& origin, std::shared_ptr<const Volume> source,
+                           const Progress& progress) {
+  if (source == nullptr) {
+    progress(0.0, "smoothing");
+    auto smoothed = document::smoothed_source(origin.volume, origin.smoothed_mm, progress);
+    progress(1.0, "smoothing");
+    if (!smoothed) return pass_on(smoothed);
+    source = std::move(*smoothed);
+  }
+  const document::Drive drive{origin.setting, origin.images, origin.strokes, origin.map, nullptr};
+  auto speed = document::make_speed(drive, source, solver::Parameters(), Progress{nullptr, progress.stop});
+  if (!speed) return pass_on(speed);
+  return SpeedMaker::Pair{std::move(source), std::move(*speed)};
+}
+
+}  // namespace
+
+SpeedOrigin speed_origin(const document::Drive& drive, std::shared_ptr<const Volume> volume,
+                         double smoothed_mm) {
+  SpeedOrigin origin{drive.setting, std::move(volume), smoothed_mm, nullptr, {}, nullptr};
   for (const solver::SpeedTerm& term : drive.setting.terms) {
     const solver::SpeedKind* kind = solver::speed_kind(term.function);
     if (kind == nullptr) continue;
-    if (kind->needs_strokes) {
-      origin.strokes = drive.strokes;
-      origin.images = drive.images;
-    }
+    if (kind->needs_strokes) origin.strokes = drive.strokes;
+    if (kind->uses_images) origin.images = drive.images;
     if (kind->needs_map) origin.map = drive.map;
-    if (term.function == "tent") {
-      origin.parameters = parameters;
-      origin.parameters.alpha = solver::Parameters().alpha;  // D is the same for each
-    }
   }
   return origin;
 }
@@ -34,15 +48,16 @@ void SpeedMaker::give_up() {
   thread_.request_stop();
 }
 
-void SpeedMaker::make(const SpeedOrigin& origin, Done done) {
+void SpeedMaker::make(const SpeedOrigin& origin, std::shared_ptr<const Volume> source, Report report,
+                      Done done) {
   give_up();
-  thread_ = std::jthread(
-      [before = std::move(thread_), origin, done = std::move(done)](const std::stop_token& stop) mutable {
+  thread_ =
+      std::jthread([before = std::move(thread_), origin, source = std::move(source),
+                    report = std::move(report), done = std::move(done)](const std::stop_token& stop) mutable {
         if (before.joinable()) before.join();
         if (stop.stop_requested()) return;
-        const document::Drive drive{origin.setting, origin.images, origin.strokes, origin.map, nullptr};
         auto made = without_exceptions([&] {
-          return document::make_speed(drive, origin.source, origin.parameters, Progress{nullptr, stop});
+          return made_from(origin, std::move(source), Progress{std::move(report), stop});
         });
         if (!stop.stop_requested()) done(std::move(made));
       });

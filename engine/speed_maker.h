@@ -1,4 +1,5 @@
-// Speed functions made on a thread of their own: learning from examples takes a while.
+// Speed functions, and the sources that they are made on, made on a thread of their own: smoothing and
+// learning from examples take a while.
 #pragma once
 
 #include <functional>
@@ -11,30 +12,37 @@
 
 namespace tidemark::engine {
 
-// What a function was made from. With the same of all of these it is the same one.
+// What a function was made from. With the same of all of these it is the same one, but for the tents in it:
+// the level set puts T and epsilon into them.
 struct SpeedOrigin {
   solver::SpeedSetting setting;
-  std::shared_ptr<const Volume> source;
+  std::shared_ptr<const Volume> volume;  // as loaded
+  double smoothed_mm = 0.0;
   std::shared_ptr<const solver::Strokes> strokes;                  // of functions that learn from them
-  std::vector<std::shared_ptr<const document::CaseImage>> images;  // of the same
+  std::vector<std::shared_ptr<const document::CaseImage>> images;  // of functions that use several
   std::shared_ptr<const document::SpeedMap> map;                   // of functions that need one
-  solver::Parameters parameters;                                   // of the tent, beside others
 
   bool operator==(const SpeedOrigin&) const = default;
 };
-[[nodiscard]] SpeedOrigin speed_origin(const document::Drive& drive, std::shared_ptr<const Volume> source,
-                                       const solver::Parameters& parameters);
+[[nodiscard]] SpeedOrigin speed_origin(const document::Drive& drive, std::shared_ptr<const Volume> volume,
+                                       double smoothed_mm);
 
 // Belongs to one thread.
 class SpeedMaker {
  public:
-  using Made = Result<std::shared_ptr<const solver::SpeedFunction>>;
+  struct Pair {
+    std::shared_ptr<const Volume> source;
+    std::shared_ptr<const solver::SpeedFunction> speed;  // null: the tent
+  };
+  using Made = Result<Pair>;
   // Called on the maker's thread, and not at all when another one is wanted before.
   using Done = std::function<void(Made)>;
+  using Report = std::function<void(double fraction, std::string_view what)>;  // as Progress has it
 
   ~SpeedMaker();
 
-  void make(const SpeedOrigin& origin, Done done);
+  // `source` is the volume smoothed by that much; null: the maker smooths it, and reports on it.
+  void make(const SpeedOrigin& origin, std::shared_ptr<const Volume> source, Report report, Done done);
   void give_up();
 
  private:

@@ -1,4 +1,4 @@
-// How well a level set agrees with a known answer while it moves.
+// The agreement of a level set with a known answer while it moves.
 #pragma once
 
 #include <memory>

@@ -48,10 +48,6 @@ void Buffer::bind_as_dispatch_arguments() const {
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, handle_.id());
 }
 
-void Buffer::bind_as_pixel_source() const {
-  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, handle_.id());
-}
-
 Fence::Fence(Fence&& other) noexcept
     : device_(std::exchange(other.device_, nullptr)), sync_(std::exchange(other.sync_, nullptr)) {}
 

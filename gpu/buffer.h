@@ -28,7 +28,6 @@ class Buffer {
 
   void bind_storage(unsigned binding) const;  // OpenGL 4.3
   void bind_as_dispatch_arguments() const;    // OpenGL 4.3
-  void bind_as_pixel_source() const;
 
   template <class T>
   void upload_values(std::int64_t first, std::span<const T> values) {

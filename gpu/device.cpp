@@ -137,9 +137,6 @@ void Device::destroy(ContextObject kind, unsigned id) {
     case ContextObject::framebuffer:
       glDeleteFramebuffers(1, &id);
       break;
-    case ContextObject::query:
-      glDeleteQueries(1, &id);
-      break;
   }
 }
 

@@ -22,7 +22,7 @@ struct DeviceOptions {
 
 // Objects that contexts of a share group have in common, and objects that belong to one context.
 enum class SharedObject { texture, buffer, program, shader };
-enum class ContextObject { vertex_array, framebuffer, query };
+enum class ContextObject { vertex_array, framebuffer };
 
 // Used on one thread at a time. Handles (handles.h) must die before their device.
 class Device {

@@ -42,6 +42,5 @@ using ProgramHandle = Handle<SharedObject::program>;
 using ShaderHandle = Handle<SharedObject::shader>;
 using VertexArrayHandle = Handle<ContextObject::vertex_array>;
 using FramebufferHandle = Handle<ContextObject::framebuffer>;
-using QueryHandle = Handle<ContextObject::query>;
 
 }  // namespace tidemark::gpu

@@ -10,6 +10,9 @@ tidemark_jobs() {
   echo $((processors < by_memory ? processors : by_memory))
 }
 
+# Where ccache knows nothing yet it asks the compiler, not the preprocessor, which headers were read.
+export CCACHE_DEPEND=1
+
 # tidemark_configure PRESET: build/PRESET, at first and after changes of the build's files.
 tidemark_configure() {
   local preset=$1

@@ -1,4 +1,4 @@
-// Where labels end between voxels, smoothly.
+// The borders of labels between voxels, smoothed.
 #pragma once
 
 #include <cstdint>

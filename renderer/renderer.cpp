@@ -18,6 +18,7 @@ constexpr LabelPicture::Units kLabelUnits{5, 10, 11, 12};
 constexpr int kFreeUnit = 6;  // and the three behind it
 constexpr int kSpeedUnit = 13;
 constexpr int kConstraintUnit = 14;
+constexpr int kImagesUnit = 15;
 
 // The view moved by a part of a picture's pixels.
 glm::dmat4 moved_by(glm::dvec2 pixels, PictureSize size) {
@@ -50,7 +51,17 @@ gpu::Defines variant_of(const SliceView& view, bool source_by_plane) {
   if (view.content == SliceContent::speed) {
     variant.emplace_back(view.term == SpeedTerm::data ? "DATA_SPEED" : "SPEED", "");
   }
+  if (view.images && view.content == SliceContent::source) variant.emplace_back("IMAGES", "");
   return variant;
+}
+
+Result<gpu::Texture2D> texture_of(gpu::Device& device, const ImagesOver& images) {
+  auto texture =
+      gpu::Texture2D::create(device, gpu::TexelFormat::rgba8, images.width, images.height, "images");
+  if (!texture) return texture;
+  texture->upload({0, 0, images.width, images.height}, std::as_bytes(std::span(images.rgba)));
+  texture->set_filter(gpu::Filter::linear);
+  return texture;
 }
 
 }  // namespace
@@ -344,6 +355,15 @@ Status Renderer::draw_on(Canvas& canvas, const SliceView& view, const Progress& 
     plane.upload({0, 0, size.width, size.height}, std::as_bytes(std::span(values)));
     plane.bind(kFreeUnit);
     slice.set("source_plane", kFreeUnit);
+  }
+  gpu::Texture2D images;
+  if (view.images && view.content == SliceContent::source) {
+    auto made = texture_of(*device_, *view.images);
+    if (!made) return pass_on(made);
+    images = std::move(*made);
+    images.bind(kImagesUnit);
+    slice.set("images", kImagesUnit);
+    slice.set("images_from", static_cast<float>(view.images_from));
   }
   slice.set("window", glm::vec2(view.window.centre, view.window.width));
   slice.set("term", static_cast<int>(view.term));

@@ -1,10 +1,13 @@
 // The views: what a picture shows, and how.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/volume.h"
 #include "renderer/camera.h"
@@ -77,6 +80,14 @@ struct VolumeView {
   bool operator==(const VolumeView&) const = default;
 };
 
+// Further images as they lie over a slice: red, green and blue times the opacity, and the opacity, row by row
+// from the top left. It is stretched over the whole picture.
+struct ImagesOver {
+  std::int64_t width = 0;
+  std::int64_t height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
 struct SliceView {
   SliceOrientation orientation = kAxial;
   glm::dvec3 position_mm{0.0};  // a point of the slice (LPS)
@@ -89,6 +100,8 @@ struct SliceView {
   bool surface = true;
   double line_pixels = 2.0;
   double label_opacity = 0.4;
+  std::shared_ptr<const ImagesOver> images;  // over the source, below all else; null: none
+  double images_from = 0.0;                  // the part of the picture's width left of which there are none
   glm::vec3 background{0.0F};
 
   bool operator==(const SliceView&) const = default;

@@ -1,5 +1,5 @@
-// What the desktop remembers from one run to the next: each setting with its name, its type and what it is
-// at first. The list of recent studies keeps itself (RecentStudies).
+// The settings that the desktop keeps from one run to the next: each with its name, its type and its first
+// value. The list of recent studies keeps itself (RecentStudies).
 #pragma once
 
 #include <QByteArray>
@@ -67,6 +67,10 @@ inline Setting<QString> mouse_scheme() {  // "tidemark" or "itk-snap"
 }
 inline Setting<QString> key(const QString& action) {  // is set where the user has changed it
   return Setting<QString>("keys/" + action);
+}
+// Whether a part called "Details" is open, by its key.
+inline Setting<bool> details(const QString& key) {
+  return Setting<bool>("details/" + key);
 }
 // Folders that were used last.
 inline Setting<QString> open_folder() {

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "app/cli/arguments.h"
-#include "document/checksum.h"
+#include "app/cli/image_files.h"
 #include "document/speed_map.h"
 #include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
-#include "imaging/resample.h"
 #include "imaging/results/results.h"
 #include "solver/distance_transform.h"
 #include "solver/speed/speed_registry.h"
@@ -27,17 +25,43 @@ std::string function_names() {
   return names;
 }
 
-// "edges.sigma (mm, 1): ..."
+// "0 to 10 mm, default 1", or "least, most; default least"
+std::string values_of(const solver::SpeedParameter& number) {
+  if (number.choices.empty()) {
+    return fmt::format("{:g} to {:g}{}{}, default {:g}", number.low, number.high,
+                       *number.unit == '\0' ? "" : " ", number.unit, number.initial);
+  }
+  std::string words;
+  for (const solver::SpeedChoice& choice : number.choices)
+    words += (words.empty() ? "" : ", ") + std::string(choice.name);
+  const auto initial = static_cast<std::size_t>(number.initial - number.low);
+  return fmt::format("{}; default {}", words, number.choices[initial].name);
+}
+
+// "edges.sigma (0 to 10 mm, default 1): ..."
 std::string values_help() {
   std::string text = "A number of a speed function; may be repeated:";
   for (const solver::SpeedKind& kind : solver::speed_kinds()) {
     for (const solver::SpeedParameter& number : kind.parameters) {
-      text +=
-          fmt::format("\n{}.{} ({:g} to {:g}{}{}, default {:g}): {}", kind.name, number.name, number.low,
-                      number.high, *number.unit == '\0' ? "" : " ", number.unit, number.initial, number.text);
+      text += fmt::format("\n{}.{} ({}): {}", kind.name, number.name, values_of(number), number.text);
     }
   }
   return text;
+}
+
+// One of the parameter's words, or a number.
+Result<double> parse_value(const std::string& function, const std::string& name, const std::string& text) {
+  if (const solver::SpeedKind* kind = solver::speed_kind(function)) {
+    for (const solver::SpeedParameter& number : kind->parameters) {
+      if (number.name != name || number.choices.empty()) continue;
+      for (std::size_t i = 0; i < number.choices.size(); ++i) {
+        if (text == number.choices[i].name) return number.low + static_cast<double>(i);
+      }
+      if (!parse_number(text))
+        return fail(ErrorKind::usage, "'{}' is not one of {}", text, values_of(number));
+    }
+  }
+  return parse_number(text);
 }
 
 bool uses(const DriveOptions& options, const char* function) {
@@ -46,7 +70,7 @@ bool uses(const DriveOptions& options, const char* function) {
 
 Result<solver::SpeedSetting> setting_of(const DriveOptions& options) {
   solver::SpeedSetting setting;
-  setting.combine = options.combine;
+  setting.combine = options.combine.value_or(setting.combine);
   if (!options.functions.empty()) setting.terms.clear();
   for (const std::string& function : options.functions) setting.terms.push_back({function, {}});
   for (const std::string& text : options.values) {
@@ -55,13 +79,14 @@ Result<solver::SpeedSetting> setting_of(const DriveOptions& options) {
     if (dot == std::string::npos || equal == std::string::npos || equal < dot) {
       return fail(ErrorKind::usage, "--speed-value {}: FUNCTION.NAME=NUMBER is needed", text);
     }
-    const auto number = parse_number(std::string_view(text).substr(equal + 1));
-    if (!number) return fail(ErrorKind::usage, "--speed-value {}: {}", text, number.error().message);
     const std::string function = text.substr(0, dot);
+    const std::string name = text.substr(dot + 1, equal - dot - 1);
+    const auto number = parse_value(function, name, text.substr(equal + 1));
+    if (!number) return fail(ErrorKind::usage, "--speed-value {}: {}", text, number.error().message);
     bool used = false;
     for (solver::SpeedTerm& term : setting.terms) {
       if (term.function != function) continue;
-      term.values[text.substr(dot + 1, equal - dot - 1)] = *number;
+      term.values[name] = *number;
       used = true;
     }
     if (!used) return fail(ErrorKind::usage, "--speed-value {}: there is no --speed {}", text, function);
@@ -70,30 +95,6 @@ Result<solver::SpeedSetting> setting_of(const DriveOptions& options) {
     return fail(ErrorKind::usage, "--speed: {}", good.error().message);
   }
   return setting;
-}
-
-std::string name_of(const std::string& file) {
-  return std::filesystem::path(file).filename().string();
-}
-
-// On its own grid; place_image() brings it onto that of the case.
-Result<document::CaseImage> read_image(const std::string& file, Console& console) {
-  auto loaded = imaging::load_volume(file, {}, console.progress());
-  if (!loaded) return pass_on(loaded);
-  document::CaseImage image;
-  image.name = name_of(file);
-  image.checksum = document::checksum_of(*loaded);
-  image.volume = std::make_shared<const Volume>(std::move(*loaded));
-  return image;
-}
-
-Result<std::shared_ptr<const document::CaseImage>> place_image(document::CaseImage image,
-                                                               const std::string& file, const Geometry& grid,
-                                                               Console& console) {
-  auto resampled = imaging::resample(*image.volume, image.to_case, grid, file, console.progress());
-  if (!resampled) return fail(ErrorKind::input, "{}", resampled.error().message);
-  image.resampled = std::make_shared<const Volume>(std::move(resampled->volume));
-  return std::make_shared<const document::CaseImage>(std::move(image));
 }
 
 Result<std::shared_ptr<const solver::Strokes>> read_examples(const std::string& file, const Geometry& grid,
@@ -158,103 +159,6 @@ Result<std::shared_ptr<const solver::Constraints>> read_constraints(const DriveO
   return constraints;
 }
 
-// The images and the map of the command line for the drives of a recipe: each file is read once.
-class GivenFiles {
- public:
-  GivenFiles(const DriveOptions& options, const Geometry& grid, Console& console)
-      : options_(options), grid_(grid), console_(console) {}
-
-  // Null stays null.
-  Status give(std::shared_ptr<const document::Drive>& drive);
-
- private:
-  Status read_images();
-  Result<std::size_t> file_of(const document::CaseImage& wanted, std::size_t place);
-  Result<std::shared_ptr<const document::CaseImage>> image_for(const document::CaseImage& wanted,
-                                                               std::size_t place);
-  Result<std::shared_ptr<const document::SpeedMap>> map_for(const document::SpeedMap& wanted);
-
-  const DriveOptions& options_;
-  const Geometry& grid_;
-  Console& console_;
-  std::vector<document::CaseImage> images_;  // of the command line, in its order
-  std::vector<std::shared_ptr<const document::CaseImage>> placed_;
-  std::shared_ptr<const document::SpeedMap> map_;
-};
-
-Status GivenFiles::read_images() {
-  for (std::size_t i = images_.size(); i < options_.images.size(); ++i) {
-    auto image = read_image(options_.images[i], console_);
-    if (!image) return pass_on(image);
-    images_.push_back(std::move(*image));
-  }
-  return {};
-}
-
-// By its voxels; an image of unknown voxels is the one at the same place of the command line.
-Result<std::size_t> GivenFiles::file_of(const document::CaseImage& wanted, std::size_t place) {
-  TIDEMARK_TRY(read_images());
-  for (std::size_t i = 0; i < images_.size(); ++i) {
-    if (wanted.checksum.empty() ? i == place : images_[i].checksum == wanted.checksum) return i;
-  }
-  if (place >= images_.size()) {
-    return fail(ErrorKind::usage, "the recipe needs the image \"{}\": give it with --image", wanted.name);
-  }
-  return fail(ErrorKind::input, "{}: not the recipe's image \"{}\": its voxels differ",
-              options_.images[place], wanted.name);
-}
-
-Result<std::shared_ptr<const document::CaseImage>> GivenFiles::image_for(const document::CaseImage& wanted,
-                                                                         std::size_t place) {
-  const auto file = file_of(wanted, place);
-  if (!file) return tl::unexpected<Error>(file.error());
-  const document::CaseImage& read = images_[*file];
-  for (const auto& placed : placed_) {
-    if (placed->volume == read.volume && placed->name == wanted.name && placed->to_case == wanted.to_case)
-      return placed;
-  }
-  document::CaseImage image = wanted;
-  image.checksum = read.checksum;
-  image.volume = read.volume;
-  auto placed = place_image(std::move(image), options_.images[*file], grid_, console_);
-  if (placed) placed_.push_back(*placed);
-  return placed;
-}
-
-Result<std::shared_ptr<const document::SpeedMap>> GivenFiles::map_for(const document::SpeedMap& wanted) {
-  if (!options_.map) {
-    return fail(ErrorKind::usage, "the recipe needs the map \"{}\": give it with --speed-image", wanted.name);
-  }
-  if (map_ == nullptr) {
-    auto map = document::load_speed_map(*options_.map, grid_, console_.progress());
-    if (!map) return map;
-    map_ = std::move(*map);
-  }
-  if (!wanted.checksum.empty() && wanted.checksum != map_->checksum) {
-    return fail(ErrorKind::input, "{}: not the recipe's map \"{}\": its voxels differ", *options_.map,
-                wanted.name);
-  }
-  return std::make_shared<const document::SpeedMap>(
-      document::SpeedMap{wanted.name, map_->checksum, map_->volume});
-}
-
-Status GivenFiles::give(std::shared_ptr<const document::Drive>& drive) {
-  if (drive == nullptr) return {};
-  document::Drive given = *drive;
-  for (std::size_t i = 0; i < given.images.size(); ++i) {
-    auto image = image_for(*given.images[i], i);
-    if (!image) return pass_on(image);
-    given.images[i] = std::move(*image);
-  }
-  if (given.map != nullptr) {
-    auto map = map_for(*given.map);
-    if (!map) return pass_on(map);
-    given.map = std::move(*map);
-  }
-  drive = std::make_shared<const document::Drive>(std::move(given));
-  return {};
-}
-
 }  // namespace
 
 bool DriveOptions::uses_tent() const {
@@ -262,14 +166,17 @@ bool DriveOptions::uses_tent() const {
 }
 
 void add_image_options(CLI::App& app, DriveOptions& options) {
-  app.add_option("--image", options.images,
-                 "A further image of the patient on any grid, for speed functions of several images;\nmay be "
-                 "repeated")
+  app.add_option(
+         "--image", options.images,
+         "With --speed examples: a further image of the patient on any grid, to learn from, too;\nmay "
+         "be repeated")
       ->allow_extra_args(false)
       ->type_name("FILE")
       ->group(kGroup);
-  app.add_option("--speed-image", options.map,
-                 "With --speed image: a map on the same grid, a probability (0 to 1) or a speed (-1 to 1)")
+  app.add_option(
+         "--speed-image", options.map,
+         "With --speed image: a probability (0 to 1) or a speed (-1 to 1), as a volume file on the same\n"
+         "grid, a DICOM parametric map or a DICOM segmentation (its fractions)")
       ->type_name("FILE")
       ->group(kGroup);
 }
@@ -282,9 +189,10 @@ void add_drive_options(CLI::App& app, DriveOptions& options) {
       ->allow_extra_args(false)
       ->type_name(function_names())
       ->group(kGroup);
-  add_choice<solver::Combine>(app, "--combine", options.combine,
-                              {{"least", solver::Combine::least}, {"product", solver::Combine::product}},
-                              "Of several: the least speed (default), or the product of their probabilities")
+  add_choice<std::optional<solver::Combine>>(
+      app, "--combine", options.combine,
+      {{"least", solver::Combine::least}, {"product", solver::Combine::product}},
+      "Of several: the least speed (default), or the product of their probabilities")
       ->group(kGroup);
   app.add_option("--speed-value", options.values, values_help())
       ->allow_extra_args(false)
@@ -320,6 +228,13 @@ Status check(const DriveOptions& options, bool starts_from_mask) {
   if (uses(options, "image") != options.map.has_value()) {
     return fail(ErrorKind::usage, "--speed image and --speed-image need each other");
   }
+  if (!options.images.empty() && !document::uses_images(*setting)) {
+    return fail(ErrorKind::usage, "--image {} needs a speed function of several images: --speed examples",
+                options.images.front());
+  }
+  if (options.combine && options.functions.size() < 2) {
+    return fail(ErrorKind::usage, "--combine needs several --speed to join");
+  }
   if (options.within_mm && *options.within_mm <= 0.0) {
     return fail(ErrorKind::usage, "--within {}: must be greater than 0 mm", *options.within_mm);
   }
@@ -344,9 +259,9 @@ Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& op
   for (const std::string& file : options.images) {
     auto image = read_image(file, console);
     if (!image) return pass_on(image);
-    auto placed = place_image(std::move(*image), file, grid, console);
-    if (!placed) return pass_on(placed);
-    drive.images.push_back(std::move(*placed));
+    auto there = placed(*image, file, grid);
+    if (!there) return pass_on(there);
+    drive.images.push_back(std::move(*there));
   }
   if (options.map) {
     auto map = document::load_speed_map(*options.map, grid, console.progress());
@@ -363,18 +278,6 @@ Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& op
   drive.constraints = std::move(*constraints);
   if (is_plain(drive)) return nullptr;
   return std::make_shared<const document::Drive>(std::move(drive));
-}
-
-Status give_images(document::Recipe& recipe, const DriveOptions& options, const Geometry& grid,
-                   Console& console) {
-  GivenFiles files(options, grid, console);
-  TIDEMARK_TRY(files.give(recipe.drive));
-  for (document::RecipeEvent& event : recipe.events) {
-    if (auto* change = std::get_if<document::DriveEvent>(&event.what)) {
-      TIDEMARK_TRY(files.give(change->drive));
-    }
-  }
-  return {};
 }
 
 }  // namespace tidemark::cli

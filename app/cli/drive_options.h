@@ -1,4 +1,4 @@
-// What drives the surface, on the command line: speed functions with their inputs, walls and anchors.
+// The options for what drives the surface: speed functions with their inputs, walls and anchors.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -8,13 +8,13 @@
 
 #include "app/cli/console.h"
 #include "document/drive.h"
-#include "document/recipe.h"
+#include "document/start.h"
 
 namespace tidemark::cli {
 
 struct DriveOptions {
   std::vector<std::string> functions;  // --speed; none: the tent
-  solver::Combine combine = solver::Combine::least;
+  std::optional<solver::Combine> combine;
   std::vector<std::string> values;      // --speed-value FUNCTION.NAME=NUMBER
   std::vector<std::string> images;      // --image
   std::optional<std::string> examples;  // a label file: 1 inside, 2 outside
@@ -40,11 +40,5 @@ Status check(const DriveOptions& options, bool starts_from_mask);
 // naming the file.
 Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& options, const Geometry& grid,
                                                           const document::Start& start, Console& console);
-
-// Gives the images and the map that a recipe names the files of the command line: images by their voxels, or
-// in their order where it has no checksum. Fails (ErrorKind::usage) naming the one that is missing,
-// (ErrorKind::input) naming a file with other voxels.
-Status give_images(document::Recipe& recipe, const DriveOptions& options, const Geometry& grid,
-                   Console& console);
 
 }  // namespace tidemark::cli

@@ -184,6 +184,13 @@ Status check(const RenderOptions& options) {
     return fail(ErrorKind::usage, "--target and --range belong together");
   }
   TIDEMARK_TRY(check(options.drive, false));
+  if (!options.drive.functions.empty() && !by_speed && options.view != "sheet") {
+    return fail(ErrorKind::usage,
+                "--speed is seen with --view speed, --view sheet or a --colour of the speed");
+  }
+  if ((options.drive.walls || options.drive.anchors) && options.view == "3d") {
+    return fail(ErrorKind::usage, "--walls and --anchors are seen on slices, not with --view 3d");
+  }
   if ((options.region == "inside" || options.region == "outside") && !has_surface(options)) {
     return fail(ErrorKind::usage, "--roi {} needs --mask or --phi", options.region);
   }

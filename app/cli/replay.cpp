@@ -1,13 +1,12 @@
 // tidemark-cli replay: the replay of a recipe.
 #include <memory>
 
-#include "app/cli/drive_options.h"
 #include "app/cli/program.h"
+#include "app/cli/recipe_files.h"
 #include "app/cli/results.h"
 #include "app/cli/solver_options.h"
 #include "app/cli/study_input.h"
 #include "document/checksum.h"
-#include "document/replay.h"
 #include "imaging/load_study.h"
 
 namespace tidemark::cli {
@@ -43,49 +42,25 @@ Status check(const ReplayArguments& arguments, ResultWriter& writer) {
 
 // The outcome of a replay, with the figures of segment.
 RunResults results_of(const document::Recipe& recipe, const Volume& volume, const std::string& series_uid,
-                      document::Replay replayed, const ReplayArguments& arguments) {
+                      document::Evolution evolution, const ReplayArguments& arguments) {
   RunResults results;
   RunFigures& figures = results.figures;
-  figures.executor = replayed.executor.name;
-  figures.threads = threads_of(arguments.solver, figures.executor);
   figures.geometry = volume.geometry;
   figures.modality = volume.modality;
   figures.unit = volume.unit;
   figures.description = volume.description;
   figures.series_uid = series_uid;
   figures.changes = volume.changes;
-  figures.start = recipe.start.describe();
-  figures.parameters = recipe.final_parameters();
   if (recipe.final_smoothed_mm() > 0.0) figures.smooth_mm = recipe.final_smoothed_mm();
-  figures.band = replayed.band;
-  figures.time_step = replayed.time_step;
-  figures.advance = replayed.advance;
-  figures.memory = replayed.memory;
-  figures.surface = solver::measure(replayed.phi);
-  const solver::Field* start = recipe.start.empty() ? nullptr : &replayed.start;  // else it was painted
-  const document::EvolvedSurface surface{replayed.phi,
-                                         figures.surface.voxels_inside,
-                                         recipe.steps,
-                                         replayed.advance.converged,
-                                         start,
-                                         *replayed.source,
-                                         figures.parameters,
-                                         replayed.speed.get()};
-  figures.outcome = document::outcome_of(surface);
-  figures.wider_range = wider_range(surface);
-  figures.drive = recipe.final_drive();
-  results.speed = std::move(replayed.speed);
-  results.source = std::move(replayed.source);
-  results.mask = replayed.phi.mask();
-  results.phi = std::move(replayed.phi);
   // The same recipe for the volume and the executor at hand.
   results.recipe = recipe;
-  results.recipe.executor = replayed.executor;
   results.recipe.source = {volume.geometry.size,
                            volume.geometry.spacing_mm,
                            arguments.study.series,
                            {},
                            arguments.study.policy(recipe.source.policy)};
+  results.take(std::move(evolution));
+  figures.threads = threads_of(arguments.solver, figures.executor);
   return results;
 }
 
@@ -103,18 +78,16 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
   console.say("Recipe     {}; {} edits, {} steps", recipe->start.describe(), recipe->events.size(),
               recipe->steps);
 
-  document::ReplayOptions options;
-  options.executor = arguments.solver.kind;
-  options.options = arguments.solver.executor_options();
-  auto replayed = document::replay(*recipe, volume, options, console.progress());
-  if (!replayed) {
+  const document::EvolutionOptions options{arguments.solver.kind, arguments.solver.executor_options()};
+  auto evolution = document::evolve(*recipe, volume, options, console.progress());
+  if (!evolution) {
     // Arguments of ours were in order: what does not fit is the recipe.
-    Error error = replayed.error();
+    Error error = evolution.error();
     if (error.kind == ErrorKind::usage) error.kind = ErrorKind::input;
     if (error.kind == ErrorKind::input) error.message = arguments.recipe + ": " + error.message;
     return tl::unexpected<Error>(std::move(error));
   }
-  RunResults results = results_of(*recipe, *volume, study->series.uid, std::move(*replayed), arguments);
+  RunResults results = results_of(*recipe, *volume, study->series.uid, std::move(*evolution), arguments);
   results.dicom_files = imaging::dicom_files_of(study->series);
   if (writer.wants_recipe()) results.recipe.source.checksum = document::checksum_of(*volume);
   TIDEMARK_TRY(writer.write(results));

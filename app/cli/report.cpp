@@ -90,11 +90,14 @@ MaskChange change_between(const Mask& before, const Mask& after) {
 }
 
 std::string advice_on(const RunFigures& figures) {
+  const bool by_range = figures.drive == nullptr || document::uses_tent(*figures.drive);
   switch (figures.outcome) {
     case document::Outcome::vanished:
-      return "the surface has vanished: it has shrunk to nothing (a larger start, --range or --alpha?)";
+      return fmt::format(
+          "the surface has vanished: it has shrunk to nothing (a larger start, {} or --alpha?)",
+          by_range ? "--range" : "another --speed");
     case document::Outcome::seeded_outside:
-      if (figures.drive != nullptr && !document::uses_tent(*figures.drive)) {
+      if (!by_range) {
         return "the surface has vanished: its speed is negative everywhere where it began (another start?)";
       }
       return fmt::format(
@@ -102,7 +105,8 @@ std::string advice_on(const RunFigures& figures) {
           "--target, a larger --range?)",
           figures.parameters.target, figures.parameters.range);
     case document::Outcome::filled_volume:
-      return "the surface has filled the volume (a smaller --range or --alpha?)";
+      return fmt::format("the surface has filled the volume (a smaller {}?)",
+                         by_range ? "--range or --alpha" : "--alpha, --walls or another --speed");
     case document::Outcome::converged:
     case document::Outcome::unfinished:
       break;

@@ -50,6 +50,26 @@ void add_result_options(CLI::App& app, ResultOptions& options) {
       ->group(kGroup);
 }
 
+void RunResults::take(document::Evolution evolution) {
+  figures.executor = evolution.executor.name;
+  figures.start = recipe.start.describe();
+  figures.parameters = recipe.final_parameters();
+  figures.drive = recipe.final_drive();
+  figures.band = evolution.band;
+  figures.time_step = evolution.time_step;
+  figures.advance = evolution.advance;
+  figures.memory = evolution.memory;
+  figures.surface = evolution.surface;
+  figures.outcome = evolution.outcome;
+  figures.wider_range = evolution.wider_range;
+  recipe.executor = std::move(evolution.executor);
+  recipe.steps = evolution.advance.steps;
+  source = std::move(evolution.source);
+  speed = std::move(evolution.speed);
+  mask = evolution.phi.mask();
+  phi = std::move(evolution.phi);
+}
+
 Status ResultWriter::prepare() {
   for (const std::string& file : options_.out) {
     Status good = outputs_.announce(

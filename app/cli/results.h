@@ -9,7 +9,7 @@
 #include "app/cli/label_argument.h"
 #include "app/cli/outputs.h"
 #include "app/cli/report.h"
-#include "document/recipe.h"
+#include "document/evolution.h"
 #include "imaging/results/results.h"
 #include "imaging/series.h"
 #include "renderer/picture.h"
@@ -17,8 +17,6 @@
 namespace tidemark::gpu {
 class Device;
 }
-
-namespace tidemark::gpu {}
 
 namespace tidemark::cli {
 
@@ -39,6 +37,9 @@ struct RunResults {
   Mask mask;
   RunFigures figures;
   document::Recipe recipe;
+
+  // The end of the evolution by `recipe`: the results, their figures, and the recipe as it was carried out.
+  void take(document::Evolution evolution);
 };
 
 class ResultWriter {

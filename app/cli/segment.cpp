@@ -5,11 +5,11 @@
 #include "app/cli/program.h"
 #include "app/cli/segment_options.h"
 #include "document/checksum.h"
-#include "document/outcome.h"
 #include "imaging/filters/filters.h"
 #include "imaging/filters/suggest_start.h"
 #include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
+#include "solver/model.h"
 
 namespace tidemark::cli {
 namespace {
@@ -54,6 +54,7 @@ class Segmentation {
   Status load_truth();
   Status load_true_segments();
   Status suggest();
+  Status make_recipe();
   Status evolve();
   void say_warnings();
 
@@ -103,7 +104,6 @@ Status Segmentation::load() {
   recipe.source = {
       volume->geometry.size, volume->geometry.spacing_mm, options_.study.series, {}, study->series.policy};
   if (writer_.wants_recipe()) recipe.source.checksum = document::checksum_of(*volume);
-  recipe.smoothed_mm = options_.smooth_mm.value_or(0.0);
   if (options_.smooth_mm) {
     console_.log("smoothing by {} mm", *options_.smooth_mm);
     volume = imaging::smooth(*volume, *options_.smooth_mm);
@@ -181,66 +181,40 @@ Status Segmentation::suggest() {
 }
 
 Status Segmentation::evolve() {
+  TIDEMARK_TRY(make_recipe());
   RunFigures& figures = results_.figures;
   document::Recipe& recipe = results_.recipe;
-  figures.parameters = recipe.parameters = options_.parameters();
-  auto executor =
-      solver::make_executor(options_.solver.kind.value_or(solver::ExecutorKind::automatic), results_.source,
-                            figures.parameters, options_.solver.executor_options());
-  if (!executor) return pass_on(executor);
-  solver::Executor& solver = **executor;
-  auto start = make_start(options_.start, results_.source->geometry, solver.band(), console_);
-  if (!start) return pass_on(start);
-  recipe.start = std::move(*start);
-  auto drive = make_drive(options_.drive, results_.source->geometry, recipe.start, console_);
-  if (!drive) return pass_on(drive);
-  recipe.drive = figures.drive = std::move(*drive);
-  if (recipe.drive != nullptr) {
-    auto speed =
-        document::make_speed(*recipe.drive, results_.source, figures.parameters, console_.progress());
-    if (!speed) return pass_on(speed);
-    console_.say("Speed      {}", describe(*recipe.drive));
-    TIDEMARK_TRY(solver.set_speed(std::move(*speed)));
-    TIDEMARK_TRY(solver.set_constraints(recipe.drive->constraints));
-  }
-  figures.start = recipe.start.describe();
-  const auto begun = document::begin(solver, *results_.source, recipe.start, console_.progress());
-  if (!begun) return tl::unexpected<Error>(begun.error());
-  console_.say("Start      {}", figures.start);
-  if (options_.step_limit() > 0) {
-    solver::Advance advance{options_.step_limit(), options_.until_converged(), console_.progress()};
-    auto report = solver.advance(advance);
-    if (!report) return pass_on(report);
-    figures.advance = *report;
-  }
+  if (recipe.drive != nullptr) console_.say("Speed      {}", describe(*recipe.drive));
+  console_.say("Start      {}", recipe.start.describe());
+  const auto kind = options_.solver.kind.value_or(solver::ExecutorKind::automatic);
+  auto evolution = document::evolve(recipe, results_.source,
+                                    {kind, options_.solver.executor_options(), options_.until_converged()},
+                                    console_.progress());
+  if (!evolution) return pass_on(evolution);
   if (console_.interrupted()) return cancelled_error();
-  figures.executor = solver.name();
+  results_.take(std::move(*evolution));
+  recipe.smoothed_mm = options_.smooth_mm.value_or(0.0);  // by load(): evolve() smooths nothing
   figures.threads = threads_of(options_.solver, figures.executor);
-  figures.band = solver.band();
-  figures.time_step = solver.time_step();
-  figures.memory = solver.memory();
-  recipe.executor = {figures.executor, figures.memory.page_shape, !options_.solver.no_skip};
-  recipe.steps = figures.advance.steps;
-  auto phi = solver.snapshot();
-  if (!phi) return pass_on(phi);
-  results_.phi = std::move(*phi);
-  results_.mask = results_.phi.mask();
-  figures.surface = solver::measure(results_.phi);
   if (const auto* mask = std::get_if<document::MaskStart>(&recipe.start.from)) {
     figures.change = change_between(*mask->mask, results_.mask);
   }
   if (truth_) figures.dice = dice(results_.mask, *truth_);
-  const document::EvolvedSurface surface{results_.phi,
-                                         figures.surface.voxels_inside,
-                                         figures.advance.steps,
-                                         figures.advance.converged,
-                                         &*begun,
-                                         *results_.source,
-                                         figures.parameters,
-                                         solver.speed().get()};
-  results_.speed = solver.speed();
-  figures.outcome = document::outcome_of(surface);
-  figures.wider_range = wider_range(surface);
+  return {};
+}
+
+// All that the run does.
+Status Segmentation::make_recipe() {
+  document::Recipe& recipe = results_.recipe;
+  const Geometry& grid = results_.source->geometry;
+  recipe.parameters = options_.parameters();
+  recipe.steps = options_.step_limit();
+  const double band = recipe.parameters.band.value_or(solver::default_band(grid));
+  auto start = make_start(options_.start, grid, static_cast<float>(band), console_);  // as executors round it
+  if (!start) return pass_on(start);
+  recipe.start = std::move(*start);
+  auto drive = make_drive(options_.drive, grid, recipe.start, console_);
+  if (!drive) return pass_on(drive);
+  recipe.drive = std::move(*drive);
   return {};
 }
 

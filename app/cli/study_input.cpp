@@ -31,7 +31,7 @@ void add_grid_options(CLI::App& app, StudyInput& study) {
   const char* const kGroup = "Slices";
   add_choice<std::optional<Tilt>>(
       app, "--tilt", study.tilt, {{"correct", Tilt::correct}, {"keep", Tilt::keep}},
-      "Slices of a tilted gantry: moved back (correct, default), or taken as they lie (keep: distances\n"
+      "Slices of a tilted gantry: moved back (correct, default), or kept in their places (keep: distances\n"
       "across slices are then sheared)")
       ->group(kGroup);
   add_choice<std::optional<Gaps>>(

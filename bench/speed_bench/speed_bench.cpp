@@ -1,137 +1,55 @@
-// How fast speed functions are evaluated by one thread: pages at a surface, one by one as executors ask, and
-// slices as views do. See docs/performance.md.
+// How fast speed functions are evaluated, and how soon a stroke is answered. Pictures need a screen: without
+// one, run it by xvfb-run -a. See docs/performance.md.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <vector>
+#include <QGuiApplication>
 
-#include "core/stopwatch.h"
-#include "imaging/load_study.h"
-#include "imaging/phantom/phantom.h"
-#include "solver/speed/cached_speed.h"
-#include "solver/speed/speed_registry.h"
+#include "engine/engine.h"
+#include "rates.h"
+#include "response.h"
 
 using namespace tidemark;
 
 namespace {
 
-struct Measured {
-  const char* name;
-  solver::SpeedTerm term;
-};
+constexpr int kMoreImages = 2;  // as of a study with T1, T2 and FLAIR
 
-// A ball of a third of the grid, as phi.
-solver::Field ball_on(const Geometry& geometry) {
-  const glm::dvec3 centre = 0.5 * glm::dvec3(geometry.size);
-  const double radius =
-      static_cast<double>(std::min({geometry.size.x, geometry.size.y, geometry.size.z})) / 3.0;
-  std::vector<float> phi;
-  phi.reserve(static_cast<std::size_t>(geometry.voxel_count()));
-  for (std::int64_t z = 0; z < geometry.size.z; ++z) {
-    for (std::int64_t y = 0; y < geometry.size.y; ++y) {
-      for (std::int64_t x = 0; x < geometry.size.x; ++x) {
-        const glm::dvec3 d = glm::dvec3(x, y, z) - centre;
-        phi.push_back(static_cast<float>(radius - std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z)));
-      }
-    }
+Status measure(engine::Engine& engine, const Study& study) {
+  TIDEMARK_TRY(measure_response(engine, study, 0));
+  return measure_response(engine, study, kMoreImages);
+}
+
+Status run(const std::string& path, bool rates, bool response) {
+  auto study = path.empty() ? phantom_study() : study_of(path);
+  if (!study) return pass_on(study);
+  if (rates) {
+    TIDEMARK_TRY(measure_rates(**study));
   }
-  return solver::Field::from_dense(geometry, phi, 2.5);
-}
-
-std::vector<solver::VoxelBox> pages_of(const solver::Field& phi) {
-  std::vector<solver::VoxelBox> boxes;
-  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
-    if (phi.table[static_cast<std::size_t>(page)] < 0) continue;
-    boxes.push_back({phi.layout.first_voxel(page), phi.layout.valid_shape(page)});
-  }
-  return boxes;
-}
-
-std::vector<solver::VoxelBox> slices_of(Index3 size) {
-  return {{{0, 0, size.z / 2}, {size.x, size.y, 1}},
-          {{0, size.y / 2, 0}, {size.x, 1, size.z}},
-          {{size.x / 2, 0, 0}, {1, size.y, size.z}}};
-}
-
-// Million voxels a second.
-template <class Evaluate>
-double rate(const std::vector<solver::VoxelBox>& boxes, const Evaluate& evaluate) {
-  std::int64_t voxels = 0;
-  const Stopwatch watch;
-  for (const solver::VoxelBox& box : boxes) {
-    evaluate(box);
-    voxels += box.voxels();
-  }
-  return 1e-6 * static_cast<double>(voxels) / watch.seconds();
-}
-
-Status measure(const solver::SpeedInputs& inputs, const solver::Field& phi, const Measured& measured) {
-  const Stopwatch making;
-  auto made = solver::make_speed({{measured.term}, solver::Combine::least}, inputs);
-  if (!made) return pass_on(made);
-  const double seconds_to_make = making.seconds();
-  std::shared_ptr<const solver::SpeedFunction> speed = *made;
-  const Stopwatch following;
-  if (auto next = speed->following(phi)) speed = std::move(next);
-  const double seconds_to_follow = following.seconds();
-
-  const auto pages = pages_of(phi);
-  std::vector<std::int16_t> values(static_cast<std::size_t>(phi.geometry.voxel_count()));
-  std::vector<glm::vec3> flow(512);
-  const auto quantised = [&](const solver::VoxelBox& box) {
-    solver::evaluate_quantised(*speed, box, values.data());
-  };
-  const double slices = rate(slices_of(phi.geometry.size), quantised);
-  const double first = rate(pages, quantised);
-  const double again = rate(pages, quantised);
-  const double advection = !speed->advects() ? 0.0 : rate(pages, [&](const solver::VoxelBox& box) {
-    speed->evaluate_advection(box, flow.data());
-  });
-  fmt::print("{:24} {:8.1f} {:8.1f} {:8.1f} {:10.1f} {:10.1f} {:10.1f}\n", measured.name, first, again,
-             slices, advection, 1e3 * seconds_to_make, 1e3 * seconds_to_follow);
-  return {};
-}
-
-Result<std::shared_ptr<const Volume>> source_of(const std::string& study) {
-  if (!study.empty()) {
-    auto volume = imaging::load_volume(study);
-    if (!volume) return pass_on(volume);
-    return std::make_shared<const Volume>(std::move(*volume));
-  }
-  auto phantom = imaging::make_phantom("organ");
-  if (!phantom) return pass_on(phantom);
-  return std::make_shared<const Volume>(std::move(phantom->volume));
-}
-
-Status run(const std::string& study) {
-  auto source = source_of(study);
-  if (!source) return pass_on(source);
-  solver::SpeedInputs inputs;
-  inputs.source = std::move(*source);
-  const Geometry& geometry = inputs.source->geometry;
-  const solver::Field phi = ball_on(geometry);
-  fmt::print("{} x {} x {}, {} pages at the surface, one thread\n", geometry.size.x, geometry.size.y,
-             geometry.size.z, phi.resident_pages());
-  fmt::print("{:24} {:>8} {:>8} {:>8} {:>10} {:>10} {:>10}\n", "million voxels / s", "pages", "again",
-             "slices", "velocity", "make ms", "follow ms");
-  const double smallest = std::min({geometry.spacing_mm.x, geometry.spacing_mm.y, geometry.spacing_mm.z});
-  const Measured all[] = {{"regions", {"regions", {}}},
-                          {"regions, 5 voxels", {"regions", {{"radius", 5.0 * smallest}}}},
-                          {"regions, 10 voxels", {"regions", {{"radius", 10.0 * smallest}}}},
-                          {"edges, 1 voxel", {"edges", {{"sigma", smallest}}}},
-                          {"edges, 2 voxels", {"edges", {{"sigma", 2.0 * smallest}}}}};
-  for (const Measured& one : all) TIDEMARK_TRY(measure(inputs, phi, one));
-  return {};
+  if (!response) return {};
+  engine::Engine engine;
+  if (engine.graphics() == engine::Engine::Graphics::none)
+    fmt::print("No OpenGL, and so no speed maps: {}\n", engine.graphics_problem());
+  TIDEMARK_TRY(measure(engine, *study));
+  if (!path.empty()) return {};
+  study = large_phantom_study();
+  if (!study) return pass_on(study);
+  return measure(engine, *study);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Times the evaluation of speed functions.");
+  const QGuiApplication application(argc, argv);
+  CLI::App app("Times the evaluation of speed functions, and the answer to a stroke.");
   std::string study;
-  app.add_option("study", study, "A study to take instead of a phantom");
+  bool rates = false;
+  bool response = false;
+  app.add_option("study", study, "A study to take instead of the phantoms");
+  app.add_flag("--rates", rates, "Only voxels a second");
+  app.add_flag("--response", response, "Only the answer to a stroke");
   CLI11_PARSE(app, argc, argv);
-  if (const Status status = run(study); !status) {
+  if (const Status status = run(study, rates || !response, response || !rates); !status) {
     fmt::print(stderr, "speed_bench: {}\n", status.error().message);
     return exit_code(status.error().kind);
   }

@@ -1,4 +1,4 @@
-// JSON that is written. What is read is a JsonDocument.
+// JSON to be written. JSON that is read is a JsonDocument.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// Reading JSON that may hold anything: every value is checked, and what is wrong is said with its place.
+// Reading JSON that may hold anything: every value is checked, and an error names the value's place.
 #pragma once
 
 #include <cstdint>

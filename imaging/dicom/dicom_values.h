@@ -15,7 +15,7 @@ namespace tidemark::imaging {
 template <class... Values>
 [[nodiscard]] std::string decimals(Values... values) {
   std::string text;
-  ((text += (text.empty() ? "" : "\\") + decimal(values)), ...);
+  (text.append(text.empty() ? "" : "\\").append(decimal(values)), ...);
   return text;
 }
 

@@ -42,7 +42,7 @@ std::optional<double> seconds_of_day(std::string_view time) {
   if (two(0) > 23 || two(2) > 59 || two(4) > 60) return std::nullopt;
   double fraction = 0.0;
   if (time.size() > 7 && time[6] == '.') {
-    const auto parsed = parse_decimals("0" + std::string(time.substr(6)));
+    const auto parsed = parse_decimals(std::string("0").append(time.substr(6)));
     if (!parsed) return std::nullopt;
     fraction = parsed->front();
   }

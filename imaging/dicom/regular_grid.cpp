@@ -186,7 +186,7 @@ void GridPlanner::tell_tilt() {
   if (tilt_.degrees == 0.0) return;
   if (!moves_back()) {
     plan_.warnings.push_back(fmt::format(
-        "the gantry was tilted by {:.1f} degrees, and the slices are taken as they lie: positions, and "
+        "the gantry was tilted by {:.1f} degrees, and the slices keep their places: positions, and "
         "distances across slices, are sheared by as much",
         tilt_.degrees));
     return;

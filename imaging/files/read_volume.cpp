@@ -1,71 +1,12 @@
-#include <itkImageIORegion.h>
-
 #include <algorithm>
 #include <new>
 
-#include "imaging/files/nifti_voxels.h"
+#include "imaging/files/stored_voxels.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/files/volume_header.h"
+#include "imaging/guard/file_stamp.h"
 
 namespace tidemark::imaging {
-namespace {
-
-using files::VolumeHeader;
-
-// All voxels in ITK's type.
-template <class T>
-std::vector<T> read_as(const VolumeHeader& header) {
-  itk::ImageIORegion region(header.io->GetNumberOfDimensions());
-  for (unsigned axis = 0; axis < header.io->GetNumberOfDimensions(); ++axis) {
-    region.SetIndex(axis, 0);
-    region.SetSize(axis, header.io->GetDimensions(axis));
-  }
-  header.io->SetIORegion(region);
-  std::vector<T> voxels(static_cast<std::size_t>(header.geometry.voxel_count()));
-  header.io->Read(voxels.data());
-  return voxels;
-}
-
-template <class To, class From>
-std::vector<To> converted(const std::vector<From>& voxels) {
-  std::vector<To> result(voxels.size());
-  std::transform(voxels.begin(), voxels.end(), result.begin(), [](From v) { return static_cast<To>(v); });
-  return result;
-}
-
-Result<Volume::Voxels> read_voxels(const VolumeHeader& header) {
-  if (header.layout.nifti) return files::read_nifti_voxels(header.layout);
-  TIDEMARK_TRY(files::check_stream(header.layout));
-  using Type = itk::IOComponentEnum;
-  switch (header.io->GetComponentType()) {
-    case Type::UCHAR:
-      return converted<std::int16_t>(read_as<unsigned char>(header));
-    case Type::CHAR:
-      return converted<std::int16_t>(read_as<signed char>(header));
-    case Type::SHORT:
-      return read_as<std::int16_t>(header);
-    case Type::USHORT:
-      return read_as<std::uint16_t>(header);
-    case Type::UINT:
-      return converted<float>(read_as<unsigned int>(header));
-    case Type::INT:
-      return converted<float>(read_as<int>(header));
-    case Type::ULONG:
-      return converted<float>(read_as<unsigned long>(header));
-    case Type::LONG:
-      return converted<float>(read_as<long>(header));
-    case Type::ULONGLONG:
-      return converted<float>(read_as<unsigned long long>(header));
-    case Type::LONGLONG:
-      return converted<float>(read_as<long long>(header));
-    case Type::DOUBLE:
-      return converted<float>(read_as<double>(header));
-    default:
-      return read_as<float>(header);
-  }
-}
-
-}  // namespace
 
 bool is_readable_volume_file(const std::filesystem::path& file) {
   return files::format_of(file).has_value();
@@ -99,14 +40,17 @@ Result<Volume> read_volume_file(const std::filesystem::path& file, const Progres
   const files::ItkScope scope;
   progress(0.0, "reading the volume");
   if (progress.cancelled()) return cancelled_error();
+  // The file is opened more than once: by us, and by ITK for its geometry.
+  const auto stamp = FileStamp::of(file);
   auto header = files::check_header(file);
   if (!header) return pass_on(header);
+  const auto stamp_of_voxels = FileStamp::of(header->layout.file);  // another file where the header says so
   progress(0.1, "reading the volume");
   if (progress.cancelled()) return cancelled_error();
 
   Volume volume;
   try {
-    auto voxels = read_voxels(*header);
+    auto voxels = files::read_stored_voxels(header->layout);
     if (!voxels) return pass_on(voxels);
     volume.voxels = std::move(*voxels);
   } catch (const std::bad_alloc&) {
@@ -115,6 +59,8 @@ Result<Volume> read_volume_file(const std::filesystem::path& file, const Progres
   } catch (const std::exception& exception) {
     return fail(ErrorKind::input, "{}: the voxels cannot be read: {}", name, files::one_line(exception));
   }
+  TIDEMARK_TRY(require_unchanged(file, stamp.value_or(FileStamp())));
+  TIDEMARK_TRY(require_unchanged(header->layout.file, stamp_of_voxels.value_or(FileStamp())));
   if (progress.cancelled()) return cancelled_error();
   volume.geometry = header->geometry;
   volume.description = file.filename().string();

@@ -5,7 +5,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/checked.h"
-#include "imaging/files/nifti_voxels.h"
+#include "imaging/files/stored_voxels.h"
 
 namespace tidemark::imaging::files {
 namespace {
@@ -68,7 +68,7 @@ Result<Geometry> checked_geometry(const itk::ImageIOBase& io, const std::string&
     if (!std::isfinite(geometry.spacing_mm[a]) || geometry.spacing_mm[a] <= 0.0) {
       return fail(ErrorKind::input, "{}: spacing along axis {} is {} mm", name, axis, geometry.spacing_mm[a]);
     }
-    geometry.origin_mm[a] = io.GetOrigin(axis);
+    geometry.origin_mm[a] = io.GetOrigin(axis) + 0.0;  // never "-0"
     if (!std::isfinite(geometry.origin_mm[a])) {
       return fail(ErrorKind::input, "{}: origin along axis {} is {} mm", name, axis, geometry.origin_mm[a]);
     }
@@ -81,44 +81,10 @@ Result<Geometry> checked_geometry(const itk::ImageIOBase& io, const std::string&
   return geometry;
 }
 
-Status choose_scalar(const itk::ImageIOBase& io, const std::string& name, VolumeHeader& header) {
-  if (io.GetNumberOfComponents() != 1 || io.GetPixelType() != itk::IOPixelEnum::SCALAR) {
-    return fail(ErrorKind::input, "{}: {} values of type {} per voxel: only single numbers make a volume",
-                name, io.GetNumberOfComponents(), itk::ImageIOBase::GetPixelTypeAsString(io.GetPixelType()));
-  }
-  if (const auto& nifti = header.layout.nifti) {
-    const NiftiType type = nifti_type(*nifti);
-    header.scalar = type.scalar;
-    if (type.converted) header.changes.push_back(fmt::format("{} values converted to float", type.stored));
-    return {};
-  }
-  switch (io.GetComponentType()) {
-    case itk::IOComponentEnum::UCHAR:
-    case itk::IOComponentEnum::CHAR:
-    case itk::IOComponentEnum::SHORT:
-      header.scalar = "int16";
-      return {};
-    case itk::IOComponentEnum::USHORT:
-      header.scalar = "uint16";
-      return {};
-    case itk::IOComponentEnum::FLOAT:
-      header.scalar = "float";
-      return {};
-    case itk::IOComponentEnum::UINT:
-    case itk::IOComponentEnum::INT:
-    case itk::IOComponentEnum::ULONG:
-    case itk::IOComponentEnum::LONG:
-    case itk::IOComponentEnum::ULONGLONG:
-    case itk::IOComponentEnum::LONGLONG:
-    case itk::IOComponentEnum::DOUBLE:
-      header.scalar = "float";
-      header.changes.push_back(fmt::format(
-          "{} values converted to float", itk::ImageIOBase::GetComponentTypeAsString(io.GetComponentType())));
-      return {};
-    default:
-      return fail(ErrorKind::input, "{}: type {} is not supported", name,
-                  itk::ImageIOBase::GetComponentTypeAsString(io.GetComponentType()));
-  }
+Status require_single_numbers(const itk::ImageIOBase& io, const std::string& name) {
+  if (io.GetNumberOfComponents() == 1 && io.GetPixelType() == itk::IOPixelEnum::SCALAR) return {};
+  return fail(ErrorKind::input, "{}: {} values of type {} per voxel: only single numbers make a volume", name,
+              io.GetNumberOfComponents(), itk::ImageIOBase::GetPixelTypeAsString(io.GetPixelType()));
 }
 
 }  // namespace
@@ -132,20 +98,25 @@ Result<VolumeHeader> check_header(const std::filesystem::path& file) {
   const Format format = *format_of(file);
   auto name_for_itk = ItkName::create(format, file, ItkName::Use::read);
   if (!name_for_itk) return pass_on(name_for_itk);
-  VolumeHeader header{.io = make_image_io(format, name_for_itk->path()), .name = std::move(*name_for_itk)};
-  header.layout = std::move(*layout);
+  VolumeHeader header{.layout = std::move(*layout)};
   try {
-    header.io->ReadImageInformation();
-    auto geometry = checked_geometry(*header.io, name);
+    const auto io = make_image_io(format, name_for_itk->path());
+    io->ReadImageInformation();
+    auto geometry = checked_geometry(*io, name);
     if (!geometry) return pass_on(geometry);
     header.geometry = *geometry;
-    TIDEMARK_TRY(choose_scalar(*header.io, name, header));
+    TIDEMARK_TRY(require_single_numbers(*io, name));
   } catch (const std::exception& exception) {
     return fail(ErrorKind::input, "{}: the header cannot be read: {}", name, one_line(exception));
   }
   if (header.geometry.voxel_count() != header.layout.voxels) {
     return fail(ErrorKind::input, "{}: the header says {} voxels, ITK reads {}", name, header.layout.voxels,
                 header.geometry.voxel_count());
+  }
+  const VolumeType type = volume_type(header.layout);
+  header.scalar = type.scalar;
+  if (type.converted) {
+    header.changes.push_back(fmt::format("{} values converted to float", name_of(header.layout.scalar)));
   }
   header.warnings = header.layout.warnings;
   if (!header.layout.oriented) {

@@ -1,4 +1,5 @@
-// The conversion of ITK's view of a header to ours, checked. Private to this folder.
+// The header of a volume file, checked: the geometry as ITK understands it, the voxels as we do. Private to
+// this folder.
 #pragma once
 
 #include "core/geometry.h"
@@ -7,8 +8,6 @@
 namespace tidemark::imaging::files {
 
 struct VolumeHeader {
-  itk::ImageIOBase::Pointer io;  // ready to read the voxels
-  ItkName name;                  // that io reads
   PixelLayout layout = {};
   Geometry geometry = {};
   std::string scalar = {};  // of the volume: "int16", "uint16" or "float"

@@ -8,7 +8,7 @@ namespace tidemark::imaging {
 
 // Gaussian smoothing with standard deviation sigma_mm > 0 along every axis; the result is a float volume on
 // the same grid (ITK's recursive Gaussian).
-Result<Volume> smooth(const Volume& volume, double sigma_mm);
+Result<Volume> smooth(const Volume& volume, double sigma_mm, const Progress& progress = {});
 
 // Voxels with low <= value <= high.
 Mask threshold(const Volume& volume, double low, double high);

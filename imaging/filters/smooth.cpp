@@ -46,7 +46,7 @@ void smooth_recursively(std::vector<float>& values, const Geometry& geometry, in
 
 }  // namespace
 
-Result<Volume> smooth(const Volume& volume, double sigma_mm) {
+Result<Volume> smooth(const Volume& volume, double sigma_mm, const Progress& progress) {
   if (!std::isfinite(sigma_mm) || sigma_mm <= 0.0) {
     return fail(ErrorKind::usage, "smoothing: sigma must be a length above 0 mm, not {}", sigma_mm);
   }
@@ -60,6 +60,8 @@ Result<Volume> smooth(const Volume& volume, double sigma_mm) {
   try {
     std::vector<float> values = volume.values();
     for (int axis = 0; axis < 3; ++axis) {
+      if (progress.cancelled()) return cancelled_error();
+      progress(axis / 3.0, "smoothing");
       const double sigma_voxels = sigma_mm / volume.geometry.spacing_mm[axis];
       if (volume.geometry.size[axis] < kShortestRecursive || sigma_voxels < kSmallestRecursiveSigma) {
         convolve_axis(values, volume.geometry.size, axis, sigma_voxels);

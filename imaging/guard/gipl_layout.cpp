@@ -1,4 +1,6 @@
 // The GIPL header (Guy's Image Processing Lab): 256 bytes, big endian, the magic number at its end.
+#include <bit>
+
 #include "core/checked.h"
 #include "imaging/guard/pixel_layout.h"
 
@@ -13,20 +15,24 @@ std::uint32_t big_endian(const std::string& bytes, std::size_t offset, std::size
   return value;
 }
 
-std::optional<int> bytes_of(std::uint32_t type) {
+std::optional<Scalar> scalar_of(std::uint32_t type) {
   switch (type) {
     case 7:
+      return Scalar::int8;
     case 8:
-      return 1;
+      return Scalar::uint8;
     case 15:
+      return Scalar::int16;
     case 16:
-      return 2;
+      return Scalar::uint16;
     case 31:
+      return Scalar::uint32;
     case 32:
+      return Scalar::int32;
     case 64:
-      return 4;
+      return Scalar::float32;
     case 65:
-      return 8;
+      return Scalar::float64;
     default:
       return std::nullopt;
   }
@@ -47,8 +53,8 @@ Result<PixelLayout> locate_gipl(const std::filesystem::path& file) {
     return fail(ErrorKind::input, "{}: not a GIPL file: its header has no magic number", name);
   }
   const std::uint32_t type = big_endian(*header, 8, 2);
-  const auto bytes = bytes_of(type);
-  if (!bytes) return fail(ErrorKind::input, "{}: image type {} is not supported", name, type);
+  const auto scalar = scalar_of(type);
+  if (!scalar) return fail(ErrorKind::input, "{}: image type {} is not supported", name, type);
   const auto size = [&](std::size_t axis) { return big_endian(*header, 2 * axis, 2); };
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (size(axis) == 0) return fail(ErrorKind::input, "{}: dim[{}] is 0", name, axis);
@@ -56,7 +62,12 @@ Result<PixelLayout> locate_gipl(const std::filesystem::path& file) {
   const std::int64_t voxels = std::int64_t{size(0)} * size(1) * size(2);  // below 2^48
   if (size(3) > 1) return fail(ErrorKind::input, "{}: dim[3] is {}: not one volume", name, size(3));
 
-  PixelLayout layout{.file = file, .voxels = voxels, .bytes = voxels * *bytes, .oriented = false};
+  PixelLayout layout{.file = file,
+                     .voxels = voxels,
+                     .bytes = voxels * bytes_of(*scalar),
+                     .scalar = *scalar,
+                     .oriented = false};
+  layout.swapped = std::endian::native == std::endian::little;
   layout.coding = is_gzip(file) ? Coding::deflate : Coding::raw;
   (layout.coding == Coding::deflate ? layout.prefix : layout.offset) = kHeaderSize;
   return layout;

@@ -1,5 +1,7 @@
 // The MetaImage header: lines "name = value", the last is ElementDataFile
 // (https://itk.org/Wiki/ITK/MetaIO/Documentation).
+#include <bit>
+
 #include "core/checked.h"
 #include "imaging/guard/pixel_layout.h"
 #include "imaging/guard/text_header.h"
@@ -7,13 +9,14 @@
 namespace tidemark::imaging::files {
 namespace {
 
-std::optional<int> bytes_of(const std::string& type) {
-  static const std::map<std::string, int> kBytes = {
-      {"MET_CHAR", 1}, {"MET_UCHAR", 1}, {"MET_SHORT", 2},     {"MET_USHORT", 2},
-      {"MET_INT", 4},  {"MET_UINT", 4},  {"MET_LONG_LONG", 8}, {"MET_ULONG_LONG", 8},
-      {"MET_LONG", 4}, {"MET_ULONG", 4}, {"MET_FLOAT", 4},     {"MET_DOUBLE", 8}};
-  const auto found = kBytes.find(type);
-  if (found == kBytes.end()) return std::nullopt;
+std::optional<Scalar> scalar_of(const std::string& type) {
+  static const std::map<std::string, Scalar> kScalars = {
+      {"MET_CHAR", Scalar::int8},         {"MET_UCHAR", Scalar::uint8},   {"MET_SHORT", Scalar::int16},
+      {"MET_USHORT", Scalar::uint16},     {"MET_INT", Scalar::int32},     {"MET_UINT", Scalar::uint32},
+      {"MET_LONG", Scalar::int32},        {"MET_ULONG", Scalar::uint32},  {"MET_LONG_LONG", Scalar::int64},
+      {"MET_ULONG_LONG", Scalar::uint64}, {"MET_FLOAT", Scalar::float32}, {"MET_DOUBLE", Scalar::float64}};
+  const auto found = kScalars.find(type);
+  if (found == kScalars.end()) return std::nullopt;
   return found->second;
 }
 
@@ -45,9 +48,10 @@ Status count_bytes(const TextHeader& header, const std::string& name, PixelLayou
                 *header.find("ElementNumberOfChannels"));
   }
   const std::string type = header.find("ElementType").value_or("missing");
-  const auto bytes = bytes_of(type);
-  if (!bytes) return fail(ErrorKind::input, "{}: ElementType {} is not a scalar type", name, type);
-  const auto total = checked_product(layout.voxels, *bytes);
+  const auto scalar = scalar_of(type);
+  if (!scalar) return fail(ErrorKind::input, "{}: ElementType {} is not a scalar type", name, type);
+  layout.scalar = *scalar;
+  const auto total = checked_product(layout.voxels, bytes_of(*scalar));
   if (!total) return fail(ErrorKind::input, "{}: DimSize: too many voxels", name);
   layout.bytes = *total;
   return {};
@@ -101,6 +105,11 @@ Result<PixelLayout> locate_meta(const std::filesystem::path& file) {
   } else if (!is_true(*header, "BinaryData", true)) {
     layout.coding = Coding::text;
   }
+  // The second of these names overrules the first one in the library, too.
+  constexpr bool kNative = std::endian::native == std::endian::big;
+  const bool is_big =
+      is_true(*header, "ElementByteOrderMSB", is_true(*header, "BinaryDataByteOrderMSB", kNative));
+  layout.swapped = is_big != kNative;
   const std::string data = *header->find("ElementDataFile");
   if (data != "LOCAL" && data != "Local" && data != "local") {
     auto path = detached_file(file, data);

@@ -44,23 +44,29 @@ class Fields {
   bool swapped_ = false;
 };
 
-// Bits of a voxel of the scalar types, by NIfTI's datatype code; nothing for RGB, complex and unknown ones.
-std::optional<int> bits_of(int datatype) {
+// By NIfTI's datatype code; nothing for RGB, complex and unknown ones.
+std::optional<Scalar> scalar_of(int datatype) {
   switch (datatype) {
     case 2:
-    case 256:
-      return 8;
+      return Scalar::uint8;
     case 4:
-    case 512:
-      return 16;
+      return Scalar::int16;
     case 8:
+      return Scalar::int32;
     case 16:
-    case 768:
-      return 32;
+      return Scalar::float32;
     case 64:
+      return Scalar::float64;
+    case 256:
+      return Scalar::int8;
+    case 512:
+      return Scalar::uint16;
+    case 768:
+      return Scalar::uint32;
     case 1024:
+      return Scalar::int64;
     case 1280:
-      return 64;
+      return Scalar::uint64;
     default:
       return std::nullopt;
   }
@@ -202,11 +208,11 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
   const auto voxels = count_voxels(header, name);
   if (!voxels) return tl::unexpected<Error>(voxels.error());
   const int datatype = header.read<std::int16_t>(70);
-  const auto bits = bits_of(datatype);
-  if (!bits) return fail(ErrorKind::input, "{}: datatype {} is not a scalar type", name, datatype);
-  if (header.read<std::int16_t>(72) != *bits) {
+  const auto scalar = scalar_of(datatype);
+  if (!scalar) return fail(ErrorKind::input, "{}: datatype {} is not a scalar type", name, datatype);
+  if (header.read<std::int16_t>(72) != 8 * bytes_of(*scalar)) {
     return fail(ErrorKind::input, "{}: bitpix is {}, but datatype {} has {} bits", name,
-                header.read<std::int16_t>(72), datatype, *bits);
+                header.read<std::int16_t>(72), datatype, 8 * bytes_of(*scalar));
   }
   const double offset = header.read<float>(108);
   if (!(offset >= static_cast<double>(kFirstVoxel) && offset < 1e9) || offset != std::floor(offset)) {
@@ -216,7 +222,7 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
     return fail(ErrorKind::input, "{}: scl_slope or scl_inter is infinite", name);
   }
   TIDEMARK_TRY(check_geometry(header, name));
-  const auto bytes = checked_product(*voxels, *bits / 8);
+  const auto bytes = checked_product(*voxels, bytes_of(*scalar));
   if (!bytes) return fail(ErrorKind::input, "{}: dim: too many voxels", name);
 
   PixelLayout layout{.file = file, .voxels = *voxels, .bytes = *bytes};
@@ -226,10 +232,10 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
   const double slope = header.read<float>(112);
   const double intercept = header.read<float>(116);
   const bool scaled = slope != 0.0 && !std::isnan(slope);
-  layout.nifti = NiftiVoxels{.datatype = datatype,
-                             .swapped = header.swapped(),
-                             .slope = scaled ? slope : 1.0,
-                             .intercept = scaled && !std::isnan(intercept) ? intercept : 0.0};
+  layout.scalar = *scalar;
+  layout.swapped = header.swapped();
+  layout.slope = scaled ? slope : 1.0;
+  layout.intercept = scaled && !std::isnan(intercept) ? intercept : 0.0;
   compare_orientations(header, layout);
   return layout;
 }

@@ -1,4 +1,6 @@
 // The NRRD header: lines "field: value" up to an empty one (http://teem.sourceforge.net/nrrd/format.html).
+#include <bit>
+
 #include "core/checked.h"
 #include "imaging/guard/pixel_layout.h"
 #include "imaging/guard/text_header.h"
@@ -6,54 +8,54 @@
 namespace tidemark::imaging::files {
 namespace {
 
-// Bytes of a voxel by NRRD's type names; nothing for "block" and unknown ones.
-std::optional<int> bytes_of(const std::string& type) {
-  static const std::map<std::string, int> kBytes = {{"signed char", 1},
-                                                    {"int8", 1},
-                                                    {"int8_t", 1},
-                                                    {"uchar", 1},
-                                                    {"unsigned char", 1},
-                                                    {"uint8", 1},
-                                                    {"uint8_t", 1},
-                                                    {"short", 2},
-                                                    {"short int", 2},
-                                                    {"signed short", 2},
-                                                    {"signed short int", 2},
-                                                    {"int16", 2},
-                                                    {"int16_t", 2},
-                                                    {"ushort", 2},
-                                                    {"unsigned short", 2},
-                                                    {"unsigned short int", 2},
-                                                    {"uint16", 2},
-                                                    {"uint16_t", 2},
-                                                    {"int", 4},
-                                                    {"signed int", 4},
-                                                    {"int32", 4},
-                                                    {"int32_t", 4},
-                                                    {"uint", 4},
-                                                    {"unsigned int", 4},
-                                                    {"uint32", 4},
-                                                    {"uint32_t", 4},
-                                                    {"longlong", 8},
-                                                    {"long long", 8},
-                                                    {"long long int", 8},
-                                                    {"signed long long", 8},
-                                                    {"signed long long int", 8},
-                                                    {"int64", 8},
-                                                    {"int64_t", 8},
-                                                    {"ulonglong", 8},
-                                                    {"unsigned long long", 8},
-                                                    {"unsigned long long int", 8},
-                                                    {"uint64", 8},
-                                                    {"uint64_t", 8},
-                                                    {"float", 4},
-                                                    {"double", 8}};
-  const auto found = kBytes.find(type);
-  if (found == kBytes.end()) return std::nullopt;
+// By NRRD's type names; nothing for "block" and unknown ones.
+std::optional<Scalar> scalar_of(const std::string& type) {
+  static const std::map<std::string, Scalar> kScalars = {{"signed char", Scalar::int8},
+                                                         {"int8", Scalar::int8},
+                                                         {"int8_t", Scalar::int8},
+                                                         {"uchar", Scalar::uint8},
+                                                         {"unsigned char", Scalar::uint8},
+                                                         {"uint8", Scalar::uint8},
+                                                         {"uint8_t", Scalar::uint8},
+                                                         {"short", Scalar::int16},
+                                                         {"short int", Scalar::int16},
+                                                         {"signed short", Scalar::int16},
+                                                         {"signed short int", Scalar::int16},
+                                                         {"int16", Scalar::int16},
+                                                         {"int16_t", Scalar::int16},
+                                                         {"ushort", Scalar::uint16},
+                                                         {"unsigned short", Scalar::uint16},
+                                                         {"unsigned short int", Scalar::uint16},
+                                                         {"uint16", Scalar::uint16},
+                                                         {"uint16_t", Scalar::uint16},
+                                                         {"int", Scalar::int32},
+                                                         {"signed int", Scalar::int32},
+                                                         {"int32", Scalar::int32},
+                                                         {"int32_t", Scalar::int32},
+                                                         {"uint", Scalar::uint32},
+                                                         {"unsigned int", Scalar::uint32},
+                                                         {"uint32", Scalar::uint32},
+                                                         {"uint32_t", Scalar::uint32},
+                                                         {"longlong", Scalar::int64},
+                                                         {"long long", Scalar::int64},
+                                                         {"long long int", Scalar::int64},
+                                                         {"signed long long", Scalar::int64},
+                                                         {"signed long long int", Scalar::int64},
+                                                         {"int64", Scalar::int64},
+                                                         {"int64_t", Scalar::int64},
+                                                         {"ulonglong", Scalar::uint64},
+                                                         {"unsigned long long", Scalar::uint64},
+                                                         {"unsigned long long int", Scalar::uint64},
+                                                         {"uint64", Scalar::uint64},
+                                                         {"uint64_t", Scalar::uint64},
+                                                         {"float", Scalar::float32},
+                                                         {"double", Scalar::float64}};
+  const auto found = kScalars.find(type);
+  if (found == kScalars.end()) return std::nullopt;
   return found->second;
 }
 
-// Fills in sizes and bytes.
+// Fills in sizes, type and bytes.
 Status count_bytes(const TextHeader& header, const std::string& name, PixelLayout& layout) {
   const auto sizes = whole_numbers(header.find("sizes").value_or(""));
   if (!sizes || sizes->empty() || sizes->size() > 16) {
@@ -72,11 +74,22 @@ Status count_bytes(const TextHeader& header, const std::string& name, PixelLayou
     layout.voxels = *product;
   }
   const std::string type = header.find("type").value_or("missing");
-  const auto bytes = bytes_of(type);
-  if (!bytes) return fail(ErrorKind::input, "{}: type: '{}' is not a scalar type", name, type);
-  const auto total = checked_product(layout.voxels, *bytes);
+  const auto scalar = scalar_of(type);
+  if (!scalar) return fail(ErrorKind::input, "{}: type: '{}' is not a scalar type", name, type);
+  layout.scalar = *scalar;
+  const auto total = checked_product(layout.voxels, bytes_of(*scalar));
   if (!total) return fail(ErrorKind::input, "{}: sizes: too many voxels", name);
   layout.bytes = *total;
+  return {};
+}
+
+Status choose_byte_order(const TextHeader& header, const std::string& name, PixelLayout& layout) {
+  if (layout.coding == Coding::text || bytes_of(layout.scalar) == 1) return {};
+  const std::string endian = header.find("endian").value_or("missing");
+  if (endian != "little" && endian != "big") {
+    return fail(ErrorKind::input, "{}: endian: '{}' is neither little nor big", name, endian);
+  }
+  layout.swapped = (endian == "big") != (std::endian::native == std::endian::big);
   return {};
 }
 
@@ -107,6 +120,7 @@ Result<PixelLayout> locate_nrrd(const std::filesystem::path& file) {
   PixelLayout layout{.file = file, .offset = header->end};
   TIDEMARK_TRY(count_bytes(*header, name, layout));
   TIDEMARK_TRY(choose_coding(*header, name, layout));
+  TIDEMARK_TRY(choose_byte_order(*header, name, layout));
   TIDEMARK_TRY(require_finite_fields(*header, file, {"space directions", "space origin", "spacings"}));
   auto data = header->find("data file");
   if (!data) data = header->find("datafile");

@@ -130,7 +130,7 @@ Status check_extent(const PixelLayout& layout) {
 }
 
 Status check_stream(const PixelLayout& layout) {
-  if (layout.coding == Coding::text) return check_text(layout);
+  if (layout.coding == Coding::text) return read_text(layout, [](std::int64_t, double) { return Status(); });
   if (layout.coding == Coding::raw) return {};
   return inflate_exactly(layout, [](const unsigned char*, std::int64_t, std::int64_t) {});
 }

@@ -11,21 +11,12 @@
 #include <vector>
 
 #include "core/result.h"
+#include "imaging/guard/scalar.h"
 
 namespace tidemark::imaging::files {
 
 enum class Format { nifti, nrrd, meta, gipl };
 enum class Coding { raw, deflate, text };
-
-// The form of a NIfTI file's voxels, which are read without ITK: its NIfTI library silently turns NaN and
-// infinity into 0, reads the voxels of a.nii.gz from a.nii when there is one, and adds scl_inter when there
-// is no slope.
-struct NiftiVoxels {
-  int datatype = 0;  // nifti1.h's code of a scalar type
-  bool swapped = false;
-  double slope = 1.0;
-  double intercept = 0.0;
-};
 
 struct PixelLayout {
   std::filesystem::path file;  // holds the voxels: the file itself, or the one that its header names
@@ -34,10 +25,12 @@ struct PixelLayout {
   std::int64_t prefix = 0;  // bytes of the inflated stream that come before the voxels
   std::int64_t voxels = 0;  // product of all sizes in the header
   std::int64_t bytes = 0;   // of all voxels, inflated
-  bool unscaled = false;    // NIfTI: scl_inter is not to be applied
-  bool oriented = true;     // the header says how the axes lie in the patient
+  Scalar scalar = Scalar::uint8;
+  bool swapped = false;  // its bytes come in the other order than this processor's
+  double slope = 1.0;    // a voxel's value is slope * stored + intercept
+  double intercept = 0.0;
+  bool oriented = true;  // the header says how the axes lie in the patient
   std::vector<std::string> warnings = {};
-  std::optional<NiftiVoxels> nifti = {};
 };
 
 // By suffix, case ignored; nothing for a name of another kind.

@@ -11,16 +11,17 @@ namespace {
 // Longer than any number that a program would write.
 constexpr std::size_t kLongestNumber = 64;
 
-bool is_number(std::string_view word) {
+std::optional<double> number_in(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double number = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return error == std::errc() && end == word.data() + word.size() && std::isfinite(number);
+  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number)) return std::nullopt;
+  return number;
 }
 
 }  // namespace
 
-Status check_text(const PixelLayout& layout) {
+Status read_text(const PixelLayout& layout, const std::function<Status(std::int64_t, double)>& take) {
   std::ifstream stream(layout.file, std::ios::binary);
   if (!stream.seekg(layout.offset)) {
     return fail(ErrorKind::input, "{}: cannot be read", layout.file.string());
@@ -33,8 +34,10 @@ Status check_text(const PixelLayout& layout) {
     const bool is_blank = !more || c == ' ' || (c >= '\t' && c <= '\r');
     if (!is_blank && word.size() <= kLongestNumber) word.push_back(static_cast<char>(c));
     if (!is_blank || word.empty()) continue;
-    if (!is_number(word)) {
-      return fail(ErrorKind::input, "{}: voxel {} is not a number", layout.file.string(), count);
+    const auto number = number_in(word);
+    if (!number) return fail(ErrorKind::input, "{}: voxel {} is not a number", layout.file.string(), count);
+    if (count < layout.voxels) {
+      TIDEMARK_TRY(take(count, *number));
     }
     ++count;
     word.clear();

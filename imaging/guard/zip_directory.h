@@ -1,4 +1,4 @@
-// What a zip archive holds (PKWARE's APPNOTE), from its directory at the end. libzip reads a directory for
+// The entries of a zip archive (PKWARE's APPNOTE), by its directory at the end. libzip reads a directory for
 // every end of one that an archive claims to have, keeps all its names before it can be asked how many there
 // are, and takes time with the square of their number when they are made for it; nothing here does.
 #pragma once

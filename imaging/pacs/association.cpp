@@ -199,7 +199,7 @@ Status Association::send(int context, T_DIMSE_Message& message, DcmDataset* data
   const OFCondition sent =
       DIMSE_sendMessageUsingMemoryData(association_, static_cast<T_ASC_PresentationContextID>(context),
                                        &message, nullptr, data, nullptr, nullptr);
-  if (sent.bad()) return tl::unexpected<Error>(error(sent, "cannot be told"));
+  if (sent.bad()) return tl::unexpected<Error>(error(sent, "takes no message"));
   watch_->completed_message();
   return {};
 }

@@ -89,7 +89,7 @@ bool ConnectionWatch::received(std::int64_t bytes) {
   moved(bytes);
   allowed_ -= bytes;
   if (allowed_ < 0) {
-    shut_locked({ErrorKind::input, fmt::format("{}: sends more than is taken as {}", peer_, what_)});
+    shut_locked({ErrorKind::input, fmt::format("{}: sends more than {} may hold", peer_, what_)});
   }
   return !trouble_;
 }

@@ -49,6 +49,15 @@ Result<Segments> read_structure_set(const std::filesystem::path& file, const Geo
 // Either of them; a structure set needs the grid.
 Result<Segments> read_result(const std::filesystem::path& file, const Geometry* grid);
 
+// Whether the file is a parametric map or a segmentation, by its SOP class.
+[[nodiscard]] bool holds_map(const std::filesystem::path& file);
+
+// The values of a parametric map (Parametric Map Storage, PS3.3 A.75: float, double or whole numbers, by its
+// real world value mapping), or of a segmentation as fractions from 0 to 1: at each voxel the largest of its
+// segments. Float, on the smallest grid that holds all frames; voxels that no frame covers have `empty`.
+// Fails (ErrorKind::input) when frames lie on no common grid, or several of a parametric map at one place.
+Result<Volume> read_map(const std::filesystem::path& file, float empty = 0.0F);
+
 // A mask from any file that can be one, on that grid: a volume (every voxel that is not 0), a Segmentation or
 // a structure set (what is inside any of its segments). Without a grid: on its own, which a structure set has
 // not. Fails (ErrorKind::input) naming the file and why it does not fit.

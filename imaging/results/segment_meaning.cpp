@@ -129,7 +129,7 @@ Result<SegmentMeaning> find_segment_meaning(std::string_view word) {
                                   [&](const NamedMeaning& named) { return named.word == word; });
   if (found != meanings.end()) return found->meaning;
   std::string words;
-  for (const NamedMeaning& named : meanings) words += (words.empty() ? "" : " ") + std::string(named.word);
+  for (const NamedMeaning& named : meanings) words.append(words.empty() ? "" : " ").append(named.word);
   return fail(ErrorKind::usage, "'{}' is none of the meanings {}", word, words);
 }
 

@@ -1,4 +1,4 @@
-// Which pixels of a segmentation's frames are inside. Private to this folder.
+// The pixels inside in a segmentation's frames. Private to this folder.
 #pragma once
 
 #include <cstdint>
@@ -30,9 +30,13 @@ class SegmentPixels {
 
   // Makes it the frame that is asked about. Fails likewise.
   Status go_to(std::int64_t frame);
-  [[nodiscard]] bool is_inside(std::int64_t row, std::int64_t column) const {
+  // As stored; 0 or 1, where a pixel has one bit.
+  [[nodiscard]] int value(std::int64_t row, std::int64_t column) const {
     const auto n = static_cast<std::size_t>(first_ + row * format_.columns + column);
-    return format_.bits == 1 ? (bytes_[n / 8] >> n % 8 & 1) != 0 : bytes_[n] >= format_.least_inside;
+    return format_.bits == 1 ? bytes_[n / 8] >> n % 8 & 1 : bytes_[n];
+  }
+  [[nodiscard]] bool is_inside(std::int64_t row, std::int64_t column) const {
+    return value(row, column) >= (format_.bits == 1 ? 1 : format_.least_inside);
   }
 
  private:

@@ -1,4 +1,4 @@
-// How much memory the slices of all segments of one file may take: each is as large as the grid's, however
+// The memory that the slices of all segments of one file may take: each is as large as the grid's, however
 // few voxels of it a file names. Private to this folder.
 #pragma once
 

@@ -168,7 +168,7 @@ Status StructureSetWriter::add_contour(DRTContourSequence& sequence, const Conto
   for (const glm::dvec2 point : contour) {
     const glm::dvec3 mm = geometry_.to_patient({point.x, point.y, static_cast<double>(k)});
     for (const double value : {mm.x, mm.y, mm.z}) {
-      points += (points.empty() ? "" : "\\") + coordinate(value, digits_);
+      points.append(points.empty() ? "" : "\\").append(coordinate(value, digits_));
     }
   }
   failure_ << item->setContourData(of(points), OFFalse);  // not checked number by number

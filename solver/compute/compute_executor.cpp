@@ -52,16 +52,10 @@ Result<std::unique_ptr<Executor>> ComputeExecutor::create(std::shared_ptr<const 
 
 ComputeExecutor::ComputeExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source,
                                  const Parameters& parameters, const ExecutorOptions& options)
-    : ExecutorBase(std::move(source), parameters),
-      device_(std::move(device)),
-      options_(options),
-      layout_(PageLayout(source_->geometry.size, options.page_shape),
-              device_->capabilities().largest_texture) {}
+    : GlExecutor(std::move(device), std::move(source), parameters, options, options.page_shape) {}
 
 Status ComputeExecutor::compile() {
-  auto textures = DriveTextures::create(*device_, *source_, speed_, options_.threads);
-  if (!textures) return pass_on(textures);
-  drive_textures_ = std::move(*textures);
+  TIDEMARK_TRY(make_textures());
   struct Kernel {
     gpu::Program& program;
     const char* path;
@@ -80,6 +74,10 @@ Status ComputeExecutor::compile() {
   auto readback = gpu::Readback::create(*device_, sizeof(ComputeControl), "control on its way");
   if (!readback) return pass_on(readback);
   readback_ = std::move(*readback);
+  return compile_for_drive();
+}
+
+Status ComputeExecutor::compile_for_drive() {
   TIDEMARK_TRY(compile_paint());
   return compile_update();
 }
@@ -266,7 +264,7 @@ void ComputeExecutor::note_memory(const ComputeControl& control) {
   control_ = control;
   const std::int64_t resident = memory_.capacity() - kFirstPage - control.free_pages();
   peak_resident_ = std::max(peak_resident_, resident);
-  peak_bytes_ = std::max(peak_bytes_, PageMemory::bytes_for(layout_, memory_.capacity()));
+  peak_bytes_ = std::max(peak_bytes_, with_textures(PageMemory::bytes_for(layout_, memory_.capacity())));
 }
 
 // Both copies exist while G grows.
@@ -274,11 +272,7 @@ Status ComputeExecutor::grow(std::int64_t more_pages) {
   const std::int64_t capacity = layout_.whole_rows(memory_.capacity() + more_pages);
   const std::int64_t bytes =
       PageMemory::bytes_for(layout_, capacity) + PageMemory::bytes_for(layout_, memory_.capacity());
-  if (bytes > options_.memory_budget_bytes) {
-    return fail(ErrorKind::capability,
-                "the surface needs {} pages, {} MB while they are copied, and the memory budget is {} MB",
-                capacity, bytes >> 20, options_.memory_budget_bytes >> 20);
-  }
+  TIDEMARK_TRY(check_budget(capacity, bytes, true));
   TIDEMARK_TRY(memory_.grow(*device_, capacity));
   note_memory(memory_.read_control());
   return {};
@@ -384,7 +378,7 @@ MemoryReport ComputeExecutor::memory() const {
   report.resident_pages = memory_.capacity() - kFirstPage - control_.free_pages();
   report.peak_resident_pages = peak_resident_;
   report.quiet_pages = control_.quiet_pages;
-  report.state_bytes = PageMemory::bytes_for(layout_, memory_.capacity());
+  report.state_bytes = with_textures(PageMemory::bytes_for(layout_, memory_.capacity()));
   report.peak_state_bytes = peak_bytes_;
   report.source_bytes = 0;  // the source is one texture, whatever is resident
   report.page_shape = layout_.layout().page_shape();

@@ -6,8 +6,7 @@
 #include "gpu/device.h"
 #include "gpu/program.h"
 #include "solver/compute/page_memory.h"
-#include "solver/executor_base.h"
-#include "solver/gl/drive_textures.h"
+#include "solver/gl/gl_executor.h"
 
 namespace tidemark::solver {
 
@@ -15,7 +14,7 @@ namespace tidemark::solver {
 // After every window of steps three more find out which pages are quiet. The processor hands over runs of
 // steps and reads nothing in between; when a run ends early, because no page was free or the surface has
 // stopped, the rest of its dispatches do nothing, and the counters say how far it came.
-class ComputeExecutor final : public ExecutorBase {
+class ComputeExecutor final : public GlExecutor {
  public:
   // On options.device, else on a context of its own. Fails (ErrorKind::capability) without OpenGL 4.5.
   // $TIDEMARK_APRON (shared or columns) forces an address mode; by default hardware shares and software does
@@ -25,12 +24,8 @@ class ComputeExecutor final : public ExecutorBase {
                                                   const ExecutorOptions& options);
 
   [[nodiscard]] std::string_view name() const override { return "compute"; }
-  Status restore(const Field& phi) override;
   [[nodiscard]] Result<Field> snapshot() const override;
   Status paint(const Sphere& sphere, Brush brush) override;
-  Status set_parameters(const Parameters& parameters) override;
-  Status set_speed(std::shared_ptr<const SpeedFunction> speed) override;
-  Status set_constraints(std::shared_ptr<const Constraints> constraints) override;
   Result<AdvanceReport> advance(const Advance& run) override;
   [[nodiscard]] MemoryReport memory() const override;
   [[nodiscard]] Result<std::vector<std::int64_t>> quiet_pages() const override;
@@ -43,7 +38,7 @@ class ComputeExecutor final : public ExecutorBase {
   [[nodiscard]] bool software() const { return device_->capabilities().software; }
   [[nodiscard]] bool shared_apron() const;
   Status compile();
-  // The kernels of what the parameters, the speed function and walls ask for, if they are others.
+  Status compile_for_drive() override;
   Status compile_update();
   Status compile_paint();
 
@@ -63,18 +58,13 @@ class ComputeExecutor final : public ExecutorBase {
   // Grants every request of the present phi; G grows as needed.
   Status activate_pages();
   Status grow(std::int64_t more_pages);
-  Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given);
-  Status replace(const Field& phi);
-  Status use_constraints(std::shared_ptr<const Constraints> constraints, const Field& phi);
+  Status replace(const Field& phi) override;
+  Status wake_all_pages() override;
   Status follow_surface();
   Result<std::int64_t> prepare_run(std::int64_t steps);
   void order_sphere(const Sphere& sphere, Brush brush, bool only_count);
   void note_memory(const ComputeControl& control);
 
-  std::shared_ptr<gpu::Device> device_;  // first: it outlives everything below
-  ExecutorOptions options_;
-  PackedLayout layout_;
-  DriveTextures drive_textures_;
   gpu::Defines update_defines_, paint_defines_;
   gpu::Program update_, measure_, maintain_, find_quiet_pages_, check_convergence_, rebuild_, paint_;
   PageMemory memory_;
@@ -86,8 +76,6 @@ class ComputeExecutor final : public ExecutorBase {
   double seconds_per_step_ = 0.0;  // as last measured
   double paging_seconds_ = 0.0;    // since the last report
   ComputeControl control_{};       // as last read
-  std::int64_t peak_resident_ = 0;
-  std::int64_t peak_bytes_ = 0;
 };
 
 }  // namespace tidemark::solver

@@ -1,4 +1,4 @@
-// Replacing and painting phi, and changing parameters, in the compute executor.
+// Replacing and painting phi in the compute executor.
 #include <algorithm>
 #include <glm/common.hpp>
 #include <utility>
@@ -7,28 +7,10 @@
 
 namespace tidemark::solver {
 
-Status ComputeExecutor::restore(const Field& phi) {
-  TIDEMARK_TRY(phi.check_fits(source_->geometry, band()));
-  if (phi.layout.page_shape() != layout_.layout().page_shape()) {
-    return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band, layout_.layout().page_shape()));
-  }
-  if (constraints_ != nullptr && !constraints_->empty()) {
-    Field limited = phi;
-    constrain(limited, *constraints_);
-    return replace(limited);
-  }
-  return replace(phi);
-}
-
 Status ComputeExecutor::replace(const Field& phi) {
-  TIDEMARK_TRY(device_->make_current());
   constexpr std::int64_t kFewPages = 16;
   const std::int64_t pages = phi.resident_pages() + kFewPages;
-  const std::int64_t bytes = PageMemory::bytes_for(layout_, pages);
-  if (bytes > options_.memory_budget_bytes) {
-    return fail(ErrorKind::capability, "the surface needs {} pages, {} MB, and the memory budget is {} MB",
-                pages, bytes >> 20, options_.memory_budget_bytes >> 20);
-  }
+  TIDEMARK_TRY(check_budget(pages, PageMemory::bytes_for(layout_, pages)));
   auto memory = PageMemory::create(*device_, layout_, phi, pages);
   if (!memory) return pass_on(memory);
   memory_ = std::move(*memory);
@@ -38,48 +20,7 @@ Status ComputeExecutor::replace(const Field& phi) {
   return activate_pages();
 }
 
-Status ComputeExecutor::set_parameters(const Parameters& parameters) {
-  return drive(parameters, given_speed_);
-}
-
-Status ComputeExecutor::set_speed(std::shared_ptr<const SpeedFunction> speed) {
-  return drive(parameters(), std::move(speed));
-}
-
-// phi goes through the processor, where pages are made that were constant.
-Status ComputeExecutor::set_constraints(std::shared_ptr<const Constraints> constraints) {
-  if (constraints != nullptr) {
-    TIDEMARK_TRY(check_fits(*constraints));
-  }
-  auto phi = snapshot();
-  if (!phi) return pass_on(phi);
-  const auto former = constraints_;
-  Status set = use_constraints(std::move(constraints), *phi);
-  if (set) return set;
-  TIDEMARK_TRY(use_constraints(former, *phi));
-  return set;
-}
-
-Status ComputeExecutor::use_constraints(std::shared_ptr<const Constraints> constraints, const Field& phi) {
-  TIDEMARK_TRY(drive_textures_.set_constraints(*device_, constraints.get()));
-  constraints_ = std::move(constraints);
-  TIDEMARK_TRY(compile_paint());
-  TIDEMARK_TRY(compile_update());
-  const std::int64_t peak_resident = peak_resident_;
-  const std::int64_t peak_bytes = peak_bytes_;
-  TIDEMARK_TRY(restore(phi));
-  peak_resident_ = std::max(peak_resident_, peak_resident);
-  peak_bytes_ = std::max(peak_bytes_, peak_bytes);
-  return {};
-}
-
-Status ComputeExecutor::drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given) {
-  auto drive = drive_with(parameters, std::move(given));
-  if (!drive) return pass_on(drive);
-  TIDEMARK_TRY(device_->make_current());
-  TIDEMARK_TRY(drive_textures_.set_speed(*device_, drive->used));
-  take(std::move(*drive));
-  TIDEMARK_TRY(compile_update());
+Status ComputeExecutor::wake_all_pages() {
   begin_window(true);
   note_memory(memory_.read_control());
   return device_->check("waking all pages");

@@ -14,6 +14,20 @@ Result<DriveTextures> DriveTextures::create(gpu::Device& device, const Volume& s
   return textures;
 }
 
+std::int64_t DriveTextures::bytes_for(Index3 volume_size, const SpeedFunction& speed,
+                                      const Constraints* constraints) {
+  std::int64_t bytes = 0;
+  if (speed.tent() == nullptr) bytes += SpeedTextures::bytes_for(volume_size, speed.advects());
+  if (constraints != nullptr && !constraints->empty()) bytes += volume_size.x * volume_size.y * volume_size.z;
+  return bytes;
+}
+
+std::int64_t DriveTextures::bytes() const {
+  if (speed_ == nullptr) return 0;
+  const std::int64_t walls = constraints_ ? volume_size_.x * volume_size_.y * volume_size_.z : 0;
+  return walls + bytes_for(volume_size_, *speed_, nullptr);
+}
+
 Status DriveTextures::set_speed(gpu::Device& device, std::shared_ptr<const SpeedFunction> speed) {
   if (speed->tent() != nullptr) {
     speed_textures_.reset();

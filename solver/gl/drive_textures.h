@@ -1,4 +1,4 @@
-// What drives the surface, as the solver's shaders read it: the source with the numbers of the tent, or D and
+// The drive of the surface as the solver's shaders read it: the source with the numbers of the tent, or D and
 // a velocity; and walls and anchors.
 #pragma once
 
@@ -23,6 +23,11 @@ class DriveTextures {
   // On failure (ErrorKind::capability) they are as before. The same function again changes nothing.
   Status set_speed(gpu::Device& device, std::shared_ptr<const SpeedFunction> speed);
   Status set_constraints(gpu::Device& device, const Constraints* constraints);
+
+  // Of all but the source: what such a function and such walls take, or would take.
+  [[nodiscard]] static std::int64_t bytes_for(Index3 volume_size, const SpeedFunction& speed,
+                                              const Constraints* constraints);
+  [[nodiscard]] std::int64_t bytes() const;
 
   // A run of steps must not be longer where the processor evaluates D: the surface moves less than a voxel a
   // step.

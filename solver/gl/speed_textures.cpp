@@ -33,6 +33,11 @@ Result<SpeedTextures> SpeedTextures::create(gpu::Device& device, Index3 volume_s
   return textures;
 }
 
+std::int64_t SpeedTextures::bytes_for(Index3 volume_size, bool velocity) {
+  const auto voxel = static_cast<std::int64_t>(sizeof(std::int16_t) + (velocity ? sizeof(glm::vec4) : 0));
+  return volume_size.x * volume_size.y * volume_size.z * voxel;
+}
+
 Status SpeedTextures::set_function(gpu::Device& device, std::shared_ptr<const SpeedFunction> function) {
   if (function == function_) return {};
   const bool advects = wants_velocity_ && function->advects();

@@ -28,6 +28,7 @@ class SpeedTextures {
   // (ErrorKind::capability). Nothing is there of another one.
   Status set_function(gpu::Device& device, std::shared_ptr<const SpeedFunction> function);
   [[nodiscard]] const std::shared_ptr<const SpeedFunction>& function() const { return function_; }
+  [[nodiscard]] static std::int64_t bytes_for(Index3 volume_size, bool velocity);
 
   // Asks for the blocks that a box inside of the volume touches.
   void want(const VoxelBox& box);

@@ -1,4 +1,4 @@
-// Asks for what computing a page will read, while other pages are computed.
+// Prefetches of the memory that computing a page will read, while other pages are computed.
 #pragma once
 
 #include <cstddef>

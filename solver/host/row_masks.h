@@ -1,4 +1,4 @@
-// Which rows of a page are clamped constants, one bit a row.
+// The rows of a page that are clamped constants, one bit a row.
 //
 // A page of 8^3 voxels has 64 rows of 8; row (y, z) is bit y + 8 z. About half of the rows in resident pages
 // are +W or -W throughout and so are their neighbours: they need not be computed, and with bits for rows that

@@ -1,4 +1,4 @@
-// How far the speed moves the surface in a step, voxel by voxel of a page.
+// The way that the speed moves the surface in a step, voxel by voxel of a page.
 #pragma once
 
 #include "solver/model.h"

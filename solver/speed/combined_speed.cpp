@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "solver/speed/tent_speed.h"
+
 namespace tidemark::solver {
 
 CombinedSpeed::CombinedSpeed(std::vector<std::shared_ptr<const SpeedFunction>> functions, Combine combine)
@@ -63,6 +65,15 @@ std::shared_ptr<const SpeedFunction> CombinedSpeed::following(const Field& phi) 
   }
   if (!changed) return nullptr;
   return std::make_shared<CombinedSpeed>(std::move(next), combine_);
+}
+
+std::shared_ptr<const CombinedSpeed> CombinedSpeed::with_tents(const std::shared_ptr<const Volume>& source,
+                                                               const Parameters& parameters) const {
+  std::vector<std::shared_ptr<const SpeedFunction>> functions = functions_;
+  for (auto& function : functions) {
+    if (function->tent() != nullptr) function = std::make_shared<TentSpeed>(source, parameters);
+  }
+  return std::make_shared<CombinedSpeed>(std::move(functions), combine_);
 }
 
 }  // namespace tidemark::solver

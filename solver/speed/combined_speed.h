@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "solver/parameters.h"
 #include "solver/speed/speed_function.h"
 #include "solver/speed/speed_setting.h"
 
@@ -24,6 +25,10 @@ class CombinedSpeed final : public SpeedFunction {
   // Those that follow the surface follow it; the others stay, with what they have cached.
   [[nodiscard]] bool follows_surface() const override;
   [[nodiscard]] std::shared_ptr<const SpeedFunction> following(const Field& phi) const override;
+
+  // The same with its tents on that source, for other parameters.
+  [[nodiscard]] std::shared_ptr<const CombinedSpeed> with_tents(const std::shared_ptr<const Volume>& source,
+                                                                const Parameters& parameters) const;
 
  private:
   std::vector<std::shared_ptr<const SpeedFunction>> functions_;

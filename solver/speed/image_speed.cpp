@@ -91,11 +91,14 @@ const SpeedKind& image_kind() {
       .needs_map = true,
       .parameters = {{.name = "form",
                       .title = "Values",
-                      .text = "0: as its values say; 1: a probability from 0 to 1; 2: a speed from -1 to 1.",
+                      .text = "What the map holds. By its values: a speed where any is below 0.",
                       .unit = "",
                       .low = by_values,
                       .high = speed,
-                      .initial = by_values}},
+                      .initial = by_values,
+                      .choices = {{"by-values", "By its values"},
+                                  {"probability", "Probability, 0 to 1"},
+                                  {"speed", "Speed, -1 to 1"}}}},
       .make = make_image,
       .cached = false};
   return kind;

@@ -1,4 +1,4 @@
-// Which of two mean brightnesses near a voxel is nearer to its own (Lankton and Tannenbaum, "Localizing
+// The speed by the nearer of two mean brightnesses around a voxel (Lankton and Tannenbaum, "Localizing
 // Region-Based Active Contours", 2008). Private to the speed function `regions`.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What drives the surface: a speed D a voxel and, for some, an advection velocity (paper eq. 1, section 7).
+// Speed functions: D a voxel and, for some, an advection velocity (paper eq. 1, section 7).
 #pragma once
 
 #include <memory>

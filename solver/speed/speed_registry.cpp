@@ -6,6 +6,7 @@
 #include "solver/speed/cached_speed.h"
 #include "solver/speed/combined_speed.h"
 #include "solver/speed/speed_kinds.h"
+#include "solver/speed/tent_speed.h"
 
 namespace tidemark::solver {
 namespace {
@@ -37,6 +38,10 @@ Status check(const SpeedTerm& term) {
       return fail(ErrorKind::usage, "the speed function {}: {} must lie between {} and {}, not {}",
                   kind->name, name, number->low, number->high, value);
     }
+    if (!number->choices.empty() && value != std::round(value)) {
+      return fail(ErrorKind::usage, "the speed function {}: {} must be a whole number, not {}", kind->name,
+                  name, value);
+    }
   }
   return {};
 }
@@ -55,6 +60,11 @@ Result<std::shared_ptr<const SpeedFunction>> make_term(const SpeedTerm& term, co
   auto made = kind.make(inputs, values, progress);
   if (!made || !kind.cached) return made;
   return std::make_shared<CachedSpeed>(std::move(*made), inputs.source->geometry.size);
+}
+
+Status can_be_joined(const Tent& tent) {
+  if (tent.floor >= -1.0) return {};
+  return fail(ErrorKind::usage, "the raw form of the tent cannot be joined with other speed functions");
 }
 
 }  // namespace
@@ -89,13 +99,21 @@ Result<std::shared_ptr<const SpeedFunction>> make_speed(const SpeedSetting& sett
     auto made = make_term(setting.terms[static_cast<std::size_t>(i)], inputs, progress.part(i, count));
     if (!made) return made;
     functions.push_back(std::move(*made));
-    const Tent* tent = functions.back()->tent();
-    if (count > 1 && tent != nullptr && tent->floor < -1.0) {
-      return fail(ErrorKind::usage, "the raw form of the tent cannot be joined with other speed functions");
+    if (const Tent* tent = functions.back()->tent(); count > 1 && tent != nullptr) {
+      TIDEMARK_TRY(can_be_joined(*tent));
     }
   }
   if (count == 1) return functions.front();
   return std::make_shared<CombinedSpeed>(std::move(functions), setting.combine);
+}
+
+Result<std::shared_ptr<const SpeedFunction>> with_tents(std::shared_ptr<const SpeedFunction> function,
+                                                        const std::shared_ptr<const Volume>& source,
+                                                        const Parameters& parameters) {
+  const auto* joined = dynamic_cast<const CombinedSpeed*>(function.get());
+  if (joined == nullptr) return function;
+  TIDEMARK_TRY(can_be_joined(tent_of(parameters)));
+  return joined->with_tents(source, parameters);
 }
 
 }  // namespace tidemark::solver

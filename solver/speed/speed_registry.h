@@ -14,6 +14,12 @@
 
 namespace tidemark::solver {
 
+// A word for one of the numbers of a parameter.
+struct SpeedChoice {
+  const char* name;   // on the command line
+  const char* title;  // for people, in English
+};
+
 // A number of a speed function.
 struct SpeedParameter {
   const char* name;   // in files and on the command line
@@ -23,6 +29,7 @@ struct SpeedParameter {
   double low;
   double high;
   double initial;
+  std::vector<SpeedChoice> choices = {};  // of the whole numbers from `low` to `high`; none: any number
 };
 
 // What speed functions are made from. All volumes are on one grid.
@@ -39,6 +46,7 @@ struct SpeedKind {
   const char* title;  // for people, in English
   const char* text;   // what drives the surface then, one sentence
   bool needs_strokes = false;
+  bool uses_images = false;  // further images of the case take part
   bool needs_map = false;
   std::vector<SpeedParameter> parameters = {};
   // `values` has every parameter. Fails (ErrorKind::usage) saying what is missing, (ErrorKind::cancelled).
@@ -59,5 +67,11 @@ Status check(const SpeedSetting& setting);
 Result<std::shared_ptr<const SpeedFunction>> make_speed(const SpeedSetting& setting,
                                                         const SpeedInputs& inputs,
                                                         const Progress& progress = {});
+
+// The function that was made of a setting, with T and epsilon of other parameters in its tents; what else it
+// consists of stays, with all that it has learned and cached. Fails as make_speed().
+Result<std::shared_ptr<const SpeedFunction>> with_tents(std::shared_ptr<const SpeedFunction> function,
+                                                        const std::shared_ptr<const Volume>& source,
+                                                        const Parameters& parameters);
 
 }  // namespace tidemark::solver

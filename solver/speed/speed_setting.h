@@ -1,4 +1,4 @@
-// What is to drive the surface, as a value: which speed functions, with which numbers, and how they are
+// The choice of what drives the surface, as a value: speed functions with their numbers, and how they are
 // joined.
 #pragma once
 

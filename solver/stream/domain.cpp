@@ -23,16 +23,12 @@ Status StreamExecutor::make_room(std::int64_t more_pages) {
     return state_bytes(capacity) + state_bytes(memory_.capacity());
   };
   std::int64_t capacity = layout_.whole_rows(needed + reserve_of(needed, 16));
-  if (bytes(capacity) > options_.memory_budget_bytes || capacity > layout_.largest_capacity()) {
+  if (!check_budget(capacity, bytes(capacity)) || capacity > layout_.largest_capacity()) {
     capacity = layout_.whole_rows(needed);
   }
-  if (bytes(capacity) > options_.memory_budget_bytes) {
-    return fail(ErrorKind::capability,
-                "the surface needs {} pages, {} MB while they are copied, and the memory budget is {} MB",
-                capacity, bytes(capacity) >> 20, options_.memory_budget_bytes >> 20);
-  }
+  TIDEMARK_TRY(check_budget(capacity, bytes(capacity), true));
   TIDEMARK_TRY(memory_.grow(*device_, capacity));
-  peak_bytes_ = std::max(peak_bytes_, state_bytes(memory_.capacity()));
+  peak_bytes_ = std::max(peak_bytes_, with_textures(state_bytes(memory_.capacity())));
   return {};
 }
 

@@ -1,4 +1,4 @@
-// Replacing and painting phi, and changing parameters, in the stream executor.
+// Replacing and painting phi, and what follows from what drives it, in the stream executor.
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -63,28 +63,10 @@ bool all_equal(const std::vector<float>& values, float value) {
 
 }  // namespace
 
-Status StreamExecutor::restore(const Field& phi) {
-  TIDEMARK_TRY(phi.check_fits(source_->geometry, band()));
-  if (phi.layout.page_shape() != layout_.layout().page_shape()) {
-    return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band, layout_.layout().page_shape()));
-  }
-  if (constraints_ != nullptr && !constraints_->empty()) {
-    Field limited = phi;
-    constrain(limited, *constraints_);
-    return replace(limited);
-  }
-  return replace(phi);
-}
-
 Status StreamExecutor::replace(const Field& phi) {
-  TIDEMARK_TRY(device_->make_current());
-  gpu::begin_exact_drawing();
   constexpr std::int64_t kFewPages = 16;
   const std::int64_t pages = phi.resident_pages() + kFirstPage + kFewPages;
-  if (state_bytes(pages) > options_.memory_budget_bytes) {
-    return fail(ErrorKind::capability, "the surface needs {} pages, {} MB, and the memory budget is {} MB",
-                pages, state_bytes(pages) >> 20, options_.memory_budget_bytes >> 20);
-  }
+  TIDEMARK_TRY(check_budget(pages, state_bytes(pages)));
   auto memory = PhysicalMemory::create(*device_, layout_, pages, static_cast<float>(band()));
   if (!memory) return pass_on(memory);
   memory->field().upload(phi.pages);
@@ -106,7 +88,7 @@ Status StreamExecutor::replace(const Field& phi) {
   steps_in_window_ = 0;
   active_list_is_stale_ = true;
   peak_resident_ = table_.resident();
-  peak_bytes_ = state_bytes(memory_.capacity());
+  peak_bytes_ = with_textures(state_bytes(memory_.capacity()));
   TIDEMARK_TRY(activate_pages(resident_pages()));
   return rebuild_active_list();
 }
@@ -132,51 +114,21 @@ Result<Field> StreamExecutor::snapshot() const {
   return phi;
 }
 
-Status StreamExecutor::set_parameters(const Parameters& parameters) {
-  return drive(parameters, given_speed_);
-}
-
-Status StreamExecutor::set_speed(std::shared_ptr<const SpeedFunction> speed) {
-  return drive(parameters(), std::move(speed));
-}
-
-// phi goes through the processor, where pages are made that were constant.
-Status StreamExecutor::set_constraints(std::shared_ptr<const Constraints> constraints) {
-  if (constraints != nullptr) {
-    TIDEMARK_TRY(check_fits(*constraints));
-  }
-  auto phi = snapshot();
-  if (!phi) return pass_on(phi);
-  const auto former = constraints_;
-  Status set = use_constraints(std::move(constraints), *phi);
-  if (set) return set;
-  TIDEMARK_TRY(use_constraints(former, *phi));
-  return set;
-}
-
-Status StreamExecutor::use_constraints(std::shared_ptr<const Constraints> constraints, const Field& phi) {
-  TIDEMARK_TRY(drive_textures_.set_constraints(*device_, constraints.get()));
-  constraints_ = std::move(constraints);
-  TIDEMARK_TRY(passes_.compile_step(*device_, active_geometry_, drive_textures_, model_));
-  const std::int64_t peak_resident = peak_resident_;
-  const std::int64_t peak_bytes = peak_bytes_;
-  TIDEMARK_TRY(restore(phi));
-  peak_resident_ = std::max(peak_resident_, peak_resident);
-  peak_bytes_ = std::max(peak_bytes_, peak_bytes);
+Status StreamExecutor::make_current() const {
+  TIDEMARK_TRY(device_->make_current());
+  gpu::begin_exact_drawing();
   return {};
 }
 
-Status StreamExecutor::drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given) {
-  auto drive = drive_with(parameters, std::move(given));
-  if (!drive) return pass_on(drive);
-  TIDEMARK_TRY(device_->make_current());
-  gpu::begin_exact_drawing();
-  TIDEMARK_TRY(drive_textures_.set_speed(*device_, drive->used));
-  take(std::move(*drive));
-  TIDEMARK_TRY(passes_.compile_step(*device_, active_geometry_, drive_textures_, model_));
+Status StreamExecutor::compile_for_drive() {
+  return passes_.compile_step(*device_, active_geometry_, drive_textures_, model_);
+}
+
+Status StreamExecutor::wake_all_pages() {
   evaluated_changes_ = -1;
   begin_window();
   for_each_resident([&](PhysicalPage page) { wake(page); });
+  peak_bytes_ = std::max(peak_bytes_, with_textures(state_bytes(memory_.capacity())));
   return rebuild_active_list();
 }
 
@@ -219,8 +171,7 @@ StreamExecutor::PaintPlan StreamExecutor::plan_paint(const Sphere& sphere, Brush
 }
 
 Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
-  TIDEMARK_TRY(device_->make_current());
-  gpu::begin_exact_drawing();
+  TIDEMARK_TRY(make_current());
   const PaintPlan plan = plan_paint(sphere, brush);
   // Every page that is drawn into finds room, so that a sphere is drawn whole or not at all.
   TIDEMARK_TRY(make_room(plan.to_allocate));

@@ -33,15 +33,10 @@ Result<std::unique_ptr<Executor>> StreamExecutor::create(std::shared_ptr<const V
 
 StreamExecutor::StreamExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source,
                                const Parameters& parameters, const ExecutorOptions& options)
-    : ExecutorBase(std::move(source), parameters),
-      device_(std::move(device)),
-      options_(options),
-      layout_(PageLayout(source_->geometry.size, kPageShape), device_->capabilities().largest_texture) {}
+    : GlExecutor(std::move(device), std::move(source), parameters, options, kPageShape) {}
 
 Status StreamExecutor::start(std::int64_t largest_region) {
-  auto textures = DriveTextures::create(*device_, *source_, speed_, options_.threads);
-  if (!textures) return pass_on(textures);
-  drive_textures_ = std::move(*textures);
+  TIDEMARK_TRY(make_textures());
   active_geometry_ = GeometryEngine::create(*device_, layout_);
   special_geometry_ = GeometryEngine::create(*device_, layout_);
   if (largest_region == 0) {
@@ -97,8 +92,7 @@ Result<bool> StreamExecutor::finish_step(AdvanceReport& report) {
 
 Result<AdvanceReport> StreamExecutor::advance(const Advance& run) {
   steps_of_last_run_ = 0;
-  TIDEMARK_TRY(device_->make_current());
-  gpu::begin_exact_drawing();
+  TIDEMARK_TRY(make_current());
   if (needs_activation_) {
     TIDEMARK_TRY(activate_pages(resident_pages()));
   }
@@ -123,7 +117,7 @@ MemoryReport StreamExecutor::memory() const {
   report.resident_pages = table_.resident();
   report.peak_resident_pages = peak_resident_;
   report.quiet_pages = quiet_pages_;
-  report.state_bytes = state_bytes(memory_.capacity());
+  report.state_bytes = with_textures(state_bytes(memory_.capacity()));
   report.peak_state_bytes = peak_bytes_;
   report.source_bytes = 0;  // the source is one texture, whatever is resident
   report.page_shape = kPageShape;

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "gpu/device.h"
-#include "solver/executor_base.h"
-#include "solver/gl/drive_textures.h"
+#include "solver/gl/gl_executor.h"
 #include "solver/paging/page_table.h"
 #include "solver/stream/geometry_engine.h"
 #include "solver/stream/physical_memory.h"
@@ -17,7 +16,7 @@ namespace tidemark::solver {
 
 // Its pages are the paper's, (16,16,1). A step draws the pages of the active list; then their messages are
 // read, and the processor allocates and frees pages before the next step.
-class StreamExecutor final : public ExecutorBase {
+class StreamExecutor final : public GlExecutor {
  public:
   // On options.device, else on a context of its own. Fails (ErrorKind::capability) without OpenGL 3.3.
   // `largest_region` is how many pages are computed at a time in the intermediate buffers.
@@ -27,12 +26,8 @@ class StreamExecutor final : public ExecutorBase {
                                                   std::int64_t largest_region = 0);
 
   [[nodiscard]] std::string_view name() const override { return "stream"; }
-  Status restore(const Field& phi) override;
   [[nodiscard]] Result<Field> snapshot() const override;
   Status paint(const Sphere& sphere, Brush brush) override;
-  Status set_parameters(const Parameters& parameters) override;
-  Status set_speed(std::shared_ptr<const SpeedFunction> speed) override;
-  Status set_constraints(std::shared_ptr<const Constraints> constraints) override;
   Result<AdvanceReport> advance(const Advance& run) override;
   [[nodiscard]] MemoryReport memory() const override;
   [[nodiscard]] Result<std::vector<std::int64_t>> quiet_pages() const override;
@@ -77,9 +72,10 @@ class StreamExecutor final : public ExecutorBase {
   Status validate_sleeping_pages() const;
 
   // Replacing phi, painting, and what drives the surface (edit.cpp).
-  Status replace(const Field& phi);
-  Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given);
-  Status use_constraints(std::shared_ptr<const Constraints> constraints, const Field& phi);
+  Status replace(const Field& phi) override;
+  Status compile_for_drive() override;
+  Status wake_all_pages() override;
+  [[nodiscard]] Status make_current() const override;
   struct PaintPlan {
     std::vector<std::int64_t> to_draw;  // virtual pages, some of them to be made resident
     std::vector<float> values;          // for each of these, the values that phi is combined with
@@ -104,10 +100,6 @@ class StreamExecutor final : public ExecutorBase {
     }
   }
 
-  std::shared_ptr<gpu::Device> device_;  // first: it outlives everything below
-  ExecutorOptions options_;
-  PackedLayout layout_;
-  DriveTextures drive_textures_;
   PhysicalMemory memory_;
   GeometryEngine active_geometry_;   // of the active list
   GeometryEngine special_geometry_;  // of pages that are filled, copied, painted or asked
@@ -122,8 +114,6 @@ class StreamExecutor final : public ExecutorBase {
   bool needs_activation_ = false;  // the budget stopped an allocation
   std::int64_t quiet_pages_ = 0;
   std::int64_t quiet_near_voxels_ = 0;
-  std::int64_t peak_resident_ = 0;
-  std::int64_t peak_bytes_ = 0;
   std::int64_t evaluated_changes_ = -1;  // of the table, when D was evaluated around its pages
 
   gpu::Buffer viewed_table_;          // the page table as packed_view() gave it last

@@ -118,7 +118,10 @@ void CliRunTest::what_has_become_of_the_surface_is_said_data() {
                               << "";
   QTest::newRow("vanished") << QStringList{"--alpha", "0"} << "vanished"
                             << "vanished"
-                            << "--alpha";
+                            << "--range or --alpha";
+  QTest::newRow("vanished, without a range") << QStringList{"--alpha", "0", "--speed", "edges"} << "vanished"
+                                             << "vanished"
+                                             << "another --speed or --alpha";
   QTest::newRow("seeded outside") << QStringList{"--target", "5000"} << "seeded_outside"
                                   << "outside of what"
                                   << "no value where it began is within 5000";

@@ -37,6 +37,7 @@ void CliSpeedFailureTest::initTestCase() {
     return [label](glm::dvec3 p) { return p.x < 3.0 ? label : p.x > 26.0 ? 1.0 : 0.0; };
   };
   write(volume_of(grid, 1.0, corner(1.0)), "only-inside.nii.gz");
+  write(volume_of(grid, 1.0, corner(2.0)), "good.nii.gz");
   write(volume_of(grid, 1.0, corner(3.0)), "three.nii.gz");
   write(volume_of(grid, 1.0, corner(std::numeric_limits<double>::quiet_NaN())), "nan.nii.gz");
   write(volume_of(grid, 1.0, corner(-7.0)), "beyond.nii.gz");
@@ -51,7 +52,11 @@ void CliSpeedFailureTest::what_is_wrong_is_one_line_data() {
   };
   const QStringList examples{"--speed", "examples", "--examples"};
   const QStringList image{"--speed", "image", "--speed-image"};
-  row("an image elsewhere", QStringList{"--speed", "edges", "--image", file("far.nrrd")}, 3, "far.nrrd");
+  row("an image elsewhere", examples + QStringList{file("good.nii.gz"), "--image", file("far.nrrd")}, 3,
+      "far.nrrd");
+  row("an image of no use", QStringList{"--speed", "edges", "--image", file("far.nrrd")}, 2, "--image");
+  row("an image beside a tent", {"--image", file("far.nrrd"), "--target", "900", "--range", "300"}, 2,
+      "--speed examples");
   row("examples of one kind", examples + QStringList{file("only-inside.nii.gz")}, 3, "2 (outside)");
   row("examples on another grid", examples + QStringList{file("labels.nii.gz")}, 3, "labels.nii.gz");
   row("a label 3", examples + QStringList{file("three.nii.gz")}, 3,
@@ -66,11 +71,18 @@ void CliSpeedFailureTest::what_is_wrong_is_one_line_data() {
   row("no number", {"--speed", "edges", "--speed-value", "edges.sigma=much"}, 2, "much");
   row("no assignment", {"--speed", "edges", "--speed-value", "sigma"}, 2, "FUNCTION.NAME=NUMBER");
   row("unknown combination", {"--speed", "edges", "--combine", "sum"}, 2, "sum");
+  row("nothing to join", {"--speed", "edges", "--combine", "product"}, 2, "--combine");
+  row("a map of no use", {"--speed", "edges", "--speed-image", file("map.nii.gz")}, 2, "--speed-image");
+  row("an unknown word", image + QStringList{file("map.nii.gz"), "--speed-value", "image.form=guess"}, 2,
+      "'guess' is not one of by-values, probability, speed; default by-values");
+  row("between two words", image + QStringList{file("map.nii.gz"), "--speed-value", "image.form=0.5"}, 2,
+      "whole number");
   row("near no mask", {"--speed", "edges", "--within", "3"}, 2, "--init");
   row("examples without a file", {"--speed", "examples"}, 2, "--examples");
   row("a file without examples", {"--speed", "edges", "--examples", file("labels.nii.gz")}, 2, "--examples");
   row("a map without a file", {"--speed", "image"}, 2, "--speed-image");
-  row("a missing image", QStringList{"--speed", "edges", "--image", file("none.nrrd")}, 3, "none.nrrd");
+  row("a missing image", examples + QStringList{file("good.nii.gz"), "--image", file("none.nrrd")}, 3,
+      "none.nrrd");
   row("missing examples", examples + QStringList{file("none.nii.gz")}, 3, "none.nii.gz");
   row("a missing map", image + QStringList{file("none.nii.gz")}, 3, "none.nii.gz");
   row("missing walls", QStringList{"--speed", "edges", "--walls", file("none.nrrd")}, 3, "none.nrrd");

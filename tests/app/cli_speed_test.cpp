@@ -19,9 +19,11 @@ class CliSpeedTest : public QObject {
   void examples_find_a_texture_that_no_tent_separates();
   void each_function_finds_the_ball_and_is_replayed_data();
   void each_function_finds_the_ball_and_is_replayed();
+  void a_dicom_segmentation_is_a_map();
   void a_number_of_a_function_counts();
   void walls_are_never_enclosed_and_anchors_always();
   void a_refined_mask_stays_near_what_it_was();
+  void a_word_of_a_function_counts_and_is_kept_as_its_number();
   void a_second_image_counts_and_a_replay_needs_it();
   void a_recipe_of_a_tent_is_of_version_1();
   void pictures_show_the_function();
@@ -109,6 +111,17 @@ void CliSpeedTest::each_function_finds_the_ball_and_is_replayed() {
   expect_same_phi_of_replay("ball.nrrd", inputs);
 }
 
+void CliSpeedTest::a_dicom_segmentation_is_a_map() {
+  must_run(segment({"--target", "1000", "--range", "500", "--seed", "15,15,15,4", "--out", file("map.dcm")}));
+  const QStringList map{"--speed-image", file("map.dcm")};
+  const Outcome found =
+      must_run(segment({"--speed", "image"}) + map +
+               QStringList{"--seed", "15,15,15,4", "--truth", file("large.nii.gz"), "--json", "--out-phi",
+                           file("phi.nrrd"), "--recipe", file("recipe.json")});
+  QVERIFY2(json_of(found.out)["dice"].toDouble() > 0.9, found.told());
+  expect_same_phi_of_replay("ball.nrrd", map);
+}
+
 void CliSpeedTest::a_number_of_a_function_counts() {
   const auto phi_of = [&](const QStringList& more) {
     must_run(segment({"--speed", "edges", "--seed", "15,15,15,4", "--steps", "20"}) + more +
@@ -118,6 +131,23 @@ void CliSpeedTest::a_number_of_a_function_counts() {
   const QByteArray usual = phi_of({});
   QVERIFY(phi_of({"--speed-value", "edges.sigma=1.5"}) != usual);
   expect_same_phi_of_replay("ball.nrrd", {});
+}
+
+void CliSpeedTest::a_word_of_a_function_counts_and_is_kept_as_its_number() {
+  const auto phi_of = [&](const char* form) {
+    must_run(segment({"--speed", "image", "--speed-image", file("map.nii.gz"), "--speed-value",
+                      QString("image.form=%1").arg(form), "--seed", "15,15,15,4", "--steps", "20",
+                      "--out-phi", file("phi.nrrd"), "--recipe", file("recipe.json")}));
+    const QJsonObject drive = json_of(bytes_of(files_ / "recipe.json"))["drive"].toObject();
+    const QJsonValue kept = drive["speed"].toArray()[0].toObject()["values"].toObject()["form"];
+    return std::pair(bytes_of(files_ / "phi.nrrd"), kept.toDouble(-1.0));
+  };
+  const auto speed = phi_of("speed");
+  const auto probability = phi_of("probability");
+  QCOMPARE(speed.second, 2.0);
+  QCOMPARE(probability.second, 1.0);
+  QVERIFY(speed.first != probability.first);
+  QVERIFY(phi_of("2") == speed);
 }
 
 void CliSpeedTest::walls_are_never_enclosed_and_anchors_always() {
@@ -182,6 +212,8 @@ void CliSpeedTest::a_second_image_counts_and_a_replay_needs_it() {
       run_cli(replay + QStringList{"--image", file("second.nrrd"), "--image", file("ball.nrrd")});
   QVERIFY2(wrong.failed_in_one_line(3) && wrong.err.contains("third.nrrd"), wrong.told());
   QVERIFY(!std::filesystem::exists(files_ / "never.nrrd"));
+  const Outcome more = run_cli(replay + images + QStringList{"--image", file("ball.nrrd")});
+  QVERIFY2(more.failed_in_one_line(2) && more.err.contains("ball.nrrd"), more.told());
   expect_same_phi_of_replay("textures.nii.gz", images);
   // They are known by their voxels.
   expect_same_phi_of_replay("textures.nii.gz",

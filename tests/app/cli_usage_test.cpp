@@ -156,6 +156,9 @@ void CliUsageTest::wrong_usage_ends_with_2_and_one_line_data() {
   QTest::newRow("render T without epsilon") << render({"--view", "sheet", "--target", "500"});
   QTest::newRow("render a slice in a mode of no name") << render({"--view", "axial", "--mode", "x"});
   QTest::newRow("render from too near") << render({"--preset", "ct-bone", "--camera", "0,0,1e300"});
+  QTest::newRow("render a speed that nothing shows")
+      << render({"--mask", volume_, "--view", "axial", "--speed", "edges"});
+  QTest::newRow("render walls in 3D") << render({"--mask", volume_, "--walls", volume_});
   QTest::newRow("render into no picture")
       << QStringList{"render", volume_, "--preset", "ct-bone", "--out", "a.jpg"};
   QTest::newRow("convert to nothing") << QStringList{"convert", volume_};

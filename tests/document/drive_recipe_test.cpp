@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "document/checksum.h"
-#include "document/replay.h"
-#include "tests/document/cases.h"
+#include "document/evolution.h"
+#include "tests/document/recipes.h"
 #include "tests/support/test_program.h"
 
 using namespace tidemark;
@@ -44,20 +44,6 @@ void drive(document::LevelSet& level_set, const document::Drive& wanted) {
   QCOMPARE(failure(level_set.set_speed(*speed)), QString());
 }
 
-document::Recipe again(const document::Recipe& recipe) {
-  const auto text = recipe.to_text();
-  if (!text) qFatal("%s", text.error().message.c_str());
-  auto read = document::Recipe::parse(*text, "again.json");
-  if (!read) qFatal("%s", read.error().message.c_str());
-  return std::move(*read);
-}
-
-std::vector<float> replayed(const document::Recipe& recipe, const std::shared_ptr<const Volume>& volume) {
-  const auto result = document::replay(recipe, volume, {});
-  if (!result) qFatal("%s", result.error().message.c_str());
-  return result->phi.dense();
-}
-
 // A recipe with everything that drives and holds, as JSON.
 Json good_json() {
   static const Json json = [] {
@@ -68,8 +54,11 @@ Json good_json() {
     all = with_ball(all, volume, {0, 0, 0}, solver::Constraint::anchor);
     all.setting.terms.push_back({"edges", {{"sigma", 1.5}}});
     all.setting.combine = solver::Combine::product;
-    document::CaseImage image{"PET",   "1.2.3",         "1.2.4", std::string(64, 'a'),
-                              nullptr, glm::dmat4(1.0), nullptr};
+    document::CaseImage image;
+    image.name = "PET";
+    image.series_uid = "1.2.3";
+    image.frame_of_reference_uid = "1.2.4";
+    image.checksum = std::string(64, 'a');
     image.to_case[3] = {1.0, -2.5, 30.0, 1.0};
     all.images = {std::make_shared<const document::CaseImage>(image)};
     all.map = std::make_shared<const document::SpeedMap>(
@@ -166,10 +155,39 @@ class DriveRecipeTest : public QObject {
     QVERIFY(level_set.drive().setting.is_tent());
     QVERIFY(Seen(level_set).phi == before.phi);
     while (document->history().redo_description()) QCOMPARE(failure(document->redo()), QString());
-    QVERIFY(level_set.executor().speed());
+    // Nobody waits for it before a step is to be computed.
+    QVERIFY(level_set.lacks_speed());
+    QVERIFY(!level_set.executor().speed());
     QVERIFY(Seen(level_set).phi == after.phi);
     run(level_set, 5);
+    QVERIFY(level_set.executor().speed());
     QVERIFY(replayed(again(level_set.recipe()), document->volume()) == values_of(level_set));
+  }
+
+  void a_source_that_was_smoothed_elsewhere_replays() {
+    const auto document = begun_case();
+    document::LevelSet& level_set = document->level_set();
+    const auto volume = document->volume();
+    drive(level_set, learning(*volume));
+    run(level_set, 9);
+    // Another function and another source arrive together.
+    document::Drive wanted = level_set.drive();
+    wanted.setting.terms.front().values["trees"] = 20.0;
+    QCOMPARE(failure(level_set.set_drive(wanted)), QString());
+    const auto source = document::smoothed_source(volume, 0.9);
+    QCOMPARE(failure(source), QString());
+    const auto speed = document::make_speed(wanted, *source, level_set.parameters());
+    QCOMPARE(failure(speed), QString());
+    QCOMPARE(failure(level_set.set_source(*source, 0.9, *speed)), QString());
+    QCOMPARE(level_set.executor().speed(), *speed);
+    QCOMPARE(level_set.smoothed_mm(), 0.9);
+    run(level_set, 14);
+    QVERIFY(replayed(again(level_set.recipe()), volume) == values_of(level_set));
+    QCOMPARE(failure(document->undo()), QString());
+    QCOMPARE(failure(document->undo()), QString());
+    QCOMPARE(level_set.smoothed_mm(), 0.0);
+    run(level_set, 3);
+    QVERIFY(replayed(again(level_set.recipe()), volume) == values_of(level_set));
   }
 
   void only_recipes_with_something_new_are_of_the_new_version() {
@@ -205,7 +223,7 @@ class DriveRecipeTest : public QObject {
   void an_image_that_is_missing_is_named() {
     const auto recipe = document::Recipe::parse(good_json().dump(), "r.json");
     QCOMPARE(failure(recipe), QString());
-    const auto result = document::replay(*recipe, lumpy_volume(), {});
+    const auto result = document::evolve(*recipe, lumpy_volume(), {});
     QVERIFY(!result);
     QCOMPARE(result.error().kind, ErrorKind::usage);
     QVERIFY2(

@@ -3,11 +3,11 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "cases.h"
-#include "document/replay.h"
+#include "document/evolution.h"
 #include "document/session_contents.h"
 #include "imaging/filters/filters.h"
 #include "solver/speed/speed_registry.h"
+#include "tests/document/recipes.h"
 #include "tests/support/test_program.h"
 
 using namespace tidemark;
@@ -42,20 +42,6 @@ std::unique_ptr<document::Case> eventful_case(solver::ExecutorKind kind) {
   must(level_set.step_back(7));
   run(level_set, 19);
   return document;
-}
-
-document::Recipe again(const document::Recipe& recipe) {
-  const auto text = recipe.to_text();
-  if (!text) qFatal("%s", text.error().message.c_str());
-  auto parsed = document::Recipe::parse(*text, "again.json");
-  if (!parsed) qFatal("%s", parsed.error().message.c_str());
-  return *parsed;
-}
-
-std::vector<float> replayed(const document::Recipe& recipe, const std::shared_ptr<const Volume>& volume) {
-  const auto result = document::replay(recipe, volume, {});
-  if (!result) qFatal("%s", result.error().message.c_str());
-  return result->phi.dense();
 }
 
 // A good recipe as JSON, to be spoilt.
@@ -199,7 +185,7 @@ class RecipeTest : public QObject {
 
   void a_mask_of_another_grid_is_refused() {
     const document::Recipe recipe = document::Recipe::parse(good_json().dump(), "r.json").value();
-    const auto result = document::replay(recipe, lumpy_volume({20, 20, 20}), {});
+    const auto result = document::evolve(recipe, lumpy_volume({20, 20, 20}), {});
     QVERIFY(!result);
     QCOMPARE(result.error().kind, ErrorKind::usage);
   }

@@ -4,6 +4,7 @@
 #include <QSignalSpy>
 #include <QTest>
 #include <fstream>
+#include <future>
 
 #include "document/autosave.h"
 #include "engine/background_job.h"
@@ -23,8 +24,9 @@ constexpr int kPatience = 60'000;  // ms
 
 // A case with a surface that has been edited, and its copies.
 struct Edited {
-  explicit Edited(std::filesystem::path folder)
-      : proxy(engine, test::ball_study(), solver::ExecutorKind::host),
+  explicit Edited(std::filesystem::path folder, solver::ExecutorKind executor = solver::ExecutorKind::host)
+      : engine(executor != solver::ExecutorKind::host),
+        proxy(engine, test::ball_study(), executor),
         autosave(proxy, std::move(folder), [] { return std::string(); }) {
     QObject::connect(&proxy, &engine::CaseProxy::failed, [this](const QString& why) { failures << why; });
     document::Start start;
@@ -38,7 +40,7 @@ struct Edited {
     QCoreApplication::processEvents();
   }
 
-  engine::Engine engine{false};
+  engine::Engine engine;
   engine::CaseProxy proxy;
   engine::CaseAutosave autosave;
   QStringList failures;
@@ -80,6 +82,37 @@ class CaseAutosaveTest : public QObject {
     QCOMPARE(saved.size(), 0);
     QCOMPARE(failed.size(), 0);
     QVERIFY(document::find_recoverable(folder / "recovery").empty());
+    edited.autosave.save_now();
+    QTRY_COMPARE_WITH_TIMEOUT(saved.size(), 1, kPatience);
+    QCOMPARE(failed.size(), 0);
+    QCOMPARE(edited.failures.size(), 1);
+  }
+
+  // phi is read back for a copy: who steers hears that something was lost, and the next copy is whole.
+  void a_context_that_is_lost_at_a_copy_is_told_of_and_made_good() {
+    const test::TemporaryFolder folder;
+    Edited edited(folder / "recovery", solver::ExecutorKind::compute);
+    QSignalSpy saved(&edited.autosave, &engine::CaseAutosave::saved);
+    QSignalSpy failed(&edited.autosave, &engine::CaseAutosave::failed);
+    const auto step = edited.proxy.state().step;
+    QVERIFY(step > 0);
+    engine::Engine& engine = edited.engine;
+    // The copy is the next job after an edit that nobody has read back.
+    std::promise<void> asked;
+    edited.proxy.runner()->post([&](engine::CaseRunner& runner, const Progress&) -> Status {
+      TIDEMARK_TRY(runner.document().level_set().paint({{20.0, 20.0, 20.0}, 5.0}, solver::Brush::add, 7));
+      engine.device()->lose_at_check(1);
+      asked.get_future().wait();
+      return {};
+    });
+    edited.autosave.save_now();
+    asked.set_value();
+    QTRY_COMPARE_WITH_TIMEOUT(edited.failures.size(), 1, kPatience);
+    qInfo("%s", qPrintable(edited.failures.front()));
+    edited.proxy.step(2);
+    QTRY_VERIFY_WITH_TIMEOUT(edited.proxy.state().step > step, kPatience);
+    edited.wait_until_idle();
+    QCOMPARE(engine.contexts_made(), 2);
     edited.autosave.save_now();
     QTRY_COMPARE_WITH_TIMEOUT(saved.size(), 1, kPatience);
     QCOMPARE(failed.size(), 0);

@@ -1,5 +1,5 @@
 // A DICOM Segmentation or RT Structure Set, read as labels of a small volume; a Segmentation also onto a grid
-// of its own.
+// of its own, and as a map, as which a parametric map is read, too.
 #include <cmath>
 #include <cstdlib>
 
@@ -46,5 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
   const auto file = scratch.write("result.dcm", bytes, count);
   if (const auto segments = imaging::read_result(file, &kVolume)) check(*segments);
   if (const auto segments = imaging::read_result(file, nullptr)) check(*segments);
+  const auto map = imaging::read_map(file);
+  if (map && static_cast<std::int64_t>(map->values().size()) != map->geometry.voxel_count()) std::abort();
   return 0;
 }

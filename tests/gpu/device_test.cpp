@@ -5,7 +5,6 @@
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
-#include "gpu/timer.h"
 #include "tests/support/test_program.h"
 
 using namespace tidemark;
@@ -137,21 +136,6 @@ class DeviceTest : public QObject {
       QVERIFY(!gpu::Buffer::create(*device, 4, "too late"));
     }
     QCOMPARE(device->handles(), std::int64_t{0});
-  }
-
-  void the_gpus_clock_runs() {
-    const auto device = make_device();
-    const gpu::Timer timer = gpu::Timer::create(*device);
-    timer.begin();
-    auto texture = gpu::Texture2D::create(*device, gpu::TexelFormat::rgba32f, 64, 64, "work", true);
-    QVERIFY(texture);
-    texture->generate_mipmaps();
-    timer.end();
-    // Software drivers count when commands are queued, if at all.
-    const double seconds = timer.seconds();
-    QVERIFY(seconds >= 0.0);
-    QVERIFY(device->capabilities().software || seconds < 1.0);
-    QCOMPARE(device->severe_messages(), std::int64_t{0});
   }
 };
 

@@ -41,6 +41,40 @@ class SliceViewTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void images_lie_over_the_source_and_under_the_outline() {
+    const Scene scene = ball_scene(grid({64, 64, 64}), 20.0);
+    Painter draw(scene);
+    renderer::SliceView view;
+    view.window = {50.0, 1000.0};
+    const renderer::Picture alone = draw(view, 256, 256);
+    const auto is_green = [](glm::ivec3 colour) { return colour.g > 150 && colour.r < 80 && colour.b < 80; };
+    const std::int64_t outline = count(alone, is_yellow);
+    QVERIFY(outline > 300);
+    QCOMPARE(count(alone, is_green), std::int64_t{0});
+
+    view.images = std::make_shared<const renderer::ImagesOver>(renderer::ImagesOver{1, 1, {0, 200, 0, 255}});
+    const renderer::Picture fused = draw(view, 256, 256);
+    QVERIFY(count(fused, is_green) > 60000);
+    QVERIFY(std::abs(count(fused, is_yellow) - outline) < outline / 10);
+
+    // Half of it shines through, and left of a line there is none.
+    view.images = std::make_shared<const renderer::ImagesOver>(renderer::ImagesOver{1, 1, {0, 100, 0, 128}});
+    view.images_from = 0.25;
+    const renderer::Picture swiped = draw(view, 256, 256);
+    QCOMPARE(pixel(swiped, 62, 100), pixel(alone, 62, 100));
+    const glm::ivec3 below = pixel(alone, 128, 128);
+    const glm::ivec3 mixed = pixel(swiped, 128, 128);
+    QVERIFY(std::abs(mixed.g - (100 + below.g * 127 / 255)) <= 2 &&
+            std::abs(mixed.r - below.r * 127 / 255) <= 2);
+
+    // The first row is the top one.
+    view.images_from = 0.0;
+    view.images = std::make_shared<const renderer::ImagesOver>(
+        renderer::ImagesOver{1, 2, {0, 200, 0, 255, 0, 0, 0, 255}});
+    const renderer::Picture upright = draw(view, 256, 256);
+    QVERIFY(is_green(pixel(upright, 20, 20)) && !is_green(pixel(upright, 20, 235)));
+  }
+
   void the_outline_lies_on_the_circle_within_a_quarter_of_a_voxel() {
     const Geometry geometry = grid({64, 64, 64});
     const Scene scene = ball_scene(geometry, 20.0);

@@ -1,6 +1,8 @@
 // Several speed functions joined into one.
 #include "solver/speed/combined_speed.h"
+#include "formula_speed.h"
 #include "solver/speed/cached_speed.h"
+#include "solver/speed/tent_speed.h"
 #include "speed_functions.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
@@ -77,6 +79,34 @@ class CombinedSpeedTest : public QObject {
     QVERIFY(next != nullptr);
     QCOMPARE(speed_at(*next, kVoxel), 0.08);
     QVERIFY(next->following(Field()) == nullptr);
+  }
+
+  void another_target_changes_the_tents_alone() {
+    const Geometry geometry = grid({16, 8, 8});
+    const auto source = volume_of(geometry, [](glm::dvec3 p) { return 10.0 * p.x; });
+    Parameters parameters;
+    parameters.target = 40.0;
+    parameters.range = 100.0;
+    const auto counted = std::make_shared<FormulaSpeed>([](glm::dvec3) { return 0.75; });
+    const auto cached = std::make_shared<CachedSpeed>(counted, geometry.size);
+    const std::shared_ptr<const SpeedFunction> joined = std::make_shared<CombinedSpeed>(
+        std::vector<std::shared_ptr<const SpeedFunction>>{std::make_shared<TentSpeed>(source, parameters),
+                                                          cached},
+        Combine::least);
+    QVERIFY(std::abs(speed_at(*joined, {2, 0, 0}) - 0.75) < 1e-4);  // of the tent it would be 0.8
+    const VoxelBox page{Index3(0), Index3(8)};
+    (void)speeds(*joined, page);
+    const auto evaluated = counted->evaluated();
+    parameters.target = 70.0;
+    const auto other = with_tents(joined, source, parameters);
+    QCOMPARE(failure(other), QString());
+    QCOMPARE(speed_at(**other, {2, 0, 0}), 0.5);
+    QVERIFY(std::abs(speed_at(*joined, {2, 0, 0}) - 0.75) < 1e-4);
+    QVERIFY(speeds(**other, page) != speeds(*joined, page));
+    QCOMPARE(counted->evaluated(), evaluated);
+    QCOMPARE(with_tents(cached, source, parameters).value(), cached);  // there is no tent in it
+    parameters.data_form = DataForm::raw;
+    QVERIFY(failure(with_tents(joined, source, parameters)).contains("raw form"));
   }
 
   // A ball that is brighter than its surroundings, and touches a bar as bright as itself by a bridge in which

@@ -53,7 +53,7 @@ class ConvergenceTest : public QObject {
   void every_change_begins_a_new_window_data() { add_all_rows(); }
   void every_change_begins_a_new_window() {
     const Setting setting = this_row();
-    const Scene scene = lumpy_scene({40, 37, 29});
+    const Scene scene = resting_scene({40, 37, 29});
     const auto level_set = setting.make(scene.source, scene.parameters);
     QCOMPARE(failure(level_set->paint(scene.seed, solver::Brush::add)), QString());
     QVERIFY(run(*level_set, 2000, true).converged);
@@ -120,7 +120,7 @@ class ConvergenceTest : public QObject {
   void all_executors_stop_at_the_same_step_data() { add_rows_with_host(); }
   void all_executors_stop_at_the_same_step() {
     const Setting setting = this_row();
-    const Scene scene = lumpy_scene({40, 37, 29});
+    const Scene scene = resting_scene({40, 37, 29});
     solver::ExecutorOptions options = setting.options();
     options.skip_quiet_pages = false;  // the reference has none
     const auto tested = executor(setting.kind, scene.source, scene.parameters, options);

@@ -91,6 +91,7 @@ class EdgeSpeedTest : public QObject {
                               inputs.source->geometry.size));
   }
 
+  // Divided by 2 g at edges, and of at most half of the attraction along each axis.
   void the_velocity_is_minus_the_gradient_of_g() {
     const SpeedInputs inputs = bumps();
     const Geometry& geometry = inputs.source->geometry;
@@ -107,7 +108,9 @@ class EdgeSpeedTest : public QObject {
             step[axis] = 1;
             const double difference =
                 speed_at(*edges, Index3(x, y, z) + step) - speed_at(*edges, Index3(x, y, z) - step);
-            const double expected = -2.5 * difference / (2.0 * geometry.spacing_mm[axis] / 0.7);
+            const double gradient = difference / (2.0 * geometry.spacing_mm[axis] / 0.7);
+            const double g = speed_at(*edges, {x, y, z});
+            const double expected = std::clamp(-2.5 * gradient / std::min(1.0, 2.0 * g), -1.25, 1.25);
             QVERIFY(std::abs(static_cast<double>(v[axis]) - expected) < 1e-5);
           }
           fastest = std::max(fastest, static_cast<double>(glm::length(v)));
@@ -124,6 +127,36 @@ class EdgeSpeedTest : public QObject {
     const auto edges = uncached(step, "edges", {{"sigma", 1.0}, {"contrast", 5.0}});
     QVERIFY(velocities(*edges, {{13, 4, 4}, Index3(1)}).front().x > 0.05F);
     QVERIFY(velocities(*edges, {{18, 4, 4}, Index3(1)}).front().x < -0.05F);
+  }
+
+  // Curvature pulls inwards by (1 - alpha) 2 / R, and holds the surface that times sigma^2 inside of the
+  // edge, whose own place is sigma^2 / R inside of the ball's when it is smoothed.
+  void a_small_sharp_ball_is_filled_to_its_border_data() {
+    QTest::addColumn<double>("radius");
+    QTest::addColumn<double>("contrast");
+    for (const double radius : {5.0, 8.5, 13.0}) {
+      for (const double contrast : {20.0, 1000.0})
+        QTest::addRow("%g voxels, %g", radius, contrast) << radius << contrast;
+    }
+  }
+  void a_small_sharp_ball_is_filled_to_its_border() {
+    QFETCH(const double, radius);
+    QFETCH(const double, contrast);
+    const Geometry geometry = grid(Index3(40));
+    const auto depth = [&](glm::dvec3 p) { return radius - glm::distance(p, centre_of(geometry)); };
+    const auto source =
+        with_noise(volume_of(geometry, [&](glm::dvec3 p) { return depth(p) > 0.0 ? contrast : 0.0; }), 1.0);
+    Parameters parameters;
+    parameters.alpha = 0.5;
+    const auto level_set = executor(ExecutorKind::host, source, parameters);
+    set_phi(*level_set, geometry, [&](glm::dvec3 p) { return depth(p) - 0.3 * radius; });
+    QCOMPARE(failure(level_set->set_speed(uncached(inputs_of(source), "edges"))), QString());
+    run(*level_set, 2000, true);
+    const auto voxels = static_cast<double>(level_set->snapshot()->mask().count());
+    const double reached = std::cbrt(0.75 * voxels / std::numbers::pi);
+    const double expected = radius - ((1.0 - parameters.alpha) * 2.0 + 1.0) / radius;  // sigma is 1
+    qInfo("radius %.2f of %.2f, expected %.2f", reached, radius, expected);
+    QVERIFY(std::abs(reached - expected) < 0.25);
   }
 
   void K_from_the_image_is_above_its_noise_and_below_its_edges() {

@@ -84,6 +84,8 @@ class ExamplesTest : public QObject {
  private slots:
   void features_of_a_quadratic_are_its_derivatives();
   void deviation_is_that_of_noise();
+  void moments_are_small_and_exact_data();
+  void moments_are_small_and_exact();
   void features_have_the_same_bits_in_every_box();
   void speed_has_the_same_bits_in_every_box_and_every_training();
   void textures_that_no_tent_separates_are_separated();
@@ -141,6 +143,43 @@ void ExamplesTest::deviation_is_that_of_noise() {
   }
 }
 
+void ExamplesTest::moments_are_small_and_exact_data() {
+  QTest::addColumn<double>("slice_mm");
+  QTest::addColumn<double>("outlier");
+  QTest::addColumn<double>("bytes_a_voxel");
+  QTest::newRow("even") << 1.0 << 0.0 << 0.7;
+  QTest::newRow("thick slices") << 5.0 << 0.0 << 1.6;
+  QTest::newRow("a value far out") << 1.0 << 1e8 << 0.7;
+}
+
+void ExamplesTest::moments_are_small_and_exact() {
+  QFETCH(const double, slice_mm);
+  QFETCH(const double, outlier);
+  QFETCH(const double, bytes_a_voxel);
+  // The mean of a ramp is the ramp, and its deviation sigma times its slope.
+  constexpr Index3 kSize(96, 96, 64);
+  const auto volume = volume_of(kSize, {1.0, 1.0, slice_mm}, [&](glm::dvec3 p) {
+    return p == glm::dvec3(95.0, 95.0, 63.0) ? outlier : 2.0 * p.x;
+  });
+  const auto space = ScaleSpace::of(volume, {});
+  QCOMPARE(failure(space), QString());
+  const double voxels = static_cast<double>(volume->geometry.voxel_count());
+  QVERIFY2(static_cast<double>((*space)->memory()) < bytes_a_voxel * voxels,
+           qPrintable(QString::number((*space)->memory())));
+  const auto [low, high] = volume->common_range();
+  for (int scale = 1; scale < 3; ++scale) {
+    const Index3 step = (*space)->step(scale);
+    const Index3 node(40 / step.x, 40 / step.y, 30 / step.z);
+    const Moments moments = (*space)->moments(*volume, scale, {node, Index3(1)});
+    const double mean = moments.mean[0] + 0.5 * (low + high);
+    const double deviation = std::sqrt(moments.square[0] - moments.mean[0] * moments.mean[0]);
+    const double sigma = kPyramidScales[scale - 1];
+    QVERIFY2(std::abs(mean - 2.0 * static_cast<double>(node.x * step.x)) < 0.1,
+             qPrintable(QString::number(mean)));
+    QVERIFY2(std::abs(deviation - 2.0 * sigma) < 0.1 * sigma, qPrintable(QString::number(deviation)));
+  }
+}
+
 void ExamplesTest::features_have_the_same_bits_in_every_box() {
   const auto features = Features::of({two_textures()}, {});
   QCOMPARE(failure(features), QString());
@@ -193,8 +232,7 @@ void ExamplesTest::a_second_image_counts() {
   const auto flat = with_noise(volume_of(kGrid, glm::dvec3(1.0), [](glm::dvec3) { return 50.0; }), 5.0);
   SpeedInputs inputs = inputs_of(flat);
   const auto difference = [&] {
-    // What the trees learned, without how near the strokes are.
-    const auto function = uncached(inputs, "examples", {{"sharpness", 1.0}, {"nearness", 0.0}});
+    const auto function = uncached(inputs, "examples", {{"sharpness", 1.0}});
     // Neither voxel is in a stroke.
     return speed_at(*function, {28, 23, 18}) - speed_at(*function, {31, 49, 22});
   };
@@ -247,9 +285,9 @@ void ExamplesTest::training_can_be_cancelled() {
   const auto forest = train(samples, {}, {});
   QCOMPARE(failure(forest), QString());
   const float ends[] = {0.0F, 99.0F};
-  double speed[2];
-  ForestEvaluator(*forest).evaluate(ends, 1, 2, speed);
-  QVERIFY(speed[0] > 0.5 && speed[1] < -0.5);
+  double inside[2];
+  ForestEvaluator(*forest).evaluate(ends, 1, 2, inside);
+  QVERIFY(inside[0] > 0.75 && inside[1] < 0.25);
 }
 
 void ExamplesTest::a_pyramid_is_shared_and_goes_with_its_users() {

@@ -56,6 +56,11 @@ inline void add_all_rows() {
   QTest::newRow("reference") << int(solver::ExecutorKind::reference) << 0;
 }
 
+// With pages of a shape that nothing may be hard-wired to.
+inline void add_small_pages() {
+  QTest::newRow("compute, 4 x 4 x 4") << int(solver::ExecutorKind::compute) << 2;
+}
+
 inline Setting this_row() {
   QFETCH(int, kind);
   QFETCH(int, layout);
@@ -70,6 +75,20 @@ inline void run_until_all_rest(solver::Executor& level_set, std::int64_t most) {
     const solver::MemoryReport memory = level_set.memory();
     if (memory.quiet_pages == memory.resident_pages) return;
   }
+}
+
+// The largest difference of a step from the reference's. Each step begins where the tested one stands, since
+// rounding grows with the steps.
+inline double largest_difference_of_a_step(solver::Executor& tested, solver::Executor& reference, int steps) {
+  double worst = 0.0;
+  for (int step = 0; step < steps; ++step) {
+    if (const Status put = reference.restore(tested.snapshot().value()); !put)
+      qFatal("%s", put.error().message.c_str());
+    run(tested, 1);
+    run(reference, 1);
+    worst = std::max(worst, largest_difference(tested, reference));
+  }
+  return worst;
 }
 
 // A lumpy source, a start and parameters under which everything is in motion.
@@ -93,6 +112,14 @@ inline Scene lumpy_scene(Index3 size, glm::dvec3 spacing = glm::dvec3(1.0)) {
   scene.parameters.range = 30.0;
   scene.parameters.alpha = 0.7;
   scene.seed = {centre + glm::dvec3(1.3, -0.7, 0.4), 7.0};
+  return scene;
+}
+
+// The same, where a small ball is soon at rest.
+inline Scene resting_scene(Index3 size) {
+  Scene scene = lumpy_scene(size);
+  scene.parameters.target = 95.0;
+  scene.parameters.range = 15.0;
   return scene;
 }
 

@@ -210,7 +210,7 @@ class ExecutorsPagingTest : public QObject {
   void a_page_that_has_just_become_quiet_wakes_when_painted_data() { add_rows_with_host(); }
   void a_page_that_has_just_become_quiet_wakes_when_painted() {
     const Setting setting = this_row();
-    const Scene scene = lumpy_scene({45, 40, 35});
+    const Scene scene = resting_scene({45, 40, 35});
     const auto level_set = setting.make(scene.source, scene.parameters);
     QCOMPARE(failure(level_set->paint(scene.seed, solver::Brush::add)), QString());
     std::vector<std::int64_t> quiet;

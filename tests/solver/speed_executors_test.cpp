@@ -26,9 +26,21 @@ struct Scene {
     inputs.source =
         with_noise(volume_of(geometry, [&](glm::dvec3 p) { return object(p) > 0.0 ? 60.0 : 20.0; }), 6.0);
     inputs.map = volume_of(geometry, [&](glm::dvec3 p) { return 1.0 / (1.0 + std::exp(-object(p))); });
+    inputs.strokes = strokes();
     inputs.parameters.target = 60.0;
     inputs.parameters.range = 25.0;
     inputs.parameters.alpha = 0.6;
+  }
+
+  // Well inside and well outside, some voxels of many.
+  [[nodiscard]] std::shared_ptr<const Strokes> strokes() const {
+    auto strokes = std::make_shared<Strokes>();
+    const std::vector<float> depth = sample(geometry, [&](glm::dvec3 p) { return object(p); });
+    for (std::size_t i = 0; i < depth.size(); i += 29) {
+      if (depth[i] > 2.0F) strokes->inside.push_back(static_cast<std::int64_t>(i));
+      if (depth[i] < -2.0F) strokes->outside.push_back(static_cast<std::int64_t>(i));
+    }
+    return strokes;
   }
 
   [[nodiscard]] Mask result(ExecutorKind kind, const SpeedSetting& setting) const {
@@ -61,6 +73,8 @@ class SpeedExecutorsTest : public QObject {
     QTest::newRow("regions within 5 mm") << setting_of("regions", {{"radius", 5.0}});
     QTest::newRow("edges") << setting_of("edges");
     QTest::newRow("image") << setting_of("image");
+    QTest::newRow("examples") << setting_of("examples");
+    QTest::newRow("the product of examples and edges") << joined("examples", "edges", Combine::product);
     QTest::newRow("the least of tent and edges") << joined("tent", "edges", Combine::least);
     QTest::newRow("the product of regions and image") << joined("regions", "image", Combine::product);
   }

@@ -67,7 +67,7 @@ class SpeedFunctionTest : public QObject {
  private slots:
   void each_step_is_the_references_step_data() {
     add_rows_with_host();
-    QTest::newRow("compute, 4 x 4 x 4") << int(solver::ExecutorKind::compute) << 2;
+    add_small_pages();
   }
   void each_step_is_the_references_step() {
     const Setting setting = this_row();
@@ -83,12 +83,7 @@ class SpeedFunctionTest : public QObject {
           QCOMPARE(failure(level_set->paint(scene.seed, solver::Brush::add)), QString());
         }
         QCOMPARE(tested->time_step(), reference->time_step());
-        for (int step = 0; step < 25; ++step) {
-          QCOMPARE(failure(reference->restore(tested->snapshot().value())), QString());
-          run(*tested, 1);
-          run(*reference, 1);
-          worst = std::max(worst, largest_difference(*tested, *reference));
-        }
+        worst = std::max(worst, largest_difference_of_a_step(*tested, *reference, 25));
         QCOMPARE(failure(tested->validate()), QString());
       }
     }
@@ -132,6 +127,36 @@ class SpeedFunctionTest : public QObject {
       if (expected.empty()) expected = values;
       QVERIFY(values == expected);
     }
+  }
+
+  // Two bytes a voxel of the volume, sixteen more with a velocity, and one with walls.
+  void textures_of_the_volume_count_in_the_budget_data() { add_rows(); }
+  void textures_of_the_volume_count_in_the_budget() {
+    const Setting setting = this_row();
+    const Scene scene = lumpy_scene({96, 80, 64});
+    const std::int64_t voxels = scene.geometry.voxel_count();
+    solver::ExecutorOptions options = setting.options();
+    options.memory_budget_bytes = 6 << 20;
+    const auto tested = executor(setting.kind, scene.source, scene.parameters, options);
+    QCOMPARE(failure(tested->paint(scene.seed, solver::Brush::add)), QString());
+    const std::int64_t before = tested->memory().state_bytes;
+    QVERIFY(before < 3 << 20);
+    const auto refused = tested->set_speed(lumpy_speed(true));
+    QCOMPARE(refused.error().kind, ErrorKind::capability);
+    QVERIFY2(failure(refused).contains("memory budget is 6 MB"), qPrintable(failure(refused)));
+    QVERIFY(!tested->speed());
+    QCOMPARE(tested->memory().state_bytes, before);
+    run(*tested, 3);
+    const std::int64_t with_tent = tested->memory().state_bytes;
+    QCOMPARE(failure(tested->set_speed(lumpy_speed(false))), QString());
+    QCOMPARE(tested->memory().state_bytes - with_tent, 2 * voxels);
+    auto walls = std::make_shared<solver::Constraints>(scene.geometry.size);
+    walls->set(scene.geometry, {{3.0, 3.0, 3.0}, 2.0}, solver::Constraint::wall);
+    QCOMPARE(failure(tested->set_constraints(walls)), QString());
+    const std::int64_t with_walls = tested->memory().state_bytes;
+    QVERIFY(tested->memory().peak_state_bytes >= with_walls);
+    QCOMPARE(failure(tested->set_constraints(nullptr)), QString());
+    QVERIFY(with_walls - tested->memory().state_bytes >= voxels);
   }
 
   // So small that a step takes no time, and runs are long; so fast that pages are entered within them.

@@ -44,6 +44,8 @@ class SpeedRegistryTest : public QObject {
       for (const SpeedParameter& number : kind.parameters) {
         QVERIFY2(number.low <= number.initial && number.initial <= number.high, number.name);
         QVERIFY2(QString(number.text).endsWith('.') && !QString(number.title).isEmpty(), number.name);
+        const auto words = static_cast<double>(number.choices.size());
+        QVERIFY2(words == 0.0 || words == number.high - number.low + 1.0, number.name);
       }
     }
     QVERIFY(speed_kind("brightness") == nullptr);
@@ -54,6 +56,7 @@ class SpeedRegistryTest : public QObject {
         failure(check(setting({{"brightness", {}}}))).contains("there is no speed function \"brightness\""));
     QCOMPARE(failure(check(setting({{"tent", {{"radius", 3.0}}}}))),
              QString("the speed function tent has no number \"radius\""));
+    QVERIFY(failure(check(setting({{"image", {{"form", 0.5}}}}))).contains("form must be a whole number"));
     QCOMPARE(failure(check(setting({}))), QString("no speed function is chosen"));
     QCOMPARE(failure(check(SpeedSetting())), QString());
     QVERIFY(!make_speed(setting({{"brightness", {}}}), ramp_inputs()));

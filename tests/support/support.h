@@ -1,4 +1,4 @@
-// What many tests need.
+// Helpers that many tests use.
 #pragma once
 
 #include <QTemporaryDir>

@@ -186,6 +186,9 @@ void Actions::make_views() {
   patient_text = make("patient-text", nullptr, tr("Patient's te&xt"), QKeySequence("I"), true,
                       tr("Name, number, age and dates in the corners; off for teaching and screenshots"));
   patient_text->setCheckable(true);
+  swipe = make("swipe", nullptr, tr("S&wipe line"), QKeySequence("V"), true,
+               tr("Left of a line slices show the study alone, right of it with further images"));
+  swipe->setCheckable(true);
   hide_interface = make("hide-interface", nullptr, tr("&Hide panels"), QKeySequence("F3"), true);
   hide_interface->setCheckable(true);
   full_screen = make("full-screen", "full-screen", tr("&Full screen"), QKeySequence("F11"), false);
@@ -229,6 +232,7 @@ void Actions::follow(engine::CaseProxy* proxy) {
   play->setEnabled(proxy && can_play(*proxy));
   clip->setChecked(proxy && proxy->display().settings().clip_on);
   patient_text->setChecked(proxy && proxy->display().settings().patient_text);
+  swipe->setChecked(proxy && proxy->display().settings().swipe);
   if (proxy) return tool(proxy->display().settings().tool)->setChecked(true);
   if (!tools->checkedAction()) return;
   // An exclusive group keeps one action checked.

@@ -62,6 +62,7 @@ class Actions : public QObject {
   QAction* reset_view;
   QAction* clip;
   QAction* patient_text;
+  QAction* swipe;
   QAction* hide_interface;
   QAction* full_screen;
   QActionGroup* themes;

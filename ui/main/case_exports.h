@@ -1,4 +1,4 @@
-// What is exported of a case for other programs.
+// The export of a case's results for other programs.
 #pragma once
 
 #include <QObject>

@@ -5,6 +5,19 @@
 #include <vector>
 
 namespace tidemark::ui {
+namespace {
+
+// Whether a window of one shows the same tissues in the other. Of unknown modalities only a study itself is
+// known to be alike.
+bool have_same_values(const engine::CaseProxy& a, const engine::CaseProxy& b) {
+  if (a.volume().modality.empty()) {
+    return a.study().origin.path == b.study().origin.path &&
+           a.study().origin.series_uid == b.study().origin.series_uid;
+  }
+  return a.volume().modality == b.volume().modality && a.volume().unit == b.volume().unit;
+}
+
+}  // namespace
 
 void CaseLinks::link(const QList<CaseWindow*>& windows) {
   for (CaseWindow* window : std::exchange(windows_, {})) {
@@ -50,7 +63,7 @@ void CaseLinks::follow(CaseWindow& moved) {
   const engine::DisplaySettings& from = moved.proxy().display().settings();
   for (CaseWindow* window : windows_) {
     if (window == &moved) continue;
-    const bool same_values = window->proxy().volume().modality == moved.proxy().volume().modality;
+    const bool same_values = have_same_values(window->proxy(), moved.proxy());
     window->proxy().display().change([&](engine::DisplaySettings& to) {
       to.cursor_mm = from.cursor_mm;
       to.slice_centre_mm = from.slice_centre_mm;

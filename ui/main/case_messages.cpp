@@ -18,20 +18,35 @@ QString outcome_name_of(const CaseWindow& window) {
   return QStringLiteral("surface of ") + name_of(window);
 }
 
-QString advice_on(document::Outcome outcome) {
+// `by_range`: T and epsilon drive the surface, beside other functions perhaps.
+QString advice_on(document::Outcome outcome, bool by_range) {
   switch (outcome) {
     case document::Outcome::vanished:
-      return CaseMessages::tr(
-          "The surface has vanished: it has shrunk to nothing. Try a larger start, a wider range ε or a "
-          "larger α, and restart.");
+      return by_range ? CaseMessages::tr(
+                            "The surface has vanished: it has shrunk to nothing. Try a larger start, a wider "
+                            "range "
+                            "ε or a larger α, and restart.")
+                      : CaseMessages::tr(
+                            "The surface has vanished: it has shrunk to nothing. Try a larger start, a "
+                            "larger α or "
+                            "another speed function, and restart.");
     case document::Outcome::seeded_outside:
-      return CaseMessages::tr(
-          "The surface has vanished: no value where it began is within T ± ε. Probe T and ε over "
-          "the tissue, or draw another start, and restart.");
+      return by_range
+                 ? CaseMessages::tr(
+                       "The surface has vanished: no value where it began is within T ± ε. Probe T and ε "
+                       "over "
+                       "the tissue, or draw another start, and restart.")
+                 : CaseMessages::tr(
+                       "The surface has vanished: the speed D is negative everywhere where it began. Look at "
+                       "the speed map, draw another start, and restart.");
     case document::Outcome::filled_volume:
-      return CaseMessages::tr(
-          "The surface has filled the volume: nothing has stopped it. Try a narrower range ε or a smaller "
-          "α, and restart.");
+      return by_range
+                 ? CaseMessages::tr(
+                       "The surface has filled the volume: nothing has stopped it. Try a narrower range ε or "
+                       "a smaller α, and restart.")
+                 : CaseMessages::tr(
+                       "The surface has filled the volume: nothing has stopped it. Try a smaller α, walls or "
+                       "another speed function, and restart.");
     case document::Outcome::converged:
     case document::Outcome::unfinished:
       break;
@@ -47,6 +62,7 @@ CaseMessages::CaseMessages(CaseWindow& window, MessageBar& bar)
   connect(&window.proxy(), &engine::CaseProxy::state_changed, this, &CaseMessages::follow);
   connect(&window.autosave(), &engine::CaseAutosave::failed, this, [this](const QString& message) {
     bar_.show_text(tr("Unsaved work cannot be copied against a crash: %1").arg(message));
+    bar_.mark_as_of(window_);
   });
 }
 
@@ -58,6 +74,7 @@ QString CaseMessages::done() const {
 void CaseMessages::tell_failure(const QString& message) {
   done_at_failure_ = done();
   bar_.show_text(message, name_of(window_));
+  bar_.mark_as_of(window_);
 }
 
 void CaseMessages::follow() {
@@ -71,13 +88,15 @@ void CaseMessages::tell_outcome() {
   told_ = state.outcome;
   offered_ = state.wider_range;
   const QString about = outcome_name_of(window_);
-  if (const QString advice = advice_on(told_); !advice.isEmpty()) {
+  if (const QString advice = advice_on(told_, document::uses_tent(state.drive)); !advice.isEmpty()) {
     bar_.show_text(advice, about);
+    bar_.mark_as_of(window_);
   } else if (offered_) {
     bar_.show_offer(tr("The surface has stopped inside of like tissue: its values vary more than T ± %1.")
                         .arg(short_text(state.parameters.range)),
                     about, tr("Widen the range to %1").arg(short_text(*offered_)),
                     [this, range = *offered_] { widen(range); });
+    bar_.mark_as_of(window_);
   } else {
     bar_.settle(about);
   }

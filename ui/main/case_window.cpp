@@ -365,15 +365,19 @@ std::string CaseWindow::view_state() const {
   return QJsonDocument(state).toJson(QJsonDocument::Compact).toStdString();
 }
 
-Status CaseWindow::restore_view_state(const std::string& text) {
-  const QJsonObject state = QJsonDocument::fromJson(QByteArray::fromStdString(text)).object();
+Status CaseWindow::restore_view(const document::SessionContents& contents) {
+  const QJsonObject state = QJsonDocument::fromJson(QByteArray::fromStdString(contents.view_state)).object();
   const QByteArray views = QByteArray::fromBase64(state["views"].toString().toLatin1());
   if (!views.isEmpty()) restore_arrangement(views);
-  auto settings =
-      engine::display_settings(state["display"].toString("{}").toStdString(), proxy_->display().settings());
-  if (!settings) return pass_on(settings);
-  proxy_->display().set(std::move(*settings));
-  return {};
+  // All at once: between two changes the images would not be those that drive the surface.
+  engine::DisplaySettings settings = proxy_->display().settings();
+  settings.images.clear();
+  for (const auto& image : contents.images) settings.images.push_back(engine::shown_image(image));
+  if (const auto& drive = contents.recipe.final_drive(); drive && document::uses_images(drive->setting))
+    engine::use_images(settings.images, drive->images);
+  auto shown = engine::display_settings(state["display"].toString("{}").toStdString(), settings);
+  proxy_->display().set(shown ? *shown : settings);
+  return shown ? Status() : pass_on(shown);
 }
 
 void CaseWindow::close_saved() {

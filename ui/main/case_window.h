@@ -52,7 +52,8 @@ class CaseWindow : public QMainWindow {
   // The display and the arrangement of views, for session files. Fails (ErrorKind::input) on settings that
   // make no sense, and then changes nothing.
   [[nodiscard]] std::string view_state() const;
-  Status restore_view_state(const std::string& state);
+  // With the images of the session.
+  Status restore_view(const document::SessionContents& contents);
   // Closes without a question, as the case was just saved.
   void close_saved();
 

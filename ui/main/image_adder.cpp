@@ -3,6 +3,7 @@
 #include <QFileDialog>
 #include <QStatusBar>
 
+#include "engine/background_job.h"
 #include "imaging/onto_grid.h"
 #include "imaging/resample.h"
 #include "ui/main/main_window.h"
@@ -46,6 +47,10 @@ ImageAdder::ImageAdder(MainWindow& window)
   with_case(window.actions().add_series, &ImageAdder::ask_for_series);
 }
 
+ImageAdder::~ImageAdder() {
+  if (job_) job_->abandon();
+}
+
 void ImageAdder::connect_opener() {
   connect(opener_, &StudyOpener::began, progress_, [this](const QString& what) {
     progress_->begin(what);
@@ -54,7 +59,7 @@ void ImageAdder::connect_opener() {
   connect(opener_, &StudyOpener::progressed, progress_, &LoadingView::set_progress);
   connect(opener_, &StudyOpener::ended, progress_, &QWidget::hide);
   connect(progress_, &LoadingView::cancelled, opener_, &StudyOpener::cancel);
-  connect(opener_, &StudyOpener::opened, this, [this](const auto& study) { add(*study); });
+  connect(opener_, &StudyOpener::opened, this, [this](const auto& study) { look_at(study); });
   connect(opener_, &StudyOpener::failed, this, [this](const QString& message) {
     progress_->hide();
     window_.tell(message, kAboutImages);
@@ -88,19 +93,36 @@ void ImageAdder::add_file(CaseWindow& into, const QString& path) {
   opener_->open(path);
 }
 
-void ImageAdder::add(const engine::LoadedStudy& loaded) {
+void ImageAdder::look_at(const std::shared_ptr<const engine::LoadedStudy>& loaded) {
   if (!into_) return;
+  if (job_) job_->abandon();
+  const auto failed = [this](const Error& error) {
+    window_.tell(QString::fromStdString(error.message), kAboutImages);
+  };
+  job_ = engine::BackgroundJob::start(
+      this,
+      [this, loaded, into = into_, grid = into_->proxy().volume().geometry](engine::BackgroundJob& job) {
+        const engine::ShownImage shown = engine::shown_image(*loaded, job.stop());
+        const bool meets = overlap(*shown.image, grid);
+        job.deliver([this, loaded, into, shown, meets] {
+          if (into == into_ && into) meets ? add(*loaded, shown) : refuse(*loaded);
+        });
+      },
+      failed);
+}
+
+void ImageAdder::refuse(const engine::LoadedStudy& loaded) {
+  window_.tell(tr("%1 lies elsewhere in the patient than the study: its %2 share no place with the "
+                  "study's %3.")
+                   .arg(loaded.name, QString::fromStdString(imaging::describe(loaded.volume->geometry)),
+                        QString::fromStdString(imaging::describe(into_->proxy().volume().geometry))),
+               kAboutImages);
+}
+
+void ImageAdder::add(const engine::LoadedStudy& loaded, const engine::ShownImage& shown) {
   engine::CaseProxy& proxy = into_->proxy();
-  const engine::ShownImage shown = engine::shown_image(loaded);
-  if (!overlap(*shown.image, proxy.volume().geometry)) {
-    return window_.tell(
-        tr("%1 lies elsewhere in the patient than the study: its %2 share no place with the "
-           "study's %3.")
-            .arg(loaded.name, QString::fromStdString(imaging::describe(loaded.volume->geometry)),
-                 QString::fromStdString(imaging::describe(proxy.volume().geometry))),
-        kAboutImages);
-  }
-  proxy.display().change([&](engine::DisplaySettings& settings) { settings.images.push_back(shown); });
+  proxy.display().change(
+      [&](engine::DisplaySettings& settings) { engine::add_image(settings.images, shown); });
   window_.panels().show("display");
   if (engine::is_placed(*shown.image, proxy.study())) return window_.settle(kAboutImages);
   const bool differs =

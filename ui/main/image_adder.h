@@ -8,8 +8,10 @@
 #include "ui/main/case_window.h"
 
 namespace tidemark::engine {
+class BackgroundJob;
 struct LoadedStudy;
-}
+struct ShownImage;
+}  // namespace tidemark::engine
 
 namespace tidemark::ui {
 
@@ -21,6 +23,7 @@ class ImageAdder : public QObject {
   Q_OBJECT
  public:
   explicit ImageAdder(MainWindow& window);
+  ~ImageAdder() override;
 
   void ask_for_file(CaseWindow& into);
   // Chosen from the folder or archive that the case came from.
@@ -29,12 +32,16 @@ class ImageAdder : public QObject {
 
  private:
   void connect_opener();
-  void add(const engine::LoadedStudy& loaded);
+  // Beside the user interface: the checksum, and whether it meets the study.
+  void look_at(const std::shared_ptr<const engine::LoadedStudy>& loaded);
+  void refuse(const engine::LoadedStudy& loaded);
+  void add(const engine::LoadedStudy& loaded, const engine::ShownImage& shown);
 
   MainWindow& window_;
   StudyOpener* opener_;
   LoadingView* progress_;
   QPointer<CaseWindow> into_;
+  std::shared_ptr<engine::BackgroundJob> job_;  // that looks at an image
 };
 
 }  // namespace tidemark::ui

@@ -128,9 +128,8 @@ void MainWindow::make_status_bar() {
   value_details_->setAutoRaise(true);
   value_details_->setCheckable(true);
   connect(value_details_, &QToolButton::toggled, values_, &ValueBar::set_detailed);
-  connect(value_details_, &QToolButton::clicked, this,
-          [](bool on) { QSettings().setValue("details/values", on); });
-  value_details_->setChecked(QSettings().value("details/values", false).toBool());
+  connect(value_details_, &QToolButton::clicked, this, [](bool on) { settings::details("values").set(on); });
+  value_details_->setChecked(settings::details("values").get());
   value_details_->hide();  // until there is a case
   statusBar()->addPermanentWidget(value_details_);
   loading_ = new LoadingView(LoadingView::Shape::line);
@@ -251,13 +250,14 @@ void MainWindow::show_case(QMdiSubWindow& child, const engine::LoadedStudy& stud
   auto& window = static_cast<CaseWindow&>(*child.widget());
   if (restored.contents) {
     panels_->show("level-set");  // it has begun: to be steered
-    const Status shown = window.restore_view_state(restored.contents->view_state);
+    const Status shown = window.restore_view(*restored.contents);
     if (!shown) tell(tr("How it was shown is lost: %1").arg(QString::fromStdString(shown.error().message)));
   }
   const auto results = opener_->results_beside(study);
   if (study.volume->changes.empty() && results.empty()) return;
   auto* report = new LoadReport(study, results);
   messages_->show_widget(report);
+  messages_->mark_as_of(window);
   connect(report, &LoadReport::dismissed, messages_, &MessageBar::dismiss);
   connect(report, &LoadReport::import_wanted, &window, [this, &window](const QStringList& files) {
     for (const QString& file : files) results_->import_labels(window, file);
@@ -350,6 +350,10 @@ void MainWindow::connect_views() {
   with_case(actions_->clip, [](CaseWindow& window) {
     window.proxy().display().change(
         [](engine::DisplaySettings& settings) { settings.clip_on = !settings.clip_on; });
+  });
+  with_case(actions_->swipe, [](CaseWindow& window) {
+    window.proxy().display().change(
+        [](engine::DisplaySettings& settings) { settings.swipe = !settings.swipe; });
   });
   with_case(actions_->patient_text, [](CaseWindow& window) {
     window.proxy().display().change(

@@ -49,7 +49,7 @@ void make_view_menu(MainWindow& window, Actions& actions, PanelDocks& panels) {
     });
   }
   view->addSeparator();
-  view->addActions({actions.reset_view, actions.clip, actions.patient_text});
+  view->addActions({actions.reset_view, actions.clip, actions.swipe, actions.patient_text});
   view->addSeparator();
   QMenu* docks = view->addMenu(MainWindow::tr("&Panels"));
   docks->addActions(panels.toggles());

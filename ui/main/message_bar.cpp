@@ -7,12 +7,19 @@
 
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/main/case_head.h"
+#include "ui/main/case_window.h"
 
 namespace tidemark::ui {
 
 MessageBar::MessageBar(QWidget* parent) : QFrame(parent) {
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
+  auto* whole = new QHBoxLayout(this);
+  whole->setContentsMargins(0, 0, 0, 0);
+  whole->setSpacing(0);
+  mark_ = new QLabel;
+  mark_->setContentsMargins(kSpace, 0, 0, 0);
+  mark_->hide();
+  whole->addWidget(mark_);
   line_ = new QWidget;
   auto* row = new QHBoxLayout(line_);
   row->setContentsMargins(kSpace, kSpaceTight, kSpace, kSpaceTight);
@@ -27,7 +34,7 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent) {
   row->addWidget(text_, 1);
   row->addWidget(offer_);
   row->addWidget(button);
-  column->addWidget(line_);
+  whole->addWidget(line_, 1);
   connect(button, &QPushButton::clicked, this, &MessageBar::dismiss);
   connect(offer_, &QPushButton::clicked, this, [this] {
     const auto accepted = accepted_;
@@ -58,6 +65,20 @@ void MessageBar::show_offer(const QString& text, const QString& about, const QSt
   offer_->show();
 }
 
+void MessageBar::mark_as_of(CaseWindow& window) {
+  forget_case();
+  mark_->setPixmap(case_mark(window.number()).pixmap(QSize(kIconSmall, kIconSmall), devicePixelRatioF()));
+  mark_->setAccessibleName(tr("Case %1").arg(window.number()));
+  mark_->setToolTip(tr("About case %1: %2").arg(window.number()).arg(window.proxy().name()));
+  mark_->show();
+  case_closed_ = connect(&window, &QObject::destroyed, this, &MessageBar::dismiss);
+}
+
+void MessageBar::forget_case() {
+  disconnect(case_closed_);
+  mark_->hide();
+}
+
 void MessageBar::settle(const QString& about) {
   if (!about.isEmpty() && about == about_) dismiss();
 }
@@ -66,7 +87,7 @@ void MessageBar::show_widget(QWidget* widget) {
   dismiss();
   line_->hide();
   shown_ = widget;
-  layout()->addWidget(widget);
+  static_cast<QHBoxLayout*>(layout())->addWidget(widget, 1);
   show();
 }
 
@@ -74,6 +95,7 @@ void MessageBar::dismiss() {
   if (shown_) shown_->deleteLater();
   shown_ = nullptr;
   about_.clear();
+  forget_case();
   hide();
 }
 

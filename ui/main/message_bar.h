@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QFrame>
+#include <QMetaObject>
 #include <functional>
 
 class QLabel;
@@ -9,6 +10,8 @@ class QPushButton;
 class QStackedLayout;
 
 namespace tidemark::ui {
+
+class CaseWindow;
 
 inline constexpr const char* kAboutOpening = "opening";  // of studies and sessions
 
@@ -22,6 +25,8 @@ class MessageBar : public QFrame {
   // The same with a button that does something about it; the message goes then.
   void show_offer(const QString& text, const QString& about, const QString& button,
                   std::function<void()> accepted);
+  // The message that is shown is of that case: it bears the case's mark and goes with the case.
+  void mark_as_of(CaseWindow& window);
   // The subject has succeeded: removes the message of its failure.
   void settle(const QString& about);
   // Takes the widget over, until it is dismissed or another message comes.
@@ -30,6 +35,10 @@ class MessageBar : public QFrame {
   [[nodiscard]] QString text() const;
 
  private:
+  void forget_case();
+
+  QLabel* mark_;  // of the case that the message is of
+  QMetaObject::Connection case_closed_;
   QWidget* line_;
   QLabel* text_;
   QPushButton* offer_;

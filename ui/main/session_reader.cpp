@@ -6,6 +6,7 @@
 
 #include "core/without_exceptions.h"
 #include "document/session_file.h"
+#include "document/session_images.h"
 #include "engine/background_job.h"
 #include "engine/case_autosave.h"
 #include "ui/main/case_files.h"
@@ -105,13 +106,13 @@ void SessionReader::compare(const std::shared_ptr<const engine::LoadedStudy>& st
             [&]() -> Result<document::VolumeMatch> { return document::match(*contents, *study->volume); });
         job.deliver([this, study, found] {
           if (!found) return end_reading(QString::fromStdString(found.error().message));
-          restore(study, *found);
+          judge(study, *found);
         });
       }));
 }
 
-void SessionReader::restore(const std::shared_ptr<const engine::LoadedStudy>& study,
-                            document::VolumeMatch found) {
+void SessionReader::judge(const std::shared_ptr<const engine::LoadedStudy>& study,
+                          document::VolumeMatch found) {
   const Waiting waiting = waiting_.front();
   if (found == document::VolumeMatch::other_grid) {
     return end_reading(
@@ -124,14 +125,37 @@ void SessionReader::restore(const std::shared_ptr<const engine::LoadedStudy>& st
              "all the same? Nothing is overwritten.")) != QMessageBox::Yes) {
     return end_reading();
   }
-  CaseWindow* window = window_.add_case(study, {waiting.contents, !waiting.rescued.empty()});
+  find_images(study);
+}
+
+// They are read once the study is known to be the right one.
+void SessionReader::find_images(const std::shared_ptr<const engine::LoadedStudy>& study) {
+  const auto contents = waiting_.front().contents;
+  if (contents->images.empty()) return restore(study, contents, {});
+  jobs_.push_back(engine::BackgroundJob::start(
+      this,
+      [this, study, contents](engine::BackgroundJob& job) {
+        auto with_images = std::make_shared<document::SessionContents>(*contents);
+        QStringList problems;
+        for (const std::string& problem : document::find_images(*with_images, {nullptr, job.stop()}))
+          problems << QString::fromStdString(problem);
+        job.deliver([this, study, with_images, problems] { restore(study, with_images, problems); });
+      },
+      [this](const Error& error) { end_reading(QString::fromStdString(error.message)); }));
+}
+
+void SessionReader::restore(const std::shared_ptr<const engine::LoadedStudy>& study,
+                            std::shared_ptr<const document::SessionContents> contents,
+                            const QStringList& problems) {
+  const Waiting waiting = waiting_.front();
+  CaseWindow* window = window_.add_case(study, {std::move(contents), !waiting.rescued.empty()});
   if (waiting.rescued.empty()) {
     window->session_file = waiting.file;
     emit opened(*window);
   } else {
     keep_rescued(*window, waiting.rescued);
   }
-  end_reading();
+  end_reading(problems.join(QLatin1Char('\n')));
 }
 
 // The copy goes once the case has one of its own, or the user has closed it.

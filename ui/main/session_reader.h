@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QObject>
+#include <QStringList>
 #include <deque>
 #include <memory>
 #include <vector>
@@ -49,7 +50,10 @@ class SessionReader : public QObject {
   void end_reading(const QString& problem = {});
   void find_volume(std::shared_ptr<const document::SessionContents> contents);
   void compare(const std::shared_ptr<const engine::LoadedStudy>& study);
-  void restore(const std::shared_ptr<const engine::LoadedStudy>& study, document::VolumeMatch found);
+  void judge(const std::shared_ptr<const engine::LoadedStudy>& study, document::VolumeMatch found);
+  void find_images(const std::shared_ptr<const engine::LoadedStudy>& study);
+  void restore(const std::shared_ptr<const engine::LoadedStudy>& study,
+               std::shared_ptr<const document::SessionContents> contents, const QStringList& problems);
   void offer(const std::vector<document::Recoverable>& copies, const QString& why);
   void keep_rescued(CaseWindow& window, const std::string& copy);
 

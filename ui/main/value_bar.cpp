@@ -60,7 +60,7 @@ void ValueBar::follow() {
     values += tr("   smoothed %1").arg(source.value(voxel) + 0.0, 0, 'g', 5);
   }
   for (const engine::ShownImage& shown : proxy_->display().settings().images) {
-    if (shown.visible) values += value_of(*shown.image, *point);
+    if (shown.visible && shown.image->volume) values += value_of(*shown.image, *point);
   }
   if (detailed_) values += details_at(voxel);
   setText(values + QStringLiteral("      ") + place);

@@ -1,4 +1,4 @@
-// What the evolution has come to: curves over its steps, figures, and how well it agrees with a known answer.
+// The figures of the evolution: curves over its steps, sizes, and the agreement with a known answer.
 #pragma once
 
 #include "ui/panels/case_widget.h"

@@ -1,6 +1,7 @@
 #include "ui/panels/image_controls.h"
 
 #include <QBoxLayout>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QLabel>
 #include <QListWidget>
@@ -80,6 +81,10 @@ void ImageControls::add_list(Form& form) {
 }
 
 void ImageControls::add_numbers(Form& form) {
+  used_ = form.check(tr("Used by the speed function"),
+                     tr("Examples learn from the chosen image, too, on the voxels of the study."));
+  connect(used_, &QCheckBox::clicked, this,
+          [this](bool used) { change_chosen([=](engine::ShownImage& image) { image.used = used; }); });
   colours_ = form.choice(tr("Colours"), tr("Of the chosen image. Hot and cool let low values fade away."));
   colours_->addItems({tr("Grey"), tr("Inverted grey"), tr("Hot"), tr("Cool")});
   connect(colours_, &QComboBox::activated, this, [this](int index) {
@@ -100,6 +105,11 @@ void ImageControls::add_numbers(Form& form) {
   });
   connect(level_, &SliderNumber::edited, this, [this](double value) {
     change_chosen([=](engine::ShownImage& image) { image.window.centre = value; });
+  });
+  swipe_ = form.check(tr("Swipe line"), tr("Left of the line slices show the study alone, right of it with "
+                                           "the images. Drag it in a slice."));
+  connect(swipe_, &QCheckBox::clicked, this, [this](bool on) {
+    change_display([=](engine::DisplaySettings& settings) { settings.swipe = on; });
   });
 }
 
@@ -128,6 +138,7 @@ void ImageControls::attach() {
 void ImageControls::refresh() {
   if (!proxy()) return;
   fill_list();
+  swipe_->setChecked(proxy()->display().settings().swipe);
   content_->setVisible(list_->count() > 0);
   show_chosen();
 }
@@ -142,7 +153,8 @@ void ImageControls::fill_list() {
   for (int row = 0; row < count; ++row) {
     const engine::ShownImage& image = images[static_cast<std::size_t>(row)];
     QListWidgetItem* item = list_->item(row);
-    item->setText(QString::fromStdString(image.image->name));
+    const QString name = QString::fromStdString(image.image->name);
+    item->setText(image.image->volume ? name : tr("%1 (not found)").arg(name));
     item->setCheckState(image.visible ? Qt::Checked : Qt::Unchecked);
   }
   if (grown || list_->currentRow() < 0) list_->setCurrentRow(count - 1);
@@ -151,6 +163,14 @@ void ImageControls::fill_list() {
 void ImageControls::show_chosen() {
   const engine::ShownImage* image = chosen();
   if (!image) return;
+  used_->setChecked(image->used);
+  const bool is_there = image->image->volume != nullptr;
+  for (QWidget* control : std::initializer_list<QWidget*>{colours_, opacity_, width_, level_, register_})
+    control->setEnabled(is_there);
+  if (!is_there) {
+    place_->setText(tr("Its file is not where it was. Add it again, or remove it."));
+    return;
+  }
   if (ranged_ != image->image) {
     ranged_ = image->image;
     const auto [low, high] = ranged_->volume->common_range();

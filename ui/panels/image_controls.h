@@ -3,6 +3,7 @@
 
 #include "ui/panels/case_widget.h"
 
+class QCheckBox;
 class QComboBox;
 class QLabel;
 class QListWidget;
@@ -36,6 +37,8 @@ class ImageControls : public CaseWidget {
   QWidget* content_;
   QListWidget* list_;
   QLabel* place_;
+  QCheckBox* used_;
+  QCheckBox* swipe_;
   QComboBox* colours_;
   SliderNumber* opacity_;
   SliderNumber* width_;

@@ -18,7 +18,8 @@ MapChoice::MapChoice(QWidget* parent) : CaseWidget(parent) {
   row->setSpacing(kSpace);
   button_ = new QPushButton(icon(u"open-file"), tr("Choose a map…"));
   button_->setToolTip(
-      tr("A file on the grid of the study: a probability from 0 to 1, or a speed from -1 to 1."));
+      tr("A probability from 0 to 1, or a speed from -1 to 1: a file on the grid of the study, or a DICOM "
+         "parametric map or segmentation."));
   connect(button_, &QPushButton::clicked, this, &MapChoice::choose);
   name_ = new QLabel;
   name_->setTextFormat(Qt::PlainText);
@@ -51,7 +52,7 @@ void MapChoice::refresh() {
 void MapChoice::choose() {
   auto* dialog = new QFileDialog(
       this, tr("Map that drives the surface"), {},
-      tr("Volumes (*.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;All files (*)"));
+      tr("Maps (*.dcm *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;All files (*)"));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setFileMode(QFileDialog::ExistingFile);
   connect(dialog, &QFileDialog::fileSelected, this, &MapChoice::read);

@@ -38,7 +38,7 @@ class RegistrationPicture : public QWidget {
       : QWidget(parent), cursor_mm_(proxy.display().settings().cursor_mm) {
     auto study = std::make_shared<document::CaseImage>();
     study->volume = proxy.study().volume;
-    study_ = {study, true, engine::ImageColours::grey, 1.0, proxy.display().settings().window};
+    study_ = {study, true, engine::ImageColours::grey, 1.0, proxy.display().settings().window, false};
     setFixedSize(3 * kPicture + 2 * kSpaceTight, kPicture);
   }
   void set_image(engine::ShownImage image) {
@@ -63,9 +63,7 @@ class RegistrationPicture : public QWidget {
       view.orientation = kPlanes[plane];
       view.position_mm = cursor_mm_;
       const SliceScreen screen(view, QSizeF(where.size()), study_.image->volume->geometry);
-      for (const QImage& picture : overlays_[plane].pictures(images, view, screen, where.size())) {
-        painter.drawImage(where, picture);
-      }
+      painter.drawImage(where, overlays_[plane].picture(images, view, screen, where.size()));
     }
   }
 

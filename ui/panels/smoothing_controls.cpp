@@ -41,8 +41,10 @@ void SmoothingControls::attach() {
 
 void SmoothingControls::refresh() {
   const double now = proxy()->state().smoothed_mm;
+  const bool smooths = proxy()->state().smoothing.has_value();
   now_->setText(
-      now > 0.0
+      smooths ? tr("The study is being smoothed.")
+      : now > 0.0
           ? tr("The level set sees the study smoothed by %1.").arg(number_text(now, kDecimals, tr("mm")))
           : tr("The level set sees the study unsmoothed."));
   show_button();
@@ -50,9 +52,10 @@ void SmoothingControls::refresh() {
 
 void SmoothingControls::show_button() {
   if (!proxy()) return;
-  const bool undoes = sigma_->value() == 0.0 && proxy()->state().smoothed_mm > 0.0;
+  const double now = proxy()->state().smoothing.value_or(proxy()->state().smoothed_mm);
+  const bool undoes = sigma_->value() == 0.0 && now > 0.0;
   apply_->setText(undoes ? tr("Use the unsmoothed study") : tr("Smooth"));
-  apply_->setEnabled(std::abs(sigma_->value() - proxy()->state().smoothed_mm) > 1e-6);
+  apply_->setEnabled(std::abs(sigma_->value() - now) > 1e-6);
 }
 
 }  // namespace tidemark::ui

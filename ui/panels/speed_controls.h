@@ -1,4 +1,4 @@
-// What steers the surface: T, epsilon and alpha (paper section 6.1). T and epsilon are the tent's.
+// The controls of T, epsilon and alpha (paper section 6.1). T and epsilon are the tent's.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// What of the speed is seldom changed: its terms, how it is discretised, and the rescaling term's numbers
+// The seldom changed part of the speed: its terms, its discretisation, and the rescaling term's numbers
 // (paper sections 2.1 and 4.2).
 #pragma once
 

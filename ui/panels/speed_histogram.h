@@ -1,4 +1,4 @@
-// How sure a speed function is: the histogram of the probability p = (D + 1) / 2 in the slice at the
+// The certainty of a speed function: the histogram of the probability p = (D + 1) / 2 in the slice at the
 // crosshair.
 #pragma once
 

@@ -73,29 +73,43 @@ void TermControls::add_choice(Form& form, const QString& title, bool removable) 
 }
 
 void TermControls::add_numbers(Form& form) {
-  for (const solver::SpeedParameter& parameter : kind_->parameters) {
-    SliderNumber* number = form.slider(translated(parameter.title), translated(parameter.text));
-    const double span = parameter.high - parameter.low;
-    const bool is_wide = parameter.low > 0.0 && parameter.high / parameter.low >= kWide;
-    number->set_decimals(is_wide ? std::max(decimals_for(span), decimals_for(100.0 * parameter.low))
-                                 : decimals_for(span));
-    number->set_range(parameter.low, parameter.high,
-                      is_wide ? SliderNumber::Scale::logarithmic : SliderNumber::Scale::linear);
-    number->set_unit(translated(parameter.unit));
-    number->set_value(parameter.initial);
-    connect(number, &SliderNumber::edited, this,
-            [this, name = QString::fromLatin1(parameter.name)](double value, std::uint64_t gesture) {
-              emit number_edited(name, value, gesture);
-            });
-    numbers_.push_back(number);
-  }
+  for (const solver::SpeedParameter& parameter : kind_->parameters)
+    parameter.choices.empty() ? add_number(form, parameter) : add_words(form, parameter);
+}
+
+void TermControls::add_number(Form& form, const solver::SpeedParameter& parameter) {
+  SliderNumber* number = form.slider(translated(parameter.title), translated(parameter.text));
+  const double span = parameter.high - parameter.low;
+  const bool is_wide = parameter.low > 0.0 && parameter.high / parameter.low >= kWide;
+  number->set_decimals(is_wide ? std::max(decimals_for(span), decimals_for(100.0 * parameter.low))
+                               : decimals_for(span));
+  number->set_range(parameter.low, parameter.high,
+                    is_wide ? SliderNumber::Scale::logarithmic : SliderNumber::Scale::linear);
+  number->set_unit(translated(parameter.unit));
+  number->set_value(parameter.initial);
+  connect(number, &SliderNumber::edited, this,
+          [this, name = QString::fromLatin1(parameter.name)](double value, std::uint64_t gesture) {
+            emit number_edited(name, value, gesture);
+          });
+  show_.emplace_back([number](double value) { number->set_value(value); });
+}
+
+void TermControls::add_words(Form& form, const solver::SpeedParameter& parameter) {
+  QComboBox* words = form.choice(translated(parameter.title), translated(parameter.text));
+  for (const solver::SpeedChoice& choice : parameter.choices) words->addItem(translated(choice.title));
+  connect(words, &QComboBox::activated, this,
+          [this, name = QString::fromLatin1(parameter.name), low = parameter.low](int index) {
+            emit number_edited(name, low + index, 0);
+          });
+  show_.emplace_back(
+      [words, low = parameter.low](double value) { words->setCurrentIndex(qRound(value - low)); });
 }
 
 void TermControls::set_values(const std::map<std::string, double>& values) {
-  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+  for (std::size_t i = 0; i < show_.size(); ++i) {
     const solver::SpeedParameter& parameter = kind_->parameters[i];
     const auto given = values.find(parameter.name);
-    numbers_[i]->set_value(given == values.end() ? parameter.initial : given->second);
+    show_[i](given == values.end() ? parameter.initial : given->second);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <QWidget>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "solver/speed/speed_registry.h"
@@ -14,7 +15,6 @@ class QToolButton;
 namespace tidemark::ui {
 
 class Form;
-class SliderNumber;
 
 class TermControls : public QWidget {
   Q_OBJECT
@@ -34,10 +34,12 @@ class TermControls : public QWidget {
  private:
   void add_choice(Form& form, const QString& title, bool removable);
   void add_numbers(Form& form);
+  void add_number(Form& form, const solver::SpeedParameter& parameter);
+  void add_words(Form& form, const solver::SpeedParameter& parameter);
 
   const solver::SpeedKind* kind_;
   QComboBox* choice_;
-  std::vector<SliderNumber*> numbers_;  // in the order of the kind's parameters
+  std::vector<std::function<void(double)>> show_;  // the value of each of the kind's parameters
 };
 
 }  // namespace tidemark::ui

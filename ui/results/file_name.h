@@ -1,4 +1,4 @@
-// What files of a case are called unless somebody says otherwise.
+// The names of a case's files unless the user gives others.
 #pragma once
 
 #include <QString>

@@ -1,5 +1,6 @@
 #include "ui/views/image_overlay.h"
 
+#include <QPainter>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -96,22 +97,38 @@ QRgb colour_of(engine::ImageColours colours, double part) {
   return qRgb(level(part), level(part), level(part));
 }
 
-const QList<QImage>& ImageOverlay::pictures(const std::vector<engine::ShownImage>& images,
-                                            const renderer::SliceView& slice, const SliceScreen& screen,
-                                            QSize size) {
-  if (images == images_ && slice == slice_ && size == size_) return pictures_;
+const QImage& ImageOverlay::picture(const std::vector<engine::ShownImage>& images,
+                                    const renderer::SliceView& slice, const SliceScreen& screen, QSize size) {
+  if (images == images_ && slice == slice_ && size == size_) return picture_;
   images_ = images;
   slice_ = slice;
   size_ = size;
-  pictures_.clear();
-  if (size.isEmpty()) return pictures_;
+  picture_ = {};
+  over_.reset();
+  if (size.isEmpty()) return picture_;
   const Geometry grid = grid_of(screen, size);
   for (const engine::ShownImage& image : images) {
-    if (!image.visible || image.opacity <= 0.0) continue;
-    const QImage picture = draw(image, grid);
-    if (!picture.isNull()) pictures_ << picture;
+    if (!image.visible || image.opacity <= 0.0 || !image.image->volume) continue;
+    const QImage one = draw(image, grid);
+    if (one.isNull()) continue;
+    if (picture_.isNull()) {
+      picture_ = one;
+    } else {
+      QPainter(&picture_).drawImage(0, 0, one);
+    }
   }
-  return pictures_;
+  return picture_;
+}
+
+const std::shared_ptr<const renderer::ImagesOver>& ImageOverlay::over(
+    const std::vector<engine::ShownImage>& images, const renderer::SliceView& slice,
+    const SliceScreen& screen, QSize size) {
+  const QImage& whole = picture(images, slice, screen, size);
+  if (over_ || whole.isNull()) return over_;
+  const QImage bytes = whole.convertToFormat(QImage::Format_RGBA8888_Premultiplied);  // 4 a pixel: no gaps
+  over_ = std::make_shared<const renderer::ImagesOver>(renderer::ImagesOver{
+      bytes.width(), bytes.height(), {bytes.constBits(), bytes.constBits() + bytes.sizeInBytes()}});
+  return over_;
 }
 
 }  // namespace tidemark::ui

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <QImage>
-#include <QList>
 #include <QSize>
+#include <memory>
 #include <vector>
 
 #include "engine/shown_image.h"
@@ -11,19 +11,24 @@
 
 namespace tidemark::ui {
 
-// Keeps the pictures until slice, images or size change.
+// Keeps the picture until slice, images or size change.
 class ImageOverlay {
  public:
-  // One of each visible image that the slice meets, all as large as the view; transparent where the image is
-  // not. The images lie over one another in this order.
-  const QList<QImage>& pictures(const std::vector<engine::ShownImage>& images,
-                                const renderer::SliceView& slice, const SliceScreen& screen, QSize size);
+  // All visible images that the slice meets, over one another in this order, to be stretched over the view;
+  // transparent where they are not. Null: there are none.
+  const QImage& picture(const std::vector<engine::ShownImage>& images, const renderer::SliceView& slice,
+                        const SliceScreen& screen, QSize size);
+  // The same for the renderer.
+  const std::shared_ptr<const renderer::ImagesOver>& over(const std::vector<engine::ShownImage>& images,
+                                                          const renderer::SliceView& slice,
+                                                          const SliceScreen& screen, QSize size);
 
  private:
   std::vector<engine::ShownImage> images_;
   renderer::SliceView slice_;
   QSize size_;
-  QList<QImage> pictures_;
+  QImage picture_;
+  std::shared_ptr<const renderer::ImagesOver> over_;
 };
 
 // 0xRRGGBB of a value that is `part` of the way through its window, 0 to 1.

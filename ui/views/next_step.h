@@ -1,4 +1,4 @@
-// What to do next, in the middle of a 3D view: place a surface, then play.
+// The hint at the next step, in the middle of a 3D view: place a surface, then play.
 #pragma once
 
 #include <QAbstractButton>

@@ -87,12 +87,16 @@ DragView PictureView::drag_view() {
           slab()};
 }
 
+Qt::CursorShape PictureView::cursor_at(QPointF /*position*/) const {
+  return cursor_for(settings().tool);
+}
+
 void PictureView::ask() {
   if (isVisible() && width() > 0 && height() > 0) feed_.request(wanted(), physical_size());
 }
 
 void PictureView::follow_display() {
-  setCursor(cursor_for(settings().tool));
+  setCursor(cursor_at(mouse_));
   ask();
   paint_again();
 }
@@ -230,6 +234,7 @@ void PictureView::mousePressEvent(QMouseEvent* event) {
 
 void PictureView::mouseMoveEvent(QMouseEvent* event) {
   mouse_ = event->position();
+  if (!drag_) setCursor(cursor_at(mouse_));
   const Pointer pointer = pointer_at(*event);
   display().set_pointer(pointer.patient_mm);
   const QPointF way = mouse_ - pressed_at_;

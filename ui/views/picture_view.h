@@ -72,6 +72,8 @@ class PictureView : public QWidget {
   virtual void zoom(double factor, QPointF about) = 0;
   // What of the patient is seen at a position; the answer may come later.
   virtual void find_place(QPointF position, std::function<void(std::optional<glm::dvec3>)> answer);
+  // The mouse's shape there, while no button is down.
+  [[nodiscard]] virtual Qt::CursorShape cursor_at(QPointF position) const;
   // What the left or right button starts with the tool that is chosen.
   virtual std::unique_ptr<Drag> begin_drag(const Pointer& pressed);
   void set_drag(std::unique_ptr<Drag> drag);

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLeastZoom = 0.2;
 constexpr double kMostZoom = 40.0;
+constexpr double kSwipeReach = 6.0;  // logical pixels beside the line
 
 class PanDrag : public Drag {
  public:
@@ -46,6 +47,15 @@ class ZoomDrag : public Drag {
  private:
   QPointF from_;
   double zoom_ = 1.0;
+};
+
+class SwipeDrag : public Drag {
+ public:
+  explicit SwipeDrag(DragView view) : Drag(std::move(view)) {}
+  void move(const Pointer& pointer) override {
+    const double at = std::clamp(pointer.position.x() / view().size.width(), 0.0, 1.0);
+    display().change([&](engine::DisplaySettings& settings) { settings.swipe_at = at; });
+  }
 };
 
 QString term_name(renderer::SpeedTerm term) {
@@ -126,6 +136,20 @@ renderer::SliceView SliceViewWidget::slice() const {
   return view;
 }
 
+renderer::SliceView SliceViewWidget::fused_slice() const {
+  renderer::SliceView view = slice();
+  if (content_ != renderer::SliceContent::source || settings().images.empty()) return view;
+  view.images = images_.over(settings().images, view, screen(), size());
+  if (const auto line = swipe_line()) view.images_from = *line / width();
+  return view;
+}
+
+std::optional<double> SliceViewWidget::swipe_line() const {
+  const engine::DisplaySettings& s = settings();
+  if (!s.swipe || s.images.empty() || content_ != renderer::SliceContent::source) return std::nullopt;
+  return s.swipe_at * width();
+}
+
 SliceScreen SliceViewWidget::screen() const {
   return {slice(), QSizeF(size()), proxy().volume().geometry};
 }
@@ -194,6 +218,20 @@ void SliceViewWidget::zoom(double factor, QPointF about) {
   });
 }
 
+// The line comes before the tool.
+std::unique_ptr<Drag> SliceViewWidget::begin_drag(const Pointer& pressed) {
+  const auto line = swipe_line();
+  if (line && pressed.button == Qt::LeftButton && std::abs(pressed.position.x() - *line) <= kSwipeReach)
+    return std::make_unique<SwipeDrag>(drag_view());
+  return PictureView::begin_drag(pressed);
+}
+
+Qt::CursorShape SliceViewWidget::cursor_at(QPointF position) const {
+  const auto line = swipe_line();
+  if (line && std::abs(position.x() - *line) <= kSwipeReach) return Qt::SplitHCursor;
+  return PictureView::cursor_at(position);
+}
+
 std::unique_ptr<Drag> SliceViewWidget::navigation_drag(const Pointer& pressed) {
   if (pressed.button == Qt::MiddleButton)
     return std::make_unique<PanDrag>(drag_view(), pressed, orientation());
@@ -204,7 +242,7 @@ std::unique_ptr<Drag> SliceViewWidget::navigation_drag(const Pointer& pressed) {
 void SliceViewWidget::paint_overlay(QPainter& painter) {
   const SliceScreen on_screen = screen();
   const renderer::SliceOrientation o = orientation();
-  paint_images(painter, on_screen);
+  paint_swipe_line(painter);
   paint_truth(painter, on_screen);
   paint_marks(painter, on_screen);
   if (settings().crosshair) paint_crosshair(painter, size(), on_screen.position_of(settings().cursor_mm));
@@ -214,14 +252,14 @@ void SliceViewWidget::paint_overlay(QPainter& painter) {
   paint_corners(painter);
 }
 
-void SliceViewWidget::paint_images(QPainter& painter, const SliceScreen& on_screen) {
-  if (content_ != renderer::SliceContent::source || settings().images.empty()) return;
-  painter.save();
-  painter.setRenderHint(QPainter::SmoothPixmapTransform);
-  for (const QImage& picture : images_.pictures(settings().images, slice(), on_screen, size())) {
-    painter.drawImage(rect(), picture);
-  }
-  painter.restore();
+void SliceViewWidget::paint_swipe_line(QPainter& painter) const {
+  const auto line = swipe_line();
+  if (!line) return;
+  constexpr double kGrip = 5.0;
+  const QPointF middle(*line, 0.5 * height());
+  paint_line(painter, {QPointF(*line, 0.0), QPointF(*line, height())});
+  painter.setBrush(Qt::white);
+  painter.drawEllipse(middle, kGrip, kGrip);
 }
 
 void SliceViewWidget::paint_truth(QPainter& painter, const SliceScreen& on_screen) {

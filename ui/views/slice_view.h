@@ -38,17 +38,21 @@ class SliceViewWidget : public PictureView {
   [[nodiscard]] QString acquired_number() const;
 
  protected:
-  [[nodiscard]] engine::AnyView wanted() const override { return slice(); }
+  [[nodiscard]] engine::AnyView wanted() const override { return fused_slice(); }
   void paint_overlay(QPainter& painter) override;
+  std::unique_ptr<Drag> begin_drag(const Pointer& pressed) override;
   std::unique_ptr<Drag> navigation_drag(const Pointer& pressed) override;
+  [[nodiscard]] Qt::CursorShape cursor_at(QPointF position) const override;
   void scroll(int clicks) override;
   void zoom(double factor, QPointF about) override;
 
  private:
   [[nodiscard]] renderer::SliceOrientation orientation() const;
-  [[nodiscard]] renderer::SliceView slice() const;
+  [[nodiscard]] renderer::SliceView slice() const;  // without further images
+  [[nodiscard]] renderer::SliceView fused_slice() const;
+  [[nodiscard]] std::optional<double> swipe_line() const;  // its place from the left; none: it is not seen
   [[nodiscard]] SliceScreen screen() const;
-  void paint_images(QPainter& painter, const SliceScreen& on_screen);
+  void paint_swipe_line(QPainter& painter) const;
   void paint_truth(QPainter& painter, const SliceScreen& on_screen);
   void paint_corners(QPainter& painter) const;
   [[nodiscard]] engine::DrawnMarks marks() const;
@@ -65,8 +69,8 @@ class SliceViewWidget : public PictureView {
   };
   std::optional<Outline> outline_;
   MarksOverlay marks_overlay_;
-  engine::DrawnMarks marks_;  // as of the last state
-  ImageOverlay images_;
+  engine::DrawnMarks marks_;     // as of the last state
+  mutable ImageOverlay images_;  // keeps what was made for the last picture
 };
 
 }  // namespace tidemark::ui

@@ -23,8 +23,7 @@ ViewBar::ViewBar(engine::CaseProxy& proxy, const QString& title, const QList<QAc
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(8, 1, 2, 1);
   layout->setSpacing(2);
-  title_ = new ElidedLabel(title);
-  layout->addWidget(title_, 1);
+  layout->addWidget(new ElidedLabel(title), 1);
   for (QAction* action : evolution) {
     auto* button = new QToolButton;
     button->setDefaultAction(action);
@@ -89,10 +88,6 @@ NumberBox* ViewBar::add_number(double solver::Parameters::*parameter, const QStr
   connect(number, &NumberBox::valueChanged, this,
           [this, parameter](double value) { change(parameter, value); });
   return number;
-}
-
-void ViewBar::set_title(const QString& title) {
-  title_->setText(title);
 }
 
 // The other parameters keep all their digits, of which the bar shows a few.

@@ -17,8 +17,6 @@ class ViewBar : public QWidget {
   ViewBar(engine::CaseProxy& proxy, const QString& title, const QList<QAction*>& evolution,
           const QList<QAction*>& tools, QWidget* parent = nullptr);
 
-  void set_title(const QString& title);
-
   [[nodiscard]] QSize minimumSizeHint() const override { return {60, sizeHint().height()}; }
 
  signals:
@@ -39,7 +37,6 @@ class ViewBar : public QWidget {
   void change(double solver::Parameters::*parameter, double value);
 
   engine::CaseProxy& proxy_;
-  QLabel* title_;
   QToolButton* tool_;
   QList<QAction*> tools_;
   QList<QWidget*> numbers_;    // hidden first when the bar is narrow

@@ -1,15 +1,14 @@
 #include "ui/widgets/disclosure.h"
 
-#include <QSettings>
 #include <QVBoxLayout>
 
 #include "ui/look/theme.h"
+#include "ui/settings.h"
 
 namespace tidemark::ui {
 
 Disclosure::Disclosure(const QString& what, const QString& key, QWidget* parent)
     : QWidget(parent), button_(new QToolButton), content_(new QWidget) {
-  const QString setting = QStringLiteral("details/") + key;
   button_->setText(tr("Details"));
   button_->setAccessibleName(what);
   button_->setToolTip(tr("Shows or hides what is seldom needed."));
@@ -26,11 +25,10 @@ Disclosure::Disclosure(const QString& what, const QString& key, QWidget* parent)
     button_->setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
     content_->setVisible(open);
   });
-  connect(button_, &QToolButton::clicked, this,
-          [setting](bool open) { QSettings().setValue(setting, open); });
+  connect(button_, &QToolButton::clicked, this, [key](bool open) { settings::details(key).set(open); });
   button_->setArrowType(Qt::RightArrow);
   content_->hide();
-  set_open(QSettings().value(setting, false).toBool());
+  set_open(settings::details(key).get());
 }
 
 void Disclosure::set_open(bool open) {

@@ -1,6 +1,7 @@
-// A slice through the volume: the source in its window, the speed (SPEED) or its data term alone (DATA_SPEED), or the pages
-// (PAGES); labels, walls and anchors (CONSTRAINED) and the surface's outline over it. These are variants, not uniforms: a
-// driver that computes both sides of every branch would work out the speed for every picture.
+// A slice through the volume: the source in its window, perhaps with further images over it (IMAGES), the speed (SPEED) or
+// its data term alone (DATA_SPEED), or the pages (PAGES); labels, walls and anchors (CONSTRAINED) and the surface's outline
+// over it. These are variants, not uniforms: a driver that computes both sides of every branch would work out the speed for
+// every picture.
 
 #include "solver/phi.glsl"
 #ifdef SOURCE_PLANE
@@ -33,6 +34,17 @@ uniform usampler3D labels;    // 0: nothing
 uniform float label_opacity;  // 0 without labels
 uniform sampler2D label_colours;  // by label, 256 in a row; opacity 0 for those that are hidden
 uniform vec3 background;
+#ifdef IMAGES
+uniform sampler2D images;   // colours times opacity; its first row is the picture's top
+uniform float images_from;  // the part of the picture's width left of which there are none
+
+vec3 with_images(vec3 below) {
+  vec2 at = vec2(0.5, -0.5) * view_position + 0.5;
+  if (at.x < images_from) return below;
+  vec4 over = texture(images, at);
+  return over.rgb + (1.0 - over.a) * below;
+}
+#endif
 
 ivec3 nearest_voxel(vec3 p) {
   return clamp(ivec3(floor(p + 0.5)), ivec3(0), volume_size - 1);
@@ -90,6 +102,11 @@ void main() {
 #else
   vec3 colour = grey;
 #endif
+  vec3 beside = background;
+#ifdef IMAGES
+  colour = with_images(colour);
+  beside = with_images(beside);
+#endif
   if (label_opacity > 0.0) {
     int label = int(texelFetch(labels, nearest_voxel(p), 0).r);
     vec4 label_colour = texture(label_colours, vec2((float(label) + 0.5) / 256.0, 0.5));
@@ -107,5 +124,5 @@ void main() {
     line *= smoothstep(0.1, 0.4, phi_slope_in_view / pixel);
     colour = mix(colour, kOutlineYellow, line);
   }
-  fragment = vec4(outside ? background : colour, 1.0);
+  fragment = vec4(outside ? beside : colour, 1.0);
 }

@@ -146,6 +146,7 @@ Result<std::shared_ptr<const SpeedFunction>> make_examples(const SpeedInputs& in
   volumes.insert(volumes.end(), inputs.images.begin(), inputs.images.end());
   ExamplesOptions options;
   options.sharpness = values.at("sharpness");
+  options.walker.contrast = values.at("edges");
   options.training.trees = static_cast<int>(values.at("trees"));
   auto made = ExamplesSpeed::train(std::move(volumes), inputs.strokes ? *inputs.strokes : Strokes{}, options,
                                    progress);
@@ -206,6 +207,7 @@ const SpeedKind& examples_kind() {
           "Learns from strokes inside and outside what belongs to the object: its brightness, texture, edges "
           "and place, in all images.",
       .needs_strokes = true,
+      .uses_images = true,
       .parameters = {{.name = "trees",
                       .title = "Trees",
                       .text = "How many decision trees vote: more are smoother and take longer.",
@@ -215,11 +217,18 @@ const SpeedKind& examples_kind() {
                       .initial = 100},
                      {.name = "sharpness",
                       .title = "Sharpness",
-                      .text = "How fast the surface moves where the trees are not of one mind.",
+                      .text = "How fast the surface moves where it is in doubt.",
                       .unit = "",
                       .low = 0.5,
                       .high = 10,
-                      .initial = ExamplesOptions{}.sharpness}},
+                      .initial = ExamplesOptions{}.sharpness},
+                     {.name = "edges",
+                      .title = "Edges",
+                      .text = "How much an edge keeps a stroke from saying what lies behind it.",
+                      .unit = "",
+                      .low = 0,
+                      .high = 200,
+                      .initial = WalkerOptions{}.contrast}},
       .make = make_examples};
   return kind;
 }

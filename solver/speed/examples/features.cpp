@@ -53,7 +53,8 @@ void evaluate_scale(const Volume& volume, const ScaleSpace& space, int scale, co
   std::array<Between, 3> at;
   for (int axis = 0; axis < 3; ++axis) {
     const std::int64_t first = box.first[axis] / step[axis];
-    const std::int64_t last = (box.first[axis] + box.size[axis] - 1) / step[axis] + 1;
+    // A voxel on a node is that node: where there are no others, one node more is not read.
+    const std::int64_t last = (box.first[axis] + box.size[axis] - 2 + step[axis]) / step[axis];
     nodes.first[axis] = first;
     nodes.size[axis] = last - first + 1;
     at[static_cast<std::size_t>(axis)] =

@@ -1,4 +1,4 @@
-// What `examples` knows of a voxel: the features of all scales of all images, and where it lies.
+// The values of a voxel that `examples` learns from: features of all scales of all images, and its place.
 #pragma once
 
 #include <memory>

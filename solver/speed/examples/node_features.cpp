@@ -43,6 +43,16 @@ struct Layout {
   std::int64_t nodes;
 };
 
+// Calls run(begin, end) for the nodes that are read: slice by slice, from the first of these to the last.
+// What is costly is computed there alone.
+template <class Run>
+void for_each_run(Index3 size, const Layout& at, const Run& run) {
+  const std::int64_t first = kFeatureReach * (at.y + 1);
+  const std::int64_t last = (size.y - 1 - kFeatureReach) * at.y + size.x - 1 - kFeatureReach;
+  for (std::int64_t z = kFeatureReach; z < size.z - kFeatureReach; ++z)
+    run(z * at.z + first, z * at.z + last + 1);
+}
+
 // All of this runs over whole arrays. What it takes across the ends of rows ends up in the reach.
 std::vector<float> gradient_products(const std::vector<float>& mean, const Layout& at, glm::vec3 half,
                                      float* magnitude) {
@@ -77,15 +87,14 @@ void smooth(float* values, float* scratch, const Layout& at) {
   std::copy(scratch, scratch + at.nodes, values);
 }
 
-void hessian_features(const std::vector<float>& mean, const Layout& at, glm::vec3 inverse, float* largest,
-                      float* middle, float* smallest) {
+void hessian_features(const std::vector<float>& mean, const Layout& at, std::int64_t begin, std::int64_t end,
+                      glm::vec3 inverse, float* largest, float* middle, float* smallest) {
   const float* v = mean.data();
   const glm::vec3 twice = inverse * inverse;
   const float mixed_xy = 0.25F * inverse.x * inverse.y;
   const float mixed_xz = 0.25F * inverse.x * inverse.z;
   const float mixed_yz = 0.25F * inverse.y * inverse.z;
-  const std::int64_t reach = at.z + at.y + 1;
-  for (std::int64_t i = reach; i < at.nodes - reach; ++i) {
+  for (std::int64_t i = begin; i < end; ++i) {
     const float two = 2.0F * v[i];
     const auto mixed = [&](std::int64_t a, std::int64_t b) {
       return (v[i + a + b] - v[i + a - b]) - (v[i - a + b] - v[i - a - b]);
@@ -113,30 +122,35 @@ void node_features(const Moments& moments, glm::dvec3 step_mm, std::vector<float
   float* deviations = array(deviation);
   const float* means = moments.mean.data();
   const float* squares = moments.square.data();
-  for (std::int64_t i = 0; i < at.nodes; ++i) {
-    deviations[i] = std::sqrt(std::max(squares[i] - means[i] * means[i], 0.0F));
-  }
+  for_each_run(size, at, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+      deviations[i] = std::sqrt(std::max(squares[i] - means[i] * means[i], 0.0F));
+  });
 
   std::vector<float> products = gradient_products(moments.mean, at, 0.5F * inverse, array(gradient));
   std::vector<float> scratch(static_cast<std::size_t>(at.nodes), 0.0F);
   for (int element = 0; element < kElements; ++element) {
     smooth(products.data() + element * at.nodes, scratch.data(), at);
   }
-  hessian_features(moments.mean, at, inverse, array(hessian_largest), array(hessian_middle),
-                   array(hessian_smallest));
+  for_each_run(size, at, [&](std::int64_t begin, std::int64_t end) {
+    hessian_features(moments.mean, at, begin, end, inverse, array(hessian_largest), array(hessian_middle),
+                     array(hessian_smallest));
+  });
 
   const float* p = products.data();
   float* largest = array(structure_largest);
   float* middle = array(structure_middle);
   float* smallest = array(structure_smallest);
-  for (std::int64_t i = 0; i < at.nodes; ++i) {
-    const auto element = [&](Element e) { return p[e * at.nodes + i]; };
-    const Eigenvalues e =
-        eigenvalues(element(xx), element(yy), element(zz), element(xy), element(xz), element(yz));
-    largest[i] = std::sqrt(std::max(e.largest, 0.0F));
-    middle[i] = std::sqrt(std::max(e.middle, 0.0F));
-    smallest[i] = std::sqrt(std::max(e.smallest, 0.0F));
-  }
+  for_each_run(size, at, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const auto element = [&](Element e) { return p[e * at.nodes + i]; };
+      const Eigenvalues e =
+          eigenvalues(element(xx), element(yy), element(zz), element(xy), element(xz), element(yz));
+      largest[i] = std::sqrt(std::max(e.largest, 0.0F));
+      middle[i] = std::sqrt(std::max(e.middle, 0.0F));
+      smallest[i] = std::sqrt(std::max(e.smallest, 0.0F));
+    }
+  });
 }
 
 }  // namespace tidemark::solver

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <mutex>
 
 #include "core/thread_pool.h"
@@ -11,6 +12,10 @@
 namespace tidemark::solver {
 namespace {
 
+// Of the common range of values: how far beyond it values keep apart. A few that are far out, as padding is,
+// would leave no steps to all others.
+constexpr float kFarOut = 32.0F;
+constexpr float kMostSteps = 65535.0F;
 // The distance of nodes in units of the scale, at most.
 constexpr double kNodesPerScale = 1.25;
 constexpr std::int64_t kSlicesAtOnce = 8;
@@ -100,9 +105,11 @@ Reduction reduction(const ScaleGrid& from, double from_mm, double to_mm) {
   return r;
 }
 
-ReadRow rows_of(const std::vector<float>& values, Index3 size) {
-  return [&values, size](std::int64_t y, std::int64_t z, float* row) {
-    std::copy_n(&values[at(size.x * (y + size.y * z))], size.x, row);
+ReadRow rows_of(const ScaleGrid& grid, bool squared) {
+  return [&grid, squared](std::int64_t y, std::int64_t z, float* row) {
+    const std::size_t line = at(grid.size.x * (y + grid.size.y * z));
+    for (std::size_t x = 0; x < at(grid.size.x); ++x)
+      row[x] = squared ? grid.square(line + x) : grid.mean[line + x];
   };
 }
 
@@ -116,6 +123,21 @@ ReadRow rows_of(const Volume& volume, float centre, bool squared) {
   };
 }
 
+// The moments in two bytes each. `limit` is how far means may be from the centre.
+void store(const std::vector<float>& mean, std::vector<float> square, float limit, ScaleGrid& grid) {
+  float low = limit;
+  float high = -limit;
+  float widest = 0.0F;
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    square[i] = std::sqrt(std::max(square[i] - mean[i] * mean[i], 0.0F));
+    low = std::min(low, mean[i]);
+    high = std::max(high, mean[i]);
+    widest = std::max(widest, square[i]);
+  }
+  grid.mean = EvenSteps(mean, std::max(low, -limit), std::min(high, limit));
+  grid.deviation = EvenSteps(square, 0.0F, std::min(widest, limit));
+}
+
 // The pyramids in use, by their volumes. It keeps neither alive.
 struct Known {
   std::weak_ptr<const Volume> volume;
@@ -125,6 +147,17 @@ std::mutex known_mutex;
 std::vector<Known> known;
 
 }  // namespace
+
+EvenSteps::EvenSteps(const std::vector<float>& values, float low, float high)
+    : low_(low), step_((high - low) / kMostSteps) {
+  const float steps_a_unit = high > low ? kMostSteps / (high - low) : 0.0F;
+  steps_.reserve(values.size());
+  for (const float value : values) {
+    const float within = std::min(std::max(low, value), high);  // low, where there is no number
+    const float steps = (within - low) * steps_a_unit;
+    steps_.push_back(static_cast<std::uint16_t>(steps + 0.5F));
+  }
+}
 
 Result<std::shared_ptr<const ScaleSpace>> ScaleSpace::of(const std::shared_ptr<const Volume>& volume,
                                                          const Progress& progress) {
@@ -149,6 +182,8 @@ Result<std::shared_ptr<const ScaleSpace>> ScaleSpace::make(const Volume& volume,
   const double unit = std::min({geometry.spacing_mm.x, geometry.spacing_mm.y, geometry.spacing_mm.z});
   space->finest_ = gaussian_weights(geometry, kFinestScale * unit);
 
+  const float limit = high > low ? kFarOut * (high - low) : std::numeric_limits<float>::max();
+
   ThreadPool threads;
   const ScaleGrid voxels{geometry.size, Index3(1), geometry.spacing_mm, {}, {}};
   double smoothed_mm = 0.0;
@@ -157,14 +192,13 @@ Result<std::shared_ptr<const ScaleSpace>> ScaleSpace::make(const Volume& volume,
     const ScaleGrid& from = first ? voxels : space->grids_.back();
     const Reduction r = reduction(from, smoothed_mm, scale * unit);
     ScaleGrid grid{r.size, from.step * r.factor, from.step_mm * glm::dvec3(r.factor), {}, {}};
-    auto mean = reduced(r, first ? rows_of(volume, space->centre_, false) : rows_of(from.mean, from.size),
-                        threads, progress);
+    auto mean =
+        reduced(r, first ? rows_of(volume, space->centre_, false) : rows_of(from, false), threads, progress);
     if (!mean) return pass_on(mean);
-    auto square = reduced(r, first ? rows_of(volume, space->centre_, true) : rows_of(from.square, from.size),
-                          threads, progress);
+    auto square =
+        reduced(r, first ? rows_of(volume, space->centre_, true) : rows_of(from, true), threads, progress);
     if (!square) return pass_on(square);
-    grid.mean = std::move(*mean);
-    grid.square = std::move(*square);
+    store(*mean, std::move(*square), limit, grid);
     space->grids_.push_back(std::move(grid));
     smoothed_mm = scale * unit;
   }
@@ -205,7 +239,7 @@ Moments ScaleSpace::moments(const Volume& volume, int scale, const VoxelBox& nod
       for (std::int64_t x = nodes.first.x; x < nodes.first.x + nodes.size.x; ++x) {
         const std::size_t node = at(line + std::clamp<std::int64_t>(x, 0, last.x));
         result.mean.push_back(grid.mean[node]);
-        result.square.push_back(grid.square[node]);
+        result.square.push_back(grid.square(node));
       }
     }
   }
@@ -215,7 +249,7 @@ Moments ScaleSpace::moments(const Volume& volume, int scale, const VoxelBox& nod
 std::int64_t ScaleSpace::memory() const {
   std::int64_t bytes = 0;
   for (const ScaleGrid& grid : grids_) {
-    bytes += static_cast<std::int64_t>((grid.mean.size() + grid.square.size()) * sizeof(float));
+    bytes += grid.mean.memory() + grid.deviation.memory();
   }
   return bytes;
 }

@@ -15,14 +15,36 @@ namespace tidemark::solver {
 inline constexpr double kFinestScale = 0.7;
 inline constexpr double kPyramidScales[] = {1.6, 3.2, 6.4, 12.8};
 
+// Numbers in two bytes each, in steps that are even over their range.
+class EvenSteps {
+ public:
+  EvenSteps() = default;
+  // What is beyond low and high becomes them.
+  EvenSteps(const std::vector<float>& values, float low, float high);
+
+  [[nodiscard]] float operator[](std::size_t i) const { return low_ + step_ * static_cast<float>(steps_[i]); }
+  [[nodiscard]] std::int64_t memory() const {  // bytes
+    return static_cast<std::int64_t>(steps_.size() * sizeof(std::uint16_t));
+  }
+
+ private:
+  float low_ = 0.0F;
+  float step_ = 0.0F;
+  std::vector<std::uint16_t> steps_;
+};
+
 // Node n lies at voxel n * step.
 struct ScaleGrid {
   Index3 size{1};
   Index3 step{1};
   glm::dvec3 step_mm{1.0};
   // Of the values less the pyramid's centre, in voxel order.
-  std::vector<float> mean;
-  std::vector<float> square;
+  EvenSteps mean;
+  EvenSteps deviation;
+
+  [[nodiscard]] float square(std::size_t node) const {
+    return deviation[node] * deviation[node] + mean[node] * mean[node];
+  }
 };
 
 // Local moments in a box of nodes, which may reach beyond the grid.
@@ -32,7 +54,7 @@ struct Moments {
   std::vector<float> square;
 };
 
-// Takes 2.3 bytes a voxel of an isotropic volume.
+// Takes 0.6 bytes a voxel of an isotropic volume, 1.4 of one whose slices are thick.
 class ScaleSpace {
  public:
   // The pyramid of a volume, shared among all that use it at the same time. Fails (ErrorKind::cancelled).

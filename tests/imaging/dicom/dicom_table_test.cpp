@@ -388,7 +388,7 @@ class DicomTableTest : public QObject {
     QVERIFY2(
         committed.substr(begin) == table || std::getenv("TIDEMARK_WRITE_TABLE") != nullptr,
         "the table of docs/dicom.md is not what is found; after a look at the difference write it anew:\n"
-        "  TIDEMARK_WRITE_TABLE=docs/dicom.md build/release/tests/dicom_tests dicom_table_test");
+        "  TIDEMARK_WRITE_TABLE=docs/dicom.md build/release/tests/dicom_studies_tests dicom_table_test");
   }
 };
 

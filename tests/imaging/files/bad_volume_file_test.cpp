@@ -151,6 +151,15 @@ std::vector<BadFile> bad_text_header_files() {
        "the text has 9"},
       {"words for numbers", "v.nrrd", with_voxels(nrrd("encoding", "text"), "1 2 three 4 5 6 7 8"),
        "voxel 2"},
+      {"a number beyond its type", "v.nrrd", with_voxels(nrrd("encoding", "text"), "1 2 300 4 5 6 7 8"),
+       "voxel 2 is 300, which is no uint8"},
+      {"an unknown byte order", "v.nrrd",
+       [] {
+         std::string file = nrrd("endian", "middle");
+         file.replace(file.find("uchar"), 5, "short").replace(file.find("2 2 2"), 5, "2 2 1");
+         return file;
+       }(),
+       "endian: 'middle'"},
       {"a number cut", "v.nrrd", with_voxels(nrrd("encoding", "text"), "1 2 0x 4 5 6 7 8"), "voxel 2"},
       {"NDims in words", "v.mha", meta("NDims", "three"), "NDims"},
       {"negative size", "v.mha", meta("DimSize", "2 -2 2"), "DimSize"},

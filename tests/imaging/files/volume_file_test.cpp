@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <clocale>
+#include <cmath>
 #include <csignal>
 #include <limits>
 
@@ -66,6 +67,43 @@ class VolumeFileTest : public QObject {
         QCOMPARE(back.description, name);
         QVERIFY(back.changes.empty());
       }
+    }
+  }
+
+  // Between the check of its header and the reading of its voxels.
+  void a_file_that_is_replaced_while_it_is_read_is_refused() {
+    const TemporaryFolder folder;
+    const auto small = counting_volume<std::int16_t>(awkward_grid({4, 4, 4}), 3);
+    for (const auto& name : kWritten) {
+      for (const auto& other : {counting_volume<float>(awkward_grid({64, 64, 64}), 0.5F),
+                                counting_volume<float>(awkward_grid({2, 2, 2}), 0.5F)}) {
+        QCOMPARE(failure(imaging::write_volume_file(small, folder / name)), QString());
+        Progress progress;
+        bool replaced = false;
+        progress.report = [&](double fraction, std::string_view) {
+          if (fraction == 0.0 || std::exchange(replaced, true)) return;
+          QCOMPARE(failure(imaging::write_volume_file(other, folder / name)), QString());
+        };
+        const auto read = imaging::read_volume_file(folder / name, progress);
+        QVERIFY(replaced);
+        QVERIFY2(!read, name.c_str());
+        QVERIFY2(failure(read).contains(QString::fromStdString((folder / name).string())),
+                 qPrintable(failure(read)));
+      }
+      // With a volume of the same kind, whose voxels would pass for those of the first.
+      auto alike = small;
+      alike.geometry.origin_mm.x += 30.0;
+      QCOMPARE(failure(imaging::write_volume_file(small, folder / name)), QString());
+      Progress progress;
+      progress.report = [&](double fraction, std::string_view) {
+        if (fraction > 0.0 && fraction < 1.0)
+          QCOMPARE(failure(imaging::write_volume_file(alike, folder / name)), QString());
+      };
+      const auto read = imaging::read_volume_file(folder / name, progress);
+      QVERIFY2(!read, name.c_str());
+      // Where headers have one length, there is nothing else to notice it by.
+      if (name.find(".nii") != std::string::npos)
+        QVERIFY2(failure(read).contains("has changed while it was read"), qPrintable(failure(read)));
     }
   }
 
@@ -157,6 +195,10 @@ class VolumeFileTest : public QObject {
     const Volume volume = read(folder / "v.nii");
     QVERIFY(volume.geometry.origin_mm == glm::dvec3(-10, -20, 30));
     QVERIFY(glm::distance(volume.geometry.to_patient({1, 2, 3}), glm::dvec3(-11, -22, 33)) < 1e-5);
+    // 0 has no sign, neither in a listing nor in JSON.
+    header.set<float>(280 + 12, 0.0F);
+    put(folder / "v.nii", header.bytes() + std::string(128, '\1'));
+    QVERIFY(!std::signbit(read(folder / "v.nii").geometry.origin_mm.x));
   }
 
   void nifti_slope_and_intercept_are_applied_once() {
@@ -239,6 +281,34 @@ class VolumeFileTest : public QObject {
         "ObjectType = Image\nNDims = 3\nBinaryData = False\nDimSize = 2 2 2\n"
         "ElementType = MET_SHORT\nElementDataFile = LOCAL\n1 2 3 4 5 6 7 8\n");
     QVERIFY(read(folder / "v.mha").values() == expected_counting(8, 1.0F));
+  }
+
+  void numbers_come_in_either_byte_order() {
+    const TemporaryFolder folder;
+    const std::string nrrd = "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\nencoding: raw\nendian: ";
+    const std::string meta =
+        "ObjectType = Image\nNDims = 3\nBinaryData = True\n%DimSize = 2 2 2\nElementType = MET_SHORT\n"
+        "ElementDataFile = LOCAL\n";
+    const auto with = [&](const char* line) { return std::string(meta).replace(meta.find('%'), 1, line); };
+    std::string big;
+    std::string little;
+    for (char i = 0; i < 8; ++i) {
+      big += std::string(1, '\0') + i;
+      little += i + std::string(1, '\0');
+    }
+    const std::pair<const char*, std::string> files[] = {
+        {"big.nrrd", nrrd + "big\n\n" + big},
+        {"little.nrrd", nrrd + "little\n\n" + little},
+        {"big.mha", with("BinaryDataByteOrderMSB = True\n") + big},
+        {"little.mha", with("BinaryDataByteOrderMSB = False\n") + little},
+        {"big-elements.mha", with("ElementByteOrderMSB = True\n") + big},
+        {"little-elements.mha",
+         with("BinaryDataByteOrderMSB = True\nElementByteOrderMSB = False\n") + little},
+        {"none.mha", with("") + little}};
+    for (const auto& [name, bytes] : files) {
+      put(folder / name, bytes);
+      QVERIFY2(read(folder / name).values() == expected_counting(8, 0.0F), name);
+    }
   }
 
   void gipl_is_read_plain_and_compressed() {

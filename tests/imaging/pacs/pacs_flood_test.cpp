@@ -107,7 +107,7 @@ class PacsFloodTest : public QObject {
     small.objects = 40;
     small.free_bytes = 1 << 20;
     QTest::newRow("an object that never ends")
-        << 4000 << small << "sends more than is taken as an object" << ErrorKind::input;
+        << 4000 << small << "sends more than an object may hold" << ErrorKind::input;
     QTest::newRow("many large objects")
         << 4 << small << "sends more than the 28 MiB that are allowed" << ErrorKind::input;
     QTest::newRow("very many small objects")
@@ -180,7 +180,7 @@ class PacsFloodTest : public QObject {
     QVERIFY(!found || found->entries.empty());
     if (identifier.size() > 65536) {
       QVERIFY(!found);
-      QVERIFY2(message(found.error()).contains("sends more than is taken as the data of a command"),
+      QVERIFY2(message(found.error()).contains("sends more than the data of a command may hold"),
                qPrintable(message(found.error())));
     }
   }
@@ -235,7 +235,7 @@ class PacsFloodTest : public QObject {
     const auto retrieved = imaging::retrieve(server, {kStudy, kSeries, folder / "in"}, limits);
     caller.join();
     QVERIFY(!retrieved);
-    QVERIFY2(message(retrieved.error()).contains("sends more than is taken as an object"),
+    QVERIFY2(message(retrieved.error()).contains("sends more than an object may hold"),
              qPrintable(message(retrieved.error())));
     QVERIFY(!std::filesystem::exists(folder / "in"));
   }

@@ -1,12 +1,13 @@
-// Two patients open at once: panels act on the active case, say which it is, and never make another one
+// Two patients open at once: panels, messages and links say of which case they are.
+#include <QLabel>
 #include <QPointer>
 
-// active.
-
+#include "imaging/files/volume_file.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/look/theme.h"
 #include "ui/main/case_head.h"
+#include "ui/main/message_bar.h"
 
 namespace tidemark::test {
 
@@ -17,6 +18,8 @@ class CaseMarksStoryTest : public QObject {
   void panels_say_whose_case_they_act_on();
   void linked_cases_show_it_and_links_end_with_them();
   void linked_cases_of_two_modalities_keep_their_windows();
+  void linked_files_of_unknown_modality_keep_their_windows();
+  void a_message_says_of_which_case_it_is_and_goes_with_it();
 
  private:
   // Side by side; the first one is active, by a click on one of its views.
@@ -111,6 +114,66 @@ void CaseMarksStoryTest::linked_cases_of_two_modalities_keep_their_windows() {
   });
   QVERIFY(cases[1]->proxy().display().settings().window == of_other);
   QCOMPARE(cases[1]->proxy().display().settings().camera.azimuth, 12.0);
+}
+
+void CaseMarksStoryTest::linked_files_of_unknown_modality_keep_their_windows() {
+  const TemporaryFolder folder;
+  const auto write = [&](const char* name, std::int16_t step) {
+    Volume volume;
+    volume.geometry.size = Index3(24);
+    std::vector<std::int16_t> voxels;
+    for (std::int64_t offset = 0; offset < volume.geometry.voxel_count(); ++offset) {
+      voxels.push_back(static_cast<std::int16_t>(step * (offset % 24)));
+    }
+    volume.voxels = std::move(voxels);
+    const Status written = imaging::write_volume_file(volume, folder / name);
+    if (!written) qFatal("%s", written.error().message.c_str());
+    return QString::fromStdString((folder / name).string());
+  };
+  Desktop desktop(story_executor(), {1300, 800});
+  const QString first = write("first.nrrd", 1);
+  QList<ui::CaseWindow*> cases;
+  for (const QString& file : {first, write("second.nrrd", 100), first}) {
+    cases << desktop.open(file);
+    QVERIFY(cases.back());
+    desktop.wait_until_idle();
+  }
+  desktop.window().actions().tile->trigger();
+  desktop.wait_until_idle();
+  const auto window_of = [&](int number) { return cases[number]->proxy().display().settings().window; };
+  click(*cases[0]);
+  const WindowLevel of_other = window_of(1);
+  desktop.press(Qt::Key_L);
+  cases[0]->proxy().display().change([](engine::DisplaySettings& s) { s.window.centre += 3.0; });
+  QVERIFY(window_of(1) == of_other);
+  QVERIFY(window_of(2) == window_of(0));  // the same study once more
+}
+
+void CaseMarksStoryTest::a_message_says_of_which_case_it_is_and_goes_with_it() {
+  Desktop desktop(story_executor(), {1300, 800});
+  const auto cases = open_two(desktop, "sphere", "tumour");
+  auto& bar = *desktop.window().findChild<ui::MessageBar*>();
+  // In the case that is not active.
+  cases[1]->proxy().begin_from_label(77);
+  QVERIFY(Desktop::wait_for([&] { return !bar.text().isEmpty(); }));
+  QCOMPARE(desktop.window().active_case(), cases[0]);
+  const auto marks = [&] {
+    QStringList names;
+    for (const QLabel* label : bar.findChildren<QLabel*>()) {
+      if (label->isVisible() && label->accessibleName().startsWith("Case ")) names << label->accessibleName();
+    }
+    return names.join(", ");
+  };
+  QCOMPARE(marks(), QString("Case 2"));
+  desktop.screenshot("message-of-the-other-case");
+  QPointer<ui::CaseWindow> closed(cases[1]);
+  cases[1]->close_saved();
+  QVERIFY(Desktop::wait_for([&] { return closed.isNull(); }));
+  QCOMPARE(bar.text(), QString());
+  // What is no case's has no mark.
+  desktop.window().tell("A sentence.");
+  QCOMPARE(bar.text(), QString("A sentence."));
+  QCOMPARE(marks(), QString());
 }
 
 }  // namespace tidemark::test

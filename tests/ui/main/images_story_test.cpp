@@ -1,4 +1,5 @@
 // Further images of a case: found, shown over the slices, read under the mouse, and taken out again.
+#include <QCheckBox>
 #include <QFileDialog>
 #include <QListWidget>
 #include <QPushButton>
@@ -79,7 +80,8 @@ class ImagesStoryTest : public QObject {
   template <class Widget>
   Widget* named(const QString& name) {
     for (auto* widget : desktop_->window().findChildren<Widget*>()) {
-      if (widget->accessibleName() == name && widget->isVisible()) return widget;
+      const bool is_it = widget->accessibleName() == name || widget->property("text").toString() == name;
+      if (is_it && widget->isVisible()) return widget;
     }
     return nullptr;
   }
@@ -134,6 +136,84 @@ class ImagesStoryTest : public QObject {
     QVERIFY(images().empty());
     QVERIFY(!list->isVisible());
     QVERIFY(!values_at(middle).contains("pet"));
+  }
+
+  void a_swipe_line_parts_the_study_and_its_images() {
+    desktop_ = std::make_unique<Desktop>(story_executor());
+    QVERIFY(desktop_->open(made("ct.nii.gz", ball_in_a_box({80, 80, 60}, glm::dvec3(1.0), {}, 1.0F))));
+    add_image(made("pet.nii.gz", ball_in_a_box({30, 30, 30}, glm::dvec3(3.0), {}, 0.05F)));
+    const auto show = [&](bool visible) {
+      desktop_->proxy().display().change([=](engine::DisplaySettings& s) {
+        s.crosshair = false;
+        s.images[0].visible = visible;
+      });
+      return picture();
+    };
+    const QImage alone = show(false);
+    const QImage fused = show(true);
+    QVERIFY2(difference(alone, fused) > 0.02, qPrintable(QString::number(difference(alone, fused))));
+
+    // The line is in the middle at first.
+    desktop_->press(Qt::Key_V);
+    QVERIFY(desktop_->proxy().display().settings().swipe);
+    const auto part = [](const QImage& image, double from, double to) {
+      const auto left = qRound(from * image.width());
+      return image.copy(left, 0, qRound(to * image.width()) - left, image.height());
+    };
+    const QImage middle = picture();
+    QVERIFY(difference(part(middle, 0.0, 0.47), part(alone, 0.0, 0.47)) < 0.001);
+    QVERIFY(difference(part(middle, 0.53, 1.0), part(fused, 0.53, 1.0)) < 0.001);
+    desktop_->screenshot("images-2-swipe");
+
+    // Dragged to the right, with a tool that would do something else there.
+    desktop_->press(Qt::Key_B);
+    const int y = axial()->height() / 3;
+    const int x = axial()->width() / 2;
+    QTest::mouseMove(axial(), {x, y});
+    QVERIFY(axial()->cursor().shape() == Qt::SplitHCursor);
+    Desktop::drag(*axial(), {QPoint(x, y), QPoint(x + x / 4, y), QPoint(x + x / 2, y)});
+    QTest::mouseMove(axial(), {x / 4, y});
+    QVERIFY(axial()->cursor().shape() != Qt::SplitHCursor);
+    QVERIFY(std::abs(desktop_->proxy().display().settings().swipe_at - 0.75) < 0.01);
+    QVERIFY(!desktop_->state().begun);  // nothing was painted
+    desktop_->press(Qt::Key_W);
+    QTest::mouseMove(axial(), {2, 2});
+    const QImage right = picture();
+    QVERIFY(difference(part(right, 0.0, 0.72), part(alone, 0.0, 0.72)) < 0.001);
+    QVERIFY(difference(part(right, 0.78, 1.0), part(fused, 0.78, 1.0)) < 0.001);
+
+    // Off by the panel.
+    auto* swipe = named<QCheckBox>("Swipe line");
+    QVERIFY(swipe && swipe->isChecked());
+    QTest::mouseClick(swipe, Qt::LeftButton, {}, {8, swipe->height() / 2});
+    QVERIFY(difference(picture(), fused) < 0.001);
+  }
+
+  void outlines_stand_above_images() {
+    desktop_ = std::make_unique<Desktop>(story_executor());
+    QVERIFY(desktop_->open(made("ct.nii.gz", ball_in_a_box({60, 60, 60}, glm::dvec3(1.0), {}, 1.0F))));
+    desktop_->proxy().paint({glm::dvec3(0.0), 15.0}, solver::Brush::add, engine::CaseProxy::new_gesture());
+    desktop_->wait_until_idle();
+    const auto yellow = [](const QImage& image) {
+      int count = 0;
+      for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+          const QColor colour = image.pixelColor(x, y);
+          count += colour.red() > 200 && colour.green() > 180 && colour.blue() < 120 ? 1 : 0;
+        }
+      }
+      return count;
+    };
+    const int before = yellow(picture());
+    QVERIFY2(before > 200, qPrintable(QString::number(before)));
+    add_image(made("grey.nii.gz", ball_in_a_box({30, 30, 30}, glm::dvec3(3.0), {}, 0.05F)));
+    desktop_->proxy().display().change([](engine::DisplaySettings& s) {
+      s.images[0].colours = engine::ImageColours::grey;
+      s.images[0].opacity = 1.0;
+    });
+    desktop_->screenshot("images-3-outline");
+    // The message makes the view a little lower.
+    QVERIFY2(yellow(picture()) > before * 7 / 10, qPrintable(QString::number(yellow(picture()))));
   }
 
   void an_image_elsewhere_in_the_patient_is_refused() {

@@ -79,18 +79,29 @@ void OutcomeStoryTest::an_end_that_is_none_is_told_with_advice_data() {
   QTest::addColumn<double>("target");
   QTest::addColumn<double>("range");
   QTest::addColumn<double>("alpha");
+  QTest::addColumn<QString>("function");
   QTest::addColumn<QString>("told");
-  QTest::newRow("shrinks") << 300.0 << 100.0 << 0.0 << "has vanished: it has shrunk to nothing";
-  QTest::newRow("outside") << 900.0 << 100.0 << 0.8 << "no value where it began is within T";
-  QTest::newRow("fills") << 150.0 << 900.0 << 0.9 << "has filled the volume";
+  QTest::newRow("shrinks") << 300.0 << 100.0 << 0.0 << "tent"
+                           << "has shrunk to nothing. Try a larger start, a wider";
+  QTest::newRow("outside") << 900.0 << 100.0 << 0.8 << "tent"
+                           << "no value where it began is within T";
+  QTest::newRow("fills") << 150.0 << 900.0 << 0.9 << "tent"
+                         << "has filled the volume";
+  QTest::newRow("shrinks, without a range") << 300.0 << 100.0 << 0.0 << "edges"
+                                            << "has shrunk to nothing. Try a larger start, a larger α";
 }
 
 void OutcomeStoryTest::an_end_that_is_none_is_told_with_advice() {
   QFETCH(double, target);
   QFETCH(double, range);
   QFETCH(double, alpha);
+  QFETCH(QString, function);
   QFETCH(QString, told);
   open_ball(5.0);
+  document::Drive drive;
+  drive.setting.terms.front().function = function.toStdString();
+  desktop_->proxy().set_drive(drive);
+  desktop_->wait_until_idle();
   play_to_the_end(target, range, alpha, 6.0);
   QVERIFY2(bar().text().contains(told), qPrintable(bar().text()));
   QVERIFY(bar().text().contains("Try ") || bar().text().contains("Probe "));
@@ -100,6 +111,7 @@ void OutcomeStoryTest::an_end_that_is_none_is_told_with_advice() {
   good.target = 300.0;
   good.range = 100.0;
   good.alpha = 0.8;
+  desktop_->proxy().set_drive({});
   desktop_->proxy().set_parameters(good);
   document::Start start;
   start.seeds.push_back({renderer::middle_of(desktop_->proxy().volume().geometry), 6.0});

@@ -15,6 +15,7 @@ class ViewMenuStoryTest : public QObject {
   void init();
   void cleanup() { desktop_.reset(); }
   void a_right_click_offers_what_can_be_done_here();
+  void a_probe_takes_the_values_that_the_level_set_sees();
   void a_right_drag_zooms_and_opens_nothing();
   void the_keys_for_menus_open_it();
   void a_brush_keeps_its_right_button();
@@ -129,6 +130,23 @@ void ViewMenuStoryTest::a_right_click_offers_what_can_be_done_here() {
   right_click(*axial_, at(seed));
   choose("Large, or back");
   QVERIFY(Desktop::wait_for([&] { return axial_->size() == small; }));
+}
+
+void ViewMenuStoryTest::a_probe_takes_the_values_that_the_level_set_sees() {
+  QVERIFY(desktop_->open_phantom("tumour"));  // which is noisy
+  axial_ = desktop_->view<ui::SliceViewWidget>("Axial");
+  QVERIFY(axial_);
+  const auto probed_range = [&] {
+    right_click(*axial_, at(desktop_->seed_mm()));
+    choose("Probe T and ε here");
+    return desktop_->state().parameters.range;
+  };
+  const double of_noise = probed_range();
+  desktop_->proxy().smooth_source(2.0);
+  desktop_->wait_until_idle();
+  QCOMPARE(desktop_->state().smoothed_mm, 2.0);
+  const double smoothed = probed_range();
+  QVERIFY2(smoothed < 0.7 * of_noise, qPrintable(QStringLiteral("%1, then %2").arg(of_noise).arg(smoothed)));
 }
 
 void ViewMenuStoryTest::a_right_drag_zooms_and_opens_nothing() {

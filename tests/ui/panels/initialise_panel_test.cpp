@@ -174,13 +174,11 @@ class InitialisePanelTest : public QObject {
     QVERIFY(!apply->isEnabled());
     type(tr("Smoothing σ"), "1.5");
     QTest::mouseClick(apply, Qt::LeftButton);
-    the_case_->wait_until_idle();
-    QCOMPARE(the_case_->state().smoothed_mm, 1.5);
+    QTRY_COMPARE(the_case_->state().smoothed_mm, 1.5);
     QVERIFY(says(QLocale().toString(1.5, 'f', 2)));
     type(tr("Smoothing σ"), "0");
     QTest::mouseClick(apply, Qt::LeftButton);
-    the_case_->wait_until_idle();
-    QCOMPARE(the_case_->state().smoothed_mm, 0.0);
+    QTRY_COMPARE(the_case_->state().smoothed_mm, 0.0);
   }
 
   void a_session_may_die_while_a_file_is_read() {

@@ -17,6 +17,7 @@
 #include <QToolButton>
 
 #include "imaging/files/volume_file.h"
+#include "imaging/results/results.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 #include "ui/panels/curve_plot.h"
@@ -395,6 +396,33 @@ class LevelSetPanelTest : public QObject {
     QCOMPARE(named<QComboBox>(*panel_, tr("Driven by"))->currentData().toString(), QString("image"));
     QVERIFY(choose->isVisible() && says("sure.nii.gz"));
     QVERIFY(!says("other.nii.gz"));
+
+    // What the map holds is chosen by words, and kept as a number.
+    auto* values = named<QComboBox>(*panel_, tr("Values"));
+    QVERIFY(values && values->isVisible());
+    QCOMPARE(values->currentText(), QString("By its values"));
+    values->setFocus();
+    QTest::keyClick(values, Qt::Key_Down);
+    the_case_->wait_until_idle();
+    QCOMPARE(values->currentText(), QString("Probability, 0 to 1"));
+    QCOMPARE(the_case_->proxy->drive().setting.terms.front().values.at("form"), 1.0);
+    the_case_->proxy->undo();
+    the_case_->wait_until_idle();
+    QCOMPARE(values->currentText(), QString("By its values"));
+
+    // A DICOM segmentation of a part of the study is a map, too.
+    imaging::Segment segment;
+    const Index3 size = study.geometry.size;
+    segment.slices[size.z / 2] = std::vector<std::uint8_t>(static_cast<std::size_t>(size.x * size.y), 1);
+    QCOMPARE(failure(imaging::write_segmentation({study.geometry, {segment}, {}}, {}, folder / "seg.dcm")),
+             QString());
+    give_map(folder / "seg.dcm");
+    QTRY_VERIFY(says("seg.dcm"));
+    the_case_->wait_until_idle();
+    const Volume& placed = *the_case_->proxy->drive().map->volume;
+    QCOMPARE(placed.value(Index3(1, 1, size.z / 2)), 1.0F);
+    QCOMPARE(placed.value(Index3(1, 1, 0)), 0.0F);
+    the_case_->proxy->undo();
     the_case_->proxy->undo();
     the_case_->wait_until_idle();
     QVERIFY(the_case_->proxy->drive().setting.is_tent());

@@ -1,20 +1,29 @@
-// The replay of a recipe.
+// The evolution of a level set by a recipe, from its start to its end.
+//
+// The command line computes by nothing else: `replay` carries out a recipe that was recorded, `segment` one
+// without events, until the surface rests. The desktop's LevelSet drives the same ExecutorSetup, edit by
+// edit.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "document/outcome.h"
 #include "document/recipe.h"
+#include "solver/statistics.h"
 
 namespace tidemark::document {
 
-struct ReplayOptions {
+struct EvolutionOptions {
   std::optional<solver::ExecutorKind> executor;  // unset: the one that the recipe names
   solver::ExecutorOptions options;               // the pages' shape is the recipe's where the executor is
+  bool until_converged =
+      false;  // after the last event: ends before the recipe's steps when the surface rests
 };
 
-struct Replay {
+// A level set at the end of its evolution.
+struct Evolution {
   solver::Field phi;
   solver::Field start;  // before the first edit and step
   RecipeExecutor executor;
@@ -24,6 +33,9 @@ struct Replay {
   double time_step = 0.0;
   std::shared_ptr<const solver::SpeedFunction> speed;  // at the end; null: the tent
   std::shared_ptr<const Volume> source;                // as the level set saw it at the end
+  solver::SurfaceStatistics surface;
+  Outcome outcome = Outcome::unfinished;
+  std::optional<double> wider_range;  // see outcome.h
 };
 
 // The differences between the volume and the recipe's, one sentence each: another spacing (smoothing is per
@@ -31,7 +43,7 @@ struct Replay {
 std::vector<std::string> differences(const Recipe& recipe, const Volume& volume);
 
 // On the recipe's own volume, with the executor that it names, the result is the same to the last bit.
-Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume,
-                      const ReplayOptions& options, const Progress& progress = {});
+Result<Evolution> evolve(const Recipe& recipe, std::shared_ptr<const Volume> volume,
+                         const EvolutionOptions& options, const Progress& progress = {});
 
 }  // namespace tidemark::document

@@ -1,4 +1,4 @@
-#include "document/replay.h"
+#include "document/evolution.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "document/executor_setup.h"
 
 namespace tidemark::document {
+
 std::vector<std::string> differences(const Recipe& recipe, const Volume& volume) {
   std::vector<std::string> found;
   const glm::dvec3 then = recipe.source.spacing_mm;
@@ -32,8 +33,8 @@ std::vector<std::string> differences(const Recipe& recipe, const Volume& volume)
   return found;
 }
 
-Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume,
-                      const ReplayOptions& options, const Progress& progress) {
+Result<Evolution> evolve(const Recipe& recipe, std::shared_ptr<const Volume> volume,
+                         const EvolutionOptions& options, const Progress& progress) {
   const solver::ExecutorKind recorded =
       solver::executor_named(recipe.executor.name).value_or(solver::ExecutorKind::host);
   const solver::ExecutorKind kind = options.executor.value_or(recorded);
@@ -48,9 +49,9 @@ Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume
   }
   auto start = setup->begin(recipe, progress);
   if (!start) return pass_on(start);
-  Replay result;
+  Evolution result;
   result.start = std::move(*start);
-  TIDEMARK_TRY(setup->play(recipe, 0, 0, recipe.steps, progress, &result.advance));
+  TIDEMARK_TRY(setup->play(recipe, 0, 0, recipe.steps, progress, &result.advance, options.until_converged));
   auto phi = setup->executor().snapshot();
   if (!phi) return pass_on(phi);
   result.phi = std::move(*phi);
@@ -60,6 +61,17 @@ Result<Replay> replay(const Recipe& recipe, std::shared_ptr<const Volume> volume
   result.time_step = setup->executor().time_step();
   result.source = setup->source();
   result.speed = setup->executor().speed();
+  result.surface = solver::measure(result.phi);
+  const EvolvedSurface evolved{result.phi,
+                               result.surface.voxels_inside,
+                               result.advance.steps,
+                               result.advance.converged,
+                               recipe.start.empty() ? nullptr : &result.start,  // else it was painted
+                               *result.source,
+                               recipe.final_parameters(),
+                               result.speed.get()};
+  result.outcome = outcome_of(evolved);
+  result.wider_range = wider_range(evolved);
   return result;
 }
 

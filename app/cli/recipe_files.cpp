@@ -1,0 +1,137 @@
+#include "app/cli/recipe_files.h"
+
+#include <algorithm>
+
+#include "app/cli/image_files.h"
+#include "document/speed_map.h"
+
+namespace tidemark::cli {
+namespace {
+
+// The images and the map of the command line for the drives of a recipe: each file is read once.
+class GivenFiles {
+ public:
+  GivenFiles(const DriveOptions& options, const Geometry& grid, Console& console)
+      : options_(options), grid_(grid), console_(console) {}
+
+  // Null stays null.
+  Status give(std::shared_ptr<const document::Drive>& drive);
+  // Fails naming a file that no drive needed.
+  Status all_needed();
+
+ private:
+  Status read_images();
+  Result<std::size_t> file_of(const document::CaseImage& wanted, std::size_t place);
+  Result<std::shared_ptr<const document::CaseImage>> image_for(const document::CaseImage& wanted,
+                                                               std::size_t place);
+  Result<std::shared_ptr<const document::SpeedMap>> map_for(const document::SpeedMap& wanted);
+
+  const DriveOptions& options_;
+  const Geometry& grid_;
+  Console& console_;
+  std::vector<document::CaseImage> images_;  // of the command line, in its order
+  std::vector<std::shared_ptr<const document::CaseImage>> placed_;
+  std::shared_ptr<const document::SpeedMap> map_;
+};
+
+Status GivenFiles::read_images() {
+  for (std::size_t i = images_.size(); i < options_.images.size(); ++i) {
+    auto image = read_image(options_.images[i], console_);
+    if (!image) return pass_on(image);
+    images_.push_back(std::move(*image));
+  }
+  return {};
+}
+
+// By its voxels; an image of unknown voxels is the one at the same place of the command line.
+Result<std::size_t> GivenFiles::file_of(const document::CaseImage& wanted, std::size_t place) {
+  TIDEMARK_TRY(read_images());
+  for (std::size_t i = 0; i < images_.size(); ++i) {
+    if (wanted.checksum.empty() ? i == place : images_[i].checksum == wanted.checksum) return i;
+  }
+  if (place >= images_.size()) {
+    return fail(ErrorKind::usage, "the recipe needs the image \"{}\": give it with --image", wanted.name);
+  }
+  return fail(ErrorKind::input, "{}: not the recipe's image \"{}\": its voxels differ",
+              options_.images[place], wanted.name);
+}
+
+Result<std::shared_ptr<const document::CaseImage>> GivenFiles::image_for(const document::CaseImage& wanted,
+                                                                         std::size_t place) {
+  const auto file = file_of(wanted, place);
+  if (!file) return tl::unexpected<Error>(file.error());
+  const document::CaseImage& read = images_[*file];
+  for (const auto& known : placed_) {
+    if (known->volume == read.volume && known->name == wanted.name && known->to_case == wanted.to_case)
+      return known;
+  }
+  document::CaseImage image = wanted;
+  image.checksum = read.checksum;
+  image.volume = read.volume;
+  auto found = placed(image, options_.images[*file], grid_);
+  if (found) placed_.push_back(*found);
+  return found;
+}
+
+Result<std::shared_ptr<const document::SpeedMap>> GivenFiles::map_for(const document::SpeedMap& wanted) {
+  if (!options_.map) {
+    return fail(ErrorKind::usage, "the recipe needs the map \"{}\": give it with --speed-image", wanted.name);
+  }
+  if (map_ == nullptr) {
+    auto map = document::load_speed_map(*options_.map, grid_, console_.progress());
+    if (!map) return map;
+    map_ = std::move(*map);
+  }
+  if (!wanted.checksum.empty() && wanted.checksum != map_->checksum) {
+    return fail(ErrorKind::input, "{}: not the recipe's map \"{}\": its voxels differ", *options_.map,
+                wanted.name);
+  }
+  return std::make_shared<const document::SpeedMap>(
+      document::SpeedMap{wanted.name, map_->checksum, map_->volume});
+}
+
+Status GivenFiles::give(std::shared_ptr<const document::Drive>& drive) {
+  if (drive == nullptr) return {};
+  document::Drive given = *drive;
+  for (std::size_t i = 0; i < given.images.size(); ++i) {
+    auto image = image_for(*given.images[i], i);
+    if (!image) return pass_on(image);
+    given.images[i] = std::move(*image);
+  }
+  if (given.map != nullptr) {
+    auto map = map_for(*given.map);
+    if (!map) return pass_on(map);
+    given.map = std::move(*map);
+  }
+  drive = std::make_shared<const document::Drive>(std::move(given));
+  return {};
+}
+
+Status GivenFiles::all_needed() {
+  if (options_.map && map_ == nullptr) {
+    return fail(ErrorKind::usage, "--speed-image {}: the recipe needs no map", *options_.map);
+  }
+  for (std::size_t i = 0; i < options_.images.size(); ++i) {
+    const bool needed = i < images_.size() &&
+                        std::any_of(placed_.begin(), placed_.end(),
+                                    [&](const auto& known) { return known->volume == images_[i].volume; });
+    if (!needed) return fail(ErrorKind::usage, "--image {}: the recipe does not need it", options_.images[i]);
+  }
+  return {};
+}
+
+}  // namespace
+
+Status give_images(document::Recipe& recipe, const DriveOptions& options, const Geometry& grid,
+                   Console& console) {
+  GivenFiles files(options, grid, console);
+  TIDEMARK_TRY(files.give(recipe.drive));
+  for (document::RecipeEvent& event : recipe.events) {
+    if (auto* change = std::get_if<document::DriveEvent>(&event.what)) {
+      TIDEMARK_TRY(files.give(change->drive));
+    }
+  }
+  return files.all_needed();
+}
+
+}  // namespace tidemark::cli

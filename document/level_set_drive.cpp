@@ -1,0 +1,111 @@
+// What drives a level set: speed functions, walls and anchors, and the source.
+#include <utility>
+
+#include "document/level_set.h"
+#include "solver/speed/speed_registry.h"
+
+namespace tidemark::document {
+namespace {
+
+// What of it was changed. The function that strokes bring with them is no change of its own.
+ChangeKind kind_of_change(const Drive& before, const Drive& after) {
+  if (before.constraints != after.constraints) return ChangeKind::constraints;
+  return before.strokes != after.strokes ? ChangeKind::examples : ChangeKind::speed;
+}
+
+// Without what waits for another function.
+Drive relevant(Drive drive) {
+  if (!drive.setting.is_tent()) return drive;
+  Drive held;
+  held.constraints = std::move(drive.constraints);
+  return held;
+}
+
+}  // namespace
+
+Status LevelSet::set_drive(const Drive& drive, std::uint64_t gesture) {
+  TIDEMARK_TRY(end_other_change(gesture));
+  if (drive == *drive_) return {};
+  TIDEMARK_TRY(check(drive.setting));
+  const ChangeKind kind = kind_of_change(*drive_, drive);
+  const Point before = known_;
+  // Another function comes with set_speed(); until then the present one goes on.
+  Drive now = drive.setting.is_tent() ? drive : drive_in_use();
+  now.constraints = drive.constraints;
+  TIDEMARK_TRY(use(now, drive.setting.is_tent() ? nullptr : executor().speed()));
+  begin_change(kind, gesture, before);
+  drive_ = std::make_shared<const Drive>(drive);
+  if (kind == ChangeKind::constraints) {
+    curve_.cut(step());
+    dirty_ = true;
+  }
+  return gesture == 0 ? history_.close() : Status();
+}
+
+Status LevelSet::set_speed(std::shared_ptr<const solver::SpeedFunction> speed) {
+  return use(*drive_, std::move(speed));
+}
+
+Drive LevelSet::drive_in_use() const {
+  return value_of(setup_.drive());
+}
+
+// Puts it in place of what drives and holds the surface, and into the recipe.
+Status LevelSet::use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed) {
+  const Drive used = relevant(drive);
+  // The one in place was made from the same: giving it again would wake pages, which a replay does not.
+  const bool in_place = used.setting.is_tent() || executor().speed() != nullptr;
+  if (in_place && used == drive_in_use()) return {};
+  TIDEMARK_TRY(setup_.set_drive(shared(used), std::move(speed)));
+  if (used == value_of(recipe_.final_drive())) return {};
+  if (begun()) {
+    record({step(), DriveEvent{std::make_shared<const Drive>(used)}});
+  } else {
+    recipe_.drive = shared(used);
+  }
+  if (!dirty_) known_.recipe = recipe_;
+  return {};
+}
+
+// As at the end of the recipe. Another function is made when it is needed: who is asked for pictures alone
+// does not wait for it.
+Status LevelSet::drive_as(const Recipe& recipe) {
+  const Drive wanted = value_of(recipe.final_drive());
+  if (wanted == drive_in_use()) return {};
+  const bool made = executor().speed() != nullptr && same_speed(wanted, drive_in_use());
+  return setup_.set_drive(shared(wanted), made ? executor().speed() : nullptr);
+}
+
+Status LevelSet::smooth_source(double sigma_mm) {
+  if (sigma_mm == smoothed_mm()) return history_.close();
+  auto source = smoothed_source(setup_.volume(), sigma_mm);
+  if (!source) return pass_on(source);
+  return set_source(std::move(*source), sigma_mm, nullptr);
+}
+
+Status LevelSet::set_source(std::shared_ptr<const Volume> source, double sigma_mm,
+                            std::shared_ptr<const solver::SpeedFunction> speed) {
+  TIDEMARK_TRY(history_.close());
+  TIDEMARK_TRY(setup_.set_source(std::move(source), sigma_mm, speed));
+  const Point before = known_;
+  if (begun()) {
+    record({step(), SmoothEvent{sigma_mm}});
+  } else {
+    recipe_.smoothed_mm = sigma_mm;
+  }
+  TIDEMARK_TRY(read_back_phi());
+  in_place_ = known_;
+  add_entry(ChangeKind::source, before, known_);
+  return speed == nullptr ? Status() : set_speed(std::move(speed));
+}
+
+// Of what waits for another function nothing is lost.
+void LevelSet::take_drive_of_recipe() {
+  Drive drive = value_of(recipe_.final_drive());
+  if (drive == relevant(*drive_)) return;
+  if (drive.strokes == nullptr) drive.strokes = drive_->strokes;
+  if (drive.map == nullptr) drive.map = drive_->map;
+  drive_ = std::make_shared<const Drive>(std::move(drive));
+}
+
+}  // namespace tidemark::document

@@ -1,0 +1,76 @@
+#include "document/session_images.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "document/checksum.h"
+#include "imaging/load_study.h"
+
+namespace tidemark::document {
+namespace {
+
+using Images = std::vector<std::shared_ptr<const CaseImage>>;
+
+Result<std::shared_ptr<const CaseImage>> read(const CaseImage& wanted, const Progress& progress) {
+  if (wanted.path.empty())
+    return fail(ErrorKind::input, "the image \"{}\" is missing: its place is not known", wanted.name);
+  auto volume = imaging::load_volume(wanted.path, wanted.series_uid, progress, wanted.policy);
+  if (!volume && volume.error().kind == ErrorKind::cancelled) return pass_on(volume);
+  if (!volume)
+    return fail(ErrorKind::input, "the image \"{}\" is missing: {}", wanted.name, volume.error().message);
+  if (!wanted.checksum.empty() && checksum_of(*volume, progress.stop) != wanted.checksum) {
+    return fail(ErrorKind::input, "the image \"{}\" is missing: {} has other voxels now", wanted.name,
+                wanted.path.string());
+  }
+  auto image = std::make_shared<CaseImage>(wanted);
+  image->volume = std::make_shared<const Volume>(std::move(*volume));
+  return image;
+}
+
+// The one at the same place, else a new one with the same voxels; null: they are not at hand.
+std::shared_ptr<const CaseImage> image_for(const CaseImage& wanted, Images& images) {
+  std::shared_ptr<const CaseImage> same_voxels;
+  for (const auto& image : images) {
+    if (wanted.checksum.empty() || image->checksum != wanted.checksum) continue;
+    if (image->to_case == wanted.to_case) return image;
+    same_voxels = image;
+  }
+  if (same_voxels == nullptr) return nullptr;
+  auto moved = std::make_shared<CaseImage>(*same_voxels);
+  moved->to_case = wanted.to_case;
+  return images.emplace_back(std::move(moved));
+}
+
+void give_images(std::shared_ptr<const Drive>& drive, Images& images) {
+  if (drive == nullptr || drive->images.empty()) return;
+  Drive given = *drive;
+  for (auto& image : given.images) {
+    if (auto found = image_for(*image, images)) image = std::move(found);
+  }
+  drive = std::make_shared<const Drive>(std::move(given));
+}
+
+}  // namespace
+
+void give_images(Recipe& recipe, std::vector<std::shared_ptr<const CaseImage>> images) {
+  give_images(recipe.drive, images);
+  for (RecipeEvent& event : recipe.events) {
+    if (auto* change = std::get_if<DriveEvent>(&event.what)) give_images(change->drive, images);
+  }
+}
+
+std::vector<std::string> find_images(SessionContents& contents, const Progress& progress) {
+  std::vector<std::string> problems;
+  for (auto& image : contents.images) {
+    auto found = read(*image, progress);
+    if (found) {
+      image = std::move(*found);
+    } else {
+      problems.push_back(found.error().message);
+    }
+  }
+  give_images(contents.recipe, contents.images);
+  return problems;
+}
+
+}  // namespace tidemark::document

@@ -1,0 +1,92 @@
+#include "solver/gl/gl_executor.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tidemark::solver {
+
+GlExecutor::GlExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source,
+                       const Parameters& parameters, const ExecutorOptions& options, Index3 page_shape)
+    : ExecutorBase(std::move(source), parameters),
+      device_(std::move(device)),
+      options_(options),
+      layout_(PageLayout(source_->geometry.size, page_shape), device_->capabilities().largest_texture) {}
+
+Status GlExecutor::make_textures() {
+  auto textures = DriveTextures::create(*device_, *source_, speed_, options_.threads);
+  if (!textures) return pass_on(textures);
+  drive_textures_ = std::move(*textures);
+  return {};
+}
+
+Status GlExecutor::check_budget(std::int64_t pages, std::int64_t state_bytes, bool copied) const {
+  const std::int64_t bytes = with_textures(state_bytes);
+  if (bytes <= options_.memory_budget_bytes) return {};
+  return fail(ErrorKind::capability, "the surface needs {} pages, {} MB{}, and the memory budget is {} MB",
+              pages, bytes >> 20, copied ? " while they are copied" : "", options_.memory_budget_bytes >> 20);
+}
+
+Status GlExecutor::check_textures(const SpeedFunction& speed, const Constraints* constraints) const {
+  const MemoryReport present = memory();
+  const std::int64_t bytes = present.state_bytes - drive_textures_.bytes() +
+                             DriveTextures::bytes_for(source_->geometry.size, speed, constraints);
+  if (bytes <= present.state_bytes || bytes <= options_.memory_budget_bytes) return {};
+  return fail(ErrorKind::capability,
+              "the surface with what drives it needs {} MB, and the memory budget is {} MB", bytes >> 20,
+              options_.memory_budget_bytes >> 20);
+}
+
+Status GlExecutor::restore(const Field& phi) {
+  TIDEMARK_TRY(phi.check_fits(source_->geometry, band()));
+  if (phi.layout.page_shape() != layout_.layout().page_shape()) {
+    return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band, layout_.layout().page_shape()));
+  }
+  TIDEMARK_TRY(make_current());
+  if (constraints_ != nullptr && !constraints_->empty()) {
+    Field limited = phi;
+    constrain(limited, *constraints_);
+    return replace(limited);
+  }
+  return replace(phi);
+}
+
+// phi goes through the processor, where pages are made that were constant.
+Status GlExecutor::set_constraints(std::shared_ptr<const Constraints> constraints) {
+  if (constraints != nullptr) {
+    TIDEMARK_TRY(check_fits(*constraints));
+  }
+  TIDEMARK_TRY(check_textures(*speed_, constraints.get()));
+  auto phi = snapshot();
+  if (!phi) return pass_on(phi);
+  const auto former = constraints_;
+  Status set = use_constraints(std::move(constraints), *phi);
+  if (set) return set;
+  TIDEMARK_TRY(use_constraints(former, *phi));
+  return set;
+}
+
+Status GlExecutor::use_constraints(std::shared_ptr<const Constraints> constraints, const Field& phi) {
+  TIDEMARK_TRY(make_current());
+  TIDEMARK_TRY(drive_textures_.set_constraints(*device_, constraints.get()));
+  constraints_ = std::move(constraints);
+  TIDEMARK_TRY(compile_for_drive());
+  const std::int64_t peak_resident = peak_resident_;
+  const std::int64_t peak_bytes = peak_bytes_;
+  TIDEMARK_TRY(restore(phi));
+  peak_resident_ = std::max(peak_resident_, peak_resident);
+  peak_bytes_ = std::max(peak_bytes_, peak_bytes);
+  return {};
+}
+
+Status GlExecutor::drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given) {
+  auto drive = drive_with(parameters, std::move(given));
+  if (!drive) return pass_on(drive);
+  TIDEMARK_TRY(check_textures(*drive->used, constraints_.get()));
+  TIDEMARK_TRY(make_current());
+  TIDEMARK_TRY(drive_textures_.set_speed(*device_, drive->used));
+  take(std::move(*drive));
+  TIDEMARK_TRY(compile_for_drive());
+  return wake_all_pages();
+}
+
+}  // namespace tidemark::solver

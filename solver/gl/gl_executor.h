@@ -1,0 +1,58 @@
+// The common base of the executors on OpenGL: how phi, and what drives and holds the surface, are replaced.
+// They differ in the programs that are compiled for it, and in how pages are woken.
+#pragma once
+
+#include <memory>
+
+#include "gpu/device.h"
+#include "solver/executor_base.h"
+#include "solver/gl/drive_textures.h"
+#include "solver/gl/packed_layout.h"
+
+namespace tidemark::solver {
+
+class GlExecutor : public ExecutorBase {
+ public:
+  Status restore(const Field& phi) final;
+  Status set_parameters(const Parameters& parameters) final { return drive(parameters, given_speed_); }
+  Status set_speed(std::shared_ptr<const SpeedFunction> speed) final {
+    return drive(parameters(), std::move(speed));
+  }
+  Status set_constraints(std::shared_ptr<const Constraints> constraints) final;
+
+ protected:
+  GlExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source,
+             const Parameters& parameters, const ExecutorOptions& options, Index3 page_shape);
+  // The textures of the tent; before the first compile_for_drive().
+  Status make_textures();
+
+  // The programs that the model and drive_textures_ ask for, if they are others.
+  virtual Status compile_for_drive() = 0;
+  // phi, which fits and keeps to walls and anchors, takes the place of the present one.
+  virtual Status replace(const Field& phi) = 0;
+  // After the parameters or the speed function changed.
+  virtual Status wake_all_pages() = 0;
+  [[nodiscard]] virtual Status make_current() const { return device_->make_current(); }
+
+  // State of so many bytes and the textures that drive the surface.
+  [[nodiscard]] std::int64_t with_textures(std::int64_t state_bytes) const {
+    return state_bytes + drive_textures_.bytes();
+  }
+  // Fails (ErrorKind::capability) when so many bytes of state with so many pages are more than the memory
+  // budget allows beside the textures. `copied`: the former state is among them.
+  [[nodiscard]] Status check_budget(std::int64_t pages, std::int64_t state_bytes, bool copied = false) const;
+
+  std::shared_ptr<gpu::Device> device_;  // first: it outlives everything below
+  ExecutorOptions options_;
+  PackedLayout layout_;
+  DriveTextures drive_textures_;
+  std::int64_t peak_resident_ = 0;
+  std::int64_t peak_bytes_ = 0;
+
+ private:
+  Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given);
+  Status use_constraints(std::shared_ptr<const Constraints> constraints, const Field& phi);
+  [[nodiscard]] Status check_textures(const SpeedFunction& speed, const Constraints* constraints) const;
+};
+
+}  // namespace tidemark::solver
