@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
+#include <string_view>
 
 #include "core/checked.h"
 #include "imaging/guard/pixel_layout.h"
@@ -16,10 +17,10 @@ constexpr std::size_t kHeaderSize = 348;
 constexpr std::int32_t kNifti2HeaderSize = 540;
 constexpr std::int64_t kFirstVoxel = 352;
 
-// The header's numbers, in either byte order.
+// The numbers of a header that outlives it, in either byte order.
 class Fields {
  public:
-  explicit Fields(std::string bytes) : bytes_(std::move(bytes)) {
+  explicit Fields(std::string_view bytes) : bytes_(bytes) {
     const auto size = read<std::int32_t>(0);
     swapped_ = size != static_cast<std::int32_t>(kHeaderSize) && size != kNifti2HeaderSize;
   }
@@ -37,10 +38,10 @@ class Fields {
   }
   [[nodiscard]] std::int32_t size_field() const { return read<std::int32_t>(0); }
   [[nodiscard]] bool swapped() const { return swapped_; }
-  [[nodiscard]] std::string magic() const { return bytes_.substr(344, 3); }
+  [[nodiscard]] std::string_view magic() const { return bytes_.substr(344, 3); }
 
  private:
-  std::string bytes_;
+  std::string_view bytes_;
   bool swapped_ = false;
 };
 
@@ -195,7 +196,7 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
     return fail(ErrorKind::input, "{}: not a NIfTI file: {} bytes are too few for its header", name,
                 start->size());
   }
-  const Fields header(std::move(*start));
+  const Fields header(*start);
   if (header.size_field() == kNifti2HeaderSize) {
     return fail(ErrorKind::input, "{}: sizeof_hdr is 540: NIfTI-2 is not supported", name);
   }
