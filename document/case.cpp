@@ -45,11 +45,17 @@ Result<Acceptance> Case::accept_surface(std::uint8_t label, Take take) {
   return labels_.accept((*phi)->mask(), label, take);
 }
 
-Status Case::begin_from_label(std::uint8_t label) {
+Status Case::begin_from_label(std::uint8_t label, std::optional<double> within_mm) {
   const Label* known = labels_.find(label);
   if (known == nullptr) return fail(ErrorKind::usage, "there is no label {}", label);
+  MaskStart from{std::make_shared<const Mask>(labels_.mask(label)), "label " + known->name};
+  if (within_mm) {
+    auto refined = limited(std::move(from), *within_mm);
+    if (!refined) return pass_on(refined);
+    from = std::move(*refined);
+  }
   Start start;
-  start.from = MaskStart{std::make_shared<const Mask>(labels_.mask(label)), "label " + known->name};
+  start.from = std::move(from);
   return level_set_->begin(start);
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <future>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -42,7 +43,8 @@ class Case {
 
   // Changes of labels; each is one entry of the history.
   Result<Acceptance> accept_surface(std::uint8_t label, Take take);
-  Status begin_from_label(std::uint8_t label);
+  // With `within_mm` the label is refined: the surface stays that near to it.
+  Status begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt);
 
   // One step back or forward in the history of everything.
   Status undo() { return history_.undo(); }

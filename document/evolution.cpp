@@ -47,7 +47,7 @@ Result<Evolution> evolve(const Recipe& recipe, std::shared_ptr<const Volume> vol
   if (recipe.drive != nullptr) {
     TIDEMARK_TRY(setup->set_drive(recipe.drive, progress));
   }
-  auto start = setup->begin(recipe, progress);
+  auto start = setup->begin(recipe.start, progress);
   if (!start) return pass_on(start);
   Evolution result;
   result.start = std::move(*start);

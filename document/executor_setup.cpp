@@ -118,15 +118,12 @@ Status ExecutorSetup::set_drive(std::shared_ptr<const Drive> drive,
     if (!fitting) return pass_on(fitting);
     speed = std::move(*fitting);
   }
-  auto constraints = drive == nullptr ? nullptr : drive->constraints;
   if (speed != former) {
     TIDEMARK_TRY(executor_->set_speed(std::move(speed)));
   }
-  if (constraints != executor_->constraints()) {
-    if (const Status held = executor_->set_constraints(std::move(constraints)); !held) {
-      TIDEMARK_TRY(executor_->set_speed(former));
-      return held;
-    }
+  if (const Status held = hold(drive == nullptr ? nullptr : drive->constraints, limit_); !held) {
+    TIDEMARK_TRY(executor_->set_speed(former));
+    return held;
   }
   drive_ = std::move(drive);
   return {};
@@ -140,6 +137,20 @@ Status ExecutorSetup::make_missing_speed(const Progress& progress) {
   return lacks_speed() ? set_drive(drive_, progress) : Status();
 }
 
+Status ExecutorSetup::set_limit(std::shared_ptr<const solver::MotionLimit> limit) {
+  TIDEMARK_TRY(hold(drive_ == nullptr ? nullptr : drive_->constraints, limit));
+  limit_ = std::move(limit);
+  return {};
+}
+
+// The executor gets nothing that it has: phi would count as edited.
+Status ExecutorSetup::hold(std::shared_ptr<const solver::Constraints> marks,
+                           std::shared_ptr<const solver::MotionLimit> limit) {
+  const auto former = drive_ == nullptr ? nullptr : drive_->constraints;
+  if (marks == former && limit == limit_) return {};
+  return executor_->set_constraints(joined(std::move(marks), limit.get()));
+}
+
 // Other functions than tents do not depend on T and epsilon.
 Status ExecutorSetup::set_parameters(const solver::Parameters& parameters) {
   if (drive_ == nullptr || !uses_tent(*drive_) || executor_->speed() == nullptr) {
@@ -151,8 +162,16 @@ Status ExecutorSetup::set_parameters(const solver::Parameters& parameters) {
   return executor_->set_speed(std::move(*speed));
 }
 
-Result<solver::Field> ExecutorSetup::begin(const Recipe& recipe, const Progress& progress) {
-  if (!recipe.start.empty()) return tidemark::document::begin(*executor_, *source_, recipe.start, progress);
+Result<solver::Field> ExecutorSetup::begin(const Start& start, const Progress& progress) {
+  const auto former = limit_;
+  TIDEMARK_TRY(set_limit(start.limit()));
+  if (!start.empty()) {
+    auto begun = tidemark::document::begin(*executor_, *source_, start, progress);
+    if (!begun) {
+      TIDEMARK_TRY(set_limit(former));
+    }
+    return begun;
+  }
   solver::Field nothing = solver::Field::empty(source_->geometry, executor_->band());
   TIDEMARK_TRY(executor_->restore(nothing));
   return nothing;

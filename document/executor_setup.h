@@ -50,9 +50,11 @@ class ExecutorSetup {
   Status change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options,
                          const solver::Field& phi);
 
-  // The recipe's start with the present parameters and source; an empty start is outside everywhere. Returns
-  // phi at the start.
-  Result<solver::Field> begin(const Recipe& recipe, const Progress& progress);
+  // A start with the present parameters and source, and with its limit; an empty one is outside everywhere.
+  // Returns phi at the start.
+  Result<solver::Field> begin(const Start& start, const Progress& progress);
+  // What a start that was refined lays down for the surface, beside walls and anchors; null: nothing.
+  Status set_limit(std::shared_ptr<const solver::MotionLimit> limit);
   // Puts back the executor's own phi: see ResumeEvent.
   Status resume();
 
@@ -66,6 +68,8 @@ class ExecutorSetup {
 
  private:
   ExecutorSetup() = default;
+  Status hold(std::shared_ptr<const solver::Constraints> marks,
+              std::shared_ptr<const solver::MotionLimit> limit);
   Status remake(std::shared_ptr<const Volume> source, solver::ExecutorKind kind,
                 const solver::ExecutorOptions& options, const solver::Field& phi,
                 std::shared_ptr<const solver::SpeedFunction> speed);
@@ -73,7 +77,8 @@ class ExecutorSetup {
   std::shared_ptr<const Volume> volume_;
   std::shared_ptr<const Volume> source_;
   double smoothed_mm_ = 0.0;
-  std::shared_ptr<const Drive> drive_;  // null: the tent, and nothing that holds the surface
+  std::shared_ptr<const Drive> drive_;                // null: the tent, and nothing that holds the surface
+  std::shared_ptr<const solver::MotionLimit> limit_;  // null: none
   solver::ExecutorKind kind_ = solver::ExecutorKind::automatic;
   solver::ExecutorOptions options_;
   std::unique_ptr<solver::Executor> executor_;

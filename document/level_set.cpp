@@ -160,7 +160,7 @@ Result<std::shared_ptr<const solver::Field>> LevelSet::checkpoint() {
 
 Status LevelSet::begin(const Start& start, const Progress& progress) {
   TIDEMARK_TRY(history_.close());
-  auto phi = tidemark::document::begin(executor(), *source(), start, progress);
+  auto phi = setup_.begin(start, progress);
   if (!phi) {
     TIDEMARK_TRY(go_to(known_));
     return pass_on(phi);
@@ -241,6 +241,7 @@ Status LevelSet::hand_over(const Point& point) {
   if (!(wanted == parameters())) {
     TIDEMARK_TRY(setup_.set_parameters(wanted));
   }
+  TIDEMARK_TRY(setup_.set_limit(point.recipe.start.limit()));
   TIDEMARK_TRY(drive_as(point.recipe));
   return executor().restore(*point.phi);
 }
@@ -279,7 +280,7 @@ Status LevelSet::prepare_start() {
   TIDEMARK_TRY(setup_.set_parameters(recipe_.parameters));
   TIDEMARK_TRY(setup_.set_drive(recipe_.drive));
   if (start_ == nullptr) {
-    TIDEMARK_TRY(setup_.begin(recipe_, {}));
+    TIDEMARK_TRY(setup_.begin(recipe_.start, {}));
     return setup_.play(recipe_.up_to(0), 0, 0, 0, {});
   }
   TIDEMARK_TRY(executor().restore(*start_));

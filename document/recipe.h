@@ -67,7 +67,8 @@ struct RecipeExecutor {
 
 struct Recipe {
   static constexpr int kVersion = 2;
-  static constexpr int kVersionOfTents = 1;  // still written where nothing but a tent drives the surface
+  static constexpr int kVersionOfTents =
+      1;  // still written where a tent drives the surface, and nothing holds it
   static constexpr std::size_t kLargestFile = std::size_t{64} << 20;  // bytes
 
   RecipeSource source;

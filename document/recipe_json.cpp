@@ -20,6 +20,7 @@ constexpr std::int64_t kMostSteps = 1'000'000'000;
 constexpr std::size_t kMostEvents = 1'000'000;
 constexpr std::size_t kMostSpheres = 100'000;
 constexpr double kFarthest_mm = 1e7;
+constexpr double kLargestLimit = 1e5;  // mm
 constexpr const char* kFormat = "tidemark recipe";
 
 Json vector_json(const glm::dvec3& v) {
@@ -124,10 +125,12 @@ struct FromJson {
     return {{"kind", "flood"}, {"voxel", index_json(start.voxel)}, {"low", start.low}, {"high", start.high}};
   }
   Json operator()(const MaskStart& start) const {
-    return {{"kind", "mask"},
-            {"origin", start.origin},
-            {"grid", tidemark::document::to_json(start.mask->geometry)},
-            {"bits", pack_bits(start.mask->voxels)}};
+    Json json{{"kind", "mask"},
+              {"origin", start.origin},
+              {"grid", tidemark::document::to_json(start.mask->geometry)},
+              {"bits", pack_bits(start.mask->voxels)}};
+    if (start.limit != nullptr) json["within_mm"] = start.limit->within_mm();
+    return json;
   }
   Json operator()(const FieldStart& start) const {
     Json json = to_json(*start.phi);
@@ -136,6 +139,14 @@ struct FromJson {
     return json;
   }
 };
+
+MaskStart read_mask_start(const JsonField& field) {
+  MaskStart start{read_mask(field), field.at("origin").text()};
+  if (!field.has("within_mm")) return start;
+  const double within_mm = field.at("within_mm").number(std::numeric_limits<double>::min(), kLargestLimit);
+  if (field.good()) start.limit = std::make_shared<const solver::MotionLimit>(*start.mask, within_mm);
+  return start;
+}
 
 Start read_start(const JsonField& field) {
   Start start;
@@ -159,7 +170,7 @@ Start read_start(const JsonField& field) {
       break;
     }
     case 3:
-      start.from = MaskStart{read_mask(from), from.at("origin").text()};
+      start.from = read_mask_start(from);
       break;
     case 4:
       start.from = FieldStart{read_field(from), from.at("origin").text()};
@@ -302,8 +313,9 @@ imaging::GridPolicy read_policy(const JsonField& field) {
 }
 
 Json to_json(const Recipe& recipe) {
-  Json json{{"format", kFormat},
-            {"version", recipe.has_drive() ? Recipe::kVersion : Recipe::kVersionOfTents}};
+  Json json{
+      {"format", kFormat},
+      {"version", recipe.has_drive() || recipe.start.limit() ? Recipe::kVersion : Recipe::kVersionOfTents}};
   json["source"] = {{"size", index_json(recipe.source.size)},
                     {"spacing_mm", vector_json(recipe.source.spacing_mm)},
                     {"series_uid", recipe.source.series_uid},

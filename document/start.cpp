@@ -1,6 +1,7 @@
 #include "document/start.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "imaging/filters/filters.h"
@@ -27,7 +28,11 @@ struct Describe {
   std::string operator()(const FloodStart& start) const {
     return fmt::format("flood fill, values {} to {}", start.low, start.high);
   }
-  std::string operator()(const MaskStart& start) const { return describe_origin("mask", start.origin); }
+  std::string operator()(const MaskStart& start) const {
+    std::string text = describe_origin("mask", start.origin);
+    if (start.limit != nullptr) text += fmt::format(", within {} mm", start.limit->within_mm());
+    return text;
+  }
   std::string operator()(const FieldStart& start) const { return describe_origin("phi", start.origin); }
 };
 
@@ -114,6 +119,26 @@ Result<solver::Field> begin_unguarded(solver::Executor& executor, const Volume& 
 }
 
 }  // namespace
+
+Result<MaskStart> limited(MaskStart start, double within_mm) {
+  if (!std::isfinite(within_mm) || within_mm <= 0.0) {
+    return fail(ErrorKind::usage, "a surface cannot stay within {} mm of a mask", within_mm);
+  }
+  start.limit = std::make_shared<const solver::MotionLimit>(*start.mask, within_mm);
+  return start;
+}
+
+std::shared_ptr<const solver::MotionLimit> Start::limit() const {
+  const auto* mask = std::get_if<MaskStart>(&from);
+  return mask == nullptr ? nullptr : mask->limit;
+}
+
+std::shared_ptr<const solver::Constraints> joined(std::shared_ptr<const solver::Constraints> marks,
+                                                  const solver::MotionLimit* limit) {
+  if (limit == nullptr) return marks;
+  if (marks == nullptr) return limit->constraints();
+  return std::make_shared<const solver::Constraints>(marks->over(*limit->constraints()));
+}
 
 std::string Start::describe() const {
   std::string text = std::visit(Describe{}, from);

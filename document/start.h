@@ -8,6 +8,7 @@
 
 #include "core/progress.h"
 #include "solver/executor.h"
+#include "solver/speed/motion_limit.h"
 
 namespace tidemark::document {
 
@@ -26,11 +27,15 @@ struct FloodStart {
   bool operator==(const FloodStart&) const = default;
 };
 
-// A mask with the name of where it comes from ("truth.nii.gz", "label Liver").
+// A mask with the name of where it comes from ("truth.nii.gz", "label Liver"). With a limit the surface never
+// leaves its neighbourhood: the mask is refined.
 struct MaskStart {
   std::shared_ptr<const Mask> mask;
   std::string origin;
+  std::shared_ptr<const solver::MotionLimit> limit = nullptr;  // around the mask; null: none
 };
+// The same with a limit. Fails (ErrorKind::usage) unless that is above 0 mm.
+Result<MaskStart> limited(MaskStart start, double within_mm);
 
 // A level set that was saved.
 struct FieldStart {
@@ -45,9 +50,15 @@ struct Start {
   std::vector<solver::Sphere> erasers;
 
   [[nodiscard]] bool empty() const { return std::holds_alternative<std::monostate>(from) && seeds.empty(); }
+  // Of a mask that is refined; null: none.
+  [[nodiscard]] std::shared_ptr<const solver::MotionLimit> limit() const;
   // One line for people: "2 seeds, 1 eraser", "mask truth.nii.gz, 1 seed".
   [[nodiscard]] std::string describe() const;
 };
+
+// What holds the surface: walls and anchors over the limit; null: nothing.
+[[nodiscard]] std::shared_ptr<const solver::Constraints> joined(
+    std::shared_ptr<const solver::Constraints> marks, const solver::MotionLimit* limit);
 
 // Gives the executor its start in place of its phi. `source` is the volume as the solver sees it.
 // Fails with ErrorKind::usage when a part is outside the volume or nothing is inside; phi is then as before.

@@ -129,31 +129,10 @@ Status add_mask(solver::Constraints& constraints, const std::optional<std::strin
   return {};
 }
 
-// Walls farther outside of the mask than so much, anchors deeper inside.
-void hold_near(solver::Constraints& constraints, const Mask& mask, double within_mm) {
-  const glm::dvec3 spacing = mask.geometry.spacing_mm;
-  const double within = within_mm / std::min({spacing.x, spacing.y, spacing.z});
-  const solver::Field distance = solver::distance_transform(mask, std::max(within + 1.0, 2.0));
-  Mask far{mask.geometry, std::vector<std::uint8_t>(mask.voxels.size())};
-  Mask deep = far;
-  const std::vector<float> values = distance.dense();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    far.voxels[i] = static_cast<double>(values[i]) < -within ? 1 : 0;
-    deep.voxels[i] = static_cast<double>(values[i]) > within ? 1 : 0;
-  }
-  constraints.set(far, solver::Constraint::wall);
-  constraints.set(deep, solver::Constraint::anchor);
-}
-
 Result<std::shared_ptr<const solver::Constraints>> read_constraints(const DriveOptions& options,
-                                                                    const Geometry& grid,
-                                                                    const document::Start& start,
-                                                                    Console& console) {
-  if (!options.walls && !options.anchors && !options.within_mm) return nullptr;
+                                                                    const Geometry& grid, Console& console) {
+  if (!options.walls && !options.anchors) return nullptr;
   auto constraints = std::make_shared<solver::Constraints>(grid.size);
-  if (options.within_mm) {
-    hold_near(*constraints, *std::get<document::MaskStart>(start.from).mask, *options.within_mm);
-  }
   TIDEMARK_TRY(add_mask(*constraints, options.anchors, solver::Constraint::anchor, grid, console));
   TIDEMARK_TRY(add_mask(*constraints, options.walls, solver::Constraint::wall, grid, console));
   return constraints;
@@ -251,7 +230,7 @@ std::vector<std::string> inputs_of(const DriveOptions& options) {
 }
 
 Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& options, const Geometry& grid,
-                                                          const document::Start& start, Console& console) {
+                                                          Console& console) {
   document::Drive drive;
   auto setting = setting_of(options);
   if (!setting) return pass_on(setting);
@@ -273,7 +252,7 @@ Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& op
     if (!strokes) return pass_on(strokes);
     drive.strokes = std::move(*strokes);
   }
-  auto constraints = read_constraints(options, grid, start, console);
+  auto constraints = read_constraints(options, grid, console);
   if (!constraints) return pass_on(constraints);
   drive.constraints = std::move(*constraints);
   if (is_plain(drive)) return nullptr;

@@ -39,6 +39,6 @@ Status check(const DriveOptions& options, bool starts_from_mask);
 // The drive with its files read; null: nothing but the tent. Fails (ErrorKind::input, ErrorKind::usage)
 // naming the file.
 Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& options, const Geometry& grid,
-                                                          const document::Start& start, Console& console);
+                                                          Console& console);
 
 }  // namespace tidemark::cli

@@ -123,7 +123,7 @@ Result<renderer::Picture> draw(renderer::Renderer& renderer, const RenderOptions
 Status show_drive(renderer::Renderer& renderer, const DriveOptions& options,
                   const std::shared_ptr<const Volume>& source, const solver::Parameters& parameters,
                   const solver::Field& phi, Console& console) {
-  const auto drive = make_drive(options, source->geometry, {}, console);
+  const auto drive = make_drive(options, source->geometry, console);
   if (!drive) return tl::unexpected<Error>(drive.error());
   if (*drive == nullptr) return {};
   auto speed = document::make_speed(**drive, source, parameters, console.progress());

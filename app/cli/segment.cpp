@@ -212,7 +212,13 @@ Status Segmentation::make_recipe() {
   auto start = make_start(options_.start, grid, static_cast<float>(band), console_);  // as executors round it
   if (!start) return pass_on(start);
   recipe.start = std::move(*start);
-  auto drive = make_drive(options_.drive, grid, recipe.start, console_);
+  if (options_.drive.within_mm) {
+    auto refined =
+        limited(std::get<document::MaskStart>(std::move(recipe.start.from)), *options_.drive.within_mm);
+    if (!refined) return pass_on(refined);
+    recipe.start.from = std::move(*refined);
+  }
+  auto drive = make_drive(options_.drive, grid, console_);
   if (!drive) return pass_on(drive);
   recipe.drive = std::move(*drive);
   return {};

@@ -91,16 +91,16 @@ Status PageEdits::constrain() {
   const Constraints* constraints = contents_.constraints.get();
   if (constraints == nullptr || constraints->empty()) return {};
   const PageTable& table = pages_.table();
-  const auto wants = [](const Constraints::Page& page, Constraint what) {
-    return std::find(page.begin(), page.end(), what) != page.end();
+  // A page that is not resident is constant.
+  const auto moves = [](const Constraints::Page& page, PhysicalPage constant) {
+    return std::any_of(page.begin(), page.end(), constant == kInsidePage ? is_upper : is_lower);
   };
   std::vector<std::int64_t> to_allocate;
   for (std::int64_t page = 0; page < table.layout().page_count(); ++page) {
     const Constraints::Page* there = constraints->page(page);
     const PhysicalPage physical = table.physical(page);
     if (there == nullptr || !is_static_page(physical)) continue;
-    if (wants(*there, physical == kInsidePage ? Constraint::wall : Constraint::anchor))
-      to_allocate.push_back(page);
+    if (moves(*there, physical)) to_allocate.push_back(page);
   }
   TIDEMARK_TRY(pages_.check_budget(static_cast<std::int64_t>(to_allocate.size())));
   for (const std::int64_t page : to_allocate) {

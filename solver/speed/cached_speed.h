@@ -53,6 +53,11 @@ class CachedSpeed final : public SpeedFunction {
   }
   [[nodiscard]] double fastest_advection() const override { return function_->fastest_advection(); }
 
+  [[nodiscard]] bool has_doubt() const override { return function_->has_doubt(); }
+  void evaluate_doubt(const VoxelBox& box, double* doubt) const override {
+    function_->evaluate_doubt(box, doubt);
+  }
+
   // The function that follows has a cache of its own, with what is there of pages that are as before.
   [[nodiscard]] bool follows_surface() const override { return function_->follows_surface(); }
   [[nodiscard]] std::shared_ptr<const SpeedFunction> following(const Field& phi) const override;

@@ -48,6 +48,22 @@ double CombinedSpeed::fastest_advection() const {
   return sum;
 }
 
+bool CombinedSpeed::has_doubt() const {
+  return std::any_of(functions_.begin(), functions_.end(), [](const auto& f) { return f->has_doubt(); });
+}
+
+void CombinedSpeed::evaluate_doubt(const VoxelBox& box, double* doubt) const {
+  const auto count = static_cast<std::size_t>(box.voxels());
+  std::fill_n(doubt, count, 0.0);
+  std::vector<double> one(count);
+  for (const auto& function : functions_) {
+    if (!function->has_doubt()) continue;
+    function->evaluate_doubt(box, one.data());
+    std::transform(doubt, doubt + count, one.data(), doubt,
+                   [](double a, double b) { return std::max(a, b); });
+  }
+}
+
 bool CombinedSpeed::follows_surface() const {
   return std::any_of(functions_.begin(), functions_.end(),
                      [](const auto& f) { return f->follows_surface(); });

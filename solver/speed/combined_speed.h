@@ -10,7 +10,8 @@
 
 namespace tidemark::solver {
 
-// D is the least of theirs or their product (Combine); v is the sum of theirs.
+// D is the least of theirs or their product (Combine); v is the sum of theirs. The doubt is that of the
+// function that is least sure.
 class CombinedSpeed final : public SpeedFunction {
  public:
   // At least one function, with D in [-1, 1].
@@ -21,6 +22,9 @@ class CombinedSpeed final : public SpeedFunction {
   [[nodiscard]] bool advects() const override;
   void evaluate_advection(const VoxelBox& box, glm::vec3* velocity) const override;
   [[nodiscard]] double fastest_advection() const override;
+
+  [[nodiscard]] bool has_doubt() const override;
+  void evaluate_doubt(const VoxelBox& box, double* doubt) const override;
 
   // Those that follow the surface follow it; the others stay, with what they have cached.
   [[nodiscard]] bool follows_surface() const override;

@@ -1,11 +1,35 @@
 #include "solver/speed/constraints.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
 namespace tidemark::solver {
+
+namespace {
+
+Constraint limit(int first, double steps) {
+  constexpr double kMost = 2.0 * static_cast<double>(kLimitReach) * kLimitSteps;
+  return static_cast<Constraint>(first + static_cast<int>(std::clamp(steps, 0.0, kMost)));
+}
+
+double steps_from_lowest(double phi) {
+  return (phi + static_cast<double>(kLimitReach)) * kLimitSteps;
+}
+
+}  // namespace
+
+Constraint at_most(double phi) {
+  if (phi >= static_cast<double>(kLimitReach)) return Constraint::none;
+  return limit(kFirstAtMost, std::floor(steps_from_lowest(phi)));
+}
+
+Constraint at_least(double phi) {
+  if (phi <= -static_cast<double>(kLimitReach)) return Constraint::none;
+  return limit(kFirstAtLeast, std::ceil(steps_from_lowest(phi)));
+}
 
 Constraints::Constraints(Index3 grid_size)
     : layout_(grid_size, kDefaultPageShape), pages_(static_cast<std::size_t>(layout_.page_count())) {}
@@ -24,13 +48,36 @@ std::int64_t Constraints::count(Constraint what) const {
   return sum;
 }
 
-void Constraints::replace(std::int64_t virtual_page, const Page& page) {
+void Constraints::set_page(std::int64_t virtual_page, std::shared_ptr<const Page> page) {
   std::shared_ptr<const Page>& held = pages_[static_cast<std::size_t>(virtual_page)];
   if (held != nullptr) --constrained_pages_;
-  held.reset();
-  if (std::all_of(page.begin(), page.end(), [](Constraint c) { return c == Constraint::none; })) return;
-  held = std::make_shared<const Page>(page);
-  ++constrained_pages_;
+  held = std::move(page);
+  if (held != nullptr) ++constrained_pages_;
+}
+
+void Constraints::replace(std::int64_t virtual_page, const Page& page) {
+  const bool is_free =
+      std::all_of(page.begin(), page.end(), [](Constraint c) { return c == Constraint::none; });
+  set_page(virtual_page, is_free ? nullptr : std::make_shared<const Page>(page));
+}
+
+Constraints Constraints::over(const Constraints& other) const {
+  Constraints joined = other;
+  for (std::int64_t number = 0; number < layout_.page_count(); ++number) {
+    const std::shared_ptr<const Page>& own = pages_[static_cast<std::size_t>(number)];
+    const Page* below = other.page(number);
+    if (own == nullptr) continue;
+    if (below == nullptr) {
+      joined.set_page(number, own);
+      continue;
+    }
+    Page page = *own;
+    for (std::size_t i = 0; i < page.size(); ++i) {
+      if (page[i] == Constraint::none) page[i] = (*below)[i];
+    }
+    joined.replace(number, page);
+  }
+  return joined;
 }
 
 void Constraints::set(const std::function<bool(Index3)>& chosen, Index3 first, Index3 last, Constraint what) {
@@ -88,7 +135,7 @@ void constrain(Field& phi, const Constraints& constraints) {
     const VirtualAddress address = phi.layout.translate(voxel);
     std::int32_t& entry = phi.table[static_cast<std::size_t>(address.page)];
     if (entry < 0) {
-      if (entry == (what == Constraint::wall ? Field::kOutside : Field::kInside)) return;
+      if (entry == (is_upper(what) ? Field::kOutside : Field::kInside)) return;
       const float constant = entry == Field::kInside ? band : -band;
       entry = static_cast<std::int32_t>(phi.resident_pages());
       phi.pages.insert(phi.pages.end(), static_cast<std::size_t>(phi.layout.voxels_per_page()), constant);

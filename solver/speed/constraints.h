@@ -15,17 +15,46 @@
 
 namespace tidemark::solver {
 
+// Beyond these three, a value is a limit of phi in steps: see at_most() and at_least().
 enum class Constraint : std::uint8_t { none = 0, wall = 1, anchor = 2 };
 
 // phi <= -kConstraintDepth in a wall and phi >= kConstraintDepth in an anchor, in units of the smallest
 // spacing: the surface runs beside the voxel and not through it.
 inline constexpr float kConstraintDepth = 0.5F;
+
+// Limits that leave the surface a place between voxels, as resources/shaders/solver/speed/constraints.glsl
+// has them, too: multiples of 1 / kLimitSteps from -kLimitReach to kLimitReach, which every band holds.
+inline constexpr int kLimitSteps = 32;
+inline constexpr float kLimitReach = 1.5F;
+inline constexpr int kFirstAtMost = 3;
+inline constexpr int kFirstAtLeast = 100;
+static_assert(kFirstAtMost + 2 * static_cast<int>(kLimitReach * kLimitSteps) < kFirstAtLeast);
+// phi is at most, or at least, that much, rounded to the side of the limit; none: beyond what phi may be.
+[[nodiscard]] Constraint at_most(double phi);
+[[nodiscard]] Constraint at_least(double phi);
+
+// Whether phi has an upper or a lower limit.
+[[nodiscard]] constexpr bool is_upper(Constraint constraint) {
+  const int code = static_cast<int>(constraint);
+  return constraint == Constraint::wall || (code >= kFirstAtMost && code < kFirstAtLeast);
+}
+[[nodiscard]] constexpr bool is_lower(Constraint constraint) {
+  return constraint == Constraint::anchor || static_cast<int>(constraint) >= kFirstAtLeast;
+}
+// Of a constraint that is not none.
+[[nodiscard]] constexpr float limit_of(Constraint constraint) {
+  if (constraint == Constraint::wall) return -kConstraintDepth;
+  if (constraint == Constraint::anchor) return kConstraintDepth;
+  const int code = static_cast<int>(constraint);
+  const int step = code - (code < kFirstAtLeast ? kFirstAtMost : kFirstAtLeast);
+  return static_cast<float>(step) / kLimitSteps - kLimitReach;
+}
 // phi of a voxel, taken to its limit.
 template <class Real>
 [[nodiscard]] Real limited(Constraint constraint, Real phi) {
-  if (constraint == Constraint::wall) return std::min(phi, -static_cast<Real>(kConstraintDepth));
-  if (constraint == Constraint::anchor) return std::max(phi, static_cast<Real>(kConstraintDepth));
-  return phi;
+  if (constraint == Constraint::none) return phi;
+  const Real limit = static_cast<Real>(limit_of(constraint));
+  return is_upper(constraint) ? std::min(phi, limit) : std::max(phi, limit);
 }
 
 // Kept by pages of 8^3 voxels: memory follows what is constrained, not the volume.
@@ -51,6 +80,10 @@ class Constraints {
   // Constraint::none they are free again.
   void set(const Mask& mask, Constraint what);
   void set(const Geometry& geometry, const Sphere& sphere, Constraint what);
+  // Null: the page has none.
+  void set_page(std::int64_t virtual_page, std::shared_ptr<const Page> page);
+  // With those of `other`, on the same grid, where this has none.
+  [[nodiscard]] Constraints over(const Constraints& other) const;
 
   bool operator==(const Constraints& other) const;
 

@@ -49,6 +49,11 @@ class SpeedFunction {
   virtual void evaluate_advection(const VoxelBox& /*box*/, glm::vec3* /*velocity*/) const {}
   [[nodiscard]] virtual double fastest_advection() const { return 0.0; }
 
+  // Whether D comes from a probability p that was learned. Its doubt is the entropy of p in bits, 0 to 1.
+  [[nodiscard]] virtual bool has_doubt() const { return false; }
+  // Writes the doubt of the box's voxels.
+  virtual void evaluate_doubt(const VoxelBox& /*box*/, double* /*doubt*/) const {}
+
   // Whether D depends on the surface. An executor then asks for the function that belongs to its phi before
   // its first step and at the end of each window of kConvergenceWindow steps.
   [[nodiscard]] virtual bool follows_surface() const { return false; }

@@ -45,8 +45,7 @@ struct PaintJob {
   [[nodiscard]] float limited(float value, Index3 voxel) const {
     if (constraints == nullptr || voxel.x >= geometry.size.x || voxel.y >= geometry.size.y) return value;
     const Constraint what = constraints->at(voxel);
-    if (brush == Brush::add) return what == Constraint::wall ? std::min(value, -kConstraintDepth) : value;
-    return what == Constraint::anchor ? std::max(value, kConstraintDepth) : value;
+    return (brush == Brush::add ? is_upper(what) : is_lower(what)) ? solver::limited(what, value) : value;
   }
   [[nodiscard]] glm::dvec3 reach() const {
     return (sphere.radius_mm + static_cast<double>(band) * unit) / geometry.spacing_mm;

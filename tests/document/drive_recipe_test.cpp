@@ -5,6 +5,7 @@
 
 #include "document/checksum.h"
 #include "document/evolution.h"
+#include "solver/distance_transform.h"
 #include "tests/document/recipes.h"
 #include "tests/support/test_program.h"
 
@@ -104,6 +105,71 @@ class DriveRecipeTest : public QObject {
     std::erase_if(without.events,
                   [](const auto& e) { return std::holds_alternative<document::DriveEvent>(e.what); });
     QVERIFY(replayed(without, volume) != phi);
+  }
+
+  void a_refined_mask_stays_near_replays_and_is_undone_data() { add_executors(); }
+  void a_refined_mask_stays_near_replays_and_is_undone() {
+    const auto document = begun_case(this_executor());
+    document::LevelSet& level_set = document->level_set();
+    const auto volume = document->volume();
+    run(level_set, 5);
+    const std::vector<float> before = values_of(level_set);
+    const auto mask = std::make_shared<const Mask>(level_set.checkpoint().value()->mask());
+    constexpr double kWithin = 1.5;
+    document::Start start;
+    start.from = document::limited({mask, "mask.nrrd"}, kWithin).value();
+    QCOMPARE(failure(level_set.begin(start)), QString());
+    QVERIFY(level_set.executor().constraints());
+    run(level_set, 40);
+    // Walls are held beside the limit, and take nothing of it away.
+    drive(level_set, with_ball(level_set.drive(), *volume, {9, 0, 0}, solver::Constraint::wall));
+    run(level_set, 40);
+    const std::vector<float> phi = values_of(level_set);
+    const solver::Field distance = solver::distance_transform(*mask, 6.0);
+    const std::vector<float> far = distance.dense();
+    std::int64_t outside = 0;
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      if (phi[i] > 0.0F) QVERIFY(static_cast<double>(far[i]) > -kWithin);
+      if (phi[i] <= 0.0F && far[i] > 0.0F) QVERIFY(static_cast<double>(far[i]) < kWithin + 3.0);
+      if (phi[i] > 0.0F && far[i] < 0.0F) ++outside;
+    }
+    QVERIFY(outside > 50);
+    const document::Recipe recipe = again(level_set.recipe());
+    QVERIFY(recipe.start.limit());
+    QCOMPARE(recipe.start.limit()->within_mm(), kWithin);
+    QVERIFY(replayed(recipe, volume) == phi);
+    document::Recipe free = recipe;
+    std::get<document::MaskStart>(free.start.from).limit = nullptr;
+    QVERIFY(replayed(free, volume) != phi);
+
+    while (level_set.recipe().start.limit()) QCOMPARE(failure(document->undo()), QString());
+    QVERIFY(!level_set.executor().constraints());
+    QVERIFY(values_of(level_set) == before);
+    while (document->history().redo_description()) QCOMPARE(failure(document->redo()), QString());
+    QVERIFY(values_of(level_set) == phi);
+    QVERIFY(level_set.executor().constraints());
+    // Another start takes the limit away, but not the wall.
+    start.from = document::MaskStart{mask, "mask.nrrd"};
+    QCOMPARE(failure(level_set.begin(start)), QString());
+    QVERIFY(level_set.executor().constraints() == level_set.drive().constraints);
+    // As a session does it.
+    const auto opened = begun_case(this_executor());
+    auto kept = std::make_shared<const solver::Field>(solver::Field::from_dense(
+        volume->geometry, phi, level_set.executor().band(), level_set.executor().memory().page_shape));
+    QCOMPARE(failure(opened->level_set().resume_from(recipe, kept)), QString());
+    run(opened->level_set(), 60);
+    const std::vector<float> later = values_of(opened->level_set());
+    for (std::size_t i = 0; i < later.size(); ++i) {
+      if (later[i] > 0.0F) QVERIFY(static_cast<double>(far[i]) > -kWithin);
+    }
+  }
+
+  void a_limit_that_is_none_is_refused() {
+    const auto mask = std::make_shared<const Mask>();
+    for (const double within_mm : {0.0, -1.0, std::nan("")}) {
+      const auto refined = document::limited({mask, {}}, within_mm);
+      QVERIFY(!refined && refined.error().kind == ErrorKind::usage);
+    }
   }
 
   // Means that follow the surface are those of the run, also when a wall comes in the middle of a window.

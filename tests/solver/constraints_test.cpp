@@ -1,6 +1,9 @@
 // Walls and anchors on every executor: at once, in each step, and in every edit.
 #include "solver/speed/constraints.h"
+
 #include "executor_rows.h"
+#include "solver/distance_transform.h"
+#include "solver/speed/motion_limit.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
@@ -45,6 +48,18 @@ std::shared_ptr<const Constraints> constraints_of(const Geometry& geometry, cons
   if (!walls.voxels.empty()) constraints->set(walls, Constraint::wall);
   if (!anchors.voxels.empty()) constraints->set(anchors, Constraint::anchor);
   return constraints;
+}
+
+// Where the surface crosses a row of voxels along x in the middle of the volume.
+double crossing_mm(const Field& phi) {
+  const Index3 size = phi.geometry.size;
+  for (std::int64_t x = 0; x + 1 < size.x; ++x) {
+    const double here = static_cast<double>(phi.at({x, size.y / 2, size.z / 2}));
+    const double next = static_cast<double>(phi.at({x + 1, size.y / 2, size.z / 2}));
+    if (here > 0.0 && next <= 0.0)
+      return (static_cast<double>(x) + here / (here - next)) * phi.geometry.spacing_mm.x;
+  }
+  return -1.0;
 }
 
 // D = 1 or -1 everywhere.
@@ -183,6 +198,31 @@ class ConstraintsTest : public QObject {
     run(*reference, 100);
     QVERIFY(dice(tested->snapshot().value().mask(), reference->snapshot().value().mask()) >= 0.999);
     QCOMPARE(failure(tested->validate()), QString());
+  }
+
+  // Between voxels, on either side, wherever the limit lies in a voxel.
+  void a_refined_mask_moves_as_far_as_it_may_data() { add_all_rows(); }
+  void a_refined_mask_moves_as_far_as_it_may() {
+    const glm::dvec3 spacing(0.7, 0.9, 2.1);
+    const Geometry geometry = grid({44, 20, 12}, spacing);
+    constexpr std::int64_t kLast = 20;  // of the mask, along x
+    const double face_mm = (kLast + 0.5) * spacing.x;
+    const Mask mask = mask_where(geometry, [&](glm::dvec3 p) { return p.x < face_mm; });
+    for (const bool grows : {true, false}) {
+      for (const double within_mm : {0.5, 2.0, 2.3, 3.15, 5.0}) {
+        const MotionLimit limit(mask, within_mm);
+        const auto level_set = this_row().make(uniform_source(geometry, grows), data_alone());
+        QCOMPARE(failure(level_set->set_constraints(limit.constraints())), QString());
+        const Field start = distance_transform(mask, level_set->band(), level_set->memory().page_shape);
+        QCOMPARE(failure(level_set->restore(start)), QString());
+        run(*level_set, 200);
+        const double moved_mm = crossing_mm(level_set->snapshot().value()) - face_mm;
+        const double missing_mm = within_mm - (grows ? moved_mm : -moved_mm);
+        QVERIFY2(missing_mm > -1e-5 && missing_mm < 1.5 * spacing.x / kLimitSteps,
+                 qPrintable(QStringLiteral("%1 of %2 mm").arg(moved_mm).arg(within_mm)));
+        QCOMPARE(failure(level_set->validate()), QString());
+      }
+    }
   }
 
   void those_of_another_grid_are_refused_data() { add_all_rows(); }

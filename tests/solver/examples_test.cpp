@@ -2,6 +2,8 @@
 #include <cmath>
 #include <random>
 
+#include "solver/speed/combined_speed.h"
+#include "solver/speed/doubt_map.h"
 #include "solver/speed/examples/examples_speed.h"
 #include "solver/speed/examples/forest_training.h"
 #include "speed_functions.h"
@@ -89,6 +91,7 @@ class ExamplesTest : public QObject {
   void features_have_the_same_bits_in_every_box();
   void speed_has_the_same_bits_in_every_box_and_every_training();
   void textures_that_no_tent_separates_are_separated();
+  void doubt_is_the_entropy_of_the_forests_own_probability();
   void a_second_image_counts();
   void strokes_of_one_kind_are_refused_data();
   void strokes_of_one_kind_are_refused();
@@ -226,6 +229,57 @@ void ExamplesTest::textures_that_no_tent_separates_are_separated() {
   }
   QVERIFY2(dice(found, truth) >= 0.95, qPrintable(QString::number(dice(found, truth))));
   QVERIFY2(dice(bright, truth) < 0.3, qPrintable(QString::number(dice(bright, truth))));
+}
+
+void ExamplesTest::doubt_is_the_entropy_of_the_forests_own_probability() {
+  const SpeedInputs inputs = inputs_of(two_textures());
+  const auto speed_with = [&](double sharpness, double nearness) {
+    return make_speed(setting_of("examples", {{"sharpness", sharpness}, {"nearness", nearness}}), inputs)
+        .value();
+  };
+  const auto edges = make_speed(setting_of("edges"), inputs).value();
+  const VoxelBox slice{{0, 0, 22}, {kGrid.x, kGrid.y, 1}};
+  const auto doubt_of = [&](const SpeedFunction& speed) {
+    std::vector<double> doubt(static_cast<std::size_t>(slice.voxels()));
+    speed.evaluate_doubt(slice, doubt.data());
+    return doubt;
+  };
+  const auto plain = speed_with(1.0, 0.0);  // D = 2 p - 1
+  QVERIFY(plain->has_doubt());
+  const std::vector<double> doubt = doubt_of(*plain);
+  std::vector<double> speed(doubt.size());
+  plain->evaluate(slice, speed.data());
+  double near = 0.0;
+  std::int64_t near_count = 0;
+  double far = 0.0;
+  for (std::size_t i = 0; i < doubt.size(); ++i) {
+    const double p = 0.5 * (speed[i] + 1.0);
+    // D is rounded, and the entropy is steep where it is sure.
+    QVERIFY(std::abs(doubt[i] - entropy(p)) < 1e-3);
+    QVERIFY(doubt[i] >= 0.0 && doubt[i] <= 1.0);
+    const auto offset = static_cast<std::int64_t>(i);
+    const double border =
+        std::abs(glm::length(glm::dvec3(offset % kGrid.x, offset / kGrid.x, 22) - kCentre) - kRadius);
+    if (border < 2.0) {
+      near += doubt[i];
+      ++near_count;
+    } else {
+      far += doubt[i];
+    }
+  }
+  near /= static_cast<double>(near_count);
+  far /= static_cast<double>(static_cast<std::int64_t>(doubt.size()) - near_count);
+  QVERIFY2(near > 1.5 * far, qPrintable(QStringLiteral("%1 and %2").arg(near).arg(far)));
+  // What sharpness and nearness make of p changes nothing; nor do functions without a doubt.
+  const auto sharp = speed_with(8.0, 3.0);
+  QVERIFY(doubt_of(*sharp) == doubt);
+  const CombinedSpeed joined({edges, sharp}, Combine::least);
+  QVERIFY(joined.has_doubt());
+  QVERIFY(doubt_of(joined) == doubt);
+  QVERIFY(doubt_map(edges) == nullptr);
+  QCOMPARE(entropy(0.5), 1.0);
+  QCOMPARE(entropy(0.0), 0.0);
+  QCOMPARE(entropy(1.0), 0.0);
 }
 
 void ExamplesTest::a_second_image_counts() {

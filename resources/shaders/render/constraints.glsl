@@ -8,7 +8,7 @@ const vec3 kAnchorColour = vec3(0.47, 0.90, 0.51);
 
 vec3 with_constraint(vec3 colour, ivec3 voxel) {
   uint constraint = texelFetch(constraint_volume, voxel, 0).r;
-  if (constraint == 0u) return colour;
+  if (constraint == 0u || constraint > 2u) return colour;
   bool wall = constraint == 1u;
   vec2 pixel = gl_FragCoord.xy;
   vec2 diagonal = mod(vec2(pixel.x - pixel.y, pixel.x + pixel.y), 6.0);

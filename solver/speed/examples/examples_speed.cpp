@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/thread_pool.h"
+#include "solver/speed/doubt_map.h"
 #include "solver/speed/speed_kinds.h"
 
 namespace tidemark::solver {
@@ -179,24 +180,36 @@ Result<std::shared_ptr<const ExamplesSpeed>> ExamplesSpeed::train(
 }
 
 void ExamplesSpeed::evaluate(const VoxelBox& box, double* speed) const {
-  const VoxelBox& known = walker_.grid().box;
-  for_tiles(box, [&, forest = ForestEvaluator(forest_), features = std::vector<float>(),
-                  inside = std::vector<double>()](const VoxelBox& tile) mutable {
-    inside.resize(static_cast<std::size_t>(tile.voxels()));
-    const VoxelBox shared = common(tile, known);
-    if (shared.size != tile.size) {
-      features.resize(static_cast<std::size_t>(tile.voxels() * features_.count()));
-      features_.evaluate(tile, features.data());
-      forest.evaluate(features.data(), features_.count(), tile.voxels(), inside.data());
-    }
-    if (shared.voxels() > 0) {
-      std::vector<double> walked(static_cast<std::size_t>(shared.voxels()));
-      walker_.evaluate(shared, walked.data());
-      copy_box(walked.data(), shared, tile, inside.data());
-    }
-    for (double& value : inside) value = std::clamp(options_.sharpness * (2.0 * value - 1.0), -1.0, 1.0);
-    copy_box(inside.data(), tile, box, speed);
+  probabilities(box, speed);
+  std::transform(speed, speed + box.voxels(), speed, [this](double inside) {
+    return std::clamp(options_.sharpness * (2.0 * inside - 1.0), -1.0, 1.0);
   });
+}
+
+void ExamplesSpeed::evaluate_doubt(const VoxelBox& box, double* doubt) const {
+  probabilities(box, doubt);
+  std::transform(doubt, doubt + box.voxels(), doubt, entropy);
+}
+
+void ExamplesSpeed::probabilities(const VoxelBox& box, double* inside) const {
+  const VoxelBox& known = walker_.grid().box;
+  for_tiles(box,
+            [&, forest = ForestEvaluator(forest_), features = std::vector<float>(),
+             of_tile = std::vector<double>(), walked = std::vector<double>()](const VoxelBox& tile) mutable {
+              of_tile.resize(static_cast<std::size_t>(tile.voxels()));
+              const VoxelBox shared = common(tile, known);
+              if (shared.size != tile.size) {
+                features.resize(static_cast<std::size_t>(tile.voxels() * features_.count()));
+                features_.evaluate(tile, features.data());
+                forest.evaluate(features.data(), features_.count(), tile.voxels(), of_tile.data());
+              }
+              if (shared.voxels() > 0) {
+                walked.resize(static_cast<std::size_t>(shared.voxels()));
+                walker_.evaluate(shared, walked.data());
+                copy_box(walked.data(), shared, tile, of_tile.data());
+              }
+              copy_box(of_tile.data(), tile, box, inside);
+            });
 }
 
 const SpeedKind& examples_kind() {

@@ -33,10 +33,14 @@ class ExamplesSpeed final : public SpeedFunction {
         options_(options) {}
 
   void evaluate(const VoxelBox& box, double* speed) const override;
+  [[nodiscard]] bool has_doubt() const override { return true; }
+  void evaluate_doubt(const VoxelBox& box, double* doubt) const override;
   [[nodiscard]] const Features& features() const { return features_; }
   [[nodiscard]] const Forest& forest() const { return forest_; }
 
  private:
+  void probabilities(const VoxelBox& box, double* inside) const;
+
   Features features_;
   Forest forest_;
   RandomWalker walker_;

@@ -1,0 +1,94 @@
+#include "solver/speed/motion_limit.h"
+
+#include <algorithm>
+
+#include "solver/distance_transform.h"
+
+namespace tidemark::solver {
+namespace {
+
+using Page = Constraints::Page;
+
+// The constraints of a page's voxels by their index; voxels beyond the volume have none.
+template <class At>
+Page page_of(Index3 valid, const At& at) {
+  Page page{};
+  for (std::int64_t i = 0; i < Constraints::kPageVoxels; ++i) {
+    const bool inside = i % 8 < valid.x && i / 8 % 8 < valid.y && i / 64 < valid.z;
+    if (inside) page[static_cast<std::size_t>(i)] = at(i);
+  }
+  return page;
+}
+
+// The limit that the surface may meet in a voxel; where both are near, that on the side of the mask's
+// surface.
+Constraint limit_at(double distance, double within) {
+  const Constraint upper = at_most(distance + within);
+  const Constraint lower = at_least(distance - within);
+  if (upper == Constraint::none || lower == Constraint::none) {
+    return upper == Constraint::none ? lower : upper;
+  }
+  return distance < 0.0 ? upper : lower;
+}
+
+// Voxels that are not resident are farther from the mask's surface than any limit.
+std::shared_ptr<const Constraints> constraints_of(const Field& distance, double within) {
+  auto constraints = std::make_shared<Constraints>(distance.geometry.size);
+  const PageLayout& layout = distance.layout;
+  const auto even = [](Constraint what) {
+    return std::make_shared<const Page>(page_of(kDefaultPageShape, [what](std::int64_t) { return what; }));
+  };
+  const auto far = even(Constraint::wall);
+  const auto deep = even(Constraint::anchor);
+  for (std::int64_t number = 0; number < layout.page_count(); ++number) {
+    const std::int32_t entry = distance.table[static_cast<std::size_t>(number)];
+    const Index3 valid = layout.valid_shape(number);
+    if (entry < 0 && valid == kDefaultPageShape) {
+      constraints->set_page(number, entry == Field::kOutside ? far : deep);
+      continue;
+    }
+    const auto at = [&](std::int64_t i) {
+      if (entry < 0) return entry == Field::kOutside ? Constraint::wall : Constraint::anchor;
+      const float d = distance.pages[static_cast<std::size_t>(entry * layout.voxels_per_page() + i)];
+      return limit_at(static_cast<double>(d), within);
+    };
+    auto page = std::make_shared<const Page>(page_of(valid, at));
+    const bool is_free =
+        std::all_of(page->begin(), page->end(), [](Constraint c) { return c == Constraint::none; });
+    if (!is_free) constraints->set_page(number, std::move(page));
+  }
+  return constraints;
+}
+
+class ChangeMap final : public SpeedFunction {
+ public:
+  ChangeMap(Field distance, double within) : distance_(std::move(distance)), within_(within) {}
+
+  void evaluate(const VoxelBox& box, double* change) const override {
+    for (std::int64_t z = 0; z < box.size.z; ++z) {
+      for (std::int64_t y = 0; y < box.size.y; ++y) {
+        for (std::int64_t x = 0; x < box.size.x; ++x) {
+          const auto distance = static_cast<double>(distance_.at(box.first + Index3(x, y, z)));
+          *change++ = std::clamp(-distance / within_, -1.0, 1.0);
+        }
+      }
+    }
+  }
+
+ private:
+  Field distance_;
+  double within_;  // in units of the smallest spacing
+};
+
+}  // namespace
+
+MotionLimit::MotionLimit(const Mask& mask, double within_mm) : within_mm_(within_mm) {
+  const glm::dvec3& spacing = mask.geometry.spacing_mm;
+  const double within = within_mm / std::min({spacing.x, spacing.y, spacing.z});
+  // Beyond the limit and what is written of it, nothing needs to be known.
+  Field distance = distance_transform(mask, within + 2.0 * static_cast<double>(kLimitReach));
+  constraints_ = constraints_of(distance, within);
+  change_ = std::make_shared<ChangeMap>(std::move(distance), within);
+}
+
+}  // namespace tidemark::solver
