@@ -70,7 +70,7 @@ class Desktop {
     for (int image = 0; image < images; ++image) {
       auto further = std::make_shared<document::CaseImage>();
       further->name = fmt::format("image {}", image + 1);
-      further->volume = further->resampled = std::make_shared<const Volume>(*study_->volume);
+      further->volume = std::make_shared<const Volume>(*study_->volume);
       drive_.images.push_back(std::move(further));
     }
   }

@@ -2,7 +2,7 @@
 #include "document/session_images.h"
 
 #include "document/checksum.h"
-#include "document/replay.h"
+#include "document/evolution.h"
 #include "document/session_file.h"
 #include "imaging/files/volume_file.h"
 #include "tests/document/cases.h"
