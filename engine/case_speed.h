@@ -1,4 +1,4 @@
-// What drives a case's level set, where it takes a while to make: speed functions and the smoothed source.
+// Drives of a case that take a while to make: speed functions and the smoothed source.
 // They are made in the background and handed over; the level set goes on meanwhile with what it has.
 #pragma once
 

@@ -1,4 +1,4 @@
-// How many voxels a second speed functions evaluate.
+// Rates of speed functions, in voxels a second.
 #pragma once
 
 #include "studies.h"

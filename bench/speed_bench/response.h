@@ -1,4 +1,4 @@
-// How soon a desktop answers to a stroke: forest, speed maps, motion, and the thread of its widgets.
+// Response times of a desktop to a stroke: forest, speed maps, motion, and the thread of its widgets.
 #pragma once
 
 #include "engine/engine.h"

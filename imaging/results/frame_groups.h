@@ -1,4 +1,4 @@
-// What functional groups say of a frame (DICOM PS3.3 C.7.6.16). Private to this folder.
+// Functional groups of a frame (DICOM PS3.3 C.7.6.16). Private to this folder.
 #pragma once
 
 #include <dcmtk/config/osconfig.h>

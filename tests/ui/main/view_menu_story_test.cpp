@@ -143,8 +143,7 @@ void ViewMenuStoryTest::a_probe_takes_the_values_that_the_level_set_sees() {
   };
   const double of_noise = probed_range();
   desktop_->proxy().smooth_source(2.0);
-  desktop_->wait_until_idle();
-  QCOMPARE(desktop_->state().smoothed_mm, 2.0);
+  QVERIFY(Desktop::wait_for([&] { return desktop_->state().smoothed_mm == 2.0; }));
   const double smoothed = probed_range();
   QVERIFY2(smoothed < 0.7 * of_noise, qPrintable(QStringLiteral("%1, then %2").arg(of_noise).arg(smoothed)));
 }
