@@ -1,5 +1,6 @@
 // A robot that segments real studies by painting strokes, as a user would, with the speed function
-// `examples`. Prints how much of the truth it has after each round, and how long a round takes.
+// `examples`. Prints how much of the truth it has after each round, how long a round takes, and what the best
+// tent reaches.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "best_tent.h"
 #include "cases.h"
 #include "core/stopwatch.h"
 #include "core/thread_pool.h"
@@ -45,6 +47,7 @@ std::vector<double> whole(const solver::SpeedFunction& function, Index3 size) {
 // Dice a round, and what of it counts.
 struct Outcome {
   std::vector<double> dice;
+  double tent = 0.0;              // Dice of the best one
   double training_seconds = 0.0;  // of the longest
   double round_seconds = 0.0;     // of the longest, with training
 
@@ -127,6 +130,10 @@ Result<Outcome> segment(const RobotCase& robot_case, const Settings& settings) {
   Robot robot(robot_case.truth);
   robot.begin();
   Outcome outcome;
+  const auto tent = best_tent(robot_case.images.front(), robot_case.truth, robot.inside().front(),
+                              settings.alpha, 5 * settings.steps);
+  if (!tent) return tl::unexpected<Error>(tent.error());
+  outcome.tent = *tent;
   // Kept until the next one is there, so that both share their images' pyramids.
   std::shared_ptr<const solver::ExamplesSpeed> function;
   for (;;) {
@@ -146,6 +153,7 @@ Result<Outcome> segment(const RobotCase& robot_case, const Settings& settings) {
 
 int run(const Settings& settings) {
   std::vector<double> all;
+  std::vector<double> tents;
   double worst_fall = 0.0;
   for (const CaseFiles& files : robot_cases()) {
     if (!settings.only.empty() && files.name.find(settings.only) == std::string::npos) continue;
@@ -161,17 +169,19 @@ int run(const Settings& settings) {
     }
     fmt::print("{:<20}", files.name);
     for (const double share : outcome->dice) fmt::print(" {:.2f}", share);
-    fmt::print("  fall {:.2f}  training {:.2f} s, round {:.1f} s\n", outcome->worst_fall(),
-               outcome->training_seconds, outcome->round_seconds);
+    fmt::print("  tent {:.2f}  fall {:.2f}  training {:.2f} s, round {:.1f} s\n", outcome->tent,
+               outcome->worst_fall(), outcome->training_seconds, outcome->round_seconds);
     std::fflush(stdout);
     all.push_back(outcome->dice.back());
+    tents.push_back(outcome->tent);
     worst_fall = std::max(worst_fall, outcome->worst_fall());
   }
   std::sort(all.begin(), all.end());
+  std::sort(tents.begin(), tents.end());
   if (!all.empty()) {
     const double mean = std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
-    fmt::print("median {:.3f}, least {:.3f}, mean {:.3f}, worst fall {:.2f}\n", all[all.size() / 2],
-               all.front(), mean, worst_fall);
+    fmt::print("median {:.3f} (tents {:.3f}), least {:.3f}, mean {:.3f}, worst fall {:.2f}\n",
+               all[all.size() / 2], tents[tents.size() / 2], all.front(), mean, worst_fall);
   }
   return 0;
 }
@@ -188,18 +198,20 @@ int main(int argc, char** argv) {
   app.add_flag("--still", settings.still, "no level set: the part of D > 0 that is connected to the strokes");
   app.add_option("--alpha", settings.alpha, "of the level set");
   app.add_option("--steps", settings.steps, "a round, at most");
-  app.add_option("--trees", settings.options.training.trees, "");
-  app.add_option("--depth", settings.options.training.depth, "");
-  app.add_option("--leaf", settings.options.training.smallest_leaf, "");
-  app.add_option("--features", settings.options.training.tried_features, "");
-  app.add_option("--thresholds", settings.options.training.tried_thresholds, "");
-  app.add_option("--doubt", settings.options.training.doubt, "");
-  app.add_option("--seed", settings.options.training.seed, "");
-  app.add_option("--sharpness", settings.options.sharpness, "");
-  app.add_option("--contrast", settings.options.walker.contrast, "");
-  app.add_option("--prior", settings.options.walker.prior, "");
-  app.add_option("--sweeps", settings.options.walker.sweeps, "");
-  app.add_option("--cells", settings.options.walker.most_cells, "");
+  app.add_option("--trees", settings.options.training.trees, "how many decide");
+  app.add_option("--depth", settings.options.training.depth, "of a tree, at most");
+  app.add_option("--leaf", settings.options.training.smallest_leaf, "samples, at least");
+  app.add_option("--features", settings.options.training.tried_features,
+                 "tried a node; 0: the root of their number");
+  app.add_option("--thresholds", settings.options.training.tried_thresholds, "tried a feature");
+  app.add_option("--doubt", settings.options.training.doubt,
+                 "samples of either class that each leaf is given beforehand");
+  app.add_option("--seed", settings.options.training.seed, "of the forest");
+  app.add_option("--sharpness", settings.options.sharpness, "of D");
+  app.add_option("--contrast", settings.options.walker.contrast, "how much an edge holds walks back");
+  app.add_option("--prior", settings.options.walker.prior, "how often a walk ends and the forest decides");
+  app.add_option("--sweeps", settings.options.walker.sweeps, "over each grid of the walker");
+  app.add_option("--cells", settings.options.walker.most_cells, "of the walker, at most");
   CLI11_PARSE(app, argc, argv);
   return tidemark::run(settings);
 }

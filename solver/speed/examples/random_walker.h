@@ -19,7 +19,8 @@ struct WalkerOptions {
   double contrast = 20.0;
   // How often a walk ends in a cell, against a step of 1 to a cell that is alike.
   double prior = 0.003;
-  int sweeps = 24;  // over each of the grids, the coarsest first
+  // Over each of the grids, the coarsest first: so many leave the probabilities right to 0.02.
+  int sweeps = 24;
   std::int64_t most_cells = 1'000'000;
 };
 
