@@ -1,7 +1,6 @@
 #include "document/start.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "imaging/filters/filters.h"
@@ -120,26 +119,6 @@ Result<solver::Field> begin_unguarded(solver::Executor& executor, const Volume& 
 }
 
 }  // namespace
-
-Result<MaskStart> limited(MaskStart start, double within_mm) {
-  if (!std::isfinite(within_mm) || within_mm <= 0.0) {
-    return fail(ErrorKind::usage, "a surface cannot stay within {} mm of a mask", within_mm);
-  }
-  start.limit = std::make_shared<const solver::MotionLimit>(start.mask, within_mm);
-  return start;
-}
-
-std::shared_ptr<const solver::MotionLimit> Start::limit() const {
-  const auto* mask = std::get_if<MaskStart>(&from);
-  return mask == nullptr ? nullptr : mask->limit;
-}
-
-std::shared_ptr<const solver::Constraints> joined(std::shared_ptr<const solver::Constraints> marks,
-                                                  const solver::MotionLimit* limit) {
-  if (limit == nullptr) return marks;
-  if (marks == nullptr) return limit->constraints();
-  return std::make_shared<const solver::Constraints>(marks->over(*limit->constraints()));
-}
 
 std::string Start::describe() const {
   std::string text = std::visit(Describe{}, from);

@@ -130,7 +130,8 @@ Result<Volume> read_parameters(const fs::path& file, float empty) {
   if (!object) return pass_on(object);
   const auto map = read_parametric_map(object->dataset(), object->syntax(), name);
   if (!map) return tl::unexpected<Error>(map.error());
-  const auto& [described, pixels] = *map;
+  const DescribedFrames& described = map->described;
+  const StoredPixels& pixels = map->pixels;
   const auto grid = grid_of_frames(described.frames, described.between_mm, described.thickness_mm, name);
   if (!grid) return tl::unexpected<Error>(grid.error());
   auto volume = empty_volume(*grid, described.frames.size(), empty, name);
