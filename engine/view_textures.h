@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "renderer/canvas.h"
-#include "renderer/canvas_mean.h"
-#include "renderer/renderer.h"
+#include "renderer/gl/canvas.h"
+#include "renderer/gl/canvas_mean.h"
+#include "renderer/gl/gl_renderer.h"
 
 namespace tidemark::engine {
 
@@ -47,7 +47,7 @@ class ViewTextures {
   void clear_mean() { mean_.clear(); }
   // Draws a picture, or `into_mean` the mean of it and those since clear_mean(), and waits until it is there.
   template <class View>
-  Result<std::shared_ptr<const PictureTexture>> draw(renderer::Renderer& renderer, const View& view,
+  Result<std::shared_ptr<const PictureTexture>> draw(renderer::GlRenderer& renderer, const View& view,
                                                      renderer::PictureSize size, bool into_mean,
                                                      const Progress& progress) {
     auto texture = free_texture(size);

@@ -1,25 +1,22 @@
-// Pictures of a study and its level set, drawn by OpenGL 3.3 from the packed pages (paper sections 5
-// and 6.2).
+// Pictures of a study and its level set, drawn by OpenGL or by the processor (paper sections 5 and 6.2).
 #pragma once
 
 #include <array>
-#include <map>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
+#include <string_view>
+#include <vector>
 
-#include "gpu/device.h"
-#include "gpu/sampler_slots.h"
-#include "renderer/canvas.h"
-#include "renderer/evaluated_maps.h"
-#include "renderer/label_picture.h"
-#include "renderer/phi_picture.h"
-#include "renderer/slice_caster.h"
-#include "renderer/source_picture.h"
+#include "core/progress.h"
+#include "renderer/picture.h"
 #include "renderer/views.h"
-#include "solver/gl/constraint_texture.h"
-#include "solver/model.h"
+#include "solver/executor.h"
+
+namespace tidemark::gpu {
+class Device;
+}
 
 namespace tidemark::renderer {
 
@@ -31,100 +28,70 @@ struct Hit {
   glm::dvec3 patient_mm{0.0};  // LPS
 };
 
+// Red, green, blue and opacity (0: hidden) of a label.
+using LabelColour = std::array<std::uint8_t, 4>;
+inline constexpr std::size_t kLabels = 256;  // and none of them, 0
+
 class Renderer {
  public:
-  // Pictures of level sets on `source` in pages of this layout. A source with more than `largest_volume`
-  // voxels along an axis, or more than the driver allows, is never kept as a 3D texture: it is drawn from
-  // slices. Fails (ErrorKind::capability) where the driver lacks what is needed.
-  static Result<std::unique_ptr<Renderer>> create(std::shared_ptr<gpu::Device> device,
-                                                  std::shared_ptr<const Volume> source,
-                                                  const solver::PageLayout& layout,
-                                                  std::int64_t largest_volume = 1 << 30);
+  virtual ~Renderer() = default;
+  [[nodiscard]] virtual std::string_view name() const = 0;  // "gl" or "host"
+  [[nodiscard]] virtual const Volume& source() const = 0;
 
   // Shows phi from now on. `quiet`: virtual pages that are not computed at present. Fails (ErrorKind::usage)
-  // unless phi has the layout and the grid of create().
-  Status set_phi(const solver::Field& phi, std::span<const std::int64_t> quiet = {});
-  // Draws from now on from the GPU memory of an executor on this device (Executor::packed_view()); to be
-  // called again after each run of steps, and before any picture after another call to the executor. With
-  // `quiet` (Executor::quiet_pages()) the page views are right, too. Fails (ErrorKind::usage) unless the
-  // pages are those of create().
-  Status look_at(const solver::PackedView& view,
-                 const std::optional<std::vector<std::int64_t>>& quiet = std::nullopt);
+  // unless phi has the grid of the source and the pages that the renderer was made for.
+  virtual Status set_phi(std::shared_ptr<const solver::Field> phi, std::span<const std::int64_t> quiet) = 0;
+  Status set_phi(solver::Field phi, std::span<const std::int64_t> quiet = {}) {
+    return set_phi(std::make_shared<const solver::Field>(std::move(phi)), quiet);
+  }
+  // Draws from now on from the memory in which an executor keeps phi. To be called again after each run of
+  // steps, and before any picture after another call to the executor. With `quiet` (Executor::quiet_pages())
+  // the page views are right, too. Returns false where that memory cannot be drawn from: set_phi() is needed
+  // then. Fails (ErrorKind::usage) unless the pages are those that the renderer was made for.
+  virtual Result<bool> look_at(solver::Executor& executor,
+                               const std::optional<std::vector<std::int64_t>>& quiet) = 0;
+
   // The parameters of the speed map.
-  void set_parameters(const solver::Parameters& parameters);
+  virtual void set_parameters(const solver::Parameters& parameters) = 0;
   // What drives the surface, for the speed map and its colours; null: the tent of the parameters. D is
   // evaluated where pictures show it.
-  void set_speed(std::shared_ptr<const solver::SpeedFunction> speed) { maps_.set_speed(std::move(speed)); }
+  virtual void set_speed(std::shared_ptr<const solver::SpeedFunction> speed) = 0;
   // How far the surface has moved since it began, from -1 to 1 (solver::MotionLimit::change()); null: nobody
   // knows.
-  void set_change(std::shared_ptr<const solver::SpeedFunction> change) {
-    maps_.set_change(std::move(change));
-  }
+  virtual void set_change(std::shared_ptr<const solver::SpeedFunction> change) = 0;
   // Walls and anchors, which slices show; null: none. Fails (ErrorKind::usage) when they are on another grid,
   // (ErrorKind::capability) when memory is short.
-  Status set_constraints(const solver::Constraints* constraints);
+  virtual Status set_constraints(const solver::Constraints* constraints) = 0;
   // A label for each voxel, 0 for none. Fails (ErrorKind::usage) when there are not as many as voxels.
-  Status set_labels(std::span<const std::uint8_t> labels);
-  // Red, green, blue and opacity (0: hidden) of the labels from 0 on; at first all are seen, with
-  // label_colour(). Fails (ErrorKind::usage) on more than kLabels.
-  static constexpr std::size_t kLabels = LabelPicture::kLabels;
-  using LabelColour = LabelPicture::Colour;
-  Status set_label_colours(std::span<const LabelColour> colours);
+  virtual Status set_labels(std::span<const std::uint8_t> labels) = 0;
+  // Of the labels from 0 on; at first all are seen, with label_colour(). Fails (ErrorKind::usage) on more than
+  // kLabels.
+  virtual Status set_label_colours(std::span<const LabelColour> colours) = 0;
 
-  // Fails (ErrorKind::cancelled) on a request to stop, (ErrorKind::capability) when the context is lost.
-  Result<Picture> draw(const VolumeView& view, PictureSize size, const Progress& progress = {});
-  Result<Picture> draw(const SliceView& view, PictureSize size, const Progress& progress = {});
-
-  // The same onto a canvas (rgba8), at its size. Nothing is read back and nothing is waited for.
-  Status draw_on(Canvas& canvas, const VolumeView& view, const Progress& progress = {});
-  Status draw_on(Canvas& canvas, const SliceView& view, const Progress& progress = {});
-
-  // The first thing at a pixel (from the picture's top left); none when nothing is seen. Rays do not meet a
-  // source without a 3D texture.
-  Result<std::optional<Hit>> pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel);
-
-  [[nodiscard]] const DrawReport& last_draw() const { return report_; }
-  [[nodiscard]] std::int64_t pages_uploaded() const { return phi_.pages_uploaded(); }
-  [[nodiscard]] const Volume& source() const { return *source_; }
-
- private:
-  Renderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source);
-  // An existing program, or a new one. Beyond a limit, the one unused for longest is deleted.
-  Result<const gpu::Program*> find_program(const char* fragment, const gpu::Defines& variant);
-  // A program with the uniforms that all programs have; the view's own are not set. `evaluated`: of the map
-  // that it reads.
-  Result<const gpu::Program*> use_program(const char* fragment, const gpu::Defines& variant,
-                                          const SpeedPicture* evaluated = nullptr);
-  Result<const gpu::Program*> use_volume_program(const char* fragment, const VolumeView& view,
-                                                 PictureSize size, gpu::Defines variant);
-  [[nodiscard]] VolumeView resolved(const VolumeView& asked);
-  [[nodiscard]] bool shows_labels(const VolumeView& view) const;
+  // Fails (ErrorKind::cancelled) on a request to stop, (ErrorKind::capability) when a graphics driver has lost
+  // its context.
+  virtual Result<Picture> draw(const VolumeView& view, PictureSize size, const Progress& progress) = 0;
+  virtual Result<Picture> draw(const SliceView& view, PictureSize size, const Progress& progress) = 0;
   template <class View>
-  Result<Picture> draw_and_read(const View& view, PictureSize size, const Progress& progress);
-  Status draw_from_slices(Canvas& canvas, const VolumeView& view, const Progress& progress);
-  Status fill(Canvas& canvas, const Progress& progress);
+  Result<Picture> draw(const View& view, PictureSize size) {
+    return draw(view, size, Progress{});
+  }
 
-  std::shared_ptr<gpu::Device> device_;
-  std::shared_ptr<const Volume> source_;
-  gpu::SamplerSlots slots_;
-  std::optional<std::pair<float, float>> common_range_;  // of the source, once it is needed
-  solver::StepConstants<float> constants_;
-  solver::Tent tent_;
-  SourcePicture source_picture_;
-  PhiPicture phi_;
-  LabelPicture labels_;
-  EvaluatedMaps maps_;
-  std::optional<solver::ConstraintTexture> constraints_;
-  struct Made {
-    gpu::Program program;
-    std::int64_t used = 0;
-  };
-  std::map<std::string, Made> programs_;  // by shader and variant, made when first needed
-  std::int64_t uses_ = 0;
-  SliceCaster slice_caster_;
-  Canvas canvas_;
-  Canvas pick_canvas_;
-  DrawReport report_;
+  // The first thing at a pixel (from the picture's top left); none when nothing is seen.
+  virtual Result<std::optional<Hit>> pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel) = 0;
 };
+
+// automatic: gl on a GPU; host where OpenGL is the processor's work or absent.
+enum class RendererKind { automatic, host, gl };
+// "auto", or what Renderer::name() says; unset for anything else.
+std::optional<RendererKind> renderer_named(std::string_view name);
+// The kind that is meant on a device, which may be null: host or gl.
+RendererKind chosen_kind(RendererKind asked, const gpu::Device* device);
+
+// Pictures of level sets on `source` in pages of this layout. Only gl uses the device. Fails (ErrorKind::usage)
+// when the layout is not of the source, (ErrorKind::capability) when the driver lacks what is needed.
+Result<std::unique_ptr<Renderer>> make_renderer(RendererKind kind, std::shared_ptr<gpu::Device> device,
+                                                std::shared_ptr<const Volume> source,
+                                                const solver::PageLayout& layout);
 
 }  // namespace tidemark::renderer

@@ -22,6 +22,7 @@ class Device;
 namespace tidemark::solver {
 
 struct PackedView;
+struct PageView;
 
 // The end of a run of steps.
 struct Advance {
@@ -109,6 +110,9 @@ class Executor {
   // Shows where phi lies on the GPU (solver/gl/packed_view.h), with the executor's context current. Returns
   // false where it does not lie on one, or cannot be read there.
   virtual bool packed_view(PackedView& /*view*/) { return false; }
+  // Shows where phi lies in the processor's memory (solver/host/page_view.h). Returns false where it does not
+  // lie there in pages.
+  [[nodiscard]] virtual bool page_view(PageView& /*view*/) const { return false; }
 
   // Checks the invariants of the executor's own tables, and of phi; the error says which one is broken.
   [[nodiscard]] virtual Status validate() const = 0;

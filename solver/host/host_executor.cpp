@@ -9,6 +9,7 @@
 #include "core/stopwatch.h"
 #include "solver/host/page_code.h"
 #include "solver/host/page_constraints.h"
+#include "solver/host/page_view.h"
 #include "solver/paging/validate.h"
 
 namespace tidemark::solver {
@@ -289,6 +290,14 @@ MemoryReport HostExecutor::memory() const {
                         pages_.pool().advection_bytes(pages_.table().capacity());
   report.page_shape = kDefaultPageShape;
   return report;
+}
+
+bool HostExecutor::page_view(PageView& view) const {
+  view.table = &pages_.table();
+  view.band = constants_.band;
+  view.pages = pages_.phi(0);
+  view.stride = PagePool::kFloatsPerPage;
+  return true;
 }
 
 Status HostExecutor::validate() const {

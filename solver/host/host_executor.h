@@ -35,6 +35,7 @@ class HostExecutor final : public ExecutorBase {
   [[nodiscard]] Result<std::vector<std::int64_t>> quiet_pages() const override {
     return quiet_.virtual_pages();
   }
+  [[nodiscard]] bool page_view(PageView& view) const override;
   [[nodiscard]] Status validate() const override;
 
   [[nodiscard]] const std::string& instruction_set() const { return kernels_.name; }

@@ -1,7 +1,7 @@
 // How good the next picture is to be. Needs no OpenGL, apart from the last two tests.
 #include <QTest>
 
-#include "renderer/canvas_mean.h"
+#include "renderer/gl/canvas_mean.h"
 #include "renderer/quality_control.h"
 #include "tests/renderer/scenes.h"
 #include "tests/support/support.h"

@@ -1,4 +1,4 @@
-// A map that the processor evaluated where the picture shows it (renderer/speed_picture.h), between voxels: D, its doubt, or
+// A map that the processor evaluated where the picture shows it (renderer/gl/speed_picture.h), between voxels: D, its doubt, or
 // how far the surface has moved. Needs solver/phi.glsl.
 
 #include "solver/speed/speed_volume.glsl"

@@ -1,0 +1,91 @@
+#include "renderer/gl/label_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "renderer/label_share.h"
+
+namespace tidemark::renderer {
+Result<LabelPicture> LabelPicture::create(gpu::Device& device, const solver::PageLayout& layout) {
+  LabelPicture picture;
+  picture.layout_ = layout;
+  picture.pages_ = LabelPages(layout);
+  const std::vector<std::uint8_t> none(1);
+  auto voxels = gpu::Texture3D::create(device, gpu::TexelFormat::r8ui, Index3(1),
+                                       std::as_bytes(std::span(none)), "no labels");
+  if (!voxels) return pass_on(voxels);
+  picture.voxels_ = std::move(*voxels);
+  auto shares = gpu::Texture3D::create(device, gpu::TexelFormat::r8, Index3(1),
+                                       std::as_bytes(std::span(none)), "no borders of labels");
+  if (!shares) return pass_on(shares);
+  picture.shares_ = std::move(*shares);
+  auto colours = gpu::Texture2D::create(device, gpu::TexelFormat::rgba8, kLabels, 1, "colours of labels");
+  if (!colours) return pass_on(colours);
+  picture.colours_ = std::move(*colours);
+  auto buffer = gpu::Buffer::create(
+      device, layout.page_count() * static_cast<std::int64_t>(sizeof(std::int32_t)), "labels of pages");
+  if (!buffer) return pass_on(buffer);
+  picture.page_buffer_ = std::move(*buffer);
+  auto pages =
+      gpu::BufferTexture::create(device, picture.page_buffer_, gpu::TexelFormat::r32i, "labels of pages");
+  if (!pages) return pass_on(pages);
+  picture.page_texture_ = std::move(*pages);
+  picture.set_colours(first_label_colours());
+  return picture;
+}
+
+Status LabelPicture::set_voxels(gpu::Device& device, std::span<const std::uint8_t> voxels) {
+  const Index3 size = layout_.volume_size();
+  auto texture =
+      gpu::Texture3D::create(device, gpu::TexelFormat::r8ui, size, std::as_bytes(voxels), "labels");
+  if (!texture) return pass_on(texture);
+  voxels_ = std::move(*texture);
+  labels_.assign(voxels.begin(), voxels.end());
+  pages_.set_voxels(voxels);
+  upload_pages();
+  return {};
+}
+
+Status LabelPicture::prepare_borders(gpu::Device& device) {
+  if (labels_.empty()) return {};
+  const std::vector<std::uint8_t> shares = label_shares(layout_, labels_, pages_.mixed());
+  auto texture = gpu::Texture3D::create(device, gpu::TexelFormat::r8, layout_.volume_size(),
+                                        std::as_bytes(std::span(shares)), "borders of labels");
+  if (!texture) return pass_on(texture);
+  shares_ = std::move(*texture);
+  labels_ = {};
+  return {};
+}
+
+void LabelPicture::set_colours(std::span<const LabelColour> colours) {
+  colours_.upload({0, 0, static_cast<std::int64_t>(colours.size()), 1}, std::as_bytes(colours));
+  pages_.set_colours(colours);
+  upload_pages();
+}
+
+void LabelPicture::upload_pages() {
+  if (pages_.has_voxels()) page_buffer_.upload_values<std::int32_t>(0, pages_.pages());
+}
+
+void LabelPicture::set_uniforms(const gpu::Program& program, const Units& units) const {
+  voxels_.bind(static_cast<unsigned>(units.voxels));
+  program.set("labels", units.voxels);
+  colours_.bind(static_cast<unsigned>(units.colours));
+  program.set("label_colours", units.colours);
+  shares_.bind(static_cast<unsigned>(units.shares));
+  program.set("label_shares", units.shares);
+  page_texture_.bind(static_cast<unsigned>(units.pages));
+  program.set("page_labels", units.pages);
+  if (!program.has_uniform("visible_labels[0]")) return;
+  constexpr std::size_t kBits = 32;
+  for (std::size_t word = 0; word < kLabels / kBits; ++word) {
+    unsigned bits = 0;
+    for (std::size_t bit = 0; bit < kBits; ++bit) {
+      bits |= pages_.is_seen(static_cast<int>(kBits * word + bit)) ? 1U << bit : 0U;
+    }
+    program.set(fmt::format("visible_labels[{}]", word).c_str(), bits);
+  }
+}
+
+}  // namespace tidemark::renderer

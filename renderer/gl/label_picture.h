@@ -1,0 +1,52 @@
+// Labels as pictures are drawn from them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gpu/program.h"
+#include "gpu/texture.h"
+#include "renderer/label_pages.h"
+#include "solver/paging/page_layout.h"
+
+namespace tidemark::renderer {
+
+// A label for each voxel, the labels' colours, and what each page shows of them, on the GPU.
+class LabelPicture {
+ public:
+  LabelPicture() = default;
+  // At first no voxel has a label, and all labels are seen in their first colours (core/label_colour.h).
+  static Result<LabelPicture> create(gpu::Device& device, const solver::PageLayout& layout);
+
+  // In voxel order. Fails (ErrorKind::capability) when memory is short.
+  Status set_voxels(gpu::Device& device, std::span<const std::uint8_t> voxels);
+  // Of the labels from 0 on.
+  void set_colours(std::span<const LabelColour> colours);
+
+  [[nodiscard]] const LabelPages& pages() const { return pages_; }
+
+  // Makes sure that render/labels.glsl finds what it looks at: slices need less. Fails
+  // (ErrorKind::capability) when memory is short.
+  Status prepare_borders(gpu::Device& device);
+
+  // The uniforms of render/labels.glsl, and page_labels.
+  struct Units {
+    int voxels, colours, pages, shares;
+  };
+  void set_uniforms(const gpu::Program& program, const Units& units) const;
+
+ private:
+  void upload_pages();
+
+  solver::PageLayout layout_;
+  std::vector<std::uint8_t> labels_;  // by voxel, until their borders are known
+  gpu::Texture3D voxels_;
+  gpu::Texture3D shares_;
+  gpu::Texture2D colours_;
+  LabelPages pages_;
+  gpu::Buffer page_buffer_;
+  gpu::BufferTexture page_texture_;
+};
+
+}  // namespace tidemark::renderer

@@ -1,0 +1,212 @@
+#include "renderer/gl/phi_picture.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "gpu/framebuffer.h"
+
+namespace tidemark::renderer {
+namespace {
+
+// Llvmpipe compiles anew for textures whose height is a power of two: G never has such a one, while it grows.
+std::int64_t without_power_of_two(const solver::PackedLayout& layout, std::int64_t capacity) {
+  while (std::has_single_bit(static_cast<std::uint64_t>(layout.texture_size(capacity).y))) {
+    capacity += layout.pages_per_row();
+  }
+  return std::min(capacity, layout.largest_capacity());
+}
+
+}  // namespace
+
+Result<PhiPicture::Array> PhiPicture::Array::create(gpu::Device& device, std::int64_t texels,
+                                                    gpu::TexelFormat format, std::string_view label) {
+  Array array;
+  auto buffer = gpu::Buffer::create(device, texels * gpu::bytes_per_texel(format), label);
+  if (!buffer) return pass_on(buffer);
+  array.buffer = std::move(*buffer);
+  auto texture = gpu::BufferTexture::create(device, array.buffer, format, label);
+  if (!texture) return pass_on(texture);
+  array.texture = std::move(*texture);
+  return array;
+}
+
+Result<PhiPicture> PhiPicture::create(gpu::Device& device, const solver::PageLayout& layout, double band) {
+  PhiPicture picture;
+  const solver::PackedLayout packed(layout, device.capabilities().largest_texture);
+  auto field = solver::PackedField::create(device, packed, without_power_of_two(packed, solver::kFirstPage),
+                                           static_cast<float>(band), 1);
+  if (!field) return pass_on(field);
+  picture.field_ = std::move(*field);
+  picture.table_ = solver::PageTable(layout);
+  picture.shown_.band = band;
+  picture.shown_.layout = layout;
+  picture.shown_.table.assign(static_cast<std::size_t>(layout.page_count()), solver::Field::kOutside);
+  auto table = Array::create(device, layout.page_count(), gpu::TexelFormat::r32i, "page table");
+  if (!table) return pass_on(table);
+  picture.page_table_ = std::move(*table);
+  auto flags = Array::create(device, layout.page_count(), gpu::TexelFormat::r32i, "page flags");
+  if (!flags) return pass_on(flags);
+  picture.page_flags_ = std::move(*flags);
+  auto scatter =
+      gpu::Program::render(device, "render/scatter.vert", "", "render/scatter.frag", packed.defines());
+  if (!scatter) return pass_on(scatter);
+  picture.scatter_ = std::move(*scatter);
+  picture.vertices_ = gpu::VertexArray::create(device);
+  constexpr std::int64_t kMostStaged = 8192;  // 16 MB of the default pages
+  picture.most_staged_ = std::clamp<std::int64_t>(
+      device.capabilities().largest_buffer_texture / layout.voxels_per_page(), 1, kMostStaged);
+  return picture;
+}
+
+// Makes the page table that of `phi`, and finds the pages that differ from what was shown.
+std::vector<PhiPicture::Change> PhiPicture::follow(const solver::Field& phi) {
+  std::vector<Change> changes;
+  new_pages_.clear();
+  const auto voxels = static_cast<std::size_t>(phi.layout.voxels_per_page());
+  // Freed pages come first, so that their room is used again.
+  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
+    const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
+    if (entry >= 0) continue;
+    if (solver::is_static_page(table_.physical(page))) {
+      table_.set_static(page, entry == solver::Field::kInside);
+    } else {
+      table_.release(page, entry == solver::Field::kInside);
+    }
+  }
+  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
+    const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
+    if (entry < 0) continue;
+    const float* values = phi.pages.data() + static_cast<std::size_t>(entry) * voxels;
+    solver::PhysicalPage physical = table_.physical(page);
+    if (solver::is_static_page(physical)) {
+      physical = table_.allocate(page);
+      new_pages_.push_back(page);
+    } else if (!shown_.pages.empty()) {
+      const auto shown = static_cast<std::size_t>(shown_.table[static_cast<std::size_t>(page)]);
+      if (std::memcmp(values, shown_.pages.data() + shown * voxels, voxels * sizeof(float)) == 0) continue;
+    }
+    changes.push_back({page, physical});
+  }
+  return changes;
+}
+
+Status PhiPicture::update(gpu::Device& device, const solver::Field& phi,
+                          std::span<const std::int64_t> quiet) {
+  const std::vector<Change> changes = follow(phi);
+  // Until everything is up there, nothing counts as shown.
+  shown_.pages.clear();
+  if (table_.capacity() > field_.capacity()) {
+    // By a quarter more than needed: a growing surface does not copy G with every picture.
+    const std::int64_t wanted = table_.capacity() + table_.capacity() / 4;
+    TIDEMARK_TRY(field_.grow(device, without_power_of_two(layout(), wanted)));
+  }
+  for (std::size_t first = 0; first < changes.size(); first += static_cast<std::size_t>(most_staged_)) {
+    const std::size_t count = std::min(changes.size() - first, static_cast<std::size_t>(most_staged_));
+    TIDEMARK_TRY(upload(device, phi, std::span(changes).subspan(first, count)));
+  }
+  pages_uploaded_ = static_cast<std::int64_t>(changes.size());
+  upload_tables(quiet);
+  viewed_.reset();
+  shown_ = phi;
+  return device.check("sending phi to the pictures");
+}
+
+Status PhiPicture::upload(gpu::Device& device, const solver::Field& phi, std::span<const Change> changes) {
+  const std::int64_t voxels = phi.layout.voxels_per_page();
+  const auto count = static_cast<std::int64_t>(changes.size());
+  std::vector<float> tiles(static_cast<std::size_t>(count * voxels));
+  std::vector<std::int32_t> addresses;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const Change& change = changes[static_cast<std::size_t>(i)];
+    const std::int64_t index = phi.table[static_cast<std::size_t>(change.page)];
+    layout().pack(phi.pages.data() + index * voxels, tiles.data() + i * voxels, layout().tile().x);
+    addresses.push_back(change.physical);
+  }
+  auto staged = Array::create(device, count * voxels, gpu::TexelFormat::r32f, "changed pages");
+  if (!staged) return pass_on(staged);
+  staged->buffer.upload_values<float>(0, tiles);
+  auto places = Array::create(device, count, gpu::TexelFormat::r32i, "addresses of changed pages");
+  if (!places) return pass_on(places);
+  places->buffer.upload_values<std::int32_t>(0, addresses);
+
+  const gpu::Texture2D& memory = field_.phi(0);
+  auto framebuffer = gpu::Framebuffer::create(device, {&memory}, "physical memory of pictures");
+  if (!framebuffer) return pass_on(framebuffer);
+  framebuffer->bind();
+  vertices_.bind();
+  scatter_.use();
+  layout().set_uniforms(scatter_);
+  staged->texture.bind(0);
+  scatter_.set("staged", 0);
+  places->texture.bind(1);
+  scatter_.set("addresses", 1);
+  scatter_.set("texture_size", glm::vec2(memory.width(), memory.height()));
+  gpu::begin_exact_drawing();
+  gpu::draw(gpu::Primitive::triangles, 6 * count);
+  return {};
+}
+
+void PhiPicture::upload_tables(std::span<const std::int64_t> quiet) {
+  page_table_.buffer.upload_values<std::int32_t>(0, table_.entries());
+  upload_flags(quiet, table_.resident());
+}
+
+void PhiPicture::upload_flags(std::span<const std::int64_t> quiet, std::int64_t resident) {
+  constexpr std::int32_t kQuiet = 1;  // as in render/page_state.glsl
+  constexpr std::int32_t kNew = 2;
+  std::vector<std::int32_t> flags(static_cast<std::size_t>(layout().layout().page_count()));
+  for (const std::int64_t page : quiet) flags[static_cast<std::size_t>(page)] |= kQuiet;
+  // At first everything is new, which tells nothing.
+  if (static_cast<std::int64_t>(new_pages_.size()) < resident) {
+    for (const std::int64_t page : new_pages_) flags[static_cast<std::size_t>(page)] |= kNew;
+  }
+  page_flags_.buffer.upload_values<std::int32_t>(0, flags);
+}
+
+Status PhiPicture::look_at(gpu::Device& device, const solver::PackedView& view,
+                           const std::optional<std::vector<std::int64_t>>& quiet) {
+  // Executors give their buffer a new place when it grows.
+  auto table =
+      gpu::BufferTexture::create(device, *view.page_table, gpu::TexelFormat::r32i, "executor's page table");
+  if (!table) return pass_on(table);
+  std::vector<solver::PhysicalPage> before =
+      viewed_ ? std::move(viewed_->entries) : std::vector<solver::PhysicalPage>();
+  viewed_ = Viewed{view, std::move(*table), {}};
+  pages_uploaded_ = 0;
+  if (!quiet) {
+    viewed_->entries = std::move(before);
+    return {};
+  }
+  viewed_->entries = page_entries();
+  new_pages_.clear();
+  std::int64_t resident = 0;
+  for (std::size_t page = 0; page < viewed_->entries.size(); ++page) {
+    if (solver::is_static_page(viewed_->entries[page])) continue;
+    ++resident;
+    if (before.empty() || solver::is_static_page(before[page]))
+      new_pages_.push_back(static_cast<std::int64_t>(page));
+  }
+  upload_flags(*quiet, resident);
+  return device.check("looking at the executor's pages");
+}
+
+std::vector<solver::PhysicalPage> PhiPicture::page_entries() const {
+  if (!viewed_) return table_.entries();
+  return viewed_->view.page_table->download_values<solver::PhysicalPage>(0, layout().layout().page_count());
+}
+
+void PhiPicture::set_uniforms(const gpu::Program& program, int unit) const {
+  layout().set_uniforms(program);
+  const gpu::Texture2D& phi = viewed_ ? *viewed_->view.phi : field_.phi(0);
+  phi.bind(static_cast<unsigned>(unit));
+  program.set("phi_pages", unit);
+  program.set("phi_texel", 1.0F / glm::vec2(phi.width(), phi.height()));
+  (viewed_ ? viewed_->table : page_table_.texture).bind(static_cast<unsigned>(unit + 1));
+  program.set("page_table", unit + 1);
+  page_flags_.texture.bind(static_cast<unsigned>(unit + 2));
+  program.set("page_flags", unit + 2);
+  program.set("band", static_cast<float>(shown_.band));
+}
+
+}  // namespace tidemark::renderer

@@ -1,0 +1,50 @@
+// Labels between voxels: the processor's side of resources/shaders/render/labels.glsl.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "renderer/label_pages.h"
+
+namespace tidemark::renderer {
+
+class LabelSamples {
+ public:
+  explicit LabelSamples(const solver::PageLayout& layout);
+
+  // In voxel order; they are copied.
+  void set_voxels(std::span<const std::uint8_t> voxels);
+  // Of the labels from 0 on.
+  void set_colours(std::span<const LabelColour> colours);
+  // Works out where borders are between voxels, which pictures in 3D need. Once for each set_voxels().
+  void prepare_borders();
+
+  [[nodiscard]] const LabelPages& pages() const { return pages_; }
+  // Red, green and blue, 0 to 1, and opacity.
+  [[nodiscard]] glm::vec3 colour(int label) const;
+  [[nodiscard]] float opacity(int label) const;
+
+  // 0 where the label is hidden, too. Clamped to the volume.
+  [[nodiscard]] int at(glm::ivec3 voxel) const;
+  // prepare_borders() comes before these. Voxel coordinates, integers at voxel centres.
+  [[nodiscard]] int between(glm::vec3 position) const;
+  // d (share of the label) / d voxel, from differences over a voxel to each side.
+  [[nodiscard]] glm::vec3 slope(int label, glm::vec3 position) const;
+
+ private:
+  struct Share {
+    float share;  // above a half where the place has the label
+    int other;    // the nearest voxel's that has another one
+  };
+  [[nodiscard]] Share share_of(int label, glm::vec3 position) const;
+
+  solver::PageLayout layout_;
+  glm::ivec3 size_{0};
+  LabelPages pages_;
+  std::vector<std::uint8_t> voxels_;
+  std::vector<std::uint8_t> shares_;  // label_shares(); empty until borders are needed
+  std::vector<LabelColour> colours_;
+};
+
+}  // namespace tidemark::renderer

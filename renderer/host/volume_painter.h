@@ -1,0 +1,21 @@
+// Volume renderings by the processor: the counterpart of resources/shaders/render/volume.frag.
+#pragma once
+
+#include <optional>
+
+#include "core/thread_pool.h"
+#include "renderer/host/host_scene.h"
+#include "renderer/renderer.h"
+
+namespace tidemark::renderer {
+
+// Draws a view that is resolved(). Fails (ErrorKind::cancelled) on a request to stop. The pixels do not depend on
+// the number of threads.
+Result<Picture> paint_volume(HostScene& scene, const VolumeView& view, PictureSize size, ThreadPool& threads,
+                             const Progress& progress);
+
+// The first thing at a place of the picture, in pixels from its top left; none when nothing is seen.
+std::optional<Hit> pick_volume(HostScene& scene, const VolumeView& view, PictureSize size, glm::dvec2 pixel,
+                               ThreadPool& threads);
+
+}  // namespace tidemark::renderer

@@ -1,0 +1,49 @@
+// The labels that each page of V_P shows, so that rays and slices skip pages without a label's border.
+#pragma once
+
+#include <bitset>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "renderer/renderer.h"
+#include "solver/paging/page_layout.h"
+
+namespace tidemark::renderer {
+
+class LabelPages {
+ public:
+  LabelPages() = default;
+  // At first no voxel has a label, and all labels are seen.
+  explicit LabelPages(const solver::PageLayout& layout);
+
+  // In voxel order.
+  void set_voxels(std::span<const std::uint8_t> voxels);
+  // Of the labels from 0 on.
+  void set_colours(std::span<const LabelColour> colours);
+
+  [[nodiscard]] bool has_voxels() const { return !sets_.empty(); }
+  // Whether a label that is seen has a voxel.
+  [[nodiscard]] bool shows() const { return shows_; }
+  [[nodiscard]] bool is_seen(int label) const { return visible_[static_cast<std::size_t>(label)]; }
+  // By virtual page: 0 where no label shows, the label that it has throughout, or kMixed.
+  static constexpr std::int32_t kMixed = -1;
+  [[nodiscard]] std::span<const std::int32_t> pages() const { return pages_; }
+  // The pages with several labels, or a label and none, in them or one voxel around them.
+  [[nodiscard]] std::vector<std::int64_t> mixed() const;
+
+ private:
+  using LabelSet = std::bitset<kLabels>;
+  void update();
+
+  solver::PageLayout layout_;
+  LabelSet visible_;            // without 0
+  std::vector<LabelSet> sets_;  // by virtual page: what is in it and one voxel around it
+  std::vector<std::int32_t> pages_;
+  bool shows_ = false;
+};
+
+// The labels' first colours (core/label_colour.h).
+std::vector<LabelColour> first_label_colours();
+
+}  // namespace tidemark::renderer

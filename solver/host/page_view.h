@@ -1,0 +1,19 @@
+// phi where an executor on the processor keeps it, for drawing without a copy.
+#pragma once
+
+#include "solver/paging/page_table.h"
+
+namespace tidemark::solver {
+
+// Valid until the next call to the executor.
+struct PageView {
+  const PageTable* table = nullptr;
+  float band = 0.0F;
+  // The voxels of a physical page from kFirstPage on, x fastest: `stride` floats from one page to the next.
+  const float* pages = nullptr;  // of physical page 0
+  std::int64_t stride = 0;
+
+  [[nodiscard]] const float* phi(PhysicalPage page) const { return pages + page * stride; }
+};
+
+}  // namespace tidemark::solver
