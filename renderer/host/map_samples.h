@@ -23,8 +23,8 @@ class MapSamples {
   [[nodiscard]] const solver::Tent* tent() const { return function_ ? function_->tent() : nullptr; }
   [[nodiscard]] bool is_evaluated() const { return function_ != nullptr && tent() == nullptr; }
 
-  // Evaluates the blocks of 8^3 voxels around the plane of a slice picture (from the view, x and y in -1..1, to
-  // voxel coordinates), or around pages of a layout and a voxel beyond them, unless they are there.
+  // Evaluates the blocks of 8^3 voxels around the plane of a slice picture (from the view, x and y in -1..1,
+  // to voxel coordinates), or around pages of a layout and a voxel beyond them, unless they are there.
   void fill_plane(const glm::dmat4& voxel_from_view, ThreadPool& threads);
   void fill_pages(const solver::PageLayout& layout, std::span<const std::int64_t> pages, ThreadPool& threads);
 
