@@ -1,0 +1,119 @@
+#include "bench/picture_bench/vtk_peer.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <variant>
+#include <vector>
+
+extern char** environ;
+
+namespace tidemark::bench {
+namespace {
+
+// VTK's own form of a transfer function: opacity of a mm and colour at values, and one opacity by gradient
+// for all. Primitives whose gradients differ cannot be told apart there: the first one's counts.
+nlohmann::json points_of(const renderer::TransferFunction& function) {
+  nlohmann::json points = nlohmann::json::array();
+  for (double value = -1100.0; value <= 2000.0; value += 4.0) {
+    glm::dvec3 colour(0.0);
+    double opacity = 0.0;
+    for (const renderer::SourcePrimitive& one : function.source) {
+      const double share = one.opacity * one.value.at(value);
+      colour += share * glm::dvec3(one.colour);
+      opacity += share;
+    }
+    if (opacity > 0.0) colour /= opacity;
+    points.push_back({value, opacity, colour.r, colour.g, colour.b});
+  }
+  return points;
+}
+
+nlohmann::json gradients_of(const renderer::TransferFunction& function) {
+  nlohmann::json points = nlohmann::json::array();
+  for (const renderer::SourcePrimitive& one : function.source) {
+    if (one.gradient.kind != renderer::TransferFactor::Kind::ramp) continue;
+    points.push_back({one.gradient.start, 0.0});
+    points.push_back({one.gradient.end, 1.0});
+    break;
+  }
+  return points;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<VtkPeer>> VtkPeer::start(const Volume& volume, const std::filesystem::path& folder) {
+  const auto* voxels = std::get_if<std::vector<std::int16_t>>(&volume.voxels);
+  if (voxels == nullptr) return fail(ErrorKind::usage, "the peer draws volumes of 16 bits with sign");
+  const std::filesystem::path file = folder / "volume.raw";
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(voxels->data()), static_cast<std::streamsize>(voxels->size() * 2));
+  int to[2];
+  int from[2];
+  if (pipe2(to, O_CLOEXEC) != 0 || pipe2(from, O_CLOEXEC) != 0) return fail(ErrorKind::internal, "no pipe");
+  std::vector<std::string> words{"python3", TIDEMARK_VTK_PEER, file.string()};
+  for (int axis = 0; axis < 3; ++axis) words.push_back(fmt::to_string(volume.geometry.size[axis]));
+  for (int axis = 0; axis < 3; ++axis) words.push_back(fmt::to_string(volume.geometry.spacing_mm[axis]));
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, to[0], STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, from[1], STDOUT_FILENO);
+  std::unique_ptr<VtkPeer> peer(new VtkPeer);
+  const int failed = posix_spawnp(&peer->process_, "python3", &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  close(to[0]);
+  close(from[1]);
+  peer->to_peer_ = to[1];
+  peer->from_peer_ = from[0];
+  if (failed != 0) return fail(ErrorKind::capability, "python3 cannot be started");
+  const auto hello = peer->ask("");
+  if (!hello) return fail(ErrorKind::capability, "python3 has no VTK (Debian's python3-vtk9)");
+  peer->version_ = nlohmann::json::parse(*hello)["version"];
+  return peer;
+}
+
+VtkPeer::~VtkPeer() {
+  if (to_peer_ >= 0) close(to_peer_);
+  if (from_peer_ >= 0) close(from_peer_);
+  if (process_ > 0) waitpid(process_, nullptr, 0);
+}
+
+// Sends a line and returns the next one.
+Result<std::string> VtkPeer::ask(const std::string& line) {
+  if (!line.empty() && write(to_peer_, line.data(), line.size()) != static_cast<ssize_t>(line.size())) {
+    return fail(ErrorKind::internal, "VTK's process has ended");
+  }
+  std::string answer;
+  for (char c = 0; read(from_peer_, &c, 1) == 1;) {
+    if (c == '\n') return answer;
+    answer += c;
+  }
+  return fail(ErrorKind::internal, "VTK's process has ended");
+}
+
+Result<VtkPeer::Drawing> VtkPeer::draw(const renderer::TransferFunction& function, std::int64_t side,
+                                       double step_mm, double half_height_mm, const renderer::Camera& camera,
+                                       const std::filesystem::path& file) {
+  nlohmann::json command{{"values", points_of(function)},
+                         {"gradients", gradients_of(function)},
+                         {"side", side},
+                         {"step", step_mm},
+                         {"azimuth", camera.azimuth},
+                         {"elevation", camera.elevation},
+                         {"half_height", half_height_mm},
+                         {"file", file.string()}};
+  const auto answer = ask(command.dump() + "\n");
+  if (!answer) return tl::unexpected<Error>(answer.error());
+  const nlohmann::json times = nlohmann::json::parse(*answer);
+  return Drawing{times["seconds"], times["first"]};
+}
+
+}  // namespace tidemark::bench
