@@ -64,12 +64,12 @@ class Renderer {
   virtual Status set_constraints(const solver::Constraints* constraints) = 0;
   // A label for each voxel, 0 for none. Fails (ErrorKind::usage) when there are not as many as voxels.
   virtual Status set_labels(std::span<const std::uint8_t> labels) = 0;
-  // Of the labels from 0 on; at first all are seen, with label_colour(). Fails (ErrorKind::usage) on more than
-  // kLabels.
+  // Of the labels from 0 on; at first all are seen, with label_colour(). Fails (ErrorKind::usage) on more
+  // than kLabels.
   virtual Status set_label_colours(std::span<const LabelColour> colours) = 0;
 
-  // Fails (ErrorKind::cancelled) on a request to stop, (ErrorKind::capability) when a graphics driver has lost
-  // its context.
+  // Fails (ErrorKind::cancelled) on a request to stop, (ErrorKind::capability) when a graphics driver has
+  // lost its context.
   virtual Result<Picture> draw(const VolumeView& view, PictureSize size, const Progress& progress) = 0;
   virtual Result<Picture> draw(const SliceView& view, PictureSize size, const Progress& progress) = 0;
   template <class View>
@@ -88,8 +88,9 @@ std::optional<RendererKind> renderer_named(std::string_view name);
 // The kind that is meant on a device, which may be null: host or gl.
 RendererKind chosen_kind(RendererKind asked, const gpu::Device* device);
 
-// Pictures of level sets on `source` in pages of this layout. Only gl uses the device. Fails (ErrorKind::usage)
-// when the layout is not of the source, (ErrorKind::capability) when the driver lacks what is needed.
+// Pictures of level sets on `source` in pages of this layout. Only gl uses the device. Fails
+// (ErrorKind::usage) when the layout is not of the source, (ErrorKind::capability) when the driver lacks what
+// is needed.
 Result<std::unique_ptr<Renderer>> make_renderer(RendererKind kind, std::shared_ptr<gpu::Device> device,
                                                 std::shared_ptr<const Volume> source,
                                                 const solver::PageLayout& layout);

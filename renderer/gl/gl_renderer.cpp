@@ -60,9 +60,9 @@ GlRenderer::GlRenderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<cons
       maps_(source_->geometry.size) {}
 
 Result<std::unique_ptr<GlRenderer>> GlRenderer::create(std::shared_ptr<gpu::Device> device,
-                                                   std::shared_ptr<const Volume> source,
-                                                   const solver::PageLayout& layout,
-                                                   std::int64_t largest_volume) {
+                                                       std::shared_ptr<const Volume> source,
+                                                       const solver::PageLayout& layout,
+                                                       std::int64_t largest_volume) {
   if (layout.volume_size() != source->geometry.size) {
     return fail(ErrorKind::usage, "the pages are not those of the volume");
   }
@@ -181,7 +181,7 @@ Result<const gpu::Program*> GlRenderer::find_program(const char* fragment, const
 }
 
 Result<const gpu::Program*> GlRenderer::use_program(const char* fragment, const gpu::Defines& variant,
-                                                  const SpeedPicture* evaluated) {
+                                                    const SpeedPicture* evaluated) {
   const auto found = find_program(fragment, variant);
   if (!found) return found;
   const gpu::Program& program = **found;
@@ -208,7 +208,7 @@ bool GlRenderer::shows_labels(const VolumeView& view) const {
 }
 
 Result<const gpu::Program*> GlRenderer::use_volume_program(const char* fragment, const VolumeView& view,
-                                                         PictureSize size, gpu::Defines variant) {
+                                                           PictureSize size, gpu::Defines variant) {
   const bool source = shows_source(view);
   if (shows_labels(view)) {
     TIDEMARK_TRY(labels_.prepare_borders(*device_));
@@ -292,8 +292,9 @@ Status GlRenderer::draw_from_slices(Canvas& canvas, const VolumeView& view, cons
   auto slab = use_volume_program("render/slab.frag", view, size, {axis.define()});
   if (!slab) return pass_on(slab);
   const std::vector<solver::PhysicalPage> table = phi_.page_entries();
-  const SliceCaster::Scene scene{*source_, phi_, table, source_picture_.page_opacities(),
-                                 shows_labels(view) ? labels_.pages().pages() : std::span<const std::int32_t>()};
+  const SliceCaster::Scene scene{
+      *source_, phi_, table, source_picture_.page_opacities(),
+      shows_labels(view) ? labels_.pages().pages() : std::span<const std::int32_t>()};
   TIDEMARK_TRY(slice_caster_.draw(*device_, **slab, scene, view, size, {kPhiUnit, kFreeUnit}, progress));
   auto over = use_program("render/over_background.frag", {});
   if (!over) return pass_on(over);

@@ -28,9 +28,9 @@ class GlRenderer final : public Renderer {
   // voxels along an axis, or more than the driver allows, is never kept as a 3D texture: it is drawn from
   // slices. Fails (ErrorKind::capability) where the driver lacks what is needed.
   static Result<std::unique_ptr<GlRenderer>> create(std::shared_ptr<gpu::Device> device,
-                                                  std::shared_ptr<const Volume> source,
-                                                  const solver::PageLayout& layout,
-                                                  std::int64_t largest_volume = 1 << 30);
+                                                    std::shared_ptr<const Volume> source,
+                                                    const solver::PageLayout& layout,
+                                                    std::int64_t largest_volume = 1 << 30);
 
   [[nodiscard]] std::string_view name() const override { return "gl"; }
   [[nodiscard]] const Volume& source() const override { return *source_; }

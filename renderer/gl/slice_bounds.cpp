@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "renderer/gl/uniforms.h"
+#include "renderer/view_setup.h"
 
 namespace tidemark::renderer {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "renderer/picture.h"
 #include "renderer/gl/slice_axis.h"
+#include "renderer/picture.h"
 #include "renderer/views.h"
 #include "solver/paging/page_layout.h"
 #include "solver/paging/page_table.h"

@@ -7,6 +7,7 @@
 
 #include "core/stopwatch.h"
 #include "renderer/gl/uniforms.h"
+#include "renderer/view_setup.h"
 
 namespace tidemark::renderer {
 namespace {

@@ -16,7 +16,8 @@ inline glm::vec3 diverging(float x) {
   constexpr glm::vec3 kCold(0.13F, 0.36F, 0.67F);
   constexpr glm::vec3 kWarm(0.80F, 0.40F, 0.05F);
   constexpr glm::vec3 kMiddle(0.95F);
-  return x < 0.0F ? glm::mix(kMiddle, kCold, std::min(-x, 1.0F)) : glm::mix(kMiddle, kWarm, std::min(x, 1.0F));
+  return x < 0.0F ? glm::mix(kMiddle, kCold, std::min(-x, 1.0F))
+                  : glm::mix(kMiddle, kWarm, std::min(x, 1.0F));
 }
 
 // Doubt from 0 to 1: the darker the surer, in a hue that means nothing else.

@@ -10,7 +10,8 @@
 
 namespace tidemark::renderer {
 
-HostRenderer::HostRenderer(std::shared_ptr<const Volume> source, const solver::PageLayout& layout, int threads)
+HostRenderer::HostRenderer(std::shared_ptr<const Volume> source, const solver::PageLayout& layout,
+                           int threads)
     : volume_(std::move(source)), scene_(volume_, layout), threads_(threads) {
   set_parameters(solver::Parameters());
 }

@@ -6,12 +6,12 @@
 
 namespace tidemark::renderer {
 
-// The same views as GlRenderer's, by the same formulas. Mode::slices, which is how a GPU draws a source that is
-// too large for it, is drawn by rays, too. Pixels do not depend on the number of threads.
+// The same views as GlRenderer's, by the same formulas. Mode::slices, which is how a GPU draws a source that
+// is too large for it, is drawn by rays, too. Pixels do not depend on the number of threads.
 class HostRenderer final : public Renderer {
  public:
-  // Pictures of level sets on `source` in pages of this layout, whose sides are powers of two. `threads`: 0 for
-  // all processors of this process. Fails (ErrorKind::usage) when the layout is not of the source.
+  // Pictures of level sets on `source` in pages of this layout, whose sides are powers of two. `threads`: 0
+  // for all processors of this process. Fails (ErrorKind::usage) when the layout is not of the source.
   static Result<std::unique_ptr<HostRenderer>> create(std::shared_ptr<const Volume> source,
                                                       const solver::PageLayout& layout, int threads = 0);
 

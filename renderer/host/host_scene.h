@@ -23,7 +23,9 @@ struct HostScene {
   // The map that a view shows; null: none, or one that is computed from the source.
   [[nodiscard]] MapSamples* map(EvaluatedMap which);
   // The tent that drives the surface where no map does.
-  [[nodiscard]] const solver::Tent& tent() const { return speed.tent() != nullptr ? *speed.tent() : parameter_tent; }
+  [[nodiscard]] const solver::Tent& tent() const {
+    return speed.tent() != nullptr ? *speed.tent() : parameter_tent;
+  }
 
   SourceSamples source;
   PhiPages phi;

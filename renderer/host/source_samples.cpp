@@ -11,7 +11,18 @@ SourceSamples::SourceSamples(std::shared_ptr<const Volume> source)
       stored_(static_cast<Stored>(volume_->voxels.index())),
       slope_(static_cast<float>(volume_->slope)),
       intercept_(static_cast<float>(volume_->intercept)) {
-  std::visit([&](const auto& voxels) { voxels_ = voxels.data(); }, volume_->voxels);
+  const Volume::Voxels* kept = &volume_->voxels;
+  if (size_.x == 1) {
+    std::visit(
+        [&](const auto& voxels) {
+          std::decay_t<decltype(voxels)> doubled;
+          for (const auto voxel : voxels) doubled.insert(doubled.end(), 2, voxel);
+          doubled_ = std::move(doubled);
+        },
+        volume_->voxels);
+    kept = &doubled_;
+  }
+  std::visit([&](const auto& voxels) { voxels_ = voxels.data(); }, *kept);
 }
 
 template <class T>

@@ -22,8 +22,8 @@ struct SpeedTerms {
   // D, unweighted.
   [[nodiscard]] float data_between(glm::vec3 position) const;
 
-  // A weighted term, in units of the data term's: 1 is a front that moves at full speed outward. And kappa, the
-  // sum of the principal curvatures, per smallest spacing.
+  // A weighted term, in units of the data term's: 1 is a front that moves at full speed outward. And kappa,
+  // the sum of the principal curvatures, per smallest spacing.
   struct Values {
     float speed = 0.0F;
     float curvature = 0.0F;

@@ -9,8 +9,8 @@
 
 namespace tidemark::renderer {
 
-// Draws a view that is resolved(). Fails (ErrorKind::cancelled) on a request to stop. The pixels do not depend on
-// the number of threads.
+// Draws a view that is resolved(). Fails (ErrorKind::cancelled) on a request to stop. The pixels do not
+// depend on the number of threads.
 Result<Picture> paint_volume(HostScene& scene, const VolumeView& view, PictureSize size, ThreadPool& threads,
                              const Progress& progress);
 

@@ -1,0 +1,42 @@
+#include "renderer/host/page_kinds.h"
+
+#include "renderer/host/shade_pieces.h"
+
+namespace tidemark::renderer {
+
+PageKinds::PageKinds(HostScene& scene, const VolumeView& view) {
+  const PhiPages& phi = scene.phi;
+  const bool source = shows_source(view);
+  const bool by_phi = needs_phi(view);
+  if (source) {
+    scene.opacity.set_transfer_function(scene.source.volume(), *view.source, view.region,
+                                        static_cast<double>(phi.band()));
+  }
+  const auto kind_of = [&](int page) {
+    const bool resident = phi.is_resident(page);
+    std::uint8_t kind = resident && by_phi ? kPhi : 0;
+    if (source) {
+      const glm::vec4 opacity = scene.opacity.pages()[static_cast<std::size_t>(page)];
+      const float most = resident ? opacity.z : phi.is_inside(page) ? opacity.y : opacity.x;
+      if (most > kLeastOpacity || !view.quality.skip_empty) kind |= kSource;
+      if (most <= kLeastOpacity && !view.surface) kind &= static_cast<std::uint8_t>(~kPhi);
+    }
+    return kind;
+  };
+  const glm::ivec3 grid = phi.page_grid();
+  cube_grid_ = (grid + kSide - 1) / kSide;
+  kinds_.resize(static_cast<std::size_t>(grid.x) * grid.y * grid.z);
+  cubes_.assign(static_cast<std::size_t>(cube_grid_.x) * cube_grid_.y * cube_grid_.z, 0);
+  int page = 0;
+  for (int z = 0; z < grid.z; ++z) {
+    for (int y = 0; y < grid.y; ++y) {
+      std::uint8_t* cubes = cubes_.data() + cube_grid_.x * (y / kSide + cube_grid_.y * (z / kSide));
+      for (int x = 0; x < grid.x; ++x, ++page) {
+        kinds_[static_cast<std::size_t>(page)] = kind_of(page);
+        cubes[x / kSide] |= kinds_[static_cast<std::size_t>(page)];
+      }
+    }
+  }
+}
+
+}  // namespace tidemark::renderer

@@ -1,0 +1,366 @@
+#include "renderer/host/ray_caster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "renderer/host/colours.h"
+
+namespace tidemark::renderer {
+namespace {
+
+constexpr int kMostLayers = 64;  // of surface, labels and clip plane along a ray
+constexpr float kNever = 1e9F;
+
+// Offsets without a pattern that the eye finds (interleaved gradient noise, Jimenez 2014).
+float jitter(glm::vec2 pixel, int round) {
+  const glm::vec2 p = pixel + 5.588238F * static_cast<float>(round);
+  return std::max(glm::fract(52.9829189F * glm::fract(glm::dot(p, glm::vec2(0.06711056F, 0.00583715F)))),
+                  0.05F);
+}
+
+}  // namespace
+
+RayCaster::RayCaster(HostScene& scene, const VolumeView& view, PictureSize size)
+    : scene_(scene),
+      view_(view),
+      size_(size),
+      kinds_(scene, view),
+      shade_pieces_(shade_pieces()),
+      terms_{scene.phi, scene.source, scene.map(EvaluatedMap::speed), scene.tent(), scene.constants},
+      change_(view.colouring == SurfaceColouring::change ? scene.map(EvaluatedMap::change) : nullptr),
+      shows_source_(shows_source(view)),
+      needs_phi_(needs_phi(view)),
+      shows_labels_(view.label_opacity > 0.0 && scene.labels.pages().shows()),
+      volume_(scene.source.size()),
+      spacing_(scene.geometry().spacing_mm),
+      step_(static_cast<float>(view.quality.step_voxels)) {
+  const Geometry& geometry = scene.geometry();
+  voxel_from_view_ = glm::mat4(view.camera.voxel_from_view(geometry, size.aspect()) *
+                               moved_by(offset_of_round(view.quality.round), size));
+  pixel_mm_ = static_cast<float>(2.0 * view.camera.half_height_mm(geometry, size.aspect()) /
+                                 static_cast<double>(size.height));
+  const glm::vec3 way = 2.0F * glm::vec3(voxel_from_view_[2]);
+  direction_ = way / glm::length(way);
+  for (int axis = 0; axis < 3; ++axis) {
+    inverse_[axis] = 1.0F / (direction_[axis] == 0.0F ? 1e-9F : direction_[axis]);
+  }
+  mm_ = glm::length(direction_ * spacing_);
+  viewer_ = -direction_ * spacing_ / mm_;
+  if (view.clip) plane_ = clip_plane_in_voxels(*view.clip, geometry);
+  set_up_light();
+  if (shows_source_) set_up_source();
+}
+
+void RayCaster::set_up_light() {
+  const Lighting& light = view_.lighting;
+  pieces_.ambient = static_cast<float>(light.ambient);
+  pieces_.diffuse = static_cast<float>(light.diffuse);
+  pieces_.specular = static_cast<float>(light.specular);
+  pieces_.shininess = static_cast<float>(light.shininess);
+  pieces_.light = light.from ? glm::vec3(glm::transpose(scene_.geometry().direction) * *light.from) : viewer_;
+  pieces_.half_way = glm::normalize(pieces_.light + viewer_);
+}
+
+void RayCaster::set_up_source() {
+  const auto as_floats = [](const TransferFactor& factor) {
+    return PieceScene::Factor{factor.kind, static_cast<float>(factor.start), static_cast<float>(factor.end)};
+  };
+  pieces_.source = &scene_.source;
+  for (const SourcePrimitive& one : view_.source->source) {
+    pieces_.primitives[static_cast<std::size_t>(pieces_.count++)] = {
+        as_floats(one.value), as_floats(one.gradient), as_floats(one.phi), static_cast<float>(one.opacity),
+        one.colour};
+  }
+  pieces_.by_gradient = view_.source->source_needs_gradient();
+  pieces_.fast_gradient = view_.quality.fast_gradient;
+  pieces_.region = view_.region;
+  pieces_.tint = glm::vec3(view_.surface_colour);
+  pieces_.direction = direction_;
+  pieces_.mm = mm_;
+  pieces_.inverse_spacing = 1.0F / spacing_;
+}
+
+// Finds where the ray is in the volume, and the parts of that in which things may show.
+RayCaster::Ray RayCaster::begin(glm::vec2 view_position) const {
+  Ray ray;
+  ray.start = glm::vec3(voxel_from_view_ * glm::vec4(view_position, -1.0F, 1.0F));
+  const glm::vec3 to_low = (glm::vec3(-0.5F) - ray.start) * inverse_;
+  const glm::vec3 to_high = (volume_ - 0.5F - ray.start) * inverse_;
+  const glm::vec3 enter = glm::min(to_low, to_high);
+  const glm::vec3 leave = glm::max(to_low, to_high);
+  ray.whole = {std::max({enter.x, enter.y, enter.z, 0.0F}), std::min({leave.x, leave.y, leave.z})};
+  clip(ray);
+  return ray;
+}
+
+void RayCaster::clip(Ray& ray) const {
+  glm::vec2 left = ray.whole;
+  ray.cut = kNever;
+  if (plane_) {
+    const glm::vec3 normal(plane_->normal);
+    const float slope = glm::dot(normal, direction_);
+    const float distance = static_cast<float>(plane_->offset) - glm::dot(normal, ray.start);
+    const float meets = distance / (std::abs(slope) > 1e-6F ? slope : 1e-6F);
+    if (std::abs(slope) <= 1e-6F && distance < 0.0F) left.y = left.x;
+    if (slope < -1e-6F) left.x = std::max(left.x, meets);
+    if (slope > 1e-6F) left.y = std::min(left.y, meets);
+    if (view_.clip->picture && std::abs(slope) > 1e-6F && meets >= ray.whole.x && meets < ray.whole.y) {
+      ray.cut = meets;
+    }
+  }
+  ray.for_surface = plane_ && view_.clip->clips_surface ? left : ray.whole;
+  ray.for_source = plane_ && view_.clip->clips_source ? left : ray.whole;
+}
+
+// Where the ray leaves a cube of that many pages a side, from `page` on.
+float RayCaster::leaves(const Ray& ray, glm::ivec3 page, int pages) const {
+  const glm::vec3 shape(scene_.phi.page_shape());
+  const glm::vec3 low = glm::vec3(page) * shape - 0.5F - ray.start;
+  const glm::vec3 out_of = glm::max(low * inverse_, (low + static_cast<float>(pages) * shape) * inverse_);
+  return std::min({out_of.x, out_of.y, out_of.z});
+}
+
+RayCaster::Page RayCaster::enter(const Ray& ray, float t) const {
+  const glm::ivec3 voxel(glm::max(on(ray, t + 1e-3F) + 0.5F, glm::vec3(0.0F)));
+  Page page;
+  page.at = glm::min(scene_.phi.page_of(voxel), scene_.phi.page_grid() - 1);
+  page.number = scene_.phi.page_number(page.at);
+  page.end = std::max(leaves(ray, page.at, 1), t + 1e-3F);
+  return page;
+}
+
+float RayCaster::skip(const Ray& ray, const Page& page) const {
+  if (!kinds_.cube_is_empty(page.at)) return page.end;
+  return std::max(leaves(ray, page.at / PageKinds::kSide * PageKinds::kSide, PageKinds::kSide), page.end);
+}
+
+// The next piece of the ray in which the surface is, from t until `stop`, adding the source on the way.
+RayCaster::Piece RayCaster::march(Ray& ray, float stop) const {
+  if (shows_source_) return march_through_source(ray, stop);
+  if (view_.surface) return march_to_surface(ray, stop);
+  ray.t = std::max(ray.t, stop);
+  return {};
+}
+
+// With the surface alone. Where phi is +-W the surface is some voxels away; elsewhere phi says how far, but
+// may be twice as steep as a distance.
+RayCaster::Piece RayCaster::march_to_surface(Ray& ray, float stop) const {
+  const PhiPages& phi = scene_.phi;
+  const float voxels_per_phi = std::min({spacing_.x, spacing_.y, spacing_.z}) / mm_;
+  const float nearly_band = 0.98F * phi.band();
+  float before = ray.t;
+  while (ray.t < stop) {
+    // To where phi varies.
+    while (ray.t < stop) {
+      const Page page = enter(ray, ray.t);
+      const bool resident = (kinds_[page.number] & PageKinds::kPhi) != 0;
+      if (!view_.quality.skip_empty) break;
+      if (resident && std::abs(phi.at(glm::ivec3(glm::floor(on(ray, ray.t) + 0.5F)))) < nearly_band) break;
+      before = ray.t;
+      ray.t = resident ? std::min(ray.t + 1.0F, page.end) : skip(ray, page);
+    }
+    // Step by step, while it does.
+    float phi_a = phi.between(on(ray, ray.t));
+    if (ray.t < stop && (phi_a > 0.0F) != ray.inside) {
+      return {true, before, ray.t, ray.inside ? 1.0F : -1.0F, phi_a};  // in the last stride
+    }
+    while (ray.t < stop) {
+      float next = ray.t + step_;
+      if (view_.quality.skip_empty) next = std::max(next, ray.t + 0.5F * std::abs(phi_a) * voxels_per_phi);
+      next = std::min(next, stop);
+      const float phi_b = phi.between(on(ray, next));
+      before = ray.t;
+      ray.t = next;
+      if ((phi_b > 0.0F) != ray.inside) return {true, before, next, phi_a, phi_b};
+      phi_a = phi_b;
+      if (view_.quality.skip_empty && std::abs(phi_b) > nearly_band) break;
+    }
+  }
+  return {};
+}
+
+RayCaster::Piece RayCaster::march_through_source(Ray& ray, float stop) const {
+  const PhiPages& phi = scene_.phi;
+  float stride = ray.jitter * step_;
+  while (ray.t < stop && !ray.is_opaque()) {
+    Page page = enter(ray, ray.t);
+    const std::uint8_t kind = kinds_[page.number];
+    if (kind == 0) {
+      ray.t = std::min(skip(ray, page), std::max(stop, ray.t));
+      continue;
+    }
+    if ((kind & PageKinds::kPhi) != 0) {
+      const Piece piece =
+          march_with_phi(ray, std::min(page.end, stop), (kind & PageKinds::kSource) != 0, stride);
+      if (piece.found) return piece;
+      continue;
+    }
+    // All pages in which phi is the same.
+    const bool inside = phi.is_inside(page.number);
+    float end = page.end;
+    while (end < stop) {
+      const Page next = enter(ray, end);
+      if (kinds_[next.number] != kind || (needs_phi_ && phi.is_inside(next.number) != inside)) break;
+      end = next.end;
+    }
+    march_evenly(ray, std::min(end, stop), inside ? phi.band() : -phi.band(), stride);
+  }
+  return {};
+}
+
+void RayCaster::march_evenly(Ray& ray, float end, float phi, float& stride) const {
+  Pieces pieces;
+  pieces.start = ray.start;
+  pieces.shows_from = ray.for_source.x;
+  pieces.shows_to = ray.for_source.y;
+  pieces.value = scene_.source.between(on(ray, ray.t));
+  pieces.phi.fill(phi);
+  while (ray.t < end && !ray.is_opaque()) {
+    pieces.count = 0;
+    pieces.at[0] = ray.t;
+    const int most = ray.picks ? 1 : Pieces::kMost;
+    while (ray.t < end && pieces.count < most) {
+      ray.t = std::min(ray.t + stride, end);
+      stride = step_;
+      pieces.at[static_cast<std::size_t>(++pieces.count)] = ray.t;
+    }
+    shade(ray, pieces);
+  }
+}
+
+// In one page, whose source may show.
+RayCaster::Piece RayCaster::march_with_phi(Ray& ray, float end, bool source, float& stride) const {
+  Pieces pieces;
+  pieces.start = ray.start;
+  pieces.shows_from = ray.for_source.x;
+  pieces.shows_to = ray.for_source.y;
+  if (source) pieces.value = scene_.source.between(on(ray, ray.t));
+  float phi = scene_.phi.between(on(ray, ray.t));
+  Piece piece;
+  while (ray.t < end && !piece.found && !ray.is_opaque()) {
+    pieces.count = 0;
+    pieces.at[0] = ray.t;
+    pieces.phi[0] = phi;
+    const int most = ray.picks ? 1 : Pieces::kMost;
+    while (ray.t < end && pieces.count < most && !piece.found) {
+      float next = std::min(ray.t + stride, end);
+      stride = step_;
+      float next_phi = scene_.phi.between(on(ray, next));
+      if (view_.surface && (next_phi > 0.0F) != ray.inside) {
+        piece = {true, ray.t, next, phi, next_phi};
+        // Up to the surface; what is behind it comes after it.
+        next = glm::mix(ray.t, next, std::clamp(phi / (phi - next_phi), 0.0F, 1.0F));
+        next_phi = phi;
+      }
+      phi = next_phi;
+      ray.t = next;
+      ++pieces.count;
+      pieces.at[static_cast<std::size_t>(pieces.count)] = next;
+      pieces.phi[static_cast<std::size_t>(pieces.count)] = phi;
+    }
+    if (source) shade(ray, pieces);
+  }
+  return piece;
+}
+
+void RayCaster::shade(Ray& ray, Pieces& pieces) const {
+  const float begin = pieces.at[0];
+  const float before = ray.result.a;
+  shade_pieces_(pieces_, pieces, ray.result);
+  if (ray.picks && ray.result.a > before) pick_at(ray, Hit::Kind::source, on(ray, begin));
+}
+
+// Where phi is 0 between two places of other signs, by false position (the Illinois variant).
+float RayCaster::crossing(const Ray& ray, Piece piece) const {
+  float at = piece.a;
+  for (int i = 0; i < 3; ++i) {
+    at = (piece.a * piece.phi_b - piece.b * piece.phi_a) / (piece.phi_b - piece.phi_a);
+    const float phi = scene_.phi.between(on(ray, at));
+    if ((phi > 0.0F) == (piece.phi_b > 0.0F)) {
+      piece.b = at;
+      piece.phi_b = phi;
+      piece.phi_a *= 0.5F;
+    } else {
+      piece.a = at;
+      piece.phi_a = phi;
+      piece.phi_b *= 0.5F;
+    }
+  }
+  return at;
+}
+
+void RayCaster::cast(Ray& ray) const {
+  if (ray.whole.x >= ray.whole.y) return;
+  // From where anything shows to where nothing does any more.
+  ray.t = kNever;
+  float end = -kNever;
+  const auto include = [&](glm::vec2 part) {
+    ray.t = std::min(ray.t, part.x);
+    end = std::max(end, part.y);
+  };
+  if (view_.surface || shows_labels_) include(ray.for_surface);
+  if (shows_source_) include(ray.for_source);
+  if (shows_labels_) begin_labels(ray);
+  if (ray.cut < kNever) include({ray.cut, ray.cut});
+  if (needs_phi_) ray.inside = scene_.phi.between(on(ray, ray.t)) > 0.0F;
+  // Where the inside meets the volume's border the surface is closed.
+  const bool enters_inside = view_.surface && ray.inside && ray.t <= ray.whole.x + 1e-3F;
+  for (int layer = 0; layer < kMostLayers && !ray.is_opaque(); ++layer) {
+    const bool label_ahead = shows_labels_ && ray.label_border < kNever;
+    if (ray.t > end && !label_ahead) break;
+    float stop = ray.cut < kNever ? ray.cut : end;
+    if (shows_labels_) stop = std::min(stop, ray.label_border);
+    const bool enters = layer == 0 && enters_inside;
+    const Piece piece = enters ? Piece{} : march(ray, stop);
+    bool met = piece.found || enters;
+    if (view_.surface) {
+      const bool leaves = !met && ray.inside && stop >= ray.whole.y - 1e-3F;
+      if (met || leaves) {
+        const float at = enters ? ray.whole.x : leaves ? ray.whole.y : crossing(ray, piece);
+        if (at >= ray.for_surface.x && at <= ray.for_surface.y) {
+          const glm::vec3 p = on(ray, at);
+          meet_surface(ray, at, enters || leaves ? face_at(p) * spacing_ : scene_.phi.slope(p));
+        }
+        if (piece.found) ray.inside = !ray.inside;
+      }
+    }
+    if (shows_labels_ && !met && ray.label_border <= stop) {
+      meet_label(ray);
+      met = true;
+    }
+    if (!met && ray.cut < kNever && !ray.is_opaque()) {
+      meet_clip_plane(ray);
+      ray.cut = kNever;
+      met = true;
+    }
+    if (!met) break;
+  }
+}
+
+glm::vec3 RayCaster::colour(std::int64_t x, std::int64_t y) const {
+  const glm::vec2 size(size_.width, size_.height);
+  const glm::vec2 pixel(static_cast<float>(x) + 0.5F, static_cast<float>(size_.height - y) - 0.5F);
+  Ray ray = begin(2.0F * pixel / size - 1.0F);
+  ray.jitter = jitter(pixel, view_.quality.round);
+  cast(ray);
+  return glm::vec3(ray.result) + (1.0F - ray.result.a) * view_.background;
+}
+
+std::optional<Hit> RayCaster::pick(glm::dvec2 pixel) const {
+  const glm::dvec2 size(size_.width, size_.height);
+  const glm::dvec2 place = 2.0 * (pixel + 0.5) / size - 1.0;
+  Ray ray = begin(glm::vec2(place.x, -place.y));
+  ray.picks = true;
+  cast(ray);
+  return ray.picked;
+}
+
+void RayCaster::pick_at(Ray& ray, Hit::Kind kind, glm::vec3 p) const {
+  if (!ray.picks || ray.picked || ray.result.a <= 0.5F) return;
+  ray.picked = Hit{kind, glm::dvec3(p), scene_.geometry().to_patient(glm::dvec3(p))};
+}
+
+}  // namespace tidemark::renderer

@@ -1,0 +1,123 @@
+// Rays through the volume: the processor's side of resources/shaders/render/volume.frag. The surface is found
+// to a fraction of a voxel in phi's resident pages; pages that show nothing are crossed in one stride.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <optional>
+
+#include "renderer/host/page_kinds.h"
+#include "renderer/host/shade_pieces.h"
+#include "renderer/host/speed_terms.h"
+#include "renderer/renderer.h"
+
+namespace tidemark::renderer {
+
+// For one picture of a view that is resolved(). Several threads may cast rays at once.
+class RayCaster {
+ public:
+  // The scene outlives it and stays as it is.
+  RayCaster(HostScene& scene, const VolumeView& view, PictureSize size);
+
+  // The colour of a pixel, 0 to 1.
+  [[nodiscard]] glm::vec3 colour(std::int64_t x, std::int64_t y) const;
+  // The first thing that the ray through a place of the picture meets, in pixels from its top left.
+  [[nodiscard]] std::optional<Hit> pick(glm::dvec2 pixel) const;
+
+ private:
+  // A ray on its way. A unit of t is a voxel.
+  struct Ray {
+    glm::vec3 start{0.0F};        // voxel coordinates
+    glm::vec2 whole{0.0F};        // where it enters and leaves the volume
+    glm::vec2 for_surface{0.0F};  // the parts of it in which they may show
+    glm::vec2 for_source{0.0F};
+    float cut = 0.0F;     // where the clip plane's picture is
+    float jitter = 1.0F;  // of the first sample, in steps
+    float t = 0.0F;
+    bool inside = false;     // of the surface, at t
+    glm::vec4 result{0.0F};  // premultiplied, front to back
+    bool picks = false;
+    std::optional<Hit> picked;
+
+    // Labels: how far they have been looked at, the one there, where the next one begins or ends, and which.
+    float label_t = 0.0F;
+    int label_there = 0;
+    float label_border = 0.0F;
+    int label_met = 0;
+    bool label_on_face = false;  // of the volume
+
+    [[nodiscard]] bool is_opaque() const { return result.a >= kOpaque; }
+    void add(glm::vec3 colour, float opacity) {
+      result += (1.0F - result.a) * glm::vec4(colour * opacity, opacity);
+    }
+  };
+  // The page that a ray is in just behind t, and where it leaves it.
+  struct Page {
+    glm::ivec3 at{0};
+    int number = 0;
+    float end = 0.0F;
+  };
+  // A piece of the ray in which the surface is: its ends and phi there.
+  struct Piece {
+    bool found = false;
+    float a = 0.0F, b = 0.0F;
+    float phi_a = 0.0F, phi_b = 0.0F;
+  };
+
+  void set_up_source();
+  void set_up_light();
+  [[nodiscard]] Ray begin(glm::vec2 view_position) const;
+  void clip(Ray& ray) const;
+  void cast(Ray& ray) const;
+  [[nodiscard]] glm::vec3 on(const Ray& ray, float t) const { return ray.start + t * direction_; }
+  [[nodiscard]] float leaves(const Ray& ray, glm::ivec3 page, int pages) const;
+  [[nodiscard]] Page enter(const Ray& ray, float t) const;
+  // The end of the empty pages around `page`.
+  [[nodiscard]] float skip(const Ray& ray, const Page& page) const;
+
+  [[nodiscard]] Piece march(Ray& ray, float stop) const;
+  [[nodiscard]] Piece march_to_surface(Ray& ray, float stop) const;
+  [[nodiscard]] Piece march_through_source(Ray& ray, float stop) const;
+  void march_evenly(Ray& ray, float end, float phi, float& stride) const;
+  [[nodiscard]] Piece march_with_phi(Ray& ray, float end, bool source, float& stride) const;
+  void shade(Ray& ray, Pieces& pieces) const;
+  [[nodiscard]] float crossing(const Ray& ray, Piece piece) const;
+
+  void begin_labels(Ray& ray) const;
+  void find_label(Ray& ray, float stop) const;
+  void meet_label(Ray& ray) const;
+  [[nodiscard]] bool surface_is_at(glm::vec3 p) const;
+
+  [[nodiscard]] glm::vec3 face_at(glm::vec3 p) const;
+  [[nodiscard]] glm::vec3 lit(glm::vec3 colour, glm::vec3 slope, float open) const;
+  [[nodiscard]] float openness(glm::vec3 p, glm::vec3 outward) const;
+  [[nodiscard]] glm::vec3 taught_colour(glm::vec3 p) const;
+  [[nodiscard]] glm::vec4 material_of_surface(glm::vec3 p) const;
+  void meet_surface(Ray& ray, float at, glm::vec3 rise) const;
+  void meet_clip_plane(Ray& ray) const;
+  void pick_at(Ray& ray, Hit::Kind kind, glm::vec3 p) const;
+
+  HostScene& scene_;
+  const VolumeView& view_;
+  PictureSize size_;
+  PageKinds kinds_;
+  ShadePieces shade_pieces_;
+  PieceScene pieces_;
+  SpeedTerms terms_;
+  const MapSamples* change_ = nullptr;
+  bool shows_source_;
+  bool needs_phi_;
+  bool shows_labels_;
+  glm::mat4 voxel_from_view_{1.0F};
+  glm::vec3 volume_;           // voxels
+  glm::vec3 spacing_;          // mm
+  glm::vec3 direction_{0.0F};  // of all rays, in voxels; length 1
+  glm::vec3 inverse_{0.0F};
+  glm::vec3 viewer_{0.0F};  // unit vector to the viewer, in mm along the voxel axes
+  float mm_ = 1.0F;         // a unit of t
+  float pixel_mm_ = 1.0F;
+  float step_ = 1.0F;
+  std::optional<VoxelPlane> plane_;
+};
+
+}  // namespace tidemark::renderer

@@ -1,0 +1,455 @@
+#include "renderer/host/shade_pieces.h"
+
+// This file is compiled once for each of these instruction sets; the best one is chosen when the program
+// runs.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "renderer/host/shade_pieces.cpp"
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#include <cstring>
+
+#include "hwy/foreach_target.h"  // before highway.h
+
+#include "hwy/contrib/math/math-inl.h"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tidemark::renderer::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Tag = hn::CappedTag<float, Pieces::kMost>;
+using IntTag = hn::RebindToSigned<Tag>;
+using V = hn::Vec<Tag>;
+using I = hn::Vec<IntTag>;
+
+HWY_INLINE V set(float value) {
+  return hn::Set(Tag(), value);
+}
+HWY_INLINE V mix(V a, V b, V share) {
+  return hn::MulAdd(hn::Sub(b, a), share, a);
+}
+
+struct Place {
+  V x, y, z;
+};
+
+// Two voxels side by side, at `offset` voxels from `base`.
+struct Pair {
+  V first, second;
+};
+
+template <class T>
+HWY_INLINE I gather_words(const T* base, I bytes) {
+#if HWY_TARGET <= HWY_AVX2
+  return hn::GatherOffset(IntTag(), reinterpret_cast<const std::int32_t*>(base), bytes);
+#else
+  std::int32_t at[Pieces::kMost];
+  std::int32_t words[Pieces::kMost];
+  hn::StoreU(bytes, IntTag(), at);
+  for (std::size_t lane = 0; lane < hn::Lanes(IntTag()); ++lane) {
+    std::memcpy(words + lane, reinterpret_cast<const char*>(base) + at[lane], sizeof(std::int32_t));
+  }
+  return hn::LoadU(IntTag(), words);
+#endif
+}
+
+HWY_INLINE Pair pair_at(const std::int16_t* base, I offset) {
+  const I words = gather_words(base, hn::ShiftLeft<1>(offset));
+  return {hn::ConvertTo(Tag(), hn::ShiftRight<16>(hn::ShiftLeft<16>(words))),
+          hn::ConvertTo(Tag(), hn::ShiftRight<16>(words))};
+}
+HWY_INLINE Pair pair_at(const std::uint16_t* base, I offset) {
+  const I words = gather_words(base, hn::ShiftLeft<1>(offset));
+  const I low = hn::And(words, hn::Set(IntTag(), 0xFFFF));
+  return {hn::ConvertTo(Tag(), low),
+          hn::ConvertTo(Tag(), hn::And(hn::ShiftRight<16>(words), hn::Set(IntTag(), 0xFFFF)))};
+}
+HWY_INLINE Pair pair_at(const float* base, I offset) {
+  const I bytes = hn::ShiftLeft<2>(offset);
+  return {hn::BitCast(Tag(), gather_words(base, bytes)), hn::BitCast(Tag(), gather_words(base + 1, bytes))};
+}
+
+// The source around the lanes' places, in stored units. Offsets count from a slice near all of them, so that
+// they fit 32 bits in any volume.
+template <class T>
+class Sampler {
+ public:
+  Sampler(const SourceSamples& source, float z_from, float z_to)
+      : size_(source.size()), row_(source.row_stride()), slice_(row_ * size_.y) {
+    constexpr float kReach = 3.0F;
+    const float low = std::min(z_from, z_to) - kReach;
+    first_slice_ = std::clamp(static_cast<int>(low), 0, size_.z - 1);
+    base_ = static_cast<const T*>(source.voxels()) + std::int64_t{first_slice_} * slice_;
+    step_y_ = size_.y > 1 ? row_ : 0;
+    step_z_ = size_.z > 1 ? slice_ : 0;
+  }
+
+  // The voxels below the places along each axis, and how far the places are beyond them.
+  struct Cell {
+    I x, y, z;
+    V share_x, share_y, share_z;
+  };
+  HWY_INLINE Cell cell(const Place& place) const {
+    Cell cell;
+    along(place.x, size_.x, cell.x, cell.share_x);
+    along(place.y, size_.y, cell.y, cell.share_y);
+    along(place.z, size_.z, cell.z, cell.share_z);
+    return cell;
+  }
+
+  HWY_INLINE V value(const Cell& cell) const {
+    const I first = offset(cell);
+    const V below = mix(row(first, 0, 0, cell), row(first, 1, 0, cell), cell.share_y);
+    const V above = mix(row(first, 0, 1, cell), row(first, 1, 1, cell), cell.share_y);
+    return mix(below, above, cell.share_z);
+  }
+
+  // The value and its derivative within the cell, per voxel.
+  HWY_INLINE V value(const Cell& cell, Place& slope) const {
+    const I first = offset(cell);
+    Pair p[4];
+    V rows[4];
+    for (int i = 0; i < 4; ++i) {
+      p[i] = pair_at(base_, hn::Add(first, step(i & 1, i >> 1)));
+      rows[i] = mix(p[i].first, p[i].second, cell.share_x);
+    }
+    const V x_below = mix(hn::Sub(p[0].second, p[0].first), hn::Sub(p[1].second, p[1].first), cell.share_y);
+    const V x_above = mix(hn::Sub(p[2].second, p[2].first), hn::Sub(p[3].second, p[3].first), cell.share_y);
+    const V below = mix(rows[0], rows[1], cell.share_y);
+    const V above = mix(rows[2], rows[3], cell.share_y);
+    slope.x = mix(x_below, x_above, cell.share_z);
+    slope.y = mix(hn::Sub(rows[1], rows[0]), hn::Sub(rows[3], rows[2]), cell.share_z);
+    slope.z = hn::Sub(above, below);
+    return mix(below, above, cell.share_z);
+  }
+
+  // From differences over a voxel to each side, per voxel.
+  HWY_INLINE Place central_slope(const Place& place) const {
+    const Cell cell = this->cell(place);
+    return is_inner(cell) ? inner_slope(cell) : border_slope(place);
+  }
+
+ private:
+  HWY_INLINE static void along(V position, int size, I& low, V& share) {
+    const V p = hn::Min(hn::Max(position, hn::Zero(Tag())), set(static_cast<float>(size - 1)));
+    low = hn::Min(hn::ConvertTo(IntTag(), p), hn::Set(IntTag(), std::max(size - 2, 0)));
+    share = hn::Sub(p, hn::ConvertTo(Tag(), low));
+  }
+  HWY_INLINE I offset(const Cell& cell) const {
+    const I z = hn::Sub(cell.z, hn::Set(IntTag(), first_slice_));
+    return hn::Add(cell.x,
+                   hn::Add(hn::Mul(cell.y, hn::Set(IntTag(), row_)), hn::Mul(z, hn::Set(IntTag(), slice_))));
+  }
+  HWY_INLINE I step(int y, int z) const { return hn::Set(IntTag(), y * step_y_ + z * step_z_); }
+  HWY_INLINE V row(I first, int y, int z, const Cell& cell) const {
+    const Pair pair = pair_at(base_, hn::Add(first, step(y, z)));
+    return mix(pair.first, pair.second, cell.share_x);
+  }
+
+  HWY_INLINE static bool inner_along(I low, int size) {
+    const auto below = hn::Lt(low, hn::Set(IntTag(), 1));
+    const auto above = hn::Gt(low, hn::Set(IntTag(), size - 3));
+    return hn::AllFalse(IntTag(), hn::Or(below, above));
+  }
+  HWY_INLINE bool is_inner(const Cell& cell) const {
+    return inner_along(cell.x, size_.x) && inner_along(cell.y, size_.y) && inner_along(cell.z, size_.z);
+  }
+
+  // Trilinear means of the voxels' central differences, which is the same as central differences between
+  // voxels.
+  HWY_INLINE Place inner_slope(const Cell& cell) const {
+    const I first = offset(cell);
+    const I one = hn::Set(IntTag(), 1);
+    V rows[4];  // between voxels along x; the four inner rows
+    V along_x[4];
+    for (int i = 0; i < 4; ++i) {
+      const I at = hn::Add(first, step(i & 1, i >> 1));
+      const Pair left = pair_at(base_, hn::Sub(at, one));
+      const Pair right = pair_at(base_, hn::Add(at, one));
+      rows[i] = mix(left.second, right.first, cell.share_x);
+      along_x[i] = mix(hn::Sub(right.first, left.first), hn::Sub(right.second, left.second), cell.share_x);
+    }
+    const auto y_slope = [&](int z, V own, V next) {
+      const V before = row(first, -1, z, cell);
+      const V after = row(first, 2, z, cell);
+      return mix(hn::Sub(next, before), hn::Sub(after, own), cell.share_y);
+    };
+    const auto z_slope = [&](int y, V own, V next) {
+      const V before = row(first, y, -1, cell);
+      const V after = row(first, y, 2, cell);
+      return mix(hn::Sub(next, before), hn::Sub(after, own), cell.share_z);
+    };
+    Place slope;
+    slope.x = mix(mix(along_x[0], along_x[1], cell.share_y), mix(along_x[2], along_x[3], cell.share_y),
+                  cell.share_z);
+    slope.y = mix(y_slope(0, rows[0], rows[1]), y_slope(1, rows[2], rows[3]), cell.share_z);
+    slope.z = mix(z_slope(0, rows[0], rows[2]), z_slope(1, rows[1], rows[3]), cell.share_y);
+    const V half = set(0.5F);
+    return {hn::Mul(slope.x, half), hn::Mul(slope.y, half), hn::Mul(slope.z, half)};
+  }
+
+  HWY_NOINLINE Place border_slope(const Place& place) const {
+    const V one = set(1.0F);
+    const V half = set(0.5F);
+    const auto across = [&](const Place& before, const Place& after) {
+      return hn::Mul(half, hn::Sub(value(cell(after)), value(cell(before))));
+    };
+    return {across({hn::Sub(place.x, one), place.y, place.z}, {hn::Add(place.x, one), place.y, place.z}),
+            across({place.x, hn::Sub(place.y, one), place.z}, {place.x, hn::Add(place.y, one), place.z}),
+            across({place.x, place.y, hn::Sub(place.z, one)}, {place.x, place.y, hn::Add(place.z, one)})};
+  }
+
+  glm::ivec3 size_;
+  int row_;
+  int slice_;
+  int step_y_ = 0;
+  int step_z_ = 0;
+  int first_slice_ = 0;
+  const T* base_ = nullptr;
+};
+
+// Abramowitz and Stegun 7.1.28, to 3e-7.
+HWY_INLINE V error_function(V x) {
+  const V a = hn::Abs(x);
+  V d = set(0.0000430638F);
+  for (const float factor :
+       {0.0002765672F, 0.0001520143F, 0.0092705272F, 0.0422820123F, 0.0705230784F, 1.0F}) {
+    d = hn::MulAdd(d, a, set(factor));
+  }
+  for (int i = 0; i < 4; ++i) d = hn::Mul(d, d);
+  return hn::CopySign(hn::Sub(set(1.0F), hn::Div(set(1.0F), d)), x);
+}
+
+HWY_INLINE V factor(const PieceScene::Factor& shape, V x) {
+  switch (shape.kind) {
+    case TransferFactor::Kind::ramp: {
+      const V u = hn::Mul(hn::Sub(x, set(shape.start)), set(1.0F / (shape.end - shape.start)));
+      return hn::Min(hn::Max(u, hn::Zero(Tag())), set(1.0F));
+    }
+    case TransferFactor::Kind::gaussian: {
+      const V u = hn::Mul(hn::Sub(x, set(shape.start)), set(1.0F / shape.end));
+      return hn::Exp(Tag(), hn::Neg(hn::Mul(u, u)));
+    }
+    case TransferFactor::Kind::everything:
+      break;
+  }
+  return set(1.0F);
+}
+
+// The ramp's integral from 0.
+HWY_INLINE V ramp_integral(V x) {
+  const V one = set(1.0F);
+  const V c = hn::Min(hn::Max(x, hn::Zero(Tag())), one);
+  return hn::MulAdd(hn::Mul(set(0.5F), c), c, hn::Max(hn::Sub(x, one), hn::Zero(Tag())));
+}
+
+// The mean of a factor while x goes evenly from a to b: no step is too long for a thin Gaussian.
+HWY_INLINE V mean_factor(const PieceScene::Factor& shape, V a, V b) {
+  if (shape.kind == TransferFactor::Kind::everything) return set(1.0F);
+  const bool gaussian = shape.kind == TransferFactor::Kind::gaussian;
+  const V scale = set(1.0F / (gaussian ? shape.end : shape.end - shape.start));
+  const V u = hn::Mul(hn::Sub(a, set(shape.start)), scale);
+  const V v = hn::Mul(hn::Sub(b, set(shape.start)), scale);
+  const V way = hn::Sub(v, u);
+  const V there = factor(shape, hn::Mul(set(0.5F), hn::Add(a, b)));
+  const auto short_way = hn::Lt(hn::Abs(way), set(0.1F));
+  if (hn::AllTrue(Tag(), short_way)) return there;
+  const V integral =
+      gaussian ? hn::Mul(set(0.88622693F), hn::Sub(error_function(v), error_function(u)))  // sqrt(pi) / 2
+               : hn::Sub(ramp_integral(v), ramp_integral(u));
+  return hn::IfThenElse(short_way, there, hn::Div(integral, way));
+}
+
+struct Material {
+  V red, green, blue;  // times opacity
+  V opacity;           // of a mm
+};
+
+// While the value goes from a to b. Without `gradient` its factors are 1: no opacity is then too small.
+HWY_INLINE Material classify(const PieceScene& scene, V a, V b, const V* gradient, V phi) {
+  const V zero = hn::Zero(Tag());
+  Material sum{zero, zero, zero, zero};
+  for (int i = 0; i < scene.count; ++i) {
+    const PieceScene::Primitive& one = scene.primitives[static_cast<std::size_t>(i)];
+    V share = hn::Mul(set(one.opacity), mean_factor(one.value, a, b));
+    if (gradient != nullptr) share = hn::Mul(share, factor(one.gradient, *gradient));
+    if (one.phi.kind != TransferFactor::Kind::everything) share = hn::Mul(share, factor(one.phi, phi));
+    sum.red = hn::MulAdd(share, set(one.colour.r), sum.red);
+    sum.green = hn::MulAdd(share, set(one.colour.g), sum.green);
+    sum.blue = hn::MulAdd(share, set(one.colour.b), sum.blue);
+    sum.opacity = hn::Add(sum.opacity, share);
+  }
+  return sum;
+}
+
+// How much of pieces with these phi at their ends the region lets through.
+HWY_INLINE V share_in_region(Region region, V phi_a, V phi_b) {
+  const V one = set(1.0F);
+  const V zero = hn::Zero(Tag());
+  const auto in_a = hn::Gt(phi_a, zero);
+  const auto in_b = hn::Gt(phi_b, zero);
+  const V crossed = hn::Div(hn::Max(phi_a, phi_b), hn::Max(hn::Abs(hn::Sub(phi_a, phi_b)), set(1e-30F)));
+  const V whole = hn::IfThenElse(in_a, one, zero);
+  const V inside = hn::IfThenElse(hn::Xor(in_a, in_b), crossed, whole);
+  return region == Region::inside ? inside : hn::Sub(one, inside);
+}
+
+HWY_INLINE V dot(const Place& a, const glm::vec3& b) {
+  return hn::MulAdd(a.z, set(b.z), hn::MulAdd(a.y, set(b.y), hn::Mul(a.x, set(b.x))));
+}
+
+// Blinn-Phong, two-sided: what a colour is multiplied by, and what is added to it.
+HWY_INLINE void light(const PieceScene& scene, const Place& gradient, V steepness, V& factor, V& gloss) {
+  const auto flat = hn::Lt(steepness, set(1e-30F));
+  const V inverse = hn::Div(set(1.0F), hn::Max(steepness, set(1e-30F)));
+  const V facing = hn::Mul(hn::Abs(dot(gradient, scene.light)), inverse);
+  factor = hn::IfThenElse(flat, set(1.0F), hn::MulAdd(set(scene.diffuse), facing, set(scene.ambient)));
+  gloss = hn::Zero(Tag());
+  if (scene.specular <= 0.0F) return;
+  const V mirrored = hn::Mul(hn::Abs(dot(gradient, scene.half_way)), inverse);
+  const V power =
+      hn::Exp(Tag(), hn::Mul(set(scene.shininess), hn::Log(Tag(), hn::Max(mirrored, set(1e-20F)))));
+  gloss = hn::IfThenElse(flat, gloss, hn::Mul(set(scene.specular), power));
+}
+
+struct Shaded {
+  float red[Pieces::kMost], green[Pieces::kMost], blue[Pieces::kMost], opacity[Pieces::kMost];
+};
+
+// Lanes from `first` on. Returns false when nothing shows in them.
+template <class T>
+HWY_INLINE bool shade_lanes(const PieceScene& scene, const Pieces& pieces, const Sampler<T>& sampler,
+                            int first, const float* values, const Place& cell_slope, Shaded& shaded) {
+  const Tag d;
+  const float* at = pieces.at.data() + first;
+  const V begin = hn::LoadU(d, at);
+  const V end = hn::LoadU(d, at + 1);
+  const V a = hn::LoadU(d, values + first);
+  const V b = hn::LoadU(d, values + first + 1);
+  const V phi_a = hn::LoadU(d, pieces.phi.data() + first);
+  const V phi_b = hn::LoadU(d, pieces.phi.data() + first + 1);
+  V length = hn::Sub(hn::Min(end, set(pieces.shows_to)), hn::Max(begin, set(pieces.shows_from)));
+  length = hn::Mul(hn::Max(length, hn::Zero(d)), set(scene.mm));
+  if (scene.region == Region::inside || scene.region == Region::outside) {
+    length = hn::Mul(length, share_in_region(scene.region, phi_a, phi_b));
+  }
+  const auto wanted = hn::FirstN(d, static_cast<std::size_t>(pieces.count - first));
+  length = hn::IfThenElseZero(wanted, length);
+  const V phi = hn::Mul(set(0.5F), hn::Add(phi_a, phi_b));
+  Material material = classify(scene, a, b, nullptr, phi);
+  const auto shows = [&] { return hn::Gt(hn::Mul(material.opacity, length), set(kLeastOpacity)); };
+  if (hn::AllFalse(d, shows())) return false;
+
+  Place gradient = cell_slope;
+  if (!scene.fast_gradient) {
+    const V middle = hn::Mul(set(0.5F), hn::Add(begin, end));
+    gradient = sampler.central_slope({hn::MulAdd(middle, set(scene.direction.x), set(pieces.start.x)),
+                                      hn::MulAdd(middle, set(scene.direction.y), set(pieces.start.y)),
+                                      hn::MulAdd(middle, set(scene.direction.z), set(pieces.start.z))});
+  }
+  const float slope = scene.source->slope();
+  gradient.x = hn::Mul(gradient.x, set(slope * scene.inverse_spacing.x));
+  gradient.y = hn::Mul(gradient.y, set(slope * scene.inverse_spacing.y));
+  gradient.z = hn::Mul(gradient.z, set(slope * scene.inverse_spacing.z));
+  const V squared =
+      hn::MulAdd(gradient.z, gradient.z, hn::MulAdd(gradient.y, gradient.y, hn::Mul(gradient.x, gradient.x)));
+  const V steepness = hn::Sqrt(squared);
+  if (scene.by_gradient) {
+    material = classify(scene, a, b, &steepness, phi);
+    if (hn::AllFalse(d, shows())) return false;
+  }
+  const V inverse = hn::IfThenElseZero(shows(), hn::Div(set(1.0F), hn::Max(material.opacity, set(1e-30F))));
+  const V opacity =
+      hn::IfThenElseZero(shows(), hn::Sub(set(1.0F), hn::Exp(d, hn::Neg(hn::Mul(material.opacity, length)))));
+  V red = hn::Mul(material.red, inverse);
+  V green = hn::Mul(material.green, inverse);
+  V blue = hn::Mul(material.blue, inverse);
+  if (scene.region == Region::tinted) {
+    const V share = hn::IfThenElseZero(hn::Gt(phi_b, hn::Zero(d)), set(0.7F));
+    red = mix(red, set(scene.tint.r), share);
+    green = mix(green, set(scene.tint.g), share);
+    blue = mix(blue, set(scene.tint.b), share);
+  }
+  V lit;
+  V gloss;
+  light(scene, gradient, steepness, lit, gloss);
+  hn::StoreU(hn::Mul(opacity, hn::MulAdd(red, lit, gloss)), d, shaded.red + first);
+  hn::StoreU(hn::Mul(opacity, hn::MulAdd(green, lit, gloss)), d, shaded.green + first);
+  hn::StoreU(hn::Mul(opacity, hn::MulAdd(blue, lit, gloss)), d, shaded.blue + first);
+  hn::StoreU(opacity, d, shaded.opacity + first);
+  return true;
+}
+
+template <class T>
+HWY_INLINE void shade(const PieceScene& scene, Pieces& pieces, glm::vec4& result) {
+  const Tag d;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
+  static_assert(Pieces::kMost % kLanes == 0);
+  const auto z_at = [&](float at) { return pieces.start.z + at * scene.direction.z; };
+  const Sampler<T> sampler(*scene.source, z_at(pieces.at[0]),
+                           z_at(pieces.at[static_cast<std::size_t>(pieces.count)]));
+  // What is behind the last piece is no piece, but lanes of it are computed.
+  for (int i = pieces.count + 1; i <= Pieces::kMost; ++i) {
+    pieces.at[static_cast<std::size_t>(i)] = pieces.at[static_cast<std::size_t>(pieces.count)];
+    pieces.phi[static_cast<std::size_t>(i)] = pieces.phi[static_cast<std::size_t>(pieces.count)];
+  }
+  float values[Pieces::kMost + 1];
+  values[0] = pieces.value;
+  Shaded shaded;
+  for (int first = 0; first < pieces.count; first += kLanes) {
+    const V end = hn::LoadU(d, pieces.at.data() + first + 1);
+    const Place place{hn::MulAdd(end, set(scene.direction.x), set(pieces.start.x)),
+                      hn::MulAdd(end, set(scene.direction.y), set(pieces.start.y)),
+                      hn::MulAdd(end, set(scene.direction.z), set(pieces.start.z))};
+    Place slope{};
+    const auto cell = sampler.cell(place);
+    const V stored = scene.fast_gradient ? sampler.value(cell, slope) : sampler.value(cell);
+    hn::StoreU(hn::MulAdd(stored, set(scene.source->slope()), set(scene.source->intercept())), d,
+               values + first + 1);
+    if (!shade_lanes(scene, pieces, sampler, first, values, slope, shaded)) continue;
+    for (int i = first; i < std::min(pieces.count, first + kLanes); ++i) {
+      const float left = 1.0F - result.a;
+      result.r += left * shaded.red[i];
+      result.g += left * shaded.green[i];
+      result.b += left * shaded.blue[i];
+      result.a += left * shaded.opacity[i];
+      if (result.a >= kOpaque) return;
+    }
+  }
+  pieces.value = values[pieces.count];
+}
+
+}  // namespace
+
+void shade_any(const PieceScene& scene, Pieces& pieces, glm::vec4& result) {
+  switch (scene.source->stored()) {
+    case SourceSamples::Stored::int16:
+      return shade<std::int16_t>(scene, pieces, result);
+    case SourceSamples::Stored::uint16:
+      return shade<std::uint16_t>(scene, pieces, result);
+    case SourceSamples::Stored::float32:
+      return shade<float>(scene, pieces, result);
+  }
+}
+
+ShadePieces shader() {
+  return shade_any;
+}
+
+}  // namespace tidemark::renderer::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tidemark::renderer {
+namespace {
+
+HWY_EXPORT(shader);
+
+}  // namespace
+
+ShadePieces shade_pieces() {
+  return HWY_DYNAMIC_DISPATCH(shader)();
+}
+
+}  // namespace tidemark::renderer
+#endif  // HWY_ONCE

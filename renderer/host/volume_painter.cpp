@@ -1,0 +1,63 @@
+#include "renderer/host/volume_painter.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "renderer/host/ray_caster.h"
+
+namespace tidemark::renderer {
+namespace {
+
+constexpr std::int64_t kTile = 16;  // pixels a side: neighbouring rays read the same voxels
+
+// What a view shows beside phi and the source is made ready.
+void prepare(HostScene& scene, const VolumeView& view, ThreadPool& threads) {
+  if (view.label_opacity > 0.0 && scene.labels.pages().shows()) scene.labels.prepare_borders();
+  if (MapSamples* map = scene.map(map_of(view))) {
+    map->fill_pages(scene.phi.layout(), scene.phi.resident_pages(), threads);
+  }
+}
+
+std::uint8_t as_byte(float share) {
+  return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(share, 0.0F, 1.0F)));
+}
+
+}  // namespace
+
+Result<Picture> paint_volume(HostScene& scene, const VolumeView& view, PictureSize size, ThreadPool& threads,
+                             const Progress& progress) {
+  prepare(scene, view, threads);
+  const RayCaster caster(scene, view, size);
+  Picture picture{size.width, size.height,
+                  std::vector<std::uint8_t>(static_cast<std::size_t>(4 * size.width * size.height))};
+  const std::int64_t columns = (size.width + kTile - 1) / kTile;
+  const std::int64_t rows = (size.height + kTile - 1) / kTile;
+  const auto paint_tile = [&](std::int64_t tile) {
+    const std::int64_t left = tile % columns * kTile;
+    const std::int64_t top = tile / columns * kTile;
+    for (std::int64_t y = top; y < std::min(top + kTile, size.height); ++y) {
+      std::uint8_t* pixel = picture.pixels.data() + 4 * (left + size.width * y);
+      for (std::int64_t x = left; x < std::min(left + kTile, size.width); ++x) {
+        const glm::vec3 colour = caster.colour(x, y);
+        *pixel++ = as_byte(colour.r);
+        *pixel++ = as_byte(colour.g);
+        *pixel++ = as_byte(colour.b);
+        *pixel++ = 255;
+      }
+    }
+  };
+  threads.for_each(columns * rows, 1, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t tile = begin; tile < end && !progress.cancelled(); ++tile) paint_tile(tile);
+  });
+  if (progress.cancelled()) return cancelled_error();
+  return picture;
+}
+
+std::optional<Hit> pick_volume(HostScene& scene, const VolumeView& view, PictureSize size, glm::dvec2 pixel,
+                               ThreadPool& threads) {
+  prepare(scene, view, threads);
+  return RayCaster(scene, view, size).pick(pixel);
+}
+
+}  // namespace tidemark::renderer
