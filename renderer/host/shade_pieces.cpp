@@ -7,8 +7,9 @@
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #include <cstring>
 
-#include "hwy/contrib/math/math-inl.h"
 #include "hwy/foreach_target.h"  // before highway.h
+
+#include "hwy/contrib/math/math-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
