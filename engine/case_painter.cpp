@@ -3,7 +3,7 @@
 #include <QPointer>
 #include <chrono>
 
-#include "solver/gl/packed_view.h"
+#include "renderer/gl/gl_renderer.h"
 #include "solver/speed/motion_limit.h"
 
 namespace tidemark::engine {
@@ -83,6 +83,7 @@ bool CasePainter::out_of_date(ViewSlot& slot) const {
          (slot.wish_is_new || slot.drawn_phi != phi_revision_ || slot.drawn_look != look_revision_);
 }
 
+// From the executor's memory where the renderer can read it, else from a copy.
 Status CasePainter::show_phi(Canvas& canvas, document::Case& document, bool with_pages) {
   solver::Executor& executor = document.level_set().executor();
   std::optional<std::vector<std::int64_t>> quiet;
@@ -91,14 +92,16 @@ Status CasePainter::show_phi(Canvas& canvas, document::Case& document, bool with
     if (!pages) return pass_on(pages);
     quiet = std::move(*pages);
   }
-  solver::PackedView view;
-  if (executor.packed_view(view)) return canvas.renderer->look_at(view, quiet);
+  auto seen = canvas.renderer->look_at(executor, quiet);
+  if (!seen) return pass_on(seen);
+  canvas.sees_executor = *seen;
+  if (*seen) return {};
   const auto field = phi(document);
   if (!field) return tl::unexpected<Error>(field.error());
   ++phi_copies_;
-  auto status = canvas.renderer->set_phi(**field, quiet.value_or(std::vector<std::int64_t>()));
-  pages_uploaded_ += canvas.renderer->pages_uploaded();
-  return status;
+  TIDEMARK_TRY(canvas.renderer->set_phi(*field, quiet.value_or(std::vector<std::int64_t>())));
+  if (canvas.gl != nullptr) pages_uploaded_ += canvas.gl->pages_uploaded();
+  return {};
 }
 
 Status CasePainter::show_labels(Canvas& canvas, const document::Labels& labels) {
@@ -107,7 +110,7 @@ Status CasePainter::show_labels(Canvas& canvas, const document::Labels& labels) 
     canvas.labels = labels.revision();
   }
   if (canvas.label_list == labels.list()) return {};
-  std::vector<renderer::Renderer::LabelColour> colours(renderer::Renderer::kLabels);
+  std::vector<renderer::LabelColour> colours(renderer::kLabels);
   for (const document::Label& label : labels.list()) {
     const std::uint8_t opacity = label.visible ? 255 : 0;
     colours[label.id] = {label.colour[0], label.colour[1], label.colour[2], opacity};
@@ -123,9 +126,11 @@ Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>&
   if (canvas.renderer && canvas.source != source) canvas = {};
   if (!canvas.renderer) {
     const solver::PageLayout layout(source->geometry.size, level_set.executor().memory().page_shape);
-    auto renderer = renderer::Renderer::create(device_, source, layout);
+    const auto kind = device_ != nullptr ? engine_.renderer() : renderer::RendererKind::host;
+    auto renderer = renderer::make_renderer(kind, device_, source, layout);
     if (!renderer) return pass_on(renderer);
     canvas.renderer = std::move(*renderer);
+    canvas.gl = dynamic_cast<renderer::GlRenderer*>(canvas.renderer.get());
     canvas.source = source;
   }
   if (canvas.parameters != level_set.parameters()) {
@@ -141,20 +146,22 @@ Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>&
     canvas.renderer->set_change(limit == nullptr ? nullptr : limit->change());
   }
   TIDEMARK_TRY(show_labels(canvas, document.labels()));
-  if (canvas.phi != phi_revision_ || (with_pages && canvas.pages != phi_revision_)) {
+  const bool phi_is_old = canvas.phi != phi_revision_ || (with_pages && canvas.pages != phi_revision_);
+  if (phi_is_old || (canvas.sees_executor && canvas.executor_uses != executor_uses_)) {
     TIDEMARK_TRY(show_phi(canvas, document, with_pages));
     canvas.phi = phi_revision_;
+    canvas.executor_uses = executor_uses_;
     if (with_pages) canvas.pages = phi_revision_;
   }
   return {};
 }
 
-Result<renderer::Renderer*> CasePainter::renderer_for(const AnyView& view, document::Case& document) {
+Result<CasePainter::Canvas*> CasePainter::canvas_for(const AnyView& view, document::Case& document) {
   const auto& solved = document.level_set().source();
   const bool another = solved != document.volume() && shows_speed(view);
   Canvas& canvas = another ? solved_ : shown_;
   TIDEMARK_TRY(prepare(canvas, another ? solved : document.volume(), document, shows_pages(view)));
-  return canvas.renderer.get();
+  return &canvas;
 }
 
 Result<bool> CasePainter::draw(ViewSlot& slot, document::Case& document, std::stop_token stop) {
@@ -165,9 +172,9 @@ Result<bool> CasePainter::draw(ViewSlot& slot, document::Case& document, std::st
     wish = slot.wish;
     is_new = std::exchange(slot.wish_is_new, false);
   }
-  if (!wish || !can_draw() || wish->size.width <= 0 || wish->size.height <= 0) return false;
-  const auto renderer = renderer_for(wish->view, document);
-  if (!renderer) return tl::unexpected<Error>(renderer.error());
+  if (!wish || wish->size.width <= 0 || wish->size.height <= 0) return false;
+  const auto canvas = canvas_for(wish->view, document);
+  if (!canvas) return tl::unexpected<Error>(canvas.error());
   if (is_new || slot.drawn_phi != phi_revision_ || slot.drawn_look != look_revision_) {
     slot.quality.moved();
     slot.mean.clear();
@@ -178,23 +185,21 @@ Result<bool> CasePainter::draw(ViewSlot& slot, document::Case& document, std::st
   const std::int64_t step = document.level_set().step();
   const Progress progress{nullptr, std::move(stop)};
   if (std::holds_alternative<renderer::VolumeView>(wish->view))
-    return draw_volume(slot, *wish, **renderer, step, progress);
-  auto shown =
-      paint(slot, std::get<renderer::SliceView>(wish->view), wish->size, false, **renderer, progress);
+    return draw_volume(slot, *wish, **canvas, step, progress);
+  auto shown = paint(slot, std::get<renderer::SliceView>(wish->view), wish->size, false, **canvas, progress);
   if (!shown) return pass_on(shown);
   deliver(slot, *wish, std::move(*shown), step, true);
   return false;
 }
 
-Result<bool> CasePainter::draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish,
-                                      renderer::Renderer& renderer, std::int64_t step,
-                                      const Progress& progress) {
+Result<bool> CasePainter::draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, Canvas& canvas,
+                                      std::int64_t step, const Progress& progress) {
   const auto pass = slot.quality.next(wish.size);
   if (!pass) return false;
   renderer::VolumeView view = std::get<renderer::VolumeView>(wish.view);
   view.quality = pass->quality;
   const auto begin = std::chrono::steady_clock::now();
-  auto shown = paint(slot, view, pass->size, !pass->moving, renderer, progress);
+  auto shown = paint(slot, view, pass->size, !pass->moving, canvas, progress);
   if (!shown) return pass_on(shown);
   slot.quality.drawn(*pass, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   const bool more = slot.quality.next(wish.size).has_value();
@@ -204,23 +209,22 @@ Result<bool> CasePainter::draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish
 
 template <class View>
 Result<ShownPicture> CasePainter::paint(ViewSlot& slot, const View& view, renderer::PictureSize size,
-                                        bool into_mean, renderer::Renderer& renderer,
-                                        const Progress& progress) {
+                                        bool into_mean, Canvas& canvas, const Progress& progress) {
   ShownPicture shown;
-  if (engine_.pictures() == Engine::Pictures::textures) {
+  if (canvas.gl != nullptr && engine_.pictures() == Engine::Pictures::textures) {
     if (!slot.textures) {
       auto made = ViewTextures::create(engine_, device_);
       if (!made) return pass_on(made);
       slot.textures = std::move(*made);
     }
-    auto texture = slot.textures->draw(renderer, view, size, into_mean, progress);
+    auto texture = slot.textures->draw(*canvas.gl, view, size, into_mean, progress);
     if (!texture) return pass_on(texture);
     shown.texture = std::move(*texture);
     return shown;
   }
-  auto picture = renderer.draw(view, size, progress);
+  auto picture = canvas.renderer->draw(view, size, progress);
   if (!picture) return pass_on(picture);
-  ++pictures_read_back_;
+  if (canvas.gl != nullptr) ++pictures_read_back_;
   if (into_mean) {
     slot.mean.add(*picture);
     *picture = slot.mean.mean();
@@ -250,10 +254,9 @@ void CasePainter::announce(ViewSlot& slot) {
 Result<std::optional<renderer::Hit>> CasePainter::pick(const renderer::VolumeView& view,
                                                        renderer::PictureSize size, glm::dvec2 pixel,
                                                        document::Case& document) {
-  if (!can_draw()) return std::optional<renderer::Hit>();
-  const auto renderer = renderer_for(view, document);
-  if (!renderer) return tl::unexpected<Error>(renderer.error());
-  return (*renderer)->pick(view, size, pixel);
+  const auto canvas = canvas_for(view, document);
+  if (!canvas) return tl::unexpected<Error>(canvas.error());
+  return (*canvas)->renderer->pick(view, size, pixel);
 }
 
 }  // namespace tidemark::engine

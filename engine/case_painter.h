@@ -11,6 +11,10 @@
 #include "engine/view_slot.h"
 #include "renderer/renderer.h"
 
+namespace tidemark::renderer {
+class GlRenderer;
+}
+
 namespace tidemark::engine {
 
 class CasePainter {
@@ -22,10 +26,9 @@ class CasePainter {
   // Of the views that still exist.
   [[nodiscard]] std::vector<std::shared_ptr<ViewSlot>> views();
 
-  // The engine's thread. Without a device nothing is ever drawn.
+  // The engine's thread. Without a device the processor draws.
   void use(std::shared_ptr<gpu::Device> device) { device_ = std::move(device); }
-  [[nodiscard]] bool can_draw() const { return device_ != nullptr; }
-  // Drops everything on the GPU: the context was lost, or another executor has other pages.
+  // Drops the renderers: the context was lost, or another executor has other pages.
   void forget();
 
   // phi, or something else that is seen, has changed: every view is out of date.
@@ -34,6 +37,8 @@ class CasePainter {
     ++phi_revision_;
   }
   void look_changed() { ++look_revision_; }
+  // Something was asked of the executor: its memory must be looked at anew, even if phi is as it was.
+  void executor_used() { ++executor_uses_; }
   // What speed maps show; null: the tent.
   void set_speed(std::shared_ptr<const solver::SpeedFunction> speed) { speed_ = std::move(speed); }
 
@@ -47,19 +52,23 @@ class CasePainter {
   // The current phi, read from the executor at most once until it changes.
   Result<std::shared_ptr<const solver::Field>> phi(document::Case& document);
 
-  // Read-backs of phi since the start: a GL executor's pictures need none.
-  [[nodiscard]] std::int64_t pages_uploaded() const { return pages_uploaded_; }
+  // Copies of phi for pictures since the start, and pages of them sent to a GPU. Both are none where renderer
+  // and executor work in the same memory.
   [[nodiscard]] std::int64_t phi_copies() const { return phi_copies_; }
-  // Read-backs of pictures since the start: pictures as textures need none.
+  [[nodiscard]] std::int64_t pages_uploaded() const { return pages_uploaded_; }
+  // Read-backs of pictures since the start: pictures as textures need none, nor do the processor's.
   [[nodiscard]] std::int64_t pictures_read_back() const { return pictures_read_back_; }
 
  private:
   // The renderer of one source, with the revisions of the case that it has.
   struct Canvas {
     std::unique_ptr<renderer::Renderer> renderer;
+    renderer::GlRenderer* gl = nullptr;  // the same; null where the processor draws
     std::shared_ptr<const Volume> source;
     std::int64_t phi = -1;
-    std::int64_t pages = -1;   // revision of phi with which the pages' state was shown
+    std::int64_t pages = -1;     // revision of phi with which the pages' state was shown
+    bool sees_executor = false;  // and no copy of phi
+    std::uint64_t executor_uses = 0;
     std::uint64_t labels = 0;  // revision
     std::vector<document::Label> label_list;
     std::optional<solver::Parameters> parameters;
@@ -67,17 +76,17 @@ class CasePainter {
     std::shared_ptr<const solver::MotionLimit> limit;
   };
 
-  Result<renderer::Renderer*> renderer_for(const AnyView& view, document::Case& document);
+  Result<Canvas*> canvas_for(const AnyView& view, document::Case& document);
   Status prepare(Canvas& canvas, const std::shared_ptr<const Volume>& source, document::Case& document,
                  bool with_pages);
   static Status show_labels(Canvas& canvas, const document::Labels& labels);
   Status show_phi(Canvas& canvas, document::Case& document, bool with_pages);
-  Result<bool> draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, renderer::Renderer& renderer,
-                           std::int64_t step, const Progress& progress);
+  Result<bool> draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, Canvas& canvas, std::int64_t step,
+                           const Progress& progress);
   // Draws a picture in the form that the views want; its description is not filled in.
   template <class View>
   Result<ShownPicture> paint(ViewSlot& slot, const View& view, renderer::PictureSize size, bool into_mean,
-                             renderer::Renderer& renderer, const Progress& progress);
+                             Canvas& canvas, const Progress& progress);
   static void withdraw(ViewSlot& slot);
   void deliver(ViewSlot& slot, const ViewSlot::Wish& wish, ShownPicture shown, std::int64_t step,
                bool finished);
@@ -91,6 +100,7 @@ class CasePainter {
   std::shared_ptr<const solver::Field> phi_;
   std::int64_t phi_revision_ = 0;
   std::uint64_t look_revision_ = 1;
+  std::uint64_t executor_uses_ = 1;
   std::int64_t pages_uploaded_ = 0;
   std::int64_t phi_copies_ = 0;
   std::int64_t pictures_read_back_ = 0;

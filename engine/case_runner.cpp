@@ -50,6 +50,7 @@ SpeedMaker::Report CaseRunner::report() const {
 }
 
 void CaseRunner::show() {
+  painter_.executor_used();
   follow_drive();
   if (auto status = follow_surface(); !status) report_failure(status.error());
   show_pictures();
@@ -287,6 +288,7 @@ Status CaseRunner::advance(std::int64_t steps, const Progress& progress) {
   solver::Advance run{steps, pauses, progress};
   run.progress.report = nullptr;
   const auto report = level_set.advance(run);
+  painter_.executor_used();
   if (!report) return tl::unexpected<Error>(report.error());
   ++advances_;
   const bool comes_to_rest = report->converged && !meter_.converged();

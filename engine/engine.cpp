@@ -27,9 +27,9 @@ bool at_least(const QSurfaceFormat& format, std::pair<int, int> version) {
   return format.version() >= qMakePair(version.first, version.second);
 }
 
-Engine::Pictures choose_pictures(Engine::Graphics graphics) {
+Engine::Pictures choose_pictures(Engine::Graphics graphics, renderer::RendererKind renderer) {
   const QByteArray wanted = qgetenv("TIDEMARK_PICTURES");
-  if (graphics == Engine::Graphics::none || wanted == "images") return Engine::Pictures::images;
+  if (renderer == renderer::RendererKind::host || wanted == "images") return Engine::Pictures::images;
   if (wanted == "textures") return Engine::Pictures::textures;
   return graphics == Engine::Graphics::hardware ? Engine::Pictures::textures : Engine::Pictures::images;
 }
@@ -89,6 +89,22 @@ Status Engine::make_context() {
   }
   if (graphics_problem_.empty()) graphics_problem_ = "no OpenGL 3.3 core context could be made";
   return fail(ErrorKind::capability, "{}", graphics_problem_);
+}
+
+void Engine::choose_renderer() {
+  using renderer::RendererKind;
+  const auto asked =
+      renderer::renderer_named(qgetenv("TIDEMARK_RENDERER").toStdString()).value_or(RendererKind::automatic);
+  renderer_ = device_ == nullptr ? RendererKind::host : renderer::chosen_kind(asked, device_.get());
+  if (asked == renderer_) {
+    renderer_reason_ = "TIDEMARK_RENDERER asks for it";
+  } else if (asked == RendererKind::gl) {
+    renderer_reason_ = "there is no OpenGL for gl, which TIDEMARK_RENDERER asks for";
+  } else if (graphics_ == Graphics::none) {
+    renderer_reason_ = "there is no OpenGL";
+  } else {
+    renderer_reason_ = graphics_ == Graphics::software ? "there is no GPU" : "there is a GPU";
+  }
 }
 
 Status Engine::renew_graphics() {
@@ -186,7 +202,8 @@ void Engine::run() {
     capabilities_ = device_->capabilities();
     graphics_ = capabilities_.software ? Graphics::software : Graphics::hardware;
   }
-  pictures_ = choose_pictures(graphics_);
+  choose_renderer();
+  pictures_ = choose_pictures(graphics_, renderer_);
   started_ = true;
   changed_.notify_all();
   while (auto waiting = next(lock)) {

@@ -19,6 +19,7 @@
 
 #include "core/result.h"
 #include "gpu/device.h"
+#include "renderer/renderer.h"
 
 namespace tidemark::engine {
 
@@ -38,16 +39,20 @@ class Engine : public QObject {
  public:
   enum class Graphics { hardware, software, none };
 
-  // Without OpenGL the engine computes, but draws nothing, and graphics_problem() has the reason.
-  // `use_opengl` false asks for that.
+  // Without OpenGL the processor draws and computes, and graphics_problem() has the reason. `use_opengl`
+  // false asks for that.
   explicit Engine(bool use_opengl = true);
   ~Engine() override;
 
   [[nodiscard]] Graphics graphics() const { return graphics_; }
   [[nodiscard]] const std::string& graphics_problem() const { return graphics_problem_; }
   [[nodiscard]] const gpu::Capabilities& capabilities() const { return capabilities_; }
-  // How finished pictures reach the views: as textures that their contexts share, or read back. With a GPU
-  // the former; the environment's TIDEMARK_PICTURES=textures|images overrides the choice.
+  // Who draws, gl or host, and why: OpenGL on a GPU, else the processor. The environment's
+  // TIDEMARK_RENDERER=gl|host overrides the choice; without OpenGL the processor draws all the same.
+  [[nodiscard]] renderer::RendererKind renderer() const { return renderer_; }
+  [[nodiscard]] const std::string& renderer_reason() const { return renderer_reason_; }
+  // How finished pictures of OpenGL's reach the views: as textures that their contexts share, or read back.
+  // With a GPU the former; the environment's TIDEMARK_PICTURES=textures|images overrides the choice.
   enum class Pictures { textures, images };
   [[nodiscard]] Pictures pictures() const { return pictures_; }
   // For contexts that are to see the engine's textures; null without OpenGL.
@@ -97,6 +102,7 @@ class Engine : public QObject {
   static constexpr std::size_t kPriorities = 5;
 
   Status make_context();
+  void choose_renderer();
   void run();
   std::optional<Waiting> next(std::unique_lock<std::mutex>& lock);
   static void carry_out(const Waiting& waiting, const std::stop_token& stop);
@@ -108,6 +114,8 @@ class Engine : public QObject {
   std::shared_ptr<gpu::Device> device_;
   gpu::Capabilities capabilities_;
   Graphics graphics_ = Graphics::none;
+  renderer::RendererKind renderer_ = renderer::RendererKind::host;
+  std::string renderer_reason_;
   Pictures pictures_ = Pictures::images;
   std::string graphics_problem_;
   std::atomic<int> contexts_made_{0};

@@ -21,8 +21,8 @@ using AnyView = std::variant<renderer::SliceView, renderer::VolumeView>;
 
 // A picture on the screen, with its description.
 struct ShownPicture {
-  // One of the two, by Engine::pictures(); neither where there is no picture. May be smaller than the view
-  // while something moves: to be shown enlarged.
+  // One of the two: a texture only where OpenGL draws and Engine::pictures() says so. Neither before the
+  // first picture. May be smaller than the view while something moves: to be shown enlarged.
   QImage image;
   std::shared_ptr<const PictureTexture> texture;
   AnyView view;

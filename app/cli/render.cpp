@@ -7,7 +7,7 @@
 #include "app/cli/outputs.h"
 #include "app/cli/program.h"
 #include "app/cli/render_options.h"
-#include "gpu/device.h"
+#include "app/cli/renderer_option.h"
 #include "imaging/files/png_file.h"
 #include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
@@ -146,18 +146,19 @@ Status run(Program& program, const RenderOptions& options) {
   if (!views) return pass_on(views);
   Outputs outputs;
   TIDEMARK_TRY(outputs.announce_png("--out", options.out));
+  const auto chosen = choose_renderer(options.renderer);
+  if (!chosen) return tl::unexpected<Error>(chosen.error());
   auto loaded = load_study(options.study, console.progress());
   if (!loaded) return pass_on(loaded);
   const auto source = std::make_shared<const Volume>(std::move(loaded->volume));
-  const auto phi = surface_of(options, *source, console);
-  if (!phi) return tl::unexpected<Error>(phi.error());
+  auto surface = surface_of(options, *source, console);
+  if (!surface) return pass_on(surface);
+  const auto phi = std::make_shared<const solver::Field>(std::move(*surface));
   if (console.interrupted()) return cancelled_error();
 
-  auto device = gpu::Device::create_headless({gpu::GlVersion::gl33, false});
-  if (!device) return pass_on(device);
-  auto renderer = renderer::Renderer::create(*device, source, phi->layout);
+  auto renderer = renderer::make_renderer(chosen->kind, chosen->device, source, phi->layout);
   if (!renderer) return pass_on(renderer);
-  TIDEMARK_TRY((*renderer)->set_phi(*phi));
+  TIDEMARK_TRY((*renderer)->set_phi(phi, {}));
   (*renderer)->set_parameters(views->parameters);
   TIDEMARK_TRY(show_drive(**renderer, options.drive, source, views->parameters, *phi, console));
   if (!options.labels.empty()) {
@@ -179,6 +180,7 @@ Status run(Program& program, const RenderOptions& options) {
   object["file"] = options.out;
   object["width"] = picture->width;
   object["height"] = picture->height;
+  object["renderer"] = (*renderer)->name();
   console.result(object);
   return {};
 }

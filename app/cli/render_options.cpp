@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/cli/arguments.h"
+#include "app/cli/renderer_option.h"
 
 namespace tidemark::cli {
 namespace {
@@ -269,8 +270,11 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_option("--camera", options.camera,
                      "AZIMUTH,ELEVATION[,ZOOM] in degrees: 0,0 looks from the front (default); azimuth goes\n"
                      "towards the patient's left, elevation towards the head");
-  command.add_option("--mode", options.mode, "How 3D pictures are made (default: raycast)")
+  command
+      .add_option("--mode", options.mode,
+                  "How gl makes 3D pictures (default: raycast); host casts rays in either mode")
       ->type_name(joined(kModes, "|"));
+  add_renderer_option(command, options.renderer);
   command.add_flag("--fit", options.fit, "The camera looks at the pages around the surface and comes near");
   command.add_flag("--annotate", options.annotate, "Orientation letters and a scale bar");
   command.add_option("--size", options.size, "Pixels (default: 512x512)")->type_name("WxH");

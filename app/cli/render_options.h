@@ -9,6 +9,7 @@
 #include "app/cli/drive_options.h"
 #include "app/cli/study_input.h"
 #include "renderer/picture.h"
+#include "renderer/renderer.h"
 #include "renderer/views.h"
 #include "solver/parameters.h"
 
@@ -30,6 +31,7 @@ struct RenderOptions {
   std::optional<std::vector<double>> at;
   std::string camera = "0,0";
   std::string mode = "raycast";
+  renderer::RendererKind renderer = renderer::RendererKind::automatic;
   std::optional<std::vector<double>> window;
   std::optional<double> target;
   std::optional<double> range;

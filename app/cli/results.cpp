@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "gpu/device.h"
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/results/results.h"
@@ -38,9 +37,10 @@ void add_result_options(CLI::App& app, ResultOptions& options) {
       ->type_name("FILE.dcm")
       ->group(kGroup);
   add_label(app, options.label)->group(kGroup);
-  app.add_option("--picture", options.picture, "Three slices and the surface in 3D, .png (needs OpenGL 3.3)")
+  app.add_option("--picture", options.picture, "Three slices and the surface in 3D, .png")
       ->type_name("FILE.png")
       ->group(kGroup);
+  add_renderer_option(app, options.renderer)->group(kGroup);
   app.add_option("--stats", options.stats, "Figures of the run as JSON (ml, mm^2, voxels, steps/s, bytes)")
       ->type_name("FILE.json")
       ->group(kGroup);
@@ -92,9 +92,9 @@ Status ResultWriter::prepare() {
   }
   if (options_.picture.empty()) return {};
   TIDEMARK_TRY(outputs_.announce_png("--picture", options_.picture));
-  auto device = gpu::Device::create_headless({gpu::GlVersion::gl33, false});
-  if (!device) return pass_on(device);
-  device_ = std::move(*device);
+  auto renderer = choose_renderer(options_.renderer);
+  if (!renderer) return pass_on(renderer);
+  renderer_ = std::move(*renderer);
   return {};
 }
 
@@ -203,7 +203,8 @@ Status ResultWriter::stage(const RunResults& results) {
 
 // The slices go through the middle of the segmented region, and the camera looks at it.
 Result<renderer::Picture> ResultWriter::draw(const RunResults& results) {
-  auto renderer = renderer::Renderer::create(device_, results.source, results.phi.layout);
+  auto renderer =
+      renderer::make_renderer(renderer_.kind, renderer_.device, results.source, results.phi.layout);
   if (!renderer) return pass_on(renderer);
   TIDEMARK_TRY((*renderer)->set_phi(results.phi));
   (*renderer)->set_parameters(results.figures.parameters);

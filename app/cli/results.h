@@ -8,22 +8,20 @@
 
 #include "app/cli/label_argument.h"
 #include "app/cli/outputs.h"
+#include "app/cli/renderer_option.h"
 #include "app/cli/report.h"
 #include "document/evolution.h"
 #include "imaging/results/results.h"
 #include "imaging/series.h"
 #include "renderer/picture.h"
 
-namespace tidemark::gpu {
-class Device;
-}
-
 namespace tidemark::cli {
 
 struct ResultOptions {
   std::vector<std::string> out;
   std::string out_phi, out_speed, rtstruct, stats, picture, recipe;
-  LabelArgument label;  // the segment in DICOM results
+  renderer::RendererKind renderer = renderer::RendererKind::automatic;  // of the picture
+  LabelArgument label;                                                  // the segment in DICOM results
 };
 void add_result_options(CLI::App& app, ResultOptions& options);
 
@@ -66,7 +64,7 @@ class ResultWriter {
   ResultOptions options_;
   Console& console_;
   Outputs outputs_;
-  std::shared_ptr<gpu::Device> device_;  // for the picture
+  ChosenRenderer renderer_;  // of the picture
 };
 
 }  // namespace tidemark::cli

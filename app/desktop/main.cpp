@@ -41,6 +41,8 @@ void print_diagnostics(const engine::Engine& engine) {
   diagnostics.graphics = describe(engine.graphics());
   diagnostics.graphics_problem = engine.graphics_problem();
   if (engine.graphics() != engine::Engine::Graphics::none) diagnostics.opengl = engine.capabilities();
+  diagnostics.renderer = engine.renderer() == renderer::RendererKind::gl ? "gl" : "host";
+  diagnostics.renderer_reason = engine.renderer_reason();
   const bool compute =
       engine.graphics() == engine::Engine::Graphics::hardware && engine.capabilities().at_least(4, 5);
   diagnostics.automatic_executor = compute ? "compute" : "host";
@@ -97,7 +99,7 @@ int main(int argc, char** argv) {
       "phantom", QCoreApplication::translate("main", "Open a synthetic study: tumour, head, organ, ..."),
       "kind");
   const QCommandLineOption without_opengl(
-      "no-opengl", QCoreApplication::translate("main", "Start without OpenGL: no pictures."));
+      "no-opengl", QCoreApplication::translate("main", "Start without OpenGL: the processor draws."));
   parser.addOptions({diagnostics, phantom, without_opengl});
   parser.process(application);
 

@@ -10,11 +10,10 @@
 #include "core/stopwatch.h"
 #include "gpu/device.h"
 #include "imaging/phantom/phantom.h"
+#include "renderer/gl/gl_renderer.h"
 #include "renderer/quality_control.h"
-#include "renderer/renderer.h"
 #include "renderer/sheet.h"
 #include "solver/executor.h"
-#include "solver/gl/packed_view.h"
 
 using namespace tidemark;
 
@@ -70,7 +69,8 @@ class Bench {
  public:
   Bench(const Options& options, Study& study) : options_(options), study_(study) {
     device_ = study.device;
-    renderer_ = expect(renderer::Renderer::create(device_, study.source, study.executor->snapshot()->layout));
+    renderer_ =
+        expect(renderer::GlRenderer::create(device_, study.source, study.executor->snapshot()->layout));
     renderer_->set_parameters(study.parameters);
   }
 
@@ -201,10 +201,7 @@ class Bench {
       expect(study_.executor->advance({kStepsPerPicture}));
       solving += watch.seconds();
       watch.restart();
-      solver::PackedView view_of_executor;
-      if (study_.executor->packed_view(view_of_executor)) {
-        expect_done(renderer_->look_at(view_of_executor));
-      } else {
+      if (!expect(renderer_->look_at(*study_.executor, std::nullopt))) {
         expect_done(renderer_->set_phi(expect(study_.executor->snapshot())));
       }
       sending += watch.seconds();
@@ -240,7 +237,7 @@ class Bench {
   Options options_;
   Study& study_;
   std::shared_ptr<gpu::Device> device_;
-  std::unique_ptr<renderer::Renderer> renderer_;
+  std::unique_ptr<renderer::GlRenderer> renderer_;
 };
 
 void run(const Options& options) {

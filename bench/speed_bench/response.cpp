@@ -93,8 +93,7 @@ class Desktop {
         4.0 * std::min({geometry.spacing_mm.x, geometry.spacing_mm.y, geometry.spacing_mm.z})));
     proxy_.begin(start);
     proxy_.play();
-    return wait_until(
-        [&] { return engine_.graphics() == engine::Engine::Graphics::none || maps_are_newer(); });
+    return wait_until([&] { return maps_are_newer(); });
   }
 
   Result<Answer> stroke(int number) {
@@ -113,8 +112,7 @@ class Desktop {
     TIDEMARK_TRY(wait_until([&] {
       if (answer.motion == 0.0 && proxy_.state().step > step) answer.motion = watch.seconds();
       if (answer.maps == 0.0 && maps_are_newer()) answer.maps = watch.seconds();
-      return answer.motion > 0.0 &&
-             (answer.maps > 0.0 || engine_.graphics() == engine::Engine::Graphics::none);
+      return answer.motion > 0.0 && answer.maps > 0.0;
     }));
     answer.longest_block_ms = heartbeat_.longest_ms();
     return answer;

@@ -28,8 +28,6 @@ Status run(const std::string& path, bool rates, bool response) {
   }
   if (!response) return {};
   engine::Engine engine;
-  if (engine.graphics() == engine::Engine::Graphics::none)
-    fmt::print("No OpenGL, and so no speed maps: {}\n", engine.graphics_problem());
   TIDEMARK_TRY(measure(engine, *study));
   if (!path.empty()) return {};
   study = large_phantom_study();

@@ -38,6 +38,7 @@ class LabelSamples {
     int other;    // the nearest voxel's that has another one
   };
   [[nodiscard]] Share share_of(int label, glm::vec3 position) const;
+  [[nodiscard]] std::size_t offset_of(glm::ivec3 voxel) const;  // clamped
 
   solver::PageLayout layout_;
   glm::ivec3 size_{0};

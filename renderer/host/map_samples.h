@@ -24,7 +24,8 @@ class MapSamples {
   [[nodiscard]] bool is_evaluated() const { return function_ != nullptr && tent() == nullptr; }
 
   // Evaluates the blocks of 8^3 voxels around the plane of a slice picture (from the view, x and y in -1..1,
-  // to voxel coordinates), or around pages of a layout and a voxel beyond them, unless they are there.
+  // to voxel coordinates), or in pages of a layout, unless they are there. They throw what the function
+  // throws, and may be called again then.
   void fill_plane(const glm::dmat4& voxel_from_view, ThreadPool& threads);
   void fill_pages(const solver::PageLayout& layout, std::span<const std::int64_t> pages, ThreadPool& threads);
 
@@ -34,13 +35,24 @@ class MapSamples {
   [[nodiscard]] float between(glm::vec3 position) const;
 
  private:
+  // Blocks that lie side by side along x are evaluated together.
+  struct Run {
+    std::size_t first;  // in wanted_
+    std::size_t blocks;
+  };
+  [[nodiscard]] const float* value_at(glm::ivec3 voxel) const;  // inside of the volume
   void want(const solver::VoxelBox& box);
+  [[nodiscard]] std::vector<Run> runs_of_wanted() const;
+  void evaluate(const Run& run, float* values) const;
   void fill(ThreadPool& threads);
 
   solver::PageLayout blocks_;
+  glm::ivec3 size_{0};  // voxels
+  glm::ivec3 grid_{0};  // blocks
   std::shared_ptr<const solver::SpeedFunction> function_;
   std::vector<std::int32_t> places_;  // of each block in values_, or kMissing or kWanted
   std::vector<std::int64_t> wanted_;
+  std::int32_t filled_ = 0;    // blocks
   std::vector<float> values_;  // 512 a block
 };
 

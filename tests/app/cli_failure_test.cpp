@@ -34,7 +34,7 @@ class CliFailureTest : public QObject {
   void a_phantom_on_a_full_disk_is_a_failed_write();
   void a_closed_standard_output_is_a_failed_write();
   void a_small_memory_budget_ends_with_4();
-  void a_machine_without_opengl_ends_with_4_and_host_still_runs();
+  void without_opengl_gl_ends_with_4_and_the_processor_computes_and_draws();
 
  private:
   // Segments the path into out/; nothing may be there afterwards.
@@ -243,7 +243,14 @@ void CliFailureTest::a_small_memory_budget_ends_with_4() {
 }
 
 // Files of that name that are no libraries are found first, and nothing can be loaded from them.
-void CliFailureTest::a_machine_without_opengl_ends_with_4_and_host_still_runs() {
+void CliFailureTest::without_opengl_gl_ends_with_4_and_the_processor_computes_and_draws() {
+  const auto file = *folder_ / "ball.nrrd";
+  QCOMPARE(failure(imaging::write_volume_file(ball(Index3(24), 8.0), file)), QString());
+  const auto picture = out_ / "picture.png";
+  const QList<QStringList> drawing{
+      QStringList{"segment", text(file), "--picture", text(picture)} + ball_arguments(Index3(24)),
+      {"render", text(file), "--view", "axial", "--size", "64x64", "--out", text(picture)},
+      {"render", text(file), "--preset", "ct-bone", "--size", "64x64", "--out", text(picture)}};
   for (const char* missing : {"libEGL.so.1", "libGL.so.1"}) {
     const TemporaryFolder libraries;
     std::vector<const char*> names = {missing};
@@ -262,6 +269,18 @@ void CliFailureTest::a_machine_without_opengl_ends_with_4_and_host_still_runs() 
           {"bench", "--case", "sphere", "--size", "32", "--steps", "5", "--executor", executor}, options);
       QCOMPARE(outcome.code, 0);
       QVERIFY2(outcome.out.contains("executor host"), outcome.told());
+    }
+    for (const QStringList& command : drawing) {
+      for (const char* renderer : {"auto", "host"}) {
+        const Outcome drawn = run_cli(command + QStringList{"--renderer", renderer}, options);
+        QVERIFY2(drawn.code == 0, drawn.told());
+        QVERIFY(bytes_of(picture).size() > 300);  // not an even picture
+        QVERIFY(std::filesystem::remove(picture));
+      }
+      const Outcome refused = run_cli(command + QStringList{"--renderer", "gl"}, options);
+      QVERIFY2(refused.failed_in_one_line(4), refused.told());
+      QVERIFY2(refused.err.contains(missing), refused.told());
+      QCOMPARE(names_in(out_), QStringList());
     }
   }
 }

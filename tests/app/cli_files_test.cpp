@@ -21,6 +21,7 @@ class CliFilesTest : public QObject {
   void distance_is_signed_and_in_millimetres();
   void formats_keep_values_and_geometry();
   void a_mask_becomes_a_surface();
+  void pictures_are_drawn_from_masks_and_fields_data();
   void pictures_are_drawn_from_masks_and_fields();
 
  private:
@@ -92,14 +93,20 @@ void CliFilesTest::a_mask_becomes_a_surface() {
   QCOMPARE(labels.code, 0);
 }
 
+void CliFilesTest::pictures_are_drawn_from_masks_and_fields_data() {
+  QTest::addColumn<QString>("renderer");
+  for (const char* renderer : {"host", "gl"}) QTest::newRow(renderer) << renderer;
+}
+
 void CliFilesTest::pictures_are_drawn_from_masks_and_fields() {
+  QFETCH(QString, renderer);
   const TemporaryFolder folder;
   const Volume volume = ball(Index3(32), 10.0);
   const auto file = folder / "ball.nrrd";
   QCOMPARE(failure(imaging::write_volume_file(volume, file)), QString());
   must_run(QStringList{"segment", text(file)} + ball_arguments(Index3(32)) +
            QStringList{"--out", text(folder / "mask.nrrd"), "--out-phi", text(folder / "phi.nrrd"),
-                       "--picture", text(folder / "sheet-of-segment.png")});
+                       "--picture", text(folder / "sheet-of-segment.png"), "--renderer", renderer});
   QVERIFY(bytes_of(folder / "sheet-of-segment.png").startsWith("\x89PNG"));
   const auto tf = folder / "tf.json";
   QFile file_of_tf(text(tf));
@@ -124,11 +131,13 @@ void CliFilesTest::pictures_are_drawn_from_masks_and_fields() {
       {"--phi", text(folder / "phi.nrrd"), "--view", "pages", "--window", "500,1000"}};
   for (const QStringList& view : views) {
     const auto picture = folder / "picture.png";
-    const QJsonObject told = json_of(
-        must_run(QStringList{"render", text(file), "--size", "96x64", "--json", "--out", text(picture)} +
-                 view)
-            .out);
+    const QJsonObject told =
+        json_of(must_run(QStringList{"render", text(file), "--size", "96x64", "--renderer", renderer,
+                                     "--json", "--out", text(picture)} +
+                         view)
+                    .out);
     QCOMPARE(told["width"].toInt(), 96);
+    QCOMPARE(told["renderer"].toString(), renderer);
     const QByteArray bytes = bytes_of(picture);
     QVERIFY(bytes.startsWith("\x89PNG"));
     // The header's first chunk holds the size, most significant byte first.
@@ -139,7 +148,7 @@ void CliFilesTest::pictures_are_drawn_from_masks_and_fields() {
   const auto sheet = folder / "sheet.png";
   const QJsonObject told =
       json_of(must_run({"render", text(file), "--mask", text(folder / "mask.nrrd"), "--view", "sheet",
-                        "--size", "300x200", "--json", "--out", text(sheet)})
+                        "--size", "300x200", "--renderer", renderer, "--json", "--out", text(sheet)})
                   .out);
   QCOMPARE(told["width"].toInt(), 298);
   QCOMPARE(told["height"].toInt(), 200);

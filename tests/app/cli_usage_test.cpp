@@ -126,6 +126,8 @@ void CliUsageTest::wrong_usage_ends_with_2_and_one_line_data() {
   QTest::newRow("one file twice") << seeded + QStringList{"--out", text(folder_ / "m.nrrd"), "--out-phi",
                                                           text(folder_ / "m.nrrd")};
   QTest::newRow("unknown executor") << seeded + QStringList{"--executor", "abacus"};
+  QTest::newRow("unknown renderer") << seeded + QStringList{"--picture", text(folder_ / "p.png"),
+                                                            "--renderer", "pencil"};
   QTest::newRow("no threads") << seeded + QStringList{"--threads", "0"};
   QTest::newRow("unknown scheme") << seeded + QStringList{"--scheme", "third"};
   QTest::newRow("empty threshold") << segment + QStringList{"--init-threshold", "5000,6000"};
@@ -140,6 +142,7 @@ void CliUsageTest::wrong_usage_ends_with_2_and_one_line_data() {
   };
   QTest::newRow("render nothing") << render({});
   QTest::newRow("render a view of no name") << render({"--preset", "ct-bone", "--view", "front"});
+  QTest::newRow("render by a renderer of no name") << render({"--preset", "ct-bone", "--renderer", "pencil"});
   QTest::newRow("render a preset of no name") << render({"--preset", "ct-none"});
   QTest::newRow("render a picture too large") << render({"--preset", "ct-bone", "--size", "9000x9"});
   QTest::newRow("render from nowhere") << render({"--preset", "ct-bone", "--camera", "1"});

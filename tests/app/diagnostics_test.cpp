@@ -30,6 +30,8 @@ desktop::Diagnostics example() {
   d.opengl->major = 4;
   d.opengl->minor = 5;
   d.opengl->largest_volume_texture = 2048;
+  d.renderer = "host";
+  d.renderer_reason = "there is no GPU";
   d.automatic_executor = "host";
   d.instruction_set = "avx2";
   return d;
@@ -44,7 +46,8 @@ class DiagnosticsTest : public QObject {
     const std::string all = desktop::text(example());
     for (const char* part :
          {"1.2.3", "6.4.2", "xcb", "de_DE", "software", "Mesa", "llvmpipe", "4.5 (Core Profile)",
-          "2048 voxels", "compute shaders:    yes", "host", "avx2"}) {
+          "2048 voxels", "compute shaders:    yes", "renderer:           host, as there is no GPU\n",
+          "automatic executor: host\n", "avx2"}) {
       QVERIFY2(has(all, part), part);
     }
   }
@@ -53,10 +56,12 @@ class DiagnosticsTest : public QObject {
     desktop::Diagnostics d = example();
     d.graphics = "none";
     d.graphics_problem = "no libGL";
+    d.renderer_reason = "there is no OpenGL";
     d.opengl.reset();
     const std::string all = desktop::text(d);
     QVERIFY(has(all, "none\n"));
     QVERIFY(has(all, "no libGL\n"));
+    QVERIFY(has(all, "renderer:           host, as there is no OpenGL\n"));
     QVERIFY(!has(all, "opengl"));
     QVERIFY(!has(all, "3d texture"));
   }
@@ -86,6 +91,7 @@ class DiagnosticsTest : public QObject {
     const std::string all = desktop::text({});
     QVERIFY(has(all, "memory:             unknown"));
     QVERIFY(has(all, "processors:         unknown"));
+    QVERIFY(has(all, "renderer:           unknown"));
   }
 };
 

@@ -110,9 +110,20 @@ class CaseProxyTest : public QObject {
     QCOMPARE(fixture.proxy.state().outcome, document::Outcome::seeded_outside);
   }
 
-  void pictures_follow_the_surface_and_end_with_its_last_step_data() { add_executors(); }
+  void pictures_follow_the_surface_and_end_with_its_last_step_data() {
+    QTest::addColumn<QByteArray>("executor");
+    QTest::addColumn<QByteArray>("renderer");
+    for (const char* renderer : {"host", "gl"}) {
+      for (const char* executor : {"host", "compute", "stream"}) {
+        QTest::addRow("%s drawn by %s", executor, renderer) << QByteArray(executor) << QByteArray(renderer);
+      }
+    }
+  }
   void pictures_follow_the_surface_and_end_with_its_last_step() {
-    Fixture fixture(executor_of_row());
+    QFETCH(QByteArray, executor);
+    QFETCH(QByteArray, renderer);
+    const Variable asked("TIDEMARK_RENDERER", renderer);
+    Fixture fixture(*solver::executor_named(executor.toStdString()));
     fixture.begin();
     engine::PictureFeed feed(fixture.proxy);
     const engine::AnyView view = fixture.slice(renderer::SliceContent::source);
@@ -128,9 +139,42 @@ class CaseProxyTest : public QObject {
     fixture.proxy.pause();
     fixture.wait_until_idle();
     QCOMPARE(feed.shown().step, fixture.proxy.state().step);
-    // An executor on the GPU has its pages drawn where they are.
+    // Pages are drawn where they are, unless one of the two works on the GPU and the other on the processor.
     const bool copied = fixture.proxy.runner()->painter().phi_copies() > copies;
-    QCOMPARE(copied, executor_of_row() == solver::ExecutorKind::host);
+    QCOMPARE(copied, (executor == "host") != (renderer == "host"));
+    QCOMPARE(fixture.proxy.runner()->painter().pages_uploaded() > 0, executor == "host" && renderer == "gl");
+  }
+
+  // Smoothing and another executor put phi elsewhere, and leave it as it is.
+  void pictures_find_phi_where_it_has_gone_data() {
+    QTest::addColumn<QByteArray>("renderer");
+    for (const char* renderer : {"host", "gl"}) QTest::newRow(renderer) << QByteArray(renderer);
+  }
+  void pictures_find_phi_where_it_has_gone() {
+    QFETCH(QByteArray, renderer);
+    const Variable asked("TIDEMARK_RENDERER", renderer);
+    Fixture fixture;
+    fixture.begin(8.0);
+    engine::PictureFeed feed(fixture.proxy);
+    renderer::VolumeView view;
+    const auto picture = [&] {
+      view.camera.azimuth += 90.0;  // a view that is not there yet
+      feed.request(view, kSmall);
+      fixture.wait_until_idle();
+      view.camera.azimuth -= 90.0;
+      feed.request(view, kSmall);
+      fixture.wait_until_idle();
+      return feed.shown().image.copy();
+    };
+    const QImage before = picture();
+    fixture.proxy.smooth_source(1.5);
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.proxy.state().smoothed_mm, 1.5, kPatience);
+    fixture.wait_until_idle();
+    QCOMPARE(picture(), before);
+    fixture.proxy.change_executor(solver::ExecutorKind::reference);
+    fixture.wait_until_idle();
+    QCOMPARE(picture(), before);
+    QCOMPARE(fixture.failures, QStringList());
   }
 
   void the_speed_map_is_the_functions_that_drives_data() { add_executors(); }
@@ -212,15 +256,29 @@ class CaseProxyTest : public QObject {
     QCOMPARE(volume.shown().step, fixture.proxy.state().step);
   }
 
-  void without_opengl_there_are_steps_and_no_pictures() {
+  void without_opengl_there_are_steps_and_pictures() {
     Fixture fixture(solver::ExecutorKind::host, false);
     fixture.begin();
-    engine::PictureFeed feed(fixture.proxy);
-    feed.request(fixture.slice(renderer::SliceContent::source), kSmall);
+    engine::PictureFeed slice(fixture.proxy);
+    slice.request(fixture.slice(renderer::SliceContent::source), kSmall);
+    engine::PictureFeed volume(fixture.proxy);
+    volume.request(renderer::VolumeView(), kSmall);
     fixture.proxy.step(5);
     fixture.wait_until_idle();
     QCOMPARE(fixture.proxy.state().step, 5);
-    QCOMPARE(feed.shown().number, 0U);
+    for (const engine::PictureFeed* feed : {&slice, &volume}) {
+      const engine::ShownPicture& shown = feed->shown();
+      QVERIFY(shown.finished);
+      QCOMPARE(shown.step, 5);
+      QCOMPARE(shown.image.size(), QSize(static_cast<int>(kSmall.width), static_cast<int>(kSmall.height)));
+      // The ball, and what is around it.
+      QVERIFY(shown.image.pixel(kSmall.width / 2, kSmall.height / 2) != shown.image.pixel(0, 0));
+    }
+    std::optional<renderer::Hit> hit;
+    fixture.proxy.pick(renderer::VolumeView(), kSmall, {kSmall.width / 2, kSmall.height / 2},
+                       [&](std::optional<renderer::Hit> found) { hit = found; });
+    fixture.wait_until_idle();
+    QVERIFY(hit && hit->kind == renderer::Hit::Kind::surface);
     QCOMPARE(fixture.failures, QStringList());
   }
 

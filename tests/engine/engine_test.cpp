@@ -172,9 +172,21 @@ class EngineTest : public QObject {
     QVERIFY(died_on != QThread::currentThread());
   }
 
-  void without_opengl_it_computes_all_the_same() {
+  void without_opengl_it_computes_and_draws_all_the_same_data() {
+    QTest::addColumn<QByteArray>("asked");
+    QTest::addColumn<QString>("reason");
+    QTest::newRow("auto") << QByteArray("auto") << "there is no OpenGL";
+    QTest::newRow("host") << QByteArray("host") << "TIDEMARK_RENDERER asks for it";
+    QTest::newRow("gl") << QByteArray("gl") << "there is no OpenGL for gl, which TIDEMARK_RENDERER asks for";
+  }
+  void without_opengl_it_computes_and_draws_all_the_same() {
+    QFETCH(QByteArray, asked);
+    QFETCH(QString, reason);
+    const test::Variable renderer("TIDEMARK_RENDERER", asked);
     engine::Engine engine(false);
     QCOMPARE(engine.graphics(), engine::Engine::Graphics::none);
+    QCOMPARE(engine.renderer(), renderer::RendererKind::host);
+    QCOMPARE(QString::fromStdString(engine.renderer_reason()), reason);
     QCOMPARE(engine.pictures(), engine::Engine::Pictures::images);
     QVERIFY(!engine.graphics_problem().empty());
     QCOMPARE(engine.contexts_made(), 0);
@@ -214,19 +226,33 @@ class EngineTest : public QObject {
     QVERIFY(first.expired());
   }
 
-  void the_environment_says_how_pictures_are_handed_on_data() {
-    QTest::addColumn<QByteArray>("wanted");
+  void the_environment_says_who_draws_and_how_pictures_are_handed_on_data() {
+    QTest::addColumn<QByteArray>("renderer");
+    QTest::addColumn<QByteArray>("pictures");
+    QTest::addColumn<bool>("by_gl");
     QTest::addColumn<bool>("textures");
-    QTest::newRow("images") << QByteArray("images") << false;
-    QTest::newRow("textures") << QByteArray("textures") << true;
+    QTest::newRow("gl, images") << QByteArray("gl") << QByteArray("images") << true << false;
+    QTest::newRow("gl, textures") << QByteArray("gl") << QByteArray("textures") << true << true;
+    QTest::newRow("host") << QByteArray("host") << QByteArray("textures") << false << false;
   }
-  void the_environment_says_how_pictures_are_handed_on() {
-    QFETCH(QByteArray, wanted);
+  void the_environment_says_who_draws_and_how_pictures_are_handed_on() {
+    QFETCH(QByteArray, renderer);
+    QFETCH(QByteArray, pictures);
+    QFETCH(bool, by_gl);
     QFETCH(bool, textures);
-    qputenv("TIDEMARK_PICTURES", wanted);
+    const test::Variable asked_renderer("TIDEMARK_RENDERER", renderer);
+    const test::Variable asked_pictures("TIDEMARK_PICTURES", pictures);
     const engine::Engine engine;
-    qunsetenv("TIDEMARK_PICTURES");
+    QCOMPARE(engine.renderer() == renderer::RendererKind::gl, by_gl);
+    QCOMPARE(engine.renderer_reason(), std::string("TIDEMARK_RENDERER asks for it"));
     QCOMPARE(engine.pictures() == engine::Engine::Pictures::textures, textures);
+  }
+
+  void a_gpu_draws_and_else_the_processor() {
+    const engine::Engine engine;
+    const bool has_gpu = engine.graphics() == engine::Engine::Graphics::hardware;
+    QCOMPARE(engine.renderer() == renderer::RendererKind::gl, has_gpu);
+    QCOMPARE(engine.renderer_reason(), std::string(has_gpu ? "there is a GPU" : "there is no GPU"));
   }
 };
 

@@ -75,7 +75,7 @@ class CompilingTest : public QObject {
     Painter draw(ball_scene(grid({48, 48, 48}), 15.0));
     if (!draw.device().capabilities().software) QSKIP("a GPU's driver compiles elsewhere");
     draw(renderer::VolumeView(), 96, 72);
-    const renderer::DrawReport report = draw.renderer().last_draw();
+    const renderer::DrawReport report = draw.gl().last_draw();
     QVERIFY(report.prepare_seconds > 0.0);
     QVERIFY(report.seconds >= report.prepare_seconds + report.longest_piece_seconds);
   }

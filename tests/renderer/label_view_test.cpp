@@ -43,7 +43,7 @@ Scene empty_scene(const Geometry& geometry) {
 }
 
 void label(Painter& painter, const Numbers& numbers, const std::vector<std::uint8_t>& hidden = {}) {
-  std::vector<renderer::Renderer::LabelColour> colours(renderer::Renderer::kLabels);
+  std::vector<renderer::LabelColour> colours(renderer::kLabels);
   for (std::size_t i = 1; i < colours.size(); ++i) {
     const auto [red, green, blue] = label_colour(static_cast<std::uint8_t>(i));
     colours[i] = {red, green, blue, 255};

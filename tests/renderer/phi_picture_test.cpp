@@ -2,7 +2,6 @@
 #include <QTest>
 
 #include "solver/executor.h"
-#include "solver/gl/packed_view.h"
 #include "tests/renderer/scenes.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
@@ -84,13 +83,13 @@ class PhiPictureTest : public QObject {
     const Geometry geometry = grid({64, 64, 64});
     const Scene scene = ball_scene(geometry, 20.0);
     Painter draw(scene);
-    QCOMPARE(draw.renderer().pages_uploaded(), scene.phi.resident_pages());
+    QCOMPARE(draw.gl().pages_uploaded(), scene.phi.resident_pages());
     QCOMPARE(failure(draw.renderer().set_phi(scene.phi)), QString());
-    QCOMPARE(draw.renderer().pages_uploaded(), 0);
+    QCOMPARE(draw.gl().pages_uploaded(), 0);
     solver::Field touched = scene.phi;
     touched.pages[5] += 0.25F;
     QCOMPARE(failure(draw.renderer().set_phi(touched)), QString());
-    QCOMPARE(draw.renderer().pages_uploaded(), 1);
+    QCOMPARE(draw.gl().pages_uploaded(), 1);
   }
 
   // An executor's memory on the GPU is drawn like a copy of it, also after the memory has grown.
@@ -115,8 +114,8 @@ class PhiPictureTest : public QObject {
     QCOMPARE(failure(executor), QString());
     QCOMPARE(failure((*executor)->paint({scene.middle, 5.0}, solver::Brush::add)), QString());
     const solver::PageLayout layout = (*executor)->snapshot()->layout;
-    auto of_copy = renderer::Renderer::create(*device, scene.source, layout);
-    auto of_memory = renderer::Renderer::create(*device, scene.source, layout);
+    auto of_copy = renderer::GlRenderer::create(*device, scene.source, layout);
+    auto of_memory = renderer::GlRenderer::create(*device, scene.source, layout);
     QCOMPARE(failure(of_copy), QString());
     QCOMPARE(failure(of_memory), QString());
     renderer::SliceView pages;
@@ -124,10 +123,10 @@ class PhiPictureTest : public QObject {
     pages.position_mm = scene.middle;
     for (int run = 0; run < 4; ++run) {
       QCOMPARE(failure((*executor)->advance({20})), QString());
-      solver::PackedView view;
-      QVERIFY((*executor)->packed_view(view));
       const auto quiet = (*executor)->quiet_pages();
-      QCOMPARE(failure((*of_memory)->look_at(view, *quiet)), QString());
+      const auto looks = (*of_memory)->look_at(**executor, *quiet);
+      QCOMPARE(failure(looks), QString());
+      QVERIFY(*looks);
       const auto phi = (*executor)->snapshot();
       QCOMPARE(failure((*of_copy)->set_phi(*phi, *quiet)), QString());
       QVERIFY((*of_memory)->draw(renderer::VolumeView(), {96, 96})->pixels ==
@@ -149,7 +148,7 @@ class PhiPictureTest : public QObject {
     Painter draw(ball_scene(grid({64, 64, 64}), 20.0));
     draw(renderer::VolumeView(), 512, 512);
     const bool software = draw.device().capabilities().software;
-    QVERIFY(software ? draw.renderer().last_draw().pieces > 8 : draw.renderer().last_draw().pieces == 1);
+    QVERIFY(software ? draw.gl().last_draw().pieces > 8 : draw.gl().last_draw().pieces == 1);
     // Between two of them it can be stopped.
     std::stop_source stop;
     stop.request_stop();
@@ -187,7 +186,7 @@ class PhiPictureTest : public QObject {
     compare(volume);
     compare(slices);
     compare(speed);
-    QVERIFY(hardware.renderer().last_draw().pieces == 1);
+    QVERIFY(hardware.gl().last_draw().pieces == 1);
   }
 
   void a_lost_context_is_reported() {

@@ -109,7 +109,7 @@ class QualityControlTest : public QObject {
       on_gpu->clear();
       for (int round = 0; round < renderer::QualityControl::kRounds; ++round) {
         view.quality.round = round;
-        QCOMPARE(failure(draw.renderer().draw_on(*canvas, view)), QString());
+        QCOMPARE(failure(draw.gl().draw_on(*canvas, view)), QString());
         mean.add(*canvas->read());
         QCOMPARE(failure(on_gpu->replace_by_mean(draw.device(), *canvas)), QString());
         const renderer::Picture expected = mean.mean();

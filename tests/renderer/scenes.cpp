@@ -1,7 +1,10 @@
 #include "tests/renderer/scenes.h"
 
+#include <QString>
 #include <QtGlobal>
 #include <algorithm>
+
+#include "renderer/host/host_renderer.h"
 
 namespace tidemark::test {
 
@@ -67,11 +70,36 @@ std::shared_ptr<gpu::Device> reporting_device(bool as_gpu) {
   return *device;
 }
 
+renderer::RendererKind renderer_under_test() {
+  const QByteArray name = qgetenv("TIDEMARK_TEST_RENDERER");
+  if (name.isEmpty()) return renderer::RendererKind::gl;
+  const auto kind = renderer::renderer_named(name.toStdString());
+  if (!kind || *kind == renderer::RendererKind::automatic) qFatal("TIDEMARK_TEST_RENDERER is host or gl");
+  return *kind;
+}
+
+Painter::Painter(const Scene& scene) : Painter(scene, renderer_under_test()) {}
+
 Painter::Painter(const Scene& scene, std::shared_ptr<gpu::Device> device)
     : middle_(scene.middle), device_(std::move(device)) {
-  auto renderer = renderer::Renderer::create(device_, scene.source, scene.phi.layout);
+  auto renderer = renderer::GlRenderer::create(device_, scene.source, scene.phi.layout);
   if (!renderer) qFatal("%s", renderer.error().message.c_str());
   renderer_ = std::move(*renderer);
+  show(scene);
+}
+
+Painter::Painter(const Scene& scene, renderer::RendererKind kind, int threads) : middle_(scene.middle) {
+  if (kind == renderer::RendererKind::gl) {
+    *this = Painter(scene, reporting_device());
+    return;
+  }
+  auto renderer = renderer::HostRenderer::create(scene.source, scene.phi.layout, threads);
+  if (!renderer) qFatal("%s", renderer.error().message.c_str());
+  renderer_ = std::move(*renderer);
+  show(scene);
+}
+
+void Painter::show(const Scene& scene) {
   if (const Status shown = renderer_->set_phi(scene.phi); !shown) qFatal("%s", shown.error().message.c_str());
   solver::Parameters parameters;
   parameters.target = 100.0;
@@ -91,6 +119,29 @@ renderer::Picture Painter::operator()(renderer::SliceView view, std::int64_t wid
   auto picture = renderer_->draw(view, {width, height});
   if (!picture) qFatal("%s", picture.error().message.c_str());
   return *picture;
+}
+
+GreyDifference grey_difference(const renderer::Picture& a, const renderer::Picture& b) {
+  GreyDifference result;
+  std::vector<int> pixels;
+  for (std::size_t i = 0; i < a.pixels.size(); i += 4) {
+    int most = 0;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      const int apart = std::abs(int(a.pixels[i + channel]) - int(b.pixels[i + channel]));
+      result.mean += apart;
+      most = std::max(most, apart);
+    }
+    pixels.push_back(most);
+  }
+  result.mean /= 3.0 * static_cast<double>(pixels.size());
+  std::sort(pixels.begin(), pixels.end());
+  result.of_99_percent = pixels[pixels.size() * 99 / 100];
+  result.most = pixels.back();
+  return result;
+}
+
+QByteArray words(const GreyDifference& d) {
+  return QString("mean %1, 99 % within %2, most %3").arg(d.mean).arg(d.of_99_percent).arg(d.most).toUtf8();
 }
 
 glm::ivec3 pixel(const renderer::Picture& picture, std::int64_t x, std::int64_t y) {

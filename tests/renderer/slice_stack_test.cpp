@@ -66,7 +66,7 @@ std::shared_ptr<gpu::Device> device() {
 }
 
 std::unique_ptr<renderer::Renderer> renderer_of(const Scene& scene, std::int64_t largest_volume = 4096) {
-  auto renderer = renderer::Renderer::create(device(), scene.source, scene.phi.layout, largest_volume);
+  auto renderer = renderer::GlRenderer::create(device(), scene.source, scene.phi.layout, largest_volume);
   if (!renderer) qFatal("%s", renderer.error().message.c_str());
   if (Status shown = (*renderer)->set_phi(scene.phi); !shown) qFatal("%s", shown.error().message.c_str());
   return std::move(*renderer);
@@ -82,37 +82,6 @@ renderer::Picture draw(renderer::Renderer& renderer, const View& view, renderer:
 renderer::Picture draw_by(renderer::Mode mode, renderer::Renderer& renderer, renderer::VolumeView view) {
   view.mode = mode;
   return draw(renderer, view);
-}
-
-// In grey levels: over all channels, and of the channel that differs most in a pixel, the pixel that 99 % of
-// the pixels do not exceed.
-struct Difference {
-  double mean = 0.0;
-  int of_99_percent = 0;
-  int most = 0;
-};
-
-Difference difference(const renderer::Picture& a, const renderer::Picture& b) {
-  Difference result;
-  std::vector<int> pixels;
-  for (std::size_t i = 0; i < a.pixels.size(); i += 4) {
-    int most = 0;
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      const int apart = std::abs(int(a.pixels[i + channel]) - int(b.pixels[i + channel]));
-      result.mean += apart;
-      most = std::max(most, apart);
-    }
-    pixels.push_back(most);
-  }
-  result.mean /= 3.0 * static_cast<double>(pixels.size());
-  std::sort(pixels.begin(), pixels.end());
-  result.of_99_percent = pixels[pixels.size() * 99 / 100];
-  result.most = pixels.back();
-  return result;
-}
-
-QByteArray words(const Difference& d) {
-  return QString("mean %1, 99 % within %2, most %3").arg(d.mean).arg(d.of_99_percent).arg(d.most).toUtf8();
 }
 
 // How many pixels are not the background.
@@ -238,8 +207,8 @@ class SliceStackTest : public QObject {
       for (const auto& [azimuth, elevation] : {std::pair{0.0, 0.0}, {90.0, 0.0}, {0.0, 90.0}}) {
         renderer::VolumeView view = view_of("alone: source");
         view.camera = {azimuth, elevation};
-        const Difference d = difference(draw_by(renderer::Mode::raycast, *renderer, view),
-                                        draw_by(renderer::Mode::slices, *renderer, view));
+        const GreyDifference d = grey_difference(draw_by(renderer::Mode::raycast, *renderer, view),
+                                                 draw_by(renderer::Mode::slices, *renderer, view));
         QVERIFY2(d.mean < 0.15 && d.of_99_percent <= 2, words(d));
       }
     }
@@ -278,7 +247,7 @@ class SliceStackTest : public QObject {
           view.nearest = nearest;
           view.position_mm = renderer::middle_of(both.source->geometry) + glm::dvec3(0.3, 0.2, 0.4);
           view.window = {200.0, 400.0};
-          const Difference d = difference(draw(*whole, view), draw(*beyond, view));
+          const GreyDifference d = grey_difference(draw(*whole, view), draw(*beyond, view));
           QVERIFY2(d.mean < 0.15 && d.of_99_percent <= 2, words(d));
         }
       }
@@ -305,7 +274,7 @@ class SliceStackTest : public QObject {
   // Nearly every pixel is the same; on outlines, where one of the two just misses the surface, a few are not.
   static void compare(renderer::Renderer& renderer, const renderer::VolumeView& view, const QString& what) {
     const renderer::Picture rays = draw_by(renderer::Mode::raycast, renderer, view);
-    const Difference d = difference(rays, draw_by(renderer::Mode::slices, renderer, view));
+    const GreyDifference d = grey_difference(rays, draw_by(renderer::Mode::slices, renderer, view));
     const QByteArray from =
         QString("%1 from %2, %3: ").arg(what).arg(view.camera.azimuth).arg(view.camera.elevation).toUtf8();
     QVERIFY2(shown(rays, view.background) > 500, from);

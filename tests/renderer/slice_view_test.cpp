@@ -56,7 +56,8 @@ class SliceViewTest : public QObject {
     const renderer::Picture fused = draw(view, 256, 256);
     QVERIFY(count(fused, is_green) > 60000);
     // Pixels at its edge, which it covers in part, take more from what is below.
-    QVERIFY2(count(fused, is_yellow) > outline * 6 / 10, qPrintable(QString::number(count(fused, is_yellow))));
+    QVERIFY2(count(fused, is_yellow) > outline * 6 / 10,
+             qPrintable(QString::number(count(fused, is_yellow))));
 
     // Half of it shines through, and left of a line there is none.
     view.images = std::make_shared<const renderer::ImagesOver>(renderer::ImagesOver{1, 1, {0, 100, 0, 128}});

@@ -1,6 +1,7 @@
 // Helpers that many tests use.
 #pragma once
 
+#include <QByteArray>
 #include <QTemporaryDir>
 #include <QTest>
 #include <filesystem>
@@ -18,6 +19,18 @@ class TemporaryFolder {
 
  private:
   QTemporaryDir folder_;
+};
+
+// Sets a variable of the environment as long as it lives.
+class Variable {
+ public:
+  Variable(const char* name, const QByteArray& value) : name_(name) { qputenv(name, value); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+  ~Variable() { qunsetenv(name_); }
+
+ private:
+  const char* name_;
 };
 
 // The folder of real studies: $TIDEMARK_STUDIES, else ../shared/data beside the checkout.

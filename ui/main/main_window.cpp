@@ -135,13 +135,24 @@ void MainWindow::make_status_bar() {
   loading_ = new LoadingView(LoadingView::Shape::line);
   loading_->hide();
   statusBar()->addPermanentWidget(loading_);
-  if (engine_.graphics() == engine::Engine::Graphics::hardware) return;
-  const bool software = engine_.graphics() == engine::Engine::Graphics::software;
-  auto* note = new QLabel(software ? tr("Software OpenGL") : tr("No OpenGL"));
-  note->setToolTip(
-      software ? tr("There is no graphics processor: pictures are drawn by the processor, the level set is "
-                    "computed by the host executor.")
-               : tr("Pictures cannot be drawn: %1").arg(QString::fromStdString(engine_.graphics_problem())));
+  note_renderer();
+}
+
+// Where the processor does what a GPU would do.
+void MainWindow::note_renderer() {
+  const bool drawn_by_host = engine_.renderer() == renderer::RendererKind::host;
+  const bool has_gpu = engine_.graphics() == engine::Engine::Graphics::hardware;
+  if (has_gpu && !drawn_by_host) return;
+  auto* note = new QLabel(drawn_by_host ? tr("Drawn by the processor") : tr("Software OpenGL"));
+  note->setObjectName(QStringLiteral("renderer note"));
+  QStringList text(drawn_by_host ? tr("The processor draws the pictures: %1.")
+                                 : tr("OpenGL draws the pictures, but the processor plays the GPU: %1."));
+  text.front() = text.front().arg(QString::fromStdString(engine_.renderer_reason()));
+  if (engine_.graphics() == engine::Engine::Graphics::none) {
+    text << tr("OpenGL: %1.").arg(QString::fromStdString(engine_.graphics_problem()));
+  }
+  if (!has_gpu) text << tr("The automatic executor is the host's, the processor, too.");
+  note->setToolTip(text.join(QChar(' ')));
   statusBar()->addPermanentWidget(note);
 }
 

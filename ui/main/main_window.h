@@ -75,6 +75,7 @@ class MainWindow : public QMainWindow {
  private:
   void make_centre();
   void make_status_bar();
+  void note_renderer();
   void connect_files();
   void connect_evolution();
   void connect_views();

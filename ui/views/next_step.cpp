@@ -102,11 +102,10 @@ NextStep::NextStep(engine::CaseProxy& proxy, QWidget& view)
 void NextStep::follow() {
   const engine::CaseState& state = proxy_.state();
   const engine::DisplaySettings& settings = proxy_.display().settings();
-  const bool draws = proxy_.engine().graphics() != engine::Engine::Graphics::none;
   const bool begins_in_strokes = !state.begun && can_play(proxy_);
   const bool to_place = !state.begun && !begins_in_strokes && !settings.show_source;
   const bool to_play = begins_in_strokes || (state.begun && !state.playing && state.step == 0);
-  const bool wanted = draws && !settings.clip_on && (to_place || to_play);
+  const bool wanted = !settings.clip_on && (to_place || to_play);
   hint_->setVisible(to_place);
   play_->setVisible(to_play);
   if (wanted) move_into_view();

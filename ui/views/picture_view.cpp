@@ -138,11 +138,6 @@ void PictureView::paint_picture(QPainter& painter) {
     return;
   }
   painter.fillRect(rect(), QColor(18, 20, 24));
-  if (proxy_.engine().graphics() != engine::Engine::Graphics::none) return;
-  paint_text(painter, QRectF(rect()).adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
-             tr("Pictures need OpenGL 3.3:\n%1.\n\nSegmentation works all the same: figures and exports are "
-                "right.")
-                 .arg(QString::fromStdString(proxy_.engine().graphics_problem())));
 }
 
 void PictureView::paint_study(QPainter& painter, const QString& note) const {

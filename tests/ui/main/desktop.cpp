@@ -75,12 +75,26 @@ solver::ExecutorKind story_executor() {
   qFatal("TIDEMARK_STORIES is \"%s\": it can be host, compute or stream", name.constData());
 }
 
-Desktop::Desktop(solver::ExecutorKind executor, QSize size) {
+QByteArray renderer_beside(solver::ExecutorKind executor) {
+  switch (executor) {
+    case solver::ExecutorKind::automatic:
+      return "auto";
+    case solver::ExecutorKind::compute:
+    case solver::ExecutorKind::stream:
+      return "gl";
+    case solver::ExecutorKind::host:
+    case solver::ExecutorKind::reference:
+      break;
+  }
+  return "host";
+}
+
+Desktop::Desktop(solver::ExecutorKind executor, QSize size, bool use_opengl) {
   QSettings::setDefaultFormat(QSettings::IniFormat);
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope,
                      QString::fromStdString(home_.path().string()));
   ui::apply_theme(*qApp, ui::Theme::light);
-  engine_ = std::make_unique<engine::Engine>();
+  engine_ = std::make_unique<engine::Engine>(use_opengl);
   window_ = std::make_unique<ui::MainWindow>(*engine_);
   window_->set_executor(executor);
   window_->resize(size);

@@ -45,6 +45,9 @@ class WatchedApplication : public QApplication {
 // ("compute" or "stream").
 solver::ExecutorKind story_executor();
 
+// What works in the memory of that executor, for TIDEMARK_RENDERER.
+QByteArray renderer_beside(solver::ExecutorKind executor);
+
 // Traffic of phi for the pictures of a case, since it was opened.
 struct PhiTraffic {
   std::int64_t copies = 0;          // read from the executor
@@ -55,7 +58,7 @@ struct PhiTraffic {
 // At the end it tells which event kept the user interface longest since the window was there.
 class Desktop {
  public:
-  explicit Desktop(solver::ExecutorKind executor, QSize size = {1280, 800});
+  explicit Desktop(solver::ExecutorKind executor, QSize size = {1280, 800}, bool use_opengl = true);
   ~Desktop();
 
   [[nodiscard]] ui::MainWindow& window() { return *window_; }

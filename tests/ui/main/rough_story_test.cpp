@@ -199,6 +199,7 @@ void RoughStoryTest::a_lost_context_is_made_good_data() {
 
 void RoughStoryTest::a_lost_context_is_made_good() {
   QFETCH(int, executor);
+  const Variable renderer("TIDEMARK_RENDERER", "gl");
   Desktop desktop(static_cast<solver::ExecutorKind>(executor), {900, 640});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);

@@ -20,7 +20,7 @@ std::shared_ptr<const engine::LoadedStudy> ball_of(const std::string& patient, c
   return study;
 }
 
-// The overlay alone, as the engine without OpenGL draws nothing else.
+// The overlay alone: pictures arrive with events, of which the tests handle none.
 std::unique_ptr<ui::PictureView> view_of(engine::CaseProxy& proxy, bool in_3d) {
   std::unique_ptr<ui::PictureView> view;
   if (in_3d) {

@@ -19,7 +19,10 @@ namespace {
 class DesktopWith : public Desktop {
  public:
   explicit DesktopWith(const char* pictures) : Desktop(ask_for(pictures)) {}
-  ~DesktopWith() { qunsetenv("TIDEMARK_PICTURES"); }
+  ~DesktopWith() {
+    qunsetenv("TIDEMARK_PICTURES");
+    qunsetenv("TIDEMARK_RENDERER");
+  }
 
   std::vector<ui::PictureView*> views() {
     std::vector<ui::PictureView*> views;
@@ -36,6 +39,7 @@ class DesktopWith : public Desktop {
  private:
   static solver::ExecutorKind ask_for(const char* pictures) {
     qputenv("TIDEMARK_PICTURES", pictures);
+    qputenv("TIDEMARK_RENDERER", "gl");
     return solver::ExecutorKind::automatic;
   }
 };

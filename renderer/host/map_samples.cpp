@@ -1,0 +1,163 @@
+#include "renderer/host/map_samples.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "renderer/host/trilinear.h"
+
+namespace tidemark::renderer {
+namespace {
+
+constexpr int kSide = 8;  // of a block
+constexpr std::size_t kBlockVoxels = 512;
+constexpr std::size_t kLongestRun = 8;  // blocks, as in CachedSpeed
+constexpr std::int32_t kMissing = -1;
+constexpr std::int32_t kWanted = -2;
+
+}  // namespace
+
+MapSamples::MapSamples(Index3 volume_size)
+    : blocks_(volume_size, solver::kDefaultPageShape), size_(volume_size), grid_(blocks_.pages()) {}
+
+void MapSamples::set_function(std::shared_ptr<const solver::SpeedFunction> function) {
+  if (function == function_) return;
+  function_ = std::move(function);
+  places_.clear();
+  wanted_.clear();
+  filled_ = 0;
+  values_ = {};
+  if (is_evaluated()) places_.assign(static_cast<std::size_t>(blocks_.page_count()), kMissing);
+}
+
+void MapSamples::want(const solver::VoxelBox& box) {
+  const Index3 first = box.first / solver::kDefaultPageShape;
+  const Index3 last = (box.first + box.size - Index3(1)) / solver::kDefaultPageShape;
+  for (std::int64_t z = first.z; z <= last.z; ++z) {
+    for (std::int64_t y = first.y; y <= last.y; ++y) {
+      for (std::int64_t x = first.x; x <= last.x; ++x) {
+        const std::int64_t block = blocks_.page_number({x, y, z});
+        std::int32_t& place = places_[static_cast<std::size_t>(block)];
+        if (place != kMissing) continue;
+        wanted_.push_back(block);
+        place = kWanted;
+      }
+    }
+  }
+}
+
+void MapSamples::fill_plane(const glm::dmat4& voxel_from_view, ThreadPool& threads) {
+  if (!is_evaluated()) return;
+  const glm::dvec3 middle(voxel_from_view[3]);
+  const glm::dvec3 right(voxel_from_view[0]);
+  const glm::dvec3 up(voxel_from_view[1]);
+  const glm::dvec3 normal = glm::cross(right, up);
+  // What is between voxels needs those on both sides.
+  const glm::dvec3 reach = glm::abs(right) + glm::abs(up) + 1.0;
+  const glm::dvec3 end(size_ - 1);
+  const Index3 first = Index3(glm::clamp(glm::floor(middle - reach), glm::dvec3(0.0), end)) / Index3(kSide);
+  const Index3 last = Index3(glm::clamp(glm::ceil(middle + reach), glm::dvec3(0.0), end)) / Index3(kSide);
+  constexpr double kHalfBlock = 4.5;  // and the voxels before and behind it
+  const glm::dvec3 extent = glm::abs(normal) * kHalfBlock;
+  const double farthest = extent.x + extent.y + extent.z;
+  for (std::int64_t z = first.z; z <= last.z; ++z) {
+    for (std::int64_t y = first.y; y <= last.y; ++y) {
+      for (std::int64_t x = first.x; x <= last.x; ++x) {
+        const Index3 voxel = Index3(x, y, z) * solver::kDefaultPageShape;
+        const double distance = glm::dot(normal, glm::dvec3(voxel) + 3.5 - middle);
+        if (std::abs(distance) <= farthest) want({voxel, Index3(1)});
+      }
+    }
+  }
+  fill(threads);
+}
+
+void MapSamples::fill_pages(const solver::PageLayout& layout, std::span<const std::int64_t> pages,
+                            ThreadPool& threads) {
+  if (!is_evaluated()) return;
+  for (const std::int64_t page : pages) want({layout.first_voxel(page), layout.valid_shape(page)});
+  fill(threads);
+}
+
+std::vector<MapSamples::Run> MapSamples::runs_of_wanted() const {
+  std::vector<Run> runs;
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    const bool follows = i > 0 && wanted_[i] == wanted_[i - 1] + 1 && wanted_[i] % grid_.x != 0 &&
+                         runs.back().blocks < kLongestRun;
+    if (follows) {
+      ++runs.back().blocks;
+    } else {
+      runs.push_back({i, 1});
+    }
+  }
+  return runs;
+}
+
+// `values`: of the run's first block.
+void MapSamples::evaluate(const Run& run, float* values) const {
+  solver::VoxelBox box{blocks_.first_voxel(wanted_[run.first]), blocks_.valid_shape(wanted_[run.first])};
+  const std::int64_t last = wanted_[run.first + run.blocks - 1];
+  box.size.x = blocks_.first_voxel(last).x + blocks_.valid_shape(last).x - box.first.x;
+  std::vector<double> evaluated(static_cast<std::size_t>(box.voxels()));
+  function_->evaluate(box, evaluated.data());
+  const double* next = evaluated.data();
+  for (std::int64_t z = 0; z < box.size.z; ++z) {
+    for (std::int64_t y = 0; y < box.size.y; ++y) {
+      float* row = values + kSide * (y + kSide * z);
+      for (std::int64_t x = 0; x < box.size.x; ++x) {
+        row[x % kSide + x / kSide * static_cast<std::int64_t>(kBlockVoxels)] = static_cast<float>(*next++);
+      }
+    }
+  }
+}
+
+void MapSamples::fill(ThreadPool& threads) {
+  if (wanted_.empty()) return;
+  std::sort(wanted_.begin(), wanted_.end());
+  const std::size_t begin = static_cast<std::size_t>(filled_);
+  values_.resize((begin + wanted_.size()) * kBlockVoxels);
+  const std::vector<Run> runs = runs_of_wanted();
+  threads.for_each(std::ssize(runs), 1, [&](std::int64_t first, std::int64_t end, int) {
+    for (std::int64_t i = first; i < end; ++i) {
+      const Run& run = runs[static_cast<std::size_t>(i)];
+      evaluate(run, values_.data() + (begin + run.first) * kBlockVoxels);
+    }
+  });
+  for (const std::int64_t block : wanted_) places_[static_cast<std::size_t>(block)] = filled_++;
+  wanted_.clear();
+}
+
+// Null where the block is missing.
+const float* MapSamples::value_at(glm::ivec3 voxel) const {
+  const glm::ivec3 block = voxel / kSide;
+  const std::int32_t place =
+      places_[static_cast<std::size_t>(block.x + grid_.x * (block.y + grid_.y * block.z))];
+  if (place < 0) return nullptr;
+  const glm::ivec3 local = voxel - block * kSide;
+  return values_.data() + static_cast<std::size_t>(place) * kBlockVoxels +
+         static_cast<std::size_t>(local.x + kSide * (local.y + kSide * local.z));
+}
+
+float MapSamples::at(glm::ivec3 voxel) const {
+  const float* value = value_at(glm::clamp(voxel, glm::ivec3(0), size_ - 1));
+  return value != nullptr ? *value : 0.0F;
+}
+
+float MapSamples::between(glm::vec3 position) const {
+  const Trilinear around(position, size_);
+  const glm::ivec3 local = around.low & (kSide - 1);
+  float sum = 0.0F;
+  if (std::max({local.x, local.y, local.z}) < kSide - 1) {
+    // All eight in one block, as most are.
+    const float* first = value_at(around.low);
+    if (first == nullptr) return 0.0F;
+    for (int i = 0; i < 8; ++i) {
+      sum += around.share(i) * first[(i & 1) + (i & 2 ? kSide : 0) + (i & 4 ? kSide * kSide : 0)];
+    }
+  } else {
+    for (int i = 0; i < 8; ++i) sum += around.share(i) * at(around.corner(i));
+  }
+  return sum;
+}
+
+}  // namespace tidemark::renderer

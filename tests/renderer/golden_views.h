@@ -1,0 +1,37 @@
+// The views of the golden pictures.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/renderer/scenes.h"
+
+namespace tidemark::test {
+
+// A phantom with the distance to its truth as the level set, and a painter of it.
+struct Patient {
+  Patient(const char* kind, renderer::RendererKind renderer, int threads = 0);
+
+  Scene scene;
+  solver::Parameters parameters;
+  WindowLevel window;
+  std::vector<std::uint8_t> labels;
+  std::unique_ptr<Painter> painter;
+};
+
+struct Golden {
+  using Draw = std::function<Result<renderer::Picture>(Patient&)>;
+
+  const char* patient;
+  Draw draw;
+  bool is_slice = false;  // and nothing in 3D
+};
+
+// By name.
+using GoldenViews = std::map<std::string, Golden>;
+const GoldenViews& golden_views();
+
+}  // namespace tidemark::test
