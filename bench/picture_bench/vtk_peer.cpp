@@ -38,7 +38,9 @@ nlohmann::json gradients_of(const renderer::TransferFunction& function) {
   nlohmann::json points = nlohmann::json::array();
   for (const renderer::SourcePrimitive& one : function.source) {
     if (one.gradient.kind != renderer::TransferFactor::Kind::ramp) continue;
-    points.push_back({one.gradient.start, 0.0});
+    // With 0 over a range VTK 9.1 leaves out what should show.
+    points.push_back({0.0, 0.01});
+    points.push_back({one.gradient.start, 0.01});
     points.push_back({one.gradient.end, 1.0});
     break;
   }
@@ -56,7 +58,7 @@ Result<std::unique_ptr<VtkPeer>> VtkPeer::start(const Volume& volume, const std:
   int to[2];
   int from[2];
   if (pipe2(to, O_CLOEXEC) != 0 || pipe2(from, O_CLOEXEC) != 0) return fail(ErrorKind::internal, "no pipe");
-  std::vector<std::string> words{"python3", TIDEMARK_VTK_PEER, file.string()};
+  std::vector<std::string> words{"/usr/bin/python3", TIDEMARK_VTK_PEER, file.string()};
   for (int axis = 0; axis < 3; ++axis) words.push_back(fmt::to_string(volume.geometry.size[axis]));
   for (int axis = 0; axis < 3; ++axis) words.push_back(fmt::to_string(volume.geometry.spacing_mm[axis]));
   std::vector<char*> arguments;
@@ -67,7 +69,7 @@ Result<std::unique_ptr<VtkPeer>> VtkPeer::start(const Volume& volume, const std:
   posix_spawn_file_actions_adddup2(&actions, to[0], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, from[1], STDOUT_FILENO);
   std::unique_ptr<VtkPeer> peer(new VtkPeer);
-  const int failed = posix_spawnp(&peer->process_, "python3", &actions, nullptr, arguments.data(), environ);
+  const int failed = posix_spawnp(&peer->process_, "/usr/bin/python3", &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   close(to[0]);
   close(from[1]);

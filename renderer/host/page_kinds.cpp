@@ -4,7 +4,22 @@
 
 namespace tidemark::renderer {
 
-PageKinds::PageKinds(HostScene& scene, const VolumeView& view) {
+namespace {
+
+// The opacity of a piece up to which its light may come from one place: 1 of 255 levels over a hundred of
+// them.
+constexpr float kFaint = 0.004F;
+
+// log2 of how many steps a piece may take.
+std::uint8_t strides_of(float opacity, float step_mm) {
+  std::uint8_t strides = 0;
+  while (strides < 2 && opacity * step_mm * static_cast<float>(2 << strides) <= kFaint) ++strides;
+  return strides;
+}
+
+}  // namespace
+
+PageKinds::PageKinds(HostScene& scene, const VolumeView& view, float step_mm) {
   const PhiPages& phi = scene.phi;
   const bool source = shows_source(view);
   const bool by_phi = needs_phi(view);
@@ -19,6 +34,9 @@ PageKinds::PageKinds(HostScene& scene, const VolumeView& view) {
       const glm::vec4 opacity = scene.opacity.pages()[static_cast<std::size_t>(page)];
       const float most = resident ? opacity.z : phi.is_inside(page) ? opacity.y : opacity.x;
       if (most > kLeastOpacity || !view.quality.skip_empty) kind |= kSource;
+      if (most > kLeastOpacity && view.quality.skip_empty) {
+        kind |= static_cast<std::uint8_t>(strides_of(most, step_mm) << kStrideShift);
+      }
       if (most <= kLeastOpacity && !view.surface) kind &= static_cast<std::uint8_t>(~kPhi);
     }
     return kind;

@@ -14,9 +14,15 @@ class PageKinds {
   // Bits of a page's kind.
   static constexpr std::uint8_t kSource = 1;  // the source shows in it
   static constexpr std::uint8_t kPhi = 2;     // phi varies in it, and the view needs phi
+  // Beyond these bits: how many steps long a piece may be where the source is so faint that no picture shows
+  // the difference.
+  static constexpr int kStrideShift = 2;
+  [[nodiscard]] static float stride(std::uint8_t kind) {
+    return static_cast<float>(1 << (kind >> kStrideShift));
+  }
 
-  // For a view that is resolved().
-  PageKinds(HostScene& scene, const VolumeView& view);
+  // For a view that is resolved(), whose steps have that length.
+  PageKinds(HostScene& scene, const VolumeView& view, float step_mm);
 
   [[nodiscard]] std::uint8_t operator[](int page) const { return kinds_[static_cast<std::size_t>(page)]; }
   // Whether none of the pages around it, a cube of kSide pages aligned with kSide, has a kind.

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <utility>
 
 #include "renderer/host/colours.h"
 
@@ -27,7 +28,6 @@ RayCaster::RayCaster(HostScene& scene, const VolumeView& view, PictureSize size)
     : scene_(scene),
       view_(view),
       size_(size),
-      kinds_(scene, view),
       shade_pieces_(shade_pieces()),
       terms_{scene.phi, scene.source, scene.map(EvaluatedMap::speed), scene.tent(), scene.constants},
       change_(view.colouring == SurfaceColouring::change ? scene.map(EvaluatedMap::change) : nullptr),
@@ -36,18 +36,18 @@ RayCaster::RayCaster(HostScene& scene, const VolumeView& view, PictureSize size)
       shows_labels_(view.label_opacity > 0.0 && scene.labels.pages().shows()),
       volume_(scene.source.size()),
       spacing_(scene.geometry().spacing_mm),
-      step_(static_cast<float>(view.quality.step_voxels)) {
+      voxel_from_view_(view.camera.voxel_from_view(scene.geometry(), size.aspect()) *
+                       moved_by(offset_of_round(view.quality.round), size)),
+      direction_(glm::normalize(glm::vec3(voxel_from_view_[2]))),
+      mm_(glm::length(direction_ * spacing_)),
+      step_(static_cast<float>(view.quality.step_voxels)),
+      kinds_(scene, view, step_ * mm_) {
   const Geometry& geometry = scene.geometry();
-  voxel_from_view_ = glm::mat4(view.camera.voxel_from_view(geometry, size.aspect()) *
-                               moved_by(offset_of_round(view.quality.round), size));
   pixel_mm_ = static_cast<float>(2.0 * view.camera.half_height_mm(geometry, size.aspect()) /
                                  static_cast<double>(size.height));
-  const glm::vec3 way = 2.0F * glm::vec3(voxel_from_view_[2]);
-  direction_ = way / glm::length(way);
   for (int axis = 0; axis < 3; ++axis) {
     inverse_[axis] = 1.0F / (direction_[axis] == 0.0F ? 1e-9F : direction_[axis]);
   }
-  mm_ = glm::length(direction_ * spacing_);
   viewer_ = -direction_ * spacing_ / mm_;
   if (view.clip) plane_ = clip_plane_in_voxels(*view.clip, geometry);
   set_up_light();
@@ -74,7 +74,6 @@ void RayCaster::set_up_source() {
         as_floats(one.value), as_floats(one.gradient), as_floats(one.phi), static_cast<float>(one.opacity),
         one.colour};
   }
-  pieces_.by_gradient = view_.source->source_needs_gradient();
   pieces_.fast_gradient = view_.quality.fast_gradient;
   pieces_.region = view_.region;
   pieces_.tint = glm::vec3(view_.surface_colour);
@@ -184,7 +183,7 @@ RayCaster::Piece RayCaster::march_to_surface(Ray& ray, float stop) const {
 
 RayCaster::Piece RayCaster::march_through_source(Ray& ray, float stop) const {
   const PhiPages& phi = scene_.phi;
-  float stride = ray.jitter * step_;
+  float first = ray.jitter * step_;  // step of the ray; then 0
   while (ray.t < stop && !ray.is_opaque()) {
     Page page = enter(ray, ray.t);
     const std::uint8_t kind = kinds_[page.number];
@@ -194,7 +193,7 @@ RayCaster::Piece RayCaster::march_through_source(Ray& ray, float stop) const {
     }
     if ((kind & PageKinds::kPhi) != 0) {
       const Piece piece =
-          march_with_phi(ray, std::min(page.end, stop), (kind & PageKinds::kSource) != 0, stride);
+          march_with_phi(ray, std::min(page.end, stop), (kind & PageKinds::kSource) != 0, first);
       if (piece.found) return piece;
       continue;
     }
@@ -206,12 +205,13 @@ RayCaster::Piece RayCaster::march_through_source(Ray& ray, float stop) const {
       if (kinds_[next.number] != kind || (needs_phi_ && phi.is_inside(next.number) != inside)) break;
       end = next.end;
     }
-    march_evenly(ray, std::min(end, stop), inside ? phi.band() : -phi.band(), stride);
+    march_evenly(ray, std::min(end, stop), inside ? phi.band() : -phi.band(), PageKinds::stride(kind) * step_,
+                 first);
   }
   return {};
 }
 
-void RayCaster::march_evenly(Ray& ray, float end, float phi, float& stride) const {
+void RayCaster::march_evenly(Ray& ray, float end, float phi, float step, float& first) const {
   Pieces pieces;
   pieces.start = ray.start;
   pieces.shows_from = ray.for_source.x;
@@ -223,8 +223,7 @@ void RayCaster::march_evenly(Ray& ray, float end, float phi, float& stride) cons
     pieces.at[0] = ray.t;
     const int most = ray.picks ? 1 : Pieces::kMost;
     while (ray.t < end && pieces.count < most) {
-      ray.t = std::min(ray.t + stride, end);
-      stride = step_;
+      ray.t = std::min(ray.t + (first > 0.0F ? std::exchange(first, 0.0F) : step), end);
       pieces.at[static_cast<std::size_t>(++pieces.count)] = ray.t;
     }
     shade(ray, pieces);
@@ -232,7 +231,7 @@ void RayCaster::march_evenly(Ray& ray, float end, float phi, float& stride) cons
 }
 
 // In one page, whose source may show.
-RayCaster::Piece RayCaster::march_with_phi(Ray& ray, float end, bool source, float& stride) const {
+RayCaster::Piece RayCaster::march_with_phi(Ray& ray, float end, bool source, float& first) const {
   Pieces pieces;
   pieces.start = ray.start;
   pieces.shows_from = ray.for_source.x;
@@ -246,8 +245,7 @@ RayCaster::Piece RayCaster::march_with_phi(Ray& ray, float end, bool source, flo
     pieces.phi[0] = phi;
     const int most = ray.picks ? 1 : Pieces::kMost;
     while (ray.t < end && pieces.count < most && !piece.found) {
-      float next = std::min(ray.t + stride, end);
-      stride = step_;
+      float next = std::min(ray.t + (first > 0.0F ? std::exchange(first, 0.0F) : step_), end);
       float next_phi = scene_.phi.between(on(ray, next));
       if (view_.surface && (next_phi > 0.0F) != ray.inside) {
         piece = {true, ray.t, next, phi, next_phi};

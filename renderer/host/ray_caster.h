@@ -78,8 +78,8 @@ class RayCaster {
   [[nodiscard]] Piece march(Ray& ray, float stop) const;
   [[nodiscard]] Piece march_to_surface(Ray& ray, float stop) const;
   [[nodiscard]] Piece march_through_source(Ray& ray, float stop) const;
-  void march_evenly(Ray& ray, float end, float phi, float& stride) const;
-  [[nodiscard]] Piece march_with_phi(Ray& ray, float end, bool source, float& stride) const;
+  void march_evenly(Ray& ray, float end, float phi, float step, float& first) const;
+  [[nodiscard]] Piece march_with_phi(Ray& ray, float end, bool source, float& first) const;
   void shade(Ray& ray, Pieces& pieces) const;
   [[nodiscard]] float crossing(const Ray& ray, Piece piece) const;
 
@@ -100,7 +100,6 @@ class RayCaster {
   HostScene& scene_;
   const VolumeView& view_;
   PictureSize size_;
-  PageKinds kinds_;
   ShadePieces shade_pieces_;
   PieceScene pieces_;
   SpeedTerms terms_;
@@ -108,15 +107,16 @@ class RayCaster {
   bool shows_source_;
   bool needs_phi_;
   bool shows_labels_;
-  glm::mat4 voxel_from_view_{1.0F};
-  glm::vec3 volume_;           // voxels
-  glm::vec3 spacing_;          // mm
-  glm::vec3 direction_{0.0F};  // of all rays, in voxels; length 1
+  glm::vec3 volume_;   // voxels
+  glm::vec3 spacing_;  // mm
+  glm::mat4 voxel_from_view_;
+  glm::vec3 direction_;  // of all rays, in voxels; length 1
+  float mm_;             // a unit of t
+  float step_;
+  PageKinds kinds_;
   glm::vec3 inverse_{0.0F};
   glm::vec3 viewer_{0.0F};  // unit vector to the viewer, in mm along the voxel axes
-  float mm_ = 1.0F;         // a unit of t
   float pixel_mm_ = 1.0F;
-  float step_ = 1.0F;
   std::optional<VoxelPlane> plane_;
 };
 

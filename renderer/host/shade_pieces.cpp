@@ -5,7 +5,9 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "renderer/host/shade_pieces.cpp"
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#include <algorithm>
 #include <cstring>
+#include <type_traits>
 
 #include "hwy/foreach_target.h"  // before highway.h
 
@@ -33,40 +35,93 @@ struct Place {
   V x, y, z;
 };
 
-// Two voxels side by side, at `offset` voxels from `base`.
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
+using Lane = std::size_t;
+
+// Neighbours along x of each lane, as they are stored. Lane by lane, because that is faster than the
+// processor's own gathering: two or four voxels are one word.
+template <class T, int kVoxels>
+struct Rows {
+  alignas(64) T voxels[kLanes][kVoxels];
+};
+
+HWY_INLINE V to_float(I words) {
+  return hn::ConvertTo(Tag(), words);
+}
+template <class T>
+HWY_INLINE V low_half(I words) {
+  if constexpr (std::is_signed_v<T>) return to_float(hn::ShiftRight<16>(hn::ShiftLeft<16>(words)));
+  return to_float(hn::And(words, hn::Set(IntTag(), 0xFFFF)));
+}
+template <class T>
+HWY_INLINE V high_half(I words) {
+  if constexpr (std::is_signed_v<T>) return to_float(hn::ShiftRight<16>(words));
+  return to_float(hn::And(hn::ShiftRight<16>(words), hn::Set(IntTag(), 0xFFFF)));
+}
+
+// Two voxels side by side.
 struct Pair {
   V first, second;
 };
-
-template <class T>
-HWY_INLINE I gather_words(const T* base, I bytes) {
-#if HWY_TARGET <= HWY_AVX2
-  return hn::GatherOffset(IntTag(), reinterpret_cast<const std::int32_t*>(base), bytes);
+HWY_INLINE I load_words(const void* from) {
+  return hn::LoadU(IntTag(), static_cast<const std::int32_t*>(from));
+}
+// The even and the odd ones of two vectors.
+HWY_INLINE I even_of(I second, I first) {
+#if HWY_TARGET == HWY_SCALAR
+  (void)second;
+  return first;
 #else
-  std::int32_t at[Pieces::kMost];
-  std::int32_t words[Pieces::kMost];
-  hn::StoreU(bytes, IntTag(), at);
-  for (std::size_t lane = 0; lane < hn::Lanes(IntTag()); ++lane) {
-    std::memcpy(words + lane, reinterpret_cast<const char*>(base) + at[lane], sizeof(std::int32_t));
-  }
-  return hn::LoadU(IntTag(), words);
+  return hn::ConcatEven(IntTag(), second, first);
 #endif
 }
-
-HWY_INLINE Pair pair_at(const std::int16_t* base, I offset) {
-  const I words = gather_words(base, hn::ShiftLeft<1>(offset));
-  return {hn::ConvertTo(Tag(), hn::ShiftRight<16>(hn::ShiftLeft<16>(words))),
-          hn::ConvertTo(Tag(), hn::ShiftRight<16>(words))};
+HWY_INLINE I odd_of(I second, I first) {
+#if HWY_TARGET == HWY_SCALAR
+  (void)first;
+  return second;
+#else
+  return hn::ConcatOdd(IntTag(), second, first);
+#endif
 }
-HWY_INLINE Pair pair_at(const std::uint16_t* base, I offset) {
-  const I words = gather_words(base, hn::ShiftLeft<1>(offset));
-  const I low = hn::And(words, hn::Set(IntTag(), 0xFFFF));
-  return {hn::ConvertTo(Tag(), low),
-          hn::ConvertTo(Tag(), hn::And(hn::ShiftRight<16>(words), hn::Set(IntTag(), 0xFFFF)))};
+HWY_INLINE I even_words(const void* from) {
+  const auto* words = static_cast<const std::int32_t*>(from);
+  return even_of(load_words(words + kLanes), load_words(words));
 }
-HWY_INLINE Pair pair_at(const float* base, I offset) {
-  const I bytes = hn::ShiftLeft<2>(offset);
-  return {hn::BitCast(Tag(), gather_words(base, bytes)), hn::BitCast(Tag(), gather_words(base + 1, bytes))};
+HWY_INLINE I odd_words(const void* from) {
+  const auto* words = static_cast<const std::int32_t*>(from);
+  return odd_of(load_words(words + kLanes), load_words(words));
+}
+template <class T>
+HWY_INLINE Pair pair_of(const Rows<T, 2>& rows) {
+  if constexpr (std::is_same_v<T, float>) {
+    return {hn::BitCast(Tag(), even_words(rows.voxels)), hn::BitCast(Tag(), odd_words(rows.voxels))};
+  } else {
+    const I words = load_words(rows.voxels);
+    return {low_half<T>(words), high_half<T>(words)};
+  }
+}
+// The first two of four, and the others.
+template <class T>
+HWY_INLINE Pair left_of(const Rows<T, 4>& rows) {
+  if constexpr (std::is_same_v<T, float>) {
+    const float* voxels = &rows.voxels[0][0];
+    return {hn::BitCast(Tag(), even_of(even_words(voxels + 2 * kLanes), even_words(voxels))),
+            hn::BitCast(Tag(), even_of(odd_words(voxels + 2 * kLanes), odd_words(voxels)))};
+  } else {
+    const I words = even_words(rows.voxels);
+    return {low_half<T>(words), high_half<T>(words)};
+  }
+}
+template <class T>
+HWY_INLINE Pair right_of(const Rows<T, 4>& rows) {
+  if constexpr (std::is_same_v<T, float>) {
+    const float* voxels = &rows.voxels[0][0];
+    return {hn::BitCast(Tag(), odd_of(even_words(voxels + 2 * kLanes), even_words(voxels))),
+            hn::BitCast(Tag(), odd_of(odd_words(voxels + 2 * kLanes), odd_words(voxels)))};
+  } else {
+    const I words = odd_words(rows.voxels);
+    return {low_half<T>(words), high_half<T>(words)};
+  }
 }
 
 // The source around the lanes' places, in stored units. Offsets count from a slice near all of them, so that
@@ -98,21 +153,17 @@ class Sampler {
   }
 
   HWY_INLINE V value(const Cell& cell) const {
-    const I first = offset(cell);
-    const V below = mix(row(first, 0, 0, cell), row(first, 1, 0, cell), cell.share_y);
-    const V above = mix(row(first, 0, 1, cell), row(first, 1, 1, cell), cell.share_y);
-    return mix(below, above, cell.share_z);
+    V rows[4];
+    Pair pairs[4];
+    fetch(cell, pairs, rows);
+    return mix(mix(rows[0], rows[1], cell.share_y), mix(rows[2], rows[3], cell.share_y), cell.share_z);
   }
 
   // The value and its derivative within the cell, per voxel.
   HWY_INLINE V value(const Cell& cell, Place& slope) const {
-    const I first = offset(cell);
-    Pair p[4];
     V rows[4];
-    for (int i = 0; i < 4; ++i) {
-      p[i] = pair_at(base_, hn::Add(first, step(i & 1, i >> 1)));
-      rows[i] = mix(p[i].first, p[i].second, cell.share_x);
-    }
+    Pair p[4];
+    fetch(cell, p, rows);
     const V x_below = mix(hn::Sub(p[0].second, p[0].first), hn::Sub(p[1].second, p[1].first), cell.share_y);
     const V x_above = mix(hn::Sub(p[2].second, p[2].first), hn::Sub(p[3].second, p[3].first), cell.share_y);
     const V below = mix(rows[0], rows[1], cell.share_y);
@@ -140,10 +191,21 @@ class Sampler {
     return hn::Add(cell.x,
                    hn::Add(hn::Mul(cell.y, hn::Set(IntTag(), row_)), hn::Mul(z, hn::Set(IntTag(), slice_))));
   }
-  HWY_INLINE I step(int y, int z) const { return hn::Set(IntTag(), y * step_y_ + z * step_z_); }
-  HWY_INLINE V row(I first, int y, int z, const Cell& cell) const {
-    const Pair pair = pair_at(base_, hn::Add(first, step(y, z)));
-    return mix(pair.first, pair.second, cell.share_x);
+  // The four pairs of a cell, and what is between them along x.
+  HWY_INLINE void fetch(const Cell& cell, Pair (&pairs)[4], V (&rows)[4]) const {
+    alignas(64) std::int32_t at[kLanes];
+    hn::Store(offset(cell), IntTag(), at);
+    Rows<T, 2> words[4];
+    for (Lane lane = 0; lane < kLanes; ++lane) {
+      const T* first = base_ + at[lane];
+      for (int i = 0; i < 4; ++i) {
+        std::memcpy(words[i].voxels[lane], first + (i & 1) * step_y_ + (i >> 1) * step_z_, 2 * sizeof(T));
+      }
+    }
+    for (int i = 0; i < 4; ++i) {
+      pairs[i] = pair_of(words[i]);
+      rows[i] = mix(pairs[i].first, pairs[i].second, cell.share_x);
+    }
   }
 
   HWY_INLINE static bool inner_along(I low, int size) {
@@ -158,32 +220,47 @@ class Sampler {
   // Trilinear means of the voxels' central differences, which is the same as central differences between
   // voxels.
   HWY_INLINE Place inner_slope(const Cell& cell) const {
-    const I first = offset(cell);
-    const I one = hn::Set(IntTag(), 1);
-    V rows[4];  // between voxels along x; the four inner rows
+    alignas(64) std::int32_t at[kLanes];
+    hn::Store(offset(cell), IntTag(), at);
+    Rows<T, 4> inner[4];
+    Rows<T, 2> outer[8];  // before and behind along y, for both z; then along z, for both y
+    for (Lane lane = 0; lane < kLanes; ++lane) {
+      const T* first = base_ + at[lane];
+      for (int i = 0; i < 4; ++i) {
+        std::memcpy(inner[i].voxels[lane], first - 1 + (i & 1) * step_y_ + (i >> 1) * step_z_, 4 * sizeof(T));
+      }
+      for (int i = 0; i < 2; ++i) {
+        const T* in_slice = first + i * step_z_;
+        std::memcpy(outer[2 * i].voxels[lane], in_slice - step_y_, 2 * sizeof(T));
+        std::memcpy(outer[2 * i + 1].voxels[lane], in_slice + 2 * step_y_, 2 * sizeof(T));
+        const T* in_row = first + i * step_y_;
+        std::memcpy(outer[4 + 2 * i].voxels[lane], in_row - step_z_, 2 * sizeof(T));
+        std::memcpy(outer[5 + 2 * i].voxels[lane], in_row + 2 * step_z_, 2 * sizeof(T));
+      }
+    }
+    V rows[4];  // between voxels along x
     V along_x[4];
     for (int i = 0; i < 4; ++i) {
-      const I at = hn::Add(first, step(i & 1, i >> 1));
-      const Pair left = pair_at(base_, hn::Sub(at, one));
-      const Pair right = pair_at(base_, hn::Add(at, one));
+      const Pair left = left_of(inner[i]);
+      const Pair right = right_of(inner[i]);
       rows[i] = mix(left.second, right.first, cell.share_x);
       along_x[i] = mix(hn::Sub(right.first, left.first), hn::Sub(right.second, left.second), cell.share_x);
     }
-    const auto y_slope = [&](int z, V own, V next) {
-      const V before = row(first, -1, z, cell);
-      const V after = row(first, 2, z, cell);
-      return mix(hn::Sub(next, before), hn::Sub(after, own), cell.share_y);
+    const auto row = [&](int i) {
+      const Pair pair = pair_of(outer[i]);
+      return mix(pair.first, pair.second, cell.share_x);
     };
-    const auto z_slope = [&](int y, V own, V next) {
-      const V before = row(first, y, -1, cell);
-      const V after = row(first, y, 2, cell);
-      return mix(hn::Sub(next, before), hn::Sub(after, own), cell.share_z);
+    // `i`: of the row before.
+    const auto across = [&](int i, V own, V next, V share) {
+      return mix(hn::Sub(next, row(i)), hn::Sub(row(i + 1), own), share);
     };
     Place slope;
     slope.x = mix(mix(along_x[0], along_x[1], cell.share_y), mix(along_x[2], along_x[3], cell.share_y),
                   cell.share_z);
-    slope.y = mix(y_slope(0, rows[0], rows[1]), y_slope(1, rows[2], rows[3]), cell.share_z);
-    slope.z = mix(z_slope(0, rows[0], rows[2]), z_slope(1, rows[1], rows[3]), cell.share_y);
+    slope.y = mix(across(0, rows[0], rows[1], cell.share_y), across(2, rows[2], rows[3], cell.share_y),
+                  cell.share_z);
+    slope.z = mix(across(4, rows[0], rows[2], cell.share_z), across(6, rows[1], rows[3], cell.share_z),
+                  cell.share_y);
     const V half = set(0.5F);
     return {hn::Mul(slope.x, half), hn::Mul(slope.y, half), hn::Mul(slope.z, half)};
   }
@@ -243,21 +320,10 @@ HWY_INLINE V ramp_integral(V x) {
   return hn::MulAdd(hn::Mul(set(0.5F), c), c, hn::Max(hn::Sub(x, one), hn::Zero(Tag())));
 }
 
-// The mean of a factor while x goes evenly from a to b: no step is too long for a thin Gaussian.
-HWY_INLINE V mean_factor(const PieceScene::Factor& shape, V a, V b) {
-  if (shape.kind == TransferFactor::Kind::everything) return set(1.0F);
-  const bool gaussian = shape.kind == TransferFactor::Kind::gaussian;
-  const V scale = set(1.0F / (gaussian ? shape.end : shape.end - shape.start));
-  const V u = hn::Mul(hn::Sub(a, set(shape.start)), scale);
-  const V v = hn::Mul(hn::Sub(b, set(shape.start)), scale);
-  const V way = hn::Sub(v, u);
-  const V there = factor(shape, hn::Mul(set(0.5F), hn::Add(a, b)));
-  const auto short_way = hn::Lt(hn::Abs(way), set(0.1F));
-  if (hn::AllTrue(Tag(), short_way)) return there;
-  const V integral =
-      gaussian ? hn::Mul(set(0.88622693F), hn::Sub(error_function(v), error_function(u)))  // sqrt(pi) / 2
-               : hn::Sub(ramp_integral(v), ramp_integral(u));
-  return hn::IfThenElse(short_way, there, hn::Div(integral, way));
+// A factor's integral, in units of its width.
+HWY_INLINE V integral(const PieceScene::Factor& shape, V u) {
+  if (shape.kind == TransferFactor::Kind::ramp) return ramp_integral(u);
+  return hn::Mul(set(0.88622693F), error_function(u));  // sqrt(pi) / 2
 }
 
 struct Material {
@@ -265,15 +331,60 @@ struct Material {
   V opacity;           // of a mm
 };
 
-// While the value goes from a to b. Without `gradient` its factors are 1: no opacity is then too small.
-HWY_INLINE Material classify(const PieceScene& scene, V a, V b, const V* gradient, V phi) {
+// The integrals at the ends of pieces: where one ends, the next one begins.
+struct Integrals {
+  float at[TransferFunction::kMostPrimitives][Pieces::kMost + 1];
+};
+
+// The mean of a factor while the value goes evenly from a to b: no step is too long for a thin Gaussian.
+HWY_INLINE V mean_factor(const PieceScene::Factor& shape, V a, V b, float* integrals) {
+  if (shape.kind == TransferFactor::Kind::everything) return set(1.0F);
+  const bool gaussian = shape.kind == TransferFactor::Kind::gaussian;
+  const V scale = set(1.0F / (gaussian ? shape.end : shape.end - shape.start));
+  const V v = hn::Mul(hn::Sub(b, set(shape.start)), scale);
+  const V way = hn::Mul(hn::Sub(b, a), scale);
+  hn::StoreU(integral(shape, v), Tag(), integrals + 1);
+  const auto short_way = hn::Lt(hn::Abs(way), set(0.1F));
+  V mean = hn::Div(hn::Sub(hn::LoadU(Tag(), integrals + 1), hn::LoadU(Tag(), integrals)), way);
+  if (!hn::AllFalse(Tag(), short_way)) {
+    mean = hn::IfThenElse(short_way, factor(shape, hn::Mul(set(0.5F), hn::Add(a, b))), mean);
+  }
+  return mean;
+}
+
+// Of each primitive while the value goes from a to b; all but the gradient's factor.
+using Shares = V[TransferFunction::kMostPrimitives];
+HWY_INLINE V shares_of(const PieceScene& scene, V a, V b, V phi, int first, Integrals& integrals,
+                       Shares& shares) {
+  V sum = hn::Zero(Tag());
+  for (int i = 0; i < scene.count; ++i) {
+    const PieceScene::Primitive& one = scene.primitives[static_cast<std::size_t>(i)];
+    shares[i] = hn::Mul(set(one.opacity), mean_factor(one.value, a, b, integrals.at[i] + first));
+    if (one.phi.kind != TransferFactor::Kind::everything)
+      shares[i] = hn::Mul(shares[i], factor(one.phi, phi));
+    sum = hn::Add(sum, shares[i]);
+  }
+  return sum;
+}
+
+// At the value with which the first piece begins.
+HWY_INLINE void begin_integrals(const PieceScene& scene, float value, Integrals& integrals) {
+  for (int i = 0; i < scene.count; ++i) {
+    const PieceScene::Factor& shape = scene.primitives[static_cast<std::size_t>(i)].value;
+    if (shape.kind == TransferFactor::Kind::everything) continue;
+    const float width = shape.kind == TransferFactor::Kind::gaussian ? shape.end : shape.end - shape.start;
+    integrals.at[i][0] = hn::GetLane(integral(shape, set((value - shape.start) / width)));
+  }
+}
+
+HWY_INLINE Material classify(const PieceScene& scene, const Shares& shares, V gradient) {
   const V zero = hn::Zero(Tag());
   Material sum{zero, zero, zero, zero};
   for (int i = 0; i < scene.count; ++i) {
     const PieceScene::Primitive& one = scene.primitives[static_cast<std::size_t>(i)];
-    V share = hn::Mul(set(one.opacity), mean_factor(one.value, a, b));
-    if (gradient != nullptr) share = hn::Mul(share, factor(one.gradient, *gradient));
-    if (one.phi.kind != TransferFactor::Kind::everything) share = hn::Mul(share, factor(one.phi, phi));
+    V share = shares[i];
+    if (one.gradient.kind != TransferFactor::Kind::everything)
+      share = hn::Mul(share, factor(one.gradient, gradient));
     sum.red = hn::MulAdd(share, set(one.colour.r), sum.red);
     sum.green = hn::MulAdd(share, set(one.colour.g), sum.green);
     sum.blue = hn::MulAdd(share, set(one.colour.b), sum.blue);
@@ -319,7 +430,8 @@ struct Shaded {
 // Lanes from `first` on. Returns false when nothing shows in them.
 template <class T>
 HWY_INLINE bool shade_lanes(const PieceScene& scene, const Pieces& pieces, const Sampler<T>& sampler,
-                            int first, const float* values, const Place& cell_slope, Shaded& shaded) {
+                            int first, const float* values, const Place& cell_slope, Integrals& integrals,
+                            Shaded& shaded) {
   const Tag d;
   const float* at = pieces.at.data() + first;
   const V begin = hn::LoadU(d, at);
@@ -336,9 +448,9 @@ HWY_INLINE bool shade_lanes(const PieceScene& scene, const Pieces& pieces, const
   const auto wanted = hn::FirstN(d, static_cast<std::size_t>(pieces.count - first));
   length = hn::IfThenElseZero(wanted, length);
   const V phi = hn::Mul(set(0.5F), hn::Add(phi_a, phi_b));
-  Material material = classify(scene, a, b, nullptr, phi);
-  const auto shows = [&] { return hn::Gt(hn::Mul(material.opacity, length), set(kLeastOpacity)); };
-  if (hn::AllFalse(d, shows())) return false;
+  Shares shares;
+  const auto shows = [&](V opacity) { return hn::Gt(hn::Mul(opacity, length), set(kLeastOpacity)); };
+  if (hn::AllFalse(d, shows(shares_of(scene, a, b, phi, first, integrals, shares)))) return false;
 
   Place gradient = cell_slope;
   if (!scene.fast_gradient) {
@@ -354,13 +466,12 @@ HWY_INLINE bool shade_lanes(const PieceScene& scene, const Pieces& pieces, const
   const V squared =
       hn::MulAdd(gradient.z, gradient.z, hn::MulAdd(gradient.y, gradient.y, hn::Mul(gradient.x, gradient.x)));
   const V steepness = hn::Sqrt(squared);
-  if (scene.by_gradient) {
-    material = classify(scene, a, b, &steepness, phi);
-    if (hn::AllFalse(d, shows())) return false;
-  }
-  const V inverse = hn::IfThenElseZero(shows(), hn::Div(set(1.0F), hn::Max(material.opacity, set(1e-30F))));
+  const Material material = classify(scene, shares, steepness);
+  const auto seen = shows(material.opacity);
+  if (hn::AllFalse(d, seen)) return false;
+  const V inverse = hn::Div(set(1.0F), hn::Max(material.opacity, set(1e-30F)));
   const V opacity =
-      hn::IfThenElseZero(shows(), hn::Sub(set(1.0F), hn::Exp(d, hn::Neg(hn::Mul(material.opacity, length)))));
+      hn::IfThenElseZero(seen, hn::Sub(set(1.0F), hn::Exp(d, hn::Neg(hn::Mul(material.opacity, length)))));
   V red = hn::Mul(material.red, inverse);
   V green = hn::Mul(material.green, inverse);
   V blue = hn::Mul(material.blue, inverse);
@@ -383,7 +494,6 @@ HWY_INLINE bool shade_lanes(const PieceScene& scene, const Pieces& pieces, const
 template <class T>
 HWY_INLINE void shade(const PieceScene& scene, Pieces& pieces, glm::vec4& result) {
   const Tag d;
-  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
   static_assert(Pieces::kMost % kLanes == 0);
   const auto z_at = [&](float at) { return pieces.start.z + at * scene.direction.z; };
   const Sampler<T> sampler(*scene.source, z_at(pieces.at[0]),
@@ -395,6 +505,8 @@ HWY_INLINE void shade(const PieceScene& scene, Pieces& pieces, glm::vec4& result
   }
   float values[Pieces::kMost + 1];
   values[0] = pieces.value;
+  Integrals integrals;
+  begin_integrals(scene, pieces.value, integrals);
   Shaded shaded;
   for (int first = 0; first < pieces.count; first += kLanes) {
     const V end = hn::LoadU(d, pieces.at.data() + first + 1);
@@ -406,7 +518,7 @@ HWY_INLINE void shade(const PieceScene& scene, Pieces& pieces, glm::vec4& result
     const V stored = scene.fast_gradient ? sampler.value(cell, slope) : sampler.value(cell);
     hn::StoreU(hn::MulAdd(stored, set(scene.source->slope()), set(scene.source->intercept())), d,
                values + first + 1);
-    if (!shade_lanes(scene, pieces, sampler, first, values, slope, shaded)) continue;
+    if (!shade_lanes(scene, pieces, sampler, first, values, slope, integrals, shaded)) continue;
     for (int i = first; i < std::min(pieces.count, first + kLanes); ++i) {
       const float left = 1.0F - result.a;
       result.r += left * shaded.red[i];

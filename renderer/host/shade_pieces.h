@@ -26,7 +26,6 @@ struct PieceScene {
   const SourceSamples* source = nullptr;
   std::array<Primitive, TransferFunction::kMostPrimitives> primitives;
   int count = 0;
-  bool by_gradient = false;    // a factor depends on the gradient
   bool fast_gradient = false;  // lights by differences within a voxel
   Region region = Region::everywhere;
   glm::vec3 tint{0.0F};  // of the inside in Region::tinted
