@@ -9,7 +9,8 @@
 namespace tidemark::renderer {
 namespace {
 
-constexpr int kSide = 8;  // of a block
+constexpr int kShift = 3;
+constexpr int kSide = 1 << kShift;  // of a block
 constexpr std::size_t kBlockVoxels = 512;
 constexpr std::size_t kLongestRun = 8;  // blocks, as in CachedSpeed
 constexpr std::int32_t kMissing = -1;
@@ -129,11 +130,12 @@ void MapSamples::fill(ThreadPool& threads) {
 
 // Null where the block is missing.
 const float* MapSamples::value_at(glm::ivec3 voxel) const {
-  const glm::ivec3 block = voxel / kSide;
+  // Not negative: shifts are what divisions would be.
+  const glm::ivec3 block = voxel >> kShift;
   const std::int32_t place =
       places_[static_cast<std::size_t>(block.x + grid_.x * (block.y + grid_.y * block.z))];
   if (place < 0) return nullptr;
-  const glm::ivec3 local = voxel - block * kSide;
+  const glm::ivec3 local = voxel & (kSide - 1);
   return values_.data() + static_cast<std::size_t>(place) * kBlockVoxels +
          static_cast<std::size_t>(local.x + kSide * (local.y + kSide * local.z));
 }
@@ -146,18 +148,23 @@ float MapSamples::at(glm::ivec3 voxel) const {
 float MapSamples::between(glm::vec3 position) const {
   const Trilinear around(position, size_);
   const glm::ivec3 local = around.low & (kSide - 1);
-  float sum = 0.0F;
+  float corner[8];
   if (std::max({local.x, local.y, local.z}) < kSide - 1) {
     // All eight in one block, as most are.
     const float* first = value_at(around.low);
     if (first == nullptr) return 0.0F;
     for (int i = 0; i < 8; ++i) {
-      sum += around.share(i) * first[(i & 1) + (i & 2 ? kSide : 0) + (i & 4 ? kSide * kSide : 0)];
+      corner[i] = first[(i & 1) + (i & 2 ? kSide : 0) + (i & 4 ? kSide * kSide : 0)];
     }
   } else {
-    for (int i = 0; i < 8; ++i) sum += around.share(i) * at(around.corner(i));
+    const glm::ivec3 high = glm::min(around.low + 1, size_ - 1);
+    for (int i = 0; i < 8; ++i) {
+      const float* value = value_at(
+          {i & 1 ? high.x : around.low.x, i & 2 ? high.y : around.low.y, i & 4 ? high.z : around.low.z});
+      corner[i] = value != nullptr ? *value : 0.0F;
+    }
   }
-  return sum;
+  return around.mean(corner);
 }
 
 }  // namespace tidemark::renderer

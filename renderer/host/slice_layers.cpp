@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "renderer/host/colours.h"
+#include "renderer/host/slice_samples.h"
 #include "renderer/host/speed_terms.h"
 #include "renderer/host/trilinear.h"
 
@@ -103,36 +104,66 @@ bool SliceLayers::is_outside(glm::vec3 p) const {
   return p.x < -0.5F || p.y < -0.5F || p.z < -0.5F || p.x > end.x || p.y > end.y || p.z > end.z;
 }
 
-void SliceLayers::draw(SliceTile& tile) const {
-  tile.sample_source(scene_.source, view_.nearest);
+bool SliceLayers::shows_labels(const SliceTile& tile) const {
+  const PhiPages& pages = scene_.phi;
+  return has_labels_ && any_page(pages.page_of(tile.low), pages.page_of(tile.high), [&](glm::ivec3 page) {
+           return scene_.labels.pages().pages()[static_cast<std::size_t>(pages.page_number(page))] != 0;
+         });
+}
+
+bool SliceLayers::shows_constraints(const SliceTile& tile) const {
+  if (!scene_.constraints) return false;
+  const solver::PageLayout& layout = scene_.constraints->layout();
+  const glm::ivec3 shape(layout.page_shape());
+  return any_page(tile.low / shape, tile.high / shape, [&](glm::ivec3 page) {
+    return scene_.constraints->page(layout.page_number(Index3(page))) != nullptr;
+  });
+}
+
+bool SliceLayers::draw(SliceTile& tile) const {
+  // The map of D shows the source between voxels, whatever is asked for.
+  sample_source(scene_.source, view_.nearest && base_ != Base::data, tile);
   const bool surface_near = tile.sample_phi(scene_.phi);
-  switch (base_) {
-    case Base::source:
-      for (std::size_t i = 0; i < SliceTile::kPixels; ++i) tile.colour[i] = glm::vec3(grey(tile.source[i]));
-      break;
-    case Base::data:
-      draw_data_speed(tile);
-      break;
-    case Base::term:
-      draw_term(tile);
-      break;
-    case Base::doubt:
-      draw_doubt(tile);
-      break;
-    case Base::pages:
-      draw_pages(tile);
-      break;
+  const bool outline = view_.surface && surface_near;
+  const bool labels = shows_labels(tile);
+  const bool constraints = shows_constraints(tile);
+  if (base_ == Base::source && !has_images_ && !has_change_ && !outline && !labels && !constraints &&
+      !tile.crosses_border) {
+    for (float& value : tile.source) value = grey(value);
+    return false;
   }
+  draw_base(tile);
   if (has_images_) {
     for_each_pixel(tile,
                    [&](std::size_t i, int x, int y) { tile.colour[i] = with_images(tile.colour[i], x, y); });
   }
-  if (has_labels_) add_labels(tile);
+  if (labels) add_labels(tile);
   if (has_change_) add_change(tile);
-  if (scene_.constraints) add_constraints(tile);
-  if (view_.surface && surface_near) add_outline(tile);
+  if (constraints) add_constraints(tile);
+  if (outline) add_outline(tile);
+  if (tile.crosses_border) draw_beside(tile);
+  return true;
+}
+
+void SliceLayers::draw_base(SliceTile& tile) const {
+  switch (base_) {
+    case Base::source:
+      for (std::size_t i = 0; i < SliceTile::kPixels; ++i) tile.colour[i] = glm::vec3(grey(tile.source[i]));
+      return;
+    case Base::data:
+      return draw_data_speed(tile);
+    case Base::term:
+      return draw_term(tile);
+    case Base::doubt:
+      return draw_doubt(tile);
+    case Base::pages:
+      return draw_pages(tile);
+  }
+}
+
+void SliceLayers::draw_beside(SliceTile& tile) const {
   for_each_pixel(tile, [&](std::size_t i, int x, int y) {
-    if (!is_outside(tile.position[i])) return;
+    if (!is_outside(tile.position(i))) return;
     tile.colour[i] = has_images_ ? with_images(view_.background, x, y) : view_.background;
   });
 }
@@ -140,7 +171,9 @@ void SliceLayers::draw(SliceTile& tile) const {
 void SliceLayers::draw_data_speed(SliceTile& tile) const {
   const SpeedTerms terms = terms_of(scene_, map_);
   SliceTile::Values speed;
-  for (std::size_t i = 0; i < SliceTile::kPixels; ++i) speed[i] = terms.data_between(tile.position[i]);
+  for (std::size_t i = 0; i < SliceTile::kPixels; ++i) {
+    speed[i] = map_ != nullptr ? map_->between(tile.position(i)) : terms.data_of(tile.source[i]);
+  }
   colour_speed(tile, speed);
 }
 
@@ -158,7 +191,7 @@ void SliceLayers::draw_term(SliceTile& tile) const {
     const auto pixel = static_cast<std::size_t>(i);
     const bool wanted =
         near[pixel] > 0.0F || SliceTile::along_x(near, i) != 0.0F || SliceTile::along_y(near, i) != 0.0F;
-    speed[pixel] = wanted ? at_voxels.between(tile.position[pixel]) : 0.0F;
+    speed[pixel] = wanted ? at_voxels.between(tile.position(pixel)) : 0.0F;
     any = any || wanted;
   }
   if (any) colour_speed(tile, speed);
@@ -180,7 +213,7 @@ void SliceLayers::colour_speed(SliceTile& tile, const SliceTile::Values& speed) 
 void SliceLayers::draw_doubt(SliceTile& tile) const {
   for (std::size_t i = 0; i < SliceTile::kPixels; ++i) {
     const glm::vec3 dimmed(0.5F * grey(tile.source[i]));
-    const float doubt = map_ != nullptr ? glm::clamp(map_->between(tile.position[i]), 0.0F, 1.0F) : 0.0F;
+    const float doubt = map_ != nullptr ? glm::clamp(map_->between(tile.position(i)), 0.0F, 1.0F) : 0.0F;
     tile.colour[i] = glm::mix(dimmed, doubt_colour(doubt), 0.8F * glm::smoothstep(0.0F, 0.5F, doubt));
   }
 }
@@ -191,15 +224,16 @@ void SliceLayers::draw_pages(SliceTile& tile) const {
   // Along the slice's own axis there is no edge to be seen.
   const glm::vec3 width = (glm::abs(right_) + glm::abs(up_)) / shape;
   for (std::size_t i = 0; i < SliceTile::kPixels; ++i) {
-    const glm::vec3 p = tile.position[i];
+    const glm::vec3 p = tile.position(i);
     const int page = pages.page_number(pages.page_of(nearest_voxel(p, volume_)));
     const PageState state = pages.state(page);
     const bool resident = state >= PageState::resident;
     glm::vec3 colour = glm::mix(glm::vec3(grey(tile.source[i])), page_colour(state), resident ? 0.45F : 0.2F);
     const glm::vec3 in_page = (p + 0.5F) / shape;
-    bool on_edge = false;
+    bool on_edge = false;  // in_page is not negative where something is seen
     for (int axis = 0; axis < 3; ++axis) {
-      const float from_edge = std::abs(in_page[axis] - std::floor(in_page[axis] + 0.5F));
+      const float from_edge =
+          std::abs(in_page[axis] - static_cast<float>(static_cast<int>(in_page[axis] + 0.5F)));
       on_edge = on_edge || (width[axis] > 1e-6F && from_edge < 0.6F * width[axis]);
     }
     if (resident && on_edge) colour = glm::mix(colour, glm::vec3(1.0F), 0.5F);
@@ -236,21 +270,9 @@ glm::vec3 SliceLayers::with_images(glm::vec3 below, int x, int y) const {
 
 void SliceLayers::add_labels(SliceTile& tile) const {
   const LabelSamples& labels = scene_.labels;
-  const PhiPages& pages = scene_.phi;
-  const glm::ivec3 first = pages.page_of(tile.low);
-  const glm::ivec3 last = pages.page_of(tile.high);
-  bool shows = false;
-  for (int z = first.z; !shows && z <= last.z; ++z) {
-    for (int y = first.y; !shows && y <= last.y; ++y) {
-      for (int x = first.x; !shows && x <= last.x; ++x) {
-        shows = labels.pages().pages()[static_cast<std::size_t>(pages.page_number({x, y, z}))] != 0;
-      }
-    }
-  }
-  if (!shows) return;
   const auto opacity = static_cast<float>(view_.label_opacity);
   for (std::size_t i = 0; i < SliceTile::kPixels; ++i) {
-    const int label = labels.at(nearest_voxel(tile.position[i], volume_));
+    const int label = labels.at(nearest_voxel(tile.position(i), volume_));
     if (label == 0) continue;
     tile.colour[i] = glm::mix(tile.colour[i], labels.colour(label), opacity * labels.opacity(label));
   }
@@ -260,7 +282,7 @@ void SliceLayers::add_labels(SliceTile& tile) const {
 // line is where the surface began. The map is positive outside of the start.
 void SliceLayers::add_change(SliceTile& tile) const {
   SliceTile::Values shift;
-  for (std::size_t i = 0; i < SliceTile::kPixels; ++i) shift[i] = map_->between(tile.position[i]);
+  for (std::size_t i = 0; i < SliceTile::kPixels; ++i) shift[i] = map_->between(tile.position(i));
   for_each_pixel(tile, [&](std::size_t i, int x, int y) {
     const bool changed = (shift[i] > 0.0F) == (tile.phi[i] > 0.0F);
     if (changed) {
@@ -279,7 +301,7 @@ void SliceLayers::add_change(SliceTile& tile) const {
 void SliceLayers::add_constraints(SliceTile& tile) const {
   const auto of_six = [](int n) { return ((n % 6) + 6) % 6; };
   for_each_pixel(tile, [&](std::size_t i, int x, int y) {
-    const solver::Constraint what = scene_.constraints->at(Index3(nearest_voxel(tile.position[i], volume_)));
+    const solver::Constraint what = scene_.constraints->at(Index3(nearest_voxel(tile.position(i), volume_)));
     if (what != solver::Constraint::wall && what != solver::Constraint::anchor) return;
     const bool wall = what == solver::Constraint::wall;
     const bool strong = wall ? std::min(of_six(x - y), of_six(x + y + 1)) < 2 : (x & 3) < 2 && (y & 3) < 2;

@@ -13,8 +13,9 @@ class SliceLayers {
   SliceLayers(const HostScene& scene, const SliceView& view, const SlicePlane& plane, PictureSize size,
               const MapSamples* map);
 
-  // Fills the tile, whose place is known, and its colours.
-  void draw(SliceTile& tile) const;
+  // Fills the tile, whose place is known, and its colours. Where the source in its window is all that shows
+  // it returns false, and only tile.source is filled: with shares of white.
+  [[nodiscard]] bool draw(SliceTile& tile) const;
 
  private:
   enum class Base { source, data, term, doubt, pages };
@@ -23,6 +24,10 @@ class SliceLayers {
     return glm::clamp((value - centre_) / width_ + 0.5F, 0.0F, 1.0F);
   }
   [[nodiscard]] bool is_outside(glm::vec3 position) const;
+  [[nodiscard]] bool shows_labels(const SliceTile& tile) const;
+  [[nodiscard]] bool shows_constraints(const SliceTile& tile) const;
+  void draw_base(SliceTile& tile) const;
+  void draw_beside(SliceTile& tile) const;
 
   void draw_data_speed(SliceTile& tile) const;
   void draw_term(SliceTile& tile) const;

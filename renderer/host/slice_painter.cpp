@@ -13,20 +13,38 @@ std::uint8_t to_byte(float share) {
   return static_cast<std::uint8_t>(glm::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F);
 }
 
-// The picture's rows begin at the top.
-void write(const SliceTile& tile, Picture& picture) {
-  const auto width = static_cast<int>(std::min<std::int64_t>(SliceTile::kWidth, picture.width - tile.left));
-  const auto height =
-      static_cast<int>(std::min<std::int64_t>(SliceTile::kHeight, picture.height - tile.bottom));
-  for (int y = 0; y < height; ++y) {
+// Calls body(row, to) for the rows of a tile from its bottom: the first pixel in the tile and in the picture,
+// whose rows begin at the top, and how many there are.
+template <class Body>
+void for_each_row(const SliceTile& tile, Picture& picture, const Body& body) {
+  const auto width =
+      static_cast<std::size_t>(std::min<std::int64_t>(SliceTile::kWidth, picture.width - tile.left));
+  const std::int64_t height = std::min<std::int64_t>(SliceTile::kHeight, picture.height - tile.bottom);
+  for (std::int64_t y = 0; y < height; ++y) {
     const std::int64_t row = picture.height - 1 - (tile.bottom + y);
-    std::uint8_t* to = picture.pixels.data() + 4 * (tile.left + picture.width * row);
-    const glm::vec3* colour = tile.colour.data() + static_cast<std::ptrdiff_t>(SliceTile::kWidth) * y;
-    for (int x = 0; x < width; ++x, to += 4) {
-      for (int channel = 0; channel < 3; ++channel) to[channel] = to_byte(colour[x][channel]);
-      to[3] = 255;
-    }
+    body(static_cast<std::size_t>(SliceTile::kWidth * y),
+         picture.pixels.data() + 4 * (tile.left + picture.width * row), width);
   }
+}
+
+void write_colours(const SliceTile& tile, Picture& picture) {
+  for_each_row(tile, picture, [&](std::size_t from, std::uint8_t* to, std::size_t width) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const glm::vec3 colour = tile.colour[from + x];
+      for (int channel = 0; channel < 3; ++channel) *to++ = to_byte(colour[channel]);
+      *to++ = 255;
+    }
+  });
+}
+
+void write_grey(const SliceTile& tile, Picture& picture) {
+  for_each_row(tile, picture, [&](std::size_t from, std::uint8_t* to, std::size_t width) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const auto grey = static_cast<std::uint8_t>(tile.source[from + x] * 255.0F + 0.5F);
+      for (int channel = 0; channel < 3; ++channel) *to++ = grey;
+      *to++ = 255;
+    }
+  });
 }
 
 Result<Picture> painted(HostScene& scene, const SliceView& view, PictureSize size, ThreadPool& threads,
@@ -48,8 +66,11 @@ Result<Picture> painted(HostScene& scene, const SliceView& view, PictureSize siz
       const std::int64_t left = i % columns * SliceTile::kWidth;
       const std::int64_t bottom = i / columns * SliceTile::kHeight;
       tile.place(plane, static_cast<int>(left), static_cast<int>(bottom), scene.source.size());
-      layers.draw(tile);
-      write(tile, picture);
+      if (layers.draw(tile)) {
+        write_colours(tile, picture);
+      } else {
+        write_grey(tile, picture);
+      }
     }
   });
   if (progress.cancelled()) return cancelled_error();

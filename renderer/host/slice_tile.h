@@ -31,6 +31,19 @@ inline glm::ivec3 nearest_voxel(glm::vec3 position, glm::ivec3 size) {
   return glm::ivec3(glm::clamp(position, glm::vec3(0.0F), glm::vec3(size - 1)) + 0.5F);
 }
 
+// Whether any page from `first` to `last` passes a test.
+template <class Test>
+bool any_page(glm::ivec3 first, glm::ivec3 last, const Test& test) {
+  for (int z = first.z; z <= last.z; ++z) {
+    for (int y = first.y; y <= last.y; ++y) {
+      for (int x = first.x; x <= last.x; ++x) {
+        if (test(glm::ivec3(x, y, z))) return true;
+      }
+    }
+  }
+  return false;
+}
+
 // Sides are even: the quads of 2 x 2 pixels that OpenGL takes differences in lie in one tile. Where the
 // picture has not as many pixels the tile reaches beyond it.
 struct SliceTile {
@@ -41,7 +54,9 @@ struct SliceTile {
 
   int left = 0;    // pixels from the picture's left
   int bottom = 0;  // pixels from its bottom
-  std::array<glm::vec3, kPixels> position;
+  Values x;        // of the pixels, in voxel coordinates
+  Values y;
+  Values z;
   Values source;  // in its units
   Values phi;
   std::array<glm::vec3, kPixels> colour;
@@ -49,11 +64,13 @@ struct SliceTile {
   // The voxels that are read around the pixels: from low to high, inside of the volume.
   glm::ivec3 low{0};
   glm::ivec3 high{0};
+  bool crosses_border = false;  // whether a pixel may lie outside of the volume
 
   void place(const SlicePlane& plane, int left_pixel, int bottom_pixel, glm::ivec3 volume);
-  void sample_source(const SourceSamples& samples, bool nearest);
   // Returns whether the surface may be near; phi is the same throughout the tile where it is not.
   bool sample_phi(const PhiPages& pages);
+
+  [[nodiscard]] glm::vec3 position(std::size_t pixel) const { return {x[pixel], y[pixel], z[pixel]}; }
 
   // Differences of OpenGL: within the quad of a pixel.
   static float along_x(const Values& values, int pixel) {

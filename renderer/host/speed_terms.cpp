@@ -9,17 +9,13 @@
 #include "solver/speed/rescaling-inl.h"
 
 namespace tidemark::renderer {
-namespace {
-
-float tent_at(const solver::Tent& tent, float source) {
+float SpeedTerms::data_of(float value) const {
   return static_cast<float>(
-      std::max(tent.peak - std::abs(static_cast<double>(source) - tent.target) * tent.slope, tent.floor));
+      std::max(tent.peak - std::abs(static_cast<double>(value) - tent.target) * tent.slope, tent.floor));
 }
 
-}  // namespace
-
 float SpeedTerms::data_between(glm::vec3 position) const {
-  return map != nullptr ? map->between(position) : tent_at(tent, source.between(position));
+  return map != nullptr ? map->between(position) : data_of(source.between(position));
 }
 
 SpeedTerms::Values SpeedTerms::at(SpeedTerm term, glm::ivec3 voxel) const {
@@ -32,7 +28,7 @@ SpeedTerms::Values SpeedTerms::at(SpeedTerm term, glm::ivec3 voxel) const {
   const double kappa = per_target::curvature<double>(differences);
   const double bending = constants.curvature_weight * kappa;
   const auto data = [&] {
-    return constants.data_weight * (map != nullptr ? map->at(voxel) : tent_at(tent, source.at(voxel)));
+    return constants.data_weight * (map != nullptr ? map->at(voxel) : data_of(source.at(voxel)));
   };
   const auto rescaling = [&] {
     return constants.rescaling_weight *

@@ -23,6 +23,13 @@ struct Trilinear {
   [[nodiscard]] float share(int i) const {
     return (i & 1 ? f.x : 1.0F - f.x) * (i & 2 ? f.y : 1.0F - f.y) * (i & 4 ? f.z : 1.0F - f.z);
   }
+  // Of the corners' values.
+  [[nodiscard]] float mean(const float (&corner)[8]) const {
+    const auto mix = [](float a, float b, float share) { return a + share * (b - a); };
+    const float below = mix(mix(corner[0], corner[1], f.x), mix(corner[2], corner[3], f.x), f.y);
+    const float above = mix(mix(corner[4], corner[5], f.x), mix(corner[6], corner[7], f.x), f.y);
+    return mix(below, above, f.z);
+  }
 };
 
 }  // namespace tidemark::renderer
