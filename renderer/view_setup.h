@@ -1,4 +1,4 @@
-// What renderers work out of a view before they draw it.
+// The preparation of a view: what renderers work out of it before they draw.
 #pragma once
 
 #include <glm/mat4x4.hpp>

@@ -1,6 +1,6 @@
 // How quick the desktop is while a level set evolves: pictures and steps a second, and the time from a move
 // of the mouse to the picture that shows it. Opens a window: without a screen, run it by xvfb-run -a.
-//   desktop_bench [--executor host|compute|stream] [--phantom tumour] [--seconds 5]
+//   desktop_bench [--executor host|compute|stream] [--phantom tumour] [--seconds 5] [--no-opengl]
 //   desktop_bench --open STUDY     how long it takes from opening to the first picture of each view
 #include <QApplication>
 #include <QCommandLineParser>
@@ -8,6 +8,7 @@
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QTimer>
+#include <QWindow>
 #include <algorithm>
 #include <cstdio>
 #include <vector>
@@ -143,7 +144,10 @@ int main(int argc, char** argv) {
   QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
   QCoreApplication::setOrganizationName("tidemark-bench");
   QCoreApplication::setApplicationName("tidemark-bench");
+  QElapsedTimer start;
+  start.start();
   TimedApplication application(argc, argv);
+  const qint64 application_ms = start.elapsed();
   const QTemporaryDir home;
   QSettings::setDefaultFormat(QSettings::IniFormat);
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, home.path());
@@ -152,17 +156,26 @@ int main(int argc, char** argv) {
   parser.addOptions({{"executor", "host, compute or stream", "name", "host"},
                      {"open", "a study to open, and nothing more", "folder or file"},
                      {"phantom", "which synthetic study", "kind", "tumour"},
+                     {"no-opengl", "start without OpenGL"},
                      {"seconds", "how long rates are measured", "s", "5"}});
   parser.process(application);
 
   ui::apply_theme(application, ui::Theme::light);
-  engine::Engine engine;
+  const qint64 before_engine_ms = start.elapsed();
+  engine::Engine engine(!parser.isSet("no-opengl"));
+  const qint64 engine_ms = start.elapsed() - before_engine_ms;
   ui::MainWindow window(engine);
   const auto executor = solver::executor_named(parser.value("executor").toStdString());
   if (!executor) qFatal("--executor is host, compute, stream or auto");
   window.set_executor(*executor);
   window.resize(1280, 800);
   window.show();
+  wait_for([&] { return window.windowHandle()->isExposed(); }, 10000);
+  std::printf("start: %lld ms for Qt, %lld ms for the engine, window after %lld ms; %s draws, as %s\n",
+              static_cast<long long>(application_ms), static_cast<long long>(engine_ms),
+              static_cast<long long>(start.elapsed()),
+              engine.renderer() == renderer::RendererKind::gl ? "gl" : "host",
+              engine.renderer_reason().c_str());
   if (parser.isSet("open")) return measure_opening(window, parser.value("open"));
   window.open_phantom(parser.value("phantom"));
   if (!wait_for([&] { return window.active_case() != nullptr; }, 60000)) return 1;

@@ -1,4 +1,4 @@
-// What pages of V_P hold for a picture, so that rays cross those that show nothing in one stride.
+// The content of V_P's pages for a picture: rays cross those that show nothing in one stride.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What lies in a slice's picture over one another, tile by tile: the source or what is shown in its place,
+// The layers of a slice's picture, tile by tile: the source or what is shown in its place,
 // further images, labels, the surface's motion, walls and anchors, and the surface's outline.
 #pragma once
 

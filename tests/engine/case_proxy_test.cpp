@@ -1,10 +1,13 @@
 // A case on the engine without any widget: told what to do, it answers with states and pictures.
 #include "engine/case_proxy.h"
 
+#include <QElapsedTimer>
 #include <QTest>
 #include <QTimer>
+#include <atomic>
 #include <cmath>
 #include <new>
+#include <thread>
 
 #include "engine/case_runner.h"
 #include "engine/picture_feed.h"
@@ -280,6 +283,43 @@ class CaseProxyTest : public QObject {
     fixture.wait_until_idle();
     QVERIFY(hit && hit->kind == renderer::Hit::Kind::surface);
     QCOMPARE(fixture.failures, QStringList());
+  }
+
+  // The processor draws in tiles: a command waits for some of them, and for no whole picture.
+  void a_picture_that_is_refined_makes_room_for_a_command() {
+    const Variable renderer("TIDEMARK_RENDERER", "host");
+    Fixture fixture;
+    fixture.begin(10.0);
+    engine::PictureFeed feed(fixture.proxy);
+    constexpr renderer::PictureSize kLarge{900, 900};
+    feed.request(renderer::VolumeView(), kLarge);
+    QElapsedTimer since;
+    since.start();
+    QTRY_VERIFY_WITH_TIMEOUT(feed.shown().finished, kPatience);
+    const double round_ms = static_cast<double>(since.elapsed()) / renderer::QualityControl::kRounds;
+    double longest_ms = 0.0;
+    for (int turn = 0; turn < 3; ++turn) {
+      const std::uint64_t number = feed.shown().number;
+      renderer::VolumeView view;
+      view.camera.azimuth = 10.0 * (turn + 1);
+      feed.request(view, kLarge);
+      QTRY_VERIFY_WITH_TIMEOUT(feed.shown().number > number, kPatience);  // the moving one
+      QTest::qWait(static_cast<int>(0.2 * round_ms));
+      std::atomic<bool> done{false};
+      since.restart();
+      fixture.proxy.runner()->post([&](engine::CaseRunner&, const Progress&) -> Status {
+        done = true;
+        return {};
+      });
+      while (!done && since.elapsed() < kPatience) std::this_thread::yield();
+      longest_ms = std::max(longest_ms, static_cast<double>(since.nsecsElapsed()) / 1e6);
+      QVERIFY(!feed.shown().finished);
+    }
+    fixture.wait_until_idle();
+    qInfo("a round takes %.0f ms, a command waited for %.1f ms at most", round_ms, longest_ms);
+    QVERIFY(longest_ms < 0.5 * round_ms);
+    QTRY_VERIFY_WITH_TIMEOUT(feed.shown().finished, kPatience);
+    QCOMPARE(feed.shown().image.width(), static_cast<int>(kLarge.width));
   }
 
   void what_is_done_can_be_taken_back_and_done_again() {
