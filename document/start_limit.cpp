@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "document/start.h"
+#include "solver/speed/motion_limit.h"
 
 namespace tidemark::document {
 
@@ -9,7 +10,7 @@ Result<MaskStart> limited(MaskStart start, double within_mm) {
   if (!std::isfinite(within_mm) || within_mm <= 0.0) {
     return fail(ErrorKind::usage, "a surface cannot stay within {} mm of a mask", within_mm);
   }
-  start.limit = std::make_shared<const solver::MotionLimit>(*start.mask, within_mm);
+  start.limit = std::make_shared<const solver::MotionLimit>(start.mask, within_mm);
   return start;
 }
 

@@ -6,6 +6,7 @@
 #include "document/checksum.h"
 #include "document/evolution.h"
 #include "solver/distance_transform.h"
+#include "solver/speed/motion_limit.h"
 #include "tests/document/recipes.h"
 #include "tests/support/test_program.h"
 
