@@ -32,15 +32,14 @@ Result<Samples> samples_of(const Features& features, const Strokes& strokes, con
   std::fill_n(samples.inside.begin(), inside, std::uint8_t{1});
   samples.values.resize(static_cast<std::size_t>(count * features.count()));
 
-  const Index3 size = features.geometry().size;
   ThreadPool threads;
   threads.for_each(count, 64, [&](std::int64_t begin, std::int64_t end, int) {
     std::vector<float> run;
     for (std::int64_t first = begin; first < end && !progress.cancelled();) {
       const std::int64_t offset = voxels[static_cast<std::size_t>(first)];
-      const Index3 voxel(offset % size.x, offset / size.x % size.y, offset / (size.x * size.y));
+      const Index3 voxel = features.geometry().voxel_at(offset);
       std::int64_t length = 1;
-      while (first + length < end && voxel.x + length < size.x &&
+      while (first + length < end && voxel.x + length < features.geometry().size.x &&
              voxels[static_cast<std::size_t>(first + length)] == offset + length) {
         ++length;
       }

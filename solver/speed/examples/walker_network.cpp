@@ -20,10 +20,6 @@ std::size_t at(std::int64_t index) {
   return static_cast<std::size_t>(index);
 }
 
-Index3 voxel_at(std::int64_t offset, Index3 size) {
-  return {offset % size.x, offset / size.x % size.y, offset / (size.x * size.y)};
-}
-
 // The mean of each cell's voxels.
 std::vector<float> cell_values(const Volume& image, const WalkerGrid& grid, ThreadPool& threads) {
   const Index3 size = grid.size;
@@ -64,7 +60,7 @@ double variance_of(const Volume& image, const Strokes& strokes) {
   double squares = 0.0;
   for (const auto* stroke : {&strokes.inside, &strokes.outside}) {
     for (const std::int64_t offset : *stroke) {
-      const double value = image.value(voxel_at(offset, image.geometry.size));
+      const double value = image.value(offset);
       const double before = count > 0.0 ? sum / count : value;
       count += 1.0;
       sum += value;
@@ -115,7 +111,7 @@ void fix_strokes(const Strokes& strokes, const WalkerGrid& grid, const Geometry&
   std::vector<std::int32_t> balance(at(network.cells()), 0);
   const auto count = [&](const std::vector<std::int64_t>& stroke, std::int32_t by) {
     for (const std::int64_t offset : stroke) {
-      const Index3 cell = (voxel_at(offset, geometry.size) - grid.box.first) / grid.step;
+      const Index3 cell = (geometry.voxel_at(offset) - grid.box.first) / grid.step;
       balance[at(cell.x + network.size.x * (cell.y + network.size.y * cell.z))] += by;
     }
   };
@@ -134,7 +130,7 @@ WalkerGrid grid_around(const Strokes& strokes, const Geometry& geometry, std::in
   Index3 high(-1);
   for (const auto* stroke : {&strokes.inside, &strokes.outside}) {
     for (const std::int64_t offset : *stroke) {
-      const Index3 voxel = voxel_at(offset, geometry.size);
+      const Index3 voxel = geometry.voxel_at(offset);
       low = glm::min(low, voxel);
       high = glm::max(high, voxel);
     }
