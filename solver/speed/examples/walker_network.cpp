@@ -20,14 +20,15 @@ std::size_t at(std::int64_t index) {
   return static_cast<std::size_t>(index);
 }
 
-// The mean of each cell's voxels.
-std::vector<float> cell_values(const Volume& image, const WalkerGrid& grid, ThreadPool& threads) {
+// The mean of each cell's voxels; not of all when it is cancelled.
+std::vector<float> cell_values(const Volume& image, const WalkerGrid& grid, ThreadPool& threads,
+                               const Progress& progress) {
   const Index3 size = grid.size;
   std::vector<float> values(at(size.x * size.y * size.z), 0.0F);
   threads.for_each(size.z, 1, [&](std::int64_t first, std::int64_t last, int) {
     with_type(image, [&](const auto& typed) {
       std::vector<float> counts(at(size.x));
-      for (std::int64_t z = first; z < last; ++z) {
+      for (std::int64_t z = first; z < last && !progress.cancelled(); ++z) {
         for (std::int64_t y = 0; y < size.y; ++y) {
           float* row = &values[at(size.x * (y + size.y * z))];
           std::fill(counts.begin(), counts.end(), 0.0F);
@@ -158,8 +159,9 @@ WalkerGrid grid_around(const Strokes& strokes, const Geometry& geometry, std::in
   return grid;
 }
 
-WalkerNetwork network_of(const std::vector<std::shared_ptr<const Volume>>& images, const Strokes& strokes,
-                         const WalkerGrid& grid, double contrast, ThreadPool& threads) {
+Result<WalkerNetwork> network_of(const std::vector<std::shared_ptr<const Volume>>& images,
+                                 const Strokes& strokes, const WalkerGrid& grid, double contrast,
+                                 ThreadPool& threads, const Progress& progress) {
   const Geometry& geometry = images.front()->geometry;
   WalkerNetwork network;
   network.size = grid.size;
@@ -169,7 +171,9 @@ WalkerNetwork network_of(const std::vector<std::shared_ptr<const Volume>>& image
   for (auto& link : network.link) link.assign(at(network.cells()), 0.0F);
   for (const auto& image : images) {
     const double share = contrast / (variance_of(*image, strokes) * static_cast<double>(images.size()));
-    add_differences(cell_values(*image, grid, threads), static_cast<float>(share), steps, network, threads);
+    const std::vector<float> values = cell_values(*image, grid, threads, progress);
+    if (progress.cancelled()) return cancelled_error();
+    add_differences(values, static_cast<float>(share), steps, network, threads);
   }
   for (int axis = 0; axis < 3; ++axis) {
     const float most = 1.0F / (steps[axis] * steps[axis]);
