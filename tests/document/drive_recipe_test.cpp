@@ -64,7 +64,7 @@ Json good_json() {
     image.to_case[3] = {1.0, -2.5, 30.0, 1.0};
     all.images = {std::make_shared<const document::CaseImage>(image)};
     all.map = std::make_shared<const document::SpeedMap>(
-        document::SpeedMap{"map.nrrd", std::string(64, 'b'), nullptr});
+        document::SpeedMap{"map.nrrd", std::string(64, 'b'), nullptr, {}});
     recipe.drive = std::make_shared<const document::Drive>(all);
     return Json::parse(recipe.to_text().value());
   }();
