@@ -40,6 +40,8 @@ class RegistrationPicture : public QWidget {
     study->volume = proxy.study().volume;
     study_ = {study, true, engine::ImageColours::grey, 1.0, proxy.display().settings().window, false};
     setFixedSize(3 * kPicture + 2 * kSpaceTight, kPicture);
+    for (const ImageOverlay& overlay : overlays_)
+      connect(&overlay, &ImageOverlay::arrived, this, qOverload<>(&QWidget::update));
   }
   void set_image(engine::ShownImage image) {
     image.visible = true;
@@ -63,7 +65,8 @@ class RegistrationPicture : public QWidget {
       view.orientation = kPlanes[plane];
       view.position_mm = cursor_mm_;
       const SliceScreen screen(view, QSizeF(where.size()), study_.image->volume->geometry);
-      painter.drawImage(where, overlays_[plane].picture(images, view, screen, where.size()));
+      overlays_[plane].ask(images, view, screen, where.size());
+      if (const auto& drawn = overlays_[plane].newest()) painter.drawImage(where, drawn->picture);
     }
   }
 
