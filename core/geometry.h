@@ -20,7 +20,11 @@ struct Geometry {
   bool operator==(const Geometry&) const = default;
 
   [[nodiscard]] std::int64_t voxel_count() const { return size.x * size.y * size.z; }
+  // Where a voxel's value lies in memory, and the voxel whose value lies there.
   [[nodiscard]] std::int64_t offset(Index3 v) const { return v.x + size.x * (v.y + size.y * v.z); }
+  [[nodiscard]] Index3 voxel_at(std::int64_t offset) const {
+    return {offset % size.x, offset / size.x % size.y, offset / (size.x * size.y)};
+  }
   [[nodiscard]] bool contains(Index3 v) const {
     return v.x >= 0 && v.y >= 0 && v.z >= 0 && v.x < size.x && v.y < size.y && v.z < size.z;
   }

@@ -75,10 +75,9 @@ Status require_finite(const Volume& volume, const std::string& source) {
   if (values == nullptr) return {};
   const auto bad = std::find_if(values->begin(), values->end(), [](float v) { return !std::isfinite(v); });
   if (bad == values->end()) return {};
-  const std::int64_t offset = bad - values->begin();
-  const Index3 size = volume.geometry.size;
-  return fail(ErrorKind::input, "{}: voxel ({}, {}, {}) is {}", source, offset % size.x,
-              offset / size.x % size.y, offset / (size.x * size.y), std::isnan(*bad) ? "NaN" : "infinite");
+  const Index3 v = volume.geometry.voxel_at(bad - values->begin());
+  return fail(ErrorKind::input, "{}: voxel ({}, {}, {}) is {}", source, v.x, v.y, v.z,
+              std::isnan(*bad) ? "NaN" : "infinite");
 }
 
 }  // namespace tidemark

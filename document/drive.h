@@ -1,6 +1,7 @@
 // The drive of a case's level set: speed functions with all that they are made from, walls and anchors.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,11 +17,13 @@
 
 namespace tidemark::document {
 
-// A map of D or of a probability that was made elsewhere.
+// A map of D or of a probability that was made elsewhere. One that a recipe or a session names has no volume
+// until its file is read.
 struct SpeedMap {
   std::string name;
   std::string checksum;
   std::shared_ptr<const Volume> volume;  // on the case's grid
+  std::filesystem::path path;            // where it is found again; empty: not known
 };
 
 // A value: parts are shared, and never change.

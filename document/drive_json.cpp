@@ -200,7 +200,7 @@ Drive read_drive(const JsonField& field, Index3 grid_size) {
   if (field.has("map")) {
     const JsonField map = field.at("map");
     drive.map = std::make_shared<const SpeedMap>(
-        SpeedMap{map.at("name").text(kLongestName), map.at("sha256").text(64), nullptr});
+        SpeedMap{map.at("name").text(kLongestName), map.at("sha256").text(64), nullptr, {}});
   }
   return drive;
 }

@@ -60,6 +60,19 @@ bool Recipe::has_drive() const {
   return drive != nullptr || last_event<DriveEvent>(events) != nullptr;
 }
 
+void Recipe::change_drives(const std::function<void(Drive&)>& change) {
+  const auto change_one = [&](std::shared_ptr<const Drive>& one) {
+    if (one == nullptr) return;
+    Drive changed = *one;
+    change(changed);
+    if (changed != *one) one = std::make_shared<const Drive>(std::move(changed));
+  };
+  change_one(drive);
+  for (RecipeEvent& event : events) {
+    if (auto* later = std::get_if<DriveEvent>(&event.what)) change_one(later->drive);
+  }
+}
+
 Recipe Recipe::up_to(std::int64_t step) const {
   Recipe earlier = *this;
   std::erase_if(earlier.events, [&](const RecipeEvent& event) { return event.step > step; });

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -92,6 +93,8 @@ struct Recipe {
   [[nodiscard]] double final_smoothed_mm() const;
   [[nodiscard]] const std::shared_ptr<const Drive>& final_drive() const;  // null: as `drive`
   [[nodiscard]] bool has_drive() const;                                   // at the start, or in an event
+  // Of each drive a changed copy, at the start and in events.
+  void change_drives(const std::function<void(Drive&)>& change);
   // The recipe up to that many steps, with the edits after the last of them.
   [[nodiscard]] Recipe up_to(std::int64_t step) const;
 };

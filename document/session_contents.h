@@ -21,7 +21,7 @@ struct SessionContents {
   Curve curve;
   std::string view_state;
   // Further images of the case, whether or not the speed function uses them. As read from a file they have no
-  // voxels: see find_images().
+  // voxels, and neither have the recipe's maps: see find_images().
   std::vector<std::shared_ptr<const CaseImage>> images;
 };
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstring>
+#include <map>
 #include <utility>
 
 #include "core/atomic_file.h"
@@ -21,6 +22,7 @@ constexpr const char* kFormat = "tidemark session";
 constexpr std::size_t kLongestViewState = std::size_t{16} << 20;
 constexpr std::size_t kLongestName = 256;
 constexpr std::size_t kMostImages = 64;
+constexpr std::size_t kMostMaps = 1024;  // each was the user's choice once
 constexpr std::size_t kLongestDescription = std::size_t{1} << 20;
 // Some 170,000 strokes of a brush: 2 million values, in 16 MiB of places and 32 MiB of text.
 constexpr JsonLimits kJsonLimits{.bytes = std::size_t{32} << 20, .values = std::size_t{2} << 20};
@@ -186,6 +188,41 @@ std::vector<std::shared_ptr<const CaseImage>> read_images(const JsonField& field
   return images;
 }
 
+// Where the recipe's maps lie: a recipe names no files.
+Json maps_json(const Recipe& recipe, const std::filesystem::path& file) {
+  std::map<std::string, Json> maps;  // by checksum
+  const auto add = [&](const std::shared_ptr<const Drive>& drive) {
+    if (drive == nullptr || drive->map == nullptr || drive->map->path.empty()) return;
+    Json one{{"sha256", drive->map->checksum}};
+    add_place(one, drive->map->path, file);
+    if (maps.size() < kMostMaps) maps[drive->map->checksum] = std::move(one);
+  };
+  add(recipe.drive);
+  for (const RecipeEvent& event : recipe.events) {
+    if (const auto* change = std::get_if<DriveEvent>(&event.what)) add(change->drive);
+  }
+  Json list = Json::array();
+  for (auto& [checksum, one] : maps) list.push_back(std::move(one));
+  return list;
+}
+
+void read_maps(const JsonField& field, const std::filesystem::path& file, Recipe& recipe) {
+  std::map<std::string, std::filesystem::path> places;
+  const std::size_t count = field.size(kMostMaps);
+  for (std::size_t i = 0; i < count && field.good(); ++i)
+    places[field.at(i).at("sha256").text(64)] = read_place(field.at(i), file);
+  std::map<std::string, std::shared_ptr<const SpeedMap>> maps;
+  recipe.change_drives([&](Drive& drive) {
+    if (drive.map == nullptr || !places.contains(drive.map->checksum)) return;
+    auto& map = maps[drive.map->checksum];
+    if (map == nullptr) {
+      map = std::make_shared<const SpeedMap>(
+          SpeedMap{drive.map->name, drive.map->checksum, nullptr, places[drive.map->checksum]});
+    }
+    drive.map = map;
+  });
+}
+
 Json session_json(const SessionContents& contents, const std::filesystem::path& file) {
   Json json{{"format", kFormat}, {"version", kSessionVersion}};
   json["study"] = study_json(contents.origin, file);
@@ -199,6 +236,7 @@ Json session_json(const SessionContents& contents, const std::filesystem::path& 
   json["curve"] = curve_json(*contents.curve.points());
   json["view_state"] = contents.view_state;
   if (!contents.images.empty()) json["images"] = images_json(contents, file);
+  if (Json maps = maps_json(contents.recipe, file); !maps.empty()) json["maps"] = std::move(maps);
   return json;
 }
 
@@ -308,6 +346,7 @@ Result<SessionContents> load_session(const std::filesystem::path& file) {
   if (root.has("curve")) contents.curve = read_curve(root.at("curve"));
   contents.view_state = root.at("view_state").text(kLongestViewState);
   if (root.has("images")) contents.images = read_images(root.at("images"), file);
+  if (root.has("maps")) read_maps(root.at("maps"), file, contents.recipe);
   if (root.good() && contents.recipe.source.size != contents.geometry.size) {
     root.at("recipe").wrong("is of another grid");
   }

@@ -1,9 +1,11 @@
 #include "document/session_images.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "document/checksum.h"
+#include "document/speed_map.h"
 #include "imaging/load_study.h"
 
 namespace tidemark::document {
@@ -41,26 +43,52 @@ std::shared_ptr<const CaseImage> image_for(const CaseImage& wanted, Images& imag
   return images.emplace_back(std::move(moved));
 }
 
-void give_images(std::shared_ptr<const Drive>& drive, Images& images) {
-  if (drive == nullptr || drive->images.empty()) return;
-  Drive given = *drive;
-  for (auto& image : given.images) {
-    if (auto found = image_for(*image, images)) image = std::move(found);
+Result<std::shared_ptr<const SpeedMap>> read(const SpeedMap& wanted, const Geometry& grid,
+                                             const Progress& progress) {
+  if (wanted.path.empty())
+    return fail(ErrorKind::input, "the map \"{}\" is missing: its place is not known", wanted.name);
+  auto map = load_speed_map(wanted.path, grid, progress);
+  if (!map && map.error().kind == ErrorKind::cancelled) return map;
+  if (!map) return fail(ErrorKind::input, "the map \"{}\" is missing: {}", wanted.name, map.error().message);
+  if ((*map)->checksum != wanted.checksum) {
+    return fail(ErrorKind::input, "the map \"{}\" is missing: {} has other values now", wanted.name,
+                wanted.path.string());
   }
-  drive = std::make_shared<const Drive>(std::move(given));
+  return map;
+}
+
+// Gives all drives of a recipe their maps.
+std::vector<std::string> give_maps(Recipe& recipe, const Geometry& grid, const Progress& progress) {
+  std::map<std::string, std::shared_ptr<const SpeedMap>> looked_at;  // by checksum
+  std::vector<std::string> problems;
+  recipe.change_drives([&](Drive& drive) {
+    if (drive.map == nullptr || drive.map->volume != nullptr) return;
+    const auto [known, is_new] = looked_at.try_emplace(drive.map->checksum, drive.map);
+    if (is_new) {
+      auto found = read(*drive.map, grid, progress);
+      if (found) {
+        known->second = std::move(*found);
+      } else {
+        problems.push_back(found.error().message);
+      }
+    }
+    drive.map = known->second;
+  });
+  return problems;
 }
 
 }  // namespace
 
 void give_images(Recipe& recipe, std::vector<std::shared_ptr<const CaseImage>> images) {
-  give_images(recipe.drive, images);
-  for (RecipeEvent& event : recipe.events) {
-    if (auto* change = std::get_if<DriveEvent>(&event.what)) give_images(change->drive, images);
-  }
+  recipe.change_drives([&](Drive& drive) {
+    for (auto& image : drive.images) {
+      if (auto found = image_for(*image, images)) image = std::move(found);
+    }
+  });
 }
 
 std::vector<std::string> find_images(SessionContents& contents, const Progress& progress) {
-  std::vector<std::string> problems;
+  std::vector<std::string> problems = give_maps(contents.recipe, contents.geometry, progress);
   for (auto& image : contents.images) {
     auto found = read(*image, progress);
     if (found) {

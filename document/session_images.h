@@ -1,4 +1,4 @@
-// The further images of a session, read again from where they were.
+// The further images and the speed maps of a session, read again from where they were.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace tidemark::document {
 
-// Gives images and recipe of a session their voxels. What cannot be had stays without: the session keeps it,
-// and where it was. Returns one sentence a problem.
+// Gives images, maps and recipe of a session their voxels. What cannot be had stays without: the session
+// keeps it, and where it was. Returns one sentence a problem.
 std::vector<std::string> find_images(SessionContents& contents, const Progress& progress = {});
 
 // Gives all drives of a recipe the images that are at hand, by checksum. Images that lie at the same place

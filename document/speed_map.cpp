@@ -34,7 +34,7 @@ Result<std::shared_ptr<const SpeedMap>> load_speed_map(const std::filesystem::pa
   volume->geometry = grid;
   volume->voxels = std::move(*values);
   return std::make_shared<const SpeedMap>(
-      SpeedMap{file.filename().string(), checksum_of(*volume, progress.stop), volume});
+      SpeedMap{file.filename().string(), checksum_of(*volume, progress.stop), volume, file});
 }
 
 }  // namespace tidemark::document

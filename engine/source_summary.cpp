@@ -106,14 +106,13 @@ template <class Stored>
 std::vector<Sample> sample(const TypedVolume<Stored>& volume, ThreadPool& pool, const Progress& progress) {
   const auto count = static_cast<std::int64_t>(volume.stored.size());
   const std::int64_t stride = std::max<std::int64_t>(1, count / kSamples) | 1;  // odd: no column is favoured
-  const Index3 size = volume.geometry.size;
   std::vector<Sample> samples(static_cast<std::size_t>((count + stride - 1) / stride));
   const auto piece = [&](std::int64_t begin, std::int64_t end, int) {
     if (progress.cancelled()) return;
     for (std::int64_t i = begin; i < end; ++i) {
       const std::int64_t offset = i * stride;
-      const Index3 voxel{offset % size.x, offset / size.x % size.y, offset / (size.x * size.y)};
-      samples[static_cast<std::size_t>(i)] = {volume.value(offset), gradient_magnitude(volume, voxel)};
+      samples[static_cast<std::size_t>(i)] = {volume.value(offset),
+                                              gradient_magnitude(volume, volume.geometry.voxel_at(offset))};
     }
   };
   pool.for_each(static_cast<std::int64_t>(samples.size()), kPiece / 16, piece);

@@ -7,16 +7,11 @@
 namespace tidemark::engine {
 namespace {
 
-Index3 voxel_at(const Geometry& geometry, std::int64_t offset) {
-  const std::int64_t row = offset / geometry.size.x;
-  return {offset % geometry.size.x, row % geometry.size.y, row / geometry.size.y};
-}
-
 // Calls `visit` with the places in `voxels` of the up to 26 neighbours of a voxel that are among them.
 template <class Visit>
 void visit_neighbours(const Geometry& geometry, const std::vector<std::int64_t>& voxels, std::int64_t offset,
                       Visit&& visit) {
-  const Index3 voxel = voxel_at(geometry, offset);
+  const Index3 voxel = geometry.voxel_at(offset);
   for (int neighbour = 0; neighbour < 27; ++neighbour) {
     const Index3 other = voxel + Index3(neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1);
     if (other == voxel || !geometry.contains(other)) continue;
@@ -92,7 +87,7 @@ std::vector<solver::Sphere> spheres_along(const Geometry& geometry, const std::v
   constexpr std::size_t kMost = 500;  // far more than strokes need, and soon placed
   std::vector<solver::Sphere> spheres;
   for (const auto& [neighbours, offset] : by_neighbours) {
-    const glm::dvec3 centre_mm = geometry.to_patient(glm::dvec3(voxel_at(geometry, offset)));
+    const glm::dvec3 centre_mm = geometry.to_patient(glm::dvec3(geometry.voxel_at(offset)));
     const bool is_near = std::ranges::any_of(spheres, [&](const solver::Sphere& sphere) {
       return glm::distance(sphere.centre_mm, centre_mm) < 1.5 * radius_mm;
     });

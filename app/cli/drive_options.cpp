@@ -221,6 +221,12 @@ Status check(const DriveOptions& options, bool starts_from_mask) {
   return {};
 }
 
+Status check_tent(const DriveOptions& options, bool has_target, bool has_range) {
+  if (options.uses_tent() || !(has_target || has_range)) return {};
+  return fail(ErrorKind::usage, "{} needs --speed tent among --speed, or no --speed at all",
+              has_target ? "--target" : "--range");
+}
+
 std::vector<std::string> inputs_of(const DriveOptions& options) {
   std::vector<std::string> inputs = options.images;
   for (const auto& input : {options.examples, options.map, options.walls, options.anchors}) {

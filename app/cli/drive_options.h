@@ -33,6 +33,8 @@ void add_image_options(CLI::App& app, DriveOptions& options);
 
 // All checks that need no file. Fails (ErrorKind::usage) naming the option.
 Status check(const DriveOptions& options, bool starts_from_mask);
+// T and epsilon are the tent's. Fails (ErrorKind::usage) naming the option where there is no tent.
+Status check_tent(const DriveOptions& options, bool has_target, bool has_range);
 // The files that are read.
 [[nodiscard]] std::vector<std::string> inputs_of(const DriveOptions& options);
 

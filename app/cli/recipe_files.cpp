@@ -87,7 +87,7 @@ Result<std::shared_ptr<const document::SpeedMap>> GivenFiles::map_for(const docu
                 wanted.name);
   }
   return std::make_shared<const document::SpeedMap>(
-      document::SpeedMap{wanted.name, map_->checksum, map_->volume});
+      document::SpeedMap{wanted.name, map_->checksum, map_->volume, map_->path});
 }
 
 Status GivenFiles::give(std::shared_ptr<const document::Drive>& drive) {

@@ -189,6 +189,7 @@ Status check(const RenderOptions& options) {
     return fail(ErrorKind::usage, "--target and --range belong together");
   }
   TIDEMARK_TRY(check(options.drive, false));
+  TIDEMARK_TRY(check_tent(options.drive, options.target.has_value(), options.range.has_value()));
   if (options.view == "doubt" && !options.drive.examples) {
     return fail(ErrorKind::usage, "--view doubt needs --speed examples");
   }

@@ -152,7 +152,8 @@ Status Segmentation::load_true_segments() {
 Status Segmentation::suggest() {
   if (!options_.auto_start) return {};
   const bool needs_seed = !options_.start.given();
-  if (!needs_seed && options_.target && options_.range && options_.alpha) return {};
+  const bool tent = options_.drive.uses_tent();
+  if (!needs_seed && (!tent || (options_.target && options_.range)) && options_.alpha) return {};
   std::optional<Index3> looked_at;
   if (!options_.start.seeds.empty()) {
     const auto sphere = options_.start.seeds.front().resolve(results_.source->geometry);
@@ -174,8 +175,10 @@ Status Segmentation::suggest() {
     value = suggestion;
     console_.say("Chose      {} {:.6g}", name, suggestion);
   };
-  fill("--target", options_.target, found->target);
-  fill("--range", options_.range, found->range);
+  if (tent) {
+    fill("--target", options_.target, found->target);
+    fill("--range", options_.range, found->range);
+  }
   fill("--alpha", options_.alpha, found->alpha);
   return {};
 }

@@ -12,9 +12,10 @@ void add_equation_options(CLI::App& app, SegmentOptions& options) {
     add_number(app, name, value, description)->group(kGroup);
   };
   number("--target", options.target,
-         "T: the brightness that attracts the surface, in the volume's units (HU for CT)");
+         "T, of the tent: the brightness that attracts the surface, in the volume's units (HU for CT)");
   number("--range", options.range,
-         "epsilon: the surface grows where brightness is within T -+ epsilon, in the same units; > 0");
+         "epsilon, of the tent: the surface grows where brightness is within T -+ epsilon, in the same\n"
+         "units; > 0");
   number("--alpha", options.alpha, "0 (smoothing alone) to 1 (brightness alone)");
   number("--smooth", options.smooth_mm, "Smooth the volume first: the Gaussian's standard deviation in mm");
   number("--rescale", options.rescale, "w: weight of the term that keeps phi a distance (default: 0.75 / W)");
@@ -130,6 +131,7 @@ Status check(const SegmentOptions& options) {
   TIDEMARK_TRY(check_numbers(options));
   TIDEMARK_TRY(check(options.start));
   TIDEMARK_TRY(check(options.drive, options.start.mask.has_value()));
+  TIDEMARK_TRY(check_tent(options.drive, options.target.has_value(), options.range.has_value()));
   return check(options.solver);
 }
 

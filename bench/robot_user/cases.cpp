@@ -61,7 +61,7 @@ Volume resampled(const Volume& image, const Geometry& grid) {
   std::vector<float> values(static_cast<std::size_t>(grid.voxel_count()));
   const Index3 last = image.geometry.size - Index3(1);
   for (std::int64_t i = 0; i < grid.voxel_count(); ++i) {
-    const glm::dvec3 voxel(i % grid.size.x, i / grid.size.x % grid.size.y, i / (grid.size.x * grid.size.y));
+    const glm::dvec3 voxel(grid.voxel_at(i));
     const glm::dvec3 p =
         glm::clamp(image.geometry.to_voxel(grid.to_patient(voxel)), glm::dvec3(0.0), glm::dvec3(last));
     const Index3 low(p);

@@ -13,10 +13,6 @@ namespace {
 constexpr double kDiscRadius = 2.5;  // voxels
 constexpr double kFarthest = 40.0;   // distances are measured up to this, in smallest spacings
 
-Index3 voxel_at(const Geometry& grid, std::int64_t i) {
-  return {i % grid.size.x, i / grid.size.x % grid.size.y, i / (grid.size.x * grid.size.y)};
-}
-
 // The box of what is set, with a border of one voxel inside of the grid; unset when nothing is.
 struct Box {
   Index3 first;
@@ -27,7 +23,7 @@ std::optional<Box> box_of(const Mask& mask) {
   Box box{size, Index3(-1)};
   for (std::int64_t i = 0; i < mask.geometry.voxel_count(); ++i) {
     if (mask.voxels[static_cast<std::size_t>(i)] == 0) continue;
-    const Index3 v = voxel_at(mask.geometry, i);
+    const Index3 v = mask.geometry.voxel_at(i);
     box.first = glm::min(box.first, v);
     box.last = glm::max(box.last, v);
   }
@@ -40,7 +36,7 @@ Mask cropped(const Mask& mask, const Box& box) {
   part.geometry.spacing_mm = mask.geometry.spacing_mm;
   part.geometry.size = box.last - box.first + Index3(1);
   for (std::int64_t i = 0; i < part.geometry.voxel_count(); ++i) {
-    const Index3 v = box.first + voxel_at(part.geometry, i);
+    const Index3 v = box.first + part.geometry.voxel_at(i);
     part.voxels.push_back(mask.voxels[static_cast<std::size_t>(mask.geometry.offset(v))]);
   }
   return part;
@@ -54,7 +50,7 @@ std::optional<Index3> deepest(const Mask& mask) {
   const solver::Field distance = solver::distance_transform(part, kFarthest);
   const std::vector<float> values = distance.dense();
   const auto most = std::max_element(values.begin(), values.end()) - values.begin();
-  return box->first + voxel_at(part.geometry, most);
+  return box->first + part.geometry.voxel_at(most);
 }
 
 }  // namespace
@@ -74,7 +70,7 @@ void Robot::begin() {
   const glm::dvec3 extent = glm::dvec3(box->last - box->first) * truth_.geometry.spacing_mm;
   const double apart = 0.25 * std::max({extent.x, extent.y, extent.z});
   for (std::int64_t i = 0; i < rest.geometry.voxel_count(); ++i) {
-    const glm::dvec3 way = glm::dvec3(voxel_at(rest.geometry, i) - first) * rest.geometry.spacing_mm;
+    const glm::dvec3 way = glm::dvec3(rest.geometry.voxel_at(i) - first) * rest.geometry.spacing_mm;
     if (glm::length(way) < apart) rest.voxels[static_cast<std::size_t>(i)] = 0;
   }
   paint(deepest(rest).value_or(first), true);

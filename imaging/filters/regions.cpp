@@ -46,11 +46,6 @@ std::int64_t collect(std::vector<std::uint8_t>& voxels, const Geometry& geometry
   return count;
 }
 
-Index3 voxel_at(const Geometry& geometry, std::int64_t offset) {
-  return {offset % geometry.size.x, offset / geometry.size.x % geometry.size.y,
-          offset / (geometry.size.x * geometry.size.y)};
-}
-
 }  // namespace
 
 Mask threshold(const Volume& volume, double low, double high) {
@@ -95,7 +90,7 @@ Components connected_components(const Mask& mask) {
   const auto count = static_cast<std::int64_t>(voxels.size());
   for (std::int64_t i = 0; i < count; ++i) {
     if (voxels[static_cast<std::size_t>(i)] != kInside) continue;
-    const Index3 seed = voxel_at(mask.geometry, i);
+    const Index3 seed = mask.geometry.voxel_at(i);
     const std::int64_t size = collect(voxels, mask.geometry, seed, kTaken);
     ++components.count;
     if (size > largest) {

@@ -82,8 +82,7 @@ Metric::FixedSampledPointSetType::Pointer make_samples(const Geometry& grid) {
   for (std::int64_t n = 0; n < count; ++n) {
     const double place = (static_cast<double>(n) + part()) / static_cast<double>(count);
     const auto offset = std::min(static_cast<std::int64_t>(place * static_cast<double>(voxels)), voxels - 1);
-    glm::dvec3 voxel(offset % grid.size.x, offset / grid.size.x % grid.size.y,
-                     offset / (grid.size.x * grid.size.y));
+    glm::dvec3 voxel(grid.voxel_at(offset));
     for (int axis = 0; axis < 3; ++axis) {
       const double last = static_cast<double>(grid.size[axis] - 1);
       voxel[axis] = std::clamp(voxel[axis] + part() - 0.5, 0.0, last);

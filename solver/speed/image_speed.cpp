@@ -51,10 +51,10 @@ Status check_values(const Volume& map, float low) {
     for (std::int64_t i = 0; i < count; ++i) {
       const float value = typed.value(i);
       if (value >= low - kRounding && value <= 1.0F + kRounding) continue;
-      const Index3 size = map.geometry.size;
+      const Index3 v = map.geometry.voxel_at(i);
       return fail(ErrorKind::input,
-                  "the map of the speed function image: voxel ({}, {}, {}) is {}, not between {} and 1",
-                  i % size.x, i / size.x % size.y, i / (size.x * size.y), value, low);
+                  "the map of the speed function image: voxel ({}, {}, {}) is {}, not between {} and 1", v.x,
+                  v.y, v.z, value, low);
     }
     return {};
   });

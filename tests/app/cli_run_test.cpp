@@ -119,7 +119,8 @@ void CliRunTest::what_has_become_of_the_surface_is_said_data() {
   QTest::newRow("vanished") << QStringList{"--alpha", "0"} << "vanished"
                             << "vanished"
                             << "--range or --alpha";
-  QTest::newRow("vanished, without a range") << QStringList{"--alpha", "0", "--speed", "edges"} << "vanished"
+  const QStringList no_tent{"--target", "", "--range", "", "--speed", "edges"};
+  QTest::newRow("vanished, without a range") << no_tent + QStringList{"--alpha", "0"} << "vanished"
                                              << "vanished"
                                              << "another --speed or --alpha";
   QTest::newRow("seeded outside") << QStringList{"--target", "5000"} << "seeded_outside"
@@ -138,7 +139,9 @@ void CliRunTest::what_has_become_of_the_surface_is_said() {
   QStringList all = sphere_.arguments();
   for (qsizetype i = 0; i < arguments.size(); i += 2) {
     const auto at = all.indexOf(arguments[i]);
-    if (at >= 0) {
+    if (arguments[i + 1].isEmpty()) {
+      all.remove(at, 2);
+    } else if (at >= 0) {
       all[at + 1] = arguments[i + 1];
     } else {
       all += {arguments[i], arguments[i + 1]};

@@ -64,6 +64,9 @@ void CliSpeedFailureTest::what_is_wrong_is_one_line_data() {
   row("a map with NaN", image + QStringList{file("nan.nii.gz")}, 3, "nan.nii.gz");
   row("a map beyond 1", image + QStringList{file("beyond.nii.gz")}, 3, "voxel (0, 0, 0) is -7");
   row("a map on another grid", image + QStringList{file("textures.nii.gz")}, 3, "textures.nii.gz");
+  row("T without a tent", {"--speed", "edges", "--target", "900"}, 2, "--target needs --speed tent");
+  row("epsilon without a tent", {"--speed", "edges", "--speed", "regions", "--range", "300"}, 2,
+      "--range needs --speed tent");
   row("an unknown function", {"--speed", "magic"}, 2, "magic");
   row("an unknown number", {"--speed", "edges", "--speed-value", "edges.magic=1"}, 2, "magic");
   row("a number of no function", {"--speed", "edges", "--speed-value", "regions.radius=1"}, 2, "regions");

@@ -93,6 +93,11 @@ void CliStartTest::an_automatic_start_says_what_it_chose() {
   const Outcome given =
       must_run({"segment", text(sphere_ / "series"), "--auto-start", "--target", "790", "--steps", "1"});
   QVERIFY2(!given.out.contains("--target") && given.out.contains("Chose      --range"), given.told());
+  // T and epsilon are of no use to other functions.
+  const Outcome other =
+      must_run({"segment", text(sphere_ / "series"), "--auto-start", "--speed", "edges", "--steps", "1"});
+  QVERIFY2(!other.out.contains("--target") && !other.out.contains("--range"), other.told());
+  QVERIFY2(other.out.contains("Chose      --alpha"), other.told());
 }
 
 TIDEMARK_TEST(CliStartTest)

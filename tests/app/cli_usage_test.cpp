@@ -162,6 +162,8 @@ void CliUsageTest::wrong_usage_ends_with_2_and_one_line_data() {
   QTest::newRow("render from too near") << render({"--preset", "ct-bone", "--camera", "0,0,1e300"});
   QTest::newRow("render a speed that nothing shows")
       << render({"--mask", volume_, "--view", "axial", "--speed", "edges"});
+  QTest::newRow("render T without a tent")
+      << render({"--view", "sheet", "--speed", "edges", "--target", "500", "--range", "100"});
   QTest::newRow("render walls in 3D") << render({"--mask", volume_, "--walls", volume_});
   QTest::newRow("render into no picture")
       << QStringList{"render", volume_, "--preset", "ct-bone", "--out", "a.jpg"};

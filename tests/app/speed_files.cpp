@@ -57,12 +57,10 @@ Volume volume_of(Index3 size, double spacing_mm, const std::function<double(glm:
 }
 
 double farthest_from(const Mask& from, const Mask& mask) {
-  const Index3 size = mask.geometry.size;
   const auto voxels_of = [&](const Mask& of) {
     std::vector<glm::dvec3> voxels;
     for (std::int64_t v = 0; v < of.geometry.voxel_count(); ++v) {
-      if (of.voxels[static_cast<std::size_t>(v)] != 0)
-        voxels.emplace_back(v % size.x, v / size.x % size.y, v / (size.x * size.y));
+      if (of.voxels[static_cast<std::size_t>(v)] != 0) voxels.emplace_back(of.geometry.voxel_at(v));
     }
     return voxels;
   };

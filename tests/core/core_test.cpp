@@ -98,6 +98,20 @@ class CoreTest : public QObject {
     QCOMPARE(geometry.to_patient({2, 0, 0}).z, 8.0);
   }
 
+  void a_voxel_and_its_place_in_memory_are_inverse() {
+    Geometry geometry;
+    geometry.size = {5, 3, 4};
+    std::int64_t offset = 0;
+    for (std::int64_t k = 0; k < geometry.size.z; ++k) {
+      for (std::int64_t j = 0; j < geometry.size.y; ++j) {
+        for (std::int64_t i = 0; i < geometry.size.x; ++i, ++offset) {
+          QCOMPARE(geometry.offset({i, j, k}), offset);
+          QVERIFY(geometry.voxel_at(offset) == Index3(i, j, k));
+        }
+      }
+    }
+  }
+
   void grids_that_differ_in_one_corner_are_not_the_same() {
     Geometry a;
     a.size = {100, 100, 100};

@@ -6,6 +6,7 @@
 #include "document/checksum.h"
 #include "document/evolution.h"
 #include "solver/distance_transform.h"
+#include "solver/speed/motion_limit.h"
 #include "tests/document/recipes.h"
 #include "tests/support/test_program.h"
 
@@ -63,7 +64,7 @@ Json good_json() {
     image.to_case[3] = {1.0, -2.5, 30.0, 1.0};
     all.images = {std::make_shared<const document::CaseImage>(image)};
     all.map = std::make_shared<const document::SpeedMap>(
-        document::SpeedMap{"map.nrrd", std::string(64, 'b'), nullptr});
+        document::SpeedMap{"map.nrrd", std::string(64, 'b'), nullptr, {}});
     recipe.drive = std::make_shared<const document::Drive>(all);
     return Json::parse(recipe.to_text().value());
   }();

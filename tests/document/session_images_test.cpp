@@ -46,9 +46,7 @@ document::Drive learning(const Volume& volume, std::shared_ptr<const document::C
   auto strokes = std::make_shared<solver::Strokes>();
   const auto inside = ball_at(volume, {4.0, -2.0, 0.0}, 6.0);
   for (std::int64_t offset = 0; offset < volume.geometry.voxel_count(); offset += 7) {
-    const Index3 size = volume.geometry.size;
-    const glm::dvec3 at =
-        volume.geometry.to_patient({offset % size.x, offset / size.x % size.y, offset / (size.x * size.y)});
+    const glm::dvec3 at = volume.geometry.to_patient(glm::dvec3(volume.geometry.voxel_at(offset)));
     const double away = glm::distance(at, inside.centre_mm);
     if (away < 6.0) strokes->inside.push_back(offset);
     if (away > 11.0) strokes->outside.push_back(offset);

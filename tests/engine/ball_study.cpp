@@ -18,8 +18,7 @@ std::shared_ptr<const engine::LoadedStudy> ball_study() {
   std::mt19937 noise(1);
   std::vector<std::int16_t> voxels;
   for (std::int64_t offset = 0; offset < volume->geometry.voxel_count(); ++offset) {
-    const Index3 size = volume->geometry.size;
-    const Index3 voxel{offset % size.x, offset / size.x % size.y, offset / (size.x * size.y)};
+    const Index3 voxel = volume->geometry.voxel_at(offset);
     const double away = glm::distance(volume->geometry.to_patient(glm::dvec3(voxel)), middle);
     const auto deviation = static_cast<int>(noise() % 11U) - 5;
     voxels.push_back(static_cast<std::int16_t>((away <= kBallRadius ? 100 : 0) + deviation));

@@ -32,9 +32,6 @@ class SliceSlabTest : public QObject {
     geometry.origin_mm = {-7.0, 11.0, 3.0};
     return geometry;
   }
-  static Index3 voxel_at(const Geometry& g, std::int64_t offset) {
-    return {offset % g.size.x, offset / g.size.x % g.size.y, offset / (g.size.x * g.size.y)};
-  }
 };
 
 void SliceSlabTest::a_disc_is_round_and_in_one_slice() {
@@ -47,7 +44,7 @@ void SliceSlabTest::a_disc_is_round_and_in_one_slice() {
     // x^2 + y^2 <= 6.25 has 21 whole solutions.
     QCOMPARE(voxels.size(), std::size_t{21});
     QVERIFY(std::ranges::is_sorted(voxels));
-    for (const std::int64_t offset : voxels) QCOMPARE(voxel_at(g, offset)[axis], axis == 2 ? 10 : 20);
+    for (const std::int64_t offset : voxels) QCOMPARE(g.voxel_at(offset)[axis], axis == 2 ? 10 : 20);
   }
 }
 
@@ -86,7 +83,7 @@ void SliceSlabTest::a_tilted_grid_has_one_layer() {
   const auto disc = slab.disc(centre, 4.0);
   QVERIFY(disc.size() > 30);
   for (const std::int64_t offset : disc) {
-    const glm::dvec3 place = g.to_patient(glm::dvec3(voxel_at(g, offset)));
+    const glm::dvec3 place = g.to_patient(glm::dvec3(g.voxel_at(offset)));
     QVERIFY(std::abs(place.z - centre.z) <= 1.0);
     QVERIFY(glm::length(glm::dvec2(place - centre)) <= 4.0);
   }
@@ -157,7 +154,7 @@ void SliceSlabTest::spheres_cover_the_strokes_and_start_inside() {
     QVERIFY(std::ranges::binary_search(stroke, g.offset(Index3(glm::round(g.to_voxel(sphere.centre_mm))))));
   }
   for (const std::int64_t offset : stroke) {
-    const glm::dvec3 place = g.to_patient(glm::dvec3(voxel_at(g, offset)));
+    const glm::dvec3 place = g.to_patient(glm::dvec3(g.voxel_at(offset)));
     QVERIFY(std::ranges::any_of(spheres, [&](const solver::Sphere& sphere) {
       return glm::distance(sphere.centre_mm, place) < 1.5 * sphere.radius_mm + 1e-9;
     }));

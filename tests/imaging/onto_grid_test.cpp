@@ -40,8 +40,7 @@ Volume volume_on(const Geometry& grid) {
   volume.geometry = grid;
   std::vector<float> values;
   for (std::int64_t offset = 0; offset < grid.voxel_count(); ++offset) {
-    const Index3 voxel{offset % grid.size.x, offset / grid.size.x % grid.size.y,
-                       offset / (grid.size.x * grid.size.y)};
+    const Index3 voxel = grid.voxel_at(offset);
     const glm::dvec3 place = grid.to_patient(glm::dvec3(voxel));
     values.push_back(static_cast<float>(place.x + 100.0 * place.y + 10000.0 * place.z));
   }

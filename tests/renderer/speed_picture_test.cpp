@@ -45,8 +45,7 @@ Mask ball_mask(const Geometry& geometry, double radius) {
   Mask mask{geometry, {}};
   const glm::dvec3 middle = 0.5 * glm::dvec3(geometry.size - Index3(1));
   for (std::int64_t i = 0; i < geometry.voxel_count(); ++i) {
-    const Index3 size = geometry.size;
-    const glm::dvec3 p(i % size.x, i / size.x % size.y, i / size.x / size.y);
+    const glm::dvec3 p(geometry.voxel_at(i));
     mask.voxels.push_back(glm::distance(p, middle) < radius ? 1 : 0);
   }
   return mask;

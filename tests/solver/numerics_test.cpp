@@ -56,7 +56,7 @@ std::vector<float> transformed(const std::vector<float>& values, const Geometry&
                                const std::array<int, 3>& axes, int flips) {
   std::vector<float> result(values.size());
   for (std::int64_t i = 0; i < g.voxel_count(); ++i) {
-    const Index3 v(i % g.size.x, i / g.size.x % g.size.y, i / (g.size.x * g.size.y));
+    const Index3 v = g.voxel_at(i);
     result[static_cast<std::size_t>(g.offset(transformed(v, axes, flips, g.size.x)))] =
         values[static_cast<std::size_t>(i)];
   }

@@ -78,7 +78,7 @@ inline bool resident_pages_cover_what_is_not_flat(const solver::Field& field,
                                                   const std::vector<double>& phi) {
   const Geometry& g = field.geometry;
   for (std::int64_t i = 0; i < g.voxel_count(); ++i) {
-    const Index3 v(i % g.size.x, i / g.size.x % g.size.y, i / (g.size.x * g.size.y));
+    const Index3 v = g.voxel_at(i);
     const std::int64_t page = field.layout.translate(v).page;
     if (field.table[static_cast<std::size_t>(page)] < 0 && !is_flat(phi, g, v)) return false;
   }

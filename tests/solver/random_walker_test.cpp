@@ -139,6 +139,19 @@ class RandomWalkerTest : public QObject {
     QVERIFY(!walker);
     QVERIFY(walker.error().kind == ErrorKind::cancelled);
   }
+
+  void its_network_is_not_read_to_the_end_when_cancelled() {
+    const auto flat = image_of(glm::dvec3(1.0), [](std::int64_t) { return 7.0; });
+    const WalkerGrid grid = grid_around(plates(), flat->geometry, 1'000'000);
+    ThreadPool threads;
+    std::stop_source stop;
+    const Progress progress{nullptr, stop.get_token()};
+    QVERIFY(network_of({flat}, plates(), grid, 20.0, threads, progress));
+    stop.request_stop();
+    const auto network = network_of({flat}, plates(), grid, 20.0, threads, progress);
+    QVERIFY(!network);
+    QVERIFY(network.error().kind == ErrorKind::cancelled);
+  }
 };
 
 TIDEMARK_TEST(RandomWalkerTest)

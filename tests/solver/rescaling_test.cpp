@@ -53,7 +53,7 @@ double brute_force_distance(const Mask& mask, Index3 v, double band) {
   double nearest = band;
   for (std::int64_t i = 0; i < g.voxel_count(); ++i) {
     if ((mask.voxels[static_cast<std::size_t>(i)] != 0) == inside) continue;
-    const Index3 other(i % g.size.x, i / g.size.x % g.size.y, i / (g.size.x * g.size.y));
+    const Index3 other = g.voxel_at(i);
     double squared = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
       const double steps = std::abs(static_cast<double>(other[axis] - v[axis]));

@@ -52,8 +52,7 @@ class GrowsToLimit : public FormulaSpeed {
 glm::dvec4 middle_and_volume(const solver::Field& phi) {
   glm::dvec4 sum(0.0);
   for (std::int64_t i = 0; i < phi.geometry.voxel_count(); ++i) {
-    const Index3 size = phi.geometry.size;
-    const Index3 v(i % size.x, i / size.x % size.y, i / (size.x * size.y));
+    const Index3 v = phi.geometry.voxel_at(i);
     sum += std::clamp(0.5 + static_cast<double>(phi.at(v)), 0.0, 1.0) * glm::dvec4(v, 1.0);
   }
   return {glm::dvec3(sum) / sum.w, sum.w};

@@ -37,7 +37,7 @@ struct Study {
 Mask reference_on(const Geometry& grid, const Volume& labels, int label) {
   Mask mask{grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))};
   for (std::int64_t i = 0; i < grid.voxel_count(); ++i) {
-    const Index3 voxel(i % grid.size.x, i / grid.size.x % grid.size.y, i / (grid.size.x * grid.size.y));
+    const Index3 voxel = grid.voxel_at(i);
     const Index3 there(glm::round(labels.geometry.to_voxel(grid.to_patient(voxel))));
     if (!labels.geometry.contains(there)) continue;
     const double value = std::round(labels.value(there));

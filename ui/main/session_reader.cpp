@@ -131,7 +131,6 @@ void SessionReader::judge(const std::shared_ptr<const engine::LoadedStudy>& stud
 // They are read once the study is known to be the right one.
 void SessionReader::find_images(const std::shared_ptr<const engine::LoadedStudy>& study) {
   const auto contents = waiting_.front().contents;
-  if (contents->images.empty()) return restore(study, contents, {});
   jobs_.push_back(engine::BackgroundJob::start(
       this,
       [this, study, contents](engine::BackgroundJob& job) {

@@ -7,7 +7,9 @@
 #include <QPainter>
 #include <QProgressBar>
 #include <QPushButton>
+#include <algorithm>
 #include <array>
+#include <functional>
 #include <glm/geometric.hpp>
 
 #include "ui/look/theme.h"
@@ -41,36 +43,43 @@ class RegistrationPicture : public QWidget {
     study_ = {study, true, engine::ImageColours::grey, 1.0, proxy.display().settings().window, false};
     setFixedSize(3 * kPicture + 2 * kSpaceTight, kPicture);
   }
-  void set_image(engine::ShownImage image) {
+  // Calls `when_seen` once all three slices can be seen with the image.
+  void set_image(engine::ShownImage image, const std::function<void()>& when_seen = {}) {
     image.visible = true;
-    image_ = std::move(image);
-    update();
+    for (std::size_t plane = 0; plane < kPlanes.size(); ++plane) {
+      connect(&overlays_[plane], &ImageOverlay::arrived, this, [this, when_seen] {
+        update();
+        if (when_seen &&
+            std::ranges::all_of(overlays_, [](const auto& one) { return one.newest().has_value(); }))
+          when_seen();
+      });
+      renderer::SliceView view;
+      view.orientation = kPlanes[plane];
+      view.position_mm = cursor_mm_;
+      constexpr QSize kSize(kPicture, kPicture);
+      const SliceScreen screen(view, QSizeF(kSize), study_.image->volume->geometry);
+      overlays_[plane].ask({study_, image}, view, screen, kSize);
+    }
   }
 
  protected:
   void paintEvent(QPaintEvent*) override {
-    constexpr std::array kPlanes{renderer::kAxial, renderer::kCoronal, renderer::kSagittal};
     QPainter painter(this);
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
-    std::vector<engine::ShownImage> images{study_};
-    if (image_) images.push_back(*image_);
     int left = 0;
-    for (std::size_t plane = 0; plane < kPlanes.size(); ++plane) {
+    for (const ImageOverlay& overlay : overlays_) {
       const QRect where(left, 0, kPicture, kPicture);
       left += kPicture + kSpaceTight;
       painter.fillRect(where, Qt::black);
-      renderer::SliceView view;
-      view.orientation = kPlanes[plane];
-      view.position_mm = cursor_mm_;
-      const SliceScreen screen(view, QSizeF(where.size()), study_.image->volume->geometry);
-      painter.drawImage(where, overlays_[plane].picture(images, view, screen, where.size()));
+      if (const auto& drawn = overlay.newest()) painter.drawImage(where, drawn->picture);
     }
   }
 
  private:
+  static constexpr std::array kPlanes{renderer::kAxial, renderer::kCoronal, renderer::kSagittal};
+
   glm::dvec3 cursor_mm_;
   engine::ShownImage study_;
-  std::optional<engine::ShownImage> image_;
   std::array<ImageOverlay, 3> overlays_;
 };
 
@@ -128,15 +137,16 @@ void RegistrationDialog::lay_out() {
 void RegistrationDialog::show_found(const imaging::Registration& found) {
   found_ = found.to_fixed;
   progress_->hide();
-  after_->set_image(moved(image_, found_));
+  after_->set_image(moved(image_, found_), [this] {
+    accept_->setEnabled(true);
+    accept_->setFocus();
+  });
   after_->show();
   text_->setText(
       tr("Turned by %1°, its middle shifted by %2 mm; mutual information %3, before %4. Compare the "
          "pictures before you accept.")
           .arg(number_text(found.rotation_degrees, 1), number_text(glm::length(found.translation_mm), 1),
                number_text(found.information_after, 3), number_text(found.information_before, 3)));
-  accept_->setEnabled(true);
-  accept_->setFocus();
 }
 
 // The image may have been taken out of the case meanwhile.

@@ -26,7 +26,7 @@ ColourScale scale_of_doubt() {
   return {{QColor(77, 13, 107), QColor(255, 204, 242)},
           text(QT_TRANSLATE_NOOP("View", "Doubt")),
           text(QT_TRANSLATE_NOOP("View", "sure")),
-          text(QT_TRANSLATE_NOOP("View", "1 bit"))};
+          text(QT_TRANSLATE_NOOP("View", "undecided"))};
 }
 
 ColourScale scale_of_change(double within_mm) {

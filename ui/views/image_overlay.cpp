@@ -5,14 +5,16 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include "imaging/resample.h"
 
 namespace tidemark::ui {
 namespace {
 
-// More samples would hold up the user interface: on larger views one stands for several pixels.
+// With more samples, images would lag behind slices: on larger views one stands for several pixels.
 constexpr double kMostSamples = 400000.0;
 constexpr int kShades = 256;
 // In colour, the lowest values fade away instead of darkening the image below.
@@ -52,11 +54,15 @@ Geometry grid_of(const SliceScreen& screen, QSize size) {
   return grid;
 }
 
-// Null where the slice does not meet the image.
-QImage draw(const engine::ShownImage& image, const Geometry& grid) {
+bool is_seen(const engine::ShownImage& image) {
+  return image.visible && image.opacity > 0.0 && image.image->volume != nullptr;
+}
+
+// Null where the slice does not meet the image, or when it was stopped.
+QImage draw(const engine::ShownImage& image, const Geometry& grid, const Progress& progress) {
   constexpr float kOutside = std::numeric_limits<float>::quiet_NaN();
-  const auto samples =
-      imaging::resample(*image.image->volume, image.image->to_case, grid, image.image->name, {}, kOutside);
+  const auto samples = imaging::resample(*image.image->volume, image.image->to_case, grid, image.image->name,
+                                         progress, kOutside);
   if (!samples) return {};
   const auto& values = std::get<std::vector<float>>(samples->volume.voxels);
   const Shades shades = shades_of(image);
@@ -78,6 +84,13 @@ QImage draw(const engine::ShownImage& image, const Geometry& grid) {
   return picture;
 }
 
+std::shared_ptr<const renderer::ImagesOver> for_renderer(const QImage& picture) {
+  if (picture.isNull()) return nullptr;
+  const QImage bytes = picture.convertToFormat(QImage::Format_RGBA8888_Premultiplied);  // 4 a pixel: no gaps
+  return std::make_shared<const renderer::ImagesOver>(renderer::ImagesOver{
+      bytes.width(), bytes.height(), {bytes.constBits(), bytes.constBits() + bytes.sizeInBytes()}});
+}
+
 }  // namespace
 
 QRgb colour_of(engine::ImageColours colours, double part) {
@@ -97,38 +110,58 @@ QRgb colour_of(engine::ImageColours colours, double part) {
   return qRgb(level(part), level(part), level(part));
 }
 
-const QImage& ImageOverlay::picture(const std::vector<engine::ShownImage>& images,
-                                    const renderer::SliceView& slice, const SliceScreen& screen, QSize size) {
-  if (images == images_ && slice == slice_ && size == size_) return picture_;
-  images_ = images;
-  slice_ = slice;
-  size_ = size;
-  picture_ = {};
-  over_.reset();
-  if (size.isEmpty()) return picture_;
-  const Geometry grid = grid_of(screen, size);
-  for (const engine::ShownImage& image : images) {
-    if (!image.visible || image.opacity <= 0.0 || !image.image->volume) continue;
-    const QImage one = draw(image, grid);
-    if (one.isNull()) continue;
-    if (picture_.isNull()) {
-      picture_ = one;
-    } else {
-      QPainter(&picture_).drawImage(0, 0, one);
-    }
-  }
-  return picture_;
+ImageOverlay::~ImageOverlay() {
+  if (job_) job_->abandon();
 }
 
-const std::shared_ptr<const renderer::ImagesOver>& ImageOverlay::over(
-    const std::vector<engine::ShownImage>& images, const renderer::SliceView& slice,
-    const SliceScreen& screen, QSize size) {
-  const QImage& whole = picture(images, slice, screen, size);
-  if (over_ || whole.isNull()) return over_;
-  const QImage bytes = whole.convertToFormat(QImage::Format_RGBA8888_Premultiplied);  // 4 a pixel: no gaps
-  over_ = std::make_shared<const renderer::ImagesOver>(renderer::ImagesOver{
-      bytes.width(), bytes.height(), {bytes.constBits(), bytes.constBits() + bytes.sizeInBytes()}});
-  return over_;
+void ImageOverlay::ask(const std::vector<engine::ShownImage>& images, const renderer::SliceView& slice,
+                       const SliceScreen& screen, QSize size) {
+  Question question;
+  std::copy_if(images.begin(), images.end(), std::back_inserter(question.images), is_seen);
+  if (question.images.empty() || size.isEmpty()) return forget();
+  question.grid = grid_of(screen, size);
+  question.size = size;
+  if (question == question_) return;
+  question_ = std::move(question);
+  slice_ = slice;
+  if (!job_) start();
+}
+
+void ImageOverlay::forget() {
+  if (job_) job_->abandon();
+  job_.reset();
+  question_ = {};
+  newest_.reset();
+}
+
+void ImageOverlay::start() {
+  job_ = engine::BackgroundJob::start(
+      this,
+      [this, question = question_, slice = slice_](engine::BackgroundJob& job) {
+        Drawn drawn{slice, question.size, {}, nullptr};
+        for (const engine::ShownImage& image : question.images) {
+          const QImage one = draw(image, question.grid, {nullptr, job.stop()});
+          if (one.isNull()) continue;
+          if (drawn.picture.isNull()) {
+            drawn.picture = one;
+          } else {
+            QPainter(&drawn.picture).drawImage(0, 0, one);
+          }
+        }
+        drawn.over = for_renderer(drawn.picture);
+        job.deliver([this, question, drawn = std::move(drawn)] { take(question, drawn); });
+      },
+      [this](const Error&) {
+        job_.reset();
+        question_ = {};  // to be asked again
+      });
+}
+
+void ImageOverlay::take(const Question& question, Drawn drawn) {
+  job_.reset();
+  newest_ = std::move(drawn);
+  if (question != question_) start();
+  emit arrived();
 }
 
 }  // namespace tidemark::ui

@@ -17,11 +17,6 @@ struct Cell {
   auto operator<=>(const Cell&) const = default;
 };
 
-Index3 voxel_at(const Geometry& geometry, std::int64_t offset) {
-  const std::int64_t row = offset / geometry.size.x;
-  return {offset % geometry.size.x, row % geometry.size.y, row / geometry.size.y};
-}
-
 // From cells to the slice's right and up.
 class CellScreen {
  public:
@@ -51,7 +46,7 @@ std::vector<Cell> cells_in(const Geometry& geometry, const engine::SliceSlab& sl
   const std::array<int, 3>& axes = slab.axes();
   std::vector<Cell> cells;
   for (const std::int64_t offset : voxels) {
-    const Index3 voxel = voxel_at(geometry, offset);
+    const Index3 voxel = geometry.voxel_at(offset);
     if (slab.contains(voxel)) cells.push_back({voxel[axes[1]], voxel[axes[0]], voxel[axes[2]]});
   }
   std::ranges::sort(cells);

@@ -59,6 +59,8 @@ class PictureView : public QWidget {
   [[nodiscard]] DragView drag_view();
 
   [[nodiscard]] virtual engine::AnyView wanted() const = 0;
+  // Asks the engine for the view that is wanted now.
+  void ask();
   // To be called instead of update().
   void paint_again();
   virtual void paint_overlay(QPainter& painter) = 0;
@@ -95,7 +97,6 @@ class PictureView : public QWidget {
   bool event(QEvent* event) override;
 
  private:
-  void ask();
   void follow_display();
   void ask_for_menu(QPointF position);
   void ask_for_menu_by_key();

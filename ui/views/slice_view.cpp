@@ -83,6 +83,7 @@ SliceViewWidget::SliceViewWidget(engine::CaseProxy& proxy, SlicePlane plane, ren
     : PictureView(proxy, parent), plane_(plane), content_(content) {
   setAccessibleName(title());
   connect(&proxy, &engine::CaseProxy::state_changed, this, &SliceViewWidget::follow_marks);
+  connect(&images_, &ImageOverlay::arrived, this, &SliceViewWidget::ask);
 }
 
 QString SliceViewWidget::title() const {
@@ -143,8 +144,15 @@ renderer::SliceView SliceViewWidget::slice() const {
 
 renderer::SliceView SliceViewWidget::fused_slice() const {
   renderer::SliceView view = slice();
-  if (content_ != renderer::SliceContent::source || settings().images.empty()) return view;
-  view.images = images_.over(settings().images, view, screen(), size());
+  if (content_ != renderer::SliceContent::source) return view;
+  images_.ask(settings().images, view, screen(), size());
+  const auto& newest = images_.newest();
+  if (newest && newest->size == size() && newest->slice.orientation == view.orientation) {
+    view.position_mm = newest->slice.position_mm;
+    view.zoom = newest->slice.zoom;
+    view.pan_mm = newest->slice.pan_mm;
+    view.images = newest->over;
+  }
   if (const auto line = swipe_line()) view.images_from = *line / width();
   return view;
 }

@@ -49,6 +49,8 @@ class SliceViewWidget : public PictureView {
  private:
   [[nodiscard]] renderer::SliceOrientation orientation() const;
   [[nodiscard]] renderer::SliceView slice() const;  // without further images
+  // With the further images as far as they are there. While those of the present place are not, slice and
+  // images stay where they were: neither is seen over the other's place.
   [[nodiscard]] renderer::SliceView fused_slice() const;
   [[nodiscard]] std::optional<double> swipe_line() const;  // its place from the left; none: it is not seen
   [[nodiscard]] SliceScreen screen() const;
@@ -71,7 +73,7 @@ class SliceViewWidget : public PictureView {
   std::optional<Outline> outline_;
   MarksOverlay marks_overlay_;
   engine::DrawnMarks marks_;     // as of the last state
-  mutable ImageOverlay images_;  // keeps what was made for the last picture
+  mutable ImageOverlay images_;  // asked for when a picture is
 };
 
 }  // namespace tidemark::ui

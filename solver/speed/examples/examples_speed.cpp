@@ -32,15 +32,14 @@ Result<Samples> samples_of(const Features& features, const Strokes& strokes, con
   std::fill_n(samples.inside.begin(), inside, std::uint8_t{1});
   samples.values.resize(static_cast<std::size_t>(count * features.count()));
 
-  const Index3 size = features.geometry().size;
   ThreadPool threads;
   threads.for_each(count, 64, [&](std::int64_t begin, std::int64_t end, int) {
     std::vector<float> run;
     for (std::int64_t first = begin; first < end && !progress.cancelled();) {
       const std::int64_t offset = voxels[static_cast<std::size_t>(first)];
-      const Index3 voxel(offset % size.x, offset / size.x % size.y, offset / (size.x * size.y));
+      const Index3 voxel = features.geometry().voxel_at(offset);
       std::int64_t length = 1;
-      while (first + length < end && voxel.x + length < size.x &&
+      while (first + length < end && voxel.x + length < features.geometry().size.x &&
              voxels[static_cast<std::size_t>(first + length)] == offset + length) {
         ++length;
       }
@@ -62,7 +61,8 @@ VoxelBox common(const VoxelBox& a, const VoxelBox& b) {
 }
 
 // The values of a box that lies within another, x fastest.
-void copy_box(const double* values, const VoxelBox& box, const VoxelBox& into, double* to) {
+template <class Value>
+void copy_box(const double* values, const VoxelBox& box, const VoxelBox& into, Value* to) {
   const Index3 at = box.first - into.first;
   for (std::int64_t z = 0; z < box.size.z; ++z) {
     for (std::int64_t y = 0; y < box.size.y; ++y, values += box.size.x) {
@@ -87,6 +87,22 @@ void for_tiles(const VoxelBox& box, Visit visit) {
   }
 }
 
+// Where the middle voxels of cells lie in a box that the cells divide from its first voxel on.
+std::vector<std::int64_t> middles(Index3 cells, Index3 step, Index3 box) {
+  std::vector<std::int64_t> places;
+  places.reserve(static_cast<std::size_t>(cells.x * cells.y * cells.z));
+  Index3 cell;
+  for (cell.z = 0; cell.z < cells.z; ++cell.z) {
+    for (cell.y = 0; cell.y < cells.y; ++cell.y) {
+      for (cell.x = 0; cell.x < cells.x; ++cell.x) {
+        const Index3 v = glm::min(cell * step + step / Index3(2), box - Index3(1));
+        places.push_back(v.x + box.x * (v.y + box.y * v.z));
+      }
+    }
+  }
+  return places;
+}
+
 // The forest's probabilities of cells, each by the voxel in its middle.
 void write_prior(const Features& features, const Forest& forest, const WalkerGrid& grid, std::int64_t first,
                  std::int64_t last, float* inside) {
@@ -94,39 +110,22 @@ void write_prior(const Features& features, const Forest& forest, const WalkerGri
   std::vector<float> values;
   std::vector<float> of_cells;
   std::vector<double> probabilities;
-  for_tiles(
-      {Index3(0, 0, first), Index3(grid.size.x, grid.size.y, last - first)}, [&](const VoxelBox& cells) {
-        const VoxelBox voxels =
-            common({grid.box.first + cells.first * grid.step, cells.size * grid.step}, grid.box);
-        values.resize(static_cast<std::size_t>(voxels.voxels() * features.count()));
-        features.evaluate(voxels, values.data());
-        const std::int64_t count = cells.voxels();
-        of_cells.resize(static_cast<std::size_t>(count * features.count()));
-        Index3 cell;
-        std::int64_t i = 0;
-        for (cell.z = 0; cell.z < cells.size.z; ++cell.z) {
-          for (cell.y = 0; cell.y < cells.size.y; ++cell.y) {
-            for (cell.x = 0; cell.x < cells.size.x; ++cell.x, ++i) {
-              const Index3 v = glm::min(cell * grid.step + grid.step / Index3(2), voxels.size - Index3(1));
-              const std::int64_t voxel = v.x + voxels.size.x * (v.y + voxels.size.y * v.z);
-              for (int f = 0; f < features.count(); ++f) {
-                of_cells[static_cast<std::size_t>(f * count + i)] =
-                    values[static_cast<std::size_t>(f * voxels.voxels() + voxel)];
-              }
-            }
-          }
-        }
-        probabilities.resize(static_cast<std::size_t>(count));
-        evaluator.evaluate(of_cells.data(), features.count(), count, probabilities.data());
-        for (std::int64_t n = 0; n < count; ++n) {
-          const std::int64_t x = n % cells.size.x;
-          const std::int64_t y = n / cells.size.x % cells.size.y;
-          const std::int64_t z = n / (cells.size.x * cells.size.y);
-          inside[cells.first.x + x +
-                 grid.size.x * (cells.first.y + y + grid.size.y * (cells.first.z - first + z))] =
-              static_cast<float>(probabilities[static_cast<std::size_t>(n)]);
-        }
-      });
+  const VoxelBox all{Index3(0, 0, first), Index3(grid.size.x, grid.size.y, last - first)};
+  for_tiles(all, [&](const VoxelBox& cells) {
+    const VoxelBox voxels =
+        common({grid.box.first + cells.first * grid.step, cells.size * grid.step}, grid.box);
+    values.resize(static_cast<std::size_t>(voxels.voxels() * features.count()));
+    features.evaluate(voxels, values.data());
+    const std::vector<std::int64_t> places = middles(cells.size, grid.step, voxels.size);
+    of_cells.clear();
+    for (int f = 0; f < features.count(); ++f) {
+      const float* feature = values.data() + f * voxels.voxels();
+      for (const std::int64_t place : places) of_cells.push_back(feature[place]);
+    }
+    probabilities.resize(places.size());
+    evaluator.evaluate(of_cells.data(), features.count(), cells.voxels(), probabilities.data());
+    copy_box(probabilities.data(), cells, all, inside);
+  });
 }
 
 Status check(const std::vector<std::int64_t>& stroke, const char* kind, const Geometry& geometry) {

@@ -118,13 +118,14 @@ Result<RandomWalker> RandomWalker::solve(const std::vector<std::shared_ptr<const
                                          const Prior& prior, const Progress& progress) {
   ThreadPool threads;
   const WalkerGrid grid = grid_around(strokes, images.front()->geometry, options.most_cells);
-  WalkerNetwork network = network_of(images, strokes, grid, options.contrast, threads);
-  network.end.assign(at(network.cells()), static_cast<float>(options.prior));
-  network.prior.resize(at(network.cells()));
+  auto network = network_of(images, strokes, grid, options.contrast, threads, progress);
+  if (!network) return pass_on(network);
+  network->end.assign(at(network->cells()), static_cast<float>(options.prior));
+  network->prior.resize(at(network->cells()));
   threads.for_each(grid.size.z, 1, [&](std::int64_t first, std::int64_t last, int) {
-    if (!progress.cancelled()) prior(grid, first, last, &network.prior[at(first * network.stride(2))]);
+    if (!progress.cancelled()) prior(grid, first, last, &network->prior[at(first * network->stride(2))]);
   });
-  std::vector<float> inside = solved(network, options.sweeps, threads, progress);
+  std::vector<float> inside = solved(*network, options.sweeps, threads, progress);
   if (progress.cancelled()) return cancelled_error();
   return RandomWalker(grid, std::move(inside));
 }

@@ -20,18 +20,15 @@ std::size_t at(std::int64_t index) {
   return static_cast<std::size_t>(index);
 }
 
-Index3 voxel_at(std::int64_t offset, Index3 size) {
-  return {offset % size.x, offset / size.x % size.y, offset / (size.x * size.y)};
-}
-
-// The mean of each cell's voxels.
-std::vector<float> cell_values(const Volume& image, const WalkerGrid& grid, ThreadPool& threads) {
+// The mean of each cell's voxels; not of all when it is cancelled.
+std::vector<float> cell_values(const Volume& image, const WalkerGrid& grid, ThreadPool& threads,
+                               const Progress& progress) {
   const Index3 size = grid.size;
   std::vector<float> values(at(size.x * size.y * size.z), 0.0F);
   threads.for_each(size.z, 1, [&](std::int64_t first, std::int64_t last, int) {
     with_type(image, [&](const auto& typed) {
       std::vector<float> counts(at(size.x));
-      for (std::int64_t z = first; z < last; ++z) {
+      for (std::int64_t z = first; z < last && !progress.cancelled(); ++z) {
         for (std::int64_t y = 0; y < size.y; ++y) {
           float* row = &values[at(size.x * (y + size.y * z))];
           std::fill(counts.begin(), counts.end(), 0.0F);
@@ -64,7 +61,7 @@ double variance_of(const Volume& image, const Strokes& strokes) {
   double squares = 0.0;
   for (const auto* stroke : {&strokes.inside, &strokes.outside}) {
     for (const std::int64_t offset : *stroke) {
-      const double value = image.value(voxel_at(offset, image.geometry.size));
+      const double value = image.value(offset);
       const double before = count > 0.0 ? sum / count : value;
       count += 1.0;
       sum += value;
@@ -115,7 +112,7 @@ void fix_strokes(const Strokes& strokes, const WalkerGrid& grid, const Geometry&
   std::vector<std::int32_t> balance(at(network.cells()), 0);
   const auto count = [&](const std::vector<std::int64_t>& stroke, std::int32_t by) {
     for (const std::int64_t offset : stroke) {
-      const Index3 cell = (voxel_at(offset, geometry.size) - grid.box.first) / grid.step;
+      const Index3 cell = (geometry.voxel_at(offset) - grid.box.first) / grid.step;
       balance[at(cell.x + network.size.x * (cell.y + network.size.y * cell.z))] += by;
     }
   };
@@ -134,7 +131,7 @@ WalkerGrid grid_around(const Strokes& strokes, const Geometry& geometry, std::in
   Index3 high(-1);
   for (const auto* stroke : {&strokes.inside, &strokes.outside}) {
     for (const std::int64_t offset : *stroke) {
-      const Index3 voxel = voxel_at(offset, geometry.size);
+      const Index3 voxel = geometry.voxel_at(offset);
       low = glm::min(low, voxel);
       high = glm::max(high, voxel);
     }
@@ -162,8 +159,9 @@ WalkerGrid grid_around(const Strokes& strokes, const Geometry& geometry, std::in
   return grid;
 }
 
-WalkerNetwork network_of(const std::vector<std::shared_ptr<const Volume>>& images, const Strokes& strokes,
-                         const WalkerGrid& grid, double contrast, ThreadPool& threads) {
+Result<WalkerNetwork> network_of(const std::vector<std::shared_ptr<const Volume>>& images,
+                                 const Strokes& strokes, const WalkerGrid& grid, double contrast,
+                                 ThreadPool& threads, const Progress& progress) {
   const Geometry& geometry = images.front()->geometry;
   WalkerNetwork network;
   network.size = grid.size;
@@ -173,7 +171,9 @@ WalkerNetwork network_of(const std::vector<std::shared_ptr<const Volume>>& image
   for (auto& link : network.link) link.assign(at(network.cells()), 0.0F);
   for (const auto& image : images) {
     const double share = contrast / (variance_of(*image, strokes) * static_cast<double>(images.size()));
-    add_differences(cell_values(*image, grid, threads), static_cast<float>(share), steps, network, threads);
+    const std::vector<float> values = cell_values(*image, grid, threads, progress);
+    if (progress.cancelled()) return cancelled_error();
+    add_differences(values, static_cast<float>(share), steps, network, threads);
   }
   for (int axis = 0; axis < 3; ++axis) {
     const float most = 1.0F / (steps[axis] * steps[axis]);

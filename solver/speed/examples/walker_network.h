@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/progress.h"
+#include "core/result.h"
 #include "core/thread_pool.h"
 #include "core/volume.h"
 #include "solver/speed/speed_function.h"
@@ -41,10 +43,11 @@ struct WalkerNetwork {
                                      std::int64_t most_cells);
 // Links of exp(-contrast d^2) / h^2: h is the cells' distance in smallest spacings, d the root mean square
 // over all images of their difference an h, in standard deviations of what the strokes hold. Ends and prior
-// are left to the caller.
-[[nodiscard]] WalkerNetwork network_of(const std::vector<std::shared_ptr<const Volume>>& images,
-                                       const Strokes& strokes, const WalkerGrid& grid, double contrast,
-                                       ThreadPool& threads);
+// are left to the caller. Fails (ErrorKind::cancelled).
+[[nodiscard]] Result<WalkerNetwork> network_of(const std::vector<std::shared_ptr<const Volume>>& images,
+                                               const Strokes& strokes, const WalkerGrid& grid,
+                                               double contrast, ThreadPool& threads,
+                                               const Progress& progress);
 // Joins cells by two along the axes that are not much longer than the shortest.
 [[nodiscard]] WalkerNetwork coarser(const WalkerNetwork& fine);
 

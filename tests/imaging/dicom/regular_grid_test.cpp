@@ -95,9 +95,7 @@ bool is_covered(const imaging::GridPlan& plan, const imaging::ImageStack& stack,
 template <class Visit>
 void for_each_voxel(const Geometry& grid, const Visit& visit) {
   for (std::int64_t offset = 0; offset < grid.voxel_count(); ++offset) {
-    visit(Index3(offset % grid.size.x, offset / grid.size.x % grid.size.y,
-                 offset / (grid.size.x * grid.size.y)),
-          static_cast<std::size_t>(offset));
+    visit(grid.voxel_at(offset), static_cast<std::size_t>(offset));
   }
 }
 

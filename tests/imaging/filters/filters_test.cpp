@@ -65,9 +65,8 @@ Volume body_like_ct() {
   const auto noise = [&random](double deviation) {
     return std::normal_distribution<double>(0.0, deviation)(random);
   };
-  const Index3 size = volume.geometry.size;
   for (std::int64_t offset = 0; offset < volume.geometry.voxel_count(); ++offset) {
-    const Index3 voxel(offset % size.x, offset / size.x % size.y, offset / (size.x * size.y));
+    const Index3 voxel = volume.geometry.voxel_at(offset);
     const glm::dvec3 place(voxel);
     double value = -1000.0 + noise(10.0);
     if (glm::distance(glm::dvec2(place), glm::dvec2(32.0)) < 26.0) value = kFat + noise(1.0);

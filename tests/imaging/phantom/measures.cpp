@@ -102,8 +102,7 @@ double largest_part(const Mask& mask) {
   for (std::int64_t start = 0; start < geometry.voxel_count(); ++start) {
     if (left[static_cast<std::size_t>(start)] == 0) continue;
     left[static_cast<std::size_t>(start)] = 0;
-    front.assign(1, {start % geometry.size.x, start / geometry.size.x % geometry.size.y,
-                     start / (geometry.size.x * geometry.size.y)});
+    front.assign(1, geometry.voxel_at(start));
     std::int64_t size = 0;
     while (!front.empty()) {
       const Index3 v = front.back();

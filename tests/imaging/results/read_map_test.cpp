@@ -41,7 +41,7 @@ void write_fractions(const std::filesystem::path& file, const Geometry& grid, in
     dataset.putAndInsertUint16(DCM_HighBit, 7);
     std::vector<Uint8> pixels;
     for (std::int64_t n = 0; n < grid.voxel_count(); ++n) {
-      const Index3 voxel(n % grid.size.x, n / grid.size.x % grid.size.y, n / (grid.size.x * grid.size.y));
+      const Index3 voxel = grid.voxel_at(n);
       pixels.push_back(static_cast<Uint8>(std::lround(most * value_at(voxel))));
     }
     const auto count = static_cast<unsigned long>(pixels.size());
@@ -72,7 +72,7 @@ void write_parametric_map(const std::filesystem::path& file, const Geometry& gri
     std::vector<Float64> doubles;
     std::vector<Uint16> words;
     for (std::int64_t n = 0; n < grid.voxel_count(); ++n) {
-      const Index3 voxel(n % grid.size.x, n / grid.size.x % grid.size.y, n / (grid.size.x * grid.size.y));
+      const Index3 voxel = grid.voxel_at(n);
       floats.push_back(static_cast<Float32>(value_at(voxel)));
       doubles.push_back(value_at(voxel));
       words.push_back(static_cast<Uint16>(std::lround(1000.0 * value_at(voxel))));
@@ -93,7 +93,7 @@ void verify_values(const Volume& read, const Geometry& grid, double slope, doubl
                    double tolerance) {
   QVERIFY(same_grid(read.geometry, grid, 1e-4));
   for (std::int64_t n = 0; n < grid.voxel_count(); ++n) {
-    const Index3 voxel(n % grid.size.x, n / grid.size.x % grid.size.y, n / (grid.size.x * grid.size.y));
+    const Index3 voxel = grid.voxel_at(n);
     const double wanted = slope * value_at(voxel) + intercept;
     QVERIFY2(std::abs(static_cast<double>(read.value(n)) - wanted) <= tolerance,
              qPrintable(QString("%1: %2, not %3").arg(n).arg(read.value(n)).arg(wanted)));

@@ -19,9 +19,8 @@ struct Content {
 Content content(const solver::Field& phi, const Geometry& geometry, const solver::Sphere& sphere,
                 glm::dvec3 normal) {
   Content content;
-  const Index3 size = geometry.size;
   for (std::int64_t i = 0; i < geometry.voxel_count(); ++i) {
-    const Index3 v(i % size.x, i / size.x % size.y, i / (size.x * size.y));
+    const Index3 v = geometry.voxel_at(i);
     const glm::dvec3 way = geometry.to_patient(v) - sphere.centre_mm;
     if (glm::length(way) >= sphere.radius_mm) continue;
     const int side = glm::dot(way, normal) < 0.0 ? 0 : 1;

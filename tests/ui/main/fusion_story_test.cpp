@@ -64,6 +64,18 @@ class FusionStoryTest : public QObject {
     }
     QVERIFY(accept);
     QVERIFY(Desktop::wait_for([&] { return accept->isEnabled(); }, kPatience));
+    // Nothing is accepted before it can be seen.
+    int pictures = 0;
+    for (auto* widget : asked->findChildren<QWidget*>()) {
+      if (!widget->isVisible() || widget->children().size() > 0 || widget->width() < 600) continue;
+      if (widget->height() != 200) continue;
+      const QImage picture = widget->grab().toImage();
+      QImage black(picture.size(), QImage::Format_RGB32);
+      black.fill(Qt::black);
+      QVERIFY(difference(picture, black) > 0.05);
+      ++pictures;
+    }
+    QCOMPARE(pictures, 2);
     desktop.screenshot_at_once("fusion-2-registered");
     QVERIFY(images[0].image->to_case == glm::dmat4(1.0));
     QTest::mouseClick(accept, Qt::LeftButton);

@@ -76,7 +76,7 @@ void ImageExamplesStoryTest::make_images() {
     volume.geometry.spacing_mm = glm::dvec3(spacing);
     std::vector<float> values;
     for (std::int64_t n = 0; n < volume.geometry.voxel_count(); ++n) {
-      const Index3 voxel(n % size.x, n / size.x % size.y, n / (size.x * size.y));
+      const Index3 voxel = volume.geometry.voxel_at(n);
       const bool inside = glm::distance(volume.geometry.to_patient(glm::dvec3(voxel)), middle_) < kRadius;
       values.push_back(static_cast<float>(100.0 * noise() + (inside ? contrast : 0.0)));
       if (truth) truth->voxels.push_back(inside ? 1 : 0);

@@ -52,8 +52,7 @@ class MarksOverlayTest : public QObject {
     const double cell_mm2 = plane == 0 ? 1.0 * 1.5 : (plane == 1 ? 1.0 * 2.0 : 1.5 * 2.0);
     QVERIFY(std::abs(area_of(marked.area) - static_cast<double>(voxels.size()) * cell_mm2) < 1e-6);
     for (const std::int64_t offset : voxels) {
-      const Index3 voxel{offset % kGrid.size.x, offset / kGrid.size.x % kGrid.size.y,
-                         offset / (kGrid.size.x * kGrid.size.y)};
+      const Index3 voxel = kGrid.voxel_at(offset);
       const QPointF place = on_slice(orientation, kGrid.to_patient(glm::dvec3(voxel)));
       QVERIFY(marked.area.contains(place));
     }
