@@ -18,7 +18,7 @@ namespace {
 // In grey levels, of the channel that differs most.
 constexpr double kMean = 1.0;
 constexpr int kOf99Percent = 3;
-constexpr double kFineStep = 0.25;
+constexpr double kFineStep = 0.1;
 
 // What lies over slices, all of it at once.
 struct Laden {
