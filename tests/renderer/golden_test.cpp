@@ -77,6 +77,8 @@ struct Tolerance {
 constexpr Tolerance kSameDriver{0.3, 0.005};
 // Rays end in other last digits there: a few cross the surface a step earlier, or miss a thin edge.
 constexpr Tolerance kOtherDriver{0.6, 0.02};
+// While something moves the processor's own renderer lights the source by other differences than OpenGL does.
+constexpr Tolerance kOtherGradient{0.9, 0.03};
 
 renderer::Picture read_png(const std::filesystem::path& file) {
   const QImage image = QImage(QString::fromStdString(file.string())).convertToFormat(QImage::Format_RGBA8888);
@@ -133,8 +135,10 @@ class GoldenTest : public QObject {
       QSKIP(qPrintable(QString("the golden pictures are those of %1 on a processor, not of %2")
                            .arg(kDriver, driver.renderer.c_str())));
     }
-    const bool same = !patient->painter->is_gl() || (driver.version.find(kDriver) != std::string::npos &&
-                                                     driver.renderer.find("llvmpipe") != std::string::npos);
+    // The processor's own renderer draws by rays what OpenGL draws by slices.
+    const bool same = patient->painter->is_gl() ? driver.version.find(kDriver) != std::string::npos &&
+                                                      driver.renderer.find("llvmpipe") != std::string::npos
+                                                : !name.endsWith("-by-slices");
     const renderer::Picture expected = read_golden(name.toStdString());
     QVERIFY2(expected.width > 0, "there is no golden picture of that name");
     QCOMPARE(picture->width, expected.width);
@@ -144,7 +148,12 @@ class GoldenTest : public QObject {
                              .arg(found.mean)
                              .arg(100.0 * found.share_visible);
     if (!same) qInfo("%s, on %s", qPrintable(text), driver.renderer.c_str());
-    QVERIFY2((same ? kSameDriver : kOtherDriver).allows(found), qPrintable(text));
+    const bool other_gradient = !patient->painter->is_gl() && name == "moving";
+    QVERIFY2((other_gradient ? kOtherGradient
+              : same         ? kSameDriver
+                             : kOtherDriver)
+                 .allows(found),
+             qPrintable(text));
   }
 
   // What a user would call another picture is none that another driver makes.

@@ -23,6 +23,7 @@ Golden::Draw volume(const std::function<void(renderer::VolumeView&, const Patien
   return [change](Patient& patient) {
     renderer::VolumeView view = from_the_left(patient);
     change(view, patient);
+    if (patient.step_voxels) view.quality.step_voxels = *patient.step_voxels;
     return patient.painter->renderer().draw(view, kSize);
   };
 }

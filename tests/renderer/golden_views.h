@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct Patient {
   WindowLevel window;
   std::vector<std::uint8_t> labels;
   std::unique_ptr<Painter> painter;
+  // Of rays, in place of the views' own, to compare pictures whose samples are at other places.
+  std::optional<double> step_voxels;
 };
 
 struct Golden {

@@ -18,6 +18,7 @@ namespace {
 // In grey levels, of the channel that differs most.
 constexpr double kMean = 1.0;
 constexpr int kOf99Percent = 3;
+constexpr double kFineStep = 0.1;
 
 // What lies over slices, all of it at once.
 struct Laden {
@@ -118,10 +119,22 @@ class RendererAgreementTest : public QObject {
   void golden_views_agree() {
     QFETCH(QString, name);
     const Golden& golden = golden_views().at(name.toStdString());
-    const auto by_gl = golden.draw(patient(golden.patient, renderer::RendererKind::gl));
-    const auto by_host = golden.draw(patient(golden.patient, renderer::RendererKind::host));
+    const auto draw = [&](renderer::RendererKind kind) {
+      Patient& one = patient(golden.patient, kind);
+      // Samples of rays are at other places; with many of them that does not count.
+      one.step_voxels = kFineStep;
+      return golden.draw(one);
+    };
+    const auto by_gl = draw(renderer::RendererKind::gl);
+    const auto by_host = draw(renderer::RendererKind::host);
     QCOMPARE(failure(by_gl), QString());
     QCOMPARE(failure(by_host), QString());
+    // While something moves the processor lights the source by other differences; golden_test holds that to
+    // its own tolerance.
+    if (name == "moving") {
+      qInfo("%s", words(grey_difference(*by_gl, *by_host)).data());
+      return;
+    }
     compare(*by_gl, *by_host);
   }
 
@@ -137,7 +150,14 @@ class RendererAgreementTest : public QObject {
     for (Painter* painter : {&by_gl, &by_host}) laden().give(painter->renderer());
     const renderer::SliceView view = laden_views()[static_cast<std::size_t>(index)].second;
     // Odd sides: the quads at the edges reach beyond the picture.
-    compare(by_gl(view, 173, 131), by_host(view, 173, 131));
+    const renderer::Picture picture = by_host(view, 173, 131);
+    compare(by_gl(view, 173, 131), picture);
+    renderer::SliceView plain = view;
+    plain.content = renderer::SliceContent::source;
+    plain.change = plain.nearest = plain.surface = false;
+    plain.label_opacity = 0.0;
+    plain.images.reset();
+    QVERIFY2(grey_difference(picture, by_host(plain, 173, 131)).mean > 0.15, "nothing lies over the source");
     // D as a function evaluates it.
     for (Painter* painter : {&by_gl, &by_host}) {
       painter->renderer().set_speed(std::make_shared<FormulaSpeed>(
@@ -201,7 +221,8 @@ class RendererAgreementTest : public QObject {
   static void name_golden_views() {
     QTest::addColumn<QString>("name");
     for (const auto& [name, golden] : golden_views()) {
-      if (golden.is_slice) QTest::newRow(name.c_str()) << QString::fromStdString(name);
+      // The processor's renderer draws by rays what OpenGL draws by slices, which slice_stack_test compares.
+      if (!name.ends_with("-by-slices")) QTest::newRow(name.c_str()) << QString::fromStdString(name);
     }
   }
   static void compare(const renderer::Picture& by_gl, const renderer::Picture& by_host) {
