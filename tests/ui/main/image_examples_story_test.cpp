@@ -4,6 +4,7 @@
 #include <QFileDialog>
 #include <QListWidget>
 #include <QProcess>
+#include <QScrollArea>
 #include <QToolButton>
 #include <glm/geometric.hpp>
 
@@ -14,9 +15,11 @@
 #include "imaging/load_study.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
+#include "ui/look/theme.h"
 #include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
 #include "ui/main/session_reader.h"
+#include "ui/panels/joint_plot.h"
 
 namespace tidemark::test {
 
@@ -121,6 +124,17 @@ void ImageExamplesStoryTest::paint_examples() {
 }
 
 void ImageExamplesStoryTest::choose_what_is_used() {
+  desktop_->window().panels().show("level-set");
+  auto* joint = desktop_->window().findChild<ui::JointPlot*>();
+  QVERIFY(joint && Desktop::wait_for([&] { return joint->isVisible() && joint->histogram(); }, kPatience));
+  QVERIFY(!joint->histogram()->inside.empty() && !joint->histogram()->outside.empty());
+  for (QWidget* around = joint->parentWidget(); around != nullptr; around = around->parentWidget()) {
+    if (auto* area = qobject_cast<QScrollArea*>(around)) area->ensureWidgetVisible(joint);
+  }
+  desktop_->screenshot("image-examples-2-joint");
+  ui::apply_theme(*qApp, ui::Theme::dark);
+  desktop_->screenshot("image-examples-2-dark");
+  ui::apply_theme(*qApp, ui::Theme::light);
   desktop_->window().panels().show("display");
   desktop_->wait_until_idle();
   auto* used = named<QCheckBox>("Used by the speed function");

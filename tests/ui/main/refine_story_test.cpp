@@ -1,6 +1,7 @@
 // A label that is refined: the surface stays near, and views show what has changed.
 #include <QAbstractButton>
 #include <QCheckBox>
+#include <QComboBox>
 #include <QLabel>
 #include <cmath>
 
@@ -11,6 +12,7 @@
 #include "ui/look/theme.h"
 #include "ui/main/panel_docks.h"
 #include "ui/panels/change_controls.h"
+#include "ui/panels/initialise_panel.h"
 #include "ui/panels/labels_panel.h"
 #include "ui/widgets/number_box.h"
 
@@ -35,6 +37,22 @@ class RefineStoryTest : public QObject {
     QVERIFY2(button && button->isEnabled(), qPrintable(text));
     QTest::mouseClick(button, Qt::LeftButton, {}, {8, button->height() / 2});
     desktop.wait_until_idle();
+  }
+  // The same choice stands in the panel Place surface.
+  static void see_where_it_is_placed(Desktop& desktop) {
+    desktop.window().panels().show("initialise");
+    desktop.wait_until_idle();
+    auto* panel = desktop.window().findChild<ui::InitialisePanel*>();
+    QVERIFY(panel && panel->isVisible());
+    for (auto* from : panel->findChildren<QComboBox*>()) {
+      if (from->accessibleName() != "Begin with") continue;
+      from->setFocus();
+      for (int i = 0; i < from->count() && from->currentText() != "Label"; ++i)
+        QTest::keyClick(from, Qt::Key_Down);
+      QCOMPARE(from->currentText(), QString("Label"));
+    }
+    click(desktop, *panel, "Refine it alone");
+    desktop.screenshot("refine-0-place");
   }
   // In which orange leads, but not so much as in the outline.
   static int orange_pixels(const ui::PictureView& view) {
@@ -72,6 +90,10 @@ void RefineStoryTest::a_label_is_refined_shown_and_undone() {
   within->selectAll();
   QTest::keyClicks(within, "2.4");
   QTest::keyClick(within, Qt::Key_Return);
+  desktop.screenshot("refine-0-labels");
+  see_where_it_is_placed(desktop);
+  desktop.window().panels().show("labels");
+  desktop.wait_until_idle();
   click(desktop, *labels, "Refine label");
   QVERIFY(desktop.state().limit);
   QCOMPARE(desktop.state().limit->within_mm(), 2.4);
