@@ -194,7 +194,8 @@ Result<bool> CasePainter::draw(ViewSlot& slot, document::Case& document, std::st
 
 Result<bool> CasePainter::draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, Canvas& canvas,
                                       std::int64_t step, const Progress& progress) {
-  const auto pass = slot.quality.next(wish.size);
+  const int rounds = canvas.renderer->still_rounds();
+  const auto pass = slot.quality.next(wish.size, rounds);
   if (!pass) return false;
   renderer::VolumeView view = std::get<renderer::VolumeView>(wish.view);
   view.quality = pass->quality;
@@ -202,7 +203,7 @@ Result<bool> CasePainter::draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish
   auto shown = paint(slot, view, pass->size, !pass->moving, canvas, progress);
   if (!shown) return pass_on(shown);
   slot.quality.drawn(*pass, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-  const bool more = slot.quality.next(wish.size).has_value();
+  const bool more = slot.quality.next(wish.size, rounds).has_value();
   deliver(slot, wish, std::move(*shown), step, !more);
   return more;
 }

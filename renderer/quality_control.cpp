@@ -8,8 +8,8 @@ void QualityControl::moved() {
   still_pictures_ = -1;
 }
 
-std::optional<Pass> QualityControl::next(PictureSize full) const {
-  if (still_pictures_ >= kRounds) return std::nullopt;
+std::optional<Pass> QualityControl::next(PictureSize full, int rounds) const {
+  if (still_pictures_ >= rounds) return std::nullopt;
   if (still_pictures_ >= 0) {
     Quality quality;
     quality.round = still_pictures_;

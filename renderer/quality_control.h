@@ -20,14 +20,15 @@ class QualityControl {
  public:
   static constexpr double kInteractive = 0.033;  // seconds a picture may take while something moves
   static constexpr std::int64_t kSmallest = 4;  // a moving picture has at least a fourth of the pixels a side
-  static constexpr int kRounds = 8;             // pictures of a still view, whose mean is the finished one
+  static constexpr int kRounds = 8;  // pictures of a still view, at most, whose mean is the finished one
 
   explicit QualityControl(double budget_seconds = kInteractive) : budget_seconds_(budget_seconds) {}
 
   // The view (camera, level set, anything) has changed: the next picture keeps to the budget.
   void moved();
-  // The next picture for a view of `full` physical pixels; none when the picture is finished.
-  [[nodiscard]] std::optional<Pass> next(PictureSize full) const;
+  // The next picture for a view of `full` physical pixels; none when the picture is finished, after `rounds`
+  // still ones.
+  [[nodiscard]] std::optional<Pass> next(PictureSize full, int rounds = kRounds) const;
   // That picture was drawn and took so long. If the view moved meanwhile, it does not count for the new
   // one.
   void drawn(const Pass& pass, double seconds);

@@ -77,6 +77,9 @@ class Renderer {
     return draw(view, size, Progress{});
   }
 
+  // How many pictures of a still view make up the finished one.
+  [[nodiscard]] virtual int still_rounds() const = 0;
+
   // The first thing at a pixel (from the picture's top left); none when nothing is seen.
   virtual Result<std::optional<Hit>> pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel) = 0;
 };

@@ -35,7 +35,7 @@ Result<Picture> draw_still(Renderer& renderer, const VolumeView& view, PictureSi
                            const Progress& progress) {
   // Many pixels need no rounds to look smooth.
   constexpr std::int64_t kManyPixels = 4'000'000;
-  const int rounds = size.width * size.height > kManyPixels ? 1 : QualityControl::kRounds;
+  const int rounds = size.width * size.height > kManyPixels ? 1 : renderer.still_rounds();
   PictureMean mean;
   VolumeView one = view;
   for (int round = 0; round < rounds; ++round) {

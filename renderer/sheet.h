@@ -18,7 +18,7 @@ struct SheetView {
 Result<Picture> draw_sheet(Renderer& renderer, const SheetView& view, PictureSize size,
                            const Progress& progress = {});
 
-// The finished picture of a still view: the mean of all its rounds (QualityControl::kRounds).
+// The finished picture of a still view: the mean of all its rounds (Renderer::still_rounds()).
 Result<Picture> draw_still(Renderer& renderer, const VolumeView& view, PictureSize size,
                            const Progress& progress = {});
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <vector>
 
 #include "bench/picture_bench/ct_phantom.h"
@@ -39,6 +38,7 @@ struct Options {
   bool gl = false;
   bool vtk = true;
   std::string pictures;  // folder
+  std::string python = "python3";
 };
 
 std::shared_ptr<const Volume> study_of(const Options& options) {
@@ -85,7 +85,7 @@ class Bench {
       gl_ = expect(renderer::make_renderer(renderer::RendererKind::gl, device_, source_, layout));
     }
     if (options.vtk) {
-      auto peer = bench::VtkPeer::start(*source_, std::filesystem::temp_directory_path());
+      auto peer = bench::VtkPeer::start(*source_, std::filesystem::temp_directory_path(), options.python);
       if (peer) peer_ = std::move(*peer);
       fmt::print("{}\n", peer_ ? "VTK " + peer_->version() : peer.error().message);
     }
@@ -211,6 +211,7 @@ int main(int argc, char** argv) {
   app.add_option("--rounds", options.rounds)->check(CLI::Range(1, 100));
   app.add_flag("--gl", options.gl, "OpenGL takes part, which takes minutes without a GPU");
   app.add_flag("!--no-vtk", options.vtk, "VTK does not take part");
+  app.add_option("--python", options.python, "The Python that has VTK");
   app.add_option("--pictures", options.pictures, "Keeps the pictures in this folder");
   CLI11_PARSE(app, argc, argv);
   try {

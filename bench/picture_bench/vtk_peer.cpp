@@ -49,7 +49,8 @@ nlohmann::json gradients_of(const renderer::TransferFunction& function) {
 
 }  // namespace
 
-Result<std::unique_ptr<VtkPeer>> VtkPeer::start(const Volume& volume, const std::filesystem::path& folder) {
+Result<std::unique_ptr<VtkPeer>> VtkPeer::start(const Volume& volume, const std::filesystem::path& folder,
+                                                const std::string& python) {
   const auto* voxels = std::get_if<std::vector<std::int16_t>>(&volume.voxels);
   if (voxels == nullptr) return fail(ErrorKind::usage, "the peer draws volumes of 16 bits with sign");
   const std::filesystem::path file = folder / "volume.raw";
@@ -58,7 +59,7 @@ Result<std::unique_ptr<VtkPeer>> VtkPeer::start(const Volume& volume, const std:
   int to[2];
   int from[2];
   if (pipe2(to, O_CLOEXEC) != 0 || pipe2(from, O_CLOEXEC) != 0) return fail(ErrorKind::internal, "no pipe");
-  std::vector<std::string> words{"/usr/bin/python3", TIDEMARK_VTK_PEER, file.string()};
+  std::vector<std::string> words{python, TIDEMARK_VTK_PEER, file.string()};
   for (int axis = 0; axis < 3; ++axis) words.push_back(fmt::to_string(volume.geometry.size[axis]));
   for (int axis = 0; axis < 3; ++axis) words.push_back(fmt::to_string(volume.geometry.spacing_mm[axis]));
   std::vector<char*> arguments;
@@ -69,15 +70,16 @@ Result<std::unique_ptr<VtkPeer>> VtkPeer::start(const Volume& volume, const std:
   posix_spawn_file_actions_adddup2(&actions, to[0], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, from[1], STDOUT_FILENO);
   std::unique_ptr<VtkPeer> peer(new VtkPeer);
-  const int failed = posix_spawnp(&peer->process_, "/usr/bin/python3", &actions, nullptr, arguments.data(), environ);
+  const int failed =
+      posix_spawnp(&peer->process_, python.c_str(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   close(to[0]);
   close(from[1]);
   peer->to_peer_ = to[1];
   peer->from_peer_ = from[0];
-  if (failed != 0) return fail(ErrorKind::capability, "python3 cannot be started");
+  if (failed != 0) return fail(ErrorKind::capability, "{} cannot be started", python);
   const auto hello = peer->ask("");
-  if (!hello) return fail(ErrorKind::capability, "python3 has no VTK (Debian's python3-vtk9)");
+  if (!hello) return fail(ErrorKind::capability, "{} has no VTK (Debian's python3-vtk9)", python);
   peer->version_ = nlohmann::json::parse(*hello)["version"];
   return peer;
 }

@@ -14,7 +14,8 @@ namespace tidemark::bench {
 class VtkPeer {
  public:
   // `folder` is for the volume. Fails (ErrorKind::capability) where Python has no VTK.
-  static Result<std::unique_ptr<VtkPeer>> start(const Volume& volume, const std::filesystem::path& folder);
+  static Result<std::unique_ptr<VtkPeer>> start(const Volume& volume, const std::filesystem::path& folder,
+                                                const std::string& python);
   ~VtkPeer();
   VtkPeer(const VtkPeer&) = delete;
   VtkPeer& operator=(const VtkPeer&) = delete;

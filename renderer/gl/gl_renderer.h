@@ -16,6 +16,7 @@
 #include "renderer/gl/phi_picture.h"
 #include "renderer/gl/slice_caster.h"
 #include "renderer/gl/source_picture.h"
+#include "renderer/quality_control.h"
 #include "renderer/renderer.h"
 #include "solver/gl/constraint_texture.h"
 #include "solver/model.h"
@@ -58,6 +59,8 @@ class GlRenderer final : public Renderer {
   // The same onto a canvas (rgba8), at its size. Nothing is read back and nothing is waited for.
   Status draw_on(Canvas& canvas, const VolumeView& view, const Progress& progress = {});
   Status draw_on(Canvas& canvas, const SliceView& view, const Progress& progress = {});
+
+  [[nodiscard]] int still_rounds() const override { return QualityControl::kRounds; }
 
   // Rays do not meet a source without a 3D texture.
   Result<std::optional<Hit>> pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel) override;

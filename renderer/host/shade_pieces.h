@@ -53,7 +53,7 @@ struct Pieces {
 
 // Adds the pieces front to back to `result` (premultiplied), until it is opaque.
 using ShadePieces = void (*)(const PieceScene& scene, Pieces& pieces, glm::vec4& result);
-// For the widest instruction set of this processor, or the one that $TIDEMARK_SIMD names.
+// For the widest instruction set of this processor.
 ShadePieces shade_pieces();
 
 inline constexpr float kLeastOpacity = 1e-6F;  // of a piece
