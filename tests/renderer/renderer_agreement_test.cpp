@@ -16,8 +16,15 @@ using namespace tidemark::test;
 namespace {
 
 // In grey levels, of the channel that differs most.
-constexpr double kMean = 1.0;
-constexpr int kOf99Percent = 3;
+struct Limits {
+  double mean;
+  int of_99_percent;
+};
+constexpr Limits kSame{1.0, 3};
+// The 3D view of a sheet is a mean of fewer rounds by the processor than by OpenGL.
+constexpr Limits kOtherRounds{1.0, 8};
+// While something moves the processor lights the source by differences within a voxel.
+constexpr Limits kOtherGradient{3.0, 30};
 constexpr double kFineStep = 0.1;
 
 // What lies over slices, all of it at once.
@@ -129,13 +136,7 @@ class RendererAgreementTest : public QObject {
     const auto by_host = draw(renderer::RendererKind::host);
     QCOMPARE(failure(by_gl), QString());
     QCOMPARE(failure(by_host), QString());
-    // While something moves the processor lights the source by other differences; golden_test holds that to
-    // its own tolerance.
-    if (name == "moving") {
-      qInfo("%s", words(grey_difference(*by_gl, *by_host)).data());
-      return;
-    }
-    compare(*by_gl, *by_host);
+    compare(*by_gl, *by_host, name == "moving" ? kOtherGradient : name == "sheet" ? kOtherRounds : kSame);
   }
 
   void laden_slices_agree_data() {
@@ -225,10 +226,11 @@ class RendererAgreementTest : public QObject {
       if (!name.ends_with("-by-slices")) QTest::newRow(name.c_str()) << QString::fromStdString(name);
     }
   }
-  static void compare(const renderer::Picture& by_gl, const renderer::Picture& by_host) {
+  static void compare(const renderer::Picture& by_gl, const renderer::Picture& by_host,
+                      const Limits& limits = kSame) {
     const GreyDifference found = grey_difference(by_gl, by_host);
     qInfo("%s", words(found).data());
-    QVERIFY2(found.mean <= kMean && found.of_99_percent <= kOf99Percent, words(found));
+    QVERIFY2(found.mean <= limits.mean && found.of_99_percent <= limits.of_99_percent, words(found));
   }
   Patient& patient(const char* kind, renderer::RendererKind renderer, int threads = 0) {
     auto& one = patients_[{kind, renderer, threads}];
