@@ -187,7 +187,7 @@ class InitialisePanelTest : public QObject {
       refine_check()->setFocus();
       QTest::keyClick(refine_check(), Qt::Key_Space);
       type(tr("Stay within"), "2.5");
-      QVERIFY(says(tr("stays within %1").arg(QLocale().toString(2.5, 'f', 1))));
+      QTRY_VERIFY(says(tr("stays within %1").arg(QLocale().toString(2.5, 'f', 1))));
       QTest::mouseClick(start_button(), Qt::LeftButton);
       QTRY_VERIFY(the_case_->state().limit);
       QCOMPARE(the_case_->state().limit->within_mm(), 2.5);
