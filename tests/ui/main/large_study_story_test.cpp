@@ -113,12 +113,13 @@ void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
     Desktop::in_an_event([&] { layout->trigger(); });
     desktop.wait_until_idle();
   }
-  // Undo may take back the last steps alone, which hardly move the surface.
+  // Undo takes back the last steps, which hardly move the surface, or what was erased, where the surface had
+  // come to rest before.
   const std::int64_t inside = desktop.state().surface.voxels_inside;
   const std::int64_t step = desktop.state().step;
   desktop.press(Qt::Key_Z, Qt::ControlModifier);
   desktop.wait_until_idle();
-  QVERIFY(desktop.state().step < step);
+  QVERIFY(desktop.state().step < step || desktop.state().surface.voxels_inside != inside);
   desktop.press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
   desktop.wait_until_idle();
   QCOMPARE(desktop.state().step, step);
