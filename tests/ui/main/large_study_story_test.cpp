@@ -137,7 +137,10 @@ void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
       [&] { exports.write_mask(*desktop.window().active_case(), QString::fromStdString(mask.string())); });
   QVERIFY(Desktop::wait_for([&] { return written; }, 60000));
   QVERIFY(std::filesystem::file_size(mask) > 0);
-  Desktop::in_an_event([&] { desktop.proxy().restart(); });
+  Desktop::in_an_event([&] {
+    desktop.proxy().restart();
+    desktop.proxy().set_pause_at_convergence(false);
+  });
   desktop.press(Qt::Key_P);
   QVERIFY(Desktop::wait_for([&] { return desktop.state().playing; }));
   Desktop::answer(QMessageBox::Discard);

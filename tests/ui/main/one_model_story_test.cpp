@@ -210,6 +210,7 @@ void OneModelStoryTest::the_clip_plane_is_moved_tilted_and_worked_on() {
   // Spheres drawn and taken away on it while the surface moves: the cut in the picture follows.
   const qint64 before_sphere = yellow_pixels(*view);
   const std::int64_t inside = desktop.state().surface.voxels_inside;
+  desktop.proxy().set_pause_at_convergence(false);
   desktop.proxy().play();
   QVERIFY(Desktop::wait_for([&] { return desktop.state().playing && desktop.state().step > 5; }));
   desktop.press(Qt::Key_S);
