@@ -113,6 +113,14 @@ void CaseProxy::set_pause_at_convergence(bool pause) {
   });
 }
 
+void CaseProxy::set_leak_rule(const std::optional<document::LeakRule>& rule) {
+  leak_rule_ = rule;
+  post([rule](CaseRunner& runner, const Progress&) -> Status {
+    runner.set_leak_rule(rule);
+    return {};
+  });
+}
+
 void CaseProxy::set_parameters(const solver::Parameters& parameters, std::uint64_t gesture) {
   if (parameters == wanted_parameters_) return;
   wanted_parameters_ = parameters;

@@ -76,6 +76,9 @@ class CaseProxy : public QObject {
   [[nodiscard]] std::int64_t steps_per_picture() const { return steps_per_picture_; }
   void set_pause_at_convergence(bool pause);
   [[nodiscard]] bool pause_at_convergence() const { return pause_at_convergence_; }
+  // What counts as a leak, at which it pauses; unset: it does not.
+  void set_leak_rule(const std::optional<document::LeakRule>& rule);
+  [[nodiscard]] const std::optional<document::LeakRule>& leak_rule() const { return leak_rule_; }
 
   // Edits. One gesture (a drag, a stroke) is one entry of the history; 0: an edit of its own.
   [[nodiscard]] static std::uint64_t new_gesture();
@@ -152,6 +155,7 @@ class CaseProxy : public QObject {
   document::Drive wanted_drive_;
   std::int64_t steps_per_picture_ = 0;
   bool pause_at_convergence_ = true;
+  std::optional<document::LeakRule> leak_rule_ = document::LeakRule{};
   std::uint64_t edits_sent_ = 0;
   std::shared_ptr<std::atomic<std::uint64_t>> edits_done_ = std::make_shared<std::atomic<std::uint64_t>>(0);
 };

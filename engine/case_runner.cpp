@@ -134,6 +134,8 @@ void CaseRunner::report_failure(const Error& error) {
 void CaseRunner::phi_changed() {
   painter_.phi_changed();
   meter_.edited();
+  leak_watch_.restart();
+  leak_ = nullptr;
 }
 
 Status CaseRunner::report_edit(Status outcome) {
@@ -233,6 +235,7 @@ void CaseRunner::set_playing(bool playing) {
 void CaseRunner::play_alone(bool playing) {
   const bool begins = playing && !playing_;
   if (begins) case_speed_.try_again();
+  if (begins) leak_ = nullptr;
   playing_ = playing && case_->level_set().begun();
   if (begins && playing_) post_steps();
   if (!playing_) end_run();
@@ -283,6 +286,25 @@ void CaseRunner::run_steps(std::stop_token stop) {
 }
 
 Status CaseRunner::advance(std::int64_t steps, const Progress& progress) {
+  const std::int64_t goal = case_->level_set().step() + steps;
+  const bool watches = group_.expired();
+  leak_ = nullptr;
+  while (case_->level_set().step() < goal && !leak_) {
+    const std::int64_t before = case_->level_set().step();
+    std::int64_t part = goal - before;
+    if (watches) {
+      auto until_look = leak_watch_.begin(case_->level_set(), part);
+      if (!until_look) return pass_on(until_look);
+      part = *until_look;
+    }
+    TIDEMARK_TRY(compute(part, progress));
+    if (case_->level_set().step() < before + part || may_rest()) break;
+    if (watches) TIDEMARK_TRY(watch_for_leaks());
+  }
+  return {};
+}
+
+Status CaseRunner::compute(std::int64_t steps, const Progress& progress) {
   document::LevelSet& level_set = case_->level_set();
   const bool pauses = pause_at_convergence_ && group_.expired();
   solver::Advance run{steps, pauses, progress};
@@ -297,6 +319,15 @@ Status CaseRunner::advance(std::int64_t steps, const Progress& progress) {
   if (report->converged && pauses) playing_ = false;
   // What has become of it is known with the state that says that it rests.
   return comes_to_rest || meter_.due() ? measure(false) : Status{};
+}
+
+Status CaseRunner::watch_for_leaks() {
+  auto alarm = leak_watch_.look(case_->level_set());
+  if (!alarm) return pass_on(alarm);
+  if (!*alarm) return {};
+  leak_ = std::make_shared<const LeakAlarm>(std::move(**alarm));
+  playing_ = false;
+  return measure(false);
 }
 
 Status CaseRunner::measure(bool thoroughly) {
@@ -399,6 +430,7 @@ void CaseRunner::publish() {
   state.step = level_set.step();
   state.begun = level_set.begun();
   state.playing = playing_;
+  state.leak = leak_;
   state.time_step = level_set.executor().time_step();
   state.band = level_set.executor().band();
   state.smoothed_mm = case_->smoothed_mm();

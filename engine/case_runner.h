@@ -8,6 +8,7 @@
 #include "engine/case_painter.h"
 #include "engine/case_proxy.h"
 #include "engine/case_speed.h"
+#include "engine/leak_watch.h"
 #include "engine/weak_receiver.h"
 
 namespace tidemark::engine {
@@ -61,6 +62,8 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void play_alone(bool playing);
   void set_steps_per_picture(std::int64_t steps) { steps_per_picture_ = steps; }
   void set_pause_at_convergence(bool pause) { pause_at_convergence_ = pause; }
+  // Unset: a leak does not make it pause. In lock-step none does.
+  void set_leak_rule(const std::optional<document::LeakRule>& rule) { leak_watch_.set_rule(rule); }
   [[nodiscard]] std::int64_t steps_to_next_picture() const;
   // Computes steps and records their outcome. A level set that has converged stops playing; in lock-step all
   // go on until all have converged.
@@ -86,6 +89,8 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void post_picture(const std::shared_ptr<ViewSlot>& slot, Priority priority);
   void draw_in_turn(const std::shared_ptr<ViewSlot>& slot, Priority priority, std::stop_token stop);
   void draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token stop);
+  Status compute(std::int64_t steps, const Progress& progress);
+  Status watch_for_leaks();
   Status measure(bool thoroughly);
   void follow_drive();
   void take_speed(const SpeedOrigin& origin, const SpeedMaker::Made& made);
@@ -110,6 +115,9 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   CaseMeter meter_;
   int graphics_ = 0;  // Engine::contexts_made() when the executor was made
   std::weak_ptr<LockStep> group_;
+
+  LeakWatch leak_watch_;
+  std::shared_ptr<const LeakAlarm> leak_;  // at which it has paused
 
   CaseSpeed case_speed_;
   struct ShownSpeed {

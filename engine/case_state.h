@@ -10,6 +10,7 @@
 #include "document/curve.h"
 #include "document/drive.h"
 #include "document/labels.h"
+#include "document/leak.h"
 #include "document/outcome.h"
 #include "solver/executor.h"
 #include "solver/statistics.h"
@@ -20,6 +21,13 @@ class MotionLimit;
 
 namespace tidemark::engine {
 
+// A leak, as the watch has seen it.
+struct LeakAlarm {
+  document::Leak leak;
+  std::int64_t step = 0;    // when it was seen
+  std::int64_t before = 0;  // the last step that was seen before the front was in the neck
+};
+
 // A case after the engine's last job for it.
 struct CaseState {
   solver::Parameters parameters;
@@ -29,6 +37,7 @@ struct CaseState {
   bool converged = false;
   document::Outcome outcome = document::Outcome::unfinished;  // as of the last measurement
   std::optional<double> wider_range;  // the epsilon to try: see wider_range(); measured when it rests
+  std::shared_ptr<const LeakAlarm> leak;  // why it has paused; null: for no leak, or it has gone on since
   double time_step = 0.0;
   double band = 2.5;
   document::Drive drive;

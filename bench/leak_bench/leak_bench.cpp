@@ -100,9 +100,10 @@ int main(int argc, char** argv) {
     const auto& seed = *phantom.seed;
     run.seed = {run.volume->geometry.to_patient({seed[0], seed[1], seed[2]}), seed[3]};
     try_run(std::string(kind), run, 20000);
-    if (kind == "bridge") {
-      run.parameters.alpha = 0.95;
-      try_run("bridge .95", run, 20000);
+    for (const double alpha : {0.9, 1.0}) {
+      if (kind != "bridge" && kind != "organ") continue;
+      run.parameters.alpha = alpha;
+      try_run(fmt::format("{} {}", kind, alpha), run, 20000);
     }
   }
   for (unsigned n = 0; n < 20; ++n) {

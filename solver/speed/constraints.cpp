@@ -128,6 +128,17 @@ void Constraints::set(const Geometry& geometry, const Sphere& sphere, Constraint
   set(chosen, Index3(glm::max(low, glm::dvec3(0.0))), Index3(glm::min(high, end)), what);
 }
 
+void Constraints::set(const std::vector<Index3>& voxels, Constraint what) {
+  for (const Index3& voxel : voxels) {
+    const VirtualAddress address = layout_.translate(voxel);
+    const Page* before = page(address.page);
+    Page values{};
+    if (before != nullptr) values = *before;
+    values[static_cast<std::size_t>(address.offset)] = what;
+    replace(address.page, values);
+  }
+}
+
 void constrain(Field& phi, const Constraints& constraints) {
   const PageLayout& layout = constraints.layout();
   const auto band = static_cast<float>(phi.band);

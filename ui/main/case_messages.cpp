@@ -92,10 +92,12 @@ void CaseMessages::tell_outcome() {
     bar_.show_text(advice, about);
     bar_.mark_as_of(window_);
   } else if (offered_) {
-    bar_.show_offer(tr("The surface has stopped inside of like tissue: its values vary more than T ± %1.")
-                        .arg(short_text(state.parameters.range)),
-                    about, tr("Widen the range to %1").arg(short_text(*offered_)),
-                    [this, range = *offered_] { widen(range); });
+    bar_.show_offers(tr("The surface has stopped inside of like tissue: its values vary more than T ± %1.")
+                         .arg(short_text(state.parameters.range)),
+                     about,
+                     {{tr("Widen the range to %1").arg(short_text(*offered_)),
+                       {},
+                       [this, range = *offered_] { widen(range); }}});
     bar_.mark_as_of(window_);
   } else {
     bar_.settle(about);

@@ -32,6 +32,7 @@
 #include "ui/main/focus_chain.h"
 #include "ui/main/image_adder.h"
 #include "ui/main/keys_dialog.h"
+#include "ui/main/leak_message.h"
 #include "ui/main/menus.h"
 #include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
@@ -242,7 +243,8 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const engine::LoadedStudy
   });
   settle(kAboutOpening);
   window->set_number(free_number());
-  new CaseMessages(*window, *messages_);  // its child
+  new CaseMessages(*window, *messages_);  // its children
+  new LeakMessage(*window, *messages_);
   connect(window, &CaseWindow::close_wanted, session_writer_, &SessionWriter::close);
   connect(window, &CaseWindow::place_panel_wanted, this, [this] { panels_->show("initialise"); });
   QMdiSubWindow* child = area_->add(window);

@@ -29,19 +29,14 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent) {
   text_ = new QLabel;
   text_->setWordWrap(true);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  offer_ = new QPushButton;
+  offers_ = new QHBoxLayout;
   auto* button = new QPushButton(tr("Dismiss"));
   row->addWidget(sign_);
   row->addWidget(text_, 1);
-  row->addWidget(offer_);
+  row->addLayout(offers_);
   row->addWidget(button);
   whole->addWidget(line_, 1);
   connect(button, &QPushButton::clicked, this, &MessageBar::dismiss);
-  connect(offer_, &QPushButton::clicked, this, [this] {
-    const auto accepted = accepted_;
-    dismiss();
-    accepted();
-  });
   hide();
 }
 
@@ -63,17 +58,21 @@ void MessageBar::show_text(const QString& text, const QString& about) {
   dismiss();
   about_ = about;
   text_->setText(text);
-  offer_->hide();
   line_->show();
   show();
 }
 
-void MessageBar::show_offer(const QString& text, const QString& about, const QString& button,
-                            std::function<void()> accepted) {
+void MessageBar::show_offers(const QString& text, const QString& about, const std::vector<Offer>& offers) {
   show_text(text, about);
-  accepted_ = std::move(accepted);
-  offer_->setText(button);
-  offer_->show();
+  for (const Offer& offer : offers) {
+    auto* button = new QPushButton(offer.button);
+    button->setToolTip(offer.tip);
+    offers_->addWidget(button);
+    connect(button, &QPushButton::clicked, this, [this, accepted = offer.accepted] {
+      dismiss();
+      accepted();
+    });
+  }
 }
 
 void MessageBar::mark_as_of(CaseWindow& window) {
@@ -106,6 +105,11 @@ void MessageBar::dismiss() {
   if (shown_) shown_->deleteLater();
   shown_ = nullptr;
   about_.clear();
+  while (QLayoutItem* offer = offers_->takeAt(0)) {
+    offer->widget()->hide();
+    offer->widget()->deleteLater();
+    delete offer;
+  }
   forget_case();
   hide();
 }

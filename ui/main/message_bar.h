@@ -4,9 +4,10 @@
 #include <QFrame>
 #include <QMetaObject>
 #include <functional>
+#include <vector>
 
+class QHBoxLayout;
 class QLabel;
-class QPushButton;
 class QStackedLayout;
 
 namespace tidemark::ui {
@@ -22,9 +23,13 @@ class MessageBar : public QFrame {
 
   // `about`: the subject that failed, for settle(); empty: the message stays until it is dismissed.
   void show_text(const QString& text, const QString& about = {});
-  // The same with a button that does something about it; the message goes then.
-  void show_offer(const QString& text, const QString& about, const QString& button,
-                  std::function<void()> accepted);
+  // The same with buttons that do something about it; the message goes then.
+  struct Offer {
+    QString button;
+    QString tip;
+    std::function<void()> accepted;
+  };
+  void show_offers(const QString& text, const QString& about, const std::vector<Offer>& offers);
   // The message that is shown is of that case: it bears the case's mark and goes with the case.
   void mark_as_of(CaseWindow& window);
   // The subject has succeeded: removes the message of its failure.
@@ -46,8 +51,7 @@ class MessageBar : public QFrame {
   QWidget* line_;
   QLabel* sign_;
   QLabel* text_;
-  QPushButton* offer_;
-  std::function<void()> accepted_;
+  QHBoxLayout* offers_;
   QWidget* shown_ = nullptr;
   QString about_;
 };

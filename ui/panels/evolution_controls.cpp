@@ -11,10 +11,13 @@
 #include "ui/look/theme.h"
 #include "ui/widgets/disclosure.h"
 #include "ui/widgets/form.h"
+#include "ui/widgets/slider_number.h"
 
 namespace tidemark::ui {
 namespace {
 
+constexpr double kLeastNarrowing = 1.5;
+constexpr double kMostNarrowing = 10.0;
 constexpr std::int64_t kStepsPerPicture[] = {0, 1, 2, 5, 10, 50, 100};
 
 struct Choice {
@@ -79,6 +82,10 @@ EvolutionControls::EvolutionControls(QWidget* parent) : CaseWidget(parent) {
   connect(pause_, &QCheckBox::clicked, this, [this](bool on) {
     if (proxy()) proxy()->set_pause_at_convergence(on);
   });
+  leaks_ = form.check(tr("Pause at a leak"),
+                      tr("Pauses when the surface comes through a narrow neck and grows behind it. In lock-step "
+                         "no case does."));
+  connect(leaks_, &QCheckBox::clicked, this, &EvolutionControls::set_leak_rule);
   auto* fold = new Disclosure(tr("Details of the evolution"), QStringLiteral("evolution"));
   form.wide(fold);
   Form details(fold->content());
@@ -95,6 +102,12 @@ void EvolutionControls::add_details(Form& form) {
   connect(steps_, &QComboBox::activated, this, [this] {
     if (proxy()) proxy()->set_steps_per_picture(steps_->currentData().toLongLong());
   });
+  narrowing_ = form.slider(tr("A leak widens by"),
+                           tr("How many times wider (in area) than the neck the surface must be behind it, and "
+                              "before it, to count as a leak. Fewer: an earlier alarm, and more false ones."));
+  narrowing_->set_decimals(1);
+  narrowing_->set_range(kLeastNarrowing, kMostNarrowing);
+  connect(narrowing_, &SliderNumber::edited, this, &EvolutionControls::set_leak_rule);
   executor_ =
       form.choice(tr("Computed by"), tr("The executor of the steps. It can be changed while the surface "
                                         "moves. Stream uses the GPU as in the paper."));
@@ -130,6 +143,14 @@ void EvolutionControls::set_actions(const EvolutionActions& actions) {
   }
 }
 
+void EvolutionControls::set_leak_rule() {
+  if (!proxy()) return;
+  document::LeakRule rule;
+  rule.narrowing = narrowing_->value();
+  proxy()->set_leak_rule(leaks_->isChecked() ? std::optional(rule) : std::nullopt);
+  narrowing_->setEnabled(leaks_->isChecked());
+}
+
 void EvolutionControls::fill_executors() {
   executor_->clear();
   auto* items = qobject_cast<QStandardItemModel*>(executor_->model());
@@ -145,7 +166,9 @@ void EvolutionControls::fill_executors() {
 
 void EvolutionControls::attach() {
   state_->clear();
-  if (proxy()) fill_executors();
+  if (!proxy()) return;
+  fill_executors();
+  narrowing_->set_value(proxy()->leak_rule().value_or(document::LeakRule{}).narrowing);
 }
 
 void EvolutionControls::refresh() {
@@ -156,6 +179,8 @@ void EvolutionControls::refresh() {
   steps_->setCurrentIndex(
       std::max(0, steps_->findData(QVariant::fromValue<qint64>(proxy()->steps_per_picture()))));
   pause_->setChecked(proxy()->pause_at_convergence());
+  leaks_->setChecked(proxy()->leak_rule().has_value());
+  narrowing_->setEnabled(proxy()->leak_rule().has_value());
   // The executor in use is shown, not "Automatic".
   executor_->setCurrentIndex(executor_->findData(state.executor));
 }

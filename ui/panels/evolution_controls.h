@@ -14,6 +14,7 @@ class QToolButton;
 namespace tidemark::ui {
 
 class Form;
+class SliderNumber;
 
 // The main window's, so that buttons, menus and keys are one.
 struct EvolutionActions {
@@ -38,11 +39,14 @@ class EvolutionControls : public CaseWidget {
   QLayout* make_buttons();
   void add_details(Form& form);
   void fill_executors();
+  void set_leak_rule();
 
   std::array<QToolButton*, 4> buttons_{};  // restart, step back, play, step
   QLabel* state_;
   QComboBox* steps_;
   QCheckBox* pause_;
+  QCheckBox* leaks_;
+  SliderNumber* narrowing_;
   QComboBox* executor_;
 };
 

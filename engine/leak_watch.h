@@ -1,0 +1,44 @@
+// The watch for leaks while steps of a case are computed.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "document/leak.h"
+#include "document/level_set.h"
+#include "engine/case_state.h"
+
+namespace tidemark::engine {
+
+// Looks at the surface every kSteps steps, or as often as a tenth of the time allows.
+class LeakWatch {
+ public:
+  static constexpr std::int64_t kSteps = 8;
+
+  // Unset: it looks no more.
+  void set_rule(const std::optional<document::LeakRule>& rule);
+  // What is inside now is the body from which a leak can come: after a change of phi that is not a step, and
+  // when the user goes on after an alarm.
+  void restart() { patches_.reset(); }
+
+  // To be called before steps. Of so many, how many come before the next look. Fails as
+  // solver::Executor::snapshot() does.
+  Result<std::int64_t> begin(const document::LevelSet& level_set, std::int64_t steps);
+  // To be called after them. An alarm is raised once; then it starts anew. Fails as begin().
+  Result<std::optional<LeakAlarm>> look(const document::LevelSet& level_set);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  [[nodiscard]] bool affordable() const;
+
+  std::optional<document::LeakRule> rule_ = document::LeakRule{};
+  std::optional<solver::FrontPatches> patches_;
+  document::LeakFinder finder_;
+  std::vector<std::int64_t> steps_of_looks_;
+  Clock::time_point begun_;
+  Clock::duration spent_{};  // on looking, since then
+};
+
+}  // namespace tidemark::engine
