@@ -105,6 +105,13 @@ void CaseProxy::set_steps_per_picture(std::int64_t steps) {
   });
 }
 
+void CaseProxy::set_pace(double steps_per_second) {
+  post([steps_per_second](CaseRunner& runner, const Progress&) -> Status {
+    runner.set_pace(steps_per_second);
+    return {};
+  });
+}
+
 void CaseProxy::set_pause_at_convergence(bool pause) {
   pause_at_convergence_ = pause;
   post([pause](CaseRunner& runner, const Progress&) -> Status {

@@ -74,6 +74,8 @@ class CaseProxy : public QObject {
   // Between two pictures while it plays; 0: as many as take about 16 ms.
   void set_steps_per_picture(std::int64_t steps);
   [[nodiscard]] std::int64_t steps_per_picture() const { return steps_per_picture_; }
+  // At most so many steps a second, in lock-step for all; 0: as many as can be computed.
+  void set_pace(double steps_per_second);
   void set_pause_at_convergence(bool pause);
   [[nodiscard]] bool pause_at_convergence() const { return pause_at_convergence_; }
   // What counts as a leak, at which it pauses; unset: it does not.

@@ -254,22 +254,48 @@ void CaseRunner::end_run() {
 
 std::int64_t CaseRunner::steps_to_next_picture() const {
   if (steps_per_picture_ > 0) return steps_per_picture_;
+  if (pace_ > 0.0) return std::max(std::llround(kChunkSeconds * pace_), 1LL);
   const double seconds = meter_.seconds_per_step();
   if (seconds <= 0.0) return 1;
   return std::clamp(std::llround(kChunkSeconds / seconds), 1LL, static_cast<long long>(kMostSteps));
 }
 
-void CaseRunner::post_steps() {
+void CaseRunner::post_steps(Engine::Clock::time_point due) {
   engine_.post(
       Priority::step, this,
-      [self = shared_from_this()](std::stop_token stop) { self->run_steps(std::move(stop)); },
-      [self = shared_from_this()](const Error& error) { self->recover(error); });
+      [self = shared_from_this(), turn = ++turn_](std::stop_token stop) {
+        self->run_steps(turn, std::move(stop));
+      },
+      [self = shared_from_this()](const Error& error) { self->recover(error); }, due);
 }
 
-void CaseRunner::run_steps(std::stop_token stop) {
-  if (!playing_ || !case_ || case_speed_.holds_steps(*case_)) return;
+void CaseRunner::set_pace(double steps_per_second) {
+  if (const auto group = group_.lock()) return group->set_pace(steps_per_second);
+  set_pace_alone(steps_per_second);
+}
+
+void CaseRunner::set_pace_alone(double steps_per_second) {
+  pace_ = steps_per_second;
+  paced_ = Engine::Clock::now();
+  if (playing_) post_steps();
+}
+
+// When the steps after so many may begin: what was late is not made up for. One that waits for others in
+// lock-step looks again soon.
+Engine::Clock::time_point CaseRunner::next_due(std::int64_t steps) {
+  if (pace_ <= 0.0) return {};
+  const auto now = Engine::Clock::now();
+  if (steps == 0) return now + std::chrono::milliseconds(1);
+  const std::chrono::duration<double> time(static_cast<double>(steps) / pace_);
+  paced_ = std::max(paced_ + std::chrono::duration_cast<Engine::Clock::duration>(time), now);
+  return paced_;
+}
+
+void CaseRunner::run_steps(std::uint64_t turn, std::stop_token stop) {
+  if (turn != turn_ || !playing_ || !case_ || case_speed_.holds_steps(*case_)) return;
   Status status = follow_graphics();
   const auto group = group_.lock();
+  const std::int64_t before = case_->level_set().step();
   const Progress progress{nullptr, std::move(stop)};
   if (status) status = group ? group->advance(*this, progress) : advance(steps_to_next_picture(), progress);
   if (!status && status.error().kind != ErrorKind::cancelled &&
@@ -278,7 +304,7 @@ void CaseRunner::run_steps(std::stop_token stop) {
     report_failure(status.error());
   }
   if (playing_) {
-    post_steps();
+    post_steps(next_due(case_->level_set().step() - before));
   } else {
     end_run();
   }
@@ -431,6 +457,7 @@ void CaseRunner::publish() {
   state.begun = level_set.begun();
   state.playing = playing_;
   state.leak = leak_;
+  state.pace = pace_;
   state.time_step = level_set.executor().time_step();
   state.band = level_set.executor().band();
   state.smoothed_mm = case_->smoothed_mm();

@@ -64,6 +64,10 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void set_pause_at_convergence(bool pause) { pause_at_convergence_ = pause; }
   // Unset: a leak does not make it pause. In lock-step none does.
   void set_leak_rule(const std::optional<document::LeakRule>& rule) { leak_watch_.set_rule(rule); }
+  // At most so many steps a second while it plays; 0: as many as can be computed. For all cases in lock-step.
+  void set_pace(double steps_per_second);
+  void set_pace_alone(double steps_per_second);
+  [[nodiscard]] double pace() const { return pace_; }
   [[nodiscard]] std::int64_t steps_to_next_picture() const;
   // Computes steps and records their outcome. A level set that has converged stops playing; in lock-step all
   // go on until all have converged.
@@ -84,8 +88,9 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void show_pictures();  // posts those that are out of date
   void phi_changed();
   void recover(const Error& error);
-  void post_steps();
-  void run_steps(std::stop_token stop);
+  void post_steps(Engine::Clock::time_point due = {});
+  [[nodiscard]] Engine::Clock::time_point next_due(std::int64_t steps);
+  void run_steps(std::uint64_t turn, std::stop_token stop);
   void post_picture(const std::shared_ptr<ViewSlot>& slot, Priority priority);
   void draw_in_turn(const std::shared_ptr<ViewSlot>& slot, Priority priority, std::stop_token stop);
   void draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token stop);
@@ -131,6 +136,9 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   bool pause_at_convergence_ = true;
   bool measurement_waits_ = false;
   std::int64_t steps_per_picture_ = 0;
+  std::uint64_t turn_ = 0;           // of the steps that wait: those of earlier ones are not wanted any more
+  double pace_ = 0.0;                // steps a second; 0: free
+  Engine::Clock::time_point paced_;  // when the steps up to here are due
   std::int64_t advances_ = 0;  // how often steps were computed
 
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels_;  // as of label_revision_

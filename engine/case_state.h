@@ -47,6 +47,7 @@ struct CaseState {
   std::optional<double> smoothing;       // to that many mm, on its way
   std::shared_ptr<const Volume> source;  // as the level set sees it: smoothed by that much
   QString executor;                      // "host", "compute", "stream"
+  double pace = 0.0;              // the most steps a second that it plays at; 0: as many as can be computed
   double steps_per_second = 0.0;  // while it plays, in the last second: steps by time, pictures included
   double solver_steps_per_second = 0.0;  // in the solver's own time
   solver::MemoryReport memory;

@@ -118,10 +118,10 @@ void Engine::let_graphics_go() {
   if (context_) context_->doneCurrent();
 }
 
-void Engine::post(Priority priority, const void* owner, Job job, CutOff cut_off) {
+void Engine::post(Priority priority, const void* owner, Job job, CutOff cut_off, Clock::time_point due) {
   {
     const std::lock_guard lock(mutex_);
-    waiting_[static_cast<std::size_t>(priority)].push_back({owner, std::move(job), std::move(cut_off)});
+    waiting_[static_cast<std::size_t>(priority)].push_back({owner, std::move(job), std::move(cut_off), due});
   }
   changed_.notify_all();
 }
@@ -154,17 +154,25 @@ bool Engine::idle() const {
 // The next job; none when the engine closes. Edits run even then: by them owners drop their objects.
 std::optional<Engine::Waiting> Engine::next(std::unique_lock<std::mutex>& lock) {
   for (;;) {
+    const Clock::time_point now = Clock::now();
+    Clock::time_point wake = Clock::time_point::max();
     for (std::size_t priority = 0; priority < (closing_ ? 1 : kPriorities); ++priority) {
       auto& queue = waiting_[priority];
-      if (queue.empty()) continue;
-      Waiting job = std::move(queue.front());
-      queue.pop_front();
+      const auto due = std::ranges::find_if(queue, [now](const Waiting& job) { return job.due <= now; });
+      for (const Waiting& job : queue) wake = std::min(wake, job.due);
+      if (due == queue.end()) continue;
+      Waiting job = std::move(*due);
+      queue.erase(due);
       running_.emplace(Running{static_cast<Priority>(priority), job.owner, {}});
       if (closing_) running_->stop.request_stop();
       return job;
     }
     if (closing_) return std::nullopt;
-    changed_.wait(lock);
+    if (wake == Clock::time_point::max()) {
+      changed_.wait(lock);
+    } else {
+      changed_.wait_until(lock, wake);
+    }
   }
 }
 

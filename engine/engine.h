@@ -7,6 +7,7 @@
 #include <QThread>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -64,7 +65,9 @@ class Engine : public QObject {
   // thread. Any thread may call these.
   using Job = std::function<void(std::stop_token)>;
   using CutOff = std::function<void(const Error&)>;
-  void post(Priority priority, const void* owner, Job job, CutOff cut_off = {});
+  using Clock = std::chrono::steady_clock;
+  // It does not run before `due`.
+  void post(Priority priority, const void* owner, Job job, CutOff cut_off = {}, Clock::time_point due = {});
   void cancel(const void* owner);
   // Asks the running job to stop if it is less urgent than `priority` and belongs to `owner` (null:
   // anyone's).
@@ -93,6 +96,7 @@ class Engine : public QObject {
     const void* owner;
     Job job;
     CutOff cut_off;
+    Clock::time_point due;
   };
   struct Running {
     Priority priority;

@@ -27,6 +27,7 @@ std::pair<std::int64_t, std::int64_t> ends_of(const std::vector<std::shared_ptr<
 }  // namespace
 
 void LockStep::add(const std::shared_ptr<CaseRunner>& runner) {
+  if (const Members others = members(); !others.empty()) runner->set_pace_alone(others.front()->pace());
   members_.push_back(runner);
   runner->join(weak_from_this());
 }
@@ -63,6 +64,13 @@ void LockStep::set_playing(bool playing) {
   if (!playing && std::any_of(all.begin(), all.end(), plays)) complete_leap(all);
   for (const auto& member : all) {
     member->play_alone(playing);
+    member->show();
+  }
+}
+
+void LockStep::set_pace(double steps_per_second) {
+  for (const auto& member : members()) {
+    member->set_pace_alone(steps_per_second);
     member->show();
   }
 }

@@ -22,6 +22,7 @@ class LockStep : public std::enable_shared_from_this<LockStep> {
   Status advance(CaseRunner& runner, const Progress& progress);
   // A command to one is a command to all. Cases that played pause at the same step.
   void set_playing(bool playing);
+  void set_pace(double steps_per_second);
   // Pauses all that have begun, and takes each so many steps further.
   Status step(std::int64_t steps, const Progress& progress);
 

@@ -16,6 +16,7 @@
 namespace tidemark::ui {
 namespace {
 
+constexpr double kFreePace = 1000.0;  // steps a second: more are not told apart
 constexpr double kLeastNarrowing = 1.5;
 constexpr double kMostNarrowing = 10.0;
 constexpr std::int64_t kStepsPerPicture[] = {0, 1, 2, 5, 10, 50, 100};
@@ -78,6 +79,14 @@ EvolutionControls::EvolutionControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Evolution"));
   form.wide(make_buttons());
+  pace_ = form.slider(tr("Steps/s"), tr("How many steps are played in a second, at most. At the right end: as many "
+                                        "as the computer can."));
+  pace_->set_decimals(0);
+  pace_->set_range(1.0, kFreePace, SliderNumber::Scale::logarithmic);
+  form.ends_of(*pace_, tr("slow motion"), tr("free"));
+  connect(pace_, &SliderNumber::edited, this, [this](double pace) {
+    if (proxy()) proxy()->set_pace(pace < kFreePace ? pace : 0.0);
+  });
   pause_ = form.check(tr("Pause at convergence"), tr("Pauses as soon as the surface has stopped moving."));
   connect(pause_, &QCheckBox::clicked, this, [this](bool on) {
     if (proxy()) proxy()->set_pause_at_convergence(on);
@@ -179,6 +188,7 @@ void EvolutionControls::refresh() {
   steps_->setCurrentIndex(
       std::max(0, steps_->findData(QVariant::fromValue<qint64>(proxy()->steps_per_picture()))));
   pause_->setChecked(proxy()->pause_at_convergence());
+  pace_->set_value(state.pace > 0.0 ? state.pace : kFreePace);
   leaks_->setChecked(proxy()->leak_rule().has_value());
   narrowing_->setEnabled(proxy()->leak_rule().has_value());
   // The executor in use is shown, not "Automatic".

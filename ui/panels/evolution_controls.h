@@ -47,6 +47,7 @@ class EvolutionControls : public CaseWidget {
   QCheckBox* pause_;
   QCheckBox* leaks_;
   SliderNumber* narrowing_;
+  SliderNumber* pace_;
   QComboBox* executor_;
 };
 
