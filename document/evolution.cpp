@@ -33,6 +33,30 @@ std::vector<std::string> differences(const Recipe& recipe, const Volume& volume)
   return found;
 }
 
+namespace {
+
+Status play(ExecutorSetup& setup, const Recipe& recipe, const EvolutionOptions& options,
+            const Progress& progress, solver::AdvanceReport& total) {
+  if (options.watch_every <= 0) {
+    return setup.play(recipe, 0, 0, recipe.steps, progress, &total, options.until_converged);
+  }
+  TIDEMARK_TRY(options.watch(setup.executor(), 0));
+  std::size_t event = 0;
+  for (std::int64_t step = 0; step < recipe.steps;) {
+    const std::int64_t target = std::min(step + options.watch_every, recipe.steps);
+    TIDEMARK_TRY(
+        setup.play(recipe, event, step, target, {nullptr, progress.stop}, &total, options.until_converged));
+    while (event < recipe.events.size() && recipe.events[event].step <= target) ++event;
+    const bool rests = total.steps < target;
+    step = rests ? recipe.steps : target;
+    TIDEMARK_TRY(options.watch(setup.executor(), total.steps));
+    progress(static_cast<double>(step) / static_cast<double>(recipe.steps), "computing steps");
+  }
+  return {};
+}
+
+}  // namespace
+
 Result<Evolution> evolve(const Recipe& recipe, std::shared_ptr<const Volume> volume,
                          const EvolutionOptions& options, const Progress& progress) {
   const solver::ExecutorKind recorded =
@@ -51,7 +75,7 @@ Result<Evolution> evolve(const Recipe& recipe, std::shared_ptr<const Volume> vol
   if (!start) return pass_on(start);
   Evolution result;
   result.start = std::move(*start);
-  TIDEMARK_TRY(setup->play(recipe, 0, 0, recipe.steps, progress, &result.advance, options.until_converged));
+  TIDEMARK_TRY(play(*setup, recipe, options, progress, result.advance));
   auto phi = setup->executor().snapshot();
   if (!phi) return pass_on(phi);
   result.phi = std::move(*phi);

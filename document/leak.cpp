@@ -118,7 +118,8 @@ Leak LeakFinder::describe(const FrontPatches& patches, const Neck& neck) {
   const Number leaking = root(neck.patch);
   for (Number patch = first_; patch < static_cast<Number>(all.size()); ++patch) {
     const auto& edges = all[index(patch)].older;
-    const bool touches = std::any_of(edges.begin(), edges.end(), [&](const auto& e) { return is_older(e.to); });
+    const bool touches =
+        std::any_of(edges.begin(), edges.end(), [&](const auto& e) { return is_older(e.to); });
     if (!touches || root(patch) != leaking) continue;
     const auto voxels = patches.voxels_beside(patch, is_older);
     leak.neck.insert(leak.neck.end(), voxels.begin(), voxels.end());

@@ -35,8 +35,8 @@ struct Leak {
 // ends at the body, the largest section of a ball of its volume stands for the width before the neck.
 class LeakFinder {
  public:
-  // Of several leaks the one with the most volume behind its neck. Looks back over kMostPatches at most: older
-  // ones count as the body.
+  // Of several leaks the one with the most volume behind its neck. Looks back over kMostPatches at most:
+  // older ones count as the body.
   std::optional<Leak> find(const solver::FrontPatches& patches, const LeakRule& rule);
 
  private:
@@ -58,7 +58,8 @@ class LeakFinder {
 
   static constexpr std::size_t kMostPatches = 20'000;
 
-  // Makes the branches of patches that arrived with the look `last` or later; judges them where it is told to.
+  // Makes the branches of patches that arrived with the look `last` or later; judges them where it is told
+  // to.
   void go_back(const solver::FrontPatches& patches, Look last, const LeakRule* rule);
   void join_newer(const solver::FrontPatches& patches, Number patch);
   void judge(Number patch, Look look, const LeakRule& rule);

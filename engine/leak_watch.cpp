@@ -6,7 +6,7 @@
 namespace tidemark::engine {
 namespace {
 
-constexpr int kShare = 10;  // one part in so many of the time may be spent on looking
+constexpr int kShare = 10;                         // one part in so many of the time may be spent on looking
 constexpr std::chrono::milliseconds kAdvance{20};  // of time, for the first looks of a run
 
 }  // namespace

@@ -80,7 +80,8 @@ Status FrontPatches::see(const Executor& executor) {
     if (phi != nullptr && shape == Index3(kEdge) && !brings_news(place_of(first), phi)) return;
     for (std::int64_t z = 0; z < size.z; ++z) {
       for (std::int64_t y = 0; y < size.y; ++y) {
-        see_row(first + Index3(0, y, z), size.x, phi == nullptr ? nullptr : phi + shape.x * (y + shape.y * z));
+        see_row(first + Index3(0, y, z), size.x,
+                phi == nullptr ? nullptr : phi + shape.x * (y + shape.y * z));
       }
     }
   });

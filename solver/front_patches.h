@@ -17,10 +17,10 @@ class Executor;
 // across faces, are a patch. A voxel that goes outside again stays in its patch.
 class FrontPatches {
  public:
-  using Number = std::int32_t;                // of a patch
-  static constexpr Number kNowhere = -1;      // never inside, or beyond the volume
-  static constexpr Number kBody = 0;          // inside at the first look
-  using Look = std::int32_t;                  // its number; 0: the first
+  using Number = std::int32_t;            // of a patch
+  static constexpr Number kNowhere = -1;  // never inside, or beyond the volume
+  static constexpr Number kBody = 0;      // inside at the first look
+  using Look = std::int32_t;              // its number; 0: the first
 
   struct Edge {
     Number to = kBody;
@@ -29,7 +29,7 @@ class FrontPatches {
   struct Patch {
     Look look = 0;
     std::int64_t voxels = 0;
-    Index3 voxel{0};  // one of them
+    Index3 voxel{0};          // one of them
     std::vector<Edge> older;  // the patches beside it that were there before
     std::vector<Edge> newer;  // the same edges from the other side
   };
@@ -45,9 +45,7 @@ class FrontPatches {
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
   [[nodiscard]] Look looks() const { return looks_; }
   // Inside at some look.
-  [[nodiscard]] std::int64_t voxels() const {
-    return patches_.front().voxels + voxels_arrived_;
-  }
+  [[nodiscard]] std::int64_t voxels() const { return patches_.front().voxels + voxels_arrived_; }
   // In the order of looks; the first is the body, whose voxel says nothing.
   [[nodiscard]] const std::vector<Patch>& patches() const { return patches_; }
   [[nodiscard]] Number at(Index3 voxel) const;
@@ -84,7 +82,7 @@ class FrontPatches {
   Geometry geometry_;
   std::array<double, 3> face_mm2_;  // across each axis
   Index3 pages_along_{0};
-  std::vector<std::int32_t> table_;    // of each page: its index in pages_, kNoPage, or kAllBody
+  std::vector<std::int32_t> table_;  // of each page: its index in pages_, kNoPage, or kAllBody
   std::vector<Number> pages_;
   std::vector<std::int32_t> missing_;  // places where none has arrived yet, of each page that is stored
   std::vector<Place> arrived_;         // with this look

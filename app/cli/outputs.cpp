@@ -128,6 +128,10 @@ Status Outputs::announce_png(const std::string& option, const std::filesystem::p
   return announce_suffix(option, file, ".png");
 }
 
+Status Outputs::announce_gif(const std::string& option, const std::filesystem::path& file) {
+  return announce_suffix(option, file, ".gif");
+}
+
 Status Outputs::announce_dicom(const std::string& option, const std::filesystem::path& file) {
   return announce_suffix(option, file, ".dcm");
 }

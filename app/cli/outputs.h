@@ -23,6 +23,7 @@ class Outputs {
                   const std::vector<FileForm>& forms);
   Status announce_json(const std::string& option, const std::filesystem::path& file);
   Status announce_png(const std::string& option, const std::filesystem::path& file);
+  Status announce_gif(const std::string& option, const std::filesystem::path& file);
   Status announce_dicom(const std::string& option, const std::filesystem::path& file);
 
   // Fails (ErrorKind::usage) when an announced file is this input: inputs are never written to.

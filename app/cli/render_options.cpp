@@ -164,8 +164,10 @@ Result<renderer::SliceView> slice_view(const RenderOptions& options) {
 }
 Status check(const RenderOptions& options) {
   TIDEMARK_TRY(meaning("--view", options.view, kViews));
-  if (!options.mask.empty() && !options.phi.empty()) {
-    return fail(ErrorKind::usage, "--mask and --phi exclude each other");
+  const int surfaces = int{!options.mask.empty()} + int{!options.phi.empty()} + int{!options.recipe.empty()};
+  if (surfaces > 1) {
+    return fail(ErrorKind::usage, "{} exclude each other",
+                options.recipe.empty() ? "--mask and --phi" : "--recipe, --mask and --phi");
   }
   if (!options.preset.empty() && !options.transfer_function.empty()) {
     return fail(ErrorKind::usage, "--preset and --tf exclude each other");
@@ -214,7 +216,7 @@ Status check(const RenderOptions& options) {
 }  // namespace
 
 bool has_surface(const RenderOptions& options) {
-  return !options.mask.empty() || !options.phi.empty();
+  return !options.mask.empty() || !options.phi.empty() || !options.recipe.empty();
 }
 
 bool has_speed(const RenderOptions& options) {
@@ -279,7 +281,6 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_flag("--fit", options.fit, "The camera looks at the pages around the surface and comes near");
   command.add_flag("--annotate", options.annotate, "Orientation letters and a scale bar");
   command.add_option("--size", options.size, "Pixels (default: 512x512)")->type_name("WxH");
-  command.add_option("--out", options.out, "Picture, .png")->required();
 }
 
 }  // namespace tidemark::cli

@@ -19,6 +19,7 @@ struct RenderOptions {
   StudyInput study;
   std::string mask;
   std::string phi;
+  std::string recipe;  // of a film: its surface is shown
   std::string labels;
   std::string view = "3d";
   std::string preset;
@@ -63,6 +64,7 @@ bool has_speed(const RenderOptions& options);
 // ErrorKind::input for an error in a file of a transfer function).
 Result<Views> views_of(const RenderOptions& options);
 
+// Without --out.
 void add_render_options(CLI::App& command, RenderOptions& options);
 
 }  // namespace tidemark::cli

@@ -55,7 +55,8 @@ void try_run(const std::string& name, const Run& run, std::int64_t most) {
       const Mask mask = executor.snapshot()->mask();
       std::int64_t count = 0;
       for (std::int64_t o = 0; o < run.volume->geometry.voxel_count(); ++o)
-        if (mask.voxels[static_cast<std::size_t>(o)] != 0 && run.behind(run.volume->geometry.voxel_at(o))) ++count;
+        if (mask.voxels[static_cast<std::size_t>(o)] != 0 && run.behind(run.volume->geometry.voxel_at(o)))
+          ++count;
       if (count >= run.least_behind) leaked_at = step;
     }
     if (*arrived == 0) continue;
@@ -64,8 +65,8 @@ void try_run(const std::string& name, const Run& run, std::int64_t most) {
     find_s += since(t);
     if (leak) break;
   }
-  fmt::print("{:12} {} at {:5} (leaked at {:5}) steps; solver {:.3f} s, looks {:.3f} s, search {:.3f} s", name,
-             leak ? "LEAK" : "none", step, leaked_at, solver_s, look_s, find_s);
+  fmt::print("{:12} {} at {:5} (leaked at {:5}) steps; solver {:.3f} s, looks {:.3f} s, search {:.3f} s",
+             name, leak ? "LEAK" : "none", step, leaked_at, solver_s, look_s, find_s);
   if (leak) {
     fmt::print("; neck ({}, {}, {}) {:.0f} mm2, {:.2f} ml behind, {} voxels", leak->middle.x, leak->middle.y,
                leak->middle.z, leak->area_mm2, leak->volume_ml, leak->neck.size());
@@ -108,7 +109,10 @@ int main(int argc, char** argv) {
   }
   for (unsigned n = 0; n < 20; ++n) {
     test::Lobes lobes = test::lobes_with_neck(n);
-    try_run(fmt::format("neck {}", n), {lobes.volume, lobes.parameters, lobes.seed, lobes.behind, std::max(100.0, 2.0 / 3.0 * M_PI * std::pow(2.0 * lobes.neck_mm, 3))}, 20000);
+    try_run(fmt::format("neck {}", n),
+            {lobes.volume, lobes.parameters, lobes.seed, lobes.behind,
+             std::max(100.0, 2.0 / 3.0 * M_PI * std::pow(2.0 * lobes.neck_mm, 3))},
+            20000);
   }
   for (unsigned n = 0; n < 20; ++n) {
     test::Lobes lobes = test::lobes_without_neck(n);

@@ -11,9 +11,9 @@ using namespace tidemark::test;
 
 namespace {
 
-constexpr std::int64_t kSteps = 8;     // between two looks
-constexpr std::int64_t kMost = 2000;   // more than any of them needs to come to rest
-constexpr std::int64_t kInTime = 15;   // steps after the front has grown behind the neck
+constexpr std::int64_t kSteps = 8;    // between two looks
+constexpr std::int64_t kMost = 2000;  // more than any of them needs to come to rest
+constexpr std::int64_t kInTime = 15;  // steps after the front has grown behind the neck
 constexpr unsigned kPhantoms = 20;
 
 struct Watched {
@@ -34,7 +34,8 @@ std::unique_ptr<solver::Executor> executor_of(const Lobes& lobes, solver::Execut
 bool has_leaked(const Lobes& lobes, const Mask& mask) {
   std::int64_t behind = 0;
   for (std::int64_t offset = 0; offset < mask.geometry.voxel_count(); ++offset) {
-    if (mask.voxels[static_cast<std::size_t>(offset)] != 0 && lobes.behind(mask.geometry.voxel_at(offset))) ++behind;
+    if (mask.voxels[static_cast<std::size_t>(offset)] != 0 && lobes.behind(mask.geometry.voxel_at(offset)))
+      ++behind;
   }
   return static_cast<double>(behind) >= 2.0 / 3.0 * M_PI * std::pow(2.0 * lobes.neck_mm, 3.0);
 }
@@ -104,7 +105,8 @@ class LeakTest : public QObject {
       if (!watched.leak) continue;
       ++found;
       QVERIFY2(watched.leaked_at == 0 || watched.step - watched.leaked_at <= kInTime,
-               qPrintable(QString("phantom %1: %2 after %3").arg(number).arg(watched.step).arg(watched.leaked_at)));
+               qPrintable(
+                   QString("phantom %1: %2 after %3").arg(number).arg(watched.step).arg(watched.leaked_at)));
       QVERIFY(!watched.leak->neck.empty());
       QVERIFY(watched.leak->area_mm2 < 2.5 * M_PI * lobes.neck_mm * lobes.neck_mm);
     }

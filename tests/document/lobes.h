@@ -59,7 +59,8 @@ inline Lobes painted(Lot& lot, Index3 size, const std::function<double(glm::dvec
   volume->geometry.size = size;
   std::vector<std::int16_t> voxels;
   for (std::int64_t offset = 0; offset < volume->geometry.voxel_count(); ++offset) {
-    const double inside = std::clamp(0.5 - distance(glm::dvec3(volume->geometry.voxel_at(offset))) / 1.5, 0.0, 1.0);
+    const double inside =
+        std::clamp(0.5 - distance(glm::dvec3(volume->geometry.voxel_at(offset))) / 1.5, 0.0, 1.0);
     voxels.push_back(static_cast<std::int16_t>(200.0 + 600.0 * inside + noise * lot.normal()));
   }
   volume->voxels = std::move(voxels);
@@ -86,9 +87,7 @@ inline Lobes lobes_with_neck(unsigned number) {
   });
   lobes.seed = {centre + glm::dvec3(lot(-4, 2), lot(-4, 4), lot(-4, 4)), lot(4, 8)};
   lobes.neck_mm = radius;
-  lobes.behind = [=](Index3 voxel) {
-    return ellipsoid_distance(glm::dvec3(voxel), there, other) < 0.0;
-  };
+  lobes.behind = [=](Index3 voxel) { return ellipsoid_distance(glm::dvec3(voxel), there, other) < 0.0; };
   return lobes;
 }
 
@@ -111,7 +110,8 @@ inline Lobes lobes_without_neck(unsigned number) {
       const double apart = lot(0.4, 0.65);
       const glm::dvec3 step(body.x * apart, 0, 0);
       distance = [=](glm::dvec3 p) {
-        return std::min(ellipsoid_distance(p, centre - step, body), ellipsoid_distance(p, centre + step, body));
+        return std::min(ellipsoid_distance(p, centre - step, body),
+                        ellipsoid_distance(p, centre + step, body));
       };
       seed -= step;
       break;

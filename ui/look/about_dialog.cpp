@@ -31,6 +31,7 @@ constexpr ThirdPartyPart kParts[] = {
     {"OpenSSL", "Apache-2.0", "checksums"},
     {"zlib", "Zlib", "compressed files"},
     {"libpng", "libpng-2.0", "pictures"},
+    {"giflib", "MIT", "films"},
 };
 
 QLabel* paragraph(const QString& text) {

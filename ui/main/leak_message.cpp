@@ -14,8 +14,7 @@ constexpr double kLessAlpha = 0.8;  // times what it was
 
 }  // namespace
 
-LeakMessage::LeakMessage(CaseWindow& window, MessageBar& bar)
-    : QObject(&window), window_(window), bar_(bar) {
+LeakMessage::LeakMessage(CaseWindow& window, MessageBar& bar) : QObject(&window), window_(window), bar_(bar) {
   connect(&window.proxy(), &engine::CaseProxy::state_changed, this, &LeakMessage::follow);
 }
 
@@ -39,13 +38,15 @@ void LeakMessage::show() {
   window_.proxy().display().change([&](engine::DisplaySettings& s) { s.cursor_mm = place; });
   const double alpha = std::round(100.0 * kLessAlpha * window_.proxy().parameters().alpha) / 100.0;
   bar_.show_offers(
-      tr("Paused: the surface leaks. At the cross it came through a neck of %1 and has filled %2 behind it. Play "
+      tr("Paused: the surface leaks. At the cross it came through a neck of %1 and has filled %2 behind it. "
+         "Play "
          "goes on all the same.")
           .arg(number_text(leak.area_mm2, 0, tr("mm²")), number_text(leak.volume_ml, 2, tr("ml"))),
       about(),
       {{tr("Go back"), tr("To step %1, before the surface was in the neck.").arg(told_->before),
         [this] { go_back(); }},
-       {tr("Wall it off"), tr("Goes back, puts a wall across the neck, and plays on."), [this] { wall_off(); }},
+       {tr("Wall it off"), tr("Goes back, puts a wall across the neck, and plays on."),
+        [this] { wall_off(); }},
        {tr("α %1").arg(number_text(alpha, 2)),
         tr("Goes back, and plays on with a smaller α: a smoother surface passes no narrow neck."),
         [this, alpha] { lower_alpha(alpha); }}});
@@ -60,9 +61,8 @@ void LeakMessage::wall_off() {
   const auto alarm = told_;
   go_back();
   document::Drive drive = window_.proxy().drive();
-  solver::Constraints walls = drive.constraints
-                                  ? *drive.constraints
-                                  : solver::Constraints(window_.proxy().volume().geometry.size);
+  solver::Constraints walls =
+      drive.constraints ? *drive.constraints : solver::Constraints(window_.proxy().volume().geometry.size);
   walls.set(alarm->leak.neck, solver::Constraint::wall);
   drive.constraints = std::make_shared<const solver::Constraints>(std::move(walls));
   window_.proxy().set_drive(drive);

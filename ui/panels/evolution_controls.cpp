@@ -79,8 +79,9 @@ EvolutionControls::EvolutionControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Evolution"));
   form.wide(make_buttons());
-  pace_ = form.slider(tr("Steps/s"), tr("How many steps are played in a second, at most. At the right end: as many "
-                                        "as the computer can."));
+  pace_ = form.slider(tr("Steps/s"),
+                      tr("How many steps are played in a second, at most. At the right end: as many "
+                         "as the computer can."));
   pace_->set_decimals(0);
   pace_->set_range(1.0, kFreePace, SliderNumber::Scale::logarithmic);
   form.ends_of(*pace_, tr("slow motion"), tr("free"));
@@ -91,9 +92,10 @@ EvolutionControls::EvolutionControls(QWidget* parent) : CaseWidget(parent) {
   connect(pause_, &QCheckBox::clicked, this, [this](bool on) {
     if (proxy()) proxy()->set_pause_at_convergence(on);
   });
-  leaks_ = form.check(tr("Pause at a leak"),
-                      tr("Pauses when the surface comes through a narrow neck and grows behind it. In lock-step "
-                         "no case does."));
+  leaks_ =
+      form.check(tr("Pause at a leak"),
+                 tr("Pauses when the surface comes through a narrow neck and grows behind it. In lock-step "
+                    "no case does."));
   connect(leaks_, &QCheckBox::clicked, this, &EvolutionControls::set_leak_rule);
   auto* fold = new Disclosure(tr("Details of the evolution"), QStringLiteral("evolution"));
   form.wide(fold);
@@ -111,9 +113,10 @@ void EvolutionControls::add_details(Form& form) {
   connect(steps_, &QComboBox::activated, this, [this] {
     if (proxy()) proxy()->set_steps_per_picture(steps_->currentData().toLongLong());
   });
-  narrowing_ = form.slider(tr("A leak widens by"),
-                           tr("How many times wider (in area) than the neck the surface must be behind it, and "
-                              "before it, to count as a leak. Fewer: an earlier alarm, and more false ones."));
+  narrowing_ =
+      form.slider(tr("A leak widens by"),
+                  tr("How many times wider (in area) than the neck the surface must be behind it, and "
+                     "before it, to count as a leak. Fewer: an earlier alarm, and more false ones."));
   narrowing_->set_decimals(1);
   narrowing_->set_range(kLeastNarrowing, kMostNarrowing);
   connect(narrowing_, &SliderNumber::edited, this, &EvolutionControls::set_leak_rule);

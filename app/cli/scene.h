@@ -1,0 +1,30 @@
+// A study with its surface, ready to be drawn as the options of render say.
+#pragma once
+
+#include <memory>
+
+#include "app/cli/console.h"
+#include "app/cli/render_options.h"
+#include "core/volume.h"
+#include "imaging/grid_policy.h"
+#include "renderer/renderer.h"
+
+namespace tidemark::cli {
+
+struct Scene {
+  std::shared_ptr<const Volume> source;
+  Views views;
+  std::unique_ptr<renderer::Renderer> renderer;
+};
+
+// Loads the study, its surface and its labels, and makes the renderer. Fails as these do, and with
+// ErrorKind::cancelled.
+Result<Scene> make_scene(const RenderOptions& options, Views views, Console& console,
+                         const imaging::GridPolicy& otherwise = {});
+
+// Fills in the facts of the study: its middle and its common values.
+void place(Scene& scene, const RenderOptions& options, const solver::Field& phi);
+
+Result<renderer::Picture> draw(Scene& scene, const RenderOptions& options, const Progress& progress);
+
+}  // namespace tidemark::cli
