@@ -153,4 +153,31 @@ SweepColour heat_colour(double share) {
   return colour;
 }
 
+double SweepScale::share(double value) const {
+  if (!(high > low)) return 1.0;
+  const double part = logarithmic ? std::log(std::max(value, low) / low) / std::log(high / low)
+                                  : (value - low) / (high - low);
+  return std::clamp(part, 0.0, 1.0);
+}
+
+SweepScale volume_scale(const Sweep& sweep) {
+  SweepScale scale{0.0, 0.0, true};
+  for (const SweepRun& run : sweep.runs) {
+    if (run.volume_ml <= 0.0) continue;
+    scale.low = scale.low == 0.0 ? run.volume_ml : std::min(scale.low, run.volume_ml);
+    scale.high = std::max(scale.high, run.volume_ml);
+  }
+  return scale;
+}
+
+SweepScale dice_scale(const Sweep& sweep) {
+  SweepScale scale{1.0, 0.0};
+  for (const SweepRun& run : sweep.runs) {
+    if (!run.dice) continue;
+    scale.low = std::min(scale.low, *run.dice);
+    scale.high = std::max(scale.high, *run.dice);
+  }
+  return scale;
+}
+
 }  // namespace tidemark::document

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/volume.h"
-#include "document/agreement.h"
 #include "document/inside_bits.h"
+#include "document/sweep.h"
 
 namespace tidemark::document {
 
@@ -39,5 +39,16 @@ struct SweepPicture {
 // From dark blue by green to yellow, for `share` from 0 to 1: told apart by lightness alone, too.
 using SweepColour = std::array<std::uint8_t, 3>;
 [[nodiscard]] SweepColour heat_colour(double share);
+
+// The values of a sweep from the least to the largest, for colours.
+struct SweepScale {
+  double low = 0.0;
+  double high = 0.0;
+  bool logarithmic = false;  // one surface that has filled the volume leaves the others their colours
+
+  [[nodiscard]] double share(double value) const;  // 0 to 1
+};
+[[nodiscard]] SweepScale volume_scale(const Sweep& sweep);  // in ml, of surfaces that have not vanished
+[[nodiscard]] SweepScale dice_scale(const Sweep& sweep);
 
 }  // namespace tidemark::document

@@ -223,7 +223,7 @@ class SweepTest : public QObject {
     document::Drive drive;
     drive.setting.terms = {{"tent", {}}, {"edges", {}}};
     auto walls = std::make_shared<solver::Constraints>(volume->geometry.size);
-    walls->paint(volume->geometry, ball_at(*volume, {6, 0, 0}, 4.0), solver::Constraint::wall);
+    walls->set(volume->geometry, ball_at(*volume, {6, 0, 0}, 4.0), solver::Constraint::wall);
     drive.constraints = walls;
     recipe.drive = std::make_shared<const document::Drive>(drive);
     const auto sweep = swept(recipe, volume, over({kRanges, {"edges.balloon", 0.3, 0.9, 3}}));
@@ -372,9 +372,6 @@ class SweepTest : public QObject {
     for (std::size_t i = 0; i < none.pixels.size(); i += 4) QCOMPARE(none.pixels[i], none.pixels[i + 2]);
   }
 };
-
-Q_DECLARE_METATYPE(std::vector<tidemark::document::SweepAxis>)
-Q_DECLARE_METATYPE(tidemark::Index3)
 
 TIDEMARK_TEST(SweepTest)
 #include "sweep_test.moc"
