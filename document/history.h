@@ -22,6 +22,7 @@ enum class ChangeKind {
   evolution,
   step_back,
   restart,
+  sweep,   // a run of one was taken
   source,  // the volume as the level set sees it
   examples,
   constraints,  // walls and anchors

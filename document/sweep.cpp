@@ -49,7 +49,8 @@ class Runs {
   std::size_t ended_ = 0;
   Status failure_;
 
-  // Functions whose numbers are swept, one for each drive: runs that share it wait for each other.
+  // Functions that are not made yet, one for each drive of runs (null: of SweepStart): runs that share one
+  // wait for each other.
   struct Made {
     std::once_flag once;
     Result<std::shared_ptr<const solver::SpeedFunction>> speed{nullptr};
@@ -76,8 +77,8 @@ void Runs::plan() {
         auto& shared = drives[of_speed];
         if (shared == nullptr) shared = std::make_shared<const Drive>(std::move(drive));
         run.drive = shared;
-        made_[shared.get()];
       }
+      made_[run.drive.get()];
       sweep_.runs.push_back(std::move(run));
     }
   }
@@ -145,11 +146,11 @@ void Runs::end(SweepRun& run, const Status& status) {
 }
 
 Result<std::shared_ptr<const solver::SpeedFunction>> Runs::speed_of(const SweepRun& run) {
-  if (run.drive == nullptr) return start_.speed;
+  if (run.drive == nullptr && start_.speed != nullptr) return start_.speed;
   Made& made = made_.at(run.drive.get());
   std::call_once(made.once, [&] {
     made.speed = without_exceptions(
-        [&] { return make_speed(*run.drive, start_.source, start_.parameters, silent()); });
+        [&] { return make_speed(*drive_of(run), start_.source, start_.parameters, silent()); });
   });
   return made.speed;
 }
@@ -165,7 +166,6 @@ Status Runs::evolve(SweepRun& run) {
     auto speed = speed_of(run);
     if (!speed) return pass_on(speed);
     TIDEMARK_TRY(setup->set_drive(drive_of(run), std::move(*speed)));
-    TIDEMARK_TRY(setup->make_missing_speed(silent()));
   }
   TIDEMARK_TRY(setup->set_limit(start_.limit));
   TIDEMARK_TRY(setup->executor().restore(*start_.phi));
@@ -194,7 +194,7 @@ Result<SweepStart> sweep_start(const Recipe& recipe, std::shared_ptr<const Volum
                                      solver::ExecutorKind::host, {});
   if (!setup) return pass_on(setup);
   if (recipe.drive != nullptr) {
-    TIDEMARK_TRY(setup->set_drive(recipe.drive, {nullptr, progress.stop}));
+    TIDEMARK_TRY(setup->set_drive(recipe.drive, Progress{nullptr, progress.stop}));
   }
   TIDEMARK_TRY(setup->begin(recipe.start, {nullptr, progress.stop}));
   TIDEMARK_TRY(setup->play(recipe.up_to(0), 0, 0, 0, {nullptr, progress.stop}));
