@@ -240,7 +240,9 @@ class SweepTest : public QObject {
   void a_refined_start_keeps_its_limit() {
     const auto volume = lumpy_volume();
     document::Recipe recipe = lumpy_recipe(*volume);
-    const auto before = alone(recipe, {.parameters = recipe.parameters}, volume, true);
+    document::SweepRun plain;
+    plain.parameters = recipe.parameters;
+    const auto before = alone(recipe, plain, volume, true);
     recipe.start = {};
     recipe.start.from =
         document::limited({std::make_shared<const Mask>(before.start.mask()), "mask"}, 2.0).value();
@@ -368,7 +370,7 @@ class SweepTest : public QObject {
     }
     QVERIFY2(yellow > 40 && yellow < 600, qPrintable(QString::number(yellow)));  // an outline
     QVERIFY(grey > 800);
-    const auto none = document::picture_of({}, *volume, {700.0, 900.0}, cut, 64);
+    const auto none = document::picture_of(document::InsideBits(), *volume, {700.0, 900.0}, cut, 64);
     for (std::size_t i = 0; i < none.pixels.size(); i += 4) QCOMPARE(none.pixels[i], none.pixels[i + 2]);
   }
 };
