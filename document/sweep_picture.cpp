@@ -173,7 +173,7 @@ SweepScale volume_scale(const Sweep& sweep) {
 SweepScale dice_scale(const Sweep& sweep) {
   SweepScale scale{1.0, 0.0};
   for (const SweepRun& run : sweep.runs) {
-    if (!run.dice) continue;
+    if (!run.dice || run.volume_ml <= 0.0) continue;
     scale.low = std::min(scale.low, *run.dice);
     scale.high = std::max(scale.high, *run.dice);
   }

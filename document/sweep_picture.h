@@ -48,7 +48,8 @@ struct SweepScale {
 
   [[nodiscard]] double share(double value) const;  // 0 to 1
 };
-[[nodiscard]] SweepScale volume_scale(const Sweep& sweep);  // in ml, of surfaces that have not vanished
+// Of surfaces that have not vanished.
+[[nodiscard]] SweepScale volume_scale(const Sweep& sweep);  // in ml
 [[nodiscard]] SweepScale dice_scale(const Sweep& sweep);
 
 }  // namespace tidemark::document

@@ -98,14 +98,15 @@ void Sheet::draw_axes() {
 
 void Sheet::draw_run(glm::ivec2 at, const document::SweepRun& run) {
   put(at, document::picture_of(run.inside, source_, window_, cut_, kSide));
-  const bool ended = run.problem.empty();
+  const bool there = run.volume_ml > 0.0;
+  std::string volume = short_text(run.volume_ml) + " ml";
+  if (!there) volume = run.problem.empty() ? "vanished" : "no memory";
   glm::ivec2 strip = at + glm::ivec2(0, kSide);
-  write_number(strip, ended ? short_text(run.volume_ml) + " ml" : "no memory",
-               run.volume_ml > 0.0 ? document::heat_colour(volumes_.share(run.volume_ml)) : kNothing);
+  write_number(strip, volume, there ? document::heat_colour(volumes_.share(run.volume_ml)) : kNothing);
   if (!has_dice_) return;
   strip.y += kStrip;
   write_number(strip, run.dice ? fmt::format("dice {:.3f}", *run.dice) : std::string(),
-               run.dice ? document::heat_colour(dices_.share(*run.dice)) : kNothing);
+               there && run.dice ? document::heat_colour(dices_.share(*run.dice)) : kNothing);
 }
 
 // The agreement and what the colours mean.
