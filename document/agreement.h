@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "document/inside_bits.h"
@@ -19,6 +20,8 @@ class Agreement {
   [[nodiscard]] Index3 first() const { return first_; }
   [[nodiscard]] Index3 size() const { return size_; }
 
+  // Of the box's voxels, the first axis fastest.
+  [[nodiscard]] std::span<const std::uint8_t> counts() const { return counts_; }
   // How many surfaces have that voxel inside, of any voxel of the grid.
   [[nodiscard]] int count(Index3 voxel) const;
   // The same as a share, 0 to 1.
