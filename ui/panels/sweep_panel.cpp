@@ -152,7 +152,7 @@ void SweepPanel::say(const QString& problem) {
 void SweepPanel::show_sweep() {
   const bool running = sweep() && sweep()->running();
   run_->setText(running ? tr("Cancel") : tr("Run all"));
-  run_->setIcon(icon(running ? u"stop" : u"play"));
+  run_->setIcon(icon(running ? u"close" : u"play"));
   run_->setToolTip(running ? tr("Gives the runs up; the last sweep stays.")
                            : tr("Computes all runs on all processors."));
   progress_->setVisible(running);
