@@ -93,9 +93,10 @@ Status LevelSet::close() {
 }
 
 void LevelSet::add_entry(ChangeKind kind, const Point& before, const Point& after) {
-  const bool counts_steps =
-      kind == ChangeKind::evolution || kind == ChangeKind::step_back || kind == ChangeKind::sweep;
-  const std::int64_t steps = counts_steps ? std::abs(after.recipe.steps - before.recipe.steps) : 0;
+  std::int64_t steps = 0;
+  if (kind == ChangeKind::sweep) steps = after.recipe.steps;
+  if (kind == ChangeKind::evolution || kind == ChangeKind::step_back)
+    steps = std::abs(after.recipe.steps - before.recipe.steps);
   history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after));
   settled_events_ = after.recipe.events.size();
 }
