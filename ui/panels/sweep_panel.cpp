@@ -27,6 +27,7 @@ SweepPanel::SweepPanel(QWidget* parent)
   add(make_axes());
   add(make_run());
   add(make_outcome());
+  show_sweep();
 }
 
 QWidget* SweepPanel::make_axes() {
