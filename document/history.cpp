@@ -27,6 +27,8 @@ std::string describe(const ChangeDescription& change) {
       return fmt::format("{} step{} back", change.steps, plural);
     case ChangeKind::restart:
       return "restart";
+    case ChangeKind::sweep:
+      return fmt::format("run of a sweep, {} step{}", change.steps, plural);
     case ChangeKind::source:
       return "smoothing of the volume";
     case ChangeKind::examples:

@@ -22,6 +22,7 @@ enum class ChangeKind {
   evolution,
   step_back,
   restart,
+  sweep,   // a run of one was taken
   source,  // the volume as the level set sees it
   examples,
   constraints,  // walls and anchors
@@ -36,7 +37,7 @@ enum class ChangeKind {
 // A change in words. The interface words it in the user's language, describe() in English.
 struct ChangeDescription {
   ChangeKind kind = ChangeKind::start;
-  std::int64_t steps = 0;  // of evolution and step_back
+  std::int64_t steps = 0;  // of evolution, step_back and sweep
   std::string name;        // of a label, or of several
 
   bool operator==(const ChangeDescription&) const = default;

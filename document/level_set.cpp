@@ -93,8 +93,10 @@ Status LevelSet::close() {
 }
 
 void LevelSet::add_entry(ChangeKind kind, const Point& before, const Point& after) {
-  const bool counts_steps = kind == ChangeKind::evolution || kind == ChangeKind::step_back;
-  const std::int64_t steps = counts_steps ? std::abs(after.recipe.steps - before.recipe.steps) : 0;
+  std::int64_t steps = 0;
+  if (kind == ChangeKind::sweep) steps = after.recipe.steps;
+  if (kind == ChangeKind::evolution || kind == ChangeKind::step_back)
+    steps = std::abs(after.recipe.steps - before.recipe.steps);
   history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after));
   settled_events_ = after.recipe.events.size();
 }
@@ -328,30 +330,33 @@ Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
   return {};
 }
 
-Status LevelSet::restart() {
-  TIDEMARK_TRY(history_.close());
-  if (step() == 0) return {};
-  const Point before = known_;
-  const solver::Parameters present = parameters();
-  const double smoothed = smoothed_mm();
-  const auto in_use = setup_.drive();
+// The start as it was before the first step, with the present parameters. No change may be open.
+Result<LevelSet::Point> LevelSet::start_point() {
   if (start_ == nullptr) {
     // It was saved later than its start: what lies between is made again.
     Status prepared = prepare_start();
     auto phi = prepared ? executor().snapshot() : Result<solver::Field>(pass_on(prepared));
-    if (!phi) {
-      TIDEMARK_TRY(go_to(before));
-      return pass_on(phi);
-    }
-    start_ = std::make_shared<const solver::Field>(std::move(*phi));
+    TIDEMARK_TRY(go_to(known_));
+    if (!phi) return pass_on(phi);
+    start_ = known_.start = std::make_shared<const solver::Field>(std::move(*phi));
   }
   Point point{recipe_.up_to(0), start_, start_, {}, drive_};
   std::erase_if(point.recipe.events,
                 [](const RecipeEvent& event) { return !std::holds_alternative<PaintEvent>(event.what); });
-  point.recipe.parameters = present;
-  point.recipe.drive = in_use;
-  if (smoothed != point.recipe.smoothed_mm) point.recipe.events.push_back({0, SmoothEvent{smoothed}});
-  TIDEMARK_TRY(go_to(std::move(point)));
+  point.recipe.parameters = parameters();
+  point.recipe.drive = setup_.drive();
+  if (const double smoothed = smoothed_mm(); smoothed != point.recipe.smoothed_mm)
+    point.recipe.events.push_back({0, SmoothEvent{smoothed}});
+  return point;
+}
+
+Status LevelSet::restart() {
+  TIDEMARK_TRY(history_.close());
+  if (step() == 0) return {};
+  const Point before = known_;
+  auto point = start_point();
+  if (!point) return pass_on(point);
+  TIDEMARK_TRY(go_to(std::move(*point)));
   add_entry(ChangeKind::restart, before, known_);
   return {};
 }

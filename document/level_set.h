@@ -12,6 +12,7 @@
 #include "document/history.h"
 #include "document/recipe.h"
 #include "document/start.h"
+#include "document/sweep.h"
 #include "solver/executor.h"
 
 namespace tidemark::document {
@@ -68,6 +69,13 @@ class LevelSet final : private OpenChange {
   Status step_back(std::int64_t steps, const Progress& progress = {});
   // Back to the start as it was before the first step, with the present parameters. An entry of its own.
   Status restart();
+
+  // For runs from the start as it was before the first step, with the present parameters, drive and source.
+  // Fails (ErrorKind::usage) when there is no surface.
+  Result<SweepStart> sweep_start();
+  // Becomes that run of a sweep, computed again by the case's own executor. An entry of its own. Fails
+  // (ErrorKind::usage) when the start or the source is another one by now; nothing is changed then.
+  Status take_run(const SweepStart& start, const SweepRun& run, const Progress& progress = {});
 
   // Whether undo or a session has led to a drive whose function must be made first. The next step makes it,
   // unless set_speed() or set_source() has given it by then.
@@ -136,6 +144,7 @@ class LevelSet final : private OpenChange {
   Status hand_over(const Point& point);
   Status go_to(Point point);
   Status prepare_start();
+  Result<Point> start_point();
   void take_drive_of_recipe();
   Status compute_again(std::int64_t target, const Progress& progress);
 

@@ -23,6 +23,8 @@ class CaseMeter {
   void computed(const solver::AdvanceReport& report, std::int64_t step);
   // After a change of phi that is not a step: nothing has converged.
   void edited();
+  // After edited(), where steps were computed for the edit: whether the surface rests.
+  void set_converged(bool converged) { converged_ = converged; }
   // After any other change on which figures depend.
   void adjusted();
   void labels_changed() { thorough_ = false; }

@@ -6,6 +6,7 @@
 #include "core/without_exceptions.h"
 #include "document/label_segments.h"
 #include "engine/case_runner.h"
+#include "engine/case_sweep.h"
 #include "engine/lock_step.h"
 
 namespace tidemark::engine {
@@ -15,6 +16,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
     : engine_(engine),
       study_(std::move(study)),
       weak_receiver_(WeakReceiver::of(this)),
+      sweep_(std::make_unique<CaseSweep>(*this)),
       wanted_parameters_(restored.contents ? restored.contents->recipe.final_parameters()
                                            : study_->parameters) {
   state_.parameters = wanted_parameters_;
@@ -282,6 +284,23 @@ void CaseProxy::mark_saved(const Snapshot& snapshot) {
   post([position = snapshot.position](CaseRunner& runner, const Progress&) -> Status {
     runner.mark_saved(position);
     return {};
+  });
+}
+
+void CaseProxy::prepare_sweep(std::function<void(const Result<document::SweepStart>&)> answer) {
+  post([answer = std::move(answer), weak_receiver = weak_receiver_](CaseRunner& runner,
+                                                                    const Progress&) -> Status {
+    auto start = without_exceptions([&] { return runner.document().level_set().sweep_start(); });
+    weak_receiver->send([answer, start = std::move(start)] { answer(start); });
+    return {};
+  });
+}
+
+void CaseProxy::take_run(std::shared_ptr<const document::SweepStart> start, const document::SweepRun& run) {
+  document::SweepRun taken = run;
+  taken.inside = {};
+  post([start = std::move(start), taken](CaseRunner& runner, const Progress& progress) {
+    return runner.take_run(*start, taken, progress);
   });
 }
 

@@ -14,6 +14,7 @@
 #include "document/case.h"
 #include "document/drive.h"
 #include "document/session_contents.h"
+#include "document/sweep.h"
 #include "engine/case_state.h"
 #include "engine/display.h"
 #include "engine/engine.h"
@@ -29,6 +30,7 @@ struct Segments;
 namespace tidemark::engine {
 
 class CaseRunner;
+class CaseSweep;
 class LockStep;
 class WeakReceiver;
 
@@ -124,6 +126,12 @@ class CaseProxy : public QObject {
   // A session file holds the snapshot of that position.
   void mark_saved(const Snapshot& snapshot);
 
+  // For runs of a sweep from the case's start; the answer comes as pick()'s does.
+  void prepare_sweep(std::function<void(const Result<document::SweepStart>&)> answer);
+  // The case becomes that run, computed again by its own executor.
+  void take_run(std::shared_ptr<const document::SweepStart> start, const document::SweepRun& run);
+  [[nodiscard]] CaseSweep& sweep() { return *sweep_; }
+
   // Plays cases together, always at the same step; in no group any more when there are none.
   static void play_in_lock_step(const std::vector<CaseProxy*>& proxies);
   void leave_lock_step();
@@ -152,6 +160,7 @@ class CaseProxy : public QObject {
   std::shared_ptr<WeakReceiver> weak_receiver_;
   std::shared_ptr<CaseRunner> runner_;
   std::shared_ptr<LockStep> lock_step_;
+  std::unique_ptr<CaseSweep> sweep_;
   CaseState state_;
   solver::Parameters wanted_parameters_;
   document::Drive wanted_drive_;

@@ -163,6 +163,15 @@ Status CaseRunner::accept_surface(std::uint8_t label, document::Take take) {
   return report_labels({});
 }
 
+// It rests where the run did: what has become of it is known at once.
+Status CaseRunner::take_run(const document::SweepStart& start, const document::SweepRun& run,
+                            const Progress& progress) {
+  set_playing(false);
+  Status taken = report_edit(case_->level_set().take_run(start, run, progress));
+  if (taken) meter_.set_converged(run.converged);
+  return taken;
+}
+
 // What drives the surface.
 
 void CaseRunner::follow_drive() {

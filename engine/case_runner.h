@@ -54,6 +54,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   Status smooth_source(double sigma_mm);  // in the background
   Status undo();
   Status accept_surface(std::uint8_t label, document::Take take);
+  Status take_run(const document::SweepStart& start, const document::SweepRun& run, const Progress& progress);
 
   [[nodiscard]] bool playing() const { return playing_; }
   // For all cases in lock-step with this one: playing, and single steps with a pause after them.

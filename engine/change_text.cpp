@@ -28,6 +28,8 @@ QString change_text(const document::ChangeDescription& change) {
       return tr("%1 steps back").arg(change.steps);
     case document::ChangeKind::restart:
       return tr("restart");
+    case document::ChangeKind::sweep:
+      return tr("run of a sweep, %1 steps").arg(change.steps);
     case document::ChangeKind::source:
       return tr("smoothing of the source");
     case document::ChangeKind::examples:

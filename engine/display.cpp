@@ -39,4 +39,10 @@ void Display::set_drawn_marks(std::optional<DrawnMarks> drawn) {
   emit pointer_moved();
 }
 
+void Display::set_agreement(std::optional<ShownImage> agreement) {
+  if (agreement_ == agreement) return;
+  agreement_ = std::move(agreement);
+  emit changed();
+}
+
 }  // namespace tidemark::engine

@@ -122,6 +122,9 @@ class Display : public QObject {
   // So are marks.
   [[nodiscard]] const std::optional<DrawnMarks>& drawn_marks() const { return drawn_marks_; }
   void set_drawn_marks(std::optional<DrawnMarks> drawn);
+  // What the runs of a sweep agree on, over the slices and all images; it is not saved.
+  [[nodiscard]] const std::optional<ShownImage>& agreement() const { return agreement_; }
+  void set_agreement(std::optional<ShownImage> agreement);
 
  signals:
   void changed();
@@ -132,6 +135,7 @@ class Display : public QObject {
   std::optional<glm::dvec3> pointer_mm_;
   std::optional<DrawnSphere> drawn_sphere_;
   std::optional<DrawnMarks> drawn_marks_;
+  std::optional<ShownImage> agreement_;
 };
 
 }  // namespace tidemark::engine

@@ -11,7 +11,8 @@ namespace tidemark::engine {
 
 struct LoadedStudy;
 
-enum class ImageColours { grey, inverted, hot, cool };
+// heat: the colours of a sweep (document/sweep_picture.h), which no user chooses.
+enum class ImageColours { grey, inverted, hot, cool, heat };
 
 struct ShownImage {
   std::shared_ptr<const document::CaseImage> image;

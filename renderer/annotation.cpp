@@ -15,7 +15,40 @@ struct Stroke {
   glm::dvec2 from, to;
 };
 
-// A glyph's strokes on a grid of 4 x 6, y downward: polylines of points "xy", parted by spaces.
+// Strokes of a glyph on a grid of 4 x 6, y downward: polylines of points "xy", parted by spaces. Small
+// letters begin at y = 2, and some go down to y = 8.
+std::string_view small_letter(char letter) {
+  constexpr std::string_view kLetters[] = {
+      "4332120305163645 4246",      // a
+      "0006 0312324345361605",      // b
+      "421203051646",               // c
+      "4332120305163645 4046",      // d
+      "044443321203051646",         // e
+      "40302126 0242",              // f
+      "4332120305163645 42473818",  // g
+      "0006 0312324346",            // h
+      "2226 2021",                  // i
+      "32371808 3031",              // j
+      "0006 4204 2346",             // k
+      "2026",                       // l
+      "0206 03122326 23324346",     // m
+      "0206 0312324346",            // n
+      "123243453616050312",         // o
+      "0208 0312324345361605",      // p
+      "4332120305163645 4248",      // q
+      "0206 03123242",              // r
+      "4212031434453606",           // s
+      "20253646 0242",              // t
+      "0205163645 4246",            // u
+      "022642",                     // v
+      "0216233642",                 // w
+      "0246 4206",                  // x
+      "0226 4218",                  // y
+      "02420646",                   // z
+  };
+  return kLetters[letter - 'a'];
+}
+
 std::string_view glyph(char letter) {
   switch (letter) {
     case 'A':
@@ -52,12 +85,12 @@ std::string_view glyph(char letter) {
       return "431302011030414536";
     case '.':
       return "2526";
-    case 'c':
-      return "421203051646";
-    case 'm':
-      return "0206 03122326 23324346";
+    case '-':
+      return "1434";
+    case '=':
+      return "0343 0545";
     default:
-      return "";
+      return letter >= 'a' && letter <= 'z' ? small_letter(letter) : "";
   }
 }
 

@@ -136,6 +136,10 @@ Status Outputs::announce_dicom(const std::string& option, const std::filesystem:
   return announce_suffix(option, file, ".dcm");
 }
 
+Status Outputs::announce_csv(const std::string& option, const std::filesystem::path& file) {
+  return announce_suffix(option, file, ".csv");
+}
+
 Status Outputs::spare(const std::filesystem::path& input) const {
   const std::filesystem::path whole = whole_path(input);
   if (std::find(files_.begin(), files_.end(), whole) == files_.end()) return {};

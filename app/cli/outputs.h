@@ -25,6 +25,7 @@ class Outputs {
   Status announce_png(const std::string& option, const std::filesystem::path& file);
   Status announce_gif(const std::string& option, const std::filesystem::path& file);
   Status announce_dicom(const std::string& option, const std::filesystem::path& file);
+  Status announce_csv(const std::string& option, const std::filesystem::path& file);
 
   // Fails (ErrorKind::usage) when an announced file is this input: inputs are never written to.
   [[nodiscard]] Status spare(const std::filesystem::path& input) const;

@@ -59,6 +59,7 @@ class HelpFormatter : public CLI::Formatter {
 void add_all(CLI::App& app, Program& program) {
   add_info(app, program);
   add_segment(app, program);
+  add_sweep(app, program);
   add_replay(app, program);
   add_distance(app, program);
   add_convert(app, program);

@@ -34,6 +34,7 @@ CLI::App& add_command(CLI::App& app, Program& program, const CommandHelp& help, 
 
 void add_info(CLI::App& app, Program& program);
 void add_segment(CLI::App& app, Program& program);
+void add_sweep(CLI::App& app, Program& program);
 void add_replay(CLI::App& app, Program& program);
 void add_distance(CLI::App& app, Program& program);
 void add_convert(CLI::App& app, Program& program);

@@ -40,7 +40,6 @@ void add_run_options(CLI::App& app, SegmentOptions& options) {
   app.add_flag("--converge", options.converge, "Compute until the surface has stopped moving (default)");
   add_count(app, "--max-steps", options.max_steps,
             "With --converge: stop after N steps at the latest (default: 5000)");
-  add_solver_options(app, options.solver);
 }
 
 void add_comparison_options(CLI::App& app, SegmentOptions& options) {
@@ -90,6 +89,21 @@ Status check_numbers(const SegmentOptions& options) {
   return check(filled.parameters());
 }
 
+// All but the executor and the results.
+void add_common_options(CLI::App& app, SegmentOptions& options) {
+  add_study_input(app, options.study);
+  app.add_flag("--auto-start", options.auto_start,
+               "Choose what is not given of seed, target, range and alpha from the volume itself:\nan even, "
+               "bright region "
+               "near the middle; says what it chose");
+  add_equation_options(app, options);
+  add_drive_options(app, options.drive);
+  add_within_option(app, options.drive);
+  add_start_options(app, options.start);
+  add_run_options(app, options);
+  add_comparison_options(app, options);
+}
+
 }  // namespace
 
 std::int64_t SegmentOptions::step_limit() const {
@@ -112,18 +126,14 @@ solver::Parameters SegmentOptions::parameters() const {
 }
 
 void add_segment_options(CLI::App& app, SegmentOptions& options) {
-  add_study_input(app, options.study);
-  app.add_flag("--auto-start", options.auto_start,
-               "Choose what is not given of seed, target, range and alpha from the volume itself:\nan even, "
-               "bright region "
-               "near the middle; says what it chose");
-  add_equation_options(app, options);
-  add_drive_options(app, options.drive);
-  add_within_option(app, options.drive);
-  add_start_options(app, options.start);
-  add_run_options(app, options);
+  add_common_options(app, options);
+  add_solver_options(app, options.solver);
   add_result_options(app, options.results);
-  add_comparison_options(app, options);
+}
+
+void add_sweep_options(CLI::App& app, SegmentOptions& options) {
+  add_common_options(app, options);
+  add_host_options(app, options.solver);
 }
 
 Status check(const SegmentOptions& options) {

@@ -41,6 +41,8 @@ struct SegmentOptions {
 };
 
 void add_segment_options(CLI::App& app, SegmentOptions& options);
+// The same without the choice of an executor, and without results: of commands with many runs.
+void add_sweep_options(CLI::App& app, SegmentOptions& options);
 
 // All checks that need no file, but for the results.
 Status check(const SegmentOptions& options);

@@ -35,6 +35,10 @@ void add_solver_options(CLI::App& app, SolverOptions& options, const std::string
          "compute on a GPU, else host (default: " +
              otherwise + ")")
       ->type_name("auto|host|compute|stream");
+  add_host_options(app, options);
+}
+
+void add_host_options(CLI::App& app, SolverOptions& options) {
   add_count(app, "--threads", options.threads, "Threads of the host executor (default: all processors)");
   add_count(app, "--memory-budget", options.memory_budget_mb,
             "Most memory for the solver, in MB (default: half of what this process may use, by machine or\n"

@@ -24,6 +24,9 @@ struct SolverOptions {
 // --executor, --threads, --memory-budget and --no-skip; `otherwise` names the executor without --executor.
 void add_solver_options(CLI::App& app, SolverOptions& options, const std::string& otherwise = "auto");
 
+// The last three of them alone: where the host executor computes anyway.
+void add_host_options(CLI::App& app, SolverOptions& options);
+
 // How many threads that executor computes with.
 [[nodiscard]] int threads_of(const SolverOptions& options, std::string_view executor);
 

@@ -137,6 +137,8 @@ void CliInterruptTest::every_command_ends_within_a_second_data() {
   row("bench");
   const QStringList endless = QString("--steps 900000000 --no-skip").split(' ');
   QTest::newRow("segment") << sphere_.arguments() + endless + QStringList{"--out", "OUT/mask.nii.gz"};
+  QTest::newRow("sweep") << QStringList{"sweep"} + sphere_.arguments().mid(1) + endless +
+                                QStringList{"--over", "alpha=0.3:0.9:3", "--out", "OUT/sweep"};
   row("replay RECIPE SERIES --no-skip --threads 1 --out OUT/mask.nii.gz");
   row("render SERIES --size 2048x2048 --view 3d --preset ct-bone --out OUT/picture.png");
 }

@@ -42,7 +42,7 @@ void CliUsageTest::initTestCase() {
 void CliUsageTest::help_names_units_and_an_example_data() {
   QTest::addColumn<QString>("command");
   for (const char* command :
-       {"info", "segment", "replay", "distance", "convert", "render", "phantom", "bench"}) {
+       {"info", "segment", "sweep", "replay", "distance", "convert", "render", "phantom", "bench"}) {
     QTest::newRow(command) << command;
   }
 }
@@ -60,7 +60,8 @@ void CliUsageTest::help_names_units_and_an_example() {
 
 void CliUsageTest::help_says_how_a_series_is_named_data() {
   QTest::addColumn<QString>("command");
-  for (const char* command : {"segment", "replay", "convert", "render"}) QTest::newRow(command) << command;
+  for (const char* command : {"segment", "sweep", "replay", "convert", "render"})
+    QTest::newRow(command) << command;
 }
 
 void CliUsageTest::help_says_how_a_series_is_named() {

@@ -12,6 +12,7 @@
 #include "ui/panels/level_set_panel.h"
 #include "ui/panels/paint_panel.h"
 #include "ui/panels/statistics_panel.h"
+#include "ui/panels/sweep_panel.h"
 #include "ui/panels/value_unit.h"
 #include "ui/transfer/transfer_function_editor.h"
 
@@ -43,8 +44,9 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
   auto* labels = new LabelsPanel;
   auto* statistics = new StatisticsPanel;
   statistics->set_export_action(actions.export_statistics);
+  auto* sweep = new SweepPanel;
   transfer_ = new TransferFunctionEditor;
-  panels_ = {level_set, initialise, paint, display, labels, statistics};
+  panels_ = {level_set, initialise, paint, display, labels, statistics, sweep};
   // One column with its tabs at the side: the views keep the room. The editor scrolls its parts itself.
   const QList<QDockWidget*> docks{add("initialise", tr("Place surface"), scrolled(initialise)),
                                   add("level-set", tr("Level set"), scrolled(level_set)),
@@ -52,7 +54,8 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
                                   add("display", tr("Display"), scrolled(display)),
                                   add("transfer", tr("Transfer"), transfer_),
                                   add("labels", tr("Labels"), scrolled(labels)),
-                                  add("statistics", tr("Statistics"), scrolled(statistics))};
+                                  add("statistics", tr("Statistics"), scrolled(statistics)),
+                                  add("sweep", tr("Sweep"), scrolled(sweep))};
   for (qsizetype next = 1; next < docks.size(); ++next)
     window_.tabifyDockWidget(docks[next - 1], docks[next]);
   window_.setTabPosition(Qt::RightDockWidgetArea, QTabWidget::East);

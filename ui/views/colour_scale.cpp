@@ -4,6 +4,7 @@
 #include <QLinearGradient>
 #include <algorithm>
 
+#include "document/sweep_picture.h"
 #include "ui/views/overlay.h"
 #include "ui/widgets/number_text.h"
 
@@ -35,6 +36,18 @@ ColourScale scale_of_change(double within_mm) {
           text(QT_TRANSLATE_NOOP("View", "Change")),
           QCoreApplication::translate("View", "−%1 mm removed").arg(far),
           QCoreApplication::translate("View", "added +%1 mm").arg(far)};
+}
+
+ColourScale scale_of_agreement(double runs) {
+  const auto colour_at = [](double share) {
+    const auto [red, green, blue] = document::heat_colour(share);
+    return QColor(red, green, blue);
+  };
+  QList<QColor> colours;
+  constexpr int kSteps = 5;
+  for (int i = 0; i <= kSteps; ++i) colours << colour_at(static_cast<double>(i) / kSteps);
+  return {colours, text(QT_TRANSLATE_NOOP("View", "Inside in so many runs")), QStringLiteral("1"),
+          number_text(runs, 0)};
 }
 
 void paint_colour_scale(QPainter& painter, QSizeF size, const ColourScale& scale) {

@@ -18,6 +18,8 @@ struct ColourScale {
 // As resources/shaders/render/colours.glsl has them.
 ColourScale scale_of_doubt();
 ColourScale scale_of_change(double within_mm);
+// Of a sweep of that many runs.
+ColourScale scale_of_agreement(double runs);
 
 // Above the scale bar at the lower right.
 void paint_colour_scale(QPainter& painter, QSizeF size, const ColourScale& scale);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "document/sweep_picture.h"
 #include "imaging/resample.h"
 
 namespace tidemark::ui {
@@ -24,7 +25,7 @@ using Shades = std::array<QRgb, kShades>;
 
 Shades shades_of(const engine::ShownImage& image) {
   const bool fades =
-      image.colours == engine::ImageColours::hot || image.colours == engine::ImageColours::cool;
+      image.colours != engine::ImageColours::grey && image.colours != engine::ImageColours::inverted;
   Shades shades{};
   for (int n = 0; n < kShades; ++n) {
     const double part = static_cast<double>(n) / (kShades - 1);
@@ -104,6 +105,10 @@ QRgb colour_of(engine::ImageColours colours, double part) {
       return qRgb(level(3.0 * part), level(3.0 * part - 1.0), level(3.0 * part - 2.0));
     case engine::ImageColours::cool:  // black, blue, cyan, white
       return qRgb(level(3.0 * part - 2.0), level(3.0 * part - 1.0), level(3.0 * part));
+    case engine::ImageColours::heat: {
+      const auto [red, green, blue] = document::heat_colour(part);
+      return qRgb(red, green, blue);
+    }
     case engine::ImageColours::grey:
       break;
   }

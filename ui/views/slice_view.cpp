@@ -145,7 +145,9 @@ renderer::SliceView SliceViewWidget::slice() const {
 renderer::SliceView SliceViewWidget::fused_slice() const {
   renderer::SliceView view = slice();
   if (content_ != renderer::SliceContent::source) return view;
-  images_.ask(settings().images, view, screen(), size());
+  std::vector<engine::ShownImage> over = settings().images;
+  if (const auto& agreement = display().agreement()) over.push_back(*agreement);
+  images_.ask(over, view, screen(), size());
   const auto& newest = images_.newest();
   if (newest && newest->size == size() && newest->slice.orientation == view.orientation) {
     view.position_mm = newest->slice.position_mm;
@@ -267,6 +269,9 @@ void SliceViewWidget::paint_overlay(QPainter& painter) {
 }
 
 void SliceViewWidget::paint_legend(QPainter& painter) const {
+  const auto& agreement = display().agreement();
+  if (content_ == renderer::SliceContent::source && agreement)
+    return paint_colour_scale(painter, size(), scale_of_agreement(agreement->window.width));
   if (content_ == renderer::SliceContent::source && settings().change && proxy().state().limit)
     return paint_colour_scale(painter, size(), scale_of_change(proxy().state().limit->within_mm()));
   if (content_ != renderer::SliceContent::speed || settings().speed_term != renderer::SpeedTerm::doubt)

@@ -17,6 +17,7 @@
 #include "ui/panels/paint_panel.h"
 #include "ui/panels/speed_plot.h"
 #include "ui/panels/statistics_panel.h"
+#include "ui/panels/sweep_panel.h"
 
 namespace tidemark {
 
@@ -108,6 +109,7 @@ class EveryPanelTest : public QObject {
     add("display", [] { return std::make_unique<ui::DisplayPanel>(); });
     add("labels", [] { return std::make_unique<ui::LabelsPanel>(); });
     add("statistics", [] { return std::make_unique<ui::StatisticsPanel>(); });
+    add("sweep", [] { return std::make_unique<ui::SweepPanel>(); });
   }
   static std::unique_ptr<ui::Panel> made() {
     QFETCH(MakePanel, make);

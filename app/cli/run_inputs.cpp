@@ -1,0 +1,177 @@
+#include "app/cli/run_inputs.h"
+
+#include "document/checksum.h"
+#include "imaging/filters/filters.h"
+#include "imaging/filters/suggest_start.h"
+#include "imaging/load_study.h"
+#include "imaging/onto_grid.h"
+#include "solver/model.h"
+
+namespace tidemark::cli {
+namespace {
+
+std::string count_of(const Geometry& geometry) {
+  return fmt::format("{} x {} x {} voxels of {:.4g} x {:.4g} x {:.4g} mm", geometry.size.x, geometry.size.y,
+                     geometry.size.z, geometry.spacing_mm.x, geometry.spacing_mm.y, geometry.spacing_mm.z);
+}
+
+class Inputs {
+ public:
+  Inputs(SegmentOptions& options, bool wants_checksum, Console& console, RunResults& results)
+      : options_(options), wants_checksum_(wants_checksum), console_(console), results_(results) {}
+
+  Result<std::optional<Mask>> read();
+
+ private:
+  Status load();
+  Status load_truth();
+  Status load_true_segments();
+  Status suggest();
+  Status make_recipe();
+
+  SegmentOptions& options_;
+  bool wants_checksum_;
+  Console& console_;
+  RunResults& results_;
+  std::optional<Mask> truth_;
+};
+
+Result<std::optional<Mask>> Inputs::read() {
+  for (const auto step : {&Inputs::load, &Inputs::load_truth, &Inputs::suggest, &Inputs::make_recipe}) {
+    TIDEMARK_TRY((this->*step)());
+    if (console_.interrupted()) return cancelled_error();
+  }
+  return std::move(truth_);
+}
+
+Status Inputs::load() {
+  auto study = load_study(options_.study, console_.progress());
+  if (!study) return pass_on(study);
+  results_.dicom_files = imaging::dicom_files_of(study->series);
+  results_.archive = study->series.archive;
+  Result<Volume> volume = std::move(study->volume);
+  TIDEMARK_TRY(check_inside(options_.start, volume->geometry));
+  RunFigures& figures = results_.figures;
+  figures.geometry = volume->geometry;
+  figures.modality = volume->modality;
+  figures.unit = volume->unit;
+  figures.description = volume->description;
+  figures.series_uid = study->series.uid;
+  figures.changes = volume->changes;
+  figures.smooth_mm = options_.smooth_mm;
+  console_.say("Loaded     {}{}{}, {}", volume->modality, volume->modality.empty() ? "" : ": ",
+               count_of(volume->geometry), volume->scalar_name());
+  for (const std::string& change : volume->changes) console_.say("           {}", change);
+  document::Recipe& recipe = results_.recipe;
+  recipe.source = {
+      volume->geometry.size, volume->geometry.spacing_mm, options_.study.series, {}, study->series.policy};
+  if (wants_checksum_) recipe.source.checksum = document::checksum_of(*volume);
+  if (options_.smooth_mm) {
+    console_.log("smoothing by {} mm", *options_.smooth_mm);
+    volume = imaging::smooth(*volume, *options_.smooth_mm);
+    if (!volume) return pass_on(volume);
+  }
+  results_.source = std::make_shared<const Volume>(std::move(*volume));
+  return {};
+}
+
+Status Inputs::load_truth() {
+  if (!options_.truth) return {};
+  if (imaging::result_form_of(*options_.truth)) return load_true_segments();
+  auto labels = imaging::load_volume(*options_.truth, {}, console_.progress());
+  if (!labels) return pass_on(labels);
+  Mask mask{labels->geometry,
+            std::vector<std::uint8_t>(static_cast<std::size_t>(labels->geometry.voxel_count()))};
+  for (std::int64_t offset = 0; offset < labels->geometry.voxel_count(); ++offset) {
+    const float value = labels->value(offset);
+    const bool inside =
+        options_.truth_label ? value == static_cast<float>(*options_.truth_label) : value != 0.0F;
+    mask.voxels[static_cast<std::size_t>(offset)] = inside ? 1 : 0;
+  }
+  auto aligned = imaging::onto_grid(std::move(mask), results_.source->geometry, *options_.truth);
+  if (!aligned) return pass_on(aligned);
+  truth_ = std::move(*aligned);
+  return {};
+}
+
+// Of a DICOM segmentation or structure set: all segments, or the one of that number.
+Status Inputs::load_true_segments() {
+  auto segments = imaging::read_result(*options_.truth, &results_.source->geometry);
+  if (!segments) return pass_on(segments);
+  if (options_.truth_label) {
+    const auto count = static_cast<std::int64_t>(segments->list.size());
+    if (*options_.truth_label < 1 || *options_.truth_label > count) {
+      return fail(ErrorKind::usage, "--truth-label {}: {} has the segments 1 to {}", *options_.truth_label,
+                  *options_.truth, count);
+    }
+    segments->list = {segments->list[static_cast<std::size_t>(*options_.truth_label - 1)]};
+  }
+  truth_ = imaging::union_of(*segments);
+  return {};
+}
+
+// Fills in the options that the user has left out.
+Status Inputs::suggest() {
+  if (!options_.auto_start) return {};
+  const bool needs_seed = !options_.start.given();
+  const bool tent = options_.drive.uses_tent();
+  if (!needs_seed && (!tent || (options_.target && options_.range)) && options_.alpha) return {};
+  std::optional<Index3> looked_at;
+  if (!options_.start.seeds.empty()) {
+    const auto sphere = options_.start.seeds.front().resolve(results_.source->geometry);
+    if (!sphere) return tl::unexpected<Error>(sphere.error());
+    const glm::dvec3 voxel = results_.source->geometry.to_voxel(sphere->centre_mm);
+    looked_at = glm::clamp(Index3(glm::round(voxel)), Index3(0), results_.source->geometry.size - Index3(1));
+  }
+  const auto found = imaging::suggest_start(*results_.source, looked_at, console_.progress());
+  if (console_.interrupted()) return cancelled_error();
+  if (!found) return fail(found.error().kind, "--auto-start: {}", found.error().message);
+  if (needs_seed) {
+    const std::string text =
+        fmt::format("{},{},{},{:.4g}", found->voxel.x, found->voxel.y, found->voxel.z, found->radius_mm);
+    options_.start.seeds.push_back({"--seed " + text, glm::dvec3(found->voxel), true, found->radius_mm});
+    console_.say("Chose      --seed {}", text);
+  }
+  const auto fill = [&](const char* name, std::optional<double>& value, double suggestion) {
+    if (value) return;
+    value = suggestion;
+    console_.say("Chose      {} {:.6g}", name, suggestion);
+  };
+  if (tent) {
+    fill("--target", options_.target, found->target);
+    fill("--range", options_.range, found->range);
+  }
+  fill("--alpha", options_.alpha, found->alpha);
+  return {};
+}
+
+// All that the run does.
+Status Inputs::make_recipe() {
+  document::Recipe& recipe = results_.recipe;
+  const Geometry& grid = results_.source->geometry;
+  recipe.parameters = options_.parameters();
+  recipe.steps = options_.step_limit();
+  const double band = recipe.parameters.band.value_or(solver::default_band(grid));
+  auto start = make_start(options_.start, grid, static_cast<float>(band), console_);  // as executors round it
+  if (!start) return pass_on(start);
+  recipe.start = std::move(*start);
+  if (options_.drive.within_mm) {
+    auto refined =
+        limited(std::get<document::MaskStart>(std::move(recipe.start.from)), *options_.drive.within_mm);
+    if (!refined) return pass_on(refined);
+    recipe.start.from = std::move(*refined);
+  }
+  auto drive = make_drive(options_.drive, grid, console_);
+  if (!drive) return pass_on(drive);
+  recipe.drive = std::move(*drive);
+  return {};
+}
+
+}  // namespace
+
+Result<std::optional<Mask>> read_inputs(SegmentOptions& options, bool wants_checksum, Console& console,
+                                        RunResults& results) {
+  return Inputs(options, wants_checksum, console, results).read();
+}
+
+}  // namespace tidemark::cli

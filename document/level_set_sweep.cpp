@@ -1,0 +1,49 @@
+// A level set as the start of a sweep, and what one of its runs has become.
+#include <cstdlib>
+#include <utility>
+
+#include "document/level_set.h"
+
+namespace tidemark::document {
+
+Result<SweepStart> LevelSet::sweep_start() {
+  if (!begun()) return fail(ErrorKind::usage, "there is no surface yet: a start is needed");
+  if (start_ == nullptr) {
+    TIDEMARK_TRY(history_.close());
+    if (const auto point = start_point(); !point) return tl::unexpected<Error>(point.error());
+  }
+  if (step() == 0) {
+    TIDEMARK_TRY(read_back_phi());  // painted before the first step
+  }
+  return SweepStart{source(),     start_,         recipe_.start.limit(),
+                    parameters(), setup_.drive(), setup_.lacks_speed() ? nullptr : executor().speed()};
+}
+
+Status LevelSet::take_run(const SweepStart& start, const SweepRun& run, const Progress& progress) {
+  TIDEMARK_TRY(history_.close());
+  if (start.phi != start_ || start.source != source()) {
+    return fail(ErrorKind::usage, "the surface began in another way since the sweep: sweep again");
+  }
+  auto point = start_point();
+  if (!point) return pass_on(point);
+  const Point before = known_;
+  point->recipe.parameters = run.parameters;
+  point->recipe.drive = run.drive == nullptr ? start.drive : run.drive;
+  TIDEMARK_TRY(go_to(std::move(*point)));
+  Status computed = setup_.play(recipe_, recipe_.events.size(), 0, run.steps, progress);
+  if (computed) {
+    recipe_.steps = run.steps;
+    take_drive_of_recipe();
+    resumed_ = false;
+    dirty_ = true;
+    computed = read_back_phi();
+  }
+  if (!computed) {
+    TIDEMARK_TRY(go_to(before));
+    return computed;
+  }
+  add_entry(ChangeKind::sweep, before, known_);
+  return {};
+}
+
+}  // namespace tidemark::document
