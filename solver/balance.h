@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "core/volume.h"
@@ -76,7 +77,9 @@ class PlaceBalance {
   std::vector<Corner> corners_;
 };
 
-// D of a voxel, with the inputs' parameters where the tent is meant.
-[[nodiscard]] double speed_at(const StepInputs& inputs, Index3 voxel);
+// The place on the surface where the pushes' sum is largest by size, in voxel coordinates; the surface is
+// looked at every two smallest spacings. None without a surface.
+[[nodiscard]] std::optional<glm::dvec3> fastest_place(const StepInputs& inputs,
+                                                      const std::stop_token& stop = {});
 
 }  // namespace tidemark::solver

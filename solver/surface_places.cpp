@@ -17,6 +17,18 @@ bool is_inside(float phi) {
   return phi > 0.0F;
 }
 
+// Per voxel of each axis.
+glm::dvec3 gradient_at(const Field& phi, glm::dvec3 place) {
+  constexpr double kHalf = 0.5;
+  glm::dvec3 gradient(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 step(0.0);
+    step[axis] = kHalf;
+    gradient[axis] = phi_at(phi, place + step) - phi_at(phi, place - step);
+  }
+  return gradient;
+}
+
 // Keeps the first place in each cube.
 class Thinned {
  public:
@@ -78,17 +90,17 @@ std::optional<glm::dvec3> surface_along(const Field& phi, glm::dvec3 place, glm:
   return std::nullopt;
 }
 
-std::optional<glm::dvec3> surface_near(const Field& phi, glm::dvec3 place) {
-  constexpr double kHalf = 0.5;
-  glm::dvec3 gradient(0.0);  // per voxel of each axis
-  for (int axis = 0; axis < 3; ++axis) {
-    glm::dvec3 step(0.0);
-    step[axis] = kHalf;
-    gradient[axis] = phi_at(phi, place + step) - phi_at(phi, place - step);
+std::optional<glm::dvec3> surface_near(const Field& phi, glm::dvec3 place, double reach) {
+  const glm::dvec3 gradient = gradient_at(phi, place);
+  if (const double length = glm::length(gradient); length > 0.0)
+    return surface_along(phi, place, gradient / length, reach);
+  std::optional<glm::dvec3> nearest;
+  for (int code = 14; code < 27; ++code) {  // one of each pair of opposite ways
+    const glm::dvec3 way(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+    const auto found = surface_along(phi, place, glm::normalize(way), reach);
+    if (found && (!nearest || glm::distance(*found, place) < glm::distance(*nearest, place))) nearest = found;
   }
-  const double length = glm::length(gradient);
-  if (length == 0.0) return std::nullopt;
-  return surface_along(phi, place, gradient / length, phi.band + 1.0);
+  return nearest;
 }
 
 std::vector<glm::dvec3> surface_places(const Field& phi, const std::optional<PlaneSlab>& slab, double side_mm,

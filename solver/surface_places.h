@@ -18,8 +18,9 @@ namespace tidemark::solver {
 // `reach` lengths of it away.
 [[nodiscard]] std::optional<glm::dvec3> surface_along(const Field& phi, glm::dvec3 place, glm::dvec3 way,
                                                       double reach);
-// The place that walks down the gradient of phi reach from one in the band.
-[[nodiscard]] std::optional<glm::dvec3> surface_near(const Field& phi, glm::dvec3 place);
+// The place on the surface nearest to one that is at most `reach` voxels away: along the gradient of phi in
+// the band, else along the axes and diagonals of the grid.
+[[nodiscard]] std::optional<glm::dvec3> surface_near(const Field& phi, glm::dvec3 place, double reach);
 
 // The part of the patient that is no farther than `reach_mm` from the plane normal . p = offset_mm (LPS).
 struct PlaneSlab {

@@ -10,7 +10,7 @@
 #include "solver/speed/advection-inl.h"
 #include "solver/speed/curvature-inl.h"
 #include "solver/speed/rescaling-inl.h"
-#include "solver/speed/tent_speed.h"
+#include "solver/surface_places.h"
 #include "solver/voxel_values.h"
 
 namespace tidemark::solver {
@@ -29,6 +29,13 @@ StepConstants<double> constants_of(const StepInputs& inputs, Parameters paramete
   auto constants = Model(inputs.phi->geometry, parameters, UnitSpeed()).constants<double>();
   constants.time_step = inputs.time_step;
   return constants;
+}
+
+double speed_at(const StepInputs& inputs, Index3 voxel) {
+  if (inputs.speed == nullptr) return data_speed(inputs.parameters, inputs.source->value(voxel));
+  double speed = 0.0;
+  inputs.speed->evaluate({voxel, Index3(1)}, &speed);
+  return speed;
 }
 
 // Where the continuous `f` is `wanted` between `near` and `far`, found by halving.
@@ -62,13 +69,6 @@ struct PlaceBalance::Corner {
   double advection = 0.0;  // per unit of time
   Constraint constraint = Constraint::none;
 };
-
-double speed_at(const StepInputs& inputs, Index3 voxel) {
-  if (inputs.speed == nullptr) return data_speed(inputs.parameters, inputs.source->value(voxel));
-  double speed = 0.0;
-  inputs.speed->evaluate({voxel, Index3(1)}, &speed);
-  return speed;
-}
 
 PlaceBalance::PlaceBalance(const StepInputs& inputs, glm::dvec3 place) : inputs_(inputs) {
   const Field& phi = *inputs_.phi;
@@ -178,6 +178,21 @@ std::optional<double> PlaceBalance::range_for(double sum) const {
     return sum_with(parameters);
   };
   return nearest_crossing(sum_at, sum, inputs_.parameters.range, kMinimumRange, kWide * farthest);
+}
+
+std::optional<glm::dvec3> fastest_place(const StepInputs& inputs, const std::stop_token& stop) {
+  const glm::dvec3 spacing = inputs.phi->geometry.spacing_mm;
+  const double side_mm = 2.0 * std::min({spacing.x, spacing.y, spacing.z});
+  std::optional<glm::dvec3> fastest;
+  double most = -1.0;
+  for (const glm::dvec3& place : surface_places(*inputs.phi, std::nullopt, side_mm, stop)) {
+    if (stop.stop_requested()) return std::nullopt;
+    const double moves = std::abs(PlaceBalance(inputs, place).balance().pushes.sum());
+    if (moves <= most) continue;
+    most = moves;
+    fastest = place;
+  }
+  return fastest;
 }
 
 }  // namespace tidemark::solver

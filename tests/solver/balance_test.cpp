@@ -208,6 +208,24 @@ class BalanceTest : public QObject {
     QVERIFY(!solver::PlaceBalance(scene.inputs, place_on_ball(8.0)).range_for(0.0));
   }
 
+  // The data pushes outward at one end alone.
+  void the_place_that_moves_most_is_found() {
+    solver::Parameters parameters;
+    parameters.alpha = 1.0;
+    parameters.range = 100.0;
+    Scene scene = ball(9.0, parameters);
+    scene.source =
+        volume_of(scene.source->geometry, [](glm::dvec3 p) { return 100.0 - std::max(0.0, p.z - 20.0); });
+    scene.inputs.source = scene.source;
+    const auto place = solver::fastest_place(scene.inputs);
+    QVERIFY(place);
+    QVERIFY2(glm::distance(*place, glm::dvec3(19.5, 19.5, 28.5)) < 2.0,
+             qPrintable(QString::number(place->z)));
+    scene.inputs.phi = std::make_shared<const solver::Field>(
+        solver::Field::empty(scene.source->geometry, scene.inputs.phi->band));
+    QVERIFY(!solver::fastest_place(scene.inputs));
+  }
+
   void places_lie_on_the_surface_and_in_the_slab() {
     const Scene scene = ball(9.0, {});
     const solver::PlaneSlab slab{{0.0, 0.0, 1.0}, 19.0, 0.5};
@@ -222,9 +240,11 @@ class BalanceTest : public QObject {
     const Scene scene = ball(9.0, {});
     const glm::dvec3 middle(19.5);
     const glm::dvec3 way = glm::normalize(glm::dvec3(1.0, 0.5, 0.25));
-    const auto near = solver::surface_near(*scene.inputs.phi, middle + 10.5 * way);
+    const auto near = solver::surface_near(*scene.inputs.phi, middle + 10.5 * way, 4.0);
     QVERIFY(near && glm::distance(*near, middle + 9.0 * way) < 0.1);
-    QVERIFY(!solver::surface_near(*scene.inputs.phi, middle + 14.0 * way));
+    QVERIFY(!solver::surface_near(*scene.inputs.phi, middle + 14.0 * way, 4.0));
+    const auto beyond = solver::surface_near(*scene.inputs.phi, middle + 14.0 * way, 8.0);
+    QVERIFY(beyond && std::abs(glm::distance(*beyond, middle) - 9.0) < 0.1);
     const auto far = solver::surface_along(*scene.inputs.phi, middle + 14.0 * way, way, 6.0);
     QVERIFY(far && glm::distance(*far, middle + 9.0 * way) < 0.1);
     QVERIFY(!solver::surface_along(*scene.inputs.phi, middle + 14.0 * way, way, 4.0));

@@ -18,8 +18,10 @@ class BalanceStudiesTest : public QObject {
     QTest::addColumn<QList<int>>("seed");  // a voxel
     QTest::newRow("MR, tumour, slices of 6 mm")
         << "d03_mr_tumour_brainix/FLAIR" << 440.0 << 140.0 << QList<int>{188, 149, 13};
-    QTest::newRow("CT, liver") << "d02_ct_body_j2k_siemens" << 95.0 << 30.0 << QList<int>{212, 208, 9};
-    QTest::newRow("MR, brain") << "v01_head_mr_brain_skull" << 203.0 << 143.0 << QList<int>{75, 99, 77};
+    QTest::newRow("CT, liver") << "d02_ct_body_j2k_siemens/example_ct_dicom" << 95.0 << 30.0
+                               << QList<int>{212, 208, 9};
+    QTest::newRow("MR, brain") << "v01_head_mr_brain_skull/MR.nii.gz" << 203.0 << 143.0
+                               << QList<int>{75, 99, 77};
   }
   void a_studys_next_step_is_the_sum() {
     QFETCH(QString, image);
