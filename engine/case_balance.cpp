@@ -60,12 +60,14 @@ CaseBalance::CaseBalance(CaseProxy& proxy)
 
 CaseBalance::~CaseBalance() = default;
 
-void CaseBalance::ask(glm::dvec3 place_mm) {
+void CaseBalance::ask(glm::dvec3 place_mm, bool in_passing) {
   choose(place_mm, false);
+  if (!in_passing) emit show_wanted();
 }
 
 void CaseBalance::ask_fastest() {
   choose({}, true);
+  emit show_wanted();
 }
 
 void CaseBalance::choose(glm::dvec3 place_mm, bool fastest) {
@@ -108,6 +110,14 @@ CaseBalance::Answer CaseBalance::explain(const Question& question, const std::st
   return voxel ? Answer(explained(inputs, *voxel)) : std::nullopt;
 }
 
+// Slices that show a part of the volume are centred on the place, too.
+void CaseBalance::go_to(glm::dvec3 place_mm) {
+  proxy_.display().change([&](DisplaySettings& settings) {
+    settings.cursor_mm = place_mm;
+    if (settings.slice_zoom > 1.0) settings.slice_centre_mm = place_mm;
+  });
+}
+
 void CaseBalance::take() {
   const auto& [question, place] = *question_.answer();
   if (!chosen_ || question.number != chosen_->number) return;
@@ -116,7 +126,7 @@ void CaseBalance::take() {
     const bool found = std::exchange(chosen_->fastest, false);
     chosen_->place_mm = place->place_mm;
     chosen_->outward = place->outward;
-    if (found) emit fastest_found(place->place_mm);
+    if (found) go_to(place->place_mm);
   }
   emit changed();
 }

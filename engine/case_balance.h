@@ -47,9 +47,10 @@ class CaseBalance : public QObject {
   explicit CaseBalance(CaseProxy& proxy);
   ~CaseBalance() override;
 
-  // On the surface near that place of the patient (LPS, mm).
-  void ask(glm::dvec3 place_mm);
-  // Where the surface moves most; fastest_found() says where that is.
+  // On the surface near that place of the patient (LPS, mm). In passing, as the mouse moves: nothing need
+  // come to the front.
+  void ask(glm::dvec3 place_mm, bool in_passing = false);
+  // Where the surface moves most; the slices go there.
   void ask_fastest();
   void forget();
 
@@ -60,7 +61,7 @@ class CaseBalance : public QObject {
 
  signals:
   void changed();
-  void fastest_found(glm::dvec3 place_mm);
+  void show_wanted();  // it was asked for, and not in passing
 
  private:
   struct Question {
@@ -77,6 +78,7 @@ class CaseBalance : public QObject {
   void choose(glm::dvec3 place_mm, bool fastest);
   void follow();
   void take();
+  void go_to(glm::dvec3 place_mm);
 
   CaseProxy& proxy_;
   struct Chosen {

@@ -1,4 +1,5 @@
 #include "ui/main/main_window.h"
+#include "engine/case_balance.h"
 
 #include <QAbstractButton>
 #include <QApplication>
@@ -342,8 +343,15 @@ void MainWindow::connect_evolution() {
   with_case(actions_->step, [](CaseWindow& window) { window.proxy().step(); });
   with_case(actions_->step_back, [](CaseWindow& window) { window.proxy().step_back(); });
   with_case(actions_->restart, [](CaseWindow& window) { window.proxy().restart(); });
-  with_case(actions_->undo, [](CaseWindow& window) { window.proxy().undo(); });
-  with_case(actions_->redo, [](CaseWindow& window) { window.proxy().redo(); });
+  with_case(actions_->fastest_place, [](CaseWindow& window) { window.proxy().balance().ask_fastest(); });
+  with_case(actions_->forces, [](CaseWindow& window) {
+    window.proxy().display().change(
+        [](engine::DisplaySettings& settings) { settings.forces = !settings.forces; });
+  });
+  with_case(actions_->undo, [CaseWindow& window) {
+    window.proxy().undo(); });
+  with_case(actions_->redo, [](CaseWindow& window) {
+    window.proxy().redo(); });
   with_case(actions_->last_tool, [](CaseWindow& window) {
     window.proxy().display().choose_tool(window.proxy().display().settings().last_tool);
   });

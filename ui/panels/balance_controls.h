@@ -1,0 +1,39 @@
+// "Why here?": the balance of the speed terms at a place, and what would have to change.
+#pragma once
+
+#include "ui/panels/case_widget.h"
+
+class QCheckBox;
+class QLabel;
+class QPushButton;
+
+namespace tidemark::ui {
+
+class BalanceBars;
+
+class BalanceControls : public CaseWidget {
+  Q_OBJECT
+ public:
+  explicit BalanceControls(QWidget* parent = nullptr);
+
+ protected:
+  void attach() override;
+  void refresh() override;
+
+ private:
+  void show_place();
+  void scroll_here();
+
+  QLabel* why_;
+  QWidget* found_;  // what there is to say of a place
+  BalanceBars* bars_;
+  QLabel* pace_;
+  QLabel* brightness_;
+  QPushButton* fastest_;
+  QPushButton* forget_;
+  QCheckBox* forces_;
+  QMetaObject::Connection changed_;
+  QMetaObject::Connection wanted_;
+};
+
+}  // namespace tidemark::ui

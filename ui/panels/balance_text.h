@@ -1,0 +1,16 @@
+// Why the surface moves or rests at a place, in sentences.
+#pragma once
+
+#include <QString>
+
+#include "engine/case_balance.h"
+
+namespace tidemark::ui {
+
+// Which terms win, and what would have to change for the surface to move. `decimals`: of epsilon.
+QString why_text(const engine::ExplainedPlace& place, int decimals);
+
+// "Brightness 412: D 0.80" with T and epsilon beside it.
+QString brightness_text(const engine::ExplainedPlace& place, int decimals, const QString& unit);
+
+}  // namespace tidemark::ui
