@@ -1,5 +1,4 @@
 #include "ui/main/main_window.h"
-#include "engine/case_balance.h"
 
 #include <QAbstractButton>
 #include <QApplication>
@@ -20,6 +19,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "engine/case_balance.h"
 #include "ui/look/about_dialog.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
@@ -348,10 +348,8 @@ void MainWindow::connect_evolution() {
     window.proxy().display().change(
         [](engine::DisplaySettings& settings) { settings.forces = !settings.forces; });
   });
-  with_case(actions_->undo, [CaseWindow& window) {
-    window.proxy().undo(); });
-  with_case(actions_->redo, [](CaseWindow& window) {
-    window.proxy().redo(); });
+  with_case(actions_->undo, [](CaseWindow& window) { window.proxy().undo(); });
+  with_case(actions_->redo, [](CaseWindow& window) { window.proxy().redo(); });
   with_case(actions_->last_tool, [](CaseWindow& window) {
     window.proxy().display().choose_tool(window.proxy().display().settings().last_tool);
   });
