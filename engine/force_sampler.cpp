@@ -7,7 +7,8 @@ std::vector<PlaceForces> forces_of(const ForceSampler::Question& question, const
   const solver::StepInputs& inputs = question.inputs;
   const Geometry& geometry = inputs.phi->geometry;
   std::vector<PlaceForces> forces;
-  for (const glm::dvec3& place : solver::surface_places(*inputs.phi, question.slab, question.side_mm, stop)) {
+  for (const glm::dvec3& place :
+       solver::surface_places(*inputs.phi, question.slab, question.apart_mm, stop)) {
     if (stop.stop_requested()) break;
     const solver::Balance balance = solver::PlaceBalance(inputs, place).balance();
     forces.push_back({geometry.to_patient(place), geometry.direction * balance.outward, balance.pushes});

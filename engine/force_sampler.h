@@ -24,7 +24,7 @@ class ForceSampler : public QObject {
   struct Question {
     solver::StepInputs inputs;
     std::optional<solver::PlaneSlab> slab;  // of a slice; none: the whole surface
-    double side_mm = 1.0;                   // at most one place in a cube of that side
+    double apart_mm = 1.0;                  // how far places are from each other
 
     bool operator==(const Question&) const = default;
   };

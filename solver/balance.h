@@ -78,7 +78,7 @@ class PlaceBalance {
 };
 
 // The place on the surface where the pushes' sum is largest by size, in voxel coordinates; the surface is
-// looked at every two smallest spacings. None without a surface.
+// looked at every smallest spacing and a half. None without a surface.
 [[nodiscard]] std::optional<glm::dvec3> fastest_place(const StepInputs& inputs,
                                                       const std::stop_token& stop = {});
 

@@ -1,10 +1,10 @@
 #include "solver/surface_places.h"
 
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <set>
-#include <tuple>
+#include <map>
 
 namespace tidemark::solver {
 namespace {
@@ -29,21 +29,31 @@ glm::dvec3 gradient_at(const Field& phi, glm::dvec3 place) {
   return gradient;
 }
 
-// Keeps the first place in each cube.
+// Keeps places that are far enough from those that were kept before. A cube with a side of that distance has
+// the place that was kept in it last.
 class Thinned {
  public:
-  explicit Thinned(double side_mm) : side_mm_(side_mm) {}
+  explicit Thinned(double apart_mm) : apart_mm_(apart_mm) {}
 
   void add(glm::dvec3 place, glm::dvec3 place_mm) {
-    const Index3 cube(glm::floor(place_mm / side_mm_));
-    if (taken_.emplace(cube.x, cube.y, cube.z).second) places.push_back(place);
+    const Index3 cube(glm::floor(place_mm / apart_mm_));
+    for (std::int64_t z = -1; z <= 1; ++z) {
+      for (std::int64_t y = -1; y <= 1; ++y) {
+        for (std::int64_t x = -1; x <= 1; ++x) {
+          const auto kept = kept_.find({cube.x + x, cube.y + y, cube.z + z});
+          if (kept != kept_.end() && glm::distance(kept->second, place_mm) < apart_mm_) return;
+        }
+      }
+    }
+    kept_[{cube.x, cube.y, cube.z}] = place_mm;
+    places.push_back(place);
   }
 
   std::vector<glm::dvec3> places;
 
  private:
-  double side_mm_;
-  std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> taken_;
+  double apart_mm_;
+  std::map<std::array<std::int64_t, 3>, glm::dvec3> kept_;
 };
 
 bool meets(const Field& phi, std::int64_t page, const PlaneSlab& slab) {
@@ -103,10 +113,10 @@ std::optional<glm::dvec3> surface_near(const Field& phi, glm::dvec3 place, doubl
   return nearest;
 }
 
-std::vector<glm::dvec3> surface_places(const Field& phi, const std::optional<PlaneSlab>& slab, double side_mm,
-                                       const std::stop_token& stop) {
+std::vector<glm::dvec3> surface_places(const Field& phi, const std::optional<PlaneSlab>& slab,
+                                       double apart_mm, const std::stop_token& stop) {
   const Geometry& geometry = phi.geometry;
-  Thinned thinned(side_mm);
+  Thinned thinned(apart_mm);
   for (std::int64_t page = 0; page < phi.layout.page_count() && !stop.stop_requested(); ++page) {
     if (phi.table[static_cast<std::size_t>(page)] < 0 || (slab && !meets(phi, page, *slab))) continue;
     const Index3 first = phi.layout.first_voxel(page);

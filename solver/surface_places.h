@@ -31,8 +31,8 @@ struct PlaneSlab {
   bool operator==(const PlaneSlab&) const = default;
 };
 
-// Places on the surface, at most one in each cube of that side; without a slab on all of it.
+// Places on the surface, about that far apart; without a slab on all of it.
 [[nodiscard]] std::vector<glm::dvec3> surface_places(const Field& phi, const std::optional<PlaneSlab>& slab,
-                                                     double side_mm, const std::stop_token& stop = {});
+                                                     double apart_mm, const std::stop_token& stop = {});
 
 }  // namespace tidemark::solver

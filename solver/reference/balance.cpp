@@ -182,10 +182,10 @@ std::optional<double> PlaceBalance::range_for(double sum) const {
 
 std::optional<glm::dvec3> fastest_place(const StepInputs& inputs, const std::stop_token& stop) {
   const glm::dvec3 spacing = inputs.phi->geometry.spacing_mm;
-  const double side_mm = 2.0 * std::min({spacing.x, spacing.y, spacing.z});
+  const double apart_mm = 1.5 * std::min({spacing.x, spacing.y, spacing.z});
   std::optional<glm::dvec3> fastest;
   double most = -1.0;
-  for (const glm::dvec3& place : surface_places(*inputs.phi, std::nullopt, side_mm, stop)) {
+  for (const glm::dvec3& place : surface_places(*inputs.phi, std::nullopt, apart_mm, stop)) {
     if (stop.stop_requested()) return std::nullopt;
     const double moves = std::abs(PlaceBalance(inputs, place).balance().pushes.sum());
     if (moves <= most) continue;

@@ -229,8 +229,8 @@ class BalanceTest : public QObject {
   void places_lie_on_the_surface_and_in_the_slab() {
     const BallScene scene = ball(9.0, {});
     const solver::PlaneSlab slab{{0.0, 0.0, 1.0}, 19.0, 0.5};
-    const auto all = solver::surface_places(*scene.inputs.phi, std::nullopt, 3.0);
-    const auto cut = solver::surface_places(*scene.inputs.phi, slab, 3.0);
+    const auto all = solver::surface_places(*scene.inputs.phi, std::nullopt, 2.0);
+    const auto cut = solver::surface_places(*scene.inputs.phi, slab, 2.0);
     QVERIFY(all.size() > 4 * cut.size() && cut.size() > 12);
     for (const glm::dvec3& place : all) QVERIFY(std::abs(glm::distance(place, glm::dvec3(19.5)) - 9.0) < 0.1);
     for (const glm::dvec3& place : cut) QVERIFY(std::abs(place.z - 19.0) <= 0.5);

@@ -22,16 +22,20 @@ class BalanceControls : public CaseWidget {
 
  private:
   void show_place();
+  void resizeEvent(QResizeEvent* event) override;
   void scroll_here();
 
   QLabel* why_;
   QWidget* found_;  // what there is to say of a place
   BalanceBars* bars_;
   QLabel* pace_;
+  QLabel* step_;
   QLabel* brightness_;
+  QLabel* speed_;
   QPushButton* fastest_;
   QPushButton* forget_;
   QCheckBox* forces_;
+  bool comes_to_sight_ = false;  // once its new size is known
   QMetaObject::Connection changed_;
   QMetaObject::Connection wanted_;
 };

@@ -2,6 +2,8 @@
 
 #include <QCoreApplication>
 #include <QFontMetricsF>
+#include <QLineF>
+#include <QList>
 #include <algorithm>
 #include <cmath>
 
@@ -64,17 +66,23 @@ double largest_push(const std::vector<engine::PlaceForces>& forces, const std::v
   return *nearly_last;
 }
 
-void paint_arrow(QPainter& painter, QPointF from, QPointF way, const QColor& colour, double width) {
+void add_arrow(QList<QLineF>& lines, QPointF from, QPointF way) {
   const double length = std::hypot(way.x(), way.y());
   if (length < kShortest) return;
   const QPointF along = way / length;
   const QPointF across(-along.y(), along.x());
   const QPointF tip = from + way;
   const double head = std::min(kHead, 0.6 * length);
-  const QPolygonF wings{tip - along * head + across * (0.6 * head), tip,
-                        tip - along * head - across * (0.6 * head)};
-  paint_line(painter, {from, tip}, colour, width);
-  paint_line(painter, wings, colour, width);
+  lines << QLineF(from, tip) << QLineF(tip, tip - along * head + across * (0.6 * head))
+        << QLineF(tip, tip - along * head - across * (0.6 * head));
+}
+
+// All of one kind at once: lines one by one take long.
+void paint_lines(QPainter& painter, const QList<QLineF>& lines, const QColor& colour, double width) {
+  painter.setPen(QPen(QColor(0, 0, 0, 170), width + 1.5, Qt::SolidLine, Qt::RoundCap));
+  painter.drawLines(lines);
+  painter.setPen(QPen(colour, width, Qt::SolidLine, Qt::RoundCap));
+  painter.drawLines(lines);
 }
 
 // The outward normal as the view shows it: of length 1 where it lies in the picture.
@@ -82,27 +90,26 @@ QPointF on_screen(const SurfaceScreen& screen, glm::dvec3 place_mm, glm::dvec3 o
   return (screen.position_of(place_mm + outward) - screen.position_of(place_mm)) * screen.mm_per_pixel;
 }
 
+// At the right, above the scale bar.
 void paint_key(QPainter& painter, const std::vector<Kind>& kinds, double largest_mm, QSizeF size) {
-  constexpr double kMargin = 8.0;
-  constexpr double kLetter = 24.0;  // of the patient's side, below it
-  constexpr double kDash = 14.0;
+  constexpr double kMargin = 12.0;
+  constexpr double kScaleBar = 40.0;
+  constexpr double kDash = 16.0;
+  const double line = QFontMetricsF(painter.font()).height() + 3.0;
+  const QRectF rows(0.0, 0.0, size.width() - kMargin, line);
+  double y = size.height() - kScaleBar - line;
+  const auto paint_row = [&](const QString& text) {
+    paint_text(painter, rows.translated(0.0, y), Qt::AlignRight | Qt::AlignVCenter, text);
+  };
+  paint_row(tr("longest: %1 mm per unit of time").arg(short_text(largest_mm, 2)));
   const QFontMetricsF metrics(painter.font());
-  const QString length = tr("longest: %1 mm per unit of time").arg(short_text(largest_mm, 2));
-  double width = metrics.horizontalAdvance(length);
-  for (const Kind& kind : kinds) width += kDash + 16.0 + metrics.horizontalAdvance(kind.name);
-  double x = std::max(kMargin, 0.5 * (size.width() - width));
-  const double y = size.height() - kMargin - kLetter - 2.0 * metrics.height();
-  for (const Kind& kind : kinds) {
-    const double text = metrics.horizontalAdvance(kind.name);
-    paint_line(painter,
-               {QPointF(x, y + 0.5 * metrics.height()), QPointF(x + kDash, y + 0.5 * metrics.height())},
-               kind.colour, kind.width);
-    paint_text(painter, QRectF(x + kDash + 6.0, y, text, metrics.height()), Qt::AlignLeft | Qt::AlignVCenter,
-               kind.name);
-    x += kDash + text + 16.0;
+  for (auto kind = kinds.rbegin(); kind != kinds.rend(); ++kind) {
+    y -= line;
+    paint_row(kind->name);
+    const double right = rows.right() - metrics.horizontalAdvance(kind->name) - 8.0;
+    const double middle = y + 0.5 * line;
+    paint_lines(painter, {QLineF(right - kDash, middle, right, middle)}, kind->colour, kind->width);
   }
-  paint_text(painter, QRectF(x, y, metrics.horizontalAdvance(length), metrics.height()),
-             Qt::AlignLeft | Qt::AlignVCenter, length);
 }
 
 }  // namespace
@@ -114,6 +121,7 @@ void paint_forces(QPainter& painter, const std::vector<engine::PlaceForces>& for
   if (most <= 0.0) return;
   const double longest = round_up(most);
   const QRectF all(QPointF(), screen.size);
+  std::vector<QList<QLineF>> lines(drawn.size());
   for (const engine::PlaceForces& at : forces) {
     const QPointF position = screen.position_of(at.place_mm);
     if (!all.contains(position) || !screen.shows(at.place_mm, at.outward)) continue;
@@ -121,12 +129,13 @@ void paint_forces(QPainter& painter, const std::vector<engine::PlaceForces>& for
     const double flat = std::hypot(normal.x(), normal.y());
     if (flat <= 0.0) continue;
     const QPointF across(-normal.y() / flat, normal.x() / flat);
-    for (const Kind& kind : drawn) {
-      const double push = std::clamp(kind.push(at.pushes) / longest, -1.5, 1.5);
-      paint_arrow(painter, position + across * (kind.beside * kBeside), normal * (push * kLongest),
-                  kind.colour, kind.width);
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      const double push = std::clamp(drawn[i].push(at.pushes) / longest, -1.5, 1.5);
+      add_arrow(lines[i], position + across * (drawn[i].beside * kBeside), normal * (push * kLongest));
     }
   }
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    paint_lines(painter, lines[i], drawn[i].colour, drawn[i].width);
   paint_key(painter, drawn, longest * spacing_mm, screen.size);
 }
 

@@ -162,7 +162,8 @@ void WhyStoryTest::a_place_in_3d_is_explained_and_the_pointer_asks() {
   QVERIFY(Desktop::wait_for([&] { return place(desktop) != nullptr; }));
   QTest::mouseRelease(volume, Qt::LeftButton, {}, middle);
   desktop.wait_until_idle();
-  const glm::dvec3 facing = -desktop.proxy().display().settings().camera.into();
+  const renderer::Camera& camera = desktop.proxy().display().settings().camera;
+  const glm::dvec3 facing = glm::cross(camera.right(), camera.up());
   QVERIFY(std::abs(glm::distance(place(desktop)->place_mm, seed) - kRadius) < 0.5);
   QVERIFY(glm::dot(place(desktop)->outward, facing) > 0.9);
   QVERIFY(volume->shows(place(desktop)->place_mm, place(desktop)->outward));
