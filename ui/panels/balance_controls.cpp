@@ -23,10 +23,12 @@ BalanceControls::BalanceControls(QWidget* parent) : CaseWidget(parent) {
   Form found(found_);
   bars_ = new BalanceBars;
   found.wide(bars_);
-  pace_ =
-      found.figure(tr("Moves"), tr("The sum of the pushes. A front that the data drive as fast as can "
-                                   "be, at α = 1, moves by the smallest voxel spacing in a unit of time."));
-  brightness_ = found.figure(tr("Brightness"), tr("The value of the source here, as D sees it, and D."));
+  pace_ = found.figure(tr("In a unit of time"),
+                       tr("The sum of the pushes. A front that the data drive as fast as can be, at α = 1, "
+                          "moves by the smallest voxel spacing in a unit of time."));
+  step_ = found.figure(tr("In the next step"), tr("How much the sum changes φ, and with it the surface."));
+  brightness_ = found.figure(tr("Brightness"), tr("The value of the source here, as D sees it."));
+  speed_ = found.figure(tr("Speed D"), tr("What the data ask for here, from −1, inward, to 1, outward."));
   form.wide(found_);
   why_ = form.note({});
   auto* buttons = new QHBoxLayout;
@@ -65,6 +67,13 @@ void BalanceControls::attach() {
                     Qt::QueuedConnection);
 }
 
+// What is to be seen is known before its place is.
+void BalanceControls::resizeEvent(QResizeEvent* event) {
+  CaseWidget::resizeEvent(event);
+  if (std::exchange(comes_to_sight_, false))
+    QMetaObject::invokeMethod(this, &BalanceControls::scroll_here, Qt::QueuedConnection);
+}
+
 void BalanceControls::scroll_here() {
   for (QWidget* above = parentWidget(); above; above = above->parentWidget()) {
     if (auto* scroll = qobject_cast<QScrollArea*>(above)) return scroll->ensureWidgetVisible(this, 0, kSpace);
@@ -81,7 +90,7 @@ void BalanceControls::refresh() {
   found_->setVisible(balance.place().has_value());
   if (balance.place()) {
     show_place();
-    if (!was_found) QMetaObject::invokeMethod(this, &BalanceControls::scroll_here, Qt::QueuedConnection);
+    comes_to_sight_ = comes_to_sight_ || !was_found;
   } else if (!begun) {
     why_->setText(tr("Once there is a surface, this says why it moves or rests at a place."));
   } else if (!balance.asked()) {
@@ -96,9 +105,10 @@ void BalanceControls::show_place() {
   const engine::SourceSummary& summary = proxy()->summary();
   const int decimals = std::max(1, decimals_for(summary.high - summary.low));
   bars_->set_place(place);
-  pace_->setText(tr("%1 mm per unit of time, %2 mm per step")
-                     .arg(short_text(place.sum_mm(), 2), short_text(place.sum_mm() * place.time_step, 2)));
+  pace_->setText(tr("%1 mm").arg(short_text(place.sum_mm(), 2)));
+  step_->setText(tr("%1 mm").arg(short_text(place.sum_mm() * place.time_step, 2)));
   brightness_->setText(brightness_text(place, decimals, value_unit(proxy()->volume())));
+  speed_->setText(number_text(place.balance.speed, 2));
   why_->setText(why_text(place, decimals));
 }
 

@@ -92,11 +92,10 @@ QString why_text(const engine::ExplainedPlace& place, int decimals) {
 
 QString brightness_text(const engine::ExplainedPlace& place, int decimals, const QString& unit) {
   const QString value = number_text(place.balance.intensity, decimals, unit);
-  const QString speed = number_text(place.balance.speed, 2);
-  if (!place.has_tent) return tr("%1, D %2").arg(value, speed);
-  return tr("%1 (T %2, ε %3): D %4")
-      .arg(value, number_text(place.parameters.target, decimals),
-           number_text(place.parameters.range, decimals), speed);
+  if (!place.has_tent) return value;
+  const solver::Parameters& now = place.parameters;
+  return tr("%1 (T %2, ε %3)")
+      .arg(value, number_text(now.target, decimals), number_text(now.range, decimals));
 }
 
 }  // namespace tidemark::ui

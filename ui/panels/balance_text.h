@@ -10,7 +10,7 @@ namespace tidemark::ui {
 // Which terms win, and what would have to change for the surface to move. `decimals`: of epsilon.
 QString why_text(const engine::ExplainedPlace& place, int decimals);
 
-// "Brightness 412: D 0.80" with T and epsilon beside it.
+// The value of the source, with T and epsilon beside it where they make D.
 QString brightness_text(const engine::ExplainedPlace& place, int decimals, const QString& unit);
 
 }  // namespace tidemark::ui

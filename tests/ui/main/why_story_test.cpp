@@ -114,7 +114,7 @@ void WhyStoryTest::a_place_is_explained_turned_and_followed() {
   // What the sentence names turns it.
   QVERIFY(place(desktop)->sum_mm() > 0.0);
   const auto turn = place(desktop)->to_inward;
-  QVERIFY(turn.alpha && turn.range);
+  QVERIFY(turn.alpha);
   const solver::Parameters first = desktop.state().parameters;
   solver::Parameters turned = first;
   turned.alpha = std::max(0.0, *turn.alpha - 0.02);
