@@ -1,4 +1,4 @@
-// Why the surface moves or rests at a place that the user has chosen.
+// The reasons why the surface moves or rests at a place that the user has chosen.
 #pragma once
 
 #include <QObject>

@@ -1,4 +1,4 @@
-// "Why here?": the balance of the speed terms at a place, and what would have to change.
+// The section "Why here?": the balance of the speed terms at a place, and what would have to change.
 #pragma once
 
 #include "ui/panels/case_widget.h"

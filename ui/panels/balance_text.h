@@ -1,4 +1,4 @@
-// Why the surface moves or rests at a place, in sentences.
+// Sentences on why the surface moves or rests at a place.
 #pragma once
 
 #include <QString>
