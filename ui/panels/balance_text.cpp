@@ -3,8 +3,9 @@
 #include <QCoreApplication>
 #include <QStringList>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "ui/widgets/number_text.h"
 
@@ -15,17 +16,28 @@ QString tr(const char* text) {
   return QCoreApplication::translate("Balance", text);
 }
 
-struct Term {
-  double push;
-  QString first;   // as a sentence begins
-  QString within;  // as it goes on
-};
+// The terms that push to one side, the strongest first; those that hardly count beside it are left out.
+QStringList pushing(const solver::Pushes& pushes, double side) {
+  constexpr double kCounts = 0.25;
+  std::vector<std::pair<double, QString>> terms{{side * pushes.data, tr("the data term")},
+                                                {side * pushes.curvature, tr("curvature")},
+                                                {side * pushes.rescaling, tr("rescaling")},
+                                                {side * pushes.advection, tr("advection")}};
+  std::sort(terms.begin(), terms.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  QStringList names;
+  for (const auto& [push, name] : terms) {
+    if (push > solver::kConvergedSpeed && push > kCounts * terms.front().first) names << name;
+  }
+  return names;
+}
 
-std::array<Term, 4> terms_of(const solver::Pushes& pushes) {
-  return {Term{pushes.data, tr("The data term"), tr("the data term")},
-          Term{pushes.curvature, tr("Curvature"), tr("curvature")},
-          Term{pushes.rescaling, tr("Rescaling"), tr("rescaling")},
-          Term{pushes.advection, tr("Advection"), tr("advection")}};
+QString joined(const QStringList& names) {
+  return names.join(tr(" and "));
+}
+
+QString as_a_beginning(QString sentence) {
+  sentence[0] = sentence[0].toUpper();
+  return sentence;
 }
 
 // The state, and the terms behind it.
@@ -35,21 +47,22 @@ QString balance_sentence(const engine::ExplainedPlace& place) {
     return pushes.limits < 0.0 ? tr("A wall, or the limit of a refinement, keeps it from moving outward.")
                                : tr("An anchor, or the limit of a refinement, keeps it from moving inward.");
   }
-  const auto terms = terms_of(pushes);
-  const auto by_push = [](const Term& a, const Term& b) { return a.push < b.push; };
-  const Term& out = *std::max_element(terms.begin(), terms.end(), by_push);
-  const Term& in = *std::min_element(terms.begin(), terms.end(), by_push);
-  const bool grows = out.push + in.push > 0.0;
-  const Term& winner = grows ? out : in;
-  const Term& loser = grows ? in : out;
+  const bool grows = pushes.sum() > 0.0;
+  const QStringList winners = pushing(pushes, grows ? 1.0 : -1.0);
+  const QStringList losers = pushing(pushes, grows ? -1.0 : 1.0);
   if (place.rests()) {
-    if (std::max(out.push, -in.push) <= solver::kConvergedSpeed) return tr("It rests here: no term pushes.");
-    return tr("It rests here: %1 and %2 balance.").arg(out.within, in.within);
+    if (winners.isEmpty() || losers.isEmpty()) return tr("It rests here: no term pushes much.");
+    return (winners.size() > 1 ? tr("It rests here: %1 balance %2.") : tr("It rests here: %1 balances %2."))
+        .arg(joined(winners), joined(losers));
   }
-  const QString moves = place.sum_mm() > 0.0 ? tr("it moves outward") : tr("it moves inward");
-  if (loser.push * winner.push >= 0.0 || std::abs(loser.push) < 0.02 * std::abs(winner.push))
-    return tr("%1 pushes alone: %2.").arg(winner.first, moves);
-  return tr("%1 outweighs %2: %3.").arg(winner.first, loser.within, moves);
+  const QString moves = grows ? tr("it moves outward") : tr("it moves inward");
+  QString sentence;
+  if (losers.isEmpty()) {
+    sentence = winners.size() > 1 ? tr("%1 push alone: %2.") : tr("%1 pushes alone: %2.");
+    return as_a_beginning(sentence.arg(joined(winners), moves));
+  }
+  sentence = winners.size() > 1 ? tr("%1 outweigh %2: %3.") : tr("%1 outweighs %2: %3.");
+  return as_a_beginning(sentence.arg(joined(winners), joined(losers), moves));
 }
 
 // Rounded away from the present value, so that what is said would do.

@@ -150,8 +150,12 @@ void paint_explained_place(QPainter& painter, const engine::ExplainedPlace& plac
     const QString speed = short_text(std::abs(place.sum_mm()), 2);
     text = place.sum_mm() > 0.0 ? tr("outward, %1 mm").arg(speed) : tr("inward, %1 mm").arg(speed);
   }
-  paint_text(painter, QRectF(at + QPointF(2.0 * kRadius, -9.0), QSizeF(160.0, 18.0)),
-             Qt::AlignLeft | Qt::AlignVCenter, text);
+  // On the surface's outer side, where it hides neither outline nor ring.
+  constexpr double kLength = 200.0;
+  const bool at_left = on_screen(screen, place.place_mm, place.outward).x() < 0.0;
+  const double left = at_left ? -2.0 * kRadius - kLength : 2.0 * kRadius;
+  paint_text(painter, QRectF(at + QPointF(left, -9.0), QSizeF(kLength, 18.0)),
+             (at_left ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter, text);
 }
 
 }  // namespace tidemark::ui

@@ -22,7 +22,7 @@ constexpr double kSmallestBrush = 0.2;  // mm
 constexpr double kLargestBrush = 200.0;
 constexpr double kSmallestStroke = 0.5;  // voxels
 constexpr double kLargestStroke = 50.0;
-constexpr double kForceDistance = 20.0;  // logical pixels between arrows
+constexpr double kForceDistance = 16.0;  // logical pixels between arrows
 constexpr double kClickReach = 5.0;      // logical pixels: a hand is not quite still
 
 Qt::CursorShape cursor_for(engine::Tool tool) {
