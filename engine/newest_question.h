@@ -57,12 +57,12 @@ class NewestQuestion {
         },
         [this](const Error&) { job_.reset(); });
   }
+  // The receiver may ask something else, or forget, on the answer.
   void take(Answered answered) {
     job_.reset();
-    const bool newer = answered.question != *asked_;
     answer_ = std::move(answered);
-    if (newer) start();
     answered_();
+    if (!job_ && asked_ && answer_ && asked_ != answer_->question) start();
   }
 
   QObject* receiver_;
