@@ -60,18 +60,34 @@ CaseBalance::CaseBalance(CaseProxy& proxy)
 
 CaseBalance::~CaseBalance() = default;
 
-void CaseBalance::ask(glm::dvec3 place_mm, bool in_passing) {
-  choose(place_mm, false);
-  if (!in_passing) emit show_wanted();
-}
-
-void CaseBalance::ask_fastest() {
-  choose({}, true);
+void CaseBalance::ask(glm::dvec3 place_mm) {
+  Chosen chosen;
+  chosen.place_mm = place_mm;
+  choose(chosen);
   emit show_wanted();
 }
 
-void CaseBalance::choose(glm::dvec3 place_mm, bool fastest) {
-  chosen_ = Chosen{place_mm, {}, fastest, ++choices_};
+void CaseBalance::ask_in_passing(glm::dvec3 place_mm) {
+  Chosen chosen;
+  chosen.place_mm = place_mm;
+  chosen.in_passing = true;
+  choose(chosen);
+}
+
+void CaseBalance::passed() {
+  if (chosen_ && chosen_->in_passing) forget();
+}
+
+void CaseBalance::ask_fastest() {
+  Chosen chosen;
+  chosen.fastest = true;
+  choose(chosen);
+  emit show_wanted();
+}
+
+void CaseBalance::choose(const Chosen& chosen) {
+  chosen_ = chosen;
+  chosen_->number = ++choices_;
   follow();
   emit changed();
 }
@@ -101,11 +117,11 @@ CaseBalance::Answer CaseBalance::explain(const Question& question, const std::st
   if (question.fastest) {
     voxel = solver::fastest_place(inputs, stop);
   } else {
+    // The front may have gone far since the place was found on it.
     const glm::dvec3 asked = geometry.to_voxel(question.place_mm);
-    voxel = solver::surface_near(*inputs.phi, asked, kReach);
-    if (!voxel && question.outward != glm::dvec3(0.0)) {
+    if (question.outward != glm::dvec3(0.0))
       voxel = solver::surface_along(*inputs.phi, asked, along_voxels(geometry, question.outward), kFollows);
-    }
+    if (!voxel) voxel = solver::surface_near(*inputs.phi, asked, kReach);
   }
   return voxel ? Answer(explained(inputs, *voxel)) : std::nullopt;
 }
@@ -127,6 +143,7 @@ void CaseBalance::take() {
     chosen_->place_mm = place->place_mm;
     chosen_->outward = place->outward;
     if (found) go_to(place->place_mm);
+    follow();
   }
   emit changed();
 }

@@ -47,9 +47,11 @@ class CaseBalance : public QObject {
   explicit CaseBalance(CaseProxy& proxy);
   ~CaseBalance() override;
 
-  // On the surface near that place of the patient (LPS, mm). In passing, as the mouse moves: nothing need
-  // come to the front.
-  void ask(glm::dvec3 place_mm, bool in_passing = false);
+  // On the surface near that place of the patient (LPS, mm).
+  void ask(glm::dvec3 place_mm);
+  // The same while the mouse passes: nothing need come to the front, and passed() forgets it.
+  void ask_in_passing(glm::dvec3 place_mm);
+  void passed();
   // Where the surface moves most; the slices go there.
   void ask_fastest();
   void forget();
@@ -73,20 +75,21 @@ class CaseBalance : public QObject {
 
     bool operator==(const Question&) const = default;
   };
-  using Answer = std::optional<ExplainedPlace>;
-  static Answer explain(const Question& question, const std::stop_token& stop);
-  void choose(glm::dvec3 place_mm, bool fastest);
-  void follow();
-  void take();
-  void go_to(glm::dvec3 place_mm);
-
-  CaseProxy& proxy_;
   struct Chosen {
     glm::dvec3 place_mm{0.0};
     glm::dvec3 outward{0.0};
     bool fastest = false;
     std::uint64_t number = 0;
+    bool in_passing = false;
   };
+  using Answer = std::optional<ExplainedPlace>;
+  static Answer explain(const Question& question, const std::stop_token& stop);
+  void choose(const Chosen& chosen);
+  void follow();
+  void take();
+  void go_to(glm::dvec3 place_mm);
+
+  CaseProxy& proxy_;
   std::optional<Chosen> chosen_;
   std::uint64_t choices_ = 0;
   std::optional<ExplainedPlace> shown_;

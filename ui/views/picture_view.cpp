@@ -209,7 +209,7 @@ void PictureView::explain_at(QPointF position) {
   if (std::exchange(explaining_, true)) return;
   find_place(position, [this](std::optional<glm::dvec3> place_mm) {
     explaining_ = false;
-    if (place_mm) proxy_.balance().ask(*place_mm, true);
+    if (place_mm) proxy_.balance().ask_in_passing(*place_mm);
   });
 }
 
@@ -285,6 +285,8 @@ void PictureView::mouseMoveEvent(QMouseEvent* event) {
   } else if (button_ == Qt::NoButton && event->modifiers() == Qt::ControlModifier &&
              !engine::has_right_button(settings().tool)) {
     explain_at(mouse_);
+  } else if (button_ == Qt::NoButton) {
+    proxy_.balance().passed();
   }
 }
 
@@ -329,6 +331,7 @@ void PictureView::mouseDoubleClickEvent(QMouseEvent* event) {
 
 void PictureView::leaveEvent(QEvent* event) {
   QWidget::leaveEvent(event);
+  explaining_ = false;  // a search that failed has no answer
   display().set_pointer(std::nullopt);
 }
 

@@ -182,6 +182,8 @@ void WhyStoryTest::a_place_in_3d_is_explained_and_the_pointer_asks() {
   point(*volume, middle + QPoint(6, 0), Qt::ControlModifier);
   QVERIFY(Desktop::wait_for([&] { return place(desktop) != nullptr; }));
   QVERIFY(glm::dot(place(desktop)->outward, facing) > 0.9);
+  point(*volume, middle + QPoint(8, 0), {});
+  QVERIFY(!desktop.proxy().balance().asked());
   auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
   const glm::dvec3 edge = seed + glm::dvec3(0.0, kRadius, 0.0);
   desktop.proxy().display().change([&](engine::DisplaySettings& s) { s.cursor_mm = seed; });
