@@ -139,11 +139,13 @@ void CaseBalance::take() {
   if (!chosen_ || question.number != chosen_->number) return;
   shown_ = place;
   if (place) {
-    const bool found = std::exchange(chosen_->fastest, false);
     chosen_->place_mm = place->place_mm;
     chosen_->outward = place->outward;
-    if (found) go_to(place->place_mm);
-    follow();
+    // From now on that place is asked for, whatever moves most later.
+    if (std::exchange(chosen_->fastest, false)) {
+      follow();
+      go_to(chosen_->place_mm);
+    }
   }
   emit changed();
 }
