@@ -5,6 +5,7 @@
 
 #include "core/without_exceptions.h"
 #include "document/label_segments.h"
+#include "engine/case_balance.h"
 #include "engine/case_runner.h"
 #include "engine/case_sweep.h"
 #include "engine/lock_step.h"
@@ -20,6 +21,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
       wanted_parameters_(restored.contents ? restored.contents->recipe.final_parameters()
                                            : study_->parameters) {
   state_.parameters = wanted_parameters_;
+  balance_ = std::make_unique<CaseBalance>(*this);
   CaseRunner::Receiver receiver;
   receiver.weak_receiver = weak_receiver_;
   receiver.state_arrived = [this](CaseState state) { take(std::move(state)); };
@@ -31,6 +33,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
 }
 
 CaseProxy::~CaseProxy() {
+  balance_.reset();
   weak_receiver_->close();
   engine_.cancel(runner_.get());
   // Its objects die where they live.

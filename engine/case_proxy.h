@@ -29,6 +29,7 @@ struct Segments;
 
 namespace tidemark::engine {
 
+class CaseBalance;
 class CaseRunner;
 class CaseSweep;
 class LockStep;
@@ -61,6 +62,8 @@ class CaseProxy : public QObject {
   [[nodiscard]] const QString& name() const { return study_->name; }
   [[nodiscard]] Display& display() { return display_; }
   [[nodiscard]] Engine& engine() { return engine_; }
+  // Why the surface moves or rests at a place that the user has chosen.
+  [[nodiscard]] CaseBalance& balance() { return *balance_; }
   // The parameters as last set here, before the engine has taken them: what sliders show.
   [[nodiscard]] const solver::Parameters& parameters() const { return wanted_parameters_; }
   // So is what drives the surface.
@@ -162,6 +165,7 @@ class CaseProxy : public QObject {
   std::shared_ptr<LockStep> lock_step_;
   std::unique_ptr<CaseSweep> sweep_;
   CaseState state_;
+  std::unique_ptr<CaseBalance> balance_;
   solver::Parameters wanted_parameters_;
   document::Drive wanted_drive_;
   std::int64_t steps_per_picture_ = 0;

@@ -473,6 +473,7 @@ void CaseRunner::publish() {
   state.drive = level_set.drive();
   state.speed = shown_speed_.function;
   state.speed_waits = case_speed_.waits();
+  state.constraints = level_set.executor().constraints();
   state.smoothing = case_speed_.smoothing();
   state.source = level_set.source();
   state.executor = QString::fromUtf8(level_set.executor().name().data(),

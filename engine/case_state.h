@@ -12,6 +12,7 @@
 #include "document/labels.h"
 #include "document/leak.h"
 #include "document/outcome.h"
+#include "solver/balance.h"
 #include "solver/executor.h"
 #include "solver/statistics.h"
 
@@ -41,8 +42,9 @@ struct CaseState {
   double time_step = 0.0;
   double band = 2.5;
   document::Drive drive;
-  std::shared_ptr<const solver::SpeedFunction> speed;  // that drives it now, or will; null: the tent
-  bool speed_waits = false;                            // another one is being made
+  std::shared_ptr<const solver::SpeedFunction> speed;      // that drives it now, or will; null: the tent
+  bool speed_waits = false;                                // another one is being made
+  std::shared_ptr<const solver::Constraints> constraints;  // of the drive and of a start; null: none
   double smoothed_mm = 0.0;
   std::optional<double> smoothing;       // to that many mm, on its way
   std::shared_ptr<const Volume> source;  // as the level set sees it: smoothed by that much
@@ -67,5 +69,8 @@ struct CaseState {
   QString start_text;                                // how it began
   std::shared_ptr<const solver::MotionLimit> limit;  // of a mask that is refined; null: none
 };
+
+// What the next step computes with; none without a surface that was measured.
+[[nodiscard]] std::optional<solver::StepInputs> step_inputs(const CaseState& state);
 
 }  // namespace tidemark::engine

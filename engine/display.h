@@ -30,6 +30,7 @@ enum class Tool {
   measure_angle,
   examples,  // strokes: the left button inside, the right one outside
   wall,      // keeps the surface out; the right button takes walls and anchors away
+  why,       // explains how the surface moves where it is clicked
 };
 // Tools whose right button changes something, too.
 [[nodiscard]] bool has_right_button(Tool tool);
@@ -48,6 +49,7 @@ struct DisplaySettings {
   bool crosshair = true;
   bool marks = true;                                           // strokes, walls and anchors
   bool change = true;                                          // of a mask that is refined
+  bool forces = false;                                         // arrows of the terms, in 3D, too
   bool truth = false;                                          // the outline of a phantom's known answer
   renderer::SpeedTerm speed_term = renderer::SpeedTerm::data;  // of the speed map
   bool radiological = true;        // the patient's right on the left of the screen

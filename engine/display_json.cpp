@@ -10,7 +10,7 @@ namespace tidemark::engine {
 namespace {
 
 constexpr double kFarthest = 1e6;  // mm: nothing in a patient is as far away
-constexpr int kTools = 11;
+constexpr int kTools = 12;
 constexpr std::size_t kMostImages = 64;
 constexpr JsonLimits kLimits{.bytes = std::size_t{16} << 20, .values = std::size_t{1} << 20};
 
@@ -52,6 +52,7 @@ Json slices_json(const DisplaySettings& s) {
           {"label_opacity", s.label_opacity},
           {"crosshair", s.crosshair},
           {"truth", s.truth},
+          {"forces", s.forces},
           {"marks", s.marks},
           {"change", s.change},
           {"speed_term", static_cast<int>(s.speed_term)},
@@ -75,6 +76,7 @@ void read_slices(const JsonField& field, DisplaySettings& s) {
   read(field, "label_opacity", 0.0, 1.0, s.label_opacity);
   read(field, "crosshair", s.crosshair);
   read(field, "truth", s.truth);
+  read(field, "forces", s.forces);
   read(field, "marks", s.marks);
   read(field, "change", s.change);
   read_enum(field, "speed_term", 5, s.speed_term);

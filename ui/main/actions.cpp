@@ -126,6 +126,8 @@ void Actions::make_evolution() {
   step = make("step", "step", tr("One &step"), QKeySequence("."), true, tr("Compute one step"));
   step_back =
       make("step-back", "step-back", tr("One step &back"), QKeySequence(","), true, tr("Take one step back"));
+  fastest_place = make("fastest-place", "target", tr("Where it moves &most"), QKeySequence("F"), true,
+                       tr("Go to the place where the surface still moves most, and see why"));
   restart = make("restart", "restart", tr("&Restart"), QKeySequence("Home"), true,
                  tr("Back to the start, with the parameters as they are now"));
 }
@@ -163,6 +165,8 @@ void Actions::make_tools() {
        tr("Mark examples in slices: left button inside, right button outside, with Ctrl takes away"));
   tool(engine::Tool::wall, "tool-wall", "tool-wall", tr("Wa&ll"), "K",
        tr("Keep the surface out with a 3D brush; with Shift keep it in (right button: takes away)"));
+  tool(engine::Tool::why, "tool-why", "tool-why", tr("Wh&y here?"), "Y",
+       tr("Click on the surface to see why it moves or rests there; with Ctrl, just point at it"));
   last_tool = make("last-tool", nullptr, tr("Last &tool"), QKeySequence("Space"), true,
                    tr("Change between the last two tools"));
 }
@@ -186,6 +190,9 @@ void Actions::make_views() {
   patient_text = make("patient-text", nullptr, tr("Patient's te&xt"), QKeySequence("I"), true,
                       tr("Name, number, age and dates in the corners; off for teaching and screenshots"));
   patient_text->setCheckable(true);
+  forces = make("forces", nullptr, tr("Arrows of the t&erms"), QKeySequence("O"), true,
+                tr("Show on the surface how the data and the other terms push it"));
+  forces->setCheckable(true);
   swipe = make("swipe", nullptr, tr("S&wipe line"), QKeySequence("V"), true,
                tr("Left of a line slices show the study alone, right of it with further images"));
   swipe->setCheckable(true);
@@ -232,6 +239,7 @@ void Actions::follow(engine::CaseProxy* proxy) {
   play->setEnabled(proxy && can_play(*proxy));
   clip->setChecked(proxy && proxy->display().settings().clip_on);
   patient_text->setChecked(proxy && proxy->display().settings().patient_text);
+  forces->setChecked(proxy && proxy->display().settings().forces);
   swipe->setChecked(proxy && proxy->display().settings().swipe);
   if (proxy) return tool(proxy->display().settings().tool)->setChecked(true);
   if (!tools->checkedAction()) return;
@@ -245,7 +253,7 @@ void Actions::follow_evolution(const engine::CaseState& state) {
   play->setChecked(state.playing);
   play->setIcon(icon(state.playing ? u"pause" : u"play"));
   play->setText(state.playing ? tr("&Pause") : tr("&Play"));
-  for (QAction* action : {step, restart, export_mesh, export_recipe, export_level_set})
+  for (QAction* action : {step, restart, fastest_place, export_mesh, export_recipe, export_level_set})
     action->setEnabled(state.begun);
   for (QAction* action : {export_segmentation, export_structure_set, export_label_meshes, send_result})
     action->setEnabled(state.begun || !state.labels.empty());

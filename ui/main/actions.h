@@ -54,6 +54,7 @@ class Actions : public QObject {
   QAction* step;
   QAction* step_back;
   QAction* restart;
+  QAction* fastest_place;
   // Tools, in the order of Tool.
   QActionGroup* tools;
   QAction* last_tool;
@@ -62,6 +63,7 @@ class Actions : public QObject {
   QAction* reset_view;
   QAction* clip;
   QAction* patient_text;
+  QAction* forces;
   QAction* swipe;
   QAction* hide_interface;
   QAction* full_screen;

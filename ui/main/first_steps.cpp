@@ -56,6 +56,7 @@ QString mouse() {
            row(tr("wheel"), tr("slices; the clip plane or zoom in 3D")) +
            row(tr("Shift + wheel"), tr("size of the brush")) + row(tr("Ctrl + wheel"), tr("zoom")) +
            row(tr("Shift + move"), tr("linked crosshair")) +
+           row(tr("Ctrl + move"), tr("why the surface moves or rests there")) +
            row(tr("Alt + left"), tr("window and level, whatever the tool")) +
            row(tr("double click"), tr("one view large, and back")));
 }

@@ -19,6 +19,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "engine/case_balance.h"
 #include "ui/look/about_dialog.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
@@ -344,6 +345,11 @@ void MainWindow::connect_evolution() {
   with_case(actions_->step, [](CaseWindow& window) { window.proxy().step(); });
   with_case(actions_->step_back, [](CaseWindow& window) { window.proxy().step_back(); });
   with_case(actions_->restart, [](CaseWindow& window) { window.proxy().restart(); });
+  with_case(actions_->fastest_place, [](CaseWindow& window) { window.proxy().balance().ask_fastest(); });
+  with_case(actions_->forces, [](CaseWindow& window) {
+    window.proxy().display().change(
+        [](engine::DisplaySettings& settings) { settings.forces = !settings.forces; });
+  });
   with_case(actions_->undo, [](CaseWindow& window) { window.proxy().undo(); });
   with_case(actions_->redo, [](CaseWindow& window) { window.proxy().redo(); });
   with_case(actions_->last_tool, [](CaseWindow& window) {

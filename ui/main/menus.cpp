@@ -71,6 +71,8 @@ void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts) {
   make_view_menu(window, actions, *parts.panels);
   QMenu* evolution = window.menuBar()->addMenu(MainWindow::tr("Ev&olution"));
   evolution->addActions({actions.play, actions.step, actions.step_back, actions.restart});
+  evolution->addSeparator();
+  evolution->addActions({actions.fastest_place, actions.forces});
   QMenu* tools = window.menuBar()->addMenu(MainWindow::tr("&Tools"));
   tools->addActions(actions.tools->actions());
   tools->addSeparator();

@@ -4,6 +4,7 @@
 #include <QScrollArea>
 #include <QVBoxLayout>
 
+#include "engine/case_balance.h"
 #include "ui/main/case_head.h"
 #include "ui/main/case_window.h"
 #include "ui/panels/display_panel.h"
@@ -97,10 +98,16 @@ void PanelDocks::set_case(CaseWindow* window) {
   engine::CaseProxy* proxy = window ? &window->proxy() : nullptr;
   for (CaseHead* head : heads_) head->set_case(window);
   for (CaseWidget* panel : panels_) panel->set_proxy(proxy);
-  if (proxy_) disconnect(proxy_, nullptr, this, nullptr);
+  if (proxy_) {
+    disconnect(proxy_, nullptr, this, nullptr);
+    disconnect(&proxy_->balance(), nullptr, this, nullptr);
+  }
   proxy_ = proxy;
   begun_ = proxy && proxy->state().begun;
-  if (proxy_) connect(proxy_, &engine::CaseProxy::state_changed, this, &PanelDocks::follow_start);
+  if (proxy_) {
+    connect(proxy_, &engine::CaseProxy::state_changed, this, &PanelDocks::follow_start);
+    connect(&proxy_->balance(), &engine::CaseBalance::show_wanted, this, [this] { show("level-set"); });
+  }
   transfer_->set_display(proxy ? &proxy->display() : nullptr, proxy ? &proxy->summary() : nullptr,
                          proxy ? value_unit(proxy->volume()) : QString());
   show_or_hide();

@@ -3,6 +3,7 @@
 #include <QCoreApplication>
 #include <QMenu>
 
+#include "engine/case_balance.h"
 #include "ui/look/icons.h"
 #include "ui/main/actions.h"
 #include "ui/panels/window_presets.h"
@@ -28,6 +29,8 @@ void add_place(QMenu& menu, PictureView& view, std::optional<glm::dvec3> place_m
   add("tool-crosshair", tr("&Show this place in all views"), [](engine::CaseProxy& proxy, glm::dvec3 place) {
     proxy.display().change([&](engine::DisplaySettings& settings) { settings.cursor_mm = place; });
   });
+  add("tool-why", tr("Wh&y does it move or rest here?"),
+      [](engine::CaseProxy& proxy, glm::dvec3 place) { proxy.balance().ask(place); });
   add("tool-seed", tr("&Place a sphere here"), [](engine::CaseProxy& proxy, glm::dvec3 place) {
     proxy.paint({place, proxy.display().settings().brush_mm}, solver::Brush::add,
                 engine::CaseProxy::new_gesture());
@@ -58,6 +61,7 @@ void add_overlays(QMenu& menu, PictureView& view, const Actions& actions) {
   };
   add(tr("&Outline of the surface"), &engine::DisplaySettings::outline);
   add(tr("&Crosshair"), &engine::DisplaySettings::crosshair);
+  add(tr("&Arrows of the terms"), &engine::DisplaySettings::forces);
   add(tr("&Examples, walls and anchors"), &engine::DisplaySettings::marks);
   if (view.proxy().study().truth) add(tr("Outline of the t&ruth"), &engine::DisplaySettings::truth);
   overlays->addAction(actions.patient_text);

@@ -1,5 +1,6 @@
 #include "ui/panels/level_set_panel.h"
 
+#include "ui/panels/balance_controls.h"
 #include "ui/panels/change_controls.h"
 #include "ui/panels/evolution_figures.h"
 #include "ui/panels/example_controls.h"
@@ -16,6 +17,7 @@ LevelSetPanel::LevelSetPanel(QWidget* parent)
   add(new FunctionControls);
   add(new ExampleControls);
   add(new SpeedControls);
+  add(new BalanceControls);
   add(new SpeedDetails);
   add(new EvolutionFigures);
 }

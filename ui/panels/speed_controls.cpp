@@ -6,6 +6,7 @@
 #include <QSignalBlocker>
 #include <cmath>
 
+#include "engine/case_balance.h"
 #include "ui/look/theme.h"
 #include "ui/panels/joint_plot.h"
 #include "ui/panels/speed_histogram.h"
@@ -67,7 +68,9 @@ void SpeedControls::add_numbers(Form& form) {
 void SpeedControls::attach() {
   certainty_->set_proxy(proxy());
   joint_->set_proxy(proxy());
+  disconnect(explained_);
   if (!proxy()) return;
+  explained_ = connect(&proxy()->balance(), &engine::CaseBalance::changed, this, &SpeedControls::show_mark);
   const engine::SourceSummary& summary = proxy()->summary();
   const QString unit = value_unit(proxy()->volume());
   const double span = std::max<double>(summary.high - summary.low, 1e-6);
@@ -87,6 +90,12 @@ void SpeedControls::attach() {
   range_->set_unit(unit);
 }
 
+// The brightness of the place that is explained.
+void SpeedControls::show_mark() {
+  const auto& place = proxy()->balance().place();
+  tent_->set_mark(place ? std::optional(place->balance.intensity) : std::nullopt);
+}
+
 void SpeedControls::refresh() {
   const solver::Parameters& parameters = proxy()->parameters();
   // T and epsilon are the tent's.
@@ -98,6 +107,7 @@ void SpeedControls::refresh() {
   // What learns sees all images; the others see one.
   form_->setRowVisible(joint_,
                        is_driven_by(proxy()->drive(), "examples") && JointPlot::fits(proxy()->drive()));
+  show_mark();
   tent_->set_tent(parameters.target, parameters.range);
   target_->set_value(parameters.target);
   range_->set_value(parameters.range);

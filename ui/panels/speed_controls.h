@@ -26,6 +26,7 @@ class SpeedControls : public CaseWidget {
 
  private:
   void add_numbers(Form& form);
+  void show_mark();
   void change(const std::function<void(solver::Parameters&)>& apply, std::uint64_t gesture);
 
   QFormLayout* form_;
@@ -35,6 +36,7 @@ class SpeedControls : public CaseWidget {
   SliderNumber* target_;
   SliderNumber* range_;
   SliderNumber* alpha_;
+  QMetaObject::Connection explained_;
 };
 
 }  // namespace tidemark::ui

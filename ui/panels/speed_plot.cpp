@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/case_proxy.h"
+#include "ui/look/term_colours.h"
 #include "ui/look/theme.h"
 #include "ui/widgets/number_text.h"
 
@@ -71,6 +72,12 @@ void SpeedPlot::set_tent(double target, double range) {
   setAccessibleDescription(
       tr("Grows from %1 to %2")
           .arg(number_text(target - range, decimals_, unit_), number_text(target + range, decimals_, unit_)));
+  update();
+}
+
+void SpeedPlot::set_mark(std::optional<double> value) {
+  if (mark_ == value) return;
+  mark_ = value;
   update();
 }
 
@@ -213,6 +220,7 @@ void SpeedPlot::paintEvent(QPaintEvent* /*event*/) {
   paint_histogram(painter);
   paint_tent(painter);
   if (!isEnabled()) return;
+  paint_mark(painter);
   paint_values(painter);
   paint_handles(painter);
   if (!hasFocus()) return;
@@ -268,6 +276,19 @@ void SpeedPlot::paint_tent(QPainter& painter) const {
   const bool floor_right = tent[3].x() < area.right();
   painter.drawPolyline(tent + (floor_left ? 0 : 1), 3 + (floor_left ? 1 : 0) + (floor_right ? 1 : 0));
   painter.restore();
+}
+
+// A line at the value, and D there.
+void SpeedPlot::paint_mark(QPainter& painter) const {
+  if (!mark_ || !values().holds(*mark_)) return;
+  const QRectF area = plot();
+  const double x = values().pixel(*mark_);
+  const double speed = std::max(-1.0, 1.0 - std::abs(*mark_ - target_) / range_);
+  painter.setPen(QPen(palette().color(QPalette::Text), 1.0));
+  painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
+  painter.setPen(QPen(palette().color(QPalette::Base), 1.0));
+  painter.setBrush(kDataColour);
+  painter.drawEllipse(QPointF(x, height_of(speed)), kHandle, kHandle);
 }
 
 void SpeedPlot::paint_handles(QPainter& painter) const {

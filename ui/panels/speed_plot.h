@@ -3,6 +3,7 @@
 
 #include <QWidget>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/source_summary.h"
@@ -19,6 +20,9 @@ class SpeedPlot : public QWidget {
 
   void set_source(const engine::SourceSummary& summary, const QString& unit);
   void set_tent(double target, double range);
+  // A value that is to be seen on the tent; none: no mark.
+  void set_mark(std::optional<double> value);
+  [[nodiscard]] const std::optional<double>& mark() const { return mark_; }
   [[nodiscard]] double target() const { return target_; }
   [[nodiscard]] double range() const { return range_; }
 
@@ -53,6 +57,7 @@ class SpeedPlot : public QWidget {
   void change(double target, double range);
   void paint_histogram(QPainter& painter) const;
   void paint_tent(QPainter& painter) const;
+  void paint_mark(QPainter& painter) const;
   void paint_handles(QPainter& painter) const;
   void paint_values(QPainter& painter) const;
 
@@ -68,6 +73,7 @@ class SpeedPlot : public QWidget {
 
   double target_ = 0.5;
   double range_ = 0.1;
+  std::optional<double> mark_;
   Handle hovered_ = Handle::none;
   Handle dragged_ = Handle::none;
   double grip_ = 0.0;  // from the pointer to the handle, in values

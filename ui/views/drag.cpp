@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/case_balance.h"
 #include "ui/views/edit_drags.h"
 #include "ui/views/mark_drags.h"
 #include "ui/views/measure_drags.h"
@@ -45,6 +46,15 @@ class CrosshairDrag : public Drag {
   }
 };
 
+class WhyDrag : public Drag {
+ public:
+  WhyDrag(DragView view, const Pointer& pressed) : Drag(std::move(view)) { move(pressed); }
+
+  void move(const Pointer& pointer) override {
+    if (pointer.patient_mm) proxy().balance().ask(*pointer.patient_mm);
+  }
+};
+
 }  // namespace
 
 std::unique_ptr<Drag> window_drag(DragView view, const Pointer& pressed) {
@@ -85,6 +95,8 @@ std::unique_ptr<Drag> tool_drag(engine::Tool tool, DragView view, const Pointer&
       return view.slab ? std::make_unique<ExampleDrag>(std::move(view), pressed) : nullptr;
     case engine::Tool::wall:
       return std::make_unique<ConstraintDrag>(std::move(view), pressed);
+    case engine::Tool::why:
+      return std::make_unique<WhyDrag>(std::move(view), pressed);
   }
   return nullptr;
 }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "engine/case_balance.h"
+#include "ui/views/force_arrows.h"
 #include "ui/views/overlay.h"
 #include "ui/views/picture_surface.h"
 
@@ -20,7 +22,8 @@ constexpr double kSmallestBrush = 0.2;  // mm
 constexpr double kLargestBrush = 200.0;
 constexpr double kSmallestStroke = 0.5;  // voxels
 constexpr double kLargestStroke = 50.0;
-constexpr double kClickReach = 5.0;  // logical pixels: a hand is not quite still
+constexpr double kForceDistance = 16.0;  // logical pixels between arrows
+constexpr double kClickReach = 5.0;      // logical pixels: a hand is not quite still
 
 Qt::CursorShape cursor_for(engine::Tool tool) {
   switch (tool) {
@@ -37,6 +40,8 @@ Qt::CursorShape cursor_for(engine::Tool tool) {
     case engine::Tool::examples:
     case engine::Tool::wall:
       return Qt::CrossCursor;
+    case engine::Tool::why:
+      return Qt::WhatsThisCursor;
   }
   return Qt::ArrowCursor;
 }
@@ -55,6 +60,9 @@ PictureView::PictureView(engine::CaseProxy& proxy, QWidget* parent)
   connect(&feed_, &engine::PictureFeed::arrived, this, &PictureView::paint_again);
   connect(&display(), &engine::Display::changed, this, &PictureView::follow_display);
   connect(&display(), &engine::Display::pointer_moved, this, &PictureView::paint_again);
+  connect(&proxy.balance(), &engine::CaseBalance::changed, this, &PictureView::paint_again);
+  connect(&proxy, &engine::CaseProxy::state_changed, this, &PictureView::follow_forces);
+  connect(&forces_, &engine::ForceSampler::answered, this, &PictureView::paint_again);
   follow_display();
 }
 
@@ -72,6 +80,7 @@ QImage PictureView::grab_picture() {
     painter.setRenderHint(QPainter::Antialiasing);
     paint_picture(painter);
     paint_overlay(painter);
+    paint_balance(painter);
   };
   if (surface_) return surface_->grab(paint);
   const renderer::PictureSize size = physical_size();
@@ -98,6 +107,7 @@ void PictureView::ask() {
 void PictureView::follow_display() {
   setCursor(cursor_at(mouse_));
   ask();
+  follow_forces();
   paint_again();
 }
 
@@ -121,6 +131,7 @@ void PictureView::paint_all(QPainter& painter) {
   painter.setRenderHint(QPainter::Antialiasing);
   paint_picture(painter);
   paint_overlay(painter);
+  paint_balance(painter);
   if (const auto brush = ring()) paint_circle(painter, brush->centre, brush->radius, brush->erases);
   if (!drag_) return;
   drag_->paint(painter);
@@ -174,15 +185,45 @@ std::optional<PictureView::Ring> PictureView::ring() const {
   return Ring{position_of(centre_mm), std::sqrt(square) / mm_per_pixel(), shown->erases};
 }
 
+// The pushes of the terms.
+
+void PictureView::follow_forces() {
+  const auto inputs = engine::step_inputs(proxy_.state());
+  if (!settings().forces || !isVisible() || !inputs) return forces_.forget();
+  forces_.ask({*inputs, force_slab(), kForceDistance * mm_per_pixel()});
+}
+
+void PictureView::paint_balance(QPainter& painter) const {
+  const SurfaceScreen on_screen{
+      [this](glm::dvec3 place) { return position_of(place); },
+      [this](glm::dvec3 place, glm::dvec3 outward) { return shows(place, outward); }, mm_per_pixel(),
+      QSizeF(size())};
+  const glm::dvec3 spacing = proxy_.volume().geometry.spacing_mm;
+  const double spacing_mm = std::min({spacing.x, spacing.y, spacing.z});
+  if (settings().forces) paint_forces(painter, forces_.forces(), spacing_mm, on_screen);
+  if (const auto& place = proxy_.balance().place()) paint_explained_place(painter, *place, on_screen);
+}
+
+// The engine looks for the place in 3D: one search at a time.
+void PictureView::explain_at(QPointF position) {
+  if (std::exchange(explaining_, true)) return;
+  find_place(position, [this](std::optional<glm::dvec3> place_mm) {
+    explaining_ = false;
+    if (place_mm) proxy_.balance().ask_in_passing(*place_mm);
+  });
+}
+
 void PictureView::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
   if (surface_) surface_->setGeometry(rect());
   ask();
+  follow_forces();
 }
 
 void PictureView::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
   ask();
+  follow_forces();
 }
 
 bool PictureView::event(QEvent* event) {
@@ -241,6 +282,11 @@ void PictureView::mouseMoveEvent(QMouseEvent* event) {
   } else if (button_ == Qt::NoButton && event->modifiers().testFlag(Qt::ShiftModifier) &&
              pointer.patient_mm) {
     display().change([&](engine::DisplaySettings& settings) { settings.cursor_mm = *pointer.patient_mm; });
+  } else if (button_ == Qt::NoButton && event->modifiers() == Qt::ControlModifier &&
+             !engine::has_right_button(settings().tool)) {
+    explain_at(mouse_);
+  } else if (button_ == Qt::NoButton) {
+    proxy_.balance().passed();
   }
 }
 
@@ -285,6 +331,7 @@ void PictureView::mouseDoubleClickEvent(QMouseEvent* event) {
 
 void PictureView::leaveEvent(QEvent* event) {
   QWidget::leaveEvent(event);
+  explaining_ = false;  // a search that failed has no answer
   display().set_pointer(std::nullopt);
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "engine/force_sampler.h"
 #include "engine/picture_feed.h"
 #include "ui/views/drag.h"
 
@@ -33,6 +34,8 @@ class PictureView : public QWidget {
   // On the slice or the clip plane; none beside it.
   [[nodiscard]] virtual std::optional<glm::dvec3> patient_at(QPointF position) const = 0;
   [[nodiscard]] virtual double mm_per_pixel() const = 0;
+  // Whether a place on the surface is seen; `outward` is the surface's normal there.
+  [[nodiscard]] virtual bool shows(glm::dvec3 place_mm, glm::dvec3 outward) const = 0;
   // The voxels that a slice shows; none in 3D.
   [[nodiscard]] virtual std::optional<engine::SliceSlab> slab() const { return std::nullopt; }
 
@@ -70,6 +73,8 @@ class PictureView : public QWidget {
   // Drags that are about the view itself; `first_choice`: the left button of a tool that has nothing to do
   // here.
   virtual std::unique_ptr<Drag> navigation_drag(const Pointer& pressed) = 0;
+  // The part of the patient whose surface has arrows here; none: all of it.
+  [[nodiscard]] virtual std::optional<solver::PlaneSlab> force_slab() const { return std::nullopt; }
   virtual void scroll(int clicks) = 0;
   virtual void zoom(double factor, QPointF about) = 0;
   // What of the patient is seen at a position; the answer may come later.
@@ -98,6 +103,9 @@ class PictureView : public QWidget {
 
  private:
   void follow_display();
+  void follow_forces();
+  void explain_at(QPointF position);
+  void paint_balance(QPainter& painter) const;
   void ask_for_menu(QPointF position);
   void ask_for_menu_by_key();
   void paint_all(QPainter& painter);
@@ -112,7 +120,9 @@ class PictureView : public QWidget {
   QPointF mouse_;
   QPointF pressed_at_;
   bool may_be_click_ = false;  // the right button is down, and the mouse has not moved yet
-  int wheel_remainder_ = 0;    // of mice that turn by less than a click
+  engine::ForceSampler forces_;
+  bool explaining_ = false;  // a place is being looked for
+  int wheel_remainder_ = 0;  // of mice that turn by less than a click
 };
 
 }  // namespace tidemark::ui

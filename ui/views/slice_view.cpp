@@ -177,6 +177,15 @@ std::optional<glm::dvec3> SliceViewWidget::patient_at(QPointF position) const {
   return screen().patient_at(position);
 }
 
+bool SliceViewWidget::shows(glm::dvec3 place_mm, glm::dvec3 /*outward*/) const {
+  return std::abs(screen().distance_mm(place_mm)) <= 0.5 * place().thickness_mm + 1e-6;
+}
+
+std::optional<solver::PlaneSlab> SliceViewWidget::force_slab() const {
+  const glm::dvec3 into = orientation().into();
+  return solver::PlaneSlab{into, glm::dot(into, settings().cursor_mm), 0.5 * place().thickness_mm};
+}
+
 std::optional<engine::SliceSlab> SliceViewWidget::slab() const {
   return engine::SliceSlab(proxy().volume().geometry, settings().cursor_mm, orientation().into());
 }

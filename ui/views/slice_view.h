@@ -26,6 +26,7 @@ class SliceViewWidget : public PictureView {
   [[nodiscard]] std::optional<glm::dvec3> patient_at(QPointF position) const override;
   [[nodiscard]] double mm_per_pixel() const override { return screen().mm_per_pixel(); }
   [[nodiscard]] std::optional<engine::SliceSlab> slab() const override;
+  [[nodiscard]] bool shows(glm::dvec3 place_mm, glm::dvec3 outward) const override;
   // Along the normal: which slice of how many is seen (1-based), and how far they are apart.
   struct Place {
     std::int64_t slice = 1;
@@ -39,6 +40,7 @@ class SliceViewWidget : public PictureView {
 
  protected:
   [[nodiscard]] engine::AnyView wanted() const override { return fused_slice(); }
+  [[nodiscard]] std::optional<solver::PlaneSlab> force_slab() const override;
   void paint_overlay(QPainter& painter) override;
   std::unique_ptr<Drag> begin_drag(const Pointer& pressed) override;
   std::unique_ptr<Drag> navigation_drag(const Pointer& pressed) override;

@@ -113,6 +113,14 @@ ClipHandles VolumeViewWidget::handles() const {
   return {settings().clip, screen(), proxy().volume().geometry};
 }
 
+// What faces away, or is cut off, is not seen; what other parts of the surface hide is.
+bool VolumeViewWidget::shows(glm::dvec3 place_mm, glm::dvec3 outward) const {
+  const renderer::ClipPlane& clip = settings().clip;
+  const bool is_cut =
+      settings().clip_on && clip.clips_surface && glm::dot(clip.normal, place_mm) > clip.offset_mm + 1e-6;
+  return settings().surface && !is_cut && glm::dot(outward, screen().into()) < 0.0;
+}
+
 std::optional<glm::dvec3> VolumeViewWidget::patient_at(QPointF position) const {
   if (grip_mm_) {
     const VolumeScreen on_screen = screen();

@@ -18,6 +18,7 @@ class VolumeViewWidget : public PictureView {
   }
   [[nodiscard]] std::optional<glm::dvec3> patient_at(QPointF position) const override;
   [[nodiscard]] double mm_per_pixel() const override { return screen().mm_per_pixel(); }
+  [[nodiscard]] bool shows(glm::dvec3 place_mm, glm::dvec3 outward) const override;
   [[nodiscard]] ClipHandles handles() const;
   [[nodiscard]] renderer::VolumeView view() const;
   // The surface, or the volume without one, fills the view.

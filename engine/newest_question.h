@@ -1,0 +1,76 @@
+// Answers to the newest of many questions, found away from the thread of the user interface.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <utility>
+
+#include "engine/background_job.h"
+
+namespace tidemark::engine {
+
+// One job at a time. A question that is being answered is answered to its end, and the newest one follows, so
+// that answers keep coming while questions change faster than they are found.
+template <class Question, class Answer>
+class NewestQuestion {
+ public:
+  // `answer` runs on a thread of its own; `answered` is called on the receiver's.
+  using Work = std::function<Answer(const Question&, const std::stop_token&)>;
+  NewestQuestion(QObject* receiver, Work work, std::function<void()> answered)
+      : receiver_(receiver), work_(std::move(work)), answered_(std::move(answered)) {}
+  ~NewestQuestion() {
+    if (job_) job_->abandon();
+  }
+  NewestQuestion(const NewestQuestion&) = delete;
+  NewestQuestion& operator=(const NewestQuestion&) = delete;
+
+  void ask(Question question) {
+    if (asked_ == question) return;
+    asked_ = std::move(question);
+    if (!job_) start();
+  }
+  // Neither question nor answer any more.
+  void forget() {
+    if (job_) job_->abandon();
+    job_.reset();
+    asked_.reset();
+    answer_.reset();
+  }
+
+  // The last question that was answered, and its answer; none before the first.
+  struct Answered {
+    Question question;
+    Answer answer;
+  };
+  [[nodiscard]] const std::optional<Answered>& answer() const { return answer_; }
+  [[nodiscard]] bool waits() const { return job_ != nullptr; }
+
+ private:
+  void start() {
+    job_ = BackgroundJob::start(
+        receiver_,
+        [this, work = work_, question = *asked_](BackgroundJob& job) {
+          auto answered = std::make_shared<Answered>(Answered{question, work(question, job.stop())});
+          job.deliver([this, answered] { take(std::move(*answered)); });
+        },
+        [this](const Error&) { job_.reset(); });
+  }
+  // The receiver may ask something else, or forget, on the answer.
+  void take(Answered answered) {
+    job_.reset();
+    answer_ = std::move(answered);
+    answered_();
+    if (!job_ && asked_ && answer_ && asked_ != answer_->question) start();
+  }
+
+  QObject* receiver_;
+  Work work_;
+  std::function<void()> answered_;
+  std::optional<Question> asked_;
+  std::optional<Answered> answer_;
+  std::shared_ptr<BackgroundJob> job_;  // while one runs
+};
+
+}  // namespace tidemark::engine

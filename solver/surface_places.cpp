@@ -1,0 +1,148 @@
+#include "solver/surface_places.h"
+
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <map>
+
+namespace tidemark::solver {
+namespace {
+
+glm::dvec3 into_grid(const Field& phi, glm::dvec3 place) {
+  return glm::clamp(place, glm::dvec3(0.0), glm::dvec3(phi.geometry.size - Index3(1)));
+}
+
+bool is_inside(float phi) {
+  return phi > 0.0F;
+}
+
+// Per voxel of each axis.
+glm::dvec3 gradient_at(const Field& phi, glm::dvec3 place) {
+  constexpr double kHalf = 0.5;
+  glm::dvec3 gradient(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 step(0.0);
+    step[axis] = kHalf;
+    gradient[axis] = phi_at(phi, place + step) - phi_at(phi, place - step);
+  }
+  return gradient;
+}
+
+// Keeps places that are far enough from those that were kept before. A cube with a side of that distance has
+// the place that was kept in it last.
+class Thinned {
+ public:
+  explicit Thinned(double apart_mm) : apart_mm_(apart_mm) {}
+
+  void add(glm::dvec3 place, glm::dvec3 place_mm) {
+    const Index3 cube(glm::floor(place_mm / apart_mm_));
+    for (std::int64_t z = -1; z <= 1; ++z) {
+      for (std::int64_t y = -1; y <= 1; ++y) {
+        for (std::int64_t x = -1; x <= 1; ++x) {
+          const auto kept = kept_.find({cube.x + x, cube.y + y, cube.z + z});
+          if (kept != kept_.end() && glm::distance(kept->second, place_mm) < apart_mm_) return;
+        }
+      }
+    }
+    kept_[{cube.x, cube.y, cube.z}] = place_mm;
+    places.push_back(place);
+  }
+
+  std::vector<glm::dvec3> places;
+
+ private:
+  double apart_mm_;
+  std::map<std::array<std::int64_t, 3>, glm::dvec3> kept_;
+};
+
+bool meets(const Field& phi, std::int64_t page, const PlaneSlab& slab) {
+  const glm::dvec3 half = 0.5 * glm::dvec3(phi.layout.page_shape());
+  const glm::dvec3 middle_mm =
+      phi.geometry.to_patient(glm::dvec3(phi.layout.first_voxel(page)) + half - glm::dvec3(0.5));
+  const double radius_mm = glm::length((half + glm::dvec3(0.5)) * phi.geometry.spacing_mm);
+  return std::abs(glm::dot(slab.normal, middle_mm) - slab.offset_mm) <= radius_mm + slab.reach_mm;
+}
+
+}  // namespace
+
+double phi_at(const Field& phi, glm::dvec3 place) {
+  const glm::dvec3 inside = into_grid(phi, place);
+  const glm::dvec3 first = glm::floor(inside);
+  const glm::dvec3 share = inside - first;
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Index3 step(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec3 weights = glm::mix(glm::dvec3(1.0) - share, share, glm::dvec3(step));
+    const double weight = weights.x * weights.y * weights.z;
+    if (weight > 0.0) sum += weight * phi.at(Index3(first) + step);
+  }
+  return sum;
+}
+
+std::optional<glm::dvec3> surface_along(const Field& phi, glm::dvec3 place, glm::dvec3 way, double reach) {
+  constexpr double kStride = 0.25;
+  constexpr int kHalvings = 24;
+  const bool inside = phi_at(phi, place) > 0.0;
+  const auto is_other = [&](double at) { return (phi_at(phi, place + at * way) > 0.0) != inside; };
+  for (double far = kStride; far <= reach; far += kStride) {
+    for (const double side : {far, -far}) {
+      if (!is_other(side)) continue;
+      double near = side - std::copysign(kStride, side);
+      double beyond = side;
+      for (int i = 0; i < kHalvings; ++i) {
+        const double middle = 0.5 * (near + beyond);
+        (is_other(middle) ? beyond : near) = middle;
+      }
+      return into_grid(phi, place + beyond * way);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<glm::dvec3> surface_near(const Field& phi, glm::dvec3 place, double reach) {
+  const glm::dvec3 gradient = gradient_at(phi, place);
+  if (const double length = glm::length(gradient); length > 0.0)
+    return surface_along(phi, place, gradient / length, reach);
+  std::optional<glm::dvec3> nearest;
+  for (int code = 14; code < 27; ++code) {  // one of each pair of opposite ways
+    const glm::dvec3 way(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+    const auto found = surface_along(phi, place, glm::normalize(way), reach);
+    if (found && (!nearest || glm::distance(*found, place) < glm::distance(*nearest, place))) nearest = found;
+  }
+  return nearest;
+}
+
+std::vector<glm::dvec3> surface_places(const Field& phi, const std::optional<PlaneSlab>& slab,
+                                       double apart_mm, const std::stop_token& stop) {
+  const Geometry& geometry = phi.geometry;
+  Thinned thinned(apart_mm);
+  for (std::int64_t page = 0; page < phi.layout.page_count() && !stop.stop_requested(); ++page) {
+    if (phi.table[static_cast<std::size_t>(page)] < 0 || (slab && !meets(phi, page, *slab))) continue;
+    const Index3 first = phi.layout.first_voxel(page);
+    const Index3 valid = phi.layout.valid_shape(page);
+    for (std::int64_t z = 0; z < valid.z; ++z) {
+      for (std::int64_t y = 0; y < valid.y; ++y) {
+        for (std::int64_t x = 0; x < valid.x; ++x) {
+          const Index3 voxel = first + Index3(x, y, z);
+          const float here = phi.at(voxel);
+          for (int axis = 0; axis < 3; ++axis) {
+            Index3 next = voxel;
+            if (++next[axis] >= geometry.size[axis]) continue;
+            const float there = phi.at(next);
+            if (is_inside(here) == is_inside(there)) continue;
+            glm::dvec3 place(voxel);
+            place[axis] += here / (here - there);
+            const glm::dvec3 place_mm = geometry.to_patient(place);
+            if (slab && std::abs(glm::dot(slab->normal, place_mm) - slab->offset_mm) > slab->reach_mm)
+              continue;
+            thinned.add(place, place_mm);
+          }
+        }
+      }
+    }
+  }
+  return std::move(thinned.places);
+}
+
+}  // namespace tidemark::solver
