@@ -63,6 +63,12 @@ LevelSet::LevelSet(ExecutorSetup setup, const solver::Parameters& parameters, Hi
   start_ = std::make_shared<const solver::Field>(
       solver::Field::empty(geometry, executor().band(), recipe_.executor.page_shape));
   put_in_place({recipe_, start_, start_});
+  history_.set_steering(steering_of(known_));
+}
+
+Steering LevelSet::steering_of(const Point& point) {
+  const Recipe& recipe = point.recipe;
+  return {recipe.begun(), recipe.steps, recipe.final_parameters(), describe(*point.drive)};
 }
 
 ChangeDescription LevelSet::description() const {
@@ -95,7 +101,7 @@ Status LevelSet::close() {
 void LevelSet::add_entry(ChangeKind kind, const Point& before, const Point& after) {
   const bool counts_steps = kind == ChangeKind::evolution || kind == ChangeKind::step_back;
   const std::int64_t steps = counts_steps ? std::abs(after.recipe.steps - before.recipe.steps) : 0;
-  history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after));
+  history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after), steering_of(after));
   settled_events_ = after.recipe.events.size();
 }
 
@@ -121,14 +127,19 @@ void LevelSet::begin_change(ChangeKind kind, std::uint64_t gesture, Point before
 }
 
 // Appends to the recipe, after the ResumeEvent if phi was put back.
-void LevelSet::record(RecipeEvent event) {
+void LevelSet::append(RecipeEvent event) {
   if (std::exchange(resumed_, false) && step() > 0) recipe_.events.push_back({step(), ResumeEvent{}});
+  recipe_.events.push_back(std::move(event));
+}
+
+// The same, in place of an event that does not count any more.
+void LevelSet::record(RecipeEvent event) {
   std::vector<RecipeEvent>& events = recipe_.events;
-  if (!events.empty() && events.back().step == event.step && replaces(event, events.back())) {
+  const bool resumes = resumed_ && step() > 0;
+  if (!resumes && !events.empty() && events.back().step == event.step && replaces(event, events.back())) {
     events.pop_back();
-    settled_events_ = std::min(settled_events_, events.size());
   }
-  events.push_back(std::move(event));
+  append(std::move(event));
 }
 
 Status LevelSet::read_back_phi() {
@@ -246,6 +257,24 @@ Status LevelSet::hand_over(const Point& point) {
   return executor().restore(*point.phi);
 }
 
+// One of the points on a way through the history: the executor gets the last one only.
+void LevelSet::pass(Point point) {
+  point.recipe.executor = setup_.description();
+  point.recipe.source = recipe_.source;
+  put_in_place(std::move(point));
+  resumed_ = true;
+  on_its_way_ = true;
+}
+
+Status LevelSet::arrive() {
+  return std::exchange(on_its_way_, false) ? hand_over(known_) : Status();
+}
+
+solver::Field LevelSet::phi_at(std::uint64_t state) const {
+  const Point& last = open_ ? open_->before : known_;
+  return history_.phi_at(state, history_.last_state(), *last.phi);
+}
+
 // When there is no room for the point, goes back to known_; no edit stays open then.
 Status LevelSet::go_to(Point point) {
   Status gone = hand_over(point);
@@ -264,7 +293,10 @@ Status LevelSet::resume_from(const Recipe& recipe, std::shared_ptr<const solver:
                              const Curve& curve) {
   TIDEMARK_TRY(history_.close());
   auto drive = std::make_shared<const Drive>(value_of(recipe.final_drive()));
-  return go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr, curve, std::move(drive)});
+  TIDEMARK_TRY(go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr, curve, std::move(drive)}));
+  settled_events_ = recipe_.events.size();
+  history_.set_steering(steering_of(known_));
+  return {};
 }
 
 void LevelSet::note(const CurvePoint& point) {

@@ -58,10 +58,13 @@ Status LevelSet::use(const Drive& drive, std::shared_ptr<const solver::SpeedFunc
   if (in_place && used == drive_in_use()) return {};
   TIDEMARK_TRY(setup_.set_drive(shared(used), std::move(speed)));
   if (used == value_of(recipe_.final_drive())) return {};
-  if (begun()) {
-    record({step(), DriveEvent{std::make_shared<const Drive>(used)}});
-  } else {
+  if (!begun()) {
     recipe_.drive = shared(used);
+  } else if (RecipeEvent event{step(), DriveEvent{std::make_shared<const Drive>(used)}};
+             recipe_.events.size() > settled_events_) {
+    record(std::move(event));
+  } else {
+    append(std::move(event));  // other ways to here and on from here count on the last one
   }
   if (!dirty_) known_.recipe = recipe_;
   return {};
