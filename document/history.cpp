@@ -186,10 +186,14 @@ std::optional<ChangeDescription> History::redo_description() const {
 
 std::vector<HistoryState> History::states() const {
   std::vector<HistoryState> states;
-  states.reserve(nodes_.size() + 1);
+  states.reserve(nodes_.size());
   for (const auto& [id, node] : nodes_) states.push_back({id, node.parent, node.description, node.steering});
-  if (open_ != nullptr) states.push_back({last_id_, present_, open_->description(), open_->steering()});
   return states;
+}
+
+std::optional<HistoryState> History::open_state() const {
+  if (open_ == nullptr) return std::nullopt;
+  return HistoryState{last_id_, present_, open_->description(), open_->steering()};
 }
 
 solver::Field History::phi_at(std::uint64_t id, std::uint64_t from, const solver::Field& phi) const {

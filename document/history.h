@@ -61,8 +61,10 @@ class History {
 
   // The state where the open change began; without one, the present state.
   [[nodiscard]] std::uint64_t last_state() const { return present_; }
-  // All states, parents before their children, older ones first. An open change is the last one.
+  // All states, parents before their children, older ones first.
   [[nodiscard]] std::vector<HistoryState> states() const;
+  // What an open change has come to.
+  [[nodiscard]] std::optional<HistoryState> open_state() const;
   [[nodiscard]] bool has(std::uint64_t id) const { return nodes_.contains(id); }
   // phi of a state from that of another one. Both must be known.
   [[nodiscard]] solver::Field phi_at(std::uint64_t id, std::uint64_t from, const solver::Field& phi) const;

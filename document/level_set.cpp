@@ -408,7 +408,7 @@ Status LevelSet::rebuild(const solver::ExecutorOptions& options, std::optional<s
   drive_ = known_.drive = wanted;
   if (Drive now = drive_in_use(); now.constraints != wanted->constraints) {
     now.constraints = wanted->constraints;
-    TIDEMARK_TRY(use(now, executor().speed()));
+    TIDEMARK_TRY(use(now, executor().speed(), Entry::none));
   }
   if (present == parameters()) return {};
   if (!open_) return set_parameters(present);

@@ -136,7 +136,8 @@ class LevelSet final : private OpenChange {
   void begin_change(ChangeKind kind, std::uint64_t gesture, Point before);
   void record(RecipeEvent event);
   [[nodiscard]] Drive drive_in_use() const;
-  Status use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed);
+  enum class Entry { next, none };  // of the history, for what is done
+  Status use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed, Entry entry);
   void append(RecipeEvent event);
   Status drive_as(const Recipe& recipe);
   void add_entry(ChangeKind kind, const Point& before, const Point& after);

@@ -180,6 +180,10 @@ void CaseProxy::redo() {
   });
 }
 
+void CaseProxy::go_to(std::uint64_t state) {
+  post([state](CaseRunner& runner, const Progress&) { return runner.go_to(state); });
+}
+
 void CaseProxy::add_label(const QString& name) {
   post([name = name.toStdString()](CaseRunner& runner, const Progress&) -> Status {
     const auto id = runner.document().labels().add(name);

@@ -90,6 +90,8 @@ class CaseProxy : public QObject {
   void change_executor(solver::ExecutorKind kind);
   void undo();
   void redo();
+  // Another state of the history, of CaseState::history; what was done since stays in it.
+  void go_to(std::uint64_t state);
 
   // Labels.
   void add_label(const QString& name);

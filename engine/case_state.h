@@ -11,6 +11,7 @@
 #include "document/drive.h"
 #include "document/labels.h"
 #include "document/outcome.h"
+#include "engine/case_history.h"
 #include "solver/executor.h"
 #include "solver/statistics.h"
 
@@ -52,6 +53,9 @@ struct CaseState {
   std::optional<document::Acceptance> acceptance;                 // while it is the last change
   QString undo_text;                                              // which change undo takes back; empty: none
   QString redo_text;
+  std::shared_ptr<const HistoryRows> history = std::make_shared<const HistoryRows>();  // never null
+  std::uint64_t history_state = 0;                 // of them, the present one or the one where the next begins
+  std::optional<document::HistoryState> open_change;  // that goes on from it
   std::uint64_t edits = 0;                           // how much was done: grows with each edit
   bool modified = false;                             // something would be lost
   QString start_text;                                // how it began
