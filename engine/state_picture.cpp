@@ -24,7 +24,7 @@ void for_each_inside(const solver::Field& phi, const Visit& visit) {
     const float* values = entry < 0 ? nullptr : phi.pages.data() + entry * layout.voxels_per_page();
     solver::for_each_row(phi.geometry, layout, page,
                          [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
-                           const Index3 first = phi.geometry.index(offset);
+                           const Index3 first = phi.geometry.voxel_at(offset);
                            for (std::int64_t i = 0; i < length; ++i) {
                              if (values == nullptr || values[index + i] > 0.0F)
                                visit(first.x + i, first.y, first.z);
