@@ -133,7 +133,7 @@ void ScaleStoryTest::panels_fit_into_their_column() {
   desktop.begin(10.0);
   int panels = 0;
   for (const char* name :
-       {"initialise", "level-set", "paint", "display", "transfer", "labels", "statistics"}) {
+       {"initialise", "level-set", "history", "paint", "display", "transfer", "labels", "statistics"}) {
     desktop.window().panels().show(name);
     QTest::qWait(50);
     auto* dock = desktop.window().findChild<QDockWidget*>(name);

@@ -1,0 +1,21 @@
+// The drawing of a row of the history: the tree's lines, a small picture, and words.
+#pragma once
+
+#include <QStyledItemDelegate>
+
+namespace tidemark::ui {
+
+// The compared state's, in lists and slices: apart from the surface's yellow and the truth's purple.
+inline constexpr QColor kComparedColour(0, 222, 190);
+
+// Of rows of a HistoryModel.
+class HistoryDelegate : public QStyledItemDelegate {
+  Q_OBJECT
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+  void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override;
+  [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override;
+};
+
+}  // namespace tidemark::ui
