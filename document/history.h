@@ -27,6 +27,8 @@ class History {
  public:
   static constexpr std::int64_t kDefaultLimit = std::int64_t{1} << 30;  // bytes
 
+  History() { nodes_.emplace(root_, Node()); }
+
   // States are dropped to stay below it: first ends of branches, the farthest from the present one, then the
   // oldest on the way to it. The latest change is kept whatever its size.
   void set_limit(std::int64_t bytes);
@@ -74,10 +76,10 @@ class History {
  private:
   struct Node {
     std::optional<std::uint64_t> parent;
-    std::vector<std::uint64_t> children;      // by their age
-    std::optional<std::uint64_t> next;        // the child to which redo goes
-    ChangeDescription description;            // of
-    std::unique_ptr<Change> change = nullptr;  // from the parent; null: the root's
+    std::vector<std::uint64_t> children;  // by their age
+    std::optional<std::uint64_t> next;    // the child to which redo goes
+    ChangeDescription description;
+    std::unique_ptr<Change> change;  // from the parent; null: the root's
     Steering steering;
   };
   // From one state to another: whose changes are taken back, and then whose are made again.
@@ -97,8 +99,8 @@ class History {
   void drop(std::uint64_t id);
   void drop_root();
 
-  std::map<std::uint64_t, Node> nodes_{{0, Node{}}};
   std::uint64_t root_ = 0;
+  std::map<std::uint64_t, Node> nodes_;
   std::uint64_t present_ = 0;
   OpenChange* open_ = nullptr;
   std::uint64_t last_id_ = 0;

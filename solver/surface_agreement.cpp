@@ -96,9 +96,9 @@ Result<std::optional<SurfaceDistance>> distance_between(const Field& a, const Fi
   if (points_a->empty() || points_b->empty()) return std::optional<SurfaceDistance>();
   const PointTree tree_a(std::move(*points_a));
   const PointTree tree_b(std::move(*points_b));
-  const auto there = distances(tree_a, tree_b, progress);
+  auto there = distances(tree_a, tree_b, progress);
   if (!there) return pass_on(there);
-  const auto back = distances(tree_b, tree_a, progress);
+  auto back = distances(tree_b, tree_a, progress);
   if (!back) return pass_on(back);
   const auto count = static_cast<double>(tree_a.points().size() + tree_b.points().size());
   return std::optional<SurfaceDistance>(
@@ -109,9 +109,9 @@ Result<std::optional<SurfaceDistance>> distance_between(const Field& a, const Fi
 
 Result<SurfaceAgreement> agreement(const Field& a, const Field& b, const Progress& progress) {
   if (a.geometry.size != b.geometry.size) return fail(ErrorKind::usage, "the level sets have other grids");
-  const auto of_a = overlap(a, b, progress);
+  auto of_a = overlap(a, b, progress);
   if (!of_a) return pass_on(of_a);
-  const auto of_b = overlap(b, a, progress);
+  auto of_b = overlap(b, a, progress);
   if (!of_b) return pass_on(of_b);
   SurfaceAgreement result;
   if (const std::int64_t both = of_a->inside + of_b->inside; both > 0)

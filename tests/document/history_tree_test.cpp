@@ -254,8 +254,9 @@ class HistoryTreeTest : public QObject {
       case 4: {
         const auto label = document.labels().add("label");
         if (!label) return tl::unexpected<Error>(label.error());
-        const auto accepted = document.accept_surface(*label, document::Take::others_too);
-        return accepted ? Status() : pass_on(accepted);
+        auto accepted = document.accept_surface(*label, document::Take::others_too);
+        if (!accepted) return pass_on(accepted);
+        return {};
       }
       case 5:
         return level_set.restart();

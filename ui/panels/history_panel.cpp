@@ -96,19 +96,17 @@ void HistoryPanel::clicked(const QModelIndex& index) {
 }
 
 bool HistoryPanel::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == list_ && event->type() == QEvent::KeyPress) {
-    const int key = static_cast<const QKeyEvent*>(event)->key();
-    const HistoryItem* item = model_->item(list_->currentIndex());
-    if (item && (key == Qt::Key_Return || key == Qt::Key_Enter)) {
-      go();
-      return true;
-    }
-    if (item && key == Qt::Key_Space) {
-      compare(!item->compared);
-      return true;
-    }
-  }
-  return Panel::eventFilter(watched, event);
+  const QEvent::Type type = event->type();
+  if (watched != list_ || (type != QEvent::KeyPress && type != QEvent::ShortcutOverride))
+    return Panel::eventFilter(watched, event);
+  const int key = static_cast<const QKeyEvent*>(event)->key();
+  const bool goes = key == Qt::Key_Return || key == Qt::Key_Enter;
+  const HistoryItem* item = model_->item(list_->currentIndex());
+  if (!item || (!goes && key != Qt::Key_Space)) return Panel::eventFilter(watched, event);
+  event->accept();
+  if (type == QEvent::KeyPress && goes) go();
+  if (type == QEvent::KeyPress && !goes) compare(!item->compared);
+  return true;
 }
 
 void HistoryPanel::go() {
