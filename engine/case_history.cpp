@@ -14,6 +14,12 @@ bool lacks_figures(const HistoryRow& row) {
 
 }  // namespace
 
+const HistoryRow* find_row(const HistoryRows& rows, std::uint64_t id) {
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [id](const HistoryRow& one) { return one.state.id == id; });
+  return row == rows.end() ? nullptr : &*row;
+}
+
 void CaseHistory::follow(const document::History& history) {
   std::erase_if(figures_, [&](const auto& known) { return !history.has(known.first); });
   auto rows = std::make_shared<HistoryRows>();

@@ -23,6 +23,8 @@ struct HistoryRow {
   std::optional<StateFigures> figures;
 };
 using HistoryRows = std::vector<HistoryRow>;
+// Null: there is none.
+[[nodiscard]] const HistoryRow* find_row(const HistoryRows& rows, std::uint64_t id);
 
 // Belongs to the engine's thread.
 class CaseHistory {

@@ -1,6 +1,5 @@
 #include "engine/state_comparison.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "engine/background_job.h"
@@ -32,9 +31,7 @@ void StateComparison::choose(std::optional<std::uint64_t> state) {
 }
 
 void StateComparison::follow(const CaseState& state) {
-  const auto is_chosen = [this](const HistoryRow& row) { return row.state.id == chosen_; };
-  if (chosen_ && std::none_of(state.history->begin(), state.history->end(), is_chosen))
-    return choose(std::nullopt);  // the history has forgotten it
+  if (chosen_ && !find_row(*state.history, *chosen_)) return choose(std::nullopt);  // it was forgotten
   present_ = state.phi;
   compare();
 }

@@ -7,6 +7,7 @@
 #include "ui/look/colour.h"
 #include "ui/look/theme.h"
 #include "ui/panels/history_model.h"
+#include "ui/views/overlay.h"
 
 namespace tidemark::ui {
 namespace {

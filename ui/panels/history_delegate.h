@@ -5,9 +5,6 @@
 
 namespace tidemark::ui {
 
-// The compared state's, in lists and slices: apart from the surface's yellow and the truth's purple.
-inline constexpr QColor kComparedColour(0, 222, 190);
-
 // Of rows of a HistoryModel.
 class HistoryDelegate : public QStyledItemDelegate {
   Q_OBJECT
