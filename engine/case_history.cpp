@@ -25,7 +25,8 @@ void CaseHistory::follow(const document::History& history) {
   auto rows = std::make_shared<HistoryRows>();
   for (document::HistoryState& state : history.states()) {
     const auto known = figures_.find(state.id);
-    rows->push_back({std::move(state), known == figures_.end() ? std::nullopt : std::optional(known->second)});
+    rows->push_back(
+        {std::move(state), known == figures_.end() ? std::nullopt : std::optional(known->second)});
   }
   rows_ = std::move(rows);
   edits_ = history.edits();

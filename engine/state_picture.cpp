@@ -10,7 +10,7 @@
 namespace tidemark::engine {
 namespace {
 
-constexpr double kMargin = 0.4;    // around the surface, as a part of its width
+constexpr double kMargin = 0.4;     // around the surface, as a part of its width
 constexpr double kLeastPart = 0.4;  // of the slice is seen: what grows is seen to grow
 constexpr QRgb kOutline = qRgb(255, 214, 0);
 
@@ -35,9 +35,8 @@ void for_each_inside(const solver::Field& phi, const Visit& visit) {
 
 std::int64_t fullest_slice(const solver::Field& phi) {
   std::vector<std::int64_t> inside(static_cast<std::size_t>(phi.geometry.size.z));
-  for_each_inside(phi, [&](std::int64_t, std::int64_t, std::int64_t z) {
-    ++inside[static_cast<std::size_t>(z)];
-  });
+  for_each_inside(phi,
+                  [&](std::int64_t, std::int64_t, std::int64_t z) { ++inside[static_cast<std::size_t>(z)]; });
   const auto most = std::max_element(inside.begin(), inside.end());
   return most == inside.end() || *most == 0 ? -1 : most - inside.begin();
 }
@@ -67,8 +66,8 @@ Part part_around(const solver::Field& phi, std::int64_t slice) {
   }
   Part part{{0, 0, slice}, {1, 1, 1}};
   for (int axis = 0; axis < 2; ++axis) {
-    const auto side = std::clamp<std::int64_t>(std::llround(side_mm / geometry.spacing_mm[axis]), 1,
-                                               geometry.size[axis]);
+    const auto side =
+        std::clamp<std::int64_t>(std::llround(side_mm / geometry.spacing_mm[axis]), 1, geometry.size[axis]);
     part.size[axis] = side;
     part.first[axis] =
         std::clamp<std::int64_t>((low[axis] + high[axis] + 1 - side) / 2, 0, geometry.size[axis] - side);
@@ -93,13 +92,10 @@ Volume slice_of(const Geometry& geometry, const Part& part, const Value& value) 
 
 // Where the level, as grey, goes through the middle.
 void draw_outline(const QImage& level, QImage& picture) {
-  const auto inside = [&](int x, int y) {
-    return level.valid(x, y) && qGray(level.pixel(x, y)) > 127;
-  };
+  const auto inside = [&](int x, int y) { return level.valid(x, y) && qGray(level.pixel(x, y)) > 127; };
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
-      if (inside(x, y) &&
-          !(inside(x - 1, y) && inside(x + 1, y) && inside(x, y - 1) && inside(x, y + 1))) {
+      if (inside(x, y) && !(inside(x - 1, y) && inside(x + 1, y) && inside(x, y - 1) && inside(x, y + 1))) {
         picture.setPixel(x, y, kOutline);
       }
     }
@@ -113,8 +109,7 @@ QImage picture_of_state(const Volume& volume, const solver::Field& phi, const Wi
   const std::int64_t slice = fullest_slice(phi);
   if (slice < 0) return {};
   const Part part = part_around(phi, slice);
-  const Volume values =
-      slice_of(volume.geometry, part, [&](Index3 voxel) { return volume.value(voxel); });
+  const Volume values = slice_of(volume.geometry, part, [&](Index3 voxel) { return volume.value(voxel); });
   const Volume levels = slice_of(volume.geometry, part, [&](Index3 voxel) { return phi.at(voxel); });
   QImage picture = picture_of_slice(values, window, pixels).convertToFormat(QImage::Format_RGB32);
   if (picture.isNull()) return {};

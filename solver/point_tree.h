@@ -21,8 +21,8 @@ class PointTree {
   void build(std::size_t begin, std::size_t end);
   void look(Search& search, std::size_t begin, std::size_t end) const;
 
-  std::vector<glm::vec3> points_;        // a range is divided at its middle
-  std::vector<std::uint8_t> axes_;       // of that division, at the middle's index
+  std::vector<glm::vec3> points_;   // a range is divided at its middle
+  std::vector<std::uint8_t> axes_;  // of that division, at the middle's index
 };
 
 }  // namespace tidemark::solver

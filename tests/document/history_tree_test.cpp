@@ -32,7 +32,8 @@ struct SeenCase {
 
 document::History& after_run(document::Case& document, std::int64_t steps) {
   run(document.level_set(), steps);
-  if (const Status ended = document.level_set().end_run(); !ended) qFatal("%s", ended.error().message.c_str());
+  if (const Status ended = document.level_set().end_run(); !ended)
+    qFatal("%s", ended.error().message.c_str());
   return document.history();
 }
 
@@ -245,8 +246,9 @@ class HistoryTreeTest : public QObject {
         return level_set.paint(place(), number(0, 2) == 0 ? solver::Brush::erase : solver::Brush::add);
       case 3: {
         document::Drive drive = level_set.drive();
-        auto walls = drive.constraints ? std::make_shared<solver::Constraints>(*drive.constraints)
-                                       : std::make_shared<solver::Constraints>(document.volume()->geometry.size);
+        auto walls = drive.constraints
+                         ? std::make_shared<solver::Constraints>(*drive.constraints)
+                         : std::make_shared<solver::Constraints>(document.volume()->geometry.size);
         walls->set(document.volume()->geometry, place(), solver::Constraint::wall);
         drive.constraints = std::move(walls);
         return level_set.set_drive(drive);

@@ -47,7 +47,8 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
   statistics->set_export_action(actions.export_statistics);
   transfer_ = new TransferFunctionEditor;
   panels_ = {level_set, initialise, paint, display, history, labels, statistics};
-  // One column with its tabs at the side: the views keep the room. Editor and history scroll their parts themselves.
+  // One column with its tabs at the side: the views keep the room. Editor and history scroll their parts
+  // themselves.
   const QList<QDockWidget*> docks{add("initialise", tr("Place surface"), scrolled(initialise)),
                                   add("level-set", tr("Level set"), scrolled(level_set)),
                                   add("history", tr("History"), history),

@@ -14,7 +14,7 @@ struct TreeRow {
 
 // Of a row. Lanes count from 0 at the left.
 struct RowLanes {
-  int lane = 0;              // of the row's own node
+  int lane = 0;  // of the row's own node
   bool parent_below = false;
   std::vector<int> above;    // from which lines of children come down to the node
   std::vector<int> through;  // in which lines pass by

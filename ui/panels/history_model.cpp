@@ -24,8 +24,8 @@ QString text_of_steering(const document::Steering& steering) {
   const QString drive = QString::fromStdString(steering.drive);
   // Of a tent the numbers say more than its name.
   if (!drive.startsWith(QLatin1String("tent"))) return drive + QStringLiteral("  ") + alpha;
-  return HistoryModel::tr("T %1  ε %2").arg(general_text(steering.parameters.target, 5),
-                                             general_text(steering.parameters.range, 4)) +
+  return HistoryModel::tr("T %1  ε %2")
+             .arg(general_text(steering.parameters.target, 5), general_text(steering.parameters.range, 4)) +
          QStringLiteral("  ") + alpha;
 }
 
@@ -71,9 +71,8 @@ void HistoryModel::show(const engine::CaseState& state, std::optional<std::uint6
     item.present = shown_.open ? item.open : item.id == shown_.present;
     item.compared = item.id == shown_.compared;
   }
-  const bool same_rows =
-      std::equal(items.begin(), items.end(), items_.begin(), items_.end(),
-                 [](const HistoryItem& a, const HistoryItem& b) { return a.id == b.id; });
+  const bool same_rows = std::equal(items.begin(), items.end(), items_.begin(), items_.end(),
+                                    [](const HistoryItem& a, const HistoryItem& b) { return a.id == b.id; });
   if (!same_rows) beginResetModel();
   items_ = std::move(items);
   if (!same_rows) {

@@ -76,7 +76,8 @@ QWidget* HistoryPanel::make_comparison() {
   Form form(comparison_);
   form.heading(tr("Compared with the surface"));
   with_ = form.figure(tr("State"), tr("Its outline is the turquoise one in the slices."));
-  dice_ = form.figure(tr("Dice"), tr("Twice the common voxels as a part of both: 1 where they are the same."));
+  dice_ =
+      form.figure(tr("Dice"), tr("Twice the common voxels as a part of both: 1 where they are the same."));
   mean_ = form.figure(tr("Mean distance"), tr("From one surface to the other, both ways."));
   largest_ = form.figure(tr("Largest distance"), tr("The farthest that any point of one is from the other "
                                                     "(Hausdorff distance)."));

@@ -9,8 +9,8 @@
 namespace tidemark::ui {
 namespace {
 
-// The value at a point between the middles of voxels by interpolation; `value` is called for voxels, inside the
-// grid or not.
+// The value at a point between the middles of voxels by interpolation; `value` is called for voxels, inside
+// the grid or not.
 template <class Value>
 double interpolated(glm::dvec3 voxel, const Value& value) {
   constexpr double kOnMiddle = 1e-6;

@@ -29,7 +29,9 @@ class History {
   [[nodiscard]] QListView& list() { return *list_; }
   [[nodiscard]] int rows() const { return model_->rowCount(); }
   [[nodiscard]] const ui::HistoryItem& row(int number) const { return *model_->item(model_->index(number)); }
-  [[nodiscard]] const ui::HistoryItem& of(std::uint64_t id) const { return *model_->item(model_->index_of(id)); }
+  [[nodiscard]] const ui::HistoryItem& of(std::uint64_t id) const {
+    return *model_->item(model_->index_of(id));
+  }
   [[nodiscard]] QPushButton& button(const QString& text) {
     for (auto* button : panel_->findChildren<QPushButton*>()) {
       if (button->text() == text) return *button;
@@ -151,7 +153,8 @@ void HistoryStoryTest::two_ways_are_kept_visited_and_compared() {
   QCOMPARE(desktop.state().step, first_step);
   QVERIFY(desktop.state().phi->mask().voxels == first_mask.voxels);
   QVERIFY(std::abs(desktop.state().surface.volume_ml - first_ml) < 1e-9);
-  QVERIFY(Desktop::wait_for([&] { return known() && desktop.proxy().comparison().agreement()->dice == 1.0; }));
+  QVERIFY(
+      Desktop::wait_for([&] { return known() && desktop.proxy().comparison().agreement()->dice == 1.0; }));
   QCOMPARE(desktop.proxy().comparison().agreement()->distance->largest_mm, 0.0);
 
   // By keys alone: from row to row, and there.
@@ -175,7 +178,8 @@ void HistoryStoryTest::two_ways_are_kept_visited_and_compared() {
   QVERIFY(history.of(second).present);
   // No comparison any more.
   if (desktop.proxy().comparison().state()) history.button("Compare").click();
-  QVERIFY(Desktop::wait_for([&] { return !desktop.proxy().comparison().state() || !shows_turquoise(*axial); }));
+  QVERIFY(
+      Desktop::wait_for([&] { return !desktop.proxy().comparison().state() || !shows_turquoise(*axial); }));
 }
 
 // The new panel has its tab among the others, and those are where they were.
