@@ -88,6 +88,25 @@ void History::add(ChangeDescription description, std::unique_ptr<Change> change,
   keep_below_limit();
 }
 
+void History::restore(const std::vector<HistoryState>& states, std::vector<std::shared_ptr<Change>> changes,
+                      std::uint64_t present) {
+  nodes_.clear();
+  root_ = states.front().id;
+  present_ = present;
+  last_id_ = states.back().id;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const HistoryState& state = states[i];
+    nodes_.emplace(state.id, Node{state.parent, {}, {}, state.change, std::move(changes[i]), state.steering});
+    if (!state.parent) continue;
+    Node& parent = nodes_.at(*state.parent);
+    parent.children.push_back(state.id);
+    parent.next = state.id;
+  }
+  for (std::optional<std::uint64_t> at = present_; nodes_.at(*at).parent; at = nodes_.at(*at).parent)
+    nodes_.at(*nodes_.at(*at).parent).next = at;
+  ++edits_;
+}
+
 void History::open(OpenChange& change) {
   open_ = &change;
   ++last_id_;

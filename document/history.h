@@ -41,6 +41,10 @@ class History {
   // Of the present state, where no change has led to it.
   void set_steering(Steering steering) { present().steering = std::move(steering); }
 
+  // Saved states in place of all that there are, as states() gives them; `changes` in the same order.
+  void restore(const std::vector<HistoryState>& states, std::vector<std::shared_ptr<Change>> changes,
+               std::uint64_t present);
+
   // Opens a change; the one before must be closed.
   void open(OpenChange& change);
   // Closes the open change, if there is one.
@@ -68,6 +72,8 @@ class History {
   // What an open change has come to.
   [[nodiscard]] std::optional<HistoryState> open_state() const;
   [[nodiscard]] bool has(std::uint64_t id) const { return nodes_.contains(id); }
+  // From its parent; null: it is the oldest state.
+  [[nodiscard]] std::shared_ptr<const Change> change(std::uint64_t id) const { return nodes_.at(id).change; }
   // phi of a state from that of another one. Both must be known.
   [[nodiscard]] solver::Field phi_at(std::uint64_t id, std::uint64_t from, const solver::Field& phi) const;
   // The changes between two states.
@@ -79,7 +85,7 @@ class History {
     std::vector<std::uint64_t> children;  // by their age
     std::optional<std::uint64_t> next;    // the child to which redo goes
     ChangeDescription description;
-    std::unique_ptr<Change> change;  // from the parent; null: the root's
+    std::shared_ptr<Change> change;  // from the parent; null: the root's
     Steering steering;
   };
   // From one state to another: whose changes are taken back, and then whose are made again.

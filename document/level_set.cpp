@@ -63,12 +63,11 @@ LevelSet::LevelSet(ExecutorSetup setup, const solver::Parameters& parameters, Hi
   start_ = std::make_shared<const solver::Field>(
       solver::Field::empty(geometry, executor().band(), recipe_.executor.page_shape));
   put_in_place({recipe_, start_, start_});
-  history_.set_steering(steering_of(known_));
+  history_.set_steering(steering_of(recipe_, *drive_));
 }
 
-Steering LevelSet::steering_of(const Point& point) {
-  const Recipe& recipe = point.recipe;
-  return {recipe.begun(), recipe.steps, recipe.final_parameters(), describe(*point.drive)};
+Steering LevelSet::steering_of(const Recipe& recipe, const Drive& drive) {
+  return {recipe.begun(), recipe.steps, recipe.final_parameters(), describe(drive)};
 }
 
 ChangeDescription LevelSet::description() const {
@@ -101,7 +100,7 @@ Status LevelSet::close() {
 void LevelSet::add_entry(ChangeKind kind, const Point& before, const Point& after) {
   const bool counts_steps = kind == ChangeKind::evolution || kind == ChangeKind::step_back;
   const std::int64_t steps = counts_steps ? std::abs(after.recipe.steps - before.recipe.steps) : 0;
-  history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after), steering_of(after));
+  history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after), steering_of(after.recipe, *after.drive));
   settled_events_ = after.recipe.events.size();
 }
 
@@ -295,7 +294,7 @@ Status LevelSet::resume_from(const Recipe& recipe, std::shared_ptr<const solver:
   auto drive = std::make_shared<const Drive>(value_of(recipe.final_drive()));
   TIDEMARK_TRY(go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr, curve, std::move(drive)}));
   settled_events_ = recipe_.events.size();
-  history_.set_steering(steering_of(known_));
+  history_.set_steering(steering_of(recipe_, *drive_));
   return {};
 }
 

@@ -16,6 +16,8 @@
 
 namespace tidemark::document {
 
+struct SavedHistory;
+
 // Used on one thread at a time: that of the executor's graphics context, where it has one.
 //
 // phi is read back only where its value must be known: at the end of an entry of the history, for a
@@ -93,6 +95,10 @@ class LevelSet final : private OpenChange {
   // Goes on from a saved recipe and the phi that it had led to. Not an entry of the history.
   Status resume_from(const Recipe& recipe, std::shared_ptr<const solver::Field> phi, const Curve& curve = {});
 
+  // The history that led to that point, and went on from it: the present state of `history` is where
+  // resume_from() has gone. In place of the present history.
+  void restore_history(const SavedHistory& history);
+
   // The development of the surface since the start; the caller adds points, undo and redo bring them back.
   [[nodiscard]] const Curve& curve() const { return curve_; }
   void note(const CurvePoint& point);
@@ -123,12 +129,13 @@ class LevelSet final : private OpenChange {
         last_edit;  // a checkpoint after the last edit of the gesture: there it can be divided
   };
 
-  [[nodiscard]] static Steering steering_of(const Point& point);
+  [[nodiscard]] static Steering steering_of(const Recipe& recipe, const Drive& drive);
+  [[nodiscard]] Point point_of(const SavedHistory& history, std::size_t state) const;
 
   LevelSet(ExecutorSetup setup, const solver::Parameters& parameters, History& history);
 
   ChangeDescription description() const override;
-  Steering steering() const override { return steering_of({recipe_, nullptr, nullptr, {}, drive_}); }
+  Steering steering() const override { return steering_of(recipe_, *drive_); }
   std::int64_t bytes() const override;
   Status close() override;
 
@@ -160,9 +167,9 @@ class LevelSet final : private OpenChange {
   // How many of the recipe's events every way through the history to the last entry has: set_speed() adds
   // some between two entries.
   std::size_t settled_events_ = 0;
-  Point known_;              // the last phi that was read back
-  bool dirty_ = false;       // phi has changed since
-  Point in_place_;           // where phi was last put in place; the executor has run on since
+  Point known_;           // the last phi that was read back
+  bool dirty_ = false;    // phi has changed since
+  Point in_place_;        // where phi was last put in place; the executor has run on since
   bool resumed_ = false;     // it was, and the recipe has no ResumeEvent yet
   bool on_its_way_ = false;  // to known_, which the executor has not got yet
   std::optional<Open> open_;

@@ -55,13 +55,17 @@ std::int64_t LevelSetChange::bytes() const {
   return sum;
 }
 
+Recipe LevelSetChange::with_common_events(const Side& side, const Recipe& other) const {
+  Recipe recipe = side.recipe;
+  recipe.events.insert(recipe.events.begin(), other.events.begin(),
+                       other.events.begin() + static_cast<std::ptrdiff_t>(common_events_));
+  return recipe;
+}
+
 Status LevelSetChange::pass(const Side& side, solver::Field phi) {
-  LevelSet::Point point{side.recipe, std::make_shared<const solver::Field>(std::move(phi)), side.start,
-                        side.curve, side.drive};
-  const auto& present = level_set_.recipe_.events;
-  point.recipe.events.insert(point.recipe.events.begin(), present.begin(),
-                             present.begin() + static_cast<std::ptrdiff_t>(common_events_));
-  level_set_.pass(std::move(point));
+  level_set_.pass({with_common_events(side, level_set_.recipe_),
+                   std::make_shared<const solver::Field>(std::move(phi)), side.start, side.curve,
+                   side.drive});
   level_set_.settled_events_ = side.settled_events;
   return {};
 }
