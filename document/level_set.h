@@ -95,6 +95,8 @@ class LevelSet final : private OpenChange {
   // Goes on from a saved recipe and the phi that it had led to. Not an entry of the history.
   Status resume_from(const Recipe& recipe, std::shared_ptr<const solver::Field> phi, const Curve& curve = {});
 
+  // The states of the history. Empty while a change is open.
+  [[nodiscard]] SavedHistory saved_history() const;
   // The history that led to that point, and went on from it: the present state of `history` is where
   // resume_from() has gone. In place of the present history.
   void restore_history(const SavedHistory& history);

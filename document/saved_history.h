@@ -1,65 +1,52 @@
-// The history of a level set as values, for session files: what led to each state, and phi there.
+// The history of a level set as values: what led to each state, and phi there.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "document/change.h"
 #include "document/curve.h"
 #include "document/recipe.h"
+#include "document/shared_pages.h"
 
 namespace tidemark::document {
 
-class Case;
-
-// phi of several states: a page that several have is there once.
-class SharedPages {
- public:
-  SharedPages() = default;
-  // Of fields on that grid with that band.
-  SharedPages(const Geometry& geometry, double band, Index3 page_shape);
-
-  // The next state. Its pages are compared with those of the state `like`, unless it is the first.
-  void add(const solver::Field& phi, std::size_t like);
-  [[nodiscard]] solver::Field field(std::size_t state) const;
-  [[nodiscard]] std::size_t size() const { return tables_.size(); }
-
-  // Files.
-  [[nodiscard]] const solver::PageLayout& layout() const { return empty_.layout; }
-  [[nodiscard]] const std::vector<float>& pages() const { return pages_; }
-  [[nodiscard]] const std::vector<std::vector<std::int32_t>>& tables() const { return tables_; }
-  // Fails (ErrorKind::input) when a table names a page that is not there, or a value is not finite or beyond
-  // the band. `what` is for the message.
-  Status assign(std::vector<float> pages, std::vector<std::vector<std::int32_t>> tables,
-                const std::string& what);
-
- private:
-  solver::Field empty_;  // grid, band and the shape of pages
-  std::vector<float> pages_;
-  std::vector<std::vector<std::int32_t>> tables_;  // a state: a virtual page's index in `pages_`, as Field's
-};
-
 // A state of a level set. Changes of labels alone make none.
 struct SavedState {
-  std::optional<std::size_t> parent;  // one of those before it; unset: the first
-  ChangeDescription change;
+  std::optional<std::size_t> parent;  // one of those before it; unset: it is the first
+  ChangeDescription change;           // from there
   Recipe recipe;
   Curve curve;
-  std::shared_ptr<const Change> from_parent;  // of a case; null: the first, or it was read from a file
+  std::shared_ptr<const Change> from_parent;  // of a case; null: it is the first, or from a file
+  std::size_t phi = 0;                        // of SavedHistory::phi
 };
 
-// The states of a case that a session keeps. Not empty, unless there is no history.
+// The states of a case. Empty where they are not known.
 struct SavedHistory {
+  // In files.
+  static constexpr std::size_t kMostStates = 1000;
+  static constexpr std::size_t kMostEvents = 1'000'000;  // of all recipes together
+
   std::vector<SavedState> states;  // parents before their children
   std::size_t present = 0;         // of them
-  SharedPages phi;                 // of all states, in their order; empty: see `from_parent`
+  SharedPages phi;                 // empty: see from_parent
+
+  [[nodiscard]] bool empty() const { return states.empty(); }
 };
 
-// As long as no change is open; else it is empty.
-SavedHistory snapshot_of_history(const Case& document);
-// The states that are nearest to the present one, and phi of them, as many as find room in a session file:
-// each a connected part of the tree.
+// The states from the present one outwards, so that each is behind one of its neighbours; with that one.
+struct Visit {
+  std::size_t state = 0;
+  std::size_t from = 0;  // the present one: itself
+};
+[[nodiscard]] std::vector<Visit> outwards(const SavedHistory& history);
+// A part of the history: those states and the present one, which must be connected.
+[[nodiscard]] SavedHistory part_of(const SavedHistory& history, const std::vector<bool>& kept);
+
+// With phi of all states, of which the present one's is given, and with as many states as a session file has
+// room for: the nearest to the present one.
 SavedHistory for_file(const SavedHistory& history, const solver::Field& present);
 
 }  // namespace tidemark::document

@@ -1,10 +1,11 @@
+#include "document/shared_pages.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
 
 #include "document/field_bytes.h"
-#include "document/saved_history.h"
 
 namespace tidemark::document {
 
@@ -48,6 +49,11 @@ solver::Field SharedPages::field(std::size_t state) const {
     phi.pages.insert(phi.pages.end(), values, values + voxels);
   }
   return phi;
+}
+
+std::int64_t SharedPages::bytes() const {
+  return static_cast<std::int64_t>(pages_.size() * sizeof(float) +
+                                   tables_.size() * empty_.table.size() * sizeof(std::int32_t));
 }
 
 Status SharedPages::assign(std::vector<float> pages, std::vector<std::vector<std::int32_t>> tables,
