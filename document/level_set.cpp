@@ -100,7 +100,8 @@ Status LevelSet::close() {
 void LevelSet::add_entry(ChangeKind kind, const Point& before, const Point& after) {
   const bool counts_steps = kind == ChangeKind::evolution || kind == ChangeKind::step_back;
   const std::int64_t steps = counts_steps ? std::abs(after.recipe.steps - before.recipe.steps) : 0;
-  history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after), steering_of(after.recipe, *after.drive));
+  history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after),
+               steering_of(after.recipe, *after.drive));
   settled_events_ = after.recipe.events.size();
 }
 

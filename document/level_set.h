@@ -169,9 +169,9 @@ class LevelSet final : private OpenChange {
   // How many of the recipe's events every way through the history to the last entry has: set_speed() adds
   // some between two entries.
   std::size_t settled_events_ = 0;
-  Point known_;           // the last phi that was read back
-  bool dirty_ = false;    // phi has changed since
-  Point in_place_;        // where phi was last put in place; the executor has run on since
+  Point known_;              // the last phi that was read back
+  bool dirty_ = false;       // phi has changed since
+  Point in_place_;           // where phi was last put in place; the executor has run on since
   bool resumed_ = false;     // it was, and the recipe has no ResumeEvent yet
   bool on_its_way_ = false;  // to known_, which the executor has not got yet
   std::optional<Open> open_;

@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "core/atomic_file.h"
+#include "document/curve_json.h"
 #include "document/drive_json.h"
 #include "document/field_bytes.h"
+#include "document/history_file.h"
 #include "document/recipe_json.h"
 #include "document/zip_archive.h"
 
@@ -257,7 +259,8 @@ struct OpenedSession {
 };
 
 Result<OpenedSession> open_session(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 4> kNames{kJson, kTable, kPages, kLabels};
+  constexpr std::array<std::string_view, 7> kNames{kJson,        kTable,         kPages,       kLabels,
+                                                   kHistoryJson, kHistoryTables, kHistoryPages};
   auto archive = ZipReader::open(file, kNames);
   if (!archive) return pass_on(archive);
   const std::string name = file.string();
@@ -280,7 +283,7 @@ Result<OpenedSession> open_session(const std::filesystem::path& file) {
 
 }  // namespace
 
-Status write_session(const SessionContents& contents, const std::filesystem::path& file) {
+Status write_session(const SessionContents& contents, const std::filesystem::path& file, InFile what) {
   const std::string json = session_json(contents, file).dump(-1, ' ', false, Json::error_handler_t::replace);
   // What could not be read again is not written.
   if (const auto again = JsonDocument::parse(json, file.string(), json_limits(json.size())); !again) {
@@ -291,6 +294,11 @@ Status write_session(const SessionContents& contents, const std::filesystem::pat
                                 {kTable, std::as_bytes(std::span(contents.phi->table))},
                                 {kPages, std::as_bytes(std::span(pages))}};
   if (contents.label_voxels) entries.push_back({kLabels, std::as_bytes(std::span(*contents.label_voxels))});
+  HistoryEntries history;
+  if (what == InFile::all && !contents.history.empty()) {
+    history = history_entries(contents);
+    for (const ZipEntry& entry : history.entries()) entries.push_back(entry);
+  }
   auto whole = AtomicFile::create(file);
   if (!whole) return pass_on(whole);
   if (Status written = write_zip(whole->temporary_path(), entries); !written) {
@@ -321,6 +329,10 @@ Result<SessionContents> load_session(const std::filesystem::path& file) {
   if (!phi) return pass_on(phi);
   contents.phi = std::move(*phi);
   TIDEMARK_TRY(read_label_voxels(opened->archive, contents, name));
+  TIDEMARK_TRY(read_history(opened->archive, contents, name));
+  if (root.has("maps")) {
+    for (SavedState& state : contents.history.states) read_maps(root.at("maps"), file, state.recipe);
+  }
   return contents;
 }
 

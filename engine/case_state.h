@@ -54,12 +54,12 @@ struct CaseState {
   QString undo_text;                                              // which change undo takes back; empty: none
   QString redo_text;
   std::shared_ptr<const HistoryRows> history = std::make_shared<const HistoryRows>();  // never null
-  std::uint64_t history_state = 0;                 // of them, the present one or the one where the next begins
+  std::uint64_t history_state = 0;  // of them, the present one or the one where the next begins
   std::optional<document::HistoryState> open_change;  // that goes on from it
-  std::uint64_t edits = 0;                           // how much was done: grows with each edit
-  bool modified = false;                             // something would be lost
-  QString start_text;                                // how it began
-  std::shared_ptr<const solver::MotionLimit> limit;  // of a mask that is refined; null: none
+  std::uint64_t edits = 0;                            // how much was done: grows with each edit
+  bool modified = false;                              // something would be lost
+  QString start_text;                                 // how it began
+  std::shared_ptr<const solver::MotionLimit> limit;   // of a mask that is refined; null: none
 };
 
 }  // namespace tidemark::engine

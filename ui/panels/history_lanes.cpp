@@ -1,6 +1,7 @@
 #include "ui/panels/history_lanes.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace tidemark::ui {
 
@@ -12,9 +13,8 @@ std::vector<RowLanes> lanes_of(const std::vector<TreeRow>& rows) {
     waiting.emplace_back();
     return static_cast<int>(waiting.size()) - 1;
   };
-  const auto is_row = [&](std::uint64_t id) {
-    return std::any_of(rows.begin(), rows.end(), [id](const TreeRow& row) { return row.id == id; });
-  };
+  std::unordered_set<std::uint64_t> ids;
+  for (const TreeRow& row : rows) ids.insert(row.id);
   std::vector<RowLanes> lanes;
   lanes.reserve(rows.size());
   for (const TreeRow& row : rows) {
@@ -25,7 +25,7 @@ std::vector<RowLanes> lanes_of(const std::vector<TreeRow>& rows) {
     }
     here.lane = here.above.empty() ? free_lane() : here.above.front();
     for (const int lane : here.above) waiting[static_cast<std::size_t>(lane)].reset();
-    here.parent_below = row.parent && is_row(*row.parent);
+    here.parent_below = row.parent && ids.contains(*row.parent);
     if (here.parent_below) waiting[static_cast<std::size_t>(here.lane)] = row.parent;
     lanes.push_back(std::move(here));
   }

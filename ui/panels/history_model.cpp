@@ -65,7 +65,18 @@ std::vector<HistoryItem> items_of(const engine::HistoryRows& history, const docu
 void HistoryModel::show(const engine::CaseState& state, std::optional<std::uint64_t> compared) {
   Shown now{state.history, state.history_state, state.open_change, compared};
   if (now == shown_) return;
+  // While steps are computed, nothing but the row that is being made changes.
+  const bool goes_on = now.open && shown_.open && now.open->id == shown_.open->id &&
+                       now.history == shown_.history && now.compared == shown_.compared;
   shown_ = std::move(now);
+  if (goes_on) {
+    const RowLanes lanes = items_.front().lanes;
+    items_.front() = item_of(*shown_.open, std::nullopt);
+    items_.front().lanes = lanes;
+    items_.front().open = items_.front().present = true;
+    emit dataChanged(index(0), index(0));
+    return;
+  }
   std::vector<HistoryItem> items = items_of(*shown_.history, shown_.open ? &*shown_.open : nullptr);
   for (HistoryItem& item : items) {
     item.present = shown_.open ? item.open : item.id == shown_.present;
