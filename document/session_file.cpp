@@ -261,7 +261,7 @@ struct OpenedSession {
 Result<OpenedSession> open_session(const std::filesystem::path& file) {
   constexpr std::array<std::string_view, 7> kNames{kJson,        kTable,         kPages,       kLabels,
                                                    kHistoryJson, kHistoryTables, kHistoryPages};
-  auto archive = ZipReader::open(file, kNames);
+  auto archive = ZipReader::open(file, session_entry_names());
   if (!archive) return pass_on(archive);
   const std::string name = file.string();
   const JsonLimits limits = json_limits(archive->packed_size(kJson));
@@ -282,6 +282,12 @@ Result<OpenedSession> open_session(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+std::span<const std::string_view> session_entry_names() {
+  static constexpr std::array<std::string_view, 7> kNames{
+      kJson, kTable, kPages, kLabels, kHistoryJson, kHistoryTables, kHistoryPages};
+  return kNames;
+}
 
 Status write_session(const SessionContents& contents, const std::filesystem::path& file, InFile what) {
   const std::string json = session_json(contents, file).dump(-1, ' ', false, Json::error_handler_t::replace);

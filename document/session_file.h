@@ -5,12 +5,16 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string_view>
 
 #include "document/session_contents.h"
 
 namespace tidemark::document {
 
 inline constexpr int kSessionVersion = 1;
+// Of the archive, session.json first.
+[[nodiscard]] std::span<const std::string_view> session_entry_names();
 
 // Whole or not at all. The history takes time, and is not for copies that are made in passing.
 enum class InFile { all, no_history };
