@@ -239,6 +239,7 @@ void LevelSet::put_in_place(Point point) {
   in_place_ = known_;
   dirty_ = false;
   resumed_ = false;
+  on_its_way_ = false;
 }
 
 // Puts the point's phi, parameters and smoothing into the executor.

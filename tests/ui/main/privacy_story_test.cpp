@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 
+#include "document/session_file.h"
 #include "document/zip_archive.h"
 #include "engine/case_autosave.h"
 #include "imaging/dicom/dicom.h"
