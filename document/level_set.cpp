@@ -66,10 +66,6 @@ LevelSet::LevelSet(ExecutorSetup setup, const solver::Parameters& parameters, Hi
   history_.set_steering(steering_of(recipe_, *drive_));
 }
 
-Steering LevelSet::steering_of(const Recipe& recipe, const Drive& drive) {
-  return {recipe.begun(), recipe.steps, recipe.final_parameters(), describe(drive)};
-}
-
 ChangeDescription LevelSet::description() const {
   ChangeKind kind = open_->kind;
   if (is_of_parameters(kind)) kind = kind_of_change(open_->before.recipe.final_parameters(), parameters());
@@ -256,24 +252,6 @@ Status LevelSet::hand_over(const Point& point) {
   TIDEMARK_TRY(setup_.set_limit(point.recipe.start.limit()));
   TIDEMARK_TRY(drive_as(point.recipe));
   return executor().restore(*point.phi);
-}
-
-// One of the points on a way through the history: the executor gets the last one only.
-void LevelSet::pass(Point point) {
-  point.recipe.executor = setup_.description();
-  point.recipe.source = recipe_.source;
-  put_in_place(std::move(point));
-  resumed_ = true;
-  on_its_way_ = true;
-}
-
-Status LevelSet::arrive() {
-  return std::exchange(on_its_way_, false) ? hand_over(known_) : Status();
-}
-
-solver::Field LevelSet::phi_at(std::uint64_t state) const {
-  const Point& last = open_ ? open_->before : known_;
-  return history_.phi_at(state, history_.last_state(), *last.phi);
 }
 
 // When there is no room for the point, goes back to known_; no edit stays open then.

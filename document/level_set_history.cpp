@@ -1,4 +1,4 @@
-// The history of a level set as values, and back.
+// A level set on its ways through the history, and the history as values.
 #include <utility>
 
 #include "document/level_set.h"
@@ -6,6 +6,28 @@
 #include "document/saved_history.h"
 
 namespace tidemark::document {
+
+Steering LevelSet::steering_of(const Recipe& recipe, const Drive& drive) {
+  return {recipe.begun(), recipe.steps, recipe.final_parameters(), describe(drive)};
+}
+
+// One of the points on a way through the history: the executor gets the last one only.
+void LevelSet::pass(Point point) {
+  point.recipe.executor = setup_.description();
+  point.recipe.source = recipe_.source;
+  put_in_place(std::move(point));
+  resumed_ = true;
+  on_its_way_ = true;
+}
+
+Status LevelSet::arrive() {
+  return std::exchange(on_its_way_, false) ? hand_over(known_) : Status();
+}
+
+solver::Field LevelSet::phi_at(std::uint64_t state) const {
+  const Point& last = open_ ? open_->before : known_;
+  return history_.phi_at(state, history_.last_state(), *last.phi);
+}
 
 SavedHistory LevelSet::saved_history() const {
   if (history_.open_state()) return {};

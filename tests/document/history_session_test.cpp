@@ -104,18 +104,24 @@ std::vector<Bad> bad_files() {
       {"name", "states[1].change.name",
        [](Json& j, Entries&) { j["states"][1]["change"]["name"] = std::string(300, 'x'); }},
       {"events of nobody", "common_events", [](Json& j, Entries&) { j["states"][3]["common_events"] = 99; }},
-      {"events backwards", "common_events",
-       [](Json& j, Entries&) { j["states"][4]["recipe"]["steps"] = 1; }},
+      {"events backwards", "common_events", [](Json& j, Entries&) { j["states"][4]["recipe"]["steps"] = 1; }},
       {"points of nobody", "common_points", [](Json& j, Entries&) { j["states"][3]["common_points"] = 99; }},
       {"grid", "is of another grid",
-       [](Json& j, Entries&) { j["states"][3]["recipe"]["source"]["size"] = {3, 3, 3}; }},
+       [](Json& j, Entries&) {
+         j["states"][3]["recipe"]["source"]["size"] = {3, 3, 3};
+       }},
       {"alpha", "alpha", [](Json& j, Entries&) { j["states"][3]["recipe"]["parameters"]["alpha"] = "x"; }},
       {"phi of nobody", "states[3].phi", [](Json& j, Entries&) { j["states"][3]["phi"] = 99; }},
-      {"other pages", "page_shape", [](Json& j, Entries&) { j["page_shape"] = {16, 16, 1}; }},
+      {"other pages", "page_shape",
+       [](Json& j, Entries&) {
+         j["page_shape"] = {16, 16, 1};
+       }},
       {"no tables", "history.tables", [](Json&, Entries& e) { e.erase("history.tables"); }},
       {"short tables", "history.tables", [](Json&, Entries& e) { e["history.tables"].resize(40); }},
-      {"table", "is not there", [](Json&, Entries& e) { put<std::int32_t>(e["history.tables"], 3, 1 << 20); }},
-      {"negative table", "is not there", [](Json&, Entries& e) { put<std::int32_t>(e["history.tables"], 3, -3); }},
+      {"table", "is not there",
+       [](Json&, Entries& e) { put<std::int32_t>(e["history.tables"], 3, 1 << 20); }},
+      {"negative table", "is not there",
+       [](Json&, Entries& e) { put<std::int32_t>(e["history.tables"], 3, -3); }},
       {"half a page", "pages", [](Json&, Entries& e) { e["history.pages"].resize(100); }},
       {"nan", "phi is", [](Json&, Entries& e) { put(e["history.pages"], 700, std::nanf("")); }},
       {"beyond the band", "phi is", [](Json&, Entries& e) { put(e["history.pages"], 700, 9.0F); }},
@@ -201,9 +207,9 @@ class HistorySessionTest : public QObject {
     const auto document = branched_case();
     const auto contents = document::snapshot_of(*document);
     QCOMPARE(failure(contents), QString());
-    QCOMPARE(failure(document::write_session(*contents, folder / "copy.tidemark",
-                                             document::InFile::no_history)),
-             QString());
+    QCOMPARE(
+        failure(document::write_session(*contents, folder / "copy.tidemark", document::InFile::no_history)),
+        QString());
     QCOMPARE(entries_of(folder / "copy.tidemark").count("history.json"), std::size_t{0});
   }
 
