@@ -106,7 +106,7 @@ Result<Autosave> Autosave::create(const std::filesystem::path& folder, const std
 Status Autosave::write(const SessionContents& contents) {
   const std::uint64_t next = generation_ + 1;
   const auto file = session_file(folder_, case_id_, static_cast<int>(next % kGenerations));
-  TIDEMARK_TRY(write_session(contents, file));
+  TIDEMARK_TRY(write_session(contents, file, InFile::no_history));
   auto sum = sha256_of_file(file);
   if (!sum) return pass_on(sum);
   const Json seal{{"version", kVersion}, {"generation", next}, {"sha256", *sum}};

@@ -1,55 +1,9 @@
 #include "document/history.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace tidemark::document {
-
-std::string describe(const ChangeDescription& change) {
-  const char* const plural = change.steps == 1 ? "" : "s";
-  switch (change.kind) {
-    case ChangeKind::start:
-      return "start";
-    case ChangeKind::paint:
-      return "paint";
-    case ChangeKind::erase:
-      return "erase";
-    case ChangeKind::target:
-      return "T";
-    case ChangeKind::range:
-      return "range";
-    case ChangeKind::smoothing:
-      return "smoothing";
-    case ChangeKind::parameters:
-      return "parameters";
-    case ChangeKind::evolution:
-      return fmt::format("evolution, {} step{}", change.steps, plural);
-    case ChangeKind::step_back:
-      return fmt::format("{} step{} back", change.steps, plural);
-    case ChangeKind::restart:
-      return "restart";
-    case ChangeKind::sweep:
-      return fmt::format("run of a sweep, {} step{}", change.steps, plural);
-    case ChangeKind::source:
-      return "smoothing of the volume";
-    case ChangeKind::examples:
-      return "examples";
-    case ChangeKind::constraints:
-      return "walls and anchors";
-    case ChangeKind::speed:
-      return "speed function";
-    case ChangeKind::new_label:
-      return fmt::format("new label {}", change.name);
-    case ChangeKind::label_settings:
-      return fmt::format("settings of {}", change.name);
-    case ChangeKind::remove_label:
-      return fmt::format("remove {}", change.name);
-    case ChangeKind::import_labels:
-      return fmt::format("import of {}", change.name);
-    case ChangeKind::accept:
-      return fmt::format("accept into {}", change.name);
-  }
-  return {};
-}
 
 void History::set_limit(std::int64_t bytes) {
   limit_ = bytes;
@@ -58,30 +12,102 @@ void History::set_limit(std::int64_t bytes) {
 
 std::int64_t History::bytes() const {
   std::int64_t sum = open_ != nullptr ? open_->bytes() : 0;
-  for (const std::deque<Entry>* entries : {&done_, &undone_}) {
-    for (const Entry& entry : *entries) sum += entry.change->bytes();
+  for (const auto& [id, node] : nodes_) {
+    if (node.change != nullptr) sum += node.change->bytes();
   }
   return sum;
 }
 
+// Memory.
+
 void History::keep_below_limit() {
   std::int64_t sum = bytes();
-  while (sum > limit_ && done_.size() > 1) {
-    sum -= done_.front().change->bytes();
-    base_id_ = done_.front().id;
-    done_.pop_front();
+  while (sum > limit_) {
+    if (const auto end = farthest_end()) {
+      sum -= nodes_.at(*end).change->bytes();
+      drop(*end);
+    } else if (present_ != root_ && present().parent != root_) {
+      drop_root();
+      sum = bytes();
+    } else {
+      return;
+    }
   }
 }
 
-void History::add(ChangeDescription description, std::unique_ptr<Change> change) {
-  undone_.clear();
-  done_.push_back({std::move(description), std::move(change), ++last_id_});
+// The end of a branch that is farthest from the present state, the oldest of several; unset: all that is left
+// leads to it.
+std::optional<std::uint64_t> History::farthest_end() const {
+  std::optional<std::uint64_t> found;
+  std::size_t most = 0;
+  for (const auto& [id, node] : nodes_) {
+    if (!node.children.empty() || id == present_ || id == root_) continue;
+    const std::size_t away = distance(present_, id);
+    if (away <= most) continue;
+    most = away;
+    found = id;
+  }
+  return found;
+}
+
+void History::drop(std::uint64_t id) {
+  Node& parent = nodes_.at(*nodes_.at(id).parent);
+  std::erase(parent.children, id);
+  if (parent.next == id) {
+    parent.next.reset();
+    if (!parent.children.empty()) parent.next = parent.children.back();
+  }
+  nodes_.erase(id);
+}
+
+// Of a root with one child: that is the root then.
+void History::drop_root() {
+  const std::uint64_t next = nodes_.at(root_).children.front();
+  nodes_.erase(root_);
+  root_ = next;
+  Node& root = nodes_.at(root_);
+  root.parent.reset();
+  root.change.reset();
+}
+
+// Changes.
+
+void History::add(ChangeDescription description, std::unique_ptr<Change> change,
+                  std::optional<Steering> steering) {
+  Node& parent = present();
+  Node node;
+  node.parent = present_;
+  node.description = std::move(description);
+  node.change = std::move(change);
+  node.steering = steering ? *std::move(steering) : parent.steering;
+  present_ = ++last_id_;
+  parent.children.push_back(present_);
+  parent.next = present_;
+  nodes_.emplace(present_, std::move(node));
   ++edits_;
   keep_below_limit();
 }
 
+void History::restore(const std::vector<HistoryState>& states, std::vector<std::shared_ptr<Change>> changes,
+                      std::uint64_t present) {
+  nodes_.clear();
+  root_ = states.front().id;
+  present_ = present;
+  last_id_ = states.back().id;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const HistoryState& state = states[i];
+    nodes_.emplace(state.id, Node{state.parent, {}, {}, state.change, std::move(changes[i]), state.steering});
+    if (!state.parent) continue;
+    Node& parent = nodes_.at(*state.parent);
+    parent.children.push_back(state.id);
+    parent.next = state.id;
+  }
+  for (std::optional<std::uint64_t> at = present_; nodes_.at(*at).parent; at = nodes_.at(*at).parent)
+    nodes_.at(*nodes_.at(*at).parent).next = at;
+  ++edits_;
+}
+
 void History::open(OpenChange& change) {
-  undone_.clear();
   open_ = &change;
   ++last_id_;
 }
@@ -91,40 +117,110 @@ Status History::close() {
   return std::exchange(open_, nullptr)->close();
 }
 
-Status History::undo() {
+// Ways.
+
+// From the root to a state, both included.
+std::vector<std::uint64_t> History::line_to(std::uint64_t id) const {
+  std::vector<std::uint64_t> line;
+  for (std::optional<std::uint64_t> at = id; at; at = nodes_.at(*at).parent) line.push_back(*at);
+  std::reverse(line.begin(), line.end());
+  return line;
+}
+
+History::Way History::way(std::uint64_t from, std::uint64_t to) const {
+  const std::vector<std::uint64_t> here = line_to(from);
+  const std::vector<std::uint64_t> there = line_to(to);
+  const auto [up, down] = std::mismatch(here.begin(), here.end(), there.begin(), there.end());
+  return {{here.rbegin(), std::make_reverse_iterator(up)}, {down, there.end()}};
+}
+
+std::size_t History::distance(std::uint64_t from, std::uint64_t to) const {
+  const Way between = way(from, to);
+  return between.up.size() + between.down.size();
+}
+
+// Only the present state moves, step by step: a failure leaves it where it has come to.
+Status History::walk(const Way& way) {
+  for (const std::uint64_t id : way.up) {
+    Node& node = nodes_.at(id);
+    TIDEMARK_TRY(node.change->undo());
+    present_ = *node.parent;
+    present().next = id;
+  }
+  for (const std::uint64_t id : way.down) {
+    TIDEMARK_TRY(nodes_.at(id).change->redo());
+    present().next = id;
+    present_ = id;
+  }
+  return {};
+}
+
+Status History::arrive(const Way& way) {
+  for (const auto* ids : {&way.up, &way.down}) {
+    for (const std::uint64_t id : *ids) TIDEMARK_TRY(nodes_.at(id).change->arrive());
+  }
+  return {};
+}
+
+Status History::go_to(std::uint64_t id) {
   TIDEMARK_TRY(close());
-  if (done_.empty()) return fail(ErrorKind::usage, "there is nothing to undo");
-  TIDEMARK_TRY(done_.back().change->undo());
-  undone_.push_back(std::move(done_.back()));
-  done_.pop_back();
+  if (!has(id)) return fail(ErrorKind::usage, "the history has no state {}", id);
+  if (id == present_) return {};
+  const std::uint64_t from = present_;
+  const Way there = way(from, id);
+  Status gone = walk(there);
+  if (gone) gone = arrive(there);
+  if (!gone) {
+    const Way back = way(present_, from);
+    TIDEMARK_TRY(walk(back));
+    TIDEMARK_TRY(arrive(back));
+    return gone;
+  }
   ++edits_;
   return {};
+}
+
+Status History::undo() {
+  TIDEMARK_TRY(close());
+  if (!present().parent) return fail(ErrorKind::usage, "there is nothing to undo");
+  return go_to(*present().parent);
 }
 
 Status History::redo() {
   TIDEMARK_TRY(close());
-  if (undone_.empty()) return fail(ErrorKind::usage, "there is nothing to redo");
-  TIDEMARK_TRY(undone_.back().change->redo());
-  done_.push_back(std::move(undone_.back()));
-  undone_.pop_back();
-  ++edits_;
-  return {};
+  if (!present().next) return fail(ErrorKind::usage, "there is nothing to redo");
+  return go_to(*present().next);
 }
 
 std::optional<ChangeDescription> History::undo_description() const {
   if (open_ != nullptr) return open_->description();
-  if (done_.empty()) return std::nullopt;
-  return done_.back().description;
+  if (!present().parent) return std::nullopt;
+  return present().description;
 }
 
 std::optional<ChangeDescription> History::redo_description() const {
-  if (undone_.empty()) return std::nullopt;
-  return undone_.back().description;
+  if (open_ != nullptr || !present().next) return std::nullopt;
+  return nodes_.at(*present().next).description;
 }
 
-std::uint64_t History::position() const {
-  if (open_ != nullptr) return last_id_;  // entries get later numbers
-  return done_.empty() ? base_id_ : done_.back().id;
+std::vector<HistoryState> History::states() const {
+  std::vector<HistoryState> states;
+  states.reserve(nodes_.size());
+  for (const auto& [id, node] : nodes_) states.push_back({id, node.parent, node.description, node.steering});
+  return states;
+}
+
+std::optional<HistoryState> History::open_state() const {
+  if (open_ == nullptr) return std::nullopt;
+  return HistoryState{last_id_, present_, open_->description(), open_->steering()};
+}
+
+solver::Field History::phi_at(std::uint64_t id, std::uint64_t from, const solver::Field& phi) const {
+  const Way there = way(from, id);
+  solver::Field field = phi;
+  for (const std::uint64_t up : there.up) field = nodes_.at(up).change->before(std::move(field));
+  for (const std::uint64_t down : there.down) field = nodes_.at(down).change->after(std::move(field));
+  return field;
 }
 
 }  // namespace tidemark::document

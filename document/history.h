@@ -1,111 +1,114 @@
-// The history of a case: its changes in order, with the way back and forward again.
+// The history of a case: a tree of its states, and the ways between them.
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <map>
 #include <memory>
 #include <optional>
-#include <string>
+#include <vector>
 
-#include "core/result.h"
+#include "document/change.h"
 
 namespace tidemark::document {
 
-enum class ChangeKind {
-  start,
-  paint,
-  erase,
-  target,      // T
-  range,       // epsilon
-  smoothing,   // alpha
-  parameters,  // several of them, or another one
-  evolution,
-  step_back,
-  restart,
-  sweep,   // a run of one was taken
-  source,  // the volume as the level set sees it
-  examples,
-  constraints,  // walls and anchors
-  speed,        // the speed functions, or their numbers
-  new_label,
-  label_settings,
-  remove_label,
-  import_labels,
-  accept,
+// A state of a case, as lists show it.
+struct HistoryState {
+  std::uint64_t id = 0;
+  std::optional<std::uint64_t> parent;  // unset: the oldest state that is known
+  ChangeDescription change;             // that led from the parent to it
+  Steering steering;
+
+  bool operator==(const HistoryState&) const = default;
 };
 
-// A change in words. The interface words it in the user's language, describe() in English.
-struct ChangeDescription {
-  ChangeKind kind = ChangeKind::start;
-  std::int64_t steps = 0;  // of evolution, step_back and sweep
-  std::string name;        // of a label, or of several
-
-  bool operator==(const ChangeDescription&) const = default;
-};
-[[nodiscard]] std::string describe(const ChangeDescription& change);  // "evolution, 120 steps"
-
-// A change that was made. A function of it that fails changes nothing.
-class Change {
- public:
-  virtual ~Change() = default;
-  virtual Status undo() = 0;
-  virtual Status redo() = 0;
-  [[nodiscard]] virtual std::int64_t bytes() const = 0;
-};
-
-// A change that is still open: a stroke of the brush, a run of steps.
-class OpenChange {
- public:
-  [[nodiscard]] virtual ChangeDescription description() const = 0;
-  [[nodiscard]] virtual std::int64_t bytes() const = 0;
-  // Ends it and adds it to the history. It is over even if this fails.
-  virtual Status close() = 0;
-
- protected:
-  ~OpenChange() = default;
-};
-
+// Who goes back and on otherwise gets a new branch; the other one stays. A state holds the change from its
+// parent only, so going from one to another undoes up to their common ancestor, and does again from there.
 class History {
  public:
   static constexpr std::int64_t kDefaultLimit = std::int64_t{1} << 30;  // bytes
 
-  // The oldest entries are dropped to stay below it; the latest one is kept whatever its size.
+  History() { nodes_.emplace(root_, Node()); }
+
+  // States are dropped to stay below it: first ends of branches, the farthest from the present one, then the
+  // oldest on the way to it. The latest change is kept whatever its size.
   void set_limit(std::int64_t bytes);
   [[nodiscard]] std::int64_t bytes() const;
 
-  // Adds an entry for a change that was just made. Drops the entries that could be redone.
-  void add(ChangeDescription description, std::unique_ptr<Change> change);
+  // Adds a state after a change that was just made, a child of the present one. `steering`: as there; unset:
+  // as in the parent.
+  void add(ChangeDescription description, std::unique_ptr<Change> change,
+           std::optional<Steering> steering = std::nullopt);
+  // Of the present state, where no change has led to it.
+  void set_steering(Steering steering) { present().steering = std::move(steering); }
 
-  // Opens a change; the one before must be closed. Drops the entries that could be redone.
+  // Saved states in place of all that there are, as states() gives them; `changes` in the same order.
+  void restore(const std::vector<HistoryState>& states, std::vector<std::shared_ptr<Change>> changes,
+               std::uint64_t present);
+
+  // Opens a change; the one before must be closed.
   void open(OpenChange& change);
   // Closes the open change, if there is one.
   Status close();
 
-  // Both close the open change. They fail (ErrorKind::usage) when there is nothing to undo or redo.
+  // These close the open change. undo() goes to the parent, redo() to the child that was left or made last.
+  // They fail (ErrorKind::usage) when there is no such state. Where a way fails, the case stays as it was.
   Status undo();
   Status redo();
+  Status go_to(std::uint64_t id);
   // The changes that they would take back or make again.
   [[nodiscard]] std::optional<ChangeDescription> undo_description() const;
   [[nodiscard]] std::optional<ChangeDescription> redo_description() const;
 
   // Names the present state: the same number after an undo as before the change. While a change is open, a
   // number that no state has.
-  [[nodiscard]] std::uint64_t position() const;
+  [[nodiscard]] std::uint64_t position() const { return open_ != nullptr ? last_id_ : present_; }
   // Grows by one with each change, undo and redo: how much was done since the last copy.
   [[nodiscard]] std::uint64_t edits() const { return edits_; }
 
- private:
-  struct Entry {
-    ChangeDescription description;
-    std::unique_ptr<Change> change;
-    std::uint64_t id = 0;  // of the state after it
-  };
-  void keep_below_limit();
+  // The state where the open change began; without one, the present state.
+  [[nodiscard]] std::uint64_t last_state() const { return present_; }
+  // All states, parents before their children, older ones first.
+  [[nodiscard]] std::vector<HistoryState> states() const;
+  // What an open change has come to.
+  [[nodiscard]] std::optional<HistoryState> open_state() const;
+  [[nodiscard]] bool has(std::uint64_t id) const { return nodes_.contains(id); }
+  // From its parent; null: it is the oldest state.
+  [[nodiscard]] std::shared_ptr<const Change> change(std::uint64_t id) const { return nodes_.at(id).change; }
+  // phi of a state from that of another one. Both must be known.
+  [[nodiscard]] solver::Field phi_at(std::uint64_t id, std::uint64_t from, const solver::Field& phi) const;
+  // The changes between two states.
+  [[nodiscard]] std::size_t distance(std::uint64_t from, std::uint64_t to) const;
 
-  std::deque<Entry> done_;
-  std::deque<Entry> undone_;  // the next to redo is the last
+ private:
+  struct Node {
+    std::optional<std::uint64_t> parent;
+    std::vector<std::uint64_t> children;  // by their age
+    std::optional<std::uint64_t> next;    // the child to which redo goes
+    ChangeDescription description;
+    std::shared_ptr<Change> change;  // from the parent; null: the root's
+    Steering steering;
+  };
+  // From one state to another: whose changes are taken back, and then whose are made again.
+  struct Way {
+    std::vector<std::uint64_t> up;
+    std::vector<std::uint64_t> down;
+  };
+
+  [[nodiscard]] Node& present() { return nodes_.at(present_); }
+  [[nodiscard]] const Node& present() const { return nodes_.at(present_); }
+  [[nodiscard]] std::vector<std::uint64_t> line_to(std::uint64_t id) const;
+  [[nodiscard]] Way way(std::uint64_t from, std::uint64_t to) const;
+  Status walk(const Way& way);
+  Status arrive(const Way& way);
+  void keep_below_limit();
+  [[nodiscard]] std::optional<std::uint64_t> farthest_end() const;
+  void drop(std::uint64_t id);
+  void drop_root();
+
+  std::uint64_t root_ = 0;
+  std::map<std::uint64_t, Node> nodes_;
+  std::uint64_t present_ = 0;
   OpenChange* open_ = nullptr;
-  std::uint64_t base_id_ = 0;  // of the state before the first entry
   std::uint64_t last_id_ = 0;
   std::uint64_t edits_ = 0;
   std::int64_t limit_ = kDefaultLimit;

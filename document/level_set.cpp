@@ -63,6 +63,7 @@ LevelSet::LevelSet(ExecutorSetup setup, const solver::Parameters& parameters, Hi
   start_ = std::make_shared<const solver::Field>(
       solver::Field::empty(geometry, executor().band(), recipe_.executor.page_shape));
   put_in_place({recipe_, start_, start_});
+  history_.set_steering(steering_of(recipe_, *drive_));
 }
 
 ChangeDescription LevelSet::description() const {
@@ -97,7 +98,8 @@ void LevelSet::add_entry(ChangeKind kind, const Point& before, const Point& afte
   if (kind == ChangeKind::sweep) steps = after.recipe.steps;
   if (kind == ChangeKind::evolution || kind == ChangeKind::step_back)
     steps = std::abs(after.recipe.steps - before.recipe.steps);
-  history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after));
+  history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after),
+               steering_of(after.recipe, *after.drive));
   settled_events_ = after.recipe.events.size();
 }
 
@@ -123,14 +125,19 @@ void LevelSet::begin_change(ChangeKind kind, std::uint64_t gesture, Point before
 }
 
 // Appends to the recipe, after the ResumeEvent if phi was put back.
-void LevelSet::record(RecipeEvent event) {
+void LevelSet::append(RecipeEvent event) {
   if (std::exchange(resumed_, false) && step() > 0) recipe_.events.push_back({step(), ResumeEvent{}});
+  recipe_.events.push_back(std::move(event));
+}
+
+// The same, in place of an event that does not count any more.
+void LevelSet::record(RecipeEvent event) {
   std::vector<RecipeEvent>& events = recipe_.events;
-  if (!events.empty() && events.back().step == event.step && replaces(event, events.back())) {
+  const bool resumes = resumed_ && step() > 0;
+  if (!resumes && !events.empty() && events.back().step == event.step && replaces(event, events.back())) {
     events.pop_back();
-    settled_events_ = std::min(settled_events_, events.size());
   }
-  events.push_back(std::move(event));
+  append(std::move(event));
 }
 
 Status LevelSet::read_back_phi() {
@@ -230,6 +237,7 @@ void LevelSet::put_in_place(Point point) {
   in_place_ = known_;
   dirty_ = false;
   resumed_ = false;
+  on_its_way_ = false;
 }
 
 // Puts the point's phi, parameters and smoothing into the executor.
@@ -266,7 +274,10 @@ Status LevelSet::resume_from(const Recipe& recipe, std::shared_ptr<const solver:
                              const Curve& curve) {
   TIDEMARK_TRY(history_.close());
   auto drive = std::make_shared<const Drive>(value_of(recipe.final_drive()));
-  return go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr, curve, std::move(drive)});
+  TIDEMARK_TRY(go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr, curve, std::move(drive)}));
+  settled_events_ = recipe_.events.size();
+  history_.set_steering(steering_of(recipe_, *drive_));
+  return {};
 }
 
 void LevelSet::note(const CurvePoint& point) {
@@ -381,7 +392,7 @@ Status LevelSet::rebuild(const solver::ExecutorOptions& options, std::optional<s
   drive_ = known_.drive = wanted;
   if (Drive now = drive_in_use(); now.constraints != wanted->constraints) {
     now.constraints = wanted->constraints;
-    TIDEMARK_TRY(use(now, executor().speed()));
+    TIDEMARK_TRY(use(now, executor().speed(), Entry::none));
   }
   if (present == parameters()) return {};
   if (!open_) return set_parameters(present);

@@ -17,6 +17,8 @@
 
 namespace tidemark::document {
 
+struct SavedHistory;
+
 // Used on one thread at a time: that of the executor's graphics context, where it has one.
 //
 // phi is read back only where its value must be known: at the end of an entry of the history, for a
@@ -93,8 +95,19 @@ class LevelSet final : private OpenChange {
   // phi for saving and measuring. Counts as a checkpoint for rebuild().
   Result<std::shared_ptr<const solver::Field>> checkpoint();
 
+  // phi in another state of the history, with nothing done to this one.
+  [[nodiscard]] solver::Field phi_at(std::uint64_t state) const;
+  // Whether steps without an edit among them are the open change.
+  [[nodiscard]] bool in_run() const { return open_ && open_->gesture == 0; }
+
   // Goes on from a saved recipe and the phi that it had led to. Not an entry of the history.
   Status resume_from(const Recipe& recipe, std::shared_ptr<const solver::Field> phi, const Curve& curve = {});
+
+  // The states of the history. Empty while a change is open.
+  [[nodiscard]] SavedHistory saved_history() const;
+  // The history that led to that point, and went on from it: the present state of `history` is where
+  // resume_from() has gone. In place of the present history.
+  void restore_history(const SavedHistory& history);
 
   // The development of the surface since the start; the caller adds points, undo and redo bring them back.
   [[nodiscard]] const Curve& curve() const { return curve_; }
@@ -126,9 +139,13 @@ class LevelSet final : private OpenChange {
         last_edit;  // a checkpoint after the last edit of the gesture: there it can be divided
   };
 
+  [[nodiscard]] static Steering steering_of(const Recipe& recipe, const Drive& drive);
+  [[nodiscard]] Point point_of(const SavedHistory& history, std::size_t state) const;
+
   LevelSet(ExecutorSetup setup, const solver::Parameters& parameters, History& history);
 
   ChangeDescription description() const override;
+  Steering steering() const override { return steering_of(recipe_, *drive_); }
   std::int64_t bytes() const override;
   Status close() override;
 
@@ -136,11 +153,15 @@ class LevelSet final : private OpenChange {
   void begin_change(ChangeKind kind, std::uint64_t gesture, Point before);
   void record(RecipeEvent event);
   [[nodiscard]] Drive drive_in_use() const;
-  Status use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed);
+  enum class Entry { next, none };  // of the history, for what is done
+  Status use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed, Entry entry);
+  void append(RecipeEvent event);
   Status drive_as(const Recipe& recipe);
   void add_entry(ChangeKind kind, const Point& before, const Point& after);
   Status read_back_phi();
   void put_in_place(Point point);
+  void pass(Point point);
+  Status arrive();
   Status hand_over(const Point& point);
   Status go_to(Point point);
   Status prepare_start();
@@ -154,13 +175,14 @@ class LevelSet final : private OpenChange {
   std::shared_ptr<const solver::Field> start_;  // phi before the first step
   Curve curve_;
   std::shared_ptr<const Drive> drive_ = std::make_shared<const Drive>();
-  // How many of the recipe's events any way through the history to here has: set_speed() adds some between
-  // two entries.
+  // How many of the recipe's events every way through the history to the last entry has: set_speed() adds
+  // some between two entries.
   std::size_t settled_events_ = 0;
-  Point known_;           // the last phi that was read back
-  bool dirty_ = false;    // phi has changed since
-  Point in_place_;        // where phi was last put in place; the executor has run on since
-  bool resumed_ = false;  // it was, and the recipe has no ResumeEvent yet
+  Point known_;              // the last phi that was read back
+  bool dirty_ = false;       // phi has changed since
+  Point in_place_;           // where phi was last put in place; the executor has run on since
+  bool resumed_ = false;     // it was, and the recipe has no ResumeEvent yet
+  bool on_its_way_ = false;  // to known_, which the executor has not got yet
   std::optional<Open> open_;
 };
 

@@ -32,8 +32,10 @@ LevelSetChange::LevelSetChange(LevelSet& level_set, const LevelSet::Point& befor
   const auto& b = after.recipe.events;
   const auto [first_different, ignored] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
   common_events_ = std::min(static_cast<std::size_t>(first_different - a.begin()), level_set.settled_events_);
-  before_ = {without_events(before.recipe, common_events_), before.start, before.curve, before.drive};
-  after_ = {without_events(after.recipe, common_events_), after.start, after.curve, after.drive};
+  before_ = {without_events(before.recipe, common_events_), before.start, before.curve, before.drive,
+             level_set.settled_events_};
+  after_ = {without_events(after.recipe, common_events_), after.start, after.curve, after.drive,
+            after.recipe.events.size()};
 }
 
 std::int64_t LevelSetChange::bytes() const {
@@ -53,14 +55,18 @@ std::int64_t LevelSetChange::bytes() const {
   return sum;
 }
 
-Status LevelSetChange::go(const Side& side, solver::Field phi) {
-  LevelSet::Point point{side.recipe, std::make_shared<const solver::Field>(std::move(phi)), side.start,
-                        side.curve, side.drive};
-  const auto& present = level_set_.recipe_.events;
-  point.recipe.events.insert(point.recipe.events.begin(), present.begin(),
-                             present.begin() + static_cast<std::ptrdiff_t>(common_events_));
-  TIDEMARK_TRY(level_set_.go_to(std::move(point)));
-  level_set_.settled_events_ = common_events_;
+Recipe LevelSetChange::with_common_events(const Side& side, const Recipe& other) const {
+  Recipe recipe = side.recipe;
+  recipe.events.insert(recipe.events.begin(), other.events.begin(),
+                       other.events.begin() + static_cast<std::ptrdiff_t>(common_events_));
+  return recipe;
+}
+
+Status LevelSetChange::pass(const Side& side, solver::Field phi) {
+  level_set_.pass({with_common_events(side, level_set_.recipe_),
+                   std::make_shared<const solver::Field>(std::move(phi)), side.start, side.curve,
+                   side.drive});
+  level_set_.settled_events_ = side.settled_events;
   return {};
 }
 

@@ -32,7 +32,7 @@ Status LevelSet::set_drive(const Drive& drive, std::uint64_t gesture) {
   // Another function comes with set_speed(); until then the present one goes on.
   Drive now = drive.setting.is_tent() ? drive : drive_in_use();
   now.constraints = drive.constraints;
-  TIDEMARK_TRY(use(now, drive.setting.is_tent() ? nullptr : executor().speed()));
+  TIDEMARK_TRY(use(now, drive.setting.is_tent() ? nullptr : executor().speed(), Entry::next));
   begin_change(kind, gesture, before);
   drive_ = std::make_shared<const Drive>(drive);
   if (kind == ChangeKind::constraints) {
@@ -43,7 +43,7 @@ Status LevelSet::set_drive(const Drive& drive, std::uint64_t gesture) {
 }
 
 Status LevelSet::set_speed(std::shared_ptr<const solver::SpeedFunction> speed) {
-  return use(*drive_, std::move(speed));
+  return use(*drive_, std::move(speed), Entry::none);
 }
 
 Drive LevelSet::drive_in_use() const {
@@ -51,17 +51,20 @@ Drive LevelSet::drive_in_use() const {
 }
 
 // Puts it in place of what drives and holds the surface, and into the recipe.
-Status LevelSet::use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed) {
+Status LevelSet::use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed, Entry entry) {
   const Drive used = relevant(drive);
   // The one in place was made from the same: giving it again would wake pages, which a replay does not.
   const bool in_place = used.setting.is_tent() || executor().speed() != nullptr;
   if (in_place && used == drive_in_use()) return {};
   TIDEMARK_TRY(setup_.set_drive(shared(used), std::move(speed)));
   if (used == value_of(recipe_.final_drive())) return {};
-  if (begun()) {
-    record({step(), DriveEvent{std::make_shared<const Drive>(used)}});
-  } else {
+  if (!begun()) {
     recipe_.drive = shared(used);
+  } else if (RecipeEvent event{step(), DriveEvent{std::make_shared<const Drive>(used)}};
+             entry == Entry::next || recipe_.events.size() > settled_events_) {
+    record(std::move(event));
+  } else {
+    append(std::move(event));  // other ways to here and on from here count on the last one
   }
   if (!dirty_) known_.recipe = recipe_;
   return {};

@@ -35,6 +35,7 @@ Result<SessionContents> snapshot_of(Case& document) {
   }
   contents.curve = document.level_set().curve();
   contents.view_state = document.view_state;
+  contents.history = document.level_set().saved_history();
   return contents;
 }
 
@@ -64,6 +65,8 @@ Result<std::unique_ptr<Case>> restore_case(const SessionContents& contents,
   restored = document.labels().assign(contents.labels, contents.label_voxels ? *contents.label_voxels : none);
   if (!restored) return pass_on(restored);
   document.view_state = contents.view_state;
+  if (!contents.history.empty()) document.level_set().restore_history(contents.history);
+  document.mark_saved();
   return made;
 }
 

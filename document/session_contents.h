@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "document/case.h"
+#include "document/saved_history.h"
 
 namespace tidemark::document {
 
@@ -20,6 +21,7 @@ struct SessionContents {
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null: no voxel has a label
   Curve curve;
   std::string view_state;
+  SavedHistory history;  // empty: only the present state is known
   // Further images of the case, whether or not the speed function uses them. As read from a file they have no
   // voxels, and neither have the recipe's maps: see find_images().
   std::vector<std::shared_ptr<const CaseImage>> images;
@@ -38,7 +40,7 @@ enum class VolumeMatch {
 };
 VolumeMatch match(const SessionContents& contents, const Volume& volume);
 
-// A case as it was saved, with an empty history. Fails (ErrorKind::input) when the volume has another grid.
+// A case as it was saved. Fails (ErrorKind::input) when the volume has another grid.
 Result<std::unique_ptr<Case>> restore_case(const SessionContents& contents,
                                            std::shared_ptr<const Volume> volume, solver::ExecutorKind kind,
                                            const solver::ExecutorOptions& options);

@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "core/atomic_file.h"
+#include "document/curve_json.h"
 #include "document/drive_json.h"
 #include "document/field_bytes.h"
+#include "document/history_file.h"
 #include "document/recipe_json.h"
 #include "document/zip_archive.h"
 
@@ -82,40 +84,6 @@ std::vector<Label> read_labels(const JsonField& field) {
     labels.push_back(std::move(label));
   }
   return labels;
-}
-
-// A list a quantity, so that other programs can plot them.
-constexpr std::array<std::pair<const char*, double CurvePoint::*>, 3> kCurveQuantities{
-    {{"volume_ml", &CurvePoint::volume_ml},
-     {"surface_mm2", &CurvePoint::surface_mm2},
-     {"surface_speed", &CurvePoint::surface_speed}}};
-
-Json curve_json(const Curve::Points& points) {
-  Json json{{"step", Json::array()}};
-  for (const CurvePoint& point : points) json["step"].push_back(point.step);
-  for (const auto& [name, quantity] : kCurveQuantities) {
-    Json& list = json[name] = Json::array();
-    for (const CurvePoint& point : points) list.push_back(point.*quantity);
-  }
-  return json;
-}
-
-Curve read_curve(const JsonField& field) {
-  const JsonField steps = field.at("step");
-  Curve::Points points(steps.size(Curve::kMostPoints));
-  std::int64_t next = 0;
-  for (std::size_t i = 0; i < points.size() && field.good(); ++i) {
-    points[i].step = steps.at(i).integer(next, std::int64_t{1} << 62);
-    next = points[i].step + 1;
-  }
-  for (const auto& [name, quantity] : kCurveQuantities) {
-    const JsonField list = field.at(name);
-    if (list.size(Curve::kMostPoints) != points.size())
-      list.wrong("has not as many entries as there are steps");
-    for (std::size_t i = 0; i < points.size() && field.good(); ++i)
-      points[i].*quantity = list.at(i).number(0.0);
-  }
-  return Curve(std::move(points));
 }
 
 // Where a study or an image is found again.
@@ -291,8 +259,9 @@ struct OpenedSession {
 };
 
 Result<OpenedSession> open_session(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 4> kNames{kJson, kTable, kPages, kLabels};
-  auto archive = ZipReader::open(file, kNames);
+  constexpr std::array<std::string_view, 7> kNames{kJson,        kTable,         kPages,       kLabels,
+                                                   kHistoryJson, kHistoryTables, kHistoryPages};
+  auto archive = ZipReader::open(file, session_entry_names());
   if (!archive) return pass_on(archive);
   const std::string name = file.string();
   const JsonLimits limits = json_limits(archive->packed_size(kJson));
@@ -314,7 +283,13 @@ Result<OpenedSession> open_session(const std::filesystem::path& file) {
 
 }  // namespace
 
-Status write_session(const SessionContents& contents, const std::filesystem::path& file) {
+std::span<const std::string_view> session_entry_names() {
+  static constexpr std::array<std::string_view, 7> kNames{
+      kJson, kTable, kPages, kLabels, kHistoryJson, kHistoryTables, kHistoryPages};
+  return kNames;
+}
+
+Status write_session(const SessionContents& contents, const std::filesystem::path& file, InFile what) {
   const std::string json = session_json(contents, file).dump(-1, ' ', false, Json::error_handler_t::replace);
   // What could not be read again is not written.
   if (const auto again = JsonDocument::parse(json, file.string(), json_limits(json.size())); !again) {
@@ -325,6 +300,11 @@ Status write_session(const SessionContents& contents, const std::filesystem::pat
                                 {kTable, std::as_bytes(std::span(contents.phi->table))},
                                 {kPages, std::as_bytes(std::span(pages))}};
   if (contents.label_voxels) entries.push_back({kLabels, std::as_bytes(std::span(*contents.label_voxels))});
+  HistoryEntries history;
+  if (what == InFile::all && !contents.history.empty()) {
+    history = history_entries(contents);
+    for (const ZipEntry& entry : history.entries()) entries.push_back(entry);
+  }
   auto whole = AtomicFile::create(file);
   if (!whole) return pass_on(whole);
   if (Status written = write_zip(whole->temporary_path(), entries); !written) {
@@ -355,6 +335,10 @@ Result<SessionContents> load_session(const std::filesystem::path& file) {
   if (!phi) return pass_on(phi);
   contents.phi = std::move(*phi);
   TIDEMARK_TRY(read_label_voxels(opened->archive, contents, name));
+  TIDEMARK_TRY(read_history(opened->archive, contents, name));
+  if (root.has("maps")) {
+    for (SavedState& state : contents.history.states) read_maps(root.at("maps"), file, state.recipe);
+  }
   return contents;
 }
 

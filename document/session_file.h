@@ -1,19 +1,25 @@
 // Session files (.tidemark): a case in one zip archive, but for the volume's voxels.
 //
 // Entries: session.json, phi.table (int32 a virtual page) and phi.pages (float), labels (uint8 a voxel, only
-// if there are any). Numbers are little-endian.
+// if there are any), and those of the history (history_file.h). Numbers are little-endian.
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string_view>
 
 #include "document/session_contents.h"
 
 namespace tidemark::document {
 
 inline constexpr int kSessionVersion = 1;
+// Of the archive, session.json first.
+[[nodiscard]] std::span<const std::string_view> session_entry_names();
 
-// Whole or not at all.
-Status write_session(const SessionContents& contents, const std::filesystem::path& file);
+// Whole or not at all. The history takes time, and is not for copies that are made in passing.
+enum class InFile { all, no_history };
+Status write_session(const SessionContents& contents, const std::filesystem::path& file,
+                     InFile what = InFile::all);
 // Fails (ErrorKind::input) naming the file and what is wrong in it. The origin's path is the one that exists:
 // relative to the session file, else where it was when it was saved.
 Result<SessionContents> load_session(const std::filesystem::path& file);

@@ -57,9 +57,11 @@ Result<std::shared_ptr<const SpeedMap>> read(const SpeedMap& wanted, const Geome
   return map;
 }
 
-// Gives all drives of a recipe their maps.
-std::vector<std::string> give_maps(Recipe& recipe, const Geometry& grid, const Progress& progress) {
-  std::map<std::string, std::shared_ptr<const SpeedMap>> looked_at;  // by checksum
+using Maps = std::map<std::string, std::shared_ptr<const SpeedMap>>;  // by checksum
+
+// Gives all drives of a recipe their maps, and tells what could not be had. Each map is looked for once.
+std::vector<std::string> give_maps(Recipe& recipe, Maps& looked_at, const Geometry& grid,
+                                   const Progress& progress) {
   std::vector<std::string> problems;
   recipe.change_drives([&](Drive& drive) {
     if (drive.map == nullptr || drive.map->volume != nullptr) return;
@@ -88,7 +90,12 @@ void give_images(Recipe& recipe, std::vector<std::shared_ptr<const CaseImage>> i
 }
 
 std::vector<std::string> find_images(SessionContents& contents, const Progress& progress) {
-  std::vector<std::string> problems = give_maps(contents.recipe, contents.geometry, progress);
+  Maps maps;
+  std::vector<std::string> problems = give_maps(contents.recipe, maps, contents.geometry, progress);
+  for (SavedState& state : contents.history.states) {
+    for (std::string& problem : give_maps(state.recipe, maps, contents.geometry, progress))
+      problems.push_back(std::move(problem));
+  }
   for (auto& image : contents.images) {
     auto found = read(*image, progress);
     if (found) {
@@ -98,6 +105,7 @@ std::vector<std::string> find_images(SessionContents& contents, const Progress& 
     }
   }
   give_images(contents.recipe, contents.images);
+  for (SavedState& state : contents.history.states) give_images(state.recipe, contents.images);
   return problems;
 }
 

@@ -18,6 +18,7 @@
 #include "engine/case_state.h"
 #include "engine/display.h"
 #include "engine/engine.h"
+#include "engine/state_comparison.h"
 #include "engine/study_loader.h"
 #include "renderer/renderer.h"
 #include "solver/executor.h"
@@ -100,6 +101,10 @@ class CaseProxy : public QObject {
   void change_executor(solver::ExecutorKind kind);
   void undo();
   void redo();
+  // Another state of the history, of CaseState::history; what was done since stays in it.
+  void go_to(std::uint64_t state);
+  // With another one of them.
+  [[nodiscard]] StateComparison& comparison() { return comparison_; }
 
   // Labels.
   void add_label(const QString& name);
@@ -153,6 +158,7 @@ class CaseProxy : public QObject {
   using Command = std::function<Status(CaseRunner&, const Progress&)>;
   void post(Command command);
   void take(CaseState state);
+  void phi_of(std::uint64_t state, std::function<void(StateComparison::Phi)> answer);
   void use_images_of_display();
   void show_images_of_drive();
   void set_playing(bool playing);
@@ -160,6 +166,7 @@ class CaseProxy : public QObject {
   Engine& engine_;
   std::shared_ptr<const LoadedStudy> study_;
   Display display_;
+  StateComparison comparison_;
   std::shared_ptr<WeakReceiver> weak_receiver_;
   std::shared_ptr<CaseRunner> runner_;
   std::shared_ptr<LockStep> lock_step_;

@@ -23,7 +23,8 @@ CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study,
       executor_kind_(executor),
       receiver_(std::move(receiver)),
       restored_(std::move(restored)),
-      painter_(engine) {
+      painter_(engine),
+      history_(study_->summary.window) {
   meter_.compare_with(study_->truth);
 }
 
@@ -55,6 +56,7 @@ void CaseRunner::show() {
   if (auto status = follow_surface(); !status) report_failure(status.error());
   show_pictures();
   post_measurement();
+  post_history();
   publish();
 }
 
@@ -234,6 +236,12 @@ Status CaseRunner::undo() {
   return report_edit(case_->undo());
 }
 
+Status CaseRunner::go_to(std::uint64_t state) {
+  set_playing(false);
+  case_speed_.give_up_smoothing();
+  return report_edit(case_->history().go_to(state));
+}
+
 // Playing.
 
 void CaseRunner::set_playing(bool playing) {
@@ -253,7 +261,8 @@ void CaseRunner::play_alone(bool playing) {
 Status CaseRunner::step(std::int64_t steps, const Progress& progress) {
   if (!case_->level_set().begun() || case_speed_.holds_steps(*case_)) return {};
   if (const auto group = group_.lock()) return group->step(steps, progress);
-  play_alone(false);
+  // Steps by hand are one entry while nothing else is done.
+  if (playing_ || !case_->level_set().in_run()) play_alone(false);
   return advance(steps, progress);
 }
 
@@ -446,6 +455,20 @@ void CaseRunner::post_measurement() {
       [self = shared_from_this()](const Error& error) { self->report_failure(error); });
 }
 
+// One state at a time: whatever else is asked for comes between.
+void CaseRunner::post_history() {
+  if (playing_ || std::exchange(history_waits_, true)) return;
+  engine_.post(
+      Priority::background, this,
+      [self = shared_from_this()](const std::stop_token&) {
+        self->history_waits_ = false;
+        if (!self->case_ || self->playing_ || !self->history_.measure_next(*self->case_)) return;
+        self->publish();
+        self->post_history();
+      },
+      [self = shared_from_this()](const Error& error) { self->report_failure(error); });
+}
+
 std::shared_ptr<const std::vector<std::uint8_t>> CaseRunner::label_voxels() {
   const document::Labels& labels = case_->labels();
   if (labels.voxels().empty()) return nullptr;
@@ -486,6 +509,9 @@ void CaseRunner::publish() {
   if (const auto change = case_->history().undo_description()) state.undo_text = change_text(*change);
   if (case_speed_.smoothing()) state.undo_text = change_text({document::ChangeKind::source, 0, {}});
   if (const auto change = case_->history().redo_description()) state.redo_text = change_text(*change);
+  state.history = history_.rows(*case_);
+  state.history_state = case_->history().last_state();
+  state.open_change = case_->history().open_state();
   state.modified = case_->changed_since_save() || restored_.rescued;
   state.edits = case_->history().edits();
   state.start_text = QString::fromStdString(level_set.recipe().start.describe());

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "engine/case_history.h"
 #include "engine/case_meter.h"
 #include "engine/case_painter.h"
 #include "engine/case_proxy.h"
@@ -53,6 +54,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   Status report_labels(Status outcome);
   Status smooth_source(double sigma_mm);  // in the background
   Status undo();
+  Status go_to(std::uint64_t state);
   Status accept_surface(std::uint8_t label, document::Take take);
   Status take_run(const document::SweepStart& start, const document::SweepRun& run, const Progress& progress);
 
@@ -104,6 +106,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   // What views show of the speed: at rest that of the present surface.
   Status follow_surface();
   void post_measurement();
+  void post_history();
   void end_run();
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels();
   Status follow_graphics();
@@ -119,6 +122,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   std::optional<Error> obstacle_;
   CasePainter painter_;
   CaseMeter meter_;
+  CaseHistory history_;
   int graphics_ = 0;  // Engine::contexts_made() when the executor was made
   std::weak_ptr<LockStep> group_;
 
@@ -136,6 +140,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   bool playing_ = false;
   bool pause_at_convergence_ = true;
   bool measurement_waits_ = false;
+  bool history_waits_ = false;
   std::int64_t steps_per_picture_ = 0;
   std::uint64_t turn_ = 0;           // of the steps that wait: those of earlier ones are not wanted any more
   double pace_ = 0.0;                // steps a second; 0: free

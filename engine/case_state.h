@@ -12,6 +12,7 @@
 #include "document/labels.h"
 #include "document/leak.h"
 #include "document/outcome.h"
+#include "engine/case_history.h"
 #include "solver/balance.h"
 #include "solver/executor.h"
 #include "solver/statistics.h"
@@ -37,7 +38,7 @@ struct CaseState {
   bool playing = false;
   bool converged = false;
   document::Outcome outcome = document::Outcome::unfinished;  // as of the last measurement
-  std::optional<double> wider_range;  // the epsilon to try: see wider_range(); measured when it rests
+  std::optional<double> wider_range;      // the epsilon to try: see wider_range(); measured when it rests
   std::shared_ptr<const LeakAlarm> leak;  // why it has paused; null: for no leak, or it has gone on since
   double time_step = 0.0;
   double band = 2.5;
@@ -64,10 +65,13 @@ struct CaseState {
   std::optional<document::Acceptance> acceptance;                 // while it is the last change
   QString undo_text;                                              // which change undo takes back; empty: none
   QString redo_text;
-  std::uint64_t edits = 0;                           // how much was done: grows with each edit
-  bool modified = false;                             // something would be lost
-  QString start_text;                                // how it began
-  std::shared_ptr<const solver::MotionLimit> limit;  // of a mask that is refined; null: none
+  std::shared_ptr<const HistoryRows> history = std::make_shared<const HistoryRows>();  // never null
+  std::uint64_t history_state = 0;  // of them, the present one or the one where the next begins
+  std::optional<document::HistoryState> open_change;  // that goes on from it
+  std::uint64_t edits = 0;                            // how much was done: grows with each edit
+  bool modified = false;                              // something would be lost
+  QString start_text;                                 // how it began
+  std::shared_ptr<const solver::MotionLimit> limit;   // of a mask that is refined; null: none
 };
 
 // What the next step computes with; none without a surface that was measured.

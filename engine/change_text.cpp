@@ -23,9 +23,9 @@ QString change_text(const document::ChangeDescription& change) {
     case document::ChangeKind::parameters:
       return tr("change of parameters");
     case document::ChangeKind::evolution:
-      return tr("evolution, %1 steps").arg(change.steps);
+      return change.steps == 1 ? tr("evolution, 1 step") : tr("evolution, %1 steps").arg(change.steps);
     case document::ChangeKind::step_back:
-      return tr("%1 steps back").arg(change.steps);
+      return change.steps == 1 ? tr("1 step back") : tr("%1 steps back").arg(change.steps);
     case document::ChangeKind::restart:
       return tr("restart");
     case document::ChangeKind::sweep:

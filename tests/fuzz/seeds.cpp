@@ -301,9 +301,9 @@ void write_results() {
 }
 
 std::string session_json_in(const fs::path& file) {
-  constexpr std::array<std::string_view, 4> kNames{"session.json", "phi.table", "phi.pages", "labels"};
-  auto archive = document::ZipReader::open(file, kNames).value();
-  const auto text = archive.read(kNames[0], archive.size(kNames[0])).value();
+  const std::string_view name = document::session_entry_names().front();
+  auto archive = document::ZipReader::open(file, document::session_entry_names()).value();
+  const auto text = archive.read(name, archive.size(name)).value();
   return {reinterpret_cast<const char*>(text.data()), text.size()};
 }
 

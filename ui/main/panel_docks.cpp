@@ -8,6 +8,7 @@
 #include "ui/main/case_head.h"
 #include "ui/main/case_window.h"
 #include "ui/panels/display_panel.h"
+#include "ui/panels/history_panel.h"
 #include "ui/panels/initialise_panel.h"
 #include "ui/panels/labels_panel.h"
 #include "ui/panels/level_set_panel.h"
@@ -42,15 +43,18 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
   auto* paint = new PaintPanel;
   paint->set_actions(actions.undo, actions.redo);
   auto* display = new DisplayPanel;
+  auto* history = new HistoryPanel;
   auto* labels = new LabelsPanel;
   auto* statistics = new StatisticsPanel;
   statistics->set_export_action(actions.export_statistics);
   auto* sweep = new SweepPanel;
   transfer_ = new TransferFunctionEditor;
-  panels_ = {level_set, initialise, paint, display, labels, statistics, sweep};
-  // One column with its tabs at the side: the views keep the room. The editor scrolls its parts itself.
+  panels_ = {level_set, initialise, paint, display, history, labels, statistics, sweep};
+  // One column with its tabs at the side: the views keep the room. Editor and history scroll their parts
+  // themselves.
   const QList<QDockWidget*> docks{add("initialise", tr("Place surface"), scrolled(initialise)),
                                   add("level-set", tr("Level set"), scrolled(level_set)),
+                                  add("history", tr("History"), history),
                                   add("paint", tr("Paint"), scrolled(paint)),
                                   add("display", tr("Display"), scrolled(display)),
                                   add("transfer", tr("Transfer"), transfer_),

@@ -31,6 +31,13 @@ void Panel::add(CaseWidget* part) {
   part->set_proxy(proxy());
 }
 
+void Panel::fill_height() {
+  auto* column = static_cast<QVBoxLayout*>(layout());
+  delete column->takeAt(column->count() - 1);  // the space below the parts
+  column->setStretchFactor(content_, 1);
+  parts_->setStretch(0, 1);
+}
+
 void Panel::attach() {
   hint_->setVisible(proxy() == nullptr);
   content_->setEnabled(proxy() != nullptr);

@@ -21,6 +21,7 @@ class Panel : public CaseWidget {
  protected:
   void add(QWidget* part);
   void add(CaseWidget* part);  // which gets the case, too
+  void fill_height();          // the parts take all of it, and the first one what is over
   void attach() override;
   void refresh() override {}
   [[nodiscard]] QWidget* content() const { return content_; }

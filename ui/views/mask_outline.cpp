@@ -9,21 +9,41 @@
 namespace tidemark::ui {
 namespace {
 
-// How much of a point is inside: 0 to 1, between the middles of voxels by interpolation.
-double inside_at(const Mask& mask, glm::dvec3 voxel) {
-  const Index3 low(std::floor(voxel.x + 1e-6), std::floor(voxel.y + 1e-6), std::floor(voxel.z + 1e-6));
+// The value at a point between the middles of voxels by interpolation; `value` is called for voxels, inside
+// the grid or not.
+template <class Value>
+double interpolated(glm::dvec3 voxel, const Value& value) {
+  constexpr double kOnMiddle = 1e-6;
+  const Index3 low(std::floor(voxel.x + kOnMiddle), std::floor(voxel.y + kOnMiddle),
+                   std::floor(voxel.z + kOnMiddle));
   const glm::dvec3 share = voxel - glm::dvec3(low);
-  double inside = 0.0;
+  double sum = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
     const Index3 step(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-    const Index3 at = low + step;
-    if (!mask.geometry.contains(at) || mask.voxels[static_cast<std::size_t>(mask.geometry.offset(at))] == 0)
-      continue;
     double weight = 1.0;
     for (int axis = 0; axis < 3; ++axis) weight *= step[axis] != 0 ? share[axis] : 1.0 - share[axis];
-    inside += weight;
+    if (std::abs(weight) > kOnMiddle) sum += weight * value(low + step);
   }
-  return inside;
+  return sum;
+}
+
+// A box of voxels, both ends included.
+struct VoxelBox {
+  Index3 low{0};
+  Index3 high{0};
+};
+
+// All pages that are not outside throughout, and a voxel around them.
+VoxelBox box_around(const solver::Field& phi) {
+  VoxelBox box{phi.geometry.size, Index3(-1)};
+  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
+    if (phi.table[static_cast<std::size_t>(page)] == solver::Field::kOutside) continue;
+    const Index3 first = phi.layout.first_voxel(page);
+    box.low = glm::min(box.low, first);
+    box.high = glm::max(box.high, first + phi.layout.valid_shape(page) - Index3(1));
+  }
+  return {glm::max(box.low - Index3(1), Index3(0)),
+          glm::min(box.high + Index3(1), phi.geometry.size - Index3(1))};
 }
 
 // A lattice in the slice, on the middles of voxels where the slice lies along them.
@@ -43,8 +63,8 @@ struct Lattice {
   }
 };
 
-Lattice lattice_in(const Geometry& geometry, const renderer::SliceOrientation& orientation,
-                   glm::dvec3 position_mm) {
+Lattice lattice_in(const Geometry& geometry, const VoxelBox& box,
+                   const renderer::SliceOrientation& orientation, glm::dvec3 position_mm) {
   Lattice lattice{orientation.right, orientation.up, {}, {}, {}, 0, 0};
   lattice.off_mm = position_mm - lattice.right * glm::dot(position_mm, lattice.right) -
                    lattice.up * glm::dot(position_mm, lattice.up);
@@ -60,8 +80,8 @@ Lattice lattice_in(const Geometry& geometry, const renderer::SliceOrientation& o
       spacing_mm += share * share * geometry.spacing_mm[a];
     }
     for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec3 voxel(Index3(corner & 1, corner >> 1 & 1, corner >> 2 & 1) *
-                             (geometry.size - Index3(1)));
+      const glm::dvec3 voxel(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                             corner & 4 ? box.high.z : box.low.z);
       const double place_mm = glm::dot(geometry.to_patient(voxel), axis);
       low_mm = std::min(low_mm, place_mm);
       high_mm = std::max(high_mm, place_mm);
@@ -77,22 +97,16 @@ Lattice lattice_in(const Geometry& geometry, const renderer::SliceOrientation& o
   return lattice;
 }
 
-}  // namespace
-
-// Marching squares, at a half.
-QList<QLineF> outline_in_slice(const Mask& mask, const renderer::SliceOrientation& orientation,
-                               glm::dvec3 position_mm) {
-  const Lattice lattice = lattice_in(mask.geometry, orientation, position_mm);
-  const auto value_at = [&](int column, int row) {
-    return inside_at(mask, mask.geometry.to_voxel(lattice.patient_at(column, row)));
-  };
+// Marching squares at the level, where value_at(point in mm) is above it on one side.
+template <class ValueAt>
+QList<QLineF> outline_in(const Lattice& lattice, double level, const ValueAt& value_at) {
   QList<QLineF> lines;
   std::vector<double> below(static_cast<std::size_t>(lattice.columns));
   std::vector<double> above = below;
   for (int row = 0; row < lattice.rows; ++row) {
     std::swap(below, above);
     for (int column = 0; column < lattice.columns; ++column)
-      above[static_cast<std::size_t>(column)] = value_at(column, row);
+      above[static_cast<std::size_t>(column)] = value_at(lattice.patient_at(column, row));
     if (row == 0) continue;
     for (int column = 1; column < lattice.columns; ++column) {
       const auto c = static_cast<std::size_t>(column);
@@ -102,8 +116,8 @@ QList<QLineF> outline_in_slice(const Mask& mask, const renderer::SliceOrientatio
       QList<QPointF> crossings;
       for (std::size_t side = 0; side < 4; ++side) {
         const std::size_t next = (side + 1) % 4;
-        if ((values[side] < 0.5) == (values[next] < 0.5)) continue;
-        const double share = (0.5 - values[side]) / (values[next] - values[side]);
+        if ((values[side] < level) == (values[next] < level)) continue;
+        const double share = (level - values[side]) / (values[next] - values[side]);
         const double x = kCorners[side][0] + share * (kCorners[next][0] - kCorners[side][0]);
         const double y = kCorners[side][1] + share * (kCorners[next][1] - kCorners[side][1]);
         crossings << lattice.at(column + x, row + y);
@@ -112,6 +126,33 @@ QList<QLineF> outline_in_slice(const Mask& mask, const renderer::SliceOrientatio
     }
   }
   return lines;
+}
+
+}  // namespace
+
+QList<QLineF> outline_in_slice(const Mask& mask, const renderer::SliceOrientation& orientation,
+                               glm::dvec3 position_mm) {
+  const Geometry& geometry = mask.geometry;
+  const VoxelBox whole{Index3(0), geometry.size - Index3(1)};
+  return outline_in(lattice_in(geometry, whole, orientation, position_mm), 0.5, [&](glm::dvec3 point) {
+    return interpolated(geometry.to_voxel(point), [&](Index3 voxel) {
+      return geometry.contains(voxel) && mask.voxels[static_cast<std::size_t>(geometry.offset(voxel))] != 0
+                 ? 1.0
+                 : 0.0;
+    });
+  });
+}
+
+QList<QLineF> outline_in_slice(const solver::Field& phi, const renderer::SliceOrientation& orientation,
+                               glm::dvec3 position_mm) {
+  const Geometry& geometry = phi.geometry;
+  const VoxelBox box = box_around(phi);
+  if (box.high.x < box.low.x) return {};
+  return outline_in(lattice_in(geometry, box, orientation, position_mm), 0.0, [&](glm::dvec3 point) {
+    return interpolated(geometry.to_voxel(point), [&](Index3 voxel) {
+      return geometry.contains(voxel) ? static_cast<double>(phi.at(voxel)) : -phi.band;
+    });
+  });
 }
 
 }  // namespace tidemark::ui

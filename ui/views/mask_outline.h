@@ -1,4 +1,4 @@
-// The outline of a mask in a slice.
+// The outline of a mask, or of a level set, in a slice.
 #pragma once
 
 #include <QLineF>
@@ -6,12 +6,17 @@
 
 #include "core/volume.h"
 #include "renderer/camera.h"
+#include "solver/field.h"
 
 namespace tidemark::ui {
 
 // Lines between the middles of neighbouring voxels that differ, in mm along the slice's right (x) and up (y)
 // from the patient's origin. `position_mm`: a point of the slice (LPS).
 QList<QLineF> outline_in_slice(const Mask& mask, const renderer::SliceOrientation& orientation,
+                               glm::dvec3 position_mm);
+
+// Of phi = 0, between voxels by interpolation.
+QList<QLineF> outline_in_slice(const solver::Field& phi, const renderer::SliceOrientation& orientation,
                                glm::dvec3 position_mm);
 
 }  // namespace tidemark::ui

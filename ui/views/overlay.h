@@ -26,6 +26,8 @@ void paint_fine_lines(QPainter& painter, const QList<QLineF>& lines, const QColo
 // Of a known answer: apart from the surface's yellow, the speed map's colours and the first labels', also
 // for colour-blind eyes.
 inline constexpr QColor kTruthColour(190, 40, 255);
+// Of a state of the history that is compared: apart from these, too.
+inline constexpr QColor kComparedColour(0, 222, 190);
 // A sphere's outline; one that takes away is dashed.
 void paint_circle(QPainter& painter, QPointF centre, double radius, bool erases);
 

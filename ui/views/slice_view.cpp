@@ -83,6 +83,7 @@ SliceViewWidget::SliceViewWidget(engine::CaseProxy& proxy, SlicePlane plane, ren
     : PictureView(proxy, parent), plane_(plane), content_(content) {
   setAccessibleName(title());
   connect(&proxy, &engine::CaseProxy::state_changed, this, &SliceViewWidget::follow_marks);
+  connect(&proxy.comparison(), &engine::StateComparison::changed, this, &SliceViewWidget::paint_again);
   connect(&images_, &ImageOverlay::arrived, this, &SliceViewWidget::ask);
 }
 
@@ -268,6 +269,7 @@ void SliceViewWidget::paint_overlay(QPainter& painter) {
   const renderer::SliceOrientation o = orientation();
   paint_swipe_line(painter);
   paint_truth(painter, on_screen);
+  paint_compared(painter, on_screen);
   paint_marks(painter, on_screen);
   if (settings().crosshair) paint_crosshair(painter, size(), on_screen.position_of(settings().cursor_mm));
   paint_measurements(painter, settings().measurements, on_screen, 0.5 * place().thickness_mm + 1e-6);
@@ -305,17 +307,13 @@ void SliceViewWidget::paint_swipe_line(QPainter& painter) const {
 void SliceViewWidget::paint_truth(QPainter& painter, const SliceScreen& on_screen) {
   const auto& truth = proxy().study().truth;
   if (!settings().truth || !truth) return;
-  const renderer::SliceOrientation o = orientation();
-  const double along_normal_mm = glm::dot(settings().cursor_mm, o.into());
-  if (!outline_ || outline_->orientation != o || outline_->along_normal_mm != along_normal_mm)
-    outline_ = {o, along_normal_mm, outline_in_slice(*truth, o, settings().cursor_mm)};
-  const QPointF zero = on_screen.position_of(glm::dvec3(0.0));
-  const double scale = 1.0 / on_screen.mm_per_pixel();
-  const auto to_screen = [&](QPointF mm) { return zero + QPointF(mm.x() * scale, -mm.y() * scale); };
-  QList<QLineF> lines;
-  lines.reserve(outline_->lines.size());
-  for (const QLineF& line : outline_->lines) lines << QLineF(to_screen(line.p1()), to_screen(line.p2()));
-  paint_fine_lines(painter, lines, kTruthColour);
+  truth_outline_.paint(painter, truth, orientation(), settings().cursor_mm, on_screen, kTruthColour);
+}
+
+void SliceViewWidget::paint_compared(QPainter& painter, const SliceScreen& on_screen) {
+  if (content_ == renderer::SliceContent::pages) return;
+  compared_outline_.paint(painter, proxy().comparison().phi(), orientation(), settings().cursor_mm, on_screen,
+                          kComparedColour);
 }
 
 engine::DrawnMarks SliceViewWidget::marks() const {
@@ -358,6 +356,10 @@ void SliceViewWidget::paint_corners(QPainter& painter) const {
     lines << tr("W %1  L %2").arg(number_text(s.window.width, 0), number_text(s.window.centre, 0));
   }
   if (content_ == renderer::SliceContent::speed) lines << term_name(s.speed_term);
+  if (const auto compared = proxy().comparison().state()) {
+    if (const auto* row = engine::find_row(*proxy().state().history, *compared))
+      lines << tr("Turquoise: step %1").arg(row->state.steering.step);
+  }
   lines << tr("Zoom %1 %").arg(100.0 * s.slice_zoom, 0, 'f', 0);
   paint_corner(painter, size(), Qt::AlignLeft | Qt::AlignBottom, lines);
 }

@@ -3,8 +3,8 @@
 
 #include "ui/views/image_overlay.h"
 #include "ui/views/marks_overlay.h"
-#include "ui/views/mask_outline.h"
 #include "ui/views/picture_view.h"
+#include "ui/views/slice_outline.h"
 #include "ui/views/view_geometry.h"
 
 namespace tidemark::ui {
@@ -58,6 +58,7 @@ class SliceViewWidget : public PictureView {
   [[nodiscard]] SliceScreen screen() const;
   void paint_swipe_line(QPainter& painter) const;
   void paint_truth(QPainter& painter, const SliceScreen& on_screen);
+  void paint_compared(QPainter& painter, const SliceScreen& on_screen);
   void paint_corners(QPainter& painter) const;
   void paint_legend(QPainter& painter) const;  // of what colours mean
   [[nodiscard]] engine::DrawnMarks marks() const;
@@ -66,13 +67,8 @@ class SliceViewWidget : public PictureView {
 
   SlicePlane plane_;
   renderer::SliceContent content_;
-  // Of the truth, as of the slice for which it was last found.
-  struct Outline {
-    renderer::SliceOrientation orientation;
-    double along_normal_mm = 0.0;
-    QList<QLineF> lines;
-  };
-  std::optional<Outline> outline_;
+  SliceOutline<Mask> truth_outline_;
+  SliceOutline<solver::Field> compared_outline_;
   MarksOverlay marks_overlay_;
   engine::DrawnMarks marks_;     // as of the last state
   mutable ImageOverlay images_;  // asked for when a picture is

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 
+#include "document/session_file.h"
 #include "document/zip_archive.h"
 #include "engine/case_autosave.h"
 #include "imaging/dicom/dicom.h"
@@ -69,13 +70,16 @@ QString telling_file(const fs::path& folder) {
 }
 
 // Sessions are compressed.
-std::string json_of_session(const fs::path& file) {
-  constexpr std::array<std::string_view, 4> kNames{"session.json", "phi.table", "phi.pages", "labels"};
-  auto proxy = document::ZipReader::open(file, kNames);
-  if (!proxy) qFatal("%s", proxy.error().message.c_str());
-  const auto json = proxy->read(kNames[0], proxy->size(kNames[0]));
-  if (!json) qFatal("%s", json.error().message.c_str());
-  return {reinterpret_cast<const char*>(json->data()), json->size()};
+std::string texts_of_session(const fs::path& file) {
+  auto archive = document::ZipReader::open(file, document::session_entry_names());
+  if (!archive) qFatal("%s", archive.error().message.c_str());
+  std::string texts;
+  for (const std::string_view name : {"session.json", "history.json"}) {
+    const auto json = archive->read(name, archive->size(name));
+    if (!json) qFatal("%s", json.error().message.c_str());
+    texts.append(reinterpret_cast<const char*>(json->data()), json->size());
+  }
+  return texts;
 }
 
 }  // namespace
@@ -209,7 +213,7 @@ void PrivacyStoryTest::the_patient_is_in_no_file_that_is_written() {
   write_everything();
   QCOMPARE(telling_file(written()), QString());
   QCOMPARE(telling_file(home_.path()), QString());
-  const std::string json = json_of_session(written() / "case.tidemark");
+  const std::string json = texts_of_session(written() / "case.tidemark");
   QVERIFY(json.find("patient_text") != std::string::npos);  // whether it is shown
   QVERIFY(!tells_the_patient(json));                        // with the recipe
   QSettings settings;                                       // with the list of recent studies

@@ -132,8 +132,8 @@ void ScaleStoryTest::panels_fit_into_their_column() {
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
   int panels = 0;
-  for (const char* name :
-       {"initialise", "level-set", "paint", "display", "transfer", "labels", "statistics", "sweep"}) {
+  for (const char* name : {"initialise", "level-set", "history", "paint", "display", "transfer", "labels",
+                           "statistics", "sweep"}) {
     desktop.window().panels().show(name);
     QTest::qWait(50);
     auto* dock = desktop.window().findChild<QDockWidget*>(name);

@@ -11,6 +11,7 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 #include "ui/panels/display_panel.h"
+#include "ui/panels/history_panel.h"
 #include "ui/panels/initialise_panel.h"
 #include "ui/panels/labels_panel.h"
 #include "ui/panels/level_set_panel.h"
@@ -107,6 +108,7 @@ class EveryPanelTest : public QObject {
     add("start", [] { return std::make_unique<ui::InitialisePanel>(); });
     add("paint", [] { return std::make_unique<ui::PaintPanel>(); });
     add("display", [] { return std::make_unique<ui::DisplayPanel>(); });
+    add("history", [] { return std::make_unique<ui::HistoryPanel>(); });
     add("labels", [] { return std::make_unique<ui::LabelsPanel>(); });
     add("statistics", [] { return std::make_unique<ui::StatisticsPanel>(); });
     add("sweep", [] { return std::make_unique<ui::SweepPanel>(); });

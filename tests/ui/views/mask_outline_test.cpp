@@ -70,6 +70,28 @@ class MaskOutlineTest : public QObject {
              qPrintable(QString::number(length)));
   }
 
+  // Between voxels, as far as phi says.
+  void of_a_level_set_it_is_the_circle_itself() {
+    constexpr double kBand = 2.5;
+    std::vector<float> values;
+    for (std::int64_t offset = 0; offset < kGrid.voxel_count(); ++offset) {
+      const double distance = kRadius - glm::distance(kGrid.to_patient(kGrid.voxel_at(offset)), middle());
+      values.push_back(static_cast<float>(std::clamp(distance, -kBand, kBand)));
+    }
+    const solver::Field phi = solver::Field::from_dense(kGrid, values, kBand);
+    constexpr double kOff = 4.0;
+    const renderer::SliceOrientation& axial = renderer::kAxial;
+    const QPointF centre(glm::dot(middle(), axial.right), glm::dot(middle(), axial.up));
+    const double radius = std::sqrt(kRadius * kRadius - kOff * kOff);
+    double length = 0.0;
+    for (const QLineF& line : ui::outline_in_slice(phi, axial, middle() + axial.into() * kOff)) {
+      length += line.length();
+      QVERIFY(std::abs(QLineF(centre, line.center()).length() - radius) < 0.2);
+    }
+    QVERIFY(std::abs(length / (2.0 * M_PI * radius) - 1.0) < 0.02);
+    QVERIFY(ui::outline_in_slice(solver::Field::empty(kGrid, kBand), axial, middle()).isEmpty());
+  }
+
   // No end is loose, at the volume's border either.
   void it_is_closed() {
     Mask all{kGrid, std::vector<std::uint8_t>(static_cast<std::size_t>(kGrid.voxel_count()), 1)};

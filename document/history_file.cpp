@@ -1,0 +1,259 @@
+#include "document/history_file.h"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <utility>
+
+#include "document/curve_json.h"
+#include "document/recipe_json.h"
+#include "document/session_contents.h"
+
+namespace tidemark::document {
+namespace {
+
+constexpr const char* kFormat = "tidemark history";
+constexpr int kVersion = 1;
+constexpr std::int64_t kMostSteps = 1'000'000'000;
+constexpr std::size_t kLongestName = 256;
+constexpr std::size_t kMostPoints = 4'000'000;  // of all curves together
+constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+constexpr std::int64_t kMostPages = std::int64_t{1} << 22;  // 8 GB; memory is taken for what is there
+
+// In the order of ChangeKind.
+const std::vector<std::string_view> kKinds{
+    "start",     "paint",          "erase",        "target",        "range",    "smoothing",   "parameters",
+    "evolution", "step back",      "restart",      "source",        "examples", "constraints", "speed",
+    "new label", "label settings", "remove label", "import labels", "accept"};
+
+bool same_start(const Start& a, const Start& b) {
+  if (a.seeds != b.seeds || a.erasers != b.erasers || a.from.index() != b.from.index()) return false;
+  if (const auto* threshold = std::get_if<ThresholdStart>(&a.from))
+    return *threshold == std::get<ThresholdStart>(b.from);
+  if (const auto* flood = std::get_if<FloodStart>(&a.from)) return *flood == std::get<FloodStart>(b.from);
+  if (const auto* mask = std::get_if<MaskStart>(&a.from)) {
+    const auto& other = std::get<MaskStart>(b.from);
+    return mask->mask == other.mask && mask->limit == other.limit && mask->origin == other.origin;
+  }
+  if (const auto* phi = std::get_if<FieldStart>(&a.from)) return phi->phi == std::get<FieldStart>(b.from).phi;
+  return true;
+}
+
+// What a state's own recipe and curve go on from.
+struct Base {
+  const Recipe& recipe;
+  const Curve& curve;
+};
+
+Base base_of(const SessionContents& contents, const SavedState& state) {
+  if (!state.parent) return {contents.recipe, contents.curve};
+  const SavedState& parent = contents.history.states[*state.parent];
+  return {parent.recipe, parent.curve};
+}
+
+template <class T>
+std::size_t common(const std::vector<T>& a, const std::vector<T>& b) {
+  return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
+}
+
+template <class T>
+std::vector<T> behind(const std::vector<T>& all, std::size_t first) {
+  return {all.begin() + static_cast<std::ptrdiff_t>(first), all.end()};
+}
+
+Json state_json(const SavedState& state, const Base& base) {
+  Recipe own = state.recipe;
+  const std::size_t events = common(base.recipe.events, own.events);
+  own.events = behind(own.events, events);
+  const bool start = same_start(base.recipe.start, own.start);
+  if (start) own.start = {};
+  const bool drive = base.recipe.drive == own.drive;
+  if (drive) own.drive.reset();
+  const std::size_t points = common(*base.curve.points(), *state.curve.points());
+  Json json{{"change",
+             {{"kind", kKinds[static_cast<std::size_t>(state.change.kind)]},
+              {"steps", state.change.steps},
+              {"name", state.change.name}}},
+            {"common_events", events},
+            {"same_start", start},
+            {"same_drive", drive},
+            {"recipe", to_json(own)},
+            {"common_points", points},
+            {"curve", curve_json(behind(*state.curve.points(), points))},
+            {"phi", state.phi}};
+  if (state.parent) json["parent"] = *state.parent;
+  return json;
+}
+
+std::string json_text(const SessionContents& contents) {
+  const SavedHistory& history = contents.history;
+  Json json{{"format", kFormat}, {"version", kVersion}, {"present", history.present}};
+  const Index3 shape = history.phi.page_shape();
+  json["page_shape"] = {shape.x, shape.y, shape.z};
+  Json states = Json::array();
+  for (const SavedState& state : history.states)
+    states.push_back(state_json(state, base_of(contents, state)));
+  json["states"] = std::move(states);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+// Reading.
+
+template <class Number>
+Result<std::vector<Number>> read_numbers(ZipReader& archive, std::string_view name, std::size_t count) {
+  auto bytes = archive.read(name, count * sizeof(Number));
+  if (!bytes) return pass_on(bytes);
+  std::vector<Number> numbers(count);
+  if (count > 0) std::memcpy(numbers.data(), bytes->data(), bytes->size());
+  return numbers;
+}
+
+ChangeDescription read_change(const JsonField& field) {
+  ChangeDescription change;
+  change.kind = static_cast<ChangeKind>(field.at("kind").word(kKinds));
+  change.steps = field.at("steps").integer(0, kMostSteps);
+  change.name = field.at("name").text(kLongestName);
+  return change;
+}
+
+Recipe read_own_recipe(const JsonField& field, const Recipe& base) {
+  Recipe recipe = read_recipe(field.at("recipe"));
+  const auto most = static_cast<std::int64_t>(base.events.size());
+  const std::int64_t events = field.at("common_events").integer(0, most);
+  if (field.at("same_start").boolean()) recipe.start = base.start;
+  if (field.at("same_drive").boolean()) recipe.drive = base.drive;
+  if (!field.good()) return recipe;
+  if (recipe.source.size != base.source.size) field.at("recipe").wrong("is of another grid");
+  recipe.events.insert(recipe.events.begin(), base.events.begin(), base.events.begin() + events);
+  const auto earlier = [](const RecipeEvent& a, const RecipeEvent& b) { return a.step < b.step; };
+  if (!std::is_sorted(recipe.events.begin(), recipe.events.end(), earlier) ||
+      (!recipe.events.empty() && recipe.events.back().step > recipe.steps))
+    field.at("common_events").wrong("the events are not in order");
+  return recipe;
+}
+
+Curve read_own_curve(const JsonField& field, const Curve& base) {
+  const Curve::Points own = *read_curve(field.at("curve")).points();
+  const auto most = static_cast<std::int64_t>(base.points()->size());
+  const std::int64_t common = field.at("common_points").integer(0, most);
+  if (!field.good()) return {};
+  Curve::Points points(base.points()->begin(), base.points()->begin() + common);
+  if (!points.empty() && !own.empty() && own.front().step <= points.back().step)
+    field.at("common_points").wrong("the points are not in order");
+  points.insert(points.end(), own.begin(), own.end());
+  return Curve(std::move(points));
+}
+
+void read_states(const JsonField& field, SessionContents& contents) {
+  SavedHistory& history = contents.history;
+  const std::size_t count = field.size(SavedHistory::kMostStates);
+  if (field.good() && count == 0) field.wrong("there is no state");
+  std::size_t events = 0;
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < count && field.good(); ++i) {
+    const JsonField one = field.at(i);
+    SavedState state;
+    if (i > 0)
+      state.parent = static_cast<std::size_t>(one.at("parent").integer(0, static_cast<std::int64_t>(i) - 1));
+    if (!one.good()) return;
+    const Base base = base_of(contents, state);
+    state.change = read_change(one.at("change"));
+    state.recipe = read_own_recipe(one, base.recipe);
+    state.curve = read_own_curve(one, base.curve);
+    state.phi = static_cast<std::size_t>(one.at("phi").integer(0, static_cast<std::int64_t>(count) - 1));
+    events += state.recipe.events.size();
+    points += state.curve.points()->size();
+    if (events > SavedHistory::kMostEvents || points > kMostPoints) one.wrong("there is more than is read");
+    history.states.push_back(std::move(state));
+  }
+}
+
+bool same_values(const solver::Field& a, const solver::Field& b) {
+  if (!(a.layout == b.layout)) return false;
+  const std::int64_t voxels = a.layout.voxels_per_page();
+  for (std::size_t page = 0; page < a.table.size(); ++page) {
+    const std::int32_t one = a.table[page];
+    const std::int32_t other = b.table[page];
+    if (one < 0 || other < 0) {
+      if (one != other) return false;
+    } else if (std::memcmp(a.pages.data() + one * voxels, b.pages.data() + other * voxels,
+                           static_cast<std::size_t>(voxels) * sizeof(float)) != 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+Status read_phi(ZipReader& archive, SessionContents& contents, const std::string& what) {
+  SavedHistory& history = contents.history;
+  const solver::Field& present = *contents.phi;
+  history.phi = SharedPages(present.geometry, present.band, present.layout.page_shape());
+  const std::size_t states = history.states.size();
+  const std::size_t length = present.table.size();
+  auto numbers = read_numbers<std::int32_t>(archive, kHistoryTables, states * length);
+  if (!numbers) return pass_on(numbers);
+  std::vector<std::vector<std::int32_t>> tables;
+  for (std::size_t i = 0; i < states; ++i) {
+    const auto first = numbers->begin() + static_cast<std::ptrdiff_t>(i * length);
+    tables.emplace_back(first, first + static_cast<std::ptrdiff_t>(length));
+  }
+  const std::size_t page_bytes = static_cast<std::size_t>(present.layout.voxels_per_page()) * sizeof(float);
+  const std::size_t size = archive.size(kHistoryPages);
+  if (size % page_bytes != 0 || size / page_bytes > static_cast<std::size_t>(kMostPages))
+    return fail(ErrorKind::input, "{}: {} bytes of pages are no pages", what, size);
+  auto pages = read_numbers<float>(archive, kHistoryPages, size / sizeof(float));
+  if (!pages) return pass_on(pages);
+  TIDEMARK_TRY(history.phi.assign(std::move(*pages), std::move(tables), what));
+  if (!same_values(history.phi.field(history.states[history.present].phi), present))
+    return fail(ErrorKind::input, "{}: its present state is not the session's", what);
+  return {};
+}
+
+}  // namespace
+
+std::vector<ZipEntry> HistoryEntries::entries() const {
+  return {{kHistoryJson, std::as_bytes(std::span(json))},
+          {kHistoryTables, std::as_bytes(std::span(tables))},
+          {kHistoryPages, std::as_bytes(std::span(pages))}};
+}
+
+HistoryEntries history_entries(const SessionContents& contents) {
+  SessionContents written;  // what its states are told apart from
+  written.recipe = contents.recipe;
+  written.curve = contents.curve;
+  written.history = for_file(contents.history, *contents.phi);
+  HistoryEntries entries;
+  entries.json = json_text(written);
+  for (const auto& table : written.history.phi.tables())
+    entries.tables.insert(entries.tables.end(), table.begin(), table.end());
+  entries.pages = written.history.phi.pages();
+  return entries;
+}
+
+Status read_history(ZipReader& archive, SessionContents& contents, const std::string& file) {
+  if (!archive.has(kHistoryJson)) return {};
+  const std::string what = file + ": " + std::string(kHistoryJson);
+  const std::size_t size = archive.size(kHistoryJson);
+  const JsonLimits limits{.bytes = kMostBytes};
+  if (size > limits.bytes)
+    return fail(ErrorKind::input, "{} has {} bytes, more than {} are not read", what, size, limits.bytes);
+  auto text = archive.read(kHistoryJson, size);
+  if (!text) return pass_on(text);
+  auto json = JsonDocument::parse({reinterpret_cast<const char*>(text->data()), text->size()}, what, limits);
+  if (!json) return pass_on(json);
+  const JsonField root = root_of(*json, what);
+  root.at("format").must_be(kFormat);
+  const JsonField version = root.at("version");
+  if (version.integer(0, 1 << 30) != kVersion) version.wrong("this version cannot be read");
+  if (root.good() && root.at("page_shape").index(1, 64) != contents.phi->layout.page_shape())
+    root.at("page_shape").wrong("is not that of phi");
+  if (root.good()) read_states(root.at("states"), contents);
+  SavedHistory& history = contents.history;
+  if (root.good())
+    history.present = static_cast<std::size_t>(
+        root.at("present").integer(0, static_cast<std::int64_t>(history.states.size()) - 1));
+  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  return read_phi(archive, contents, what);
+}
+
+}  // namespace tidemark::document

@@ -1,0 +1,58 @@
+// The states of a case's history with figures and small pictures of each.
+#pragma once
+
+#include <QImage>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "document/case.h"
+
+namespace tidemark::engine {
+
+// Of a state that has a surface.
+struct StateFigures {
+  double volume_ml = 0.0;
+  QImage picture;  // see picture_of_state(); null where nothing is inside
+};
+
+// A state as lists show it. Figures come later, when the case rests.
+struct HistoryRow {
+  document::HistoryState state;
+  std::optional<StateFigures> figures;
+};
+using HistoryRows = std::vector<HistoryRow>;
+// Null: there is none.
+[[nodiscard]] const HistoryRow* find_row(const HistoryRows& rows, std::uint64_t id);
+
+// Belongs to the engine's thread.
+class CaseHistory {
+ public:
+  static constexpr int kPicturePixels = 96;
+
+  explicit CaseHistory(const WindowLevel& window) : window_(window) {}
+
+  // The rows of the document's states, parents before their children.
+  std::shared_ptr<const HistoryRows> rows(const document::Case& document);
+  // Measures a state whose figures are missing, the youngest first. Returns false when there is none.
+  bool measure_next(const document::Case& document);
+
+ private:
+  void follow(const document::History& history);
+  [[nodiscard]] solver::Field phi_of(std::uint64_t state, const document::Case& document) const;
+
+  // phi where figures were last measured, from which the next one may be nearer than from the present state.
+  struct Measured {
+    std::uint64_t state = 0;
+    solver::Field phi;
+  };
+
+  std::optional<Measured> last_;  // while figures are missing
+  WindowLevel window_;
+  std::map<std::uint64_t, StateFigures> figures_;
+  std::shared_ptr<const HistoryRows> rows_;
+  std::uint64_t edits_ = 0;  // of the history, when the rows were made
+};
+
+}  // namespace tidemark::engine
