@@ -74,14 +74,6 @@ QWidget* SweepPanel::make_outcome() {
   connect(colours_, &QComboBox::activated, this, [this] {
     matrix_->set_colours(static_cast<SweepMatrix::Colours>(colours_->currentData().toInt()));
   });
-  matrix_ = new SweepMatrix;
-  form.wide(matrix_);
-  connect(matrix_, &SweepMatrix::looked_at, this, &SweepPanel::look_at);
-  connect(matrix_, &SweepMatrix::wanted, this, [this](QPoint cell) {
-    if (sweep()) sweep()->take(cell.x(), cell.y());
-  });
-  figures_ = form.note({});
-  figures_->setMinimumHeight(2 * figures_->fontMetrics().lineSpacing());  // stays where it is
   agreement_ =
       form.check(tr("Agreement on the slices"),
                  tr("How many of the runs have a voxel inside, from one to all: what is certain, and "
@@ -89,6 +81,14 @@ QWidget* SweepPanel::make_outcome() {
   connect(agreement_, &QCheckBox::clicked, this, [this](bool on) {
     if (!sweep() || !sweep()->outcome()) return;
     proxy()->display().set_agreement(on ? std::optional(sweep()->outcome()->agreement) : std::nullopt);
+  });
+  figures_ = form.note({});
+  figures_->setMinimumHeight(2 * figures_->fontMetrics().lineSpacing());  // the matrix stays where it is
+  matrix_ = new SweepMatrix;
+  form.wide(matrix_);
+  connect(matrix_, &SweepMatrix::looked_at, this, &SweepPanel::look_at);
+  connect(matrix_, &SweepMatrix::wanted, this, [this](QPoint cell) {
+    if (sweep()) sweep()->take(cell.x(), cell.y());
   });
   outcome_->hide();
   return outcome_;
