@@ -37,16 +37,17 @@ QWidget* SweepPanel::make_axes() {
   form.note(tr("One run to rest for each combination of values, in the background. The surface stays as it "
                "is until you click one."))
       ->setForegroundRole(QPalette::PlaceholderText);
-  across_ = new SweepAxisChoice(tr("Across"), false);
-  down_ = new SweepAxisChoice(tr("Down"), true);
-  for (const auto& [name, choice] : {std::pair(tr("Across"), across_), std::pair(tr("Down"), down_)}) {
-    auto* label = new QLabel(name);
-    form.wide(label);
+  const auto add_axis = [&](const QString& name, bool optional) {
+    auto* choice = new SweepAxisChoice(name, optional);
+    form.wide(new QLabel(name));
     form.wide(choice);
     connect(choice, &SweepAxisChoice::parameter_chosen, this, [this, choice](const QString& parameter) {
       if (proxy() && !parameter.isEmpty()) choice->suggest(parameter.toStdString(), proxy()->parameters());
     });
-  }
+    return choice;
+  };
+  across_ = add_axis(tr("Across"), false);
+  down_ = add_axis(tr("Down"), true);
   return part;
 }
 
