@@ -4,10 +4,8 @@
 // single run with its parameters.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 

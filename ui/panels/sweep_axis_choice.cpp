@@ -22,7 +22,6 @@ constexpr double kFar = 100.0;  // what a slider would not go through evenly
 
 NumberBox* make_number(const QString& name, const QString& tip) {
   auto* box = new NumberBox;
-  box->setDecimals(4);
   box->setRange(-1e6, 1e6);
   box->setButtonSymbols(QAbstractSpinBox::NoButtons);
   box->setMinimumWidth(1);
@@ -133,6 +132,7 @@ void SweepAxisChoice::set_setting(const solver::SpeedSetting& setting) {
 void SweepAxisChoice::suggest(const std::string& parameter, const solver::Parameters& parameters) {
   const Span span = around(parameter, parameters, setting_);
   const int decimals = decimals_for(span.to - span.from);
+  for (NumberBox* box : {from_, to_}) box->setDecimals(decimals);
   show_axis(document::SweepAxis{parameter, rounded(span.from, decimals), rounded(span.to, decimals),
                                 count_->value()});
 }
@@ -141,6 +141,8 @@ void SweepAxisChoice::show_axis(const std::optional<document::SweepAxis>& axis) 
   const QString parameter = axis ? QString::fromStdString(axis->parameter) : QString();
   if (const int index = parameter_->findData(parameter); index >= 0) parameter_->setCurrentIndex(index);
   if (axis) {
+    const int decimals = decimals_for(axis->to - axis->from);
+    for (NumberBox* box : {from_, to_}) box->setDecimals(std::max(box->decimals(), decimals));
     from_->show_value(axis->from);
     to_->show_value(axis->to);
     count_->setValue(axis->count);

@@ -61,7 +61,7 @@ QString sweep_run_text(const document::Sweep& sweep, QPoint cell) {
   if (run.problem.empty()) {
     figures << number_text(run.volume_ml, 2, SweepMatrix::tr("ml"));
     if (run.dice) figures << SweepMatrix::tr("Dice %1").arg(number_text(*run.dice, 3));
-    figures << SweepMatrix::tr("%n step(s)", nullptr, static_cast<int>(run.steps));
+    figures << SweepMatrix::tr("%1 steps").arg(run.steps);
   }
   figures << outcome_text(run);
   return QStringLiteral("%1: %2").arg(values.join(QStringLiteral(", ")), figures.join(QStringLiteral(", ")));
@@ -240,6 +240,7 @@ void SweepMatrix::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton || !cell) return QWidget::mousePressEvent(event);
   chosen_ = *cell;
   update();
+  emit looked_at(*cell);
   emit wanted(*cell);
 }
 

@@ -37,16 +37,17 @@ QWidget* SweepPanel::make_axes() {
   form.note(tr("One run to rest for each combination of values, in the background. The surface stays as it "
                "is until you click one."))
       ->setForegroundRole(QPalette::PlaceholderText);
-  across_ = new SweepAxisChoice(tr("Across"), false);
-  down_ = new SweepAxisChoice(tr("Down"), true);
-  for (const auto& [name, choice] : {std::pair(tr("Across"), across_), std::pair(tr("Down"), down_)}) {
-    auto* label = new QLabel(name);
-    form.wide(label);
+  const auto add_axis = [&](const QString& name, bool optional) {
+    auto* choice = new SweepAxisChoice(name, optional);
+    form.wide(new QLabel(name));
     form.wide(choice);
     connect(choice, &SweepAxisChoice::parameter_chosen, this, [this, choice](const QString& parameter) {
       if (proxy() && !parameter.isEmpty()) choice->suggest(parameter.toStdString(), proxy()->parameters());
     });
-  }
+    return choice;
+  };
+  across_ = add_axis(tr("Across"), false);
+  down_ = add_axis(tr("Down"), true);
   return part;
 }
 
@@ -74,14 +75,6 @@ QWidget* SweepPanel::make_outcome() {
   connect(colours_, &QComboBox::activated, this, [this] {
     matrix_->set_colours(static_cast<SweepMatrix::Colours>(colours_->currentData().toInt()));
   });
-  matrix_ = new SweepMatrix;
-  form.wide(matrix_);
-  connect(matrix_, &SweepMatrix::looked_at, this, &SweepPanel::look_at);
-  connect(matrix_, &SweepMatrix::wanted, this, [this](QPoint cell) {
-    if (sweep()) sweep()->take(cell.x(), cell.y());
-  });
-  figures_ = form.note({});
-  figures_->setMinimumHeight(2 * figures_->fontMetrics().lineSpacing());  // stays where it is
   agreement_ =
       form.check(tr("Agreement on the slices"),
                  tr("How many of the runs have a voxel inside, from one to all: what is certain, and "
@@ -89,6 +82,14 @@ QWidget* SweepPanel::make_outcome() {
   connect(agreement_, &QCheckBox::clicked, this, [this](bool on) {
     if (!sweep() || !sweep()->outcome()) return;
     proxy()->display().set_agreement(on ? std::optional(sweep()->outcome()->agreement) : std::nullopt);
+  });
+  figures_ = form.note({});
+  figures_->setMinimumHeight(2 * figures_->fontMetrics().lineSpacing());  // the matrix stays where it is
+  matrix_ = new SweepMatrix;
+  form.wide(matrix_);
+  connect(matrix_, &SweepMatrix::looked_at, this, &SweepPanel::look_at);
+  connect(matrix_, &SweepMatrix::wanted, this, [this](QPoint cell) {
+    if (sweep()) sweep()->take(cell.x(), cell.y());
   });
   outcome_->hide();
   return outcome_;

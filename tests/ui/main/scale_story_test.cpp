@@ -149,7 +149,7 @@ void ScaleStoryTest::panels_fit_into_their_column() {
     }
     desktop.screenshot(QStringLiteral("panel-%1-%2").arg(name).arg(desktop.window().devicePixelRatioF()));
   }
-  QCOMPARE(panels, 7);
+  QCOMPARE(panels, 8);
 }
 
 void ScaleStoryTest::the_icon_of_a_case_is_whole() {
