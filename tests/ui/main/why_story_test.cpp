@@ -75,10 +75,9 @@ void WhyStoryTest::a_place_is_explained_turned_and_followed() {
   QVERIFY(axial);
   const glm::dvec3 seed = desktop.seed_mm();
   desktop.proxy().display().change([&](engine::DisplaySettings& s) { s.cursor_mm = seed; });
-  QVERIFY(why(desktop).contains("Why here?"));
-
   desktop.press(Qt::Key_Y);
   QCOMPARE(desktop.proxy().display().settings().tool, engine::Tool::why);
+  QVERIFY(why(desktop).contains("click on the surface"));
   // A little beside the outline: the place is on it.
   Desktop::drag(*axial, {seed + glm::dvec3(kRadius + 1.0, 0.0, 0.0)});
   QVERIFY(Desktop::wait_for([&] { return place(desktop) != nullptr; }));
