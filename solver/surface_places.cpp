@@ -1,10 +1,9 @@
 #include "solver/surface_places.h"
 
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <map>
+#include <unordered_map>
 
 namespace tidemark::solver {
 namespace {
@@ -37,23 +36,34 @@ class Thinned {
 
   void add(glm::dvec3 place, glm::dvec3 place_mm) {
     const Index3 cube(glm::floor(place_mm / apart_mm_));
+    if (is_near(cube, place_mm)) return;  // mostly
     for (std::int64_t z = -1; z <= 1; ++z) {
       for (std::int64_t y = -1; y <= 1; ++y) {
         for (std::int64_t x = -1; x <= 1; ++x) {
-          const auto kept = kept_.find({cube.x + x, cube.y + y, cube.z + z});
-          if (kept != kept_.end() && glm::distance(kept->second, place_mm) < apart_mm_) return;
+          if (is_near(cube + Index3(x, y, z), place_mm)) return;
         }
       }
     }
-    kept_[{cube.x, cube.y, cube.z}] = place_mm;
+    kept_[key(cube)] = place_mm;
     places.push_back(place);
   }
 
   std::vector<glm::dvec3> places;
 
  private:
+  static std::uint64_t key(Index3 cube) {
+    constexpr std::uint64_t kMask = (1ULL << 21U) - 1U;
+    return (static_cast<std::uint64_t>(cube.x) & kMask) |
+           (static_cast<std::uint64_t>(cube.y) & kMask) << 21U |
+           (static_cast<std::uint64_t>(cube.z) & kMask) << 42U;
+  }
+  [[nodiscard]] bool is_near(Index3 cube, glm::dvec3 place_mm) const {
+    const auto kept = kept_.find(key(cube));
+    return kept != kept_.end() && glm::distance(kept->second, place_mm) < apart_mm_;
+  }
+
   double apart_mm_;
-  std::map<std::array<std::int64_t, 3>, glm::dvec3> kept_;
+  std::unordered_map<std::uint64_t, glm::dvec3> kept_;
 };
 
 bool meets(const Field& phi, std::int64_t page, const PlaneSlab& slab) {
@@ -62,6 +72,35 @@ bool meets(const Field& phi, std::int64_t page, const PlaneSlab& slab) {
       phi.geometry.to_patient(glm::dvec3(phi.layout.first_voxel(page)) + half - glm::dvec3(0.5));
   const double radius_mm = glm::length((half + glm::dvec3(0.5)) * phi.geometry.spacing_mm);
   return std::abs(glm::dot(slab.normal, middle_mm) - slab.offset_mm) <= radius_mm + slab.reach_mm;
+}
+
+// Calls visit(place) for each crossing of phi = 0 between a voxel of a resident page and the one after it
+// along an axis.
+template <class Visit>
+void for_each_crossing(const Field& phi, std::int64_t page, Visit visit) {
+  const Index3 shape = phi.layout.page_shape();
+  const Index3 strides(1, shape.x, shape.x * shape.y);
+  const Index3 first = phi.layout.first_voxel(page);
+  const Index3 valid = phi.layout.valid_shape(page);
+  const float* values =
+      phi.pages.data() + phi.table[static_cast<std::size_t>(page)] * phi.layout.voxels_per_page();
+  for (std::int64_t z = 0; z < valid.z; ++z) {
+    for (std::int64_t y = 0; y < valid.y; ++y) {
+      for (std::int64_t x = 0; x < valid.x; ++x) {
+        const Index3 here(x, y, z);
+        const float* value = values + x + strides.y * y + strides.z * z;
+        for (int axis = 0; axis < 3; ++axis) {
+          Index3 next = first + here;
+          if (++next[axis] >= phi.geometry.size[axis]) continue;
+          const float there = here[axis] + 1 < shape[axis] ? value[strides[axis]] : phi.at(next);
+          if (is_inside(*value) == is_inside(there)) continue;
+          glm::dvec3 place(first + here);
+          place[axis] += *value / (*value - there);
+          visit(place);
+        }
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -115,32 +154,15 @@ std::optional<glm::dvec3> surface_near(const Field& phi, glm::dvec3 place, doubl
 
 std::vector<glm::dvec3> surface_places(const Field& phi, const std::optional<PlaneSlab>& slab,
                                        double apart_mm, const std::stop_token& stop) {
-  const Geometry& geometry = phi.geometry;
   Thinned thinned(apart_mm);
+  const auto add = [&](glm::dvec3 place) {
+    const glm::dvec3 place_mm = phi.geometry.to_patient(place);
+    if (!slab || std::abs(glm::dot(slab->normal, place_mm) - slab->offset_mm) <= slab->reach_mm)
+      thinned.add(place, place_mm);
+  };
   for (std::int64_t page = 0; page < phi.layout.page_count() && !stop.stop_requested(); ++page) {
     if (phi.table[static_cast<std::size_t>(page)] < 0 || (slab && !meets(phi, page, *slab))) continue;
-    const Index3 first = phi.layout.first_voxel(page);
-    const Index3 valid = phi.layout.valid_shape(page);
-    for (std::int64_t z = 0; z < valid.z; ++z) {
-      for (std::int64_t y = 0; y < valid.y; ++y) {
-        for (std::int64_t x = 0; x < valid.x; ++x) {
-          const Index3 voxel = first + Index3(x, y, z);
-          const float here = phi.at(voxel);
-          for (int axis = 0; axis < 3; ++axis) {
-            Index3 next = voxel;
-            if (++next[axis] >= geometry.size[axis]) continue;
-            const float there = phi.at(next);
-            if (is_inside(here) == is_inside(there)) continue;
-            glm::dvec3 place(voxel);
-            place[axis] += here / (here - there);
-            const glm::dvec3 place_mm = geometry.to_patient(place);
-            if (slab && std::abs(glm::dot(slab->normal, place_mm) - slab->offset_mm) > slab->reach_mm)
-              continue;
-            thinned.add(place, place_mm);
-          }
-        }
-      }
-    }
+    for_each_crossing(phi, page, add);
   }
   return std::move(thinned.places);
 }

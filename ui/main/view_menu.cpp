@@ -29,13 +29,13 @@ void add_place(QMenu& menu, PictureView& view, std::optional<glm::dvec3> place_m
   add("tool-crosshair", tr("&Show this place in all views"), [](engine::CaseProxy& proxy, glm::dvec3 place) {
     proxy.display().change([&](engine::DisplaySettings& settings) { settings.cursor_mm = place; });
   });
-  add("tool-why", tr("Wh&y does it move or rest here?"),
-      [](engine::CaseProxy& proxy, glm::dvec3 place) { proxy.balance().ask(place); });
   add("tool-seed", tr("&Place a sphere here"), [](engine::CaseProxy& proxy, glm::dvec3 place) {
     proxy.paint({place, proxy.display().settings().brush_mm}, solver::Brush::add,
                 engine::CaseProxy::new_gesture());
   });
   add("tool-probe", tr("Probe &T and ε here"), probe_speed_at);
+  add("tool-why", tr("Wh&y does it move or rest here?"),
+      [](engine::CaseProxy& proxy, glm::dvec3 place) { proxy.balance().ask(place); });
 }
 
 void add_windows(QMenu& menu, PictureView& view) {

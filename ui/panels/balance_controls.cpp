@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QVBoxLayout>
 
 #include "engine/case_balance.h"
 #include "ui/look/theme.h"
@@ -16,8 +17,12 @@
 
 namespace tidemark::ui {
 
-BalanceControls::BalanceControls(QWidget* parent) : CaseWidget(parent) {
-  Form form(this);
+BalanceControls::BalanceControls(QWidget* parent) : CaseWidget(parent), content_(new QWidget) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(content_);
+  content_->hide();
+  Form form(content_);
   form.heading(tr("Why here?"));
   found_ = new QWidget;
   Form found(found_);
@@ -83,9 +88,11 @@ void BalanceControls::scroll_here() {
 void BalanceControls::refresh() {
   const engine::CaseBalance& balance = proxy()->balance();
   const bool begun = proxy()->state().begun;
+  const engine::DisplaySettings& settings = proxy()->display().settings();
+  content_->setVisible(balance.asked() || settings.forces || settings.tool == engine::Tool::why);
   fastest_->setEnabled(begun);
   forget_->setEnabled(balance.asked());
-  forces_->setChecked(proxy()->display().settings().forces);
+  forces_->setChecked(settings.forces);
   const bool was_found = found_->isVisibleTo(this);
   found_->setVisible(balance.place().has_value());
   if (balance.place()) {

@@ -25,6 +25,7 @@ class BalanceControls : public CaseWidget {
   void resizeEvent(QResizeEvent* event) override;
   void scroll_here();
 
+  QWidget* content_;  // seen once something is asked, or may be
   QLabel* why_;
   QWidget* found_;  // what there is to say of a place
   BalanceBars* bars_;

@@ -51,6 +51,7 @@ class WhyStoryTest : public QObject {
   void a_place_in_3d_is_explained_and_the_pointer_asks();
   void the_place_that_moves_most_is_a_key_away();
   void arrows_show_the_terms_in_slices_and_3d();
+  void a_case_is_closed_while_it_is_explained();
 
  private:
   static const engine::ExplainedPlace* place(Desktop& desktop) {
@@ -75,10 +76,9 @@ void WhyStoryTest::a_place_is_explained_turned_and_followed() {
   QVERIFY(axial);
   const glm::dvec3 seed = desktop.seed_mm();
   desktop.proxy().display().change([&](engine::DisplaySettings& s) { s.cursor_mm = seed; });
-  QVERIFY(why(desktop).contains("Why here?"));
-
   desktop.press(Qt::Key_Y);
   QCOMPARE(desktop.proxy().display().settings().tool, engine::Tool::why);
+  QVERIFY(why(desktop).contains("click on the surface"));
   // A little beside the outline: the place is on it.
   Desktop::drag(*axial, {seed + glm::dvec3(kRadius + 1.0, 0.0, 0.0)});
   QVERIFY(Desktop::wait_for([&] { return place(desktop) != nullptr; }));
@@ -247,6 +247,24 @@ void WhyStoryTest::arrows_show_the_terms_in_slices_and_3d() {
   desktop.screenshot("why-arrows-later");
   desktop.press(Qt::Key_O);
   QVERIFY(!desktop.proxy().display().settings().forces);
+}
+
+void WhyStoryTest::a_case_is_closed_while_it_is_explained() {
+  Desktop desktop(story_executor(), {1000, 700});
+  for (int round = 0; round < 3; ++round) {
+    QVERIFY(desktop.open_phantom("sphere"));
+    desktop.begin(kRadius);
+    desktop.proxy().set_pause_at_convergence(false);
+    desktop.press(Qt::Key_O);
+    desktop.press(Qt::Key_P);
+    QVERIFY(Desktop::wait_for([&] { return desktop.state().step > 3; }));
+    desktop.press(Qt::Key_F);
+    if (round > 0) QVERIFY(Desktop::wait_for([&] { return place(desktop) != nullptr; }));
+    Desktop::answer(QMessageBox::Discard);
+    desktop.press(Qt::Key_W, Qt::ControlModifier);
+    QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().isEmpty(); }));
+  }
+  desktop.wait_until_idle();
 }
 
 }  // namespace tidemark::test
