@@ -22,7 +22,7 @@ struct HistoryState {
 };
 
 // Who goes back and on otherwise gets a new branch; the other one stays. A state holds the change from its
-// parent only, so going from one to another undoes up to their common ancestor, and does again from there.
+// parent only: a way from one to another is up to their common ancestor and down.
 class History {
  public:
   static constexpr std::int64_t kDefaultLimit = std::int64_t{1} << 30;  // bytes

@@ -45,8 +45,8 @@ struct Visit {
 // A part of the history: those states and the present one, which must be connected.
 [[nodiscard]] SavedHistory part_of(const SavedHistory& history, const std::vector<bool>& kept);
 
-// With phi of all states, of which the present one's is given, and with as many states as a session file has
-// room for: the nearest to the present one.
+// With phi of all states, of which the present one's is given. More states than a session file has room for
+// are left out, the farthest from the present one first.
 SavedHistory for_file(const SavedHistory& history, const solver::Field& present);
 
 }  // namespace tidemark::document

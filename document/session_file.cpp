@@ -259,8 +259,6 @@ struct OpenedSession {
 };
 
 Result<OpenedSession> open_session(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 7> kNames{kJson,        kTable,         kPages,       kLabels,
-                                                   kHistoryJson, kHistoryTables, kHistoryPages};
   auto archive = ZipReader::open(file, session_entry_names());
   if (!archive) return pass_on(archive);
   const std::string name = file.string();

@@ -32,6 +32,7 @@ void StateComparison::choose(std::optional<std::uint64_t> state) {
 
 void StateComparison::follow(const CaseState& state) {
   if (chosen_ && !find_row(*state.history, *chosen_)) return choose(std::nullopt);  // it was forgotten
+  if (state.playing) return;
   present_ = state.phi;
   compare();
 }

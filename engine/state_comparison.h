@@ -14,8 +14,7 @@ namespace tidemark::engine {
 
 class BackgroundJob;
 
-// Lives on the thread of the user interface; figures are computed on another one. While the surface moves
-// they follow it, as fast as they can be had.
+// Lives on the thread of the user interface; figures are computed on another one, when the surface rests.
 class StateComparison : public QObject {
   Q_OBJECT
  public:
@@ -34,7 +33,7 @@ class StateComparison : public QObject {
   [[nodiscard]] std::optional<std::uint64_t> state() const { return chosen_; }
   // Of the chosen state; null until it is there.
   [[nodiscard]] const Phi& phi() const { return phi_; }
-  // With the present surface, as it was when it was last measured; unset until it is known.
+  // With the present surface, as it was when it last rested; unset until it is known.
   [[nodiscard]] const std::optional<solver::SurfaceAgreement>& agreement() const { return agreement_; }
 
  signals:

@@ -90,14 +90,19 @@ Volume slice_of(const Geometry& geometry, const Part& part, const Value& value) 
   return slice;
 }
 
-// Where the level, as grey, goes through the middle.
+// Where the level, as grey, goes through the middle: the inner border of what is inside, two pixels wide.
 void draw_outline(const QImage& level, QImage& picture) {
   const auto inside = [&](int x, int y) { return level.valid(x, y) && qGray(level.pixel(x, y)) > 127; };
+  const auto at_border = [&](int x, int y) {
+    for (const int away : {1, 2}) {
+      if (!(inside(x - away, y) && inside(x + away, y) && inside(x, y - away) && inside(x, y + away)))
+        return true;
+    }
+    return false;
+  };
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
-      if (inside(x, y) && !(inside(x - 1, y) && inside(x + 1, y) && inside(x, y - 1) && inside(x, y + 1))) {
-        picture.setPixel(x, y, kOutline);
-      }
+      if (inside(x, y) && at_border(x, y)) picture.setPixel(x, y, kOutline);
     }
   }
 }

@@ -22,20 +22,32 @@ void must(const Status& status) {
   if (!status) qFatal("%s", status.error().message.c_str());
 }
 
+// As begun_case(), of a study that a session can name.
+std::unique_ptr<document::Case> named_case(solver::ExecutorKind kind = solver::ExecutorKind::host) {
+  solver::ExecutorOptions options;
+  options.threads = 1;
+  document::StudyOrigin origin;
+  origin.phantom = "lumpy";
+  auto made = document::Case::create(lumpy_volume(), origin, lumpy_parameters(), kind, options);
+  if (!made) qFatal("%s", made.error().message.c_str());
+  must((*made)->level_set().begin(seed_in(*(*made)->volume())));
+  return std::move(*made);
+}
+
 // Two branches from step 8, the case in the first one: with strokes, walls, labels, another start and source.
 std::unique_ptr<document::Case> branched_case(solver::ExecutorKind kind = solver::ExecutorKind::host) {
-  auto document = begun_case(kind);
+  auto document = named_case(kind);
   document::LevelSet& level_set = document->level_set();
   run(level_set, 8);
-  must(level_set.end_run());
   level_set.note({8, 1.0, 2.0, 3.0});
+  must(level_set.end_run());
   const std::uint64_t fork = document->history().position();
   must(level_set.paint(ball_at(*document->volume(), {6, 0, 0}, 4.0), solver::Brush::add));
   const auto label = document->labels().add("kept");
   if (!label || !document->accept_surface(*label, document::Take::free_voxels)) qFatal("no label");
   run(level_set, 7);
-  must(level_set.end_run());
   level_set.note({15, 1.5, 2.5, 3.5});
+  must(level_set.end_run());
   must(document->smooth_source(0.6));
   const std::uint64_t first = document->history().position();
   must(document->history().go_to(fork));
@@ -216,7 +228,7 @@ class HistorySessionTest : public QObject {
   // The nearest states are kept, and what is written is read.
   void more_states_than_a_file_has_room_for_are_the_nearest() {
     const TemporaryFolder folder;
-    const auto document = begun_case();
+    const auto document = named_case();
     document::LevelSet& level_set = document->level_set();
     const int made = static_cast<int>(document::SavedHistory::kMostStates) + 20;
     for (int i = 0; i < made; ++i)

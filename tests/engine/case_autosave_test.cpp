@@ -48,6 +48,7 @@ struct Edited {
 
 class Unclosable final : public document::OpenChange {
  public:
+  [[nodiscard]] document::Steering steering() const override { return {}; }
   [[nodiscard]] document::ChangeDescription description() const override { return {}; }
   [[nodiscard]] std::int64_t bytes() const override { return 0; }
   Status close() override { return fail(ErrorKind::internal, "there is no way to close it"); }

@@ -22,7 +22,8 @@ namespace tidemark::ui {
 namespace {
 
 constexpr int kWidth = 320;  // logical pixels
-constexpr int kStateVersion = 1;
+constexpr int kStateVersion = 2;
+constexpr int kStateWithoutHistory = 1;  // of arrangements from before there was that panel
 constexpr const char* kInFront = "in_front";  // property of a panel
 
 QScrollArea* scrolled(QWidget* panel) {
@@ -149,7 +150,11 @@ QByteArray PanelDocks::arrangement() const {
 }
 
 void PanelDocks::restore(const QByteArray& arrangement) {
-  window_.restoreState(arrangement, kStateVersion);
+  if (!window_.restoreState(arrangement, kStateVersion) &&
+      window_.restoreState(arrangement, kStateWithoutHistory)) {
+    window_.tabifyDockWidget(window_.findChild<QDockWidget*>("level-set"),
+                             window_.findChild<QDockWidget*>("history"));
+  }
   shown_ = true;
   show_or_hide();
 }

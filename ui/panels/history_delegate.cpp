@@ -21,12 +21,8 @@ double lane_middle(const QRect& row, int lane) {
   return row.left() + kSpaceTight + (std::min(lane, kMostLanes - 1) + 0.5) * kLaneWidth;
 }
 
-int lanes_width(const RowLanes& lanes) {
-  int most = lanes.lane;
-  for (const auto* others : {&lanes.above, &lanes.through}) {
-    for (const int lane : *others) most = std::max(most, lane);
-  }
-  return kSpaceTight + (std::min(most, kMostLanes - 1) + 1) * kLaneWidth;
+int lanes_width(int lanes) {
+  return kSpaceTight + std::min(lanes, kMostLanes) * kLaneWidth;
 }
 
 void paint_lanes(QPainter& painter, const QRect& row, const HistoryItem& item, const QPalette& palette) {
@@ -97,7 +93,7 @@ void HistoryDelegate::paint(QPainter* painter, const QStyleOptionViewItem& optio
   const QWidget* widget = option.widget;
   QStyle* style = widget ? widget->style() : QApplication::style();
   const QRect whole = option.rect;
-  const int lanes = lanes_width(item->lanes);
+  const int lanes = lanes_width(model->lanes());
   row.rect.setLeft(whole.left() + lanes);  // lines are seen on the list's own ground
   style->drawControl(QStyle::CE_ItemViewItem, &row, painter, widget);
   painter->save();

@@ -82,6 +82,8 @@ void HistoryModel::show(const engine::CaseState& state, std::optional<std::uint6
     item.present = shown_.open ? item.open : item.id == shown_.present;
     item.compared = item.id == shown_.compared;
   }
+  lanes_ = 1;
+  for (const HistoryItem& item : items) lanes_ = std::max(lanes_, item.lanes.lane + 1);
   const bool same_rows = std::equal(items.begin(), items.end(), items_.begin(), items_.end(),
                                     [](const HistoryItem& a, const HistoryItem& b) { return a.id == b.id; });
   if (!same_rows) beginResetModel();

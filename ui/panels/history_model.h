@@ -33,6 +33,8 @@ class HistoryModel : public QAbstractListModel {
   [[nodiscard]] const HistoryItem* item(const QModelIndex& index) const;  // null: there is no such row
   [[nodiscard]] QModelIndex index_of(std::uint64_t id) const;             // invalid: there is no such row
 
+  [[nodiscard]] int lanes() const { return lanes_; }  // of all rows: at least 1
+
   [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
   [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
 
@@ -49,6 +51,7 @@ class HistoryModel : public QAbstractListModel {
 
   Shown shown_;
   std::vector<HistoryItem> items_;
+  int lanes_ = 1;
 };
 
 }  // namespace tidemark::ui
