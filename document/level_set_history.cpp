@@ -1,4 +1,5 @@
 // A level set on its ways through the history, and the history as values.
+#include <map>
 #include <utility>
 
 #include "document/level_set.h"

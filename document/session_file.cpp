@@ -282,8 +282,8 @@ Result<OpenedSession> open_session(const std::filesystem::path& file) {
 }  // namespace
 
 std::span<const std::string_view> session_entry_names() {
-  static constexpr std::array<std::string_view, 7> kNames{
-      kJson, kTable, kPages, kLabels, kHistoryJson, kHistoryTables, kHistoryPages};
+  static constexpr std::array<std::string_view, 7> kNames{kJson,        kTable,         kPages,       kLabels,
+                                                          kHistoryJson, kHistoryTables, kHistoryPages};
   return kNames;
 }
 

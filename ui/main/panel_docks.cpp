@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kWidth = 320;  // logical pixels
 constexpr int kStateVersion = 2;
-constexpr int kStateWithoutHistory = 1;  // of arrangements from before there was that panel
+constexpr int kStateWithoutHistory = 1;       // of arrangements from before there was that panel
 constexpr const char* kInFront = "in_front";  // property of a panel
 
 QScrollArea* scrolled(QWidget* panel) {
