@@ -4,9 +4,9 @@
 #include <QCoreApplication>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QSpinBox>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
 
 #include "solver/speed/speed_registry.h"
 #include "ui/look/theme.h"
@@ -79,13 +79,14 @@ SweepAxisChoice::SweepAxisChoice(const QString& name, bool optional, QWidget* pa
       parameter_(new QComboBox),
       from_(make_number(tr("%1: first value").arg(name), tr("The first value."))),
       to_(make_number(tr("%1: last value").arg(name), tr("The last value."))),
-      count_(new QSpinBox),
+      count_(new NumberBox),
       optional_(optional) {
   parameter_->setAccessibleName(name);
   parameter_->setToolTip(tr("The parameter that takes several values."));
   parameter_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   parameter_->setMinimumContentsLength(6);
   parameter_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  count_->setDecimals(0);
   count_->setRange(2, document::SweepAxis::kMostValues);
   count_->setValue(kValues);
   count_->setPrefix(QStringLiteral("× "));
@@ -133,8 +134,8 @@ void SweepAxisChoice::suggest(const std::string& parameter, const solver::Parame
   const Span span = around(parameter, parameters, setting_);
   const int decimals = decimals_for(span.to - span.from);
   for (NumberBox* box : {from_, to_}) box->setDecimals(decimals);
-  show_axis(document::SweepAxis{parameter, rounded(span.from, decimals), rounded(span.to, decimals),
-                                count_->value()});
+  show_axis(
+      document::SweepAxis{parameter, rounded(span.from, decimals), rounded(span.to, decimals), count()});
 }
 
 void SweepAxisChoice::show_axis(const std::optional<document::SweepAxis>& axis) {
@@ -150,10 +151,14 @@ void SweepAxisChoice::show_axis(const std::optional<document::SweepAxis>& axis) 
   enable_numbers();
 }
 
+int SweepAxisChoice::count() const {
+  return static_cast<int>(std::lround(count_->value()));
+}
+
 std::optional<document::SweepAxis> SweepAxisChoice::axis() const {
   const std::string parameter = parameter_->currentData().toString().toStdString();
   if (parameter.empty()) return std::nullopt;
-  return document::SweepAxis{parameter, from_->value(), to_->value(), count_->value()};
+  return document::SweepAxis{parameter, from_->value(), to_->value(), count()};
 }
 
 }  // namespace tidemark::ui

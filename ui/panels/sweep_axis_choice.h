@@ -9,7 +9,6 @@
 #include "solver/speed/speed_setting.h"
 
 class QComboBox;
-class QSpinBox;
 
 namespace tidemark::ui {
 
@@ -34,11 +33,12 @@ class SweepAxisChoice : public QWidget {
 
  private:
   void enable_numbers();
+  [[nodiscard]] int count() const;
 
   QComboBox* parameter_;
   NumberBox* from_;
   NumberBox* to_;
-  QSpinBox* count_;
+  NumberBox* count_;
   bool optional_;
   solver::SpeedSetting setting_;
 };

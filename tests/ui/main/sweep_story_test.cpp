@@ -4,7 +4,6 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QPushButton>
-#include <QSpinBox>
 
 #include "document/sweep_picture.h"
 #include "engine/case_sweep.h"
@@ -50,8 +49,8 @@ class SweepStoryTest : public QObject {
   }
   // As many values as that of either parameter.
   static void choose_counts(ui::SweepPanel& panel, int across, int down) {
-    type(named<QSpinBox>(panel, "Across: number of values"), QString::number(across));
-    type(named<QSpinBox>(panel, "Down: number of values"), QString::number(down));
+    type(named<ui::NumberBox>(panel, "Across: number of values"), QString::number(across));
+    type(named<ui::NumberBox>(panel, "Down: number of values"), QString::number(down));
   }
   static QPushButton* run_button(ui::SweepPanel& panel) { return panel.findChild<QPushButton*>(); }
   static void run_all(Desktop& desktop, ui::SweepPanel& panel) {
