@@ -44,6 +44,7 @@ struct DisplaySettings {
   WindowLevel window;
   bool nearest = false;
   bool outline = true;
+  bool contours = false;  // of phi
   double line_pixels = 2.0;
   double label_opacity = 0.4;
   bool crosshair = true;

@@ -48,6 +48,7 @@ Json slices_json(const DisplaySettings& s) {
           {"window_width", s.window.width},
           {"nearest", s.nearest},
           {"outline", s.outline},
+          {"contours", s.contours},
           {"line_pixels", s.line_pixels},
           {"label_opacity", s.label_opacity},
           {"crosshair", s.crosshair},
@@ -72,6 +73,7 @@ void read_slices(const JsonField& field, DisplaySettings& s) {
   read(field, "window_width", 1e-9, 1e9, s.window.width);
   read(field, "nearest", s.nearest);
   read(field, "outline", s.outline);
+  read(field, "contours", s.contours);
   read(field, "line_pixels", 0.1, 20.0, s.line_pixels);
   read(field, "label_opacity", 0.0, 1.0, s.label_opacity);
   read(field, "crosshair", s.crosshair);

@@ -160,6 +160,7 @@ Result<renderer::SliceView> slice_view(const RenderOptions& options) {
     view.term = renderer::SpeedTerm::doubt;
   }
   view.nearest = options.nearest;
+  view.contours = options.contours;
   return view;
 }
 Status check(const RenderOptions& options) {
@@ -264,6 +265,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_numbers(command, "--window", "CENTRE,WIDTH", options.window,
               "Window in the source's units (default: the file's)");
   command.add_flag("--nearest", options.nearest, "Slices show voxels as they are, not interpolated");
+  command.add_flag("--contours", options.contours, "Slices show where phi is -2, -1, 1 and 2");
   add_number(command, "--target", options.target, "T, for the speed");
   add_number(command, "--range", options.range, "epsilon, for the speed");
   add_number(command, "--alpha", options.alpha, "alpha, for the speed (default: 0.5)");

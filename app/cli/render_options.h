@@ -44,6 +44,7 @@ struct RenderOptions {
   std::optional<double> occlusion;
   bool fit = false;
   bool nearest = false;
+  bool contours = false;
   bool annotate = false;
   std::string out;
 };

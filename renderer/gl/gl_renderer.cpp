@@ -353,6 +353,7 @@ Status GlRenderer::draw_on(Canvas& canvas, const SliceView& view, const Progress
   slice.set("term", static_cast<int>(view.term));
   slice.set("nearest", view.nearest ? 1 : 0);
   slice.set("show_surface", view.surface ? 1 : 0);
+  slice.set("show_contours", view.contours ? 1 : 0);
   slice.set("line_pixels", static_cast<float>(view.line_pixels));
   slice.set("label_opacity", labels_.pages().has_voxels() ? static_cast<float>(view.label_opacity) : 0.0F);
   slice.set("background", view.background);

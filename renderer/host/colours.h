@@ -10,6 +10,9 @@
 namespace tidemark::renderer {
 
 inline constexpr glm::vec3 kOutlineYellow(1.0F, 0.85F, 0.0F);
+// Of contours of phi outside and inside.
+inline constexpr glm::vec3 kContourOutside(0.45F, 0.75F, 1.0F);
+inline constexpr glm::vec3 kContourInside(1.0F, 0.60F, 0.30F);
 
 // Blue below 0 and orange above, told apart by colour-blind people, too.
 inline glm::vec3 diverging(float x) {

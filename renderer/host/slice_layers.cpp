@@ -124,10 +124,10 @@ bool SliceLayers::draw(SliceTile& tile) const {
   // The map of D shows the source between voxels, whatever is asked for.
   sample_source(scene_.source, view_.nearest && base_ != Base::data, tile);
   const bool surface_near = tile.sample_phi(scene_.phi);
-  const bool outline = view_.surface && surface_near;
+  const bool lines = (view_.surface || view_.contours) && surface_near;
   const bool labels = shows_labels(tile);
   const bool constraints = shows_constraints(tile);
-  if (base_ == Base::source && !has_images_ && !has_change_ && !outline && !labels && !constraints &&
+  if (base_ == Base::source && !has_images_ && !has_change_ && !lines && !labels && !constraints &&
       !tile.crosses_border) {
     for (float& value : tile.source) value = grey(value);
     return false;
@@ -140,7 +140,7 @@ bool SliceLayers::draw(SliceTile& tile) const {
   if (labels) add_labels(tile);
   if (has_change_) add_change(tile);
   if (constraints) add_constraints(tile);
-  if (outline) add_outline(tile);
+  if (lines) add_lines(tile);
   if (tile.crosses_border) draw_beside(tile);
   return true;
 }
@@ -309,20 +309,28 @@ void SliceLayers::add_constraints(SliceTile& tile) const {
   });
 }
 
-void SliceLayers::add_outline(SliceTile& tile) const {
+void SliceLayers::add_lines(SliceTile& tile) const {
   const glm::vec3 spacing(scene_.geometry().spacing_mm);
   const float pixel = glm::length(right_ * spacing) / std::min({spacing.x, spacing.y, spacing.z});
   const float half_line = 0.5F * static_cast<float>(view_.line_pixels);
   for (std::size_t i = 0; i < SliceTile::kPixels; ++i) {
     const float phi = std::abs(tile.phi[i]);
     if (phi >= scene_.phi.band()) continue;
-    // Where the slice grazes the surface phi hardly changes in it; the line must not become a patch.
+    // Where the slice grazes the surface phi hardly changes in it; a line must not become a patch.
     const float slope = SliceTile::slope(tile.phi, static_cast<int>(i));
-    const float pixels = phi / std::max(slope, 0.4F * pixel);
-    float line = 1.0F - glm::smoothstep(half_line - 0.5F, half_line + 0.5F, pixels);
-    // Nor where phi is 0 over a whole area, half-way between two slices of a mask.
-    line *= glm::smoothstep(0.1F, 0.4F, slope / pixel);
-    tile.colour[i] = glm::mix(tile.colour[i], kOutlineYellow, line);
+    const float per_pixel = std::max(slope, 0.4F * pixel);
+    // Nor where phi is the same over a whole area, half-way between two slices of a mask.
+    const float steep = glm::smoothstep(0.1F, 0.4F, slope / pixel);
+    if (view_.contours) {
+      const float to_contour = std::abs(phi - (phi < 1.5F ? 1.0F : 2.0F));
+      const float line = steep * (1.0F - glm::smoothstep(0.0F, 1.0F, to_contour / per_pixel));
+      tile.colour[i] = glm::mix(tile.colour[i], tile.phi[i] < 0.0F ? kContourOutside : kContourInside, line);
+    }
+    if (view_.surface) {
+      const float line =
+          steep * (1.0F - glm::smoothstep(half_line - 0.5F, half_line + 0.5F, phi / per_pixel));
+      tile.colour[i] = glm::mix(tile.colour[i], kOutlineYellow, line);
+    }
   }
 }
 

@@ -1,5 +1,5 @@
 // The layers of a slice's picture, tile by tile: the source or what is shown in its place,
-// further images, labels, the surface's motion, walls and anchors, and the surface's outline.
+// further images, labels, the surface's motion, walls and anchors, contours of phi, and the surface's outline.
 #pragma once
 
 #include "renderer/host/host_scene.h"
@@ -39,7 +39,7 @@ class SliceLayers {
   void add_labels(SliceTile& tile) const;
   void add_change(SliceTile& tile) const;
   void add_constraints(SliceTile& tile) const;
-  void add_outline(SliceTile& tile) const;
+  void add_lines(SliceTile& tile) const;
 
   const HostScene& scene_;
   const SliceView& view_;

@@ -101,6 +101,7 @@ std::vector<std::pair<QString, renderer::SliceView>> laden_views() {
   add("far away", [](renderer::SliceView& view) { view.zoom = 0.3; });
   add("images", [](renderer::SliceView& view) { view.images = laden().images; });
   add("change", [](renderer::SliceView& view) { view.change = true; });
+  add("contours", [](renderer::SliceView& view) { view.contours = true; });
   add("labels", [](renderer::SliceView& view) { view.label_opacity = 0.7; });
   add("pages", [](renderer::SliceView& view) { view.content = renderer::SliceContent::pages; });
   for (const auto& [name, term] : {std::pair{"total", renderer::SpeedTerm::total},

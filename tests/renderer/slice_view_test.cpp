@@ -96,6 +96,41 @@ class SliceViewTest : public QObject {
     }
   }
 
+  void contours_lie_one_and_two_voxels_from_the_surface() {
+    constexpr double kRadius = 20.0;
+    const Geometry geometry = grid({64, 64, 64});
+    Painter draw(ball_scene(geometry, kRadius));
+    renderer::SliceView view;
+    view.window = {50.0, 1000.0};
+    view.surface = false;
+    const renderer::Picture plain = draw(view, 512, 512);
+    view.contours = true;
+    const renderer::Picture drawn = draw(view, 512, 512);
+    const double side = 2.0 * renderer::slice_half_height_mm(geometry, view.orientation, 1.0, 1.0) / 512.0;
+    for (int degree = 5; degree < 360; degree += 10) {
+      const double a = degree * std::numbers::pi / 180.0;
+      std::vector<double> at;  // the middles of the lines, in voxels from the ball's middle
+      double begin = -1.0;
+      for (double r = kRadius - 4.0; r < kRadius + 4.0; r += 0.02) {
+        const auto x = std::lround(255.5 + r / side * std::cos(a));
+        const auto y = std::lround(255.5 + r / side * std::sin(a));
+        const glm::ivec3 change = pixel(drawn, x, y) - pixel(plain, x, y);
+        const bool on_line = std::abs(change.r) + std::abs(change.g) + std::abs(change.b) > 90;
+        if (on_line && begin < 0.0) begin = r;
+        if (!on_line && begin >= 0.0) {
+          at.push_back(0.5 * (begin + r));
+          begin = -1.0;
+        }
+        if (on_line) QCOMPARE(pixel(drawn, x, y).r > pixel(drawn, x, y).b, r < kRadius);
+      }
+      QCOMPARE(at.size(), std::size_t{4});
+      const double wanted[] = {18.0, 19.0, 21.0, 22.0};
+      for (std::size_t i = 0; i < 4; ++i) {
+        QVERIFY2(std::abs(at[i] - wanted[i]) < 0.15, qPrintable(QString("%1 at %2").arg(at[i]).arg(degree)));
+      }
+    }
+  }
+
   void thick_slices_look_right() {
     const Geometry geometry = grid({60, 60, 16}, {0.5, 0.5, 2.0});
     Painter draw(ball_scene(geometry, 10.0));

@@ -66,6 +66,11 @@ void SliceControls::add_overlays(Form& form) {
   };
   outline_ =
       add_check(tr("Outline of the surface"), tr("The yellow line."), &engine::DisplaySettings::outline);
+  contours_ =
+      add_check(tr("Contours of φ"),
+                tr("Lines where φ is -2, -1, 1 and 2: how wide the narrow band is, and whether φ is a "
+                   "distance in it. Blue outside, orange inside."),
+                &engine::DisplaySettings::contours);
   crosshair_ = add_check(tr("Crosshair"), tr("Shows the point that all slices go through."),
                          &engine::DisplaySettings::crosshair);
   patient_ =
@@ -82,6 +87,7 @@ void SliceControls::refresh() {
   line_->set_value(settings.line_pixels);
   line_->setEnabled(settings.outline);
   outline_->setChecked(settings.outline);
+  contours_->setChecked(settings.contours);
   crosshair_->setChecked(settings.crosshair);
   patient_->setChecked(settings.patient_text);
 }

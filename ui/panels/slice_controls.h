@@ -27,6 +27,7 @@ class SliceControls : public CaseWidget {
   QComboBox* side_;
   QComboBox* term_;
   QCheckBox* outline_;
+  QCheckBox* contours_;
   SliderNumber* line_;
   SliderNumber* labels_;
   QCheckBox* crosshair_;

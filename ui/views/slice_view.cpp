@@ -137,6 +137,7 @@ renderer::SliceView SliceViewWidget::slice() const {
   view.window = s.window;
   view.nearest = s.nearest;
   view.surface = s.outline;
+  view.contours = s.contours;
   view.change = s.change;
   view.line_pixels = s.line_pixels * devicePixelRatioF();
   view.label_opacity = s.label_opacity;

@@ -1,6 +1,8 @@
 // Colours with a meaning.
 
 const vec3 kOutlineYellow = vec3(1.0, 0.85, 0.0);
+// Of contours of phi outside and inside.
+const vec3 kContourOutside = vec3(0.45, 0.75, 1.0), kContourInside = vec3(1.0, 0.60, 0.30);
 
 // Blue below 0 and orange above, told apart by colour-blind people, too.
 vec3 diverging(float x) {

@@ -1,6 +1,6 @@
 // A slice through the volume: the source in its window, perhaps with further images over it (IMAGES), the speed (SPEED) or
 // its data term alone (DATA_SPEED), its doubt (DOUBT), or the pages (PAGES); what the surface has won and lost (CHANGE),
-// labels, walls and anchors (CONSTRAINED) and the surface's outline over it. These are variants, not uniforms: a driver that
+// labels, walls and anchors (CONSTRAINED), contours of phi and the surface's outline over it. These are variants, not uniforms: a driver that
 // computes both sides of every branch would work out the speed for every picture.
 
 #include "solver/phi.glsl"
@@ -32,6 +32,7 @@ uniform vec3 spacing;         // mm
 uniform int term;             // of SPEED, as enum class SpeedTerm
 uniform bool nearest;
 uniform bool show_surface;
+uniform bool show_contours;
 uniform float line_pixels;
 uniform usampler3D labels;    // 0: nothing
 uniform float label_opacity;  // 0 without labels
@@ -148,14 +149,22 @@ void main() {
 #ifdef CONSTRAINED
   colour = with_constraint(colour, nearest_voxel(p));
 #endif
-  if (show_surface && abs(phi) < band) {
-    // Where the slice grazes the surface phi hardly changes in it; the line must not become a patch.
+  if ((show_surface || show_contours) && abs(phi) < band) {
+    // Where the slice grazes the surface phi hardly changes in it; a line must not become a patch.
     float pixel = length(dFdx(p) * spacing) / min(spacing.x, min(spacing.y, spacing.z));
-    float pixels = abs(phi) / max(phi_slope_in_view, 0.4 * pixel);
-    float line = 1.0 - smoothstep(0.5 * line_pixels - 0.5, 0.5 * line_pixels + 0.5, pixels);
-    // Nor where phi is 0 over a whole area, half-way between two slices of a mask.
-    line *= smoothstep(0.1, 0.4, phi_slope_in_view / pixel);
-    colour = mix(colour, kOutlineYellow, line);
+    float per_pixel = max(phi_slope_in_view, 0.4 * pixel);
+    // Nor where phi is the same over a whole area, half-way between two slices of a mask.
+    float steep = smoothstep(0.1, 0.4, phi_slope_in_view / pixel);
+    if (show_contours) {
+      float to_contour = abs(phi) < 1.5 ? abs(abs(phi) - 1.0) : abs(abs(phi) - 2.0);
+      float line = steep * (1.0 - smoothstep(0.0, 1.0, to_contour / per_pixel));
+      colour = mix(colour, phi < 0.0 ? kContourOutside : kContourInside, line);
+    }
+    if (show_surface) {
+      float pixels = abs(phi) / per_pixel;
+      float line = steep * (1.0 - smoothstep(0.5 * line_pixels - 0.5, 0.5 * line_pixels + 0.5, pixels));
+      colour = mix(colour, kOutlineYellow, line);
+    }
   }
   fragment = vec4(outside ? beside : colour, 1.0);
 }
