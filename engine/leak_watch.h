@@ -21,7 +21,7 @@ class LeakWatch {
   void set_rule(const std::optional<document::LeakRule>& rule);
   // What is inside now is the body from which a leak can come: after a change of phi that is not a step, and
   // when the user goes on after an alarm.
-  void restart() { patches_.reset(); }
+  void restart() { started_ = false; }
 
   // To be called before steps. Of so many, how many come before the next look. Fails as
   // solver::Executor::snapshot() does.
@@ -31,14 +31,20 @@ class LeakWatch {
 
  private:
   using Clock = std::chrono::steady_clock;
-  [[nodiscard]] bool affordable() const;
+  static constexpr std::chrono::milliseconds kMostCredit{50};
+
+  bool affordable();
+  template <class Work>
+  Status spend_on(const Work& work);
 
   std::optional<document::LeakRule> rule_ = document::LeakRule{};
   std::optional<solver::FrontPatches> patches_;
+  bool started_ = false;  // the first look was taken
   document::LeakFinder finder_;
   std::vector<std::int64_t> steps_of_looks_;
-  Clock::time_point begun_;
-  Clock::duration spent_{};  // on looking, since then
+  // The time that may be spent on looking: it grows with time, and looking takes from it.
+  Clock::duration credit_ = kMostCredit;
+  Clock::time_point counted_ = Clock::now();
 };
 
 }  // namespace tidemark::engine
