@@ -90,6 +90,9 @@ void Actions::make_files() {
                              tr("Write each label as STL, PLY or OBJ, a file each, in mm of the patient"));
   export_picture = make("export-picture", "camera", tr("&Picture of the view…"), QKeySequence("Ctrl+P"), true,
                         tr("Write the active view as PNG, without the patient's text"));
+  export_film =
+      make("export-film", nullptr, tr("&Film of the evolution…"), {}, true,
+           tr("Write how the surface came to be, in the active view, as a GIF that plays for ever"));
   export_statistics = make("export-statistics", "statistics", tr("Statist&ics…"), {}, true);
   export_recipe = make("export-recipe", nullptr, tr("&Recipe…"), {}, true,
                        tr("Write all steps and edits, to be repeated by tidemark-cli replay"));

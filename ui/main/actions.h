@@ -39,6 +39,7 @@ class Actions : public QObject {
   QAction* export_mesh;
   QAction* export_label_meshes;
   QAction* export_picture;
+  QAction* export_film;
   QAction* export_statistics;
   QAction* export_recipe;
   QAction* send_result;

@@ -30,6 +30,7 @@
 #include "ui/main/case_messages.h"
 #include "ui/main/case_results.h"
 #include "ui/main/first_steps.h"
+#include "ui/main/film_writer.h"
 #include "ui/main/focus_chain.h"
 #include "ui/main/image_adder.h"
 #include "ui/main/keys_dialog.h"
@@ -68,6 +69,7 @@ MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(pa
   links_ = new CaseLinks(this);
   files_ = new CaseFiles(*this);
   exports_ = new CaseExports(*this, *files_);
+  films_ = new FilmWriter(*this, *files_);
   session_reader_ = new SessionReader(*this);
   session_writer_ = new SessionWriter(*this, *files_);
   make_centre();
@@ -184,6 +186,7 @@ void MainWindow::connect_files() {
   with_case(actions_->export_mask, [this](CaseWindow& window) { exports_->export_mask(window); });
   with_case(actions_->export_mesh, [this](CaseWindow& window) { exports_->export_mesh(window); });
   with_case(actions_->export_picture, [this](CaseWindow& window) { exports_->export_picture(window); });
+  with_case(actions_->export_film, [this](CaseWindow& window) { films_->ask_and_write(window); });
   with_case(actions_->export_statistics, [this](CaseWindow& window) { exports_->export_statistics(window); });
   with_case(actions_->export_recipe, [this](CaseWindow& window) { exports_->export_recipe(window); });
   // The MDI area knows of no active window while a panel or a dialog has the keyboard.

@@ -20,6 +20,7 @@ namespace tidemark::ui {
 
 class CaseArea;
 class CaseExports;
+class FilmWriter;
 class CaseFiles;
 class CaseLinks;
 class CaseResults;
@@ -52,6 +53,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] PanelDocks& panels() { return *panels_; }
   [[nodiscard]] CaseFiles& files() { return *files_; }
   [[nodiscard]] CaseExports& exports() { return *exports_; }
+  [[nodiscard]] FilmWriter& films() { return *films_; }
   [[nodiscard]] SessionReader& session_reader() { return *session_reader_; }
   [[nodiscard]] SessionWriter& session_writer() { return *session_writer_; }
   [[nodiscard]] ImageAdder& images() { return *images_; }
@@ -110,6 +112,7 @@ class MainWindow : public QMainWindow {
   QToolButton* value_details_ = nullptr;
   CaseFiles* files_ = nullptr;
   CaseExports* exports_ = nullptr;
+  FilmWriter* films_ = nullptr;
   SessionReader* session_reader_ = nullptr;
   SessionWriter* session_writer_ = nullptr;
   CaseResults* results_ = nullptr;

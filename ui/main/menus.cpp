@@ -32,7 +32,8 @@ void make_file_menu(MainWindow& window, Actions& actions, RecentStudies& recent)
   exports->addActions({actions.export_mask, actions.export_segmentation, actions.export_structure_set,
                        actions.export_mesh, actions.export_label_meshes, actions.export_level_set});
   exports->addSeparator();
-  exports->addActions({actions.export_picture, actions.export_statistics, actions.export_recipe});
+  exports->addActions(
+      {actions.export_picture, actions.export_film, actions.export_statistics, actions.export_recipe});
   file->addAction(actions.send_result);
   file->addSeparator();
   file->addActions({actions.close, actions.quit});

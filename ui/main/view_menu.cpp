@@ -79,7 +79,7 @@ QMenu* make_view_menu(PictureView& view, const Actions& actions, std::optional<g
   menu->addSeparator();
   QObject::connect(menu->addAction(icon(u"maximise"), tr("&Large, or back")), &QAction::triggered, &view,
                    &PictureView::maximise_wanted);
-  menu->addActions({actions.reset_view, actions.export_picture});
+  menu->addActions({actions.reset_view, actions.export_picture, actions.export_film});
   return menu;
 }
 

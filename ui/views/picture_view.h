@@ -50,6 +50,9 @@ class PictureView : public QWidget {
   [[nodiscard]] QSize sizeHint() const override { return {420, 380}; }
   [[nodiscard]] QSize minimumSizeHint() const override { return {120, 100}; }
 
+  // As it is drawn, but for what is painted over it.
+  [[nodiscard]] virtual engine::AnyView wanted() const = 0;
+
  signals:
   void maximise_wanted();
   void activated();  // clicked, or given the keyboard
@@ -61,7 +64,6 @@ class PictureView : public QWidget {
   [[nodiscard]] const engine::DisplaySettings& settings() const { return proxy_.display().settings(); }
   [[nodiscard]] DragView drag_view();
 
-  [[nodiscard]] virtual engine::AnyView wanted() const = 0;
   // Asks the engine for the view that is wanted now.
   void ask();
   // To be called instead of update().

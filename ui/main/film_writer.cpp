@@ -1,0 +1,68 @@
+#include "ui/main/film_writer.h"
+
+#include <QFileInfo>
+#include <QStatusBar>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/film.h"
+#include "ui/main/case_files.h"
+#include "ui/main/main_window.h"
+#include "ui/opening/loading_view.h"
+#include "ui/views/picture_view.h"
+
+namespace tidemark::ui {
+namespace {
+
+constexpr double kLongestSide = 640.0;  // pixels
+constexpr const char* kAboutFilms = "film";
+
+renderer::PictureSize size_of_film(QSize view) {
+  const double scale = std::min(1.0, kLongestSide / std::max(view.width(), view.height()));
+  return {std::max<std::int64_t>(std::llround(scale * view.width()), 1),
+          std::max<std::int64_t>(std::llround(scale * view.height()), 1)};
+}
+
+}  // namespace
+
+FilmWriter::FilmWriter(MainWindow& window, CaseFiles& files)
+    : QObject(&window), window_(window), files_(files), progress_(new LoadingView(LoadingView::Shape::line)) {
+  progress_->hide();
+  window.statusBar()->addPermanentWidget(progress_);
+  connect(&jobs_, &engine::ResultJobs::progressed, progress_, &LoadingView::set_progress);
+  connect(progress_, &LoadingView::cancelled, &jobs_, &engine::ResultJobs::cancel);
+  connect(&jobs_, &engine::ResultJobs::cancelled, progress_, &QWidget::hide);
+  connect(&jobs_, &engine::ResultJobs::failed, this, [this](const QString& message) {
+    progress_->hide();
+    window_.tell(message, kAboutFilms);
+  });
+  connect(&jobs_, &engine::ResultJobs::written, this, [this] {
+    progress_->hide();
+    window_.settle(kAboutFilms);
+    window_.statusBar()->showMessage(tr("Wrote %1").arg(file_), 8000);
+    emit files_.written(file_);
+  });
+}
+
+void FilmWriter::ask_and_write(CaseWindow& window) {
+  const QString file = files_.ask_for_file(window, tr("Export a film of the evolution"), tr("GIF (*.gif)"));
+  if (!file.isEmpty()) write(window, file);
+}
+
+void FilmWriter::write(CaseWindow& window, const QString& file) {
+  const PictureView* view = window.active_view();
+  if (!view) return;
+  const auto size = size_of_film(view->size());
+  window.proxy().take_snapshot(
+      window.view_state(), [this, file, size, wanted = view->wanted(),
+                            volume = window.proxy().study().volume](const auto& snapshot) {
+        file_ = file;
+        progress_->begin(QFileInfo(file).fileName());
+        progress_->show();
+        jobs_.write([=, path = std::filesystem::path(file.toStdU16String())](const Progress& progress) {
+          return engine::write_film(snapshot->contents.recipe, volume, wanted, size, path, progress);
+        });
+      });
+}
+
+}  // namespace tidemark::ui

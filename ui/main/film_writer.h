@@ -1,0 +1,32 @@
+// The export of a film of the active view, with its progress in the status bar.
+#pragma once
+
+#include <QObject>
+
+#include "engine/result_jobs.h"
+#include "ui/main/case_window.h"
+
+namespace tidemark::ui {
+
+class CaseFiles;
+class LoadingView;
+class MainWindow;
+
+// One film at a time: the next gives up the one before.
+class FilmWriter : public QObject {
+  Q_OBJECT
+ public:
+  FilmWriter(MainWindow& window, CaseFiles& files);
+
+  void ask_and_write(CaseWindow& window);
+  void write(CaseWindow& window, const QString& file);
+
+ private:
+  MainWindow& window_;
+  CaseFiles& files_;
+  engine::ResultJobs jobs_;
+  LoadingView* progress_;
+  QString file_;
+};
+
+}  // namespace tidemark::ui
