@@ -330,48 +330,46 @@ void CaseRunner::run_steps(std::uint64_t turn, std::stop_token stop) {
 }
 
 Status CaseRunner::advance(std::int64_t steps, const Progress& progress) {
-  const std::int64_t goal = case_->level_set().step() + steps;
-  const bool watches = group_.expired();
-  leak_ = nullptr;
-  while (case_->level_set().step() < goal && !leak_) {
-    const std::int64_t before = case_->level_set().step();
-    std::int64_t part = goal - before;
-    if (watches) {
-      auto until_look = leak_watch_.begin(case_->level_set(), part);
-      if (!until_look) return pass_on(until_look);
-      part = *until_look;
-    }
-    TIDEMARK_TRY(compute(part, progress));
-    if (case_->level_set().step() < before + part || may_rest()) break;
-    if (watches) TIDEMARK_TRY(watch_for_leaks());
-  }
-  return {};
-}
-
-Status CaseRunner::compute(std::int64_t steps, const Progress& progress) {
   document::LevelSet& level_set = case_->level_set();
-  const bool pauses = pause_at_convergence_ && group_.expired();
+  const bool alone = group_.expired();
+  const bool pauses = pause_at_convergence_ && alone;
   solver::Advance run{steps, pauses, progress};
   run.progress.report = nullptr;
-  const auto report = level_set.advance(run);
+  leak_ = nullptr;
+  const auto report = alone ? advance_watching(run) : level_set.advance(run);
   painter_.executor_used();
   if (!report) return tl::unexpected<Error>(report.error());
   ++advances_;
   const bool comes_to_rest = report->converged && !meter_.converged();
   meter_.computed(*report, level_set.step());
   painter_.phi_changed();
-  if (report->converged && pauses) playing_ = false;
+  if (leak_ || (report->converged && pauses)) playing_ = false;
   // What has become of it is known with the state that says that it rests.
-  return comes_to_rest || meter_.due() ? measure(false) : Status{};
+  return comes_to_rest || leak_ || meter_.due() ? measure(false) : Status{};
 }
 
-Status CaseRunner::watch_for_leaks() {
-  auto alarm = leak_watch_.look(case_->level_set());
-  if (!alarm) return pass_on(alarm);
-  if (!*alarm) return {};
-  leak_ = std::make_shared<const LeakAlarm>(std::move(**alarm));
-  playing_ = false;
-  return measure(false);
+// In parts with looks between them, until there is a leak.
+Result<solver::AdvanceReport> CaseRunner::advance_watching(const solver::Advance& run) {
+  document::LevelSet& level_set = case_->level_set();
+  solver::AdvanceReport all;
+  while (all.steps < run.steps && !leak_) {
+    auto steps = leak_watch_.begin(level_set, run.steps - all.steps);
+    if (!steps) return pass_on(steps);
+    const auto part = level_set.advance({*steps, run.until_converged, run.progress});
+    if (!part) return part;
+    all.steps += part->steps;
+    all.seconds += part->seconds;
+    all.paging_seconds += part->paging_seconds;
+    all.voxel_updates += part->voxel_updates;
+    all.surface_speed = part->surface_speed;
+    // No window of its measure may have ended in this part.
+    all.converged = (all.converged || part->converged) && part->surface_speed < solver::kConvergedSpeed;
+    if (part->steps < *steps || (part->converged && run.until_converged)) break;
+    auto alarm = leak_watch_.look(level_set);
+    if (!alarm) return pass_on(alarm);
+    if (*alarm) leak_ = std::make_shared<const LeakAlarm>(std::move(**alarm));
+  }
+  return all;
 }
 
 Status CaseRunner::measure(bool thoroughly) {

@@ -97,8 +97,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void post_picture(const std::shared_ptr<ViewSlot>& slot, Priority priority);
   void draw_in_turn(const std::shared_ptr<ViewSlot>& slot, Priority priority, std::stop_token stop);
   void draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token stop);
-  Status compute(std::int64_t steps, const Progress& progress);
-  Status watch_for_leaks();
+  Result<solver::AdvanceReport> advance_watching(const solver::Advance& run);
   Status measure(bool thoroughly);
   void follow_drive();
   void take_speed(const SpeedOrigin& origin, const SpeedMaker::Made& made);
