@@ -21,7 +21,8 @@ struct EvolutionOptions {
   solver::ExecutorOptions options;               // the pages' shape is the recipe's where the executor is
   bool until_converged =
       false;  // after the last event: ends before the recipe's steps when the surface rests
-  // Called before the first step, after every so many, and at the end, with how many steps have been computed.
+  // Called before the first step, after every so many, and at the end, with how many steps have been
+  // computed.
   std::int64_t watch_every = 0;  // 0: never
   std::function<Status(solver::Executor&, std::int64_t step)> watch = {};
 };

@@ -144,7 +144,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   std::uint64_t turn_ = 0;           // of the steps that wait: those of earlier ones are not wanted any more
   double pace_ = 0.0;                // steps a second; 0: free
   Engine::Clock::time_point paced_;  // when the steps up to here are due
-  std::int64_t advances_ = 0;  // how often steps were computed
+  std::int64_t advances_ = 0;        // how often steps were computed
 
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels_;  // as of label_revision_
   std::uint64_t label_revision_ = 0;

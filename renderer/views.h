@@ -102,7 +102,7 @@ struct SliceView {
   bool nearest = false;  // voxels as squares
   bool surface = true;
   bool contours = false;  // lines where phi is -2, -1, 1 and 2, in units of the smallest spacing
-  bool change = false;  // what the surface has won and lost since it began from a mask
+  bool change = false;    // what the surface has won and lost since it began from a mask
   double line_pixels = 2.0;
   double label_opacity = 0.4;
   std::shared_ptr<const ImagesOver> images;  // over the source, below all else; null: none

@@ -1,5 +1,6 @@
 // The layers of a slice's picture, tile by tile: the source or what is shown in its place,
-// further images, labels, the surface's motion, walls and anchors, contours of phi, and the surface's outline.
+// further images, labels, the surface's motion, walls and anchors, contours of phi, and the surface's
+// outline.
 #pragma once
 
 #include "renderer/host/host_scene.h"

@@ -76,8 +76,8 @@ class Constraints {
   [[nodiscard]] bool empty() const { return constrained_pages_ == 0; }
   [[nodiscard]] std::int64_t count(Constraint what) const;  // voxels
 
-  // Sets the voxels of a mask on the same grid (not 0), those whose centres are within a sphere, or those of a
-  // list; with Constraint::none they are free again.
+  // Sets the voxels of a mask on the same grid (not 0), those whose centres are within a sphere, or those of
+  // a list; with Constraint::none they are free again.
   void set(const Mask& mask, Constraint what);
   void set(const Geometry& geometry, const Sphere& sphere, Constraint what);
   void set(const std::vector<Index3>& voxels, Constraint what);  // on the grid

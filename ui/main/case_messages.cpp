@@ -95,9 +95,9 @@ void CaseMessages::tell_outcome() {
     bar_.show_offers(tr("The surface has stopped inside of like tissue: its values vary more than T ± %1.")
                          .arg(short_text(state.parameters.range)),
                      about,
-                     {{tr("Widen the range to %1").arg(short_text(*offered_)),
-                       {},
-                       [this, range = *offered_] { widen(range); }}});
+                     {{tr("Widen the range to %1").arg(short_text(*offered_)), {}, [this, range = *offered_] {
+                         widen(range);
+                       }}});
     bar_.mark_as_of(window_);
   } else {
     bar_.settle(about);
