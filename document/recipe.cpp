@@ -1,8 +1,9 @@
 #include "document/recipe.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
+
+#include "core/text_file.h"
 
 namespace tidemark::document {
 namespace {
@@ -18,20 +19,9 @@ const Event* last_event(const std::vector<RecipeEvent>& events) {
 }  // namespace
 
 Result<Recipe> Recipe::load(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (error) return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(), error.message());
-  if (size > kLargestFile) {
-    return fail(ErrorKind::input, "{}: {} bytes, more than {} are not read", file.string(), size,
-                kLargestFile);
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(size, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(size));
-  if (stream.gcount() != static_cast<std::streamsize>(size)) {
-    return fail(ErrorKind::input, "{}: cannot be read", file.string());
-  }
-  return parse(text, file.string());
+  const auto text = read_text_file(file, kLargestFile);
+  if (!text) return tl::unexpected<Error>(text.error());
+  return parse(*text, file.string());
 }
 
 bool Recipe::begun() const {

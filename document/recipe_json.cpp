@@ -149,6 +149,8 @@ MaskStart read_mask_start(const JsonField& field) {
   return start;
 }
 
+}  // namespace
+
 Start read_start(const JsonField& field) {
   Start start;
   const JsonField from = field.at("from");
@@ -183,6 +185,14 @@ Start read_start(const JsonField& field) {
   start.erasers = read_spheres(field.at("erasers"));
   return start;
 }
+
+Json to_json(const Start& start) {
+  return {{"from", std::visit(FromJson{}, start.from)},
+          {"seeds", to_json(start.seeds)},
+          {"erasers", to_json(start.erasers)}};
+}
+
+namespace {
 
 Json to_json(const RecipeEvent& event) {
   Json json{{"step", event.step}};
@@ -275,30 +285,65 @@ Json to_json(const solver::Parameters& parameters) {
   return json;
 }
 
-solver::Parameters read_parameters(const JsonField& field) {
-  solver::Parameters parameters;
-  parameters.target = field.at("target").number();
-  parameters.range = field.at("range").number();
-  parameters.alpha = field.at("alpha").number();
+namespace {
+
+solver::Parameters read_parameters(const JsonField& field, const solver::Parameters& base, bool all) {
+  solver::Parameters parameters = base;
+  const auto given = [&](const char* key) { return all || field.has(key); };
+  const auto number = [&](const char* key, double& value) {
+    if (given(key)) value = field.at(key).number();
+  };
+  const auto flag = [&](const char* key, bool& value) {
+    if (given(key)) value = field.at(key).boolean();
+  };
+  number("target", parameters.target);
+  number("range", parameters.range);
+  number("alpha", parameters.alpha);
   if (field.has("band") && field.at("band").is_text()) {
     field.at("band").must_be("infinite");
     parameters.band = std::numeric_limits<double>::infinity();
-  } else {
+  } else if (given("band")) {
     parameters.band = read_optional(field, "band");
   }
-  parameters.rescale = read_optional(field, "rescale");
-  parameters.target_gradient = field.at("target_gradient").number();
-  parameters.scheme =
-      field.at("scheme").word({"split", "paper"}) == 0 ? solver::Scheme::split : solver::Scheme::paper;
-  parameters.data_form =
-      field.at("data").word({"clamped", "raw"}) == 0 ? solver::DataForm::clamped : solver::DataForm::raw;
-  parameters.data_term = field.at("data_term").boolean();
-  parameters.curvature_term = field.at("curvature_term").boolean();
-  parameters.rescaling_term = field.at("rescaling_term").boolean();
-  parameters.time_step_factor = field.at("time_step_factor").number();
+  if (given("rescale")) parameters.rescale = read_optional(field, "rescale");
+  number("target_gradient", parameters.target_gradient);
+  if (given("scheme")) {
+    parameters.scheme =
+        field.at("scheme").word({"split", "paper"}) == 0 ? solver::Scheme::split : solver::Scheme::paper;
+  }
+  if (given("data")) {
+    parameters.data_form =
+        field.at("data").word({"clamped", "raw"}) == 0 ? solver::DataForm::clamped : solver::DataForm::raw;
+  }
+  flag("data_term", parameters.data_term);
+  flag("curvature_term", parameters.curvature_term);
+  flag("rescaling_term", parameters.rescaling_term);
+  number("time_step_factor", parameters.time_step_factor);
   if (!field.good()) return {};
   if (const Status valid = check(parameters); !valid) field.wrong(valid.error().message);
   return parameters;
+}
+
+}  // namespace
+
+solver::Parameters read_parameters(const JsonField& field) {
+  return read_parameters(field, {}, true);
+}
+
+solver::Parameters read_changed_parameters(const JsonField& field, const solver::Parameters& base) {
+  field.only({"target", "range", "alpha", "band", "rescale", "target_gradient", "scheme", "data", "data_term",
+              "curvature_term", "rescaling_term", "time_step_factor"});
+  return read_parameters(field, base, false);
+}
+
+Json changed_parameters(const solver::Parameters& parameters, const solver::Parameters& base) {
+  const Json all = to_json(parameters);
+  const Json before = to_json(base);
+  Json changed = Json::object();
+  for (const auto& [key, value] : all.items()) {
+    if (!before.contains(key) || before[key] != value) changed[key] = value;
+  }
+  return changed;
 }
 
 Json to_json(const imaging::GridPolicy& policy) {
@@ -326,9 +371,7 @@ Json to_json(const Recipe& recipe) {
                       {"page_shape", index_json(recipe.executor.page_shape)},
                       {"skip_quiet_pages", recipe.executor.skip_quiet_pages}};
   json["smoothed_mm"] = recipe.smoothed_mm;
-  json["start"] = {{"from", std::visit(FromJson{}, recipe.start.from)},
-                   {"seeds", to_json(recipe.start.seeds)},
-                   {"erasers", to_json(recipe.start.erasers)}};
+  json["start"] = to_json(recipe.start);
   json["parameters"] = to_json(recipe.parameters);
   if (recipe.drive != nullptr) json["drive"] = to_json(*recipe.drive);
   Json events = Json::array();

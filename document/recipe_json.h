@@ -10,12 +10,18 @@ namespace tidemark::document {
 [[nodiscard]] Json to_json(const Recipe& recipe);
 [[nodiscard]] Json to_json(const Geometry& geometry);
 [[nodiscard]] Json to_json(const solver::Parameters& parameters);
+[[nodiscard]] Json to_json(const Start& start);
 [[nodiscard]] Json to_json(const imaging::GridPolicy& policy);
+// The parameters that differ from those of `base`.
+[[nodiscard]] Json changed_parameters(const solver::Parameters& parameters, const solver::Parameters& base);
 
 // Errors are noted in the field's document.
 Recipe read_recipe(const JsonField& field);
 Geometry read_geometry(const JsonField& field);
 solver::Parameters read_parameters(const JsonField& field);
+Start read_start(const JsonField& field);
+// The parameters of `base` with those that the field names.
+solver::Parameters read_changed_parameters(const JsonField& field, const solver::Parameters& base);
 imaging::GridPolicy read_policy(const JsonField& field);
 
 }  // namespace tidemark::document

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <span>
 #include <utility>
 
 #include "core/json/json.h"
 #include "core/json/json_field.h"
+#include "core/text_file.h"
 #include "renderer/embedded_presets.h"
 
 namespace tidemark::renderer {
@@ -169,14 +169,9 @@ Result<TransferFunction> TransferFunction::parse(std::string_view json, const st
 }
 
 Result<TransferFunction> TransferFunction::load(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::error_code ignored;
-  if (!stream || !std::filesystem::is_regular_file(file, ignored))
-    return fail(ErrorKind::input, "{}: cannot be read", file.string());
-  std::string text(kLimits.bytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return parse(text, file.string());
+  const auto text = read_text_file(file, kLimits.bytes);
+  if (!text) return tl::unexpected<Error>(text.error());
+  return parse(*text, file.string());
 }
 
 std::string TransferFunction::to_json() const {
