@@ -83,18 +83,6 @@ Result<LessonOutcome> LessonRunner::run(const LessonPart& part, const Progress& 
   return outcome;
 }
 
-// The start that a phantom suggests; the seed is the one that a user would set.
-Start start_of(const imaging::Phantom& phantom) {
-  Start start;
-  if (phantom.seed) {
-    const auto& [i, j, k, radius_mm] = *phantom.seed;
-    start.seeds.push_back({phantom.volume.geometry.to_patient({i, j, k}), radius_mm});
-  } else if (phantom.init_threshold) {
-    start.from = ThresholdStart{phantom.init_threshold->first, phantom.init_threshold->second};
-  }
-  return start;
-}
-
 }  // namespace
 
 Result<LessonVolume> load_lesson_study(const LessonStudy& study, const std::filesystem::path& folder,
@@ -110,7 +98,7 @@ Result<LessonVolume> load_lesson_study(const LessonStudy& study, const std::file
   if (!name) return tl::unexpected<Error>(name.error());
   auto phantom = imaging::make_phantom(name->kind, name->options, progress);
   if (!phantom) return pass_on(phantom);
-  loaded.start = start_of(*phantom);
+  loaded.start = suggested_start(phantom->volume.geometry, phantom->seed, phantom->init_threshold);
   loaded.volume = std::make_shared<const Volume>(std::move(phantom->volume));
   loaded.truth = std::make_shared<const Mask>(std::move(phantom->truth));
   return loaded;

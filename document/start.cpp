@@ -128,6 +128,18 @@ std::string Start::describe() const {
   return text.empty() ? "nothing" : text;
 }
 
+Start suggested_start(const Geometry& geometry, const std::optional<std::array<double, 4>>& seed,
+                      const std::optional<std::pair<double, double>>& threshold) {
+  Start start;
+  if (seed) {
+    const auto& [i, j, k, radius_mm] = *seed;
+    start.seeds.push_back({geometry.to_patient({i, j, k}), radius_mm});
+  } else if (threshold) {
+    start.from = ThresholdStart{threshold->first, threshold->second};
+  }
+  return start;
+}
+
 Result<solver::Field> begin(solver::Executor& executor, const Volume& source, const Start& start,
                             const Progress& progress) {
   TIDEMARK_TRY(check_spheres(start, source.geometry));

@@ -1,8 +1,11 @@
 // The start of a level set as data: what a recipe records and a user can do again.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -58,6 +61,12 @@ struct Start {
   // One line for people: "2 seeds, 1 eraser", "mask truth.nii.gz, 1 seed".
   [[nodiscard]] std::string describe() const;
 };
+
+// The start that a phantom suggests: its seed (i, j, k in voxels, radius in mm), else its threshold (low,
+// high). Empty where it has neither.
+[[nodiscard]] Start suggested_start(const Geometry& geometry,
+                                    const std::optional<std::array<double, 4>>& seed,
+                                    const std::optional<std::pair<double, double>>& threshold);
 
 // What holds the surface: walls and anchors over the limit; null: nothing.
 [[nodiscard]] std::shared_ptr<const solver::Constraints> joined(

@@ -88,6 +88,23 @@ void CaseProxy::set_playing(bool playing) {
   });
 }
 
+void CaseProxy::play_for(std::int64_t steps, bool until_rest, std::function<void(bool reached)> ended) {
+  leave_lock_step();
+  post([steps, until_rest, ended = std::move(ended)](CaseRunner& runner, const Progress&) -> Status {
+    runner.play({steps, until_rest, ended});
+    return {};
+  });
+}
+
+// The state of the first command arrives before the answer of the second one.
+void CaseProxy::measure(std::function<void()> answer) {
+  post([](CaseRunner& runner, const Progress&) { return runner.measure_now(); });
+  post([answer = std::move(answer), weak_receiver = weak_receiver_](CaseRunner&, const Progress&) -> Status {
+    weak_receiver->send(answer);
+    return {};
+  });
+}
+
 void CaseProxy::step(std::int64_t steps) {
   post([steps](CaseRunner& runner, const Progress& progress) { return runner.step(steps, progress); });
 }

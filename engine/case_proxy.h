@@ -74,6 +74,12 @@ class CaseProxy : public QObject {
   void play();
   void pause();
   void toggle_play() { state_.playing ? pause() : play(); }
+  // Plays for so many steps, alone, or until the surface rests where that comes before and is asked for. No
+  // leak ends it. `ended` is called when state() is that after it, with whether it came to its end; never
+  // when the case is closed before.
+  void play_for(std::int64_t steps, bool until_rest, std::function<void(bool reached)> ended);
+  // `answer` is called when the figures in state() are those of the present surface.
+  void measure(std::function<void()> answer);
   void step(std::int64_t steps = 1);
   void step_back(std::int64_t steps = 1);
   void restart();

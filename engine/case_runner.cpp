@@ -58,6 +58,7 @@ void CaseRunner::show() {
   post_measurement();
   post_history();
   publish();
+  report_end_of_run();
 }
 
 Status CaseRunner::open() {
@@ -114,6 +115,7 @@ Status CaseRunner::follow_graphics() {
 // executor holds now is not to be trusted.
 void CaseRunner::recover(const Error& error) {
   playing_ = false;
+  if (run_) ended_run_ = std::exchange(run_, std::nullopt);
   report_failure(error);
   if (!case_) return;
   const Status back = without_exceptions([this] { return case_->level_set().rebuild(executor_options()); });
@@ -266,7 +268,25 @@ Status CaseRunner::step(std::int64_t steps, const Progress& progress) {
   return advance(steps, progress);
 }
 
+void CaseRunner::play(Run run) {
+  play_alone(false);
+  run_ = std::move(run);
+  if (run_->steps > 0) play_alone(true);
+  if (!playing_) end_run();
+}
+
+void CaseRunner::report_end_of_run() {
+  if (!ended_run_) return;
+  receiver_.weak_receiver->send(
+      [ended = std::move(ended_run_->ended), reached = ended_run_->steps == 0] { ended(reached); });
+  ended_run_.reset();
+}
+
 void CaseRunner::end_run() {
+  if (run_) {
+    ended_run_ = std::exchange(run_, std::nullopt);
+    if (ended_run_->until_rest && meter_.converged()) ended_run_->steps = 0;
+  }
   if (auto status = case_->level_set().end_run(); !status) report_failure(status.error());
 }
 
@@ -315,7 +335,10 @@ void CaseRunner::run_steps(std::uint64_t turn, std::stop_token stop) {
   const auto group = group_.lock();
   const std::int64_t before = case_->level_set().step();
   const Progress progress{nullptr, std::move(stop)};
-  if (status) status = group ? group->advance(*this, progress) : advance(steps_to_next_picture(), progress);
+  const std::int64_t most = run_ ? std::min(run_->steps, steps_to_next_picture()) : steps_to_next_picture();
+  if (status) status = group ? group->advance(*this, progress) : advance(most, progress);
+  if (run_) run_->steps -= case_->level_set().step() - before;
+  if (run_ && run_->steps <= 0) playing_ = false;
   if (!status && status.error().kind != ErrorKind::cancelled &&
       !(engine_.device() && engine_.device()->lost())) {
     set_playing(false);
@@ -332,11 +355,11 @@ void CaseRunner::run_steps(std::uint64_t turn, std::stop_token stop) {
 Status CaseRunner::advance(std::int64_t steps, const Progress& progress) {
   document::LevelSet& level_set = case_->level_set();
   const bool alone = group_.expired();
-  const bool pauses = pause_at_convergence_ && alone;
+  const bool pauses = run_ ? run_->until_rest : pause_at_convergence_ && alone;
   solver::Advance run{steps, pauses, progress};
   run.progress.report = nullptr;
   leak_ = nullptr;
-  const auto report = alone ? advance_watching(run) : level_set.advance(run);
+  const auto report = alone && !run_ ? advance_watching(run) : level_set.advance(run);
   painter_.executor_used();
   if (!report) return tl::unexpected<Error>(report.error());
   ++advances_;

@@ -59,6 +59,17 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   Status take_run(const document::SweepStart& start, const document::SweepRun& run, const Progress& progress);
 
   [[nodiscard]] bool playing() const { return playing_; }
+  // Plays for so many steps, or until the surface rests where that comes before and is asked for. A leak does
+  // not end it. `ended` is called on the proxy's thread once the state that it leads to is known there: with
+  // whether it came to its end.
+  struct Run {
+    std::int64_t steps = 0;
+    bool until_rest = false;
+    std::function<void(bool reached)> ended;
+  };
+  void play(Run run);
+  // Brings the figures of the surface up to date.
+  Status measure_now() { return measure(true); }
   // For all cases in lock-step with this one: playing, and single steps with a pause after them.
   void set_playing(bool playing);
   Status step(std::int64_t steps, const Progress& progress);
@@ -107,6 +118,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void post_measurement();
   void post_history();
   void end_run();
+  void report_end_of_run();
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels();
   Status follow_graphics();
   [[nodiscard]] solver::ExecutorOptions executor_options() const;
@@ -145,6 +157,8 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   double pace_ = 0.0;                // steps a second; 0: free
   Engine::Clock::time_point paced_;  // when the steps up to here are due
   std::int64_t advances_ = 0;        // how often steps were computed
+  std::optional<Run> run_;           // that is under way; `steps` are left of it
+  std::optional<Run> ended_run_;     // to be reported; `steps` were not computed
 
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels_;  // as of label_revision_
   std::uint64_t label_revision_ = 0;

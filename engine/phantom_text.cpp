@@ -38,12 +38,19 @@ constexpr Source kTexts[] = {
 
 }  // namespace
 
-PhantomText phantom_text(std::string_view kind) {
+PhantomText phantom_text(std::string_view name) {
+  const std::size_t colon = name.find(':');
+  const std::string_view kind = name.substr(0, colon);
   const auto* found = std::find_if(std::begin(kTexts), std::end(kTexts),
                                    [&](const Source& text) { return text.kind == kind; });
   if (found == std::end(kTexts)) return {QString::fromUtf8(kind.data(), qsizetype(kind.size())), {}};
-  return {QCoreApplication::translate("tidemark::PhantomText", found->title),
-          QCoreApplication::translate("tidemark::PhantomText", found->sentence)};
+  QString title = QCoreApplication::translate("tidemark::PhantomText", found->title);
+  if (colon != std::string_view::npos) {
+    const std::string_view noise = name.substr(colon + 1);
+    title = QCoreApplication::translate("tidemark::PhantomText", "%1 with noise of %2 %")
+                .arg(title, QString::fromUtf8(noise.data(), qsizetype(noise.size())));
+  }
+  return {title, QCoreApplication::translate("tidemark::PhantomText", found->sentence)};
 }
 
 }  // namespace tidemark::engine

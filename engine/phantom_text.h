@@ -6,11 +6,11 @@
 
 namespace tidemark::engine {
 
-// The name of a kind of phantom_kinds(), and one sentence on what it shows.
+// The title of a phantom by its name (imaging::parse_phantom_name), and one sentence on what it shows.
 struct PhantomText {
   QString title;
   QString sentence;
 };
-PhantomText phantom_text(std::string_view kind);
+PhantomText phantom_text(std::string_view name);
 
 }  // namespace tidemark::engine

@@ -8,7 +8,7 @@
 #include "imaging/archive/study_archive.h"
 #include "imaging/filters/suggest_start.h"
 #include "imaging/load_study.h"
-#include "imaging/phantom/phantom.h"
+#include "imaging/phantom/phantom_name.h"
 
 namespace tidemark::engine {
 namespace {
@@ -84,13 +84,15 @@ Result<LoadedStudy> find_and_load(const fs::path& path, const std::string& uid,
   return load_study(*chosen, progress);
 }
 
-Result<LoadedStudy> make_phantom_study(const std::string& kind, const Progress& progress) {
+Result<LoadedStudy> make_phantom_study(const std::string& name, const Progress& progress) {
   progress(0.0, "making the phantom");
-  auto phantom = tidemark::imaging::make_phantom(kind, {}, progress);
+  const auto wanted = imaging::parse_phantom_name(name);
+  if (!wanted) return tl::unexpected<Error>(wanted.error());
+  auto phantom = imaging::make_phantom(wanted->kind, wanted->options, progress);
   if (!phantom) return pass_on(phantom);
   LoadedStudy study;
-  study.origin.phantom = phantom->kind;
-  study.name = phantom_text(phantom->kind).title;  // as it was chosen
+  study.origin.phantom = name;
+  study.name = phantom_text(name).title;  // as it was chosen
   study.patient.name = "Phantom";
   study.origin.name = study.name.toStdString();
   study.volume = std::make_shared<const Volume>(std::move(phantom->volume));
@@ -129,8 +131,8 @@ void StudyLoader::load(const imaging::Series& series, const std::vector<std::str
       [this](LoadedStudy&& study) { emit loaded(std::make_shared<const LoadedStudy>(std::move(study))); });
 }
 
-void StudyLoader::make_phantom(const std::string& kind) {
-  run([kind](const Progress& progress) { return make_phantom_study(kind, progress); },
+void StudyLoader::make_phantom(const std::string& name) {
+  run([name](const Progress& progress) { return make_phantom_study(name, progress); },
       [this](LoadedStudy&& study) { emit loaded(std::make_shared<const LoadedStudy>(std::move(study))); });
 }
 

@@ -57,7 +57,7 @@ class StudyLoader : public JobRunner {
             const imaging::GridPolicy& policy = {});
   // The remarks are shown with the changes that loading made.
   void load(const imaging::Series& series, const std::vector<std::string>& remarks = {});
-  void make_phantom(const std::string& kind);  // of phantom_kinds()
+  void make_phantom(const std::string& name);  // as imaging::parse_phantom_name() takes it
 
   void cancel() { give_up(); }
 

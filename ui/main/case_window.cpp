@@ -202,6 +202,15 @@ PictureView* CaseWindow::add_view(ViewKind kind) {
   return view_of(dock);
 }
 
+PictureView* CaseWindow::show_view(ViewKind kind) {
+  for (QDockWidget* dock : docks_) {
+    if (kind_of(dock) != kind || dock->isHidden()) continue;
+    dock->raise();
+    return view_of(dock);
+  }
+  return add_view(kind);
+}
+
 void CaseWindow::set_layout(ViewLayout layout) {
   layout_ = layout;
   before_maximised_.clear();

@@ -40,6 +40,8 @@ class CaseWindow : public QMainWindow {
 
   // Another view, as a tab behind the active one.
   PictureView* add_view(ViewKind kind);
+  // One that is there comes to the front, else another view is added.
+  PictureView* show_view(ViewKind kind);
   void set_layout(ViewLayout layout);
   [[nodiscard]] ViewLayout view_layout() const { return layout_; }
   // The view that was last clicked or has the keyboard, else the first. Null without

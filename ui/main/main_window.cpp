@@ -40,6 +40,7 @@
 #include "ui/main/panel_docks.h"
 #include "ui/main/session_reader.h"
 #include "ui/main/session_writer.h"
+#include "ui/main/teaching.h"
 #include "ui/main/value_bar.h"
 #include "ui/opening/ask_for_study.h"
 #include "ui/opening/dropped_paths.h"
@@ -74,7 +75,8 @@ MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(pa
   session_writer_ = new SessionWriter(*this, *files_);
   make_centre();
   panels_ = new PanelDocks(*this, *actions_);
-  make_menus(*this, *actions_, {recent_, panels_});
+  teaching_ = new Teaching(*this);
+  make_menus(*this, *actions_, {recent_, panels_, teaching_});
   make_tool_bar(*this, *actions_);
   make_status_bar();
   results_ = new CaseResults(*this);
@@ -293,6 +295,11 @@ void MainWindow::settle(const QString& about) {
 
 CaseWindow* MainWindow::active_case() const {
   return active_;
+}
+
+void MainWindow::bring_to_front(CaseWindow& window) {
+  auto* child = static_cast<QMdiSubWindow*>(window.parentWidget());
+  if (child->isVisible()) area_->setActiveSubWindow(child);
 }
 
 QList<CaseWindow*> MainWindow::cases() const {

@@ -32,6 +32,7 @@ class RecentStudies;
 class SessionReader;
 class SessionWriter;
 class StudyOpener;
+class Teaching;
 class ValueBar;
 struct RecentStudy;
 
@@ -48,6 +49,7 @@ class MainWindow : public QMainWindow {
                        const engine::RestoredCase& restored = {});
 
   [[nodiscard]] CaseWindow* active_case() const;  // null: none
+  void bring_to_front(CaseWindow& window);
   [[nodiscard]] QList<CaseWindow*> cases() const;
   [[nodiscard]] Actions& actions() { return *actions_; }
   [[nodiscard]] PanelDocks& panels() { return *panels_; }
@@ -58,6 +60,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] SessionWriter& session_writer() { return *session_writer_; }
   [[nodiscard]] ImageAdder& images() { return *images_; }
   [[nodiscard]] CaseResults& results() { return *results_; }
+  [[nodiscard]] Teaching& teaching() { return *teaching_; }
   // The executor of new cases.
   void set_executor(solver::ExecutorKind kind) { executor_ = kind; }
   // Shows a sentence until it is dismissed, the next one comes, or its subject has succeeded.
@@ -117,6 +120,7 @@ class MainWindow : public QMainWindow {
   SessionWriter* session_writer_ = nullptr;
   CaseResults* results_ = nullptr;
   ImageAdder* images_ = nullptr;
+  Teaching* teaching_ = nullptr;
   QPointer<CaseWindow> active_;
   bool quitting_ = false;
   QList<QMetaObject::Connection> active_connections_;

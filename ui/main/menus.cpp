@@ -9,6 +9,7 @@
 #include "ui/main/menu_bar_icon.h"
 #include "ui/main/panel_docks.h"
 #include "ui/main/server_query.h"
+#include "ui/main/teaching.h"
 #include "ui/opening/phantom_menu.h"
 #include "ui/opening/recent_studies.h"
 
@@ -78,6 +79,7 @@ void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts) {
   tools->addActions(actions.tools->actions());
   tools->addSeparator();
   tools->addAction(actions.last_tool);
+  parts.teaching->fill(*window.menuBar()->addMenu(MainWindow::tr("Te&ach")));
   QMenu* windows = window.menuBar()->addMenu(MainWindow::tr("&Window"));
   windows->addActions({actions.tile, actions.cascade, actions.tabs});
   windows->addSeparator();

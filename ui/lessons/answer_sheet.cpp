@@ -1,0 +1,99 @@
+#include "ui/lessons/answer_sheet.h"
+
+#include <QCoreApplication>
+#include <QPdfWriter>
+#include <QTextDocument>
+
+#include "core/atomic_file.h"
+#include "ui/lessons/lesson_text.h"
+
+namespace tidemark::ui {
+namespace {
+
+constexpr int kResolution = 300;  // dots per inch
+constexpr double kMargin = 18.0;  // mm
+
+QString tr(const char* text) {
+  return QCoreApplication::translate("tidemark::AnswerSheet", text);
+}
+
+QString html(const std::string& text) {
+  return QString::fromStdString(text).toHtmlEscaped().replace(QChar('\n'), QStringLiteral("<br/>"));
+}
+
+QString row(const QString& name, const QString& value) {
+  return QStringLiteral("<tr><td>%1</td><td>%2</td></tr>").arg(name, value);
+}
+
+QString question_rows(const document::LessonQuestion& question, const document::PartAnswers& given) {
+  QString rows = row(tr("Question"), html(question.text));
+  const bool chosen = given.choice.has_value();
+  const QString answer = html(chosen ? question.choices[*given.choice] : given.words);
+  rows += row(tr("Answer"), answer.isEmpty() ? tr("none") : QStringLiteral("<b>%1</b>").arg(answer));
+  if (question.right) {
+    const bool right = given.choice == question.right;
+    rows += row(QString(),
+                right ? tr("right") : tr("right would be: %1").arg(html(question.choices[*question.right])));
+  }
+  return rows;
+}
+
+QString figure_rows(const document::LessonPart& part, const document::PartAnswers& given) {
+  QString rows;
+  for (std::size_t i = 0; i < part.measures.size(); ++i) {
+    const document::LessonMeasure& measure = part.measures[i];
+    const bool measured = i < given.figures.size() && given.figures[i].has_value();
+    const QString value =
+        measured ? figure_text(measure.figure, *given.figures[i]).toHtmlEscaped() : tr("not measured");
+    const QString verdict = !measured                          ? QString()
+                            : measure.holds(*given.figures[i]) ? tr("as expected")
+                                                               : tr("not as expected");
+    rows += row(figure_title(measure.figure).toHtmlEscaped(),
+                QStringLiteral("<b>%1</b> (%2) %3")
+                    .arg(value, tr("expected: %1").arg(range_text(measure).toHtmlEscaped()), verdict));
+  }
+  return rows;
+}
+
+QString page(const document::Lesson& lesson, const document::LessonAnswers& answers) {
+  const document::LessonScore score = document::score(lesson, answers);
+  QString text = QStringLiteral("<h1>%1</h1><p>%2</p><table cellpadding='3'>")
+                     .arg(html(lesson.title), html(lesson.about));
+  text += row(tr("Name"), html(answers.student)) + row(tr("Date"), html(answers.date));
+  text += row(tr("Right predictions"), tr("%1 of %2").arg(score.right).arg(score.questions));
+  text += row(tr("Figures as expected"), tr("%1 of %2").arg(score.in_range).arg(score.figures));
+  text += QStringLiteral("</table>");
+  for (std::size_t i = 0; i < lesson.parts.size() && i < answers.parts.size(); ++i) {
+    const document::LessonPart& part = lesson.parts[i];
+    text += QStringLiteral("<h3>%1. %2</h3><table cellpadding='3'>").arg(i + 1).arg(html(part.title));
+    if (part.question) text += question_rows(*part.question, answers.parts[i]);
+    text += figure_rows(part, answers.parts[i]) + QStringLiteral("</table>");
+  }
+  return text;
+}
+
+}  // namespace
+
+Status write_answer_sheet(const document::Lesson& lesson, const document::LessonAnswers& answers,
+                          const std::filesystem::path& file) {
+  auto target = AtomicFile::create(file);
+  if (!target) return pass_on(target);
+  {
+    QPdfWriter writer(QString::fromStdU16String(target->temporary_path().u16string()));
+    writer.setResolution(kResolution);
+    writer.setPageSize(QPageSize(QPageSize::A4));
+    writer.setPageMargins(QMarginsF(kMargin, kMargin, kMargin, kMargin), QPageLayout::Millimeter);
+    writer.setTitle(QString::fromStdString(lesson.title));
+    writer.setCreator(QStringLiteral("Tidemark"));
+    QTextDocument document;
+    document.setHtml(page(lesson, answers));
+    document.print(&writer);
+  }
+  std::error_code error;
+  if (std::filesystem::file_size(target->temporary_path(), error) == 0 || error) {
+    return fail(ErrorKind::write, "{}: cannot be written", file.string());
+  }
+  return target->commit();
+}
+
+}  // namespace tidemark::ui

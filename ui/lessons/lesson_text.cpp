@@ -1,0 +1,54 @@
+#include "ui/lessons/lesson_text.h"
+
+#include <QCoreApplication>
+
+#include "document/lesson_figure.h"
+#include "ui/widgets/number_text.h"
+
+namespace tidemark::ui {
+namespace {
+
+// As document/lesson_figure.cpp names them, for translators.
+[[maybe_unused]] constexpr const char* kTitles[] = {
+    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Volume"),
+    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Area"),
+    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Radius of the ball of that volume"),
+    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Separate bodies"),
+    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Steps since the start"),
+    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Rests (1: yes, 0: no)"),
+    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Time step"),
+    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Dice"),
+    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Mean distance to the truth"),
+    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Largest distance to the truth"),
+    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Resident pages"),
+    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Pages that are resident"),
+    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Memory of the level set"),
+};
+
+QString text(std::string_view words) {
+  return QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
+}
+
+}  // namespace
+
+QString figure_title(const std::string& figure) {
+  const document::LessonFigure* known = document::lesson_figure(figure);
+  if (known == nullptr) return QString::fromStdString(figure);
+  return QCoreApplication::translate("tidemark::LessonFigure", std::string(known->title).c_str());
+}
+
+QString figure_text(const std::string& figure, double value) {
+  const document::LessonFigure* known = document::lesson_figure(figure);
+  if (known == nullptr) return number_text(value, 3);
+  return number_text(value, known->digits, text(known->unit));
+}
+
+QString range_text(const document::LessonMeasure& measure) {
+  const document::LessonFigure* known = document::lesson_figure(measure.figure);
+  const QString high = figure_text(measure.figure, measure.high);
+  if (measure.low == measure.high) return high;
+  return QCoreApplication::translate("tidemark::LessonFigure", "%1 to %2")
+      .arg(number_text(measure.low, known ? known->digits : 3), high);
+}
+
+}  // namespace tidemark::ui

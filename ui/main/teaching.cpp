@@ -1,0 +1,160 @@
+#include "ui/main/teaching.h"
+
+#include <QApplication>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QMenu>
+#include <QMessageBox>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "engine/case_proxy.h"
+#include "engine/lesson_course.h"
+#include "ui/lessons/lesson_panel.h"
+#include "ui/main/case_files.h"
+#include "ui/main/case_head.h"
+#include "ui/main/case_window.h"
+#include "ui/main/main_window.h"
+
+namespace tidemark::ui {
+namespace {
+
+constexpr int kWidth = 340;         // logical pixels
+constexpr double kLargeType = 1.5;  // of the usual font
+constexpr const char* kAboutLessons = "lesson";
+
+bool wants(const document::LessonTry& attempt, document::LessonView view) {
+  return std::find(attempt.show.begin(), attempt.show.end(), view) != attempt.show.end();
+}
+
+}  // namespace
+
+Teaching::Teaching(MainWindow& window) : QObject(&window), window_(window), normal_(QApplication::font()) {}
+
+Teaching::~Teaching() = default;
+
+void Teaching::fill(QMenu& menu) {
+  int number = 0;
+  for (const document::OwnLesson& own : document::own_lessons()) {
+    const auto lesson = document::Lesson::parse(own.text, std::string(own.name));
+    if (!lesson) continue;  // a test holds that none is
+    auto* action =
+        menu.addAction(QStringLiteral("&%1 %2").arg(++number).arg(QString::fromStdString(lesson->title)));
+    action->setToolTip(QString::fromStdString(lesson->about));
+    connect(action, &QAction::triggered, this, [this, lesson = *lesson] { begin(lesson, {}); });
+  }
+  menu.setToolTipsVisible(true);
+  menu.addSeparator();
+  connect(menu.addAction(tr("&Open lesson…")), &QAction::triggered, this, &Teaching::ask_and_open);
+  show_ = menu.addAction(tr("&Show the lesson"));
+  show_->setEnabled(false);
+  connect(show_, &QAction::triggered, this, [this] {
+    if (dock_) dock_->show();
+  });
+  menu.addSeparator();
+  auto* large = menu.addAction(tr("&Projector: large type"));
+  large->setCheckable(true);
+  connect(large, &QAction::toggled, this, &Teaching::set_large);
+}
+
+void Teaching::ask_and_open() {
+  const QString file = QFileDialog::getOpenFileName(&window_, tr("Open a lesson"), {}, tr("Lesson (*.json)"));
+  if (!file.isEmpty()) open(file);
+}
+
+void Teaching::open(const QString& file) {
+  const auto path = path_of(file);
+  auto lesson = document::Lesson::load(path);
+  if (!lesson) return window_.tell(QString::fromStdString(lesson.error().message), kAboutLessons);
+  window_.settle(kAboutLessons);
+  begin(std::move(*lesson), path.parent_path());
+}
+
+void Teaching::begin(document::Lesson lesson, const std::filesystem::path& folder) {
+  end();
+  course_ = std::make_unique<engine::LessonCourse>(std::move(lesson), folder);
+  connect(course_.get(), &engine::LessonCourse::case_wanted, this, &Teaching::open_case);
+  connect(course_.get(), &engine::LessonCourse::case_used, this, &Teaching::show_case);
+  connect(course_.get(), &engine::LessonCourse::changed, this, &Teaching::name_case);
+  auto* panel = new LessonPanel(*course_);
+  connect(panel, &LessonPanel::end_wanted, this, [this] {
+    const auto answer = QMessageBox::question(
+        &window_, tr("End the lesson"),
+        tr("Answers that were not saved are lost. The cases stay open. End the lesson?"));
+    // The button that asks goes away with the panel.
+    if (answer == QMessageBox::Yes) QMetaObject::invokeMethod(this, &Teaching::end, Qt::QueuedConnection);
+  });
+  head_ = new CaseHead;
+  named_ = nullptr;
+  auto* content = new QWidget;
+  auto* column = new QVBoxLayout(content);
+  column->setContentsMargins({});
+  column->setSpacing(0);
+  column->addWidget(head_);
+  column->addWidget(panel, 1);
+  if (!dock_) {
+    dock_ = new QDockWidget(tr("Lesson"), &window_);
+    dock_->setObjectName("lesson");
+    dock_->setMinimumWidth(kWidth);
+    window_.addDockWidget(Qt::LeftDockWidgetArea, dock_);
+  }
+  dock_->setWidget(content);
+  dock_->show();
+  show_->setEnabled(true);
+}
+
+void Teaching::end() {
+  if (!course_) return;
+  delete dock_->widget();
+  head_ = nullptr;
+  course_.reset();
+  dock_->hide();
+  show_->setEnabled(false);
+}
+
+CaseWindow* Teaching::window_of(const engine::CaseProxy* proxy) const {
+  for (CaseWindow* window : window_.cases()) {
+    if (&window->proxy() == proxy) return window;
+  }
+  return nullptr;
+}
+
+void Teaching::open_case(const std::shared_ptr<const engine::LoadedStudy>& study) {
+  CaseWindow* opened = window_.add_case(study);
+  course_->take_case(opened->proxy());
+  // The panels of the first case bring back an arrangement that knows of no lesson.
+  const auto show = [this] {
+    if (course_) dock_->show();
+  };
+  QMetaObject::invokeMethod(this, show, Qt::QueuedConnection);
+}
+
+// What is done is done where the student looks.
+void Teaching::show_case(engine::CaseProxy& proxy, const document::LessonTry& attempt) {
+  CaseWindow* used = window_of(&proxy);
+  if (!used) return;
+  window_.bring_to_front(*used);
+  proxy.display().change([&](engine::DisplaySettings& settings) {
+    settings.contours = wants(attempt, document::LessonView::contours);
+    settings.truth = wants(attempt, document::LessonView::truth);
+  });
+  for (const auto& [view, kind] : {std::pair(document::LessonView::pages, ViewKind::pages),
+                                   std::pair(document::LessonView::speed, ViewKind::speed)}) {
+    if (wants(attempt, view)) used->show_view(kind);
+  }
+}
+
+void Teaching::name_case() {
+  CaseWindow* now = window_of(course_->proxy());
+  if (now == named_) return;
+  named_ = now;
+  head_->set_case(now);
+}
+
+void Teaching::set_large(bool large) {
+  QFont font = normal_;
+  if (large) font.setPointSizeF(font.pointSizeF() * kLargeType);
+  QApplication::setFont(font);
+}
+
+}  // namespace tidemark::ui

@@ -1,0 +1,58 @@
+// Lessons in the desktop: the menu Teach, the panel Lesson, and large type for a projector.
+#pragma once
+
+#include <QFont>
+#include <QObject>
+#include <QPointer>
+#include <memory>
+
+#include "document/lesson.h"
+
+class QAction;
+class QDockWidget;
+class QMenu;
+
+namespace tidemark::engine {
+class CaseProxy;
+class LessonCourse;
+struct LoadedStudy;
+}  // namespace tidemark::engine
+
+namespace tidemark::ui {
+
+class CaseHead;
+class CaseWindow;
+class MainWindow;
+
+// One lesson at a time.
+class Teaching : public QObject {
+  Q_OBJECT
+ public:
+  explicit Teaching(MainWindow& window);
+  ~Teaching() override;
+
+  void fill(QMenu& menu);
+  // `folder` holds its file: where its studies are looked for.
+  void begin(document::Lesson lesson, const std::filesystem::path& folder);
+  void open(const QString& file);  // a lesson; says what is wrong with it
+  [[nodiscard]] engine::LessonCourse* course() const { return course_.get(); }  // null: none
+
+ private:
+  void ask_and_open();
+  void end();
+  void open_case(const std::shared_ptr<const engine::LoadedStudy>& study);
+  void show_case(engine::CaseProxy& proxy, const document::LessonTry& attempt);
+  void name_case();
+  [[nodiscard]] CaseWindow* window_of(const engine::CaseProxy* proxy) const;
+  void set_large(bool large);
+
+  MainWindow& window_;
+  std::unique_ptr<engine::LessonCourse> course_;
+  QDockWidget* dock_ = nullptr;
+  CaseHead* head_ = nullptr;
+  QPointer<CaseWindow> named_;  // at the head
+  QAction* show_ = nullptr;
+  QFont normal_;
+};
+
+}  // namespace tidemark::ui
