@@ -69,14 +69,23 @@ HandInBox::HandInBox(engine::LessonCourse& course, QWidget* parent) : QWidget(pa
 }
 
 void HandInBox::follow() {
-  const document::LessonScore score = document::score(course_.lesson(), course_.answers());
-  score_->setText(tr("%1 of %2 predictions right, %3 of %4 figures as expected.")
-                      .arg(score.right)
-                      .arg(score.questions)
-                      .arg(score.in_range)
-                      .arg(score.figures));
+  score_->setText(score_text());
   const bool named = !name_->text().trimmed().isEmpty();
   for (QPushButton* button : {sheet_, table_}) button->setEnabled(named && !jobs_.busy());
+}
+
+// Before all is done it would tell which predictions are right.
+QString HandInBox::score_text() const {
+  const std::size_t count = course_.lesson().parts.size();
+  std::size_t done = 0;
+  for (std::size_t i = 0; i < count; ++i) done += course_.done(i) ? 1 : 0;
+  if (done < count) return tr("%1 of %2 parts are done.").arg(done).arg(count);
+  const document::LessonScore score = document::score(course_.lesson(), course_.answers());
+  return tr("%1 of %2 predictions right, %3 of %4 figures as expected.")
+      .arg(score.right)
+      .arg(score.questions)
+      .arg(score.in_range)
+      .arg(score.figures);
 }
 
 void HandInBox::ask(const QString& filter, const QString& suffix) {

@@ -24,6 +24,7 @@ class HandInBox : public QWidget {
  private:
   void ask(const QString& filter, const QString& suffix);
   void follow();
+  [[nodiscard]] QString score_text() const;
 
   engine::LessonCourse& course_;
   engine::ResultJobs jobs_;

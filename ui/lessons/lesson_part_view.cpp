@@ -193,7 +193,7 @@ void LessonPartView::follow() {
   if (words_) words_->setEnabled(open);
   if (try_) {
     const bool running = course_.attempting();
-    try_->setEnabled(course_.can_attempt());
+    try_->setEnabled(course_.can_attempt() || running);  // it keeps the keyboard
     try_->setText(course_.tried(index_) ? tr("Again") : tr("Set up and play"));
     try_hint_->setVisible(!course_.answered(index_));
     progress_->setVisible(running);
@@ -208,7 +208,7 @@ void LessonPartView::follow() {
 }
 
 void LessonPartView::show_figures() {
-  measure_->setEnabled(course_.can_measure());
+  measure_->setEnabled(course_.can_measure() || course_.measuring());  // it keeps the keyboard
   const auto& figures = course_.given().figures;
   table_->setVisible(!figures.empty());
   for (std::size_t i = 0; i < rows_.size() && i < figures.size(); ++i) {
