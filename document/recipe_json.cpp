@@ -23,6 +23,7 @@ constexpr std::size_t kMostSpheres = 100'000;
 constexpr double kFarthest_mm = 1e7;
 constexpr double kLargestLimit = 1e5;  // mm
 constexpr const char* kFormat = "tidemark recipe";
+constexpr const char* kDefault = "default";  // the band or w that follows from the study
 
 Json vector_json(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
@@ -299,13 +300,22 @@ solver::Parameters read_parameters(const JsonField& field, const solver::Paramet
   number("target", parameters.target);
   number("range", parameters.range);
   number("alpha", parameters.alpha);
-  if (field.has("band") && field.at("band").is_text()) {
+  // What `base` sets is taken back by a word.
+  const auto is_default = [&](const char* key) {
+    return !all && field.has(key) && field.at(key).is_text() && field.at(key).text() == kDefault;
+  };
+  if (is_default("band")) {
+    parameters.band.reset();
+  } else if (field.has("band") && field.at("band").is_text()) {
     field.at("band").must_be("infinite");
     parameters.band = std::numeric_limits<double>::infinity();
   } else if (given("band")) {
     parameters.band = read_optional(field, "band");
   }
-  if (given("rescale")) parameters.rescale = read_optional(field, "rescale");
+  if (is_default("rescale")) {
+    parameters.rescale.reset();
+  } else if (given("rescale"))
+    parameters.rescale = read_optional(field, "rescale");
   number("target_gradient", parameters.target_gradient);
   if (given("scheme")) {
     parameters.scheme =
@@ -342,6 +352,9 @@ Json changed_parameters(const solver::Parameters& parameters, const solver::Para
   Json changed = Json::object();
   for (const auto& [key, value] : all.items()) {
     if (!before.contains(key) || before[key] != value) changed[key] = value;
+  }
+  for (const auto& [key, value] : before.items()) {
+    if (!all.contains(key)) changed[key] = kDefault;
   }
   return changed;
 }

@@ -12,7 +12,7 @@ namespace tidemark::document {
 [[nodiscard]] Json to_json(const solver::Parameters& parameters);
 [[nodiscard]] Json to_json(const Start& start);
 [[nodiscard]] Json to_json(const imaging::GridPolicy& policy);
-// The parameters that differ from those of `base`.
+// The parameters that differ from those of `base`: a band or w that only `base` sets is "default".
 [[nodiscard]] Json changed_parameters(const solver::Parameters& parameters, const solver::Parameters& base);
 
 // Errors are noted in the field's document.
