@@ -90,28 +90,31 @@ Json to_json(const LessonQuestion& question) {
   return json;
 }
 
-// Masks and saved level sets are of one study's grid, and no hand writes them.
+// What is missing is nothing. Masks and saved level sets are of one study's grid, and no hand writes them.
 Start read_lesson_start(const JsonField& field) {
   field.only({"from", "seeds", "erasers"});
-  const JsonField from = field.at("from");
-  switch (from.at("kind").word({"spheres", "threshold", "flood"})) {
-    case 0:
-      from.only({"kind"});
-      break;
-    case 1:
-      from.only({"kind", "low", "high"});
-      break;
-    default:
-      from.only({"kind", "voxel", "low", "high"});
-      break;
+  if (field.has("from")) {
+    const JsonField from = field.at("from");
+    switch (from.at("kind").word({"spheres", "threshold", "flood"})) {
+      case 0:
+        from.only({"kind"});
+        break;
+      case 1:
+        from.only({"kind", "low", "high"});
+        break;
+      default:
+        from.only({"kind", "voxel", "low", "high"});
+        break;
+    }
   }
   for (const char* list : {"seeds", "erasers"}) {
+    if (!field.has(list)) continue;
     const JsonField spheres = field.at(list);
     const std::size_t count = spheres.size(kMostSpheres);
     for (std::size_t i = 0; i < count && field.good(); ++i) spheres.at(i).only({"centre_mm", "radius_mm"});
   }
   if (!field.good()) return {};
-  Start start = read_start(field);
+  Start start = read_partial_start(field);
   if (field.good() && start.empty()) field.wrong("has nothing inside");
   return start;
 }

@@ -150,11 +150,9 @@ MaskStart read_mask_start(const JsonField& field) {
   return start;
 }
 
-}  // namespace
+using From = decltype(Start::from);
 
-Start read_start(const JsonField& field) {
-  Start start;
-  const JsonField from = field.at("from");
+From read_from(const JsonField& from) {
   const auto low_to_high = [&](double& low, double& high) {
     low = from.at("low").number();
     high = from.at("high").number(low);
@@ -163,27 +161,38 @@ Start read_start(const JsonField& field) {
     case 1: {
       ThresholdStart part;
       low_to_high(part.low, part.high);
-      start.from = part;
-      break;
+      return part;
     }
     case 2: {
       FloodStart part;
       part.voxel = from.at("voxel").index(0, kLongestAxis);
       low_to_high(part.low, part.high);
-      start.from = part;
-      break;
+      return part;
     }
     case 3:
-      start.from = read_mask_start(from);
-      break;
+      return read_mask_start(from);
     case 4:
-      start.from = FieldStart{read_field(from), from.at("origin").text()};
-      break;
+      return FieldStart{read_field(from), from.at("origin").text()};
     default:
-      break;
+      return {};
   }
+}
+
+}  // namespace
+
+Start read_start(const JsonField& field) {
+  Start start;
+  start.from = read_from(field.at("from"));
   start.seeds = read_spheres(field.at("seeds"));
   start.erasers = read_spheres(field.at("erasers"));
+  return start;
+}
+
+Start read_partial_start(const JsonField& field) {
+  Start start;
+  if (field.has("from")) start.from = read_from(field.at("from"));
+  if (field.has("seeds")) start.seeds = read_spheres(field.at("seeds"));
+  if (field.has("erasers")) start.erasers = read_spheres(field.at("erasers"));
   return start;
 }
 

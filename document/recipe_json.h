@@ -20,6 +20,7 @@ Recipe read_recipe(const JsonField& field);
 Geometry read_geometry(const JsonField& field);
 solver::Parameters read_parameters(const JsonField& field);
 Start read_start(const JsonField& field);
+Start read_partial_start(const JsonField& field);  // the same, of which any part may be missing
 // The parameters of `base` with those that the field names.
 solver::Parameters read_changed_parameters(const JsonField& field, const solver::Parameters& base);
 imaging::GridPolicy read_policy(const JsonField& field);

@@ -22,10 +22,9 @@ namespace {
 
 // Everything that can be in one.
 Json good_json() {
-  const Json spheres{{"kind", "spheres"}};
   const Json ball{{"centre_mm", {0, 0, 0}}, {"radius_mm", 10}};
   const Json small{{"centre_mm", {4, 0, 0}}, {"radius_mm", 2.5}};
-  const Json start{{"from", spheres}, {"seeds", {ball}}, {"erasers", Json::array()}};
+  const Json start{{"seeds", {ball}}};
   return {{"format", "tidemark lesson"},
           {"version", 1},
           {"title", "Size"},
@@ -343,7 +342,7 @@ class LessonTest : public QObject {
     const std::string csv = document::to_csv(lesson_of(good_json()), answers);
     std::setlocale(LC_ALL, "C");
     const QStringList lines = QString::fromStdString(csv).split("\r\n");
-    const QString student = R"("'=HYPERLINK(""x"")","2026-03-31","Size",)";
+    const QString student = R"csv("'=HYPERLINK(""x"")","2026-03-31","Size",)csv";
     QCOMPARE(lines.size(), 10);  // eight, the header, and nothing behind the last line's end
     QCOMPARE(lines[0], QString("student,date,lesson,part,title,asked,answer,expected,agrees"));
     QCOMPARE(lines[1], student + R"(2,"Stay","How large?","20 mm","10 mm",no)");
@@ -440,9 +439,10 @@ void LessonTest::a_bad_lesson_is_refused_with_its_field_data() {
   set("/start/seed", 1, "start: 'seed' is no field");
   set("/start/seeds/0/radius_mm", 0, "start.seeds[0].radius_mm: ");
   set("/start/seeds/0/radius", 1, "start.seeds[0]: 'radius' is no field");
-  set("/start/from/kind", "mask", "start.from.kind: 'mask' is unknown");
-  set("/start/from/kind", "phi", "start.from.kind: 'phi' is unknown");
-  set("/start/from/low", 1, "start.from: 'low' is no field");
+  set("/start/from", {{"kind", "mask"}}, "start.from.kind: 'mask' is unknown");
+  set("/start/from", {{"kind", "phi"}}, "start.from.kind: 'phi' is unknown");
+  set("/start/from", {{"kind", "spheres"}, {"low", 1}}, "start.from: 'low' is no field");
+  set("/start/from", {{"kind", "threshold"}, {"low", 2}, {"high", 1}}, "start.from.high: 1 is not within 2");
   without("/parts", "parts: is missing");
   set("/parts", Json::array(), "parts: has no part");
   set("/parts", Json(std::vector<Json>(101, good_json()["parts"][0])), "parts: more than 100 entries");
