@@ -262,8 +262,10 @@ class LessonTest : public QObject {
   // A distance to a surface that is not there is no figure.
   void figures_that_do_not_exist_are_unset() {
     const Json curvature{{"alpha", 0}, {"data_term", false}};
+    // Not in the middle of a voxel: the slope there is 0, and such a voxel stays for ever.
+    const Json start{{"seeds", {{{"centre_mm", {0.4, 0.3, 0.2}}, {"radius_mm", 8}}}}};
     const document::Lesson lesson =
-        lesson_of_part({{"try", {{"steps", 400}, {"parameters", curvature}}},
+        lesson_of_part({{"try", {{"steps", 400}, {"start", start}, {"parameters", curvature}}},
                         {"measure",
                          {{{"figure", "volume_ml"}, {"low", 0}, {"high", 0}},
                           {{"figure", "mean_distance_mm"}, {"low", 0}, {"high", 1}},
