@@ -11,7 +11,7 @@ using namespace tidemark::test;
 
 namespace {
 
-const char* const kLesson = R"({
+const QByteArray kLesson = R"({
   "format": "tidemark lesson", "version": 1, "title": "Mine", "study": {"phantom": "sphere:0"},
   "parameters": {"target": 800, "range": 300, "alpha": 1},
   "parts": [
@@ -46,13 +46,13 @@ class CliLessonTest : public QObject {
   }
 
   void a_file_is_checked() {
-    const QJsonObject said = json_of(must_run({"lesson", "check", write(kLesson), "--json"}).out);
+    const QJsonObject said = json_of(must_run(QStringList{"lesson", "check", write(kLesson), "--json"}).out);
     QCOMPARE(said["figures"].toInt(), 2);
     QCOMPARE(said["out_of_range"].toInt(), 0);
-    const QJsonArray parts = said["lessons"].toArray()[0]["parts"].toArray();
+    const QJsonArray parts = said["lessons"].toArray().at(0)["parts"].toArray();
     QCOMPARE(parts.size(), 2);
     QVERIFY(parts[0]["figures"].toArray().isEmpty());
-    const QJsonValue radius = parts[1]["figures"].toArray()[0];
+    const QJsonValue radius = parts[1]["figures"].toArray().at(0);
     QCOMPARE(radius["figure"].toString(), QString("radius_mm"));
     QVERIFY(std::abs(radius["value"].toDouble() - 8.0) < 0.1);
     QVERIFY(radius["holds"].toBool());
@@ -68,18 +68,18 @@ class CliLessonTest : public QObject {
              outcome.told());
     const QJsonObject said = json_of(outcome.out);
     QCOMPARE(said["out_of_range"].toInt(), 1);
-    QVERIFY(!said["lessons"].toArray()[0]["parts"].toArray()[1]["holds"].toBool());
+    QVERIFY(!said["lessons"].toArray().at(0)["parts"].toArray().at(1)["holds"].toBool());
   }
 
   void what_is_no_lesson_ends_with_3_and_its_field() {
     const Outcome misspelt =
-        run_cli({"lesson", "check", write(QByteArray(kLesson).replace("steps", "step"))});
+        run_cli(QStringList{"lesson", "check", write(QByteArray(kLesson).replace("steps", "step"))});
     QVERIFY2(misspelt.failed_in_one_line(3), misspelt.told());
     QVERIFY2(misspelt.err.contains("parts[1].try: 'step' is no field"), misspelt.told());
     const Outcome none = run_cli({"lesson", "check", "2-curvature-flow", text(folder_ / "none.json")});
     QVERIFY2(none.failed_in_one_line(3), none.told());
     QVERIFY2(none.err.contains("there are 1-") && none.out.isEmpty(), none.told());
-    const Outcome alone = run_cli({"lesson"});
+    const Outcome alone = run_cli(QStringList{"lesson"});
     QVERIFY2(alone.failed_in_one_line(2), alone.told());
   }
 
