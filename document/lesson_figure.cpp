@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "document/inside_bits.h"
+#include "document/lesson_figure_names.h"
 #include "imaging/filters/filters.h"
 #include "solver/distance_transform.h"
 #include "solver/statistics.h"
@@ -156,6 +157,11 @@ constexpr LessonFigure kFigures[] = {
     {"resident_percent", "%", "Pages that are resident", 2, resident_share},
     {"memory_mib", "MiB", "Memory of the level set", 1, memory},
 };
+
+static_assert(std::equal(std::begin(kFigures), std::end(kFigures), kFigureNames.begin(), kFigureNames.end(),
+                         [](const LessonFigure& figure, std::string_view name) {
+                           return figure.name == name;
+                         }));
 
 }  // namespace
 

@@ -3,7 +3,7 @@
 
 #include "core/text_file.h"
 #include "document/lesson.h"
-#include "document/lesson_figure.h"
+#include "document/lesson_figure_names.h"
 #include "document/recipe_json.h"
 #include "imaging/phantom/phantom_name.h"
 
@@ -159,11 +159,10 @@ Json to_json(const LessonTry& attempt, const Lesson& lesson) {
 
 std::string read_figure(const JsonField& field) {
   std::string name = read_line(field);
-  if (!field.good() || lesson_figure(name) != nullptr) return name;
-  std::string names;
-  for (const LessonFigure& figure : lesson_figures())
-    names += fmt::format("{} {}", names.empty() ? "" : ",", figure.name);
-  field.wrong(fmt::format("'{}' is unknown; there are{}", name, names));
+  const bool known = std::find(kFigureNames.begin(), kFigureNames.end(), name) != kFigureNames.end();
+  if (field.good() && !known) {
+    field.wrong(fmt::format("'{}' is unknown; there are {}", name, fmt::join(kFigureNames, ", ")));
+  }
   return name;
 }
 
