@@ -8,6 +8,7 @@
 #include "document/lesson_figure_names.h"
 #include "imaging/filters/filters.h"
 #include "solver/distance_transform.h"
+#include "solver/model.h"
 #include "solver/statistics.h"
 #include "solver/surface_agreement.h"
 
@@ -63,8 +64,9 @@ Figure overlap(const LessonState& state, const Progress& /*progress*/) {
 Result<std::optional<solver::SurfaceDistance>> distance_to_truth(const LessonState& state,
                                                                  const Progress& progress) {
   if (state.truth == nullptr) return std::nullopt;
-  const solver::Field truth =
-      solver::distance_transform(*state.truth, state.phi.band, state.phi.layout.page_shape());
+  // Its band is that of no try: one may have none.
+  const solver::Field truth = solver::distance_transform(
+      *state.truth, solver::default_band(state.phi.geometry), state.phi.layout.page_shape());
   auto agreement = solver::agreement(state.phi, truth, progress);
   if (!agreement) return pass_on(agreement);
   return agreement->distance;

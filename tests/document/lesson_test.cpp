@@ -278,6 +278,18 @@ class LessonTest : public QObject {
     QVERIFY(!outcomes->front().holds(lesson.parts[0]));
   }
 
+  void distances_exist_in_any_band() {
+    for (const Json& band : {Json("infinite"), Json(2), Json(9)}) {
+      const Json attempt{{"steps", 0}, {"parameters", {{"band", band}}}};
+      const Json measure{{"figure", "mean_distance_mm"}, {"low", 9.7}, {"high", 10.3}};
+      const document::Lesson lesson = lesson_of_part({{"try", attempt}, {"measure", {measure}}});
+      const auto outcomes = carried_out(lesson);
+      QCOMPARE(failure(outcomes), QString());
+      const double distance = outcomes->front().figures[0].value_or(-1.0);
+      QVERIFY2(outcomes->front().holds(lesson.parts[0]), qPrintable(QString::number(distance)));
+    }
+  }
+
   void a_study_beside_the_lesson_is_loaded() {
     const TemporaryFolder folder;
     Json json = good_json();
