@@ -13,7 +13,7 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kGroupSummary = "Lists lessons, and carries them out without a student";
+constexpr const char* kGroupSummary = "Lists, shows and checks lessons";
 constexpr const char* kGroupFooter =
     "\nExamples:\n"
     "  tidemark-cli lesson list\n"
@@ -25,6 +25,11 @@ constexpr const char* kListDescription =
 constexpr const char* kListExamples =
     "  tidemark-cli lesson list\n"
     "  tidemark-cli lesson list --json\n";
+
+constexpr const char* kShowSummary = "Writes one of the program's own lessons, to begin another with";
+constexpr const char* kShowDescription =
+    "Writes the lesson's file (JSON; lengths in mm) to standard output, with --json as without.";
+constexpr const char* kShowExamples = "  tidemark-cli lesson show 4-leaks >mine.json\n";
 
 constexpr const char* kCheckSummary = "Carries out every try of lessons and measures its figures";
 constexpr const char* kCheckDescription =
@@ -48,6 +53,22 @@ struct NamedLesson {
   document::Lesson lesson;
 };
 
+// Null: there is none of that name.
+const document::OwnLesson* find_own(std::string_view name) {
+  const auto lessons = document::own_lessons();
+  const auto found = std::find_if(lessons.begin(), lessons.end(),
+                                  [&](const document::OwnLesson& own) { return own.name == name; });
+  return found == lessons.end() ? nullptr : &*found;
+}
+
+std::string own_names() {
+  std::string names;
+  for (const document::OwnLesson& own : document::own_lessons()) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", own.name);
+  }
+  return names;
+}
+
 Result<NamedLesson> own_lesson(const document::OwnLesson& own) {
   auto lesson = document::Lesson::parse(own.text, std::string(own.name));
   if (!lesson) return fail(ErrorKind::internal, "{}", lesson.error().message);
@@ -55,15 +76,11 @@ Result<NamedLesson> own_lesson(const document::OwnLesson& own) {
 }
 
 Result<NamedLesson> find_lesson(const std::string& name) {
-  std::string names;
-  for (const document::OwnLesson& own : document::own_lessons()) {
-    if (own.name == name) return own_lesson(own);
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", own.name);
-  }
+  if (const document::OwnLesson* own = find_own(name)) return own_lesson(*own);
   std::error_code ignored;
   if (!std::filesystem::exists(name, ignored)) {
     return fail(ErrorKind::input, "{}: there is no such file, and no lesson of that name; there are {}", name,
-                names);
+                own_names());
   }
   auto lesson = document::Lesson::load(name);
   if (!lesson) return pass_on(lesson);
@@ -102,6 +119,13 @@ Status run_list(Program& program) {
   Json object;
   object["lessons"] = std::move(list);
   program.console.result(object);
+  return {};
+}
+
+Status run_show(Program& program, const std::string& name) {
+  const document::OwnLesson* own = find_own(name);
+  if (own == nullptr) return fail(ErrorKind::usage, "unknown lesson '{}'; there are {}", name, own_names());
+  program.console.print(std::string(own->text));
   return {};
 }
 
@@ -211,6 +235,10 @@ void add_lesson(CLI::App& app, Program& program) {
   lesson.require_subcommand(1);
   add_command(lesson, program, {"list", kListSummary, kListDescription, kListExamples},
               [&program] { return run_list(program); });
+  auto name = std::make_shared<std::string>();
+  CLI::App& show = add_command(lesson, program, {"show", kShowSummary, kShowDescription, kShowExamples},
+                               [&program, name] { return run_show(program, *name); });
+  show.add_option("NAME", *name, "A name that lesson list shows")->required()->type_name("");
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App& check = add_command(lesson, program, {"check", kCheckSummary, kCheckDescription, kCheckExamples},
                                 [&program, arguments] { return CheckCommand(program, *arguments).run(); });

@@ -39,6 +39,15 @@ class CliLessonTest : public QObject {
     }
   }
 
+  void an_own_lesson_begins_another() {
+    const QByteArray shown = must_run({"lesson", "show", "1-implicit-surfaces"}).out;
+    QVERIFY(json_of(shown)["parts"].toArray().size() >= 4);
+    must_run(QStringList{"lesson", "check", write(shown), "--executor", "host"});
+    const Outcome none = run_cli({"lesson", "show", "9-none"});
+    QVERIFY2(none.failed_in_one_line(2) && none.err.contains("there are 1-implicit-surfaces, 2-"),
+             none.told());
+  }
+
   void an_own_lesson_is_checked_by_its_name() {
     const Outcome outcome = must_run({"lesson", "check", "2-curvature-flow", "--executor", "host"});
     QVERIFY2(outcome.out.contains("Lesson     2-curvature-flow: Curvature flow"), outcome.told());
