@@ -35,7 +35,8 @@ const PartAnswers& answers_to(const LessonAnswers& answers, std::size_t part) {
 // What the student says; empty: nothing.
 std::string_view answer_of(const LessonQuestion& question, const PartAnswers& given) {
   if (question.choices.empty()) return given.words;
-  return given.choice && *given.choice < question.choices.size() ? question.choices[*given.choice] : "";
+  if (given.choice && *given.choice < question.choices.size()) return question.choices[*given.choice];
+  return {};
 }
 
 std::string_view verdict(bool known, bool good) {

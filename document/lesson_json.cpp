@@ -17,16 +17,23 @@ constexpr std::int64_t kMostMinutes = 1000;
 constexpr double kLargestFigure = 1e12;
 constexpr std::array<std::string_view, 4> kViews{"contours", "pages", "speed", "truth"};
 
+// Of ASCII, or of those that UTF-8 writes with two bytes (U+0080 to U+009F): terminals act on either.
+bool has_control_character(std::string_view text, std::string_view allowed) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const bool is_ascii_control = byte < ' ' || byte == 0x7f;
+    if (is_ascii_control && allowed.find(text[i]) == std::string_view::npos) return true;
+    if (byte == 0xc2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xa0) return true;
+  }
+  return false;
+}
+
 // Something that can be read, without control characters but `allowed` ones.
 std::string read_plain(const JsonField& field, std::size_t longest, std::string_view allowed) {
   std::string text = field.text(longest);
   if (!field.good()) return {};
-  const auto is_control = [&](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return (byte < ' ' || byte == 0x7f) && allowed.find(c) == std::string_view::npos;
-  };
   if (text.find_first_not_of(" \t\n") == std::string::npos) field.wrong("is empty");
-  if (std::any_of(text.begin(), text.end(), is_control)) field.wrong("holds a control character");
+  if (has_control_character(text, allowed)) field.wrong("holds a control character");
   return text;
 }
 

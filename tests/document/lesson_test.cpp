@@ -140,6 +140,7 @@ void LessonTest::a_bad_lesson_is_refused_with_its_field_data() {
   without("/title", "title: is missing");
   set("/title", "", "title: is empty");
   set("/title", "two\nlines", "title: holds a control character");
+  set("/title", "C1\u009b31m", "title: holds a control character");
   set("/title", "bell\a", "title: holds a control character");
   set("/title", std::string(301, 'x'), "title: more than 300 bytes are not read");
   set("/title", 5, "title: not a text");
