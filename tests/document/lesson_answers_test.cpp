@@ -65,6 +65,17 @@ class LessonAnswersTest : public QObject {
     QCOMPARE(lines[9], QString());
   }
 
+  void a_long_choice_comes_whole() {
+    Json json = good_lesson();
+    const std::string choice = "As large as the ball was before, and by a quarter of a voxel larger";
+    json["parts"][1]["question"]["choices"][2] = choice;
+    document::LessonAnswers answers{"A", "2026-03-31", {}};
+    answers.parts.resize(2);
+    answers.parts[1].choice = 2;
+    const std::string csv = document::to_csv(lesson_of(json), answers);
+    QVERIFY(csv.find("\"" + choice + "\",\"10 mm\",no") != std::string::npos);
+  }
+
   void an_answer_that_is_no_choice_is_none() {
     document::LessonAnswers answers{"A", "2026-03-31", {}};
     answers.parts.resize(2);
