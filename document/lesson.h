@@ -102,7 +102,7 @@ struct Lesson {
 
 // A lesson of the program's own.
 struct OwnLesson {
-  std::string_view name;  // "curvature-flow"
+  std::string_view name;  // "2-curvature-flow"
   std::string_view text;  // for Lesson::parse()
 };
 // In the order in which they are taught.

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+#include <vector>
+
 #include "document/lesson_figure.h"
 
 namespace tidemark::document {
@@ -23,6 +26,19 @@ void add_line(std::string& csv, const std::vector<std::string>& fields) {
   csv += fmt::format("{}\r\n", fmt::join(fields, ","));
 }
 
+// Of one part; what a student has not come to is empty.
+const PartAnswers& answers_to(const LessonAnswers& answers, std::size_t part) {
+  static const PartAnswers kNone;
+  return part < answers.parts.size() ? answers.parts[part] : kNone;
+}
+
+// What the student says; empty: nothing.
+std::string_view answer_of(const LessonQuestion& question, const PartAnswers& given) {
+  if (question.choices.empty()) return given.words;
+  if (given.choice && *given.choice < question.choices.size()) return question.choices[*given.choice];
+  return {};
+}
+
 std::string_view verdict(bool known, bool good) {
   if (!known) return "";
   return good ? "yes" : "no";
@@ -32,9 +48,9 @@ std::string_view verdict(bool known, bool good) {
 
 LessonScore score(const Lesson& lesson, const LessonAnswers& answers) {
   LessonScore score;
-  for (std::size_t i = 0; i < lesson.parts.size() && i < answers.parts.size(); ++i) {
+  for (std::size_t i = 0; i < lesson.parts.size(); ++i) {
     const LessonPart& part = lesson.parts[i];
-    const PartAnswers& given = answers.parts[i];
+    const PartAnswers& given = answers_to(answers, i);
     if (part.question && part.question->right) {
       ++score.questions;
       score.right += given.choice == part.question->right ? 1 : 0;
@@ -51,19 +67,19 @@ LessonScore score(const Lesson& lesson, const LessonAnswers& answers) {
 std::string to_csv(const Lesson& lesson, const LessonAnswers& answers) {
   std::string csv;
   add_line(csv, {"student", "date", "lesson", "part", "title", "asked", "answer", "expected", "agrees"});
-  for (std::size_t i = 0; i < lesson.parts.size() && i < answers.parts.size(); ++i) {
+  for (std::size_t i = 0; i < lesson.parts.size(); ++i) {
     const LessonPart& part = lesson.parts[i];
-    const PartAnswers& given = answers.parts[i];
-    const auto line = [&](std::string_view asked, std::string_view answer, std::string_view expected,
+    const PartAnswers& given = answers_to(answers, i);
+    const auto line = [&](std::string_view asked, const std::string& answer, const std::string& expected,
                           std::string_view agrees) {
       add_line(csv, {csv_text(answers.student), csv_text(answers.date), csv_text(lesson.title),
-                     std::to_string(i + 1), csv_text(part.title), csv_text(asked), csv_text(answer),
-                     csv_text(expected), csv_text(agrees)});
+                     std::to_string(i + 1), csv_text(part.title), csv_text(asked), answer, expected,
+                     std::string(agrees)});
     };
     if (part.question) {
       const LessonQuestion& question = *part.question;
-      line(question.text, given.choice ? question.choices[*given.choice] : given.words,
-           question.right ? question.choices[*question.right] : std::string(),
+      line(question.text, csv_text(answer_of(question, given)),
+           csv_text(question.right ? question.choices[*question.right] : ""),
            verdict(question.right.has_value(), given.choice == question.right));
     }
     for (std::size_t m = 0; m < part.measures.size(); ++m) {

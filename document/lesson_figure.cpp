@@ -5,8 +5,10 @@
 #include <numbers>
 
 #include "document/inside_bits.h"
+#include "document/lesson_figure_names.h"
 #include "imaging/filters/filters.h"
 #include "solver/distance_transform.h"
+#include "solver/model.h"
 #include "solver/statistics.h"
 #include "solver/surface_agreement.h"
 
@@ -29,6 +31,13 @@ Figure radius(const LessonState& state, const Progress& /*progress*/) {
   const Geometry& grid = state.phi.geometry;
   if (grid.size.z == 1) return std::sqrt(mm3 / grid.spacing_mm.z / std::numbers::pi);
   return std::cbrt(mm3 * 3.0 / (4.0 * std::numbers::pi));
+}
+
+// The area of the ball of that volume by the area: 1 for a ball (Wadell 1935).
+Figure sphericity(const LessonState& state, const Progress& /*progress*/) {
+  const solver::SurfaceStatistics is = solver::measure(state.phi);
+  if (!(is.surface_mm2 > 0.0) || state.phi.geometry.size.z == 1) return std::nullopt;
+  return std::cbrt(36.0 * std::numbers::pi * std::pow(is.volume_ml * 1000.0, 2)) / is.surface_mm2;
 }
 
 Figure bodies(const LessonState& state, const Progress& /*progress*/) {
@@ -55,8 +64,9 @@ Figure overlap(const LessonState& state, const Progress& /*progress*/) {
 Result<std::optional<solver::SurfaceDistance>> distance_to_truth(const LessonState& state,
                                                                  const Progress& progress) {
   if (state.truth == nullptr) return std::nullopt;
-  const solver::Field truth =
-      solver::distance_transform(*state.truth, state.phi.band, state.phi.layout.page_shape());
+  // Its band is that of no try: one may have none.
+  const solver::Field truth = solver::distance_transform(
+      *state.truth, solver::default_band(state.phi.geometry), state.phi.layout.page_shape());
   auto agreement = solver::agreement(state.phi, truth, progress);
   if (!agreement) return pass_on(agreement);
   return agreement->distance;
@@ -76,6 +86,49 @@ Figure largest_distance(const LessonState& state, const Progress& progress) {
   return (*distance)->largest_mm;
 }
 
+// Of the voxels that have a neighbour on the surface's other side, by central differences. 0: phi is a
+// distance.
+Figure gradient_error(const LessonState& state, const Progress& /*progress*/) {
+  const solver::Field& phi = state.phi;
+  const Geometry& grid = phi.geometry;
+  const double smallest = std::min({grid.spacing_mm.x, grid.spacing_mm.y, grid.spacing_mm.z});
+  double sum = 0.0;
+  std::int64_t count = 0;
+  const auto look_at = [&](Index3 voxel) {
+    const bool inside = phi.at(voxel) > 0.0F;
+    bool beside_surface = false;
+    double squares = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      Index3 before = voxel;
+      Index3 behind = voxel;
+      before[axis] = std::max<std::int64_t>(voxel[axis] - 1, 0);
+      behind[axis] = std::min(voxel[axis] + 1, grid.size[axis] - 1);
+      const float low = phi.at(before);
+      const float high = phi.at(behind);
+      beside_surface = beside_surface || (low > 0.0F) != inside || (high > 0.0F) != inside;
+      if (before == behind) continue;
+      const double length =
+          static_cast<double>(behind[axis] - before[axis]) * grid.spacing_mm[axis] / smallest;
+      squares += std::pow((high - low) / length, 2);
+    }
+    if (!beside_surface) return;
+    sum += std::abs(std::sqrt(squares) - 1.0);
+    ++count;
+  };
+  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
+    if (phi.table[static_cast<std::size_t>(page)] < 0) continue;
+    const Index3 first = phi.layout.first_voxel(page);
+    const Index3 valid = phi.layout.valid_shape(page);
+    for (std::int64_t z = 0; z < valid.z; ++z) {
+      for (std::int64_t y = 0; y < valid.y; ++y) {
+        for (std::int64_t x = 0; x < valid.x; ++x) look_at(first + Index3(x, y, z));
+      }
+    }
+  }
+  if (count == 0) return std::nullopt;
+  return sum / static_cast<double>(count);
+}
+
 Figure resident_pages(const LessonState& state, const Progress& /*progress*/) {
   return static_cast<double>(state.memory.resident_pages);
 }
@@ -93,6 +146,7 @@ constexpr LessonFigure kFigures[] = {
     {"volume_ml", "ml", "Volume", 2, volume},
     {"area_cm2", "cm²", "Area", 1, area},
     {"radius_mm", "mm", "Radius of the ball of that volume", 2, radius},
+    {"sphericity", "", "Roundness (1: a ball)", 2, sphericity},
     {"bodies", "", "Separate bodies", 0, bodies},
     {"steps", "", "Steps since the start", 0, steps},
     {"rests", "", "Rests (1: yes, 0: no)", 0, rests},
@@ -100,10 +154,16 @@ constexpr LessonFigure kFigures[] = {
     {"dice", "", "Dice", 3, overlap},
     {"mean_distance_mm", "mm", "Mean distance to the truth", 2, mean_distance},
     {"largest_distance_mm", "mm", "Largest distance to the truth", 2, largest_distance},
+    {"gradient_error", "", "Mean departure of |∇φ| from 1 beside the surface", 2, gradient_error},
     {"resident_pages", "", "Resident pages", 0, resident_pages},
     {"resident_percent", "%", "Pages that are resident", 2, resident_share},
     {"memory_mib", "MiB", "Memory of the level set", 1, memory},
 };
+
+static_assert(std::equal(std::begin(kFigures), std::end(kFigures), kFigureNames.begin(), kFigureNames.end(),
+                         [](const LessonFigure& figure, std::string_view name) {
+                           return figure.name == name;
+                         }));
 
 }  // namespace
 

@@ -3,7 +3,7 @@
 
 #include "core/text_file.h"
 #include "document/lesson.h"
-#include "document/lesson_figure.h"
+#include "document/lesson_figure_names.h"
 #include "document/recipe_json.h"
 #include "imaging/phantom/phantom_name.h"
 
@@ -12,38 +12,51 @@ namespace {
 
 constexpr const char* kFormat = "tidemark lesson";
 constexpr std::size_t kMostMeasures = 10;
+constexpr std::size_t kMostSpheres = 1000;
 constexpr std::int64_t kMostMinutes = 1000;
 constexpr double kLargestFigure = 1e12;
 constexpr std::array<std::string_view, 4> kViews{"contours", "pages", "speed", "truth"};
 
-// A line or a text: no control characters but line ends.
-std::string read_text(const JsonField& field, const char* key, std::size_t longest, bool required = true) {
-  if (!required && !field.has(key)) return {};
-  const JsonField at = field.at(key);
-  std::string text = at.text(longest);
-  const bool blank = text.find_first_not_of(" \t\n") == std::string::npos;
-  if (field.good() && required && blank) at.wrong("is empty");
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t') {
-      at.wrong("holds a control character");
-      break;
-    }
+// Of ASCII, or of those that UTF-8 writes with two bytes (U+0080 to U+009F): terminals act on either.
+bool has_control_character(std::string_view text, std::string_view allowed) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const bool is_ascii_control = byte < ' ' || byte == 0x7f;
+    if (is_ascii_control && allowed.find(text[i]) == std::string_view::npos) return true;
+    if (byte == 0xc2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xa0) return true;
   }
+  return false;
+}
+
+// Something that can be read, without control characters but `allowed` ones.
+std::string read_plain(const JsonField& field, std::size_t longest, std::string_view allowed) {
+  std::string text = field.text(longest);
+  if (!field.good()) return {};
+  if (text.find_first_not_of(" \t\n") == std::string::npos) field.wrong("is empty");
+  if (has_control_character(text, allowed)) field.wrong("holds a control character");
   return text;
+}
+
+std::string read_line(const JsonField& field) {
+  return read_plain(field, Lesson::kLongestLine, "");
+}
+
+std::string read_text(const JsonField& field) {
+  return read_plain(field, Lesson::kLongestText, "\n\t");
 }
 
 LessonStudy read_study(const JsonField& field) {
   field.only({"phantom", "file"});
   LessonStudy study;
   if (field.has("phantom")) {
-    study.phantom = field.at("phantom").text(Lesson::kLongestLine);
+    study.phantom = read_line(field.at("phantom"));
     if (const auto name = imaging::parse_phantom_name(study.phantom); field.good() && !name) {
       field.at("phantom").wrong(name.error().message);
     }
     if (field.has("file")) field.wrong("has a phantom and a file");
     return study;
   }
-  study.file = field.at("file").text(Lesson::kLongestLine);
+  study.file = read_line(field.at("file"));
   const bool above = std::find(study.file.begin(), study.file.end(), "..") != study.file.end();
   if (field.good() && (study.file.empty() || study.file.is_absolute() || above)) {
     field.at("file").wrong("must be a path below the lesson's folder");
@@ -59,7 +72,7 @@ Json to_json(const LessonStudy& study) {
 LessonQuestion read_question(const JsonField& field) {
   field.only({"text", "choices", "right"});
   LessonQuestion question;
-  question.text = read_text(field, "text", Lesson::kLongestText);
+  question.text = read_text(field.at("text"));
   if (!field.has("choices")) {
     if (field.has("right")) field.at("right").wrong("needs choices");
     return question;
@@ -68,7 +81,7 @@ LessonQuestion read_question(const JsonField& field) {
   const std::size_t count = choices.size(Lesson::kMostChoices);
   if (count < 2) choices.wrong("needs two or more");
   for (std::size_t i = 0; i < count && field.good(); ++i) {
-    question.choices.push_back(choices.at(i).text(Lesson::kLongestLine));
+    question.choices.push_back(read_line(choices.at(i)));
   }
   if (field.has("right")) {
     const auto last = static_cast<std::int64_t>(question.choices.size());
@@ -84,14 +97,42 @@ Json to_json(const LessonQuestion& question) {
   return json;
 }
 
+// What is missing is nothing. Masks and saved level sets are of one study's grid, and no hand writes them.
+Start read_lesson_start(const JsonField& field) {
+  field.only({"from", "seeds", "erasers"});
+  if (field.has("from")) {
+    const JsonField from = field.at("from");
+    switch (from.at("kind").word({"spheres", "threshold", "flood"})) {
+      case 0:
+        from.only({"kind"});
+        break;
+      case 1:
+        from.only({"kind", "low", "high"});
+        break;
+      default:
+        from.only({"kind", "voxel", "low", "high"});
+        break;
+    }
+  }
+  for (const char* list : {"seeds", "erasers"}) {
+    if (!field.has(list)) continue;
+    const JsonField spheres = field.at(list);
+    const std::size_t count = spheres.size(kMostSpheres);
+    for (std::size_t i = 0; i < count && field.good(); ++i) spheres.at(i).only({"centre_mm", "radius_mm"});
+  }
+  if (!field.good()) return {};
+  Start start = read_partial_start(field);
+  if (field.good() && start.empty()) field.wrong("has nothing inside");
+  return start;
+}
+
 LessonTry read_try(const JsonField& field, const Lesson& lesson) {
   field.only({"goes_on", "start", "parameters", "smoothed_mm", "steps", "until_rest", "show"});
   LessonTry attempt;
   if (field.has("goes_on")) attempt.goes_on = field.at("goes_on").boolean();
   if (field.has("start")) {
     if (attempt.goes_on) field.at("start").wrong("contradicts goes_on");
-    attempt.start = read_start(field.at("start"));
-    if (field.good() && attempt.start->empty()) field.at("start").wrong("has nothing inside");
+    attempt.start = read_lesson_start(field.at("start"));
   }
   attempt.parameters = lesson.parameters;
   if (field.has("parameters")) {
@@ -123,6 +164,15 @@ Json to_json(const LessonTry& attempt, const Lesson& lesson) {
   return json;
 }
 
+std::string read_figure(const JsonField& field) {
+  std::string name = read_line(field);
+  const bool known = std::find(kFigureNames.begin(), kFigureNames.end(), name) != kFigureNames.end();
+  if (field.good() && !known) {
+    field.wrong(fmt::format("'{}' is unknown; there are {}", name, fmt::join(kFigureNames, ", ")));
+  }
+  return name;
+}
+
 std::vector<LessonMeasure> read_measures(const JsonField& field) {
   std::vector<LessonMeasure> measures;
   const std::size_t count = field.size(kMostMeasures);
@@ -130,9 +180,7 @@ std::vector<LessonMeasure> read_measures(const JsonField& field) {
     const JsonField at = field.at(i);
     at.only({"figure", "low", "high"});
     LessonMeasure measure;
-    measure.figure = at.at("figure").text(Lesson::kLongestLine);
-    if (at.good() && lesson_figure(measure.figure) == nullptr)
-      at.at("figure").wrong("there is no such figure");
+    measure.figure = read_figure(at.at("figure"));
     measure.low = at.at("low").number(-kLargestFigure, kLargestFigure);
     measure.high = at.at("high").number(at.good() ? measure.low : -kLargestFigure, kLargestFigure);
     measures.push_back(std::move(measure));
@@ -162,8 +210,8 @@ void check_that_it_goes_on(const JsonField& field, const Lesson& lesson, const L
 LessonPart read_part(const JsonField& field, const Lesson& lesson) {
   field.only({"title", "text", "study", "question", "try", "measure", "explanation"});
   LessonPart part;
-  part.title = read_text(field, "title", Lesson::kLongestLine);
-  part.text = read_text(field, "text", Lesson::kLongestText);
+  part.title = read_line(field.at("title"));
+  part.text = read_text(field.at("text"));
   if (field.has("study")) part.study = read_study(field.at("study"));
   if (field.has("question")) part.question = read_question(field.at("question"));
   if (field.has("try")) part.attempt = read_try(field.at("try"), lesson);
@@ -171,7 +219,7 @@ LessonPart read_part(const JsonField& field, const Lesson& lesson) {
     if (!part.attempt) field.at("measure").wrong("needs a try");
     part.measures = read_measures(field.at("measure"));
   }
-  part.explanation = read_text(field, "explanation", Lesson::kLongestText, false);
+  if (field.has("explanation")) part.explanation = read_text(field.at("explanation"));
   if (!field.good() || !part.attempt) return part;
   if (part.attempt->goes_on) {
     check_that_it_goes_on(field.at("try"), lesson, part);
@@ -199,14 +247,13 @@ Lesson read_lesson(const JsonField& field) {
   if (!field.good()) return lesson;
   field.only(
       {"format", "version", "title", "about", "author", "minutes", "study", "start", "parameters", "parts"});
-  lesson.title = read_text(field, "title", Lesson::kLongestLine);
-  lesson.about = read_text(field, "about", Lesson::kLongestText, false);
-  lesson.author = read_text(field, "author", Lesson::kLongestLine, false);
+  lesson.title = read_line(field.at("title"));
+  if (field.has("about")) lesson.about = read_text(field.at("about"));
+  if (field.has("author")) lesson.author = read_line(field.at("author"));
   if (field.has("minutes")) lesson.minutes = static_cast<int>(field.at("minutes").integer(0, kMostMinutes));
   lesson.study = read_study(field.at("study"));
   if (field.has("start")) {
-    lesson.start = read_start(field.at("start"));
-    if (field.good() && lesson.start->empty()) field.at("start").wrong("has nothing inside");
+    lesson.start = read_lesson_start(field.at("start"));
   }
   const JsonField parameters = field.at("parameters");
   for (const char* key : {"target", "range", "alpha"}) static_cast<void>(parameters.at(key).number());

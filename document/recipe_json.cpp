@@ -149,11 +149,9 @@ MaskStart read_mask_start(const JsonField& field) {
   return start;
 }
 
-}  // namespace
+using From = decltype(Start::from);
 
-Start read_start(const JsonField& field) {
-  Start start;
-  const JsonField from = field.at("from");
+From read_from(const JsonField& from) {
   const auto low_to_high = [&](double& low, double& high) {
     low = from.at("low").number();
     high = from.at("high").number(low);
@@ -162,27 +160,38 @@ Start read_start(const JsonField& field) {
     case 1: {
       ThresholdStart part;
       low_to_high(part.low, part.high);
-      start.from = part;
-      break;
+      return part;
     }
     case 2: {
       FloodStart part;
       part.voxel = from.at("voxel").index(0, kLongestAxis);
       low_to_high(part.low, part.high);
-      start.from = part;
-      break;
+      return part;
     }
     case 3:
-      start.from = read_mask_start(from);
-      break;
+      return read_mask_start(from);
     case 4:
-      start.from = FieldStart{read_field(from), from.at("origin").text()};
-      break;
+      return FieldStart{read_field(from), from.at("origin").text()};
     default:
-      break;
+      return {};
   }
+}
+
+}  // namespace
+
+Start read_start(const JsonField& field) {
+  Start start;
+  start.from = read_from(field.at("from"));
   start.seeds = read_spheres(field.at("seeds"));
   start.erasers = read_spheres(field.at("erasers"));
+  return start;
+}
+
+Start read_partial_start(const JsonField& field) {
+  Start start;
+  if (field.has("from")) start.from = read_from(field.at("from"));
+  if (field.has("seeds")) start.seeds = read_spheres(field.at("seeds"));
+  if (field.has("erasers")) start.erasers = read_spheres(field.at("erasers"));
   return start;
 }
 
@@ -232,11 +241,6 @@ RecipeEvent read_event(const JsonField& field, std::int64_t first_step, std::int
   return event;
 }
 
-std::optional<double> read_optional(const JsonField& field, const char* key) {
-  if (!field.has(key)) return std::nullopt;
-  return field.at(key).number();
-}
-
 }  // namespace
 
 Json to_json(const Geometry& geometry) {
@@ -265,85 +269,6 @@ Geometry read_geometry(const JsonField& field) {
     direction.wrong("the axes are not at right angles");
   }
   return field.good() ? geometry : Geometry();
-}
-
-Json to_json(const solver::Parameters& parameters) {
-  Json json;
-  json["target"] = parameters.target;
-  json["range"] = parameters.range;
-  json["alpha"] = parameters.alpha;
-  if (parameters.band)
-    json["band"] = std::isinf(*parameters.band) ? Json("infinite") : Json(*parameters.band);
-  if (parameters.rescale) json["rescale"] = *parameters.rescale;
-  json["target_gradient"] = parameters.target_gradient;
-  json["scheme"] = parameters.scheme == solver::Scheme::split ? "split" : "paper";
-  json["data"] = parameters.data_form == solver::DataForm::clamped ? "clamped" : "raw";
-  json["data_term"] = parameters.data_term;
-  json["curvature_term"] = parameters.curvature_term;
-  json["rescaling_term"] = parameters.rescaling_term;
-  json["time_step_factor"] = parameters.time_step_factor;
-  return json;
-}
-
-namespace {
-
-solver::Parameters read_parameters(const JsonField& field, const solver::Parameters& base, bool all) {
-  solver::Parameters parameters = base;
-  const auto given = [&](const char* key) { return all || field.has(key); };
-  const auto number = [&](const char* key, double& value) {
-    if (given(key)) value = field.at(key).number();
-  };
-  const auto flag = [&](const char* key, bool& value) {
-    if (given(key)) value = field.at(key).boolean();
-  };
-  number("target", parameters.target);
-  number("range", parameters.range);
-  number("alpha", parameters.alpha);
-  if (field.has("band") && field.at("band").is_text()) {
-    field.at("band").must_be("infinite");
-    parameters.band = std::numeric_limits<double>::infinity();
-  } else if (given("band")) {
-    parameters.band = read_optional(field, "band");
-  }
-  if (given("rescale")) parameters.rescale = read_optional(field, "rescale");
-  number("target_gradient", parameters.target_gradient);
-  if (given("scheme")) {
-    parameters.scheme =
-        field.at("scheme").word({"split", "paper"}) == 0 ? solver::Scheme::split : solver::Scheme::paper;
-  }
-  if (given("data")) {
-    parameters.data_form =
-        field.at("data").word({"clamped", "raw"}) == 0 ? solver::DataForm::clamped : solver::DataForm::raw;
-  }
-  flag("data_term", parameters.data_term);
-  flag("curvature_term", parameters.curvature_term);
-  flag("rescaling_term", parameters.rescaling_term);
-  number("time_step_factor", parameters.time_step_factor);
-  if (!field.good()) return {};
-  if (const Status valid = check(parameters); !valid) field.wrong(valid.error().message);
-  return parameters;
-}
-
-}  // namespace
-
-solver::Parameters read_parameters(const JsonField& field) {
-  return read_parameters(field, {}, true);
-}
-
-solver::Parameters read_changed_parameters(const JsonField& field, const solver::Parameters& base) {
-  field.only({"target", "range", "alpha", "band", "rescale", "target_gradient", "scheme", "data", "data_term",
-              "curvature_term", "rescaling_term", "time_step_factor"});
-  return read_parameters(field, base, false);
-}
-
-Json changed_parameters(const solver::Parameters& parameters, const solver::Parameters& base) {
-  const Json all = to_json(parameters);
-  const Json before = to_json(base);
-  Json changed = Json::object();
-  for (const auto& [key, value] : all.items()) {
-    if (!before.contains(key) || before[key] != value) changed[key] = value;
-  }
-  return changed;
 }
 
 Json to_json(const imaging::GridPolicy& policy) {

@@ -12,7 +12,7 @@ namespace tidemark::document {
 [[nodiscard]] Json to_json(const solver::Parameters& parameters);
 [[nodiscard]] Json to_json(const Start& start);
 [[nodiscard]] Json to_json(const imaging::GridPolicy& policy);
-// The parameters that differ from those of `base`.
+// The parameters that differ from those of `base`: a band or w that only `base` sets is "default".
 [[nodiscard]] Json changed_parameters(const solver::Parameters& parameters, const solver::Parameters& base);
 
 // Errors are noted in the field's document.
@@ -20,6 +20,7 @@ Recipe read_recipe(const JsonField& field);
 Geometry read_geometry(const JsonField& field);
 solver::Parameters read_parameters(const JsonField& field);
 Start read_start(const JsonField& field);
+Start read_partial_start(const JsonField& field);  // the same, of which any part may be missing
 // The parameters of `base` with those that the field names.
 solver::Parameters read_changed_parameters(const JsonField& field, const solver::Parameters& base);
 imaging::GridPolicy read_policy(const JsonField& field);

@@ -1,10 +1,15 @@
 // One builder for each kind of phantom.
 #pragma once
 
+#include <array>
+
 #include "core/thread_pool.h"
 #include "imaging/phantom/phantom.h"
 
 namespace tidemark::imaging::phantom {
+
+inline constexpr std::array<std::string_view, 8> kNames{"sphere", "dumbbell", "bridge",   "tumour",
+                                                        "cortex", "organ",    "junction", "head"};
 
 using Builder = Result<Phantom> (*)(const PhantomOptions&, ThreadPool&, const Progress&);
 

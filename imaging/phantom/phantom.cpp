@@ -26,6 +26,10 @@ constexpr Kind kKinds[] = {
     {"head", make_head, "the white matter, brain stem included"},
 };
 
+// Names are known where nothing is built (phantom_name.cpp).
+static_assert(std::equal(std::begin(kKinds), std::end(kKinds), kNames.begin(), kNames.end(),
+                         [](const Kind& kind, std::string_view name) { return kind.name == name; }));
+
 const Kind* find(std::string_view name) {
   const auto* found =
       std::find_if(std::begin(kKinds), std::end(kKinds), [&](const Kind& kind) { return kind.name == name; });
@@ -55,15 +59,6 @@ std::string_view truth_of(std::string_view kind) {
 }
 
 }  // namespace phantom
-
-const std::vector<std::string_view>& phantom_kinds() {
-  static const std::vector<std::string_view> kNames = [] {
-    std::vector<std::string_view> names;
-    for (const phantom::Kind& kind : phantom::kKinds) names.push_back(kind.name);
-    return names;
-  }();
-  return kNames;
-}
 
 Result<Phantom> make_phantom(std::string_view kind, const PhantomOptions& options, const Progress& progress) {
   ThreadPool pool;

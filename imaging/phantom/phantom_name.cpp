@@ -3,7 +3,14 @@
 #include <algorithm>
 #include <charconv>
 
+#include "imaging/phantom/kinds.h"
+
 namespace tidemark::imaging {
+
+const std::vector<std::string_view>& phantom_kinds() {
+  static const std::vector<std::string_view> kKinds(phantom::kNames.begin(), phantom::kNames.end());
+  return kKinds;
+}
 
 Result<PhantomName> parse_phantom_name(std::string_view name) {
   const std::size_t colon = name.find(':');

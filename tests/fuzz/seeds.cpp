@@ -9,6 +9,7 @@
 #include <fstream>
 #include <span>
 
+#include "document/lesson.h"
 #include "document/session_file.h"
 #include "document/zip_archive.h"
 #include "imaging/files/volume_file.h"
@@ -330,6 +331,9 @@ void write_studies() {
   }
   write("session", "session.tidemark", test::contents(folder / "case"));
   write("session", "session.json", session_json_in(folder / "case"));
+  for (const document::OwnLesson& lesson : document::own_lessons()) {
+    write("lesson", std::string(lesson.name), std::string(lesson.text));
+  }
   for (const std::string& name : renderer::preset_names())
     write("transfer_preset", name, renderer::preset(name).value().to_json());
 }
