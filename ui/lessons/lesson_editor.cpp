@@ -64,6 +64,12 @@ LessonEditor::LessonEditor(ActiveCase active_case, QWidget* parent)
   new_lesson();
 }
 
+// A number that is half typed is taken when its box goes away: the lesson must still be there.
+LessonEditor::~LessonEditor() {
+  hide();
+  delete forms_;
+}
+
 QWidget* LessonEditor::make_forms() {
   forms_ = new QStackedWidget;
   // In the order of FormIndex.

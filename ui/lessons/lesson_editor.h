@@ -37,6 +37,7 @@ class LessonEditor : public QDialog {
   // The case from which "Take from the case" takes; null: there is none.
   using ActiveCase = std::function<engine::CaseProxy*()>;
   explicit LessonEditor(ActiveCase active_case, QWidget* parent = nullptr);
+  ~LessonEditor() override;
 
   // Where the present lesson has changes, the user is asked first, and may keep it.
   void new_lesson();

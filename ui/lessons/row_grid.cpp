@@ -37,6 +37,7 @@ void RowGrid::add(const std::vector<QWidget*>& cells) {
   const int row = 1 + static_cast<int>(cells_.size() / headings_.size());
   for (std::size_t column = 0; column < cells.size(); ++column) {
     grid_->addWidget(cells[column], row, static_cast<int>(column));
+    cells[column]->show();  // at once, so that it can have the focus
     cells_.push_back(cells[column]);
   }
   for (QWidget* heading : headings_) heading->show();

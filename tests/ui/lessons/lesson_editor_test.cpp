@@ -305,10 +305,11 @@ class LessonEditorTest : public QObject {
     };
     go_to(*editor, 3);
     QTest::keyClick(editor.get(), Qt::Key_Up, Qt::AltModifier);
-    QCOMPARE(titles(), QString("First Third Second Fourth"));
+    QTRY_COMPARE(titles(), QString("First Third Second Fourth"));
     QTest::keyClick(editor.get(), Qt::Key_Down, Qt::AltModifier);
+    QTRY_COMPARE(titles(), QString("First Second Third Fourth"));
     QTest::keyClick(editor.get(), Qt::Key_Down, Qt::AltModifier);
-    QCOMPARE(titles(), QString("First Second Fourth Third"));
+    QTRY_COMPARE(titles(), QString("First Second Fourth Third"));
     click(*editor, "Duplicate the part");
     QCOMPARE(titles(), QString("First Second Fourth Third Third"));
     answer(QMessageBox::No);
@@ -328,6 +329,8 @@ class LessonEditorTest : public QObject {
     editor->edit(full_lesson(), folder / "full.json");
     go_to(*editor, 1);
     type<ui::NumberBox>(*editor, "To: Dice", "0");
+    QTest::qWait(500);
+    screenshot(*editor, "problem");
     QTRY_VERIFY(says(*editor, "Part 1 “First”, figures 1, to: 0 is not within"));
     screenshot(*editor, "problem");
     click(*editor, "&Save");
