@@ -100,7 +100,10 @@ QPushButton* LessonEditor::make_button(const QString& text, const QString& tip, 
   auto* button = new QPushButton(text);
   button->setAutoDefault(false);
   button->setToolTip(tip);
-  connect(button, &QPushButton::clicked, this, clicked);
+  connect(button, &QPushButton::clicked, this, [this, clicked] {
+    settle();
+    clicked();
+  });
   row.addWidget(button);
   return button;
 }
@@ -177,6 +180,7 @@ void LessonEditor::connect_trials() {
 }
 
 void LessonEditor::new_lesson() {
+  settle();
   file_->when_kept([this] {
     show_lesson(empty_lesson(), {});
     suits_.suit(lesson_.study.phantom);
@@ -184,10 +188,12 @@ void LessonEditor::new_lesson() {
 }
 
 void LessonEditor::edit(const document::Lesson& lesson, const std::filesystem::path& file) {
+  settle();
   file_->when_kept([this, lesson, file] { show_lesson(lesson, file); });
 }
 
 void LessonEditor::open(const std::filesystem::path& file) {
+  settle();
   file_->when_kept([this, file] { file_->open(file); });
 }
 
@@ -222,6 +228,10 @@ void LessonEditor::note_edit() {
   checking_.start();
 }
 
+void LessonEditor::settle() {
+  if (auto* box = qobject_cast<NumberBox*>(focusWidget())) box->interpretText();
+}
+
 void LessonEditor::show_title() {
   const QString title = QString::fromStdString(lesson_.title).simplified();
   setWindowTitle(tr("%1[*] - Lesson editor").arg(title.isEmpty() ? tr("New lesson") : title));
@@ -236,6 +246,11 @@ void LessonEditor::check() {
   problem_->setText(found ? found->sentence : tr("The lesson is complete."));
   list_->show_titles(found ? std::optional(found->part ? static_cast<int>(*found->part) + 1 : 0)
                            : std::nullopt);
+}
+
+void LessonEditor::changeEvent(QEvent* event) {
+  QDialog::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) checking_.start();  // the colour of a problem is the theme's
 }
 
 // What is typed and not taken is a problem, too.
@@ -300,6 +315,7 @@ void LessonEditor::set_busy(bool busy) {
 }
 
 void LessonEditor::reject() {
+  settle();
   file_->when_kept([this] {
     trials_.cancel();
     QDialog::reject();

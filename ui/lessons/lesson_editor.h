@@ -54,6 +54,9 @@ class LessonEditor : public QDialog {
  signals:
   void saved(const QString& file);
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
   QWidget* make_forms();
   QWidget* make_messages();
@@ -68,6 +71,7 @@ class LessonEditor : public QDialog {
   void note_edit();
   void check();
   void show_title();
+  void settle();  // takes the number that is just being typed
   void say(const QString& sentence);
   void take_from_case();
   void take(const CaseSetup& setup);

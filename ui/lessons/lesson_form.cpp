@@ -18,8 +18,12 @@ constexpr double kMostMinutes = 1000.0;
 }  // namespace
 
 LessonForm::LessonForm(QWidget* parent) : QWidget(parent) {
-  Form form(this);
-  form.layout()->setContentsMargins(kSpace, kSpace, kSpace, kSpace);
+  auto* column = new QVBoxLayout(this);
+  auto* rows = new QWidget;
+  Form form(rows);
+  column->setContentsMargins(kSpace, kSpace, kSpace, kSpace);
+  column->addWidget(rows);
+  column->addStretch(1);
   add_words(form);
   add_setting(form);
 }

@@ -94,11 +94,12 @@ LessonProblem in_words(const std::string& message, const document::Lesson& lesso
     problem.part = part.captured(1).toULongLong();
     words << part_text(lesson, *problem.part);
     field.remove(0, part.capturedLength());
+  } else {
+    words << text(QT_TRANSLATE_NOOP("LessonProblem", "Lesson"));
   }
   words << place_text(field);
-  QString first = words.join(QStringLiteral(", "));
-  first[0] = first[0].toUpper();
-  problem.sentence = QStringLiteral("%1: %2").arg(first, whole.mid(place.capturedLength()));
+  problem.sentence =
+      QStringLiteral("%1: %2").arg(words.join(QStringLiteral(", ")), whole.mid(place.capturedLength()));
   return problem;
 }
 

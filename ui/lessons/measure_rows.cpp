@@ -148,9 +148,8 @@ NumberBox* MeasureRows::make_end(std::size_t index, const QString& name,
                                  double document::LessonMeasure::*end) {
   const int digits = figure_of((*measures_)[index]).digits;
   NumberBox* box = make_number_box(-kLargest, kLargest, digits);
-  box->setMinimumWidth(box->fontMetrics().horizontalAdvance(QStringLiteral("000000.0000")) +
-                       2 * kSpaceGroups);
-  box->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // its range would make it wide
+  // Its range would make it wide.
+  box->setFixedWidth(box->fontMetrics().horizontalAdvance(QStringLiteral("000000.0000")) + 2 * kSpaceGroups);
   show_number(*box, (*measures_)[index].*end, digits);
   box->setAccessibleName(name);
   box->setToolTip(tr("An end of the range in which the student's figure should be."));

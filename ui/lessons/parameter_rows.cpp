@@ -16,10 +16,17 @@ namespace tidemark::ui {
 
 using solver::Parameters;
 
+namespace {
+
+constexpr int kNameWidth = 150;  // so that the rows of lesson and parts share a column
+constexpr int kEditorWidth = 180;
+
+}  // namespace
+
 ParameterRows::ParameterRows(std::size_t always, QWidget* parent)
     : QWidget(parent),
       always_(always),
-      rows_(new RowGrid({tr("Parameter"), tr("Value"), QString()}, 0)),
+      rows_(new RowGrid({tr("Parameter"), tr("Value"), QString()}, 3)),
       add_(new QPushButton(icon(u"add"), tr("Change a parameter"))),
       menu_(new QMenu(add_)) {
   auto* column = new QVBoxLayout(this);
@@ -68,6 +75,8 @@ void ParameterRows::add_row(std::size_t index) {
   name->setToolTip(parameter.tip_text());
   QWidget* editor = make_editor(parameter);
   name->setBuddy(editor);
+  name->setMinimumWidth(kNameWidth);
+  editor->setMinimumWidth(kEditorWidth);
   if (index < always_) return rows_->add({name, editor, new QWidget});
   auto* remove = make_remove_button(tr("Take back: %1").arg(parameter.title_text()));
   connect(remove, &QToolButton::clicked, this, [this, index] {

@@ -1,6 +1,6 @@
 #include "ui/lessons/part_form.h"
 
-#include <QSignalBlocker>
+#include <QVBoxLayout>
 
 #include "ui/lessons/text_box.h"
 #include "ui/look/theme.h"
@@ -22,8 +22,12 @@ PartForm::PartForm(QWidget* parent)
       question_(new QuestionForm),
       try_(new TryForm),
       explanation_(make_text_box(kExplanationLines)) {
-  Form form(this);
-  form.layout()->setContentsMargins(kSpace, kSpace, kSpace, kSpace);
+  auto* column = new QVBoxLayout(this);
+  auto* rows = new QWidget;
+  Form form(rows);
+  column->setContentsMargins(kSpace, kSpace, kSpace, kSpace);
+  column->addWidget(rows);
+  column->addStretch(1);
   form.row(tr("Title"), title_, tr("One line, at the head of the part."));
   form.row(tr("Text"), text_, tr("What the student reads first. An empty line ends a paragraph."));
   other_study_ = form.check(tr("Another study than the lesson's"), tr("This part alone is about it."));

@@ -68,6 +68,8 @@ void PartList::fill(int row) {
     const QSignalBlocker quiet(list_);
     list_->clear();
     for (std::size_t i = 0; i <= lesson_->parts.size(); ++i) list_->addItem(QString());
+    const QSize high(0, list_->fontMetrics().height() + kSpace);
+    for (int item = 0; item < list_->count(); ++item) list_->item(item)->setSizeHint(high);
     QFont bold = list_->font();
     bold.setBold(true);
     list_->item(0)->setFont(bold);

@@ -13,7 +13,7 @@ namespace tidemark::ui {
 class RowGrid : public QWidget {
   Q_OBJECT
  public:
-  // One heading a column; `wide` is the column that takes what is over.
+  // One heading a column; `wide` is the column that takes what is over: it may be the one behind the last.
   RowGrid(const QStringList& headings, int wide, QWidget* parent = nullptr);
 
   // Without headings where it is empty.

@@ -57,6 +57,8 @@ void type(QWidget& editor, const QString& name, const QString& text) {
   field->setFocus();
   field->selectAll();
   QTest::keyClicks(field, text);
+  if constexpr (std::is_same_v<Field, ui::NumberBox>)
+    QTest::keyClick(field, Qt::Key_Tab);  // it is taken then
 }
 
 void choose(QWidget& editor, const QString& name, const QString& item) {
@@ -110,13 +112,14 @@ void screenshot(QWidget& window, const QString& name) {
   for (const auto& [theme, ending] :
        {std::pair(ui::Theme::dark, "dark"), std::pair(ui::Theme::light, "light")}) {
     ui::apply_theme(*qApp, theme);
-    QTest::qWait(50);
+    QTest::qWait(300);  // until the problem has its colour
     QVERIFY(
         window.grab().save(QStringLiteral("%1/lesson-%2-%3.png").arg(pictures, name, QLatin1String(ending))));
   }
 }
 
 std::string text_of(const Lesson& lesson) {
+  if (qEnvironmentVariableIsSet("DUMP")) qInfo("%s", lesson.to_text().value_or("").c_str());
   return lesson.to_text().value_or(std::string());
 }
 
@@ -266,7 +269,9 @@ class LessonEditorTest : public QObject {
     go_to(*editor, 1);
     click(*editor, "Take back: Rescaling w");
     expected.parts[0].attempt->parameters.rescale = expected.parameters.rescale;
+    qInfo("%f", editor->lesson().parts[0].attempt->parameters.rescale.value_or(-1));
     choose(*editor, "Data term", "on");
+    qInfo("%f", editor->lesson().parts[0].attempt->parameters.rescale.value_or(-1));
     expected.parts[0].attempt->parameters.data_term = true;
     click(*editor, "Truth");
     std::erase(expected.parts[0].attempt->show, document::LessonView::truth);
@@ -319,7 +324,8 @@ class LessonEditorTest : public QObject {
     click(*editor, "Remove the part");
     QCOMPARE(titles(), QString("First Second Fourth Third"));
     click(*editor, "Add a part");
-    QTest::keyClicks(QApplication::focusWidget(), "Last");
+    QVERIFY(qobject_cast<QLineEdit*>(editor->focusWidget()));
+    QTest::keyClicks(editor->focusWidget(), "Last");
     QCOMPARE(titles(), QString("First Second Fourth Third Last"));
   }
 
@@ -329,8 +335,6 @@ class LessonEditorTest : public QObject {
     editor->edit(full_lesson(), folder / "full.json");
     go_to(*editor, 1);
     type<ui::NumberBox>(*editor, "To: Dice", "0");
-    QTest::qWait(500);
-    screenshot(*editor, "problem");
     QTRY_VERIFY(says(*editor, "Part 1 “First”, figures 1, to: 0 is not within"));
     screenshot(*editor, "problem");
     click(*editor, "&Save");
@@ -340,7 +344,7 @@ class LessonEditorTest : public QObject {
     editor->edit(full_lesson());
     QTRY_VERIFY(says(*editor, "The lesson is complete."));
     go_to(*editor, 3);
-    QTest::keyClick(editor.get(), Qt::Key_Up, Qt::AltModifier);
+    click(*editor, "Move the part up");
     QTRY_VERIFY(says(*editor, "Part 3 “Second”, try: goes on with another study"));
   }
 
@@ -463,6 +467,9 @@ class LessonEditorTest : public QObject {
     const auto editor = shown_editor();
     Lesson lesson = full_lesson();
     lesson.parts.resize(1);
+    lesson.study.phantom = "head";  // which is large
+    lesson.start.reset();
+    lesson.parts[0].attempt->parameters = {};
     lesson.parts[0].attempt->steps = Lesson::kMostSteps;
     lesson.parts[0].attempt->until_rest = false;
     editor->edit(lesson);
@@ -490,6 +497,13 @@ class LessonEditorTest : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(!editor->isVisible(), kPatience);
     QCOMPARE(Lesson::load(folder / "full.json")->title, std::string("Changed"));
     show(*editor);
+    auto* minutes = at_hand<ui::NumberBox>(*editor, "Time needed");
+    minutes->setFocus();
+    minutes->selectAll();
+    QTest::keyClicks(minutes, "44");  // and is still in it
+    QTest::keyClick(editor.get(), Qt::Key_S, Qt::ControlModifier);
+    QTRY_COMPARE_WITH_TIMEOUT(Lesson::load(folder / "full.json")->minutes, 44, kPatience);
+    QTRY_VERIFY(!editor->is_modified());
     type<QLineEdit>(*editor, "Title", "Lost");
     answer(QMessageBox::Discard);
     editor->close();
