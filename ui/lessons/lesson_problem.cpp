@@ -3,6 +3,7 @@
 #include <QCoreApplication>
 #include <QRegularExpression>
 #include <QStringList>
+#include <algorithm>
 #include <utility>
 
 namespace tidemark::ui {
@@ -108,6 +109,18 @@ std::optional<LessonProblem> problem_of(const document::Lesson& lesson) {
 }
 
 std::optional<LessonProblem> problem_of(const document::Lesson& lesson, const document::Lesson& titled) {
+  // The file's own words on it name the largest number there is.
+  for (std::size_t i = 0; i < lesson.parts.size(); ++i) {
+    const auto& measures = lesson.parts[i].measures;
+    const auto turned = std::find_if(measures.begin(), measures.end(),
+                                     [](const document::LessonMeasure& one) { return one.low > one.high; });
+    if (turned == measures.end()) continue;
+    return LessonProblem{
+        text(QT_TRANSLATE_NOOP("LessonProblem", "%1, figure %2: the range ends below where it begins"))
+            .arg(part_text(titled, i))
+            .arg(turned - measures.begin() + 1),
+        i};
+  }
   document::Lesson light = lesson;
   make_light(light.start);
   for (document::LessonPart& part : light.parts) {

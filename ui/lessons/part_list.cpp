@@ -17,6 +17,7 @@ PartList::PartList(QWidget* parent) : QWidget(parent), list_(new QListWidget) {
   column->setSpacing(kSpaceTight);
   list_->setAccessibleName(tr("The lesson and its parts"));
   list_->setToolTip(tr("The chosen one is shown beside."));
+  list_->setIconSize({kIconSmall, kIconSmall});
   list_->setTextElideMode(Qt::ElideRight);
   list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   list_->setMinimumHeight(4 * list_->fontMetrics().lineSpacing());

@@ -25,6 +25,9 @@ RowGrid::RowGrid(const QStringList& headings, int wide, QWidget* parent)
 
 void RowGrid::clear() {
   for (QWidget* cell : cells_) {
+    // A number box speaks once more when it is hidden, and its row is no longer there.
+    cell->blockSignals(true);
+    for (QWidget* inner : cell->findChildren<QWidget*>()) inner->blockSignals(true);
     // A button in a row may be the one that asked for it.
     cell->setParent(nullptr);
     cell->deleteLater();

@@ -36,9 +36,13 @@ Widget* at_hand(QWidget& editor, const QString& name) {
     const auto* button = qobject_cast<const QAbstractButton*>(widget);
     if (widget->accessibleName() != name && !(button && button->text() == name)) continue;
     if (!widget->isVisible()) continue;
-    for (QWidget* outer = widget->parentWidget(); outer != nullptr; outer = outer->parentWidget()) {
-      if (auto* scroll = qobject_cast<QScrollArea*>(outer)) scroll->ensureWidgetVisible(widget);
-    }
+    const bool can_be_clicked = QTest::qWaitFor([widget] {
+      for (QWidget* outer = widget->parentWidget(); outer != nullptr; outer = outer->parentWidget()) {
+        if (auto* scroll = qobject_cast<QScrollArea*>(outer)) scroll->ensureWidgetVisible(widget);
+      }
+      return !widget->visibleRegion().isEmpty();
+    });
+    if (!can_be_clicked) qFatal("%s is out of sight", qPrintable(name));
     return widget;
   }
   qFatal("there is no %s", qPrintable(name));
@@ -333,7 +337,7 @@ class LessonEditorTest : public QObject {
     editor->edit(full_lesson(), folder / "full.json");
     go_to(*editor, 1);
     type<ui::NumberBox>(*editor, "To: Dice", "0");
-    QTRY_VERIFY(says(*editor, "Part 1 “First”, figures 1, to: 0 is not within"));
+    QTRY_VERIFY(says(*editor, "Part 1 “First”, figure 1: the range ends below where it begins"));
     screenshot(*editor, "problem");
     click(*editor, "&Save");
     QTRY_VERIFY(says(*editor, "Not saved. Part 1 “First”"));
