@@ -57,7 +57,7 @@ LessonEditor::LessonEditor(ActiveCase active_case, QWidget* parent)
   connect(file_, &LessonFile::opened, this, &LessonEditor::show_lesson);
   connect(file_, &LessonFile::saved, this, [this](const QString& file) {
     show_title();
-    show_chosen();  // paths are relative to the file's folder
+    if (shown_folder_ != file_->folder()) show_chosen();  // paths are relative to it
     emit saved(file);
   });
   resize(kSize);
@@ -214,6 +214,7 @@ void LessonEditor::show_chosen() {
   const auto chosen = list_->chosen();
   const bool anew = chosen != shown_;
   shown_ = chosen;
+  shown_folder_ = file_->folder();
   ++showing_;
   chosen ? part_form_->show_part(lesson_, *chosen, file_->folder())
          : lesson_form_->show_lesson(lesson_, file_->folder());
@@ -224,7 +225,7 @@ void LessonEditor::show_chosen() {
 void LessonEditor::note_edit() {
   file_->note_edit();
   show_title();
-  list_->show_titles(std::nullopt);
+  list_->show_titles(problem_row_);
   checking_.start();
 }
 
@@ -244,8 +245,9 @@ void LessonEditor::check() {
   if (found) colours.setColor(QPalette::WindowText, problem_colour(palette()));
   problem_->setPalette(colours);
   problem_->setText(found ? found->sentence : tr("The lesson is complete."));
-  list_->show_titles(found ? std::optional(found->part ? static_cast<int>(*found->part) + 1 : 0)
-                           : std::nullopt);
+  problem_row_.reset();
+  if (found) problem_row_ = found->part ? static_cast<int>(*found->part) + 1 : 0;
+  list_->show_titles(problem_row_);
 }
 
 void LessonEditor::changeEvent(QEvent* event) {

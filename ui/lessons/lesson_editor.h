@@ -84,6 +84,8 @@ class LessonEditor : public QDialog {
   ActiveCase active_case_;
   document::Lesson lesson_;
   std::optional<std::size_t> shown_;     // part; unset: the lesson itself
+  std::filesystem::path shown_folder_;   // of the lesson's file
+  std::optional<int> problem_row_;       // of the list; unset: no problem is known
   std::uint64_t showing_ = 0;            // grows with each one
   std::optional<std::size_t> measured_;  // part that is carried out; unset: the whole lesson
   LessonFile* file_;
