@@ -1,4 +1,4 @@
-// What a lesson takes over from an open case: its start, its parameters, and how far it has run.
+// The setting of an open case, for a lesson: its start, its parameters, and how far it has run.
 #pragma once
 
 #include <QString>

@@ -1,4 +1,4 @@
-// What is wrong with a lesson, as a sentence for its author.
+// The first problem of a lesson, as a sentence for its author.
 #pragma once
 
 #include <QString>

@@ -39,7 +39,9 @@ const NamedParameter kParameters[] = {
                        "start."),
      &Parameters::band, 2.0, 10'000.0, 2},
     {QT_TRANSLATE_NOOP("Parameters", "Scheme"),
-     QT_TRANSLATE_NOOP("Parameters", "How the gradient is taken for data and curvature."),
+     QT_TRANSLATE_NOOP(
+         "Parameters",
+         "Split: an upwind gradient for the data, a central one for the curvature. Paper: one for both."),
      &Parameters::scheme},
     {QT_TRANSLATE_NOOP("Parameters", "Form of the data term"),
      QT_TRANSLATE_NOOP("Parameters", "Clamped: within -1 to 1. Raw: as far below as the values are off."),

@@ -23,10 +23,8 @@ QuestionForm::QuestionForm(QWidget* parent)
       choices_(new RowGrid({tr("Right"), tr("Choice"), QString()}, 1)),
       add_(new QPushButton(icon(u"add"), tr("Add a choice"))),
       none_wrong_(new QRadioButton(tr("None is wrong"))) {
-  setCheckable(true);
   setToolTip(tr("What the student predicts before the try."));
-  Form form(this);
-  form.layout()->setContentsMargins(0, kSpace, 0, 0);
+  Form form(make_content(*this));
   form.row(tr("Question"), text_, tr("What is asked. Without choices the student answers in words."));
   auto* whole = new QWidget;
   auto* column = new QVBoxLayout(whole);

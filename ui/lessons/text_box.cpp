@@ -1,8 +1,10 @@
 #include "ui/lessons/text_box.h"
 
 #include <QSignalBlocker>
+#include <QVBoxLayout>
 #include <cmath>
 
+#include "ui/look/theme.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/wheel_guard.h"
 
@@ -41,6 +43,16 @@ void show_text(QLineEdit& line, const std::string& text) {
   if (line.text() == shown) return;
   const QSignalBlocker quiet(&line);
   line.setText(shown);
+}
+
+QWidget* make_content(QGroupBox& group) {
+  group.setCheckable(true);
+  auto* column = new QVBoxLayout(&group);
+  column->setContentsMargins(0, kSpace, 0, 0);
+  auto* content = new QWidget;
+  column->addWidget(content);
+  QObject::connect(&group, &QGroupBox::toggled, content, &QWidget::setVisible);
+  return content;
 }
 
 NumberBox* make_number_box(double low, double high, int decimals) {

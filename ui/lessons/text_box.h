@@ -1,6 +1,7 @@
-// A field for paragraphs of plain text, and numbers as lessons need them.
+// The fields of the forms of lessons: paragraphs of plain text, numbers, groups that fold.
 #pragma once
 
+#include <QGroupBox>
 #include <QLineEdit>
 #include <QPlainTextEdit>
 #include <string>
@@ -14,6 +15,9 @@ namespace tidemark::ui {
 // Without a signal; the cursor stays where the text is the same.
 void show_text(QPlainTextEdit& box, const std::string& text);
 void show_text(QLineEdit& line, const std::string& text);
+
+// The inside of a group with a check box, which is shown while that is checked.
+[[nodiscard]] QWidget* make_content(QGroupBox& group);
 
 [[nodiscard]] NumberBox* make_number_box(double low, double high, int decimals);
 // Without a signal. With more digits behind the point where the value has more than `decimals`.

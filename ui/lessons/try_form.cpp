@@ -29,10 +29,8 @@ QString start_text(const document::Start& start) {
 
 TryForm::TryForm(QWidget* parent)
     : QGroupBox(tr("T&ry"), parent), parameters_(new ParameterRows(0)), measures_(new MeasureRows) {
-  setCheckable(true);
   setToolTip(tr("What the level set computes in this part. Without a try the part is to be read only."));
-  Form form(this);
-  form.layout()->setContentsMargins(0, kSpace, 0, 0);
+  Form form(make_content(*this));
   auto* take = new QPushButton(icon(u"target"), tr("&Take from the case"));
   take->setAutoDefault(false);
   take->setToolTip(tr("The active case's parameters, smoothing, steps and start become those of this part."));
